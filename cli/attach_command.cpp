@@ -20,31 +20,6 @@
 namespace skein::cli {
 namespace {
 
-std::string shown(const std::filesystem::path& dir) {
-  const std::filesystem::path nearby = std::filesystem::proximate(dir);
-  return nearby.string().starts_with("..") ? dir : nearby;
-}
-
-RunningFleet chosen_fleet(const std::optional<std::filesystem::path>& dir) {
-  std::vector<RunningFleet> fleets = running_fleets(::geteuid());
-  if (dir) {
-    std::erase_if(fleets, [&](const RunningFleet& fleet) {
-      std::error_code gone;
-      return !std::filesystem::equivalent(fleet.dir, *dir, gone);
-    });
-    if (fleets.empty()) throw InputError("--run " + dir->string() + ": no fleet writes there; `skein ps` lists them");
-  }
-  if (fleets.empty()) throw InputError("attach: no fleet of yours is flying");
-  // Those of other networks only when they are asked for, or alone.
-  const auto elsewhere = [](const RunningFleet& fleet) { return fleet.elsewhere; };
-  if (!std::ranges::all_of(fleets, elsewhere)) std::erase_if(fleets, elsewhere);
-  std::vector<std::string> names;
-  for (const RunningFleet& fleet : fleets) names.push_back(shown(fleet.dir));
-  if (fleets.size() > 1)
-    throw InputError("attach: say which fleet, --run " + fmt::format("{}", fmt::join(names, " or ")));
-  return fleets.front();
-}
-
 pid_t chosen_process(const RunningFleet& fleet, const std::string& member) {
   std::vector<std::string> known;
   for (const auto& [program, pid] : fleet.programs) {
@@ -98,7 +73,7 @@ int list_fleets(const Console& console) {
   if (fleets.empty()) console.err << "no fleet of yours is flying" << std::endl;
   for (const RunningFleet& fleet : fleets) {
     const auto time_s = simulated_s(fleet);
-    console.out << shown(fleet.dir) << ": " << std::filesystem::path(fleet.scenario).stem().string()
+    console.out << shown_folder(fleet.dir) << ": " << std::filesystem::path(fleet.scenario).stem().string()
                 << (time_s ? fmt::format(", simulated {:.0f} s", *time_s) : ", starts") << ", DDS domains from "
                 << fleet.base_domain << (fleet.launcher ? fmt::format(", launcher {}", *fleet.launcher) : "")
                 << (fleet.elsewhere ? ", in another network namespace" : "") << '\n';
@@ -114,7 +89,7 @@ int attach_to(const AttachOptions& options, const Console& console) {
   const std::size_t cut = options.what.find('=');
   const std::string member = options.what.substr(0, cut);
   const std::string how = cut == std::string::npos ? "gdb" : options.what.substr(cut + 1);
-  const RunningFleet fleet = chosen_fleet(options.run);
+  const RunningFleet fleet = chosen_fleet(options.run, "attach", "--run");
   const pid_t pid = chosen_process(fleet, member);
   const std::string why = "attach " + options.what;
   if (tracer_of(pid) != 0) throw InputError(why + ": it is already " + state_text(pid));

@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <sstream>
 #include <stdexcept>
+#include <utility>
 
+#include "cli/bench/flown.hpp"
 #include "cli/bench/planners.hpp"
 #include "cli/bench/profile.hpp"
+#include "cli/bench/python.hpp"
 #include "cli/bench/report.hpp"
 #include "cli/bench/scenario.hpp"
 #include "cli/bench/sensing.hpp"
@@ -207,15 +209,12 @@ class Bench {
   /// One `skein run`. @returns its result.json.
   Json fly(const RunOptions& run, const std::string& what, int repeat) {
     tell(what + ", run " + std::to_string(repeat + 1) + " of " + std::to_string(effort_.repeats));
-    std::ostringstream out, err;
-    const int code = run_fleet(run, {out, err, false});
-    if (code == kExitInterrupted) throw Interrupted{};
-    Json result = read_json(*run.out / run_folder::kResult);
-    if (code != kExitDone || !ran_to_the_end(result)) {
+    Flown flown = cli::fly(run);
+    if (!flown.well) {
       failed_ = true;
-      tell(what + " did not go well:\n" + err.str());
+      tell(what + " did not go well:\n" + flown.said);
     }
-    return result;
+    return std::move(flown.result);
   }
 
   /// The production LiDAR at all poses of the run that was just flown.
@@ -262,6 +261,7 @@ int run_bench(const BenchOptions& options, const Console& console) {
   if (options.sensing) return bench_sensing(options, console);
   if (options.tracking) return bench_tracking(options, console);
   if (options.view) return bench_watching(options, console);
+  if (options.python) return bench_python(options, console);
   if (options.profile) return bench_profile(options, console);
   for (const char* program :
        {"bench_floor_cyclonedds", "bench_floor_fastdds", "bench_lidar", "bench_relay", "bench_chatter"}) {

@@ -78,6 +78,7 @@ struct RunOptions {
   bool native = false;
   bool secure = false;  ///< DDS Security, agents under user ids of their own where possible
   std::optional<int> domain;
+  std::optional<std::string> ros_env;  ///< flies nothing: what a shell of this UAV's ROS 2 nodes needs is printed
   std::optional<std::string> network;  ///< other hosts take part: an interface, or "all"
   PlaceOptions place;
   std::optional<double> stop_at_s;
@@ -148,6 +149,7 @@ struct HuntOptions {
   std::optional<std::filesystem::path> properties;  ///< a file of them, instead of the ready ones
   std::vector<std::string> without;                 ///< properties that are not asked
   std::vector<std::string> faults;                  ///< kinds; empty: all
+  std::vector<std::string> conditions;              ///< each case under one of these; empty: the scenario's own
   std::optional<std::size_t> runs;
   std::optional<double> minutes;
   std::optional<int> jobs;
@@ -207,6 +209,7 @@ struct BenchOptions {
   bool sensing = false;                          ///< what an explorer knows, and nothing else
   bool tracking = false;                         ///< how far UAVs are from their set-points, and nothing else
   bool view = false;                             ///< what a page costs that follows a run, and nothing else
+  bool python = false;                           ///< what Python costs, and nothing else
   bool profile = false;                          ///< what each stage and planner costs by the size of the fleet
   std::optional<std::filesystem::path> against;  ///< the table of scores to compare with; none: the shipped one
   std::optional<std::filesystem::path> write;    ///< where the new table goes; of sensing, a folder

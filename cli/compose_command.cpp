@@ -10,6 +10,7 @@
 #include "cli/compose/compose_file.hpp"
 #include "cli/compose/engine.hpp"
 #include "cli/compose/followers.hpp"
+#include "cli/compose/images.hpp"
 #include "cli/place/placement.hpp"
 #include "cli/run/live_page.hpp"
 #include "cli/run/preflight.hpp"
@@ -25,8 +26,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kImage = "skein";
-constexpr const char* kAgentImage = "skein-agent";
 /// Where a fleet of a file shows its page, unless the file's maker says otherwise.
 constexpr std::uint16_t kPortOfAFile = 8080;
 /// Whose containers' programs are when the launcher is root.
@@ -117,14 +116,14 @@ void write_keys(const FleetPlan& plan, int base_domain, const fs::path& folder,
 }
 
 void check_before_flight(FleetPlan plan, const ComposeLayout& layout, const Console& console) {
-  std::vector<std::string> images = {layout.image.value(), layout.agent_image.value()};
+  std::vector<std::string> images;
+  for (const auto& [variable, image] : layout.chosen) images.push_back(image);
   for (const auto& [member, image] : layout.images) images.push_back(image);
   check_engine(images);
   for (const Debuggee& one : plan.debug) {
     if (!one.here) continue;
     const auto own = layout.images.find(one.member);
-    const bool agents = programs::is_agent(one.program);
-    check_gdb(own != layout.images.end() ? own->second : (agents ? layout.agent_image : layout.image).value(),
+    check_gdb(own != layout.images.end() ? own->second : layout.chosen.at(image_of(plan, one.program).variable),
               one.member);
   }
   // Of a user's image nothing is known here.
@@ -150,8 +149,10 @@ void tell_who_waits(const FleetPlan& plan, const std::map<std::string, std::stri
 int fly(const ComposeOptions& options, const FleetPlan& plan, ComposeLayout layout, const Console& console) {
   const fs::path usual = default_results_dir(plan.scenario.name, options.run.planner, options.run.seed);
   const fs::path dir = options.run.out.value_or(options.run.force ? usual : free_results_dir(usual));
-  layout.image = variable_or("SKEIN_IMAGE", kImage);
-  layout.agent_image = variable_or("SKEIN_AGENT_IMAGE", kAgentImage);
+  for (const auto& [program, vendor] : dds_vendors(plan)) {
+    const auto [image, variable] = image_of(plan, program);
+    if (!layout.images.contains(programs::member_name(program))) layout.chosen[variable] = variable_or(variable, image);
+  }
   compose_file(plan, layout);  // whether it can be
   ResultsDir::check(dir, options.run.force);
   check_before_flight(plan, layout, console);

@@ -13,16 +13,8 @@ void add_fleet(CLI::App& app, FleetOptions& fleet) {
   command->add_option("SCENARIO", run.scenario, "A name under config/scenarios/ or a YAML file")->capture_default_str();
   command->add_option("--planner", run.planner, "As for `skein run`; UAV=learner: that program says what the UAV does")
       ->capture_default_str();
-  const CLI::Validator seed(check_seed, ""), seconds(check_seconds, "");
-  command->add_option("--scene-seed", run.scene_seed, "Which scene of a procedural family")->check(seed);
-  command->add_option("--uavs", run.uavs, "Fleet size: the scenario's first UAVs, or more of the same in its places")
-      ->check(CLI::Validator(check_positive, "POSITIVE"));
-  command->add_option("--assets", run.assets, "Folder with models/ for scenarios that read files");
-  command->add_option("--duration", run.duration_s, "Mission time [s], instead of the scenario's")->check(seconds);
-  command->add_option("--rules", run.rules, "Preset of rules, instead of the scenario's: contest, paper or reference");
-  command->add_option("--conditions", run.conditions,
-                      "Wind, odometry errors, batteries: none, breezy or harsh for all, or by part: wind=harsh");
-  command->add_option("--faults", run.faults, "Fault file (YAML): what goes wrong, and when; no kills, no pauses");
+  const CLI::Validator seconds(check_seconds, "");
+  add_mission(*command, run, "; no kills, no pauses");
   command->add_option("--stop-at", run.stop_at_s, "End the run at this simulated time [s]")->check(seconds);
   command
       ->add_option("--agent-timeout", run.agent_timeout_s,

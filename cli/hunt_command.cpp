@@ -36,7 +36,8 @@ class Hunt {
       : plan_(plan),
         console_(console),
         log_(plan.out, plan.settings, plan.options.force),
-        search_(FaultMaker(plan.fleet.scenario, plan.space), plan.options.seed, plan.options.round),
+        search_(FaultMaker(plan.fleet.scenario, plan.space), plan.options.seed, plan.options.round,
+                plan.options.conditions),
         flights_(plan, console),
         finds_(plan, flights_, console),
         wanted_(plan.options.runs.value_or(kMostRuns)) {}
@@ -62,13 +63,16 @@ class Hunt {
  private:
   Trial trial(std::size_t index) {
     while (search_.cases().size() <= index) search_.next(log_.outcomes());
-    Trial trial{plan_.fleet.options, search_.cases()[index].faults};
-    trial.run.seed = search_.cases()[index].seed;
+    const HuntCase& flown = search_.cases()[index];
+    Trial trial{plan_.fleet.options, flown.faults};
+    trial.run.seed = flown.seed;
+    if (!flown.conditions.empty()) trial.run.conditions = flown.conditions;
     trial.run.duration_s = plan_.fleet.scenario.duration_s;
     return trial;
   }
   static std::string flown_text(const Trial& trial) {
-    return "seed: " + std::to_string(trial.run.seed) + "\n" + trial.text();
+    const std::string conditions = trial.run.conditions ? "conditions: " + *trial.run.conditions + "\n" : "";
+    return "seed: " + std::to_string(trial.run.seed) + "\n" + conditions + trial.text();
   }
 
   void search() {
@@ -85,8 +89,12 @@ class Hunt {
     }
     std::vector<Trial> undisturbed;
     for (std::uint64_t seed = 1; seed <= HuntSearch::kRunSeeds; ++seed) {
-      undisturbed.push_back(trial(0));
-      undisturbed.back().run.seed = seed;
+      const std::size_t settings = std::max<std::size_t>(plan_.options.conditions.size(), 1);
+      for (std::size_t i = 0; i < settings; ++i) {
+        undisturbed.push_back(trial(0));
+        undisturbed.back().run.seed = seed;
+        if (!plan_.options.conditions.empty()) undisturbed.back().run.conditions = plan_.options.conditions[i];
+      }
     }
     flights_.fly_undisturbed(undisturbed);
     const auto make = [this](std::size_t index) -> std::optional<Trial> {

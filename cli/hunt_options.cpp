@@ -36,6 +36,12 @@ void add_hunt(CLI::App& app, HuntOptions& hunt) {
   command->add_option("--without", hunt.without, "Properties that are not asked, with commas between")->delimiter(',');
   command->add_option("--faults", hunt.faults, "Kinds of faults to draw from, with commas between (default: all)")
       ->delimiter(',');
+  command
+      ->add_option("--conditions", hunt.conditions,
+                   "Fly each case under one of these: none, breezy, harsh, wind=harsh+battery=breezy (default: the "
+                   "scenario's own)")
+      ->delimiter(',')
+      ->allow_extra_args(false);
   CLI::Option* runs =
       command->add_option("--runs", hunt.runs, "So many runs (default 200)")->check(CLI::Range(1, 1'000'000));
   command->add_option("--minutes", hunt.minutes, "Search for so long, instead of a number of runs")

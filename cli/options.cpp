@@ -40,6 +40,19 @@ void add_record(CLI::App& command, std::string& record) {
       ->default_str(record);
 }
 
+void add_mission(CLI::App& command, RunOptions& run, const std::string& faults_but) {
+  const CLI::Validator seed(check_seed, ""), seconds(check_seconds, "");
+  command.add_option("--scene-seed", run.scene_seed, "Which scene of a procedural family")->check(seed);
+  command.add_option("--uavs", run.uavs, "Fleet size: the scenario's first UAVs, or more of the same in its places")
+      ->check(CLI::Validator(check_positive, "POSITIVE"));
+  command.add_option("--assets", run.assets, "Folder with models/ for scenarios that read files");
+  command.add_option("--duration", run.duration_s, "Mission time [s], instead of the scenario's")->check(seconds);
+  command.add_option("--rules", run.rules, "Preset of rules, instead of the scenario's: contest, paper or reference");
+  command.add_option("--conditions", run.conditions,
+                     "Wind, odometry errors, batteries: none, breezy or harsh for all, or by part: wind=harsh");
+  command.add_option("--faults", run.faults, "Fault file (YAML): what goes wrong, and when" + faults_but);
+}
+
 namespace {
 
 /// What is flown, and how; of run, compose and keys.
@@ -53,15 +66,7 @@ void add_flight_options(CLI::App* command, RunOptions& run) {
       ->capture_default_str();
   const CLI::Validator seed(check_seed, ""), seconds(check_seconds, "");
   command->add_option("--seed", run.seed, "What chance draws; 0 draws nothing")->check(seed)->capture_default_str();
-  command->add_option("--scene-seed", run.scene_seed, "Which scene of a procedural family")->check(seed);
-  command->add_option("--uavs", run.uavs, "Fleet size: the scenario's first UAVs, or more of the same in its places")
-      ->check(CLI::Validator(check_positive, "POSITIVE"));
-  command->add_option("--assets", run.assets, "Folder with models/ for scenarios that read files");
-  command->add_option("--duration", run.duration_s, "Mission time [s], instead of the scenario's")->check(seconds);
-  command->add_option("--rules", run.rules, "Preset of rules, instead of the scenario's: contest, paper or reference");
-  command->add_option("--conditions", run.conditions,
-                      "Wind, odometry errors, batteries: none, breezy or harsh for all, or by part: wind=harsh");
-  command->add_option("--faults", run.faults, "Fault file (YAML): what goes wrong, and when");
+  add_mission(*command, run);
   command->add_option("--dds", run.dds, "DDS vendor: cyclonedds, fastdds or mixed")
       ->check(CLI::IsMember({"cyclonedds", "fastdds", "mixed"}))
       ->capture_default_str();
@@ -143,6 +148,11 @@ void add_run(CLI::App& app, RunOptions& run) {
   command->add_flag("--cores", run.cores, "A program that crashes leaves its core in the results folder, for gdb");
   command->add_flag("--native", run.native, "Let libm use this CPU's fastest code (the digest is then this CPU's own)");
   command->add_option("--domain", run.domain, "First DDS domain; a free block is taken by default");
+  command
+      ->add_option("--ros-env", run.ros_env,
+                   "Fly nothing: print what a shell of this UAV's ROS 2 nodes needs, for eval; of the fleet that flies "
+                   "(in --out, if there are several), or with --domain of one that will")
+      ->type_name("UAV");
   add_network(*command, run.network);
   add_place_options(*command, run.place);
   add_result_options(command, run);

@@ -17,6 +17,12 @@ namespace fs = std::filesystem;
 
 constexpr const char* kStepLibrary = "lib/libskein_step.so";
 constexpr const char* kFastDdsProfile = "share/skein_ros/fastdds_udp.xml";
+constexpr const char* kFastDdsLoopback = "share/skein_ros/fastdds_loopback.xml";
+constexpr const char* kCycloneDdsLoopback =
+    "<General><Interfaces><NetworkInterface name=\"lo\" multicast=\"false\"/></Interfaces>"
+    "<AllowMulticast>false</AllowMulticast></General>"
+    "<Discovery><ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>31</MaxAutoParticipantIndex>"
+    "<Peers><Peer address=\"127.0.0.1\"/></Peers></Discovery>";
 
 std::vector<fs::path> prefixes(const std::string& spec) {
   const char* const path = std::getenv("AMENT_PREFIX_PATH");
@@ -86,11 +92,45 @@ std::optional<std::string> ros_command(const std::string& spec) {
   }
   const fs::path executable = find_executable(spec, node.substr(0, slash), node.substr(slash + 1));
   const fs::path skein_ros = find_skein_ros(spec);
-  return "ROS_LOG_DIR=\"$SKEIN_OUT/ros-$SKEIN_UAV\" "
+  return "if [ -n \"${SKEIN_SECURITY-}\" ]; then " + enclave_command("\"$SKEIN_SECURITY\"") +
+         "; if [ -z \"${SKEIN_NETWORK-}\" ]; then " + loopback_command(skein_ros) +
+         "; fi; fi; "
+         "ROS_LOG_DIR=\"$SKEIN_OUT/ros-$SKEIN_UAV\" "
          "FASTRTPS_DEFAULT_PROFILES_FILE=${FASTRTPS_DEFAULT_PROFILES_FILE:-" +
          shell_word(skein_ros / kFastDdsProfile) + "} LD_PRELOAD=" + shell_word(skein_ros / kStepLibrary) +
          "${LD_PRELOAD:+\" $LD_PRELOAD\"} exec " + shell_word(executable) + arguments +
          " --ros-args -r __ns:=/\"$SKEIN_UAV\"";
 }
+
+std::string enclave_command(const std::string& keys) {
+  return "ln -sfn . " + keys + "/enclaves && export ROS_SECURITY_ENABLE=true ROS_SECURITY_STRATEGY=Enforce " +
+         "ROS_SECURITY_KEYSTORE=" + keys + " ROS_SECURITY_ENCLAVE_OVERRIDE=/";
+}
+
+std::string loopback_command(const std::filesystem::path& prefix) {
+  return "export CYCLONEDDS_URI=" + shell_word(kCycloneDdsLoopback) +
+         " FASTRTPS_DEFAULT_PROFILES_FILE=" + shell_word(prefix / kFastDdsLoopback);
+}
+
+void check_secure_middleware(const std::string& dds) {
+  const char* const variable = std::getenv("RMW_IMPLEMENTATION");
+  const std::string chosen = variable == nullptr ? "" : variable;
+  const std::string wanted = dds == "fastdds" ? "rmw_fastrtps_cpp" : "rmw_cyclonedds_cpp";
+  if (chosen.substr(0, chosen.find("_", 4)) == wanted.substr(0, wanted.find("_", 4))) return;
+  throw InputError("--secure --dds " + dds +
+                   ": the vendors' security does not work together reliably, so ROS 2 nodes " +
+                   "need RMW_IMPLEMENTATION=" + wanted + " (it is " + (chosen.empty() ? "not set" : chosen) +
+                   "), or the fleet another --dds");
+}
+
+std::optional<std::filesystem::path> skein_ros_prefix() {
+  const char* const path = std::getenv("AMENT_PREFIX_PATH");
+  for (const std::string& prefix : split(path == nullptr ? "" : path, ':')) {
+    if (fs::exists(fs::path(prefix) / kFastDdsProfile)) return prefix;
+  }
+  return std::nullopt;
+}
+
+std::filesystem::path fastdds_profile(const std::filesystem::path& prefix) { return prefix / kFastDdsProfile; }
 
 }  // namespace skein::cli

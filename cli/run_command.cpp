@@ -6,6 +6,7 @@
 
 #include "cli/place/place_commands.hpp"
 #include "cli/place/placed_fleet.hpp"
+#include "cli/ros_environment.hpp"
 #include "cli/run/break_event.hpp"
 #include "cli/run/by_hand.hpp"
 #include "cli/run/core_file.hpp"
@@ -104,6 +105,10 @@ void find_break(RunOptions& options, const Console& console) {
 }  // namespace
 
 int run_fleet(const RunOptions& given, const Console& console) {
+  if (given.ros_env) {
+    console.out << ros_environment(given) << std::flush;
+    return kExitDone;
+  }
   RunOptions options = with_debugger(given, console);
   find_break(options, console);
   FleetPlan plan = plan_fleet(options, program_dir());

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <iterator>
 #include <memory>
+#include <utility>
 
 #include "cli/machine.hpp"
 #include "cli/run/results_dir.hpp"
@@ -98,7 +99,7 @@ std::string range_text(const Spread& spread, int digits) {
 
 }  // namespace
 
-Study study_of(const StudyPlan& plan, const StudyOutcomes& outcomes) {
+Study study_of(const StudyPlan& plan, StudyOutcomes outcomes) {
   Study study{plan.options.contest,
               plan.options.rank,
               plan.labels,
@@ -122,12 +123,13 @@ Study study_of(const StudyPlan& plan, const StudyOutcomes& outcomes) {
   }
   for (std::size_t i = 0; i < plan.flights.size(); ++i) {
     const StudyFlight& flight = plan.flights[i];
-    const StudyOutcome& outcome = outcomes.flights[i];
-    FlightEntry entry{flight.planner, flight.scenario, flight.seed, flight.dir, std::nullopt, outcome.problem};
+    StudyOutcome& outcome = outcomes.flights[i];
+    FlightEntry entry{flight.planner, flight.scenario, flight.seed,
+                      flight.dir,     std::nullopt,    std::move(outcome.problem)};
     entry.command = repeating_command(plan, flight);
     entry.folder = flight.dir.lexically_relative(plan.out).generic_string();
-    entry.figures = outcome.figures;
-    if (outcome.figures && plan.flights.size() <= kMostWithTables) entry.tables = read_flight_tables(flight.dir);
+    entry.figures = std::exchange(outcome.figures, std::nullopt);
+    if (entry.figures && plan.flights.size() <= kMostWithTables) entry.tables = read_flight_tables(flight.dir);
     if (fs::exists(flight.dir / run_folder::kPage)) {
       entry.page = (flight.dir / run_folder::kPage).lexically_relative(plan.out).generic_string();
     }
@@ -170,16 +172,17 @@ void print_study(std::ostream& out, const Study& study) {
 namespace {
 
 /// Writes and prints what there is. @returns the exit code.
-int merge(const StudyPlan& plan, const StudyOutcomes& outcomes, const Console& console) {
+int merge(const StudyPlan& plan, StudyOutcomes outcomes, const Console& console) {
   std::vector<Requirement> requirements;
   for (const std::string& text : plan.options.requirements) requirements.push_back(parse_requirement(text));
-  const Study study = study_of(plan, outcomes);
+  const bool interrupted = outcomes.interrupted;
+  const Study study = study_of(plan, std::move(outcomes));
   write_report(study, plan.out);
   plan.options.scene_seeds ? print_worlds(console.out, study) : print_study(console.out, study);
   print_conditions(console.out, study);
   const bool kept = print_requirements(console.out, study, requirements);
   console.out << "report: " << (plan.out / run_folder::kPage).string() << std::endl;
-  if (outcomes.interrupted) {
+  if (interrupted) {
     console.err << "interrupted; the same command goes on from here" << std::endl;
     return kExitInterrupted;
   }
@@ -220,8 +223,8 @@ int run_study(const StudyOptions& options, const Console& console) {
   write_file_atomically(plan.out / kSettings, plan.settings.dump(2) + "\n");
   console.err << plan.flights.size() << " flights, results in " << plan.out.string() << std::endl;
 
-  const StudyOutcomes outcomes = options.sweep.executor ? fly_sweep(plan, console) : fly_study(plan, console);
-  return outcomes.detached ? kExitDone : merge(plan, outcomes, console);
+  StudyOutcomes outcomes = options.sweep.executor ? fly_sweep(plan, console) : fly_study(plan, console);
+  return outcomes.detached ? kExitDone : merge(plan, std::move(outcomes), console);
 }
 
 }  // namespace skein::cli

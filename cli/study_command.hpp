@@ -15,7 +15,7 @@ namespace skein::cli {
 int run_study(const StudyOptions& options, const Console& console);
 
 /// The figures of what was flown.
-Study study_of(const StudyPlan& plan, const StudyOutcomes& outcomes);
+Study study_of(const StudyPlan& plan, StudyOutcomes outcomes);
 
 /// The ranking of a contest, then median scores by scene and planner.
 void print_study(std::ostream& out, const Study& study);

@@ -173,7 +173,7 @@ void add_bench(CLI::App& app, BenchOptions& bench) {
   command->add_option("--repeat", bench.repeats, "Runs of each kind; medians are reported")->check(CLI::Range(1, 100));
   command
       ->add_option("--duration", bench.duration_s,
-                   "Mission time of the speed runs, or of --tracking or --view [s], instead of the scenario's")
+                   "Mission time of the speed runs, or of --tracking, --view or --python [s], instead of the usual one")
       ->check(CLI::Validator(check_seconds, ""));
   command->add_option("--json", bench.json, "File for all figures");
   CLI::Option* planners = command->add_flag("--planners", bench.planners,
@@ -196,12 +196,21 @@ void add_bench(CLI::App& app, BenchOptions& bench) {
       ->excludes(planners)
       ->excludes(sensing)
       ->excludes(tracking);
+  CLI::Option* profile =
+      command
+          ->add_flag("--profile", bench.profile,
+                     "CPU time of an exchange by stage and planner over --sizes, and how each grows; in one process")
+          ->excludes(planners)
+          ->excludes(sensing)
+          ->excludes(tracking);
   command
-      ->add_flag("--profile", bench.profile,
-                 "CPU time of an exchange by stage and planner over --sizes, and how each grows; in one process")
+      ->add_flag("--python", bench.python,
+                 "What planners in Python cost beside C++, and fleets that Python steps, resets and copies; needs a "
+                 "source tree")
       ->excludes(planners)
       ->excludes(sensing)
-      ->excludes(tracking);
+      ->excludes(tracking)
+      ->excludes(profile);
   command
       ->add_option("--write", bench.write,
                    "File for the new table of --planners; folder for pictures and page of --sensing")
@@ -211,7 +220,7 @@ void add_bench(CLI::App& app, BenchOptions& bench) {
   command->footer(
       "Examples:\n  skein bench --quick --json bench.json\n  skein bench --planners --write scores.csv\n"
       "  skein bench --sensing --write docs\n  skein bench --tracking --quick\n  skein bench --view\n"
-      "  skein bench --profile --sizes 1,5,20");
+      "  skein bench --profile --sizes 1,5,20\n  skein bench --python --assets DIR");
 }
 
 void add_oracle(CLI::App& app, OracleOptions& oracle) {

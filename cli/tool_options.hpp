@@ -9,6 +9,9 @@ class App;
 
 namespace skein::cli {
 
+/// What changes a scenario's mission, of run, compose, keys and fleet: scene seed, UAVs, assets, duration, rules,
+/// conditions, faults.  @param faults_but  what a fault file may not have, for the help
+void add_mission(CLI::App& command, RunOptions& run, const std::string& faults_but = "");
 /// --record, of run, compose and those that fly many.
 void add_record(CLI::App& command, std::string& record);
 /// What flies a study or a hunt beyond one process.

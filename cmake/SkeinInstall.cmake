@@ -58,7 +58,7 @@ install(DIRECTORY python/skein DESTINATION lib/python3/dist-packages COMPONENT p
 install(FILES python/examples/compare.ipynb python/examples/listen.py python/examples/my_uav.py
   DESTINATION ${CMAKE_INSTALL_DOCDIR}/python COMPONENT python)
 
-set(libraries core process report view idl mcap bus lockstep recording agent agent_nodes agent_main
+set(libraries core process report view idl mcap bag bus lockstep recording agent agent_nodes agent_main
   sim sim_node router router_node station station_node one_process one_process_main)
 foreach(library ${libraries})
   set_target_properties(skein_${library} PROPERTIES EXPORT_NAME ${library})

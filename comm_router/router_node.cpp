@@ -132,7 +132,9 @@ void RouterNode::close_route(std::size_t number) {
 // Whoever sends as a member has been attached before.
 bool RouterNode::from_stranger(Node node, const std::string& topic, bus::ParticipantId source) {
   if (applicants_.contains(source)) return false;
-  strangers_.add(scenario_.node_name(node), topic, source, k_);
+  const std::string name = scenario_.node_name(node);
+  const bool has_stand_in = stand_ins_.contains(name) && (k_ == 0 || present_.contains(name));
+  if (!has_stand_in) strangers_.add(name, topic, source, k_);
   return true;
 }
 
@@ -254,7 +256,9 @@ void RouterNode::begin_step() {
   word_patience_.reset();
   const msg::Step& step = client_.step();
   std::vector<RadioMember> members;
+  present_.clear();
   for (const auto& member : step.members()) {
+    present_.insert(member.name());
     if (member.name() == bus::kRouterName) continue;
     const auto applicant = applicants_.find(member.source());
     if (applicant != applicants_.end()) members.push_back({member.name(), member.source(), applicant->second.node});

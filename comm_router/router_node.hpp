@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -51,6 +52,8 @@ class RouterNode final : public bus::ClientNode {
   void keep_counts(CountStore& store);
   /// Before start(): records what it hears and hands on. `recorder` must outlive this.
   void record_with(recording::Recorder& recorder);
+  /// Before it begins: UAVs whose agents hand on what programs outside the lock-step say.
+  void expect_stand_ins(const std::vector<std::string>& uavs) { stand_ins_ = {uavs.begin(), uavs.end()}; }
   /// Before start(): hands on what was sent when the recorded run was flown. @throws InputError as ReplayNode does.
   void replay(const recording::ReplayOptions& options);
   /// Where members say something else than then, a sentence each; nullopt: nothing is flown again.
@@ -124,6 +127,7 @@ class RouterNode final : public bus::ClientNode {
   std::optional<RecordingNode> recording_;
   std::unique_ptr<ReplayNode> replay_;
   bus::Strangers strangers_;
+  std::set<std::string> stand_ins_, present_;  ///< UAVs; members of this step
   std::vector<std::string> stranger_warnings_;
   std::vector<std::string> by_hand_;  ///< faults, as the last step told them
   std::uint64_t k_ = 0;               ///< the step that was begun last

@@ -83,7 +83,8 @@ void open_counts(std::optional<CountStore>& store, const std::filesystem::path& 
 class RouterMember final : public bus::FleetMember {
  public:
   RouterMember(Scenario scenario, FaultPlan faults, const ProgramOptions& options, StatusPipe& status,
-               std::unique_ptr<bus::Bus> bus, const recording::ReplayOptions& replay)
+               std::unique_ptr<bus::Bus> bus, const recording::ReplayOptions& replay,
+               std::vector<std::string> stand_ins)
       : scenario_(std::move(scenario)),
         faults_(std::move(faults)),
         options_(options),
@@ -91,6 +92,7 @@ class RouterMember final : public bus::FleetMember {
         status_(status),
         bus_(std::move(bus)),
         replay_(replay),
+        stand_ins_(std::move(stand_ins)),
         recorder_(options_.out, programs::kCommRouter, recording::scope_of(options_.record)) {
     withdraw_report(report_of(options_));
     make_node();
@@ -126,6 +128,7 @@ class RouterMember final : public bus::FleetMember {
     node_.emplace(scenario_, options_.seed, options_.domain, *bus_, faults_, options_.out);
     if (store_) node_->keep_counts(*store_);
     node_->record_with(recorder_);
+    node_->expect_stand_ins(stand_ins_);
     if (replay_.active()) node_->replay(replay_);
   }
 
@@ -136,6 +139,7 @@ class RouterMember final : public bus::FleetMember {
   StatusPipe& status_;
   const std::unique_ptr<bus::Bus> bus_;
   const recording::ReplayOptions replay_;
+  const std::vector<std::string> stand_ins_;
   recording::Recorder recorder_;
   std::vector<std::string> unwritten_;
   std::optional<CountStore> store_;
@@ -148,6 +152,8 @@ void RouterProgram::add_options(CLI::App& app) {
   app.description("Skein: passes radio messages on between the UAVs of a fleet");
   app.add_flag("--settle", settle_only_, "Write the report of a router that died in this folder, then stop")
       ->group("Launcher");
+  app.add_option("--stand-ins", stand_ins_, "UAVs whose agent hands on what programs outside the lock-step say")
+      ->delimiter(',');
   recording::add_replay_options(app, replay_);
 }
 
@@ -159,7 +165,7 @@ std::variant<int, std::unique_ptr<bus::FleetMember>> RouterProgram::prepare(cons
   auto bus = bus::make_bus(options, scenario);
   if (options.check_only) return kExitDone;
   return std::make_unique<RouterMember>(std::move(scenario), std::move(faults), options, status, std::move(bus),
-                                        replay_);
+                                        replay_, stand_ins_);
 }
 
 }  // namespace skein::router

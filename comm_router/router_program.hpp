@@ -1,6 +1,9 @@
 // The router as a program.
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "bus/lockstep/fleet_program.hpp"
 #include "process/run_folder.hpp"
 #include "recording/replay.hpp"
@@ -16,6 +19,7 @@ class RouterProgram final : public bus::FleetProgram {
 
  private:
   bool settle_only_ = false;
+  std::vector<std::string> stand_ins_;
   recording::ReplayOptions replay_;
 };
 

@@ -1,21 +1,21 @@
 #include "core/conditions.hpp"
 
 #include <algorithm>
-#include <functional>
 #include <utility>
 #include <vector>
 
 #include "core/conditions_keys.hpp"
 #include "core/config_writer.hpp"
 #include "core/suggestion.hpp"
+#include "core/text.hpp"
 #include "core/types.hpp"
 
 namespace skein {
 namespace {
 
 void name_all(ConditionsConfig& conditions, const std::string& preset) {
-  conditions.preset = conditions.wind.preset = conditions.odometry.preset = conditions.battery.preset = preset;
-  conditions.lidar.preset = conditions.camera.preset = conditions.radio.preset = preset;
+  conditions.preset = preset;
+  for_each_section([&](const char*, auto member) { (conditions.*member).preset = preset; });
 }
 
 ConditionsConfig breezy() {
@@ -71,47 +71,17 @@ ConditionsConfig harsh() {
   return conditions;
 }
 
-std::vector<std::string> split_at(const std::string& text, const std::string& separators) {
-  std::vector<std::string> parts(1);
-  for (const char c : text) {
-    if (separators.find(c) != std::string::npos) {
-      parts.emplace_back();
-    } else {
-      parts.back() += c;
-    }
-  }
-  return parts;
-}
-
 void check_preset(const std::string& preset) {
-  const std::vector<std::string> known(kConditionPresets.begin(), kConditionPresets.end());
-  if (std::ranges::find(known, preset) == known.end()) {
-    throw InputError("there is no preset '" + preset + "' of conditions; " + suggestion(preset, known));
+  if (std::ranges::find(known_presets(), preset) == known_presets().end()) {
+    throw InputError("there is no preset '" + preset + "' of conditions; " + suggestion(preset, known_presets()));
   }
-}
-
-/// The parts that may be chosen by themselves.
-using Choose = std::function<void(ConditionsConfig&, const ConditionsConfig&)>;
-const std::vector<std::pair<std::string, Choose>>& sections() {
-  static const std::vector<std::pair<std::string, Choose>> all = {
-      {"wind", [](ConditionsConfig& to, const ConditionsConfig& from) { to.wind = from.wind; }},
-      {"odometry", [](ConditionsConfig& to, const ConditionsConfig& from) { to.odometry = from.odometry; }},
-      {"battery", [](ConditionsConfig& to, const ConditionsConfig& from) { to.battery = from.battery; }},
-      {"lidar", [](ConditionsConfig& to, const ConditionsConfig& from) { to.lidar = from.lidar; }},
-      {"camera", [](ConditionsConfig& to, const ConditionsConfig& from) { to.camera = from.camera; }},
-      {"radio", [](ConditionsConfig& to, const ConditionsConfig& from) { to.radio = from.radio; }}};
-  return all;
-}
-
-template <class T>
-bool same(const T& a, const T& b) {
-  return config_to_yaml(a) == config_to_yaml(b);
 }
 
 /// The preset that a section is, or "own".
 template <class T>
 std::string section_text(const T& section, T ConditionsConfig::*member) {
-  return same(section, conditions_preset(section.preset).*member) ? section.preset : "own";
+  const ConditionsConfig preset = conditions_preset(section.preset);
+  return config_to_yaml(section) == config_to_yaml(preset.*member) ? section.preset : "own";
 }
 
 }  // namespace
@@ -122,9 +92,17 @@ ConditionsConfig conditions_preset(const std::string& preset) {
   return {};
 }
 
+std::vector<std::string> condition_sections() {
+  std::vector<std::string> names;
+  for_each_section([&](const char* name, auto) { names.emplace_back(name); });
+  return names;
+}
+
 ConditionsConfig chosen_conditions(const std::string& text, const ConditionsConfig& base) {
   ConditionsConfig chosen = base;
-  for (const std::string& part : split_at(text, ",+")) {
+  std::string parts = text;
+  std::ranges::replace(parts, '+', ',');  // in a list of presets, a comma stands between two of them
+  for (const std::string& part : split(parts)) {
     const std::size_t equals = part.find('=');
     const std::string preset = equals == std::string::npos ? part : part.substr(equals + 1);
     check_preset(preset);
@@ -133,27 +111,21 @@ ConditionsConfig chosen_conditions(const std::string& text, const ConditionsConf
       continue;
     }
     const std::string section = part.substr(0, equals);
-    std::vector<std::string> names;
-    bool found = false;
-    for (const auto& [name, choose] : sections()) {
-      names.push_back(name);
-      if (name != section) continue;
-      choose(chosen, conditions_preset(preset));
-      found = true;
+    for_each_section([&](const char* name, auto member) {
+      if (section == name) chosen.*member = conditions_preset(preset).*member;
+    });
+    const std::vector<std::string> names = condition_sections();
+    if (std::ranges::find(names, section) == names.end()) {
+      throw InputError("there is no section '" + section + "' of conditions; " + suggestion(section, names));
     }
-    if (!found) throw InputError("there is no section '" + section + "' of conditions; " + suggestion(section, names));
   }
   return chosen;
 }
 
 std::string conditions_text(const ConditionsConfig& conditions) {
-  const std::vector<std::pair<std::string, std::string>> parts = {
-      {"wind", section_text(conditions.wind, &ConditionsConfig::wind)},
-      {"odometry", section_text(conditions.odometry, &ConditionsConfig::odometry)},
-      {"battery", section_text(conditions.battery, &ConditionsConfig::battery)},
-      {"lidar", section_text(conditions.lidar, &ConditionsConfig::lidar)},
-      {"camera", section_text(conditions.camera, &ConditionsConfig::camera)},
-      {"radio", section_text(conditions.radio, &ConditionsConfig::radio)}};
+  std::vector<std::pair<std::string, std::string>> parts;
+  for_each_section(
+      [&](const char* name, auto member) { parts.emplace_back(name, section_text(conditions.*member, member)); });
   const std::string& first = parts.front().second;
   const bool alike = std::ranges::all_of(parts, [&](const auto& part) { return part.second == first; });
   if (alike && first != "own") return first;

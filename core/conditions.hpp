@@ -7,6 +7,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace skein {
 
@@ -125,6 +126,9 @@ inline constexpr std::array kConditionPresets = {"none", "breezy", "harsh"};
 
 /// @param preset  one of kConditionPresets; another one is taken for "none".
 ConditionsConfig conditions_preset(const std::string& preset);
+
+/// Names of the sections, as `--conditions` spells them.
+std::vector<std::string> condition_sections();
 
 /// What `--conditions` says: a preset for all ("breezy"), or sections ("wind=harsh,battery=breezy"), or both
 /// ("breezy,wind=none"); a "+" is as good as a comma. What it leaves out stays as in `base`.

@@ -12,15 +12,29 @@
 
 namespace skein {
 
+/// Calls `visit` with the name of each section and the member of ConditionsConfig that holds it.
+template <class Visit>
+void for_each_section(const Visit& visit) {
+  visit("wind", &ConditionsConfig::wind);
+  visit("odometry", &ConditionsConfig::odometry);
+  visit("battery", &ConditionsConfig::battery);
+  visit("lidar", &ConditionsConfig::lidar);
+  visit("camera", &ConditionsConfig::camera);
+  visit("radio", &ConditionsConfig::radio);
+}
+
+inline const std::vector<std::string>& known_presets() {
+  static const std::vector<std::string> known(kConditionPresets.begin(), kConditionPresets.end());
+  return known;
+}
+
 /// @param apply  takes over the preset's values.
 template <class R, class Apply>
 void describe_preset(R& r, std::string& preset, const Apply& apply) {
   r.field("preset", preset);
   if constexpr (R::kReads) {
-    const bool known = std::ranges::find(kConditionPresets, preset) != kConditionPresets.end();
-    r.check(known, "preset",
-            "must be one of " + joined(std::vector<std::string>(kConditionPresets.begin(), kConditionPresets.end())) +
-                ", not '" + preset + "'");
+    const bool known = std::ranges::find(known_presets(), preset) != known_presets().end();
+    r.check(known, "preset", "must be one of " + joined(known_presets()) + ", not '" + preset + "'");
     if (known && r.has("preset")) apply();
   }
 }
@@ -97,12 +111,7 @@ void describe(R& r, RadioConditions& radio) {
 template <class R>
 void describe(R& r, ConditionsConfig& conditions) {
   describe_preset(r, conditions.preset, [&] { conditions = conditions_preset(conditions.preset); });
-  r.field("wind", conditions.wind);
-  r.field("odometry", conditions.odometry);
-  r.field("battery", conditions.battery);
-  r.field("lidar", conditions.lidar);
-  r.field("camera", conditions.camera);
-  r.field("radio", conditions.radio);
+  for_each_section([&](const char* name, auto member) { r.field(name, conditions.*member); });
 }
 
 }  // namespace skein

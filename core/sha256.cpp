@@ -13,12 +13,19 @@ void must(bool ok) {
   if (!ok) throw std::runtime_error("OpenSSL cannot compute SHA-256");
 }
 
+/// Fetched once: EVP_sha256() is looked for in OpenSSL's providers by each new context, which takes longer than a short
+/// text.
+const EVP_MD* method() {
+  static const EVP_MD* const fetched = EVP_MD_fetch(nullptr, "SHA256", nullptr);
+  return fetched;
+}
+
 }  // namespace
 
 void Sha256::Free::operator()(evp_md_ctx_st* context) const { EVP_MD_CTX_free(context); }
 
 Sha256::Sha256() : context_(EVP_MD_CTX_new()) {
-  must(context_ && EVP_DigestInit_ex(context_.get(), EVP_sha256(), nullptr) == 1);
+  must(context_ && method() != nullptr && EVP_DigestInit_ex(context_.get(), method(), nullptr) == 1);
 }
 
 Sha256::~Sha256() = default;

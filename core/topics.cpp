@@ -106,6 +106,7 @@ std::span<const TopicInfo> uav_topics() {
                                    kTrigger,
                                    kOctomap,
                                    kFlightMap,
+                                   kDiagnostics,
                                    kCapture,
                                    kCaptureStored};
   return kAll;

@@ -1,6 +1,6 @@
 // What sim_server and the station say to each other in the world's domain about a run that is watched (docs/view.md):
 // only then are there such topics. Nobody else reads or writes them, and they are in no count of the lock-step. Each
-// sample is a JSON object as text. And what a UAV shows of its map for that, in its own domain.   Pure; any thread.
+// sample is a JSON object as text. And what a UAV shows of its map and itself, in its own domain.   Pure; any thread.
 #pragma once
 
 #include "core/topics.hpp"
@@ -31,10 +31,15 @@ inline constexpr TopicInfo kFlightMap{"/{id}/flight_map",
                                       "when it has grown, 1 Hz at most; latched",
                                       true};
 
+/// What the on-board software knows of itself, for ROS 2's diagnostics tools (uav_agent/diagnostics.hpp).
+inline constexpr TopicInfo kDiagnostics{"/diagnostics", "diagnostic_msgs/msg/DiagnosticArray",
+                                        Direction::shown_by_agent, kStateDepth, "1 Hz"};
+
 inline WireTopic view_story() { return wire(kViewStory); }
 inline WireTopic view_state() { return wire(kViewState); }
 inline WireTopic view_cloud() { return wire(kViewCloud); }
 inline WireTopic flight_map(std::string_view id) { return wire(kFlightMap, id); }
+inline WireTopic diagnostics() { return wire(kDiagnostics); }
 inline WireTopic view_orders() { return wire(kViewOrders); }
 
 }  // namespace skein::topics

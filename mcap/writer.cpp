@@ -99,7 +99,7 @@ Writer::Writer(const std::filesystem::path& file, const WriterOptions& options) 
 }
 
 std::uint16_t Writer::add_channel(const std::string& topic, const std::string& schema_name,
-                                  const std::string& definition) {
+                                  const std::string& definition, const StringMap& metadata) {
   const auto next_id = [&](std::size_t used) {
     if (used + options_.first_id > options_.last_id) throw std::length_error("a recording has no room for " + topic);
     return static_cast<std::uint16_t>(options_.first_id + used);
@@ -111,7 +111,7 @@ std::uint16_t Writer::add_channel(const std::string& topic, const std::string& s
     if (fresh) summary_.add(Schema{entry->second, schema_name, "ros2msg", definition});
     schema = entry->second;
   }
-  summary_.add(Channel{channel, schema, topic, "cdr", {}});
+  summary_.add(Channel{channel, schema, topic, "cdr", metadata});
   return channel;
 }
 

@@ -55,8 +55,9 @@ class Writer {
   Writer& operator=(const Writer&) = delete;
 
   /// @returns the channel of this topic: a new one for each call. @throws std::length_error when all ids are used up.
-  /// @param schema_name  empty: nobody knows what its messages are.
-  std::uint16_t add_channel(const std::string& topic, const std::string& schema_name, const std::string& definition);
+  /// @param schema_name  empty: nobody knows what its messages are. @param metadata  of the channel, for other tools.
+  std::uint16_t add_channel(const std::string& topic, const std::string& schema_name, const std::string& definition,
+                            const StringMap& metadata = {});
   /// @param time  of the message [ns]. Times need not rise. @param sequence  its number at its source.
   void write(std::uint16_t channel, std::uint64_t time, ByteView data, std::uint32_t sequence = 0);
   void write_metadata(const Metadata& metadata);

@@ -11,6 +11,7 @@
 
 #include "core/run_state.hpp"
 #include "process/flight_check_report.hpp"
+#include "process/relayed_topic.hpp"
 
 namespace skein {
 
@@ -350,6 +351,7 @@ struct AgentReport {
   Number waited_s = {};
   std::optional<std::vector<WaitReport>> waits = {};  ///< by time
   std::optional<Texts> no_way = {};
+  std::optional<std::vector<RelayedTopic>> from_nodes = {};  ///< of a stand-in for ROS 2 nodes: topics with anything
   Count malformed = {}, unsent = {};
   Text planner = {};  ///< as it was told
   Text dds = {};
@@ -358,6 +360,7 @@ struct AgentReport {
 template <class Fields>
 void describe(Fields& f, AgentReport& report) {
   f.field("dds", report.dds);
+  f.field("from_nodes", report.from_nodes);
   f.field("malformed", report.malformed);
   f.field("no_way", report.no_way);
   f.field("planner", report.planner);

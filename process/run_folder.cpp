@@ -50,10 +50,11 @@ bool is_maps_file(const std::string& name, const std::string& uav) {
 }
 
 bool is_of_a_run(const std::string& name) {
-  constexpr std::array<std::string_view, 19> kTables = {
-      kFleetLog,        kResult,       kScore,         kCaptures, kDigests,     kLosses,    kEvents,
-      kCaptureMessages, kTrajectories, kScoreTimeline, kScene,    kPage,        kRecording, kRecordingLayout,
-      kTracking,        kWork,         kActivity,      kByHand,   kPlannerFiles};
+  // metadata.yaml: of recording/bag.hpp.
+  constexpr std::array<std::string_view, 20> kTables = {
+      "metadata.yaml",  kFleetLog,        kResult,       kScore,         kCaptures, kDigests,     kLosses,
+      kEvents,          kCaptureMessages, kTrajectories, kScoreTimeline, kScene,    kPage,        kRecording,
+      kRecordingLayout, kTracking,        kWork,         kActivity,      kByHand,   kPlannerFiles};
   // Reports, logs and books: a book of another run would be taken up as if this run's program had been killed.
   const bool of_a_program = programs::is_agent(name) ||
                             std::any_of(programs::kServers.begin(), programs::kServers.end(), [&](const char* program) {

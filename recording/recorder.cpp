@@ -8,6 +8,7 @@
 #include "core/tick_time.hpp"
 #include "idl/message_definition.hpp"
 #include "process/run_folder.hpp"
+#include "recording/bag.hpp"
 
 namespace skein::recording {
 namespace {
@@ -76,7 +77,8 @@ std::uint16_t Recorder::channel(const std::string& topic, const std::string& wir
     definition = known.text;
   } catch (const std::out_of_range&) {
   }
-  return channels_.emplace(topic, file_->add_channel(topic, name, definition)).first->second;
+  const mcap::StringMap qos = {{"offered_qos_profiles", offered_qos_profiles(topic)}};
+  return channels_.emplace(topic, file_->add_channel(topic, name, definition, qos)).first->second;
 }
 
 void Recorder::add(const std::string& topic, const std::string& wire_type, std::span<const std::uint8_t> payload,

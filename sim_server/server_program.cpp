@@ -15,6 +15,7 @@
 #include "process/program_report.hpp"
 #include "process/run_folder.hpp"
 #include "process/status_lines.hpp"
+#include "process/user_cache.hpp"
 #include "sim_server/scenes/scene_source.hpp"
 #include "sim_server/scenes/scene_warnings.hpp"
 #include "sim_server/sim_node.hpp"
@@ -44,6 +45,12 @@ std::vector<UavIndex> indices_of(const std::vector<std::string>& names, const Sc
   std::vector<UavIndex> uavs;
   for (const std::string& name : names) uavs.push_back(scenario.uav_index(name));
   return uavs;
+}
+
+/// @throws InputError when one is not of the fleet
+std::vector<std::string> uavs_named(const std::vector<std::string>& names, const Scenario& scenario) {
+  indices_of(names, scenario);
+  return names;
 }
 
 FlightReport flight_of(const ProgramOptions& options, const Scenario& scenario, const std::string& clock) {
@@ -133,6 +140,8 @@ void ServerProgram::add_options(CLI::App& app) {
   app.add_flag("--watch-losses", watch_losses_, "ask the oracle what could be had, for that page")
       ->needs("--watch")
       ->group("Launcher");
+  app.add_option("--stand-ins", stand_ins_, "UAVs whose agent hands on what programs outside the lock-step say")
+      ->delimiter(',');
   app.add_option("--by-hand", by_hand_, "UAVs that somebody flies from that page")
       ->delimiter(',')
       ->needs("--watch")
@@ -150,7 +159,7 @@ double ServerProgram::startup_timeout_s(const Scenario& scenario) const {
 }
 
 Scene ServerProgram::load_ahead(const ProgramOptions& options) {
-  return load_scene(load_scenario(options.scenario, options.load_options()));
+  return load_scene(load_scenario(options.scenario, options.load_options()), user_cache_folder());
 }
 
 std::variant<int, std::unique_ptr<bus::FleetMember>> ServerProgram::prepare(const ProgramOptions& options,
@@ -172,12 +181,13 @@ std::variant<int, std::unique_ptr<bus::FleetMember>> ServerProgram::prepare(cons
                                     .notice_deaths = !options.has_launcher(),
                                     .expect_gcs_program = ground_program_,
                                     .watch = watch_options(watch_speed_, clock_, watch_losses_),
+                                    .stand_ins = uavs_named(stand_ins_, *scenario),
                                     .by_hand = indices_of(by_hand_, *scenario),
                                     .faults = load_fault_plan(options.faults, *scenario, options.seed),
                                     .gate = gate_,
                                     .for_each = for_each_};
   std::optional<Scene> ready = shelf_ ? shelf_->take() : std::nullopt;
-  Scene scene = ready ? std::move(*ready) : load_scene(*scenario);
+  Scene scene = ready ? std::move(*ready) : load_scene(*scenario, user_cache_folder());
   if (!options.check_only) refuse_used_folder(options);
   auto bus = bus::make_bus(options, *scenario);
   if (options.check_only) {

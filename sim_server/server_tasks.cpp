@@ -73,7 +73,7 @@ int ServerTasks::ask_oracle(const Scenario& scenario) const {
   request.cache = user_cache_folder();
   std::vector<double> asked_m = clearances_m;
   if (asked_m.empty()) asked_m = {vehicle ? 0.0 : request.config.clearance_m};
-  const Scene scene = load_scene(scenario);
+  const Scene scene = load_scene(scenario, request.cache);
   nlohmann::ordered_json rows = nlohmann::ordered_json::array();
   const PlanReply planned = sim::ask_plan(
       scenario, scene, {.config = {.threads = request.config.threads}, .search = plan, .cache = request.cache});

@@ -16,6 +16,12 @@ void SimNode::take_losses() {
   }
 }
 
+// It hears them all while it takes part, and what waited for it before the first step.
+bool SimNode::has_stand_in(const std::string& uav) const {
+  const bool named = std::ranges::find(options_.stand_ins, uav) != options_.stand_ins.end();
+  return named && (simulation_.step() == 0 || server_.is_member(uav));
+}
+
 // Commands from outside the lock-step have no effect. Their sender sees a matched subscriber, and must not wonder.
 void SimNode::tell_of_strangers(std::uint64_t patience) {
   const auto is_stranger = [this](bus::ParticipantId source) { return server_.is_stranger(source); };

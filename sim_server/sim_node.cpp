@@ -78,10 +78,12 @@ void SimNode::declare_members() {
     const auto domain = server_.add_domain(uav_names_[i], *participants_[2 + i]);
     server_.add_place(uav_names_[i], domain, options_.replay.takes_part(uav_names_[i]));
     uavs_.push_back(std::make_unique<UavNode>(i, scenario_, simulation_, heard_, server_, domain));
+    frames_.push_back(std::make_unique<FramesNode>(scenario_.fleet[i], i, simulation_, *participants_[2 + i]));
     hand_.declare(i, server_, domain);
   }
   server_.on_stranger([this](auto domain, const std::string& topic, bus::ParticipantId source) {
-    strangers_.add(uav_names_.at(domain - kFirstUavDomain), topic, source, simulation_.step());
+    const std::string& uav = uav_names_.at(domain - kFirstUavDomain);
+    if (!has_stand_in(uav)) strangers_.add(uav, topic, source, simulation_.step());
   });
   server_.on_hello([this](auto domain, const std::vector<std::string>& writes) {
     if (domain >= kFirstUavDomain) uavs_.at(domain - kFirstUavDomain)->read_debug(writes);
@@ -319,6 +321,7 @@ void SimNode::write_samples(bus::LockstepServer::DomainIndex domain) {
   if (domain != kWorldDomain) {
     const UavIndex uav{domain - kFirstUavDomain};
     uavs_[uav]->publish();
+    frames_[uav]->publish();
     hand_.publish(uav);
     return;
   }

@@ -19,6 +19,7 @@
 #include "process/status_pipe.hpp"
 #include "sim_server/cpu_clock.hpp"
 #include "sim_server/fault_node.hpp"
+#include "sim_server/frames_node.hpp"
 #include "sim_server/gcs_node.hpp"
 #include "sim_server/hand_node.hpp"
 #include "sim_server/progress_teller.hpp"
@@ -45,10 +46,11 @@ struct SimNodeOptions {
   FlightReport flight = {};               ///< for the report
   recording::Scope record = recording::Scope::none;
   recording::ReplayOptions replay = {};
-  bool notice_deaths = false;              ///< nobody tells who died (report_lost())
-  bool expect_gcs_program = false;         ///< a user's program at the ground station takes part
-  std::optional<WatchOptions> watch = {};  ///< somebody looks on (--watch)
-  std::vector<UavIndex> by_hand = {};      ///< UAVs that somebody who looks on flies (--by-hand)
+  bool notice_deaths = false;               ///< nobody tells who died (report_lost())
+  bool expect_gcs_program = false;          ///< a user's program at the ground station takes part
+  std::optional<WatchOptions> watch = {};   ///< somebody looks on (--watch)
+  std::vector<std::string> stand_ins = {};  ///< UAVs whose agent hands on what programs outside the lock-step say
+  std::vector<UavIndex> by_hand = {};       ///< UAVs that somebody who looks on flies (--by-hand)
   FaultPlan faults;
   std::shared_ptr<StepGate> gate = nullptr;  ///< somebody in this process steps the fleet
   ForEach for_each = one_after_another;      ///< how the simulation has its work done
@@ -97,6 +99,7 @@ class SimNode final : public bus::LockstepNode {
   Clock::time_point due() const;
   void finish_step();
   void take_losses();
+  bool has_stand_in(const std::string& uav) const;
   void tell_of_strangers(std::uint64_t patience);
   bool is_last_step() const;
   RunStatus end_status() const;
@@ -116,6 +119,7 @@ class SimNode final : public bus::LockstepNode {
   bus::Strangers strangers_;  ///< who sends commands without being a member
   HeardKeyFrames heard_;
   std::vector<std::unique_ptr<UavNode>> uavs_;
+  std::vector<std::unique_ptr<FramesNode>> frames_;  ///< of each UAV
   std::unique_ptr<GcsNode> gcs_;
   std::unique_ptr<VizNode> viz_;
   HandNode hand_;

@@ -129,7 +129,7 @@ void StationNode::note_unwritten(std::string trouble) {
 }
 
 void StationNode::record_tally(Tick tick) {
-  if (recorder_ == nullptr) return;
+  if (recorder_ == nullptr || recorder_->scope() == recording::Scope::none) return;
   msg::Tally tally;
   tally.stamp(to_time(tick));
   tally.points(static_cast<std::uint32_t>(scoreboard_->delivered().points_detected()));
@@ -178,6 +178,7 @@ void StationNode::acknowledge(const StepOutcome& outcome) {
 }
 
 void StationNode::tell(bool now) {
+  if (!status_.is_open()) return;
   const auto time = std::chrono::steady_clock::now();
   if (!now && time - told_ < kStatusPeriod) return;
   told_ = time;

@@ -8,6 +8,7 @@
 #include "idl/cdr.hpp"
 #include "idl/conversions.hpp"
 #include "idl/hand_conversions.hpp"
+#include "uav_agent/diagnostics.hpp"
 #include "uav_agent/neighbours.hpp"
 #include "uav_agent/octomap_message.hpp"
 
@@ -28,9 +29,11 @@ AgentNode::AgentNode(const Scenario& scenario, UavIndex uav, std::unique_ptr<Pla
 void AgentNode::start() {
   octomap_.reset();  // of the participant that now goes
   flight_map_.reset();
+  diagnostics_.reset();
   MemberNode::start();
   octomap_ = participant().create_writer(bus::spec(topics::octomap(member())));
   flight_map_ = participant().create_writer(bus::spec(topics::flight_map(member())));
+  diagnostics_ = participant().create_writer(bus::spec(topics::diagnostics()));
   shown_key_frames_ = shown_flight_key_frames_ = 0;
   shown_tree_.reset();
 }
@@ -194,6 +197,7 @@ void AgentNode::send(LockstepClient& client) {
 void AgentNode::show() {
   show_octomap();
   show_flight_map();
+  show_diagnostics();
 }
 
 void AgentNode::show_octomap() {
@@ -220,6 +224,28 @@ void AgentNode::show_flight_map() {
     shown_flight_key_frames_ = agent_.map().key_frames();
     flight_map_->write(encode(octomap_of(agent_.map(), input_.tick)));
   }
+}
+
+void AgentNode::show_diagnostics() {
+  if (input_.tick < diagnostics_due_ || !diagnostics_->has_readers()) return;
+  diagnostics_due_ = input_.tick + kTicksPerSecond;
+  DiagnosticFacts facts{.uav = member(),
+                        .k = input_.k,
+                        .tick = input_.tick,
+                        .mission_remaining_s = input_.mission_remaining_s,
+                        .undelivered = agent_.undelivered(),
+                        .unreadable = malformed(),
+                        .unsent = unsent(),
+                        .planner_cpu_s = planner_cpu().total_s(),
+                        .filter = agent_.filter_counts(),
+                        .breaches_told = breaches_told_,
+                        .no_way = agent_.no_way(),
+                        .battery = input_.battery};
+  for (const Neighbour& neighbour : input_.neighbours) {
+    if (neighbour.node <= scenario_.fleet.size()) facts.linked.push_back(scenario_.node_name(neighbour.node));
+  }
+  if (facts.filter != nullptr) breaches_told_ = facts.filter->broken;
+  diagnostics_->write(encode(diagnostics_of(facts)));
 }
 
 void AgentNode::write(LockstepClient& client) const {

@@ -43,6 +43,7 @@ class AgentNode final : public MemberNode {
   bool may_think() override;
   void show_octomap();
   void show_flight_map();
+  void show_diagnostics();
   void read_sensors(bus::LockstepClient& client);
   void read_captures(bus::LockstepClient& client);
   void write(bus::LockstepClient& client) const;
@@ -56,8 +57,9 @@ class AgentNode final : public MemberNode {
   AgentOutput output_;
   std::map<std::uint64_t, msg::CaptureReport> reports_;  ///< that may yet have to be sent, by capture
   std::vector<std::uint64_t> released_;                  ///< acknowledged captures that the camera may forget
-  std::unique_ptr<bus::Writer> octomap_, flight_map_;
-  Tick octomap_due_ = 0, flight_map_due_ = 0;
+  std::unique_ptr<bus::Writer> octomap_, flight_map_, diagnostics_;
+  Tick octomap_due_ = 0, flight_map_due_ = 0, diagnostics_due_ = 0;
+  std::uint64_t breaches_told_ = 0;  ///< of the safety filter, with the last diagnostics
   std::uint64_t shown_key_frames_ = 0;
   /// As it was written to flight_map_.
   std::optional<MapTree> shown_tree_;

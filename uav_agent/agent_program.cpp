@@ -3,11 +3,13 @@
 #include <spdlog/spdlog.h>
 
 #include <CLI/CLI.hpp>
+#include <cstdlib>
 #include <iostream>
 #include <set>
 
 #include "bus/lockstep/names.hpp"
 #include "bus/program_bus.hpp"
+#include "core/free_nodes.hpp"
 #include "core/hand_spec.hpp"
 #include "core/python_spec.hpp"
 #include "core/scenario_reader.hpp"
@@ -22,6 +24,7 @@
 #include "uav_agent/maps/told_chunks.hpp"
 #include "uav_agent/python/python_planner.hpp"
 #include "uav_agent/radio_node.hpp"
+#include "uav_agent/stand_in_node.hpp"
 
 namespace skein::agent {
 namespace {
@@ -77,6 +80,15 @@ std::unique_ptr<Planner> planner_of(const std::string& spec, const Scenario& sce
       {.seed = seed, .radio_topics = {radio.topics().begin(), radio.topics().end()}, .debug_from_s = pdb_from_s});
 }
 
+/// Of ROS 2 nodes: they name no values by themselves.
+std::vector<std::string> debug_names_of_environment(const std::string& uav) {
+  const char* const variable = std::getenv(kDebugValuesVariable);
+  std::vector<std::string> names = split(variable == nullptr ? "" : variable, ' ');
+  std::erase(names, "");
+  check_debug_names(names, std::string(kFreeNodes), uav);
+  return names;
+}
+
 class AgentMember final : public bus::FleetMember {
  public:
   /// @param scenario, bus  that the node refers to. @param steps_alone  a program outside steps it.
@@ -113,6 +125,7 @@ class AgentMember final : public bus::FleetMember {
                        .waited_s = node_->waited_s(),
                        .waits = node_->waits(),
                        .no_way = node_->no_ways(),
+                       .from_nodes = node_->from_nodes(),
                        .malformed = node_->malformed(),
                        .unsent = node_->unsent(),
                        .planner = planner_,
@@ -160,8 +173,12 @@ std::variant<int, std::unique_ptr<bus::FleetMember>> AgentProgram::prepare(const
   const UavIndex uav = scenario->uav_index(uav_.empty() ? scenario->fleet.front().name : uav_);
   std::unique_ptr<GroundProgram> ground;
   std::unique_ptr<Planner> planner;
+  std::vector<std::string> debug_names;
+  const bool stands_in = role_ != "gcs" && planner_ == kFreeNodes;
   if (role_ == "gcs") {
     ground = make_ground_program(planner_, ground_config(*scenario));
+  } else if (stands_in) {
+    debug_names = debug_names_of_environment(scenario->fleet[uav].name);
   } else {
     planner = planner_of(planner_, *scenario, uav, options.seed, pdb_from_s_);
     check_debug_names(planner->debug_names(), planner_, scenario->fleet[uav].name);
@@ -178,6 +195,8 @@ std::variant<int, std::unique_ptr<bus::FleetMember>> AgentProgram::prepare(const
   }
   if (ground) {
     node = std::make_unique<GroundNode>(*scenario, std::move(ground), options.domain, *bus);
+  } else if (stands_in) {
+    node = std::make_unique<StandInNode>(*scenario, uav, options.domain, *bus, debug_names);
   } else {
     auto on_board = std::make_unique<AgentNode>(*scenario, uav, std::move(planner), options.domain, *bus, frames_,
                                                 wants_hands(planner_));

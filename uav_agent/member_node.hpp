@@ -39,6 +39,8 @@ class MemberNode : public bus::ClientNode {
   virtual std::optional<double> waited_s() const { return std::nullopt; }
   /// When, and for whom.
   virtual std::optional<std::vector<WaitReport>> waits() const { return std::nullopt; }
+  /// What ROS 2 nodes said that it stands in for; nullopt: it does not.
+  virtual std::optional<std::vector<RelayedTopic>> from_nodes() const { return std::nullopt; }
 
  protected:
   /// @param member  name in the lock-step: a UAV's, or "gcs".

@@ -62,7 +62,7 @@ Site lattice() {
             .title = "A gantry crane of lattice",
             .route = "level flight below its girder",
             .scene = {}};
-  site.scene = sim::make_cranes(0);
+  site.scene = sim::sampled(sim::make_cranes(0));
   const OrientedBox girder = box_named(site.scene, "gantry_girder");
   const Vector3d along_G = Vector3d(9.0, 20.0, 0.0).normalized();  // the girder's x is along it, y along the rails
   site.along_W = (girder.R_WO * along_G).normalized();

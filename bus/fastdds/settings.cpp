@@ -83,7 +83,8 @@ DomainParticipantQos participant_qos(int domain, const BusConfig& config, const 
   } else if (reach.host_only) {
     transports.push_back(udp);
   } else {
-    transports.push_back(packet_transport(udp, reach.largest_datagram));
+    // Fast DDS sends each message of a handshake, certificate and permissions and all, in one datagram or not at all.
+    transports.push_back(config.security.empty() ? packet_transport(udp, reach.largest_datagram) : udp);
   }
 
   auto& discovery = qos.wire_protocol().builtin.discovery_config;

@@ -172,9 +172,9 @@ class Exchange {
   /// Made when it is first asked for; stays.
   Channel& channel_of(int domain, const std::string& topic) {
     const std::scoped_lock lock(mutex_);
-    Channel& channel = channels_[{domain, topic}];
-    channel.mutex = &domains_[domain];
-    return channel;
+    const auto [at, is_new] = channels_.try_emplace({domain, topic});
+    if (is_new) at->second.mutex = &domains_[domain];  // others on it are at work in this domain
+    return at->second;
   }
 
   std::vector<Channel*> channels() {

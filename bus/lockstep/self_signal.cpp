@@ -3,10 +3,14 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <cstdlib>
 #include <utility>
 
 namespace skein::bus {
 namespace {
+
+/// Only a user's own command has it (cli/run/exec_variables.cpp).
+constexpr const char* kExecVariable = "SKEIN_UAV";
 
 SelfSignals& instead() {
   static SelfSignals signals;
@@ -25,6 +29,7 @@ void kill_ourselves() {
 
 void stop_ourselves() {
   if (instead().stop) return instead().stop();
+  if (std::getenv(kExecVariable) != nullptr) return;  // the launcher stops us, too, and may have gone on with us before
   std::raise(SIGSTOP);
 }
 

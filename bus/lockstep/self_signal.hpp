@@ -18,7 +18,8 @@ void set_self_signals(SelfSignals signals);
 /// once with the exit code that shells show for it.
 [[noreturn]] void kill_ourselves();
 
-/// SIGSTOP; returns when somebody has continued us (SIGCONT).
+/// SIGSTOP; returns when somebody has continued us (SIGCONT). A user's own command (`exec:`) returns at once: the
+/// launcher stops it itself, and a second stop, after the launcher's SIGCONT, would be for ever.
 void stop_ourselves();
 
 }  // namespace skein::bus

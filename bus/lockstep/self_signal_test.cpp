@@ -71,5 +71,19 @@ TEST(SelfSignalOfAProgram, AStoppedOneStandsStillUntilItIsContinued) {
   EXPECT_EQ(WEXITSTATUS(status), 42);
 }
 
+TEST(SelfSignalOfAProgram, AUsersOwnCommandIsLeftToTheLauncher) {
+  const pid_t child = ::fork();
+  if (child == 0) {
+    ::setenv("SKEIN_UAV", "jurong", 1);
+    stop_ourselves();
+    ::_exit(42);
+  }
+  int status = 0;
+  ASSERT_EQ(::waitpid(child, &status, WUNTRACED), child);
+  if (WIFSTOPPED(status)) ::kill(child, SIGKILL);
+  EXPECT_TRUE(WIFEXITED(status)) << "it stands, and the launcher may have gone on with it before";
+  EXPECT_EQ(WEXITSTATUS(status), 42);
+}
+
 }  // namespace
 }  // namespace skein::bus

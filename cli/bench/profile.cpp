@@ -5,8 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <sstream>
+#include <utility>
 
+#include "cli/bench/flown.hpp"
 #include "cli/bench/report.hpp"
 #include "cli/bench/scenario.hpp"
 #include "cli/run/preflight.hpp"
@@ -149,13 +150,11 @@ int bench_profile(const BenchOptions& options, const Console& console) {
       std::vector<Json> results;
       for (int i = 0; i < repeats; ++i) {
         console.err << fmt::format("bench: {}, {} UAVs, run {} of {}", planner, uavs, i + 1, repeats) << std::endl;
-        std::ostringstream out, err;
-        const int code = run_fleet(run, {out, err, false});
-        if (code == kExitInterrupted) return code;
-        results.push_back(read_json(*run.out / run_folder::kResult));
-        if (code == kExitDone && ran_to_the_end(results.back())) continue;
+        Flown flown = fly(run);
+        results.push_back(std::move(flown.result));
+        if (flown.well) continue;
         failed = true;
-        console.err << "bench: that did not go well:\n" << err.str() << std::endl;
+        console.err << "bench: that did not go well:\n" << flown.said << std::endl;
       }
       entries.push_back(profile_entry(planner, uavs, results));
       report["profile"].push_back(entries.back());

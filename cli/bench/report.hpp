@@ -52,6 +52,9 @@ Json memory_entry(const Json& short_run, const Json& long_run);
 /// 1 when missed.
 Json targets_of(const Json& report);
 
+/// CPU time of all processes of a run, from the first step on.
+double fleet_cpu_s(const Json& result);
+
 /// A run that went to its end with everybody on board.
 bool ran_to_the_end(const Json& result);
 

@@ -1,8 +1,9 @@
 #include "cli/bench/sensing.hpp"
 
 #include <fstream>
-#include <sstream>
+#include <utility>
 
+#include "cli/bench/flown.hpp"
 #include "cli/bench/report.hpp"
 #include "cli/bench/scenario.hpp"
 #include "cli/run/fleet_plan.hpp"
@@ -68,15 +69,12 @@ class SensingBench {
     run.out = scratch_.path() / "run";
     run.force = true;
     run.attainable = run.report = false;
-    std::ostringstream out, err;
-    const int code = run_fleet(run, {out, err, false});
-    if (code == kExitInterrupted) throw Interrupted{};
-    const Json result = read_json(*run.out / run_folder::kResult);
-    if (code != kExitDone || !ran_to_the_end(result)) {
+    Flown flown = cli::fly(run);
+    if (!flown.well) {
       failed_ = true;
-      console_.err << "bench: " << planner << " over " << vendor << " did not go well:\n" << err.str() << std::endl;
+      console_.err << "bench: " << planner << " over " << vendor << " did not go well:\n" << flown.said << std::endl;
     }
-    return result;
+    return std::move(flown.result);
   }
 
   const BenchOptions& options_;

@@ -43,12 +43,6 @@ Tools find_tools() {
   return tools;
 }
 
-double fleet_cpu_s(const Json& result) {
-  double cpu_s = 0.0;
-  for (const Json& use : value_or(result, "processes", Json::object())) cpu_s += number(use, "cpu_s");
-  return cpu_s;
-}
-
 class WatchingBench {
  public:
   WatchingBench(const BenchOptions& options, const Console& console)

@@ -45,8 +45,7 @@ void check_image(const std::string& option, const std::string& image) {
 
 void check_layout(const FleetPlan& plan, const ComposeLayout& layout) {
   check_names(plan.scenario, layout.view.has_value());
-  if (layout.image) check_image("SKEIN_IMAGE", *layout.image);
-  if (layout.agent_image) check_image("SKEIN_AGENT_IMAGE", *layout.agent_image);
+  for (const auto& [variable, image] : layout.chosen) check_image(variable, image);
   std::vector<UavPlanner> all = plan.planners;
   if (plan.ground) all.push_back(*plan.ground);
   for (const UavPlanner& planner : all) {

@@ -8,8 +8,10 @@
 #include "cli/compose/agents_folder.hpp"
 #include "cli/compose/compose_checks.hpp"
 #include "cli/compose/compose_yaml.hpp"
+#include "cli/compose/images.hpp"
 #include "cli/compose/stack_parts.hpp"
 #include "cli/python_planners.hpp"
+#include "cli/run/exec_variables.hpp"
 #include "cli/run/live_page.hpp"
 #include "cli/run/program_files.hpp"
 #include "core/config_files.hpp"
@@ -27,6 +29,7 @@ using Texts = std::vector<std::string>;
 
 constexpr const char* kConfigInImage = "/usr/share/skein/config";
 constexpr const char* kResultsInContainer = "/results";
+constexpr const char* kHealthFile = "/tmp/alive";  ///< in a container
 constexpr const char* kKeysInContainer = "/keys";
 constexpr const char* kBuildInContainer = "/opt/skein";
 constexpr const char* kParametersInContainer = "/planner.yaml";
@@ -40,9 +43,6 @@ constexpr int kServerTimeout_s = 60;
 constexpr int kMostRestarts = 5;
 
 /// What docker-compose fills in when the file is read.
-constexpr const char* kImageVariable = "${SKEIN_IMAGE:-skein}";
-constexpr const char* kAgentImageVariable = "${SKEIN_AGENT_IMAGE:-skein-agent}";
-constexpr const char* kPythonAgentImageVariable = "${SKEIN_PYTHON_AGENT_IMAGE:-skein-agent-python}";
 constexpr const char* kRunVariable = "${SKEIN_RUN:-1}";
 constexpr const char* kUserVariable = "${SKEIN_USER:-1000:1000}";
 
@@ -169,10 +169,16 @@ class ComposeText {
       yaml_.key("pids_limit").number(kMostProcesses);
     }
     yaml_.key("stop_grace_period").own("10s");
+    if (!layout_.stack) add_health_check();
+    yaml_.end_map();
+  }
+
+  /// Not in a swarm, which tells nobody the name of a service that is not healthy yet: each program would wait for all.
+  void add_health_check() {
     yaml_.key("healthcheck").begin_map();
-    yaml_.key("test").own(Texts{"CMD-SHELL", "find /tmp/alive -newermt '-20 seconds' | grep -q ."});
+    yaml_.key("test").own(Texts{"CMD-SHELL", fmt::format("find {} -newermt '-20 seconds' | grep -q .", kHealthFile)});
     yaml_.key("interval").own("5s").key("timeout").own("5s");
-    yaml_.key("retries").number(3).key("start_period").own("30s").end_map().end_map();
+    yaml_.key("retries").number(3).key("start_period").own("30s").end_map();
   }
 
   /// A program that is dropped, or crashes, comes back; a run without its server cannot.
@@ -201,7 +207,13 @@ class ComposeText {
     if (foreign) {
       yaml_.literal(own_image->second);
     } else {
-      add(yaml_, agent ? layout_.agent_image : layout_.image, image_variable(program));
+      const auto [usual, variable] = image_of(plan_, program);
+      const auto chosen = layout_.chosen.find(variable);
+      if (chosen != layout_.chosen.end()) {
+        yaml_.literal(chosen->second);
+      } else {
+        yaml_.own(fmt::format("${{{}:-{}}}", variable, usual));
+      }
     }
     add_care(program);
     yaml_.key("command").begin_list();
@@ -233,10 +245,6 @@ class ComposeText {
     yaml_.end_map();
   }
 
-  const char* image_variable(const std::string& program) const {
-    if (!programs::is_agent(program)) return kImageVariable;
-    return python_spec(planner_of(plan_, program).spec) ? kPythonAgentImageVariable : kAgentImageVariable;
-  }
   bool serves_page(const std::string& program) const { return layout_.view && program == programs::kStation; }
   bool is_debugged(const std::string& program) const {
     return std::ranges::find(plan_.debug, program, &Debuggee::program) != plan_.debug.end();
@@ -255,9 +263,10 @@ class ComposeText {
       }
     }
     arguments.insert(arguments.end(),
-                     {"--keep", "--health", "/tmp/alive", "--lease",
+                     {"--keep", "--lease",
                       std::to_string(plan_.options.lease_s.value_or(plan_.debug.empty() ? kLease_s : kLongestLease_s)),
                       "--server-timeout", std::to_string(kServerTimeout_s), "--out", kResultsInContainer});
+    if (!layout_.stack) arguments.insert(arguments.end(), {"--health", kHealthFile});
     if (is_debugged(program)) arguments.push_back("--wait-for-debugger");
     if (plan_.options.secure) arguments.insert(arguments.end(), {"--security", kKeysInContainer});
     if (serves_page(program)) {
@@ -286,6 +295,7 @@ class ComposeText {
                                       {"SKEIN_OUT", kResultsInContainer}}) {
       yaml_.key(name).literal(value);
     }
+    for (const auto& [name, value] : part_variables(plan_, program)) yaml_.key(name).literal(value);
     yaml_.key("SKEIN_RUN");
     add(yaml_, layout_.run, kRunVariable);
   }

@@ -30,8 +30,8 @@ struct ComposeView {
 
 /// What containers need to know beside the plan. What is not set here is a variable that docker-compose fills in.
 struct ComposeLayout {
-  std::string command;  ///< that made the file, for its first line
-  std::optional<std::string> image, agent_image;
+  std::string command;                           ///< that made the file, for its first line
+  std::map<std::string, std::string> chosen;     ///< images, by the variables that would name them
   std::map<std::string, std::string> images;     ///< of users, in the place of an agent's: by UAV, or "gcs"
   std::optional<std::string> run;                ///< the run's number
   std::optional<std::string> user;               ///< UID:GID of all programs

@@ -11,6 +11,7 @@
 #include <random>
 #include <set>
 
+#include "cli/run/exec_variables.hpp"
 #include "cli/run/supervisor.hpp"
 #include "cli/testing/compose_programs.hpp"
 #include "cli/testing/compose_reader.hpp"
@@ -252,7 +253,12 @@ TEST_F(ComposeFile, APlannerInPythonHasItsFilesAndAnImageWithPython) {
     EXPECT_TRUE(file.mounts("uav_agent-a").contains(dir_ / name)) << name;
     EXPECT_FALSE(file.mounts("uav_agent-b").contains(dir_ / name)) << name;
   }
-  EXPECT_NE(compose_file(fleet.plan, fleet.layout).find("skein-agent-python"), std::string::npos);
+  EXPECT_NE(compose_file(fleet.plan, fleet.layout).find("${SKEIN_PYTHON_AGENT_IMAGE:-skein-agent-python}"),
+            std::string::npos);
+  fleet.layout.chosen = {{"SKEIN_IMAGE", "s"}, {"SKEIN_AGENT_IMAGE", "b"}, {"SKEIN_PYTHON_AGENT_IMAGE", "a"}};
+  for (const auto& [service, image] : {std::pair("uav_agent-a", "a"), {"uav_agent-b", "b"}, {"sim_server", "s"}}) {
+    EXPECT_EQ(fleet.file().text(service, "image"), image);
+  }
   fleet.plan.planners[0].spec = spec + ":" + (dir_ / "parameters.yaml").string();
   EXPECT_EQ(fleet.file().option("uav_agent-a", "--planner"), spec + ":/planner.yaml");
 }
@@ -304,6 +310,26 @@ TEST_F(ComposeFile, SubnetsLieBesideEachOtherInTheOneThatIsGiven) {
       }
     }
   });
+}
+
+// As `skein run` tells the program of a planner exec:CMD or ros:PACKAGE/EXECUTABLE.
+TEST_F(ComposeFile, AProgramOfTheUsersOwnImageIsToldItsRoleAndItsRadioTopics) {
+  std::set<std::string> roles;
+  for_all([&](const Fleet& fleet, const Compose& file) {
+    for (const UavConfig& uav : fleet.plan.scenario.fleet) {
+      const std::string program = programs::agent_program(uav.name);
+      const auto environment = file.of(program, "environment");
+      const bool foreign = fleet.layout.images.contains(uav.name);
+      const auto told = exec_variables(fleet.plan, program, kComposeBaseDomain, "out", {});
+      for (const char* name : {"SKEIN_ROLE", "SKEIN_RADIO_SENDS", "SKEIN_RADIO_HEARS"}) {
+        ASSERT_EQ(environment[name].IsDefined(), foreign) << program << " " << name;
+        if (!foreign) continue;
+        EXPECT_EQ(filled_in(environment[name].Scalar()), told.at(name)) << program;
+      }
+      if (foreign) roles.insert(environment["SKEIN_ROLE"].Scalar());
+    }
+  });
+  EXPECT_EQ(roles, (std::set<std::string>{"explorer", "photographer"}));
 }
 
 TEST_F(ComposeFile, WhatIsWrongIsToldWithWhatWouldBeRight) {

@@ -169,7 +169,7 @@ TEST_F(HostileTexts, AreNoNamesOfImages) {
     SCOPED_TRACE("'" + text + "'");
     ComposeLayout theirs, ours, agents;
     theirs.images[uav] = text;
-    ours.image = agents.agent_image = text;
+    ours.chosen["SKEIN_IMAGE"] = agents.chosen["SKEIN_AGENT_IMAGE"] = text;
     const bool plain = std::ranges::all_of(
         text, [](char c) { return c == 'a' || c == 'b' || c == 'c' || c == ':' || c == 'y' || c == 'e' || c == 's'; });
     EXPECT_EQ(file_of(fleet, theirs).has_value(), plain);

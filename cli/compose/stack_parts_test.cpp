@@ -88,6 +88,7 @@ TEST_F(StackParts, ProgramsAreWhereTheyBelongAndAgentsGetTheirFilesAlone) {
       const YAML::Node placement = deploy["placement"];
       const Texts constraints = placement ? texts_of(placement["constraints"]) : Texts();
       EXPECT_EQ(constraints, where.empty() ? Texts() : Texts{where}) << service;
+      EXPECT_FALSE(file.of(service, "healthcheck")) << "nobody hears the name of a service that is not healthy yet";
       EXPECT_EQ(file.option(service, "--lease"), std::to_string(stack.plan.options.lease_s.value_or(10)));
       Texts sent;
       for (const YAML::Node& config : file.of(service, "configs")) {

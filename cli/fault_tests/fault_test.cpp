@@ -4,6 +4,7 @@
 
 #include "cli/fault_tests/columns.hpp"
 #include "cli/properties/judge.hpp"
+#include "core/conditions.hpp"
 #include "core/config_files.hpp"
 #include "core/config_reader.hpp"
 #include "core/scenario_reader.hpp"
@@ -25,6 +26,7 @@ struct RunPart {
   std::uint64_t seed = 0;
   std::optional<std::uint64_t> scene_seed, uavs;
   double duration_s = 60.0;
+  std::optional<std::string> conditions;
   Vendor dds = Vendor::cyclonedds;
 
   template <class R>
@@ -35,6 +37,7 @@ struct RunPart {
     r.field("scene_seed", scene_seed);
     r.field("uavs", uavs, within(1.0, 128.0));
     r.field("duration_s", duration_s, Bounds{0.0, 36000.0, true});
+    r.field("conditions", conditions);
     r.field("dds", dds);
   }
 };
@@ -71,6 +74,7 @@ RunOptions run_options(const RunPart& part, const fs::path& file, const std::opt
   options.scene_seed = part.scene_seed;
   if (part.uavs) options.uavs = static_cast<std::size_t>(*part.uavs);
   options.duration_s = part.duration_s;
+  options.conditions = part.conditions;
   options.dds = name_of(part.dds);
   options.assets = assets;
   options.faults = file;
@@ -89,6 +93,8 @@ void check_run(const RunOptions& options, ConfigErrors& errors) {
     const Scenario scenario = load_scenario(options.scenario, load);
     key = "run.planner";
     parse_planners(options.planner, scenario.uav_names());
+    key = "run.conditions";
+    if (options.conditions) chosen_conditions(*options.conditions, scenario.conditions);
   } catch (const InputError& error) {
     errors.check(false, key, error.what());
   }

@@ -75,6 +75,8 @@ TEST_F(FaultTestFile, AnythingWrongIsNamedWithItsLine) {
   refused("run: {scenario: ./small.yaml, dds: fast}\nfaults: []\nexpect: {}", "run.dds: must be one of cyclonedds");
   refused("run: {scenario: towrs}\nfaults: []\nexpect: {}", "mine.yaml:1: run.scenario: ");
   refused("run: {scenario: ./none.yaml}\nfaults: []\nexpect: {}", "mine.yaml:1: run.scenario: ");
+  refused("run: {scenario: ./small.yaml,\n  conditions: brezy}\nfaults: []\nexpect: {}",
+          "mine.yaml:2: run.conditions: there is no preset 'brezy' of conditions; did you mean 'breezy'?");
   refused("run:\n  scenario: ./small.yaml\n  planner: nobody=hover\nfaults: []\nexpect: {}",
           "mine.yaml:3: run.planner: ");
   refused("run: {scenario: ./small.yaml, duration_s: 5}\nfaults: [{at_s: 10, blackout: alpha}]\nexpect: {}",

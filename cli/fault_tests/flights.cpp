@@ -102,6 +102,7 @@ std::string what_is_flown(const RunOptions& options) {
   text << options.scenario << '\n' << options.planner << '\n' << options.seed << '\n' << *options.duration_s << '\n';
   if (options.scene_seed) text << *options.scene_seed;
   if (options.uavs) text << "\n" << *options.uavs << " UAVs";
+  if (options.conditions) text << "\nconditions " << *options.conditions;
   return text.str();
 }
 

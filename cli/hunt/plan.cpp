@@ -7,6 +7,7 @@
 #include "cli/machine.hpp"
 #include "cli/run/agent_file.hpp"
 #include "cli/run/preflight.hpp"
+#include "core/conditions.hpp"
 #include "core/config_writer.hpp"
 #include "core/fault_writer.hpp"
 #include "core/file_bytes.hpp"
@@ -72,6 +73,16 @@ std::vector<std::string> kinds_of(const HuntOptions& options) {
   return options.faults.empty() ? fault_kinds() : options.faults;
 }
 
+void check_conditions(const HuntOptions& options, const Scenario& scenario) {
+  for (const std::string& conditions : options.conditions) {
+    try {
+      chosen_conditions(conditions, scenario.conditions);
+    } catch (const InputError& error) {
+      throw InputError("--conditions " + conditions + ": " + error.what());
+    }
+  }
+}
+
 Json settings_of(const HuntPlan& plan) {
   const RunOptions& run = plan.fleet.options;
   Json settings{{"skein_version", SKEIN_VERSION},  {"scenario", to_yaml(plan.fleet.scenario)},
@@ -79,6 +90,7 @@ Json settings_of(const HuntPlan& plan) {
                 {"one_process", plan.one_process}, {"dds", run.dds},
                 {"seed", plan.options.seed},       {"faults", plan.space.kinds},
                 {"properties", Json::object()},    {"programs", programs_digest(plan.fleet)}};
+  if (!plan.options.conditions.empty()) settings["conditions"] = plan.options.conditions;
   for (const auto& [name, entry] : plan.entries) {
     settings["properties"][name] = flow_text(ConfigWriter::node_of(entry).value_or(ConfigNode{}));
   }
@@ -141,6 +153,7 @@ HuntPlan plan_hunt(const HuntOptions& options) {
   if (options.properties) properties::load_properties(*options.properties, plan.fleet.scenario);  // with its lines
   plan.entries = entries_of(options, plan.fleet.scenario);
   plan.space.kinds = kinds_of(options);
+  check_conditions(options, plan.fleet.scenario);
   plan.space.ground_program = plan.fleet.ground.has_value();
   const double duration_s = plan.fleet.scenario.duration_s;
   const double deadline_s = longest_deadline_s(properties_of(plan.entries, plan.fleet.scenario));
@@ -170,6 +183,7 @@ std::string capsule_text(const std::string& name, const Trial& trial, const Caps
   add("scene_seed", run.scene_seed);
   add("uavs", run.uavs);
   add("duration_s", run.duration_s);
+  add("conditions", run.conditions);
   std::string text =
       "# fault test\n# " + printable(told) + "\nname: " + name + "\nrun: " + flow_text(flown) + "\n" + trial.text();
   const auto entry = std::ranges::find(entries, mark.property, [](const auto& one) { return one.first; });

@@ -42,6 +42,7 @@ TEST_F(HuntPlans, ACapsuleIsAFaultTestThatReadsBack) {
     trial.run.seed = number;
     if (number % 2 == 0) trial.run.uavs = 2;
     if (number % 3 == 0) trial.run.scene_seed = number;
+    if (number % 5 == 0) trial.run.conditions = "breezy,wind=harsh";
     const CapsuleMark mark{plan.entries[number % plan.entries.size()].first, "12ab", "1.2.3", "cd34",
                            "skein hunt 'x: y'"};
     const std::filesystem::path file = programs_.dir() / "capsule.yaml";
@@ -55,6 +56,8 @@ TEST_F(HuntPlans, ACapsuleIsAFaultTestThatReadsBack) {
     EXPECT_EQ(test.plan.options.seed, trial.run.seed);
     EXPECT_EQ(test.plan.options.uavs, trial.run.uavs);
     EXPECT_EQ(test.plan.options.scene_seed, trial.run.scene_seed);
+    EXPECT_EQ(test.plan.options.conditions, trial.run.conditions);
+    EXPECT_EQ(test.plan.scenario.conditions.wind.on(), number % 5 == 0);
     EXPECT_EQ(test.plan.options.planner, "hover");
     ASSERT_EQ(test.property_set.size(), 1U);
     EXPECT_EQ(test.property_set[0].name, mark.property);

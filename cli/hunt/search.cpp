@@ -6,9 +6,9 @@
 namespace skein::cli {
 namespace {
 
-constexpr double kShareOfNew = 0.4;      ///< of cases that are like none before
-constexpr double kShareOfNearest = 0.5;  ///< of the others: like one that came near
-constexpr double kShareOfOtherSeeds = 0.2;
+constexpr double kShareOfNew = 0.4;         ///< of cases that are like none before
+constexpr double kShareOfNearest = 0.5;     ///< of the others: like one that came near
+constexpr double kShareOfOtherSeeds = 0.2;  ///< and conditions
 
 std::size_t place(RandomStream& draw, std::size_t count) {
   return std::min(static_cast<std::size_t>(draw.uniform() * static_cast<double>(count)), count - 1);
@@ -30,12 +30,16 @@ const HuntCase& HuntSearch::next(const std::vector<std::optional<TrialOutcome>>&
   RandomStream draw(seed_, "hunt", index);
   HuntCase made;
   made.seed = 1 + place(draw, kRunSeeds);
+  if (!conditions_.empty()) made.conditions = conditions_[index == 0 ? 0 : place(draw, conditions_.size())];
   if (index == 0) return cases_.emplace_back(std::move(made));
   if (discoverers_.empty() || draw.uniform() < kShareOfNew) {
     made.faults = maker_.schedule(draw);
   } else {
     const HuntCase& like = parent(draw);
-    if (draw.uniform() >= kShareOfOtherSeeds) made.seed = like.seed;
+    if (draw.uniform() >= kShareOfOtherSeeds) {
+      made.seed = like.seed;
+      made.conditions = like.conditions;
+    }
     made.faults = maker_.varied(like.faults, parent(draw).faults, draw);
   }
   return cases_.emplace_back(std::move(made));

@@ -17,6 +17,7 @@ namespace skein::cli {
 struct HuntCase {
   std::uint64_t seed = 0;  ///< of the run
   std::vector<Fault> faults;
+  std::string conditions = {};  ///< empty: the scenario's own
 };
 
 class HuntSearch {
@@ -26,10 +27,11 @@ class HuntSearch {
   /// Runs have one of so many seeds, from 1 on.
   static constexpr std::uint64_t kRunSeeds = 4;
 
-  HuntSearch(FaultMaker maker, std::uint64_t seed, std::size_t lag = kLag)
-      : maker_(std::move(maker)), seed_(seed), lag_(lag) {}
+  /// @param conditions  what cases are flown under; empty: the scenario's own
+  HuntSearch(FaultMaker maker, std::uint64_t seed, std::size_t lag = kLag, std::vector<std::string> conditions = {})
+      : maker_(std::move(maker)), seed_(seed), lag_(lag), conditions_(std::move(conditions)) {}
 
-  /// The next case; the first one has no faults.
+  /// The next case; the first one has no faults, and the first of the conditions.
   /// @param before  what came of the cases in their order: at least up to the one `lag` before this one. What is
   ///   behind that one is not looked at.
   const HuntCase& next(const std::vector<std::optional<TrialOutcome>>& before);
@@ -44,6 +46,7 @@ class HuntSearch {
   const FaultMaker maker_;
   const std::uint64_t seed_;
   const std::size_t lag_;
+  const std::vector<std::string> conditions_;
   std::vector<HuntCase> cases_;
   std::size_t learnt_ = 0;  ///< cases
   std::set<std::uint64_t> states_;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <map>
 
 #include "core/scenario_reader.hpp"
 #include "tests/support/places.hpp"
@@ -55,6 +56,24 @@ TEST_F(Searches, ACaseHangsOnTheSeedAndOnWhatIsLongOverAlone) {
     if (text_of(third.next(known_at_once)) != text) ++different;
   }
   EXPECT_GT(different, kCases / 2);
+}
+
+TEST_F(Searches, CasesFlyUnderAllOfTheConditions) {
+  const std::vector<std::string> conditions = {"none", "breezy", "wind=harsh+battery=breezy"};
+  HuntSearch some(FaultMaker(towers_, {}), 3, HuntSearch::kLag, conditions), none = search(3);
+  Outcomes known;
+  std::map<std::string, int> flown;
+  for (std::size_t i = 0; i < 120; ++i) {
+    const HuntCase& one = some.next(known);
+    if (i == 0) {
+      EXPECT_EQ(one.conditions, "none");
+    }
+    ++flown[one.conditions];
+    EXPECT_EQ(none.next(known).conditions, "") << "the scenario's own";
+    known.push_back(outcome_of(one));
+  }
+  ASSERT_EQ(flown.size(), conditions.size());
+  for (const std::string& one : conditions) EXPECT_GT(flown[one], 10) << one;
 }
 
 TEST_F(Searches, WaitsForWhatACaseHangsOn) {

@@ -6,6 +6,7 @@
 
 #include "cli/fault_tests/flights.hpp"
 #include "cli/hunt/fault_maker.hpp"
+#include "core/conditions.hpp"
 #include "core/overloaded.hpp"
 
 namespace skein::cli {
@@ -145,6 +146,7 @@ class Proposals {
     trial = trial_;
     trial.run.scene_seed.reset();
     propose("scene seed", trial);
+    plainer_conditions();
     trial = trial_;
     trial.run.scenario = kSimplestScene;
     propose("scene", trial);
@@ -153,6 +155,19 @@ class Proposals {
                              trial.run.planner.find(':') < trial.run.planner.find('=');
     if (one_for_all) trial.run.planner = trial.run.planner.substr(0, trial.run.planner.find(':'));
     propose("parameters", trial);
+  }
+
+  /// None, or none of one kind.
+  void plainer_conditions() {
+    if (!trial_.run.conditions) return;
+    Trial trial = trial_;
+    trial.run.conditions = "none";
+    propose("conditions", trial);
+    for (const std::string& section : condition_sections()) {
+      const std::string without = *trial_.run.conditions + "," + section + "=none";
+      trial.run.conditions = conditions_text(chosen_conditions(without, scenario_.conditions));
+      propose("conditions but " + section, trial);
+    }
   }
 
   /// At the time at which it began, if it waited for something.

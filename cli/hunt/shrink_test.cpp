@@ -8,6 +8,7 @@
 
 #include "cli/hunt/fault_maker.hpp"
 #include "cli/testing/fake_programs.hpp"
+#include "core/conditions.hpp"
 #include "core/fault_writer.hpp"
 #include "core/scenario_reader.hpp"
 #include "tests/support/places.hpp"
@@ -88,6 +89,29 @@ TEST_F(Shrinking, LeavesWhatMattersAndNothingElse) {
       EXPECT_GE(*small.trial.run.duration_s, *fault.until_s + kAfter_s) << fault_line(fault);
     }
     for (const Fault& fault : small.trial.faults) EXPECT_EQ(fault.at_s, std::round(fault.at_s)) << fault_line(fault);
+  }
+}
+
+TEST_F(Shrinking, LeavesTheConditionsThatItNeeds) {
+  const auto outcome = [](const Trial& trial) {
+    TrialOutcome outcome;
+    TrialFinding& finding = outcome.findings.emplace_back();
+    finding.property = "whole";
+    const bool windy = trial.run.conditions && chosen_conditions(*trial.run.conditions, {}).wind.on();
+    finding.outcome = windy ? properties::Verdict::Outcome::fails : properties::Verdict::Outcome::holds;
+    return outcome;
+  };
+  for (const char* preset : {"breezy", "harsh"}) {
+    Trial trial{{}, {{20.0, 30.0, Kill{"raffles"}}}};
+    trial.run.duration_s = 120.0;
+    trial.run.conditions = preset;
+    const Shrunk small = shrink(trial, outcome(trial), "whole", towers_, {kAfter_s, 1, 120}, [&](const auto& trials) {
+      std::vector<TrialOutcome> outcomes;
+      for (const Trial& one : trials) outcomes.push_back(outcome(one));
+      return outcomes;
+    });
+    EXPECT_EQ(small.trial.run.conditions, std::string("none,wind=") + preset);
+    EXPECT_TRUE(small.trial.faults.empty());
   }
 }
 

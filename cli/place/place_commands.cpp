@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 
+#include "cli/run/exec_variables.hpp"
 #include "cli/run/results_dir.hpp"
 #include "core/text.hpp"
 #include "process/program.hpp"
@@ -44,11 +45,14 @@ class Script {
     const int base = plan_.options.domain.value_or(kFirstDomain);
     if (is_exec(plan_, program)) {
       const std::string domain = std::to_string(agent_domain(plan_, program, base));
-      return fmt::format(
-          "SKEIN_DOMAIN={0} ROS_DOMAIN_ID={0} SKEIN_UAV={1} SKEIN_RUN={2} SKEIN_DDS={3} "
-          "SKEIN_NETWORK={4} SKEIN_OUT={5} /bin/sh -c {6} &\n",
-          domain, shell_word(programs::member_name(program)), run_, dds_vendors(plan_).at(program),
-          shell_word(network_), shell_word(out), shell_word(*exec_command(planner_of(plan_, program).spec)));
+      std::string part;
+      for (const auto& [name, value] : part_variables(plan_, program)) part += name + "=" + shell_word(value) + " ";
+      return part + fmt::format(
+                        "SKEIN_DOMAIN={0} ROS_DOMAIN_ID={0} SKEIN_UAV={1} SKEIN_RUN={2} SKEIN_DDS={3} "
+                        "SKEIN_NETWORK={4} SKEIN_OUT={5} /bin/sh -c {6} &\n",
+                        domain, shell_word(programs::member_name(program)), run_, dds_vendors(plan_).at(program),
+                        shell_word(network_), shell_word(out),
+                        shell_word(*exec_command(planner_of(plan_, program).spec)));
     }
     std::vector<std::string> words = {program_file(plan_, program)};
     const std::vector<std::string> own = program_arguments(plan_, program, base);

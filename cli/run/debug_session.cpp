@@ -15,7 +15,7 @@ using How = Debuggee::How;
 
 DebugSession::DebugSession(const FleetPlan& plan, int base_domain, const std::filesystem::path& out,
                            const SecureFolders& secure, ProgressView& view, std::ostream& console, bool terminal)
-    : view_(view), console_(console), terminal_(terminal), log_file_(out / run_folder::kFleetLog) {
+    : plan_(plan), view_(view), console_(console), terminal_(terminal), log_file_(out / run_folder::kFleetLog) {
   bool here = false;
   for (const Debuggee& debuggee : plan.debug) {
     watches_.push_back(std::make_unique<DebugWatch>(debuggee, out, program_file(plan, debuggee.program)));
@@ -71,6 +71,12 @@ std::vector<const DebugWatch*> DebugSession::take_ended() {
     if (watch->ended() && watch->debuggee().how != How::wait) ended.push_back(watch.get());
   }
   return ended;
+}
+
+void DebugSession::await_reports(std::chrono::milliseconds timeout) const {
+  for (const auto& watch : watches_) {
+    if (!is_exec(plan_, watch->debuggee().program)) watch->await_end(timeout);  // a user's command leaves none
+  }
 }
 
 const DebugWatch* DebugSession::find(const std::string& program) const {

@@ -16,7 +16,7 @@ namespace skein::cli {
 
 class DebugSession {
  public:
-  /// Before the programs start. @param view, console  must outlive this. @param terminal  of the console
+  /// Before the programs start. @param plan, view, console  must outlive this. @param terminal  of the console
   DebugSession(const FleetPlan& plan, int base_domain, const std::filesystem::path& out, const SecureFolders& secure,
                ProgressView& view, std::ostream& console, bool terminal);
   ~DebugSession();
@@ -25,6 +25,8 @@ class DebugSession {
 
   /// Looks after them. @returns those that have ended since, while their tool may live on.
   std::vector<const DebugWatch*> take_ended();
+  /// What the user started himself is no child of ours: at the end it may still be about to leave its report.
+  void await_reports(std::chrono::milliseconds timeout) const;
   /// Of a program; null: nobody looks into it.
   const DebugWatch* find(const std::string& program) const;
   /// It starts again after a fault, below its tool.
@@ -36,6 +38,7 @@ class DebugSession {
   std::string introduction(const FleetPlan& plan, const Debuggee& debuggee, int base_domain,
                            const std::filesystem::path& out, const SecureFolders& secure) const;
 
+  const FleetPlan& plan_;
   ProgressView& view_;
   std::ostream& console_;
   const bool terminal_;

@@ -59,6 +59,11 @@ bool DebugWatch::ended() {
   return true;
 }
 
+void DebugWatch::await_end(std::chrono::milliseconds timeout) const {
+  pollfd polled{fd_, POLLIN, 0};
+  if (fd_ >= 0) ::poll(&polled, 1, static_cast<int>(timeout.count()));
+}
+
 void DebugWatch::look() {
   for (const pid_t pid : all_processes()) {
     if (!is_debugged(pid) || is_debugged(parent_of(pid))) continue;

@@ -28,6 +28,8 @@ class DebugWatch {
   bool ended();
   /// @returns true once for each debugged program that is there.
   bool appeared();
+  /// Waits at most so long for the end of the one that is there.
+  void await_end(std::chrono::milliseconds timeout) const;
   /// Of the last one seen; 0: none yet.
   pid_t pid() const { return pid_; }
   const Debuggee& debuggee() const { return debuggee_; }

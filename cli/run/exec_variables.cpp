@@ -32,6 +32,18 @@ std::pair<std::string, std::string> radio_topics_of(const Scenario& scenario, No
 
 }  // namespace
 
+std::map<std::string, std::string> part_variables(const FleetPlan& plan, const std::string& program) {
+  std::map<std::string, std::string> variables;
+  Node node = kStationNode;
+  if (program != programs::kGroundAgent) {
+    const UavIndex uav = plan.scenario.uav_index(programs::member_name(program));
+    node = node_of_uav(uav);
+    variables["SKEIN_ROLE"] = name_of(plan.scenario.fleet[uav].vehicle.role);
+  }
+  std::tie(variables["SKEIN_RADIO_SENDS"], variables["SKEIN_RADIO_HEARS"]) = radio_topics_of(plan.scenario, node);
+  return variables;
+}
+
 std::map<std::string, std::string> exec_variables(const FleetPlan& plan, const std::string& program, int base_domain,
                                                   const std::filesystem::path& out, const SecureFolder& secure) {
   const std::string member = programs::member_name(program);
@@ -46,13 +58,7 @@ std::map<std::string, std::string> exec_variables(const FleetPlan& plan, const s
       {"SKEIN_OUT", std::filesystem::absolute(secure.out.empty() ? out : secure.out)},
       {"SKEIN_CONFIG_DIR", std::filesystem::absolute(default_config_dir())},
       {"SKEIN_BIN_DIR", std::filesystem::absolute(plan.bin_dir)}};  // skein.client does not lie beside the command
-  Node node = kStationNode;
-  if (program != programs::kGroundAgent) {
-    const UavIndex uav = plan.scenario.uav_index(member);
-    node = node_of_uav(uav);
-    variables["SKEIN_ROLE"] = name_of(plan.scenario.fleet[uav].vehicle.role);
-  }
-  std::tie(variables["SKEIN_RADIO_SENDS"], variables["SKEIN_RADIO_HEARS"]) = radio_topics_of(plan.scenario, node);
+  variables.merge(part_variables(plan, program));
   if (plan.options.network) variables["SKEIN_NETWORK"] = *plan.options.network;
   if (!secure.keys.empty()) variables["SKEIN_SECURITY"] = secure.keys;
   if (secure.user) variables["HOME"] = secure.out;  // the launcher's is closed to it
@@ -61,9 +67,7 @@ std::map<std::string, std::string> exec_variables(const FleetPlan& plan, const s
 
 void check_exec(const FleetPlan& plan) {
   const auto is_ros = [](const UavPlanner& planner) { return planner.spec.starts_with(kRos); };
-  if (plan.options.secure && std::ranges::any_of(plan.planners, is_ros)) {
-    throw InputError("--secure: a ROS 2 node has no certificate of the run; leave out --secure, or ros: planners");
-  }
+  if (plan.options.secure && std::ranges::any_of(plan.planners, is_ros)) check_secure_middleware(plan.options.dds);
 }
 
 }  // namespace skein::cli

@@ -9,11 +9,15 @@
 
 namespace skein::cli {
 
+/// What such a program is told wherever it runs: its radio topics and, unless it is the ground station's, its UAV's
+/// role.
+std::map<std::string, std::string> part_variables(const FleetPlan& plan, const std::string& program);
+
 /// Environment variables of an agent that is a user's command (README.md). It joins SKEIN_DOMAIN and no other.
 std::map<std::string, std::string> exec_variables(const FleetPlan& plan, const std::string& program, int base_domain,
                                                   const std::filesystem::path& out, const SecureFolder& secure);
 
-/// @throws InputError for a ROS 2 node in a secured fleet
+/// @throws InputError for a ROS 2 node of another DDS vendor in a secured fleet
 void check_exec(const FleetPlan& plan);
 
 }  // namespace skein::cli

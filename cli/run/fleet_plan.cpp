@@ -8,6 +8,7 @@
 #include <random>
 #include <set>
 
+#include "cli/free_nodes.hpp"
 #include "cli/hand_flights.hpp"
 #include "cli/python_planners.hpp"
 #include "cli/run/agent_file.hpp"
@@ -19,6 +20,7 @@
 #include "cli/run/watch_arguments.hpp"
 #include "cli/threads.hpp"
 #include "core/config_files.hpp"
+#include "core/free_nodes.hpp"
 #include "core/network_config.hpp"
 #include "core/scenario_reader.hpp"
 #include "core/text.hpp"
@@ -163,6 +165,7 @@ FleetPlan plan_fleet(const RunOptions& options, const std::filesystem::path& bin
   find_agents(planners, plan.agent);
   plan.planners = planners.uavs;
   check_exec(plan);
+  check_free_nodes(plan.planners, options.clock);
   plan.ground = ground_program(planners, fleets_agent(plan));
   if (options.network) read_network(*options.network).check_names(domain_names(plan.scenario));
   for (const std::string& uav : options.replay ? options.replay->only : std::vector<std::string>()) {
@@ -213,6 +216,7 @@ std::optional<std::string> needs_processes(const FleetPlan& plan) {
     if (exec_command(planner.spec)) {
       return "--planner " + planner.uav + "=" + planner.spec + " needs processes: it is a program of its own";
     }
+    if (planner.spec == kFreeNodes) return "--planner " + planner.uav + "=ros needs processes: ROS 2 nodes speak DDS";
   }
   if (plan.options.network) return "--network needs processes: other hosts take part over DDS";
   if (plan.options.secure)
@@ -269,6 +273,9 @@ std::vector<std::string> program_arguments(const FleetPlan& plan, const std::str
   append(arguments, {"--dds", dds_vendors(plan).at(program), "--domain", std::to_string(base_domain)});
   if (programs::is_agent(program)) append(arguments, role_arguments(plan, program));
   if (!programs::is_agent(program)) append(arguments, {"--record", plan.options.record});
+  const std::string stand_ins = joined(uavs_of_free_nodes(plan.planners), ",");
+  const bool hears_nodes = program == programs::kSimServer || program == programs::kCommRouter;
+  if (hears_nodes && !stand_ins.empty()) append(arguments, {"--stand-ins", stand_ins});
   const bool replays = program == programs::kSimServer || program == programs::kCommRouter;
   if (replays && plan.options.replay) append(arguments, replay_arguments(*plan.options.replay));
   if (program == programs::kSimServer) {

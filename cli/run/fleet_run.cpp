@@ -19,7 +19,6 @@ namespace skein::cli {
 namespace {
 
 using std::chrono::milliseconds;
-
 /// How long the programs may take to write their reports and leave after sim_server has left.
 constexpr milliseconds kLeaveTime{10000};
 /// The same for users' commands once all others have left: they need not know that the run is over.
@@ -94,6 +93,7 @@ void FleetRun::start(const std::vector<ProgramSpec>& programs) {
 
 void FleetRun::finish(const std::filesystem::path& out) {
   watch();
+  if (debug_ && server_done_) debug_->await_reports(leave_time());
   // What is still to be done for them is done here, and without a debugger.
   if (in_containers_ || (debug_ && !plan_.options.secure)) {
     plan_.debug.clear();
@@ -115,21 +115,21 @@ void FleetRun::finish(const std::filesystem::path& out) {
 
 void FleetRun::watch() {
   while (!host_->running().empty()) {
-    milliseconds limit{-1};
-    if (leave_by_ && !being_debugged()) {
-      limit = std::max(std::chrono::ceil<milliseconds>(*leave_by_ - Clock::now()), milliseconds(0));
-      if (limit == milliseconds(0)) {
-        end_stragglers();
-        continue;
-      }
+    const Clock::time_point began = Clock::now();
+    milliseconds limit = leave_by_.is_set() && !being_debugged() ? leave_by_.left() : milliseconds(-1);
+    if (limit == milliseconds(0)) {
+      end_stragglers();
+      continue;
     }
+    limit = orders_->limit(until_notice(limit));
     // Before the news: they may end because the run has.
     const auto debugged_ended = debug_ ? debug_->take_ended() : std::vector<const DebugWatch*>{};
-    handle_all(host_->wait(orders_->limit(until_notice(limit))));
+    handle_all(host_->wait(limit));
     for (const DebugWatch* watch : debugged_ended) on_debugged_end(*watch);
     host_->follow_job_control();
     tell_waiting();
     for (const std::string& program : orders_->take_returning()) bring_back(program);
+    leave_by_.excuse(Clock::now() - began, limit);
   }
 }
 
@@ -174,7 +174,7 @@ void FleetRun::on_exit(Event event) {
   const DebugWatch* debugged = debug_ ? debug_->find(event.program) : nullptr;
   if (debugged != nullptr) {
     debug_->on_exit(event.program);
-    if (leave_by_ && !facts_.interrupted) leave_by_ = Clock::now() + leave_time();  // others waited for it
+    if (leave_by_.is_set() && !facts_.interrupted) leave_by_.set(leave_time());  // others waited for it
     // A tool does not die of its program's signal.
     if (orders_->out().contains(event.program) && debugged_lost_.erase(event.program) > 0) event.exit.signal = SIGKILL;
   }
@@ -192,11 +192,11 @@ void FleetRun::on_exit(Event event) {
     end_all();  // nobody is left to tell the others how the run goes on
   } else if (of_server) {
     server_done_ = true;
-    leave_by_ = Clock::now() + leave_time();
+    leave_by_.set(leave_time());
   } else if (!ending_ && !server_done_) {
     tell_lost(programs::member_name(event.program));
   }
-  if (server_done_ && only_commands_run()) leave_by_ = std::min(*leave_by_, Clock::now() + scaled(kExecLeaveTime));
+  if (server_done_ && only_commands_run()) leave_by_.bring_forward(scaled(kExecLeaveTime));
 }
 
 /// Without it nothing is known of any container, nor can anything be done about one.
@@ -220,7 +220,7 @@ void FleetRun::on_interrupt() {
   } else {
     host_->send(programs::kSimServer, orders::text_of(orders::Stop{}));
   }
-  if (!leave_by_) leave_by_ = Clock::now() + scaled(kStopTime);
+  if (!leave_by_.is_set()) leave_by_.set(scaled(kStopTime));
 }
 
 /// The program that the user debugs is lost like any other one, and he may have left its debugger or not.
@@ -299,7 +299,7 @@ void FleetRun::hear(const status::Ended& ended) {
   note_use();
   stalled_ = !ended.stalled.empty();
   server_done_ = true;
-  leave_by_ = Clock::now() + leave_time();
+  leave_by_.set(leave_time());
 }
 
 // ---- what the launcher does about it ----------------------------------------------------------------------------

@@ -15,6 +15,7 @@
 
 #include "cli/run/debug_session.hpp"
 #include "cli/run/fleet_plan.hpp"
+#include "cli/run/leave_deadline.hpp"
 #include "cli/run/process_orders.hpp"
 #include "cli/run/program_host.hpp"
 #include "cli/run/progress_view.hpp"
@@ -111,7 +112,7 @@ class FleetRun {
   const Clock::time_point started_ = Clock::now();
   std::optional<Clock::time_point> first_progress_;
   std::map<std::string, double> cpu_before_s_;  ///< of each process at the first step
-  std::optional<Clock::time_point> leave_by_;   ///< whoever runs then is ended
+  LeaveDeadline leave_by_;                      ///< whoever runs then is ended
   std::optional<DebugSession> debug_;           ///< under --debug
   std::set<std::string> debugged_lost_;         ///< programs
   WaitNotice silence_{Clock::now()};            ///< since sim_server last said something

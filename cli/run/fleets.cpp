@@ -1,10 +1,15 @@
 #include "cli/run/fleets.hpp"
 
+#include <unistd.h>
+
 #include <algorithm>
+#include <system_error>
 
 #include "cli/run/proc_table.hpp"
 #include "cli/run/supervisor.hpp"
+#include "core/suggestion.hpp"
 #include "core/text.hpp"
+#include "core/types.hpp"
 #include "process/host_lock.hpp"
 #include "process/run_folder.hpp"
 
@@ -46,6 +51,8 @@ void read_server(pid_t pid, const Words& words, RunningFleet& fleet) {
   fleet.base_domain = static_cast<int>(number_or(value_after(words, "--domain"), 0.0));
   fleet.agent_timeout_s = number_or(value_after(words, "--agent-timeout"), fleet.agent_timeout_s);
   fleet.lease_s = number_or(value_after(words, "--lease"), fleet.lease_s);
+  if (const auto uavs = parse_number(value_after(words, "--uavs"))) fleet.uavs = static_cast<std::size_t>(*uavs);
+  fleet.network = value_after(words, "--network");
   fleet.elsewhere = !shares_network(pid);
   if (!fleet.elsewhere) fleet.launcher = HostLock::holder(domain_lock_name(fleet.base_domain));
 }
@@ -60,6 +67,7 @@ std::vector<RunningFleet> running_fleets(uid_t user) {
     if (const std::string program = program_in(words); !program.empty()) {
       RunningFleet& fleet = fleets[value_after(words, "--out")];
       fleet.programs[program] = pid;
+      if (const std::string keys = value_after(words, "--security"); !keys.empty()) fleet.keys[program] = keys;
       if (program == programs::kSimServer) read_server(pid, words, fleet);
       continue;
     }
@@ -75,6 +83,33 @@ std::vector<RunningFleet> running_fleets(uid_t user) {
     if (fleet.programs.contains(programs::kSimServer)) all.push_back(std::move(fleet));
   }
   return all;
+}
+
+RunningFleet chosen_fleet(const std::optional<std::filesystem::path>& dir, const std::string& command,
+                          const std::string& option) {
+  std::vector<RunningFleet> fleets = running_fleets(::geteuid());
+  if (dir) {
+    std::erase_if(fleets, [&](const RunningFleet& fleet) {
+      std::error_code gone;
+      return !std::filesystem::equivalent(fleet.dir, *dir, gone);
+    });
+    if (fleets.empty()) {
+      throw InputError(option + " " + dir->string() + ": no fleet writes there; `skein ps` lists them");
+    }
+  }
+  if (fleets.empty()) throw InputError(command + ": no fleet of yours is flying");
+  // Those of other networks only when they are asked for, or alone.
+  const auto elsewhere = [](const RunningFleet& fleet) { return fleet.elsewhere; };
+  if (!std::ranges::all_of(fleets, elsewhere)) std::erase_if(fleets, elsewhere);
+  std::vector<std::string> names;
+  for (const RunningFleet& fleet : fleets) names.push_back(shown_folder(fleet.dir));
+  if (fleets.size() > 1) throw InputError(command + ": say which fleet, " + option + " " + joined(names, " or "));
+  return fleets.front();
+}
+
+std::string shown_folder(const std::filesystem::path& dir) {
+  const std::filesystem::path nearby = std::filesystem::proximate(dir);
+  return nearby.string().starts_with("..") ? dir : nearby;
 }
 
 std::optional<double> simulated_s(const RunningFleet& fleet) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iomanip>
 
+#include "cli/free_nodes.hpp"
 #include "core/python_spec.hpp"
 #include "core/suggestion.hpp"
 #include "core/text.hpp"
@@ -130,6 +131,7 @@ void print_summary(std::ostream& out, const Json& result, const std::filesystem:
     row(name, {uav["role"], planner, uav_state(uav), cell(result["score_by_uav"], name.c_str(), 3),
                cell(uav, "captures", 0), cell(uav, "distance_m", 1), cell(uav, "idle_s", 1)});
   }
+  if (const std::string nodes = free_nodes_table(result["uavs"]); !nodes.empty()) out << '\n' << nodes;
   for (const Json& warning : result["warnings"])
     out << "warning: " << (warning.is_string() ? warning.get<std::string>() : warning.dump()) << '\n';
   out << "\nresults   " << dir.string() << '\n';

@@ -9,6 +9,7 @@
 #include "mcap/reader.hpp"
 #include "process/atomic_file.hpp"
 #include "process/run_folder.hpp"
+#include "recording/bag.hpp"
 
 namespace skein::cli {
 namespace {
@@ -75,6 +76,9 @@ std::string join_recording(const fs::path& dir, const Scenario& scenario, const 
   if (recording_parts(dir).empty()) return "";
   const std::string trouble = join_parts(dir, result);
   if (!trouble.empty()) return trouble;
+  const std::string refused =
+      write_if_possible(dir / recording::kBagMetadata, recording::bag_metadata(dir / run_folder::kRecording));
+  if (!refused.empty()) return refused;
   return write_if_possible(dir / run_folder::kRecordingLayout, viewer_layout(scenario).dump(1) + "\n");
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <sstream>
 
+#include "cli/free_nodes.hpp"
 #include "cli/run/work.hpp"
 #include "core/scenario_reader.hpp"
 #include "core/types.hpp"
@@ -61,6 +62,7 @@ Json uav_entries(const Scenario& scenario, const SimServerReport& sim, const Rep
                        {"planner_cpu_p99_ms", or_null(agent.planner_cpu_p99_ms)},
                        {"planner_cpu_max_ms", or_null(agent.planner_cpu_max_ms)},
                        {"planner_exchanges_over_50ms", or_null(agent.planner_exchanges_over_50ms)}});
+    if (agent.from_nodes) entries.back()["from_nodes"] = json_of(*agent.from_nodes);
     if (flown.battery) entries.back()["battery"] = json_of(*flown.battery);
   }
   return entries;
@@ -307,6 +309,7 @@ Json merge_result(const RunFacts& facts, const Scenario& scenario, const Reports
     }
   }
   result["warnings"] = warnings_of(facts, sim, router, reports);
+  for (std::string& text : warnings_of_free_nodes(result["uavs"])) result["warnings"].push_back(std::move(text));
   return result;
 }
 

@@ -38,8 +38,8 @@ void close_earlier_truth(const fs::path& out) {
   }
   const auto cache = user_cache_folder();
   if (!cache) return;
-  for (const fs::path& file : listed(*cache)) {
-    if (file.filename().string().starts_with("oracle-")) close_to_agents(file);
+  for (const fs::path& file : listed(*cache)) {  // estimates, plans and points; what agents read is in its folders
+    if (fs::is_regular_file(file)) close_to_agents(file);
   }
   for (const fs::path& grammar : listed(*cache / "worlds")) {
     for (const fs::path& world : listed(grammar)) close_to_agents(world / run_folder::kSceneFiles);

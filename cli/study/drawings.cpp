@@ -25,7 +25,11 @@ Axis axis_with_zero(const std::vector<double>& values) {
 class StudyDrawing {
  public:
   StudyDrawing(const Study& study, const std::vector<std::string>& titles)
-      : study_(study), titles_(titles), scenes_(folder_names(titles)), planners_(folder_names(study.planners)) {}
+      : study_(study),
+        titles_(titles),
+        scenes_(folder_names(titles)),
+        planners_(folder_names(study.planners)),
+        score_axis_(score_axis(study)) {}
 
   StudyFigure totals() const {
     DotPlot plot{"Totals of the tests", "sum of scores over all scenes", {}, {}};
@@ -45,7 +49,7 @@ class StudyDrawing {
   }
 
   StudyFigure scores(std::size_t scenario) const {
-    DotPlot plot{"Scores in " + titles_[scenario], "score", score_axis(study_), {}};
+    DotPlot plot{"Scores in " + titles_[scenario], "score", score_axis_, {}};
     for (std::size_t p = 0; p < study_.planners.size(); ++p) {
       PlotRow row{study_.planners[p], colour_class(p), {}};
       for (const FlightEntry* flight : study_.cell(p, scenario)) {
@@ -60,7 +64,7 @@ class StudyDrawing {
 
   /// nullopt: no flight has a score over time.
   std::optional<StudyFigure> curves(std::size_t scenario, const std::vector<double>& times_s) const {
-    const CurvePlot plot{"Scores over time in " + titles_[scenario], score_axis(study_), times_s,
+    const CurvePlot plot{"Scores over time in " + titles_[scenario], score_axis_, times_s,
                          score_curves(study_, scenario, times_s), study_.planners};
     if (plot.curves.empty()) return std::nullopt;
     return StudyFigure{FigureKind::curves, scenario, "score-over-time-" + scenes_[scenario] + ".svg",
@@ -136,6 +140,7 @@ class StudyDrawing {
   const Study& study_;
   const std::vector<std::string>& titles_;
   std::vector<std::string> scenes_, planners_;  ///< in names of files
+  Axis score_axis_;
 };
 
 /// Of all scenes; of totals.

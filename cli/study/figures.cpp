@@ -121,10 +121,34 @@ Spread spread_of(std::vector<double> values) {
           quantile(values, 0.5), quantile(values, 0.75), values.back()};
 }
 
+FlightList::FlightList(std::initializer_list<FlightEntry> flights) {
+  for (const FlightEntry& flight : flights) push_back(flight);
+}
+
+FlightEntry& FlightList::push_back(FlightEntry flight) {
+  by_scenario_[{flight.planner, flight.scenario}].push_back(flights_.size());
+  by_seed_[{flight.planner, flight.seed}].push_back(flights_.size());
+  return flights_.emplace_back(std::move(flight));
+}
+
+const std::vector<std::size_t>& FlightList::in_scenario(std::size_t planner, std::size_t scenario) const {
+  return places_in(by_scenario_, planner, scenario);
+}
+
+const std::vector<std::size_t>& FlightList::with_seed(std::size_t planner, std::uint64_t seed) const {
+  return places_in(by_seed_, planner, seed);
+}
+
+const std::vector<std::size_t>& FlightList::places_in(const Places& all, std::size_t planner, std::uint64_t other) {
+  static const std::vector<std::size_t> kNone;
+  const auto found = all.find({planner, other});
+  return found == all.end() ? kNone : found->second;
+}
+
 std::vector<const FlightEntry*> Study::cell(std::size_t planner, std::size_t scenario) const {
   std::vector<const FlightEntry*> entries;
-  for (const FlightEntry& flight : flights) {
-    if (flight.planner == planner && flight.scenario == scenario && flight.figures) entries.push_back(&flight);
+  for (const std::size_t i : flights.in_scenario(planner, scenario)) {
+    if (flights[i].figures) entries.push_back(&flights[i]);
   }
   return entries;
 }
@@ -145,8 +169,9 @@ std::optional<double> total_of(const Study& study, std::size_t planner, std::uin
                                const std::function<std::optional<double>(const FlightEntry&)>& value) {
   double total = 0.0;
   std::size_t scenes = 0;
-  for (const FlightEntry& flight : study.flights) {
-    if (flight.planner != planner || flight.seed != seed || !flight.figures) continue;
+  for (const std::size_t i : study.flights.with_seed(planner, seed)) {
+    const FlightEntry& flight = study.flights[i];
+    if (!flight.figures) continue;
     const std::optional<double> of_flight = value(flight);
     if (!of_flight) continue;
     total += *of_flight;

@@ -3,8 +3,11 @@
 
 #include <filesystem>
 #include <functional>
+#include <initializer_list>
+#include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cli/options.hpp"
@@ -64,13 +67,41 @@ struct FlightEntry {
   std::string folder = {};   ///< of its results, from the study's folder
 };
 
+/// Flights in the order in which they were planned, found by what they are: of 100 000 nobody may look at all for each
+/// figure. Planner, scenario and seed of what is in it stay as they are.
+class FlightList {
+ public:
+  FlightList() = default;
+  FlightList(std::initializer_list<FlightEntry> flights);
+
+  FlightEntry& push_back(FlightEntry flight);
+  void reserve(std::size_t count) { flights_.reserve(count); }
+  std::size_t size() const { return flights_.size(); }
+  FlightEntry& operator[](std::size_t i) { return flights_[i]; }
+  const FlightEntry& operator[](std::size_t i) const { return flights_[i]; }
+  FlightEntry& back() { return flights_.back(); }
+  auto begin() const { return flights_.begin(); }
+  auto end() const { return flights_.end(); }
+
+  /// Of a planner in a scenario, and of a planner with a seed in any: where they are in the list, ascending.
+  const std::vector<std::size_t>& in_scenario(std::size_t planner, std::size_t scenario) const;
+  const std::vector<std::size_t>& with_seed(std::size_t planner, std::uint64_t seed) const;
+
+ private:
+  using Places = std::map<std::pair<std::size_t, std::uint64_t>, std::vector<std::size_t>>;
+  static const std::vector<std::size_t>& places_in(const Places& all, std::size_t planner, std::uint64_t other);
+
+  std::vector<FlightEntry> flights_;
+  Places by_scenario_, by_seed_;  ///< of a planner and one of these
+};
+
 /// All that tables and pages show.
 struct Study {
   bool contest = false;
   Rank rank = Rank::maximum;
   std::vector<std::string> planners, scenarios;
   std::vector<std::uint64_t> seeds;
-  std::vector<FlightEntry> flights;
+  FlightList flights;
   std::string command_line, version, programs, medium;
   int jobs = 1;
   std::string conditions = {};                     ///< other than the scenarios' own: "missions of 120 s"; empty: none

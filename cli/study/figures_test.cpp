@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "cli/study/csv.hpp"
+#include "cli/testing/odd_study.hpp"
 
 namespace skein::cli {
 namespace {
@@ -54,6 +55,48 @@ TEST(StudyFigures, WorkAndWaitingAreSummedUp) {
   EXPECT_EQ(figures.waited_s, 12.5);
   EXPECT_EQ(figures.without_work_s, 70.0);
   EXPECT_FALSE(figures_of(a_result()).frozen_s);
+}
+
+/// Flights that failed, that are missing, and that are there twice, in any order.
+TEST(StudyFigures, OfFlightsThatAreFoundAreThoseOfAllThatAreLookedAt) {
+  std::mt19937 random(21);
+  for (int trial = 0; trial < 100; ++trial) {
+    Study study = odd_study(random, false);
+    std::vector<FlightEntry> drawn;
+    for (const FlightEntry& flight : study.flights) {
+      for (std::size_t times = random() % 8 == 0 ? random() % 3 : 1; times > 0; --times) drawn.push_back(flight);
+    }
+    std::ranges::shuffle(drawn, random);
+    study.flights = {};
+    for (const FlightEntry& flight : drawn) study.flights.push_back(flight);
+    ASSERT_EQ(study.flights.size(), drawn.size());
+    for (std::size_t p = 0; p < study.planners.size(); ++p) {
+      for (std::size_t s = 0; s < study.scenarios.size(); ++s) {
+        std::vector<const FlightEntry*> cell;
+        for (const FlightEntry& flight : study.flights) {
+          if (flight.planner == p && flight.scenario == s && flight.figures) cell.push_back(&flight);
+        }
+        ASSERT_EQ(study.cell(p, s), cell);
+        const auto best = std::ranges::max_element(cell, {}, [](const auto* flight) { return flight->figures->score; });
+        ASSERT_EQ(study.best(p, s), best == cell.end() ? nullptr : *best);
+      }
+      for (const std::uint64_t seed : study.seeds) {
+        double sum = 0.0;
+        std::size_t count = 0;
+        for (const FlightEntry& flight : drawn) {
+          if (flight.planner != p || flight.seed != seed || !flight.figures) continue;
+          sum += flight.figures->score;
+          ++count;
+        }
+        const auto total = total_of(study, p, seed, [](const FlightEntry& flight) { return flight.figures->score; });
+        ASSERT_EQ(total.has_value(), count == study.scenarios.size());
+        if (total) {
+          ASSERT_EQ(*total, sum);
+        }
+      }
+    }
+    ASSERT_TRUE(study.cell(study.planners.size(), 0).empty());
+  }
 }
 
 TEST(StudyFigures, WhatNobodyToldIsNoNumber) {

@@ -87,7 +87,7 @@ class StudyRun {
     if (!exit.ok() || !went_to_its_end(result)) outcome.problem = problem_of(flight.dir, result, exit);
     if (went_to_its_end(result)) outcome.figures = figures_of(result);
     write_file_atomically(flight.dir / kFlightMark,
-                          Json{{"command", flight.command}, {"problem", outcome.problem}}.dump(2) + "\n");
+                          Json{{"command", flight.command()}, {"problem", outcome.problem}}.dump(2) + "\n");
     ++over_;
     flown_s_ += flight.mission_s;
     left_s_ -= flight.mission_s;
@@ -122,8 +122,8 @@ class StudyRun {
 std::optional<StudyOutcome> flown_before(const StudyFlight& flight) {
   const Json mark = read_json(flight.dir / kFlightMark);
   const Json result = read_json(flight.dir / run_folder::kResult);
-  const bool same = value_or(mark, "command", nullptr) == flight.command && value_or(mark, "problem", nullptr) == "" &&
-                    value_or(result, "seed", nullptr) == flight.seed;
+  const bool same = value_or(mark, "command", nullptr) == flight.command() &&
+                    value_or(mark, "problem", nullptr) == "" && value_or(result, "seed", nullptr) == flight.seed;
   if (!same || !went_to_its_end(result)) return std::nullopt;
   return StudyOutcome{figures_of(result), ""};
 }

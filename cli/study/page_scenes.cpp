@@ -2,6 +2,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
+#include <map>
 
 #include "cli/study/columns.hpp"
 #include "cli/study/page_parts.hpp"
@@ -79,11 +80,13 @@ std::string flight_table(const Study& study, std::size_t scenario) {
   html += "</tr></thead>\n<tbody>\n";
   for (std::size_t p = 0; p < study.planners.size(); ++p) {
     html += "<tr>" + planner_cell(study, p);
+    std::map<std::uint64_t, const FlightEntry*> by_seed;
+    for (const std::size_t i : study.flights.in_scenario(p, scenario)) {
+      by_seed.try_emplace(study.flights[i].seed, &study.flights[i]);
+    }
     for (const std::uint64_t seed : study.seeds) {
-      const auto found = std::ranges::find_if(study.flights, [&](const FlightEntry& flight) {
-        return flight.planner == p && flight.scenario == scenario && flight.seed == seed;
-      });
-      html += flight_cell(found == study.flights.end() ? nullptr : &*found);
+      const auto found = by_seed.find(seed);
+      html += flight_cell(found == by_seed.end() ? nullptr : found->second);
     }
     html += "</tr>\n";
   }

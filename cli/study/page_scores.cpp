@@ -81,7 +81,7 @@ std::string pairs_words(const StudyReport& report) {
   std::string html =
       "<p>Two planners in the same scene with the same seed make a pair: first score less second. The interval holds "
       "the "
-      "median with 95 % (bootstrap percentiles of 10 000 seeded resamples; Efron and Tibshirani 1993). <i>p</i> is "
+      "median with 95 % (bootstrap percentiles of all resamples; Efron 1979, Efron and Tibshirani 1993). <i>p</i> is "
       "that of "
       "Wilcoxon&#39;s signed-rank test (1945), two-sided and exact for up to 100 pairs, differences of 0 left out. ";
   std::size_t tests = 0;

@@ -50,9 +50,7 @@ PlannerPair pair_of(const Study& study, const std::string& name, const Figure& f
   if (values.empty()) return pair;
   pair.median = spread_of(values).median;
   if (values.size() < kFewestPairs) return pair;
-  const std::string of_figure = is_score ? "" : name + "\n";
-  pair.interval = median_interval(values, of_figure + study.planners[first] + "\n" + study.planners[second] + "\n" +
-                                              (scenario ? study.scenarios[*scenario] : ""));
+  pair.interval = median_interval(values);
   pair.test = signed_rank_test(values);
   return pair;
 }

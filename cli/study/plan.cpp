@@ -177,6 +177,12 @@ std::string plain(const Json& value) {
 
 }  // namespace
 
+Json StudyFlight::command() const {
+  Json command = *made_under;
+  command["seed"] = seed;
+  return command;
+}
+
 StudyPlan plan_study(const StudyOptions& options, AskPrograms ask) {
   StudyPlan plan;
   plan.options = options;
@@ -214,12 +220,12 @@ StudyPlan plan_study(const StudyOptions& options, AskPrograms ask) {
                                 plan.scenes[s].scenario == plan.scenes[s - 1].scenario;
       if (!another_seed && ask == AskPrograms::yes) check_with_programs(fleet, p == 0);
       const fs::path dir = plan.out / "flights" / scenario_folders[s] / planner_folders[p];
-      const Json command = made_under.of(fleet);
+      const auto command = std::make_shared<const Json>(made_under.of(fleet));
       of_one_seed.push_back(
           {p, s, 0, dir, fleet.scenario.duration_s, fleet.options.agent, fleet.options.one_process, command});
-      programs = command["programs"];
-      agents[plan.planners[p]] = command["agent"];
-      inputs[plan.scenarios[s] + ", " + plan.planners[p]] = command["input"];
+      programs = command->at("programs");
+      agents[plan.planners[p]] = command->at("agent");
+      inputs[plan.scenarios[s] + ", " + plan.planners[p]] = command->at("input");
     }
   }
   const bool all_in_one = std::ranges::all_of(of_one_seed, &StudyFlight::one_process);
@@ -230,7 +236,6 @@ StudyPlan plan_study(const StudyOptions& options, AskPrograms ask) {
     for (StudyFlight flight : of_one_seed) {
       flight.seed = seed;
       flight.dir /= "seed-" + std::to_string(seed);
-      flight.command["seed"] = seed;
       plan.flights.push_back(std::move(flight));
     }
   }

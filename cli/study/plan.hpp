@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,8 +19,12 @@ struct StudyFlight {
   double mission_s = 0.0;                      ///< at most
   std::optional<std::filesystem::path> agent;  ///< program that flies it; nullopt: the user named none
   bool one_process = false;                    ///< or as processes over DDS
+  /// All that its result depends on but for the seed. One for all flights of a planner in a scene: it takes a kilobyte,
+  /// and a study may have 100 000 flights.
+  std::shared_ptr<const Json> made_under;
+
   /// All that its result depends on; a result that was made under the same needs no second flight.
-  Json command;
+  Json command() const;
 };
 
 struct StudyScene {

@@ -2,29 +2,87 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <numeric>
-
-#include "core/random_stream.hpp"
 
 namespace skein::cli {
 namespace {
 
-constexpr std::size_t kResamples = 10'000, kMostExact = 100;
+constexpr std::size_t kMostExact = 100;
+constexpr double kTail = 0.025;   ///< of the medians, at either end of an interval
+constexpr double kReach = 3.0;    ///< ranks from the middle one, in roots of the sample size: 6 standard deviations
+constexpr double kLeast = 1e-12;  ///< a share below that counts for nothing
 
-/// Of a sample that has each of the sorted values so many times. Counting is ten times faster than ordering a sample.
-double median_of_counts(const std::vector<double>& values, const std::vector<std::uint32_t>& counts) {
-  const std::size_t middle = values.size() / 2;  // in the sample, from 0
-  std::size_t at = 0, until = counts[0];
-  while (until <= middle) until += counts[++at];
-  if (values.size() % 2 == 1) return values[at];
-  std::size_t before = at;
-  if (until - counts[at] == middle) {
-    do --before;
-    while (counts[before] == 0);
+/// A value that the median of a sample may have, and of how many samples it is.
+struct Median {
+  double value = 0.0, share = 0.0;
+};
+
+/// Medians of all samples that can be drawn with replacement from n sorted values, by how likely they are. With n = 2 m
+/// the median lies between the sample's order statistics m and m + 1; with an odd n it is one of them.
+class MedianSamples {
+ public:
+  explicit MedianSamples(const std::vector<double>& sorted)
+      : values_(sorted), n_(sorted.size()), middle_((n_ + 1) / 2), log_ways_(log_choices(n_, middle_)) {
+    const double reach = kReach * std::sqrt(static_cast<double>(n_));
+    const auto wide = static_cast<std::size_t>(reach) + 1;
+    first_ = middle_ > wide ? middle_ - wide : 1;
+    last_ = std::min(middle_ + wide, n_);
   }
-  return 0.5 * (values[at] + values[before]);
-}
+
+  std::vector<Median> all() const {
+    std::vector<Median> medians;
+    const auto add = [&](std::size_t i, std::size_t j, double share) {
+      if (share > kLeast) medians.push_back({0.5 * (values_[i - 1] + values_[j - 1]), share});
+    };
+    double below = middle_or_more(first_ - 1);
+    for (std::size_t i = first_; i <= last_; ++i) {
+      const double until = middle_or_more(i);
+      double same = until - below;  // the middle order statistic is value i
+      below = until;
+      for (std::size_t j = i + 1; n_ % 2 == 0 && j <= last_; ++j) {
+        const double share = std::exp(log_ways_ + log_just(i) + log_just(n_ + 1 - j));
+        add(i, j, share);
+        same -= share;
+      }
+      add(i, i, same);
+    }
+    return medians;
+  }
+
+ private:
+  static double log_choices(std::size_t n, std::size_t k) {
+    double sum = 0.0;
+    for (std::size_t i = 1; i <= k; ++i) sum += std::log(static_cast<double>(n - k + i) / static_cast<double>(i));
+    return sum;
+  }
+
+  /// Of the share of draws of `middle_` values that are all among the first i, but not all among the first i - 1. The
+  /// same of the last ones, counted from the end.
+  double log_just(std::size_t i) const {
+    const auto m = static_cast<double>(middle_), at = static_cast<double>(i);
+    return m * std::log(at / static_cast<double>(n_)) + std::log(-std::expm1(m * std::log1p(-1.0 / at)));
+  }
+
+  /// Share of samples of which `middle_` draws or more are among the first i values: a binomial's upper tail.
+  double middle_or_more(std::size_t i) const {
+    if (i == 0) return 0.0;
+    if (i == n_) return 1.0;
+    const double p = static_cast<double>(i) / static_cast<double>(n_), odds = p / (1.0 - p);
+    const auto n = static_cast<double>(n_);
+    double draws = static_cast<double>(middle_);
+    double term = std::exp(log_ways_ + draws * std::log(p) + (n - draws) * std::log1p(-p)), share = 0.0;
+    for (; draws <= n && (term > kLeast * share || draws < n * p); ++draws) {
+      share += term;
+      term *= odds * (n - draws) / (draws + 1.0);
+    }
+    return share;
+  }
+
+  const std::vector<double>& values_;
+  std::size_t n_, middle_;    ///< middle_: of the lower middle order statistic, from 1
+  double log_ways_;           ///< to choose that many of n
+  std::size_t first_, last_;  ///< values, from 1, that have a share worth counting
+};
 
 /// A difference without its sign, and twice its rank: equal ones share a mean, which may end in one half.
 struct Ranked {
@@ -72,20 +130,15 @@ double normal_p(const std::vector<Ranked>& all, std::size_t positive, std::size_
 
 }  // namespace
 
-Interval median_interval(std::vector<double> values, const std::string& purpose) {
+Interval median_interval(std::vector<double> values) {
   std::ranges::sort(values);
-  RandomStream random(0, "median_interval", purpose);
-  std::vector<double> medians(kResamples);
-  std::vector<std::uint32_t> counts(values.size());
-  for (double& median : medians) {
-    std::ranges::fill(counts, 0);
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      ++counts[static_cast<std::size_t>(random.uniform() * static_cast<double>(values.size()))];
-    }
-    median = median_of_counts(values, counts);
-  }
-  std::ranges::sort(medians);
-  return {medians[kResamples / 40 - 1], medians[kResamples - kResamples / 40]};
+  std::vector<Median> medians = MedianSamples(values).all();
+  std::ranges::sort(medians, {}, &Median::value);
+  const auto end_of = [](const auto& from, const auto& until) {
+    double share = 0.0;
+    return std::find_if(from, until, [&](const Median& median) { return (share += median.share) >= kTail; })->value;
+  };
+  return {end_of(medians.begin(), medians.end()), end_of(medians.rbegin(), medians.rend())};
 }
 
 SignedRank signed_rank_test(const std::vector<double>& differences) {

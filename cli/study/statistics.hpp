@@ -2,7 +2,6 @@
 #pragma once
 
 #include <optional>
-#include <string>
 #include <vector>
 
 namespace skein::cli {
@@ -14,11 +13,12 @@ struct Interval {
   double low = 0.0, high = 0.0;
 };
 
-/// Where the median of what was sampled is to be looked for: the middle 95 % of the medians of 10 000 samples that are
-/// drawn from this one with replacement (percentile bootstrap; Efron and Tibshirani, An Introduction to the Bootstrap,
-/// 1993, chapter 13). The same values, in any order, and purpose give the same interval. @param values  not empty.
-/// @param purpose  names the stream of random numbers.
-Interval median_interval(std::vector<double> values, const std::string& purpose);
+/// Where the median of what was sampled is to be looked for: the middle 95 % of the medians of all samples that can be
+/// drawn from this one with replacement. That is the percentile bootstrap (Efron and Tibshirani, An Introduction to the
+/// Bootstrap, 1993, chapter 13), of all samples instead of some thousand drawn ones: how often each median occurs is
+/// known from binomials (Efron, Annals of Statistics 7, 1979, 1-26, section 3). The same values give the same interval,
+/// in any order. Of n values it takes about 20 n steps.  @param values  not empty.
+Interval median_interval(std::vector<double> values);
 
 struct SignedRank {
   std::size_t used = 0;  ///< differences other than 0

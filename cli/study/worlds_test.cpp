@@ -24,7 +24,7 @@ class Worlds : public testing::Test {
     entry.figures->frozen_uavs = frozen;
     study_.scenarios.push_back("wild " + std::to_string(study_.scenarios.size()));
     entry.command = "./skein run wild --scene-seed " + std::to_string(study_.flights.size());
-    return study_.flights.emplace_back(std::move(entry));
+    return study_.flights.push_back(std::move(entry));
   }
   std::string printed() const {
     std::ostringstream out;

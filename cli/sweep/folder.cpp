@@ -173,6 +173,10 @@ SweepUnit SweepFolder::unit(std::size_t number) const {
 
 std::set<std::size_t> SweepFolder::done(const std::string& token) const { return numbers_in(dir_ / "done" / token); }
 
+bool SweepFolder::is_done(const std::string& token, std::size_t unit) const {
+  return fs::exists(file_of(fs::path("done") / token, numbered(unit)));
+}
+
 std::set<std::size_t> SweepFolder::checks(const std::string& token) const {
   return numbers_in(dir_ / "checks" / token);
 }

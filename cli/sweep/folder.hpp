@@ -97,6 +97,7 @@ class SweepFolder {
   // Of the sweep with this token: a program of a former one, which is about to end, may still write its own.
   /// Units that are over.
   std::set<std::size_t> done(const std::string& token) const;
+  bool is_done(const std::string& token, std::size_t unit) const;
   void write_done(const std::string& token, std::size_t unit, const std::vector<SweepRow>& rows) const;
   /// nullopt: it is not over.
   std::optional<std::vector<SweepRow>> rows(const std::string& token, std::size_t unit) const;

@@ -20,9 +20,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kUsualArraySize = 1001;  ///< Slurm's own default of MaxArraySize
-constexpr std::size_t kMostSilent = 40;        ///< looks in a row: ten minutes
-constexpr std::chrono::milliseconds kFirstLook{250}, kLongestLook{15000};
+constexpr std::size_t kUsualArraySize = 1001;                              ///< Slurm's own default of MaxArraySize
+constexpr std::size_t kMostSilent = 40;                                    ///< looks in a row: ten minutes
+constexpr std::chrono::milliseconds kFirstLook{250}, kLongestLook{15000};  ///< at Slurm's queue
+constexpr std::chrono::milliseconds kGlance{500};                          ///< at one file of the sweep
 /// So long before its limit of time a unit is told to end [s]: what is in the air then is flown again.
 constexpr const char* kNotice = "B:TERM@30";
 
@@ -79,7 +80,7 @@ class SlurmEngine : public SweepEngine {
     if (!given.empty()) submit(given, not_on);
     if (!held.empty()) console_.err << held.size() << " units are with Slurm already" << std::endl;
     if (detach_) return false;
-    return follow(tell);
+    return follow(units, tell);
   }
 
   std::vector<EngineJob> jobs() override {
@@ -187,7 +188,10 @@ class SlurmEngine : public SweepEngine {
     return id.substr(0, id.find_first_of(";\n"));  // of a cluster among several its name follows
   }
 
-  bool follow(const std::function<void()>& tell) try {
+  /// Asks Slurm less and less often while nothing changes, but at once when all these units are done.
+  bool follow(const std::vector<std::size_t>& units, const std::function<void()>& tell) try {
+    const std::string token = folder_.settings().value().token;
+    auto undone = units.begin();
     Supervisor signals;
     std::chrono::milliseconds look = kFirstLook;
     std::size_t before = 0, silent = 0;
@@ -197,8 +201,15 @@ class SlurmEngine : public SweepEngine {
       tell();
       look = !left || left == before ? std::min(2 * look, kLongestLook) : kFirstLook;
       before = left.value_or(before);
-      for (const Event& event : signals.wait(look)) {
-        if (event.kind == Event::Kind::interrupt) throw Interrupted{};
+      const auto until = std::chrono::steady_clock::now() + look;
+      const bool awaited = undone != units.end();
+      for (auto left_ms = look; left_ms.count() > 0;) {
+        for (const Event& event : signals.wait(std::min(left_ms, kGlance))) {
+          if (event.kind == Event::Kind::interrupt) throw Interrupted{};
+        }
+        while (undone != units.end() && folder_.is_done(token, *undone)) ++undone;
+        if (awaited && undone == units.end()) break;
+        left_ms = std::chrono::ceil<std::chrono::milliseconds>(until - std::chrono::steady_clock::now());
       }
     }
   } catch (const Interrupted&) {

@@ -33,7 +33,7 @@ std::vector<std::string> arguments(const StudyPlan& plan, const StudyFlight& fli
 
 SweepFlight sweep_flight(const StudyPlan& plan, std::size_t index) {
   const StudyFlight& flight = plan.flights[index];
-  return {index, flight.dir, arguments(plan, flight), flight.command};
+  return {index, flight.dir, arguments(plan, flight), flight.command()};
 }
 
 double reference_duration_s(const StudyPlan& plan) { return std::min(plan.flights.front().mission_s, kReference_s); }
@@ -48,7 +48,7 @@ std::vector<SweepFlight> references(const StudyPlan& plan, const SweepFolder& fo
     run.duration_s = reference_duration_s(plan);
     run.record = "none";
     run.attainable = run.report = false;
-    references.push_back({0, folder.dir() / "reference", arguments_of(run), plan.flights[i].command});
+    references.push_back({0, folder.dir() / "reference", arguments_of(run), plan.flights[i].command()});
   }
   return references;
 }

@@ -1,17 +1,18 @@
-"""What it costs to step fleets: the figures of docs/performance.md.
+"""What it costs to step fleets: the half of `skein bench --python` that is written in Python.
 
-    PYTHONPATH=python python3 python/bench/stepping.py [--repeat 3] [--resets 1000] [--seconds 60] [--mbs 300]
-
-Times are told twice: by the clock, and as CPU time of this program and the fleet's process together, which is the
-clock's time on a core that nobody else uses. mbs needs SKEIN_ASSETS.
+Says its progress on stderr, and all measured values by figure, an entry for each repeat, as JSON. Times are taken by
+the clock and as CPU time. The CPU time of a step is that of this program and of the fleet's process together, which
+take turns: what a step takes on a core that nobody else uses.
 """
 
 from __future__ import annotations
 
 import argparse
+import json
 import os
-import statistics
+import sys
 import time
+from collections import defaultdict
 from pathlib import Path
 from typing import Any
 
@@ -20,16 +21,19 @@ import numpy as np
 import skein
 
 UAVS = ["jurong", "raffles", "sentosa", "changi", "nanyang"]
+WARM_UP_STEPS = 200  # the UAVs climb meanwhile
+WARM_UP_RESETS = 20
+
+Figures = dict[str, list[float]]
 
 
 def cpu_s(pid: int) -> float:
-    """Of another process, in hundredths of a second."""
-    words = Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()
-    return (int(words[11]) + int(words[12])) / os.sysconf("SC_CLK_TCK")
+    """CPU time of another process."""
+    return sum(int(file.read_text().split()[0]) for file in Path(f"/proc/{pid}/task").glob("*/schedstat")) * 1e-9
 
 
 def memory_mb(pid: int | str) -> float:
-    return int(Path(f"/proc/{pid}/status").read_text().split("VmRSS:")[1].split()[0]) / 1024
+    return int(Path(f"/proc/{pid}/status").read_text().split("VmRSS:")[1].split()[0]) / 1024.0
 
 
 def pid_of(fleet: skein.Fleet) -> int:
@@ -37,76 +41,92 @@ def pid_of(fleet: skein.Fleet) -> int:
     return fleet._worker.pid
 
 
-def stepping(seconds: float, safe: bool) -> tuple[float, float]:
-    """Simulated time a second, by the clock and by CPU time: five learners, a step of 0.05 s."""
-    with skein.Fleet("towers", learners=UAVS, safe=safe) as fleet:
+def stepping(seconds: float, safe: bool, figures: Figures, name: str) -> None:
+    """Simulated time over time, with five learners and a step of 0.05 s. Each UAV gets an action in each step."""
+    with skein.Fleet("towers", learners=UAVS, safe=safe, step_s=0.05) as fleet:
         fleet.reset()
         up: Any = {uav: {"velocity": np.array([0.2, 0.1, 1.0]), "yaw_rate": 0.05, "gimbal_rate": np.zeros(2)}
                    for uav in UAVS}
         on: Any = {uav: {**up[uav], "velocity": np.array([0.3, 0.05 * i, 0.0])} for i, uav in enumerate(UAVS)}
-        for _ in range(200):
+        for _ in range(WARM_UP_STEPS):
             fleet.step(up)
-        pid, began, used = pid_of(fleet), time.perf_counter(), time.process_time() + cpu_s(pid_of(fleet))
+        pid = pid_of(fleet)
+        began, own, theirs = time.perf_counter(), time.process_time(), cpu_s(pid)
         steps = round(seconds / fleet.step_s)
         for _ in range(steps):
             fleet.step(on)
-        return (steps * fleet.step_s / (time.perf_counter() - began),
-                steps * fleet.step_s / (time.process_time() + cpu_s(pid) - used))
+        clock, own, theirs = time.perf_counter() - began, time.process_time() - own, cpu_s(pid) - theirs
+    figures[name + "_cpu"].append(steps * fleet.step_s / (own + theirs))
+    figures[name + "_clock"].append(steps * fleet.step_s / clock)
+    figures[name + "_python_us"].append(1e6 * own / steps)
+    figures[name + "_fleet_us"].append(1e6 * theirs / steps)
 
 
-def resets(count: int) -> tuple[float, float, float, float]:
-    """Resets a minute, by the clock and by CPU time; growth of memory [MB], here and in the first process."""
+def resets(count: int, figures: Figures) -> None:
+    """Resets to the first observation, and how memory grows over them: here, and in the process that is copied."""
     with skein.Fleet("towers", learners=UAVS, safe=False) as fleet:
         root = fleet._families[None]._root.pid
-        for seed in range(20):
+        for seed in range(WARM_UP_RESETS):
             fleet.reset(seed=seed)
-        before = memory_mb("self"), memory_mb(root)
-        began, used, own = time.perf_counter(), 0.0, time.process_time()
+        memory = memory_mb("self"), memory_mb(root)
+        began, used = time.perf_counter(), -time.process_time() - cpu_s(root)
         for seed in range(count):
             fleet.reset(seed=seed)
             used += cpu_s(pid_of(fleet))
-        used += time.process_time() - own
-        return (60.0 * count / (time.perf_counter() - began), 60.0 * count / used, memory_mb("self") - before[0],
-                memory_mb(root) - before[1])
+        used += time.process_time() + cpu_s(root)
+        figures["resets_per_minute_cpu"].append(60.0 * count / used)
+        figures["resets_per_minute_clock"].append(60.0 * count / (time.perf_counter() - began))
+        figures["growth_here_mb"].append(memory_mb("self") - memory[0])
+        figures["growth_root_mb"].append(memory_mb(root) - memory[1])
 
 
-def copying(scenario: str, at_s: float, count: int = 20) -> tuple[float, float]:
-    """Median time of a copy [ms], and memory of the process that is copied [MB]."""
-    with skein.Fleet(scenario, planner="patrol") as fleet:
+def copying(scenario: str, at_s: float, count: int, figures: Figures) -> None:
+    """Copies of a fleet that flies `patrol`, each ready to be stepped. CPU time: of all three processes."""
+    with skein.Fleet(scenario, planner="patrol", assets=os.environ.get("SKEIN_ASSETS")) as fleet:
         fleet.reset()
         fleet.step(step_s=at_s)
-        times = []
+        pid = pid_of(fleet)
         for _ in range(count):
-            began = time.perf_counter()
+            began, used = time.perf_counter(), -time.process_time() - cpu_s(pid)
             copy = fleet.fork()
-            times.append(1e3 * (time.perf_counter() - began))
+            clock = time.perf_counter() - began
+            used += time.process_time() + cpu_s(pid) + cpu_s(pid_of(copy))
+            process = Path(f"/proc/{pid_of(copy)}")
             copy.close()
-        return statistics.median(times), memory_mb(pid_of(fleet))
+            while process.exists():  # giving its memory back takes longer than the copy, and the same core
+                time.sleep(0.001)
+            figures[f"copy_{scenario}_clock_ms"].append(1e3 * clock)
+            figures[f"copy_{scenario}_cpu_ms"].append(1e3 * used)
+        figures[f"copy_{scenario}_mb"].append(memory_mb(pid))
+
+
+def say(text: str) -> None:
+    print(f"bench: {text}", file=sys.stderr, flush=True)
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--repeat", type=int, default=3)
+    parser.add_argument("--seconds", type=float, default=60.0, help="simulated time of a measurement of steps")
     parser.add_argument("--resets", type=int, default=1000)
-    parser.add_argument("--seconds", type=float, default=60.0)
-    parser.add_argument("--mbs", type=float, default=300.0, help="copy a fleet beside MBS at this time [s]")
+    parser.add_argument("--copies", type=int, default=20)
+    parser.add_argument("--copy-at", type=float, default=300.0, help="simulated time at which fleets are copied [s]")
+    parser.add_argument("--copied", default="towers", help="scenarios, with commas; files are those of SKEIN_ASSETS")
+    parser.add_argument("--json", help="file for the figures, instead of stdout")
     options = parser.parse_args()
-    os.sched_setaffinity(0, {min(os.sched_getaffinity(0))})
-    print(f"one core; load {os.getloadavg()[0]:.1f}")
-    for safe in (False, True):
-        figures = np.array([stepping(options.seconds, safe) for _ in range(options.repeat)])
-        clock, cpu = np.median(figures, axis=0)
-        print(f"towers, five learners, step 0.05 s, {'safety filter' if safe else 'no scans'}: {clock:.0f} times real "
-              f"time by the clock, {cpu:.0f} by CPU time", flush=True)
-    clock, cpu, own, root = resets(options.resets)
-    print(f"resets a minute: {clock:.0f} by the clock, {cpu:.0f} by CPU time; memory grew by {own:+.1f} MB here, "
-          f"{root:+.1f} MB in the first process, over {options.resets}", flush=True)
-    for scenario, at_s in (("towers", 60.0), ("mbs", options.mbs)):
-        if scenario == "mbs" and not os.environ.get("SKEIN_ASSETS"):
-            print("mbs: no SKEIN_ASSETS")
-            continue
-        milliseconds, memory = copying(scenario, at_s)
-        print(f"a copy at {at_s:g} s of {scenario}: {milliseconds:.1f} ms of a process of {memory:.0f} MB", flush=True)
+    os.sched_setaffinity(0, {min(os.sched_getaffinity(0))})  # one core, for all of it
+    figures: Figures = defaultdict(list)
+    for i in range(options.repeat):
+        say(f"steps, {i + 1} of {options.repeat}")
+        stepping(options.seconds, False, figures, "stepping")
+        stepping(options.seconds, True, figures, "stepping_safe")
+    say(f"{options.resets} resets")
+    resets(options.resets, figures)
+    for scenario in options.copied.split(","):
+        say(f"copies of {scenario} at {options.copy_at:g} s")
+        copying(scenario, options.copy_at, options.copies, figures)
+    text = json.dumps(figures)
+    print(text) if options.json is None else Path(options.json).write_text(text, encoding="utf-8")
 
 
 if __name__ == "__main__":

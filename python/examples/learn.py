@@ -1,85 +1,140 @@
-"""Learns parameters of a planner by an evolution strategy: many flights in some scenes, judged in scenes never seen.
+"""Learns the parameters of a planner by an evolution strategy: flights in some scenes, judged in scenes never seen.
 
-    python3 python/examples/learn.py            # a small one: some minutes
-    python3 python/examples/learn.py --full     # scene seeds 1 to 10, judged on 20 others: hours
+    python3 python/examples/learn.py            # a small one, below a minute
+    python3 python/examples/learn.py --full     # 340 flights: six minutes of a core
 
 A generation draws parameters around the present ones, flies each in all scenes of learning, and moves towards those
-that scored more (paired by scene and seed, ranks instead of scores). In the end the first and the last parameters fly
-in the scenes of judging; the mean difference comes with an interval by bootstrap over scenes.
+that scored more than others in the same scene. The scenes of judging have no say in it: the first parameters and those
+after each generation fly there. Their mean, and how much it grew, come with intervals by bootstrap over scenes.
 """
 
 from __future__ import annotations
 
 import argparse
+import json
 import os
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 import skein
 
-SCENARIO, PLANNER = "towers", "patrol"
-# Name, first value, lowest, highest: the search goes by their logarithms.
-PARAMETERS = (("approach_mps", 5.0, 1.0, 10.0), ("climb_mps", 3.0, 0.5, 6.0), ("deliver_every_s", 240.0, 20.0, 600.0))
+SCENARIO, PLANNER = "towers", f"py:{Path(__file__).parent / 'facade.py'}"
+# Name, first guess, lowest, highest: the search goes by their logarithms.
+PARAMETERS = (("standoff_m", 12.0, 3.0, 30.0), ("lane_m", 10.0, 1.0, 30.0), ("speed_mps", 1.0, 0.2, 8.0))
+Array = np.ndarray[Any, np.dtype[np.float64]]
 
 
-def spec(values: np.ndarray) -> str:
-    bounded = [min(max(float(np.exp(v)), low), high) for v, (_, _, low, high) in zip(values, PARAMETERS)]
-    return PLANNER + ":" + ",".join(f"{name}={value:.4f}" for (name, *_), value in zip(PARAMETERS, bounded))
+@dataclass
+class Size:
+    learning: range        #: scene seeds
+    judging: range
+    generations: int
+    population: int        #: parameters that a generation tries
+    duration_s: float      #: mission time
 
 
-def scores(flights: list[tuple[np.ndarray, int]], duration_s: float, jobs: int) -> np.ndarray:
-    """Of parameters and scene seeds; so many fleets fly at once."""
-    found = np.zeros(len(flights))
+SMALL = Size(range(1, 3), range(201, 204), 1, 4, 40.0)
+FULL = Size(range(1, 11), range(201, 221), 4, 6, 90.0)
+
+
+def bounded(values: Array) -> dict[str, float]:
+    return {name: round(float(np.clip(np.exp(value), low, high)), 4)
+            for value, (name, _, low, high) in zip(values, PARAMETERS)}
+
+
+def spec(values: Array) -> str:
+    return PLANNER + ":" + ",".join(f"{name}={value}" for name, value in bounded(values).items())
+
+
+def scores(tried: list[Array], scenes: range, duration_s: float, jobs: int) -> Array:
+    """Of parameters (rows) in scenes (columns). So many fleets fly at once."""
+    flights = [(values, scene) for values in tried for scene in scenes]
+    found = []
     for first in range(0, len(flights), jobs):
         batch = [skein.Fleet(SCENARIO, planner=spec(values), scene_seed=scene, duration=duration_s, no_check=True)
                  for values, scene in flights[first:first + jobs]]
         for fleet in batch:
             fleet.begin_step(step_s=2.0 * duration_s + 60.0)  # to the mission's end
-        for i, fleet in enumerate(batch):
+        for fleet in batch:
             fleet.end_step()
-            found[first + i] = fleet.result()["score"]
+            found.append(fleet.result()["score"])
             fleet.close()
-    return found
+    return np.array(found).reshape(len(tried), len(scenes))
 
 
-def learn(scenes: range, generations: int, population: int, duration_s: float, jobs: int, seed: int) -> np.ndarray:
+def interval(values: Array, random: np.random.Generator) -> tuple[float, float]:
+    """Of the mean: 95 % by bootstrap."""
+    means = random.choice(values, (10_000, len(values))).mean(axis=1)
+    low, high = np.quantile(means, [0.025, 0.975])
+    return float(low), float(high)
+
+
+def learn(size: Size, jobs: int, seed: int) -> dict[str, Any]:
     random = np.random.default_rng(seed)
-    mean, spread = np.log([first for _, first, *_ in PARAMETERS]), np.full(len(PARAMETERS), 0.4)
-    for generation in range(generations):
-        half = random.normal(size=(population // 2, len(mean)))
+    mean, spread = np.log([first for _, first, *_ in PARAMETERS]), 0.5
+    present, judged = [mean], [scores([mean], size.judging, size.duration_s, jobs)[0]]
+    learning = []
+    for generation in range(size.generations):
+        half = random.normal(size=(size.population // 2, len(mean)))
         drawn = mean + spread * np.concatenate([half, -half])  # in pairs, which cancels noise
-        flights = [(values, scene) for values in drawn for scene in scenes]
-        result = scores(flights, duration_s, jobs).reshape(len(drawn), len(scenes))
+        result = scores(list(drawn), size.learning, size.duration_s, jobs)
         # Ranks in each scene: a scene with many points has no more say than another.
         ranks = result.argsort(axis=0).argsort(axis=0).mean(axis=1)
         weights = np.maximum(ranks - np.median(ranks), 0.0)
         if weights.sum() > 0.0:
             mean = weights @ drawn / weights.sum()
-        spread *= 0.85
-        print(f"generation {generation + 1}: mean score {result.mean():.2f}, best {result.mean(axis=1).max():.2f}, "
-              f"{spec(mean)}", flush=True)
-    return mean
+        spread *= 0.8
+        learning.append(result.mean(axis=1))
+        present.append(mean)
+        judged.append(scores([mean], size.judging, size.duration_s, jobs)[0])
+        print(f"generation {generation + 1}: tried {learning[-1].min():.1f} to {learning[-1].max():.1f}; "
+              f"{bounded(mean)}: {judged[-1].mean():.1f} in scenes never seen", flush=True)
+    gain = judged[-1] - judged[0]
+    return {"seed": seed, "learning": list(size.learning), "judging": list(size.judging),
+            "parameters": [bounded(values) for values in present], "tried": [row.tolist() for row in learning],
+            "judged": [row.tolist() for row in judged],
+            "judged_interval": [interval(row, random) for row in judged],
+            "gain": float(gain.mean()), "gain_interval": interval(gain, random),
+            "better_in": int((gain > 0.0).sum())}
+
+
+def plot(told: dict[str, Any], file: str) -> None:
+    from skein import plots
+
+    axes = plots.axes(height=2.6)
+    generations = np.arange(len(told["judged"]))
+    low, high = np.array(told["judged_interval"]).T
+    with plots.style():
+        for i, tried in enumerate(told["tried"]):
+            axes.plot(np.full(len(tried), i + 1), tried, ".", color="0.7", label="tried, scenes of learning"[i * 99:])
+        axes.fill_between(generations, low, high, alpha=0.25, linewidth=0.0)
+        axes.plot(generations, np.mean(told["judged"], axis=1), marker="o",
+                  label=f"learned, {len(told['judging'])} scenes never seen")
+        axes.set(xlabel="generation", ylabel="mean score", xticks=generations, ylim=(0.0, None))
+        axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0))
+    plots.save(axes, file)
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--full", action="store_true")
+    parser.add_argument("--full", action="store_true", help="scene seeds 1 to 10, judged in 20 others")
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--jobs", type=int, default=len(os.sched_getaffinity(0)))
+    parser.add_argument("--jobs", type=int, default=len(os.sched_getaffinity(0)), help="fleets that fly at once")
+    parser.add_argument("--json", help="file for all of it")
+    parser.add_argument("--plot", help="file for the curve: SVG, PDF or PNG")
     options = parser.parse_args()
-    # Scenes of learning, of judging; generations, flights of a generation and scene; mission time [s].
-    learning, judging, generations, population, duration_s = (
-        (range(1, 11), range(101, 121), 8, 8, 300.0) if options.full else (range(1, 3), range(101, 104), 1, 4, 40.0))
-    learned = learn(learning, generations, population, duration_s, options.jobs, options.seed)
-    first = np.log([value for _, value, *_ in PARAMETERS])
-    flights = [(values, scene) for values in (first, learned) for scene in judging]
-    before, after = scores(flights, duration_s, options.jobs).reshape(2, len(judging))
-    difference = after - before
-    random = np.random.default_rng(options.seed)
-    means = random.choice(difference, (10_000, len(difference))).mean(axis=1)
-    low, high = np.quantile(means, [0.025, 0.975])
-    print(f"in {len(judging)} scenes that it never saw: {before.mean():.2f} before, {after.mean():.2f} after, "
-          f"difference {difference.mean():+.2f} (95 %: {low:+.2f} to {high:+.2f})")
+    told = learn(FULL if options.full else SMALL, options.jobs, options.seed)
+    first, last = np.mean(told["judged"][0]), np.mean(told["judged"][-1])
+    low, high = told["gain_interval"]
+    print(f"in {len(told['judging'])} scenes that it never saw: {first:.1f} before, {last:.1f} after, "
+          f"gain {told['gain']:+.1f} (95 %: {low:+.1f} to {high:+.1f}), more in {told['better_in']}")
+    if options.json:
+        Path(options.json).write_text(json.dumps(told, indent=1) + "\n", encoding="utf-8")
+    if options.plot:
+        plot(told, options.plot)
 
 
 if __name__ == "__main__":

@@ -30,7 +30,7 @@ def find_launcher(launcher: str | os.PathLike[str] | None = None) -> str:
     """Where the launcher is: `launcher`, SKEIN in the environment, `./skein` of this checkout, or `skein` in PATH."""
     named = os.fspath(launcher) if launcher is not None else os.environ.get("SKEIN")
     if named:
-        found = shutil.which(named)
+        found = shutil.which(named) if "\0" not in named else None
         if found is None:
             raise InputError(f"there is no program {named!r}" + ("" if launcher is not None else ", which SKEIN names"))
         return found

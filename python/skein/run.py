@@ -83,6 +83,17 @@ def read_json(file: Path, missing: str) -> dict[str, Any]:
     return value
 
 
+def existing_folder(path: str | os.PathLike[str]) -> Path:
+    try:
+        folder = Path(os.path.abspath(path))
+        there = folder.is_dir()
+    except (OSError, ValueError):  # a name that no file can have
+        there = False
+    if not there:
+        raise MissingError(f"there is no folder {os.fspath(path)!r:.200}")
+    return folder
+
+
 class Run:
     """The results folder of a run. A file is read when it is asked for first.
 
@@ -92,11 +103,9 @@ class Run:
     """
 
     def __init__(self, path: str | os.PathLike[str]) -> None:
-        self.path = Path(os.path.abspath(path))
+        self.path = existing_folder(path)
         self._tables: dict[str, Array] = {}
         self._json: dict[str, dict[str, Any]] = {}
-        if not self.path.is_dir():
-            raise MissingError(f"there is no folder {self.path}")
 
     def __repr__(self) -> str:
         try:
@@ -166,7 +175,10 @@ class Run:
     @property
     def uavs(self) -> list[str]:
         """Their names, in fleet order."""
-        return [str(uav["name"]) for uav in self._told("uavs", list)]
+        try:
+            return [str(uav["name"]) for uav in self._told("uavs", list)]
+        except (KeyError, TypeError):
+            raise DamagedError(f"{self.path / 'result.json'}:1: uavs must have names") from None
 
     @property
     def sim_time_s(self) -> float:
@@ -293,7 +305,11 @@ class Run:
         losses = self.result.get("losses")
         if not isinstance(losses, dict):
             raise MissingError(f"{self.path / 'result.json'} has no losses: {columns.LOSSES.missing}")
-        return {cause: float(part["score"]) for cause, part in losses.items()}
+        try:
+            return {cause: float(part["score"]) for cause, part in losses.items()}
+        except (KeyError, TypeError, ValueError):
+            raise DamagedError(f"{self.path / 'result.json'}:1: losses must have a score by cause, not "
+                               f"{losses!r:.60}") from None
 
     def earned(self) -> Array:
         """The score over time (`time_s`, `score`) of all captures, delivered or not, of UAVs that did not collide."""

@@ -8,9 +8,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from . import columns
-from .errors import Error, MissingError
+from .errors import Error
 from .launch import Finished, fly, option_arguments
-from .run import Run, frame_of, read_json
+from .run import Run, existing_folder, frame_of, read_json
 from .tables import Array, read_study_table, read_wide_table
 
 if TYPE_CHECKING:
@@ -56,11 +56,9 @@ class Study:
     """
 
     def __init__(self, path: str | os.PathLike[str]) -> None:
-        self.path = Path(os.path.abspath(path))
+        self.path = existing_folder(path)
         self._tables: dict[str, Array] = {}
         self._settings: dict[str, Any] | None = None
-        if not self.path.is_dir():
-            raise MissingError(f"there is no folder {self.path}")
 
     def __repr__(self) -> str:
         try:

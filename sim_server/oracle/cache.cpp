@@ -1,9 +1,8 @@
 #include "sim_server/oracle/cache.hpp"
 
-#include <span>
-
 #include "core/sha256.hpp"
 #include "sim_server/oracle/kept_answer.hpp"
+#include "sim_server/oracle/mesh_hash.hpp"
 #include "sim_server/sensors/camera_mount.hpp"
 
 namespace skein::sim {
@@ -15,13 +14,6 @@ using Json = nlohmann::ordered_json;
 /// Goes up whenever the same question may get another answer: a change in the search, in what counts as visible, or in
 /// a formula.
 constexpr int kOracleVersion = 2;
-
-template <class T>
-void add_bytes(Sha256& hash, const std::vector<T>& values) {
-  static_assert(std::is_trivially_copyable_v<T> || std::is_same_v<T, Eigen::Vector3f>);
-  hash.add(values.size());
-  hash.add(std::span(reinterpret_cast<const std::uint8_t*>(values.data()), values.size() * sizeof(T)));
-}
 
 Json part_to_json(const OracleSummary::Part& part) {
   const double coarse = part.coarse.score;
@@ -86,8 +78,7 @@ OracleSummary summary_from_json(const Json& json) {
 std::string oracle_key(const Scenario& scenario, const Scene& scene, const OracleConfig& config) {
   Sha256 hash;
   hash.add("oracle").add(kOracleVersion);
-  add_bytes(hash, scene.mesh.vertices);
-  add_bytes(hash, scene.mesh.triangles);
+  add_mesh(hash, scene.mesh);
   hash.add(scene.points.size());
   for (const InterestPoint& point : scene.points) {
     hash.add(Vector3d(point.p_W.cast<double>())).add(Vector3d(point.n_W.cast<double>()));

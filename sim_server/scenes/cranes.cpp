@@ -185,7 +185,7 @@ std::vector<OrientedBox> add_gantry(MeshBuilder& builder, std::uint64_t scene_se
 
 }  // namespace
 
-Scene make_cranes(std::uint64_t scene_seed) {
+UnsampledScene make_cranes(std::uint64_t scene_seed) {
   MeshBuilder builder;
   Scene scene;
   for (const auto add : {&add_low_crane, &add_high_crane, &add_gantry}) {
@@ -194,8 +194,7 @@ Scene make_cranes(std::uint64_t scene_seed) {
   }
   scene.mesh = builder.take();
   vary_boxes(scene, scene_seed);
-  scene.points = sample_surface(scene.mesh, scene.boxes, kCranesPoints, scene_seed);
-  return scene;
+  return {std::move(scene), kCranesPoints, scene_seed};
 }
 
 }  // namespace skein::sim

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "core/scene.hpp"
+#include "sim_server/scenes/surface_sampling.hpp"
 
 namespace skein::sim {
 
@@ -11,6 +11,6 @@ namespace skein::sim {
 /// 5 cm. Places, sizes, the headings of the jibs, the places of the trolleys, what hangs on the hooks and the boxes
 /// vary with the seed; starts and columns above them stay free (core/scene_families.cpp).
 /// @param scene_seed  any; the same number gives the same bytes.
-Scene make_cranes(std::uint64_t scene_seed);
+UnsampledScene make_cranes(std::uint64_t scene_seed);
 
 }  // namespace skein::sim

@@ -181,7 +181,7 @@ class Hangar {
 
 }  // namespace
 
-Scene make_hangar(std::uint64_t scene_seed) {
+UnsampledScene make_hangar(std::uint64_t scene_seed) {
   const HangarSite site = draw_hangar_site(scene_seed);
   RandomStream random(scene_seed, "hangar_building", 0);
   MeshBuilder builder;
@@ -194,8 +194,7 @@ Scene make_hangar(std::uint64_t scene_seed) {
   for (const double side : {-1.0, 1.0}) scene.boxes.push_back(hangar.add_doors(side, random));
   scene.mesh = builder.take();
   vary_boxes(scene, scene_seed);
-  scene.points = sample_surface(scene.mesh, scene.boxes, kHangarPoints, scene_seed);
-  return scene;
+  return {std::move(scene), kHangarPoints, scene_seed};
 }
 
 }  // namespace skein::sim

@@ -5,13 +5,13 @@
 
 #include <cstdint>
 
-#include "core/scene.hpp"
+#include "sim_server/scenes/surface_sampling.hpp"
 
 namespace skein::sim {
 
 /// Builds one member of the family. The airliner's shape, how it stands, the hangar and the stands beside the airliner
 /// follow from the seed alone.
 /// Seven boxes before they vary: fuselage, two wings, tail, the hangar's front and its doors. 3,500 interest points.
-Scene make_hangar(std::uint64_t scene_seed);
+UnsampledScene make_hangar(std::uint64_t scene_seed);
 
 }  // namespace skein::sim

@@ -243,7 +243,7 @@ OrientedBox add_small_sail(MeshBuilder& builder, const Vector2d& p_W, std::uint6
 
 }  // namespace
 
-Scene make_sail(std::uint64_t scene_seed) {
+UnsampledScene make_sail(std::uint64_t scene_seed) {
   RandomStream random(scene_seed, "sail_site", 0);
   const Vector2d p_W{random.uniform(52.0, 60.0), random.uniform(2.0, 18.0)};
   const bool convex_side_first = random.uniform() < 0.5;  // towards the starts
@@ -258,8 +258,7 @@ Scene make_sail(std::uint64_t scene_seed) {
   scene.boxes.push_back(add_small_sail(builder, small_p_W, scene_seed));
   scene.mesh = builder.take();
   vary_boxes(scene, scene_seed);
-  scene.points = sample_surface(scene.mesh, scene.boxes, kSailPoints, scene_seed);
-  return scene;
+  return {std::move(scene), kSailPoints, scene_seed};
 }
 
 }  // namespace skein::sim

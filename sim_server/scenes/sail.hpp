@@ -5,12 +5,12 @@
 
 #include <cstdint>
 
-#include "core/scene.hpp"
+#include "sim_server/scenes/surface_sampling.hpp"
 
 namespace skein::sim {
 
 /// Builds one member of the family. Size, curvature, relief and where everything stands follow from the seed alone.
 /// Five boxes before they vary: three up the sail, podium, small sail. 4,000 interest points.
-Scene make_sail(std::uint64_t scene_seed);
+UnsampledScene make_sail(std::uint64_t scene_seed);
 
 }  // namespace skein::sim

@@ -11,6 +11,7 @@
 #include "sim_server/scene_files/point_file.hpp"
 #include "sim_server/scenes/cranes.hpp"
 #include "sim_server/scenes/hangar.hpp"
+#include "sim_server/scenes/kept_points.hpp"
 #include "sim_server/scenes/mesh_builder.hpp"
 #include "sim_server/scenes/sail.hpp"
 #include "sim_server/scenes/spire.hpp"
@@ -20,12 +21,12 @@ namespace skein::sim {
 namespace {
 
 /// One line a family, as in core/scene_families.cpp.
-const std::map<std::string, Scene (*)(std::uint64_t scene_seed)> kBuilders = {
+const std::map<std::string, UnsampledScene (*)(std::uint64_t scene_seed)> kBuilders = {
     {"towers", &make_towers}, {"hangar", &make_hangar}, {"cranes", &make_cranes},
     {"sail", &make_sail},     {"spire", &make_spire},
 };
 
-Scene make_family(const Scenario& scenario) {
+UnsampledScene make_family(const Scenario& scenario) {
   const auto builder = kBuilders.find(scenario.scene.family);
   if (builder != kBuilders.end()) return builder->second(scenario.scene.scene_seed);
   std::string known;
@@ -36,8 +37,11 @@ Scene make_family(const Scenario& scenario) {
 
 }  // namespace
 
-Scene load_scene(const Scenario& scenario) {
-  if (!from_files(scenario.scene)) return make_family(scenario);
+Scene load_scene(const Scenario& scenario, const std::optional<std::filesystem::path>& cache) {
+  if (!from_files(scenario.scene)) {
+    UnsampledScene unsampled = make_family(scenario);
+    return cache ? sampled_or_kept(std::move(unsampled), *cache) : sampled(std::move(unsampled));
+  }
   Scene scene;
   for (const auto& file : scenario.scene.meshes) {
     append(scene.mesh, read_mesh(file));

@@ -207,7 +207,7 @@ class Spire {
 
 }  // namespace
 
-Scene make_spire(std::uint64_t scene_seed) {
+UnsampledScene make_spire(std::uint64_t scene_seed) {
   RandomStream site(scene_seed, "spire_site", 0);
   PodiumPlan plan;
   const Vector2d middle{36.0 + site.uniform(-2.0, 2.0), 48.0 + site.uniform(-1.0, 3.0)};
@@ -229,8 +229,7 @@ Scene make_spire(std::uint64_t scene_seed) {
   scene.boxes.insert(scene.boxes.end(), tiers.begin(), tiers.end());
   scene.mesh = builder.take();
   vary_boxes(scene, scene_seed);
-  scene.points = sample_surface(scene.mesh, scene.boxes, kSpirePoints, scene_seed);
-  return scene;
+  return {std::move(scene), kSpirePoints, scene_seed};
 }
 
 }  // namespace skein::sim

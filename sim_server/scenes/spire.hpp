@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "core/scene.hpp"
+#include "sim_server/scenes/surface_sampling.hpp"
 
 namespace skein::sim {
 
@@ -11,6 +11,6 @@ namespace skein::sim {
 /// podium with an arcade. Plan (rectangle, hexagon, octagon), steps, twist, crown, details, places and boxes vary with
 /// the seed; starts and columns above them stay free (core/scene_families.cpp).
 /// @param scene_seed  any; the same number gives the same bytes.
-Scene make_spire(std::uint64_t scene_seed);
+UnsampledScene make_spire(std::uint64_t scene_seed);
 
 }  // namespace skein::sim

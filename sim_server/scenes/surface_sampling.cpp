@@ -246,4 +246,10 @@ std::vector<InterestPoint> sample_surface(const TriangleMesh& mesh, std::span<co
   return chosen;
 }
 
+Scene sampled(UnsampledScene unsampled) {
+  Scene& scene = unsampled.scene;
+  scene.points = sample_surface(scene.mesh, scene.boxes, unsampled.point_count, unsampled.seed);
+  return std::move(scene);
+}
+
 }  // namespace skein::sim

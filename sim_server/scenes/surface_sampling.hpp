@@ -10,6 +10,16 @@
 
 namespace skein::sim {
 
+/// What a procedural family builds: its points are still to be drawn.
+struct UnsampledScene {
+  Scene scene;
+  std::size_t point_count = 0;
+  std::uint64_t seed = 0;
+};
+
+/// Goes up whenever sample_surface() may draw other points for the same arguments: caches have what it drew before.
+inline constexpr int kSamplingVersion = 1;
+
 /// Sample points on the triangles inside the boxes, with the triangles' true normals. All surfaces get their share by
 /// area, thin members and both sides of thin plates too. Of points that face the same way no two are much closer than
 /// the mean spacing.
@@ -22,5 +32,8 @@ namespace skein::sim {
 /// @param seed   key of the random numbers.
 std::vector<InterestPoint> sample_surface(const TriangleMesh& mesh, std::span<const OrientedBox> boxes,
                                           std::size_t count, std::uint64_t seed);
+
+/// The same, into the scene.
+Scene sampled(UnsampledScene unsampled);
 
 }  // namespace skein::sim

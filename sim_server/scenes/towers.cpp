@@ -274,7 +274,7 @@ OrientedBox add_kiosk(MeshBuilder& builder, std::uint64_t scene_seed) {
 
 }  // namespace
 
-Scene make_towers(std::uint64_t scene_seed) {
+UnsampledScene make_towers(std::uint64_t scene_seed) {
   const TowersSite site = draw_towers_site(scene_seed);
   MeshBuilder builder;
   Scene scene;
@@ -284,8 +284,7 @@ Scene make_towers(std::uint64_t scene_seed) {
   scene.boxes.push_back(add_kiosk(builder, scene_seed));
   scene.mesh = builder.take();
   vary_boxes(scene, scene_seed);
-  scene.points = sample_surface(scene.mesh, scene.boxes, kTowersPoints, scene_seed);
-  return scene;
+  return {std::move(scene), kTowersPoints, scene_seed};
 }
 
 }  // namespace skein::sim

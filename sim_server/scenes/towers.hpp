@@ -5,12 +5,12 @@
 
 #include <cstdint>
 
-#include "core/scene.hpp"
+#include "sim_server/scenes/surface_sampling.hpp"
 
 namespace skein::sim {
 
 /// Builds one member of the family. Sizes, angles, positions and relief follow from the seed alone.
 /// Six boxes before they vary: deck, three towers, museum, kiosk. 4,000 interest points, all inside the boxes.
-Scene make_towers(std::uint64_t scene_seed);
+UnsampledScene make_towers(std::uint64_t scene_seed);
 
 }  // namespace skein::sim

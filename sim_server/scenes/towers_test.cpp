@@ -9,7 +9,7 @@ namespace skein::sim {
 namespace {
 
 TEST(Towers, NominalSceneHasSixBoxesOfTheBenchmarksKind) {
-  const Scene scene = make_towers(0);
+  const Scene scene = sampled(make_towers(0));
   ASSERT_EQ(scene.boxes.size(), 6u);
   EXPECT_EQ(scene.points.size(), 4000u);
   EXPECT_EQ(scene.boxes[0].name, "deck");
@@ -18,7 +18,7 @@ TEST(Towers, NominalSceneHasSixBoxesOfTheBenchmarksKind) {
 
 TEST(Towers, IsOfTheBenchmarksSize) {
   for (const std::uint64_t seed : {std::uint64_t{0}, std::uint64_t{1}, std::numeric_limits<std::uint64_t>::max()}) {
-    const Scene scene = make_towers(seed);
+    const Scene scene = sampled(make_towers(seed));
     Eigen::AlignedBox3d extent;
     for (const auto& v : scene.mesh.vertices) extent.extend(Vector3d(v.cast<double>()));
     EXPECT_GT(extent.max().z(), 55.0);

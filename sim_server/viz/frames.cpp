@@ -1,6 +1,7 @@
 #include "sim_server/viz/frames.hpp"
 
 #include "core/camera_quality.hpp"
+#include "core/lidar_geometry.hpp"
 #include "idl/conversions.hpp"
 
 namespace skein::sim::viz {
@@ -36,6 +37,29 @@ msg::TFMessage fixed_frames(const Scenario& scenario) {
   for (const UavConfig& uav : scenario.fleet) {
     add_frame(frames, 0, uav.name + "/gimbal", uav.name + "/camera", Isometry3d::Identity());
   }
+  return frames;
+}
+
+msg::TFMessage own_moving_frames(Tick tick, const UavConfig& uav, const UavView& view) {
+  msg::TFMessage frames;
+  const Isometry3d X_WB = view.told.X_WB();
+  const Isometry3d X_WC = camera_state(view.told, view.gimbal, uav.vehicle.camera).X_WC;
+  add_frame(frames, view.told_tick, uav.name + "/odom", uav.name + "/base_link", X_WB);
+  add_frame(frames, tick, uav.name + "/base_link", uav.name + "/gimbal", X_WB.inverse() * X_WC);
+  return frames;
+}
+
+msg::TFMessage own_lidar_frame(const UavConfig& uav, const LidarServo& servo) {
+  msg::TFMessage frames;
+  add_frame(frames, servo.tick, uav.name + "/base_link", uav.name + "/lidar",
+            lidar_pose(Isometry3d::Identity(), servo.angle));
+  return frames;
+}
+
+msg::TFMessage own_fixed_frames(const UavConfig& uav) {
+  msg::TFMessage frames;
+  add_frame(frames, 0, "world", uav.name + "/odom", Isometry3d::Identity());
+  add_frame(frames, 0, uav.name + "/gimbal", uav.name + "/camera", Isometry3d::Identity());
   return frames;
 }
 

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "core/camera_quality.hpp"
+#include "core/lidar_geometry.hpp"
 #include "core/random_stream.hpp"
 #include "idl/conversions.hpp"
 #include "sim_server/testing/test_scenes.hpp"
@@ -67,6 +68,36 @@ TEST(Frames, ComposeToThePoseOfTheCamera) {
       EXPECT_TRUE(tree.in_world(uav.name + "/gimbal").isApprox(X_WC, 1e-9));
       EXPECT_TRUE(tree.in_world(uav.name + "/camera").isApprox(X_WC, 1e-9));
     }
+  }
+}
+
+// A UAV's own tree has what it is told, not what is so; and nothing of the others.
+TEST(OwnFrames, AreThoseThatTheUavIsToldOf) {
+  RandomStream random(2, "frames", 0);
+  UavConfig uav;
+  uav.name = "jurong";
+  for (int round = 0; round < 100; ++round) {
+    uav.vehicle.camera.p_BC = test::random_in_box(random, {-1, -1, -1}, {1, 1, 1});
+    UavView view;
+    view.state.p_WB = test::random_in_box(random, {-50, -50, 0}, {50, 50, 60});
+    view.told.p_WB = view.state.p_WB + test::random_in_box(random, {1, 1, 1}, {2, 2, 2});
+    view.told.q_WB = Quaterniond(test::rotation(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-3, 3)));
+    view.told_tick = random.uniform(0.0, 1.0) < 0.5 ? 5 : 7;
+    view.gimbal = {random.uniform(-1.4, 1.4), random.uniform(-1.5, 1.5), 0.0, 0.0};
+    const LidarServo servo{.tick = 6, .angle = random.uniform(-1.5, 1.5)};
+    const msg::TFMessage moving = own_moving_frames(7, uav, view), lidar = own_lidar_frame(uav, servo);
+    EXPECT_EQ(moving.transforms()[0].header().stamp(), to_time(view.told_tick));
+    EXPECT_EQ(lidar.transforms()[0].header().stamp(), to_time(6));
+    Tree tree;
+    tree.add(moving);
+    tree.add(lidar);
+    tree.add(own_fixed_frames(uav));
+    ASSERT_EQ(tree.size(), 5U);
+    EXPECT_TRUE(tree.in_world("jurong/odom").isApprox(Isometry3d::Identity()));
+    EXPECT_TRUE(tree.in_world("jurong/base_link").isApprox(view.told.X_WB(), 1e-9));
+    EXPECT_TRUE(
+        tree.in_world("jurong/camera").isApprox(camera_state(view.told, view.gimbal, uav.vehicle.camera).X_WC, 1e-9));
+    EXPECT_TRUE(tree.in_world("jurong/lidar").isApprox(lidar_pose(view.told.X_WB(), servo.angle), 1e-9));
   }
 }
 

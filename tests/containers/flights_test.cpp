@@ -19,6 +19,8 @@ namespace fs = std::filesystem;
 
 class FlightInContainers : public Containers {
  protected:
+  void expect_secured(const Arguments& options);
+
   std::mt19937 random_{std::random_device{}()};
 };
 
@@ -186,8 +188,23 @@ TEST_P(TwentyUavs, FlyTheSame) {
 INSTANTIATE_TEST_SUITE_P(Subnets, TwentyUavs, testing::Values("", "10.99.0.0/20"),
                          [](const auto& subnet) { return subnet.param.empty() ? "of_the_engine" : "named"; });
 
-TEST_F(FlightInContainers, SecuredIsTheSameAndItsKeysGo) {
-  const Arguments flown = arguments("patrol", "60", {"--secure"});
+TEST_F(FlightInContainers, PlannersInPythonFlyInAnImageThatHasIt) {
+  if (shell("docker image inspect skein-agent-python").code != 0) {
+    if (engine_is_required()) FAIL() << "the engine has no image 'skein-agent-python' (docker/Dockerfile)";
+    GTEST_SKIP() << "no image skein-agent-python: not tested are planners in Python in containers";
+  }
+  const Arguments flown = arguments("patrol,jurong=py:" + source_path("python/examples/facade.py"), "30");
+  const SkeinRun& run = up("up", flown);
+  expect_whole(run);
+  EXPECT_EQ(flight_of(run), alone(flown));
+}
+
+TEST_F(FlightInContainers, SecuredIsTheSameAndItsKeysGo) { expect_secured({"--secure"}); }
+
+TEST_F(FlightInContainers, SecuredIsTheSameOnFastDds) { expect_secured({"--secure", "--dds", "fastdds"}); }
+
+void FlightInContainers::expect_secured(const Arguments& options) {
+  const Arguments flown = arguments("patrol", "60", options);
   const SkeinRun& run = up("up", flown);
   expect_whole(run);
   EXPECT_EQ(flight_of(run), alone(flown));

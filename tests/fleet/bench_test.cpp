@@ -87,8 +87,22 @@ TEST_F(BenchTest, WhatIsKnownIsTabledAndDrawn) {
   }
 }
 
+TEST_F(BenchTest, WhatPythonCostsHasARowForEachFigure) {
+  const auto json = folder() / "python.json";
+  ChildProcess& bench = skein({"bench", "--python", "--quick", "--duration", "2", "--json", json});
+  ASSERT_EQ(bench.wait().code, 0) << bench.err() << bench.out();
+  const Json report = Json::parse(text_of(json));
+  EXPECT_GE(report["rows"].size(), 14U);
+  for (const Json& row : report["rows"]) {
+    EXPECT_NE(bench.out().find(row["name"].get<std::string>()), std::string::npos) << row;
+    const bool grows = row["name"].get<std::string>().starts_with("growth");
+    EXPECT_TRUE(grows || row["figure"]["median"].get<double>() > 0.0) << row;
+  }
+}
+
 TEST_F(BenchTest, NonsenseIsRefused) {
-  for (const Arguments& arguments : std::vector<Arguments>{{"bench", "--sizes", "0"}, {"bench", "--dds", "mixed"}}) {
+  for (const Arguments& arguments : std::vector<Arguments>{
+           {"bench", "--sizes", "0"}, {"bench", "--dds", "mixed"}, {"bench", "--python", "--profile"}}) {
     EXPECT_EQ(skein(arguments).wait().code, 2);
   }
 }

@@ -27,11 +27,7 @@ class Clients : public FleetTest {
 
   /// Starts the agent with the command that the launcher printed, gdb left out.
   ChildProcess& start_printed_command(const SkeinRun& run) {
-    const std::string text = run.err(), gdb = "gdb --args ";
-    const std::size_t at = text.find(gdb), begin = text.rfind('\n', at) + 1, end = text.find('\n', at);
-    const std::string variables = text.substr(begin, at - begin);
-    const std::string command = text.substr(at + gdb.size(), end - at - gdb.size());
-    return start_program("agent", {"/bin/sh", "-c", "exec env " + variables + command});
+    return start_program("agent", {"/bin/sh", "-c", run.debug_command()});
   }
 };
 

@@ -139,6 +139,16 @@ std::pair<int, int> SkeinRun::domains() const {
   return {std::stoi(match[1]), std::stoi(match[2])};
 }
 
+std::string SkeinRun::debug_command(const std::string& tool) const {
+  const std::string text = err(), gdb = "gdb --args";
+  std::smatch match;
+  if (!std::regex_search(text, match, std::regex("yourself; [^\n]*\n\n  (.*)\n"))) throw std::runtime_error(text);
+  std::string command = "exec env " + match.str(1);
+  const std::size_t at = command.find(gdb);
+  if (at != std::string::npos) return command.replace(at, gdb.size(), tool);
+  return command.insert(command.find("/bin/sh -c"), tool + " ");  // a user's command
+}
+
 Json SkeinRun::result() const {
   const Json json = Json::parse(text_of(dir_ / "result.json"), nullptr, false);
   if (!json.is_object()) throw std::runtime_error("no result.json in " + dir_.string() + "\n" + err());
@@ -190,6 +200,14 @@ ChildProcess& FleetTest::start_program(const std::string& name, const Arguments&
   programs_.push_back(std::make_unique<ChildProcess>(argv, with_config(environment, folder_), folder_ / (name + ".out"),
                                                      folder_ / (name + ".err")));
   return *programs_.back();
+}
+
+Arguments FleetTest::installed(const Arguments& words) const {
+  Arguments all = {"/usr/bin/env", "-C", folder()};
+  for (const char* variable : {"SKEIN", "SKEIN_CONFIG_DIR", "SKEIN_BIN_DIR", "SKEIN_AGENT", "PYTHONPATH"}) {
+    all.insert(all.end(), {"-u", variable});
+  }
+  return joined(std::move(all), words);
 }
 
 ChildProcess& FleetTest::skein(const Arguments& arguments) {

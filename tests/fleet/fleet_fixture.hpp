@@ -53,6 +53,8 @@ class SkeinRun {
   bool wait_until_flying();
   /// First and last DDS domain, as the launcher tells them.
   std::pair<int, int> domains() const;
+  /// Of `--debug UAV`, for a shell: what the launcher tells its user to start. @param tool  in the place of gdb
+  std::string debug_command(const std::string& tool = {}) const;
   Json result() const;
   std::string digest() const;
 
@@ -78,6 +80,9 @@ class FleetTest : public testing::Test {
                 int exit_code = 0);
   /// Starts any other program.
   ChildProcess& start_program(const std::string& name, const Arguments& argv, const Environment& environment = {});
+  /// The command line of an installed or packed program, in the test's folder: nothing leads it to this build.
+  /// @param words  variables first, if any: "PYTHONPATH=...".
+  Arguments installed(const Arguments& words) const;
   /// `skein diff`, and similar: @returns the process after its end.
   ChildProcess& skein(const Arguments& arguments);
 

@@ -1,37 +1,16 @@
 // A disk that is full ends files, never the flight: its score and its result are those of a run with room.
-#include <sys/mount.h>
-
 #include <cerrno>
 #include <random>
 
 #include "fleet_fixture.hpp"
 #include "mcap/reader.hpp"
+#include "small_disk.hpp"
 #include "small_scene.hpp"
 
 namespace skein::test {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// A small disk of its own, mounted where a run will write.
-class SmallDisk {
- public:
-  SmallDisk(fs::path folder, int kilobytes) : folder_(std::move(folder)) {
-    fs::create_directories(folder_);
-    const std::string size = "size=" + std::to_string(kilobytes) + "k";
-    mounted_ = ::mount("none", folder_.c_str(), "tmpfs", 0, size.c_str()) == 0;
-  }
-  ~SmallDisk() {
-    if (mounted_) ::umount2(folder_.c_str(), MNT_DETACH);
-  }
-  SmallDisk(const SmallDisk&) = delete;
-  SmallDisk& operator=(const SmallDisk&) = delete;
-  bool mounted() const { return mounted_; }
-
- private:
-  fs::path folder_;
-  bool mounted_ = false;
-};
 
 class FullDisk : public FleetTest {
  protected:

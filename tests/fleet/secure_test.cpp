@@ -208,6 +208,7 @@ TEST_F(Secure, AgentsReadNoGroundTruthThatIsThereAlready) {
   const Environment open_cache = {{"XDG_CACHE_HOME", cache}};
   run("earlier", {scenario_, "--duration", "5", "--planner", "hover"});
   run("older", {"wild", "--scene-seed", "4", "--duration", "5", "--planner", "hover"}, open_cache);
+  run("points", {"towers", "--duration", "5", "--planner", "hover", "--no-oracle"}, open_cache);
   const auto open_up = [](const fs::path& path) {
     ASSERT_EQ(::chown(path.c_str(), 1000, 1000), 0);
     fs::permissions(path, fs::perms(fs::is_directory(path) ? 0755 : 0644));
@@ -221,12 +222,17 @@ TEST_F(Secure, AgentsReadNoGroundTruthThatIsThereAlready) {
       }
       open_up(entry.path());
     }
-    if (entry.path().filename().string().starts_with("oracle-")) {
+    if (entry.path().parent_path() == cache / "skein" && entry.is_regular_file()) {
       secret.push_back(entry.path());
       open_up(entry.path());
     }
   }
-  ASSERT_GE(secret.size(), 5u) << "mesh, points and an estimate, too";
+  ASSERT_GE(secret.size(), 6u) << "mesh, points and an estimate, too, and the points of a procedural scene";
+  for (const char* kind : {"oracle-", "points-"}) {
+    EXPECT_TRUE(std::ranges::any_of(secret, [&](const fs::path& file) {
+      return file.filename().string().starts_with(kind);
+    })) << kind;
+  }
   std::string files;
   for (const fs::path& file : secret) files += " " + file.string();
   const fs::path script = write("look.sh", "for file in" + files + " $(find " + worlds.string() +

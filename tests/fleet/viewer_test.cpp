@@ -44,11 +44,7 @@ class Viewer : public FleetTest, public testing::WithParamInterface<Vendors> {
                                                     std::to_string(world_domain(run.domains().first)), heard()});
     EXPECT_TRUE(eventually([&] { return text_of(heard()).find("listening") != std::string::npos; }));
     if (signal != 0) viewer.signal(signal);
-    const std::string text = run.err(), gdb = "gdb --args ";
-    const std::size_t at = text.find(gdb), begin = text.rfind('\n', at) + 1, end = text.find('\n', at);
-    start_program("agent",
-                  {"/bin/sh", "-c",
-                   "exec env " + text.substr(begin, at - begin) + text.substr(at + gdb.size(), end - at - gdb.size())});
+    start_program("agent", {"/bin/sh", "-c", run.debug_command()});
     EXPECT_EQ(run.exit_code(), 0) << run.err();
     viewer.signal(SIGKILL);  // or it would see the next run in these domains
     return run;

@@ -1,8 +1,6 @@
 // Whoever is waited for is named, and every wait ends: by an answer, a time-out, an end that is noticed, or Ctrl-C.
 #include <signal.h>
 
-#include <regex>
-
 #include "fleet_fixture.hpp"
 #include "small_scene.hpp"
 #include "tests/support/places.hpp"
@@ -68,21 +66,14 @@ class Debugged : public Waiting {
   void start_fleet(const std::string& planner = "hover") {
     run_ = &start("run", {scenario_, "--planner", planner, "--duration", "2000", "--debug", "changi"});
     ASSERT_TRUE(run_->wait_for("changi yourself")) << run_->err();
-    std::smatch match;
-    const std::string text = run_->err();
-    ASSERT_TRUE(std::regex_search(text, match, std::regex("\n\n  (.*)\n"))) << text;
-    command_ = match[1];
+  }
+  void start_fleet_that_ends() {
+    run_ = &start("run", {scenario_, "--planner", "hover", "--duration", "5", "--debug", "changi"});
+    ASSERT_TRUE(run_->wait_for("changi yourself")) << run_->err();
   }
   /// @param tool  in the place of "gdb --args", or before a user's command.
   ChildProcess& start_tool(const std::string& tool) {
-    const std::string gdb = "gdb --args ";
-    std::string command = command_;
-    const std::size_t at = command.find(gdb);
-    if (at != std::string::npos)
-      command.replace(at, gdb.size(), tool + " ");
-    else
-      command.insert(command.find("/bin/sh -c"), tool + " ");
-    return start_program("tool", {"/bin/sh", "-c", "exec env " + command});
+    return start_program("tool", {"/bin/sh", "-c", run_->debug_command(tool)});
   }
   pid_t debugged() const {
     const auto found = processes_of(run_->dir());
@@ -100,7 +91,6 @@ class Debugged : public Waiting {
   }
 
   SkeinRun* run_ = nullptr;
-  std::string command_;
 };
 
 TEST_F(Debugged, AProgramThatEndsIsLostThoughItsToolLivesOn) {
@@ -133,14 +123,22 @@ TEST_F(Debugged, LeavingGdbDoesNotStallTheFleet) {
 }
 
 TEST_F(Debugged, TheEndOfTheRunIsNoLoss) {
-  run_ = &start("run", {scenario_, "--planner", "hover", "--duration", "5", "--debug", "changi"});
-  ASSERT_TRUE(run_->wait_for("gdb --args")) << run_->err();
-  const std::string text = run_->err();
-  const std::size_t begin = text.find("\n\n  ") + 4;
-  command_ = text.substr(begin, text.find('\n', begin) - begin);
+  start_fleet_that_ends();
   start_tool("");
   EXPECT_EQ(run_->exit_code(), 0) << run_->err();
   EXPECT_EQ(run_->err().find("debugged program"), std::string::npos) << run_->err();
+}
+
+// Its report is part of the result, though the rest of the fleet has left long before.
+TEST_F(Debugged, AProgramThatLeavesLateIsWaitedFor) {
+  if (!std::filesystem::exists("/usr/bin/gdb")) GTEST_SKIP() << "no gdb here";
+  start_fleet_that_ends();
+  ChildProcess& gdb =
+      start_tool("gdb -nx -batch -ex 'break skein::hand_in_report' -ex run -ex 'shell sleep 2' -ex continue --args");
+  EXPECT_EQ(run_->exit_code(), 0) << run_->err();
+  if (gdb.wait().code != 0) GTEST_SKIP() << "gdb may not debug here: " << gdb.err();
+  EXPECT_NE(gdb.out().find("exited normally"), std::string::npos) << gdb.out();
+  EXPECT_EQ(run_->result()["warnings"], Json::array());
 }
 
 }  // namespace

@@ -118,7 +118,7 @@ PageTest::PageTest() : checkout_(folder() / "checkout") {
   fs::create_directories(checkout_ / "build");
   fs::create_symlink(program("skein"), checkout_ / "skein");
   fs::create_directory_symlink(build_path(), checkout_ / "build" / "release");
-  for (const char* name : {"config", "docker", "python"})
+  for (const char* name : {"config", "docker", "python", "tests"})
     fs::create_directory_symlink(source_path(name), checkout_ / name);
   fs::create_directories(folder() / "bin");
   fs::create_symlink(python_program(), folder() / "bin" / "python3");

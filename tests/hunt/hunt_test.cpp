@@ -150,6 +150,30 @@ TEST_F(Hunts, GoOnWhereTheyWereStoppedAndDoNotDependOnJobs) {
   EXPECT_EQ(skein({"hunt", "towers", "--planner", "hover", "--out", folder() / "one"}), 2) << "another hunt";
 }
 
+TEST_F(Hunts, FlyUnderTheConditionsThatAreGiven) {
+  const auto hunt = [&](const std::string& conditions) {
+    return skein({"hunt", "towers", "--planner", "hover", "--uavs", "2", "--duration", "50", "--faults", "link",
+                  "--without", "explorers_fly_on,others_fly_on,linked_delivers", "--runs", "8", "--conditions",
+                  conditions, "--out", folder() / "hunt"});
+  };
+  ASSERT_EQ(hunt("none,wind=breezy+odometry=breezy"), 0) << said_;
+  std::map<std::string, std::set<std::string>> digests;  // of a seed's flights, by conditions
+  std::istringstream lines(text_of(folder() / "hunt" / "log.jsonl"));
+  for (std::string line; std::getline(lines, line);) {
+    const Json flown = Json::parse(line);
+    const bool windy = flown["flown"].get<std::string>().find("wind=breezy") != std::string::npos;
+    digests[windy ? "windy" : "none"].insert(flown["outcome"]["digest"].get<std::string>());
+  }
+  ASSERT_EQ(digests.size(), 2U) << "eight cases, and one of the two is never flown with a chance of 1 in 128";
+  for (const std::string& digest : digests["none"]) EXPECT_FALSE(digests["windy"].contains(digest));
+  EXPECT_EQ(hunt("none,wind=breezy+odometry=breezy"), 0);
+  EXPECT_NE(said_.find("8 of 8 runs are there already"), std::string::npos) << said_;
+  EXPECT_EQ(hunt("none"), 2) << "another hunt";
+  EXPECT_EQ(hunt("none,wind=brezy"), 2);
+  EXPECT_NE(said_.find("--conditions wind=brezy: there is no preset 'brezy' of conditions"), std::string::npos)
+      << said_;
+}
+
 /// The defects of planted.cpp, and two of Skein's own programs.
 class AllDefects : public Hunts, public testing::WithParamInterface<const char*> {};
 

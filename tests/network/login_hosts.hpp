@@ -18,6 +18,9 @@ class LoginHosts {
   /// @param names  the first is the launcher's
   explicit LoginHosts(const std::vector<std::string>& names) : names_(names), hosts_(names) {}
 
+  /// What is started on that host sees a time of day that is so far off: "+5h", "-30d" (Debian's libfaketime).
+  /// Before set_up(). @returns false without that library.
+  bool set_time_of_day(const std::string& name, const std::string& off);
   /// Starts what is needed. @returns why that cannot be here; empty: it stands.
   std::string set_up(const std::filesystem::path& folder);
 
@@ -42,6 +45,7 @@ class LoginHosts {
   const std::vector<std::string> names_;
   Hosts hosts_;
   std::filesystem::path folder_;
+  std::map<std::string, std::string> variables_;  ///< by host, of what is started there
   std::map<std::string, std::unique_ptr<ChildProcess>> daemons_;
 };
 

@@ -98,7 +98,7 @@ TEST_P(PlaceByVendor, IsTheFlightOfOneHost) {
 
 INSTANTIATE_TEST_SUITE_P(Vendors, PlaceByVendor,
                          testing::Values(Arguments{"--dds", "cyclonedds"}, Arguments{"--dds", "fastdds"},
-                                         Arguments{"--secure"}),
+                                         Arguments{"--secure"}, Arguments{"--secure", "--dds", "fastdds"}),
                          [](const auto& tested) { return "v" + std::to_string(tested.index); });
 
 TEST_F(Place, AHostThatVanishesIsTheLossOfItsUavs) {
@@ -113,6 +113,56 @@ TEST_F(Place, AHostThatVanishesIsTheLossOfItsUavs) {
   ASSERT_EQ(flown["lost_members"].size(), 1U) << flown["lost_members"];
   EXPECT_EQ(flown["lost_members"][0]["member"], "jurong");
   EXPECT_EQ(flown["status"], "completed") << "the others fly on";
+  login_.mend("b");
+}
+
+/// The times of day of the three hosts are hours apart.
+class PlaceByOtherClocks : public Place {
+ protected:
+  void SetUp() override {
+    if (!login_.set_time_of_day("b", "+5h") || !login_.set_time_of_day("c", "-30d")) {
+      GTEST_SKIP() << "no libfaketime here (apt-get install libfaketime)";
+    }
+    Place::SetUp();
+    if (IsSkipped()) return;
+    ASSERT_TRUE(
+        login_.hosts().run("a", "sh -c 'test $(" + login_.ssh() + " b date +%s) -gt $(( $(date +%s) + 14400 ))'"));
+    ASSERT_TRUE(
+        login_.hosts().run("a", "sh -c 'test $(" + login_.ssh() + " c date +%s) -lt $(( $(date +%s) - 14400 ))'"));
+  }
+};
+
+TEST_F(PlaceByOtherClocks, IsTheFlightOfOneHost) {
+  const std::string faults =
+      "faults:\n  - {at_s: 3, until_s: 6, kill: jurong}\n  - {at_s: 4, until_s: 7, pause: changi}\n";
+  for (const char* vendor : {"cyclonedds", "fastdds"}) {
+    const Arguments flight = {"--duration", "15", "--dds", vendor, "--faults", write("faults.yaml", faults)};
+    const std::string one = std::string("one ") + vendor, two = std::string("two ") + vendor;
+    run(one, joined({scene_, "--planner", "patrol", "--no-oracle", "--no-report"}, flight));
+    ChildProcess& launcher = fly(two, joined(kBoth, flight));
+    EXPECT_EQ(launcher.wait().code, 0) << launcher.err();
+    EXPECT_FALSE(result(two)["digest"].is_null()) << launcher.err();
+    EXPECT_EQ(result(two)["digest"], result(one)["digest"]);
+    EXPECT_EQ(result(two)["lost_members"], result(one)["lost_members"]);
+    EXPECT_TRUE(text_of(folder() / two / "recording.mcap") == text_of(folder() / one / "recording.mcap"));
+  }
+}
+
+/// Minders, leases and what notices that an agent hangs.
+TEST_F(PlaceByOtherClocks, LossesAreNoticedAllTheSame) {
+  ChildProcess& launcher =
+      fly("run", joined(kBoth, {"--duration", "20", "--agent-timeout", "3"}), "patrol,changi=exec:exec sleep 1000");
+  EXPECT_EQ(launcher.wait().code, 3) << launcher.err();
+  ASSERT_EQ(result("run")["lost_members"].size(), 1U) << result("run")["lost_members"];
+  EXPECT_EQ(result("run")["lost_members"][0]["member"], "changi");
+  ChildProcess& cut = fly("cut", joined(kBoth, {"--duration", "120"}));
+  ASSERT_TRUE(wait_until_flying("cut", cut)) << cut.err();
+  login_.cut("b");
+  EXPECT_TRUE(login_.is_clean("b")) << testing::PrintToString(login_.processes_on("b"));
+  EXPECT_EQ(cut.wait().code, 3);
+  EXPECT_NE(cut.err().find("uav_agent-jurong failed: its host b is gone"), std::string::npos) << cut.err();
+  EXPECT_EQ(result("cut")["lost_members"].size(), 1U) << result("cut")["lost_members"];
+  EXPECT_EQ(result("cut")["status"], "completed") << "the others fly on";
   login_.mend("b");
 }
 

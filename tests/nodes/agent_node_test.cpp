@@ -11,7 +11,9 @@
 #include "core/octree_bytes.hpp"
 #include "core/radio_routes.hpp"
 #include "core/random_stream.hpp"
+#include "core/view_topics.hpp"
 #include "idl/conversions.hpp"
+#include "idl/diagnostic_types.hpp"
 #include "tests/nodes/toy_members.hpp"
 #include "uav_agent/ground_node.hpp"
 
@@ -151,6 +153,54 @@ TEST(AgentNode, ShowsItsMapWhereSomebodyLooksOn) {
         return (hit.cast<double>() - cube.middle_W()).cwiseAbs().maxCoeff() <= 0.5 * cube.edge_m + 0.25;
       })) << cube.middle_W().transpose();
     }
+  }
+}
+
+// One that looks on learns what the program knows of itself, once a second, and changes none of its counts.
+TEST(AgentNode, TellsOfItselfWhereSomebodyLooksOn) {
+  constexpr std::uint64_t kSteps = 200, kLooksFrom = 100;
+  const Scenario scenario = toy_scenario(1);
+  const UavIndex uav{0};
+  const auto bus = bus::make_bus({.vendor = "inproc"});
+  ToyServer server(*bus, scenario, kSteps);
+  server.expect_uavs(scenario);
+  server.expect_router();
+  server.open_topics(ToyServer::domain_of(uav), topics::uav_topics(), "a");
+  bus::CountedWriter& odometry = server.writer(ToyServer::domain_of(uav), topics::odometry("a"));
+  bus::CountedWriter& neighbours = server.writer(ToyServer::domain_of(uav), topics::neighbour_odometry("a"));
+  server.before_step = [&](std::uint64_t k) {
+    const Tick tick = static_cast<Tick>(20 * k);
+    odometry.write(to_odometry(tick, "a", {}));
+    std::vector<NeighbourPoint> points;
+    if (k < 150) points.push_back({.node = 0});  // the station
+    neighbours.write(to_cloud(tick, points));
+  };
+  const auto viewer = bus->join(uav_domain(0, uav));
+  std::unique_ptr<bus::Reader> reader;
+  std::vector<msg::DiagnosticArray> told;
+  agent::AgentNode agent(scenario, uav, std::make_unique<Parrot>(), 0, *bus);
+  router::RouterNode router(scenario, 0, 0, *bus);
+  agent.start();
+  router.start();
+  const auto look_on = [&] {
+    if (server.k() < kLooksFrom || reader) return;
+    reader = viewer->create_reader(bus::spec(topics::diagnostics()), [&](bus::Sample&& sample) {
+      EXPECT_TRUE(decode(sample.payload, told.emplace_back()));
+    });
+  };
+  ASSERT_TRUE(take_turns({[&] { server.poll(); }, [&] { router.poll(); }, [&] { agent.poll(); }, look_on}, [&] {
+    return server.over();
+  })) << agent.waiting_for();
+  ASSERT_GE(told.size(), 4U);
+  EXPECT_LE(told.size(), 1 + (kSteps - kLooksFrom) / 20);
+  for (const msg::DiagnosticArray& array : told) {
+    const auto k = static_cast<std::uint64_t>(from_time(array.header().stamp()) / 20);
+    ASSERT_EQ(array.status().size(), 4U) << "radio, captures, flight, program";
+    EXPECT_EQ(array.status()[0].name(), "a: radio");
+    EXPECT_EQ(array.status()[0].level(), k < 150 ? 0 : 1);
+    EXPECT_EQ(array.status()[0].values()[0].value(), k < 150 ? "gcs" : "");
+    EXPECT_EQ(array.status()[3].values()[0].key(), "step");
+    EXPECT_EQ(array.status()[3].values()[0].value(), std::to_string(k));
   }
 }
 

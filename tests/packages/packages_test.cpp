@@ -140,11 +140,10 @@ TEST_F(Packages, AnInstalledFleetFliesForWhoMayNotWriteThere) {
 TEST_F(Packages, ThePackageForPythonFliesWhatIsInstalled) {
   const fs::path programs = install("runtime"), modules = install("python") / "lib/python3/dist-packages";
   const std::string flown =
-      done({"env", "-C", folder(), "-u", "SKEIN", "-u", "SKEIN_CONFIG_DIR", "-u", "SKEIN_BIN_DIR", "-u", "SKEIN_AGENT",
-            "PYTHONPATH=" + modules.string(), "PATH=" + (programs / "bin").string() + ":" + std::getenv("PATH"),
-            python_program(), "-B", "-c",
-            "import skein; print(skein.find_launcher()); "
-            "print(skein.run('towers', planner='hover', one_process=True, duration=2).status)"});
+      done(installed({"PYTHONPATH=" + modules.string(),
+                      "PATH=" + (programs / "bin").string() + ":" + std::getenv("PATH"), python_program(), "-B", "-c",
+                      "import skein; print(skein.find_launcher()); "
+                      "print(skein.run('towers', planner='hover', one_process=True, duration=2).status)"}));
   EXPECT_EQ(flown, (programs / "bin" / "skein").string() + "\ncompleted\n");
 }
 
@@ -155,28 +154,8 @@ TEST_F(Packages, APlannerInPythonFliesByWhatIsInstalled) {
   std::ofstream(folder() / "up.py") << "from skein.planner import *\nimport skein\n"
                                        "class Up(Planner):\n    def plan(self, inputs):\n"
                                        "        print(skein.__file__)\n        return PlannerOutput(Hold())\n";
-  done({"env",
-        "-C",
-        folder(),
-        "-u",
-        "SKEIN_CONFIG_DIR",
-        "-u",
-        "SKEIN_BIN_DIR",
-        "-u",
-        "SKEIN_AGENT",
-        "-u",
-        "PYTHONPATH",
-        prefix / "bin" / "skein",
-        "run",
-        "towers",
-        "--planner",
-        "py:up.py",
-        "--one-process",
-        "--duration",
-        "2",
-        "--no-report",
-        "--out",
-        "flown"});
+  done(installed({prefix / "bin" / "skein", "run", "towers", "--planner", "py:up.py", "--one-process", "--duration",
+                  "2", "--no-report", "--out", "flown"}));
   const std::string said = text_of(folder() / "flown" / "uav_agent-jurong.log");
   EXPECT_NE(said.find((prefix / "lib/python3/dist-packages/skein").string()), std::string::npos) << said;
 }
@@ -190,26 +169,9 @@ TEST_F(Packages, AProgramInPythonFliesByWhatIsInstalled) {
                                        "        uav.fly_to(step.state.p_WB + [0, 0, 1])\n"
                                        "print('flown by', skein.__file__)\n";
   const fs::path modules = prefix / "lib/python3/dist-packages";
-  done({"env",
-        "-C",
-        folder(),
-        "-u",
-        "SKEIN_CONFIG_DIR",
-        "-u",
-        "SKEIN_BIN_DIR",
-        "-u",
-        "SKEIN_AGENT",
-        "PYTHONPATH=" + modules.string(),
-        prefix / "bin" / "skein",
-        "run",
-        "towers",
-        "--planner",
-        "hover,jurong=exec:exec " + python_program() + " -B up.py",
-        "--duration",
-        "2",
-        "--no-report",
-        "--out",
-        "flown"});
+  done(installed({"PYTHONPATH=" + modules.string(), prefix / "bin" / "skein", "run", "towers", "--planner",
+                  "hover,jurong=exec:exec " + python_program() + " -B up.py", "--duration", "2", "--no-report", "--out",
+                  "flown"}));
   const std::string said = text_of(folder() / "flown" / "uav_agent-jurong.log");
   EXPECT_NE(said.find("flown by " + (modules / "skein").string()), std::string::npos) << said;
 }

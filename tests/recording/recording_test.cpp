@@ -8,6 +8,7 @@
 #include "fleet_fixture.hpp"
 #include "idl/cdr.hpp"
 #include "idl/type_names.hpp"
+#include "independent_reader.hpp"
 #include "mcap/reader.hpp"
 #include "process/run_folder.hpp"
 #include "tests/support/places.hpp"
@@ -41,23 +42,16 @@ class Recording : public FleetTest {
  protected:
   static fs::path file(const SkeinRun& run) { return run.dir() / run_folder::kRecording; }
 
-  /// The npm packages of check.mjs, once for all tests. Skips where they cannot be had.
+  /// Skips where the packages of check.mjs cannot be had.
   void need_independent_reader() {
-    if (std::system("command -v node >/dev/null && command -v npm >/dev/null") != 0) {
-      GTEST_SKIP() << "node or npm is missing: no independent reader";
-    }
-    const std::string to = build_path("recording_check"), from = source_path("tests/recording");
-    const std::string install = "mkdir -p " + to + " && cd " + to + " && exec 9>.lock && flock 9 && cp " + from +
-                                "/package.json " + from + "/package-lock.json " + from + "/check.mjs . && " +
-                                "if ! cmp -s package-lock.json .installed; then npm ci --no-audit --no-fund >npm.log " +
-                                "2>&1 && cp package-lock.json .installed; fi";
-    if (std::system(install.c_str()) != 0) GTEST_SKIP() << "npm cannot install the reader: see " << to << "/npm.log";
+    const std::string why = install_reader(source_path("tests/recording/check.mjs"));
+    if (!why.empty()) GTEST_SKIP() << why;
   }
   /// What the independent reader found. @param mode  "" or "stream"
   Json read_by_others(const fs::path& recording, const std::string& mode = "") {
     const fs::path answer = folder() / "answer.json";
-    const std::string command = "node " + build_path("recording_check") + "/check.mjs " + recording.string() + " " +
-                                mode + " >" + answer.string() + " 2>" + (folder() / "check.err").string();
+    const std::string command = "node " + reader_folder() + "/check.mjs " + recording.string() + " " + mode + " >" +
+                                answer.string() + " 2>" + (folder() / "check.err").string();
     EXPECT_EQ(std::system(command.c_str()), 0) << text_of(folder() / "check.err");
     return Json::parse(text_of(answer), nullptr, false);
   }

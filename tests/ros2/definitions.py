@@ -9,7 +9,7 @@ import sys
 
 from ament_index_python.packages import PackageNotFoundError, get_package_share_directory
 
-PRIMITIVES = {"boolean": "bool", "octet": "uint8", "long": "int32", "unsigned long": "uint32",
+PRIMITIVES = {"boolean": "bool", "octet": "uint8", "int8": "int8", "long": "int32", "unsigned long": "uint32",
               "long long": "int64", "unsigned long long": "uint64", "float": "float32", "double": "float64",
               "string": "string"}
 

@@ -1,9 +1,11 @@
 """A planner that does what a node in the lock-step must not, after two simulated seconds.
 
     odd_node.py thread|throw|service|late|stall
+    odd_node.py nothing|hesitate   and what it may: hesitate computes for a second of wall time
 """
 import sys
 import threading
+import time
 
 from rcl_interfaces.srv import GetParameters
 from skein_ros import Planner, run
@@ -32,6 +34,10 @@ class Odd(Planner):
             self.create_publisher(String, f"/{self.uav}/debug/late", 10)
         elif sys.argv[1] == "stall":
             while True:  # a sleep would take simulated time alone
+                pass
+        elif sys.argv[1] == "hesitate" and inputs.time_s < 2.05:
+            until = time.monotonic() + 1.0
+            while time.monotonic() < until:
                 pass
 
 

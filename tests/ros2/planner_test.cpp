@@ -1,12 +1,14 @@
 // Planners that are ROS 2 nodes (ros2/skein_ros): they fly and score in the lock-step, alike over both middlewares and
 // in each repeat, and what they must not do is named.
 #include <fmt/format.h>
+#include <signal.h>
 
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
 #include <functional>
 #include <set>
+#include <tuple>
 
 #include "core/radio_routes.hpp"
 #include "core/topics.hpp"
@@ -73,6 +75,98 @@ TEST_F(RosPlanner, ThatAFaultKillsOrStopsComesBack) {
     SkeinRun& done = run_with(middleware, middleware, flight);
     EXPECT_TRUE(done.result()["deterministic"]) << done.err();
     EXPECT_GT(done.result()["uavs"][0]["distance_m"], 10.0);
+    digests.insert(done.digest());
+  }
+  EXPECT_EQ(digests.size(), 1U);
+}
+
+/// The words in a file of /proc of a process.
+std::vector<std::string> words_in(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::vector<std::string> words;
+  for (std::string word; std::getline(stream, word, '\0');) words.push_back(word);
+  return words;
+}
+
+// Nobody waits for one that a fault keeps away from the start on; it joins later, and flies as in each repeat.
+TEST_F(RosPlanner, ThatJoinsLateFlies) {
+  const auto faults = write("faults.yaml", "faults:\n  - {at_s: 0.05, until_s: 6, kill: jurong}\n");
+  const Arguments flight = {"towers",   "--planner", "hover,jurong=ros:skein_ros_examples/circle", "--duration", "20",
+                            "--faults", faults};
+  std::set<std::string> digests;
+  for (const auto* middleware : kMiddlewares) {
+    SkeinRun& done = run_with(middleware, middleware, flight);
+    EXPECT_TRUE(done.result()["deterministic"]) << done.err();
+    EXPECT_GT(done.result()["uavs"][0]["distance_m"], 8.0);
+    digests.insert(done.digest());
+  }
+  EXPECT_EQ(digests.size(), 1U);
+}
+
+// Killed from outside and started again by hand, with what the launcher had given it.
+TEST_F(RosPlanner, ThatIsKilledAndStartedAgainFliesOn) {
+  for (const auto* middleware : kMiddlewares) {
+    SkeinRun& fleet = start_with(middleware, middleware,
+                                 {"towers", "--planner", "hover,jurong=ros:skein_ros_examples/circle", "--clock",
+                                  "realtime:4", "--duration", "600", "--no-oracle"});
+    ASSERT_TRUE(fleet.wait_until_flying()) << fleet.err();
+    const pid_t node = processes_of(fleet.dir()).at("uav_agent-jurong");
+    const std::filesystem::path proc = "/proc/" + std::to_string(node);
+    const Arguments argv = words_in(proc / "cmdline");
+    Environment environment;
+    for (const std::string& entry : words_in(proc / "environ")) {
+      environment[entry.substr(0, entry.find('='))] = entry.substr(entry.find('=') + 1);
+    }
+    ASSERT_EQ(::kill(node, SIGKILL), 0);
+    const std::filesystem::path log = fleet.dir() / "sim_server.log";
+    ASSERT_TRUE(eventually([&] { return text_of(log).find("jurong is lost") != std::string::npos; })) << text_of(log);
+    ChildProcess& again = start_program(std::string("again_") + middleware, argv, environment);
+    ASSERT_TRUE(fleet.wait_for("jurong was started again by somebody else")) << fleet.err() << again.err();
+    const auto flown_s = [&] {
+      const auto rows = read_csv(fleet.dir() / "trajectories.csv");
+      return rows.empty() ? 0.0 : std::stod(rows[rows.size() - kFleet.size()].at("time_s"));
+    };
+    const double back_s = flown_s();
+    EXPECT_TRUE(eventually([&] { return flown_s() > back_s + 15.0; })) << fleet.err() << again.err();
+    fleet.skein().signal(SIGINT);
+    fleet.exit_code();
+    again.wait();
+    const Json lost = fleet.result()["lost_members"];
+    ASSERT_EQ(lost.size(), 1U);
+    ASSERT_TRUE(lost[0]["back_at_s"].is_number()) << lost;
+    std::set<int> places;  // on its circle, by whole metres
+    for (const auto& row : read_csv(fleet.dir() / "trajectories.csv")) {
+      const bool since = std::stod(row.at("time_s")) > lost[0]["back_at_s"].get<double>() + 2.0;
+      if (since && row.at("uav") == "jurong") places.insert(static_cast<int>(std::stod(row.at("x"))));
+    }
+    EXPECT_GT(places.size(), 3U) << "it flies on";
+  }
+}
+
+// With its UAV's certificate, over the fleet's own vendor; any other is refused before anything starts.
+TEST_F(RosPlanner, FliesInASecuredFleetOfItsVendor) {
+  const Arguments flight = {"towers", "--planner", "hover,jurong=ros:skein_ros_examples/circle", "--duration", "10"};
+  std::set<std::string> digests = {run_with("cyclonedds", "open", flight).digest()};
+  for (const auto& [middleware, vendor, other] :
+       {std::tuple("cyclonedds", "cyclonedds", "fastdds"), {"fastrtps", "fastdds", "cyclonedds"}}) {
+    SkeinRun& done = run_with(middleware, middleware, joined(flight, {"--secure", "--dds", vendor}));
+    EXPECT_TRUE(done.result()["deterministic"]) << done.err();
+    EXPECT_GT(done.result()["uavs"][0]["distance_m"], 5.0);
+    digests.insert(done.digest());
+    const std::string refused = std::string("refused_") + middleware;
+    const std::string why = run_with(middleware, refused, joined(flight, {"--secure", "--dds", other}), 2).err();
+    EXPECT_NE(why.find("RMW_IMPLEMENTATION="), std::string::npos) << why;
+  }
+  EXPECT_EQ(digests.size(), 1U);
+}
+
+// The fleet waits for one that takes its time, and nothing comes out otherwise.
+TEST_F(RosPlanner, ThatHesitatesChangesNothing) {
+  std::set<std::string> digests;
+  for (const char* what : {"nothing", "hesitate"}) {
+    const std::string node = "exec:python3 " + source_path("tests/ros2/odd_node.py") + " " + what;
+    SkeinRun& done = run_with("fastrtps", what, {"towers", "--planner", "hover,jurong=" + node, "--duration", "10"});
+    EXPECT_TRUE(done.result()["deterministic"]) << done.err();
     digests.insert(done.digest());
   }
   EXPECT_EQ(digests.size(), 1U);
@@ -151,13 +245,9 @@ class RosMessages : public WorkspaceTest, public testing::WithParamInterface<con
 TEST_P(RosMessages, AreTheSameBytesForRosAndForSkein) {
   constexpr const char* kCount = "40";
   const auto script = [&](const char* what, const std::string& file) {
-    ChildProcess& python =
-        start_node(what, GetParam(), 0, "",
-                   "env PYTHONPATH=" + workspace() +
-                       "/local/lib/python3.11/dist-packages:$PYTHONPATH"
-                       " LD_LIBRARY_PATH=" +
-                       workspace() + "/lib:$LD_LIBRARY_PATH python3 " + source_path("tests/ros2/message_bytes.py ") +
-                       what + " " + file + " " + kCount);
+    ChildProcess& python = start_node(
+        what, GetParam(), 0, "",
+        with_workspace("python3 " + source_path("tests/ros2/message_bytes.py ") + what + " " + file + " " + kCount));
     ASSERT_EQ(python.wait().code, 0) << python.err();
   };
   const std::string theirs = folder() / "theirs", ours = folder() / "ours";

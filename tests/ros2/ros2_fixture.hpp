@@ -34,11 +34,7 @@ class Ros2Test : public FleetTest {
 
   /// The agent for which the fleet has waited, by the command that the launcher printed.
   ChildProcess& start_agent(const SkeinRun& run) {
-    const std::string text = run.err(), gdb = "gdb --args ";
-    const std::size_t at = text.find(gdb), begin = text.rfind('\n', at) + 1, end = text.find('\n', at);
-    return start_program(
-        "agent", {"/bin/sh", "-c",
-                  "exec env " + text.substr(begin, at - begin) + text.substr(at + gdb.size(), end - at - gdb.size())});
+    return start_program("agent", {"/bin/sh", "-c", run.debug_command()});
   }
 };
 

@@ -1,18 +1,16 @@
 // What a ROS 2 node sees that looks on in the world's domain as RViz 2 does, and whether Skein's messages are those of
-// ROS 2. visualization_msgs and tf2_msgs, which the tests' ROS 2 has not got, are built from Skein's IDL; octomap_msgs,
-// which it has not got either and which no node of the world's domain reads, is not compared.
+// ROS 2. visualization_msgs and tf2_msgs, which the tests' ROS 2 has not got, are built from Skein's IDL.
 #include <algorithm>
 #include <cmath>
 
 #include "core/topics.hpp"
-#include "ros2_fixture.hpp"
+#include "packages_fixture.hpp"
 #include "tests/support/places.hpp"
 
 namespace skein::test {
 namespace {
 
 const Arguments kWatched = {"towers", "--planner", "patrol", "--stop-at", "40"};
-const std::string kPackages = build_path("ros2_packages");
 
 class Ros2Definitions : public Ros2Test {};
 
@@ -25,32 +23,18 @@ TEST_F(Ros2Definitions, AreThoseOfOurIdl) {
   EXPECT_GE(found["same"].size(), 24U);
   for (const Json& name : found["missing"]) {
     const std::string type = name;
-    const bool known = type.starts_with("skein_msgs/") || type.starts_with("visualization_msgs/") ||
-                       type.starts_with("tf2_msgs/") || type.starts_with("octomap_msgs/") ||
-                       type == "std_msgs/Float64" || type == "sensor_msgs/CompressedImage" ||
-                       type == "sensor_msgs/JointState" || type == "sensor_msgs/BatteryState";
+    const bool known =
+        type.starts_with("skein_msgs/") || type.starts_with("visualization_msgs/") || type.starts_with("tf2_msgs/") ||
+        type.starts_with("octomap_msgs/") || type.starts_with("diagnostic_msgs/") || type == "std_msgs/Float64" ||
+        type == "sensor_msgs/CompressedImage" || type == "sensor_msgs/JointState" || type == "sensor_msgs/BatteryState";
     EXPECT_TRUE(known) << type << " is not in ROS 2";
   }
 }
 
-class Ros2Viewer : public Ros2Test, public testing::WithParamInterface<std::string> {
+class Ros2Viewer : public ExtraMessagesTest, public testing::WithParamInterface<std::string> {
  protected:
-  void SetUp() override {
-    Ros2Test::SetUp();
-    if (IsSkipped() || HasFatalFailure()) return;
-    ChildProcess& build =
-        start_node("build", "cyclonedds", 1, "",
-                   "flock " + kPackages + ".lock python3 " + source_path("tests/ros2/message_packages.py") + " " +
-                       source_path("idl") + " " + kPackages + " tf2_msgs visualization_msgs");
-    ASSERT_EQ(build.wait().code, 0) << build.err();
-  }
-
   ChildProcess& start_viewer(const std::string& middleware, int domain) {
-    return start_node(middleware, middleware, domain, "",
-                      "env PYTHONPATH=$(echo " + kPackages + "/local/lib/python3*/dist-packages):$PYTHONPATH " +
-                          "LD_LIBRARY_PATH=" + kPackages + "/lib:$LD_LIBRARY_PATH AMENT_PREFIX_PATH=" + kPackages +
-                          ":$AMENT_PREFIX_PATH python3 " + source_path("tests/ros2/viewer.py") + " " +
-                          file(middleware));
+    return start_looker(middleware, domain, "python3 " + source_path("tests/ros2/viewer.py") + " " + file(middleware));
   }
 
   void expect_all_seen(const SkeinRun& run, const std::string& viewer) const;

@@ -1,4 +1,4 @@
-// The packages of ros2/, built once with the real ROS 2 of the tests, and fleets with their nodes.
+// The packages of ros2/, built once by colcon with the real ROS 2 of the tests, and fleets with their nodes.
 #pragma once
 
 #include <sstream>
@@ -12,35 +12,45 @@ class WorkspaceTest : public Ros2Test {
   void SetUp() override {
     Ros2Test::SetUp();
     if (IsSkipped() || HasFatalFailure()) return;
-    ChildProcess& build =
-        start_program("build", {"/bin/bash", "-c",
-                                "exec 9>\"$2.lock\"; flock 9; . \"$1/env.sh\" fastrtps 0; export CXXFLAGS=-O1; "
-                                "if command -v ccache >/dev/null; then export CMAKE_C_COMPILER_LAUNCHER=ccache "
-                                "CMAKE_CXX_COMPILER_LAUNCHER=ccache; fi; exec \"$3/ros2/build.sh\" \"$2\"",
-                                "bash", build_path("ros2"), workspace(), source_path("")});
+    if (std::system("command -v colcon >/dev/null") != 0) GTEST_SKIP() << "no colcon: apt-get install colcon";
+    ChildProcess& build = start_program(
+        "build", {"/bin/bash", "-c",
+                  "mkdir -p \"$2\"; exec 9>\"$2.lock\"; flock 9; . \"$1/env.sh\" fastrtps 0; export CXXFLAGS=-O1; "
+                  "if command -v ccache >/dev/null; then export CMAKE_C_COMPILER_LAUNCHER=ccache "
+                  "CMAKE_CXX_COMPILER_LAUNCHER=ccache; fi; cd \"$2\"; exec colcon build --base-paths \"$3/ros2\"",
+                  "bash", build_path("ros2"), workspace(), source_path("")});
     const auto is_built = [&] { return build.ended().has_value(); };
     ASSERT_TRUE(eventually(is_built, std::chrono::minutes(15))) << "the packages take longer than any other test";
     ASSERT_EQ(build.wait().code, 0) << build.out() << build.err();
   }
 
-  std::string workspace() const { return build_path("ros2_workspace"); }
+  /// Where colcon was called: with build/, install/ and log/.
+  std::string workspace() const { return build_path("colcon"); }
+  std::string installed(const std::string& package) const { return workspace() + "/install/" + package; }
+  /// For a shell in which ROS 2 is set up.
+  std::string with_workspace(const std::string& command) const {
+    return "bash -c '. " + workspace() + "/install/setup.sh; exec " + command + "'";
+  }
 
   /// A run whose launcher has the workspace set up, with one middleware for its nodes.
   SkeinRun& run_with(const std::string& middleware, const std::string& name, const Arguments& arguments,
                      int exit_code = 0, Environment more = {}) {
-    more.merge(environment(middleware));
+    more.merge(ros_environment(middleware));
     return run(name, arguments, more, exit_code);
+  }
+  SkeinRun& start_with(const std::string& middleware, const std::string& name, const Arguments& arguments) {
+    return start(name, arguments, ros_environment(middleware));
   }
   std::string log_of(const SkeinRun& run, const std::string& uav = "jurong") const {
     return text_of(run.dir() / ("uav_agent-" + uav + ".log"));
   }
 
- private:
-  /// What a shell has after the setup files.
-  Environment environment(const std::string& middleware) {
+  /// What a shell has after the setup files. @param setup  the workspace's; none: of ROS 2 alone
+  Environment ros_environment(const std::string& middleware, const std::string& setup = "setup.sh") {
+    const std::string file = setup.empty() ? "/dev/null" : workspace() + "/install/" + setup;
     ChildProcess& shell = start_program(
-        "environment-" + middleware, {"/bin/bash", "-c", ". \"$1/env.sh\" \"$2\" 0; . \"$3/setup.sh\"; LD_PRELOAD= env",
-                                      "bash", build_path("ros2"), middleware, workspace()});
+        "environment-" + middleware, {"/bin/bash", "-c", ". \"$1/env.sh\" \"$2\" 0; . \"$3\"; LD_PRELOAD= env", "bash",
+                                      build_path("ros2"), middleware, file});
     EXPECT_EQ(shell.wait().code, 0) << shell.err();
     Environment variables;
     std::istringstream lines(shell.out());

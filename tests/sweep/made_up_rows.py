@@ -9,12 +9,12 @@ import random
 import sys
 from pathlib import Path
 
-folder, planners, scenes, seeds = Path(sys.argv[1]), *map(int, sys.argv[2:5])
+folder, planners, scenes, seeds = Path(sys.argv[1]).resolve(), *map(int, sys.argv[2:5])
 names = ["hover", "patrol", "kios", "xxh", "star"][:planners]
 count, unit = planners * scenes * seeds, 30
 draw = random.Random(1)
 sweep = folder / "sweep"
-(sweep / "done" / "made-up").mkdir(parents=True)
+(sweep / "done" / "made-up").mkdir(parents=True, exist_ok=True)
 command = ["compare", "--planners", ",".join(names), "--scenarios", "towers", "--scene-seeds", f"0-{scenes - 1}",
            "--seeds",
            f"0-{seeds - 1}", "--executor", "local", "--out", str(folder)]

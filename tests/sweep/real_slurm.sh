@@ -2,6 +2,8 @@
 # A Slurm of its own on this machine: munged, slurmctld, and a slurmd for each of two nodes of one core. No systemd, no
 # cgroups. Runs until it is told to end; then nothing of it is left, nor if it is killed.
 #   real_slurm.sh FOLDER     FOLDER/slurm.conf is for SLURM_CONF; FOLDER/ready appears once jobs may come
+# The process in FOLDER/slurmctld.pid may be killed: another one takes its place. With the one in FOLDER/node-n2.pid all
+# that runs on that node is gone, as when its power fails; it stays so.
 # Exit code 77: it cannot run here, and says why.
 set -eu
 folder=$1
@@ -10,6 +12,7 @@ for program in slurmctld slurmd sbatch munged; do
   PATH=$PATH:/usr/sbin:/sbin command -v $program >/dev/null ||
     { echo "there is no $program: apt-get install slurmctld slurmd slurm-client munge"; exit 77; }
 done
+unshare --pid --fork --kill-child --mount-proc true 2>/dev/null || { echo "no PID namespaces here"; exit 77; }
 PATH=$PATH:/usr/sbin:/sbin
 mkdir -p "$folder/state" "$folder/spool-n1" "$folder/spool-n2" "$folder/munge"
 chmod 0755 "$folder"
@@ -43,6 +46,7 @@ SelectTypeParameters=CR_CPU
 SchedulerParameters=batch_sched_delay=0,sched_interval=1
 ReturnToService=2
 KillWait=5
+SlurmdTimeout=10
 MinJobAge=300
 MaxArraySize=8
 NodeName=n1 NodeHostname=$(hostname) NodeAddr=127.0.0.1 Port=$2 CPUs=1 State=UNKNOWN
@@ -54,7 +58,7 @@ export SLURM_CONF="$folder/slurm.conf"
 daemons=
 end() {
   trap - EXIT
-  kill $daemons 2>/dev/null || true
+  kill -KILL $daemons 2>/dev/null || true  # with `unshare` all of its node
   wait
 }
 trap end EXIT
@@ -66,8 +70,11 @@ start() { setpriv --pdeathsig KILL "$@" >/dev/null 2>&1 & daemons="$daemons $!";
 start munged --foreground --force --key-file="$folder/munge/key" --socket="$folder/munge/socket" \
   --pid-file="$folder/munge/pid" --seed-file="$folder/munge/seed" --log-file="$folder/munge/log"
 until [ -S "$folder/munge/socket" ]; do sleep 0.1; done
-start slurmctld -D
-for node in n1 n2; do start slurmd -D -N $node; done
+start sh -c 'while setpriv --pdeathsig KILL slurmctld -D || [ $? -eq 137 ]; do :; done'
+for node in n1 n2; do
+  start unshare --pid --fork --kill-child --mount-proc slurmd -D -N $node
+  echo $! >"$folder/node-$node.pid"
+done
 until [ "$(sinfo --noheader --states=idle --format=%D 2>/dev/null)" = 2 ]; do
   for daemon in $daemons; do kill -0 "$daemon" || { tail -n 5 "$folder"/*.log; exit 1; }; done
   sleep 0.2

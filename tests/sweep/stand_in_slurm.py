@@ -3,7 +3,8 @@
 
 Obeys what Skein asks of the real ones: --array with %N, --dependency=afterany, --job-name, --output, --open-mode,
 --requeue, --signal, --time, --exclude, --parsable. Jobs are in the folder STAND_IN_SLURM, which `nodes` (names, one a
-line) and `limits` belong to; each job has a process of its own that runs its tasks, one on each node at a time.
+line) and `limits` belong to. A file `time is over` is the limit of time of the next task that has one. Each job has a
+process of its own that runs its tasks, one on each node at a time.
 Options that it does not know are errors, as with the real one.
 """
 import fcntl
@@ -93,7 +94,7 @@ def start_task(number, job, task, node):
 
 def serve(number):
     """Runs the tasks of a job to their ends."""
-    running = {}
+    running, over = {}, STATE / "time is over"
     while True:
         with Locked() as jobs:
             job = jobs[number]
@@ -102,9 +103,10 @@ def serve(number):
             for task, (process, begun, told) in list(running.items()):
                 if job["cancelled"]:
                     os.killpg(process.pid, signal.SIGKILL)
-                if limit is not None and not told and time.monotonic() - begun > limit:
+                if limit is not None and not told and (time.monotonic() - begun > limit or over.exists()):
                     process.send_signal(signal.SIGTERM)  # B: the batch shell alone
                     running[task] = (process, begun, True)
+                    over.unlink(missing_ok=True)
                 if process.poll() is None:
                     continue
                 # A node that dies: its task is put back into the queue, as --requeue asks.

@@ -19,7 +19,17 @@ const note = (...what) => process.env.FIGURES && console.error(...what);
 const flight = await makeUp(feeder, door);
 const {browser, page, complaints} = await openRun([web, chromium, door]);
 const devtools = await page.createCDPSession();
-const figures = () => page.evaluate(() => globalThis.skein.figures());
+/** A page whose connection was cut, as on a machine that is very busy, loads itself anew: it is asked again then. */
+async function figures() {
+  for (;;) {
+    try {
+      await page.waitForFunction(() => globalThis.skein !== undefined);
+      return await page.evaluate(() => globalThis.skein.figures());
+    } catch (error) {
+      if (!/context was destroyed|navigation/.test(error.message)) throw error;
+    }
+  }
+}
 
 /** Flies to a simulated time, and waits until the page shows it. */
 async function flyTo(seconds) {

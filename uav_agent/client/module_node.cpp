@@ -66,6 +66,38 @@ class Home {
   const std::thread::id thread_ = std::this_thread::get_id();
 };
 
+/// A node and its bus, until close(). One process and thread uses both.
+template <class Node>
+class Joined {
+ public:
+  Joined(std::unique_ptr<bus::Bus> bus, std::unique_ptr<Node> node) : bus_(std::move(bus)), node_(std::move(node)) {}
+  Joined(const Joined&) = delete;
+  Joined& operator=(const Joined&) = delete;
+  ~Joined() { close(); }
+
+  /// @throws WrongUse after close(), from another thread and in a copy of the process.
+  Node& node() {
+    home_.check();
+    if (!node_) throw WrongUse("it is closed");
+    return *node_;
+  }
+  void close() {
+    if (home_.is_copy()) {  // the vendors' threads are not here, and would be waited for
+      static_cast<void>(node_.release());
+      static_cast<void>(bus_.release());
+      return;
+    }
+    const py::gil_scoped_release released;
+    node_.reset();
+    bus_.reset();
+  }
+
+ private:
+  const Home home_;
+  std::unique_ptr<bus::Bus> bus_;
+  std::unique_ptr<Node> node_;
+};
+
 ProgramOptions options_of(const std::string& dds, std::uint64_t run, const std::string& security, int lease_s) {
   ProgramOptions options;
   options.dds = dds;
@@ -164,26 +196,13 @@ class Member {
   Member(const std::string& scenario, const std::string& name, int domain, const std::string& dds, std::uint64_t run,
          const std::string& security, const std::vector<std::string>& reads, const std::vector<std::string>& writes,
          int lease_s)
-      : scenario_(scenario_of(scenario)) {
-    const Node node = node_named(scenario_, name);
-    UserTopics topics;
-    for (const std::string& topic : reads) topics.reads.push_back(known_topic(topic, name));
-    for (const std::string& topic : writes) topics.writes.push_back(known_topic(topic, name));
-    ProgramOptions options = options_of(dds, run, security, lease_s);
-    options.domain = domain - node_domain(0, node);  // the fleet's first one, by which networks are numbered
-    if (const char* network = std::getenv("SKEIN_NETWORK"); network != nullptr && *network != '\0') {
-      options.network = network;
-    }
-    bus_ = bus::make_bus(options, scenario_);
-    node_ = std::make_unique<UserNode>(scenario_, node, domain, *bus_, std::move(topics));
-  }
+      : scenario_(scenario_of(scenario)), joined_(join(name, domain, dds, run, security, reads, writes, lease_s)) {}
   Member(const Member&) = delete;
   Member& operator=(const Member&) = delete;
-  ~Member() { close(); }
 
   /// Waits for the next step. @returns false after the last one.
   bool next() {
-    UserNode& node = checked();
+    UserNode& node = joined_.node();
     {
       const py::gil_scoped_release released;
       if (!std::exchange(started_, true)) node.start();
@@ -210,7 +229,7 @@ class Member {
   bool final_step() { return in_step().step().final_step(); }
   bool station_linked() { return in_step().station_linked(); }
   std::size_t undelivered() { return in_step().undelivered(); }
-  int joins() { return checked().joins(); }
+  int joins() { return joined_.node().joins(); }
 
   std::string say(const std::string& topic, const py::bytes& payload) {
     static constexpr const char* kSaid[] = {"sent", "undeclared", "full", "closed"};
@@ -223,25 +242,27 @@ class Member {
   py::tuple sending(const std::string& topic) { return status(in_step().sending(topic)); }
   py::tuple listening(const std::string& topic) { return status(in_step().listening(topic)); }
 
-  void close() {
-    if (home_.is_copy()) {  // the vendors' threads are not here, and would be waited for
-      static_cast<void>(node_.release());
-      static_cast<void>(bus_.release());
-      return;
-    }
-    const py::gil_scoped_release released;
-    node_.reset();
-    bus_.reset();
-  }
+  void close() { joined_.close(); }
 
  private:
-  UserNode& checked() {
-    home_.check();
-    if (!node_) throw WrongUse("it is closed");
-    return *node_;
+  Joined<UserNode> join(const std::string& name, int domain, const std::string& dds, std::uint64_t run,
+                        const std::string& security, const std::vector<std::string>& reads,
+                        const std::vector<std::string>& writes, int lease_s) {
+    const Node node = node_named(scenario_, name);
+    UserTopics topics;
+    for (const std::string& topic : reads) topics.reads.push_back(known_topic(topic, name));
+    for (const std::string& topic : writes) topics.writes.push_back(known_topic(topic, name));
+    ProgramOptions options = options_of(dds, run, security, lease_s);
+    options.domain = domain - node_domain(0, node);  // the fleet's first one, by which networks are numbered
+    if (const char* network = std::getenv("SKEIN_NETWORK"); network != nullptr && *network != '\0') {
+      options.network = network;
+    }
+    auto bus = bus::make_bus(options, scenario_);
+    auto user = std::make_unique<UserNode>(scenario_, node, domain, *bus, std::move(topics));
+    return {std::move(bus), std::move(user)};
   }
   UserNode& in_step() {
-    UserNode& node = checked();
+    UserNode& node = joined_.node();
     if (!node.has_step()) throw WrongUse("there is no step to be answered: take one first");
     return node;
   }
@@ -259,9 +280,10 @@ class Member {
   }
 
   void end() {
-    const bus::NodeEnd end = *node_->end();
-    const std::string name = node_->member();
-    const bool late = node_->came_too_late();
+    const UserNode& node = joined_.node();
+    const bus::NodeEnd end = *node.end();
+    const std::string name = node.member();
+    const bool late = node.came_too_late();
     close();
     if (end == bus::NodeEnd::server_gone) throw Lost(name + ": sim_server is gone");
     if (end != bus::NodeEnd::finished && end != bus::NodeEnd::stopped) {
@@ -270,30 +292,22 @@ class Member {
     if (late) spdlog::info("{}: the run was over", name);
   }
 
-  const Home home_;
   const Scenario scenario_;
-  std::unique_ptr<bus::Bus> bus_;
-  std::unique_ptr<UserNode> node_;
+  Joined<UserNode> joined_;
   bool started_ = false;
 };
 
 class Listener {
  public:
   Listener(int domain, const std::string& dds, std::uint64_t run, const std::string& security, const std::string& id,
-           const std::vector<std::pair<std::string, std::string>>& topics, std::size_t most) {
-    std::vector<topics::WireTopic> wire;
-    for (const auto& [topic, type] : topics) wire.push_back(topic_of(topic, type, id));
-    constexpr int kLease_s = 20;
-    bus_ = bus::make_bus({.vendor = dds, .lease_s = kLease_s, .security = security, .run = RunId{run}});
-    node_ = std::make_unique<ListenerNode>(*bus_, domain, wire, most);
-  }
+           const std::vector<std::pair<std::string, std::string>>& topics, std::size_t most)
+      : joined_(join(domain, dds, run, security, id, topics, most)) {}
   Listener(const Listener&) = delete;
   Listener& operator=(const Listener&) = delete;
-  ~Listener() { close(); }
 
   /// (topic, payload), or None when nothing came within `timeout_s`.
   py::object next(double timeout_s) {
-    ListenerNode& node = checked();
+    ListenerNode& node = joined_.node();
     for (auto left = std::chrono::milliseconds(static_cast<std::int64_t>(1e3 * timeout_s));; left -= kLook) {
       std::optional<ListenerNode::Heard> heard;
       {
@@ -305,30 +319,24 @@ class Listener {
       if (left <= kLook) return py::none();
     }
   }
-  bool has_writers() { return checked().has_writers(); }
-  std::uint64_t missed() { return checked().missed(); }
+  bool has_writers() { return joined_.node().has_writers(); }
+  std::uint64_t missed() { return joined_.node().missed(); }
 
-  void close() {
-    if (home_.is_copy()) {
-      static_cast<void>(node_.release());
-      static_cast<void>(bus_.release());
-      return;
-    }
-    const py::gil_scoped_release released;
-    node_.reset();
-    bus_.reset();
-  }
+  void close() { joined_.close(); }
 
  private:
-  ListenerNode& checked() {
-    home_.check();
-    if (!node_) throw WrongUse("it is closed");
-    return *node_;
+  static Joined<ListenerNode> join(int domain, const std::string& dds, std::uint64_t run, const std::string& security,
+                                   const std::string& id,
+                                   const std::vector<std::pair<std::string, std::string>>& topics, std::size_t most) {
+    std::vector<topics::WireTopic> wire;
+    for (const auto& [topic, type] : topics) wire.push_back(topic_of(topic, type, id));
+    constexpr int kLease_s = 20;
+    auto bus = bus::make_bus({.vendor = dds, .lease_s = kLease_s, .security = security, .run = RunId{run}});
+    auto node = std::make_unique<ListenerNode>(*bus, domain, wire, most);
+    return {std::move(bus), std::move(node)};
   }
 
-  const Home home_;
-  std::unique_ptr<bus::Bus> bus_;
-  std::unique_ptr<ListenerNode> node_;
+  Joined<ListenerNode> joined_;
 };
 
 }  // namespace

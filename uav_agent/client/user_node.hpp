@@ -33,7 +33,7 @@ struct UserTopics {
   std::vector<topics::WireTopic> writes;
 };
 
-class UserNode final : public MemberNode {
+class UserNode : public MemberNode {
  public:
   /// @param node  of the radio: a UAV's, or the station's. @param domain  of the DDS.
   UserNode(const Scenario& scenario, Node node, int domain, bus::Bus& bus, UserTopics topics);
@@ -66,14 +66,16 @@ class UserNode final : public MemberNode {
   bus::RadioTopics::Status sending(const std::string& topic) const { return radio_->sending(topic); }
   bus::RadioTopics::Status listening(const std::string& topic) const { return radio_->listening(topic); }
 
+ protected:
+  void declare(bus::LockstepClient& client) override;
+  bool may_think() override;
+
  private:
   struct Opened {
     std::string type;
     std::vector<std::string> targets;
   };
 
-  void declare(bus::LockstepClient& client) override;
-  bool may_think() override;
   void work(const bus::LockstepClient::Step&) override {}
   void send(bus::LockstepClient& client) override;
   void read(bus::LockstepClient& client, const topics::WireTopic& topic, bus::LockstepClient::Counterpart counterpart);

@@ -81,4 +81,12 @@ std::optional<std::vector<Vector3d>> find_voxel_route(const VoxelGrid& grid, con
   return Router(grid, space, from_W, to_W, claimed).run(config);
 }
 
+std::optional<std::vector<bool>> voxels_in_reach(const VoxelGrid& grid, const FreeSpace& space,
+                                                 const Vector3d& from_W) {
+  const auto from = grid.at(from_W);
+  if (!from) return std::nullopt;
+  return voxels_in_reach(
+      grid, *from, [&](Id id) { return grid.state(id) != VoxelState::occupied && space.free(grid.centre_W(id)); });
+}
+
 }  // namespace skein::agent

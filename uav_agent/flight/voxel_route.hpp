@@ -1,7 +1,6 @@
 // From one place to another by the cubes of a voxel grid, as corners that can be flown: straight where nothing is in
-// the way; else A* through the graph, shortened where
-// a short cut is free, too. What the graph takes to be free is checked
-// against the finer map (free_space.hpp); a cube that fails is left out, and the search begins again.
+// the way; else A* through the graph, shortened where a short cut is free, too. What the graph takes to be free is
+// checked against the finer map (free_space.hpp); a cube that fails is left out, and the search begins again.
 // Frame W.   Units: metres.   Pure and deterministic: effort is bounded by counts.
 #pragma once
 
@@ -26,5 +25,10 @@ std::optional<std::vector<Vector3d>> find_voxel_route(const VoxelGrid& grid, con
                                                       const Vector3d& from_W, const Vector3d& to_W,
                                                       const std::set<VoxelGrid::Id>& claimed = {},
                                                       const VoxelRouteConfig& config = {});
+
+/// The cubes to which find_voxel_route() finds a way, as far as their middles tell: the way to a place in a cube
+/// beside them may be free, too.
+/// @returns nullopt outside the grid, or if they are too many to say.
+std::optional<std::vector<bool>> voxels_in_reach(const VoxelGrid& grid, const FreeSpace& space, const Vector3d& from_W);
 
 }  // namespace skein::agent

@@ -74,9 +74,12 @@ Vector3d VoxelGrid::centre_W(Id id) const {
 }
 
 std::optional<VoxelGrid::Id> VoxelGrid::neighbour(Id id, int face) const {
-  Cell next = cell(id);
-  next[face / 2] += face % 2 == 0 ? 1 : -1;
-  return at(next);
+  const int axis = face / 2;
+  const bool up = face % 2 == 0;
+  const int stride = axis == 0 ? 1 : axis == 1 ? dims_.x() : dims_.x() * dims_.y();
+  const int along = static_cast<int>(id) / stride % dims_[axis];
+  if (along == (up ? dims_[axis] - 1 : 0)) return std::nullopt;
+  return static_cast<Id>(static_cast<int>(id) + (up ? stride : -stride));
 }
 
 Vector3d VoxelGrid::normal_W(int face) const { return (face % 2 == 0 ? 1.0 : -1.0) * X_WG_.linear().col(face / 2); }

@@ -1,6 +1,7 @@
 #include "uav_agent/maps/voxel_search.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <queue>
@@ -13,20 +14,111 @@ using Id = VoxelGrid::Id;
 using Cell = VoxelGrid::Cell;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
+/// To one of the 26 cubes around.
+struct Step {
+  Cell cells;
+  double length = 0.0;  ///< in cubes
+  /// Cubes that the step touches beside the one that it leaves, in the order of asking.
+  std::array<Cell, 7> parts;
+  int part_count = 0;
+};
+
+const std::array<Step, 26>& all_steps() {
+  static const std::array<Step, 26> steps = [] {
+    std::array<Step, 26> made;
+    std::size_t count = 0;
+    for (int i = 0; i < 27; ++i) {
+      const Cell cells(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
+      if (cells.isZero()) continue;
+      Step& step = made[count++];
+      step.cells = cells;
+      step.length = std::sqrt(static_cast<double>(cells.squaredNorm()));
+      for (int corner = 1; corner < 8; ++corner) {
+        const Cell part(corner & 1 ? cells.x() : 0, corner & 2 ? cells.y() : 0, corner & 4 ? cells.z() : 0);
+        const auto end = step.parts.begin() + step.part_count;
+        if (!part.isZero() && std::find(step.parts.begin(), end, part) == end) {
+          step.parts[static_cast<std::size_t>(step.part_count++)] = part;
+        }
+      }
+    }
+    return made;
+  }();
+  return steps;
+}
+
+/// The steps from the cubes of a grid that touch passable ones alone. No cube is asked about twice.
+class Steps {
+ public:
+  Steps(const VoxelGrid& grid, Id from, const Passable& passable)
+      : grid_(grid), passable_(passable), known_(grid.count(), kUnasked) {
+    known_[from] = kYes;
+    for (std::size_t i = 0; i < moves_.size(); ++i) {
+      const Step& step = all_steps()[i];
+      moves_[i].by = ahead(step.cells);
+      moves_[i].cost = grid.voxel_m() * step.length;
+      std::transform(step.parts.begin(), step.parts.begin() + step.part_count, moves_[i].parts.begin(),
+                     [this](const Cell& part) { return ahead(part); });
+    }
+  }
+
+  bool passable(Id id) {
+    if (known_[id] == kUnasked) known_[id] = passable_(id) ? kYes : kNo;
+    return known_[id] == kYes;
+  }
+
+  /// Calls `take` with the cubes around and the length of the way there [m].
+  /// @param wanted  whether a cube is of interest; else nothing is asked about the way there.
+  template <class Wanted, class Take>
+  void from(Id id, const Wanted& wanted, const Take& take) {
+    const Cell c = grid_.cell(id);
+    for (std::size_t i = 0; i < moves_.size(); ++i) {
+      const Step& step = all_steps()[i];
+      const Cell to = c + step.cells;
+      if ((to.array() < 0).any() || (to.array() >= grid_.dims().array()).any()) continue;
+      const Id next = id + moves_[i].by;
+      if (wanted(next) && may_step(id, moves_[i], step.part_count)) take(next, moves_[i].cost);
+    }
+  }
+
+ private:
+  enum Known : std::uint8_t { kUnasked, kYes, kNo };
+  /// A step in numbers of cubes, which wrap around: those of a step back are near 2^32.
+  struct Move {
+    Id by = 0;
+    double cost = 0.0;
+    std::array<Id, 7> parts = {};
+  };
+  Id ahead(const Cell& cells) const {
+    const Cell& dims = grid_.dims();
+    return static_cast<Id>((cells.z() * dims.y() + cells.y()) * dims.x() + cells.x());
+  }
+
+  /// All cubes of the block that a step spans, so that it touches nothing else.
+  bool may_step(Id from, const Move& move, int parts) {
+    return std::all_of(move.parts.begin(), move.parts.begin() + parts, [&](Id part) { return passable(from + part); });
+  }
+
+  const VoxelGrid& grid_;
+  const Passable& passable_;
+  std::array<Move, 26> moves_;
+  std::vector<Known> known_;
+};
+
 /// Best first search from one cube.
 class Search {
  public:
   Search(const VoxelGrid& grid, Id from, const Passable& passable)
-      : grid_(grid), from_(from), passable_(passable), nodes_(grid.count()) {
-    nodes_[from].known = kYes;
-  }
+      : from_(from), steps_(grid, from, passable), nodes_(grid.count()) {}
 
-  void open(Id id, double cost, Id parent, double to_go) {
+  bool passable(Id id) { return steps_.passable(id); }
+
+  template <class ToGo>
+  void open(Id id, double cost, Id parent, const ToGo& to_go) {
     Node& node = nodes_[id];
     if (node.closed || node.cost <= cost) return;
     node.cost = cost;
     node.parent = parent;
-    queue_.emplace(cost + to_go, sequence_++, id);
+    queue_.emplace(cost + to_go(id), sequence_++, id);
   }
 
   /// The next cube in order; nullopt when there is none.
@@ -43,21 +135,12 @@ class Search {
 
   template <class ToGo>
   void expand(Id id, const ToGo& to_go) {
-    const Cell c = grid_.cell(id);
-    for (int i = 0; i < 27; ++i) {
-      const Cell step(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
-      const auto next = grid_.at(Cell(c + step));
-      if (!next || *next == id || nodes_[*next].closed || !may_step(c, step)) continue;
-      open(*next, nodes_[id].cost + grid_.voxel_m() * std::sqrt(static_cast<double>(step.squaredNorm())), id,
-           to_go(*next));
-    }
+    const double cost = nodes_[id].cost;
+    steps_.from(
+        id, [this](Id next) { return !nodes_[next].closed; },
+        [&](Id next, double way) { open(next, cost + way, id, to_go); });
   }
 
-  bool passable(Id id) {
-    Node& node = nodes_[id];
-    if (node.known == kUnasked) node.known = passable_(id) ? kYes : kNo;
-    return node.known == kYes;
-  }
   std::vector<Id> way_to(Id id) const {
     std::vector<Id> way;
     for (; id != from_; id = nodes_[id].parent) way.push_back(id);
@@ -66,28 +149,16 @@ class Search {
   }
 
  private:
-  enum Known : std::uint8_t { kUnasked, kYes, kNo };
   struct Node {
     double cost = kInfinity;
     Id parent = 0;
-    Known known = kUnasked;
     bool closed = false;
   };
   // Ties go to the entry that was made first: the order is the same on every machine.
   using Entry = std::tuple<double, std::uint64_t, Id>;
 
-  /// All cubes of the block that a step spans, so that it touches nothing else.
-  bool may_step(const Cell& c, const Cell& step) {
-    for (int corner = 1; corner < 8; ++corner) {
-      const Cell part(corner & 1 ? step.x() : 0, corner & 2 ? step.y() : 0, corner & 4 ? step.z() : 0);
-      if (!passable(*grid_.at(Cell(c + part)))) return false;
-    }
-    return true;
-  }
-
-  const VoxelGrid& grid_;
   const Id from_;
-  const Passable& passable_;
+  Steps steps_;
   std::vector<Node> nodes_;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue_;
   std::uint64_t sequence_ = 0;
@@ -108,7 +179,7 @@ std::optional<std::vector<Id>> find_voxel_path(const VoxelGrid& grid, Id from, I
     const double steps = d[0] * std::sqrt(3.0) + (d[1] - d[0]) * std::sqrt(2.0) + (d[2] - d[1]);
     return config.heuristic_weight * grid.voxel_m() * steps;
   };
-  search.open(from, 0.0, from, to_go(from));
+  search.open(from, 0.0, from, to_go);
   for (int expanded = 0; expanded < config.max_expansions; ++expanded) {
     const auto id = search.next();
     if (!id) return std::nullopt;
@@ -116,6 +187,24 @@ std::optional<std::vector<Id>> find_voxel_path(const VoxelGrid& grid, Id from, I
     search.expand(*id, to_go);
   }
   return std::nullopt;
+}
+
+std::optional<std::vector<bool>> voxels_in_reach(const VoxelGrid& grid, Id from, const Passable& passable,
+                                                 std::size_t max_cubes) {
+  Steps steps(grid, from, passable);
+  std::vector<bool> reached(grid.count(), false);
+  std::vector<Id> order = {from};
+  reached[from] = true;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    if (order.size() > max_cubes) return std::nullopt;
+    steps.from(
+        order[i], [&](Id next) { return !reached[next]; },
+        [&](Id next, double) {
+          reached[next] = true;
+          order.push_back(next);
+        });
+  }
+  return reached;
 }
 
 double voxel_path_length(const VoxelGrid& grid, Id from, const std::vector<Id>& path) {

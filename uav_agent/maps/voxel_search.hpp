@@ -27,6 +27,11 @@ std::optional<std::vector<VoxelGrid::Id>> find_voxel_path(const VoxelGrid& grid,
                                                           const Passable& passable,
                                                           const VoxelSearchConfig& config = {});
 
+/// The cubes to which a way leads, as find_voxel_path() would find it: true for each of them, and for `from`.
+/// @returns nullopt if there are more than `max_cubes`.
+std::optional<std::vector<bool>> voxels_in_reach(const VoxelGrid& grid, VoxelGrid::Id from, const Passable& passable,
+                                                 std::size_t max_cubes = 20'000);
+
 /// Length of the way along the centres [m].
 double voxel_path_length(const VoxelGrid& grid, VoxelGrid::Id from, const std::vector<VoxelGrid::Id>& path);
 

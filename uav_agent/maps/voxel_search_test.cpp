@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -69,6 +70,18 @@ TEST_P(Scattered, AStarFindsTheShortestWays) {
     for (const Id id : *path) EXPECT_TRUE(free(id));
   }
   EXPECT_TRUE(reached > 0 || GetParam() % 6 > 2) << "an almost empty grid";
+}
+
+TEST_P(Scattered, CubesInReachAreThoseWithAWay) {
+  const VoxelGrid grid = scattered(0.1 * (GetParam() % 6), static_cast<std::uint64_t>(GetParam()));
+  const Passable free = [&](Id id) { return grid.state(id) != VoxelState::occupied; };
+  const auto distances = distances_in(grid, free);
+  const auto reached = voxels_in_reach(grid, 0, free);
+  ASSERT_TRUE(reached.has_value());
+  for (Id to = 0; to < grid.count(); ++to) EXPECT_EQ((*reached)[to], std::isfinite(distances[to])) << to;
+  const auto count = static_cast<std::size_t>(std::ranges::count(*reached, true));
+  EXPECT_TRUE(voxels_in_reach(grid, 0, free, count).has_value());
+  EXPECT_FALSE(voxels_in_reach(grid, 0, free, count - 1).has_value());
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, Scattered, testing::Range(0, 24));

@@ -353,6 +353,12 @@ AgentOutput Agent::step(const AgentInput& input) {
 
 bool Agent::holds_capture(std::uint64_t capture) const { return impl_->uplink.holds(capture); }
 
+std::size_t Agent::undelivered() const { return impl_->uplink.undelivered(); }
+
+const SafetyFilter::Counts* Agent::filter_counts() const {
+  return impl_->core ? &impl_->core->filter().counts() : nullptr;
+}
+
 const OccupancyMap& Agent::map() const { return impl_->map; }
 
 const WorldMap* Agent::world_map() const { return impl_->known_world(); }

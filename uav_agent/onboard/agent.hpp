@@ -15,6 +15,7 @@
 #include "uav_agent/api/agent_config.hpp"
 #include "uav_agent/api/messages.hpp"
 #include "uav_agent/api/planner.hpp"
+#include "uav_agent/flight_core/safety_filter.hpp"
 #include "uav_agent/onboard/ready_frames.hpp"
 #include "uav_agent/onboard/uplink.hpp"
 
@@ -81,6 +82,10 @@ class Agent {
   std::uint64_t beam_scans(ScanDoubt doubt) const;
   /// Whether that capture's report may yet have to be sent.
   bool holds_capture(std::uint64_t capture) const;
+  /// Captures whose reports the station has not acknowledged.
+  std::size_t undelivered() const;
+  /// How often the safety filter has intervened; nullptr: no flight core flies the planner.
+  const SafetyFilter::Counts* filter_counts() const;
   const OccupancyMap& map() const;
   /// That of all beams, on which its planner flies; nullptr: its planner uses none.
   const WorldMap* world_map() const;

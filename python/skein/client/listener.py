@@ -43,7 +43,7 @@ class FlyingFleet:
     def domain(self, node: str) -> int:
         """Of "world", "gcs" or a UAV."""
         names = ("world", "gcs", *self.fleet)
-        if node not in names:
+        if not isinstance(node, str) or node not in names:
             raise InputError(f"'{node}' is no node of this fleet; those are {', '.join(names)}")
         return self.base_domain + names.index(node)
 
@@ -116,8 +116,9 @@ class Listener:
     def __init__(self, topics: Sequence[str] | Mapping[str, str], *, node: str | None = None,
                  run: str | os.PathLike[str] | None = None, domain: int | None = None, dds: str | None = None,
                  security: str | os.PathLike[str] | None = None, patience_s: float = 0.0, most: int = 10_000) -> None:
-        if isinstance(topics, str) or not topics or not all(isinstance(topic, str) for topic in topics):
-            raise InputError(f"topics: must be a list of names like '/jurong/gimbal', not {topics!r}")
+        listed = isinstance(topics, (Sequence, Mapping)) and not isinstance(topics, str)
+        if not listed or not topics or not all(isinstance(topic, str) for topic in topics):
+            raise InputError(f"topics: must be a list of names like '/jurong/gimbal', not {topics!r:.80}")
         if whole("most", str(most), 10**9) < 1:
             raise InputError("most: must be at least 1")
         named = dict(topics) if isinstance(topics, Mapping) else dict.fromkeys(topics, "")

@@ -82,6 +82,8 @@ _types: dict[str, type[Message]] = {}
 
 def type_named(name: str) -> type[Message]:
     """The class of a type: "std_msgs/msg/String"."""
+    if not isinstance(name, str):
+        raise InputError(f"the type of a message is a text like 'std_msgs/msg/String', not {name!r:.80}")
     if name not in _types:
         try:
             text = native.definition(name)
@@ -98,7 +100,9 @@ def define(name: str, text: str) -> type[Message]:
     """Makes a type known by the text of its `.msg` file; types that it is made of may follow, each behind a line of 80
     '=' and a line "MSG: package/Type", as `ros2 interface` and recordings have them. Constants and defaults are none of
     a message's bytes, and not understood here."""
-    if not re.fullmatch(r"[a-zA-Z]\w*/msg/[a-zA-Z]\w*", name):
+    if not isinstance(text, str):
+        raise InputError(f"the definition of a message is the text of its .msg file, not {text!r:.80}")
+    if not isinstance(name, str) or not re.fullmatch(r"[a-zA-Z]\w*/msg/[a-zA-Z]\w*", name):
         raise InputError(f"'{name}' is not a message type; write it like 'std_msgs/msg/String'")
     first, *parts = (part.strip("\n") for part in text.split(_LINE + "\n"))
     for part in reversed(parts):

@@ -12,7 +12,7 @@ import numpy as np
 
 from ..errors import InputError
 from ..launch import option_arguments, positional
-from . import spaces
+from . import settings, spaces
 from .actions import Orders, action_space
 from .observations import Observations
 from .saved import hand_file
@@ -42,22 +42,17 @@ class Fleet:
 
         Raises InputError, with the launcher's message, if this cannot be flown.
         """
-        if isinstance(learners, str):
-            learners = [learners]
-        self.possible_agents: list[str] = list(dict.fromkeys(learners))
-        if actions not in _ACTIONS:
-            raise InputError(f"actions must be one of {', '.join(map(repr, _ACTIONS))}, not {actions!r}")
-        if render_mode not in (None, *self.metadata["render_modes"]):
-            raise InputError(f"render_mode must be None or 'ansi', not {render_mode!r}")
-        if len(map_window) != 3:
-            raise InputError(f"map_window must be three numbers of cells, along x, y and z, not {map_window!r}")
-        self.render_mode = render_mode
-        self._actions, self._safe, self._reward = actions, bool(safe), reward
-        self._seed = _whole("seed", seed)
+        self.possible_agents: list[str] = settings.names("learners", learners)
+        self._actions = settings.one_of("actions", actions, _ACTIONS)
+        self.render_mode = settings.one_of("render_mode", render_mode, (None, *self.metadata["render_modes"]))
+        self._safe, self._reward = bool(safe), reward
+        self._seed = settings.whole("seed", seed)
+        map_x, map_y, map_z = settings.cells("map_window", map_window)
         learner = ",".join(f"{name}={value}" for name, value in {
             "flies": _ACTIONS[actions], "safe": str(bool(safe)).lower(), "scans": str(bool(scans)).lower(),
-            "detections": int(detections), "map_x": int(map_window[0]), "map_y": int(map_window[1]),
-            "map_z": int(map_window[2]), "map_cell_m": float(map_cell_m)}.items())
+            "detections": settings.whole("detections", detections), "map_x": map_x, "map_y": map_y, "map_z": map_z,
+            "map_cell_m": settings.number("map_cell_m", map_cell_m)}.items())
+        planner = settings.text("planner", planner)
         self._planner = ",".join([planner, *(f"{uav}=learner:{learner}" for uav in self.possible_agents)])
         self._scenario, self._launcher, self._options = scenario, launcher, dict(options)
         self._families: dict[Any, Family] = {}
@@ -132,8 +127,9 @@ class Fleet:
         return spaces.Box(-np.inf, np.inf, (size,), np.float64)
 
     def _of(self, table: Mapping[str, Any], agent: str) -> Any:
-        if agent not in table:
-            raise InputError(f"there is no learner {agent!r}; there are: {', '.join(self.possible_agents) or 'none'}")
+        if not isinstance(agent, str) or agent not in table:
+            known = ", ".join(self.possible_agents) or "none"
+            raise InputError(f"there is no learner {agent!r:.80}; there are: {known}")
         return table[agent]
 
     @property
@@ -155,15 +151,17 @@ class Fleet:
         """Begins anew. Without a seed the first mission is that of the fleet's seed, the next one that of the number
         after it, and so on. `options={"scene_seed": 3}` chooses another scene of a procedural family."""
         self._check_open()
+        if options is not None and not isinstance(options, Mapping):
+            raise InputError(f"reset(options=...) must be a dictionary, as {{'scene_seed': 3}}, not {options!r:.80}")
         unknown = set(options or {}) - {"scene_seed"}
         if unknown:
-            raise InputError(f"reset(options=...) knows scene_seed, not {', '.join(map(repr, sorted(unknown)))}")
+            raise InputError(f"reset(options=...) knows scene_seed, not {', '.join(sorted(map(repr, unknown)))}")
         if seed is not None:
-            self._seed = _whole("seed", seed)
+            self._seed = settings.whole("seed", seed)
         elif self._resets > 0:
             self._seed += 1
         if options and "scene_seed" in options:
-            self._options["scene_seed"] = _whole("scene_seed", options["scene_seed"])
+            self._options["scene_seed"] = settings.whole("scene_seed", options["scene_seed"])
         as_it_is = (self._resets == 0 and self._started == (self._seed, self._scene())
                     and self._running().views["truth.step"] == 0)  # the constructor has begun it
         if not as_it_is:
@@ -199,11 +197,15 @@ class Fleet:
             if uav in self.agents:
                 values[uav] = self._orders[uav].read(action)
         now = int(worker.views["truth.step"])
-        for uav, value in values.items():
-            self._orders[uav].write(value)
-            self._log.setdefault(uav, []).append((now, value))
-        self._flying = True
-        worker.begin_steps(steps)
+        try:
+            for uav, value in values.items():
+                self._orders[uav].write(value)
+                self._log.setdefault(uav, []).append((now, value))
+            worker.begin_steps(steps)
+            self._flying = True
+        except BaseException:  # Ctrl-C: nobody could say how far it has come
+            worker.let_go()
+            raise
 
     def end_step(self) -> tuple[dict[str, Observation], dict[str, float], dict[str, bool], dict[str, bool],
                                 dict[str, dict[str, Any]]]:
@@ -211,14 +213,20 @@ class Fleet:
         worker = self._running()
         if not self._flying:
             raise InputError("the fleet stands: call begin_step() before")
-        self._flying = False
-        self._over = worker.end_steps()
+        try:
+            self._over = worker.end_steps()
+            self._flying = False
+        except BaseException:
+            worker.let_go()
+            raise
         agents, alive, score = self.agents, worker.views["truth.alive"], float(worker.views["truth.score"][()])
         gain, self._score = score - self._score, score
+        alive = alive.tolist()
         terminations = {uav: not alive[self._index[uav]] for uav in agents}
         truncations = {uav: self._over and not terminations[uav] for uav in agents}
         observations = {uav: self._observations[uav].read() for uav in agents}
-        infos = {uav: self._info() for uav in agents}
+        info = self._info()
+        infos = {uav: info.copy() for uav in agents}
         self.agents = [uav for uav in agents if not terminations[uav] and not truncations[uav]]
         rewards = {uav: gain if self._reward is None else float(self._reward(self, uav)) for uav in agents}
         return observations, rewards, terminations, truncations, infos
@@ -286,7 +294,7 @@ class Fleet:
         return self._options.get("scene_seed")
 
     def _family(self, scene_seed: Any) -> Family:
-        if scene_seed not in self._families:
+        if scene_seed not in self._families or self._families[scene_seed].closed:
             options = {**self._options, "scene_seed": scene_seed}
             words = ["fleet", positional("scenario", self._scenario), f"--planner={self._planner}",
                      *option_arguments(options)]
@@ -310,6 +318,11 @@ class Fleet:
         self._observations = {uav: Observations(uav, worker.fields, worker.block) for uav in self.possible_agents}
         self._orders = {uav: Orders(uav, self._actions, worker.views) for uav in self.possible_agents}
 
+    def _give_up(self) -> None:
+        """Ends the fleet if it flies: its answer would be taken for that to the next step."""
+        if self._flying and self._worker is not None:
+            self._worker.let_go()
+
     def _check_open(self) -> None:
         if self._closed:
             raise InputError("the fleet is closed: make another one, or do not call close() before")
@@ -323,19 +336,13 @@ class Fleet:
 
     def _steps_of(self, step_s: float) -> int:
         try:
-            steps = float(step_s) / self._period_s
-        except (TypeError, ValueError):
-            raise InputError(f"step_s must be a time in seconds, not {step_s!r}") from None
-        if not np.isfinite(steps) or steps < 0.5 or abs(steps - round(steps)) > 1e-6:
+            steps = settings.number("step_s", step_s) / self._period_s
+        except InputError:
+            steps = 0.0
+        if steps < 0.5 or abs(steps - round(steps)) > 1e-6:
             raise InputError(f"step_s must be a multiple of {self._period_s:g} s, the exchange's period, "
-                             f"not {step_s!r}")
+                             f"not {step_s!r:.80}")
         return round(steps)
 
     def _info(self) -> dict[str, Any]:
         return {"seed": self._started[0], "step": int(self._running().views["truth.step"])}
-
-
-def _whole(name: str, value: Any) -> int:
-    if isinstance(value, (bool, np.bool_)) or not hasattr(value, "__index__") or not 0 <= value.__index__() < 1 << 63:
-        raise InputError(f"{name} must be a whole number, 0 or above, not {value!r}")
-    return int(value.__index__())

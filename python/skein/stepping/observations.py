@@ -26,13 +26,15 @@ class Observations:
         first = offsets[0]
         kind = np.dtype({"names": names, "formats": formats, "offsets": [offset - first for offset in offsets]})
         self._names: list[str] = names
-        self._now: Any = np.ndarray((1,), kind, block, first)
-        self.views: dict[str, Any] = {name: self._now[name][0:1].reshape(self._now[name].shape[1:]) for name in names}
+        now: Any = np.ndarray((1,), kind, block, first)
+        self._kind = kind
+        self._bytes: Any = now.view(np.uint8)
+        self.views: dict[str, Any] = {name: now[name][0:1].reshape(now[name].shape[1:]) for name in names}
 
     def read(self) -> dict[str, Any]:
         """Copies, which stay as they are when the fleet goes on."""
-        copy = self._now.copy().reshape(())  # all at once: it is asked for in every step
-        return {name: copy[name] for name in self._names}
+        copy = self._bytes.copy().view(self._kind).reshape(())  # as bytes: by fields it would take ten times as long
+        return dict(zip(self._names, map(copy.__getitem__, self._names)))
 
     def space(self) -> spaces.Space:
         parts: dict[str, spaces.Space] = {}

@@ -24,5 +24,8 @@ def hand_file(uav: str, log: list[tuple[int, dict[str, Any]]], period_s: float, 
         if "gimbal" in values:
             numbers[4:] = map(float, values["gimbal"][:2])
         lines.append(",".join([str(step), str(round(step * period_s / _TICK_S)), *map(repr, numbers)]))
-    file.write_text("\n".join(lines) + "\n")
+    try:
+        file.write_text("\n".join(lines) + "\n")
+    except (OSError, ValueError) as error:
+        raise InputError(f"{str(file)!r:.200} cannot be written: {error}") from None
     return file

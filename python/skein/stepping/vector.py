@@ -10,7 +10,8 @@ from typing import Any
 import numpy as np
 
 from ..errors import InputError
-from .fleet import Fleet, _whole
+from . import settings
+from .fleet import Fleet
 
 
 class FleetVector:
@@ -39,7 +40,7 @@ class FleetVector:
         if seed is None:
             seeds = [None] * len(self.fleets)
         elif isinstance(seed, (int, np.integer)):
-            seeds = [_whole("seed", seed) + i for i in range(len(self.fleets))]
+            seeds = [settings.whole("seed", seed) + i for i in range(len(self.fleets))]
         else:
             seeds = list(seed)
         self._check_length("seeds", seeds)
@@ -53,16 +54,21 @@ class FleetVector:
         self._check_length("actions", actions)
         flying = []
         try:
-            for fleet, one in zip(self.fleets, actions):
-                if not fleet.over:
-                    fleet.begin_step(one, step_s=step_s)
-                    flying.append(fleet)
-        except InputError:
-            for fleet in flying:  # those that were told before go on, and stand again
-                fleet.end_step()
+            try:
+                for fleet, one in zip(self.fleets, actions):
+                    if not fleet.over:
+                        fleet.begin_step(one, step_s=step_s)
+                        flying.append(fleet)
+            except InputError:
+                for fleet in flying:  # those that were told before go on, and stand again
+                    fleet.end_step()
+                raise
+            parts: list[tuple[Any, ...]] = [fleet.end_step() if fleet in flying else ({}, {}, {}, {}, {})
+                                            for fleet in self.fleets]
+        except BaseException:  # Ctrl-C, or one of them has failed: nobody waits for the others any more
+            for fleet in self.fleets:
+                fleet._give_up()
             raise
-        parts: list[tuple[Any, ...]] = [fleet.end_step() if fleet in flying else ({}, {}, {}, {}, {})
-                                        for fleet in self.fleets]
         observations, rewards, terminations, truncations, infos = (list(part) for part in zip(*parts))
         return observations, rewards, terminations, truncations, infos
 
@@ -84,9 +90,10 @@ class FleetVector:
 
 def vector_env(n: int, scenario: Any = "towers", *, seed: int = 0, **options: Any) -> FleetVector:
     """`n` fleets as `skein.Fleet` makes them, with the seeds `seed`, `seed + 1`, ..."""
-    if _whole("n", n) < 1:
+    if settings.whole("n", n) < 1:
         raise InputError("n must be 1 or more")
+    first = settings.whole("seed", seed)
     with contextlib.ExitStack() as stack:
-        fleets = [stack.enter_context(Fleet(scenario, seed=_whole("seed", seed) + i, **options)) for i in range(n)]
+        fleets = [stack.enter_context(Fleet(scenario, seed=first + i, **options)) for i in range(n)]
         stack.pop_all()
     return FleetVector(fleets)

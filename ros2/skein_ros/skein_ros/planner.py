@@ -64,7 +64,8 @@ class Planner(rclpy.node.Node):
         self._trigger = publisher(BoolStamped, f"/{uav}/command/camera_trigger", _DEPTH)
         self._radio = publisher(String, "/plan", _DEPTH)
         self._activity = publisher(Activity, f"/{uav}/activity", _DEPTH)
-        hear = self.create_subscription
+        self._ears = []
+        hear = self._listen
         hear(Odometry, f"/{uav}/ground_truth/odometry", self._hear_odometry, _DEPTH)
         hear(TwistStamped, f"/{uav}/gimbal", lambda m: self._set(gimbal=m), _DEPTH)
         hear(Duration, f"/{uav}/mission_duration_remained",
@@ -126,6 +127,19 @@ class Planner(rclpy.node.Node):
         message.header.stamp = self._inputs.odometry.header.stamp
         self._activity.publish(message)
 
+    def _listen(self, message_type, topic, callback, qos):
+        """An executor goes around, through all that it could wait for, for each message: a step takes them all at
+        once, so it is not told of these subscriptions."""
+        subscription = self.create_subscription(message_type, topic, callback, qos)
+        self._subscriptions.remove(subscription)
+        self._ears.append(subscription)
+
+    def _take_all(self):
+        for ear in self._ears:
+            with ear.handle:
+                while (taken := ear.handle.take_message(ear.msg_type, False)) is not None:
+                    ear.callback(taken[0])
+
     def _set(self, **values):
         for name, value in values.items():
             setattr(self._inputs, name, value)
@@ -141,6 +155,7 @@ class Planner(rclpy.node.Node):
         self._set(boxes=list(vertices.reshape(-1, 8, 3)))
 
     def _step(self):
+        self._take_all()
         if self._inputs.odometry is None:
             return
         self.plan(self._inputs)

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <stdexcept>
 
 #include <builtin_interfaces/msg/duration.hpp>
@@ -88,9 +89,24 @@ struct Planner::Ends {
   rclcpp::Publisher<skein_msgs::msg::BoolStamped>::SharedPtr trigger;
   rclcpp::Publisher<std_msgs::msg::String>::SharedPtr radio;
   rclcpp::Publisher<skein_msgs::msg::Activity>::SharedPtr activity;
-  std::vector<rclcpp::SubscriptionBase::SharedPtr> subscriptions;
+  rclcpp::CallbackGroup::SharedPtr no_executor;
+  std::vector<std::function<void()>> ears;  ///< take what has arrived
   rclcpp::TimerBase::SharedPtr timer;
 };
+
+template <class Message, class Callback>
+void Planner::hear(const std::string& topic, const rclcpp::QoS& qos, Callback callback) {
+  rclcpp::SubscriptionOptions options;
+  options.callback_group = ends_->no_executor;
+  const auto subscription = create_subscription<Message>(topic, qos, callback, options);
+  ends_->ears.push_back([subscription, callback] {
+    rclcpp::MessageInfo info;
+    for (auto message = std::make_shared<Message>(); subscription->take(*message, info);) {
+      callback(message);
+      message = std::make_shared<Message>();
+    }
+  });
+}
 
 Planner::Planner(const std::string& name, const rclcpp::NodeOptions& options)
     : Node(name, options), ends_(std::make_unique<Ends>()) {
@@ -103,35 +119,28 @@ Planner::Planner(const std::string& name, const rclcpp::NodeOptions& options)
   ends_->radio = create_publisher<std_msgs::msg::String>("/plan", qos);
   ends_->activity = create_publisher<skein_msgs::msg::Activity>(prefix + "/activity", qos);
 
+  // An executor goes around, through all that it could wait for, for each message: a step takes them all at once.
+  ends_->no_executor = create_callback_group(rclcpp::CallbackGroupType::MutuallyExclusive, false);
+  hear<nav_msgs::msg::Odometry>(prefix + "/ground_truth/odometry", qos,
+                                [this](nav_msgs::msg::Odometry::ConstSharedPtr m) { hear_odometry(*m); });
   Inputs& in = ends_->inputs;
-  const auto hear = [&](auto&& subscription) { ends_->subscriptions.push_back(subscription); };
-  hear(create_subscription<nav_msgs::msg::Odometry>(prefix + "/ground_truth/odometry", qos,
-                                                    [this, &in](nav_msgs::msg::Odometry::ConstSharedPtr m) {
-                                                      const auto& p = m->pose.pose.position;
-                                                      in.odometry = *m;
-                                                      in.time_s = rclcpp::Time(m->header.stamp).seconds();
-                                                      in.p_WB = {p.x, p.y, p.z};
-                                                      in.yaw = yaw_of(m->pose.pose.orientation);
-                                                      ends_->has_state = true;
-                                                    }));
-  hear(create_subscription<geometry_msgs::msg::TwistStamped>(
-      prefix + "/gimbal", qos, [&in](geometry_msgs::msg::TwistStamped::ConstSharedPtr m) { in.gimbal = *m; }));
-  hear(create_subscription<builtin_interfaces::msg::Duration>(
+  hear<geometry_msgs::msg::TwistStamped>(prefix + "/gimbal", qos,
+                                         [&in](geometry_msgs::msg::TwistStamped::ConstSharedPtr m) { in.gimbal = *m; });
+  hear<builtin_interfaces::msg::Duration>(
       prefix + "/mission_duration_remained", qos,
-      [&in](builtin_interfaces::msg::Duration::ConstSharedPtr m) { in.time_left_s = rclcpp::Duration(*m).seconds(); }));
-  hear(create_subscription<sensor_msgs::msg::PointCloud>(
+      [&in](builtin_interfaces::msg::Duration::ConstSharedPtr m) { in.time_left_s = rclcpp::Duration(*m).seconds(); });
+  hear<sensor_msgs::msg::PointCloud>(
       "/gcs/bounding_box_vertices", rclcpp::QoS(1).transient_local(),
-      [&in](sensor_msgs::msg::PointCloud::ConstSharedPtr m) { in.boxes = boxes_in(*m); }));
-  hear(create_subscription<sensor_msgs::msg::PointCloud2>(
+      [&in](sensor_msgs::msg::PointCloud::ConstSharedPtr m) { in.boxes = boxes_in(*m); });
+  hear<sensor_msgs::msg::PointCloud2>(
       prefix + "/nbr_odom_cloud", qos,
-      [&in](sensor_msgs::msg::PointCloud2::ConstSharedPtr m) { in.neighbours = neighbours_in(*m); }));
-  hear(create_subscription<sensor_msgs::msg::PointCloud2>(
-      prefix + "/cloud_inW", qos, [&in](sensor_msgs::msg::PointCloud2::ConstSharedPtr m) { in.scan = m; }));
-  hear(create_subscription<sensor_msgs::msg::PointCloud2>(
-      prefix + "/detected_interest_points", qos,
-      [&in](sensor_msgs::msg::PointCloud2::ConstSharedPtr m) { in.detections = m; }));
-  hear(create_subscription<std_msgs::msg::String>(
-      "/plan/" + ends_->uav, qos, [&in](std_msgs::msg::String::ConstSharedPtr m) { in.messages.push_back(m->data); }));
+      [&in](sensor_msgs::msg::PointCloud2::ConstSharedPtr m) { in.neighbours = neighbours_in(*m); });
+  hear<sensor_msgs::msg::PointCloud2>(prefix + "/cloud_inW", qos,
+                                      [&in](sensor_msgs::msg::PointCloud2::ConstSharedPtr m) { in.scan = m; });
+  hear<sensor_msgs::msg::PointCloud2>(prefix + "/detected_interest_points", qos,
+                                      [&in](sensor_msgs::msg::PointCloud2::ConstSharedPtr m) { in.detections = m; });
+  hear<std_msgs::msg::String>("/plan/" + ends_->uav, qos,
+                              [&in](std_msgs::msg::String::ConstSharedPtr m) { in.messages.push_back(m->data); });
 
   const auto before_answer = step_function<decltype(&skein_ros_before_answer)>("skein_ros_before_answer");
   if (before_answer != nullptr && is_member()) {
@@ -146,7 +155,18 @@ Planner::~Planner() {
   if (before_answer != nullptr) before_answer([](void*) {}, nullptr);
 }
 
+void Planner::hear_odometry(const nav_msgs::msg::Odometry& message) {
+  Inputs& in = ends_->inputs;
+  const auto& p = message.pose.pose.position;
+  in.odometry = message;
+  in.time_s = rclcpp::Time(message.header.stamp).seconds();
+  in.p_WB = {p.x, p.y, p.z};
+  in.yaw = yaw_of(message.pose.pose.orientation);
+  ends_->has_state = true;
+}
+
 void Planner::step() {
+  for (const auto& ear : ends_->ears) ear();
   if (!ends_->has_state) return;
   try {
     plan(ends_->inputs);

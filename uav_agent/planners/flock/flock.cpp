@@ -289,6 +289,7 @@ void FlockPlanner::decide(const PlannerInput& in, PlannerOutput& out) {
     way = way_W(in, to_W);
     if (way || tries == kTries) break;
     reach_.refuse(to_W, in.tick);
+    if (tries == 1) reach_.refuse_shut_off(views, surfaces_->grid(), in);
     for (FlockView& view : views) {
       if (!unreachable(view)) continue;
       view.sights.clear();

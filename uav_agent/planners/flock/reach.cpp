@@ -2,10 +2,13 @@
 
 #include <algorithm>
 
+#include "uav_agent/flight/voxel_route.hpp"
+
 namespace skein::agent {
 namespace {
 
 constexpr double kRefusedS = 15.0, kRefusedM = 2.0;  ///< a view that could not be reached, and those about it
+constexpr double kShutOffS = 5.0;                    ///< a view to which no cubes of the map lead
 constexpr double kApartM = 4.5;                      ///< a view is so far from other UAVs, and from their next views
 constexpr double kGainM = 0.5, kStallS = 2.5;        ///< a UAV that gains no way for so long is held up...
 constexpr double kStalledS = 6.0;                    ///< ...and leaves that view for so long
@@ -15,6 +18,20 @@ constexpr double kAwayCosine = 0.2;
 }  // namespace
 
 void FlockReach::refuse(const Vector3d& p_WB, Tick now) { refused_.push_back({p_WB, now + ticks(kRefusedS)}); }
+
+void FlockReach::refuse_shut_off(const std::vector<FlockView>& views, const VoxelGrid& grid, const PlannerInput& in) {
+  const Vector3d here_W = in.tracking.setpoint.p_WB;
+  const auto reached = voxels_in_reach(grid, *in.space, here_W);
+  if (!reached) return;
+  for (const FlockView& view : views) {
+    bool leads_there = false;
+    if (const auto cube = grid.at(view.p_WB)) {
+      grid.around(*cube, 1, [&](VoxelGrid::Id id) { leads_there |= (*reached)[id]; });
+    }
+    if (leads_there || in.space->segment_free(here_W, view.p_WB)) continue;
+    refused_.push_back({view.p_WB, in.tick + ticks(kShutOffS)});
+  }
+}
 
 void FlockReach::update(Tick now) {
   std::erase_if(refused_, [&](const Refused& refused) { return refused.until <= now; });

@@ -8,6 +8,7 @@
 
 #include "uav_agent/api/planner.hpp"
 #include "uav_agent/planners/flock/talk.hpp"
+#include "uav_agent/planners/flock/views.hpp"
 
 namespace skein::agent {
 
@@ -18,6 +19,8 @@ class FlockReach {
 
   /// The flight core found no way to this view.
   void refuse(const Vector3d& p_WB, Tick now);
+  /// There was no way to a view: of the others, those to which there is none either are refused for a while.
+  void refuse_shut_off(const std::vector<FlockView>& views, const VoxelGrid& grid, const PlannerInput& in);
   /// Once per exchange in which the UAV works.   @param to_W  the view that it flies to, if it is not there yet.
   /// @returns whether it came no nearer for so long that it should leave that view: it counts as out of reach from now.
   bool stalls(const PlannerInput& in, const std::optional<Vector3d>& to_W);

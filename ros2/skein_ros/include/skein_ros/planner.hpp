@@ -84,6 +84,9 @@ class Planner : public rclcpp::Node {
 
  private:
   struct Ends;
+  template <class Message, class Callback>
+  void hear(const std::string& topic, const rclcpp::QoS& qos, Callback callback);
+  void hear_odometry(const nav_msgs::msg::Odometry& message);
   void step();
   std::unique_ptr<Ends> ends_;
 };

@@ -11,15 +11,12 @@
 namespace skein_ros {
 namespace {
 
-constexpr std::size_t kUsualBytes = 4096;
-
 /// A buffer of the rmw's that is used again for each sample.
 class Buffer {
  public:
-  explicit Buffer(std::size_t bytes = 0) : buffer_(rmw_get_zero_initialized_serialized_message()) {
+  Buffer() : buffer_(rmw_get_zero_initialized_serialized_message()) {
     const auto allocator = rcutils_get_default_allocator();
-    if (rmw_serialized_message_init(&buffer_, bytes, &allocator) != RMW_RET_OK) throw std::bad_alloc();
-    std::fill_n(buffer_.buffer, bytes, std::uint8_t{0});
+    if (rmw_serialized_message_init(&buffer_, 0, &allocator) != RMW_RET_OK) throw std::bad_alloc();
   }
   ~Buffer() {
     if (rmw_serialized_message_fini(&buffer_) != RMW_RET_OK) rmw_reset_error();
@@ -27,7 +24,6 @@ class Buffer {
   Buffer(const Buffer&) = delete;
   Buffer& operator=(const Buffer&) = delete;
   rmw_serialized_message_t* get() { return &buffer_; }
-  std::size_t capacity() const { return buffer_.buffer_capacity; }
   std::vector<std::uint8_t> bytes() const { return {buffer_.buffer, buffer_.buffer + buffer_.buffer_length}; }
 
  private:
@@ -36,33 +32,10 @@ class Buffer {
 
 }  // namespace
 
-rmw_serialized_message_t view_of(const std::vector<std::uint8_t>& bytes) {
-  rmw_serialized_message_t view = rmw_get_zero_initialized_serialized_message();
-  view.buffer = const_cast<std::uint8_t*>(bytes.data());
-  view.buffer_length = view.buffer_capacity = bytes.size();
-  view.allocator = rcutils_get_default_allocator();
-  return view;
-}
-
-std::vector<std::uint8_t> serialised(const void* message, const rosidl_message_type_support_t* type) {
-  // Fast DDS leaves what is in the buffer where CDR has padding. The bytes of radio messages are in the digest, so
-  // there must be zeros, and a buffer that has grown meanwhile is of no use.
-  for (std::size_t capacity = kUsualBytes;;) {
-    Buffer buffer(capacity);
-    if (rmw_serialize(message, type, buffer.get()) != RMW_RET_OK) {
-      const std::string why = rmw_get_error_string().str;
-      rmw_reset_error();
-      throw std::runtime_error("a message cannot be serialised: " + why);
-    }
-    if (buffer.capacity() <= capacity) return buffer.bytes();
-    capacity = buffer.capacity();
-  }
-}
-
 Incoming::Incoming(rmw_subscription_t* subscription, const rosidl_message_type_support_t* type, Counterpart counterpart,
                    int depth, bool latched)
     : subscription_(subscription),
-      type_(type),
+      codec_(type),
       counterpart_(counterpart),
       depth_(depth),
       latched_(latched),

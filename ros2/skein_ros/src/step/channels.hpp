@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "codec.hpp"
 #include "sources.hpp"
 
 namespace skein_ros {
@@ -21,11 +22,6 @@ struct Sample {
   rmw_message_info_t info = {};
 };
 
-/// rmw's view of bytes, which stay the caller's.
-rmw_serialized_message_t view_of(const std::vector<std::uint8_t>& bytes);
-/// A message in CDR. @throws std::runtime_error when the rmw cannot write it.
-std::vector<std::uint8_t> serialised(const void* message, const rosidl_message_type_support_t* type);
-
 enum class Counterpart { server, router, nobody };
 
 /// A subscription.
@@ -35,7 +31,7 @@ class Incoming {
            int depth, bool latched);
 
   rmw_subscription_t* subscription() const { return subscription_; }
-  const rosidl_message_type_support_t* type() const { return type_; }
+  const Codec& codec() const { return codec_; }
   std::string topic() const { return subscription_->topic_name; }
   Counterpart counterpart() const { return counterpart_; }
 
@@ -62,7 +58,7 @@ class Incoming {
   bool is_for_us(const rmw_message_info_t& info);
 
   rmw_subscription_t* const subscription_;
-  const rosidl_message_type_support_t* const type_;
+  const Codec codec_;
   const Counterpart counterpart_;
   const int depth_;
   const bool latched_;
@@ -78,10 +74,10 @@ class Incoming {
 class Outgoing {
  public:
   Outgoing(rmw_publisher_t* publisher, const rosidl_message_type_support_t* type, Counterpart counterpart, int depth)
-      : publisher_(publisher), type_(type), counterpart_(counterpart), depth_(depth) {}
+      : publisher_(publisher), codec_(type), counterpart_(counterpart), depth_(depth) {}
 
   rmw_publisher_t* publisher() const { return publisher_; }
-  const rosidl_message_type_support_t* type() const { return type_; }
+  const Codec& codec() const { return codec_; }
   std::string topic() const { return publisher_->topic_name; }
   Counterpart counterpart() const { return counterpart_; }
 
@@ -95,7 +91,7 @@ class Outgoing {
 
  private:
   rmw_publisher_t* const publisher_;
-  const rosidl_message_type_support_t* const type_;
+  const Codec codec_;
   const Counterpart counterpart_;
   const int depth_;
   std::vector<std::vector<std::uint8_t>> held_;

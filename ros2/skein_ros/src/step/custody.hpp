@@ -20,7 +20,7 @@ class Custody {
 
   /// What the camera hands out, possibly again.
   void take(const skein_msgs::msg::CaptureReports& reports);
-  /// Who is in sight.
+  /// The nodes in line of sight.
   void see(const sensor_msgs::msg::PointCloud2& neighbours);
   /// What the station has written down. A message whose sum is wrong, or of another UAV, says nothing.
   /// @returns what is to be handed on to the camera, if anything

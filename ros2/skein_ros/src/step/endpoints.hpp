@@ -58,10 +58,8 @@ bool take(rmw_subscription_t* subscription, Message& message, rmw_message_info_t
 /// @returns false for what is no such message
 template <class Message>
 bool read(const Sample& sample, Message& message) {
-  const rmw_serialized_message_t view = view_of(sample.bytes);
-  if (rmw_deserialize(&view, type_of<Message>(), &message) == RMW_RET_OK) return true;
-  rmw_reset_error();
-  return false;
+  static const Codec codec(type_of<Message>());
+  return codec.decode(sample.bytes, &message);
 }
 
 }  // namespace skein_ros

@@ -58,8 +58,9 @@ rmw_ret_t take_into(Incoming& in, void* message, bool* taken, rmw_message_info_t
   skein_ros::note_work();
   const Sample sample = in.take();
   if (info != nullptr) *info = sample.info;
-  const rmw_serialized_message_t view = skein_ros::view_of(sample.bytes);
-  return rmw_deserialize(&view, in.type(), message);
+  if (in.codec().decode(sample.bytes, message)) return RMW_RET_OK;
+  RMW_SET_ERROR_MSG(("no message of the type of " + in.topic()).c_str());
+  return RMW_RET_ERROR;
 }
 
 rmw_ret_t take_bytes(Incoming& in, rmw_serialized_message_t* message, bool* taken, rmw_message_info_t* info) {
@@ -138,7 +139,7 @@ rmw_ret_t rmw_publish(const rmw_publisher_t* publisher, const void* message, rmw
   Outgoing* const out = outgoing_of(publisher);
   if (out == nullptr) return SKEIN_REAL(rmw_publish)(publisher, message, allocation);
   try {
-    return publish(*out, skein_ros::serialised(message, out->type()));
+    return publish(*out, out->codec().encode(message));
   } catch (const std::exception& error) {
     RMW_SET_ERROR_MSG(error.what());
     return RMW_RET_ERROR;

@@ -304,13 +304,13 @@ void Member::take_in_captures() {
   }
   if (stored.empty()) return;
   const skein_msgs::msg::CaptureAck ack = custody_.ack_of(std::move(stored));
-  stored_->hold(serialised(&ack, stored_->type()));
+  stored_->hold(stored_->codec().encode(&ack));
 }
 
 void Member::send_captures(std::uint64_t k) {
   if (reports_ == nullptr || router_ == 0) return;
   const skein_msgs::msg::CaptureReports reports = custody_.due(k);
-  if (!reports.reports.empty()) reports_->hold(serialised(&reports, reports_->type()));
+  if (!reports.reports.empty()) reports_->hold(reports_->codec().encode(&reports));
 }
 
 void Member::end_turn() {

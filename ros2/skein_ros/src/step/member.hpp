@@ -41,7 +41,7 @@ class Member {
   /// Simulated time [ns].
   std::int64_t now_ns() const { return now_ns_; }
 
-  /// Who counts a topic that the node reads or writes, with the depth of its history.
+  /// The program that counts a topic which the node reads or writes, with the depth of its history.
   struct Role {
     Counterpart counterpart = Counterpart::nobody;
     int depth = 0;

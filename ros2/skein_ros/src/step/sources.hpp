@@ -1,4 +1,4 @@
-// Who is at the other end: DDS participants by the number that the lock-step knows them by, found through the rmw.
+// The DDS participants at the other end, by the number that the lock-step knows them by, found through the rmw.
 // Threads: the node's.
 #pragma once
 

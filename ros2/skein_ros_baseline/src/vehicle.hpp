@@ -1,0 +1,67 @@
+// The UAV's own topics: what it is told of itself, and how it flies along cells and looks at their faces.
+// Frames: W world (ENU), B body (x ahead, y left, z up).   Units: SI, radians.   Thread: that of the node.
+#pragma once
+
+#include <deque>
+#include <functional>
+#include <optional>
+
+#include <builtin_interfaces/msg/duration.hpp>
+#include <geometry_msgs/msg/twist.hpp>
+#include <geometry_msgs/msg/twist_stamped.hpp>
+#include <nav_msgs/msg/odometry.hpp>
+#include <rclcpp/rclcpp.hpp>
+#include <trajectory_msgs/msg/multi_dof_joint_trajectory.hpp>
+
+#include "grid.hpp"
+
+namespace baseline {
+
+class Vehicle {
+ public:
+  /// Reads its parameters: speed_mps, aim_rad, dwell_s, cell_s. @param node  must outlive this.
+  explicit Vehicle(rclcpp::Node& node);
+
+  bool has_state() const { return has_state_; }
+  const Vector& p_WB() const { return p_WB_; }
+  /// Where it is to be now, from which a new way begins.
+  Cell cell() const { return cell_at(place_); }
+  /// Of the mission [s]; nullopt before the first take-off.
+  const std::optional<double>& time_left_s() const { return time_left_s_; }
+  double speed_mps() const { return speed_mps_; }
+
+  /// From now on along these cells, from middle to middle.
+  void follow(const std::vector<Cell>& way);
+  /// To the middle of the cell in which it is.
+  void stop() { follow({cell()}); }
+  bool has_arrived() const;
+  const std::deque<Cell>& way() const { return way_; }
+  /// Turns the camera to the structure around the cell where it is, face by face; only after has_arrived().
+  void look_around(const Grid& grid);
+  bool has_looked() const { return faces_.empty(); }
+
+  /// One step of 50 ms: commands to the vehicle and its gimbal. It goes on into no cell that is `barred`.
+  void fly(const std::function<bool(const Cell&)>& barred);
+
+ private:
+  double pace_mps() const;
+  void advance(double distance_m);
+  void look();
+
+  rclcpp::Node& node_;
+  double speed_mps_, aim_rad_, dwell_s_, cell_s_;
+  bool has_state_ = false;
+  Vector p_WB_ = Vector::Zero();
+  double yaw_ = 0.0, gimbal_pitch_ = 0.0, gimbal_yaw_ = 0.0;
+  std::optional<double> time_left_s_;
+  Vector place_ = Vector::Zero();  ///< where it is to be now; runs along way_
+  std::deque<Cell> way_;
+  std::deque<Vector> faces_;  ///< directions in W that it has yet to look in
+  double cell_until_s_ = 0.0, aimed_since_s_ = -1.0;
+  double yaw_goal_ = 0.0, gimbal_pitch_goal_ = 0.0, gimbal_yaw_goal_ = 0.0;
+  rclcpp::Publisher<trajectory_msgs::msg::MultiDOFJointTrajectory>::SharedPtr trajectory_;
+  rclcpp::Publisher<geometry_msgs::msg::Twist>::SharedPtr gimbal_;
+  std::vector<rclcpp::SubscriptionBase::SharedPtr> heard_;
+};
+
+}  // namespace baseline

@@ -1,0 +1,22 @@
+// Triangles in the keys of what is kept in the user's cache.   Pure.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/scene.hpp"
+#include "core/sha256.hpp"
+
+namespace skein::sim {
+
+inline void add_mesh(Sha256& hash, const TriangleMesh& mesh) {
+  const auto add = [&](const auto& values) {
+    hash.add(values.size());
+    hash.add(std::span(reinterpret_cast<const std::uint8_t*>(values.data()), values.size() * sizeof(values[0])));
+  };
+  add(mesh.vertices);
+  add(mesh.triangles);
+}
+
+}  // namespace skein::sim

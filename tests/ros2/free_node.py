@@ -1,0 +1,99 @@
+"""A ROS 2 node that knows nothing of Skein and runs freely: it flies its UAV up, by as many commands as it is told to.
+
+    free_node.py UAV FILE HEIGHT_M COMMANDS [stall|reject]
+
+HEIGHT_M is above where it found the UAV. It commands at each odometry, and says so on /plan at each tenth. FILE (JSON)
+says how often it published by topic, once it has done so and is there; then it stays, silent, until nobody hears it.
+Without an end (COMMANDS 0) FILE.ready appears after forty commands.
+  stall   after twenty commands it is silent for a simulated second; then ten come at once, with their old stamps
+  reject  five of its commands are no numbers
+"""
+import json
+import math
+import os
+import sys
+
+import rclpy
+from geometry_msgs.msg import Transform
+from nav_msgs.msg import Odometry
+from std_msgs.msg import String
+from tidy import remove_port_files
+from trajectory_msgs.msg import MultiDOFJointTrajectory, MultiDOFJointTrajectoryPoint
+
+STALL_S, HELD_BACK = 1.0, 10
+
+
+def stamp_s(message):
+    return message.header.stamp.sec + 1e-9 * message.header.stamp.nanosec
+
+
+def write(file, text):
+    with open(file + ".new", "w", encoding="utf-8") as out:
+        out.write(text)
+    os.replace(file + ".new", file)
+
+
+class Free:
+    def __init__(self, node, uav, file, height_m, commands, oddity):
+        self.node, self.file, self.height_m, self.commands, self.oddity = node, file, height_m, commands, oddity
+        self.trajectories = node.create_publisher(MultiDOFJointTrajectory, f"/{uav}/command/trajectory", 100)
+        self.radio = node.create_publisher(String, "/plan", 100)
+        node.create_subscription(Odometry, f"/{uav}/ground_truth/odometry", self.on_odometry, 10)
+        self.published = {"trajectory": 0, "plan": 0}
+        self.start, self.held_back = None, []
+
+    def on_odometry(self, odometry):
+        position = odometry.pose.pose.position
+        if self.start is None:
+            self.start = [position.x, position.y, position.z]
+        if self.trajectories.get_subscription_count() < 2 or self.radio.get_subscription_count() < 2:
+            return  # those of the fleet's own programs; the stand-in's is the second
+        goal_z = self.start[2] + self.height_m
+        done = self.commands and self.published["trajectory"] >= self.commands
+        if done and abs(position.z - goal_z) < 0.5 and not os.path.exists(self.file):
+            write(self.file, json.dumps(self.published))
+        if not done:
+            self.command(odometry, goal_z)
+
+    def command(self, odometry, goal_z):
+        count = self.published["trajectory"]
+        message = MultiDOFJointTrajectory()
+        message.header.stamp = odometry.header.stamp
+        rejected = self.oddity == "reject" and 20 <= count < 25
+        target = Transform()
+        target.translation.x = math.nan if rejected else self.start[0]
+        target.translation.y, target.translation.z = self.start[1], goal_z
+        message.points.append(MultiDOFJointTrajectoryPoint(transforms=[target]))
+        if self.oddity == "stall" and count == 20:
+            if len(self.held_back) < HELD_BACK:
+                self.held_back.append(message)
+            if stamp_s(odometry) < stamp_s(self.held_back[0]) + STALL_S:
+                return
+            for late in self.held_back:
+                self.publish(late)
+        self.publish(message)
+
+    def publish(self, message):
+        self.trajectories.publish(message)
+        self.published["trajectory"] += 1
+        if self.published["trajectory"] % 10 == 0:
+            self.radio.publish(String(data=f"command {self.published['trajectory']}"))
+            self.published["plan"] += 1
+        if self.published["trajectory"] == 40:
+            write(self.file + ".ready", "")
+
+
+def main():
+    uav, file, height_m, commands = sys.argv[1:5]
+    rclpy.init()
+    node = rclpy.create_node("free")
+    free = Free(node, uav, file, float(height_m), int(commands), sys.argv[5] if len(sys.argv) > 5 else "")
+    while free.trajectories.get_subscription_count() < 2:
+        rclpy.spin_once(node, timeout_sec=0.05)
+    while free.trajectories.get_subscription_count() > 0:
+        rclpy.spin_once(node, timeout_sec=0.05)
+    rclpy.shutdown()
+    remove_port_files()
+
+
+main()

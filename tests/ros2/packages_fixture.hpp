@@ -1,0 +1,32 @@
+// Nodes that look on with message types that the tests' ROS 2 has not got: built once, from Skein's IDL.
+#pragma once
+
+#include "ros2_fixture.hpp"
+
+namespace skein::test {
+
+class ExtraMessagesTest : public Ros2Test {
+ protected:
+  void SetUp() override {
+    Ros2Test::SetUp();
+    if (IsSkipped() || HasFatalFailure()) return;
+    ChildProcess& build = start_node("build", "cyclonedds", 1, "",
+                                     "flock " + packages_ + ".lock python3 " +
+                                         source_path("tests/ros2/message_packages.py") + " " + source_path("idl") +
+                                         " " + packages_ + " tf2_msgs visualization_msgs diagnostic_msgs octomap_msgs");
+    ASSERT_EQ(build.wait().code, 0) << build.err();
+  }
+
+  /// The command, in a shell in which ROS 2 knows these types.
+  ChildProcess& start_looker(const std::string& middleware, int domain, const std::string& command) {
+    return start_node(middleware, middleware, domain, "",
+                      "env PYTHONPATH=$(echo " + packages_ + "/local/lib/python3*/dist-packages):$PYTHONPATH " +
+                          "LD_LIBRARY_PATH=" + packages_ + "/lib:$LD_LIBRARY_PATH AMENT_PREFIX_PATH=" + packages_ +
+                          ":$AMENT_PREFIX_PATH " + command);
+  }
+
+ private:
+  const std::string packages_ = build_path("ros2_packages");
+};
+
+}  // namespace skein::test

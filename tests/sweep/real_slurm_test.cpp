@@ -1,0 +1,93 @@
+// Studies by Slurm's own daemons, in the long suite (real_slurm.sh).
+#include "sweep_fixture.hpp"
+
+namespace skein::test {
+namespace {
+
+class RealSlurm : public SweepTest {
+ protected:
+  void SetUp() override {
+    if (!long_tests()) GTEST_SKIP() << "in the long suite";
+    fs::create_directories(dir_);
+    daemons_ = &start_program("daemons", {source_path("tests/sweep/real_slurm.sh"), dir_});
+    ASSERT_TRUE(eventually([&] { return fs::exists(dir_ / "ready") || daemons_->ended(); })) << daemons_->out();
+    if (const auto ended = daemons_->ended(); ended && ended->code == 77) GTEST_SKIP() << daemons_->out();
+    ASSERT_FALSE(daemons_->ended()) << daemons_->out() << daemons_->err();
+  }
+  void TearDown() override {
+    if (daemons_ != nullptr) {
+      daemons_->signal(SIGTERM);
+      daemons_->wait();
+    }
+    SweepTest::TearDown();
+  }
+
+  /// One whose process id the script has written.
+  bool kill_daemon(const std::string& name) const {
+    return ::kill(std::stoi("0" + text_of(dir_ / (name + ".pid"))), SIGKILL) == 0;
+  }
+
+  const fs::path dir_ = folder() / "real";
+  const Environment slurm_ = {{"SLURM_CONF", dir_ / "slurm.conf"}};
+  ChildProcess* daemons_ = nullptr;
+};
+
+TEST_F(RealSlurm, IsAsThePlainStudy) {
+  ChildProcess& study = fly("slurm", {"--executor", "slurm", "--slurm", "partition=debug"}, slurm_);
+  EXPECT_EQ(study.wait().code, 0) << study.err() << text_of(folder() / "slurm/sweep/log/slurm.log");
+  expect_as_plain("slurm");
+  EXPECT_NE(study.err().find("2 nodes; 1 flight flown again elsewhere, each with the same digest"), std::string::npos)
+      << study.err();
+
+  // The controller is killed in its midst: a job merges.
+  ChildProcess& killed = fly("killed", {"--executor", "slurm"}, slurm_);
+  EXPECT_TRUE(eventually([&] { return flown("killed") >= 2; })) << killed.err();
+  killed.signal(SIGKILL);
+  killed.wait();
+  EXPECT_TRUE(eventually([&] { return fs::exists(folder() / "killed/report.html"); }))
+      << text_of(folder() / "killed/sweep/log/slurm.log");
+  expect_as_plain("killed");
+}
+
+// Slurm gives the tasks of a node that is gone to another one, and has its jobs in files.
+TEST_F(RealSlurm, ANodeAndTheControllerOfTheClusterMayDie) {
+  ChildProcess& study = fly("deaths", {"--executor", "slurm"}, slurm_);
+  ASSERT_TRUE(eventually([&] { return flown("deaths") >= 2; })) << study.err();
+  ASSERT_TRUE(kill_daemon("slurmctld"));
+  ASSERT_TRUE(kill_daemon("node-n2"));
+  EXPECT_LT(flown("deaths"), flights()) << "they were to die in its midst";
+  EXPECT_EQ(study.wait().code, 0) << study.err() << logs("deaths");
+  expect_as_plain("deaths");
+}
+
+// Of one minute. Slurm looks each half a minute whose time will be over within a minute: so all that fly then end.
+TEST_F(RealSlurm, ALimitOfTimeLeavesWholeFlights) {
+  tests_ = 40;
+  ChildProcess& study =
+      fly("cut", {"--executor", "slurm", "--jobs", "1", "--unit-minutes", "100", "--slurm", "time=1"}, slurm_);
+  EXPECT_EQ(study.wait().code, 0) << study.err() << logs("cut");
+  EXPECT_NE(logs("cut").find("told to end; the flights until now stay"), std::string::npos) << logs("cut");
+  expect_as_plain("cut");
+}
+
+// `skein run --place slurm`: the launcher is on one node of the allocation, the UAVs are on the other.
+TEST_F(RealSlurm, AFleetOverTheNodesOfAnAllocation) {
+  const Arguments flight = {"towers", "--planner", "patrol", "--duration", "10", "--no-oracle", "--no-report"};
+  run("one", flight);
+  std::string script = "#!/bin/sh\nexec " + program("skein") + " run";
+  for (const std::string& word : flight) script += " " + word;
+  const fs::path job = write("job.sh", script + " --place slurm --out " + (folder() / "placed").string() + "\n");
+  ChildProcess& batch = start_program("sbatch",
+                                      {"/usr/bin/env", "sbatch", "--wait", "--nodes=2", "--ntasks=2",
+                                       "--output=" + (folder() / "job.out").string(), job},
+                                      slurm_);
+  EXPECT_EQ(batch.wait().code, 0) << batch.err() << text_of(folder() / "job.out");
+  EXPECT_NE(text_of(folder() / "job.out").find("nanyang on n2"), std::string::npos) << text_of(folder() / "job.out");
+  const auto digest_of = [&](const char* name) {
+    return Json::parse(text_of(folder() / name / "result.json"), nullptr, false)["digest"];
+  };
+  EXPECT_EQ(digest_of("placed"), digest_of("one"));
+}
+
+}  // namespace
+}  // namespace skein::test
