@@ -66,7 +66,8 @@ class Writer {
 class Reader {
  public:
   virtual ~Reader() = default;
-  /// Participants with a writer that this reader has matched, one entry a writer.
+  /// Participants with a writer that this reader has matched, one entry a writer. Whoever wrote a sample that was
+  /// handed out is among them until that writer has left.
   virtual std::vector<ParticipantId> matched() const = 0;
 };
 

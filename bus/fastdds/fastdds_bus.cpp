@@ -20,6 +20,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "bus/fastdds/matches.hpp"
 #include "bus/fastdds/raw_type.hpp"
 #include "bus/fastdds/security.hpp"
 #include "bus/fastdds/settings.hpp"
@@ -31,13 +32,7 @@ namespace fastdds {
 namespace {
 
 namespace dds = eprosima::fastdds::dds;
-using eprosima::fastrtps::rtps::GUID_t;
-using eprosima::fastrtps::rtps::GuidPrefix_t;
 using eprosima::fastrtps::types::ReturnCode_t;
-
-ParticipantId id_of(const GuidPrefix_t& prefix) {
-  return participant_id(std::span<const std::uint8_t, 12>(prefix.value, 12));
-}
 
 template <class Entity>
 Entity* created(Entity* entity, const std::string& what) {
@@ -45,49 +40,12 @@ Entity* created(Entity* entity, const std::string& what) {
   return entity;
 }
 
-/// Cyclone DDS: its GUIDs begin with its vendor id, 1.16.
-bool is_cyclone(const GuidPrefix_t& prefix) { return prefix.value[0] == 1 && prefix.value[1] == 16; }
-
-/// The endpoints that one endpoint has matched, kept by its listener. Fast DDS matches endpoints of one participant
-/// too; these do not count.
-class Matches {
- public:
-  explicit Matches(const GuidPrefix_t& own) : own_(own) {}
-
-  void update(const dds::InstanceHandle_t& handle, int change) {
-    const GUID_t endpoint = eprosima::fastrtps::rtps::iHandle2GUID(handle);
-    if (endpoint.guidPrefix == own_) return;
-    const std::scoped_lock lock(mutex_);
-    if (change > 0)
-      participants_[endpoint] = id_of(endpoint.guidPrefix);
-    else
-      participants_.erase(endpoint);
-  }
-
-  std::vector<ParticipantId> participants() const {
-    const std::scoped_lock lock(mutex_);
-    std::vector<ParticipantId> ids;
-    for (const auto& [endpoint, id] : participants_) ids.push_back(id);
-    return ids;
-  }
-
-  bool empty() const {
-    const std::scoped_lock lock(mutex_);
-    return participants_.empty();
-  }
-
-  /// Whether Cyclone DDS is among them.
-  bool any_cyclone() const {
-    const std::scoped_lock lock(mutex_);
-    return std::any_of(participants_.begin(), participants_.end(),
-                       [](const auto& match) { return is_cyclone(match.first.guidPrefix); });
-  }
-
- private:
-  GuidPrefix_t own_;
-  mutable std::mutex mutex_;
-  std::map<GUID_t, ParticipantId> participants_;
-};
+/// What a listener is told of one endpoint of the other side.
+template <class Status>
+void update(Matches& matches, const dds::InstanceHandle_t& handle, const Status& status) {
+  const GUID_t endpoint = eprosima::fastrtps::rtps::iHandle2GUID(handle);
+  status.current_count_change > 0 ? matches.begin(endpoint) : matches.end(endpoint);
+}
 
 class FastWriter : public Writer, private dds::DataWriterListener {
  public:
@@ -124,7 +82,7 @@ class FastWriter : public Writer, private dds::DataWriterListener {
 
  private:
   void on_publication_matched(dds::DataWriter*, const dds::PublicationMatchedStatus& status) override {
-    matches_.update(status.last_subscription_handle, status.current_count_change);
+    update(matches_, status.last_subscription_handle, status);
   }
 
   dds::Publisher& publisher_;
@@ -161,7 +119,9 @@ class FastReader : public Reader, private dds::DataReaderListener {
     RawSample payload;
     dds::SampleInfo info;
     while (reader->take_next_sample(&payload, &info) == ReturnCode_t::RETCODE_OK) {
-      const GuidPrefix_t& source = info.sample_identity.writer_guid().guidPrefix;
+      const GUID_t& writer = info.sample_identity.writer_guid();
+      const GuidPrefix_t& source = writer.guidPrefix;
+      matches_.note_sample(writer);
       if (info.valid_data && source != own_ && is_for_us(info)) on_sample_({std::move(payload), id_of(source)});
     }
   }
@@ -178,7 +138,7 @@ class FastReader : public Reader, private dds::DataReaderListener {
   }
 
   void on_subscription_matched(dds::DataReader*, const dds::SubscriptionMatchedStatus& status) override {
-    matches_.update(status.last_publication_handle, status.current_count_change);
+    update(matches_, status.last_publication_handle, status);
   }
 
   dds::Subscriber& subscriber_;

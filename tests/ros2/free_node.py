@@ -2,8 +2,9 @@
 
     free_node.py UAV FILE HEIGHT_M COMMANDS [stall|reject]
 
-HEIGHT_M is above where it found the UAV. It commands at each odometry, and says so on /plan at each tenth. FILE (JSON)
-says how often it published by topic, once it has done so and is there; then it stays, silent, until nobody hears it.
+HEIGHT_M is above where it found the UAV. It commands at each odometry until the UAV is there, and COMMANDS times at
+least; it says so on /plan at each tenth. FILE (JSON) says how often it published by topic, once that is done; then it
+stays, silent, until nobody hears it.
 Without an end (COMMANDS 0) FILE.ready appears after forty commands.
   stall   after twenty commands it is silent for a simulated second; then ten come at once, with their old stamps
   reject  five of its commands are no numbers
@@ -40,7 +41,7 @@ class Free:
         self.radio = node.create_publisher(String, "/plan", 100)
         node.create_subscription(Odometry, f"/{uav}/ground_truth/odometry", self.on_odometry, 10)
         self.published = {"trajectory": 0, "plan": 0}
-        self.start, self.held_back = None, []
+        self.start, self.held_back, self.done = None, [], False
 
     def on_odometry(self, odometry):
         position = odometry.pose.pose.position
@@ -49,11 +50,13 @@ class Free:
         if self.trajectories.get_subscription_count() < 2 or self.radio.get_subscription_count() < 2:
             return  # those of the fleet's own programs; the stand-in's is the second
         goal_z = self.start[2] + self.height_m
-        done = self.commands and self.published["trajectory"] >= self.commands
-        if done and abs(position.z - goal_z) < 0.5 and not os.path.exists(self.file):
+        if self.done:
+            return
+        if self.commands and self.published["trajectory"] >= self.commands and abs(position.z - goal_z) < 0.5:
+            self.done = True
             write(self.file, json.dumps(self.published))
-        if not done:
-            self.command(odometry, goal_z)
+            return
+        self.command(odometry, goal_z)
 
     def command(self, odometry, goal_z):
         count = self.published["trajectory"]

@@ -1,0 +1,79 @@
+// What Fast DDS tells from several threads, in every order in which it may come.
+#include "bus/fastdds/matches.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace skein::bus::fastdds {
+namespace {
+
+GUID_t endpoint(std::uint8_t participant, std::uint8_t entity) {
+  GUID_t guid;
+  guid.guidPrefix.value[11] = participant;
+  guid.entityId.value[3] = entity;
+  return guid;
+}
+
+const GuidPrefix_t kOwn = endpoint(9, 0).guidPrefix;
+
+TEST(Matches, HasWhoeverWroteASampleBeforeTheMatchIsTold) {
+  Matches matches(kOwn);
+  const GUID_t writer = endpoint(1, 1);
+  matches.note_sample(writer);
+  EXPECT_EQ(matches.participants(), std::vector{id_of(writer.guidPrefix)});
+  matches.begin(writer);
+  EXPECT_EQ(matches.participants(), std::vector{id_of(writer.guidPrefix)}) << "once";
+  matches.end(writer);
+  EXPECT_TRUE(matches.empty());
+}
+
+TEST(Matches, ALateSampleBringsNobodyBackButANewMatchDoes) {
+  Matches matches(kOwn);
+  const GUID_t writer = endpoint(1, 1);
+  matches.begin(writer);
+  matches.end(writer);
+  matches.note_sample(writer);
+  EXPECT_TRUE(matches.empty());
+  matches.begin(writer);
+  matches.note_sample(writer);
+  EXPECT_FALSE(matches.empty());
+}
+
+TEST(Matches, EndpointsOfTheOwnParticipantDoNotCount) {
+  Matches matches(kOwn);
+  matches.begin(endpoint(9, 1));
+  matches.note_sample(endpoint(9, 2));
+  EXPECT_TRUE(matches.empty());
+}
+
+// Matches of one endpoint begin and end in turn; its samples come at any time from shortly before a beginning on.
+TEST(Matches, DrawnOrdersEndWithThoseWhoAreThere) {
+  for (unsigned seed = 0; seed < 500; ++seed) {
+    std::mt19937 random(seed);
+    Matches matches(kOwn);
+    std::set<GUID_t> known;
+    std::map<GUID_t, bool> there;
+    for (int event = 0; event < 60; ++event) {
+      const GUID_t writer = endpoint(static_cast<std::uint8_t>(random() % 3), static_cast<std::uint8_t>(random() % 3));
+      if (random() % 2 == 0) {
+        matches.note_sample(writer);
+        if (known.insert(writer).second) there[writer] = true;
+      } else {
+        known.insert(writer);
+        bool& is_there = there[writer];
+        const bool told = is_there && random() % 2 == 0;
+        is_there = !told;
+        told ? matches.end(writer) : matches.begin(writer);
+      }
+      std::vector<ParticipantId> expected;
+      for (const auto& [endpoint, is_there] : there) {
+        if (is_there) expected.push_back(id_of(endpoint.guidPrefix));
+      }
+      ASSERT_EQ(matches.participants(), expected) << "seed " << seed << ", event " << event;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace skein::bus::fastdds
