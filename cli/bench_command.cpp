@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <map>
+#include <set>
 #include <stdexcept>
 #include <utility>
 
@@ -104,9 +106,11 @@ class Bench {
     for (const std::string& scenario : scenarios()) {
       RunOptions run = fleet_run(scenario, "patrol");
       run.duration_s = effort_.mission_s;
-      const auto [over_dds, in_one_process] = fly_both(run, "speed, " + scenario);
-      report_["speed"].push_back(speed_entry(over_dds, every_scan(run)));
-      report_["speed"].push_back(speed_entry(in_one_process, nullptr));
+      const Flights flights = fly_all_ways(run, kFleetSize, "speed, " + scenario);
+      report_["speed"].push_back(speed_entry(flights.over_dds, every_scan(run)));
+      for (const auto& [threads, results] : flights.by_threads) {
+        report_["speed"].push_back(speed_entry(results, nullptr, threads));
+      }
     }
   }
 
@@ -134,9 +138,11 @@ class Bench {
     for (const std::size_t uavs : effort_.sizes) {
       const double mission_s = uavs >= kLargeFleet ? effort_.scale_mission_of_large_s : effort_.scale_mission_s;
       const RunOptions run = fleet_run(write_scenario({uavs, mission_s, kExchangeS}, "scale"), "patrol");
-      const auto [over_dds, in_one_process] = fly_both(run, "scale, " + std::to_string(uavs) + " UAVs");
-      report_["scale"].push_back(scale_entry(uavs, over_dds));
-      report_["scale"].push_back(scale_entry(uavs, in_one_process));
+      const Flights flights = fly_all_ways(run, uavs, "scale, " + std::to_string(uavs) + " UAVs");
+      report_["scale"].push_back(scale_entry(uavs, flights.over_dds));
+      for (const auto& [threads, results] : flights.by_threads) {
+        report_["scale"].push_back(scale_entry(uavs, results, threads));
+      }
     }
   }
 
@@ -190,20 +196,27 @@ class Bench {
     return file;
   }
 
-  struct Both {
-    std::vector<Json> over_dds, in_one_process;
+  struct Flights {
+    std::vector<Json> over_dds;
+    std::map<int, std::vector<Json>> by_threads;  ///< in one process
   };
 
-  /// Over DDS and in one process by turns, so that what else the machine does disturbs both.
-  Both fly_both(RunOptions run, const std::string& what) {
-    Both results;
+  /// Over DDS, and in one process with one thread and with all cores, by turns, so that what else the machine does
+  /// disturbs all of them.
+  Flights fly_all_ways(RunOptions run, std::size_t uavs, const std::string& what) {
+    std::set<int> ways = {1, std::min(usable_cores(), static_cast<int>(uavs))};
+    Flights flights;
     for (int i = 0; i < effort_.repeats; ++i) {
       run.one_process = false;
-      results.over_dds.push_back(fly(run, what, i));
+      run.threads.reset();
+      flights.over_dds.push_back(fly(run, what, i));
       run.one_process = true;
-      results.in_one_process.push_back(fly(run, what + ", one process", i));
+      for (const int threads : ways) {
+        run.threads = threads;
+        flights.by_threads[threads].push_back(fly(run, what + ", " + text_of_threads(threads), i));
+      }
     }
-    return results;
+    return flights;
   }
 
   /// One `skein run`. @returns its result.json.

@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <map>
 #include <memory>
 #include <regex>
 #include <set>
 #include <sstream>
+#include <utility>
 
 #include "cli/options.hpp"
 #include "tests/support/places.hpp"
@@ -23,15 +25,24 @@ Words offered(const Words& words) { return completions(words, kKnown); }
 
 std::string text_of(const Words& arguments) { return std::get<HelpText>(parse_command_line(arguments)).text; }
 
-/// First words of the indented lines below a heading of --help.
-Words commands_of_help() {
-  const std::string help = text_of({"--help"}), heading = "Subcommands:\n";
-  std::istringstream lines(help.substr(help.find(heading) + heading.size()));
-  Words commands;
-  for (std::string line, word; std::getline(lines, line) && line.starts_with("  ");) {
-    std::istringstream(line) >> word;
-    commands.push_back(word);
+/// Commands of --help and their tasks, the headings over them, in its order.
+std::vector<std::pair<std::string, std::string>> tasks_of_help() {
+  static const std::regex kHeading("([A-Z].*):"), kCommand("  ([a-z-]+) .*");
+  std::istringstream lines(text_of({"--help"}));
+  std::vector<std::pair<std::string, std::string>> tasks;
+  std::string task;
+  std::smatch match;
+  for (std::string line; std::getline(lines, line) && line != "Example:";) {
+    if (std::regex_match(line, match, kHeading)) task = match.str(1);
+    if (std::regex_match(line, match, kCommand)) tasks.emplace_back(match.str(1), task);
   }
+  std::erase_if(tasks, [](const auto& entry) { return entry.first.starts_with('-'); });
+  return tasks;
+}
+
+Words commands_of_help() {
+  Words commands;
+  for (const auto& [command, task] : tasks_of_help()) commands.push_back(command);
   return commands;
 }
 
@@ -70,6 +81,21 @@ TEST(Completion, EveryCommandAndOptionOfHelpIsOfferedAndInTheManual) {
     const Words all = offered({command, "-"});
     EXPECT_EQ(std::set<std::string>(all.begin(), all.end()), options) << command;
   }
+}
+
+// A newcomer looks for a task, not for a name.
+TEST(Help, ListsEachCommandOnceUnderItsTask) {
+  std::map<std::string, std::string> task_of;
+  for (const auto& [command, task] : tasks_of_help()) {
+    EXPECT_TRUE(task_of.emplace(command, task).second) << command << " twice";
+    EXPECT_NE(task, "Subcommands") << command << " is of no task";
+  }
+  EXPECT_EQ(task_of["run"], "Fly a fleet");
+  EXPECT_EQ(task_of["replay"], "Look at what was flown");
+  EXPECT_EQ(task_of["contest"], "Compare planners");
+  EXPECT_EQ(task_of["hunt"], "Find faults");
+  EXPECT_EQ(task_of["bench"], "Scenarios and machines");
+  EXPECT_EQ(task_of.size(), offered({""}).size());
 }
 
 TEST(Completion, ValuesAreOfferedWhereTheyAreKnown) {

@@ -3,6 +3,9 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <CLI/CLI.hpp>
+#include <functional>
+#include <memory>
+#include <utility>
 
 #include "cli/option_checks.hpp"
 #include "cli/place_options.hpp"
@@ -227,72 +230,120 @@ void check_one_process(const RunOptions& run) {
   refuse(run.place.at.has_value(), "--place", "they run on several hosts");
 }
 
-/// The options of all commands, and what CLI11 fills.
-struct OptionParser {
-  OptionParser();
+void add_ps(CLI::App& app, PsOptions& /*none*/) {
+  app.add_subcommand("ps", "List the fleets that fly, with their processes");
+}
+
+void add_diff(CLI::App& app, DiffOptions& diff) {
+  CLI::App* command = app.add_subcommand(
+      "diff", "First step, entity and field in which two runs differ, and what else differs in what they left");
+  command->add_option("RUN_A", diff.run_a, "A results folder")->required();
+  command->add_option("RUN_B", diff.run_b, "Another one")->required();
+  command->footer("Example:\n  skein diff runs/towers-kios-0 runs/again");
+}
+
+/// What a command's options become, once they are read. @param arguments  of the whole command line
+template <class Options>
+Command finished(Options& options, const std::vector<std::string>& /*arguments*/) {
+  return options;
+}
+
+Command finished(RunOptions& run, const std::vector<std::string>& arguments) {
+  check_one_process(run);
+  check_view(run);
+  run.command = "skein " + shell_line(arguments);
+  return run;
+}
+
+Command finished(ComposeOptions& compose, const std::vector<std::string>& arguments) {
+  check_view(compose.run);
+  compose.run.command = "skein " + shell_line(arguments);
+  return compose;
+}
+
+Command finished(HuntOptions& hunt, const std::vector<std::string>& arguments) {
+  hunt.run.command = "skein " + shell_line(arguments);
+  check_sweep(hunt.sweep);
+  if (hunt.sweep.detach || hunt.sweep.status) {
+    throw InputError("--detach and --status are of studies: a hunt decides after each round what flies next");
+  }
+  hunt.sweep.command = arguments;
+  return hunt;
+}
+
+Command finished(StudyOptions& study, const std::vector<std::string>& arguments) {
+  check_sweep(study.sweep);
+  study.sweep.command = arguments;
+  return study;
+}
+
+Command finished(CheckOptions& check, const std::vector<std::string>& /*arguments*/) {
+  if (check.files.empty() && check.golden.empty()) throw InputError("check: give files, or --golden FILE.csv");
+  return check;
+}
+
+/// All commands by task, as `skein --help` lists them, and what CLI11 fills. A new command has its line here.
+class OptionParser {
+ public:
+  OptionParser()
+      : app("Skein: a fleet of inspection UAVs, simulated as separate processes that talk over DDS.", "skein") {
+    app.require_subcommand(1);
+    app.set_version_flag("--version", "skein " SKEIN_VERSION);
+    app.failure_message(CLI::FailureMessage::simple);
+    app.footer("Example:\n  skein run towers --planner kios\n\n`skein COMMAND --help` has the options of a command.");
+    const char* task = "Fly a fleet";
+    list(task, add_run);
+    list(task, add_compose);
+    list(task, add_keys);
+    list(task, add_fleet);
+    list(task, add_ps);
+    task = "Look at what was flown";
+    list(task, add_report);
+    list(task, add_replay);
+    list(task, add_diff);
+    list(task, add_merge);
+    task = "Compare planners";
+    list(task, add_compare);
+    list(task, add_contest);
+    list(task, add_oracle);
+    list(task, add_check_planner);
+    task = "Find faults";
+    list(task, add_attach);
+    list(task, add_rerun);
+    list(task, add_fork);
+    list(task, add_test);
+    list(task, add_hunt);
+    list(task, add_blame);
+    task = "Scenarios and machines";
+    list(task, add_check);
+    list(task, add_scene);
+    list(task, add_bench);
+    list(task, add_doctor);
+    list(task, add_pack);
+  }
+
+  /// Of the command that was parsed.
+  Command take(const std::vector<std::string>& arguments) {
+    for (const auto& [command, its_options] : commands_) {
+      if (command->parsed()) return its_options(arguments);
+    }
+    throw InputError("no command was given");
+  }
 
   CLI::App app;
-  RunOptions run;
-  TestOptions test;
-  CheckOptions check;
-  SceneOptions scene;
-  BenchOptions bench;
-  OracleOptions oracle;
-  DiffOptions diff;
-  DoctorOptions doctor;
-  ComposeOptions compose;
-  KeysOptions keys;
-  MergeOptions merge;
-  ReportOptions report;
-  ReplayOptions replay;
-  RerunOptions rerun;
-  ForkOptions fork;
-  HuntOptions hunt;
-  BlameOptions blame;
-  CheckPlannerOptions check_planner;
-  AttachOptions attach;
-  FleetOptions fleet;
-  PackOptions pack;
-  StudyOptions contest, compare;
-  int tests = 5;  ///< of the contest
-};
 
-OptionParser::OptionParser()
-    : app("Skein: a fleet of inspection UAVs, simulated as separate processes that talk over DDS.", "skein") {
-  app.require_subcommand(1);
-  app.set_version_flag("--version", "skein " SKEIN_VERSION);
-  app.failure_message(CLI::FailureMessage::simple);
-  app.footer("Example:\n  skein run towers --planner kios\n\n`skein COMMAND --help` has the options of a command.");
-  contest.contest = true;
-  add_run(app, run);
-  add_compose(app, compose);
-  add_keys(app, keys);
-  add_merge(app, merge);
-  add_report(app, report);
-  add_replay(app, replay);
-  add_rerun(app, rerun);
-  add_fork(app, fork);
-  add_test(app, test);
-  add_hunt(app, hunt);
-  add_blame(app, blame);
-  add_check_planner(app, check_planner);
-  add_check(app, check);
-  add_scene(app, scene);
-  add_bench(app, bench);
-  add_oracle(app, oracle);
-  add_contest(app, contest, tests);
-  add_compare(app, compare);
-  add_pack(app, pack);
-  add_doctor(app, doctor);
-  app.add_subcommand("ps", "List the fleets that fly, with their processes");
-  add_attach(app, attach);
-  add_fleet(app, fleet);
-  CLI::App* diff_command = app.add_subcommand(
-      "diff", "First step, entity and field in which two runs differ, and what else differs in what they left");
-  diff_command->add_option("RUN_A", diff.run_a, "A results folder")->required();
-  diff_command->add_option("RUN_B", diff.run_b, "Another one")->required();
-  diff_command->footer("Example:\n  skein diff runs/towers-kios-0 runs/again");
-}
+ private:
+  template <class Options>
+  void list(const char* task, void (*add)(CLI::App&, Options&)) {
+    const auto options = std::make_shared<Options>();
+    add(app, *options);
+    CLI::App* command = app.get_subcommands([](const CLI::App*) { return true; }).back();
+    command->group(task);
+    commands_.emplace_back(command, [options](const auto& arguments) { return finished(*options, arguments); });
+  }
+
+  std::vector<std::pair<CLI::App*, std::function<Command(const std::vector<std::string>&)>>> commands_;
+};
 
 }  // namespace
 
@@ -320,56 +371,7 @@ Command parse_command_line(const std::vector<std::string>& arguments) {
     throw InputError(std::string(error.what()) + "\nSee `skein --help` or `skein COMMAND --help`.");
   }
   refuse_empty_values(parser.app);
-  const std::string command = "skein " + shell_line(arguments);
-  if (is("run")) {
-    check_one_process(parser.run);
-    check_view(parser.run);
-    parser.run.command = command;
-    return parser.run;
-  }
-  if (is("compose")) {
-    check_view(parser.compose.run);
-    parser.compose.run.command = command;
-    return parser.compose;
-  }
-  if (is("keys")) return parser.keys;
-  if (is("pack")) return parser.pack;
-  if (is("merge")) return parser.merge;
-  if (is("report")) return parser.report;
-  if (is("replay")) return parser.replay;
-  if (is("rerun")) return parser.rerun;
-  if (is("fork")) return parser.fork;
-  if (is("ps")) return PsOptions{};
-  if (is("attach")) return parser.attach;
-  if (is("fleet")) return parser.fleet;
-  if (is("test")) return parser.test;
-  if (is("hunt")) {
-    parser.hunt.run.command = command;
-    check_sweep(parser.hunt.sweep);
-    if (parser.hunt.sweep.detach || parser.hunt.sweep.status) {
-      throw InputError("--detach and --status are of studies: a hunt decides after each round what flies next");
-    }
-    parser.hunt.sweep.command = arguments;
-    return parser.hunt;
-  }
-  if (is("scene")) return parser.scene;
-  if (is("blame")) return parser.blame;
-  if (is("check-planner")) return parser.check_planner;
-  if (is("bench")) return parser.bench;
-  if (is("oracle")) return parser.oracle;
-  if (is("diff")) return parser.diff;
-  if (is("doctor")) return parser.doctor;
-  for (StudyOptions* study : {&parser.contest, &parser.compare}) {
-    check_sweep(study->sweep);
-    study->sweep.command = arguments;
-  }
-  parser.contest.seeds = "1-" + std::to_string(parser.tests);
-  if (is("contest")) return parser.contest;
-  if (is("compare")) return parser.compare;
-  if (parser.check.files.empty() && parser.check.golden.empty()) {
-    throw InputError("check: give files, or --golden FILE.csv");
-  }
-  return parser.check;
+  return parser.take(arguments);
 }
 
 }  // namespace skein::cli

@@ -100,13 +100,16 @@ void add_study_options(CLI::App& command, StudyOptions& study) {
 
 }  // namespace
 
-void add_contest(CLI::App& app, StudyOptions& contest, int& tests) {
+void add_contest(CLI::App& app, StudyOptions& contest) {
   CLI::App* command =
       app.add_subcommand("contest", "The contest's protocol: tests of all scenes, totals and a ranking");
+  contest.contest = true;
+  contest.seeds = "1-5";
   add_study_options(*command, contest);
-  command->add_option("--tests", tests, "Number of tests; test N is seed N of every scene")
+  const auto set_tests = [&contest](int tests) { contest.seeds = "1-" + std::to_string(tests); };
+  command->add_option_function<int>("--tests", set_tests, "Number of tests; test N is seed N of every scene")
       ->check(CLI::Range(1, 1000))
-      ->capture_default_str();
+      ->default_str("5");
   const auto set_rank = [&contest](const std::string& by) {
     contest.rank = by == "max" ? Rank::maximum : by == "median" ? Rank::median : Rank::worst;
   };

@@ -36,7 +36,7 @@ void add_report(CLI::App& app, ReportOptions& report);
 void add_rerun(CLI::App& app, RerunOptions& rerun);
 void add_fork(CLI::App& app, ForkOptions& fork);
 void add_pack(CLI::App& app, PackOptions& pack);
-void add_contest(CLI::App& app, StudyOptions& contest, int& tests);
+void add_contest(CLI::App& app, StudyOptions& contest);
 void add_compare(CLI::App& app, StudyOptions& study);
 void add_hunt(CLI::App& app, HuntOptions& hunt);
 void add_fleet(CLI::App& app, FleetOptions& fleet);

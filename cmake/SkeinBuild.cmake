@@ -121,17 +121,6 @@ function(skein_check_alignment target)
   endif()
 endfunction()
 
-# skein_forward_header(OLD NEW...)
-# A header where it was before it moved: includes of OLD, which others may have written, bring what is in NEW.
-set(SKEIN_FORWARD_DIR ${CMAKE_BINARY_DIR}/forward)
-function(skein_forward_header old)
-  set(text "#pragma once\n")
-  foreach(new ${ARGN})
-    string(APPEND text "#include \"${new}\"\n")
-  endforeach()
-  file(CONFIGURE OUTPUT ${SKEIN_FORWARD_DIR}/${old} CONTENT "${text}")
-endfunction()
-
 # skein_add_program(NAME SOURCES ... LIBS ...)
 function(skein_add_program name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LIBS" ${ARGN})

@@ -68,14 +68,13 @@ foreach(library ${libraries})
   add_library(skein::${library} ALIAS skein_${library})
 endforeach()
 
-# Headers of what a planner may use, where SkeinBuild.cmake has them, and under their former names. The rest is
-# internal: the contract's sources get the agent's headers for themselves.
+# Headers of what a planner may use. The rest is internal: the contract's sources get the agent's headers for
+# themselves.
 install(DIRECTORY core DESTINATION include/skein COMPONENT dev FILES_MATCHING PATTERN "*.hpp")
 foreach(folder api maps flight flight_core planning)
   install(DIRECTORY uav_agent/${folder} DESTINATION include/skein/uav_agent COMPONENT dev
     FILES_MATCHING PATTERN "*.hpp")
 endforeach()
-install(DIRECTORY ${SKEIN_FORWARD_DIR}/ DESTINATION include/skein COMPONENT dev)
 # Packages for ROS 2, as sources: who has ROS 2 builds them with it (docs/ros2.md).
 install(DIRECTORY ros2 DESTINATION ${CMAKE_INSTALL_DATADIR}/skein COMPONENT dev USE_SOURCE_PERMISSIONS
   PATTERN generate_messages.py EXCLUDE PATTERN __pycache__ EXCLUDE)

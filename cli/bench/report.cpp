@@ -1,12 +1,16 @@
 #include "cli/bench/report.hpp"
-#include "process/run_folder.hpp"
+
+#include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
 #include <array>
 #include <functional>
+#include <map>
 #include <set>
 #include <string>
-#include <tuple>
+#include <utility>
+
+#include "process/run_folder.hpp"
 
 namespace skein::cli {
 namespace {
@@ -103,6 +107,31 @@ const Json* find(const Json& report, const char* part, const std::function<bool(
   return found == entries->end() ? nullptr : &*found;
 }
 
+/// How a fleet flew.
+struct Way {
+  enum Kind { over_dds, one_thread, all_cores } kind = over_dds;
+  std::string text;  ///< behind the name of what was flown
+};
+
+Way way_of(const Json& entry) {
+  const int threads = static_cast<int>(number(entry, "threads"));
+  if (threads == 0) return {};
+  return {threads == 1 ? Way::one_thread : Way::all_cores, ", " + text_of_threads(threads)};
+}
+
+/// Real-time factor asked for and aimed at, and the most memory [MB] of five UAVs.
+struct SpeedTarget {
+  double factor, aim, most_mb;
+};
+const std::map<Way::Kind, SpeedTarget> kSpeedTargets = {{Way::over_dds, {50.0, 60.0, 250.0}},
+                                                        {Way::one_thread, {80.0, 100.0, 100.0}},
+                                                        {Way::all_cores, {130.0, 170.0, 100.0}}};
+/// Real-time factor, by UAVs and how they fly; on two cores.
+const std::map<std::pair<double, Way::Kind>, double> kScaleTargets = {{{20.0, Way::over_dds}, 15.0},
+                                                                      {{100.0, Way::over_dds}, 2.0},
+                                                                      {{20.0, Way::all_cores}, 25.0},
+                                                                      {{100.0, Way::all_cores}, 5.0}};
+
 Json target(const std::string& name, bool at_least, double wanted, const Json& value, const std::string& unit) {
   Json entry = {{"name", name}, {"kind", at_least ? "at_least" : "at_most"}, {"target", wanted}, {"unit", unit}};
   entry["value"] = value;
@@ -169,12 +198,17 @@ Json work_of(const Json& result) {
   return work;
 }
 
-Json speed_entry(const std::vector<Json>& results, const Json& lidar) {
+std::string text_of_threads(int threads) {
+  return fmt::format("{}, {} thread{}", kInOneProcess, threads, threads == 1 ? "" : "s");
+}
+
+Json speed_entry(const std::vector<Json>& results, const Json& lidar, int threads) {
   const Json& run = typical(results);
   const Json timing = value_or(run, "timing", Json::object());
   return {
       {"scenario", value_or(run, "scenario", "")},
       {"medium", medium_of(run)},
+      {"threads", threads},
       {"uavs", value_or(run, "uavs", Json::array()).size()},
       {"status", statuses(results)},
       {"sim_time_s", number(run, "sim_time_s")},
@@ -221,7 +255,7 @@ Json rounds_entry(const std::string& vendor, std::size_t uavs, const std::vector
            figure_of(fleets, [](const Json& r) { return 1e3 * ratio(simulation_cpu_s(r), steps(r)); })}};
 }
 
-Json scale_entry(std::size_t uavs, const std::vector<Json>& results) {
+Json scale_entry(std::size_t uavs, const std::vector<Json>& results, int threads) {
   const Json& run = typical(results);
   double largest_mb = 0.0, agents_mb = 0.0, agents = 0.0;
   const Json processes = value_or(run, "processes", Json::object());
@@ -232,6 +266,7 @@ Json scale_entry(std::size_t uavs, const std::vector<Json>& results) {
   }
   return {{"uavs", uavs},
           {"medium", medium_of(run)},
+          {"threads", threads},
           {"status", statuses(results)},
           {"to_the_end", std::ranges::all_of(results, ran_to_the_end)},
           {"sim_time_s", number(run, "sim_time_s")},
@@ -290,13 +325,15 @@ Json memory_entry(const Json& short_run, const Json& long_run) {
 Json targets_of(const Json& report) {
   Json targets = Json::array();
   for (const Json& speed : value_or(report, "speed", Json::array())) {
-    const bool one_process = value_or(speed, "medium", "") == kInOneProcess;
-    const std::string of = std::to_string(static_cast<int>(number(speed, "uavs"))) + " UAVs, " +
-                           value_or(speed, "scenario", "").get<std::string>();
-    targets.push_back(target("real-time factor, " + of + (one_process ? ", one process" : ""), true,
-                             one_process ? 60.0 : 30.0, value_in(&speed, "real_time_factor"),
-                             one_process ? "x (aim 100)" : "x (aim 60)"));
-    if (one_process) continue;
+    const Way way = way_of(speed);
+    const std::string of =
+        fmt::format("{} UAVs, {}", number(speed, "uavs"), value_or(speed, "scenario", "").get<std::string>()) +
+        way.text;
+    const auto& [factor, aim, most_mb] = kSpeedTargets.at(way.kind);
+    targets.push_back(target("real-time factor, " + of, true, factor, value_in(&speed, "real_time_factor"),
+                             fmt::format("x (aim {})", aim)));
+    targets.push_back(target("memory, " + of, false, most_mb, value_in(&speed, "resident_mb"), "MB"));
+    if (way.kind != Way::over_dds) continue;
     const Json lidar = value_or(value_or(speed, "lidar", Json::object()), "every_scan", Json::object());
     targets.push_back(target("LiDAR, every scan, " + of, false, 0.25, value_or(lidar, "mean_ms", nullptr), "ms"));
   }
@@ -307,18 +344,16 @@ Json targets_of(const Json& report) {
     targets.push_back(target("lock-step against bare DDS, " + uavs + " UAVs", false, 1.5,
                              value_in(&rounds, "times_floor"), "times the floor"));
   }
-  const auto of_size = [&](double uavs, bool one_process) {
-    return find(report, "scale", [=](const Json& entry) {
-      return number(entry, "uavs") == uavs && (value_or(entry, "medium", "") == kInOneProcess) == one_process;
-    });
-  };
-  for (const auto& [uavs, over_dds, in_one_process] : {std::tuple(20, 15.0, 20.0), {100, 2.0, 3.0}}) {
-    const std::string of = "real-time factor, " + std::to_string(uavs) + " UAVs";
-    targets.push_back(target(of, true, over_dds, value_in(of_size(uavs, false), "real_time_factor"), "x"));
-    targets.push_back(
-        target(of + ", one process", true, in_one_process, value_in(of_size(uavs, true), "real_time_factor"), "x"));
+  for (const Json& scale : value_or(report, "scale", Json::array())) {
+    const Way way = way_of(scale);
+    const auto wanted = kScaleTargets.find({number(scale, "uavs"), way.kind});
+    if (wanted == kScaleTargets.end()) continue;
+    targets.push_back(target(fmt::format("real-time factor, {} UAVs{}", number(scale, "uavs"), way.text), true,
+                             wanted->second, value_in(&scale, "real_time_factor"), "x"));
   }
-  const Json* hundred = of_size(100, false);
+  const Json* hundred = find(report, "scale", [](const Json& entry) {
+    return number(entry, "uavs") == 100.0 && way_of(entry).kind == Way::over_dds;
+  });
   const Json ended = hundred == nullptr ? Json() : Json(value_or(*hundred, "to_the_end", false) ? 1 : 0);
   targets.push_back(target("100 UAVs run to the end", true, 1.0, ended, "(1: yes)"));
   for (const Json& relay : value_or(report, "relay", Json::array())) {

@@ -2,6 +2,7 @@
 // in a result counts as 0 or null, never as an error.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "cli/run/result.hpp"
@@ -20,8 +21,13 @@ Json figure(const std::vector<double>& values);
 /// much of it each kind of program took.
 Json work_of(const Json& result);
 
-/// One scenario flown several times; all results are of the same scenario. `lidar` is bench_lidar's report, or null.
-Json speed_entry(const std::vector<Json>& results, const Json& lidar);
+/// "one process, 2 threads"
+std::string text_of_threads(int threads);
+
+/// One scenario flown several times; all results are of the same scenario.
+/// @param lidar  bench_lidar's report, or null
+/// @param threads  of the one process; 0: the fleet flew as processes
+Json speed_entry(const std::vector<Json>& results, const Json& lidar, int threads = 0);
 
 /// A fleet that exchanges and does nothing else, against the floor: one pair of results a repeat.
 struct RoundsPair {
@@ -30,8 +36,8 @@ struct RoundsPair {
 };
 Json rounds_entry(const std::string& vendor, std::size_t uavs, const std::vector<RoundsPair>& pairs);
 
-/// One size of fleet.
-Json scale_entry(std::size_t uavs, const std::vector<Json>& results);
+/// One size of fleet. @param threads  as for speed_entry()
+Json scale_entry(std::size_t uavs, const std::vector<Json>& results, int threads = 0);
 
 /// What an exchange of one fleet takes, in the median of its runs [ms]: `round_ms` by the clock on the wall, `cpu_ms`
 /// of all its processes.

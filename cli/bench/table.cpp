@@ -16,15 +16,20 @@ std::string spread(const Json& object, const char* key, int digits) {
                      number(figure, "max"), digits);
 }
 
+/// "cyclonedds", "one process, 2 threads"
+std::string medium(const Json& entry) {
+  const int threads = static_cast<int>(number(entry, "threads"));
+  return threads > 0 ? text_of_threads(threads) : value_or(entry, "medium", "").get<std::string>();
+}
+
 Json part(const Json& report, const char* key) { return value_or(report, key, Json::array()); }
 
 void print_speed(std::ostream& out, const Json& speed) {
   out << fmt::format(
       "\n{}, {} UAVs, patrol, {}: x{} real time, {:.1f} s simulated; {} cores busy, {:.0f} MB, start-up {:.1f} s\n",
-      value_or(speed, "scenario", "").get<std::string>(), number(speed, "uavs"),
-      value_or(speed, "medium", "").get<std::string>(), spread(speed, "real_time_factor", 1),
-      number(speed, "sim_time_s"), spread(speed, "cores_busy", 2), middle(speed, "memory_mb"),
-      middle(speed, "startup_s"));
+      value_or(speed, "scenario", "").get<std::string>(), number(speed, "uavs"), medium(speed),
+      spread(speed, "real_time_factor", 1), number(speed, "sim_time_s"), spread(speed, "cores_busy", 2),
+      middle(speed, "memory_mb"), middle(speed, "startup_s"));
   out << fmt::format("  {:<16}{:>10}{:>10}{:>18}\n", "CPU time of", "s", "share", "ms a simulated s");
   const Json all_work = value_or(speed, "work", Json::object());
   for (const auto& [kind, work] : all_work.items()) {
@@ -64,17 +69,16 @@ void print_rounds(std::ostream& out, const Json& rounds) {
 void print_scale(std::ostream& out, const Json& scale) {
   if (scale.empty()) return;
   out << "\nsizes of fleet, patrol beside the towers\n"
-      << fmt::format("  {:>5}{:>14}{:>20}{:>12}{:>12}{:>14}{:>14}{:>14}{:>10}{:>10}{:>12}\n", "UAVs", "",
+      << fmt::format("  {:>5}{:>24}{:>20}{:>12}{:>12}{:>14}{:>14}{:>14}{:>10}{:>10}{:>12}\n", "UAVs", "",
                      "real-time factor", "rounds/s", "memory MB", "largest MB", "agent MB", "start-up s", "agents",
                      "exchange", "to the end");
   for (const Json& entry : scale) {
     const Json work = value_or(entry, "work", Json::object());
     const auto share = [&](const char* kind) { return 100.0 * number(value_or(work, kind, Json::object()), "share"); };
-    out << fmt::format("  {:>5}{:>14}{:>20}{:>12.1f}{:>12.0f}{:>14.0f}{:>14.1f}{:>14.1f}{:>9.0f}%{:>9.0f}%{:>12}\n",
-                       number(entry, "uavs"), value_or(entry, "medium", "").get<std::string>(),
-                       spread(entry, "real_time_factor", 1), middle(entry, "rounds_per_s"), middle(entry, "memory_mb"),
-                       number(entry, "largest_process_mb"), number(entry, "mean_agent_mb"), middle(entry, "startup_s"),
-                       share("agents"), share("exchange"),
+    out << fmt::format("  {:>5}{:>24}{:>20}{:>12.1f}{:>12.0f}{:>14.0f}{:>14.1f}{:>14.1f}{:>9.0f}%{:>9.0f}%{:>12}\n",
+                       number(entry, "uavs"), medium(entry), spread(entry, "real_time_factor", 1),
+                       middle(entry, "rounds_per_s"), middle(entry, "memory_mb"), number(entry, "largest_process_mb"),
+                       number(entry, "mean_agent_mb"), middle(entry, "startup_s"), share("agents"), share("exchange"),
                        value_or(entry, "to_the_end", false).get<bool>() ? "yes" : "no");
   }
 }
@@ -107,7 +111,7 @@ void print_targets(std::ostream& out, const Json& targets) {
       verdict = fmt::format("{:.3g} {}: {}", number(target, "value"), target["unit"].get<std::string>(),
                             target["met"].get<bool>() ? "met" : fmt::format("missed, {:.0f} % of it", 100.0 * factor));
     }
-    out << fmt::format("  {:<42}{:>3}{:>6}   {}\n", target["name"].get<std::string>(),
+    out << fmt::format("  {:<54}{:>3}{:>6}   {}\n", target["name"].get<std::string>(),
                        at_least ? ">=" : "<=", number(target, "target"), verdict);
   }
 }

@@ -88,7 +88,7 @@ void TrialFlights::fly_round(const std::vector<std::size_t>& numbers, const std:
                      [&](double) { return std::max<std::size_t>(1, flights.size() / (4 * slots)); },
                      plan_.options.sweep.command,
                      fs::current_path()});
-    write_fly_script(folder, fs::absolute(plan_.out), fs::current_path());
+    write_fly_script(folder, fs::absolute(plan_.out), fs::current_path(), plan_.options.jobs);
     if (!controller.fly()) throw Interrupted{};
     for (const auto& [unit, words] : controller.failed()) {
       throw InputError("unit " + std::to_string(unit) + " of this round was not flown: " + words +

@@ -152,12 +152,16 @@ bool SweepController::fly() {
   for (;;) {
     judge_checks();
     remove_quarantined();
+    const std::set<std::string> before = nodes_to_avoid();
+    std::set<std::string> not_on = before;
     std::vector<std::size_t> units = within_tries(open_units());
-    if (units.empty()) units = units_of_checks();
+    if (units.empty()) {
+      units = units_of_checks();
+      not_on.merge(nodes_of_no_use(units, before));
+    }
     if (units.empty() && check_here()) continue;
     if (units.empty()) break;
-    const std::set<std::string> before = nodes_to_avoid();
-    if (!engine_.fly(units, before, [this] { tell_progress(); })) return false;
+    if (!engine_.fly(units, not_on, [this] { tell_progress(); })) return false;
     tell_progress();
     // A node that fails at once may have taken all units: that says nothing about them.
     if (nodes_to_avoid() != before) folder_.write_tries({});
@@ -240,6 +244,22 @@ std::vector<std::size_t> SweepController::units_of_checks() const {
     units.push_back(number);
   }
   return units;
+}
+
+/// For checks: the node that flew all of them, if there is another one that may fly.
+std::set<std::string> SweepController::nodes_of_no_use(const std::vector<std::size_t>& checks,
+                                                       const std::set<std::string>& avoided) const {
+  std::set<std::string> flew, others;
+  for (const std::size_t unit : checks) {
+    for (const SweepFlight& flight : folder_.unit(unit).flights) {
+      if (const auto first = row_in_place(folder_, flight, here_)) flew.insert(first->node);
+    }
+  }
+  if (flew.size() != 1) return {};
+  for (const std::string& node : folder_.nodes()) {
+    if (!avoided.contains(node) && !flew.contains(node)) others.insert(node);
+  }
+  return others.empty() ? std::set<std::string>{} : flew;
 }
 
 /// What chance has left over, or all where there is one node beside this one. @returns whether there was any.

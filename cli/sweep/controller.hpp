@@ -72,6 +72,8 @@ class SweepController {
   std::vector<std::size_t> within_tries(const std::vector<std::size_t>& units) const;
   std::vector<SweepFlight> unchecked_flights() const;
   std::vector<std::size_t> units_of_checks() const;
+  std::set<std::string> nodes_of_no_use(const std::vector<std::size_t>& checks,
+                                        const std::set<std::string>& avoided) const;
   bool check_here();
   void judge(const SweepCheck& check) const;
   void judge_checks() const;

@@ -119,6 +119,18 @@ TEST(SweepController, LosesAndDoublesNothingInDrawnOrders) {
   EXPECT_GT(failing, orders / 10);
 }
 
+// Below a hundred flights one is flown again: not on the node that flew it, whatever is drawn.
+TEST(SweepController, ACheckGoesToAnotherNodeAtOnce) {
+  for (std::uint64_t order = 1; order <= 50; ++order) {
+    SCOPED_TRACE("order " + std::to_string(order));
+    Sweep sweep(order, 12, 2, {{"sound 1"}, {"sound 2"}});
+    ASSERT_TRUE(sweep.control());
+    sweep.expect_all(12);
+    const bool both_flew = SweepFolder(sweep.world.study()).nodes().size() == 2;
+    EXPECT_EQ(sweep.engine.rounds, both_flew ? 2U : 1U) << sweep.said.str();
+  }
+}
+
 TEST(SweepController, AnotherArithmeticIsFoundByTheReferenceFlight) {
   std::vector<MadeUpNode> nodes = {{"sound"}, {"odd"}};
   nodes[1].other_arithmetic = true;

@@ -9,6 +9,7 @@
 #include "cli/run/preflight.hpp"
 #include "cli/study/side_by_side.hpp"
 #include "cli/sweep/slurm.hpp"
+#include "cli/threads.hpp"
 #include "core/text.hpp"
 #include "core/types.hpp"
 #include "process/atomic_file.hpp"
@@ -76,7 +77,10 @@ class ParallelEngine : public SweepEngine {
  private:
   ProgramSpec program(const fs::path& list) const {
     // A unit that is told to end has some seconds for the step that it is in.
-    std::vector<std::string> argv = {"/usr/bin/env", "parallel", "--plain", "--termseq", "TERM,5000,KILL,25"};
+    std::vector<std::string> argv = {"/usr/bin/env"};
+    // What this launcher would give to one flight alone is not for each of its slots.
+    if (::getenv(kThreadsVariable) == nullptr) argv.insert(argv.end(), {"-u", kThreadsVariable});
+    argv.insert(argv.end(), {"parallel", "--plain", "--termseq", "TERM,5000,KILL,25"});
     if (jobs_) argv.insert(argv.end(), {"--jobs", std::to_string(*jobs_)});
     for (const std::string& login : logins_) argv.insert(argv.end(), {"--sshlogin", login});
     // A unit that fails is tried on another host.
@@ -110,7 +114,8 @@ fs::path launcher_file() {
   return chosen != nullptr && *chosen != '\0' ? fs::path(chosen) : fs::absolute(program_dir() / "skein");
 }
 
-void write_fly_script(const SweepFolder& folder, const fs::path& study, const fs::path& working_folder) {
+void write_fly_script(const SweepFolder& folder, const fs::path& study, const fs::path& working_folder,
+                      const std::optional<int>& jobs) {
   std::string script =
       "#!/bin/sh\n# Flies unit $1 of the sweep in this folder; any node may, and as often as it likes.\n";
   script += "cd " + shell_word(working_folder) + " || exit 3\n";
@@ -121,6 +126,12 @@ void write_fly_script(const SweepFolder& folder, const fs::path& study, const fs
       continue;
     script += "export " + entry.substr(0, equals) + "=" + shell_word(entry.substr(equals + 1)) + "\n";
   }
+  // Other units fly on the same node. Slurm tells how many cores are this one's; else they are dealt out among the
+  // slots, of which GNU parallel has as many as cores unless it is told.
+  const std::string slots = jobs ? std::to_string(*jobs) : "$(nproc)";
+  script += "threads=${SLURM_CPUS_ON_NODE:-$(($(nproc) / " + slots + "))}\n";
+  script += "[ \"$threads\" -ge 1 ] || threads=1\n";
+  script += std::string("export ") + kThreadsVariable + "=\"${" + kThreadsVariable + ":-$threads}\"\n";
   script += "log=" + shell_word(folder.dir() / "log") + "/$(printf %06d \"$1\").log\n";
   script += "exec " + shell_word(launcher_file()) + " --unit " + shell_word(study) + " \"$1\" >>\"$log\" 2>&1\n";
   write_file_atomically(fly_script(folder), script);

@@ -18,9 +18,11 @@ namespace skein::cli {
 std::unique_ptr<SweepEngine> make_engine(const SweepOptions& options, std::optional<int> jobs,
                                          const SweepFolder& folder, const Console& console);
 
-/// What any node runs to fly unit $1: in the sweep's working folder, with this launcher's own variables.
+/// What any node runs to fly unit $1: in the sweep's working folder, with this launcher's own variables, and with the
+/// share of the node's cores that is its own.
+/// @param jobs  as for make_engine()
 void write_fly_script(const SweepFolder& folder, const std::filesystem::path& study,
-                      const std::filesystem::path& working_folder);
+                      const std::filesystem::path& working_folder, const std::optional<int>& jobs);
 std::filesystem::path fly_script(const SweepFolder& folder);
 
 /// The launcher as another host starts it: of a pack, the script that finds its libraries.

@@ -119,7 +119,7 @@ StudyOutcomes fly_sweep(const StudyPlan& plan, const Console& console) {
   const auto engine = make_engine(plan.options.sweep, plan.options.jobs, folder, console);
   SweepController controller(folder, *engine, here, console.err);
   controller.plan(sweep_plan(plan, folder), ::getenv(kMergeVariable) == nullptr);
-  write_fly_script(folder, plan.out, fs::current_path());
+  write_fly_script(folder, plan.out, fs::current_path(), plan.options.jobs);
   console.err << fmt::format("{} units of up to {} flights", controller.settings().units(),
                              controller.settings().unit_flights)
               << std::endl;

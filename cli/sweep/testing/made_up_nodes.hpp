@@ -161,6 +161,7 @@ class MadeUpEngine : public SweepEngine {
 
   bool fly(const std::vector<std::size_t>& units, const std::set<std::string>& not_on,
            const std::function<void()>& tell) override {
+    ++rounds;
     std::vector<std::size_t> waiting;
     for (const std::size_t unit : units) {
       const bool held = std::ranges::any_of(workers_, [&](const auto& worker) { return worker->unit() == unit; });
@@ -184,6 +185,7 @@ class MadeUpEngine : public SweepEngine {
   bool has_other_nodes() const override { return true; }
 
   EngineManners manners;
+  std::size_t rounds = 0;  ///< in which it was given units
 
  private:
   bool drawn(double probability) { return world_.draw.uniform() < probability; }
