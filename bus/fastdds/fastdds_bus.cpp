@@ -40,7 +40,7 @@ Entity* created(Entity* entity, const std::string& what) {
   return entity;
 }
 
-/// What a listener is told of one endpoint of the other side.
+/// Fast DDS tells a listener that an endpoint of the other side has been matched, or no longer is.
 template <class Status>
 void update(Matches& matches, const dds::InstanceHandle_t& handle, const Status& status) {
   const GUID_t endpoint = eprosima::fastrtps::rtps::iHandle2GUID(handle);

@@ -344,16 +344,17 @@ Json targets_of(const Json& report) {
     targets.push_back(target("lock-step against bare DDS, " + uavs + " UAVs", false, 1.5,
                              value_in(&rounds, "times_floor"), "times the floor"));
   }
-  for (const Json& scale : value_or(report, "scale", Json::array())) {
-    const Way way = way_of(scale);
-    const auto wanted = kScaleTargets.find({number(scale, "uavs"), way.kind});
-    if (wanted == kScaleTargets.end()) continue;
-    targets.push_back(target(fmt::format("real-time factor, {} UAVs{}", number(scale, "uavs"), way.text), true,
-                             wanted->second, value_in(&scale, "real_time_factor"), "x"));
+  const auto of_size = [&](double uavs, Way::Kind kind) {
+    return find(report, "scale",
+                [=](const Json& entry) { return number(entry, "uavs") == uavs && way_of(entry).kind == kind; });
+  };
+  for (const auto& [what, wanted] : kScaleTargets) {
+    const auto& [uavs, kind] = what;
+    targets.push_back(target(
+        fmt::format("real-time factor, {} UAVs{}", uavs, kind == Way::all_cores ? ", one process, all cores" : ""),
+        true, wanted, value_in(of_size(uavs, kind), "real_time_factor"), "x"));
   }
-  const Json* hundred = find(report, "scale", [](const Json& entry) {
-    return number(entry, "uavs") == 100.0 && way_of(entry).kind == Way::over_dds;
-  });
+  const Json* hundred = of_size(100.0, Way::over_dds);
   const Json ended = hundred == nullptr ? Json() : Json(value_or(*hundred, "to_the_end", false) ? 1 : 0);
   targets.push_back(target("100 UAVs run to the end", true, 1.0, ended, "(1: yes)"));
   for (const Json& relay : value_or(report, "relay", Json::array())) {
