@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
 #include <iostream>
 #include <string_view>
@@ -50,6 +51,34 @@ namespace {
 
 extern "C" void on_sanitizer_death() { tell_of_death(SIGABRT); }
 
+/// Ends the process at once: what exit() would destroy, other threads still fly with.
+void tell_of_exit(int code, void*) {
+  const DeathNotice* notice = in_turn.exchange(nullptr);
+  if (notice == nullptr) return;
+  if (!told.exchange(true)) {
+    std::cerr << notice->program() << ": called exit(" << code << "), which ends the whole fleet here" << std::endl;
+    write_news(line_of(notice->program(), code == 0 ? kExitProcessFailed : code, 0));
+  }
+  std::fflush(stdout);
+  ::_exit(code);
+}
+
+/// exit() destroys what is its thread's own before anything of the process. What is registered then runs first of all,
+/// however late a static object was made.
+class ExitWatch {
+ public:
+  ExitWatch() = default;
+  ~ExitWatch() {
+    if (in_turn.load() != nullptr) ::on_exit(tell_of_exit, nullptr);
+  }
+  ExitWatch(const ExitWatch&) = delete;
+  ExitWatch& operator=(const ExitWatch&) = delete;
+  /// Makes it, in this thread.
+  void begin() const {}
+};
+
+thread_local const ExitWatch exit_watch;
+
 }  // namespace
 
 DeathNotice::DeathNotice(const std::string& program, int log) : program_(program), log_(log) {
@@ -61,7 +90,10 @@ DeathNotice::~DeathNotice() {
   in_turn.compare_exchange_strong(self, nullptr);
 }
 
-void DeathNotice::enter() const { in_turn = this; }
+void DeathNotice::enter() const {
+  exit_watch.begin();
+  in_turn = this;
+}
 
 const DeathNotice* DeathNotice::here() { return in_turn; }
 
@@ -69,14 +101,6 @@ void DeathNotice::watch(int fd) {
   status_fd = fd;
   after_crash_notes(tell_of_death);  // whose log the launcher then quotes has all of them
   if (__sanitizer_set_death_callback != nullptr) __sanitizer_set_death_callback(on_sanitizer_death);
-  ::on_exit(
-      [](int code, void*) {
-        const DeathNotice* notice = in_turn.exchange(nullptr);
-        if (notice == nullptr || told.exchange(true)) return;
-        std::cerr << notice->program_ << ": called exit(" << code << "), which ends the whole fleet here" << std::endl;
-        write_news(line_of(notice->program_, code == 0 ? kExitProcessFailed : code, 0));
-      },
-      nullptr);
 }
 
 void DeathNotice::give_up(const std::string& why) const {

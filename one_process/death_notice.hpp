@@ -17,6 +17,7 @@ class DeathNotice {
 
   /// Should the process die from here on by what this thread does, it is this program's doing.
   void enter() const;
+  const std::string& program() const { return program_; }
   /// For which program this thread is at work; null: none.
   static const DeathNotice* here();
 
