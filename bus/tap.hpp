@@ -1,5 +1,5 @@
-// Somebody who hears, in the order of the lock-step, what a program writes and reads there: a recording. Nothing waits
-// for it, nothing depends on it.
+// A listener, such as a recording, that receives in the order of the lock-step what a program writes and reads there.
+// No program waits for the listener, and no result depends on it.
 #pragma once
 
 #include <cstdint>
@@ -12,18 +12,18 @@
 
 namespace skein::bus {
 
-/// Of one topic, in one domain.
+/// Listens to one topic in one domain.
 struct Ear {
-  std::function<void(std::span<const std::uint8_t> payload)> hear{};  ///< empty: it is not listened to
-  bool also_unread = false;  ///< samples that nobody else reads are built for it, too
+  std::function<void(std::span<const std::uint8_t> payload)> hear{};  ///< empty: nothing listens to the topic
+  bool also_unread = false;  ///< the writer builds samples for it that no program reads
 };
 
 class Tap {
  public:
   virtual ~Tap() = default;
-  /// @param node  whose domain it is: a UAV's name, "gcs", or "" for the world's. @returns what must not outlive this.
+  /// @param node  of the domain: a UAV's name, "gcs", or "" for the world's. @returns an ear; must not outlive this.
   virtual Ear ear(const std::string& node, const TopicSpec& topic) = 0;
-  /// What stands in the place of the `handler` of what members send; by default it is heard first.
+  /// Takes the place of `handler` for samples that members send; by default, the ear receives each sample first.
   virtual OnSample taken(const std::string& node, const TopicSpec& topic, OnSample handler) {
     auto hear = ear(node, topic).hear;
     if (!hear) return handler;

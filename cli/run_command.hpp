@@ -7,9 +7,9 @@
 
 namespace skein::cli {
 
-/// Validates, starts the fleet, watches it to its end, writes the result.
-/// @returns the exit code (process/program.hpp). @throws InputError before anything has started when the input is
-/// wrong.
+/// Validates the options, starts the fleet, monitors it until it ends, and writes the result.
+/// @returns the exit code (process/program.hpp). @throws InputError when the input is wrong, before any program has
+/// started.
 int run_fleet(const RunOptions& options, const Console& console);
 
 }  // namespace skein::cli

@@ -3,12 +3,12 @@
 //   not condition
 //   number < number                also <=, >, >=, ==, !=
 //   number + number                also -; then * and /; then -number
-//   20 m  80 %  0.5 m/s            a number, with its unit behind it (core/unit.hpp)
+//   20 m  80 %  0.5 m/s            a number, followed by its unit (core/unit.hpp)
 //   separation  link(jurong, gcs)  a signal (core/signal_table.hpp)
 //   min(a, b)  max(a, b)  abs(a)  gain(a)  rises(a)  falls(a)
 //   (anything)
-// Units must fit: what is compared or added must count in the same thing. Who has a language around expressions
-// (properties/property_parser.hpp) reads its own words with the same parser.  Pure.
+// Units must fit: an expression may only compare or add numbers of the same dimension. The parser of a language that
+// contains expressions (properties/property_parser.hpp) reads its own words with this class, too.  Pure.
 #pragma once
 
 #include <map>
@@ -25,8 +25,8 @@ namespace skein {
 /// What an expression may name.
 struct ExpressionScope {
   const SignalNames& names;
-  bool live_only = false;                             ///< signals that are known while a run goes on, and no past
-  std::map<std::string, std::string> variables = {};  ///< a UAV's name by what stands for it
+  bool live_only = false;                             ///< only signals known during a run, no look at the past
+  std::map<std::string, std::string> variables = {};  ///< the UAV's name for each variable
   std::map<std::string, Quantity> parameters = {};
 };
 
@@ -34,13 +34,13 @@ struct ExpressionScope {
 class ExpressionParser : public ExpressionText {
  public:
   /// @param scope, text  must outlive this.
-  /// @param signals  gets those that are used, each once: an expression's slots count in it. Must outlive this.
+  /// @param signals  receives the signals used, each once; an expression's slots are indices in it. Must outlive this.
   ExpressionParser(std::string_view text, const ExpressionScope& scope, std::vector<SignalUse>& signals)
       : ExpressionText(text), scope_(scope), signals_(signals) {}
 
-  /// A condition, as far as it goes.
+  /// Reads a condition, and stops where it ends.
   Expression condition();
-  /// A number of this unit without signals: "20 s". @param what  it is for, for messages
+  /// A number of this unit without signals: "20 s". @param what  names its purpose in messages
   double constant(const Unit& unit, const std::string& what);
 
  private:

@@ -1,6 +1,6 @@
-// The one table of signals: what expressions of fault files (`when`) and of properties may name, with units and
+// The table of all signals that expressions in fault files (`when`) and in properties may name, with units and
 // meaning. A signal is a step function of simulated time: it has one value in each exchange. docs/properties.md lists
-// them for users; a test compares. Pure.
+// the signals for users; a test compares the two lists. Pure.
 #pragma once
 
 #include <compare>
@@ -19,18 +19,18 @@ enum class SignalArgument {
   uav,
   node,     ///< a UAV, or "gcs"
   program,  ///< a UAV, "station", "comm_router" or "gcs"
-  topic,    ///< "/plan", which means "/plan/..." too
+  topic,    ///< "/plan", which also means "/plan/..."
   path,     ///< of a number in result.json: "radio.sent", "uavs.changi.idle_s"
-  word      ///< what a planner calls it
+  word      ///< a name that a planner has chosen
 };
 
 struct SignalInfo {
   std::string_view name;
   std::vector<SignalArgument> arguments;
-  std::size_t required = 0;  ///< so many of them must be given; without the others, or with `all`, all are meant
-  Unit unit;                 ///< of `path`: see unit_of_result()
+  std::size_t required = 0;  ///< how many must be given; one that is left out, or `all`, means all
+  Unit unit;                 ///< with a `path`: see unit_of_result()
   bool is_boolean = false;   ///< true or false, as 1 or 0
-  bool is_live = false;      ///< known while a run goes on: `when` may name it
+  bool is_live = false;      ///< known during a run, so `when` may name it
   std::string_view meaning;
 
   /// "link(node, node)", "captures([uav])".
@@ -39,9 +39,9 @@ struct SignalInfo {
 
 const std::vector<SignalInfo>& signal_table();
 
-/// A signal as an expression names it, arguments as the run knows them.
+/// A signal as an expression names it, with the run's names as arguments.
 struct SignalUse {
-  const SignalInfo* info = nullptr;  ///< of the table
+  const SignalInfo* info = nullptr;  ///< its entry in the table
   std::vector<std::string> arguments;
 
   bool is(std::string_view name) const { return info->name == name; }
@@ -58,7 +58,7 @@ struct SignalNames {
   std::vector<std::string> uavs, nodes, programs;
 };
 
-/// A key of result.json tells its unit by its end: `_s`, `_ms`, `_m`, `_mps`, `_bytes`.
+/// The suffix of a key of result.json gives its unit: `_s`, `_ms`, `_m`, `_mps`, `_bytes`.
 UnitName unit_of_result(std::string_view path);
 
 }  // namespace skein

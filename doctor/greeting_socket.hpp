@@ -1,5 +1,5 @@
-// The UDP socket for greetings: which address a datagram came to, and what the kernel heard of those that did not
-// arrive.   Linux. One thread.
+// The UDP socket for greetings. It tells to which address a datagram came, and which errors the kernel has received for
+// datagrams that did not arrive.   Linux. One thread.
 #pragma once
 
 #include <cstddef>
@@ -12,25 +12,25 @@ namespace skein::doctor {
 
 class GreetingSocket {
  public:
-  /// Of RTPS's discovery; on a port of our own.
+  /// The multicast group of RTPS discovery; this socket uses it on a port of its own.
   static constexpr const char* kGroup = "239.255.0.1";
 
-  /// @throws InputError when somebody has the port.
+  /// @throws InputError when the port is already in use.
   GreetingSocket();
   ~GreetingSocket();
   GreetingSocket(const GreetingSocket&) = delete;
   GreetingSocket& operator=(const GreetingSocket&) = delete;
 
-  /// Also hears what is sent to the group on the interface with this address.
+  /// Also receives datagrams to the group on the interface with this address.
   void join_group(const std::string& address);
-  /// In one packet or not at all. @param from  own address; empty: as routes lead. @returns why it was not sent, or
-  /// nothing.
+  /// Sends the bytes in one packet or not at all. @param from  own address; empty: the kernel's routes decide.
+  /// @returns why the datagram was not sent; empty: it was sent.
   std::string send(const std::string& from, const std::string& to, std::span<const std::uint8_t> bytes);
 
   using OnDatagram =
       std::function<void(std::span<const std::uint8_t> bytes, const std::string& from, const std::string& at)>;
   using OnRefused = std::function<void(const std::string& to, const std::string& why)>;
-  /// Takes all that has arrived, and all refusals.
+  /// Hands out all datagrams that have arrived, and all errors of datagrams that did not.
   void take(const OnDatagram& on_datagram, const OnRefused& on_refused);
 
  private:

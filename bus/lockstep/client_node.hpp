@@ -1,4 +1,4 @@
-// What every program but the server is: a client of the lock-step that thinks about each step, and answers it.
+// Base of every program except the server: a client of the lock-step that thinks about each step, and answers it.
 #pragma once
 
 #include "bus/lockstep/client.hpp"
@@ -15,29 +15,29 @@ class ClientNode : public LockstepNode {
   void turn(bool arrived) override;
   std::optional<NodeEnd> end() const override { return end_; }
   Rest rest() override;
-  /// Whether the run ended while it stood at the door: it has nothing to report then. What it did in an earlier life is
-  /// in its books.
+  /// Whether the run ended before this program could join: then it has nothing to report. What it did before a restart
+  /// is in its records.
   bool came_too_late() const { return end_ == NodeEnd::finished && !was_member_; }
-  /// What it waits for, for a human.
+  /// What the program waits for, for people.
   virtual std::string waiting_for() { return client().waiting_for(); }
 
  protected:
   virtual LockstepClient& client() = 0;
 
-  /// Thinks about client().step(), writes, and calls client().done(); the router does so later, from serve().
+  /// Thinks about client().step(), writes, and calls client().done(); the router calls it later, from serve().
   virtual void think() = 0;
-  /// A step is here, all of it. @returns whether it is time for think(); else the node is asked again in its next turn.
+  /// A step has arrived completely. @returns whether it is time for think(); else turn() asks again next time.
   virtual bool may_think() { return true; }
-  /// In every turn. @returns true while it waits for something that no sample announces (a match).
+  /// Runs in every turn. @returns true while the node waits for something that no sample announces (a match).
   virtual bool serve() { return false; }
-  /// For Inbox::dispatch(), while it waits for nothing else.
+  /// For Inbox::dispatch(), while the node waits for nothing else.
   virtual std::size_t rings() { return client().rings(); }
-  /// Whether the answer to the last step is out.
+  /// Whether the node has answered the last step.
   virtual bool answered_last() const = 0;
-  /// A fault stopped us and is over. @returns whether start() joins again, with a new participant and a new client;
-  /// else it takes a new node to do that.
+  /// A fault had stopped this node and is over. @returns true if start() can join again, with a new participant and a
+  /// new client; false if only a new node can.
   virtual bool rejoin() { return false; }
-  /// After so long without a step the log tells what it waits for; again after twice as long, and so on.
+  /// After this time without a step, the log says what the node waits for; again after twice the time, and so on.
   virtual std::chrono::milliseconds first_word() const { return WaitNotice::kFirst; }
 
  private:
@@ -46,11 +46,11 @@ class ClientNode : public LockstepNode {
 
   std::optional<NodeEnd> end_;
   WaitNotice wait_{WaitNotice::Clock::now()};
-  std::optional<Patience> leaving_;  ///< since the last step is answered
+  std::optional<Patience> leaving_;  ///< since the node answered the last step
   double patience_with_server_s_ = 0.0;
   Patience until_server_{0.0};
   bool was_member_ = false, met_server_ = false;
-  bool thinking_ = false;  ///< a step is here, and may_think() was not true yet
+  bool thinking_ = false;  ///< a step is here, but may_think() has not returned true yet
   bool serving_ = true;    ///< waits for what no sample announces
 };
 

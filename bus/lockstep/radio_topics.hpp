@@ -1,5 +1,5 @@
-// Radio topics that a member registers while the run lasts (docs/radio.md): to send on "/x", and to hear what others
-// send here on "/y". What a request brings is the same in every run, and takes effect in the same step.
+// Radio topics that a member registers during a run (docs/radio.md): to send on "/x", and to receive what other nodes
+// send to this node on "/y". A request has the same outcome in every run, and takes effect in the same step.
 // Threads: all calls from the thread that dispatches the inbox.
 #pragma once
 
@@ -15,29 +15,29 @@ namespace skein::bus {
 
 class RadioTopics {
  public:
-  /// Before client.start(); it must outlive this. @param node  the asking one: "gcs" or a UAV's name.
+  /// Create it before client.start(); the client must outlive it. @param node  the asking node: "gcs" or a UAV's name.
   RadioTopics(LockstepClient& client, std::string node);
 
   /// How a registration stands.
   struct Status {
     bool open = false;                 ///< messages pass
-    std::string refusal;               ///< why not, and never will
-    std::vector<std::string> unheard;  ///< send(): targets at which nobody listens yet
+    std::string refusal;               ///< why the topic is not open, and never will be
+    std::vector<std::string> unheard;  ///< send(): targets at which no program listens yet
   };
 
-  /// Asks to send on a topic. While thinking; messages may follow once it is open, at the earliest in the next step.
+  /// Asks to send on a topic. Call it while thinking; write() works once the topic is open, not before the next step.
   /// @param topic "/x" @param type "std_msgs/msg/String" @param targets  nodes, or {"all"}
   /// @throws InputError when topic or type is malformed
   void send(const std::string& topic, const std::string& type, const std::vector<std::string>& targets);
-  /// Asks to hear what is sent to this node on a topic. While thinking. It opens as soon as somebody may send.
+  /// Asks to receive messages to this node on a topic. Call it while thinking. It opens as soon as a node may send.
   /// @param handler  gets each sample, as with LockstepClient::read()
   /// @throws InputError when topic or type is malformed
   void listen(const std::string& topic, const std::string& type, CountedQueues::Handler handler);
-  /// First thing in each step: asks again what a router that has come back knows nothing of.
+  /// Call this first in each step: repeats all requests to a router that has come back, because it does not know them.
   void begin_step();
 
-  /// Puts a message on the air. While thinking.
-  /// @returns false when the topic is not open, or this step's share is sent.
+  /// Sends a message by radio. Call it while thinking.
+  /// @returns false, without sending, when the topic is not open or this step's share is used up.
   bool write(const std::string& topic, std::span<const std::uint8_t> payload);
   Status sending(const std::string& topic) const { return status(sendings_, topic); }
   Status listening(const std::string& topic) const { return status(listenings_, topic); }
@@ -64,7 +64,7 @@ class RadioTopics {
   LockstepClient& client_;
   const std::string node_;
   const ParticipantId self_;
-  ParticipantId router_ = 0;  ///< whom we have asked
+  ParticipantId router_ = 0;  ///< the router that has our requests
   std::uint32_t last_id_ = 0;
   std::map<std::string, Sending> sendings_;  ///< by ROS topic
   std::map<std::string, Listening> listenings_;

@@ -1,4 +1,4 @@
-// What `skein bench` prints.
+// Prints the report of `skein bench`.
 #pragma once
 
 #include <ostream>
@@ -7,7 +7,7 @@
 
 namespace skein::cli {
 
-/// @param report  as --json writes it. Parts that were not measured are left out.
+/// @param report  as --json writes it. The table leaves out parts that bench has not measured.
 void print_bench(std::ostream& out, const Json& report);
 
 }  // namespace skein::cli

@@ -1,5 +1,5 @@
-// A program that a command talks to over two pipes, bytes both ways: the browser that draws a film, the encoder that
-// keeps it. Its process group, and whatever it starts, ends with this object, and with this process, however that ends.
+// A program with which a command exchanges bytes over two pipes: the browser that draws a film, the encoder that saves
+// it. Its process group, and all that it has started, ends with this object, or when this process ends in any way.
 // Threads: one, which must live as long as the program.
 #pragma once
 
@@ -13,8 +13,8 @@
 
 namespace skein::cli {
 
-/// From construction to destruction Ctrl-C and the like (interrupt_signals()) wait to be looked at, and SIGPIPE is
-/// ignored.
+/// From construction to destruction, Ctrl-C and similar signals (interrupt_signals()) only make fd() readable, and this
+/// process ignores SIGPIPE.
 class HeldSignals {
  public:
   HeldSignals();
@@ -22,7 +22,7 @@ class HeldSignals {
   HeldSignals(const HeldSignals&) = delete;
   HeldSignals& operator=(const HeldSignals&) = delete;
 
-  /// Readable when one of them came.
+  /// Readable when one of these signals has arrived.
   int fd() const { return fd_.get(); }
 
  private:
@@ -33,19 +33,19 @@ class HeldSignals {
 
 class PipedProgram {
  public:
-  /// It writes to descriptor kStatusFd and reads from kControlFd. @param signals  must outlive this.
-  /// @throws std::system_error when it cannot be started.
+  /// The program writes to descriptor kStatusFd and reads from kControlFd. @param signals  must outlive this.
+  /// @throws std::system_error when the program cannot be started.
   PipedProgram(const ProgramSpec& spec, const HeldSignals& signals);
-  /// Ends it at once.
+  /// Kills the program at once.
   ~PipedProgram();
   PipedProgram(const PipedProgram&) = delete;
   PipedProgram& operator=(const PipedProgram&) = delete;
 
-  /// Waits until it has taken all of that. @throws Interrupted; std::runtime_error when it does not read any more.
+  /// Waits until the program has taken all bytes. @throws Interrupted; std::runtime_error when it no longer reads.
   void write(std::string_view bytes);
-  /// Waits for some bytes. @throws Interrupted; std::runtime_error when it has ended, or says nothing for long.
+  /// Waits for bytes. @throws Interrupted; std::runtime_error when the program has ended, or is silent for too long.
   std::string read();
-  /// There is no more for it: waits until it has ended. @returns how. @throws Interrupted; std::runtime_error.
+  /// Closes the program's input, waits for its end. @returns how it ended. @throws Interrupted; std::runtime_error.
   ExitStatus finish();
 
  private:

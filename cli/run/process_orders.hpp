@@ -1,6 +1,6 @@
-// What fault files do to programs, at the launcher's end: who has been told to kill or stop itself, who is to come back
-// and can by now, and whose end is therefore none to complain about. sim_server says what and when (status lines of
-// type "order"); the victims carry it out on themselves (docs/lockstep.md), except users' commands.   Threads: one.
+// The launcher's part in faults that kill or stop programs: which programs have the order to kill or stop themselves,
+// which of them can come back now, and which exits are therefore no failures. sim_server sends each order (status lines
+// of type "order"); programs carry it out on themselves (docs/lockstep.md), except users' commands.   Threads: one.
 #pragma once
 
 #include <chrono>
@@ -18,32 +18,32 @@ class ProcessOrders {
   /// @param host  must outlive this.
   explicit ProcessOrders(ProgramHost& host) : host_(host) {}
 
-  /// The program is killed, or else stopped. @param by_us  it knows no orders: we do it.
+  /// A fault kills the program, or else stops it. @param by_us  the program obeys no orders: the launcher does it.
   void take_out(const std::string& program, bool kill, bool by_us);
-  /// The fault is over: it is to come back as soon as it has died, or has been seen to stand still.
+  /// The fault is over: the program comes back as soon as it has died, or the launcher has seen it stop.
   void let_back(const std::string& program);
-  /// Those of whom this is true by now, once each.
+  /// The programs that can come back by now, once each.
   std::vector<std::string> take_returning();
-  /// It takes part again.
+  /// The program takes part again.
   void returned(const std::string& program) { programs_.erase(program); }
-  /// How long to wait for events: that a program stops is none.
+  /// How long to wait for events: a short time while a program has yet to stop, because a stop is no event.
   std::chrono::milliseconds limit(std::chrono::milliseconds limit) const;
 
-  /// A program ended. @returns true when that was ordered.
+  /// A program ended. @returns true when a fault had ordered that.
   bool on_exit(const std::string& program, const ExitStatus& exit);
-  /// The run is over: kills whom a fault keeps from leaving.
+  /// The run is over: kills the programs that a fault keeps from leaving.
   void end();
-  /// Who is out of the run now.
+  /// The programs that are out of the run now.
   std::set<std::string> out() const;
 
  private:
   enum class State {
-    killed,       ///< has been told to, or is dead
-    stopped,      ///< the same
-    to_restart,   ///< once it is dead
-    to_continue,  ///< once it has stopped
+    killed,       ///< has the order, or is dead
+    stopped,      ///< has the order, or is stopped
+    to_restart,   ///< as soon as it is dead
+    to_continue,  ///< as soon as it has stopped
     returning,    ///< runs again, and has not joined yet
-    ended         ///< killed by us at the run's end
+    ended         ///< the launcher killed it at the run's end
   };
 
   ProgramHost& host_;

@@ -1,4 +1,4 @@
-// All programs of a fleet in one process (one_process/). What becomes of each of them is told as if it were a process.
+// All programs of a fleet in one process (one_process/). Its events report each program as if it were a process.
 #pragma once
 
 #include <array>
@@ -17,9 +17,9 @@ namespace skein::cli {
 
 class SharedProcess final : public ProgramHost {
  public:
-  /// @param process  that is home to them; starts with the first program. It is told --turn-page.
-  /// @param patience_s  wall time after which a turn that does not end is the end of the process, should that not see
-  ///                    so itself: it may be stopped; 0: for ever.
+  /// @param process  runs all of them; starts with the first program. The launcher adds --turn-page to its arguments.
+  /// @param patience_s  wall time that a turn may take. When a turn takes longer and the process does not end itself
+  ///                    (it may be stopped), the launcher kills it; 0: no limit.
   explicit SharedProcess(ProgramSpec process, double patience_s = 0.0);
 
   void start(const ProgramSpec& spec) override;
@@ -40,8 +40,8 @@ class SharedProcess final : public ProgramHost {
   void on_death(const Event& event, std::vector<Event>& events);
   /// Ends the process when a turn takes too long.
   void look_after_turns();
-  /// Whose turn it was, and how that ended: into its log. @returns its name; empty: nobody of those that ran, or one of
-  /// several, which the log of the process then tells.
+  /// Finds the program in whose turn the process ended, and writes the reason to its log. @returns its name; empty: no
+  /// running program is to blame, or one of several is, as the log of the process then says.
   std::string blame(const ExitStatus& exit);
 
   ProgramSpec process_;
@@ -55,7 +55,7 @@ class SharedProcess final : public ProgramHost {
   std::array<Seat, TurnPage::kSeats> seats_;
   std::set<std::string> running_, stopped_;
   std::map<std::string, std::filesystem::path> logs_;
-  bool explained_ = false;  ///< of a program that died badly, the process said so
+  bool explained_ = false;  ///< the process itself has reported which program's end was fatal
 };
 
 }  // namespace skein::cli

@@ -1,4 +1,4 @@
-// A layout for viewers of Foxglove's family: what of a recording is worth looking at first. Pure.
+// A layout for Foxglove and related viewers: it shows what is worth viewing first in a recording. Pure.
 #pragma once
 
 #include "core/scenario.hpp"
@@ -6,7 +6,7 @@
 
 namespace skein::cli {
 
-/// The fleet in 3D, the score and each UAV's speed over time, and what happened as a table.
+/// The fleet in 3D, the score and each UAV's speed over time, and a table of events.
 Json viewer_layout(const Scenario& scenario);
 
 }  // namespace skein::cli

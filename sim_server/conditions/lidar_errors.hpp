@@ -1,11 +1,11 @@
-// What a LiDAR measures of the ranges that its beams meet, on a day that is not ideal.
+// The ranges that a LiDAR measures under conditions that are not ideal, computed from the true ranges of its beams.
 //
-//   Noise: normal, with a deviation of so much a metre.
-//   Weak returns: the power that comes back goes with reflectivity times cos(incidence) over the square of the range,
-//     and a perpendicular white surface is just seen at `full_range_m`. So a surface is seen up to
-//     full_range_m sqrt(reflectivity cos(incidence)): dark, wet and slanted ones, and the edges of thin members, vanish
-//     first. The incidence follows from the ranges of the two beams beside, as the scan shows the surface.
-//   Rain and dust: a beam meets a drop before it meets anything else.
+//   Noise: normal, with a standard deviation proportional to the range.
+//   Weak returns: the returned power is proportional to reflectivity times cos(incidence) over the square of the range,
+//     and the LiDAR just sees a perpendicular white surface at `full_range_m`. So it sees a surface up to
+//     full_range_m sqrt(reflectivity cos(incidence)), and loses dark, wet and slanted surfaces, and the edges of thin
+//     members, first. The incidence angle follows from the ranges of the two adjacent beams of the scan.
+//   Rain and dust: a beam may hit a drop before it hits anything else.
 // Units: SI.  Pure; threads: one.  The same seed and scan give the same numbers.
 #pragma once
 
@@ -24,11 +24,11 @@ class LidarErrors {
       : conditions_(conditions), lidar_(lidar), seed_(seed), uav_(uav) {}
 
   bool any() const { return conditions_.on(); }
-  /// @param ranges  of all beams, ring by ring; infinite: they meet nothing.
-  /// @returns what is measured in their place; infinite: no return.
+  /// @param ranges  true ranges of all beams, ring by ring; infinite: the beam hits nothing.
+  /// @returns the measured ranges of the same beams; infinite: no return.
   const std::vector<double>& measure(std::uint64_t scan, std::span<const double> ranges);
-  /// Cosine of the angle between a beam and the normal of what it meets, in the plane of its ring; 1 where neighbours
-  /// met nothing to tell by.
+  /// Cosine of the angle between a beam and the normal of the surface that it hits, in the plane of its ring; 1 if both
+  /// adjacent beams hit nothing.
   double cos_incidence(std::span<const double> ranges, std::size_t beam) const;
 
  private:

@@ -18,19 +18,19 @@ class FaultTimeline {
     bool begins = false;
   };
 
-  /// @param plan  must outlive this. Meanwhile its faults that wait for a condition may be set off, others may be added
-  /// at its end, and get an end.
+  /// @param plan  must outlive this. Meanwhile the server may set off its faults that wait for a condition, append
+  /// further faults, and give these an end.
   explicit FaultTimeline(const FaultPlan& plan) : faults_(plan.faults), entries_(plan.faults.size()) {}
   explicit FaultTimeline(FaultPlan&&) = delete;
 
-  /// Call it once an exchange, in order, as the exchange begins.
-  /// @returns a line for the log for each fault that begins or ends with it, in the plan's order.
+  /// Call it once per exchange, in order, when the exchange begins.
+  /// @returns a line for the log for each fault that begins or ends with this exchange, in the plan's order.
   std::vector<std::string> enter_step(std::uint64_t step, Tick tick);
 
-  /// What enter_step() told of.
+  /// The faults that began or ended in the last enter_step().
   const std::vector<Change>& changes() const { return changes_; }
 
-  /// One entry a fault, in the plan's order.
+  /// One entry per fault, in the plan's order.
   std::vector<FaultReport> report() const;
 
  private:
@@ -39,7 +39,7 @@ class FaultTimeline {
   };
 
   const std::vector<Fault>& faults_;
-  std::vector<Entry> entries_;  ///< by fault, those of the last step's plan
+  std::vector<Entry> entries_;  ///< by fault of the plan, as it was in the last step
   std::vector<Change> changes_;
 };
 

@@ -1,4 +1,4 @@
-// The beams of a scan for a map: bundles of some that leave beside each other, and where beams ended.
+// Prepares the beams of a scan for a map: bundles of adjacent beams, and the points that beams have hit.
 // Frames: W world, L LiDAR.   Units: metres.   Threads: one.
 #pragma once
 
@@ -12,21 +12,21 @@
 
 namespace skein::agent {
 
-/// Whether all that lies within a radius of a segment is known to be free.
+/// Whether all space within a radius of a segment is known to be free.
 using TubeFree = std::function<bool(const Vector3d& a_W, const Vector3d& b_W, double radius_m)>;
 
-/// How far along a unit vector there is no cube that is known to be occupied: `reach_m` at most.
+/// The distance along a unit vector up to the first cube that is known to be occupied; `reach_m` at most.
 using ClearWay = std::function<double(const Vector3d& from_W, const Vector3d& direction_W, double reach_m)>;
 
 class ScanBundler {
  public:
-  /// Beams of a bundle: about 4 degrees each way, which is the smallest cube 8 m away (world_map.hpp). 4 by 2 of a
-  /// VLP-16.
+  /// Size of a bundle: about 4 degrees in each direction, like the smallest cube at 8 m (world_map.hpp). For a VLP-16,
+  /// that is 4 by 2 beams.
   static constexpr double kBundleRad = 0.07;
-  /// So many bundles about one must be free for `around_free_m`, to all sides: at 8 m, a cube of 1 m.
+  /// `around_free_m` is how far a bundle and this many neighbours on each side are free: at 8 m, a cube of 1 m.
   static constexpr int kAround = 2;
 
-  /// @param bundle_rad  0: each beam for itself.
+  /// @param bundle_rad  0: each beam is a bundle.
   explicit ScanBundler(const LidarConfig& lidar, double bundle_rad = kBundleRad);
 
   struct Bundles {
@@ -34,22 +34,22 @@ class ScanBundler {
     std::vector<Eigen::Vector3f> hits_W;
   };
 
-  /// All that the scan says. A beam without a return is free as far as the LiDAR reaches, but only where its first
-  /// `range_min_m` are known to be free already: the LiDAR is blind there, and what stands there may have swallowed it.
-  /// Beams that returned prove theirs themselves. One that met a UAV is free up to there and hit nothing. A bundle is
-  /// free as far as all of its beams are.
+  /// All evidence of the scan. A beam without a return is free up to the LiDAR's maximum range, but only if its first
+  /// `range_min_m` are known to be free already: the LiDAR is blind there, and an object there could block the beam.
+  /// A beam with a return proves its first `range_min_m` itself. A beam that met a UAV is free up to the UAV and has no
+  /// hit. A bundle is free as far as all of its beams are.
   ///
-  /// The first proof: a UAV is put down where the space about it is clear, farther than its LiDAR is blind, and whoever
-  /// keeps the map says so (WorldMap::set_free()). From there on each new place has been proved from the ones before.
+  /// The first proof: a UAV starts where the space around it is free farther than its LiDAR is blind, and the owner of
+  /// the map marks it as free (WorldMap::set_free()). From there on, the space proved so far proves each new place.
   /// @param near_free  asked about the first `range_min_m` of beams without return.
-  /// @param clear_way  of a LiDAR that loses returns: a beam without one may have met something, so it is taken for
-  ///                   free up to the first cube that is occupied. A surface is: the other beams that meet it return.
-  ///                   Empty: no return is lost.
-  /// @returns          good until the next call.
+  /// @param clear_way  for a LiDAR that loses returns: a beam without return may have hit something, so it counts as
+  ///                   free only up to the first occupied cube. Cubes of a surface are occupied, because other beams
+  ///                   that hit it return. Empty: the LiDAR loses no return.
+  /// @returns          valid until the next call.
   const Bundles& bundle(const BeamScan& scan, const RepeatedScans::Repeated& repeated, const TubeFree& near_free,
                         const ClearWay& clear_way = {});
 
-  /// From a bundle's middle to its farthest beam.
+  /// Angle from a bundle's middle to its farthest beam.
   double half_rad() const { return half_rad_; }
 
  private:
@@ -64,8 +64,8 @@ class ScanBundler {
     std::size_t number(int level, int side) const { return static_cast<std::size_t>(level * across() + side); }
   };
 
-  /// Each scan has another one. With the same, the middles of a LiDAR's bundles would leave along the same lines scan
-  /// by scan, and some windows would always be passed by fewer than others.
+  /// Each scan has another grid. With the same grid, the middles of a LiDAR's bundles would lie on the same lines in
+  /// every scan, and through some windows fewer bundles would always pass than through others.
   const Grid& grid_of(Tick tick) const;
   void find_free(const BeamScan& scan, const Grid& grid, const TubeFree& near_free, const ClearWay& clear_way);
   void look_around(const Grid& grid);

@@ -1,6 +1,6 @@
-// The work, cut into pieces: each face of each box in parallel strips as wide as what the camera sees of it,
-// and who of the fleet flies which. Everyone computes the same from boxes and nominal starts alone: no message
-// is needed.
+// Cuts the work into pieces and shares it out: each face of each box becomes parallel strips, as wide as what the
+// camera sees of it, and each strip goes to one UAV of the fleet. All UAVs compute the same result from boxes and
+// nominal starts alone, so they need no messages.
 // Frame W.   Units: SI and radians.   Pure.
 #pragma once
 
@@ -15,7 +15,7 @@ struct CameraReach {
   double sharp_distance_m = 7.36;  ///< a wall this far away, seen head-on, has just the desired resolution (d*)
   double half_width_slope = 0.84;  ///< half of the image's width and height, per metre of depth
   double half_height_slope = 0.58;
-  double blur_speed_mps = 2.0;  ///< sideways at d* without blur; in proportion to the depth
+  double blur_speed_mps = 2.0;  ///< sideways at d* without blur; proportional to the depth
 };
 
 /// d* = r_des f / (1000 pixel); a point may move by one pixel during the exposure.
@@ -41,7 +41,7 @@ struct StripConfig {
   double overlap = 0.2;          ///< of neighbouring strips, share of what the camera sees
   double min_length_m = 2.0;     ///< smaller faces get no strip
   double max_length_m = 60.0;    ///< longer strips are cut in pieces, so that they can be shared out
-  double lowest_m = 2.0;         ///< nothing is flown below
+  double lowest_m = 2.0;         ///< UAVs do not fly below this height
   bool top = true, bottom = true;
 };
 
@@ -49,17 +49,17 @@ struct StripConfig {
 std::vector<Strip> cut_into_strips(const std::vector<OrientedBox>& boxes, const CameraReach& reach,
                                    const StripConfig& config);
 
-/// One strip in somebody's tour.
+/// One strip in a UAV's tour.
 struct Visit {
   std::size_t strip = 0;
   bool reversed = false;  ///< flown from end to begin
 };
 
-/// Shares the strips out and orders them: whoever is done first takes the nearest strip left; then each tour is
-/// shortened by reversing parts of it (2-opt).
+/// Shares the strips out and orders them: the UAV that is done first takes the nearest remaining strip. Then 2-opt
+/// shortens each tour by reversing parts of it.
 /// @param p_W_start  where each UAV begins, in fleet order.
 /// @param work_s     time that each strip takes.   @param transit_mps  speed between strips.
-/// @param hands      by how much faster than that each one does its strips; empty: 1 for all.
+/// @param hands      how many times faster than that each UAV works; empty: 1 for all.
 /// @returns one tour for each UAV.
 std::vector<std::vector<Visit>> share_strips(const std::vector<Strip>& strips, const std::vector<double>& work_s,
                                              const std::vector<Vector3d>& p_W_start, double transit_mps,
