@@ -8,7 +8,7 @@
 #include "bus/reach.hpp"
 #include "bus/wire.hpp"
 #include "core/types.hpp"
-#include "process/security_files.hpp"
+#include "process/files/security_files.hpp"
 
 namespace skein::bus {
 

@@ -19,8 +19,8 @@
 #include <vector>
 
 #include "bus/unsent.hpp"
-#include "core/network_config.hpp"
-#include "core/run_id.hpp"
+#include "core/config/network_config.hpp"
+#include "core/run/run_id.hpp"
 
 namespace skein::bus {
 
@@ -123,9 +123,10 @@ struct BusConfig {
   std::map<int, DomainNetwork> networks{};           ///< by domain, or kEveryDomain; usual: nothing leaves the host
   std::chrono::milliseconds peers_patience{10'000};  ///< see find_reach()
   Asked asked{};                                     ///< make_bus() does
-  int lease_s = 8;                   ///< who gives no sign of life for so long is taken for dead, [1, 3600]
-  std::filesystem::path security{};  ///< folder with the files of process/security_files.hpp; empty: an open domain
-  RunId run = RunId::none;           ///< that its programs take part in
+  int lease_s = 8;  ///< who gives no sign of life for so long is taken for dead, [1, 3600]
+  /// Folder with the files of process/files/security_files.hpp; empty: an open domain
+  std::filesystem::path security{};
+  RunId run = RunId::none;  ///< that its programs take part in
 
   DomainNetwork network(int domain) const;
 };

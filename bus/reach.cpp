@@ -20,7 +20,7 @@
 #include <stdexcept>
 
 #include "bus/own_host.hpp"
-#include "core/suggestion.hpp"
+#include "core/text/suggestion.hpp"
 #include "core/types.hpp"
 
 namespace skein::bus {

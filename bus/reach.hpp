@@ -1,5 +1,5 @@
-// A domain's network (core/network_config.hpp) as it is on this host now: own address, others' addresses, size of a
-// packet. What both vendors' settings are made of.
+// A domain's network (core/config/network_config.hpp) as it is on this host now: own address, others' addresses, size
+// of a packet. What both vendors' settings are made of.
 #pragma once
 
 #include <netinet/in.h>
@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "core/network_config.hpp"
+#include "core/config/network_config.hpp"
 
 namespace skein::bus {
 

@@ -8,11 +8,11 @@
 #include <filesystem>
 #include <system_error>
 
-#include "cli/run/debuggee.hpp"
-#include "cli/run/fleets.hpp"
-#include "cli/run/proc_table.hpp"
-#include "core/suggestion.hpp"
-#include "core/text.hpp"
+#include "cli/debug/debuggee.hpp"
+#include "cli/host/fleets.hpp"
+#include "cli/host/proc_table.hpp"
+#include "core/text/suggestion.hpp"
+#include "core/text/text.hpp"
 #include "core/types.hpp"
 #include "process/program.hpp"
 #include "process/run_folder.hpp"

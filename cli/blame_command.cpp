@@ -13,9 +13,9 @@
 #include "cli/rerun_command.hpp"
 #include "cli/run/diff.hpp"
 #include "cli/run/record.hpp"
-#include "core/fault_writer.hpp"
-#include "core/suggestion.hpp"
-#include "core/text.hpp"
+#include "core/faults/fault_writer.hpp"
+#include "core/text/suggestion.hpp"
+#include "core/text/text.hpp"
 #include "process/program.hpp"
 
 namespace skein::cli {

@@ -9,18 +9,18 @@
 #include <fstream>
 #include <sstream>
 
+#include "cli/host/program_start.hpp"
 #include "cli/machine.hpp"
 #include "cli/run/diff.hpp"
 #include "cli/run/fleet_plan.hpp"
 #include "cli/run/preflight.hpp"
-#include "cli/run/program_start.hpp"
 #include "cli/run_command.hpp"
 #include "cli/study/flights.hpp"
-#include "core/python_spec.hpp"
-#include "core/suggestion.hpp"
-#include "core/text.hpp"
+#include "core/planners/python_spec.hpp"
+#include "core/text/suggestion.hpp"
+#include "core/text/text.hpp"
+#include "process/host/other_clock.hpp"
 #include "process/json_text.hpp"
-#include "process/other_clock.hpp"
 #include "process/program.hpp"
 #include "process/run_folder.hpp"
 

@@ -66,7 +66,7 @@ struct RunOptions {
   std::string dds = "cyclonedds";                   ///< a vendor or "mixed"
   std::string clock = "lockstep";                   ///< "lockstep", "realtime" or "realtime:FACTOR"
   std::optional<std::filesystem::path> agent;       ///< program that flies in the place of uav_agent
-  std::vector<std::string> debug;                   ///< UAV[=TOOL], see cli/run/debuggee.hpp
+  std::vector<std::string> debug;                   ///< UAV[=TOOL], see cli/debug/debuggee.hpp
   std::optional<double> break_at_s;                 ///< debugged programs stop before that simulated time
   std::optional<std::string> break_on;              ///< the same, before that happens to the first of them
   std::optional<std::filesystem::path> break_from;  ///< results folder of the same flight, which tells when

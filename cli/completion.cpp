@@ -6,8 +6,8 @@
 #include <string_view>
 
 #include "cli/options.hpp"
-#include "core/scenario_reader.hpp"
-#include "core/text.hpp"
+#include "core/scenario/scenario_reader.hpp"
+#include "core/text/text.hpp"
 
 namespace skein::cli {
 namespace {

@@ -17,7 +17,7 @@
 #include "cli/run/results_dir.hpp"
 #include "cli/run_results.hpp"
 #include "cli/secure/security.hpp"
-#include "process/environment.hpp"
+#include "process/host/environment.hpp"
 #include "process/run_folder.hpp"
 #include "view/pages.hpp"
 

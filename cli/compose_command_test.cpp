@@ -11,9 +11,9 @@
 
 #include "cli/run/preflight.hpp"
 #include "cli/testing/fake_programs.hpp"
+#include "process/files/security_files.hpp"
 #include "process/json_text.hpp"
 #include "process/program.hpp"
-#include "process/security_files.hpp"
 #include "tests/support/places.hpp"
 
 namespace skein::cli {

@@ -7,12 +7,12 @@
 #include <optional>
 
 #include "cli/run/diff.hpp"
-#include "core/file_bytes.hpp"
-#include "core/text.hpp"
-#include "mcap/reader.hpp"
+#include "core/files/file_bytes.hpp"
+#include "core/text/text.hpp"
 #include "process/program.hpp"
-#include "process/result_file.hpp"
+#include "process/results/result_file.hpp"
 #include "process/run_folder.hpp"
+#include "recording/mcap/reader.hpp"
 
 namespace skein::cli {
 namespace {

@@ -2,9 +2,9 @@
 
 #include "cli/run/fleet_plan.hpp"
 #include "cli/run/preflight.hpp"
-#include "core/suggestion.hpp"
-#include "core/text.hpp"
-#include "process/environment.hpp"
+#include "core/text/suggestion.hpp"
+#include "core/text/text.hpp"
+#include "process/host/environment.hpp"
 #include "process/program.hpp"
 #include "process/run_folder.hpp"
 

@@ -14,9 +14,9 @@
 
 #include "cli/run/fleet_plan.hpp"
 #include "cli/run/preflight.hpp"
-#include "core/text.hpp"
+#include "core/text/text.hpp"
 #include "core/types.hpp"
-#include "process/nowhere.hpp"
+#include "process/files/nowhere.hpp"
 
 namespace skein::cli {
 namespace {

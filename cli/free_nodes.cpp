@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "core/free_nodes.hpp"
+#include "core/planners/free_nodes.hpp"
 #include "core/types.hpp"
 
 namespace skein::cli {

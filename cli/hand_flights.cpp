@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include "core/hand_command.hpp"
-#include "core/hand_spec.hpp"
-#include "core/suggestion.hpp"
-#include "core/text.hpp"
+#include "core/planners/hand_spec.hpp"
+#include "core/text/suggestion.hpp"
+#include "core/text/text.hpp"
 #include "core/types.hpp"
 
 namespace skein::cli {

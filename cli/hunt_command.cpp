@@ -14,8 +14,8 @@
 #include "cli/hunt/report.hpp"
 #include "cli/run/preflight.hpp"
 #include "cli/study/flights.hpp"
-#include "core/fault_writer.hpp"
-#include "core/text.hpp"
+#include "core/faults/fault_writer.hpp"
+#include "core/text/text.hpp"
 #include "process/program.hpp"
 
 namespace skein::cli {

@@ -8,7 +8,7 @@
 #include "cli/rerun_command.hpp"
 #include "core/types.hpp"
 #include "process/program.hpp"
-#include "process/result_file.hpp"
+#include "process/results/result_file.hpp"
 #include "process/run_folder.hpp"
 #include "view/map_files.hpp"
 

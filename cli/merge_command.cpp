@@ -8,12 +8,12 @@
 #include "cli/run/preflight.hpp"
 #include "cli/run/recording.hpp"
 #include "cli/run_results.hpp"
-#include "core/scenario_reader.hpp"
-#include "core/text.hpp"
-#include "mcap/reader.hpp"
-#include "process/atomic_file.hpp"
-#include "process/environment.hpp"
+#include "core/scenario/scenario_reader.hpp"
+#include "core/text/text.hpp"
+#include "process/files/atomic_file.hpp"
+#include "process/host/environment.hpp"
 #include "process/run_folder.hpp"
+#include "recording/mcap/reader.hpp"
 
 namespace skein::cli {
 namespace {

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "core/text.hpp"
+#include "core/text/text.hpp"
 #include "core/types.hpp"
 
 namespace skein::cli {

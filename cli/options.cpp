@@ -12,8 +12,8 @@
 #include "cli/threads.hpp"
 #include "cli/tool_options.hpp"
 #include "cli/view_options.hpp"
-#include "core/number_checks.hpp"
-#include "core/text.hpp"
+#include "core/text/number_checks.hpp"
+#include "core/text/text.hpp"
 #include "core/types.hpp"
 #include "process/manual.hpp"
 

@@ -4,13 +4,13 @@
 
 #include <iomanip>
 
+#include "cli/host/supervisor.hpp"
 #include "cli/run/drawn_world.hpp"
 #include "cli/run/fleet_plan.hpp"
 #include "cli/run/preflight.hpp"
-#include "cli/run/supervisor.hpp"
-#include "core/text.hpp"
+#include "core/text/text.hpp"
 #include "core/types.hpp"
-#include "process/environment.hpp"
+#include "process/host/environment.hpp"
 #include "process/program.hpp"
 #include "process/run_folder.hpp"
 

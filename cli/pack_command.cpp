@@ -8,13 +8,13 @@
 #include <set>
 #include <sstream>
 
+#include "cli/host/supervisor.hpp"
 #include "cli/run/fleet_plan.hpp"
 #include "cli/run/preflight.hpp"
-#include "cli/run/supervisor.hpp"
-#include "core/config_files.hpp"
-#include "core/text.hpp"
+#include "core/config/config_files.hpp"
+#include "core/text/text.hpp"
 #include "core/types.hpp"
-#include "process/environment.hpp"
+#include "process/host/environment.hpp"
 #include "process/program.hpp"
 #include "process/run_folder.hpp"
 #include "report/web_bundle.hpp"

@@ -7,7 +7,7 @@
 #include <set>
 
 #include "cli/options.hpp"
-#include "core/text.hpp"
+#include "core/text/text.hpp"
 #include "core/types.hpp"
 #include "tests/support/places.hpp"
 

@@ -6,9 +6,9 @@
 #include <string_view>
 
 #include "cli/ros_command.hpp"
-#include "core/python_spec.hpp"
-#include "core/suggestion.hpp"
-#include "core/text.hpp"
+#include "core/planners/python_spec.hpp"
+#include "core/text/suggestion.hpp"
+#include "core/text/text.hpp"
 #include "core/types.hpp"
 
 namespace skein::cli {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <map>
 
-#include "core/file_bytes.hpp"
-#include "core/python_spec.hpp"
+#include "core/files/file_bytes.hpp"
+#include "core/planners/python_spec.hpp"
 #include "core/sha256.hpp"
 #include "core/types.hpp"
 #include "process/run_folder.hpp"

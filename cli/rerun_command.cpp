@@ -9,12 +9,12 @@
 #include "cli/run/fleet_plan.hpp"
 #include "cli/run/results_dir.hpp"
 #include "cli/run_command.hpp"
-#include "core/text.hpp"
-#include "mcap/reader.hpp"
+#include "core/text/text.hpp"
 #include "process/json_text.hpp"
 #include "process/program.hpp"
-#include "process/result_file.hpp"
+#include "process/results/result_file.hpp"
 #include "process/run_folder.hpp"
+#include "recording/mcap/reader.hpp"
 
 namespace skein::cli {
 namespace {

@@ -2,12 +2,12 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include "cli/host/fleets.hpp"
 #include "cli/ros_command.hpp"
 #include "cli/run/fleet_plan.hpp"
-#include "cli/run/fleets.hpp"
-#include "core/network_config.hpp"
-#include "core/scenario_reader.hpp"
-#include "core/text.hpp"
+#include "core/config/network_config.hpp"
+#include "core/scenario/scenario_reader.hpp"
+#include "core/text/text.hpp"
 #include "core/topics.hpp"
 #include "process/run_folder.hpp"
 

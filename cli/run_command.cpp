@@ -4,14 +4,14 @@
 #include <optional>
 #include <sstream>
 
+#include "cli/debug/core_file.hpp"
+#include "cli/host/domain_block.hpp"
+#include "cli/host/environment.hpp"
 #include "cli/place/place_commands.hpp"
 #include "cli/place/placed_fleet.hpp"
 #include "cli/ros_environment.hpp"
 #include "cli/run/break_event.hpp"
 #include "cli/run/by_hand.hpp"
-#include "cli/run/core_file.hpp"
-#include "cli/run/domain_block.hpp"
-#include "cli/run/environment.hpp"
 #include "cli/run/fleet_plan.hpp"
 #include "cli/run/fleet_run.hpp"
 #include "cli/run/live_page.hpp"
@@ -19,7 +19,7 @@
 #include "cli/run/results_dir.hpp"
 #include "cli/run_results.hpp"
 #include "cli/secure/security.hpp"
-#include "core/text.hpp"
+#include "core/text/text.hpp"
 #include "process/run_folder.hpp"
 
 namespace skein::cli {

@@ -9,8 +9,8 @@
 #include "cli/run/recording.hpp"
 #include "cli/run/repeat_command.hpp"
 #include "cli/run/work.hpp"
-#include "core/run_state.hpp"
-#include "process/result_file.hpp"
+#include "core/run/run_state.hpp"
+#include "process/results/result_file.hpp"
 #include "process/run_folder.hpp"
 #include "report/run_report.hpp"
 

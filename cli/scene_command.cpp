@@ -3,7 +3,7 @@
 #include "cli/run/drawn_world.hpp"
 #include "cli/run/fleet_plan.hpp"
 #include "cli/run/preflight.hpp"
-#include "process/environment.hpp"
+#include "process/host/environment.hpp"
 #include "process/program.hpp"
 #include "process/run_folder.hpp"
 

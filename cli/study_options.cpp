@@ -3,8 +3,8 @@
 
 #include "cli/option_checks.hpp"
 #include "cli/tool_options.hpp"
-#include "core/number_checks.hpp"
-#include "core/text.hpp"
+#include "core/text/number_checks.hpp"
+#include "core/text/text.hpp"
 #include "core/types.hpp"
 
 namespace skein::cli {

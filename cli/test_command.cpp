@@ -7,7 +7,7 @@
 #include "cli/run/preflight.hpp"
 #include "cli/test_counts.hpp"
 #include "cli/test_folders.hpp"
-#include "process/environment.hpp"
+#include "process/host/environment.hpp"
 #include "process/program.hpp"
 
 namespace skein::cli {

@@ -66,7 +66,7 @@ TEST_F(TestCommand, TheSlowestPartsComeFirst) {
 
 TEST_F(TestCommand, ChoosesByFolder) {
   const std::filesystem::path list = scratch_.path() / "folders.txt";
-  write_text(list, "core\nsim_server/rays\nsim_server\ntests/fleet\ntests\n");
+  write_text(list, "core\nsim_server/flight\nsim_server\ntests/fleet\ntests\n");
   EXPECT_EQ(labels_of_folders({"core"}, list), "^(core)(/|$)");
   EXPECT_EQ(labels_of_folders({"sim_server/", "tests/fleet"}, list), "^(sim_server|tests/fleet)(/|$)");
   const auto refusal = [&](const std::string& folder) {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "cli/run/result.hpp"
-#include "core/text.hpp"
+#include "core/text/text.hpp"
 
 namespace skein::cli {
 namespace {

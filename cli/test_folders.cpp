@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <fstream>
 
-#include "core/suggestion.hpp"
+#include "core/text/suggestion.hpp"
 #include "core/types.hpp"
 
 namespace skein::cli {

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <optional>
 
-#include "process/turn_page.hpp"
+#include "process/status/turn_page.hpp"
 
 namespace skein::cli {
 

@@ -30,15 +30,15 @@ set(SKEIN_THREAD_TESTS bus_inbox_test bus_unsent_test process_program_test proce
 # What takes more than half a minute, for it computes much: a third of it runs at each commit.
 set(SKEIN_SLOW_TESTS agent_planner_contract_test agent_planners_kios_kios_test agent_planners_patrol_patrol_test
   agent_planners_star_star_flight_test agent_planners_xxh_xxh_test agent_published_strategies_test bus_contract_test
-  sim_oracle_oracle_test sim_scenes_scene_families_test sim_wild_flood_test)
+  oracle_oracle_test scenes_scene_families_test scenes_wild_flood_test)
 
 # What takes long with sanitizers, for it computes much: an eighth of it runs at each commit.
-set(SKEIN_SLOW_SANITIZED_TESTS sim_oracle_oracle_test sim_plan_flight_test sim_plan_plan_test
-  sim_scenes_scene_families_test agent_planner_contract_test
-  sim_wild_world_test sim_whole_simulation_test sim_flight_dynamics_test sim_rays_ray_fan_test
-  sim_exchange_period_test sim_flight_fleet_start_test sim_flight_enclosure_test sim_flight_vehicle_test
-  sim_flight_vehicle_faults_test sim_oracle_best_aim_test sim_oracle_open_space_test sim_rays_ray_scene_test
-  sim_scenes_scene_digests_test sim_scenes_scene_export_test sim_scenes_scene_source_test report_run_report_test
+set(SKEIN_SLOW_SANITIZED_TESTS oracle_oracle_test sim_plan_flight_test sim_plan_plan_test
+  scenes_scene_families_test agent_planner_contract_test
+  sim_wild_world_test sim_whole_simulation_test sim_flight_dynamics_test sight_ray_fan_test
+  sim_exchange_period_test sim_flight_fleet_start_test scenes_enclosure_test sim_flight_vehicle_test
+  sim_flight_vehicle_faults_test oracle_best_aim_test oracle_open_space_test sight_ray_scene_test
+  scenes_scene_digests_test scenes_scene_export_test scenes_scene_source_test report_run_report_test
   agent_planners_kios_kios_test agent_planners_patrol_patrol_test agent_planners_star_star_flight_test
   agent_planners_xxh_xxh_test agent_published_strategies_test agent_flight_core_safety_filter_test
   cli_compose_compose_file_test one_process_digests_test protocol_test)
@@ -91,14 +91,22 @@ function(skein_add_library name)
   skein_compile_by_folder(${name} ${ARG_SOURCES})
 endfunction()
 
+# The folder with which a source of the present folder is compiled. The subjects of core/ and of process/ are small:
+# each of the two is one.
+function(skein_unit_of source out)
+  get_filename_component(folder ${CMAKE_CURRENT_SOURCE_DIR}/${source} DIRECTORY)
+  file(RELATIVE_PATH folder ${PROJECT_SOURCE_DIR} ${folder})
+  string(REGEX REPLACE "^(core|process)/.+" "\\1" folder ${folder})
+  string(REPLACE "/" "_" folder ${folder})
+  set(${out} ${folder} PARENT_SCOPE)
+endfunction()
+
 # skein_compile_by_folder(TARGET SOURCES...)
 # The files of a folder are compiled as one, for reading headers is most of the work. So a name in an unnamed namespace
 # means one thing in a folder. CMake compiles alone what has options of its own.
 function(skein_compile_by_folder target)
   foreach(source ${ARGN})
-    get_filename_component(folder ${CMAKE_CURRENT_SOURCE_DIR}/${source} DIRECTORY)
-    file(RELATIVE_PATH folder ${PROJECT_SOURCE_DIR} ${folder})
-    string(REPLACE "/" "_" group ${folder})
+    skein_unit_of(${source} group)
     set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${group})
   endforeach()
   set_target_properties(${target} PROPERTIES UNITY_BUILD ${SKEIN_UNITY} UNITY_BUILD_MODE GROUP)
@@ -261,9 +269,7 @@ function(skein_add_test_sources program)
       continue()
     endif()
     target_sources(${program} PRIVATE ${source})
-    get_filename_component(folder ${CMAKE_CURRENT_SOURCE_DIR}/${source} DIRECTORY)
-    file(RELATIVE_PATH folder ${PROJECT_SOURCE_DIR} ${folder})
-    string(REPLACE "/" "_" folder ${folder})
+    skein_unit_of(${source} folder)
     get_property(count GLOBAL PROPERTY skein_test_sources_of_${folder})
     if(NOT count)
       set(count 0)

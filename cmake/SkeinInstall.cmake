@@ -45,8 +45,8 @@ install(FILES cli/completion/skein.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fis
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT license)  # Debian has it already
 
 # Where config/gdb/skein_printers.py looks for it.
-install(DIRECTORY bus cli comm_router core doctor mcap one_process process properties recording report sim_server
-  station uav_agent view DESTINATION src/skein COMPONENT source
+install(DIRECTORY bus cli comm_router core doctor one_process oracle process properties recording report scenes sight
+  sim_server station uav_agent view DESTINATION src/skein COMPONENT source
   FILES_MATCHING PATTERN "*.cpp" PATTERN "*.hpp" PATTERN testing EXCLUDE)
 
 # The package for Python, where Debian's finds it under /usr.
@@ -59,7 +59,7 @@ install(FILES python/examples/compare.ipynb python/examples/listen.py python/exa
   DESTINATION ${CMAKE_INSTALL_DOCDIR}/python COMPONENT python)
 
 set(libraries core process report view idl mcap bag bus lockstep recording agent agent_nodes agent_main
-  sim sim_node router router_node station station_node one_process one_process_main)
+  sight oracle scenes sim sim_node router router_node station station_node one_process one_process_main)
 foreach(library ${libraries})
   set_target_properties(skein_${library} PROPERTIES EXPORT_NAME ${library})
   install(TARGETS skein_${library} EXPORT skeinTargets

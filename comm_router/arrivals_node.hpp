@@ -11,7 +11,7 @@
 
 #include "bus/bus.hpp"
 #include "bus/lockstep/counted.hpp"
-#include "core/radio_routes.hpp"
+#include "core/radio/radio_routes.hpp"
 #include "core/scenario.hpp"
 
 namespace skein::router {

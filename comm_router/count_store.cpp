@@ -9,7 +9,7 @@
 #include <type_traits>
 #include <utility>
 
-#include "process/nowhere.hpp"
+#include "process/files/nowhere.hpp"
 
 namespace skein::router {
 

@@ -7,14 +7,14 @@
 #include <system_error>
 
 #include "comm_router/link_gate.hpp"
-#include "core/run_id.hpp"
+#include "core/run/run_id.hpp"
 
 namespace skein::router {
 
 class CountStore {
  public:
   /// Opens or creates the file; what another run counted is none of ours, and begins at 0. What is written survives the
-  /// death of this process (not of the machine). In kNowhere (process/nowhere.hpp) nothing is kept.
+  /// death of this process (not of the machine). In kNowhere (process/files/nowhere.hpp) nothing is kept.
   /// @throws std::system_error when the file cannot be opened, or made as long as it must be.
   CountStore(const std::filesystem::path& file, std::size_t nodes, RunId run = RunId::none);
   ~CountStore();

@@ -9,9 +9,9 @@
 #include <memory>
 #include <vector>
 
-#include "core/fault_plan.hpp"
-#include "core/link_matrix.hpp"
-#include "core/radio_routes.hpp"
+#include "core/faults/fault_plan.hpp"
+#include "core/radio/link_matrix.hpp"
+#include "core/radio/radio_routes.hpp"
 #include "core/types.hpp"
 
 namespace skein::router {

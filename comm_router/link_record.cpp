@@ -2,7 +2,7 @@
 
 #include <system_error>
 
-#include "core/radio_routes.hpp"
+#include "core/radio/radio_routes.hpp"
 #include "process/run_folder.hpp"
 
 namespace skein::router {

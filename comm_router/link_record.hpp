@@ -9,7 +9,7 @@
 
 #include "comm_router/link_gate.hpp"
 #include "core/scenario.hpp"
-#include "process/stream_file.hpp"
+#include "process/files/stream_file.hpp"
 
 namespace skein::router {
 

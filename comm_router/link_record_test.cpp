@@ -6,7 +6,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "core/radio_routes.hpp"
+#include "core/radio/radio_routes.hpp"
 
 namespace skein::router {
 namespace {

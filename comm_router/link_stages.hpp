@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "comm_router/link_gate.hpp"
-#include "core/fault_plan.hpp"
+#include "core/faults/fault_plan.hpp"
 #include "core/scenario.hpp"
 
 namespace skein::router {

@@ -1,6 +1,6 @@
 // comm_router: relays radio messages between the domains of the nodes, as far as there is line of sight.
 #include "comm_router/router_program.hpp"
-#include "process/environment.hpp"
+#include "process/host/environment.hpp"
 
 int main(int argc, char** argv) {
   skein::take_fleet_environment(argv);

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "comm_router/router_sync.hpp"
-#include "core/radio_routes.hpp"
+#include "core/radio/radio_routes.hpp"
 
 namespace skein::router {
 

@@ -8,7 +8,7 @@
 #include "bus/lockstep/names.hpp"
 #include "comm_router/link_record.hpp"
 #include "comm_router/link_stages.hpp"
-#include "core/fault_writer.hpp"
+#include "core/faults/fault_writer.hpp"
 #include "core/topics.hpp"
 #include "idl/type_names.hpp"
 

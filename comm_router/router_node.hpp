@@ -22,7 +22,7 @@
 #include "comm_router/recording_node.hpp"
 #include "comm_router/replay_node.hpp"
 #include "comm_router/router_sync.hpp"
-#include "core/fault_plan.hpp"
+#include "core/faults/fault_plan.hpp"
 #include "core/scenario.hpp"
 
 namespace skein::router {

@@ -7,9 +7,9 @@
 
 #include "bus/program_bus.hpp"
 #include "comm_router/router_node.hpp"
-#include "process/nowhere.hpp"
-#include "process/program_report.hpp"
-#include "process/reports.hpp"
+#include "process/files/nowhere.hpp"
+#include "process/reports/program_report.hpp"
+#include "process/reports/reports.hpp"
 
 namespace skein::router {
 namespace {

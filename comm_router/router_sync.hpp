@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "comm_router/link_gate.hpp"
-#include "core/radio_routes.hpp"
+#include "core/radio/radio_routes.hpp"
 
 namespace skein::router {
 

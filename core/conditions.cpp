@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "core/conditions_keys.hpp"
-#include "core/config_writer.hpp"
-#include "core/suggestion.hpp"
-#include "core/text.hpp"
+#include "core/config/config_writer.hpp"
+#include "core/text/suggestion.hpp"
+#include "core/text/text.hpp"
 #include "core/types.hpp"
 
 namespace skein {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "core/conditions.hpp"
-#include "core/config_reader.hpp"
-#include "core/suggestion.hpp"
+#include "core/config/config_reader.hpp"
+#include "core/text/suggestion.hpp"
 
 namespace skein {
 

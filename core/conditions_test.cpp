@@ -4,7 +4,7 @@
 
 #include <fstream>
 
-#include "core/scenario_reader.hpp"
+#include "core/scenario/scenario_reader.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 namespace skein {

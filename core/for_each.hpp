@@ -1,5 +1,6 @@
 // How somebody has work done that falls into pieces which do not need each other: one after another, or side by side on
-// several threads (process/workers.hpp). Whoever asks must get the same from both: each piece writes to its own place.
+// several threads (process/host/workers.hpp). Whoever asks must get the same from both: each piece writes to its own
+// place.
 #pragma once
 
 #include <algorithm>

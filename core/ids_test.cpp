@@ -6,7 +6,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "core/link_matrix.hpp"
+#include "core/radio/link_matrix.hpp"
 #include "core/sha256.hpp"
 
 namespace skein {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/suggestion.hpp"
+#include "core/text/suggestion.hpp"
 
 namespace skein {
 

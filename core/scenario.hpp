@@ -1,5 +1,5 @@
 // A scenario: everything that a run needs to know before it starts. Plain structs with their defaults;
-// core/scenario_reader.hpp fills them from YAML and refuses what makes no sense.
+// core/scenario/scenario_reader.hpp fills them from YAML and refuses what makes no sense.
 // Units: SI and radians unless the name says otherwise. Angles in files are in degrees, as CARIC has them.
 #pragma once
 
@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/conditions.hpp"
-#include "core/link_effect.hpp"
+#include "core/radio/link_effect.hpp"
 #include "core/types.hpp"
 
 namespace skein {
@@ -73,7 +73,7 @@ struct VehicleLink {
   std::optional<Vector3d> box_m;        ///< full edge lengths
 };
 
-/// One vehicle type; files in config/vehicles/. What it weighs all-up says core/airframe.hpp.
+/// One vehicle type; files in config/vehicles/. What it weighs all-up says core/vehicle/airframe.hpp.
 struct VehicleConfig {
   std::string name;
   Role role = Role::explorer;

@@ -1,5 +1,5 @@
 // The one table of topics: name, type, direction and quality of service of everything that Skein itself puts on the
-// wire, the fields of every PointCloud2, and the numbers of the DDS domains. Radio topics: core/radio_routes.hpp.
+// wire, the fields of every PointCloud2, and the numbers of the DDS domains. Radio topics: core/radio/radio_routes.hpp.
 //
 // ROS names ("/jurong/gimbal") and ROS types ("nav_msgs/msg/Odometry") are what users write; wire names
 // ("rt/jurong/gimbal", "nav_msgs::msg::dds_::Odometry_") are what DDS sees. All topics are RELIABLE and KEEP_LAST.

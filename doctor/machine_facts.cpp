@@ -17,7 +17,7 @@
 #include <sstream>
 #include <vector>
 
-#include "core/text.hpp"
+#include "core/text/text.hpp"
 
 namespace skein::doctor {
 namespace {

@@ -11,7 +11,7 @@
 #include "core/topics.hpp"
 #include "doctor/checks_program.hpp"
 #include "doctor/net_program.hpp"
-#include "process/environment.hpp"
+#include "process/host/environment.hpp"
 
 namespace skein::doctor {
 namespace {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/suggestion.hpp"
+#include "core/text/suggestion.hpp"
 #include "process/program.hpp"
 
 namespace skein::doctor {

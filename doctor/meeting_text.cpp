@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <ostream>
 
-#include "core/suggestion.hpp"
+#include "core/text/suggestion.hpp"
 #include "doctor/meeting.hpp"
 #include "process/program.hpp"
 

@@ -15,7 +15,7 @@
 #include "bus/bus.hpp"
 #include "bus/inbox.hpp"
 #include "bus/reach.hpp"
-#include "core/suggestion.hpp"
+#include "core/text/suggestion.hpp"
 #include "core/types.hpp"
 #include "doctor/greeting_socket.hpp"
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/network_config.hpp"
+#include "core/config/network_config.hpp"
 #include "doctor/meeting.hpp"
 #include "process/program.hpp"
 

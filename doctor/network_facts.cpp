@@ -10,7 +10,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "process/host_lock.hpp"
+#include "process/host/host_lock.hpp"
 #include "process/program.hpp"
 
 namespace skein::doctor {

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "core/network_config.hpp"
+#include "core/config/network_config.hpp"
 
 namespace skein::doctor {
 

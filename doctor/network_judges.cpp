@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "core/suggestion.hpp"
+#include "core/text/suggestion.hpp"
 #include "process/program.hpp"
 
 namespace skein::doctor {

@@ -9,7 +9,7 @@
 #include <random>
 
 #include "doctor/network_judges.hpp"
-#include "process/host_lock.hpp"
+#include "process/host/host_lock.hpp"
 #include "process/program.hpp"
 
 namespace skein::doctor {

@@ -11,9 +11,9 @@
 #include <set>
 #include <utility>
 
-#include "core/command_file.hpp"
-#include "core/text.hpp"
-#include "process/environment.hpp"
+#include "core/files/command_file.hpp"
+#include "core/text/text.hpp"
+#include "process/host/environment.hpp"
 
 namespace skein::doctor {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <spdlog/fmt/fmt.h>
 
-#include "core/suggestion.hpp"
+#include "core/text/suggestion.hpp"
 
 namespace skein::doctor {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/score_table.hpp"
+#include "core/scoring/score_table.hpp"
 #include "core/told_state.hpp"
 #include "core/topics.hpp"
 #include "core/types.hpp"

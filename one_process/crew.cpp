@@ -14,8 +14,8 @@
 #include "bus/lockstep/self_signal.hpp"
 #include "one_process/death_notice.hpp"
 #include "one_process/program_output.hpp"
+#include "process/host/thread_cpu.hpp"
 #include "process/run_folder.hpp"
-#include "process/thread_cpu.hpp"
 
 namespace skein::one_process {
 namespace {

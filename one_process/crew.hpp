@@ -3,7 +3,7 @@
 // alone. Nothing of a result depends on it: what a program hears in a turn is counted (docs/lockstep.md).
 // What a process is to its program is kept up: a log of its own, a death that leaves no last words, standing still
 // while it is stopped, an end by an exception; and the CPU time that the server is told is its own
-// (process/thread_cpu.hpp).
+// (process/host/thread_cpu.hpp).
 // Threads: one, but for turns() and holder().
 #pragma once
 
@@ -20,10 +20,10 @@
 
 #include "bus/lockstep/fleet_program.hpp"
 #include "one_process/death_notice.hpp"
-#include "process/shared_lines.hpp"
-#include "process/status_pipe.hpp"
-#include "process/turn_page.hpp"
-#include "process/workers.hpp"
+#include "process/host/workers.hpp"
+#include "process/status/shared_lines.hpp"
+#include "process/status/status_pipe.hpp"
+#include "process/status/turn_page.hpp"
 
 namespace skein::one_process {
 

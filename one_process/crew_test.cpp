@@ -23,7 +23,7 @@
 #include "one_process/death_notice.hpp"
 #include "one_process/program_output.hpp"
 #include "one_process/shared_turn.hpp"
-#include "process/thread_cpu.hpp"
+#include "process/host/thread_cpu.hpp"
 
 namespace skein::one_process {
 namespace {

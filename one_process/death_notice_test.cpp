@@ -12,8 +12,8 @@
 #include <string>
 #include <thread>
 
-#include "process/crash_notes.hpp"
-#include "process/shared_lines.hpp"
+#include "process/health/crash_notes.hpp"
+#include "process/status/shared_lines.hpp"
 #include "tests/support/places.hpp"
 
 namespace skein::one_process {

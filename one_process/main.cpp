@@ -1,5 +1,5 @@
 // A fleet in one process: sim_server, comm_router, station and all agents with the strategies that are linked with it,
-// over the inproc bus. The launcher says on the control pipe what is to be started (process/shared_lines.hpp).
+// over the inproc bus. The launcher says on the control pipe what is to be started (process/status/shared_lines.hpp).
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
@@ -10,7 +10,7 @@
 #include <optional>
 #include <string_view>
 
-#include "core/number_checks.hpp"
+#include "core/text/number_checks.hpp"
 #include "one_process/crew.hpp"
 #include "one_process/death_notice.hpp"
 #include "one_process/fleet_programs.hpp"
@@ -19,7 +19,7 @@
 #include "one_process/session.hpp"
 #include "one_process/shared_turn.hpp"
 #include "one_process/watchdog.hpp"
-#include "process/environment.hpp"
+#include "process/host/environment.hpp"
 #include "process/run_folder.hpp"
 
 /// Of LeakSanitizer, where the program is built with it.

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "process/shared_lines.hpp"
+#include "process/status/shared_lines.hpp"
 
 namespace skein::one_process {
 

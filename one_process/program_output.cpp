@@ -11,7 +11,7 @@
 #include <streambuf>
 #include <system_error>
 
-#include "process/crash_notes.hpp"
+#include "process/health/crash_notes.hpp"
 #include "process/program.hpp"
 
 namespace skein::one_process {

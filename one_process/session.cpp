@@ -19,9 +19,9 @@
 #include <system_error>
 #include <utility>
 
-#include "core/number_checks.hpp"
+#include "core/text/number_checks.hpp"
 #include "one_process/death_notice.hpp"
-#include "process/crash_notes.hpp"
+#include "process/health/crash_notes.hpp"
 #include "process/program.hpp"
 #include "process/run_folder.hpp"
 #include "sim_server/server_program.hpp"

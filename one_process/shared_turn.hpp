@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/for_each.hpp"
-#include "process/workers.hpp"
+#include "process/host/workers.hpp"
 
 namespace skein::one_process {
 

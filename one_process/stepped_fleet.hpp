@@ -16,8 +16,8 @@
 
 #include "core/block_layout.hpp"
 #include "one_process/crew.hpp"
-#include "process/shared_lines.hpp"
-#include "process/status_pipe.hpp"
+#include "process/status/shared_lines.hpp"
+#include "process/status/status_pipe.hpp"
 #include "sim_server/scene_shelf.hpp"
 #include "sim_server/step_gate.hpp"
 #include "station/score_view.hpp"

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "core/file_bytes.hpp"
+#include "core/files/file_bytes.hpp"
 #include "core/types.hpp"
 
 namespace skein {

@@ -16,10 +16,11 @@
 #include <stdexcept>
 #include <vector>
 
-#include "core/number_checks.hpp"
-#include "core/suggestion.hpp"
-#include "process/crash_notes.hpp"
-#include "process/keeper.hpp"
+#include "core/text/number_checks.hpp"
+#include "core/text/suggestion.hpp"
+#include "process/health/crash_notes.hpp"
+#include "process/health/keeper.hpp"
+#include "process/host/environment.hpp"
 #include "process/log_lines.hpp"
 #include "process/manual.hpp"
 

@@ -21,8 +21,8 @@
 #include <thread>
 #include <variant>
 
-#include "core/run_id.hpp"
-#include "core/scenario_reader.hpp"
+#include "core/run/run_id.hpp"
+#include "core/scenario/scenario_reader.hpp"
 
 namespace CLI {
 class App;
@@ -73,7 +73,8 @@ struct ProgramOptions {
   std::optional<std::string> network;       ///< --network: other hosts take part, by this interface or "all"
   int lease_s = 8;                          ///< --lease: who is silent for so long is taken for dead [s]
   RunId run = RunId::none;                  ///< --run: that the program takes part in
-  std::filesystem::path security;           ///< --security: folder of process/security_files.hpp; empty: not secured
+  /// --security: folder of process/files/security_files.hpp; empty: not secured
+  std::filesystem::path security;
 
   /// Whether a launcher is there that tells who has died, kills and restarts, and goes on with what is stopped.
   bool has_launcher() const { return control_fd >= 0; }

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <span>
 
-#include "core/text.hpp"
+#include "core/text/text.hpp"
 
 namespace skein::properties {
 namespace {

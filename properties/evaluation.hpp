@@ -35,7 +35,7 @@ struct Verdict {
   Unit unit = {};          ///< of the margin
   double at_s = 0.0;  ///< when it was decided: where an `always` came nearest to failing, an `eventually` to holding
   std::string reason = {};  ///< why it is vacuous, or how it failed, for people
-  bool is_unclear = false;  ///< vacuous, since what it compares is undefined (core/expression.hpp)
+  bool is_unclear = false;  ///< vacuous, since what it compares is undefined (core/expressions/expression.hpp)
 };
 
 Verdict evaluate(const Property& property, RunSignals& run);

@@ -1,7 +1,7 @@
 // A property of a run: a condition over its signals, and when it must hold. Temporal operators and their margins are
-// those of signal temporal logic on the run's exchanges (Donze and Maler 2010, see core/expression.hpp): of `always`
-// the least margin in its window, of `eventually` the greatest, of `a until b` the greatest over all instants of the
-// lesser of b then and a before.  docs/properties.md is for users; property_parser.hpp reads texts.
+// those of signal temporal logic on the run's exchanges (Donze and Maler 2010, see core/expressions/expression.hpp): of
+// `always` the least margin in its window, of `eventually` the greatest, of `a until b` the greatest over all instants
+// of the lesser of b then and a before.  docs/properties.md is for users; property_parser.hpp reads texts.
 // Pure.   Times: simulated seconds.
 #pragma once
 
@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/expression.hpp"
-#include "core/signal_table.hpp"
+#include "core/expressions/expression.hpp"
+#include "core/expressions/signal_table.hpp"
 
 namespace skein::properties {
 

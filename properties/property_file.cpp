@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "core/config_files.hpp"
-#include "core/suggestion.hpp"
+#include "core/config/config_files.hpp"
+#include "core/text/suggestion.hpp"
 #include "properties/property_parser.hpp"
 
 namespace skein::properties {

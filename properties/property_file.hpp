@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/config_reader.hpp"
+#include "core/config/config_reader.hpp"
 #include "core/scenario.hpp"
 #include "properties/property.hpp"
 

@@ -7,9 +7,9 @@
 #include <fstream>
 #include <set>
 
-#include "core/config_files.hpp"
-#include "core/scenario_reader.hpp"
-#include "core/signal_table.hpp"
+#include "core/config/config_files.hpp"
+#include "core/expressions/signal_table.hpp"
+#include "core/scenario/scenario_reader.hpp"
 #include "tests/support/places.hpp"
 
 namespace skein::properties {

@@ -4,8 +4,8 @@
 #include <array>
 #include <utility>
 
-#include "core/suggestion.hpp"
-#include "core/text.hpp"
+#include "core/text/suggestion.hpp"
+#include "core/text/text.hpp"
 
 namespace skein::properties {
 namespace {

@@ -2,14 +2,14 @@
 //   [for u in uavs,] [whenever CONDITION,] always CONDITION     or never, sometimes, eventually
 //   [for u in uavs,] CONDITION until CONDITION
 // and behind it, each at most once: `within 20 s`, `after heal` or `after 20 s`, `from 10 s to 20 s`.
-// Conditions: core/expression_parser.hpp.  Pure.
+// Conditions: core/expressions/expression_parser.hpp.  Pure.
 #pragma once
 
 #include <map>
 #include <string>
 #include <vector>
 
-#include "core/expression_parser.hpp"
+#include "core/expressions/expression_parser.hpp"
 #include "core/scenario.hpp"
 #include "properties/property.hpp"
 

@@ -8,7 +8,7 @@
 #include <map>
 
 #include "core/topics.hpp"
-#include "mcap/reader.hpp"
+#include "recording/mcap/reader.hpp"
 
 namespace skein::recording {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/types.hpp"
-#include "mcap/records.hpp"
+#include "recording/mcap/records.hpp"
 
 namespace skein::recording {
 

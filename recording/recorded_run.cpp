@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "mcap/reader.hpp"
+#include "recording/mcap/reader.hpp"
 
 namespace skein::recording {
 

@@ -5,7 +5,7 @@
 #include <system_error>
 #include <utility>
 
-#include "core/tick_time.hpp"
+#include "core/run/tick_time.hpp"
 #include "idl/message_definition.hpp"
 #include "process/run_folder.hpp"
 #include "recording/bag.hpp"

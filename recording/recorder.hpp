@@ -12,8 +12,8 @@
 #include "core/types.hpp"
 #include "idl/cdr.hpp"
 #include "idl/type_names.hpp"
-#include "mcap/writer.hpp"
 #include "recording/choice.hpp"
+#include "recording/mcap/writer.hpp"
 
 namespace skein::recording {
 

@@ -5,9 +5,9 @@
 #include "bus/lockstep/names.hpp"
 #include "core/topics.hpp"
 #include "idl/conversions.hpp"
-#include "mcap/join.hpp"
-#include "mcap/testing.hpp"
 #include "process/run_folder.hpp"
+#include "recording/mcap/join.hpp"
+#include "recording/mcap/testing.hpp"
 
 namespace skein::recording {
 namespace {

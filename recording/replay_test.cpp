@@ -8,8 +8,8 @@
 #include "core/topics.hpp"
 #include "idl/cdr.hpp"
 #include "idl/type_names.hpp"
-#include "mcap/testing.hpp"
 #include "process/run_folder.hpp"
+#include "recording/mcap/testing.hpp"
 #include "recording/recorder.hpp"
 
 namespace skein::recording {

@@ -2,8 +2,8 @@
 
 #include <stdexcept>
 
-#include "core/file_bytes.hpp"
-#include "core/text.hpp"
+#include "core/files/file_bytes.hpp"
+#include "core/text/text.hpp"
 
 namespace skein::report {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <set>
 
-#include "process/run_tables.hpp"
+#include "process/results/run_tables.hpp"
 #include "report/flight_picture.hpp"
 
 namespace skein::report {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string_view>
 
-#include "core/octree_bytes.hpp"
+#include "core/files/octree_bytes.hpp"
 
 namespace skein::report {
 
@@ -15,7 +15,7 @@ bool visit_octree_file(std::string_view file, const std::function<void(const Kno
 
 /// What a file is about.
 struct OctreeFile {
-  std::string_view tree;  ///< as core/octree_bytes.hpp reads it; a part of the file
+  std::string_view tree;  ///< as core/files/octree_bytes.hpp reads it; a part of the file
   double cell_m = 0.0;    ///< edge of its smallest cells
 };
 /// @returns nullopt for what does not begin as such a file does.

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "core/python_spec.hpp"
-#include "core/text.hpp"
+#include "core/planners/python_spec.hpp"
+#include "core/text/text.hpp"
 #include "report/html.hpp"
 #include "report/page_parts.hpp"
 #include "report/time_chart.hpp"

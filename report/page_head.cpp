@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <set>
 
-#include "core/suggestion.hpp"
-#include "core/text.hpp"
+#include "core/text/suggestion.hpp"
+#include "core/text/text.hpp"
 #include "report/html.hpp"
 #include "report/page_parts.hpp"
 

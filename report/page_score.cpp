@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "core/text.hpp"
+#include "core/text/text.hpp"
 #include "report/html.hpp"
 #include "report/page_parts.hpp"
 #include "report/time_chart.hpp"

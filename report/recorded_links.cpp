@@ -4,8 +4,8 @@
 #include <map>
 #include <string>
 
-#include "core/text.hpp"
-#include "process/run_tables.hpp"
+#include "core/text/text.hpp"
+#include "process/results/run_tables.hpp"
 
 namespace skein::report {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "process/run_tables.hpp"
+#include "process/results/run_tables.hpp"
 
 namespace skein::report {
 namespace {

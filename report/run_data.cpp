@@ -4,10 +4,10 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "core/file_bytes.hpp"
-#include "process/result_file.hpp"
+#include "core/files/file_bytes.hpp"
+#include "process/results/result_file.hpp"
+#include "process/results/run_tables.hpp"
 #include "process/run_folder.hpp"
-#include "process/run_tables.hpp"
 #include "report/causes.hpp"
 #include "report/csv_table.hpp"
 #include "report/octree_file.hpp"

@@ -1,6 +1,6 @@
 #include "report/run_report.hpp"
 
-#include "process/atomic_file.hpp"
+#include "process/files/atomic_file.hpp"
 #include "process/run_folder.hpp"
 #include "report/html.hpp"
 #include "report/page_data.hpp"

@@ -5,9 +5,9 @@
 #include <cstdlib>
 #include <span>
 
-#include "core/base64.hpp"
-#include "core/file_bytes.hpp"
+#include "core/files/file_bytes.hpp"
 #include "core/sha256.hpp"
+#include "core/text/base64.hpp"
 #include "process/run_folder.hpp"
 
 namespace skein::report {

@@ -1,6 +1,6 @@
 #include "sim_server/cpu_clock.hpp"
 
-#include "process/thread_cpu.hpp"
+#include "process/host/thread_cpu.hpp"
 
 namespace skein::sim {
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdint>
 
-#include "process/reports.hpp"
+#include "process/reports/reports.hpp"
 #include "sim_server/work_clock.hpp"
 
 namespace skein::sim {

@@ -6,7 +6,7 @@
 
 #include <utility>
 
-#include "process/user_cache.hpp"
+#include "process/files/user_cache.hpp"
 
 namespace skein::sim {
 namespace {

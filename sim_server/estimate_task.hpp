@@ -6,7 +6,7 @@
 #include <optional>
 #include <thread>
 
-#include "sim_server/oracle/cache.hpp"
+#include "oracle/cache.hpp"
 
 namespace skein::sim {
 

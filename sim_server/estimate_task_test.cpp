@@ -4,7 +4,7 @@
 
 #include <thread>
 
-#include "sim_server/testing/test_scenes.hpp"
+#include "tests/support/test_scenes.hpp"
 
 namespace skein::sim {
 namespace {

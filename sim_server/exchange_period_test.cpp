@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/random_stream.hpp"
-#include "core/scenario_reader.hpp"
+#include "core/scenario/scenario_reader.hpp"
 #include "sim_server/simulation.hpp"
 #include "sim_server/testing/test_flight.hpp"
 

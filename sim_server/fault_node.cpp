@@ -5,7 +5,7 @@
 #include <variant>
 
 #include "bus/lockstep/names.hpp"
-#include "process/atomic_file.hpp"
+#include "process/files/atomic_file.hpp"
 #include "process/run_folder.hpp"
 
 namespace skein::sim {

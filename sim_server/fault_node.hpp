@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "bus/lockstep/server.hpp"
-#include "process/status_lines.hpp"
-#include "process/status_pipe.hpp"
+#include "process/status/status_lines.hpp"
+#include "process/status/status_pipe.hpp"
 #include "recording/replay.hpp"
 #include "sim_server/hand_faults.hpp"
 #include "sim_server/live_signals.hpp"

@@ -3,9 +3,9 @@
 
 #include <vector>
 
-#include "core/airframe.hpp"
 #include "core/scenario.hpp"
-#include "sim_server/rays/ray_scene.hpp"
+#include "core/vehicle/airframe.hpp"
+#include "sight/ray_scene.hpp"
 
 namespace skein::sim {
 

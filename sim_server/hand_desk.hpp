@@ -3,8 +3,8 @@
 //
 // An order holds for so long as it is renewed: if the browser vanishes, or its host sleeps, the UAV comes to rest. That
 // time is the wall clock's, the only one that runs for people. It decides nothing that is hashed by itself: what comes
-// of it, like any order, is a command at a step, which goes to the UAV and into its file (core/hand_file.hpp), and who
-// flies it again takes that file and no clock.
+// of it, like any order, is a command at a step, which goes to the UAV and into its file (core/planners/hand_file.hpp),
+// and who flies it again takes that file and no clock.
 // Units: SI and radians.   Threads: one.
 #pragma once
 

@@ -7,9 +7,9 @@
 #include <limits>
 #include <variant>
 
-#include "core/fault_check.hpp"
-#include "core/fault_writer.hpp"
-#include "core/text.hpp"
+#include "core/faults/fault_check.hpp"
+#include "core/faults/fault_writer.hpp"
+#include "core/text/text.hpp"
 #include "process/run_folder.hpp"
 
 namespace skein::sim {

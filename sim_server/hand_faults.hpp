@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/fault_plan.hpp"
+#include "core/faults/fault_plan.hpp"
 #include "view/fault_order.hpp"
 
 namespace skein::sim {

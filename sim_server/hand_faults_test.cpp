@@ -8,7 +8,7 @@
 #include <map>
 #include <random>
 
-#include "core/fault_writer.hpp"
+#include "core/faults/fault_writer.hpp"
 
 namespace skein::sim {
 namespace {

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "bus/lockstep/names.hpp"
-#include "core/hand_file.hpp"
+#include "core/planners/hand_file.hpp"
 #include "core/topics.hpp"
 #include "idl/hand_conversions.hpp"
 #include "process/json_text.hpp"

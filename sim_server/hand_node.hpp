@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "bus/lockstep/server.hpp"
-#include "process/reports.hpp"
-#include "process/stream_file.hpp"
+#include "process/files/stream_file.hpp"
+#include "process/reports/reports.hpp"
 #include "sim_server/hand_desk.hpp"
 #include "sim_server/simulation.hpp"
 

@@ -5,12 +5,12 @@
 #include <optional>
 #include <vector>
 
-#include "core/fault_plan.hpp"
+#include "core/faults/fault_plan.hpp"
 #include "core/for_each.hpp"
-#include "core/link_matrix.hpp"
+#include "core/radio/link_matrix.hpp"
 #include "core/scenario.hpp"
+#include "sight/ray_scene.hpp"
 #include "sim_server/conditions/path_loss.hpp"
-#include "sim_server/rays/ray_scene.hpp"
 #include "sim_server/sensors/sight_memory.hpp"
 
 namespace skein::sim {

@@ -1,5 +1,5 @@
-// The signals of a run (core/signal_table.hpp) that the server knows while it goes on: what faults wait for. It has the
-// same values as whoever reads the run's folder later (cli/properties/run_signals.hpp).
+// The signals of a run (core/expressions/signal_table.hpp) that the server knows while it goes on: what faults wait
+// for. It has the same values as whoever reads the run's folder later (cli/properties/run_signals.hpp).
 // Threads: one.   Pure: knows no bus.
 #pragma once
 
@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
-#include "core/fault_plan.hpp"
+#include "core/expressions/signal_table.hpp"
+#include "core/faults/fault_plan.hpp"
 #include "core/scenario.hpp"
-#include "core/signal_table.hpp"
 #include "sim_server/simulation.hpp"
 
 namespace skein::sim {

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <set>
 
-#include "core/expression_parser.hpp"
+#include "core/expressions/expression_parser.hpp"
 #include "sim_server/testing/test_flight.hpp"
-#include "sim_server/testing/test_scenes.hpp"
+#include "tests/support/test_scenes.hpp"
 
 namespace skein::sim {
 namespace {

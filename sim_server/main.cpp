@@ -1,5 +1,5 @@
 // sim_server: physics, sensors, links, referee and the lock-step clock of one run.
-#include "process/environment.hpp"
+#include "process/host/environment.hpp"
 #include "sim_server/server_program.hpp"
 
 int main(int argc, char** argv) {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/run_state.hpp"
+#include "core/run/run_state.hpp"
 #include "core/scenario.hpp"
 #include "core/types.hpp"
 #include "sim_server/flight/physics_world.hpp"

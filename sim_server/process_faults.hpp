@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/fault_plan.hpp"
+#include "core/faults/fault_plan.hpp"
 
 namespace skein::sim {
 

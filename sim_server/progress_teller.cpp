@@ -1,6 +1,6 @@
 #include "sim_server/progress_teller.hpp"
 
-#include "process/status_lines.hpp"
+#include "process/status/status_lines.hpp"
 
 namespace skein::sim {
 

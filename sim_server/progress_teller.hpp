@@ -5,7 +5,7 @@
 #include <chrono>
 #include <vector>
 
-#include "process/status_pipe.hpp"
+#include "process/status/status_pipe.hpp"
 #include "sim_server/record/run_files.hpp"
 #include "sim_server/simulation.hpp"
 

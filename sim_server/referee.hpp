@@ -6,8 +6,8 @@
 #include <optional>
 #include <vector>
 
-#include "core/score_table.hpp"
-#include "sim_server/sensors/camera.hpp"
+#include "core/scoring/score_table.hpp"
+#include "sight/camera.hpp"
 
 namespace skein::sim {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/score_table.hpp"
+#include "core/scoring/score_table.hpp"
 #include "core/sha256.hpp"
 #include "core/types.hpp"
 

@@ -9,15 +9,15 @@
 #include <utility>
 
 #include "bus/program_bus.hpp"
-#include "core/number_checks.hpp"
-#include "core/scenario_reader.hpp"
+#include "core/scenario/scenario_reader.hpp"
+#include "core/text/number_checks.hpp"
+#include "process/files/user_cache.hpp"
 #include "process/json_text.hpp"
-#include "process/program_report.hpp"
+#include "process/reports/program_report.hpp"
 #include "process/run_folder.hpp"
-#include "process/status_lines.hpp"
-#include "process/user_cache.hpp"
-#include "sim_server/scenes/scene_source.hpp"
-#include "sim_server/scenes/scene_warnings.hpp"
+#include "process/status/status_lines.hpp"
+#include "scenes/scene_source.hpp"
+#include "scenes/scene_warnings.hpp"
 #include "sim_server/sim_node.hpp"
 
 namespace skein::sim {

@@ -9,16 +9,16 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "core/scenario_reader.hpp"
-#include "process/atomic_file.hpp"
+#include "core/scenario/scenario_reader.hpp"
+#include "oracle/cache.hpp"
+#include "process/files/atomic_file.hpp"
+#include "process/files/user_cache.hpp"
 #include "process/program.hpp"
-#include "process/user_cache.hpp"
+#include "scenes/scene_export.hpp"
+#include "scenes/scene_source.hpp"
+#include "scenes/wild/world.hpp"
 #include "sim_server/golden/check.hpp"
-#include "sim_server/oracle/cache.hpp"
 #include "sim_server/plan/plan_cache.hpp"
-#include "sim_server/scenes/scene_export.hpp"
-#include "sim_server/scenes/scene_source.hpp"
-#include "sim_server/wild/world.hpp"
 
 namespace skein::sim {
 

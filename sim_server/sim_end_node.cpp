@@ -1,5 +1,5 @@
 // SimNode: how a run ends, and what it says of itself then.
-#include "process/thread_cpu.hpp"
+#include "process/host/thread_cpu.hpp"
 #include "sim_server/sim_node.hpp"
 
 namespace skein::sim {

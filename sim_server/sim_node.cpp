@@ -6,9 +6,9 @@
 
 #include "bus/lockstep/names.hpp"
 #include "core/topics.hpp"
-#include "process/thread_cpu.hpp"
+#include "process/host/thread_cpu.hpp"
+#include "scenes/scene_warnings.hpp"
 #include "sim_server/referee.hpp"
-#include "sim_server/scenes/scene_warnings.hpp"
 
 namespace skein::sim {
 namespace {

@@ -4,11 +4,11 @@
 #include <optional>
 #include <utility>
 
+#include "sight/camera.hpp"
 #include "sim_server/conditions/surroundings.hpp"
 #include "sim_server/flight/command_link.hpp"
 #include "sim_server/flight/vehicle.hpp"
 #include "sim_server/flight/vehicle_faults.hpp"
-#include "sim_server/sensors/camera.hpp"
 #include "sim_server/sensors/key_frames.hpp"
 #include "sim_server/sensors/lidar.hpp"
 #include "sim_server/uav_view.hpp"

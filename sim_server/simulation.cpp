@@ -4,13 +4,13 @@
 #include <cmath>
 #include <utility>
 
+#include "scenes/enclosure.hpp"
+#include "sight/moving_clearance.hpp"
+#include "sight/ray_scene.hpp"
 #include "sim_server/fleet_bodies.hpp"
-#include "sim_server/flight/enclosure.hpp"
 #include "sim_server/flight/fleet_start.hpp"
 #include "sim_server/flight/physics_world.hpp"
 #include "sim_server/link_tracer.hpp"
-#include "sim_server/rays/moving_clearance.hpp"
-#include "sim_server/rays/ray_scene.hpp"
 #include "sim_server/simulated_uav.hpp"
 
 namespace skein::sim {

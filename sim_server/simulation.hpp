@@ -14,16 +14,16 @@
 #include <string>
 #include <vector>
 
-#include "core/fault_plan.hpp"
+#include "core/faults/fault_plan.hpp"
 #include "core/for_each.hpp"
-#include "core/link_matrix.hpp"
+#include "core/radio/link_matrix.hpp"
 #include "core/scenario.hpp"
 #include "core/scene.hpp"
 #include "core/types.hpp"
+#include "sight/camera.hpp"
 #include "sim_server/mission.hpp"
 #include "sim_server/referee.hpp"
 #include "sim_server/run_digest.hpp"
-#include "sim_server/sensors/camera.hpp"
 #include "sim_server/sensors/key_frames.hpp"
 #include "sim_server/sensors/lidar.hpp"
 #include "sim_server/uav_view.hpp"

@@ -8,9 +8,9 @@
 #include <limits>
 #include <memory>
 
-#include "core/scenario_reader.hpp"
-#include "sim_server/testing/test_scenes.hpp"
+#include "core/scenario/scenario_reader.hpp"
 #include "tests/support/places.hpp"
+#include "tests/support/test_scenes.hpp"
 
 namespace skein::sim {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <spdlog/spdlog.h>
 
-#include "core/suggestion.hpp"
-#include "process/status_lines.hpp"
+#include "core/text/suggestion.hpp"
+#include "process/status/status_lines.hpp"
 
 namespace skein::sim {
 

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "core/wait_notice.hpp"
-#include "process/status_pipe.hpp"
+#include "core/run/wait_notice.hpp"
+#include "process/status/status_pipe.hpp"
 
 namespace skein::sim {
 
@@ -20,7 +20,7 @@ class WaitTeller {
   WaitTeller(StatusPipe& status, const char* what) : status_(status), what_(what), notice_(told_) {}
 
   /// To be called again and again while the wait lasts. The launcher hears of it twice a second once it is no trifle,
-  /// the log when a line is due (core/wait_notice.hpp); "due" marks that for the launcher, too.
+  /// the log when a line is due (core/run/wait_notice.hpp); "due" marks that for the launcher, too.
   /// @param awaited  gives whom; only asked when there is something to tell.
   /// @returns false while it is a trifle.
   template <class Awaited>

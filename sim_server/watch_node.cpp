@@ -7,7 +7,7 @@
 #include "core/camera_quality.hpp"
 #include "core/topics.hpp"
 #include "core/view_topics.hpp"
-#include "process/run_tables.hpp"
+#include "process/results/run_tables.hpp"
 #include "sim_server/record/run_files.hpp"
 
 namespace skein::sim {

@@ -8,8 +8,8 @@
 #include <iostream>
 #include <memory>
 
-#include "core/scenario_reader.hpp"
-#include "sim_server/scenes/scene_source.hpp"
+#include "core/scenario/scenario_reader.hpp"
+#include "scenes/scene_source.hpp"
 #include "sim_server/simulation.hpp"
 #include "tests/support/places.hpp"
 

@@ -16,7 +16,7 @@
 #include <utility>
 
 #include "core/sha256.hpp"
-#include "process/nowhere.hpp"
+#include "process/files/nowhere.hpp"
 
 namespace skein::station {
 namespace {

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "core/run_id.hpp"
+#include "core/run/run_id.hpp"
 #include "station/scoreboard.hpp"
 
 namespace skein::station {
@@ -21,7 +21,8 @@ namespace skein::station {
 class Journal {
  public:
   /// Opens or creates the file and reads back what it holds of this run; what follows the last whole record is cut off.
-  /// The journal of another run is none of ours: it is emptied. One in kNowhere (process/nowhere.hpp) is not kept.
+  /// The journal of another run is none of ours: it is emptied. One in kNowhere (process/files/nowhere.hpp) is not
+  /// kept.
   /// @throws std::runtime_error (file and reason) when the file cannot be opened, read, cut or begun.
   explicit Journal(const std::filesystem::path& file, RunId run = RunId::none);
   ~Journal();

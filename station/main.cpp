@@ -1,5 +1,5 @@
 // station: the ground station, which tallies what reaches it.
-#include "process/environment.hpp"
+#include "process/host/environment.hpp"
 #include "station/station_program.hpp"
 
 int main(int argc, char** argv) {

@@ -1,13 +1,13 @@
 // What UAVs call the interest points in their reports, and which points these are. Each UAV numbers what it has seen
-// (core/detection_order.hpp); the ledger, which it never sees, tells the station the same in the same order.
+// (core/scoring/detection_order.hpp); the ledger, which it never sees, tells the station the same in the same order.
 #pragma once
 
 #include <cstdint>
 #include <limits>
 #include <vector>
 
-#include "core/detection_order.hpp"
-#include "core/score_table.hpp"
+#include "core/scoring/detection_order.hpp"
+#include "core/scoring/score_table.hpp"
 
 namespace skein::station {
 

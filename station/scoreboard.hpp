@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/score_table.hpp"
+#include "core/scoring/score_table.hpp"
 #include "core/types.hpp"
 
 namespace skein::station {

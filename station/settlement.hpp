@@ -3,9 +3,9 @@
 
 #include <filesystem>
 
-#include "core/run_id.hpp"
+#include "core/run/run_id.hpp"
 #include "core/scenario.hpp"
-#include "process/status_pipe.hpp"
+#include "process/status/status_pipe.hpp"
 
 namespace skein::station {
 

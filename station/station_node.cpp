@@ -5,10 +5,10 @@
 #include <utility>
 
 #include "bus/lockstep/names.hpp"
-#include "core/radio_routes.hpp"
+#include "core/radio/radio_routes.hpp"
 #include "idl/conversions.hpp"
 #include "process/run_folder.hpp"
-#include "process/status_lines.hpp"
+#include "process/status/status_lines.hpp"
 #include "station/station_report.hpp"
 
 namespace skein::station {

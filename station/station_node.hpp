@@ -13,7 +13,7 @@
 #include "bus/lockstep/client_node.hpp"
 #include "core/scenario.hpp"
 #include "core/topics.hpp"
-#include "process/status_pipe.hpp"
+#include "process/status/status_pipe.hpp"
 #include "recording/recorder.hpp"
 #include "station/journal.hpp"
 #include "station/point_names.hpp"

@@ -3,8 +3,8 @@
 #include <CLI/CLI.hpp>
 
 #include "bus/program_bus.hpp"
-#include "core/scenario_reader.hpp"
-#include "process/program_report.hpp"
+#include "core/scenario/scenario_reader.hpp"
+#include "process/reports/program_report.hpp"
 #include "process/run_folder.hpp"
 #include "station/settlement.hpp"
 #include "station/station_node.hpp"

@@ -4,12 +4,12 @@
 
 #include <nlohmann/json.hpp>
 
-#include "core/text.hpp"
-#include "process/atomic_file.hpp"
-#include "process/program_report.hpp"
-#include "process/reports.hpp"
+#include "core/text/text.hpp"
+#include "process/files/atomic_file.hpp"
+#include "process/reports/program_report.hpp"
+#include "process/reports/reports.hpp"
+#include "process/results/run_tables.hpp"
 #include "process/run_folder.hpp"
-#include "process/run_tables.hpp"
 
 namespace skein::station {
 namespace {

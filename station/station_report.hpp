@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "process/status_pipe.hpp"
+#include "process/status/status_pipe.hpp"
 #include "station/scoreboard.hpp"
 
 namespace skein::station {
@@ -24,8 +24,8 @@ struct StationNotes {
 /// captures.csv: uav, capture, tick, time_s, point, q_seen, q_blur, q_res, q_distance, q, delivered_at_s, reason; a
 ///   line for each point of each capture in the ledger. `reason` says why it does not count: "not received",
 ///   "refused: <why>", "uav collided", "better capture" (another one of this point counts); empty when it does.
-/// station.report.json: a StationReport (process/reports.hpp); score_earned is left out when no entry of the ledger
-///   stands, points are those that count.
+/// station.report.json: a StationReport (process/reports/reports.hpp); score_earned is left out when no entry of the
+///   ledger stands, points are those that count.
 /// @param uav_names  in fleet order.
 /// @param notes  what the station knows beside its tally; the report adds to `unwritten` which of the tables the disk
 ///   refuses.

@@ -9,11 +9,11 @@
 #include <vector>
 
 #include "bus/bus.hpp"
-#include "process/host_lock.hpp"
+#include "process/host/host_lock.hpp"
 
 namespace skein::test {
 
-/// Reserves consecutive domain ids for its lifetime, by the locks of the launcher (cli/run/domain_block.hpp), so that
+/// Reserves consecutive domain ids for its lifetime, by the locks of the launcher (cli/host/domain_block.hpp), so that
 /// no fleet comes in between. They go with the process, however it ends. Domains below kFirst are left to users.
 class FreeDomains {
  public:

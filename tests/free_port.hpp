@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "process/host_lock.hpp"
+#include "process/host/host_lock.hpp"
 
 namespace skein::test {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/suggestion.hpp"
+#include "core/text/suggestion.hpp"
 #include "idl/conversions.hpp"
 
 namespace skein::agent {

@@ -3,7 +3,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "core/tick_time.hpp"
+#include "core/run/tick_time.hpp"
 #include "core/view_topics.hpp"
 #include "idl/cdr.hpp"
 #include "idl/message_definition.hpp"

@@ -10,7 +10,7 @@
 #include <string>
 
 #include "core/types.hpp"
-#include "mcap/writer.hpp"
+#include "recording/mcap/writer.hpp"
 #include "uav_agent/maps/map_tree.hpp"
 #include "uav_agent/maps/occupancy_map.hpp"
 

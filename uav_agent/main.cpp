@@ -1,6 +1,6 @@
 // uav_agent: one UAV's on-board software with the planner of the user's choice; with `--role gcs`, that strategy's
 // program at the ground station.
-#include "process/environment.hpp"
+#include "process/host/environment.hpp"
 #include "uav_agent/agent_program.hpp"
 
 int main(int argc, char** argv) {

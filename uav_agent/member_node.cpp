@@ -1,8 +1,8 @@
 #include "uav_agent/member_node.hpp"
 
 #include "core/types.hpp"
+#include "process/host/thread_cpu.hpp"
 #include "process/log_time.hpp"
-#include "process/thread_cpu.hpp"
 
 namespace skein::agent {
 

@@ -10,7 +10,7 @@
 #include "bus/bus.hpp"
 #include "bus/inbox.hpp"
 #include "bus/lockstep/client_node.hpp"
-#include "process/reports.hpp"
+#include "process/reports/reports.hpp"
 #include "uav_agent/onboard/cpu_histogram.hpp"
 
 namespace skein::agent {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "bus/lockstep/client.hpp"
-#include "core/radio_routes.hpp"
+#include "core/radio/radio_routes.hpp"
 #include "core/scenario.hpp"
 #include "uav_agent/api/messages.hpp"
 

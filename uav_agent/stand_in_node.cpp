@@ -7,7 +7,7 @@
 
 #include "bus/lockstep/names.hpp"
 #include "bus/lockstep/strangers.hpp"
-#include "core/radio_routes.hpp"
+#include "core/radio/radio_routes.hpp"
 #include "idl/cdr.hpp"
 
 namespace skein::agent {

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <tuple>
 
-#include "core/base64.hpp"
-#include "core/octree_bytes.hpp"
+#include "core/files/octree_bytes.hpp"
+#include "core/text/base64.hpp"
 #include "process/json_text.hpp"
 #include "view/look_order.hpp"
 

@@ -9,7 +9,7 @@
 #include <set>
 #include <tuple>
 
-#include "core/octree_bytes.hpp"
+#include "core/files/octree_bytes.hpp"
 #include "process/json_text.hpp"
 #include "view/testing/unpacked.hpp"
 

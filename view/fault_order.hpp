@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/fault_plan.hpp"
+#include "core/faults/fault_plan.hpp"
 
 namespace skein::view {
 

@@ -5,7 +5,7 @@
 
 #include <random>
 
-#include "core/fault_writer.hpp"
+#include "core/faults/fault_writer.hpp"
 #include "process/json_text.hpp"
 #include "view/order.hpp"
 

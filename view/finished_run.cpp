@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "process/results/run_tables.hpp"
 #include "process/run_folder.hpp"
-#include "process/run_tables.hpp"
 #include "report/causes.hpp"
 #include "report/csv_table.hpp"
 #include "report/page_parts.hpp"

@@ -6,9 +6,9 @@
 
 #include "idl/cdr.hpp"
 #include "idl/conversions.hpp"
-#include "mcap/writer.hpp"
 #include "process/json_text.hpp"
 #include "process/run_folder.hpp"
+#include "recording/mcap/writer.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "view/testing/unpacked.hpp"
 

@@ -10,7 +10,7 @@
 #include <cstring>
 #include <stdexcept>
 
-#include "core/file_bytes.hpp"
+#include "core/files/file_bytes.hpp"
 #include "core/types.hpp"
 
 namespace skein::view {

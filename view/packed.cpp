@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "core/base64.hpp"
+#include "core/text/base64.hpp"
 
 namespace skein::view {
 

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "core/base64.hpp"
+#include "core/text/base64.hpp"
 
 namespace skein::view {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/file_bytes.hpp"
+#include "core/files/file_bytes.hpp"
 #include "core/types.hpp"
 #include "report/html.hpp"
 #include "report/style.hpp"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/base64.hpp"
+#include "core/text/base64.hpp"
 #include "process/json_text.hpp"
 #include "view/look_order.hpp"
 

@@ -7,7 +7,7 @@
 #include <iterator>
 
 #include "core/euler.hpp"
-#include "core/text.hpp"
+#include "core/text/text.hpp"
 #include "report/page_data.hpp"
 
 namespace skein::view {

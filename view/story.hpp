@@ -12,7 +12,7 @@
 #include "core/activity.hpp"
 #include "core/camera_quality.hpp"
 #include "core/scenario.hpp"
-#include "core/score_table.hpp"
+#include "core/scoring/score_table.hpp"
 #include "process/json_text.hpp"
 #include "report/recorded_links.hpp"
 #include "report/run_data.hpp"

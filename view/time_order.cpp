@@ -3,7 +3,7 @@
 #include <array>
 #include <utility>
 
-#include "core/text.hpp"
+#include "core/text/text.hpp"
 #include "core/types.hpp"
 #include "process/json_text.hpp"
 

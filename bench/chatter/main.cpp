@@ -13,7 +13,7 @@
 #include "bus/lockstep/client_node.hpp"
 #include "bus/lockstep/radio_topics.hpp"
 #include "bus/program_bus.hpp"
-#include "core/scenario_reader.hpp"
+#include "core/scenario/scenario_reader.hpp"
 
 namespace {
 

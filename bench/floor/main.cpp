@@ -6,7 +6,7 @@
 #include <iostream>
 
 #include "bench/floor/floor.hpp"
-#include "core/number_checks.hpp"
+#include "core/text/number_checks.hpp"
 #include "process/program.hpp"
 
 int main(int argc, char** argv) try {

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "bus/lockstep/names.hpp"
-#include "core/radio_routes.hpp"
+#include "core/radio/radio_routes.hpp"
 #include "idl/cdr.hpp"
 #include "idl/conversions.hpp"
 

@@ -15,11 +15,11 @@
 #include <string>
 #include <vector>
 
+#include "process/host/thread_cpu.hpp"
 #include "process/program.hpp"
+#include "process/results/run_tables.hpp"
 #include "process/run_folder.hpp"
-#include "process/run_tables.hpp"
-#include "process/thread_cpu.hpp"
-#include "sim_server/scenes/scene_source.hpp"
+#include "scenes/scene_source.hpp"
 #include "sim_server/sensors/lidar.hpp"
 
 namespace {

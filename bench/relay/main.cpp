@@ -19,8 +19,8 @@
 #include "bus/lockstep/client.hpp"
 #include "bus/lockstep/names.hpp"
 #include "bus/lockstep/server.hpp"
-#include "core/radio_routes.hpp"
-#include "core/scenario_reader.hpp"
+#include "core/radio/radio_routes.hpp"
+#include "core/scenario/scenario_reader.hpp"
 #include "process/program.hpp"
 
 namespace {

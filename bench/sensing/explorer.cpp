@@ -1,6 +1,6 @@
 #include "bench/sensing/explorer.hpp"
 
-#include "core/scenario_reader.hpp"
+#include "core/scenario/scenario_reader.hpp"
 
 namespace skein::bench {
 

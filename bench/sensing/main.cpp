@@ -10,7 +10,7 @@
 #include <sstream>
 
 #include "bench/sensing/tables.hpp"
-#include "process/atomic_file.hpp"
+#include "process/files/atomic_file.hpp"
 #include "process/program.hpp"
 
 namespace {

@@ -4,8 +4,8 @@
 #include <numbers>
 
 #include "core/euler.hpp"
-#include "sim_server/scenes/cranes.hpp"
-#include "sim_server/scenes/mesh_builder.hpp"
+#include "scenes/cranes.hpp"
+#include "scenes/mesh_builder.hpp"
 
 namespace skein::bench {
 namespace {

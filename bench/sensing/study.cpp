@@ -10,9 +10,9 @@
 #include "core/random_stream.hpp"
 #include "idl/cdr.hpp"
 #include "idl/conversions.hpp"
-#include "process/thread_cpu.hpp"
-#include "sim_server/rays/ray_scene.hpp"
-#include "sim_server/scenes/surface_sampling.hpp"
+#include "process/host/thread_cpu.hpp"
+#include "scenes/surface_sampling.hpp"
+#include "sight/ray_scene.hpp"
 #include "uav_agent/flight/site.hpp"
 #include "uav_agent/maps/world_mapper.hpp"
 

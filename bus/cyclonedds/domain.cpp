@@ -8,7 +8,7 @@
 #include "bus/cyclonedds/security.hpp"
 #include "bus/own_host.hpp"
 #include "bus/wire.hpp"
-#include "core/xml_text.hpp"
+#include "core/text/xml_text.hpp"
 
 namespace skein::bus::cyclonedds {
 

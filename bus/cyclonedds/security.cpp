@@ -14,9 +14,9 @@
 
 #include "bus/cyclonedds/domain.hpp"
 #include "bus/vendor_log.hpp"
+#include "core/text/xml_text.hpp"
 #include "core/types.hpp"
-#include "core/xml_text.hpp"
-#include "process/security_files.hpp"
+#include "process/files/security_files.hpp"
 
 namespace skein::bus::cyclonedds {
 

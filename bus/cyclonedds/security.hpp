@@ -9,7 +9,7 @@
 namespace skein::bus::cyclonedds {
 
 /// Adds <Security> to a domain's configuration.
-/// @param folder  of process/security_files.hpp
+/// @param folder  of process/files/security_files.hpp
 /// @throws InputError when Cyclone's plugins are not installed; it names the Debian package.
 void add_security(pugi::xml_node domain, const std::filesystem::path& folder);
 

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "bus/vendor_log.hpp"
-#include "process/security_files.hpp"
+#include "process/files/security_files.hpp"
 
 namespace skein::bus::fastdds {
 

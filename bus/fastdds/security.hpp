@@ -8,7 +8,7 @@
 
 namespace skein::bus::fastdds {
 
-/// Of a participant. @param folder  of process/security_files.hpp
+/// Of a participant. @param folder  of process/files/security_files.hpp
 eprosima::fastrtps::rtps::PropertyPolicy security_properties(const std::filesystem::path& folder);
 
 /// From now on Fast DDS's warnings and errors go through log_refusal(), those of all participants of this process.

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "core/types.hpp"
-#include "process/debugger_wait.hpp"
+#include "process/health/debugger_wait.hpp"
 
 namespace skein::bus {
 namespace {

@@ -4,7 +4,7 @@
 #include "bus/lockstep/client.hpp"
 #include "bus/lockstep/lockstep_node.hpp"
 #include "bus/lockstep/patience.hpp"
-#include "core/wait_notice.hpp"
+#include "core/run/wait_notice.hpp"
 
 namespace skein::bus {
 

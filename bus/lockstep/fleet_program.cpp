@@ -6,8 +6,8 @@
 
 #include "bus/lockstep/break_point.hpp"
 #include "bus/lockstep/self_signal.hpp"
-#include "process/debugger_wait.hpp"
-#include "process/heartbeat.hpp"
+#include "process/health/debugger_wait.hpp"
+#include "process/health/heartbeat.hpp"
 
 namespace skein::bus {
 namespace {

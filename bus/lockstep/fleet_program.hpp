@@ -9,7 +9,7 @@
 
 #include "bus/lockstep/lockstep_node.hpp"
 #include "process/program.hpp"
-#include "process/status_pipe.hpp"
+#include "process/status/status_pipe.hpp"
 
 namespace skein::bus {
 
@@ -39,7 +39,7 @@ class FleetMember {
   /// Whether its turns, one at a time, may be on any thread and beside those of other programs: it shares nothing with
   /// them but the bus. Only one_process/ asks.
   virtual bool flies_beside() const { return false; }
-  /// A line of the launcher's (process/status_lines.hpp).
+  /// A line of the launcher's (process/status/status_lines.hpp).
   virtual void obey(const std::string& /*line*/) {}
 };
 

@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "bus/lockstep/names.hpp"
-#include "core/radio_routes.hpp"
+#include "core/radio/radio_routes.hpp"
 
 namespace skein::bus {
 namespace {

@@ -8,7 +8,7 @@
 #include <map>
 #include <sstream>
 
-#include "core/text.hpp"
+#include "core/text/text.hpp"
 #include "core/types.hpp"
 
 namespace skein::cli {

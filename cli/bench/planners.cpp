@@ -2,8 +2,8 @@
 
 #include "cli/bench/planner_scores.hpp"
 #include "cli/study_command.hpp"
-#include "core/config_files.hpp"
-#include "process/atomic_file.hpp"
+#include "core/config/config_files.hpp"
+#include "process/files/atomic_file.hpp"
 #include "process/program.hpp"
 
 namespace skein::cli {

@@ -12,7 +12,7 @@
 #include "cli/bench/scenario.hpp"
 #include "cli/run/preflight.hpp"
 #include "cli/run_command.hpp"
-#include "process/atomic_file.hpp"
+#include "process/files/atomic_file.hpp"
 #include "process/program.hpp"
 #include "process/run_folder.hpp"
 

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "cli/testing/fake_programs.hpp"
-#include "core/scenario_reader.hpp"
+#include "core/scenario/scenario_reader.hpp"
 #include "tests/support/places.hpp"
 
 namespace skein::cli {

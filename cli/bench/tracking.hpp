@@ -8,7 +8,7 @@
 
 #include "cli/console.hpp"
 #include "cli/options.hpp"
-#include "process/tracking_table.hpp"
+#include "process/results/tracking_table.hpp"
 
 namespace skein::cli {
 

@@ -5,12 +5,12 @@
 #include <string>
 
 #include "cli/bench/report.hpp"
+#include "cli/host/supervisor.hpp"
 #include "cli/run/preflight.hpp"
-#include "cli/run/supervisor.hpp"
-#include "core/command_file.hpp"
+#include "core/files/command_file.hpp"
 #include "core/types.hpp"
-#include "process/atomic_file.hpp"
-#include "process/environment.hpp"
+#include "process/files/atomic_file.hpp"
+#include "process/host/environment.hpp"
 #include "process/program.hpp"
 #include "process/run_folder.hpp"
 #include "view/pages.hpp"

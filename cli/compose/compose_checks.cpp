@@ -8,8 +8,8 @@
 #include <cctype>
 #include <charconv>
 
-#include "core/suggestion.hpp"
-#include "core/text.hpp"
+#include "core/text/suggestion.hpp"
+#include "core/text/text.hpp"
 #include "core/types.hpp"
 
 namespace skein::cli {

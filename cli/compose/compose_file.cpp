@@ -14,12 +14,12 @@
 #include "cli/run/exec_variables.hpp"
 #include "cli/run/live_page.hpp"
 #include "cli/run/program_files.hpp"
-#include "core/config_files.hpp"
-#include "core/python_spec.hpp"
-#include "core/text.hpp"
+#include "core/config/config_files.hpp"
+#include "core/planners/python_spec.hpp"
+#include "core/text/text.hpp"
 #include "core/topics.hpp"
+#include "process/files/security_files.hpp"
 #include "process/run_folder.hpp"
-#include "process/security_files.hpp"
 
 namespace skein::cli {
 namespace {

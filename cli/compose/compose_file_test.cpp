@@ -11,13 +11,13 @@
 #include <random>
 #include <set>
 
+#include "cli/host/supervisor.hpp"
 #include "cli/run/exec_variables.hpp"
-#include "cli/run/supervisor.hpp"
 #include "cli/testing/compose_programs.hpp"
 #include "cli/testing/compose_reader.hpp"
 #include "cli/testing/fake_programs.hpp"
-#include "core/network_config.hpp"
-#include "process/environment.hpp"
+#include "core/config/network_config.hpp"
+#include "process/host/environment.hpp"
 #include "process/run_folder.hpp"
 #include "tests/support/places.hpp"
 

@@ -8,12 +8,12 @@
 #include <random>
 
 #include "cli/compose/compose_file.hpp"
-#include "cli/run/supervisor.hpp"
+#include "cli/host/supervisor.hpp"
 #include "cli/testing/compose_programs.hpp"
 #include "cli/testing/fake_programs.hpp"
-#include "core/text.hpp"
+#include "core/text/text.hpp"
 #include "core/types.hpp"
-#include "process/environment.hpp"
+#include "process/host/environment.hpp"
 
 namespace skein::cli {
 namespace {

@@ -5,12 +5,12 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "cli/run/environment.hpp"
+#include "cli/host/environment.hpp"
+#include "cli/host/supervisor.hpp"
 #include "cli/run/preflight.hpp"
-#include "cli/run/supervisor.hpp"
-#include "core/text.hpp"
+#include "core/text/text.hpp"
 #include "core/types.hpp"
-#include "process/environment.hpp"
+#include "process/host/environment.hpp"
 
 namespace skein::cli {
 namespace {

@@ -6,8 +6,8 @@
 #include <limits>
 
 #include "cli/run/fleet_run.hpp"
-#include "core/text.hpp"
-#include "process/environment.hpp"
+#include "core/text/text.hpp"
+#include "process/host/environment.hpp"
 #include "process/run_folder.hpp"
 
 namespace skein::cli {

@@ -1,6 +1,6 @@
 #include "cli/compose/images.hpp"
 
-#include "core/python_spec.hpp"
+#include "core/planners/python_spec.hpp"
 
 namespace skein::cli {
 

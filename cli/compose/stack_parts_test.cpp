@@ -8,12 +8,12 @@
 #include <random>
 
 #include "cli/compose/compose_file.hpp"
-#include "cli/run/supervisor.hpp"
+#include "cli/host/supervisor.hpp"
 #include "cli/testing/compose_reader.hpp"
 #include "cli/testing/fake_programs.hpp"
-#include "process/environment.hpp"
+#include "process/files/security_files.hpp"
+#include "process/host/environment.hpp"
 #include "process/run_folder.hpp"
-#include "process/security_files.hpp"
 
 namespace skein::cli {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "core/config_node.hpp"
+#include "core/config/config_node.hpp"
 
 namespace skein::cli {
 

@@ -6,10 +6,10 @@
 #include <set>
 
 #include "cli/fault_tests/limits.hpp"
-#include "core/score_table.hpp"
-#include "core/text.hpp"
+#include "core/scoring/score_table.hpp"
+#include "core/text/text.hpp"
+#include "process/results/run_tables.hpp"
 #include "process/run_folder.hpp"
-#include "process/run_tables.hpp"
 
 namespace skein::cli {
 namespace {

@@ -3,10 +3,10 @@
 #include <algorithm>
 
 #include "cli/fault_tests/windows.hpp"
-#include "core/suggestion.hpp"
-#include "core/text.hpp"
+#include "core/text/suggestion.hpp"
+#include "core/text/text.hpp"
+#include "process/results/run_tables.hpp"
 #include "process/run_folder.hpp"
-#include "process/run_tables.hpp"
 
 namespace skein::cli {
 namespace {

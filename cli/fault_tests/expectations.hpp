@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "cli/fault_tests/judges.hpp"
-#include "core/config_reader.hpp"
-#include "core/fault_plan.hpp"
+#include "core/config/config_reader.hpp"
+#include "core/faults/fault_plan.hpp"
 
 namespace skein::cli {
 

@@ -5,10 +5,10 @@
 #include "cli/fault_tests/columns.hpp"
 #include "cli/properties/judge.hpp"
 #include "core/conditions.hpp"
-#include "core/config_files.hpp"
-#include "core/config_reader.hpp"
-#include "core/scenario_reader.hpp"
-#include "core/suggestion.hpp"
+#include "core/config/config_files.hpp"
+#include "core/config/config_reader.hpp"
+#include "core/scenario/scenario_reader.hpp"
+#include "core/text/suggestion.hpp"
 
 namespace skein::cli {
 namespace {

@@ -5,8 +5,8 @@
 
 #include "cli/fault_tests/custody.hpp"
 #include "cli/run/diff.hpp"
-#include "core/suggestion.hpp"
-#include "core/text.hpp"
+#include "core/text/suggestion.hpp"
+#include "core/text/text.hpp"
 
 namespace skein::cli {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "cli/fault_tests/limits.hpp"
 #include "cli/run/record.hpp"
-#include "core/fault_plan.hpp"
+#include "core/faults/fault_plan.hpp"
 
 namespace skein::cli {
 

@@ -1,6 +1,6 @@
 #include "cli/fault_tests/limits.hpp"
 
-#include "core/text.hpp"
+#include "core/text/text.hpp"
 
 namespace skein::cli {
 

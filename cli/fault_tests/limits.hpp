@@ -6,8 +6,8 @@
 #include <string>
 #include <variant>
 
-#include "core/config_reader.hpp"
-#include "core/text.hpp"
+#include "core/config/config_reader.hpp"
+#include "core/text/text.hpp"
 
 namespace skein::cli {
 

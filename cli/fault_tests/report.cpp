@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "core/text.hpp"
-#include "core/xml_text.hpp"
+#include "core/text/text.hpp"
+#include "core/text/xml_text.hpp"
 
 namespace skein::cli {
 namespace {

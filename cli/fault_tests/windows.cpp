@@ -1,11 +1,11 @@
 #include "cli/fault_tests/windows.hpp"
-#include "process/run_tables.hpp"
+#include "process/results/run_tables.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <set>
 
-#include "core/text.hpp"
+#include "core/text/text.hpp"
 
 namespace skein::cli {
 namespace {

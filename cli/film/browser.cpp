@@ -6,8 +6,8 @@
 #include <cctype>
 #include <stdexcept>
 
-#include "core/base64.hpp"
-#include "process/environment.hpp"
+#include "core/text/base64.hpp"
+#include "process/host/environment.hpp"
 
 namespace skein::cli {
 namespace {

@@ -6,16 +6,16 @@
 #include <sstream>
 
 #include "cli/fault_tests/fault_test.hpp"
+#include "cli/host/environment.hpp"
 #include "cli/hunt/trial.hpp"
 #include "cli/properties/judge.hpp"
 #include "cli/properties/run_signals.hpp"
-#include "cli/run/environment.hpp"
 #include "cli/run/preflight.hpp"
 #include "cli/run/record.hpp"
 #include "cli/run/results_dir.hpp"
 #include "cli/run_command.hpp"
-#include "core/config_node.hpp"
-#include "core/text.hpp"
+#include "core/config/config_node.hpp"
+#include "core/text/text.hpp"
 #include "process/program.hpp"
 #include "process/run_folder.hpp"
 

@@ -5,10 +5,10 @@
 #include <iterator>
 #include <set>
 
-#include "core/fault_check.hpp"
-#include "core/fault_writer.hpp"
-#include "core/radio_routes.hpp"
-#include "core/text.hpp"
+#include "core/faults/fault_check.hpp"
+#include "core/faults/fault_writer.hpp"
+#include "core/radio/radio_routes.hpp"
+#include "core/text/text.hpp"
 #include "process/run_folder.hpp"
 
 namespace skein::cli {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "core/fault_plan.hpp"
+#include "core/faults/fault_plan.hpp"
 #include "core/random_stream.hpp"
 #include "core/scenario.hpp"
 

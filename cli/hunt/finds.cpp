@@ -6,8 +6,8 @@
 #include <chrono>
 #include <set>
 
-#include "core/text.hpp"
-#include "process/atomic_file.hpp"
+#include "core/text/text.hpp"
+#include "process/files/atomic_file.hpp"
 
 #ifndef SKEIN_VERSION
 #error "SKEIN_VERSION comes from CMake's project()"

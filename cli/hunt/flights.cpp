@@ -8,7 +8,7 @@
 #include "cli/options.hpp"
 #include "cli/properties/judge.hpp"
 #include "cli/study/side_by_side.hpp"
-#include "process/environment.hpp"
+#include "process/host/environment.hpp"
 #include "process/program.hpp"
 #include "process/run_folder.hpp"
 

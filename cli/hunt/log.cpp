@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "core/types.hpp"
-#include "process/atomic_file.hpp"
-#include "process/closed_to_agents.hpp"
+#include "process/files/atomic_file.hpp"
+#include "process/files/closed_to_agents.hpp"
 
 namespace skein::cli {
 namespace {

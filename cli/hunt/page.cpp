@@ -8,7 +8,7 @@
 #include "cli/properties/judge.hpp"
 #include "cli/properties/run_signals.hpp"
 #include "cli/run/record.hpp"
-#include "core/fault_writer.hpp"
+#include "core/faults/fault_writer.hpp"
 #include "report/html.hpp"
 #include "report/page_parts.hpp"
 #include "report/style.hpp"

@@ -8,12 +8,12 @@
 #include "cli/run/agent_file.hpp"
 #include "cli/run/preflight.hpp"
 #include "core/conditions.hpp"
-#include "core/config_writer.hpp"
-#include "core/fault_writer.hpp"
-#include "core/file_bytes.hpp"
+#include "core/config/config_writer.hpp"
+#include "core/faults/fault_writer.hpp"
+#include "core/files/file_bytes.hpp"
 #include "core/sha256.hpp"
-#include "core/suggestion.hpp"
-#include "core/text.hpp"
+#include "core/text/suggestion.hpp"
+#include "core/text/text.hpp"
 
 #ifndef SKEIN_VERSION
 #error "SKEIN_VERSION comes from CMake's project()"

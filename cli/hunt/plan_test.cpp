@@ -5,7 +5,7 @@
 
 #include "cli/hunt/capsule_run.hpp"
 #include "cli/testing/fake_programs.hpp"
-#include "core/fault_writer.hpp"
+#include "core/faults/fault_writer.hpp"
 
 namespace skein::cli {
 namespace {

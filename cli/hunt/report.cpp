@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "cli/fault_tests/report.hpp"
-#include "core/text.hpp"
-#include "process/atomic_file.hpp"
+#include "core/text/text.hpp"
+#include "process/files/atomic_file.hpp"
 #include "process/run_folder.hpp"
 
 namespace skein::cli {

@@ -11,7 +11,7 @@
 #include "cli/sweep/engines.hpp"
 #include "cli/sweep/this_machine.hpp"
 #include "core/types.hpp"
-#include "process/atomic_file.hpp"
+#include "process/files/atomic_file.hpp"
 
 namespace skein::cli {
 namespace {

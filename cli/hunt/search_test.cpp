@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <map>
 
-#include "core/scenario_reader.hpp"
+#include "core/scenario/scenario_reader.hpp"
 #include "tests/support/places.hpp"
 
 namespace skein::cli {

@@ -9,8 +9,8 @@
 #include "cli/hunt/fault_maker.hpp"
 #include "cli/testing/fake_programs.hpp"
 #include "core/conditions.hpp"
-#include "core/fault_writer.hpp"
-#include "core/scenario_reader.hpp"
+#include "core/faults/fault_writer.hpp"
+#include "core/scenario/scenario_reader.hpp"
 #include "tests/support/places.hpp"
 
 namespace skein::cli {

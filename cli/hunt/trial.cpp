@@ -8,9 +8,9 @@
 #include "cli/properties/judge.hpp"
 #include "cli/properties/run_signals.hpp"
 #include "cli/run/record.hpp"
-#include "core/fault_writer.hpp"
+#include "core/faults/fault_writer.hpp"
 #include "core/sha256.hpp"
-#include "core/text.hpp"
+#include "core/text/text.hpp"
 #include "process/run_folder.hpp"
 
 namespace skein::cli {

@@ -9,8 +9,8 @@
 
 #include "cli/command.hpp"
 #include "cli/fault_tests/fault_test.hpp"
-#include "cli/run/program_host.hpp"
-#include "core/fault_plan.hpp"
+#include "cli/host/program_host.hpp"
+#include "core/faults/fault_plan.hpp"
 #include "core/scenario.hpp"
 #include "process/json_text.hpp"
 #include "properties/evaluation.hpp"

@@ -8,9 +8,9 @@
 #include <cerrno>
 #include <csignal>
 
-#include "core/text.hpp"
+#include "core/text/text.hpp"
 #include "core/types.hpp"
-#include "process/environment.hpp"
+#include "process/host/environment.hpp"
 
 namespace skein::cli {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "cli/run/exec_variables.hpp"
 #include "cli/run/results_dir.hpp"
-#include "core/text.hpp"
+#include "core/text/text.hpp"
 #include "process/program.hpp"
 #include "process/run_folder.hpp"
 

@@ -6,12 +6,12 @@
 #include <fstream>
 
 #include "cli/place/host_service.hpp"
-#include "core/file_bytes.hpp"
-#include "core/network_config.hpp"
-#include "core/suggestion.hpp"
-#include "core/text.hpp"
+#include "core/config/network_config.hpp"
+#include "core/files/file_bytes.hpp"
+#include "core/text/suggestion.hpp"
+#include "core/text/text.hpp"
 #include "core/topics.hpp"
-#include "process/environment.hpp"
+#include "process/host/environment.hpp"
 #include "process/run_folder.hpp"
 
 namespace skein::cli {

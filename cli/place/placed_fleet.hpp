@@ -12,12 +12,12 @@
 #include <string>
 #include <vector>
 
+#include "cli/host/domain_block.hpp"
+#include "cli/host/supervisor.hpp"
 #include "cli/place/host_link.hpp"
 #include "cli/place/placed_paths.hpp"
 #include "cli/place/placement.hpp"
-#include "cli/run/domain_block.hpp"
 #include "cli/run/preflight.hpp"
-#include "cli/run/supervisor.hpp"
 
 namespace skein::cli {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "cli/run/program_files.hpp"
-#include "core/python_spec.hpp"
-#include "process/environment.hpp"
+#include "core/planners/python_spec.hpp"
+#include "process/host/environment.hpp"
 #include "process/run_folder.hpp"
 
 namespace skein::cli {

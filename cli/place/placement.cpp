@@ -7,12 +7,12 @@
 #include <cstdlib>
 #include <set>
 
+#include "cli/host/supervisor.hpp"
 #include "cli/run/preflight.hpp"
-#include "cli/run/supervisor.hpp"
 #include "cli/sweep/engines.hpp"
-#include "core/suggestion.hpp"
-#include "core/text.hpp"
-#include "process/environment.hpp"
+#include "core/text/suggestion.hpp"
+#include "core/text/text.hpp"
+#include "process/host/environment.hpp"
 #include "process/run_folder.hpp"
 
 namespace skein::cli {

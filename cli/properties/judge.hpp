@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/fault_plan.hpp"
+#include "core/faults/fault_plan.hpp"
 #include "properties/evaluation.hpp"
 #include "properties/property_file.hpp"
 

@@ -3,8 +3,8 @@
 #include <set>
 
 #include "cli/properties/run_signals.hpp"
-#include "core/link_effect.hpp"
-#include "core/radio_routes.hpp"
+#include "core/radio/link_effect.hpp"
+#include "core/radio/radio_routes.hpp"
 
 namespace skein::cli {
 namespace {

@@ -8,9 +8,9 @@
 #include <set>
 #include <tuple>
 
-#include "core/radio_routes.hpp"
-#include "mcap/reader.hpp"
+#include "core/radio/radio_routes.hpp"
 #include "process/run_folder.hpp"
+#include "recording/mcap/reader.hpp"
 
 namespace skein::cli {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/suggestion.hpp"
+#include "core/text/suggestion.hpp"
 #include "process/run_folder.hpp"
 
 namespace skein::cli {

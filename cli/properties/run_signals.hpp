@@ -1,6 +1,6 @@
-// The signals (core/signal_table.hpp) of a finished run, from its folder. Each is worked out when it is first asked
-// for. Where the server knows a signal while the run goes on, it has the same values (sim_server/live_signals.hpp).
-// Not thread-safe.
+// The signals (core/expressions/signal_table.hpp) of a finished run, from its folder. Each is worked out when it is
+// first asked for. Where the server knows a signal while the run goes on, it has the same values
+// (sim_server/live_signals.hpp). Not thread-safe.
 #pragma once
 
 #include <map>

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "cli/properties/run_signals.hpp"
-#include "core/expression_parser.hpp"
+#include "core/expressions/expression_parser.hpp"
 
 namespace skein::cli {
 

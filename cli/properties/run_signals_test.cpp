@@ -8,11 +8,11 @@
 #include <random>
 
 #include "cli/properties/run_signals_fixture.hpp"
-#include "core/radio_routes.hpp"
+#include "core/radio/radio_routes.hpp"
 #include "idl/cdr.hpp"
 #include "idl/type_names.hpp"
-#include "mcap/writer.hpp"
 #include "process/run_folder.hpp"
+#include "recording/mcap/writer.hpp"
 
 namespace skein::cli {
 namespace {

@@ -6,13 +6,13 @@
 #include <cstdlib>
 #include <map>
 
+#include "cli/host/supervisor.hpp"
 #include "cli/run/fleet_plan.hpp"
 #include "cli/run/preflight.hpp"
-#include "cli/run/supervisor.hpp"
-#include "core/python_spec.hpp"
-#include "core/suggestion.hpp"
-#include "process/environment.hpp"
-#include "process/reports.hpp"
+#include "core/planners/python_spec.hpp"
+#include "core/text/suggestion.hpp"
+#include "process/host/environment.hpp"
+#include "process/reports/reports.hpp"
 #include "process/run_folder.hpp"
 
 namespace skein::cli {

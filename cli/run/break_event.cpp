@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "core/types.hpp"
-#include "process/result_file.hpp"
+#include "process/results/result_file.hpp"
 #include "process/run_folder.hpp"
 
 namespace skein::cli {

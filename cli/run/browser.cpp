@@ -7,7 +7,7 @@
 #include <csignal>
 #include <sstream>
 
-#include "core/command_file.hpp"
+#include "core/files/command_file.hpp"
 
 namespace skein::cli {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "core/python_spec.hpp"
-#include "core/suggestion.hpp"
+#include "core/planners/python_spec.hpp"
+#include "core/text/suggestion.hpp"
 #include "core/types.hpp"
 #include "process/run_folder.hpp"
 

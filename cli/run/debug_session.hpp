@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/run/debug_watch.hpp"
+#include "cli/debug/debug_watch.hpp"
 #include "cli/run/fleet_plan.hpp"
 #include "cli/run/progress_view.hpp"
 

@@ -4,9 +4,9 @@
 #include <fstream>
 
 #include "cli/run/result.hpp"
-#include "core/file_bytes.hpp"
+#include "core/files/file_bytes.hpp"
 #include "core/scenario.hpp"
-#include "core/text.hpp"
+#include "core/text/text.hpp"
 #include "process/run_folder.hpp"
 
 namespace skein::cli {

@@ -2,13 +2,14 @@
 
 #include <filesystem>
 
+#include "cli/host/supervisor.hpp"
 #include "cli/run/preflight.hpp"
-#include "core/drawn_worlds.hpp"
+#include "core/scenario/drawn_worlds.hpp"
 #include "core/types.hpp"
-#include "process/environment.hpp"
+#include "process/files/user_cache.hpp"
+#include "process/host/environment.hpp"
 #include "process/program.hpp"
 #include "process/run_folder.hpp"
-#include "process/user_cache.hpp"
 
 namespace skein::cli {
 

@@ -1,4 +1,4 @@
-// Scenarios that are drawn whole (core/drawn_worlds.hpp): drawn once, and kept as files in the user's cache.
+// Scenarios that are drawn whole (core/scenario/drawn_worlds.hpp): drawn once, and kept as files in the user's cache.
 #pragma once
 
 #include <cstdint>

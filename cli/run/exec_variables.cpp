@@ -7,9 +7,10 @@
 #include <vector>
 
 #include "cli/ros_command.hpp"
-#include "core/config_files.hpp"
-#include "core/radio_routes.hpp"
-#include "core/text.hpp"
+#include "core/config/config_files.hpp"
+#include "core/radio/radio_routes.hpp"
+#include "core/text/suggestion.hpp"
+#include "core/text/text.hpp"
 #include "process/run_folder.hpp"
 
 namespace skein::cli {

@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
+#include "cli/debug/debuggee.hpp"
+#include "cli/host/program_host.hpp"
 #include "cli/options.hpp"
 #include "cli/planner_spec.hpp"
-#include "cli/run/debuggee.hpp"
-#include "cli/run/program_host.hpp"
-#include "core/fault_plan.hpp"
-#include "core/scenario_reader.hpp"
+#include "core/faults/fault_plan.hpp"
+#include "core/scenario/scenario_reader.hpp"
 
 namespace skein::cli {
 

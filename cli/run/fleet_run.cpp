@@ -7,12 +7,12 @@
 #include <fstream>
 #include <variant>
 
+#include "cli/debug/crash_trace.hpp"
+#include "cli/host/shared_process.hpp"
+#include "cli/host/supervisor.hpp"
 #include "cli/python_planners.hpp"
-#include "cli/run/crash_trace.hpp"
-#include "cli/run/shared_process.hpp"
-#include "cli/run/supervisor.hpp"
-#include "core/suggestion.hpp"
-#include "core/text.hpp"
+#include "core/text/suggestion.hpp"
+#include "core/text/text.hpp"
 #include "process/run_folder.hpp"
 
 namespace skein::cli {

@@ -13,15 +13,15 @@
 #include <string>
 #include <vector>
 
+#include "cli/host/process_orders.hpp"
+#include "cli/host/program_host.hpp"
 #include "cli/run/debug_session.hpp"
 #include "cli/run/fleet_plan.hpp"
 #include "cli/run/leave_deadline.hpp"
-#include "cli/run/process_orders.hpp"
-#include "cli/run/program_host.hpp"
 #include "cli/run/progress_view.hpp"
 #include "cli/run/result.hpp"
-#include "core/wait_notice.hpp"
-#include "process/status_lines.hpp"
+#include "core/run/wait_notice.hpp"
+#include "process/status/status_lines.hpp"
 
 namespace skein::cli {
 

@@ -6,8 +6,8 @@
 #include <csignal>
 #include <cstdlib>
 
+#include "cli/host/supervisor.hpp"
 #include "cli/run/browser.hpp"
-#include "cli/run/supervisor.hpp"
 #include "view/finished_run.hpp"
 #include "view/pages.hpp"
 #include "view/server.hpp"

@@ -4,7 +4,7 @@
 
 #include "cli/run/record.hpp"
 #include "cli/run/score_losses.hpp"
-#include "process/atomic_file.hpp"
+#include "process/files/atomic_file.hpp"
 #include "process/run_folder.hpp"
 
 namespace skein::cli {

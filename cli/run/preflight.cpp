@@ -10,10 +10,10 @@
 #include <map>
 #include <stdexcept>
 
-#include "cli/run/supervisor.hpp"
-#include "core/suggestion.hpp"
+#include "cli/host/supervisor.hpp"
+#include "core/run/wait_notice.hpp"
+#include "core/text/suggestion.hpp"
 #include "core/types.hpp"
-#include "core/wait_notice.hpp"
 #include "process/log_lines.hpp"
 #include "process/program.hpp"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "cli/python_planners.hpp"
-#include "core/python_spec.hpp"
+#include "core/planners/python_spec.hpp"
 #include "process/run_folder.hpp"
 
 namespace skein::cli {

@@ -4,9 +4,9 @@
 #include <iomanip>
 
 #include "cli/free_nodes.hpp"
-#include "core/python_spec.hpp"
-#include "core/suggestion.hpp"
-#include "core/text.hpp"
+#include "core/planners/python_spec.hpp"
+#include "core/text/suggestion.hpp"
+#include "core/text/text.hpp"
 #include "report/causes.hpp"
 
 namespace skein::cli {

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "cli/run/result.hpp"
-#include "process/status_lines.hpp"
+#include "process/status/status_lines.hpp"
 
 namespace skein::cli {
 

@@ -2,7 +2,7 @@
 
 #include <stdexcept>
 
-#include "process/result_file.hpp"
+#include "process/results/result_file.hpp"
 #include "process/run_folder.hpp"
 #include "report/csv_table.hpp"
 

@@ -10,7 +10,7 @@
 
 #include "cli/run/result.hpp"
 #include "core/types.hpp"
-#include "process/run_tables.hpp"
+#include "process/results/run_tables.hpp"
 
 namespace skein::cli {
 

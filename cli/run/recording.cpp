@@ -5,11 +5,11 @@
 
 #include "cli/run/viewer_layout.hpp"
 #include "core/types.hpp"
-#include "mcap/join.hpp"
-#include "mcap/reader.hpp"
-#include "process/atomic_file.hpp"
+#include "process/files/atomic_file.hpp"
 #include "process/run_folder.hpp"
 #include "recording/bag.hpp"
+#include "recording/mcap/join.hpp"
+#include "recording/mcap/reader.hpp"
 
 namespace skein::cli {
 namespace {

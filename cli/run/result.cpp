@@ -5,9 +5,9 @@
 
 #include "cli/free_nodes.hpp"
 #include "cli/run/work.hpp"
-#include "core/scenario_reader.hpp"
+#include "core/scenario/scenario_reader.hpp"
 #include "core/types.hpp"
-#include "process/atomic_file.hpp"
+#include "process/files/atomic_file.hpp"
 #include "process/run_folder.hpp"
 
 #ifndef SKEIN_VERSION

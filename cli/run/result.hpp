@@ -12,7 +12,7 @@
 #include "cli/planner_spec.hpp"
 #include "core/scenario.hpp"
 #include "process/json_text.hpp"
-#include "process/reports.hpp"
+#include "process/reports/reports.hpp"
 
 namespace skein::cli {
 

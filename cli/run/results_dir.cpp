@@ -8,8 +8,8 @@
 
 #include "cli/planner_spec.hpp"
 #include "core/types.hpp"
-#include "process/atomic_file.hpp"
-#include "process/closed_to_agents.hpp"
+#include "process/files/atomic_file.hpp"
+#include "process/files/closed_to_agents.hpp"
 #include "process/run_folder.hpp"
 
 namespace skein::cli {

@@ -24,7 +24,7 @@ class ResultsDir {
 
   /// Checks, creates the folder where it is missing, and removes what an earlier run left of the files that a run
   /// writes: a stale report must not pass for one of this run. Other files stay.
-  /// Root's is closed to the agents of secured runs (process/closed_to_agents.hpp), for good.
+  /// Root's is closed to the agents of secured runs (process/files/closed_to_agents.hpp), for good.
   /// @throws InputError as check(), when another run is writing there, and when the disk has no room for a result.
   ResultsDir(const std::filesystem::path& dir, bool force);
   ~ResultsDir();

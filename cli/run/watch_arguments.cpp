@@ -1,8 +1,8 @@
 #include "cli/run/watch_arguments.hpp"
 
 #include "cli/hand_flights.hpp"
-#include "core/suggestion.hpp"
-#include "core/text.hpp"
+#include "core/text/suggestion.hpp"
+#include "core/text/text.hpp"
 #include "view/time_order.hpp"
 
 namespace skein::cli {

@@ -1,5 +1,5 @@
 // How long UAVs went without work: the server's record of each second (sim_server/work/work_log.hpp) beside what agents
-// say of their waiting, judged (core/work_time.hpp). Simulated time.
+// say of their waiting, judged (core/run/work_time.hpp). Simulated time.
 #pragma once
 
 #include <filesystem>
@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "cli/run/result.hpp"
-#include "core/work_time.hpp"
+#include "core/run/work_time.hpp"
 
 namespace skein::cli {
 

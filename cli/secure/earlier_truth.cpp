@@ -4,9 +4,9 @@
 #include <system_error>
 #include <vector>
 
-#include "process/closed_to_agents.hpp"
+#include "process/files/closed_to_agents.hpp"
+#include "process/files/user_cache.hpp"
 #include "process/run_folder.hpp"
-#include "process/user_cache.hpp"
 
 namespace skein::cli {
 namespace {

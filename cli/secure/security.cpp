@@ -15,12 +15,12 @@
 #include "cli/secure/earlier_truth.hpp"
 #include "cli/secure/keys.hpp"
 #include "cli/secure/rules.hpp"
-#include "core/config_files.hpp"
+#include "core/config/config_files.hpp"
 #include "core/topics.hpp"
 #include "core/types.hpp"
-#include "process/closed_to_agents.hpp"
+#include "process/files/closed_to_agents.hpp"
+#include "process/files/security_files.hpp"
 #include "process/run_folder.hpp"
-#include "process/security_files.hpp"
 
 namespace skein::cli {
 namespace {

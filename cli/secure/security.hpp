@@ -16,7 +16,7 @@
 
 namespace skein::cli {
 
-/// Texts of one program's security files (process/security_files.hpp), by their names.
+/// Texts of one program's security files (process/files/security_files.hpp), by their names.
 using SecurityFiles = std::map<std::string, std::string>;
 
 /// Of each program of a fleet: keys of its own, rules of the fleet's. New ones at each call.

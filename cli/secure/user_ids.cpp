@@ -12,7 +12,7 @@
 #include <set>
 #include <string>
 
-#include "cli/run/proc_table.hpp"
+#include "cli/host/proc_table.hpp"
 #include "core/types.hpp"
 
 extern "C" {  // glibc 2.36's header forgets it

@@ -5,13 +5,13 @@
 #include <cstddef>
 #include <vector>
 
-#include "cli/run/supervisor.hpp"
-#include "process/host_lock.hpp"
+#include "cli/host/supervisor.hpp"
+#include "process/host/host_lock.hpp"
 
 namespace skein::cli {
 
 /// systemd's table of ids has none of these in use, nor has Debian's policy; they exist in a container with 65536 ids
-/// too. The id after them is the group of all agents (process/closed_to_agents.hpp).
+/// too. The id after them is the group of all agents (process/files/closed_to_agents.hpp).
 inline constexpr uid_t kFirstAgentUser = 60706, kLastAgentUser = 61182;
 
 /// Ends all processes that run as this user, and those that they start meanwhile.

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <csignal>
 
-#include "cli/run/proc_table.hpp"
+#include "cli/host/proc_table.hpp"
 #include "core/types.hpp"
 
 namespace skein::cli {

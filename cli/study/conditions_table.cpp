@@ -6,7 +6,7 @@
 #include <optional>
 #include <ostream>
 
-#include "core/text.hpp"
+#include "core/text/text.hpp"
 
 namespace skein::cli {
 namespace {

@@ -5,7 +5,7 @@
 #include <map>
 #include <stdexcept>
 
-#include "core/text.hpp"
+#include "core/text/text.hpp"
 #include "report/html.hpp"
 #include "report/style.hpp"
 

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <deque>
 
+#include "cli/host/supervisor.hpp"
 #include "cli/run/fleet_plan.hpp"
-#include "cli/run/supervisor.hpp"
 #include "cli/study/side_by_side.hpp"
-#include "process/atomic_file.hpp"
-#include "process/environment.hpp"
+#include "process/files/atomic_file.hpp"
+#include "process/host/environment.hpp"
 #include "process/run_folder.hpp"
 
 namespace skein::cli {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "cli/console.hpp"
-#include "cli/run/program_host.hpp"
+#include "cli/host/program_host.hpp"
 #include "cli/study/figures.hpp"
 #include "cli/study/plan.hpp"
 

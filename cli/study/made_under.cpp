@@ -3,10 +3,10 @@
 #include <vector>
 
 #include "cli/python_planners.hpp"
-#include "core/drawn_worlds.hpp"
-#include "core/file_bytes.hpp"
-#include "core/python_spec.hpp"
-#include "core/scenario_reader.hpp"
+#include "core/files/file_bytes.hpp"
+#include "core/planners/python_spec.hpp"
+#include "core/scenario/drawn_worlds.hpp"
+#include "core/scenario/scenario_reader.hpp"
 #include "core/sha256.hpp"
 #include "process/run_folder.hpp"
 

@@ -7,7 +7,7 @@
 #include "cli/study/columns.hpp"
 #include "cli/study/page_parts.hpp"
 #include "cli/study/spec.hpp"
-#include "core/suggestion.hpp"
+#include "core/text/suggestion.hpp"
 #include "report/html.hpp"
 #include "report/style.hpp"
 

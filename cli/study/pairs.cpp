@@ -8,7 +8,7 @@
 #include <memory>
 
 #include "cli/study/columns.hpp"
-#include "core/text.hpp"
+#include "core/text/text.hpp"
 
 namespace skein::cli {
 namespace {

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "cli/console.hpp"
-#include "cli/run/supervisor.hpp"
+#include "cli/host/supervisor.hpp"
 
 namespace skein::cli {
 

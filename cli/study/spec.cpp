@@ -7,7 +7,7 @@
 #include <set>
 
 #include "cli/planner_spec.hpp"
-#include "core/text.hpp"
+#include "core/text/text.hpp"
 #include "core/types.hpp"
 
 namespace skein::cli {

@@ -3,7 +3,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include "cli/study/columns.hpp"
-#include "core/text.hpp"
+#include "core/text/text.hpp"
 
 namespace skein::cli {
 namespace {

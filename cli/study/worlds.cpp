@@ -7,7 +7,7 @@
 #include <ostream>
 #include <tuple>
 
-#include "core/text.hpp"
+#include "core/text/text.hpp"
 #include "report/html.hpp"
 
 namespace skein::cli {

@@ -7,7 +7,7 @@
 #include <ostream>
 #include <random>
 
-#include "cli/run/supervisor.hpp"
+#include "cli/host/supervisor.hpp"
 #include "cli/study/flights.hpp"
 #include "core/random_stream.hpp"
 #include "core/sha256.hpp"

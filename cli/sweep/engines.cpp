@@ -10,10 +10,10 @@
 #include "cli/study/side_by_side.hpp"
 #include "cli/sweep/slurm.hpp"
 #include "cli/threads.hpp"
-#include "core/text.hpp"
+#include "core/text/text.hpp"
 #include "core/types.hpp"
-#include "process/atomic_file.hpp"
-#include "process/environment.hpp"
+#include "process/files/atomic_file.hpp"
+#include "process/host/environment.hpp"
 
 namespace skein::cli {
 namespace {

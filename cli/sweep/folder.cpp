@@ -9,7 +9,7 @@
 #include <system_error>
 
 #include "core/types.hpp"
-#include "process/atomic_file.hpp"
+#include "process/files/atomic_file.hpp"
 #include "report/run_data.hpp"
 
 namespace skein::cli {

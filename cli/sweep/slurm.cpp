@@ -6,14 +6,14 @@
 #include <fstream>
 #include <sstream>
 
+#include "cli/host/supervisor.hpp"
 #include "cli/run/preflight.hpp"
-#include "cli/run/supervisor.hpp"
 #include "cli/sweep/engines.hpp"
-#include "core/suggestion.hpp"
-#include "core/text.hpp"
+#include "core/text/suggestion.hpp"
+#include "core/text/text.hpp"
 #include "core/types.hpp"
-#include "process/atomic_file.hpp"
-#include "process/environment.hpp"
+#include "process/files/atomic_file.hpp"
+#include "process/host/environment.hpp"
 
 namespace skein::cli {
 namespace {

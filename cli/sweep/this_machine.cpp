@@ -16,10 +16,10 @@
 #include "cli/study/flights.hpp"
 #include "cli/study/made_under.hpp"
 #include "cli/study/side_by_side.hpp"
-#include "core/suggestion.hpp"
-#include "core/text.hpp"
+#include "core/text/suggestion.hpp"
+#include "core/text/text.hpp"
 #include "core/types.hpp"
-#include "process/environment.hpp"
+#include "process/host/environment.hpp"
 #include "process/program.hpp"
 #include "process/run_folder.hpp"
 

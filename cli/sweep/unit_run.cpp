@@ -5,7 +5,7 @@
 #include "cli/run/preflight.hpp"
 #include "cli/study/flights.hpp"
 #include "core/types.hpp"
-#include "process/atomic_file.hpp"
+#include "process/files/atomic_file.hpp"
 #include "process/run_folder.hpp"
 #include "report/run_data.hpp"
 

@@ -9,7 +9,7 @@
 #include <iosfwd>
 #include <string>
 
-#include "cli/run/program_host.hpp"
+#include "cli/host/program_host.hpp"
 #include "cli/sweep/folder.hpp"
 
 namespace skein::cli {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "cli/run/preflight.hpp"
-#include "process/environment.hpp"
+#include "process/host/environment.hpp"
 
 namespace skein::cli {
 

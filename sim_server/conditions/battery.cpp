@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/rotor_power.hpp"
+#include "core/vehicle/rotor_power.hpp"
 
 namespace skein::sim {
 namespace {

@@ -5,10 +5,10 @@
 
 #include <array>
 
-#include "core/airframe.hpp"
 #include "core/conditions.hpp"
 #include "core/scenario.hpp"
 #include "core/told_state.hpp"
+#include "core/vehicle/airframe.hpp"
 
 namespace skein::sim {
 

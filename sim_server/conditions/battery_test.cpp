@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/random_stream.hpp"
-#include "core/rotor_power.hpp"
+#include "core/vehicle/rotor_power.hpp"
 #include "sim_server/testing/test_flight.hpp"
 
 namespace skein::sim {

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "core/euler.hpp"
-#include "sim_server/conditions/normals.hpp"
+#include "core/normals.hpp"
 
 namespace skein::sim {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/normals.hpp"
 #include "core/random_stream.hpp"
-#include "sim_server/conditions/normals.hpp"
 
 namespace skein::sim {
 namespace {

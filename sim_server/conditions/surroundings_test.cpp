@@ -6,11 +6,11 @@
 #include <functional>
 #include <memory>
 
-#include "core/rotor_power.hpp"
+#include "core/vehicle/rotor_power.hpp"
 #include "sim_server/run_digest.hpp"
 #include "sim_server/simulation.hpp"
 #include "sim_server/testing/test_flight.hpp"
-#include "sim_server/testing/test_scenes.hpp"
+#include "tests/support/test_scenes.hpp"
 
 namespace skein::sim {
 namespace {

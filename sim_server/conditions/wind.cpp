@@ -5,8 +5,8 @@
 #include <numbers>
 
 #include "core/euler.hpp"
-#include "core/rotor_power.hpp"
-#include "sim_server/conditions/normals.hpp"
+#include "core/normals.hpp"
+#include "core/vehicle/rotor_power.hpp"
 
 namespace skein::sim {
 namespace {

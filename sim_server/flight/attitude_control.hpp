@@ -4,9 +4,9 @@
 
 #include <array>
 
-#include "core/airframe.hpp"
 #include "core/scenario.hpp"
 #include "core/types.hpp"
+#include "core/vehicle/airframe.hpp"
 #include "sim_server/flight/position_control.hpp"
 
 namespace skein::sim {

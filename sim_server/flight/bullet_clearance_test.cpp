@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "sim_server/testing/test_scenes.hpp"
+#include "tests/support/test_scenes.hpp"
 
 namespace skein::sim {
 namespace {

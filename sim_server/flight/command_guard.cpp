@@ -5,7 +5,7 @@
 #include <string>
 
 #include "core/euler.hpp"
-#include "core/text.hpp"
+#include "core/text/text.hpp"
 
 namespace skein::sim {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/airframe.hpp"
+#include "core/vehicle/airframe.hpp"
 #include "sim_server/testing/test_flight.hpp"
 
 namespace skein::sim {

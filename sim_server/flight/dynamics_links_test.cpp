@@ -7,10 +7,10 @@
 #include <iostream>
 #include <numbers>
 
-#include "core/airframe.hpp"
 #include "core/euler.hpp"
+#include "core/vehicle/airframe.hpp"
 #include "sim_server/testing/test_flight.hpp"
-#include "sim_server/testing/test_scenes.hpp"
+#include "tests/support/test_scenes.hpp"
 
 namespace skein::sim {
 namespace {

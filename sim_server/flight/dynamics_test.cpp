@@ -7,8 +7,8 @@
 #include <cmath>
 #include <iostream>
 
-#include "core/airframe.hpp"
 #include "core/euler.hpp"
+#include "core/vehicle/airframe.hpp"
 #include "sim_server/testing/test_flight.hpp"
 
 namespace skein::sim {

@@ -3,10 +3,10 @@
 
 #include <memory>
 
-#include "core/scenario_reader.hpp"
+#include "core/scenario/scenario_reader.hpp"
 #include "sim_server/simulation.hpp"
 #include "sim_server/testing/test_flight.hpp"
-#include "sim_server/testing/test_scenes.hpp"
+#include "tests/support/test_scenes.hpp"
 
 namespace skein::sim {
 namespace {

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-#include "core/airframe.hpp"
 #include "core/euler.hpp"
 #include "core/random_stream.hpp"
+#include "core/vehicle/airframe.hpp"
 
 namespace skein::sim {
 namespace {

@@ -6,12 +6,12 @@
 #include <cmath>
 #include <set>
 
-#include "core/airframe.hpp"
-#include "core/scenario_reader.hpp"
-#include "sim_server/flight/enclosure.hpp"
+#include "core/scenario/scenario_reader.hpp"
+#include "core/vehicle/airframe.hpp"
+#include "scenes/enclosure.hpp"
 #include "sim_server/flight/physics_world.hpp"
-#include "sim_server/testing/test_scenes.hpp"
 #include "tests/support/places.hpp"
+#include "tests/support/test_scenes.hpp"
 
 namespace skein::sim {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <Eigen/Eigenvalues>
 
-#include "core/airframe.hpp"
+#include "core/vehicle/airframe.hpp"
 
 namespace skein::sim {
 namespace {

@@ -10,7 +10,7 @@
 #include <optional>
 #include <utility>
 
-#include "core/airframe.hpp"
+#include "core/vehicle/airframe.hpp"
 #include "sim_server/flight/bullet_clearance.hpp"
 #include "sim_server/flight/mass_frame.hpp"
 #include "sim_server/flight/momentum_keeper.hpp"

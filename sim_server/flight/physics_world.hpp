@@ -1,7 +1,7 @@
 // Rigid bodies, gravity and contacts (Bullet, double precision, one thread): the same calls give the same bits.
 // Frames: W world (ENU), B body (FLU).  Units: SI.  States and wrenches are about Bo, the origin of the body frame;
-// that a vehicle's centre of mass is elsewhere (core/airframe.hpp) is settled in here.  A tick is kTickS = 2.5 ms, and
-// one step of the integration.
+// that a vehicle's centre of mass is elsewhere (core/vehicle/airframe.hpp) is settled in here.  A tick is kTickS = 2.5
+// ms, and one step of the integration.
 #pragma once
 
 #include <limits>

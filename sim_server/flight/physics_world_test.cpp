@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/airframe.hpp"
-#include "sim_server/testing/test_scenes.hpp"
+#include "core/vehicle/airframe.hpp"
+#include "tests/support/test_scenes.hpp"
 
 namespace skein::sim {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/fault_plan.hpp"
+#include "core/faults/fault_plan.hpp"
 #include "core/types.hpp"
 #include "sim_server/flight/attitude_control.hpp"
 

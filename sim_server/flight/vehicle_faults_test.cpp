@@ -11,7 +11,7 @@
 #include "sim_server/record/fault_timeline.hpp"
 #include "sim_server/simulation.hpp"
 #include "sim_server/testing/test_flight.hpp"
-#include "sim_server/testing/test_scenes.hpp"
+#include "tests/support/test_scenes.hpp"
 
 namespace skein::sim {
 namespace {

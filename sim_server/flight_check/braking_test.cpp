@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "core/random_stream.hpp"
-#include "sim_server/testing/test_scenes.hpp"
+#include "tests/support/test_scenes.hpp"
 
 namespace skein::sim {
 namespace {

@@ -14,9 +14,9 @@
 #include <vector>
 
 #include "core/scenario.hpp"
-#include "process/tracking_table.hpp"
+#include "process/results/tracking_table.hpp"
+#include "sight/ray_scene.hpp"
 #include "sim_server/flight_check/braking.hpp"
-#include "sim_server/rays/ray_scene.hpp"
 
 namespace skein::sim {
 

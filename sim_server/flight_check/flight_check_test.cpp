@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "core/random_stream.hpp"
-#include "core/scenario_reader.hpp"
+#include "core/scenario/scenario_reader.hpp"
 #include "sim_server/record/flight_review.hpp"
-#include "sim_server/testing/test_scenes.hpp"
 #include "tests/support/places.hpp"
+#include "tests/support/test_scenes.hpp"
 
 namespace skein::sim {
 namespace {

@@ -5,8 +5,8 @@
 #include <cstdlib>
 
 #include "core/euler.hpp"
-#include "core/file_bytes.hpp"
-#include "core/text.hpp"
+#include "core/files/file_bytes.hpp"
+#include "core/text/text.hpp"
 
 namespace skein::sim {
 namespace {

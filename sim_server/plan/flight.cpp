@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "core/euler.hpp"
-#include "core/score_table.hpp"
+#include "core/scoring/score_table.hpp"
 #include "sim_server/plan/plan.hpp"
 #include "sim_server/plan/schedule.hpp"
 #include "sim_server/simulation.hpp"

@@ -1,8 +1,8 @@
 // Plans can be flown: in the simulation they score about what they say, and nobody collides.
 #include <gtest/gtest.h>
 
+#include "scenes/scene_source.hpp"
 #include "sim_server/plan/plan.hpp"
-#include "sim_server/scenes/scene_source.hpp"
 #include "sim_server/testing/plan_site.hpp"
 
 namespace skein::sim {

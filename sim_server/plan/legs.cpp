@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/airframe.hpp"
 #include "core/euler.hpp"
+#include "core/vehicle/airframe.hpp"
 #include "sim_server/sensors/antenna_link.hpp"
 
 namespace skein::sim {

@@ -3,8 +3,8 @@
 #include <initializer_list>
 
 #include "core/sha256.hpp"
-#include "sim_server/oracle/cache.hpp"
-#include "sim_server/oracle/kept_answer.hpp"
+#include "oracle/cache.hpp"
+#include "oracle/kept_answer.hpp"
 
 namespace skein::sim {
 namespace {

@@ -5,13 +5,13 @@
 
 #include <cmath>
 
-#include "sim_server/oracle/oracle.hpp"
+#include "oracle/oracle.hpp"
+#include "sight/camera.hpp"
+#include "sight/ray_shapes.hpp"
 #include "sim_server/plan/plan_cache.hpp"
 #include "sim_server/plan/schedule.hpp"
 #include "sim_server/plan/ways.hpp"
-#include "sim_server/rays/ray_shapes.hpp"
 #include "sim_server/sensors/antenna_link.hpp"
-#include "sim_server/sensors/camera.hpp"
 #include "sim_server/testing/plan_site.hpp"
 
 namespace skein::sim {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/airframe.hpp"
-#include "sim_server/rays/ray_shapes.hpp"
+#include "core/vehicle/airframe.hpp"
+#include "sight/ray_shapes.hpp"
 
 namespace skein::sim {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim_server/rays/ray_shapes.hpp"
+#include "sight/ray_shapes.hpp"
 
 namespace skein::sim {
 namespace {

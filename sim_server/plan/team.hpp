@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "core/scenario.hpp"
-#include "sim_server/rays/ray_scene.hpp"
-#include "sim_server/sensors/camera_mount.hpp"
+#include "sight/camera_mount.hpp"
+#include "sight/ray_scene.hpp"
 
 namespace skein::sim {
 

@@ -9,8 +9,8 @@
 
 #include "core/camera_quality.hpp"
 #include "core/euler.hpp"
-#include "sim_server/oracle/share_out.hpp"
-#include "sim_server/sensors/camera.hpp"
+#include "oracle/share_out.hpp"
+#include "sight/camera.hpp"
 
 namespace skein::sim {
 namespace {

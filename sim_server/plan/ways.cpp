@@ -7,8 +7,8 @@
 #include <queue>
 #include <utility>
 
+#include "sight/clear_line.hpp"
 #include "sim_server/plan/team.hpp"
-#include "sim_server/rays/clear_line.hpp"
 
 namespace skein::sim {
 namespace {

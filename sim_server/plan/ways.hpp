@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/types.hpp"
-#include "sim_server/rays/ray_scene.hpp"
+#include "sight/ray_scene.hpp"
 
 namespace skein::sim {
 

@@ -10,7 +10,7 @@
 
 #include "core/activity.hpp"
 #include "core/scenario.hpp"
-#include "process/stream_file.hpp"
+#include "process/files/stream_file.hpp"
 #include "sim_server/simulation.hpp"
 
 namespace skein::sim {

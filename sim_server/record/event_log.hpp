@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "core/scenario.hpp"
-#include "process/stream_file.hpp"
+#include "process/files/stream_file.hpp"
 #include "sim_server/simulation.hpp"
 
 namespace skein::sim {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "core/fault_plan.hpp"
-#include "process/reports.hpp"
+#include "core/faults/fault_plan.hpp"
+#include "process/reports/reports.hpp"
 
 namespace skein::sim {
 

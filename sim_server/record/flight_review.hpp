@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/scenario.hpp"
-#include "process/reports.hpp"
+#include "process/reports/reports.hpp"
 #include "sim_server/flight_check/flight_check.hpp"
 #include "sim_server/simulation.hpp"
 

@@ -6,10 +6,10 @@
 #include <nlohmann/json.hpp>
 
 #include "core/camera_quality.hpp"
-#include "process/atomic_file.hpp"
-#include "process/program_report.hpp"
+#include "process/files/atomic_file.hpp"
+#include "process/reports/program_report.hpp"
+#include "process/results/run_tables.hpp"
 #include "process/run_folder.hpp"
-#include "process/run_tables.hpp"
 
 namespace skein::sim {
 namespace {

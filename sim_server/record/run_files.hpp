@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
+#include "core/run/work_time.hpp"
 #include "core/scenario.hpp"
-#include "core/work_time.hpp"
-#include "process/reports.hpp"
-#include "process/status_pipe.hpp"
-#include "process/stream_file.hpp"
+#include "process/files/stream_file.hpp"
+#include "process/reports/reports.hpp"
+#include "process/status/status_pipe.hpp"
 #include "sim_server/record/activity_log.hpp"
 #include "sim_server/record/event_log.hpp"
 #include "sim_server/record/flight_review.hpp"

@@ -11,7 +11,7 @@
 
 #include "core/camera_quality.hpp"
 #include "core/random_stream.hpp"
-#include "core/scenario_reader.hpp"
+#include "core/scenario/scenario_reader.hpp"
 #include "tests/support/places.hpp"
 
 namespace skein::sim {

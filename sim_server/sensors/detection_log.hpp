@@ -7,9 +7,9 @@
 #include <span>
 #include <vector>
 
-#include "core/detection_order.hpp"
-#include "core/score_table.hpp"
-#include "sim_server/sensors/camera.hpp"
+#include "core/scoring/detection_order.hpp"
+#include "core/scoring/score_table.hpp"
+#include "sight/camera.hpp"
 
 namespace skein::sim {
 

@@ -9,7 +9,7 @@
 #include <tuple>
 
 #include "core/euler.hpp"
-#include "sim_server/testing/test_scenes.hpp"
+#include "tests/support/test_scenes.hpp"
 
 namespace skein::sim {
 namespace {

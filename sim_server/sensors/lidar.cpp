@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "core/euler.hpp"
-#include "core/lidar_geometry.hpp"
 #include "core/random_stream.hpp"
+#include "core/vehicle/lidar_geometry.hpp"
 
 namespace skein::sim {
 namespace {

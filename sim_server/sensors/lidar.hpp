@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "core/scenario.hpp"
+#include "sight/ray_scene.hpp"
 #include "sim_server/conditions/lidar_errors.hpp"
-#include "sim_server/rays/ray_scene.hpp"
 #include "sim_server/sensors/lost_returns.hpp"
 
 namespace skein::sim {

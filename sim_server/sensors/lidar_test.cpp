@@ -11,9 +11,9 @@
 #include <set>
 
 #include "core/euler.hpp"
-#include "core/lidar_geometry.hpp"
+#include "core/vehicle/lidar_geometry.hpp"
 #include "sim_server/sensors/key_frames.hpp"
-#include "sim_server/testing/test_scenes.hpp"
+#include "tests/support/test_scenes.hpp"
 
 namespace skein::sim {
 namespace {

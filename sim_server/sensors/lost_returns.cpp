@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/lidar_geometry.hpp"
 #include "core/random_stream.hpp"
+#include "core/vehicle/lidar_geometry.hpp"
 
 namespace skein::sim {
 

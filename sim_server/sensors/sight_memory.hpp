@@ -5,7 +5,7 @@
 
 #include <array>
 
-#include "sim_server/rays/ray_scene.hpp"
+#include "sight/ray_scene.hpp"
 #include "sim_server/sensors/antenna_link.hpp"
 
 namespace skein::sim {

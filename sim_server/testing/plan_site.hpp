@@ -4,10 +4,10 @@
 
 #include <string>
 
-#include "core/scenario_reader.hpp"
+#include "core/scenario/scenario_reader.hpp"
 #include "sim_server/plan/plan.hpp"
-#include "sim_server/testing/test_scenes.hpp"
 #include "tests/support/places.hpp"
+#include "tests/support/test_scenes.hpp"
 
 namespace skein::sim::test {
 

@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "core/scenario_reader.hpp"
+#include "core/scenario/scenario_reader.hpp"
 #include "sim_server/flight/physics_world.hpp"
 #include "sim_server/flight/vehicle.hpp"
 #include "tests/support/places.hpp"

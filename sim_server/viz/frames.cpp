@@ -1,7 +1,7 @@
 #include "sim_server/viz/frames.hpp"
 
 #include "core/camera_quality.hpp"
-#include "core/lidar_geometry.hpp"
+#include "core/vehicle/lidar_geometry.hpp"
 #include "idl/conversions.hpp"
 
 namespace skein::sim::viz {

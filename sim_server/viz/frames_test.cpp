@@ -5,10 +5,10 @@
 #include <map>
 
 #include "core/camera_quality.hpp"
-#include "core/lidar_geometry.hpp"
 #include "core/random_stream.hpp"
+#include "core/vehicle/lidar_geometry.hpp"
 #include "idl/conversions.hpp"
-#include "sim_server/testing/test_scenes.hpp"
+#include "tests/support/test_scenes.hpp"
 
 namespace skein::sim::viz {
 namespace {

@@ -3,9 +3,9 @@
 #include <array>
 #include <cmath>
 
-#include "core/airframe.hpp"
 #include "core/camera_quality.hpp"
 #include "core/euler.hpp"
+#include "core/vehicle/airframe.hpp"
 #include "idl/conversions.hpp"
 
 namespace skein::sim::viz {

@@ -4,7 +4,7 @@
 
 #include <span>
 
-#include "core/link_matrix.hpp"
+#include "core/radio/link_matrix.hpp"
 #include "core/scenario.hpp"
 #include "core/scene.hpp"
 #include "idl/type_names.hpp"

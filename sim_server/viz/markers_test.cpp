@@ -8,7 +8,7 @@
 #include "core/euler.hpp"
 #include "core/random_stream.hpp"
 #include "idl/conversions.hpp"
-#include "sim_server/testing/test_scenes.hpp"
+#include "tests/support/test_scenes.hpp"
 
 namespace skein::sim::viz {
 namespace {

@@ -6,7 +6,7 @@
 #include <set>
 
 #include "core/random_stream.hpp"
-#include "sim_server/testing/test_scenes.hpp"
+#include "tests/support/test_scenes.hpp"
 
 namespace skein::sim::viz {
 namespace {

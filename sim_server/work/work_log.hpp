@@ -1,5 +1,5 @@
 // The referee's record of who works: what each UAV did in each second, and whether there was anything to do for it. By
-// the truth, for reports alone: no agent hears of it, and no digest has it. core/work_time.hpp judges it.
+// the truth, for reports alone: no agent hears of it, and no digest has it. core/run/work_time.hpp judges it.
 // Frame W.   Units: m, s, score.   Threads: one.   Pure: knows no bus.
 //
 // Work is
@@ -29,8 +29,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/score_table.hpp"
-#include "core/work_time.hpp"
+#include "core/run/work_time.hpp"
+#include "core/scoring/score_table.hpp"
 #include "sim_server/simulation.hpp"
 #include "sim_server/work/mapped_surface.hpp"
 #include "sim_server/work/workplaces.hpp"

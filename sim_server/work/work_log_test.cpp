@@ -11,9 +11,9 @@
 #include <numeric>
 
 #include "core/random_stream.hpp"
-#include "core/scenario_reader.hpp"
-#include "sim_server/testing/test_scenes.hpp"
+#include "core/scenario/scenario_reader.hpp"
 #include "tests/support/places.hpp"
+#include "tests/support/test_scenes.hpp"
 
 namespace skein::sim {
 namespace {

@@ -7,10 +7,10 @@
 #include <optional>
 
 #include "core/camera_quality.hpp"
-#include "sim_server/oracle/best_aim.hpp"
-#include "sim_server/rays/clear_line.hpp"
-#include "sim_server/rays/ray_scene.hpp"
-#include "sim_server/sensors/camera_mount.hpp"
+#include "oracle/best_aim.hpp"
+#include "sight/camera_mount.hpp"
+#include "sight/clear_line.hpp"
+#include "sight/ray_scene.hpp"
 
 namespace skein::sim {
 namespace {

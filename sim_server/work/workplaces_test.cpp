@@ -3,11 +3,11 @@
 
 #include <gtest/gtest.h>
 
-#include "core/scenario_reader.hpp"
-#include "sim_server/rays/ray_scene.hpp"
-#include "sim_server/testing/test_scenes.hpp"
-#include "sim_server/wild/world.hpp"
+#include "core/scenario/scenario_reader.hpp"
+#include "scenes/wild/world.hpp"
+#include "sight/ray_scene.hpp"
 #include "tests/support/places.hpp"
+#include "tests/support/test_scenes.hpp"
 
 namespace skein::sim {
 namespace {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/random_stream.hpp"
-#include "core/scenario_keys.hpp"
+#include "core/scenario/scenario_keys.hpp"
 #include "tests/support/places.hpp"
 
 namespace skein {

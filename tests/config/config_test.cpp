@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "core/airframe.hpp"
-#include "core/config_node.hpp"
-#include "core/fault_plan.hpp"
-#include "core/scenario_reader.hpp"
+#include "core/config/config_node.hpp"
+#include "core/faults/fault_plan.hpp"
+#include "core/scenario/scenario_reader.hpp"
+#include "core/vehicle/airframe.hpp"
 #include "tests/support/places.hpp"
 
 namespace skein {

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "core/config_node.hpp"
-#include "core/scenario_reader.hpp"
-#include "core/scene_families.hpp"
+#include "core/config/config_node.hpp"
+#include "core/scenario/scenario_reader.hpp"
+#include "core/scenario/scene_families.hpp"
 #include "tests/support/places.hpp"
 
 namespace skein {

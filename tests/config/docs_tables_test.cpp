@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "core/radio_routes.hpp"
+#include "core/radio/radio_routes.hpp"
 #include "core/topics.hpp"
 #include "tests/support/places.hpp"
 

@@ -9,7 +9,7 @@
 
 #include "cli/bench/scenario.hpp"
 #include "container_fixture.hpp"
-#include "core/text.hpp"
+#include "core/text/text.hpp"
 #include "tests/support/places.hpp"
 
 namespace skein::test {

@@ -4,7 +4,7 @@
 #include <random>
 #include <regex>
 
-#include "core/command_file.hpp"
+#include "core/files/command_file.hpp"
 #include "debug_fixture.hpp"
 #include "tests/support/places.hpp"
 

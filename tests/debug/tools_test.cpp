@@ -1,7 +1,7 @@
 // --debug with other tools than gdb, with none that is installed, and without any.
 #include <regex>
 
-#include "core/command_file.hpp"
+#include "core/files/command_file.hpp"
 #include "debug_fixture.hpp"
 #include "tests/free_port.hpp"
 

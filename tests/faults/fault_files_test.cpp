@@ -7,10 +7,10 @@
 #include <regex>
 
 #include "cli/fault_tests/fault_test.hpp"
-#include "core/config_files.hpp"
-#include "core/scenario_reader.hpp"
-#include "core/signal_table.hpp"
-#include "core/suggestion.hpp"
+#include "core/config/config_files.hpp"
+#include "core/expressions/signal_table.hpp"
+#include "core/scenario/scenario_reader.hpp"
+#include "core/text/suggestion.hpp"
 #include "properties/property_file.hpp"
 #include "tests/support/places.hpp"
 

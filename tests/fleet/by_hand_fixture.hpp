@@ -6,7 +6,7 @@
 #include <map>
 #include <string>
 
-#include "cli/run/domain_block.hpp"
+#include "cli/host/domain_block.hpp"
 #include "core/topics.hpp"
 #include "fleet_fixture.hpp"
 

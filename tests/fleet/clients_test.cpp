@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "by_hand_fixture.hpp"
-#include "core/radio_routes.hpp"
+#include "core/radio/radio_routes.hpp"
 #include "core/topics.hpp"
 #include "tests/support/places.hpp"
 

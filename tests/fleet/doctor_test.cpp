@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "child_process.hpp"
-#include "core/text.hpp"
+#include "core/text/text.hpp"
 #include "tests/free_domain.hpp"
 #include "tests/support/places.hpp"
 

@@ -9,7 +9,7 @@
 #include <sstream>
 
 #include "json_schema.hpp"
-#include "process/host_lock.hpp"
+#include "process/host/host_lock.hpp"
 #include "results_page.hpp"
 #include "tests/support/places.hpp"
 

@@ -8,7 +8,7 @@
 
 #include "bus/lockstep/client_node.hpp"
 #include "bus/lockstep/names.hpp"
-#include "core/radio_routes.hpp"
+#include "core/radio/radio_routes.hpp"
 #include "idl/conversions.hpp"
 
 namespace {

@@ -3,7 +3,7 @@
 #include <random>
 
 #include "fleet_fixture.hpp"
-#include "mcap/reader.hpp"
+#include "recording/mcap/reader.hpp"
 #include "small_disk.hpp"
 #include "small_scene.hpp"
 

@@ -7,7 +7,7 @@
 #include <chrono>
 #include <thread>
 
-#include "process/atomic_file.hpp"
+#include "process/files/atomic_file.hpp"
 
 int main(int argc, char** argv) {
   if (argc != 8) return 2;

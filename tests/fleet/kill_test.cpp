@@ -7,8 +7,8 @@
 #include <sstream>
 
 #include "fleet_fixture.hpp"
-#include "mcap/reader.hpp"
 #include "process/run_folder.hpp"
+#include "recording/mcap/reader.hpp"
 #include "small_scene.hpp"
 
 namespace skein::test {

@@ -11,7 +11,7 @@
 #include <thread>
 
 #include "bus/bus.hpp"
-#include "process/atomic_file.hpp"
+#include "process/files/atomic_file.hpp"
 
 namespace {
 

@@ -6,15 +6,15 @@
 #include <fstream>
 #include <sstream>
 
-#include "cli/run/proc_table.hpp"
+#include "cli/host/proc_table.hpp"
 #include "cli/secure/keys.hpp"
 #include "cli/secure/rules.hpp"
 #include "cli/secure/security.hpp"
 #include "core/topics.hpp"
 #include "fleet_fixture.hpp"
-#include "process/closed_to_agents.hpp"
+#include "process/files/closed_to_agents.hpp"
+#include "process/files/security_files.hpp"
 #include "process/run_folder.hpp"
-#include "process/security_files.hpp"
 #include "small_scene.hpp"
 #include "tests/support/places.hpp"
 

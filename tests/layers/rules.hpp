@@ -15,12 +15,14 @@ namespace skein::layers {
 using Tree = std::vector<SourceFile>;
 using Violations = std::vector<std::string>;
 
-/// core <- process, idl, mcap <- bus <- recording <- applications <- one_process, and no application includes another.
+/// core <- process, idl, recording/mcap, sight <- oracle <- bus, scenes <- recording <- applications <- one_process,
+/// and no application includes another.
 /// tests/ may include everything, and only test code may include tests/.
 Violations check_layers(const Tree& tree);
 
-/// Inside an application, folders look one way: what a folder includes does not include it, neither directly nor by way
-/// of other folders and of the files beside them, each of which (header and source) counts by itself.
+/// Inside an application, and in scenes/, folders look one way: what a folder includes does not include it, neither
+/// directly nor by way of other folders and of the files beside them, each of which (header and source) counts by
+/// itself.
 Violations check_circles(const Tree& tree);
 
 /// In an application only main.cpp, *_node.* and *_program.* include bus/, and nobody else includes their headers.
@@ -34,7 +36,7 @@ Violations check_dds_headers(const Tree& tree);
 struct LibraryRule {
   std::string name;
   std::vector<std::string> prefixes;  ///< of what is included: "pcl/"
-  std::vector<std::string> folders;   ///< "uav_agent/", "sim_server/scene_files/"
+  std::vector<std::string> folders;   ///< "uav_agent/", "scenes/files/"
   std::size_t most_files = 1;         ///< in each of these folders
   bool own_folder = false;            ///< its headers may show it
 };

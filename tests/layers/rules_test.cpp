@@ -73,8 +73,9 @@ TEST_F(MadeUpTree, IsReadWithoutBuildTreesAndBinaries) {
 }
 
 TEST_F(MadeUpTree, LayersMayOnlyLookDown) {
-  for (const char* path : {"core/a.hpp", "idl/a.hpp", "bus/a.hpp", "sim_server/a.hpp", "uav_agent/a.hpp",
-                           "report/a.hpp", "one_process/a.hpp", "tests/a.hpp"}) {
+  for (const char* path :
+       {"core/a.hpp", "idl/a.hpp", "bus/a.hpp", "sim_server/a.hpp", "uav_agent/a.hpp", "report/a.hpp",
+        "recording/a.hpp", "recording/mcap/a.hpp", "scenes/a.hpp", "one_process/a.hpp", "tests/a.hpp"}) {
     file(path, "\n");
   }
   file("bus/good.cpp", include("core/a.hpp") + include("idl/a.hpp") + include("bus/a.hpp"));
@@ -82,6 +83,9 @@ TEST_F(MadeUpTree, LayersMayOnlyLookDown) {
   file("tests/good.cpp", include("sim_server/a.hpp") + include("uav_agent/a.hpp") + include("tests/a.hpp"));
   file("station/good_test.cpp", include("tests/a.hpp"));
   file("cli/good.cpp", include("report/a.hpp"));
+  file("recording/good.cpp", include("recording/mcap/a.hpp") + include("bus/a.hpp"));
+  file("sim_server/good.cpp", include("scenes/a.hpp"));
+  file("view/good.cpp", include("recording/mcap/a.hpp"));
   EXPECT_EQ(check_layers(tree()), Violations{});
 
   file("core/bad.cpp", std::string("\n") + include("idl/a.hpp"));
@@ -89,11 +93,14 @@ TEST_F(MadeUpTree, LayersMayOnlyLookDown) {
   file("bus/bad.hpp", include_system("sim_server/a.hpp"));
   file("cli/bad.cpp", std::string("// ") + include("uav_agent/a.hpp") + include("../uav_agent/a.hpp"));
   file("report/bad.cpp", include("core/a.hpp") + include("bus/a.hpp") + include("sim_server/a.hpp"));
+  file("recording/mcap/bad.cpp", include("core/a.hpp") + include("recording/a.hpp") + include("bus/a.hpp"));
+  file("scenes/bad.cpp", include("core/a.hpp") + include("sim_server/a.hpp") + include("bus/a.hpp"));
   file("station/bad.cpp", include("tests/a.hpp"));
   file("uav_agent/bad.cpp", include("sim_server/a.hpp") + include("one_process/a.hpp"));
   EXPECT_EQ(places(check_layers(tree())),
-            (Places{"bus/bad.hpp:1", "cli/bad.cpp:2", "core/bad.cpp:2", "idl/bad.cpp:2", "report/bad.cpp:2",
-                    "report/bad.cpp:3", "station/bad.cpp:1", "uav_agent/bad.cpp:1", "uav_agent/bad.cpp:2"}));
+            (Places{"bus/bad.hpp:1", "cli/bad.cpp:2", "core/bad.cpp:2", "idl/bad.cpp:2", "recording/mcap/bad.cpp:2",
+                    "recording/mcap/bad.cpp:3", "report/bad.cpp:2", "report/bad.cpp:3", "scenes/bad.cpp:2",
+                    "scenes/bad.cpp:3", "station/bad.cpp:1", "uav_agent/bad.cpp:1", "uav_agent/bad.cpp:2"}));
 }
 
 TEST_F(MadeUpTree, OnlyNodesUseTheBus) {
@@ -129,9 +136,9 @@ TEST_F(MadeUpTree, DdsIsForItsVendorsFolder) {
 
 TEST_F(MadeUpTree, LargeLibrariesHaveFewUsers) {
   file("sim_server/world.cpp", include_system("btBulletDynamicsCommon.h"));
-  file("sim_server/rays.cpp", include_system("embree3/rtcore.h"));
-  file("sim_server/scene_files/point_file_pcl_test.cpp", include_system("pcl/io/pcd_io.h"));
-  file("sim_server/scene_files/meshes.cpp", include_system("assimp/scene.h"));
+  file("sight/rays.cpp", include_system("embree3/rtcore.h"));
+  file("scenes/files/point_file_pcl_test.cpp", include_system("pcl/io/pcd_io.h"));
+  file("scenes/files/meshes.cpp", include_system("assimp/scene.h"));
   file("uav_agent/map.cpp", include_system("octomap/OcTree.h") + include_system("pcl/point_types.h"));
   file("uav_agent/python/values.hpp", include_system("pybind11/numpy.h"));
   EXPECT_EQ(check_libraries(tree(), library_rules()), Violations{});
@@ -139,14 +146,14 @@ TEST_F(MadeUpTree, LargeLibrariesHaveFewUsers) {
   file("uav_agent/api/planner.hpp", include_system("pybind11/numpy.h"));
   file("core/scene.hpp", include_system("pcl/point_types.h"));
   file("sim_server/map.cpp", include_system("octomap/OcTree.h"));
-  file("sim_server/rays.hpp", include_system("embree3/rtcore.h"));
-  file("sim_server/scene_files/points.cpp", include_system("pcl/io/pcd_io.h"));
+  file("sight/rays.hpp", include_system("embree3/rtcore.h"));
+  file("scenes/files/points.cpp", include_system("pcl/io/pcd_io.h"));
   file("uav_agent/flight.cpp", include_system("LinearMath/btVector3.h"));
   file("uav_agent/map2.cpp", include_system("pcl/point_types.h"));
   file("uav_agent/map3.cpp", include_system("pcl/point_types.h"));
   EXPECT_EQ(places(check_libraries(tree(), library_rules())),
-            (Places{"uav_agent/flight.cpp:1", "sim_server/rays.hpp:1", "sim_server/map.cpp:1", "core/scene.hpp:1",
-                    "sim_server/scene_files/points.cpp:1", "uav_agent/map3.cpp:1", "uav_agent/api/planner.hpp:1"}));
+            (Places{"uav_agent/flight.cpp:1", "sight/rays.hpp:1", "sim_server/map.cpp:1", "core/scene.hpp:1",
+                    "scenes/files/points.cpp:1", "uav_agent/map3.cpp:1", "uav_agent/api/planner.hpp:1"}));
 }
 
 TEST_F(MadeUpTree, HeadersNeedAGuardAndLeakNoNames) {
@@ -257,7 +264,7 @@ TEST_F(MadeUpTree, NamesOfFilesThatAreNotThereAreFound) {
        "// See docs/good.md, core/good.hpp (good.hpp), core/good.*, and what is in my_runs/result.json.\n");
   file("core/literal.cpp", "open(\"core/none.hpp\");  // and core/*.hpp, x.y.z\n");
   file("docs/good.md", "`core/good.hpp` and mine/scenario.yaml\n```cpp orbit.cpp\n```\nSave it as `core/orbit.cpp`.\n");
-  file("sim_server/rays/fan.hpp", "// Used by rays/fan.hpp.\n");
+  file("sight/rays/fan.hpp", "// Used by rays/fan.hpp.\n");
   EXPECT_EQ(check_references(tree()), Violations{});
 
   file("core/bad.cpp", "// core/none.hpp\nint x;  // rays/good.hpp\n/* docs/none.md */ // gone.hpp\n// core/gone.*\n");

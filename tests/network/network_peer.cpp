@@ -11,8 +11,8 @@
 #include <memory>
 #include <thread>
 
-#include "core/network_config.hpp"
-#include "core/text.hpp"
+#include "core/config/network_config.hpp"
+#include "core/text/text.hpp"
 #include "tests/contract/bus_fixture.hpp"
 
 namespace skein::test {

@@ -7,10 +7,10 @@
 #include <set>
 
 #include "comm_router/router_node.hpp"
-#include "core/lidar_geometry.hpp"
-#include "core/octree_bytes.hpp"
-#include "core/radio_routes.hpp"
+#include "core/files/octree_bytes.hpp"
+#include "core/radio/radio_routes.hpp"
 #include "core/random_stream.hpp"
+#include "core/vehicle/lidar_geometry.hpp"
 #include "core/view_topics.hpp"
 #include "idl/conversions.hpp"
 #include "idl/diagnostic_types.hpp"

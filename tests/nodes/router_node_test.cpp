@@ -6,7 +6,7 @@
 #include <map>
 #include <random>
 
-#include "core/radio_routes.hpp"
+#include "core/radio/radio_routes.hpp"
 #include "idl/type_names.hpp"
 #include "tests/nodes/toy_members.hpp"
 

@@ -9,7 +9,7 @@
 #include <set>
 
 #include "comm_router/router_node.hpp"
-#include "core/radio_routes.hpp"
+#include "core/radio/radio_routes.hpp"
 #include "idl/conversions.hpp"
 #include "process/run_folder.hpp"
 #include "tests/nodes/toy_members.hpp"

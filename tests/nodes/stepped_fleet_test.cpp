@@ -9,8 +9,8 @@
 
 #include "comm_router/router_node.hpp"
 #include "core/random_stream.hpp"
-#include "core/scenario_reader.hpp"
-#include "sim_server/scenes/scene_source.hpp"
+#include "core/scenario/scenario_reader.hpp"
+#include "scenes/scene_source.hpp"
 #include "sim_server/sim_node.hpp"
 #include "station/station_node.hpp"
 #include "tests/support/places.hpp"

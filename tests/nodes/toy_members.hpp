@@ -12,7 +12,7 @@
 #include "bus/lockstep/client_node.hpp"
 #include "bus/lockstep/names.hpp"
 #include "bus/lockstep/server.hpp"
-#include "core/link_matrix.hpp"
+#include "core/radio/link_matrix.hpp"
 #include "core/scenario.hpp"
 
 namespace skein::test {

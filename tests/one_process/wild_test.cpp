@@ -1,7 +1,7 @@
 // Worlds that no planner was made for, flown by all of them: nobody collides, nobody stays where it was set down.
 #include <set>
 
-#include "core/suggestion.hpp"
+#include "core/text/suggestion.hpp"
 #include "fleet_fixture.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/test_program.hpp"

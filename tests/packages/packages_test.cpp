@@ -6,7 +6,7 @@
 #include <fstream>
 #include <set>
 
-#include "core/command_file.hpp"
+#include "core/files/command_file.hpp"
 #include "fleet_fixture.hpp"
 #include "tests/support/places.hpp"
 

@@ -8,7 +8,7 @@
 #include "bus/lockstep/radio_topics.hpp"
 #include "bus/lockstep/server.hpp"
 #include "comm_router/router_node.hpp"
-#include "core/radio_routes.hpp"
+#include "core/radio/radio_routes.hpp"
 #include "tests/protocol/fleet_model.hpp"
 
 namespace skein::test {

@@ -1,5 +1,5 @@
 // report.html in a browser: it asks for nothing, says what the tables beside it say, and is to be seen everywhere.
-#include "core/command_file.hpp"
+#include "core/files/command_file.hpp"
 #include "fleet_fixture.hpp"
 #include "tests/support/places.hpp"
 

@@ -5,9 +5,9 @@
 
 #include "idl/cdr.hpp"
 #include "idl/conversions.hpp"
-#include "mcap/reader.hpp"
 #include "packages_fixture.hpp"
 #include "process/run_folder.hpp"
+#include "recording/mcap/reader.hpp"
 #include "tests/free_domain.hpp"
 #include "tests/recording/independent_reader.hpp"
 #include "tests/support/places.hpp"

@@ -10,7 +10,7 @@
 #include <set>
 #include <tuple>
 
-#include "core/radio_routes.hpp"
+#include "core/radio/radio_routes.hpp"
 #include "core/topics.hpp"
 #include "idl/filled_message.hpp"
 #include "ros2/skein_ros/src/step/fleet_topics.hpp"

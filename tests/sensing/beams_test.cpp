@@ -7,11 +7,11 @@
 #include <cmath>
 #include <functional>
 
-#include "core/lidar_geometry.hpp"
 #include "core/random_stream.hpp"
+#include "core/vehicle/lidar_geometry.hpp"
 #include "sim_server/sensors/lidar.hpp"
 #include "sim_server/sensors/lost_returns.hpp"
-#include "sim_server/testing/test_scenes.hpp"
+#include "tests/support/test_scenes.hpp"
 #include "uav_agent/onboard/beam_reader.hpp"
 
 namespace skein::sensing {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <iostream>
 
-#include "core/lidar_geometry.hpp"
+#include "core/vehicle/lidar_geometry.hpp"
 #include "tests/sensing/sensed_space.hpp"
 
 namespace skein::sensing {

@@ -6,10 +6,10 @@
 #include <iostream>
 #include <numbers>
 
-#include "core/lidar_geometry.hpp"
+#include "core/vehicle/lidar_geometry.hpp"
 #include "sim_server/sensors/lidar.hpp"
-#include "sim_server/testing/test_scenes.hpp"
 #include "tests/sensing/sensed_space.hpp"
+#include "tests/support/test_scenes.hpp"
 #include "uav_agent/maps/uav_traces.hpp"
 
 namespace skein::sensing {

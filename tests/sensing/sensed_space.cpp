@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "core/euler.hpp"
-#include "core/lidar_geometry.hpp"
+#include "core/vehicle/lidar_geometry.hpp"
 #include "sim_server/sensors/lidar.hpp"
 #include "sim_server/sensors/lost_returns.hpp"
 

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <iostream>
 
-#include "core/lidar_geometry.hpp"
+#include "core/vehicle/lidar_geometry.hpp"
 #include "sim_server/sensors/lidar.hpp"
-#include "sim_server/testing/test_scenes.hpp"
 #include "tests/sensing/sensed_space.hpp"
+#include "tests/support/test_scenes.hpp"
 
 namespace skein::sensing {
 namespace {

@@ -1,6 +1,6 @@
 // What all test programs do. A program holds the tests of a folder; CTest has an entry for each file of it, or for a
 // few files that belong together:
-//   core_tests --entry core_text_test --file core/text_test.cpp [--file ...]
+//   core_tests --entry core_text_test --file core/text/text_test.cpp [--file ...]
 // runs the tests of these files, and names its report after the entry. With --turns K and SKEIN_TURN=N in the
 // environment it runs every K-th of them, another share for each N (--aligned: with the same parameters). Without these
 // options it is GoogleTest's own.

@@ -5,7 +5,7 @@
 #include <regex>
 #include <string>
 
-#include "core/command_file.hpp"
+#include "core/files/command_file.hpp"
 #include "fleet_fixture.hpp"
 #include "tests/support/eventually.hpp"
 #include "tests/support/places.hpp"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/airframe.hpp"
+#include "core/vehicle/airframe.hpp"
 
 namespace skein::agent {
 

@@ -1,5 +1,5 @@
 // All beams of one LiDAR scan, those that returned nothing among them.
-// Frames: W world, B body, L LiDAR (core/lidar_geometry.hpp has where its beams point).   Units: SI, radians.
+// Frames: W world, B body, L LiDAR (core/vehicle/lidar_geometry.hpp has where its beams point).   Units: SI, radians.
 //
 // What a beam proves, and what it does not:
 // - `none` says that nothing stands between the LiDAR's range_min_m and range_max_m. The LiDAR drops what is nearer as

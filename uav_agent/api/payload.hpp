@@ -1,6 +1,6 @@
 // What planners say to each other by radio, as bytes: a writer and a reader of small numbers, and the envelope in
 // which a payload travels on the topic /plan, which every UAV may send on and everybody in line of sight hears
-// (core/radio_routes.hpp). A planner puts what send_payload() returns into PlannerOutput::radio, and opens what
+// (core/radio/radio_routes.hpp). A planner puts what send_payload() returns into PlannerOutput::radio, and opens what
 // PlannerInput::radio brings with open_payload().
 // Numbers are little-endian; positions are rounded to centimetres.
 // Pure.   Bounded: a payload is never longer than kMaxPayloadBytes.

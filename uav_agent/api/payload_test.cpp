@@ -4,7 +4,7 @@
 
 #include <stdexcept>
 
-#include "core/radio_routes.hpp"
+#include "core/radio/radio_routes.hpp"
 
 namespace skein::agent {
 namespace {

@@ -13,7 +13,7 @@
 #include <variant>
 #include <vector>
 
-#include "core/config_reader.hpp"
+#include "core/config/config_reader.hpp"
 #include "core/hand_command.hpp"
 #include "core/told_state.hpp"
 #include "uav_agent/api/agent_config.hpp"

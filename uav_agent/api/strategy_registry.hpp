@@ -8,8 +8,8 @@
 #include <type_traits>
 #include <vector>
 
-#include "core/config_reader.hpp"
-#include "core/suggestion.hpp"
+#include "core/config/config_reader.hpp"
+#include "core/text/suggestion.hpp"
 #include "uav_agent/api/agent_config.hpp"
 
 namespace skein::agent {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/topics.hpp"
-#include "process/relayed_topic.hpp"
+#include "process/reports/relayed_topic.hpp"
 
 namespace skein::agent {
 

@@ -1,7 +1,7 @@
 #include "uav_agent/client/user_node.hpp"
 
 #include "bus/lockstep/names.hpp"
-#include "core/radio_routes.hpp"
+#include "core/radio/radio_routes.hpp"
 #include "core/topics.hpp"
 #include "idl/cdr.hpp"
 #include "idl/conversions.hpp"

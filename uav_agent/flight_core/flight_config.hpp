@@ -3,7 +3,7 @@
 // Units: SI and radians unless the name says otherwise.
 #pragma once
 
-#include "core/config_reader.hpp"
+#include "core/config/config_reader.hpp"
 
 namespace skein::agent {
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "core/octree_bytes.hpp"
+#include "core/files/octree_bytes.hpp"
 #include "uav_agent/maps/hit_blocks.hpp"
 #include "uav_agent/maps/ray_blocks.hpp"
 

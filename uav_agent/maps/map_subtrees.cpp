@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string_view>
 
-#include "core/octree_bytes.hpp"
+#include "core/files/octree_bytes.hpp"
 
 namespace skein::agent {
 namespace {

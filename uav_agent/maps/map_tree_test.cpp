@@ -7,7 +7,7 @@
 #include <string_view>
 #include <tuple>
 
-#include "core/octree_bytes.hpp"
+#include "core/files/octree_bytes.hpp"
 #include "uav_agent/testing/news_radio.hpp"
 
 namespace skein::agent {

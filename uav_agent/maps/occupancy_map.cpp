@@ -5,7 +5,7 @@
 #include <numbers>
 #include <utility>
 
-#include "core/octree_bytes.hpp"
+#include "core/files/octree_bytes.hpp"
 #include "uav_agent/maps/known_space.hpp"
 
 namespace skein::agent {

@@ -1,6 +1,6 @@
 #include "uav_agent/maps/world_mapper.hpp"
 
-#include "core/lidar_geometry.hpp"
+#include "core/vehicle/lidar_geometry.hpp"
 
 namespace skein::agent {
 namespace {

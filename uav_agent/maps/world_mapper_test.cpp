@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "core/lidar_geometry.hpp"
 #include "core/random_stream.hpp"
+#include "core/vehicle/lidar_geometry.hpp"
 
 namespace skein::agent {
 namespace {

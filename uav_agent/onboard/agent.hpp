@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "core/activity.hpp"
+#include "core/run/work_time.hpp"
 #include "core/told_state.hpp"
-#include "core/work_time.hpp"
 #include "uav_agent/api/agent_config.hpp"
 #include "uav_agent/api/messages.hpp"
 #include "uav_agent/api/planner.hpp"

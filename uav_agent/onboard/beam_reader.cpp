@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-#include "core/lidar_geometry.hpp"
+#include "core/vehicle/lidar_geometry.hpp"
 
 namespace skein::agent {
 namespace {

@@ -6,8 +6,8 @@
 
 #include <algorithm>
 
-#include "core/lidar_geometry.hpp"
 #include "core/random_stream.hpp"
+#include "core/vehicle/lidar_geometry.hpp"
 
 namespace skein::agent {
 namespace {

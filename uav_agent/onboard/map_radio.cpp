@@ -1,6 +1,6 @@
 #include "uav_agent/onboard/map_radio.hpp"
 
-#include "core/radio_routes.hpp"
+#include "core/radio/radio_routes.hpp"
 
 namespace skein::agent {
 

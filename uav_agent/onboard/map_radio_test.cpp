@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/lidar_geometry.hpp"
+#include "core/vehicle/lidar_geometry.hpp"
 #include "uav_agent/onboard/agent.hpp"
 #include "uav_agent/testing/news_radio.hpp"
 

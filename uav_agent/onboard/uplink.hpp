@@ -8,7 +8,7 @@
 #include <map>
 #include <vector>
 
-#include "core/score_table.hpp"
+#include "core/scoring/score_table.hpp"
 
 namespace skein::agent {
 

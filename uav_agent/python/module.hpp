@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "core/config_node.hpp"
-#include "core/python_spec.hpp"
+#include "core/config/config_node.hpp"
+#include "core/planners/python_spec.hpp"
 #include "uav_agent/api/planner.hpp"
 #include "uav_agent/maps/map_level.hpp"
 

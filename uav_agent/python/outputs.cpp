@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <string_view>
 
-#include "core/suggestion.hpp"
+#include "core/text/suggestion.hpp"
 #include "uav_agent/python/interpreter.hpp"
 #include "uav_agent/python/values.hpp"
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <variant>
 
-#include "core/config_reader.hpp"
+#include "core/config/config_reader.hpp"
 #include "uav_agent/python/interpreter.hpp"
 #include "uav_agent/python/values.hpp"
 

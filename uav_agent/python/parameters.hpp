@@ -3,7 +3,7 @@
 
 #include <pybind11/pybind11.h>
 
-#include "core/config_node.hpp"
+#include "core/config/config_node.hpp"
 #include "uav_agent/flight_core/flight_config.hpp"
 
 namespace skein::agent::python {

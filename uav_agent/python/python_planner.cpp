@@ -9,7 +9,7 @@
 #include <filesystem>
 #include <string_view>
 
-#include "core/config_files.hpp"
+#include "core/config/config_files.hpp"
 #include "uav_agent/python/module.hpp"
 
 namespace skein::agent {

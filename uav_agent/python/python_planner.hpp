@@ -21,7 +21,7 @@ struct PythonSurroundings {
   std::optional<double> debug_from_s = {};     ///< pdb has this program's terminal, from that simulated time on
 };
 
-/// @param spec  as core/python_spec.hpp has it. @returns nullptr: it names a planner of another kind.
+/// @param spec  as core/planners/python_spec.hpp has it. @returns nullptr: it names a planner of another kind.
 /// @throws InputError when Python is not installed, and for all that is wrong in file, class and parameters: an
 ///   exception of the user's code is one, with its traceback.
 std::unique_ptr<Planner> make_python_planner(const std::string& spec, const AgentConfig& agent,

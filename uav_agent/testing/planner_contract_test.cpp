@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "core/hand_file.hpp"
+#include "core/planners/hand_file.hpp"
 #include "core/random_stream.hpp"
 #include "uav_agent/api/payload.hpp"
 #include "uav_agent/api/planner.hpp"

@@ -6,7 +6,7 @@
 #include <fstream>
 #include <regex>
 
-#include "core/config_writer.hpp"
+#include "core/config/config_writer.hpp"
 #include "core/random_stream.hpp"
 #include "tests/support/places.hpp"
 #include "uav_agent/planners/kios/config.hpp"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/lidar_geometry.hpp"
+#include "core/vehicle/lidar_geometry.hpp"
 
 namespace skein::agent {
 namespace {

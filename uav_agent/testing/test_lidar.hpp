@@ -1,6 +1,6 @@
 // A LiDAR in a world of solid boxes on level ground (z = 0), for tests: all its beams at once, no noise, no return
 // lost. Other UAVs' bodies are not there for it.
-// Frames: W world, B body, L LiDAR (core/lidar_geometry.hpp).   Units: SI, radians.   Pure; threads: any.
+// Frames: W world, B body, L LiDAR (core/vehicle/lidar_geometry.hpp).   Units: SI, radians.   Pure; threads: any.
 #pragma once
 
 #include <vector>

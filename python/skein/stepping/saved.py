@@ -1,4 +1,4 @@
-"""What a learner was told, as a file that the planner `hand` flies again (core/hand_file.hpp)."""
+"""What a learner was told, as a file that the planner `hand` flies again (core/planners/hand_file.hpp)."""
 
 from __future__ import annotations
 

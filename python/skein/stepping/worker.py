@@ -28,7 +28,7 @@ from .observations import Field
 
 _LONGEST_ANSWER = 1 << 20
 _MOST_LINES = 20
-_FRAME = "  at "  # of the addresses that a crash leaves (process/crash_notes.hpp)
+_FRAME = "  at "  # of the addresses that a crash leaves (process/health/crash_notes.hpp)
 _FIRST_SESSION = 64  # descriptors below 10 are a shell's own, and the checkout's launcher begins as one
 _LOOK_S = 1  # how often a process that does not answer is looked at
 _PATIENCE_S = 30.0  # for a process that was told to end

@@ -2,7 +2,7 @@
 // Units: SI unless the name says otherwise. d* is the distance at which the camera just has the desired resolution.
 #pragma once
 
-#include "core/config_reader.hpp"
+#include "core/config/config_reader.hpp"
 #include "uav_agent/flight_core/flight_config.hpp"
 
 namespace skein::agent {

@@ -4,15 +4,16 @@
 
 #include <filesystem>
 
-#include "core/config_reader.hpp"
+#include "core/config/config_reader.hpp"
 #include "uav_agent/flight_core/flight_config.hpp"
 
 namespace skein::agent {
 
 struct HandConfig {
-  std::filesystem::path file;  ///< commands that are flown again (core/hand_file.hpp); empty: somebody gives them now
-  bool safe = true;            ///< the safety filter has the last word
-  FlightConfig flight = {};    ///< approach_mps and climb_mps bound what is asked for
+  /// Commands that are flown again (core/planners/hand_file.hpp); empty: somebody gives them now
+  std::filesystem::path file;
+  bool safe = true;          ///< the safety filter has the last word
+  FlightConfig flight = {};  ///< approach_mps and climb_mps bound what is asked for
 
   template <class R>
   void describe(R& r) {

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/hand_file.hpp"
+#include "core/planners/hand_file.hpp"
 #include "uav_agent/planners/hand/hand_flight.hpp"
 
 namespace skein::agent {

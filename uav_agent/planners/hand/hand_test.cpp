@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "core/euler.hpp"
-#include "core/hand_file.hpp"
+#include "core/planners/hand_file.hpp"
 #include "core/random_stream.hpp"
 #include "uav_agent/api/planner.hpp"
 #include "uav_agent/testing/flown_uav.hpp"

@@ -5,7 +5,7 @@
 #include <array>
 #include <cstdint>
 
-#include "core/config_reader.hpp"
+#include "core/config/config_reader.hpp"
 #include "uav_agent/planners/hand/config.hpp"
 
 namespace skein::agent {

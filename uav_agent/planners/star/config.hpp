@@ -3,7 +3,7 @@
 // Units: SI unless the name says otherwise.
 #pragma once
 
-#include "core/config_reader.hpp"
+#include "core/config/config_reader.hpp"
 #include "uav_agent/flight_core/flight_config.hpp"
 #include "uav_agent/planners/preset.hpp"
 #include "uav_agent/planning/fleet_tours.hpp"

@@ -6,7 +6,7 @@
 #include <array>
 #include <optional>
 
-#include "core/config_reader.hpp"
+#include "core/config/config_reader.hpp"
 #include "uav_agent/flight_core/flight_config.hpp"
 #include "uav_agent/planners/preset.hpp"
 

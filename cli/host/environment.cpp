@@ -1,0 +1,85 @@
+#include "cli/host/environment.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <csignal>
+#include <cstdlib>
+#include <set>
+
+#include "cli/option_checks.hpp"
+#include "core/text/suggestion.hpp"
+#include "core/types.hpp"
+
+namespace skein::cli {
+namespace {
+
+/// For the user to set. The last six are the test suite's, and ours.
+const std::vector<std::string> kUserNames = {
+    "SKEIN_AGENT",    "SKEIN_ASSETS",  "SKEIN_BIN_DIR",   "SKEIN_CHAOS",        "SKEIN_CONFIG_DIR", kDurationVariable,
+    "SKEIN_LOG",      "SKEIN_NETWORK", "SKEIN_WEB",       "SKEIN_GOLDEN",       "SKEIN_ROS2",       "SKEIN_LONG",
+    "SKEIN_SANITIZE", "SKEIN_TURN",    "SKEIN_HASH_SEED", "SKEIN_DEBUG_VALUES", kPinnedVariable};
+
+/// What flies missions of which the length may be chosen, and need not be.
+const std::set<std::string> kFlyingCommands = {"run", "compose", "compare", "contest"};
+
+}  // namespace
+
+std::vector<std::string> environment_warnings() {
+  std::vector<std::string> warnings;
+  const std::vector<std::string> ignored = ignored_variables();
+  if (!ignored.empty()) {
+    warnings.push_back("not passed on to the programs, whose DDS is set up by Skein alone: " + joined(ignored));
+  }
+  for (char** entry = environ; *entry != nullptr; ++entry) {
+    const std::string name(variable_in(*entry));
+    if (!name.starts_with("SKEIN_") || is_ignored_variable(name) ||
+        std::ranges::find(kUserNames, name) != kUserNames.end())
+      continue;
+    warnings.push_back("nobody reads the variable " + name + "; " + suggestion(name, kUserNames));
+  }
+  std::sort(warnings.begin(), warnings.end());
+  return warnings;
+}
+
+void check_environment() {
+  const char* chaos = std::getenv("SKEIN_CHAOS");
+  if (chaos != nullptr && !check_seed(chaos).empty()) {
+    throw InputError(std::string("SKEIN_CHAOS=") + chaos + ": must be a whole number, or not set");
+  }
+}
+
+std::vector<std::string> with_duration_of_environment(std::vector<std::string> arguments) {
+  const char* const duration = std::getenv(kDurationVariable);
+  if (duration == nullptr || arguments.empty() || !kFlyingCommands.contains(arguments.front())) return arguments;
+  const auto is_told = [](const std::string& word) { return word == "--duration" || word.starts_with("--duration="); };
+  if (std::ranges::any_of(arguments, is_told)) return arguments;
+  if (const std::string problem = check_seconds(duration); !problem.empty()) {
+    throw InputError(std::string(kDurationVariable) + ": " + problem + ", or not set");
+  }
+  arguments.insert(arguments.end(), {"--duration", duration});
+  return arguments;
+}
+
+std::string fleet_environment_prefix(bool native) {
+  std::string prefix;
+  for (const std::string& name : ignored_variables()) prefix += (prefix.empty() ? "env -u " : "-u ") + name + " ";
+  for (const auto& [name, value] : pinned_variables(native)) prefix += name + "=" + value + " ";
+  return prefix;
+}
+
+void settle_process() {
+  // A descriptor that a shell closed would go to a pipe or a lock, and what we print with it.
+  for (int fd = ::open("/dev/null", O_RDWR); fd >= 0; fd = ::open("/dev/null", O_RDWR)) {
+    if (fd <= STDERR_FILENO) continue;
+    ::close(fd);
+    break;
+  }
+  const mode_t mask = ::umask(0);
+  ::umask(mask & (S_IRWXG | S_IRWXO));
+  ::signal(SIGCHLD, SIG_DFL);
+}
+
+}  // namespace skein::cli

@@ -1,0 +1,82 @@
+#include "cli/host/minder.hpp"
+
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+
+#include "cli/host/proc_table.hpp"
+
+namespace skein::cli {
+namespace {
+
+/// What the kernel tells us with when the launcher dies.
+constexpr int kLauncherDied = SIGUSR1;
+
+/// @returns whether there was anybody whom we may end.
+bool kill_children() {
+  bool any = false;
+  for (const pid_t pid : all_processes()) {
+    if (parent_of(pid) == ::getpid()) any = ::kill(pid, SIGKILL) == 0 || any;
+  }
+  return any;
+}
+
+/// A child that dies leaves us its own.
+void end_children() {
+  while (kill_children() && ::waitpid(-1, nullptr, 0) > 0) {
+  }
+}
+
+[[noreturn]] void end_as(int status) {
+  if (WIFSIGNALED(status)) {
+    const rlimit no_core{};
+    ::setrlimit(RLIMIT_CORE, &no_core);
+    ::signal(WTERMSIG(status), SIG_DFL);
+    sigset_t only;
+    sigemptyset(&only);
+    sigaddset(&only, WTERMSIG(status));
+    ::sigprocmask(SIG_UNBLOCK, &only, nullptr);
+    ::kill(::getpid(), WTERMSIG(status));
+  }
+  ::_exit(WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status));
+}
+
+}  // namespace
+
+bool become_minder(pid_t launcher) {
+  sigset_t all;
+  sigfillset(&all);
+  ::sigprocmask(SIG_SETMASK, &all, nullptr);  // they are fetched one by one in mind()
+  ::prctl(PR_SET_NAME, "skein-minder");
+  ::prctl(PR_SET_CHILD_SUBREAPER, 1);
+  ::prctl(PR_SET_PDEATHSIG, kLauncherDied);
+  return ::getppid() == launcher;  // else it died before prctl could tell
+}
+
+void mind(pid_t program, pid_t launcher) {
+  ::close_range(0, ~0U, 0);  // the launcher's locks and pipes among them
+  sigset_t all;
+  sigfillset(&all);
+  for (;;) {
+    int status = 0;
+    for (pid_t pid = 0; (pid = ::waitpid(-1, &status, WNOHANG | WUNTRACED)) > 0;) {
+      if (pid != program) continue;
+      if (WIFSTOPPED(status)) {
+        ::kill(::getpid(), SIGSTOP);
+      } else {
+        end_children();
+        end_as(status);
+      }
+    }
+    if (::getppid() != launcher) {
+      end_children();
+      ::_exit(128 + SIGKILL);
+    }
+    ::sigwaitinfo(&all, nullptr);
+  }
+}
+
+}  // namespace skein::cli

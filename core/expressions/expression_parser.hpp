@@ -1,0 +1,72 @@
+// Reads expressions (expression.hpp). The grammar, from the loosest to the tightest:
+//   condition  or condition        a and b binds tighter than a or b
+//   not condition
+//   number < number                also <=, >, >=, ==, !=
+//   number + number                also -; then * and /; then -number
+//   20 m  80 %  0.5 m/s            a number, followed by its unit (core/expressions/unit.hpp)
+//   separation  link(jurong, gcs)  a signal (core/expressions/signal_table.hpp)
+//   min(a, b)  max(a, b)  abs(a)  gain(a)  rises(a)  falls(a)
+//   (anything)
+// Units must fit: an expression may only compare or add numbers of the same dimension. The parser of a language that
+// contains expressions (properties/property_parser.hpp) reads its own words with this class, too.  Pure.
+#pragma once
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/expressions/expression.hpp"
+#include "core/expressions/expression_text.hpp"
+#include "core/expressions/signal_table.hpp"
+
+namespace skein {
+
+/// What an expression may name.
+struct ExpressionScope {
+  const SignalNames& names;
+  bool live_only = false;                             ///< only signals known during a run, no look at the past
+  std::map<std::string, std::string> variables = {};  ///< the UAV's name for each variable
+  std::map<std::string, Quantity> parameters = {};
+};
+
+/// Reads a text part by part. All parts throw ExpressionError.
+class ExpressionParser : public ExpressionText {
+ public:
+  /// @param scope, text  must outlive this.
+  /// @param signals  receives the signals used, each once; an expression's slots are indices in it. Must outlive this.
+  ExpressionParser(std::string_view text, const ExpressionScope& scope, std::vector<SignalUse>& signals)
+      : ExpressionText(text), scope_(scope), signals_(signals) {}
+
+  /// Reads a condition, and stops where it ends.
+  Expression condition();
+  /// A number of this unit without signals: "20 s". @param what  names its purpose in messages
+  double constant(const Unit& unit, const std::string& what);
+
+ private:
+  Expression disjunction();
+  Expression conjunction();
+  Expression negation();
+  Expression comparison();
+  Expression sum();
+  Expression product();
+  Expression signed_number();
+  Expression primary();
+  Expression nested(Expression (ExpressionParser::*part)());
+  Expression function(Expression::Op op, std::size_t at, const std::string& name);
+  Expression signal(std::size_t at, const std::string& name);
+  const SignalInfo& signal_named(std::size_t at, const std::string& name) const;
+  std::string argument(SignalArgument kind);
+  std::string known(const std::string& name, std::size_t at, const std::vector<std::string>& names,
+                    const std::string& what) const;
+  std::size_t slot_of(SignalUse use);
+
+  const ExpressionScope& scope_;
+  std::vector<SignalUse>& signals_;
+  int depth_ = 0;
+};
+
+/// The whole text as a condition. @throws ExpressionError.
+Expression parse_condition(std::string_view text, const ExpressionScope& scope, std::vector<SignalUse>& signals);
+
+}  // namespace skein

@@ -1,0 +1,71 @@
+#include "core/files/file_bytes.hpp"
+
+#include <gtest/gtest.h>
+#include <stdlib.h>
+#include <sys/stat.h>
+
+#include <fstream>
+
+#include "core/types.hpp"
+
+namespace skein {
+namespace {
+
+namespace fs = std::filesystem;
+
+class FileBytes : public testing::Test {
+ protected:
+  FileBytes() {
+    std::string pattern = fs::path(testing::TempDir()) / "skein_bytes_XXXXXX";
+    folder_ = ::mkdtemp(pattern.data());
+    std::ofstream(folder_ / "text") << "one\n\nthree";
+    std::ofstream(folder_ / "hole");
+    fs::resize_file(folder_ / "hole", std::uintmax_t{1} << 40);
+    EXPECT_EQ(::mkfifo((folder_ / "pipe").c_str(), 0600), 0);
+  }
+  ~FileBytes() override { fs::remove_all(folder_); }
+
+  template <class Read>
+  std::string complaint(Read read) {
+    try {
+      read();
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "accepted";
+  }
+  fs::path folder_;
+};
+
+TEST_F(FileBytes, WhatIsNoFileIsRefusedAtOnceAndNamed) {
+  for (const fs::path& file : {folder_ / "pipe", folder_, fs::path("/dev/zero"), fs::path("/dev/full")}) {
+    EXPECT_EQ(complaint([&] { read_file_bytes(file, 100); }), file.string() + ": not a regular file");
+    EXPECT_EQ(complaint([&] { open_text(file); }), file.string() + ": not a regular file");
+  }
+  EXPECT_EQ(complaint([&] { read_file_bytes(folder_ / "none", 100); }), (folder_ / "none").string() + ": no such file");
+  EXPECT_FALSE(open_text(folder_ / "none"));
+}
+
+TEST_F(FileBytes, WhatIsTooLargeIsRefusedBeforeItIsRead) {
+  EXPECT_NE(complaint([&] { read_file_bytes(folder_ / "hole", 1 << 20); }).find("1048576 MB"), std::string::npos);
+  std::ifstream hole = open_text(folder_ / "hole");
+  std::string line;
+  EXPECT_NE(complaint([&] { next_line(hole, line, folder_ / "hole"); }).find("it is no text"), std::string::npos);
+}
+
+TEST_F(FileBytes, LinesAreAsGetlineHasThem) {
+  for (const std::string text : {"one\n\nthree", "one\n\nthree\n", "", "\n"}) {
+    std::ofstream(folder_ / "text") << text;
+    std::ifstream a = open_text(folder_ / "text"), b(folder_ / "text");
+    for (bool more = true; more;) {
+      std::string line_a, line_b;
+      more = static_cast<bool>(std::getline(b, line_b));
+      ASSERT_EQ(next_line(a, line_a, "text"), more);
+      EXPECT_EQ(line_a, line_b);
+      EXPECT_EQ(a.eof(), b.eof());
+    }
+  }
+}
+
+}  // namespace
+}  // namespace skein

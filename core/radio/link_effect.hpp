@@ -1,0 +1,109 @@
+// What a directed radio link does to the messages that have line of sight. Everything is ideal by default: nothing is
+// lost, late, doubled or out of order. Standing effects are in a scenario (`radio.links`), timed ones in a fault file.
+// Times are simulated; a link works in whole exchanges, so delays are rounded up to those.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "core/config/config_reader.hpp"
+#include "core/topics.hpp"
+
+namespace skein {
+
+/// Bursts of loss (Gilbert and Elliott): the link changes between a good and a bad state at random.
+struct BurstLoss {
+  double mean_good_s = 10.0, mean_burst_s = 1.0;  ///< how long a state lasts on average
+  double loss = 1.0;                              ///< of a message sent during a burst, [0, 1]
+
+  template <class R>
+  void describe(R& r) {
+    r.required("mean_good_s", mean_good_s, within(0.05, 36000.0));
+    r.required("mean_burst_s", mean_burst_s, within(0.05, 36000.0));
+    r.field("loss", loss, within(0.0, 1.0));
+  }
+};
+
+/// Some messages take longer than those behind them.
+struct Reordering {
+  double probability = 0.0, delay_s = 0.0;
+
+  template <class R>
+  void describe(R& r) {
+    r.required("probability", probability, within(0.0, 1.0));
+    r.required("delay_s", delay_s, Bounds{0.0, 60.0, true});
+  }
+};
+
+/// One stage of a link. Several stages on one link act one after the other, in the order in which they are given.
+struct LinkEffect {
+  std::vector<std::string> from = {"all"}, to = {"all"};  ///< node names, or {"all"}
+  std::optional<double> range_m;                          ///< no link beyond it
+  double latency_s = 0.0, jitter_s = 0.0;  ///< latency plus an even draw from [0, jitter], beside the usual exchange
+  std::optional<double> bandwidth_bit_s;   ///< messages queue for it
+  std::int64_t queue_bytes = 65536;        ///< that may wait; what does not fit is dropped
+  double loss = 0.0;                       ///< of each message independently, [0, 1]
+  std::optional<BurstLoss> burst_loss;
+  double duplication = 0.0;  ///< probability that a message arrives twice
+  std::optional<Reordering> reordering;
+  double corruption = 0.0;                    ///< probability that some bits of a message are flipped
+  std::vector<std::string> topics = {"all"};  ///< that it acts on, or {"all"}; see names_topic()
+
+  template <class R>
+  void describe(R& r) {
+    describe_names(r, "from", from);
+    describe_names(r, "to", to);
+    r.field("range_m", range_m, Bounds{0.0, 1e6, true});
+    r.field("latency_s", latency_s, within(0.0, 60.0));
+    r.field("jitter_s", jitter_s, within(0.0, 60.0));
+    r.field("bandwidth_bit_s", bandwidth_bit_s, Bounds{0.0, 1e12, true});
+    r.field("queue_bytes", queue_bytes, within(0.0, 1e12));
+    r.field("loss", loss, within(0.0, 1.0));
+    r.field("burst_loss", burst_loss);
+    r.field("duplication", duplication, within(0.0, 1.0));
+    r.field("reordering", reordering);
+    r.field("corruption", corruption, within(0.0, 1.0));
+    describe_names(r, "topics", topics);
+    for (const std::string& topic : topics) {
+      r.check(topic == "all" || is_topic_name(topic), "topics",
+              "'" + topic + "' is no topic; write it like '/plan': after each '/' letters, digits and '_'");
+    }
+    r.check(!topics.empty(), "topics", "must name at least one topic, or be the word all");
+    r.check(names_every_topic() || !range_m, "topics", "cannot stand beside range_m, which is of the link as a whole");
+  }
+
+  bool names_every_topic() const { return std::find(topics.begin(), topics.end(), "all") != topics.end(); }
+
+  /// A list of names, or the single word `all`; `all` when the key is absent.
+  template <class R>
+  static void describe_names(R& r, const std::string& key, std::vector<std::string>& list) {
+    std::variant<std::string, std::vector<std::string>> names = list;
+    if (list.size() == 1) names = list[0];
+    r.field(key, names);
+    list = names.index() == 0 ? std::vector<std::string>{std::get<0>(names)} : std::get<1>(names);
+  }
+};
+
+/// Whether a list of node names means this node.
+inline bool names_node(const std::vector<std::string>& nodes, const std::string& node) {
+  for (const std::string& name : nodes) {
+    if (name == "all" || name == node) return true;
+  }
+  return false;
+}
+
+/// Whether a list of topics means this one: `/captures` means `/captures/jurong`, too.
+inline bool names_topic(const std::vector<std::string>& topics, const std::string& ros_topic) {
+  const auto means = [&](const std::string& name) {
+    return name == "all" ||
+           (ros_topic.starts_with(name) && (ros_topic.size() == name.size() || ros_topic[name.size()] == '/'));
+  };
+  return std::any_of(topics.begin(), topics.end(), means);
+}
+
+}  // namespace skein

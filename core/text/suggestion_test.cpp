@@ -1,0 +1,28 @@
+#include "core/text/suggestion.hpp"
+
+#include <gtest/gtest.h>
+
+namespace skein {
+namespace {
+
+TEST(Suggestion, FindsTheNearestName) {
+  const std::vector<std::string> known = {"mbs", "crane", "towers"};
+  EXPECT_EQ(suggestion("tower", known), "did you mean 'towers'?");
+  EXPECT_EQ(suggestion("twoers", known), "did you mean 'towers'?");
+  EXPECT_EQ(suggestion("crain", known), "did you mean 'crane'?");
+}
+
+TEST(Suggestion, FindsANameWithoutItsUnit) {
+  EXPECT_EQ(suggestion("max_acceleration", {"mass_kg", "max_acceleration_mps2"}),
+            "did you mean 'max_acceleration_mps2'?");
+}
+
+TEST(Suggestion, ListsAllWhenNoneIsNear) {
+  EXPECT_EQ(suggestion("hangar", {"mbs", "crane"}), "known are: mbs, crane");
+  EXPECT_EQ(suggestion(std::string(100000, 'x'), {"mbs"}), "known are: mbs");
+  EXPECT_EQ(suggestion("x", {"y", "ab"}), "known are: y, ab");  // nothing of the word would be left
+  EXPECT_EQ(suggestion("x", {}), "none is known");
+}
+
+}  // namespace
+}  // namespace skein

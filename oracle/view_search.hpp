@@ -1,0 +1,71 @@
+// The search for the best picture of one point. Part of the oracle (oracle.hpp).
+// Frames: W world, ground z = 0; C camera.   Units: SI, radians.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "oracle/best_aim.hpp"
+#include "oracle/open_space.hpp"
+#include "oracle/oracle.hpp"
+#include "sight/camera.hpp"
+#include "sight/camera_mount.hpp"
+#include "sight/ray_scene.hpp"
+
+namespace skein::sim {
+
+/// The n-th of a sequence of unit vectors that covers the sphere evenly however long it is. Pure.
+Vector3d sphere_direction(std::size_t n);
+
+/// A kind of camera, and where it may be.
+struct Viewer {
+  BestAim aim;
+  CameraMount mount;
+  /// Of the camera from the structure, or of the body's centre, by the search's Berth [m].
+  double clearance = 0.0;
+  /// The camera, or the body's centre, must be within reach of each; they must outlive this.
+  std::vector<const OpenSpace*> spaces;
+  std::size_t optics = 0;  ///< equal where `aim` gives equal answers
+};
+
+/// Immutable; safe from any thread.
+class ViewSearch {
+ public:
+  /// @param world, viewers  must outlive this. With Berth::camera all viewers have the same clearance and
+  ///                              spaces.
+  /// @param rules  what a camera sees: whether one that reaches through the structure is blind, and how a ray meets a
+  ///               point.
+  ViewSearch(const RayScene& world, const std::vector<Viewer>& viewers, Berth berth, const RulesConfig& rules);
+
+  struct Found {
+    PointView coarse, fine;  ///< with `directions` and with twice as many; fine.q >= coarse.q
+  };
+  /// @param known   what is found is not worse: pictures from places that are allowed here too.
+  /// @param enough  a picture as good as this ends the search.
+  Found find(const InterestPoint& point, std::size_t directions, const Found& known, double enough = 1.0) const;
+
+ private:
+  struct Trial;
+  class Best;
+  struct Look;
+  Trial try_direction(const InterestPoint& point, const Vector3d& direction, double enough) const;
+  double nearest_place(const Look& look, double& openness) const;
+  double camera_lacks(const Look& look, const Vector3d& p_WC, double& openness) const;
+  double body_lacks(const Look& look, const Vector3d& p_WC, double& openness) const;
+  bool heading_matters(const Viewer& viewer) const;
+  bool fits(const Viewer& viewer, const Vector3d& p_WC, double body_yaw) const;
+  std::optional<double> fitting_yaw(const Look& look, const Vector3d& p_WC, BodyHeadings headings,
+                                    double camera_yaw) const;
+  BodyHeadings fitting(const Look& look, const Vector3d& p_WC) const;
+  void take_picture(const Look& look, const Vector3d& p_WC, const Vector3d& n_W, Aim aim, PointView& best) const;
+  void refine(const InterestPoint& point, double step, Best& best) const;
+
+  const RayScene& world_;
+  const std::vector<Viewer>& viewers_;
+  Berth berth_;
+  bool blind_in_structure_;
+  SightTest sees_;
+  double reach_ = 0.0;
+};
+
+}  // namespace skein::sim

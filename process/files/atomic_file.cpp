@@ -1,0 +1,71 @@
+#include "process/files/atomic_file.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <string>
+#include <system_error>
+
+#include "process/files/closed_to_agents.hpp"
+#include "process/files/nowhere.hpp"
+
+namespace skein {
+namespace {
+
+/// A file descriptor that closes itself.
+class File {
+ public:
+  File(const std::string& path, int flags) : fd_(::open(path.c_str(), flags | O_CLOEXEC, 0644)) {}
+  ~File() {
+    if (fd_ >= 0) ::close(fd_);
+  }
+  File(const File&) = delete;
+  File& operator=(const File&) = delete;
+
+  bool is_open() const { return fd_ >= 0; }
+  bool sync() const { return ::fsync(fd_) == 0; }
+  bool write(std::string_view content) const {
+    while (!content.empty()) {
+      const ssize_t written = ::write(fd_, content.data(), content.size());
+      if (written < 0 && errno != EINTR) return false;
+      if (written > 0) content.remove_prefix(static_cast<std::size_t>(written));
+    }
+    return true;
+  }
+
+ private:
+  int fd_;
+};
+
+}  // namespace
+
+void write_file_atomically(const std::filesystem::path& path, std::string_view content, Readers readers) {
+  // The process id keeps two programs that write the same path from sharing a temporary file.
+  const std::string temporary = path.string() + ".tmp" + std::to_string(::getpid());
+  const auto fail = [&](const char* step) {
+    const int reason = errno;
+    ::unlink(temporary.c_str());
+    throw std::system_error(reason, std::generic_category(), std::string("cannot ") + step + " " + path.string());
+  };
+  {
+    const File file(temporary, O_WRONLY | O_CREAT | O_TRUNC);
+    if (readers == Readers::no_agents) close_to_agents(temporary);
+    if (!file.is_open() || !file.write(content) || !file.sync()) fail("write");
+  }
+  if (std::rename(temporary.c_str(), path.c_str()) != 0) fail("put in place");
+  // The name is durable only once its folder is; some file systems cannot sync folders, which is no failure.
+  const File folder(path.has_parent_path() ? path.parent_path().string() : ".", O_RDONLY | O_DIRECTORY);
+  if (folder.is_open()) static_cast<void>(folder.sync());
+}
+
+std::string write_if_possible(const std::filesystem::path& path, std::string_view content) try {
+  if (is_nowhere(path)) return {};
+  write_file_atomically(path, content);
+  return {};
+} catch (const std::system_error& error) {
+  return error.what();
+}
+
+}  // namespace skein

@@ -1,0 +1,147 @@
+#include "process/health/keeper.hpp"
+
+#include <gtest/gtest.h>
+#include <sched.h>
+#include <sys/mman.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <csignal>
+#include <functional>
+#include <memory>
+#include <string>
+
+namespace skein {
+namespace {
+
+constexpr int kNotPermitted = 77;
+
+/// Seen by all processes.
+struct Shared {
+  std::atomic<int> lives{0};
+  std::atomic<pid_t> worker{0};
+  std::atomic<bool> ready{false};  ///< for a signal
+};
+
+/// The keeper as any process, and as the first of a PID namespace, as in a container.
+class Keeper : public testing::TestWithParam<bool> {
+ protected:
+  Keeper() {
+    void* const memory = ::mmap(nullptr, sizeof(Shared), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    shared_ = new (memory) Shared;
+  }
+  ~Keeper() override { ::munmap(shared_, sizeof(Shared)); }
+
+  /// Starts a keeper of `work`, which gets the number of its life, from 1, and returns an exit code.
+  /// @param meanwhile  gets the keeper's process.  @returns the keeper's status as wait() tells it.
+  int keep(const std::function<int(int)>& work, const std::function<void(pid_t)>& meanwhile = {}) {
+    const pid_t parent = ::fork();
+    if (parent == 0) {
+      if (GetParam() && ::unshare(CLONE_NEWPID) != 0) ::_exit(kNotPermitted);
+      const pid_t keeper = ::fork();
+      if (keeper == 0) {
+        int lives = 0;
+        if (const auto code = keep_alive(lives)) ::_exit(*code);
+        shared_->worker = ::getpid();
+        shared_->lives = lives;
+        ::_exit(work(lives));
+      }
+      if (meanwhile) meanwhile(keeper);
+      int status = 0;
+      ::waitpid(keeper, &status, 0);
+      ::_exit(WIFSIGNALED(status) ? 200 + WTERMSIG(status) : WEXITSTATUS(status));
+    }
+    int status = 0;
+    ::waitpid(parent, &status, 0);
+    return WEXITSTATUS(status);
+  }
+  /// The keeper is sent a signal; `then` is what its program does about it.
+  int keep_and_send(int signal, const std::function<int(int)>& then) {
+    shared_->lives = 0;
+    const auto work = [&](int) {
+      sigset_t awaited;
+      ::sigemptyset(&awaited);
+      ::sigaddset(&awaited, signal);
+      ::sigprocmask(SIG_BLOCK, &awaited, nullptr);
+      shared_->ready = true;
+      int got = 0;
+      ::sigwait(&awaited, &got);
+      return then(got);
+    };
+    const int status = keep(work, [&](pid_t keeper) {
+      while (!shared_->ready) ::sched_yield();
+      ::kill(keeper, signal);
+    });
+    shared_->ready = false;
+    return status;
+  }
+
+  Shared* shared_;
+};
+
+#define SKIP_WITHOUT_RIGHTS(status) \
+  if ((status) == kNotPermitted) GTEST_SKIP() << "a PID namespace takes root"
+
+TEST_P(Keeper, StartsAgainWhatWasKilledAndPassesOnHowItEnds) {
+  for (const int code : {0, 2, 3}) {
+    shared_->lives = 0;
+    const int status = keep([&](int life) {
+      if (life < 4) std::raise(SIGKILL);
+      return code;
+    });
+    SKIP_WITHOUT_RIGHTS(status);
+    EXPECT_EQ(status, code);
+    EXPECT_EQ(shared_->lives, 4);
+  }
+}
+
+TEST_P(Keeper, ACrashIsTheEnd) {
+  const int status = keep([](int) {
+    std::signal(SIGSEGV, SIG_DFL);
+    return std::raise(SIGSEGV);
+  });
+  SKIP_WITHOUT_RIGHTS(status);
+  EXPECT_EQ(status, 128 + SIGSEGV);
+  EXPECT_EQ(shared_->lives, 1);
+}
+
+TEST_P(Keeper, WhoAsksItToEndAsksTheProgram) {
+  for (const int signal : {SIGTERM, SIGINT, SIGHUP}) {
+    const int status = keep_and_send(signal, [](int got) { return got; });
+    SKIP_WITHOUT_RIGHTS(status);
+    EXPECT_EQ(status, signal);
+  }
+}
+
+TEST_P(Keeper, NothingStartsAgainThatWasAskedToEnd) {
+  const int status = keep_and_send(SIGTERM, [](int) { return std::raise(SIGKILL); });
+  SKIP_WITHOUT_RIGHTS(status);
+  EXPECT_EQ(status, 128 + SIGKILL);
+  EXPECT_EQ(shared_->lives, 1);
+}
+
+TEST_P(Keeper, WhoKillsItKillsTheProgram) {
+  const int status = keep(
+      [&](int) {
+        shared_->ready = true;
+        ::alarm(30);
+        while (true) ::pause();
+        return 0;
+      },
+      [&](pid_t keeper) {
+        while (!shared_->ready) ::sched_yield();
+        ::kill(keeper, SIGKILL);
+      });
+  SKIP_WITHOUT_RIGHTS(status);
+  EXPECT_EQ(status, 200 + SIGKILL);
+  if (GetParam()) return;  // with the first process of a namespace, the kernel ends all others
+  while (::kill(shared_->worker, 0) == 0) ::sched_yield();
+}
+
+INSTANTIATE_TEST_SUITE_P(OfAnyPlace, Keeper, testing::Values(false, true), [](const auto& place) {
+  return place.param ? std::string("FirstOfItsNamespace") : std::string("AnyOther");
+});
+
+}  // namespace
+}  // namespace skein

@@ -1,0 +1,387 @@
+// What programs report at their end, for the launcher's result.json and for people (program_report.hpp). The key of
+// each member stands in its describe(), in the order in which files have them. A report may be damaged, or a user's:
+// what it lacks is empty.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/run/run_state.hpp"
+#include "process/reports/flight_check_report.hpp"
+#include "process/reports/relayed_topic.hpp"
+
+namespace skein {
+
+// ---- sim_server -------------------------------------------------------------------------------------------------
+
+struct CollisionReport {
+  Number time_s = {};
+  Text uav = {};
+  Text with = {};   ///< "ground", "structure" or a UAV
+  Text cause = {};  ///< "battery": it fell, since its battery was empty; else none
+  std::optional<std::array<double, 3>> position = {};
+};
+template <class Fields>
+void describe(Fields& f, CollisionReport& collision) {
+  f.field("cause", collision.cause);
+  f.field("position", collision.position);
+  f.field("time_s", collision.time_s);
+  f.field("uav", collision.uav);
+  f.field("with", collision.with);
+}
+
+/// A fault of the run's fault file, or one that somebody who watched it began.
+struct FaultReport {
+  Text kind = {}, target = {};
+  Number at_s = {}, until_s = {};          ///< without `until_s`: to the end; without `at_s`: it waited in vain
+  Count began_step = {}, ended_step = {};  ///< empty: not in this run
+  Text when = {};                          ///< what it waited for
+  std::optional<bool> by_hand = {};        ///< empty: of the file
+};
+template <class Fields>
+void describe(Fields& f, FaultReport& fault) {
+  f.nullable("at_s", fault.at_s);
+  f.nullable("began_step", fault.began_step);
+  f.field("by_hand", fault.by_hand);
+  f.nullable("ended_step", fault.ended_step);
+  f.field("kind", fault.kind);
+  f.field("target", fault.target);
+  f.nullable("until_s", fault.until_s);
+  f.field("when", fault.when);
+}
+
+struct LostMember {
+  Text member = {};
+  Count step = {};
+  Number time_s = {};
+  Text reason = {};
+  Number back_at_s = {};  ///< when it took part again; none: it did not
+};
+template <class Fields>
+void describe(Fields& f, LostMember& lost) {
+  f.nullable("back_at_s", lost.back_at_s);
+  f.field("member", lost.member);
+  f.field("reason", lost.reason);
+  f.field("step", lost.step);
+  f.field("time_s", lost.time_s);
+}
+
+/// CPU time of the server's thread by kind of work, and how often it did it.
+struct TimingReport {
+  Number physics_s = {}, lidar_s = {}, camera_s = {}, links_s = {}, recording_s = {};
+  Number cpu_s = {};  ///< in all
+  Count scans = {}, exposures = {}, steps = {};
+  Number lidar_ms_per_scan = {};
+};
+template <class Fields>
+void describe(Fields& f, TimingReport& timing) {
+  f.field("camera_s", timing.camera_s);
+  f.field("cpu_s", timing.cpu_s);
+  f.field("exposures", timing.exposures);
+  f.field("lidar_ms_per_scan", timing.lidar_ms_per_scan);
+  f.field("lidar_s", timing.lidar_s);
+  f.field("links_s", timing.links_s);
+  f.field("physics_s", timing.physics_s);
+  f.field("recording_s", timing.recording_s);
+  f.field("scans", timing.scans);
+  f.field("steps", timing.steps);
+}
+
+/// The referee's record of a UAV's work, second by second (core/run/work_time.hpp).
+struct WorkReport {
+  std::string open = {};          ///< a letter a second, as WorkTrack has it
+  std::vector<Amount> done = {};  ///< in least amounts
+};
+template <class Fields>
+void describe(Fields& f, WorkReport& work) {
+  f.field("done", work.done);
+  f.field("open", work.open);
+}
+
+/// A battery at a run's end.
+struct BatteryReport {
+  Number charge = {};  ///< share that is left
+  Number energy_wh = {}, capacity_wh = {}, mean_power_w = {};
+  Number empty_s = {};  ///< when it was empty
+};
+template <class Fields>
+void describe(Fields& f, BatteryReport& battery) {
+  f.field("capacity_wh", battery.capacity_wh);
+  f.field("charge", battery.charge);
+  f.field("empty_s", battery.empty_s);
+  f.field("energy_wh", battery.energy_wh);
+  f.field("mean_power_w", battery.mean_power_w);
+}
+
+struct UavReport {
+  Text name = {};
+  std::optional<Role> role = {};
+  std::optional<bool> alive = {};
+  Number distance_m = {}, max_speed_mps = {};
+  Count captures = {};
+  Number idle_s = {};
+  Count commands_rejected = {};
+  Number first_rejected_s = {};
+  Count commands_unheard = {};
+  std::optional<WorkReport> work = {};
+  std::optional<BatteryReport> battery = {};
+};
+template <class Fields>
+void describe(Fields& f, UavReport& uav) {
+  f.field("alive", uav.alive);
+  f.field("battery", uav.battery);
+  f.field("captures", uav.captures);
+  f.field("commands_rejected", uav.commands_rejected);
+  f.field("commands_unheard", uav.commands_unheard);
+  f.field("distance_m", uav.distance_m);
+  f.field("first_rejected_s", uav.first_rejected_s);
+  f.field("idle_s", uav.idle_s);
+  f.field("max_speed_mps", uav.max_speed_mps);
+  f.field("name", uav.name);
+  f.field("role", uav.role);
+  f.field("work", uav.work);
+}
+
+/// A UAV that somebody flew by hand.
+struct HandReport {
+  Text uav = {};
+  Text file = {};       ///< in the run's folder, with what was wanted of it
+  Count commands = {};  ///< in the file
+};
+template <class Fields>
+void describe(Fields& f, HandReport& hand) {
+  f.field("commands", hand.commands);
+  f.field("file", hand.file);
+  f.field("uav", hand.uav);
+}
+
+/// What a run was: for whoever has no launcher that would know.
+struct FlightReport {
+  Text scenario = {};  ///< as the server was told it
+  Count seed = {}, scene_seed = {}, uavs = {}, run = {};
+  Number duration_s = {};
+  Text clock = {}, dds = {};
+};
+template <class Fields>
+void describe(Fields& f, FlightReport& flight) {
+  f.field("clock", flight.clock);
+  f.field("dds", flight.dds);
+  f.field("duration_s", flight.duration_s);
+  f.field("run", flight.run);
+  f.field("scenario", flight.scenario);
+  f.field("scene_seed", flight.scene_seed);
+  f.field("seed", flight.seed);
+  f.field("uavs", flight.uavs);
+}
+
+struct SimServerReport {
+  std::optional<RunStatus> status = {};
+  std::optional<bool> deterministic = {};
+  Text digest = {};
+  Number sim_time_s = {}, mission_time_s = {}, wall_time_s = {};
+  Text rules = {};       ///< the preset
+  Text conditions = {};  ///< in the words of --conditions; none: an ideal world
+  Count points_total = {};
+  Text points_seen = {};  ///< a digit for each point: 1 was in some picture
+  std::vector<CollisionReport> collisions = {};
+  std::vector<UavReport> uavs = {};
+  std::vector<LostMember> lost_members = {};
+  std::vector<FaultReport> faults = {};
+  std::optional<std::vector<HandReport>> hand = {};  ///< only where somebody flew
+  TimingReport timing = {};
+  FlightReport flight = {};
+  std::optional<FlightCheckReport> flight_check = {};
+  Texts warnings = {};
+  Count malformed = {};  ///< samples that were no message of their topic's type; of all reports, like the next two
+  Count unsent = {};     ///< samples that could not be sent
+  Texts unwritten = {};  ///< files that the disk refused, one sentence each
+  std::optional<Texts> differences = {};  ///< from the run that was flown again, one sentence each
+};
+template <class Fields>
+void describe(Fields& f, SimServerReport& report) {
+  f.field("collisions", report.collisions);
+  f.field("conditions", report.conditions);
+  f.field("deterministic", report.deterministic);
+  f.nullable("digest", report.digest);
+  f.field("faults", report.faults);
+  f.field("flight", report.flight);
+  f.field("flight_check", report.flight_check);
+  f.field("hand", report.hand);
+  f.field("lost_members", report.lost_members);
+  f.field("malformed", report.malformed);
+  f.field("mission_time_s", report.mission_time_s);
+  f.field("points_seen", report.points_seen);
+  f.field("points_total", report.points_total);
+  f.field("rules", report.rules);
+  f.field("sim_time_s", report.sim_time_s);
+  f.field("status", report.status);
+  f.field("timing", report.timing);
+  f.field("uavs", report.uavs);
+  f.field("unsent", report.unsent);
+  f.field("unwritten", report.unwritten);
+  f.field("differences", report.differences);
+  f.field("wall_time_s", report.wall_time_s);
+  f.field("warnings", report.warnings);
+}
+
+// ---- station ----------------------------------------------------------------------------------------------------
+
+/// A point that scored, and by whose capture.
+struct ScoredPointReport {
+  Count index = {};
+  Number score = {};
+  Text uav = {};
+  Count capture = {};
+};
+template <class Fields>
+void describe(Fields& f, ScoredPointReport& point) {
+  f.field("index", point.index);
+  f.field("score", point.score);
+  f.field("uav", point.uav);
+  f.field("capture", point.capture);
+}
+
+struct StationReport {
+  Count points_detected = {};
+  Number score = {};
+  Number score_earned = {};  ///< empty: nobody knows
+  Named<double> score_by_uav = {};
+  std::optional<std::vector<ScoredPointReport>> points = {};
+  Named<std::uint64_t> refused = {};  ///< capture reports, by reason
+  Count reports_received = {}, duplicates = {}, malformed = {}, unsent = {};
+  Text dds = {};
+  Texts unwritten = {};
+};
+template <class Fields>
+void describe(Fields& f, StationReport& report) {
+  f.field("points_detected", report.points_detected);
+  f.field("score", report.score);
+  f.field("score_earned", report.score_earned);
+  f.field("score_by_uav", report.score_by_uav);
+  f.field("points", report.points);
+  f.field("refused", report.refused);
+  f.field("reports_received", report.reports_received);
+  f.field("duplicates", report.duplicates);
+  f.field("dds", report.dds);
+  f.field("malformed", report.malformed);
+  f.field("unsent", report.unsent);
+  f.field("unwritten", report.unwritten);
+}
+
+// ---- comm_router ------------------------------------------------------------------------------------------------
+
+/// What became of radio messages.
+struct RadioCounts {
+  Count sent = {}, delivered = {}, dropped_no_los = {}, dropped_fault = {}, dropped_overflow = {}, duplicated = {};
+  Count corrupted = {};
+  Count sent_bytes = {}, delivered_bytes = {};
+};
+template <class Fields>
+void describe_fates(Fields& f, RadioCounts& counts) {
+  f.field("corrupted", counts.corrupted);
+  f.field("delivered", counts.delivered);
+  f.field("delivered_bytes", counts.delivered_bytes);
+  f.field("dropped_fault", counts.dropped_fault);
+  f.field("dropped_no_los", counts.dropped_no_los);
+  f.field("dropped_overflow", counts.dropped_overflow);
+  f.field("duplicated", counts.duplicated);
+}
+template <class Fields>
+void describe_sent(Fields& f, RadioCounts& counts) {
+  f.field("sent", counts.sent);
+  f.field("sent_bytes", counts.sent_bytes);
+}
+
+struct LinkReport {
+  Text from = {}, to = {};
+  RadioCounts counts = {};
+};
+template <class Fields>
+void describe(Fields& f, LinkReport& link) {
+  describe_fates(f, link.counts);
+  f.field("from", link.from);
+  describe_sent(f, link.counts);
+  f.field("to", link.to);
+}
+
+struct RouterReport {
+  RadioCounts total = {};
+  Count malformed = {};
+  Count unheard = {};  ///< messages of who is no member
+  Count unsent = {};
+  std::vector<LinkReport> per_link = {};
+  Text dds = {};
+  Texts warnings = {}, unwritten = {};
+  std::optional<Texts> differences = {};  ///< as the server's
+};
+template <class Fields>
+void describe(Fields& f, RouterReport& report) {
+  f.field("dds", report.dds);
+  f.field("differences", report.differences);
+  describe_fates(f, report.total);
+  f.field("malformed", report.malformed);
+  f.field("per_link", report.per_link);
+  describe_sent(f, report.total);
+  f.field("unheard", report.unheard);
+  f.field("unsent", report.unsent);
+  f.field("unwritten", report.unwritten);
+  f.field("warnings", report.warnings);
+}
+
+// ---- agents -----------------------------------------------------------------------------------------------------
+
+/// Simulated time in which its planner said that it waited for another UAV.
+struct WaitReport {
+  Number from_s = {}, until_s = {};
+  Text uav = {};
+};
+template <class Fields>
+void describe(Fields& f, WaitReport& wait) {
+  f.field("from_s", wait.from_s);
+  f.field("uav", wait.uav);
+  f.field("until_s", wait.until_s);
+}
+
+struct AgentReport {
+  Number planner_cpu_s = {}, planner_cpu_p99_ms = {}, planner_cpu_max_ms = {};
+  Count planner_exchanges_over_50ms = {};
+  Number waited_s = {};
+  std::optional<std::vector<WaitReport>> waits = {};  ///< by time
+  std::optional<Texts> no_way = {};
+  std::optional<std::vector<RelayedTopic>> from_nodes = {};  ///< of a stand-in for ROS 2 nodes: topics with anything
+  Count malformed = {}, unsent = {};
+  Text planner = {};  ///< as it was told
+  Text dds = {};
+  std::optional<Texts> unwritten = {};
+};
+template <class Fields>
+void describe(Fields& f, AgentReport& report) {
+  f.field("dds", report.dds);
+  f.field("from_nodes", report.from_nodes);
+  f.field("malformed", report.malformed);
+  f.field("no_way", report.no_way);
+  f.field("planner", report.planner);
+  f.field("planner_cpu_max_ms", report.planner_cpu_max_ms);
+  f.field("planner_cpu_p99_ms", report.planner_cpu_p99_ms);
+  f.field("planner_cpu_s", report.planner_cpu_s);
+  f.field("planner_exchanges_over_50ms", report.planner_exchanges_over_50ms);
+  f.field("unsent", report.unsent);
+  f.field("unwritten", report.unwritten);
+  f.field("waited_s", report.waited_s);
+  f.field("waits", report.waits);
+}
+
+/// What an agent program prints of itself (--list-planners).
+struct StrategyList {
+  Texts planners = {}, ground_programs = {};
+};
+template <class Fields>
+void describe(Fields& f, StrategyList& list) {
+  f.field("planners", list.planners);
+  f.field("ground_programs", list.ground_programs);
+}
+
+}  // namespace skein

@@ -1,0 +1,66 @@
+// What the launcher and a process that is home to a whole fleet (one_process/) say to each other: the lines of several
+// programs on one pair of pipes (status_pipe.hpp), each with the program's name.   Threads: any.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "process/json_text.hpp"
+
+namespace skein::shared_lines {
+
+// ---- from the process --------------------------------------------------------------------------------------------
+
+/// A program says something (status_lines.hpp).
+struct Said {
+  std::string program = {};
+  Json line = Json::object();
+};
+/// A program has ended, with an exit code or as if by a signal.
+struct Ended {
+  std::string program = {};
+  int code = 0, signal = 0;
+  bool fatal = false;  ///< the process, and all that is in it, ends with it
+};
+/// A fault has stopped a program: it stands still from now on.
+struct Stopped {
+  std::string program = {};
+};
+
+using News = std::variant<Said, Ended, Stopped>;
+
+nlohmann::json said_by(const std::string& program, const nlohmann::json& line);
+nlohmann::json news_json(const News& news);
+/// @returns nullopt when the text is none of these.
+std::optional<News> read_news(const std::string& text);
+
+// ---- from the launcher -------------------------------------------------------------------------------------------
+
+/// A program is to begin. What it needs is as for a process of its own (cli/host/supervisor.hpp).
+struct Start {
+  std::string program = {};
+  std::vector<std::string> argv = {};
+  std::string log = {};
+  bool append_log = false;
+};
+/// A line for a program's control pipe.
+struct Tell {
+  std::string program = {}, line = {};
+};
+/// SIGKILL, SIGCONT or SIGTERM for a program.
+struct Signal {
+  std::string program = {};
+  int signal = 0;
+};
+
+using Order = std::variant<Start, Tell, Signal>;
+
+/// Without an end of line.
+std::string text_of(const Order& order);
+/// @returns nullopt when the text is none of these.
+std::optional<Order> read_order(const std::string& text);
+
+}  // namespace skein::shared_lines

@@ -1,0 +1,116 @@
+#include "process/status/status_lines.hpp"
+
+#include <utility>
+
+#include "process/json_fields.hpp"
+
+namespace skein::status {
+
+template <class Fields>
+void describe(Fields& f, Progress& progress) {
+  f.field("t", progress.time_s);
+  f.field("mission_s", progress.mission_s);
+  f.field("phase", progress.phase);
+  f.field("duration_s", progress.duration_s);
+  f.field("in_contact", progress.in_contact);
+  f.field("alive", progress.alive);
+  f.field("lost", progress.lost);
+}
+
+template <class Fields>
+void describe(Fields& f, Tally& tally) {
+  f.field("points", tally.points);
+  f.field("score", tally.score);
+  f.field("earned", tally.earned);
+}
+
+template <class Fields>
+void describe(Fields& f, WaitingFor& wait) {
+  f.field("members", wait.members);
+  f.field("missing", wait.missing);
+  f.field("what", wait.what);
+  f.field("seconds", wait.seconds);
+  f.field("due", wait.due);
+}
+
+template <class Fields>
+void describe(Fields& f, Order& order) {
+  f.field("member", order.member);
+  f.field("order", order.order);
+  f.field("t", order.time_s);
+}
+
+template <class Fields>
+void describe(Fields& f, Warning& warning) {
+  f.field("text", warning.text);
+}
+
+template <class Fields>
+void describe(Fields& f, Rejoined& rejoined) {
+  f.field("member", rejoined.member);
+}
+
+template <class Fields>
+void describe(Fields& f, Ended& ended) {
+  f.field("status", ended.status);
+  f.field("stalled", ended.stalled);
+}
+
+template <class Fields>
+void describe(Fields& f, Report& report) {
+  f.field("report", report.report);
+}
+
+namespace {
+
+constexpr const char* kTypeKey = "type";
+
+/// The line as one of these types, if it says that it is.
+template <class... Types>
+std::optional<Line> read_as(const Json& json, const std::variant<Types...>*) {
+  std::optional<Line> line;
+  const Json type = value_or(json, kTypeKey, "");
+  const auto take = [&]<class Type>(const Type*) {
+    if (type == Type::kType) line = struct_of<Type>(json);
+  };
+  (take(static_cast<const Types*>(nullptr)), ...);
+  return line;
+}
+
+}  // namespace
+
+nlohmann::json line_json(const Line& line) {
+  return std::visit(
+      [](const auto& what) {
+        Json json = skein::json_of(what);
+        json[kTypeKey] = what.kType;
+        return nlohmann::json(std::move(json));
+      },
+      line);
+}
+
+std::optional<Line> read_line(const std::string& text) {
+  return read_as(parse_json(text), static_cast<const Line*>(nullptr));
+}
+
+}  // namespace skein::status
+
+namespace skein::orders {
+namespace {
+
+const std::string kStop = "stop", kLost = "lost ";
+
+}  // namespace
+
+std::string text_of(const Line& line) {
+  const Lost* lost = std::get_if<Lost>(&line);
+  return lost == nullptr ? kStop : kLost + lost->member;
+}
+
+std::optional<Line> read_line(const std::string& text) {
+  if (text == kStop) return Stop{};
+  if (text.starts_with(kLost)) return Lost{text.substr(kLost.size())};
+  return std::nullopt;
+}
+
+}  // namespace skein::orders

@@ -1,0 +1,112 @@
+// What programs say on their status pipes (status_pipe.hpp) while a run goes on: a JSON object a line, whose "type"
+// says which of these it is. Times in seconds. And what the launcher says on their control pipes.
+#pragma once
+
+#include <array>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "core/run/run_state.hpp"
+#include "process/json_text.hpp"
+
+namespace skein::status {
+
+/// Of sim_server, several times a second.
+struct Progress {
+  static constexpr const char* kType = "progress";
+  double time_s = 0.0, mission_s = 0.0;  ///< simulated, since the start and since the first take-off
+  double duration_s = 0.0;               ///< of the mission
+  Phase phase = Phase::waiting;
+  std::vector<std::string> in_contact = {};  ///< UAVs with a link to the ground station
+  std::size_t alive = 0;                     ///< UAVs
+  std::vector<std::string> lost = {};        ///< members
+};
+
+/// Of the station, when the score has changed.
+struct Tally {
+  static constexpr const char* kType = "tally";
+  int points = 0;
+  double score = 0.0, earned = 0.0;
+};
+
+/// Of sim_server: whom the fleet waits for, as long as it does.
+struct WaitingFor {
+  static constexpr const char* kType = "waiting_for";
+  std::vector<std::string> members = {}, missing = {};  ///< missing: of each, what
+  std::string what = {};                                ///< "to join"
+  double seconds = 0.0;                                 ///< so far
+  bool due = false;                                     ///< it is time for a line of text
+};
+
+/// Of sim_server: a fault takes a member out of the run, or lets it back.
+struct Order {
+  static constexpr const char* kType = "order";
+  enum class What { kill, stop, start, resume };
+  std::string member = {};
+  What order = What::resume;
+  double time_s = 0.0;
+};
+constexpr std::array<EnumName<Order::What>, 4> enum_names(Order::What) {
+  return {{{"kill", Order::What::kill},
+           {"stop", Order::What::stop},
+           {"start", Order::What::start},
+           {"continue", Order::What::resume}}};
+}
+
+/// Of sim_server, for the user to see at once.
+struct Warning {
+  static constexpr const char* kType = "warning";
+  std::string text = {};
+};
+
+/// Of sim_server: a member takes part again.
+struct Rejoined {
+  static constexpr const char* kType = "rejoined";
+  std::string member = {};
+};
+
+/// Of sim_server, after its report: the run is over.
+struct Ended {
+  static constexpr const char* kType = "ended";
+  RunStatus status = RunStatus::completed;
+  std::vector<std::string> stalled = {};  ///< who had not answered when the user ended the run
+};
+
+/// Of every program, at its end (reports.hpp).
+struct Report {
+  static constexpr const char* kType = "report";
+  Json report = Json::object();
+};
+
+using Line = std::variant<Progress, Tally, WaitingFor, Order, Warning, Rejoined, Ended, Report>;
+
+/// For StatusPipe::send().
+nlohmann::json line_json(const Line& line);
+
+/// @returns nullopt when the text is none of these; what a line lacks, or has of another kind, is as above. Never
+/// throws: a user's command may write anything.
+std::optional<Line> read_line(const std::string& text);
+
+}  // namespace skein::status
+
+namespace skein::orders {
+
+/// The run is to end at the next step.
+struct Stop {};
+/// The process of a member has ended.
+struct Lost {
+  std::string member = {};
+};
+
+/// From the launcher to sim_server.
+using Line = std::variant<Stop, Lost>;
+
+/// "stop", "lost NAME": for Supervisor::send().
+std::string text_of(const Line& line);
+/// @returns nullopt when the text is none of these.
+std::optional<Line> read_line(const std::string& text);
+
+}  // namespace skein::orders

@@ -1,0 +1,237 @@
+#include "recording/mcap/reader.hpp"
+
+#include <zstd.h>
+
+#include <algorithm>
+
+#include "core/files/file_bytes.hpp"
+#include "core/text/text.hpp"
+#include "core/types.hpp"
+
+namespace skein::mcap {
+namespace {
+
+constexpr std::uintmax_t kLargestFile = 1ULL << 36;
+
+/// A little-endian number.
+std::uint32_t word_at(ByteView bytes) {
+  std::uint32_t word = 0;
+  for (std::size_t i = 0; i < sizeof(word); ++i) word |= std::uint32_t{bytes[i]} << (8 * i);
+  return word;
+}
+
+/// What the messages of a chunk say about its header and about the indexes that follow it.
+struct ChunkFacts {
+  std::uint64_t start_time = 0, end_time = 0;
+  std::map<std::uint16_t, std::vector<std::pair<std::uint64_t, std::uint64_t>>> index;
+};
+
+/// @returns nullopt when the chunk or a record in it is damaged.
+std::optional<ChunkFacts> facts_of(const std::optional<Chunk>& chunk) {
+  const auto records = chunk ? unpack(*chunk) : std::nullopt;
+  if (!records) return std::nullopt;
+  ChunkFacts facts;
+  bool first = true;
+  ByteView left(*records);
+  while (!left.empty()) {
+    const std::uint64_t offset = records->size() - left.size();
+    const auto record = take_record(left);
+    if (!record) return std::nullopt;
+    if (record->opcode != Opcode::message) continue;
+    const auto message = parse_message(record->content);
+    if (!message) return std::nullopt;
+    facts.index[message->channel_id].emplace_back(message->log_time, offset);
+    facts.start_time = first ? message->log_time : std::min(facts.start_time, message->log_time);
+    facts.end_time = first ? message->log_time : std::max(facts.end_time, message->log_time);
+    first = false;
+  }
+  const bool header_holds = first || (facts.start_time == chunk->start_time && facts.end_time == chunk->end_time);
+  return header_holds ? std::optional(std::move(facts)) : std::nullopt;
+}
+
+std::string time_text(std::uint64_t time_ns) { return fixed(1e-9 * static_cast<double>(time_ns), 2) + " s"; }
+
+/// Walks the records of a data section and notes what does not hold.
+class DamageSearch {
+ public:
+  void look_at(const RawRecord& record, std::uint64_t offset) {
+    if (record.opcode == Opcode::chunk) return look_at_chunk(record, offset);
+    if (record.opcode != Opcode::message_index || !chunk_) return;
+    const auto index = parse_message_index(record.content);
+    const auto found = index ? chunk_->index.find(index->channel_id) : chunk_->index.end();
+    if (found != chunk_->index.end() && found->second == index->entries) return;
+    damage_.push_back("the index of chunk " + std::to_string(number_) + ", at byte " + std::to_string(offset) +
+                      ", is damaged; the chunk's messages are all there");
+  }
+  /// Up to when all chunks are sound, for people.
+  std::string sound_until() const { return last_sound_ ? "after " + time_text(*last_sound_) : "from the start on"; }
+  std::vector<std::string> damage() && { return std::move(damage_); }
+
+ private:
+  void look_at_chunk(const RawRecord& record, std::uint64_t offset) {
+    ++number_;
+    const auto chunk = parse_chunk(record.content);
+    chunk_ = facts_of(chunk);
+    if (chunk_) {
+      last_sound_ = chunk_->end_time;
+      return;
+    }
+    damage_.push_back(
+        "chunk " + std::to_string(number_) + ", at byte " + std::to_string(offset) +
+        ", is damaged: its messages are missing" +
+        (chunk ? " (by its head, of " + time_text(chunk->start_time) + " to " + time_text(chunk->end_time) + ")"
+               : std::string()));
+  }
+
+  int number_ = 0;
+  std::optional<ChunkFacts> chunk_;  ///< the last one, if it is sound
+  std::optional<std::uint64_t> last_sound_;
+  std::vector<std::string> damage_;
+};
+
+ByteView view(const std::string& bytes) { return {reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}; }
+
+}  // namespace
+
+std::optional<Bytes> unpack(const Chunk& chunk) {
+  Bytes records;
+  if (chunk.compression.empty()) {
+    records.assign(chunk.records.begin(), chunk.records.end());
+  } else if (chunk.compression == "zstd" && chunk.uncompressed_size <= kLargestChunk) {
+    // Before room is made for it: a damaged size may be any.
+    const auto told = ZSTD_getFrameContentSize(chunk.records.data(), chunk.records.size());
+    if (told != ZSTD_CONTENTSIZE_UNKNOWN && told != chunk.uncompressed_size) return std::nullopt;
+    records.resize(chunk.uncompressed_size);
+    const std::size_t size =
+        ZSTD_decompress(records.data(), records.size(), chunk.records.data(), chunk.records.size());
+    if (ZSTD_isError(size) != 0 || size != records.size()) return std::nullopt;
+  } else {
+    return std::nullopt;
+  }
+  if (chunk.uncompressed_crc != 0 && crc_of(records) != chunk.uncompressed_crc) return std::nullopt;
+  return records;
+}
+
+Reader::Reader(const std::filesystem::path& file) : file_(file), bytes_(read_file_bytes(file, kLargestFile)) {
+  const ByteView bytes = view(bytes_);
+  if (bytes.size() < sizeof(kMagic) || !std::equal(std::begin(kMagic), std::end(kMagic), bytes.begin())) {
+    throw InputError(file.string() + ": is no MCAP file, or its first bytes are damaged");
+  }
+}
+
+Reader Reader::whole(const std::filesystem::path& file) {
+  Reader reader(file);
+  if (!reader.complete()) {
+    throw InputError(file.string() + ": the recording is cut off, or its end is damaged; only a whole one will do");
+  }
+  if (const auto damage = reader.damage(); !damage.empty()) {
+    std::string text = file.string() + ": the recording is damaged; only a whole one will do";
+    for (const std::string& one : damage) text += "\n  " + one;
+    throw InputError(text);
+  }
+  return reader;
+}
+
+void Reader::records(const std::function<void(const RawRecord&, std::uint64_t)>& on_record) const {
+  ByteView left = view(bytes_).subspan(sizeof(kMagic));
+  for (;;) {
+    const std::uint64_t offset = bytes_.size() - left.size();
+    const auto record = take_record(left);
+    if (!record || record->opcode == Opcode::data_end) return;
+    on_record(*record, offset);
+  }
+}
+
+std::vector<std::string> Reader::damage() const {
+  DamageSearch search;
+  std::uint64_t end = sizeof(kMagic);
+  records([&](const RawRecord& record, std::uint64_t offset) {
+    search.look_at(record, offset);
+    end = offset + kRecordHead + record.content.size();
+  });
+  const std::string sound_until = search.sound_until();
+  std::vector<std::string> damage = std::move(search).damage();
+  if (!complete()) return damage;
+  ByteView rest = view(bytes_).subspan(end);
+  const auto data_end = take_record(rest);
+  if (!data_end || data_end->opcode != Opcode::data_end) {
+    damage.push_back("from byte " + std::to_string(end) + " on it cannot be read: what was recorded " + sound_until +
+                     " is missing");
+  } else if (damage.empty() && !data_is_sound(end)) {
+    damage.push_back("the checksum over its data is wrong, though every chunk is sound");
+  }
+  if (damage.empty() && !summary_is_sound()) damage.push_back("the checksum over its summary is wrong");
+  return damage;
+}
+
+/// @param end  of the data section: where its DataEnd record begins.
+bool Reader::data_is_sound(std::uint64_t end) const {
+  const ByteView all = view(bytes_);
+  ByteView rest = all.subspan(end);
+  const auto data_end = take_record(rest);
+  const auto at_end = footer();
+  if (!data_end || data_end->content.size() != sizeof(std::uint32_t) || !at_end) return false;
+  const std::uint64_t after = all.size() - rest.size();
+  const std::uint32_t crc = word_at(data_end->content);
+  return (at_end->summary_start == 0 || at_end->summary_start == after) && (crc == 0 || crc == crc_of(all.first(end)));
+}
+
+bool Reader::summary_is_sound() const {
+  const auto end = footer();
+  if (!end) return false;
+  if (end->summary_crc == 0) return true;
+  const std::uint64_t covered = bytes_.size() - sizeof(kMagic) - sizeof(std::uint32_t);
+  if (end->summary_start > covered) return false;
+  return crc_of(view(bytes_).subspan(end->summary_start, covered - end->summary_start)) == end->summary_crc;
+}
+
+void Reader::summary(const std::function<void(const RawRecord&)>& on_record) const {
+  const auto end = footer();
+  if (!end || end->summary_start == 0 || end->summary_start > bytes_.size()) return;
+  ByteView left = view(bytes_).subspan(end->summary_start);
+  while (const auto record = take_record(left)) {
+    if (record->opcode == Opcode::footer) return;
+    on_record(*record);
+  }
+}
+
+void Reader::messages(const std::function<void(const Channel&, const Message&)>& on_message) {
+  bool sound = true;
+  records([&](const RawRecord& record, std::uint64_t) {
+    if (!sound) return;
+    if (record.opcode != Opcode::chunk) return take(record, on_message);
+    const auto chunk = parse_chunk(record.content);
+    const auto unpacked = chunk ? unpack(*chunk) : std::nullopt;
+    sound = unpacked.has_value();
+    if (!sound) return;
+    ByteView left(*unpacked);
+    while (const auto inner = take_record(left)) take(*inner, on_message);
+  });
+}
+
+void Reader::take(const RawRecord& record, const std::function<void(const Channel&, const Message&)>& on_message) {
+  if (record.opcode == Opcode::schema) {
+    if (const auto schema = parse_schema(record.content)) schemas_.emplace(schema->id, *schema);
+  } else if (record.opcode == Opcode::channel) {
+    if (const auto channel = parse_channel(record.content)) channels_.emplace(channel->id, *channel);
+  } else if (record.opcode == Opcode::metadata) {
+    if (const auto metadata = parse_metadata(record.content)) metadata_[metadata->name] = metadata->entries;
+  } else if (record.opcode == Opcode::message) {
+    const auto message = parse_message(record.content);
+    const auto channel = message ? channels_.find(message->channel_id) : channels_.end();
+    if (channel != channels_.end()) on_message(channel->second, *message);
+  }
+}
+
+std::optional<Footer> Reader::footer() const {
+  constexpr std::size_t kTail = kRecordHead + 20 + sizeof(kMagic);
+  if (bytes_.size() < kTail + sizeof(kMagic)) return std::nullopt;
+  ByteView tail = view(bytes_).last(kTail);
+  const auto record = take_record(tail);
+  if (!record || record->opcode != Opcode::footer || !std::equal(tail.begin(), tail.end(), std::begin(kMagic))) {
+    return std::nullopt;
+  }
+  return parse_footer(record->content);
+}
+
+}  // namespace skein::mcap

@@ -1,0 +1,97 @@
+#include "scenes/enclosure.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "core/scenario/scenario_reader.hpp"
+#include "core/vehicle/airframe.hpp"
+#include "scenes/files/box_file.hpp"
+#include "scenes/mesh_builder.hpp"
+#include "scenes/scene_source.hpp"
+#include "tests/support/places.hpp"
+
+namespace skein::sim {
+namespace {
+
+const Vector3d kStart(3.0, -2.0, 0.16);
+
+/// A room about the start; its sheets have no thickness.
+TriangleMesh room(double width, double bottom, double top) {
+  return box_surface(
+      {"room", {kStart.x(), kStart.y(), 0.5 * (bottom + top)}, {width, width, top - bottom}, Matrix3d::Identity()});
+}
+
+OrientedBox upright(const Vector3d& center, const Vector3d& size) {
+  return {"wall", center, size, Matrix3d::Identity()};
+}
+
+TriangleMesh join(std::vector<OrientedBox> boxes) {
+  TriangleMesh all;
+  for (const OrientedBox& box : boxes) {
+    const TriangleMesh part = box_surface(box);
+    const auto shift = static_cast<std::uint32_t>(all.vertices.size());
+    all.vertices.insert(all.vertices.end(), part.vertices.begin(), part.vertices.end());
+    for (const auto& t : part.triangles) all.triangles.push_back({t[0] + shift, t[1] + shift, t[2] + shift});
+  }
+  return all;
+}
+
+TEST(Enclosure, OpenGroundIsOpen) {
+  EXPECT_FALSE(is_enclosed(RayScene(TriangleMesh{}), kStart));
+  EXPECT_FALSE(is_enclosed(RayScene(join({upright({10, 0, 5}, {4, 4, 10})})), kStart));
+}
+
+TEST(Enclosure, ARoomIsClosedWhereverItsFloorIs) {
+  for (const double width : {2.0, 20.0, 300.0}) {
+    for (const double bottom : {-5.0, 0.0}) {
+      EXPECT_TRUE(is_enclosed(RayScene(room(width, bottom, 0.6 * width)), kStart)) << width << ' ' << bottom;
+    }
+  }
+}
+
+TEST(Enclosure, WindingAndDoubleSheetsDoNotMatter) {
+  TriangleMesh mesh = room(10.0, -1.0, 4.0);
+  for (std::size_t i = 0; i < mesh.triangles.size(); i += 2) std::swap(mesh.triangles[i][0], mesh.triangles[i][1]);
+  EXPECT_TRUE(is_enclosed(RayScene(mesh), kStart));
+  const auto once = mesh.triangles;
+  for (const auto& t : once) mesh.triangles.push_back({t[0], t[2], t[1]});
+  EXPECT_TRUE(is_enclosed(RayScene(mesh), kStart));
+}
+
+TEST(Enclosure, ADoorIsAWayOut) {
+  // Walls and roof about 20 x 20 m, a door of 3 x 3 m in the wall at +x, and a screen before it, so that no line of
+  // sight leads out from the start.
+  const TriangleMesh hall = join({upright({-10, 0, 5}, {0.5, 20, 10}), upright({0, -10, 5}, {20, 0.5, 10}),
+                                  upright({0, 10, 5}, {20, 0.5, 10}), upright({0, 0, 10}, {20.5, 20.5, 0.5}),
+                                  upright({10, -1.5, 5}, {0.5, 17, 10}), upright({10, 8.5, 6.5}, {0.5, 3, 7}),
+                                  upright({8, 6, 2.5}, {0.5, 8, 5})});  // a screen before the door
+  EXPECT_FALSE(is_enclosed(RayScene(hall), {-8, -8, 0.16}));
+}
+
+TEST(Enclosure, TheSameHallWithItsDoorShutIsClosed) {
+  const TriangleMesh hall = join({upright({-10, 0, 5}, {0.5, 20.5, 10}), upright({0, -10, 5}, {20.5, 0.5, 10}),
+                                  upright({0, 10, 5}, {20.5, 0.5, 10}), upright({0, 0, 10}, {20.5, 20.5, 0.5}),
+                                  upright({10, 0, 5}, {0.5, 20.5, 10}), upright({8, 6, 2.5}, {0.5, 8, 5})});
+  EXPECT_TRUE(is_enclosed(RayScene(hall), {-8, -8, 0.16}));
+}
+
+TEST(Enclosure, NoShippedScenarioHasAnEnclosedStart) {
+  const std::filesystem::path config = source_path("config");
+  const char* assets = std::getenv("SKEIN_ASSETS");
+  for (const std::string& name : config_names(config / "scenarios")) {
+    LoadOptions options;
+    options.config_dir = config;
+    options.needs_scene_files = assets != nullptr;
+    const Scenario scenario = load_scenario(name, options);
+    if (!assets && scenario.scene.family.empty()) continue;
+    const RayScene world(load_scene(scenario).mesh);
+    EXPECT_FALSE(is_enclosed(world, scenario.station_position)) << name;
+    for (const UavConfig& uav : scenario.fleet) {
+      EXPECT_FALSE(is_enclosed(world, {uav.start.x(), uav.start.y(), rest_height(uav.vehicle)})) << name << uav.name;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace skein::sim

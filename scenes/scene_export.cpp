@@ -1,0 +1,102 @@
+#include "scenes/scene_export.hpp"
+
+#include <algorithm>
+#include <cctype>
+
+#include "core/files/file_bytes.hpp"
+#include "core/scenario/drawn_worlds.hpp"
+#include "core/scenario/scenario_reader.hpp"
+#include "process/files/atomic_file.hpp"
+#include "process/files/closed_to_agents.hpp"
+#include "process/run_folder.hpp"
+#include "scenes/files/box_file.hpp"
+#include "scenes/files/mesh_file.hpp"
+#include "scenes/files/point_file.hpp"
+#include "scenes/scene_picture.hpp"
+
+namespace skein::sim {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string file_name(std::string name) {
+  std::replace_if(
+      name.begin(), name.end(),
+      [](char c) { return !std::isalnum(static_cast<unsigned char>(c)) && c != '_' && c != '-'; }, '_');
+  return name;
+}
+
+std::string counted(std::size_t count, const std::string& noun) {
+  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
+}
+
+std::string origin(const SceneConfig& scene) {
+  if (scene.family.empty()) return "files";
+  return "the family " + scene.family + ", scene_seed " + std::to_string(scene.scene_seed);
+}
+
+/// The scenario with this scene from files beside it.
+std::string scenario_text(Scenario scenario, const fs::path& mesh, const fs::path& points, const fs::path& boxes) {
+  const std::string comment = "# Written by `skein scene`. Its scene is from " + origin(scenario.scene) + ".\n";
+  if (!is_drawn_world(scenario.scene.family)) scenario.scene = {};
+  scenario.scene.meshes = {"./" + mesh.string()};
+  scenario.scene.points = "./" + points.string();
+  scenario.scene.boxes = "./" + boxes.string();
+  return comment + to_yaml(scenario);
+}
+
+/// Whether a file of an earlier export would be lost: not one that is the same.
+bool is_in_the_way(const fs::path& path, const std::string& content) {
+  std::error_code error;
+  if (!fs::exists(path, error)) return false;
+  if (!fs::is_regular_file(path, error) || fs::file_size(path, error) != content.size()) return true;
+  return read_file_bytes(path, content.size()) != content;
+}
+
+}  // namespace
+
+std::vector<ExportedFile> scene_export(const Scenario& scenario, const Scene& scene) {
+  const std::string name = file_name(scenario.name);
+  const fs::path model = fs::path(run_folder::kSceneFiles) / name, boxes = model / "bounding_boxes";
+  std::vector<ExportedFile> files;
+  files.push_back({model / (name + ".stl"), counted(scene.mesh.triangles.size(), "triangle"), to_stl(scene.mesh)});
+  files.push_back(
+      {model / (name + "_interest_points.pcd"), counted(scene.points.size(), "interest point"), to_pcd(scene.points)});
+  files.push_back({boxes / "box_description.yaml",
+                   std::to_string(scene.boxes.size()) + (scene.boxes.size() == 1 ? " box" : " boxes"),
+                   to_box_description(scene.boxes)});
+  const std::string scenario_yaml = scenario_text(scenario, files[0].path, files[1].path, files[2].path);
+  for (const OrientedBox& box : scene.boxes) {
+    files.push_back({boxes / (file_name(box.name) + ".stl"), "surface of a box", to_stl(box_surface(box))});
+  }
+  files.push_back({name + ".yaml", "the scenario, " + counted(scenario.fleet.size(), "UAV"), scenario_yaml});
+  return files;
+}
+
+ExportedFile scene_picture_file(const Scenario& scenario, const Scene& scene) {
+  return {file_name(scenario.name) + ".svg", "a drawing", scene_picture(scenario, scene)};
+}
+
+void write_export(const std::vector<ExportedFile>& files, const fs::path& folder, bool overwrite) {
+  std::error_code error;
+  for (const ExportedFile& file : files) {
+    if (!overwrite && is_in_the_way(folder / file.path, file.content)) {
+      throw InputError((folder / file.path).string() +
+                       " exists already, and is another one; overwrite it with --force, or choose another --out");
+    }
+  }
+  for (const ExportedFile& file : files) {
+    const fs::path path = folder / file.path;
+    const bool is_scenario = file.path.extension() == ".yaml" && !file.path.has_parent_path();
+    fs::create_directories(path.parent_path(), error);
+    close_to_agents(folder / run_folder::kSceneFiles);
+    try {
+      write_file_atomically(path, file.content, is_scenario ? Readers::all : Readers::no_agents);
+    } catch (const std::exception& reason) {
+      throw InputError("--out " + folder.string() + ": cannot be written to: " + reason.what());
+    }
+  }
+}
+
+}  // namespace skein::sim

@@ -1,0 +1,16 @@
+// A stepped tower on a wide podium.
+#pragma once
+
+#include <cstdint>
+
+#include "scenes/surface_sampling.hpp"
+
+namespace skein::sim {
+
+/// A tower of about 120 m: tiers that step back, with fins, belts and balconies, a crown and a mast; around its foot a
+/// podium with an arcade. Floor plan (rectangle, hexagon, octagon), steps, twist, crown, details, places and boxes vary
+/// with the seed; the starts and the air above them stay free (core/scenario/scene_families.cpp).
+/// @param scene_seed  any; the same number gives the same bytes.
+UnsampledScene make_spire(std::uint64_t scene_seed);
+
+}  // namespace skein::sim

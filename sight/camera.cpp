@@ -1,0 +1,102 @@
+#include "sight/camera.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/camera_quality.hpp"
+#include "core/euler.hpp"
+#include "core/normals.hpp"
+
+namespace skein::sim {
+
+bool in_sight(const Vector3d& p_WC, const Vector3d& p_W, UavIndex own_uav, const RayScene& world) {
+  const Vector3d ray = p_W - p_WC;
+  const double distance = ray.norm();
+  RayFilter filter;
+  filter.except_uav = own_uav;
+  // Beyond the tolerance nothing matters; a little more, so that a hit at its very end is not cut off.
+  const auto hit = world.first_hit(p_WC, ray, distance + 2.0 * Camera::kSurfaceTolerance, filter);
+  return hit && std::abs(hit->distance - distance) <= Camera::kSurfaceTolerance;
+}
+
+bool in_sight_of_reference(const Vector3d& p_WC, const Vector3d& p_W, UavIndex own_uav, const RayScene& world) {
+  RayFilter filter;
+  filter.except_uav = own_uav;
+  const auto hit = world.first_hit_before_end(p_WC, p_W, filter);
+  return hit && hit->length - hit->distance <= static_cast<float>(Camera::kSurfaceTolerance);
+}
+
+namespace {
+
+/// The camera hangs below its body and is no body itself: it may reach through a roof.
+bool is_through_structure(const Vector3d& p_WB, const Vector3d& p_WC, const RayScene& world) {
+  return world.first_hit_distance(p_WB, p_WC, {.ground = false, .uavs = false}).has_value();
+}
+
+}  // namespace
+
+bool Capture::improved() const { return std::ranges::any_of(detections, &Detection::improved); }
+
+Camera::Camera(const CameraConfig& config, double desired_mm_per_pixel, const RulesConfig& rules,
+               const std::vector<InterestPoint>& points, UavIndex uav, const CameraConditions& conditions,
+               std::uint64_t seed)
+    : config_(config),
+      vibration_(conditions.vibration_deg_s * kRadPerDeg),
+      seed_(seed),
+      desired_mm_per_pixel_(desired_mm_per_pixel),
+      rules_(rules),
+      points_(points),
+      uav_(uav),
+      interval_(ticks(config.trigger_interval_s)),
+      best_(points.size(), 0.0F),
+      seen_(points.size(), false) {
+  config_.exposure_s *= conditions.exposure_factor;
+}
+
+Capture Camera::capture(Tick tick, const RigidBodyState& body, const GimbalState& gimbal, const RayScene& world) {
+  CameraState state = camera_state(body, gimbal, config_);
+  if (vibration_ > 0.0) {
+    RandomStream draw(seed_, "vibration", uav_, captures_);
+    state.w_WC += vibration_ * normals(draw);
+  }
+  const Exposure exposure(state, config_, desired_mm_per_pixel_, rules_);
+  const Vector3d& p_WC = exposure.position();
+  // A first sieve in single precision, a hair wide: most points of a scene are out of reach.
+  const Eigen::Vector3f centre = p_WC.cast<float>();
+  const float reach = static_cast<float>(exposure.radius()) + 0.01F;
+
+  Capture capture{tick, {}};
+  ++captures_;
+  last_ = tick;
+  if (rules_.camera_blind_in_structure && is_through_structure(body.p_WB, p_WC, world)) return capture;
+  const SightTest sees = sight_test(rules_);
+  const UavIndex sees_through = rules_.own_body_hides ? kNobody : uav_;
+  for (std::uint32_t i = 0; i < points_.size(); ++i) {
+    if ((points_[i].p_W - centre).squaredNorm() > reach * reach) {
+      continue;
+    }
+    const Vector3d p_W = points_[i].p_W.cast<double>();
+    const auto p_C = exposure.view(p_W);
+    if (!p_C) {
+      continue;
+    }
+    const auto quality = exposure.score(*p_C, points_[i].n_W.cast<double>());
+    const double q = quality ? quality->score() : 0.0;
+    const bool counts = q > 0.0 && q >= rules_.min_point_score;  // what is no number does not
+    // The ray comes last: it costs more than all formulas together. Of what does not count it is asked until the point
+    // has been seen once.
+    if ((!counts && seen_[i]) || !sees(p_WC, p_W, sees_through, world)) {
+      continue;
+    }
+    seen_[i] = true;
+    if (!counts) {
+      continue;
+    }
+    const bool improved = static_cast<float>(q) > best_[i];
+    best_[i] = std::max(best_[i], static_cast<float>(q));
+    capture.detections.push_back({i, quality->q_blur, quality->q_res, quality->q_distance, q, best_[i], improved});
+  }
+  return capture;
+}
+
+}  // namespace skein::sim
