@@ -15,7 +15,7 @@
 #include "core/text/text.hpp"
 #include "core/types.hpp"
 #include "process/program.hpp"
-#include "process/run_folder.hpp"
+#include "results/run_folder.hpp"
 
 namespace skein::cli {
 namespace {

@@ -11,12 +11,12 @@
 #include "cli/hunt/flights.hpp"
 #include "cli/properties/radio_log.hpp"
 #include "cli/rerun_command.hpp"
-#include "cli/run/diff.hpp"
-#include "cli/run/record.hpp"
 #include "core/faults/fault_writer.hpp"
 #include "core/text/suggestion.hpp"
 #include "core/text/text.hpp"
 #include "process/program.hpp"
+#include "results/diff.hpp"
+#include "results/run_record.hpp"
 
 namespace skein::cli {
 namespace {
@@ -123,9 +123,9 @@ std::vector<Without> flights_without(const HuntPlan& plan, const Subject& subjec
 }
 
 /// When a run had a score; nullopt: never.
-std::optional<double> time_of_score(const RunRecord& run, double score) {
+std::optional<double> time_of_score(const results::RunRecord& run, double score) {
   constexpr double kRounding = 1e-6;
-  for (const ScoreRow& row : run.scores) {
+  for (const results::ScoreRow& row : run.scores) {
     if (row.score >= score - kRounding) return row.time_s;
   }
   return std::nullopt;
@@ -134,11 +134,11 @@ std::optional<double> time_of_score(const RunRecord& run, double score) {
 /// Both ways: what is taken away may have cost something, or brought it.
 void compare(Without& without, const fs::path& there, const fs::path& here, double score) {
   without.points = without.outcome.score - score;
-  const RunRecord with = read_run(there), less = read_run(here);
+  const results::RunRecord with = results::read_run(there), less = results::read_run(here);
   const double reached = std::min(score, without.outcome.score);
   const auto with_s = time_of_score(with, reached), less_s = time_of_score(less, reached);
   if (with_s && less_s) without.seconds = *with_s - *less_s;
-  const auto difference = first_difference(there, here);
+  const auto difference = results::first_difference(there, here);
   if (!difference) return;
   without.parts = fmt::format("the runs part at step {} ({} s): {}", difference->step, number_text(difference->time_s),
                               joined(difference->fields));

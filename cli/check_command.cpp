@@ -10,8 +10,8 @@
 #include "core/scenario/scenario_reader.hpp"
 #include "process/host/environment.hpp"
 #include "process/program.hpp"
-#include "process/run_folder.hpp"
 #include "properties/property_file.hpp"
+#include "results/run_folder.hpp"
 
 namespace skein::cli {
 namespace {

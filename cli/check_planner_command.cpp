@@ -11,7 +11,6 @@
 
 #include "cli/host/program_start.hpp"
 #include "cli/machine.hpp"
-#include "cli/run/diff.hpp"
 #include "cli/run/fleet_plan.hpp"
 #include "cli/run/preflight.hpp"
 #include "cli/run_command.hpp"
@@ -22,7 +21,8 @@
 #include "process/host/other_clock.hpp"
 #include "process/json_text.hpp"
 #include "process/program.hpp"
-#include "process/run_folder.hpp"
+#include "results/diff.hpp"
+#include "results/run_folder.hpp"
 
 namespace skein::cli {
 namespace {
@@ -205,7 +205,7 @@ class PlannerCheck {
   /// Who says something else first, hearing what was heard in the first run.
   void tell(RunOptions run, const fs::path& first, const Surroundings& surroundings) {
     if (fs::exists(*run.out / run_folder::kDigests)) {
-      if (const auto difference = first_difference(first, *run.out)) {
+      if (const auto difference = results::first_difference(first, *run.out)) {
         console_.out << "    the runs part at step " << difference->step << " (" << number_text(difference->time_s)
                      << " s): " << joined(difference->fields) << '\n';
       }

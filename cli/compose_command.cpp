@@ -18,7 +18,7 @@
 #include "cli/run_results.hpp"
 #include "cli/secure/security.hpp"
 #include "process/host/environment.hpp"
-#include "process/run_folder.hpp"
+#include "results/run_folder.hpp"
 #include "view/pages.hpp"
 
 namespace skein::cli {
@@ -196,7 +196,7 @@ int fly(const ComposeOptions& options, const FleetPlan& plan, ComposeLayout layo
     run.fly_in_containers(followers(containers, plan, layout, out.path()), out.path());
   }
   gather_agents(out.path());
-  const Reports reports = read_reports(out.path(), plan.scenario, run.reports());
+  const results::Reports reports = results::read_reports(out.path(), plan.scenario, run.reports());
   const RunResults results{options.run, run.facts(), plan.scenario,
                            reports,     out.path(),  [&](const std::string& text) { return out.write_result(text); }};
   const auto result = write_results(

@@ -6,13 +6,13 @@
 #include <map>
 #include <optional>
 
-#include "cli/run/diff.hpp"
 #include "core/files/file_bytes.hpp"
 #include "core/text/text.hpp"
 #include "process/program.hpp"
-#include "process/results/result_file.hpp"
-#include "process/run_folder.hpp"
 #include "recording/mcap/reader.hpp"
+#include "results/diff.hpp"
+#include "results/result_file.hpp"
+#include "results/run_folder.hpp"
 
 namespace skein::cli {
 namespace {
@@ -44,7 +44,7 @@ void compare(const Json& a, const Json& b, const char* key, const std::string& o
 /// nullopt: the run has none, its launcher was killed.
 std::optional<Json> result_of(const fs::path& run) {
   if (!fs::exists(run / run_folder::kResult)) return std::nullopt;
-  return read_result_file(run);
+  return results::read_result_file(run);
 }
 
 void compare_results(const DiffOptions& options, std::vector<std::string>& found) {
@@ -131,7 +131,7 @@ void compare_recordings(const DiffOptions& options, std::vector<std::string>& fo
 }  // namespace
 
 int diff_runs(const DiffOptions& options, const Console& console) {
-  const std::optional<RunDifference> difference = first_difference(options.run_a, options.run_b);
+  const std::optional<results::RunDifference> difference = results::first_difference(options.run_a, options.run_b);
   std::vector<std::string> found;
   compare_results(options, found);
   for (const char* table : kTables) compare_tables(options, table, found);

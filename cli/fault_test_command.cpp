@@ -18,7 +18,7 @@
 #include "process/files/atomic_file.hpp"
 #include "process/host/environment.hpp"
 #include "process/program.hpp"
-#include "process/run_folder.hpp"
+#include "results/run_folder.hpp"
 
 namespace skein::cli {
 namespace {
@@ -159,12 +159,12 @@ class FaultTestRun {
   void judge(std::size_t index, FaultVerdict& verdict) const {
     const FaultTest& test = tests_[index];
     const FlightsOfTest& flights = flights_.tests[index];
-    const RunRecord own = record_of(flights.own);
+    const results::RunRecord own = record_of(flights.own);
     const FaultPlan faults = as_flown(test.plan.faults, own.result, test.plan.scenario);
     Evidence evidence{test.plan.scenario, faults, own, flown_[flights.own].exit->code, nullptr, {}};
-    std::optional<RunRecord> fault_free;
+    std::optional<results::RunRecord> fault_free;
     if (flights.fault_free) evidence.fault_free = &fault_free.emplace(record_of(*flights.fault_free));
-    std::map<std::string, RunRecord> repeats;
+    std::map<std::string, results::RunRecord> repeats;
     for (const auto& [how, flight] : flights.repeats) repeats.emplace(how, record_of(flight));
     for (const auto& [how, record] : repeats) evidence.repeats.emplace_back(how, &record);
     for (const Judgement& judgement : judged(test.expect, evidence)) {
@@ -176,8 +176,8 @@ class FaultTestRun {
     judge_properties_of(test, own, evidence.fault_free, verdict);
   }
 
-  static void judge_properties_of(const FaultTest& test, const RunRecord& own, const RunRecord* fault_free,
-                                  FaultVerdict& verdict) {
+  static void judge_properties_of(const FaultTest& test, const results::RunRecord& own,
+                                  const results::RunRecord* fault_free, FaultVerdict& verdict) {
     if (test.property_set.empty()) return;
     using Outcome = properties::Verdict::Outcome;
     FolderSignals signals(own, test.plan.scenario, fault_free);
@@ -191,9 +191,9 @@ class FaultTestRun {
   }
 
   /// @throws std::runtime_error, with the end of its log, when it left no result.
-  RunRecord record_of(std::size_t index) const {
+  results::RunRecord record_of(std::size_t index) const {
     const fs::path dir = *flights_.flights[index].options.out;
-    if (fs::exists(dir / run_folder::kResult)) return read_run(dir);
+    if (fs::exists(dir / run_folder::kResult)) return results::read_run(dir);
     std::string message = "skein run ended with " + flown_[index].exit->text() + " and without a result";
     for (const std::string& line : last_lines(dir / run_folder::kFlightLog, kTailLines)) message += "\n       " + line;
     throw std::runtime_error(message);

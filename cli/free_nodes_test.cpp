@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/types.hpp"
+#include "results/from_nodes.hpp"
 
 namespace skein::cli {
 namespace {
@@ -41,18 +42,18 @@ TEST(FreeNodes, AreToldOfByTopic) {
   const Json uavs = {{{"name", "jurong"}, {"from_nodes", {topic}}},
                      {{"name", "raffles"}},
                      {{"name", "sentosa"}, {"from_nodes", Json::array()}}};
-  EXPECT_EQ(free_nodes_table(uavs),
+  EXPECT_EQ(results::free_nodes_table(uavs),
             "from ROS 2 nodes              received   handed on    late    lost   refused\n"
             "/jurong/command/trajectory         100          90       3       7         4\n");
-  EXPECT_THAT(warnings_of_free_nodes(uavs),
+  EXPECT_THAT(results::warnings_of_free_nodes(uavs),
               ElementsAre(HasSubstr("2 of 100 messages on /jurong/command/trajectory have stamps that are not"),
                           HasSubstr("sentosa: no ROS 2 node said anything")));
 }
 
 TEST(FreeNodes, NobodyIsToldOfWhereThereAreNone) {
   const Json uavs = {{{"name", "jurong"}}};
-  EXPECT_EQ(free_nodes_table(uavs), "");
-  EXPECT_TRUE(warnings_of_free_nodes(uavs).empty());
+  EXPECT_EQ(results::free_nodes_table(uavs), "");
+  EXPECT_TRUE(results::warnings_of_free_nodes(uavs).empty());
 }
 
 }  // namespace

@@ -39,7 +39,7 @@
 #include "core/scenario/drawn_worlds.hpp"
 #include "core/text/suggestion.hpp"
 #include "core/types.hpp"
-#include "process/run_folder.hpp"
+#include "results/run_folder.hpp"
 
 namespace skein::cli {
 namespace {

@@ -8,8 +8,8 @@
 #include "cli/rerun_command.hpp"
 #include "core/types.hpp"
 #include "process/program.hpp"
-#include "process/results/result_file.hpp"
-#include "process/run_folder.hpp"
+#include "results/result_file.hpp"
+#include "results/run_folder.hpp"
 #include "view/map_files.hpp"
 
 namespace skein::cli {
@@ -36,7 +36,7 @@ void move_maps(const std::vector<std::string>& uavs, const fs::path& from, const
 
 int add_maps_in_time(const fs::path& run, const Console& console) try {
   const fs::path reflight = run / kReflight;
-  const std::vector<std::string> uavs = fleet_of(read_result_file(run));
+  const std::vector<std::string> uavs = fleet_of(results::read_result_file(run));
   if (!fs::exists(reflight) && view::has_maps_in_time(run, uavs)) return kExitDone;
   console.err << "computing the UAVs' maps: the run is flown again from its recording" << std::endl;
   std::ostringstream unseen;  // its score is known

@@ -12,8 +12,9 @@
 #include "core/text/text.hpp"
 #include "process/files/atomic_file.hpp"
 #include "process/host/environment.hpp"
-#include "process/run_folder.hpp"
 #include "recording/mcap/reader.hpp"
+#include "results/reported_facts.hpp"
+#include "results/run_folder.hpp"
 
 namespace skein::cli {
 namespace {
@@ -64,44 +65,12 @@ void settle(const char* program, const char* books, const RunOptions& run, const
   run_to_end({program, argv, fleet_environment(false), dir / run_folder::log_file(program), true});
 }
 
-/// A fault without an end keeps a program out.
-std::set<std::string> out_by_fault(const SimServerReport& sim) {
-  std::set<std::string> out;
-  for (const FaultReport& fault : sim.faults) {
-    const bool of_process = fault.kind == "kill" || fault.kind == "pause";
-    if (of_process && fault.began_step && !fault.ended_step && fault.target)
-      out.insert(programs::program_of(*fault.target));
-  }
-  return out;
-}
-
-RunFacts facts_of(const RunOptions& run, const Scenario& scenario, const Reports& reports, const fs::path& dir) {
-  RunFacts facts;
+results::RunFacts facts_of(const RunOptions& run, const Scenario& scenario, const results::Reports& reports,
+                           const fs::path& dir) {
+  results::RunFacts facts = results::reported_facts(dir, scenario, reports);
   facts.scenario = run.scenario;
   facts.seed = run.seed;
   facts.clock = run.clock;
-  facts.out_by_fault = out_by_fault(*reports.sim_server);
-  const auto set_vendor = [&](const std::string& program, const auto& vendor) {
-    if (vendor) facts.dds[program] = *vendor;
-  };
-  set_vendor(programs::kSimServer, reports.sim_server->flight.dds);
-  if (reports.station) {
-    set_vendor(programs::kStation, reports.station->dds);
-    // Books without the ledger: what was delivered has been earned, and more is not known.
-    facts.score_earned = reports.station->score.value_or(0.0);
-  }
-  if (reports.comm_router) set_vendor(programs::kCommRouter, reports.comm_router->dds);
-  for (const UavConfig& uav : scenario.fleet) {
-    const AgentReport agent = reports.agents.at(uav.name).value_or(AgentReport{});
-    facts.planners.push_back({uav.name, agent.planner.value_or("unknown")});
-    set_vendor(programs::agent_program(uav.name), agent.dds);
-  }
-  const Json ground = read_json(dir / run_folder::report_file(programs::kGroundAgent));
-  if (ground.is_object()) {
-    const auto report = struct_of<AgentReport>(ground);
-    facts.ground_program = UavPlanner{"gcs", report.planner.value_or("unknown")};
-    set_vendor(programs::kGroundAgent, report.dds);
-  }
   return facts;
 }
 
@@ -150,8 +119,8 @@ int merge_reports(const MergeOptions& options, const Console& console) {
   const Scenario scenario = scenario_of(run);
   settle(programs::kStation, run_folder::kJournal, run, sim.flight, dir);
   settle(programs::kCommRouter, run_folder::kCounts, run, sim.flight, dir);
-  const Reports reports = read_reports(dir, scenario);
-  const RunFacts facts = facts_of(run, scenario, reports, dir);
+  const results::Reports reports = results::read_reports(dir, scenario);
+  const results::RunFacts facts = facts_of(run, scenario, reports, dir);
   const RunResults results{
       run,     facts, scenario,
       reports, dir,   [&](const std::string& text) { return write_if_possible(dir / run_folder::kResult, text); }};
@@ -160,7 +129,7 @@ int merge_reports(const MergeOptions& options, const Console& console) {
   const auto result = write_results(
       results, options.dir, [&] { return fs::exists(dir / run_folder::kRecording) ? damage : Texts(); }, console);
   for (const std::string& one : damage) console.err << one << std::endl;
-  if (!result || anyone_lost(*result)) return kExitProcessFailed;
+  if (!result || results::anyone_lost(*result)) return kExitProcessFailed;
   return damage.empty() ? kExitDone : kExitCheckFailed;
 }
 

@@ -3,7 +3,7 @@
 
 #include "cli/console.hpp"
 #include "cli/options.hpp"
-#include "cli/run/result.hpp"
+#include "results/result.hpp"
 
 namespace skein::cli {
 

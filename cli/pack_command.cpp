@@ -16,8 +16,8 @@
 #include "core/types.hpp"
 #include "process/host/environment.hpp"
 #include "process/program.hpp"
-#include "process/run_folder.hpp"
 #include "report/web_bundle.hpp"
+#include "results/run_folder.hpp"
 
 namespace skein::cli {
 namespace {

@@ -14,12 +14,9 @@
 namespace skein::cli {
 namespace {
 
-constexpr std::string_view kExec = "exec:";
 constexpr std::string_view kGround = "gcs";
 constexpr char kAt = '@';
 constexpr std::size_t kLongestLabel = 100;
-
-bool is_command(std::string_view spec) { return spec.starts_with(kExec) || spec.starts_with(kRos); }
 
 /// Whether what follows a comma may still belong to this planner.
 bool goes_on(const std::string& spec, bool item_has_key) {
@@ -54,10 +51,6 @@ UavPlanner read_planner(const std::string& text, const std::string& node, const 
 std::optional<std::string> exec_command(const std::string& spec) {
   if (!spec.starts_with(kExec)) return ros_command(spec);
   return spec.substr(kExec.size());
-}
-
-std::string written(const UavPlanner& planner) {
-  return planner.agent ? planner.spec + kAt + planner.agent->string() : planner.spec;
 }
 
 Planners parse_planners(const std::string& text, const std::vector<std::string>& fleet) {

@@ -8,20 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "core/planners/uav_planner.hpp"
+
 namespace skein::cli {
-
-/// In the place of a planner: what was recorded of one is flown again.
-inline constexpr const char* kRecorded = "recorded";
-
-struct UavPlanner {
-  std::string uav;   ///< or "gcs", the ground station
-  std::string spec;  ///< "exec:CMD", or as uav_agent takes it: a name, with parameters if any ("hover:height_m=4")
-  /// The program of NAME@AGENT, as written, or absolute once it was found (find_agents()); nullopt: the fleet's.
-  std::optional<std::filesystem::path> agent = {};
-};
-
-/// As --planner takes it: NAME, NAME@AGENT, exec:CMD or ros:PACKAGE/EXECUTABLE.
-std::string written(const UavPlanner& planner);
 
 /// The shell command that takes the place of uav_agent: of exec: or ros: (ros_command.hpp); nullopt for our planners.
 std::optional<std::string> exec_command(const std::string& spec);

@@ -7,7 +7,7 @@
 #include "core/planners/python_spec.hpp"
 #include "core/sha256.hpp"
 #include "core/types.hpp"
-#include "process/run_folder.hpp"
+#include "results/run_folder.hpp"
 
 namespace skein::cli {
 namespace {

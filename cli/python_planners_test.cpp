@@ -6,7 +6,7 @@
 
 #include "cli/run/preflight.hpp"
 #include "core/types.hpp"
-#include "process/run_folder.hpp"
+#include "results/run_folder.hpp"
 
 namespace skein::cli {
 namespace {

@@ -4,12 +4,12 @@
 
 #include "cli/film/film.hpp"
 #include "cli/maps_in_time.hpp"
-#include "cli/run/diff.hpp"
 #include "cli/run/live_page.hpp"
 #include "core/text/text.hpp"
 #include "core/types.hpp"
 #include "process/files/atomic_file.hpp"
 #include "process/program.hpp"
+#include "results/diff.hpp"
 #include "view/finished_run.hpp"
 #include "view/pages.hpp"
 #include "view/two_runs.hpp"
@@ -24,7 +24,7 @@ constexpr std::size_t kMostBytes = 4'000'000;
 
 view::Parting parting_of(const fs::path& a, const fs::path& b) {
   try {
-    if (const auto difference = first_difference(a, b)) return {difference->time_s, difference->fields, {}};
+    if (const auto difference = results::first_difference(a, b)) return {difference->time_s, difference->fields, {}};
     return {};
   } catch (const InputError& error) {  // a run may be shown without its digests
     return {{}, {}, error.what()};

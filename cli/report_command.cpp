@@ -2,8 +2,8 @@
 
 #include "cli/run/recording.hpp"
 #include "process/program.hpp"
-#include "process/run_folder.hpp"
 #include "report/run_report.hpp"
+#include "results/run_folder.hpp"
 
 namespace skein::cli {
 

@@ -12,9 +12,9 @@
 #include "core/text/text.hpp"
 #include "process/json_text.hpp"
 #include "process/program.hpp"
-#include "process/results/result_file.hpp"
-#include "process/run_folder.hpp"
 #include "recording/mcap/reader.hpp"
+#include "results/result_file.hpp"
+#include "results/run_folder.hpp"
 
 namespace skein::cli {
 namespace {
@@ -139,10 +139,10 @@ std::vector<std::string> fleet_of(const Json& result) {
   return names;
 }
 
-RunOptions options_of_run(const fs::path& run) { return options_of(run, read_result_file(run)); }
+RunOptions options_of_run(const fs::path& run) { return options_of(run, results::read_result_file(run)); }
 
 int rerun(const RerunOptions& options, const Console& console) {
-  const Json then = read_result_file(options.reflight.run);
+  const Json then = results::read_result_file(options.reflight.run);
   RunOptions run = options_of(options.reflight.run, then);
   run.replay = replay_of(options.reflight.run);
   run.replay->only = {options.uav};
@@ -152,7 +152,7 @@ int rerun(const RerunOptions& options, const Console& console) {
   run.out = folder_of(options.reflight, "rerun-" + options.uav);
   const int code = run_fleet(run, console);
   if (code != kExitDone) return code;
-  const Json now = read_result_file(*run.out);
+  const Json now = results::read_result_file(*run.out);
   if (const std::string other = other_digest(then, now); !other.empty()) console.out << other << '\n';
   const std::vector<std::string> differences = differences_of(now);
   for (const std::string& difference : differences) console.out << difference << '\n';
@@ -163,7 +163,7 @@ int rerun(const RerunOptions& options, const Console& console) {
 
 ThoughtAgain think_again_with_maps(const fs::path& run, const fs::path& out, const Console& console) {
   constexpr double kUsualPeriod_s = 10.0;
-  const Json then = read_result_file(run);
+  const Json then = results::read_result_file(run);
   RunOptions options = options_of(run, then);
   options.replay = replay_of(run);
   options.replay->only = uavs_with_agents(options);
@@ -179,14 +179,14 @@ ThoughtAgain think_again_with_maps(const fs::path& run, const fs::path& out, con
   options.out = out;
   const int code = run_fleet(options, console);
   if (code != kExitDone) return {code, {}};
-  const Json now = read_result_file(out);
+  const Json now = results::read_result_file(out);
   std::vector<std::string> different = differences_of(now);
   if (std::string other = other_digest(then, now); !other.empty()) different.push_back(std::move(other));
   return {code, std::move(different)};
 }
 
 int fork_run(const ForkOptions& options, const Console& console) {
-  const Json then = read_result_file(options.reflight.run);
+  const Json then = results::read_result_file(options.reflight.run);
   require_within(options.at_s, then);
   RunOptions run = options_of(options.reflight.run, then);
   const RunOptions as_it_was = run;

@@ -6,6 +6,7 @@
 #include <set>
 #include <vector>
 
+#include "core/planners/uav_planner.hpp"
 #include "core/text/suggestion.hpp"
 #include "core/text/text.hpp"
 #include "core/types.hpp"

@@ -4,12 +4,8 @@
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <string_view>
 
 namespace skein::cli {
-
-/// What such a planner begins with.
-inline constexpr std::string_view kRos = "ros:";
 
 /// The command that starts the node in the lock-step: libskein_step.so of the package skein_ros is loaded before the
 /// node's middleware, relative names are led to its UAV's, and its log goes to the results.

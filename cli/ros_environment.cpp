@@ -7,9 +7,10 @@
 #include "cli/run/fleet_plan.hpp"
 #include "core/config/network_config.hpp"
 #include "core/scenario/scenario_reader.hpp"
+#include "core/text/suggestion.hpp"
 #include "core/text/text.hpp"
 #include "core/topics.hpp"
-#include "process/run_folder.hpp"
+#include "results/run_folder.hpp"
 
 namespace skein::cli {
 namespace {

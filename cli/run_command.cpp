@@ -20,7 +20,7 @@
 #include "cli/run_results.hpp"
 #include "cli/secure/security.hpp"
 #include "core/text/text.hpp"
-#include "process/run_folder.hpp"
+#include "results/run_folder.hpp"
 
 namespace skein::cli {
 namespace {
@@ -158,7 +158,7 @@ int run_fleet(const RunOptions& given, const Console& console) {
   }
   run.fly(base_domain, out.path(), secure ? secure->folders() : SecureFolders{}, std::move(placed));
 
-  const Reports reports = read_reports(out.path(), plan.scenario, run.reports());
+  const results::Reports reports = results::read_reports(out.path(), plan.scenario, run.reports());
   const auto collect = [&] {
     std::vector<std::string> warnings;
     if (secure) warnings = secure->collect();

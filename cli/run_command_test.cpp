@@ -7,9 +7,9 @@
 #include <sstream>
 
 #include "cli/report_command.hpp"
-#include "cli/run/result.hpp"
 #include "cli/testing/fake_programs.hpp"
 #include "core/types.hpp"
+#include "results/result.hpp"
 #include "tests/support/places.hpp"
 
 namespace skein::cli {

@@ -4,22 +4,23 @@
 
 #include "cli/hand_flights.hpp"
 #include "cli/oracle_command.hpp"
-#include "cli/run/losses.hpp"
 #include "cli/run/progress_view.hpp"
 #include "cli/run/recording.hpp"
 #include "cli/run/repeat_command.hpp"
-#include "cli/run/work.hpp"
 #include "core/run/run_state.hpp"
-#include "process/results/result_file.hpp"
-#include "process/run_folder.hpp"
 #include "report/run_report.hpp"
+#include "results/losses.hpp"
+#include "results/result_file.hpp"
+#include "results/run_folder.hpp"
+#include "results/work.hpp"
 
 namespace skein::cli {
 namespace {
 
 /// What became of the points; a run is not worth less because of an odd file.
-Json losses_of(const std::filesystem::path& dir, const Json& answer, const Reports& reports, Json& warnings) try {
-  return write_losses(dir, answer, reports);
+Json losses_of(const std::filesystem::path& dir, const Json& answer, const results::Reports& reports,
+               Json& warnings) try {
+  return results::write_losses(dir, answer, reports);
 } catch (const std::exception& error) {
   warnings.push_back(std::string("no losses.csv: ") + error.what());
   return nullptr;
@@ -27,22 +28,23 @@ Json losses_of(const std::filesystem::path& dir, const Json& answer, const Repor
 
 /// @returns false when the disk refuses; then the result is printed, so that it is not lost.
 bool write_result(const RunResults& run, const Json& result, std::ostream& err) {
-  const std::string trouble = run.write(result_text(result));
-  if (!trouble.empty()) err << trouble << "; this is what it would have held:\n" << result_text(result) << std::flush;
+  const std::string trouble = run.write(results::result_text(result));
+  if (!trouble.empty())
+    err << trouble << "; this is what it would have held:\n" << results::result_text(result) << std::flush;
   return trouble.empty();
 }
 
 /// What the result can do without: score.csv, work.csv, and how the score compares with what could be had.
 void add_tables(const RunOptions& options, const std::filesystem::path& dir, const Scenario& scenario,
-                const Reports& reports, Json& result) {
+                const results::Reports& reports, Json& result) {
   Json& warnings = result["warnings"];
   try {
-    if (!write_score_csv(dir, reports.station)) warnings.push_back("no scene.json: no score.csv");
+    if (!results::write_score_csv(dir, reports.station)) warnings.push_back("no scene.json: no score.csv");
   } catch (const std::exception& error) {
     warnings.push_back(std::string("no score.csv: ") + error.what());
   }
   try {
-    write_work_csv(dir, scenario, reports);
+    results::write_work_csv(dir, scenario, reports);
   } catch (const std::exception& error) {
     warnings.push_back(std::string("no work.csv: ") + error.what());
   }
@@ -79,7 +81,7 @@ bool make_report(const std::filesystem::path& dir, Json& warnings) try {
 
 std::optional<Json> write_results(const RunResults& run, const std::filesystem::path& shown,
                                   const std::function<std::vector<std::string>()>& collect, const Console& console) {
-  Json result = merge_result(run.facts, run.scenario, run.reports);
+  Json result = results::merge_result(run.facts, run.scenario, run.reports);
   tell_how_to_repeat(run, shown, result);
   // Before all that may still go wrong, or takes room.
   const bool written = write_result(run, result, console.err);
@@ -90,8 +92,9 @@ std::optional<Json> write_results(const RunResults& run, const std::filesystem::
   if (!trouble.empty()) result["warnings"].push_back(trouble);
   const bool news = !result["losses"].is_null() || result["attainable"]["score"].is_number() ||
                     result["warnings"].size() > warnings_written;
-  if (written && news) run.write(result_text(result));  // the one before stands if the disk is full by now
-  if (written && run.options.report && !make_report(run.dir, result["warnings"])) run.write(result_text(result));
+  if (written && news) run.write(results::result_text(result));  // the one before stands if the disk is full by now
+  if (written && run.options.report && !make_report(run.dir, result["warnings"]))
+    run.write(results::result_text(result));
   print_summary(console.out, result, shown);
   return written ? std::optional(std::move(result)) : std::nullopt;
 }
@@ -100,7 +103,7 @@ int exit_code_of(FleetRun& run, const Json& result) {
   if (run.facts().interrupted) return kExitInterrupted;
   // A run that nothing is known to have ended is no good one, either.
   const bool aborted = result["status"] == name_of(RunStatus::aborted);
-  return run.anything_failed() || aborted || anyone_lost(result) ? kExitProcessFailed : kExitDone;
+  return run.anything_failed() || aborted || results::anyone_lost(result) ? kExitProcessFailed : kExitDone;
 }
 
 }  // namespace skein::cli

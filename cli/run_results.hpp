@@ -10,16 +10,16 @@
 #include "cli/console.hpp"
 #include "cli/options.hpp"
 #include "cli/run/fleet_run.hpp"
-#include "cli/run/result.hpp"
+#include "results/result.hpp"
 
 namespace skein::cli {
 
 /// What is known of it. All are referred to.
 struct RunResults {
   const RunOptions& options;
-  const RunFacts& facts;
+  const results::RunFacts& facts;
   const Scenario& scenario;
-  const Reports& reports;
+  const results::Reports& reports;
   std::filesystem::path dir;                                  ///< where it left its files
   std::function<std::string(const std::string& text)> write;  ///< result.json; returns what went wrong, for people
 };

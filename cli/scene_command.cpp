@@ -5,7 +5,7 @@
 #include "cli/run/preflight.hpp"
 #include "process/host/environment.hpp"
 #include "process/program.hpp"
-#include "process/run_folder.hpp"
+#include "results/run_folder.hpp"
 
 namespace skein::cli {
 

@@ -26,8 +26,8 @@
 #include "core/types.hpp"
 #include "process/files/atomic_file.hpp"
 #include "process/program.hpp"
-#include "process/run_folder.hpp"
 #include "report/html.hpp"
+#include "results/run_folder.hpp"
 
 namespace skein::cli {
 namespace {

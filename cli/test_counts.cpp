@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "cli/run/result.hpp"
 #include "core/text/text.hpp"
+#include "results/result.hpp"
 
 namespace skein::cli {
 namespace {

@@ -45,8 +45,8 @@ install(FILES cli/completion/skein.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fis
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT license)  # Debian has it already
 
 # Where config/gdb/skein_printers.py looks for it.
-install(DIRECTORY bus cli comm_router core doctor one_process oracle process properties recording report scenes sight
-  sim_server station uav_agent view DESTINATION src/skein COMPONENT source
+install(DIRECTORY bus cli comm_router core doctor one_process oracle process properties recording report results scenes
+  sight sim_server station uav_agent view DESTINATION src/skein COMPONENT source
   FILES_MATCHING PATTERN "*.cpp" PATTERN "*.hpp" PATTERN testing EXCLUDE)
 
 # The package for Python, where Debian's finds it under /usr.
@@ -58,7 +58,7 @@ install(DIRECTORY python/skein DESTINATION lib/python3/dist-packages COMPONENT p
 install(FILES python/examples/compare.ipynb python/examples/listen.py python/examples/my_uav.py
   DESTINATION ${CMAKE_INSTALL_DOCDIR}/python COMPONENT python)
 
-set(libraries core process report view idl mcap bag bus lockstep recording agent agent_nodes agent_main
+set(libraries core process results report view idl mcap bag bus lockstep recording agent agent_nodes agent_main
   sight oracle scenes sim sim_node router router_node station station_node one_process one_process_main)
 foreach(library ${libraries})
   set_target_properties(skein_${library} PROPERTIES EXPORT_NAME ${library})

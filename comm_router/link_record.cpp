@@ -3,7 +3,7 @@
 #include <system_error>
 
 #include "core/radio/radio_routes.hpp"
-#include "process/run_folder.hpp"
+#include "results/run_folder.hpp"
 
 namespace skein::router {
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "bus/lockstep/fleet_program.hpp"
-#include "process/run_folder.hpp"
 #include "recording/replay.hpp"
+#include "results/run_folder.hpp"
 
 namespace skein::router {
 

@@ -15,7 +15,7 @@
 #include "one_process/death_notice.hpp"
 #include "one_process/program_output.hpp"
 #include "process/host/thread_cpu.hpp"
-#include "process/run_folder.hpp"
+#include "results/run_folder.hpp"
 
 namespace skein::one_process {
 namespace {

@@ -12,8 +12,8 @@
 
 #include "process/health/crash_notes.hpp"
 #include "process/program.hpp"
-#include "process/run_folder.hpp"
 #include "process/status/shared_lines.hpp"
+#include "results/run_folder.hpp"
 
 /// Of the sanitizers, where the program is built with one: they end the process without any signal.
 extern "C" void __sanitizer_set_death_callback(void (*callback)(void)) __attribute__((weak));

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "comm_router/router_program.hpp"
-#include "process/run_folder.hpp"
+#include "results/run_folder.hpp"
 #include "sim_server/server_program.hpp"
 #include "station/station_program.hpp"
 #include "uav_agent/agent_program.hpp"

@@ -20,7 +20,7 @@
 #include "one_process/shared_turn.hpp"
 #include "one_process/watchdog.hpp"
 #include "process/host/environment.hpp"
-#include "process/run_folder.hpp"
+#include "results/run_folder.hpp"
 
 /// Of LeakSanitizer, where the program is built with it.
 extern "C" void __lsan_do_leak_check(void) __attribute__((weak));

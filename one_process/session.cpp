@@ -23,7 +23,7 @@
 #include "one_process/death_notice.hpp"
 #include "process/health/crash_notes.hpp"
 #include "process/program.hpp"
-#include "process/run_folder.hpp"
+#include "results/run_folder.hpp"
 #include "sim_server/server_program.hpp"
 
 namespace skein::one_process {

@@ -9,7 +9,7 @@
 
 #include "one_process/fleet_programs.hpp"
 #include "one_process/truth.hpp"
-#include "process/run_folder.hpp"
+#include "results/run_folder.hpp"
 
 namespace skein::one_process {
 namespace {

@@ -15,6 +15,20 @@ Json value_or(const Json& object, const char* key, Json fallback) {
   return same_type || fallback.is_null() ? *found : fallback;
 }
 
+std::optional<double> number_if_any(const Json& object, const char* key) {
+  if (!object.is_object()) return std::nullopt;
+  const auto found = object.find(key);
+  return found != object.end() && found->is_number() ? std::optional(found->get<double>()) : std::nullopt;
+}
+
+double number_in(const Json& object, const char* key) { return number_if_any(object, key).value_or(0.0); }
+
+std::string text_in(const Json& object, const char* key) {
+  if (!object.is_object()) return "";
+  const auto found = object.find(key);
+  return found != object.end() && found->is_string() ? found->get<std::string>() : "";
+}
+
 Json parse_json(const std::string& text) {
   constexpr int kDeepest = 32;
   const auto shallow = [](int depth, Json::parse_event_t, const Json&) { return depth <= kDeepest; };

@@ -5,8 +5,8 @@
 #include <yaml-cpp/yaml.h>
 
 #include "core/topics.hpp"
-#include "process/run_folder.hpp"
 #include "recording/recorder.hpp"
+#include "results/run_folder.hpp"
 
 namespace skein::recording {
 namespace {

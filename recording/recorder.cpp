@@ -7,8 +7,8 @@
 
 #include "core/run/tick_time.hpp"
 #include "idl/message_definition.hpp"
-#include "process/run_folder.hpp"
 #include "recording/bag.hpp"
+#include "results/run_folder.hpp"
 
 namespace skein::recording {
 namespace {

@@ -20,7 +20,7 @@ namespace skein::recording {
 class Recorder final : public bus::Tap {
  public:
   /// @param folder   the run's.
-  /// @param program  process/run_folder.hpp's name of it; started again, it writes one more part.
+  /// @param program  results/run_folder.hpp's name of it; started again, it writes one more part.
   Recorder(const std::filesystem::path& folder, const std::string& program, Scope scope);
 
   Scope scope() const { return scope_; }

@@ -5,9 +5,9 @@
 #include "bus/lockstep/names.hpp"
 #include "core/topics.hpp"
 #include "idl/conversions.hpp"
-#include "process/run_folder.hpp"
 #include "recording/mcap/join.hpp"
 #include "recording/mcap/testing.hpp"
+#include "results/run_folder.hpp"
 
 namespace skein::recording {
 namespace {

@@ -8,9 +8,9 @@
 #include "core/topics.hpp"
 #include "idl/cdr.hpp"
 #include "idl/type_names.hpp"
-#include "process/run_folder.hpp"
 #include "recording/mcap/testing.hpp"
 #include "recording/recorder.hpp"
+#include "results/run_folder.hpp"
 
 namespace skein::recording {
 namespace {

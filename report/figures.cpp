@@ -4,8 +4,8 @@
 #include <cmath>
 #include <set>
 
-#include "process/results/run_tables.hpp"
 #include "report/flight_picture.hpp"
+#include "results/run_tables.hpp"
 
 namespace skein::report {
 namespace {
@@ -13,7 +13,7 @@ namespace {
 constexpr double kStillMps = 0.1, kIdleAfterS = 5.0;  // as the server's idle_s
 constexpr const char* kStationNode = "gcs";
 
-void add_point(const RunPoint& point, BoxFigures& box) {
+void add_point(const results::RunPoint& point, BoxFigures& box) {
   ++box.points;
   box.attainable += point.estimate > 0.0 ? 1 : 0;
   box.scored += point.score > 0.0 ? 1 : 0;
@@ -35,11 +35,11 @@ void add_span(Spans& spans, double from_s, double until_s) {
 /// Which links there are at a time, and what that means for each UAV.
 class Mesh {
  public:
-  explicit Mesh(const RunData& run) : uavs_(run.uavs.size()), run_(run) {
+  explicit Mesh(const results::RunData& run) : uavs_(run.uavs.size()), run_(run) {
     hears_.assign(uavs_ + 1, std::vector<bool>(uavs_ + 1, false));
   }
 
-  void set(const RunEvent& event) {
+  void set(const results::RunEvent& event) {
     const auto from = node_of(event.subject), to = node_of(event.object);
     if (from && to) hears_[*to][*from] = event.event == run_tables::kLinkUp;
   }
@@ -68,18 +68,18 @@ class Mesh {
   }
 
   std::size_t uavs_;  ///< also the station's node
-  const RunData& run_;
+  const results::RunData& run_;
   std::vector<std::vector<bool>> hears_;  ///< by receiver and sender
 };
 
-bool is_link(const RunEvent& event) {
+bool is_link(const results::RunEvent& event) {
   return event.event == run_tables::kLinkUp || event.event == run_tables::kLinkDown;
 }
 
-void add_links(const RunData& run, std::vector<Lane>& lanes) {
+void add_links(const results::RunData& run, std::vector<Lane>& lanes) {
   Mesh mesh(run);
   double since_s = 0.0;
-  for (const RunEvent& event : run.events) {
+  for (const results::RunEvent& event : run.events) {
     if (!is_link(event)) continue;
     if (event.time_s > since_s) mesh.account(since_s, event.time_s, lanes);
     since_s = event.time_s;
@@ -89,10 +89,10 @@ void add_links(const RunData& run, std::vector<Lane>& lanes) {
 }
 
 /// Joining and leaving, pictures handed out and acknowledged.
-void add_members(const RunData& run, std::vector<Lane>& lanes) {
+void add_members(const results::RunData& run, std::vector<Lane>& lanes) {
   std::vector<std::optional<double>> joined(run.uavs.size());
   std::vector<int> waiting(run.uavs.size(), 0);
-  for (const RunEvent& event : run.events) {
+  for (const results::RunEvent& event : run.events) {
     const auto uav = is_link(event) ? std::nullopt : run.uav_of(event.subject);
     if (!uav) continue;
     Lane& lane = lanes[*uav];
@@ -118,16 +118,16 @@ void add_members(const RunData& run, std::vector<Lane>& lanes) {
 }
 
 /// Each capture once: its time and when it was delivered.
-std::map<std::pair<std::size_t, std::uint64_t>, RunCapture> whole_captures(const RunData& run) {
-  std::map<std::pair<std::size_t, std::uint64_t>, RunCapture> captures;
-  for (const RunCapture& line : run.captures) {
-    RunCapture& capture = captures.try_emplace({line.uav, line.capture}, line).first->second;
+std::map<std::pair<std::size_t, std::uint64_t>, results::RunCapture> whole_captures(const results::RunData& run) {
+  std::map<std::pair<std::size_t, std::uint64_t>, results::RunCapture> captures;
+  for (const results::RunCapture& line : run.captures) {
+    results::RunCapture& capture = captures.try_emplace({line.uav, line.capture}, line).first->second;
     if (!capture.delivered_at_s) capture.delivered_at_s = line.delivered_at_s;
   }
   return captures;
 }
 
-Spans still_spans(const std::vector<RunPose>& track, const std::vector<double>& captures_s) {
+Spans still_spans(const std::vector<results::RunPose>& track, const std::vector<double>& captures_s) {
   Spans still;
   auto next = captures_s.begin();
   double last_capture_s = -kIdleAfterS;
@@ -141,12 +141,12 @@ Spans still_spans(const std::vector<RunPose>& track, const std::vector<double>& 
 
 }  // namespace
 
-std::vector<BoxFigures> box_figures(const RunData& run) {
+std::vector<BoxFigures> box_figures(const results::RunData& run) {
   std::vector<BoxFigures> rows;
-  for (const RunBox& box : run.boxes) rows.push_back({box.name, 0, 0, 0, 0.0, 0.0, {}});
+  for (const results::RunBox& box : run.boxes) rows.push_back({box.name, 0, 0, 0, 0.0, 0.0, {}});
   BoxFigures outside{"outside all boxes", 0, 0, 0, 0.0, 0.0, {}}, all{"all", 0, 0, 0, 0.0, 0.0, {}};
-  for (const RunPoint& point : run.points) {
-    const auto holds = [&](const RunBox& box) { return box.holds(point.p_W); };
+  for (const results::RunPoint& point : run.points) {
+    const auto holds = [&](const results::RunBox& box) { return box.holds(point.p_W); };
     const auto found = std::find_if(run.boxes.begin(), run.boxes.end(), holds);
     add_point(point, found == run.boxes.end() ? outside : rows[static_cast<std::size_t>(found - run.boxes.begin())]);
     add_point(point, all);
@@ -156,20 +156,20 @@ std::vector<BoxFigures> box_figures(const RunData& run) {
   return rows;
 }
 
-std::vector<RunScore> earned_over_time(const RunData& run) {
-  std::vector<const RunCapture*> captures;
-  for (const RunCapture& capture : run.captures) {
+std::vector<results::RunScore> earned_over_time(const results::RunData& run) {
+  std::vector<const results::RunCapture*> captures;
+  for (const results::RunCapture& capture : run.captures) {
     if (!capture.voided && capture.q >= kDetected) captures.push_back(&capture);
   }
   std::stable_sort(captures.begin(), captures.end(), [](auto a, auto b) { return a->time_s < b->time_s; });
   std::map<std::size_t, double> best;
-  std::vector<RunScore> earned = {{0.0, 0.0, 0.0}};
-  for (const RunCapture* capture : captures) {
+  std::vector<results::RunScore> earned = {{0.0, 0.0, 0.0}};
+  for (const results::RunCapture* capture : captures) {
     double& q = best[capture->point];
     if (capture->q <= q) continue;
     const double more = capture->q - q;
     q = capture->q;
-    const RunScore now{capture->time_s, static_cast<double>(best.size()), earned.back().score + more};
+    const results::RunScore now{capture->time_s, static_cast<double>(best.size()), earned.back().score + more};
     if (earned.back().time_s == now.time_s) {
       earned.back() = now;
     } else {
@@ -185,7 +185,7 @@ double length_of(const Spans& spans) {
   return sum;
 }
 
-std::vector<Lane> lanes_of(const RunData& run) {
+std::vector<Lane> lanes_of(const results::RunData& run) {
   std::vector<Lane> lanes(run.uavs.size());
   for (const auto& [key, capture] : whole_captures(run)) lanes[key.first].captures_s.push_back(capture.time_s);
   for (std::size_t uav = 0; uav < lanes.size(); ++uav) {
@@ -194,17 +194,17 @@ std::vector<Lane> lanes_of(const RunData& run) {
   }
   add_links(run, lanes);
   add_members(run, lanes);
-  for (const RunCollision& collision : run.collisions) {
+  for (const results::RunCollision& collision : run.collisions) {
     const auto uav = run.uav_of(collision.uav);
     if (uav && !lanes[*uav].collided_s) lanes[*uav].collided_s = collision.time_s;
   }
   return lanes;
 }
 
-LinkShares link_shares(const RunData& run) {
+LinkShares link_shares(const results::RunData& run) {
   LinkShares sums;
   std::map<std::pair<std::string, std::string>, double> up_since;
-  for (const RunEvent& event : run.events) {
+  for (const results::RunEvent& event : run.events) {
     if (!is_link(event)) continue;
     const std::pair link(event.subject, event.object);
     if (event.event == run_tables::kLinkUp) {
@@ -224,9 +224,9 @@ double Latency::quantile(double share) const {
   return delays_s[static_cast<std::size_t>(std::clamp(rank, 1.0, static_cast<double>(delays_s.size()))) - 1];
 }
 
-Latency latency_of(const RunData& run) { return merged(latency_by_uav(run)); }
+Latency latency_of(const results::RunData& run) { return merged(latency_by_uav(run)); }
 
-std::vector<Latency> latency_by_uav(const RunData& run) {
+std::vector<Latency> latency_by_uav(const results::RunData& run) {
   std::vector<Latency> by_uav(run.uavs.size());
   for (const auto& [key, capture] : whole_captures(run)) {
     Latency& latency = by_uav[key.first];

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "report/causes.hpp"
-#include "report/run_data.hpp"
+#include "results/causes.hpp"
+#include "results/run_data.hpp"
 
 namespace skein::report {
 
@@ -18,7 +18,7 @@ struct BoxFigures {
   std::string name;
   std::size_t points = 0, attainable = 0, scored = 0;
   double estimate = 0.0, score = 0.0;
-  std::array<double, kCauses.size()> losses{};  ///< by cause
+  std::array<double, results::kCauses.size()> losses{};  ///< by cause
 
   /// Of the points that scored.
   double mean_q() const { return scored > 0 ? score / static_cast<double>(scored) : 0.0; }
@@ -26,10 +26,10 @@ struct BoxFigures {
 
 /// In the order of scene.json; a point in several counts in the first. Last, if there are any, those outside; then the
 /// sum over all.
-std::vector<BoxFigures> box_figures(const RunData& run);
+std::vector<BoxFigures> box_figures(const results::RunData& run);
 
 /// The score of what had been photographed, delivered or not, whenever it rose; without UAVs that collided.
-std::vector<RunScore> earned_over_time(const RunData& run);
+std::vector<results::RunScore> earned_over_time(const results::RunData& run);
 
 struct Span {
   double from_s = 0.0, until_s = 0.0;
@@ -53,11 +53,11 @@ struct Lane {
   std::optional<double> collided_s;
 };
 /// By UAV.
-std::vector<Lane> lanes_of(const RunData& run);
+std::vector<Lane> lanes_of(const results::RunData& run);
 
 /// Share of the time in which a directed link was there, by sender and receiver.
 using LinkShares = std::map<std::pair<std::string, std::string>, double>;
-LinkShares link_shares(const RunData& run);
+LinkShares link_shares(const results::RunData& run);
 
 /// From a picture to its being counted, of each capture that counted for something.
 struct Latency {
@@ -67,9 +67,9 @@ struct Latency {
   /// The least that `share` of the delivered do not exceed; 0 of none.
   double quantile(double share) const;
 };
-Latency latency_of(const RunData& run);
+Latency latency_of(const results::RunData& run);
 /// The same of each UAV.
-std::vector<Latency> latency_by_uav(const RunData& run);
+std::vector<Latency> latency_by_uav(const results::RunData& run);
 /// Of all captures of several of them.
 Latency merged(const std::vector<Latency>& parts);
 
@@ -79,7 +79,7 @@ struct MapFigures {
   std::optional<double> known_share;  ///< of the boxes' volume, counted in cubes of 2 m at most; none without boxes
 };
 /// By UAV; nullopt: it left no map.
-std::vector<std::optional<MapFigures>> map_figures(const RunData& run);
+std::vector<std::optional<MapFigures>> map_figures(const results::RunData& run);
 
 /// How many processors the programs kept busy on average; none where nobody measured them.
 std::optional<double> processors_of(const Json& result);

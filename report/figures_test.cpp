@@ -25,16 +25,16 @@ class Figures : public testing::TestWithParam<unsigned> {
                             Eigen::AngleAxisd(number(3.0), Vector3d::UnitZ()).toRotationMatrix()});
     }
     for (std::size_t i = 0; i < 200; ++i) {
-      RunPoint point;
+      results::RunPoint point;
       point.p_W = draw_place();
       point.estimate = below(3) > 0 ? number(1.0) : 0.0;
       point.score = below(2) > 0 ? number(1.0) : 0.0;
       point.loss = point.estimate - point.score;
-      if (point.loss != 0.0) point.cause = below(kCauses.size());
+      if (point.loss != 0.0) point.cause = below(results::kCauses.size());
       run_.points.push_back(point);
     }
     for (std::size_t i = 0; i < 400; ++i) {
-      RunCapture capture{below(run_.uavs.size()), below(40), 0.0, number(1.0), below(50)};
+      results::RunCapture capture{below(run_.uavs.size()), below(40), 0.0, number(1.0), below(50)};
       capture.time_s = static_cast<double>(capture.capture) + 0.1 * static_cast<double>(capture.uav);
       if (capture.capture % 3 > 0) capture.delivered_at_s = capture.time_s + static_cast<double>(capture.capture % 7);
       capture.voided = capture.uav == 0;
@@ -58,7 +58,7 @@ class Figures : public testing::TestWithParam<unsigned> {
   /// The links in step k, by brute force: sender, receiver.
   std::set<std::pair<std::string, std::string>> links_in(std::size_t k) const {
     std::set<std::pair<std::string, std::string>> up;
-    for (const RunEvent& event : run_.events) {
+    for (const results::RunEvent& event : run_.events) {
       if (event.time_s > kStep * (static_cast<double>(k) + 0.5)) break;
       if (event.event == "link_up") {
         up.insert({event.subject, event.object});
@@ -74,11 +74,11 @@ class Figures : public testing::TestWithParam<unsigned> {
   }
 
   std::mt19937 random_;
-  RunData run_;
+  results::RunData run_;
 };
 
 TEST_P(Figures, ABoxHoldsWhatIsBetweenItsFaces) {
-  for (const RunBox& box : run_.boxes) {
+  for (const results::RunBox& box : run_.boxes) {
     for (int i = 0; i < 50; ++i) {
       const Vector3d share(number(2.4) - 1.2, number(2.4) - 1.2, number(2.4) - 1.2);  // of the way to the faces
       const Vector3d p_W = box.center + box.R_WB * (0.5 * box.size.cwiseProduct(share));
@@ -93,7 +93,7 @@ TEST_P(Figures, BoxesSumUpToAll) {
   const BoxFigures& all = boxes.back();
   EXPECT_EQ(all.points, run_.points.size());
   double score = 0.0, loss = 0.0;
-  for (const RunPoint& point : run_.points) {
+  for (const results::RunPoint& point : run_.points) {
     score += point.score;
     loss += point.loss;
   }
@@ -116,10 +116,10 @@ TEST_P(Figures, BoxesSumUpToAll) {
 }
 
 TEST_P(Figures, WhatWasEarnedIsTheBestPictureOfEachPoint) {
-  const std::vector<RunScore> earned = earned_over_time(run_);
-  for (const RunScore& now : earned) {
+  const std::vector<results::RunScore> earned = earned_over_time(run_);
+  for (const results::RunScore& now : earned) {
     std::map<std::size_t, double> best;
-    for (const RunCapture& capture : run_.captures) {
+    for (const results::RunCapture& capture : run_.captures) {
       if (capture.voided || capture.q < kDetected || capture.time_s > now.time_s) continue;
       best[capture.point] = std::max(best[capture.point], capture.q);
     }
@@ -167,7 +167,7 @@ TEST_P(Figures, SharesOfLinksAreStepsWithALink) {
 TEST_P(Figures, LatencyIsThatOfEachCaptureOnce) {
   const Latency latency = latency_of(run_);
   std::map<std::pair<std::size_t, std::uint64_t>, std::optional<double>> captures;
-  for (const RunCapture& line : run_.captures) {
+  for (const results::RunCapture& line : run_.captures) {
     captures[{line.uav, line.capture}] =
         line.delivered_at_s ? std::optional(*line.delivered_at_s - line.time_s) : std::nullopt;
   }
@@ -185,13 +185,13 @@ TEST_P(Figures, LatencyIsThatOfEachCaptureOnce) {
 }
 
 TEST_P(Figures, StillIsSlowWithoutABetterPicture) {
-  std::vector<RunPose>& track = run_.tracks[0];
+  std::vector<results::RunPose>& track = run_.tracks[0];
   for (std::size_t i = 0; i < 600; ++i) {
     track.push_back({0.1 * static_cast<double>(i), Vector3d::Zero(), (i / 40) % 2 == below(2) ? 1.0 : 0.0, i < 500});
   }
   const std::vector<Lane> lanes = lanes_of(run_);
   for (std::size_t i = 0; i + 1 < track.size(); ++i) {
-    const auto recent = [&](const RunCapture& capture) {
+    const auto recent = [&](const results::RunCapture& capture) {
       return capture.uav == 0 && capture.time_s <= track[i].time_s && capture.time_s > track[i].time_s - 5.0;
     };
     const bool still =

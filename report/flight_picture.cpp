@@ -4,8 +4,8 @@
 #include <stdexcept>
 
 #include "process/json_text.hpp"
-#include "process/run_folder.hpp"
-#include "report/csv_table.hpp"
+#include "results/run_folder.hpp"
+#include "results/run_rows.hpp"
 
 namespace skein::report {
 namespace {
@@ -29,11 +29,10 @@ void read_tracks(const std::filesystem::path& dir, FlightPicture& picture) {
     index[name] = picture.tracks.size();
     picture.tracks.push_back({name, value_or(uav, "role", "") == Json("explorer"), {}});
   }
-  for (CsvTable table(dir / run_folder::kTrajectories); table.next();) {
-    const auto found = index.find(table.text("uav"));
-    if (found == index.end()) continue;
-    picture.tracks[found->second].p_WB.emplace_back(table.number("x"), table.number("y"), table.number("z"));
-  }
+  results::each_row<results::PoseCells>(dir, [&](const results::PoseCells& row) {
+    const auto found = index.find(row.uav());
+    if (found != index.end()) picture.tracks[found->second].p_WB.push_back(row.p_W());
+  });
 }
 
 /// What came before the damage stays: an aborted flight's last line may be cut short.
@@ -62,9 +61,9 @@ FlightPicture read_picture(const std::filesystem::path& dir) {
     for (const Json& box : boxes) picture.boxes.push_back(box_corners(box));
   });
   read_what_is_there([&] {
-    for (CsvTable table(dir / run_folder::kScore); table.next();) {
-      picture.points.push_back({{table.number("x"), table.number("y"), table.number("z")}, table.number("score")});
-    }
+    results::each_row<results::PointCells>(dir, [&](const results::PointCells& row) {
+      picture.points.push_back({row.p_W(), row.score()});
+    });
   });
   read_what_is_there([&] { read_tracks(dir, picture); });
   return picture;

@@ -6,8 +6,8 @@
 #include <random>
 #include <regex>
 
-#include "report/testing/scratch.hpp"
 #include "report/testing/xml_check.hpp"
+#include "results/testing/scratch.hpp"
 
 namespace skein::report {
 namespace {
@@ -31,15 +31,15 @@ FlightPicture random_picture(std::mt19937& random, std::size_t points) {
 }
 
 TEST(FlightPicture, ReadsAResultsFolder) {
-  const Scratch scratch;
-  write_text(scratch.path() / "result.json",
-             R"({"uavs": [{"name": "alpha", "role": "explorer"}, {"name": "beta", "role": "photographer"}]})");
-  write_text(
+  const results::Scratch scratch;
+  results::write_text(scratch.path() / "result.json",
+                      R"({"uavs": [{"name": "alpha", "role": "explorer"}, {"name": "beta", "role": "photographer"}]})");
+  results::write_text(
       scratch.path() / "scene.json",
       R"({"boxes": [{"center": [1, 2, 3], "size": [2, 4, 6], "rotation": [[0, -1, 0], [1, 0, 0], [0, 0, 1]]}]})");
-  write_text(scratch.path() / "score.csv", "x,y,z,nx,ny,nz,score,index\n1,2,3,0,0,1,0.5,0\n4,5,6,0,0,1,0,1\n");
-  write_text(scratch.path() / "trajectories.csv",
-             "time_s,uav,x,y,z\n0,alpha,1,2,3\n0,beta,4,5,6\n0.1,alpha,7,8,9\n0.1,be");
+  results::write_text(scratch.path() / "score.csv", "x,y,z,nx,ny,nz,score,index\n1,2,3,0,0,1,0.5,0\n4,5,6,0,0,1,0,1\n");
+  results::write_text(scratch.path() / "trajectories.csv",
+                      "time_s,uav,x,y,z\n0,alpha,1,2,3\n0,beta,4,5,6\n0.1,alpha,7,8,9\n0.1,be");
   const FlightPicture picture = read_picture(scratch.path());
   ASSERT_EQ(picture.boxes.size(), 1u);
   EXPECT_TRUE(picture.boxes[0][0].isApprox(Vector3d(1 + 2, 2 - 1, 0))) << "turned by 90 degrees about its middle";
@@ -53,7 +53,7 @@ TEST(FlightPicture, ReadsAResultsFolder) {
 }
 
 TEST(FlightPicture, AFolderWithoutAnythingGivesAnEmptyDrawing) {
-  const Scratch scratch;
+  const results::Scratch scratch;
   const FlightPicture picture = read_picture(scratch.path());
   EXPECT_TRUE(picture.boxes.empty() && picture.points.empty() && picture.tracks.empty());
   const PictureView view({&picture});

@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "report/figures.hpp"
-#include "report/octree_file.hpp"
+#include "results/octree_file.hpp"
 
 namespace skein::report {
 namespace {
@@ -12,8 +12,8 @@ constexpr double kMostCubes = 1e6;  ///< in all boxes
 /// The cubes that have their middle in a box, by volume.
 class BoxVolume {
  public:
-  explicit BoxVolume(const std::vector<RunBox>& boxes) : boxes_(boxes) {
-    for (const RunBox& box : boxes) {
+  explicit BoxVolume(const std::vector<results::RunBox>& boxes) : boxes_(boxes) {
+    for (const results::RunBox& box : boxes) {
       const Vector3d half = box.R_WB.cwiseAbs() * (0.5 * box.size);
       extents_.emplace_back(box.center - half, box.center + half);
       all_.extend(extents_.back());
@@ -55,7 +55,7 @@ class BoxVolume {
     return false;
   }
 
-  const std::vector<RunBox>& boxes_;
+  const std::vector<results::RunBox>& boxes_;
   std::vector<Eigen::AlignedBox3d> extents_;
   Eigen::AlignedBox3d all_;
   double edge_m_ = 2.0;  ///< larger cubes are counted in pieces
@@ -63,7 +63,7 @@ class BoxVolume {
 
 }  // namespace
 
-std::vector<std::optional<MapFigures>> map_figures(const RunData& run) {
+std::vector<std::optional<MapFigures>> map_figures(const results::RunData& run) {
   std::vector<std::optional<MapFigures>> figures(run.uavs.size());
   const BoxVolume boxes(run.boxes);
   std::optional<double> whole;
@@ -72,7 +72,7 @@ std::vector<std::optional<MapFigures>> map_figures(const RunData& run) {
     if (!whole) whole = boxes.total();
     MapFigures& map = figures[i].emplace();
     double known = 0.0;
-    visit_octree_file(run.maps[i], [&](const KnownCube& cube) {
+    results::visit_octree_file(run.maps[i], [&](const KnownCube& cube) {
       (cube.occupied ? map.occupied_m3 : map.free_m3) += std::pow(cube.edge_m, 3);
       known += boxes.of(cube);
     });

@@ -25,7 +25,7 @@ long milliradians(double angle) { return std::isfinite(angle) ? std::lround(1e3 
 
 /// Times in hundredths of a second, positions in cm and the camera's angles in mrad, each as the difference to the one
 /// before: short numbers.
-Json track_json(const std::vector<RunPose>& track, double each_s) {
+Json track_json(const std::vector<results::RunPose>& track, double each_s) {
   static constexpr std::array kColumns = {"t", "x", "y", "z", "yaw", "pitch"};
   std::array<Json, kColumns.size()> columns;
   columns.fill(Json::array());
@@ -48,7 +48,7 @@ Json track_json(const std::vector<RunPose>& track, double each_s) {
 }
 
 /// Times in ms, scores in thousandths.
-Json curve_json(const std::vector<RunScore>& scores) {
+Json curve_json(const std::vector<results::RunScore>& scores) {
   Json t = Json::array(), v = Json::array();
   const std::size_t step = scores.size() / kMostChanges + 1;
   for (std::size_t i = 0; i < scores.size(); ++i) {
@@ -69,9 +69,9 @@ Json spans_json(const Spans& spans) {
 }
 
 /// x, y, z in cm, normal in hundredths, score and estimate in thousandths, cause (-1: none), one after the other.
-Json points_json(const RunData& run) {
+Json points_json(const results::RunData& run) {
   Json flat = Json::array();
-  for (const RunPoint& point : run.points) {
+  for (const results::RunPoint& point : run.points) {
     for (const long value : {centimetres(point.p_W.x()), centimetres(point.p_W.y()), centimetres(point.p_W.z()),
                              centimetres(point.normal_W.x()), centimetres(point.normal_W.y()),
                              centimetres(point.normal_W.z()), std::lround(1e3 * point.score),
@@ -83,15 +83,15 @@ Json points_json(const RunData& run) {
 }
 
 /// Who took the picture that made each point's score, and when: of those delivered the best, the first of equals.
-Json best_json(const RunData& run) {
-  std::vector<const RunCapture*> best(run.points.size(), nullptr);
-  for (const RunCapture& capture : run.captures) {
+Json best_json(const results::RunData& run) {
+  std::vector<const results::RunCapture*> best(run.points.size(), nullptr);
+  for (const results::RunCapture& capture : run.captures) {
     if (!capture.delivered_at_s || capture.voided || capture.point >= best.size() || capture.q < kDetected) continue;
-    const RunCapture*& now = best[capture.point];
+    const results::RunCapture*& now = best[capture.point];
     if (now == nullptr || capture.q > now->q || (capture.q == now->q && capture.time_s < now->time_s)) now = &capture;
   }
   Json flat = Json::array();
-  for (const RunCapture* capture : best) {
+  for (const results::RunCapture* capture : best) {
     flat.push_back(capture != nullptr ? static_cast<int>(capture->uav) : -1);
     flat.push_back(capture != nullptr ? std::lround(1e3 * capture->time_s) : 0L);
   }
@@ -114,7 +114,7 @@ Json waiting_json(const std::vector<Waiting>& changes, std::size_t most) {
 }
 
 /// From each time on [ms]: digits of LinkState. Of a fleet so large that they would be most of the page: none.
-Json links_json(const RunData& run) {
+Json links_json(const results::RunData& run) {
   constexpr std::size_t kMostDigits = 600'000;
   Json t = Json::array(), l = Json::array();
   const auto links = recorded_links(run);
@@ -128,7 +128,7 @@ Json links_json(const RunData& run) {
 }
 
 /// What each camera sees sharp enough; null where the recording does not tell.
-Json camera_json(const std::optional<RunCamera>& camera) {
+Json camera_json(const std::optional<results::RunCamera>& camera) {
   if (!camera) return nullptr;
   return {{"hfov", camera->hfov_deg}, {"vfov", camera->vfov_deg}, {"range", camera->range_m}};
 }
@@ -146,7 +146,7 @@ Json each_second(const std::vector<double>& times_s, double end_s) {
 }  // namespace
 
 Json page_data(const RunPage& page) {
-  const RunData& run = page.run;
+  const results::RunData& run = page.run;
   std::size_t poses = 0;
   for (const auto& track : run.tracks) poses += track.empty() ? 0 : static_cast<std::size_t>(run.end_s / kEachS);
   const double each_s = kEachS * std::max(1.0, std::ceil(static_cast<double>(poses) / kMostPoses));
@@ -171,29 +171,29 @@ Json page_data(const RunPage& page) {
   return data;
 }
 
-Json scene_data(const RunData& run) {
+Json scene_data(const results::RunData& run) {
   Json data = Json::object();
   data["points"] = points_json(run);
   data["causes"] = Json::array();
   data["cause_keys"] = Json::array();
-  for (const Cause& cause : kCauses) {
+  for (const results::Cause& cause : results::kCauses) {
     data["causes"].push_back(std::string(cause.title));
     data["cause_keys"].push_back(std::string(cause.key));
   }
   data["causes_known"] = run.causes_known;
   data["boxes"] = Json::array();
-  for (const RunBox& box : run.boxes) {
+  for (const results::RunBox& box : run.boxes) {
     Json corners = Json::array();
     for (const Vector3d& corner : corners_of(box.center, box.size, box.R_WB)) corners.push_back(in_cm(corner));
     data["boxes"].push_back(std::move(corners));
   }
   data["station"] = run.station ? in_cm(*run.station) : Json();
   data["collisions"] = Json::array();
-  for (const RunCollision& collision : run.collisions) {
+  for (const results::RunCollision& collision : run.collisions) {
     if (collision.p_W) data["collisions"].push_back(in_cm(*collision.p_W));
   }
   data["faults"] = Json::array();
-  for (const RunFault& fault : run.faults) {
+  for (const results::RunFault& fault : run.faults) {
     data["faults"].push_back(
         {{"name", fault.kind + " " + fault.target}, {"from", fault.from_s}, {"until", fault.until_s}});
   }

@@ -9,6 +9,6 @@ namespace skein::report {
 /// Keys: web/src/report.js reads them.
 Json page_data(const RunPage& page);
 /// Of these the part that has no time: points, boxes, station, collisions, causes, faults.
-Json scene_data(const RunData& run);
+Json scene_data(const results::RunData& run);
 
 }  // namespace skein::report

@@ -144,7 +144,7 @@ std::string fleet_section(const RunPage& page) {
   if (!page.run.collisions.empty()) {
     html += "<h3>Collisions</h3><div class=\"wide\"><table data-table=\"collisions\">" +
             table_head({"UAV", "With", "At [s]"}) + "<tbody>\n";
-    for (const RunCollision& collision : page.run.collisions) {
+    for (const results::RunCollision& collision : page.run.collisions) {
       html += table_row({escaped(collision.uav), escaped(collision.with), fixed(collision.time_s, 2)});
     }
     html += "</tbody></table></div>\n";

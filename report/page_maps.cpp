@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "report/html.hpp"
-#include "report/octree_file.hpp"
 #include "report/page_parts.hpp"
+#include "results/octree_file.hpp"
 
 namespace skein::report {
 namespace {
@@ -124,7 +124,7 @@ std::string maps_section(const RunPage& page) {
   for (std::size_t i = 0; i < page.run.uavs.size() && drawn < kMostMaps; ++i) {
     if (!page.maps[i]) continue;
     Plan plan(view);
-    visit_octree_file(page.run.maps[i], [&](const KnownCube& cube) { plan.add(cube); });
+    results::visit_octree_file(page.run.maps[i], [&](const KnownCube& cube) { plan.add(cube); });
     PictureStyle style;
     style.ground = plan.svg();
     const std::string& uav = page.run.uavs[i];

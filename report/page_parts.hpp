@@ -12,12 +12,12 @@ namespace skein::report {
 
 /// What all sections are made of.
 struct RunPage {
-  explicit RunPage(RunData data);
+  explicit RunPage(results::RunData data);
 
-  RunData run;
+  results::RunData run;
   std::vector<Lane> lanes;
   std::vector<BoxFigures> boxes;
-  std::vector<RunScore> earned;
+  std::vector<results::RunScore> earned;
   LinkShares links;
   Latency latency;
   std::vector<std::optional<MapFigures>> maps;  ///< by UAV

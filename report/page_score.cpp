@@ -45,7 +45,7 @@ std::string losses_section(const RunPage& page) {
            "</section>\n";
   }
   double most = std::max({*estimate, number_in(result, "score"), 1e-9}), left = *estimate;
-  for (const Cause& cause : kCauses) {
+  for (const results::Cause& cause : results::kCauses) {
     left -= number_in(value_or(losses, std::string(cause.key).c_str(), Json::object()), "score");
     most = std::max(most, left);
   }
@@ -58,11 +58,11 @@ std::string losses_section(const RunPage& page) {
                      bar_cell(0.0, *estimate, most, "whole")},
                     "sum");
   left = *estimate;
-  for (std::size_t i = 0; i < kCauses.size(); ++i) {
-    const Json sum = value_or(losses, std::string(kCauses[i].key).c_str(), Json::object());
+  for (std::size_t i = 0; i < results::kCauses.size(); ++i) {
+    const Json sum = value_or(losses, std::string(results::kCauses[i].key).c_str(), Json::object());
     const double lost = number_in(sum, "score");
     if (number_in(sum, "points") <= 0.0) continue;
-    html += table_row({swatch(i) + std::string(kCauses[i].title), fixed(-lost, 1), percent(lost, *estimate),
+    html += table_row({swatch(i) + std::string(results::kCauses[i].title), fixed(-lost, 1), percent(lost, *estimate),
                        cell_of(sum, "points", 0), bar_cell(left - lost, left, most, fmt::format("k{}", i))});
     left -= lost;
   }
@@ -75,8 +75,8 @@ std::string losses_section(const RunPage& page) {
 std::string timeline_section(const RunPage& page) {
   std::string html = "<section id=\"time\"><h2>Score over time</h2>\n";
   TimeCurve delivered{"delivered", "delivered", {}}, earned{"earned", "earned", {}};
-  for (const RunScore& score : page.run.scores) delivered.changes.emplace_back(score.time_s, score.score);
-  for (const RunScore& score : page.earned) earned.changes.emplace_back(score.time_s, score.score);
+  for (const results::RunScore& score : page.run.scores) delivered.changes.emplace_back(score.time_s, score.score);
+  for (const results::RunScore& score : page.earned) earned.changes.emplace_back(score.time_s, score.score);
   const std::string title = "Score over time: " + cell_of(page.run.result, "score", 1) + " at the end";
   html +=
       "<ul class=\"legend\"><li><span class=\"swatch line\" style=\"background:var(--c0)\"></span>delivered</li>"
@@ -95,7 +95,7 @@ std::string timeline_section(const RunPage& page) {
   if (!page.run.faults.empty()) {
     html += "<details open=\"open\"><summary>Faults</summary><div class=\"wide\"><table data-table=\"faults\">" +
             table_head({"Fault", "From [s]", "Until [s]"}) + "<tbody>\n";
-    for (const RunFault& fault : page.run.faults) {
+    for (const results::RunFault& fault : page.run.faults) {
       html += table_row({escaped(fault.kind + " " + fault.target), fixed(fault.from_s, 2), fixed(fault.until_s, 2)});
     }
     html += "</tbody></table></div></details>\n";
@@ -108,13 +108,13 @@ std::string boxes_section(const RunPage& page) {
   if (page.run.points.empty()) return html + absent("No interest points are known.") + "</section>\n";
   std::vector<std::size_t> causes;  // that took something
   const BoxFigures& all = page.boxes.back();
-  for (std::size_t i = 0; i < kCauses.size(); ++i) {
+  for (std::size_t i = 0; i < results::kCauses.size(); ++i) {
     if (all.losses[i] != 0.0) causes.push_back(i);
   }
   std::vector<std::string> names = {"Box", "Points", "Scored", "Mean q [1]", "Score"};
   if (page.run.causes_known) names.insert(names.begin() + 2, "Attainable");
   if (page.run.causes_known) names.push_back("Of estimate");
-  for (const std::size_t i : causes) names.push_back("Lost: " + std::string(kCauses[i].title));
+  for (const std::size_t i : causes) names.push_back("Lost: " + std::string(results::kCauses[i].title));
   html +=
       "<p class=\"soft\">A point in several boxes counts in the first. The darker, the larger the share of what could "
       "be "

@@ -46,12 +46,12 @@ std::string places_section(const RunPage& page) {
   const PictureView view({&picture}, Look::above, kPlaceWidth);
   PictureStyle style{true, {}, false};
   panels += figure("All causes", "plan", picture_svg(picture, view, "Losses by cause, in plan", style));
-  for (std::size_t i = 0; i < kCauses.size(); ++i) {
+  for (std::size_t i = 0; i < results::kCauses.size(); ++i) {
     std::size_t points = 0;
-    for (const RunPoint& point : page.run.points) points += point.cause == i ? 1 : 0;
+    for (const results::RunPoint& point : page.run.points) points += point.cause == i ? 1 : 0;
     if (points == 0) continue;
     style.only_cause = i;
-    const std::string title(kCauses[i].title);
+    const std::string title(results::kCauses[i].title);
     html += entry(fmt::format("k{}", i), title);
     panels += figure(title, fmt::format("{} points, {} score", points, fixed(all.losses[i], 1)),
                      picture_svg(picture, view, "Losses in plan: " + title, style));

@@ -5,9 +5,9 @@
 #include <limits>
 #include <map>
 
-#include "report/causes.hpp"
 #include "report/flight_picture.hpp"
 #include "report/html.hpp"
+#include "results/causes.hpp"
 
 namespace skein::report {
 namespace {
@@ -173,7 +173,7 @@ std::size_t colour_of(double score) {
 
 /// Colours of points: 0 to kScoreColours by score, then one for each cause. Of points that fall together the greatest
 /// is drawn.
-constexpr std::size_t kPointColours = kScoreColours + 1 + kCauses.size();
+constexpr std::size_t kPointColours = kScoreColours + 1 + results::kCauses.size();
 
 std::size_t colour_of(const PicturePoint& point, const PictureStyle& style) {
   if (style.only_cause) return point.cause == style.only_cause ? kScoreColours + 1 + *point.cause : 0;

@@ -5,23 +5,23 @@
 #include <string>
 
 #include "core/text/text.hpp"
-#include "process/results/run_tables.hpp"
+#include "results/run_tables.hpp"
 
 namespace skein::report {
 namespace {
 
-bool cuts(const RunFault& fault) {
+bool cuts(const results::RunFault& fault) {
   return fault.kind == "blackout" || fault.kind == "station_outage" || fault.kind == "partition";
 }
 
 /// Of radio nodes by number: the station is 0, and all that is no UAV.
-std::size_t node_of(const RunData& run, const std::string& name) {
+std::size_t node_of(const results::RunData& run, const std::string& name) {
   const auto uav = run.uav_of(name);
   return uav ? *uav + 1 : 0;
 }
 
 /// Which group a node is in; who is in none is in one of its own. "gcs jurong | raffles".
-std::vector<std::size_t> groups_of(const RunData& run, const std::string& partition) {
+std::vector<std::size_t> groups_of(const results::RunData& run, const std::string& partition) {
   std::vector<std::size_t> groups(run.uavs.size() + 1);
   for (std::size_t node = 0; node < groups.size(); ++node) groups[node] = node;
   std::size_t group = groups.size();
@@ -37,7 +37,7 @@ std::vector<std::size_t> groups_of(const RunData& run, const std::string& partit
 /// Whether a fault that cuts keeps two nodes apart.
 class Cut {
  public:
-  Cut(const RunData& run, const RunFault& fault)
+  Cut(const results::RunData& run, const results::RunFault& fault)
       : fault_(fault),
         groups_(fault.kind == "partition" ? groups_of(run, fault.target) : std::vector<std::size_t>()),
         silent_(node_of(run, fault.kind == "blackout" ? fault.target : "")) {}
@@ -46,21 +46,22 @@ class Cut {
   bool parts(std::size_t a, std::size_t b) const {
     return groups_.empty() ? a == silent_ || b == silent_ : groups_[a] != groups_[b];
   }
-  const RunFault& fault() const { return fault_; }
+  const results::RunFault& fault() const { return fault_; }
 
  private:
-  const RunFault& fault_;
+  const results::RunFault& fault_;
   const std::vector<std::size_t> groups_;
   const std::size_t silent_;
 };
 
 class Links {
  public:
-  explicit Links(const RunData& run) : nodes_(run.uavs.size() + 1), up_(nodes_ * nodes_), dead_s_(nodes_, 1e12) {
-    for (const RunFault& fault : run.faults) {
+  explicit Links(const results::RunData& run)
+      : nodes_(run.uavs.size() + 1), up_(nodes_ * nodes_), dead_s_(nodes_, 1e12) {
+    for (const results::RunFault& fault : run.faults) {
       if (cuts(fault)) cuts_.emplace_back(run, fault);
     }
-    for (const RunCollision& collision : run.collisions) {
+    for (const results::RunCollision& collision : run.collisions) {
       double& dead_s = dead_s_[node_of(run, collision.uav)];
       if (run.uav_of(collision.uav)) dead_s = std::min(dead_s, collision.time_s);
     }
@@ -100,15 +101,15 @@ class Links {
   std::vector<Cut> cuts_;
 };
 
-bool is_of_a_link(const RunEvent& event) {
+bool is_of_a_link(const results::RunEvent& event) {
   return event.event == run_tables::kLinkUp || event.event == run_tables::kLinkDown;
 }
 
 }  // namespace
 
-std::vector<std::pair<double, LinkStates>> recorded_links(const RunData& run) {
-  std::multimap<double, const RunEvent*> changes;
-  for (const RunEvent& event : run.events) {
+std::vector<std::pair<double, LinkStates>> recorded_links(const results::RunData& run) {
+  std::multimap<double, const results::RunEvent*> changes;
+  for (const results::RunEvent& event : run.events) {
     if (is_of_a_link(event)) changes.emplace(event.time_s, &event);
   }
   std::vector<std::pair<double, LinkStates>> told;
@@ -134,6 +135,6 @@ std::string digits_of(const LinkStates& row_major) {
   return digits;
 }
 
-bool has_cuts(const RunData& run) { return std::ranges::any_of(run.faults, cuts); }
+bool has_cuts(const results::RunData& run) { return std::ranges::any_of(run.faults, cuts); }
 
 }  // namespace skein::report

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "report/run_data.hpp"
+#include "results/run_data.hpp"
 
 namespace skein::report {
 
@@ -21,9 +21,9 @@ using LinkStates = std::vector<LinkState>;
 std::string digits_of(const LinkStates& row_major);
 
 /// From each of these times on [s], ascending; empty where the recording has no links.
-std::vector<std::pair<double, LinkStates>> recorded_links(const RunData& run);
+std::vector<std::pair<double, LinkStates>> recorded_links(const results::RunData& run);
 
 /// Whether a fault of this run cut links, so that they are told apart by guess.
-bool has_cuts(const RunData& run);
+bool has_cuts(const results::RunData& run);
 
 }  // namespace skein::report

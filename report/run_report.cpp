@@ -1,12 +1,12 @@
 #include "report/run_report.hpp"
 
 #include "process/files/atomic_file.hpp"
-#include "process/run_folder.hpp"
 #include "report/html.hpp"
 #include "report/page_data.hpp"
 #include "report/page_parts.hpp"
 #include "report/style.hpp"
 #include "report/web_bundle.hpp"
+#include "results/run_folder.hpp"
 
 namespace skein::report {
 namespace {
@@ -17,7 +17,7 @@ std::string policy(const std::optional<std::string>& bundle) {
          (bundle ? "; script-src '" + script_hash(*bundle) + "'" : std::string());
 }
 
-std::string footer(const RunData& run, const std::optional<std::string>& bundle) {
+std::string footer(const results::RunData& run, const std::optional<std::string>& bundle) {
   std::string html = "<footer class=\"soft\">";
   if (!bundle) {
     html +=
@@ -32,7 +32,7 @@ std::string footer(const RunData& run, const std::optional<std::string>& bundle)
 
 }  // namespace
 
-std::string run_page(RunData data, const std::optional<std::string>& bundle) {
+std::string run_page(results::RunData data, const std::optional<std::string>& bundle) {
   const RunPage page(std::move(data));
   const std::string title = text_in(page.run.result, "scenario") + " by " + planners_of(page.run.result);
   std::string html =
@@ -55,7 +55,7 @@ std::string run_page(RunData data, const std::optional<std::string>& bundle) {
 }
 
 void write_run_report(const std::filesystem::path& dir) {
-  write_file_atomically(dir / run_folder::kPage, run_page(read_run_data(dir), web_bundle()));
+  write_file_atomically(dir / run_folder::kPage, run_page(results::read_run_data(dir), web_bundle()));
 }
 
 }  // namespace skein::report

@@ -6,12 +6,12 @@
 #include <optional>
 #include <string>
 
-#include "report/run_data.hpp"
+#include "results/run_data.hpp"
 
 namespace skein::report {
 
 /// @param bundle  the script that makes it interactive; without it the page's drawings stand still.
-std::string run_page(RunData run, const std::optional<std::string>& bundle);
+std::string run_page(results::RunData run, const std::optional<std::string>& bundle);
 
 /// Writes report.html into the results folder `dir`.
 /// @throws InputError when there is no result in it, std::runtime_error when the file cannot be written.

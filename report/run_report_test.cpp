@@ -35,9 +35,9 @@ TEST_P(OddRuns, GiveASoundPage) {
   std::mt19937 random(GetParam());
   for (int trial = 0; trial < 12; ++trial) {
     SCOPED_TRACE(trial);
-    const Scratch scratch;
+    const results::Scratch scratch;
     OddRun(random).write(scratch.path());
-    const RunData run = read_run_data(scratch.path());
+    const results::RunData run = results::read_run_data(scratch.path());
     const std::string page = run_page(run, std::nullopt);
     ASSERT_NO_THROW(xml_elements(page));
     EXPECT_EQ(page, run_page(run, std::nullopt)) << "the same folder gives the same page";
@@ -64,15 +64,15 @@ INSTANTIATE_TEST_SUITE_P(Drawn, OddRuns, testing::Range(1U, 9U));
 TEST(PageData, NamesWhoDeliveredTheBestPictureOfEachPoint) {
   std::mt19937 random(11);
   for (int trial = 0; trial < 40; ++trial) {
-    RunData run;
+    results::RunData run;
     run.uavs = {"a", "b", "c"};
     run.explorer = {true, false, false};
     run.points.resize(6);
     run.tracks.resize(run.uavs.size());
     run.maps.resize(run.uavs.size());
     for (std::uint64_t i = 0; i < 30; ++i) {
-      RunCapture capture{random() % 3, i, 0.5 * static_cast<double>(random() % 40),
-                         kDetected * (0.5 + 0.5 * static_cast<double>(random() % 4)), random() % 7};
+      results::RunCapture capture{random() % 3, i, 0.5 * static_cast<double>(random() % 40),
+                                  kDetected * (0.5 + 0.5 * static_cast<double>(random() % 4)), random() % 7};
       if (random() % 4 != 0) capture.delivered_at_s = capture.time_s + 1.0;
       capture.voided = random() % 8 == 0;
       run.captures.push_back(capture);
@@ -80,13 +80,14 @@ TEST(PageData, NamesWhoDeliveredTheBestPictureOfEachPoint) {
     const Json best = page_data(RunPage(run)).at("best");
     ASSERT_EQ(best.size(), 2 * run.points.size());
     for (std::size_t point = 0; point < run.points.size(); ++point) {
-      std::vector<RunCapture> all;
-      for (const RunCapture& capture : run.captures) {
+      std::vector<results::RunCapture> all;
+      for (const results::RunCapture& capture : run.captures) {
         const bool counts = capture.delivered_at_s && !capture.voided && capture.q >= kDetected;
         if (capture.point == point && counts) all.push_back(capture);
       }
-      std::ranges::stable_sort(
-          all, [](const RunCapture& a, const RunCapture& b) { return a.q != b.q ? a.q > b.q : a.time_s < b.time_s; });
+      std::ranges::stable_sort(all, [](const results::RunCapture& a, const results::RunCapture& b) {
+        return a.q != b.q ? a.q > b.q : a.time_s < b.time_s;
+      });
       EXPECT_EQ(best[2 * point], all.empty() ? -1 : static_cast<int>(all.front().uav));
       EXPECT_EQ(best[2 * point + 1], all.empty() ? 0L : std::lround(1e3 * all.front().time_s));
     }
@@ -94,18 +95,18 @@ TEST(PageData, NamesWhoDeliveredTheBestPictureOfEachPoint) {
 }
 
 TEST(RunReport, AFolderWithoutAResultIsTheUsersMistake) {
-  const Scratch scratch;
+  const results::Scratch scratch;
   EXPECT_THROW(write_run_report(scratch.path()), InputError);
-  write_text(scratch.path() / "result.json", "{\"score\": ");
+  results::write_text(scratch.path() / "result.json", "{\"score\": ");
   EXPECT_THROW(write_run_report(scratch.path()), InputError);
 }
 
 TEST(RunReport, WhatIsNotThereIsTold) {
-  const Scratch scratch;
-  write_text(scratch.path() / "result.json", R"({"uavs": [{"name": "a"}], "losses": {}})");
-  write_text(scratch.path() / "events.csv", "step,time_s,event,subject,object\n0,0,joined,a,\n1,0.05,joi");
+  const results::Scratch scratch;
+  results::write_text(scratch.path() / "result.json", R"({"uavs": [{"name": "a"}], "losses": {}})");
+  results::write_text(scratch.path() / "events.csv", "step,time_s,event,subject,object\n0,0,joined,a,\n1,0.05,joi");
   write_run_report(scratch.path());
-  const std::string page = read_text(scratch.path() / "report.html");
+  const std::string page = results::read_text(scratch.path() / "report.html");
   for (const char* file :
        {"scene.json", "score.csv", "losses.csv", "captures.csv", "trajectories.csv", "score_timeline.csv"}) {
     EXPECT_NE(page.find("There is no " + std::string(file)), std::string::npos) << file;
@@ -116,12 +117,12 @@ TEST(RunReport, WhatIsNotThereIsTold) {
 
 TEST(RunReport, ANumberOutOfAllBoundsEndsItsTable) {
   for (const char* number : {"nan", "-inf", "1e300", "x"}) {
-    const Scratch scratch;
-    write_text(scratch.path() / "result.json", R"({"uavs": [{"name": "a"}]})");
+    const results::Scratch scratch;
+    results::write_text(scratch.path() / "result.json", R"({"uavs": [{"name": "a"}]})");
     const std::string row = ",1,2,0,0,1,0.5,";
-    write_text(scratch.path() / "score.csv",
-               "x,y,z,nx,ny,nz,score,index\n0" + row + "0\n" + number + row + "1\n3" + row + "2\n");
-    const RunData run = read_run_data(scratch.path());
+    results::write_text(scratch.path() / "score.csv",
+                        "x,y,z,nx,ny,nz,score,index\n0" + row + "0\n" + number + row + "1\n3" + row + "2\n");
+    const results::RunData run = results::read_run_data(scratch.path());
     EXPECT_EQ(run.points.size(), 1u) << number;
     EXPECT_NE(run_page(run, std::nullopt).find("score.csv makes sense for 1 rows only"), std::string::npos);
   }
@@ -130,7 +131,7 @@ TEST(RunReport, ANumberOutOfAllBoundsEndsItsTable) {
 TEST(RunReport, TheCommandIsAsItWasTypedOrRepeatsTheRun) {
   const std::string typed = "skein run towers --faults 'my faults.yaml'";
   const auto page_of = [](const Json& result) {
-    RunData run;
+    results::RunData run;
     run.result = result;
     return run_page(run, std::nullopt);
   };
@@ -154,12 +155,12 @@ TEST(WebBundle, HashesAsBrowsersDo) {
 }
 
 TEST(WebBundle, WhatDoesNotFitIntoAScriptIsLeftOut) {
-  const Scratch scratch;
+  const results::Scratch scratch;
   const auto file = scratch.path() / "report.js";
   ::setenv("SKEIN_WEB", file.c_str(), 1);
   EXPECT_EQ(web_bundle(), std::nullopt) << "there is none";
   for (const auto& [text, fits] : {std::pair("let x = 1;", true), {"'</ScRipt >'", false}, {"'<!-- x'", false}}) {
-    write_text(file, text);
+    results::write_text(file, text);
     EXPECT_EQ(web_bundle().has_value(), fits) << text;
   }
   ::unsetenv("SKEIN_WEB");

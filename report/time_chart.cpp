@@ -93,9 +93,9 @@ std::string staircase(const std::vector<std::pair<double, double>>& changes, con
   return data.empty() ? "" : data + "H" + coordinate(time.at(end_s));
 }
 
-std::string faults_svg(const RunData& run, const TimeScale& time, double top, double bottom) {
+std::string faults_svg(const results::RunData& run, const TimeScale& time, double top, double bottom) {
   std::string svg;
-  for (const RunFault& fault : run.faults) {
+  for (const results::RunFault& fault : run.faults) {
     const std::string words =
         fault.kind + " " + fault.target + ", " + fixed(fault.from_s, 1) + " to " + fixed(fault.until_s, 1) + " s";
     svg += fmt::format("<rect class=\"fault\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"><title>{}</title></rect>\n",
@@ -148,7 +148,7 @@ std::string lane_svg(const Lane& lane, const TimeScale& time, double end_s, doub
 
 }  // namespace
 
-bool concerns(const RunFault& fault, const std::string& uav) {
+bool concerns(const results::RunFault& fault, const std::string& uav) {
   for (std::size_t at = fault.target.find(uav); at != std::string::npos; at = fault.target.find(uav, at + 1)) {
     const auto is_word = [&](std::size_t i) {
       return i < fault.target.size() &&
@@ -159,7 +159,7 @@ bool concerns(const RunFault& fault, const std::string& uav) {
   return false;
 }
 
-std::string time_chart_svg(const std::string& title, const std::vector<TimeCurve>& curves, const RunData& run,
+std::string time_chart_svg(const std::string& title, const std::vector<TimeCurve>& curves, const results::RunData& run,
                            const std::vector<Lane>& lanes, double width) {
   const std::size_t rugs = lanes.size() <= kMostRugs ? lanes.size() : 0;
   const double left = 66.0, bottom = kChartTop + kCurves;
@@ -187,7 +187,8 @@ std::string time_chart_svg(const std::string& title, const std::vector<TimeCurve
   return svg + "</svg>\n";
 }
 
-std::string lanes_svg(const std::string& title, const RunData& run, const std::vector<Lane>& lanes, double width) {
+std::string lanes_svg(const std::string& title, const results::RunData& run, const std::vector<Lane>& lanes,
+                      double width) {
   const double strip = lanes.size() <= 20 ? 10.0 : 4.0, each = 4.0 * (strip + kGap) + (lanes.size() <= 20 ? 12.0 : 6.0);
   const double left = width < 500.0 ? 70.0 : 150.0, bottom = kChartTop + each * static_cast<double>(lanes.size());
   const TimeScale time(run.end_s, left, width);
@@ -198,8 +199,8 @@ std::string lanes_svg(const std::string& title, const RunData& run, const std::v
   std::string svg = open_svg(title, width, bottom + 32.0) + time.grid(kChartTop, bottom);
   for (std::size_t uav = 0; uav < lanes.size(); ++uav) {
     const double top = kChartTop + each * static_cast<double>(uav) + 4.0;
-    RunData own;
-    for (const RunFault& fault : run.faults) {
+    results::RunData own;
+    for (const results::RunFault& fault : run.faults) {
       if (concerns(fault, run.uavs[uav])) own.faults.push_back(fault);
     }
     svg += faults_svg(own, time, top - 3.0, top + each - 8.0);

@@ -18,16 +18,17 @@ struct TimeCurve {
 
 /// Curves over the time, the faults behind them, and below them the captures of each UAV.
 /// @param width  of the drawing, in whose units letters have always the same size.
-std::string time_chart_svg(const std::string& title, const std::vector<TimeCurve>& curves, const RunData& run,
+std::string time_chart_svg(const std::string& title, const std::vector<TimeCurve>& curves, const results::RunData& run,
                            const std::vector<Lane>& lanes, double width);
 
 /// What each UAV did when.
-std::string lanes_svg(const std::string& title, const RunData& run, const std::vector<Lane>& lanes, double width);
+std::string lanes_svg(const std::string& title, const results::RunData& run, const std::vector<Lane>& lanes,
+                      double width);
 
 /// How many captures took how long: one bar for each range.
 std::string latency_svg(const std::string& title, const Latency& latency);
 
 /// Which UAV a fault is about: its program, or a link that it has a part in.
-bool concerns(const RunFault& fault, const std::string& uav);
+bool concerns(const results::RunFault& fault, const std::string& uav);
 
 }  // namespace skein::report

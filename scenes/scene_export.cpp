@@ -8,7 +8,7 @@
 #include "core/scenario/scenario_reader.hpp"
 #include "process/files/atomic_file.hpp"
 #include "process/files/closed_to_agents.hpp"
-#include "process/run_folder.hpp"
+#include "results/run_folder.hpp"
 #include "scenes/files/box_file.hpp"
 #include "scenes/files/mesh_file.hpp"
 #include "scenes/files/point_file.hpp"

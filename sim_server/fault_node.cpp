@@ -6,7 +6,7 @@
 
 #include "bus/lockstep/names.hpp"
 #include "process/files/atomic_file.hpp"
-#include "process/run_folder.hpp"
+#include "results/run_folder.hpp"
 
 namespace skein::sim {
 

@@ -10,7 +10,7 @@
 #include "core/faults/fault_check.hpp"
 #include "core/faults/fault_writer.hpp"
 #include "core/text/text.hpp"
-#include "process/run_folder.hpp"
+#include "results/run_folder.hpp"
 
 namespace skein::sim {
 namespace {

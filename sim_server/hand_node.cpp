@@ -8,7 +8,7 @@
 #include "core/topics.hpp"
 #include "idl/hand_conversions.hpp"
 #include "process/json_text.hpp"
-#include "process/run_folder.hpp"
+#include "results/run_folder.hpp"
 
 namespace skein::sim {
 

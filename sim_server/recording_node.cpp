@@ -2,7 +2,7 @@
 
 #include "core/topics.hpp"
 #include "idl/conversions.hpp"
-#include "process/run_folder.hpp"
+#include "results/run_folder.hpp"
 #include "sim_server/viz/frames.hpp"
 #include "sim_server/viz/markers.hpp"
 

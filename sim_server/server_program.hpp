@@ -10,8 +10,8 @@
 
 #include "bus/lockstep/fleet_program.hpp"
 #include "core/for_each.hpp"
-#include "process/run_folder.hpp"
 #include "recording/replay.hpp"
+#include "results/run_folder.hpp"
 #include "sim_server/scene_shelf.hpp"
 #include "sim_server/server_tasks.hpp"
 #include "sim_server/step_gate.hpp"

@@ -7,7 +7,7 @@
 #include "core/camera_quality.hpp"
 #include "core/topics.hpp"
 #include "core/view_topics.hpp"
-#include "process/results/run_tables.hpp"
+#include "results/run_tables.hpp"
 #include "sim_server/record/run_files.hpp"
 
 namespace skein::sim {
@@ -22,15 +22,15 @@ const Tick kPosePeriod = ticks(view::kTrailPeriod_s);
 const Tick kLinksPeriod = ticks(0.25);
 
 /// As far as it is known while the run goes on: a scene with points of which nobody has seen anything.
-report::RunData scene_of(const Scenario& scenario, const Scene& scene) {
-  report::RunData run;
+results::RunData scene_of(const Scenario& scenario, const Scene& scene) {
+  results::RunData run;
   for (const UavConfig& uav : scenario.fleet) {
     run.uavs.push_back(uav.name);
     run.explorer.push_back(uav.vehicle.role == Role::explorer);
   }
   for (const OrientedBox& box : scene.boxes) run.boxes.push_back({box.name, box.center, box.size, box.R_WO});
   for (const InterestPoint& point : scene.points) {
-    report::RunPoint shown;
+    results::RunPoint shown;
     shown.p_W = point.p_W.cast<double>();
     shown.normal_W = point.n_W.cast<double>();
     run.points.push_back(shown);

@@ -3,7 +3,7 @@
 #include <stdexcept>
 
 #include "process/json_text.hpp"
-#include "process/run_folder.hpp"
+#include "results/run_folder.hpp"
 #include "station/journal.hpp"
 #include "station/station_report.hpp"
 

@@ -7,8 +7,8 @@
 #include "bus/lockstep/names.hpp"
 #include "core/radio/radio_routes.hpp"
 #include "idl/conversions.hpp"
-#include "process/run_folder.hpp"
 #include "process/status/status_lines.hpp"
+#include "results/run_folder.hpp"
 #include "station/station_report.hpp"
 
 namespace skein::station {

@@ -5,7 +5,7 @@
 #include "bus/program_bus.hpp"
 #include "core/scenario/scenario_reader.hpp"
 #include "process/reports/program_report.hpp"
-#include "process/run_folder.hpp"
+#include "results/run_folder.hpp"
 #include "station/settlement.hpp"
 #include "station/station_node.hpp"
 

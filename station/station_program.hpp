@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "bus/lockstep/fleet_program.hpp"
-#include "process/run_folder.hpp"
+#include "results/run_folder.hpp"
 #include "station/score_view.hpp"
 #include "station/view_node.hpp"
 

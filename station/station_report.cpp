@@ -8,8 +8,8 @@
 #include "process/files/atomic_file.hpp"
 #include "process/reports/program_report.hpp"
 #include "process/reports/reports.hpp"
-#include "process/results/run_tables.hpp"
-#include "process/run_folder.hpp"
+#include "results/run_folder.hpp"
+#include "results/run_tables.hpp"
 
 namespace skein::station {
 namespace {

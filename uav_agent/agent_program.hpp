@@ -2,7 +2,7 @@
 #pragma once
 
 #include "bus/lockstep/fleet_program.hpp"
-#include "process/run_folder.hpp"
+#include "results/run_folder.hpp"
 #include "uav_agent/api/learner.hpp"
 #include "uav_agent/onboard/ready_frames.hpp"
 

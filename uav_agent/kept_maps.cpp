@@ -8,7 +8,7 @@
 #include "idl/cdr.hpp"
 #include "idl/message_definition.hpp"
 #include "idl/type_names.hpp"
-#include "process/run_folder.hpp"
+#include "results/run_folder.hpp"
 #include "uav_agent/octomap_message.hpp"
 
 namespace skein::agent {

@@ -10,8 +10,8 @@
 
 #include "idl/cdr.hpp"
 #include "idl/conversions.hpp"
-#include "process/run_folder.hpp"
 #include "recording/mcap/reader.hpp"
+#include "results/run_folder.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "uav_agent/testing/news_radio.hpp"
 

@@ -7,37 +7,38 @@
 #include <utility>
 #include <vector>
 
-#include "process/results/run_tables.hpp"
-#include "process/run_folder.hpp"
-#include "report/causes.hpp"
-#include "report/csv_table.hpp"
 #include "report/page_parts.hpp"
 #include "report/recorded_links.hpp"
+#include "results/causes.hpp"
+#include "results/run_folder.hpp"
+#include "results/run_rows.hpp"
+#include "results/run_tables.hpp"
 #include "view/story.hpp"
 
 namespace skein::view {
 namespace {
 
 namespace fs = std::filesystem;
-using report::CsvTable;
-using report::RunData;
+using results::ActivityCells;
+using results::CaptureCells;
+using results::PoseCells;
+using results::RunData;
 
 /// Rows of a table as far as they make sense: read_run_data() has told of the rest.
-template <class Row>
-void each_row(const fs::path& file, const Row& row) {
+template <class Row, class OnRow>
+void rows_of(const fs::path& dir, const OnRow& on_row) {
   try {
-    for (CsvTable table(file); table.next();) row(table);
+    results::each_row<Row>(dir, on_row);
   } catch (const std::runtime_error&) {
   }
 }
 
-ShownUav pose_of(const CsvTable& table) {
+ShownUav pose_of(const PoseCells& row) {
   ShownUav uav;
-  uav.body.p_WB = {table.number("x"), table.number("y"), table.number("z")};
-  uav.body.q_WB = Quaterniond(table.number("qw"), table.number("qx"), table.number("qy"), table.number("qz"));
-  uav.gimbal.pitch = table.number("gimbal_pitch");
-  uav.gimbal.yaw = table.number("gimbal_yaw");
-  uav.alive = table.text("alive") != "0";
+  uav.body.p_WB = row.p_W();
+  uav.body.q_WB = row.q_WB();
+  uav.gimbal = row.gimbal();
+  uav.alive = row.alive();
   return uav;
 }
 
@@ -67,12 +68,12 @@ std::vector<ShownUav> tell_poses(const fs::path& dir, const RunData& run, Story&
     story.add(*time_s, pose_line(*time_s, fleet));
     due_s = *time_s + kTrailPeriod_s - 1e-6;
   };
-  each_row(dir / run_folder::kTrajectories, [&](const CsvTable& table) {
-    const auto uav = run.uav_of(table.text("uav"));
+  rows_of<PoseCells>(dir, [&](const PoseCells& row) {
+    const auto uav = run.uav_of(row.uav());
     if (!uav) return;
-    const double now_s = table.number("time_s");
+    const double now_s = row.time_s();
     if (time_s && now_s > *time_s) tell(false);
-    fleet[*uav] = pose_of(table);
+    fleet[*uav] = pose_of(row);
     heights[*uav][now_s] = fleet[*uav].body.p_WB.z();
     time_s = now_s;
   });
@@ -84,7 +85,7 @@ std::vector<ShownUav> tell_poses(const fs::path& dir, const RunData& run, Story&
 void tell_events(const RunData& run, Story& story) {
   static const std::array kToldOtherwise = {run_tables::kLinkUp, run_tables::kLinkDown, run_tables::kCaptured,
                                             run_tables::kReleased};
-  for (const report::RunEvent& event : run.events) {
+  for (const results::RunEvent& event : run.events) {
     if (std::ranges::find(kToldOtherwise, event.event) != kToldOtherwise.end()) continue;
     story.add(event.time_s, event_line(event.time_s, event.event, event.subject, event.object));
   }
@@ -93,33 +94,30 @@ void tell_events(const RunData& run, Story& story) {
 
 /// What UAVs did, as their programs said.
 void tell_activities(const fs::path& dir, const RunData& run, Story& story) {
-  each_row(dir / run_folder::kActivity, [&](const CsvTable& table) {
-    const auto uav = run.uav_of(table.text("uav"));
+  rows_of<ActivityCells>(dir, [&](const ActivityCells& row) {
+    const auto uav = run.uav_of(row.uav());
     if (!uav) return;
-    Activity activity{.mode = table.text("mode"), .waits_for = table.text("waits_for"), .no_way = table.text("no_way")};
-    if (const auto x = table.number_if_any("goal_x")) {
-      activity.goal_W = Vector3d(*x, table.number("goal_y"), table.number("goal_z"));
-    }
-    const double time_s = table.number("time_s");
+    const Activity activity = row.activity();
+    const double time_s = row.time_s();
     story.add(time_s, activity_line(time_s, *uav, activity));
   });
 }
 
 /// Whether a collision took the score of what this UAV had photographed.
 bool is_void(const RunData& run, std::size_t uav) {
-  return std::ranges::any_of(run.captures,
-                             [uav](const report::RunCapture& capture) { return capture.uav == uav && capture.voided; });
+  return std::ranges::any_of(
+      run.captures, [uav](const results::RunCapture& capture) { return capture.uav == uav && capture.voided; });
 }
 
 void tell_incidents(const RunData& run, Story& story) {
   for (std::size_t i = 0; i < run.faults.size(); ++i) {
-    const report::RunFault& fault = run.faults[i];
+    const results::RunFault& fault = run.faults[i];
     const ToldFault told{i, fault.by_hand, fault.kind, fault.target};
     story.add(fault.from_s, fault_line(fault.from_s, told, true));
     if (fault.ended) story.add(fault.until_s, fault_line(fault.until_s, told, false));
     story.add(fault.from_s, event_line(fault.from_s, "fault", fault.kind, fault.target));
   }
-  for (const report::RunCollision& collision : run.collisions) {
+  for (const results::RunCollision& collision : run.collisions) {
     story.add(collision.time_s, event_line(collision.time_s, "collision", collision.uav, collision.with));
     const auto uav = run.uav_of(collision.uav);
     if (uav && is_void(run, *uav)) story.add(collision.time_s, void_line(collision.time_s, *uav));
@@ -129,10 +127,10 @@ void tell_incidents(const RunData& run, Story& story) {
 /// What could be had, where it is known. Points of which it was lost that no UAV fits there are told as such.
 void tell_estimate(const RunData& run, Story& story) {
   if (!run.causes_known) return;
-  constexpr std::size_t kOutOfReach = *report::cause_of("out_of_reach");
+  constexpr std::size_t kOutOfReach = *results::cause_of("out_of_reach");
   std::vector<float> q;
   std::vector<std::uint8_t> flyable;
-  for (const report::RunPoint& point : run.points) {
+  for (const results::RunPoint& point : run.points) {
     q.push_back(static_cast<float>(point.estimate));
     flyable.push_back(point.cause == kOutOfReach ? 0 : 1);
   }
@@ -147,15 +145,15 @@ struct TakenCapture {
 
 void tell_captures(const fs::path& dir, const RunData& run, Story& story) {
   std::map<std::pair<std::size_t, std::uint64_t>, TakenCapture> captures;
-  each_row(dir / run_folder::kCaptures, [&](const CsvTable& table) {
-    const auto uav = run.uav_of(table.text("uav"));
+  rows_of<CaptureCells>(dir, [&](const CaptureCells& row) {
+    const auto uav = run.uav_of(row.uav());
     if (!uav) return;
-    TakenCapture& capture = captures[{*uav, table.count("capture")}];
-    capture.time_s = table.number("time_s");
-    capture.delivered_s = table.number_if_any("delivered_at_s");
-    capture.points.push_back({static_cast<std::uint32_t>(table.count("point")),
-                              static_cast<float>(table.number("q_blur")), static_cast<float>(table.number("q_res")),
-                              static_cast<float>(table.number("q")), static_cast<float>(table.number("q_distance"))});
+    TakenCapture& capture = captures[{*uav, row.capture()}];
+    capture.time_s = row.time_s();
+    capture.delivered_s = row.delivered_at_s();
+    capture.points.push_back({static_cast<std::uint32_t>(row.point()), static_cast<float>(row.q_blur()),
+                              static_cast<float>(row.q_res()), static_cast<float>(row.q()),
+                              static_cast<float>(row.q_distance())});
   });
   std::map<double, std::vector<ShownDelivery>> deliveries;
   for (const auto& [key, capture] : captures) {
@@ -167,11 +165,11 @@ void tell_captures(const fs::path& dir, const RunData& run, Story& story) {
 
 /// The last is the result's own, with all its digits.
 void tell_scores(const RunData& run, Story& story) {
-  for (const report::RunScore& score : run.scores) {
+  for (const results::RunScore& score : run.scores) {
     story.add(score.time_s, score_line(score.time_s, static_cast<std::size_t>(score.points), score.score));
   }
-  const auto score = report::number_if_any(run.result, "score");
-  const double points = report::number_in(run.result, "points_detected");
+  const auto score = number_if_any(run.result, "score");
+  const double points = number_in(run.result, "points_detected");
   if (score) story.add(run.end_s, score_line(run.end_s, static_cast<std::size_t>(points), *score));
 }
 
@@ -198,15 +196,15 @@ Json scene_of(const fs::path& dir, const RunData& run) {
   }
   Json scene = scene_json(run, cameras, range_m);
   scene["mode"] = "replay";
-  scene["title"] = report::text_in(run.result, "scenario");
+  scene["title"] = text_in(run.result, "scenario");
   scene["planners"] = report::planners_of(run.result);
   scene["command"] = report::command_of(run.result);
   scene["end"] = run.end_s;
-  scene["status"] = report::text_in(run.result, "status");
+  scene["status"] = text_in(run.result, "status");
   scene["attainable"] = value_or(run.result, "attainable", Json::object());
   scene["losses"] = value_or(run.result, "losses", nullptr);
-  scene["score"] = report::number_in(run.result, "score");
-  scene["detected"] = report::number_in(run.result, "points_detected");
+  scene["score"] = number_in(run.result, "score");
+  scene["detected"] = number_in(run.result, "points_detected");
   scene["warnings"] = value_or(run.result, "warnings", Json::array());
   scene["missing"] = missing;
   return scene;
@@ -215,8 +213,8 @@ Json scene_of(const fs::path& dir, const RunData& run) {
 }  // namespace
 
 std::string title_of_run(const fs::path& dir) {
-  const Json result = report::read_run_deliveries(dir).result;
-  return report::text_in(result, "scenario") + " by " + report::planners_of(result);
+  const Json result = results::read_run_deliveries(dir).result;
+  return text_in(result, "scenario") + " by " + report::planners_of(result);
 }
 
 ToldRun told_run(const fs::path& dir, const RunData& run) {
@@ -233,7 +231,7 @@ ToldRun told_run(const fs::path& dir, const RunData& run) {
 }
 
 void tell_finished_run(const fs::path& dir, Feed& feed) {
-  const RunData run = report::read_run_data(dir);
+  const RunData run = results::read_run_data(dir);
   ToldRun told = told_run(dir, run);
   const KeptClouds clouds(dir, run, told.heights);
   told.scene["clouds"] = {{"lidar", clouds.lidar}, {"maps", clouds.maps}, {"missing", clouds.missing}};

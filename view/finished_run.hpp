@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "report/run_data.hpp"
+#include "results/run_data.hpp"
 #include "view/feed.hpp"
 #include "view/kept_clouds.hpp"
 #include "view/story.hpp"
@@ -21,7 +21,7 @@ struct ToldRun {
 };
 
 /// @param run  what the folder `dir` holds. What it lacks is named in the scene's "missing".
-ToldRun told_run(const std::filesystem::path& dir, const report::RunData& run);
+ToldRun told_run(const std::filesystem::path& dir, const results::RunData& run);
 
 /// Fills a feed with the run of a results folder. What the folder lacks is named in the scene's "missing".
 /// @throws InputError when there is no result in it.

@@ -8,9 +8,9 @@
 #include "core/types.hpp"
 #include "idl/cdr.hpp"
 #include "idl/conversions.hpp"
-#include "process/run_folder.hpp"
 #include "recording/mcap/reader.hpp"
-#include "report/octree_file.hpp"
+#include "results/octree_file.hpp"
+#include "results/run_folder.hpp"
 #include "view/cube_runs.hpp"
 #include "view/look_order.hpp"
 #include "view/map_files.hpp"
@@ -71,7 +71,7 @@ class Gathered {
 
 }  // namespace
 
-KeptClouds::KeptClouds(const std::filesystem::path& dir, const report::RunData& run, const Heights& heights)
+KeptClouds::KeptClouds(const std::filesystem::path& dir, const results::RunData& run, const Heights& heights)
     : run_(run), points_(run.uavs.size()), in_time_(run.uavs.size()) {
   try {
     read_recording(dir / run_folder::kRecording);
@@ -119,7 +119,7 @@ void KeptClouds::tell(std::span<const ShownUav> last, Feed& feed) const {
     if (!points_[i].empty()) feed.set_cloud(lidar_cloud(uav), lidar_text(uav, points_[i]));
     if (in_time_[i]) feed.set_cloud(map_cloud(uav), map_text(uav, *in_time_[i], kFlightMap));
     if (in_time_[i] || i >= run_.maps.size()) continue;
-    const auto file = report::octree_of_file(run_.maps[i]);
+    const auto file = results::octree_of_file(run_.maps[i]);
     const double slice_m = i < last.size() ? last[i].body.p_WB.z() : 0.0;
     const auto map = file ? shown_map(file->tree, file->cell_m, slice_m) : std::nullopt;
     if (map) feed.set_cloud(map_cloud(uav), map_text(uav, run_.end_s, *map, kKeyFrameMap));

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "report/run_data.hpp"
+#include "results/run_data.hpp"
 #include "view/feed.hpp"
 #include "view/map_steps.hpp"
 #include "view/scan_points.hpp"
@@ -27,7 +27,7 @@ class KeptClouds {
 
   /// Reads what there is; what is damaged counts as missing. @param run  of this folder; must outlive this.
   /// @param heights  of the whole run: free space in time is shown there.
-  KeptClouds(const std::filesystem::path& dir, const report::RunData& run, const Heights& heights = {});
+  KeptClouds(const std::filesystem::path& dir, const results::RunData& run, const Heights& heights = {});
 
   /// Tells all of it. @param last  the fleet at its end: free space is shown at its heights.
   void tell(std::span<const ShownUav> last, Feed& feed) const;
@@ -40,7 +40,7 @@ class KeptClouds {
   void read_recording(const std::filesystem::path& file);
   void say_what_is_missing(const std::filesystem::path& dir);
 
-  const report::RunData& run_;
+  const results::RunData& run_;
   std::vector<std::vector<PointsStep>> points_;    ///< by UAV
   std::vector<std::optional<MapInTime>> in_time_;  ///< by UAV
 };

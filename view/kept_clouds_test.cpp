@@ -7,8 +7,8 @@
 #include "idl/cdr.hpp"
 #include "idl/conversions.hpp"
 #include "process/json_text.hpp"
-#include "process/run_folder.hpp"
 #include "recording/mcap/writer.hpp"
+#include "results/run_folder.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "view/testing/unpacked.hpp"
 
@@ -57,7 +57,7 @@ class KeptCloudsTest : public testing::Test {
 
   const ScratchFolder scratch_;
   const fs::path& folder_ = scratch_.path();
-  report::RunData run_;
+  results::RunData run_;
 };
 
 TEST_F(KeptCloudsTest, PointsComeOnceByTheirTime) {

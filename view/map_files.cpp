@@ -8,8 +8,8 @@
 #include "core/view_topics.hpp"
 #include "idl/cdr.hpp"
 #include "idl/conversions.hpp"
-#include "process/run_folder.hpp"
 #include "recording/mcap/reader.hpp"
+#include "results/run_folder.hpp"
 
 namespace skein::view {
 namespace {

@@ -8,8 +8,8 @@
 
 #include "idl/cdr.hpp"
 #include "idl/conversions.hpp"
-#include "process/run_folder.hpp"
 #include "recording/mcap/writer.hpp"
+#include "results/run_folder.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 namespace skein::view {

@@ -34,7 +34,7 @@ std::string quoted(const std::string& text) {
 
 }  // namespace
 
-Json scene_json(const report::RunData& run, std::span<const CameraConfig> cameras, std::span<const double> range_m) {
+Json scene_json(const results::RunData& run, std::span<const CameraConfig> cameras, std::span<const double> range_m) {
   Json scene = report::scene_data(run);
   scene["uavs"] = Json::array();
   for (std::size_t i = 0; i < run.uavs.size(); ++i) {
@@ -51,7 +51,7 @@ std::string poses_json(std::span<const ShownUav> uavs) {
   std::string list;
   for (const ShownUav& uav : uavs) {
     const Vector3d& p_WB = uav.body.p_WB;
-    const report::ViewAngles view = report::view_angles(uav.body.q_WB, uav.gimbal);
+    const results::ViewAngles view = results::view_angles(uav.body.q_WB, uav.gimbal);
     fmt::format_to(std::back_inserter(list), "{}[{},{},{},{},{},{}]", list.empty() ? "" : ",", whole(p_WB.x(), 100.0),
                    whole(p_WB.y(), 100.0), whole(p_WB.z(), 100.0), whole(view.yaw, 1000.0), whole(view.pitch, 1000.0),
                    uav.alive ? 1 : 0);

@@ -15,7 +15,7 @@
 #include "core/scoring/score_table.hpp"
 #include "process/json_text.hpp"
 #include "report/recorded_links.hpp"
-#include "report/run_data.hpp"
+#include "results/run_data.hpp"
 
 namespace skein::view {
 
@@ -40,7 +40,7 @@ struct ShownNumbers {
 
 /// What has no time: "uavs" with their cameras, points, boxes, station; what is known of a finished run, too.
 /// @param run  as far as it is known. @param cameras  by UAV. @param range_m  how far they see, by UAV.
-Json scene_json(const report::RunData& run, std::span<const CameraConfig> cameras, std::span<const double> range_m);
+Json scene_json(const results::RunData& run, std::span<const CameraConfig> cameras, std::span<const double> range_m);
 
 /// k: pose. "u": by UAV x, y, z, yaw and pitch of the view (down is positive), 1 if alive.
 std::string pose_line(double time_s, std::span<const ShownUav> uavs);

@@ -10,22 +10,21 @@ namespace skein::view {
 namespace {
 
 namespace fs = std::filesystem;
-using report::RunData;
+using results::RunData;
 
 /// Of tables with a millimetre.
 constexpr double kSamePlace_m = 0.002;
 
 bool same_scene(const RunData& a, const RunData& b) {
-  return std::ranges::equal(a.points, b.points, [](const report::RunPoint& one, const report::RunPoint& other) {
+  return std::ranges::equal(a.points, b.points, [](const results::RunPoint& one, const results::RunPoint& other) {
     return (one.p_W - other.p_W).norm() < kSamePlace_m;
   });
 }
 
 std::string scene_name(const RunData& run) {
-  const auto seed = report::number_if_any(run.result, "scene_seed");
-  return report::text_in(run.result, "scenario") +
-         (seed ? " with scene seed " + std::to_string(std::lround(*seed)) : "") + ", " +
-         std::to_string(run.points.size()) + " points";
+  const auto seed = number_if_any(run.result, "scene_seed");
+  return text_in(run.result, "scenario") + (seed ? " with scene seed " + std::to_string(std::lround(*seed)) : "") +
+         ", " + std::to_string(run.points.size()) + " points";
 }
 
 Json parting_json(const Parting& parting) {
@@ -41,7 +40,7 @@ Json parting_json(const Parting& parting) {
 }  // namespace
 
 void tell_two_runs(const fs::path& a, const fs::path& b, const Parting& parting, Feed& feed) {
-  const RunData first = report::read_run_data(a), second = report::read_run_data(b);
+  const RunData first = results::read_run_data(a), second = results::read_run_data(b);
   if (!same_scene(first, second)) {
     throw InputError(a.string() + " and " + b.string() + " were flown in different scenes (" + scene_name(first) +
                      "; " + scene_name(second) + "): two runs on one page must have the same interest points");

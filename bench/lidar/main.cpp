@@ -17,8 +17,8 @@
 
 #include "process/host/thread_cpu.hpp"
 #include "process/program.hpp"
-#include "process/results/run_tables.hpp"
-#include "process/run_folder.hpp"
+#include "results/run_folder.hpp"
+#include "results/run_tables.hpp"
 #include "scenes/scene_source.hpp"
 #include "sim_server/sensors/lidar.hpp"
 

@@ -6,7 +6,7 @@
 
 #include "bus/bus.hpp"
 #include "core/topics.hpp"
-#include "process/run_folder.hpp"
+#include "results/run_folder.hpp"
 
 namespace skein::bus {
 

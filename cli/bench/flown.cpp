@@ -6,7 +6,7 @@
 #include "cli/bench/report.hpp"
 #include "cli/run/preflight.hpp"
 #include "process/program.hpp"
-#include "process/run_folder.hpp"
+#include "results/run_folder.hpp"
 
 namespace skein::cli {
 

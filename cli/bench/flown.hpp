@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "cli/run/result.hpp"
 #include "cli/run_command.hpp"
+#include "results/result.hpp"
 
 namespace skein::cli {
 

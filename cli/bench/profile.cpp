@@ -14,7 +14,7 @@
 #include "cli/run_command.hpp"
 #include "process/files/atomic_file.hpp"
 #include "process/program.hpp"
-#include "process/run_folder.hpp"
+#include "results/run_folder.hpp"
 
 namespace skein::cli {
 namespace {
@@ -24,7 +24,7 @@ const std::vector<std::size_t> kSizes = {1, 2, 5, 10, 20, 50}, kQuickSizes = {1,
 constexpr double kMission_s = 30.0, kQuickMission_s = 10.0, kExchange_s = 0.05;
 constexpr double kFar = 1000.0;  ///< UAVs, for which the growth is told
 
-double steps_of(const Json& result) { return number(value_or(result, "timing", Json::object()), "steps"); }
+double steps_of(const Json& result) { return number_in(value_or(result, "timing", Json::object()), "steps"); }
 
 /// The median over results of something per exchange.
 template <class Measure>
@@ -43,12 +43,12 @@ Json profile_entry(const std::string& planner, std::size_t uavs, const std::vect
   const Json names = results.empty() ? Json::object() : work_of(results.front());
   for (const auto& [stage, work] : names.items()) {
     const double cpu_s =
-        per_exchange(results, [&](const Json& result) { return number(work_of(result)[stage], "cpu_s"); });
+        per_exchange(results, [&](const Json& result) { return number_in(work_of(result)[stage], "cpu_s"); });
     stages[stage] = {{"ms", 1e3 * cpu_s}, {"us_a_uav", uavs == 0 ? 0.0 : 1e6 * cpu_s / static_cast<double>(uavs)}};
   }
   const auto count = [&](const char* part, const char* key) {
     return per_exchange(results,
-                        [&](const Json& result) { return number(value_or(result, part, Json::object()), key); });
+                        [&](const Json& result) { return number_in(value_or(result, part, Json::object()), key); });
   };
   return {{"planner", planner},
           {"uavs", uavs},
@@ -86,7 +86,8 @@ Json profile_growth(const std::vector<Json>& entries) {
     std::vector<std::pair<double, double>> cost_by_uavs;
     for (const Json& entry : entries) {
       const Json all = value_or(entry, "stages", Json::object());
-      cost_by_uavs.emplace_back(number(entry, "uavs"), number(value_or(all, stage.c_str(), Json::object()), "ms"));
+      cost_by_uavs.emplace_back(number_in(entry, "uavs"),
+                                number_in(value_or(all, stage.c_str(), Json::object()), "ms"));
     }
     const std::optional<Growth> fit = growth_of(cost_by_uavs);
     if (!fit) continue;
@@ -110,18 +111,18 @@ void print_profile(std::ostream& out, const Json& report) {
       if (value_or(entry, "planner", "") != planner) continue;
       const Json all = value_or(entry, "stages", Json::object());
       double us_a_uav = 0.0;
-      for (const Json& stage : all) us_a_uav += number(stage, "us_a_uav");
-      out << fmt::format("  {:<6}", number(entry, "uavs"));
+      for (const Json& stage : all) us_a_uav += number_in(stage, "us_a_uav");
+      out << fmt::format("  {:<6}", number_in(entry, "uavs"));
       for (const auto& [stage, unused] : stages.items()) {
-        out << fmt::format("{:>15.3f}", number(value_or(all, stage.c_str(), Json::object()), "ms"));
+        out << fmt::format("{:>15.3f}", number_in(value_or(all, stage.c_str(), Json::object()), "ms"));
       }
       out << fmt::format("{:>15.0f}\n", us_a_uav);
     }
     out << fmt::format("  {:<6}", "grows");
     for (const auto& [stage, fit] : stages.items())
-      out << fmt::format("{:>15}", fmt::format("n^{:.2f}", number(fit, "exponent")));
+      out << fmt::format("{:>15}", fmt::format("n^{:.2f}", number_in(fit, "exponent")));
     out << fmt::format("\n  {:<6}", "1000");
-    for (const auto& [stage, fit] : stages.items()) out << fmt::format("{:>15.0f}", number(fit, "ms_at_1000"));
+    for (const auto& [stage, fit] : stages.items()) out << fmt::format("{:>15.0f}", number_in(fit, "ms_at_1000"));
     const Json limit = value_or(grows, "first_limit", nullptr);
     if (limit.is_string()) out << "   if it goes on so: mostly " << limit.get<std::string>();
     out << '\n';

@@ -18,7 +18,7 @@
 #include "process/files/atomic_file.hpp"
 #include "process/host/environment.hpp"
 #include "process/program.hpp"
-#include "process/run_folder.hpp"
+#include "results/run_folder.hpp"
 
 namespace skein::cli {
 namespace {
@@ -187,7 +187,7 @@ Json row_of(const Row& row, const Json& figure) {
   Json json = {{"name", row.name}, {"digits", row.digits}, {"kind", row.at_least ? "at_least" : "at_most"}};
   json["figure"] = figure;
   json["target"] = row.target ? Json(*row.target) : Json();
-  const double median = number(figure, "median");
+  const double median = number_in(figure, "median");
   json["met"] = row.target ? Json(row.at_least ? median >= *row.target : median <= *row.target) : Json();
   return json;
 }
@@ -199,7 +199,7 @@ Json language_pairs_entry(const std::vector<LanguagePair>& pairs) {
   for (const auto& [cpp, python] : pairs) {
     const double cpp_cpu_s = fleet_cpu_s(cpp), python_cpu_s = fleet_cpu_s(python);
     if (cpp_cpu_s > 0.0 && python_cpu_s > 0.0) by_cpu.push_back(cpp_cpu_s / python_cpu_s);
-    const double cpp_factor = number(cpp, "real_time_factor"), python_factor = number(python, "real_time_factor");
+    const double cpp_factor = number_in(cpp, "real_time_factor"), python_factor = number_in(python, "real_time_factor");
     if (cpp_factor > 0.0 && python_factor > 0.0) by_clock.push_back(python_factor / cpp_factor);
   }
   const auto figure_or_null = [](const std::vector<double>& values) {
@@ -231,7 +231,7 @@ void print_python(std::ostream& out, const Json& rows) {
                      "asked");
   for (const Json& row : rows) {
     const auto cell = [&](const char* name) {
-      return fmt::format("{:.{}f}", number(row["figure"], name), row["digits"].get<int>());
+      return fmt::format("{:.{}f}", number_in(row["figure"], name), row["digits"].get<int>());
     };
     const bool asked = row["target"].is_number();
     out << fmt::format("{:<73}{:>9}{:>9}{:>9}{:>9}{}\n", row["name"].get<std::string>(), cell("median"), cell("min"),

@@ -10,7 +10,7 @@
 #include <string>
 #include <utility>
 
-#include "process/run_folder.hpp"
+#include "results/run_folder.hpp"
 
 namespace skein::cli {
 namespace {
@@ -27,24 +27,24 @@ Json figure_of(const std::vector<Json>& results, const Measure& measure) {
   return figure(values);
 }
 
-double real_time_factor(const Json& result) { return number(result, "real_time_factor"); }
-double resident_mb(const Json& result) { return number(result, "memory_mb"); }
+double real_time_factor(const Json& result) { return number_in(result, "real_time_factor"); }
+double resident_mb(const Json& result) { return number_in(result, "memory_mb"); }
 double memory_mb(const Json& result) {
   double sum_mb = 0.0;
   const Json processes = value_or(result, "processes", Json::object());
-  for (const Json& use : processes) sum_mb += number(use, "memory_share_mb");
+  for (const Json& use : processes) sum_mb += number_in(use, "memory_share_mb");
   return sum_mb;
 }
-double startup_s(const Json& result) { return number(result, "startup_s"); }
+double startup_s(const Json& result) { return number_in(result, "startup_s"); }
 
-double steps(const Json& result) { return number(value_or(result, "timing", Json::object()), "steps"); }
-double rounds_per_s(const Json& result) { return ratio(steps(result), number(result, "wall_time_s")); }
+double steps(const Json& result) { return number_in(value_or(result, "timing", Json::object()), "steps"); }
+double rounds_per_s(const Json& result) { return ratio(steps(result), number_in(result, "wall_time_s")); }
 
 double cpu_of(const Json& result, const std::function<bool(const std::string&)>& which) {
   double cpu_s = 0.0;
   const Json processes = value_or(result, "processes", Json::object());
   for (const auto& [name, use] : processes.items()) {
-    if (which(name)) cpu_s += number(use, "cpu_s");
+    if (which(name)) cpu_s += number_in(use, "cpu_s");
   }
   return cpu_s;
 }
@@ -67,22 +67,22 @@ std::string medium_of(const Json& result) {
 
 double planner_cpu_s(const Json& result) {
   double cpu_s = 0.0;
-  for (const Json& uav : value_or(result, "uavs", Json::array())) cpu_s += number(uav, "planner_cpu_s");
+  for (const Json& uav : value_or(result, "uavs", Json::array())) cpu_s += number_in(uav, "planner_cpu_s");
   return cpu_s;
 }
 
 /// The launcher looks at the processes' times when it hears that the fleet flies, by when a fleet that flies for some
 /// milliseconds has done much of its work: then the parts that were counted by themselves are more.
 double all_cpu_s(const Json& result) {
-  const double counted_s = number(value_or(result, "timing", Json::object()), "cpu_s") + planner_cpu_s(result);
+  const double counted_s = number_in(value_or(result, "timing", Json::object()), "cpu_s") + planner_cpu_s(result);
   return std::max(counted_s, fleet_cpu_s(result));
 }
 
 /// What the simulation itself took of the server, in seconds.
 double simulation_cpu_s(const Json& result) {
   const Json timing = value_or(result, "timing", Json::object());
-  return number(timing, "physics_s") + number(timing, "lidar_s") + number(timing, "camera_s") +
-         number(timing, "links_s");
+  return number_in(timing, "physics_s") + number_in(timing, "lidar_s") + number_in(timing, "camera_s") +
+         number_in(timing, "links_s");
 }
 
 /// The result whose real-time factor is the median's nearest: breakdowns are of one run, so that they sum up.
@@ -114,7 +114,7 @@ struct Way {
 };
 
 Way way_of(const Json& entry) {
-  const int threads = static_cast<int>(number(entry, "threads"));
+  const int threads = static_cast<int>(number_in(entry, "threads"));
   if (threads == 0) return {};
   return {threads == 1 ? Way::one_thread : Way::all_cores, ", " + text_of_threads(threads)};
 }
@@ -167,26 +167,26 @@ Json figure(const std::vector<double>& values) {
 
 Json work_of(const Json& result) {
   const Json timing = value_or(result, "timing", Json::object());
-  const double total_s = all_cpu_s(result), sim_s = number(result, "sim_time_s");
+  const double total_s = all_cpu_s(result), sim_s = number_in(result, "sim_time_s");
   Json work = Json::object();
   double named_s = 0.0;
   const auto add = [&](const char* kind, double cpu_s) {
     work[kind] = {{"cpu_s", cpu_s}, {"share", ratio(cpu_s, total_s)}, {"ms_per_sim_s", 1e3 * ratio(cpu_s, sim_s)}};
     named_s += cpu_s;
   };
-  add("physics", number(timing, "physics_s"));
-  add("lidar", number(timing, "lidar_s"));
-  add("camera", number(timing, "camera_s"));
-  add("line_of_sight", number(timing, "links_s"));
-  add("recording", number(timing, "recording_s"));
+  add("physics", number_in(timing, "physics_s"));
+  add("lidar", number_in(timing, "lidar_s"));
+  add("camera", number_in(timing, "camera_s"));
+  add("line_of_sight", number_in(timing, "links_s"));
+  add("recording", number_in(timing, "recording_s"));
   const bool shared = in_one_process(result);
-  const double server_s = (shared ? number(timing, "cpu_s")
+  const double server_s = (shared ? number_in(timing, "cpu_s")
                                   : cpu_of(result, [](const auto& name) { return name == programs::kSimServer; })) -
                           named_s;
   add("agents", planner_cpu_s(result));
   add("exchange", std::max(0.0, total_s - named_s));
   if (shared) {
-    const double exchange_s = number(work["exchange"], "cpu_s"), of_server_s = std::clamp(server_s, 0.0, exchange_s);
+    const double exchange_s = number_in(work["exchange"], "cpu_s"), of_server_s = std::clamp(server_s, 0.0, exchange_s);
     work["exchange"]["by_program"] = {{programs::kSimServer, of_server_s}, {"all others", exchange_s - of_server_s}};
     return work;
   }
@@ -205,33 +205,35 @@ std::string text_of_threads(int threads) {
 Json speed_entry(const std::vector<Json>& results, const Json& lidar, int threads) {
   const Json& run = typical(results);
   const Json timing = value_or(run, "timing", Json::object());
-  return {
-      {"scenario", value_or(run, "scenario", "")},
-      {"medium", medium_of(run)},
-      {"threads", threads},
-      {"uavs", value_or(run, "uavs", Json::array()).size()},
-      {"status", statuses(results)},
-      {"sim_time_s", number(run, "sim_time_s")},
-      {"real_time_factor", figure_of(results, real_time_factor)},
-      {"rounds_per_s", figure_of(results, rounds_per_s)},
-      {"cores_busy", figure_of(results, [](const Json& r) { return ratio(all_cpu_s(r), number(r, "wall_time_s")); })},
-      {"memory_mb", figure_of(results, memory_mb)},
-      {"resident_mb", figure_of(results, resident_mb)},
-      {"startup_s", figure_of(results, startup_s)},
-      {"cpu_s", all_cpu_s(run)},
-      {"work", work_of(run)},
-      {"lidar",
-       {{"scans_computed", value_or(timing, "scans", 0)},
-        {"ms_per_computed_scan", value_or(timing, "lidar_ms_per_scan", nullptr)},
-        {"every_scan", lidar}}}};
+  return {{"scenario", value_or(run, "scenario", "")},
+          {"medium", medium_of(run)},
+          {"threads", threads},
+          {"uavs", value_or(run, "uavs", Json::array()).size()},
+          {"status", statuses(results)},
+          {"sim_time_s", number_in(run, "sim_time_s")},
+          {"real_time_factor", figure_of(results, real_time_factor)},
+          {"rounds_per_s", figure_of(results, rounds_per_s)},
+          {"cores_busy",
+           figure_of(results, [](const Json& r) { return ratio(all_cpu_s(r), number_in(r, "wall_time_s")); })},
+          {"memory_mb", figure_of(results, memory_mb)},
+          {"resident_mb", figure_of(results, resident_mb)},
+          {"startup_s", figure_of(results, startup_s)},
+          {"cpu_s", all_cpu_s(run)},
+          {"work", work_of(run)},
+          {"lidar",
+           {{"scans_computed", value_or(timing, "scans", 0)},
+            {"ms_per_computed_scan", value_or(timing, "lidar_ms_per_scan", nullptr)},
+            {"every_scan", lidar}}}};
 }
 
 Json rounds_entry(const std::string& vendor, std::size_t uavs, const std::vector<RoundsPair>& pairs) {
   std::vector<Json> fleets, floors;
   std::vector<double> wall_ratios, cpu_ratios;
-  const auto floor_rate = [](const Json& floor) { return ratio(number(floor, "rounds"), number(floor, "wall_s")); };
+  const auto floor_rate = [](const Json& floor) {
+    return ratio(number_in(floor, "rounds"), number_in(floor, "wall_s"));
+  };
   const auto floor_cpu_ms = [](const Json& floor) {
-    return 1e3 * ratio(number(floor, "cpu_s"), number(floor, "rounds"));
+    return 1e3 * ratio(number_in(floor, "cpu_s"), number_in(floor, "rounds"));
   };
   const auto fleet_cpu_ms = [](const Json& fleet) { return 1e3 * ratio(all_cpu_s(fleet), steps(fleet)); };
   for (const RoundsPair& pair : pairs) {
@@ -260,16 +262,16 @@ Json scale_entry(std::size_t uavs, const std::vector<Json>& results, int threads
   double largest_mb = 0.0, agents_mb = 0.0, agents = 0.0;
   const Json processes = value_or(run, "processes", Json::object());
   for (const auto& [name, use] : processes.items()) {
-    largest_mb = std::max(largest_mb, number(use, "memory_share_mb"));
+    largest_mb = std::max(largest_mb, number_in(use, "memory_share_mb"));
     agents += programs::is_agent(name) ? 1.0 : 0.0;
-    agents_mb += programs::is_agent(name) ? number(use, "memory_share_mb") : 0.0;
+    agents_mb += programs::is_agent(name) ? number_in(use, "memory_share_mb") : 0.0;
   }
   return {{"uavs", uavs},
           {"medium", medium_of(run)},
           {"threads", threads},
           {"status", statuses(results)},
           {"to_the_end", std::ranges::all_of(results, ran_to_the_end)},
-          {"sim_time_s", number(run, "sim_time_s")},
+          {"sim_time_s", number_in(run, "sim_time_s")},
           {"real_time_factor", figure_of(results, real_time_factor)},
           {"rounds_per_s", figure_of(results, rounds_per_s)},
           {"memory_mb", figure_of(results, memory_mb)},
@@ -283,7 +285,7 @@ Json scale_entry(std::size_t uavs, const std::vector<Json>& results, int threads
 Json step_entry(const std::vector<Json>& results) {
   std::vector<double> round_ms, cpu_ms;
   for (const Json& result : results) {
-    round_ms.push_back(1e3 * ratio(number(result, "wall_time_s"), steps(result)));
+    round_ms.push_back(1e3 * ratio(number_in(result, "wall_time_s"), steps(result)));
     cpu_ms.push_back(1e3 * ratio(all_cpu_s(result), steps(result)));
   }
   return {{"round_ms", median(round_ms)}, {"cpu_ms", median(cpu_ms)}};
@@ -291,32 +293,32 @@ Json step_entry(const std::vector<Json>& results) {
 
 Json relay_entry(const std::string& vendor, const std::vector<Json>& reports) {
   const auto median_in = [](const char* key) {
-    return [key](const Json& report) { return number(value_or(report, key, Json::object()), "median"); };
+    return [key](const Json& report) { return number_in(value_or(report, key, Json::object()), "median"); };
   };
   return {{"vendor", vendor},
           {"bytes", reports.empty() ? Json() : value_or(reports.front(), "bytes", nullptr)},
           {"router_us", figure_of(reports, median_in("router_us"))},
           {"relay_us", figure_of(reports, median_in("relay_us"))},
-          {"times_relay", figure_of(reports, [](const Json& report) { return number(report, "times_relay"); })}};
+          {"times_relay", figure_of(reports, [](const Json& report) { return number_in(report, "times_relay"); })}};
 }
 
 Json load_entry(std::size_t uavs, const std::vector<Json>& results) {
   const auto radio = [](const Json& result, const char* key) {
-    return number(value_or(result, "radio", Json::object()), key);
+    return number_in(value_or(result, "radio", Json::object()), key);
   };
   const auto in_sight = [=](const Json& r) { return radio(r, "sent") - radio(r, "dropped_no_los"); };
   return {{"uavs", uavs},
           {"to_the_end", std::ranges::all_of(results, ran_to_the_end)},
           {"messages_per_s",
-           figure_of(results, [=](const Json& r) { return ratio(radio(r, "sent"), number(r, "sim_time_s")); })},
+           figure_of(results, [=](const Json& r) { return ratio(radio(r, "sent"), number_in(r, "sim_time_s")); })},
           {"lost", figure_of(results, [=](const Json& r) { return in_sight(r) - radio(r, "delivered"); })},
           {"arrived", figure_of(results, [=](const Json& r) { return ratio(radio(r, "delivered"), in_sight(r)); })},
           {"real_time_factor", figure_of(results, real_time_factor)}};
 }
 
 Json memory_entry(const Json& short_run, const Json& long_run) {
-  return {{"short_s", number(short_run, "sim_time_s")},
-          {"long_s", number(long_run, "sim_time_s")},
+  return {{"short_s", number_in(short_run, "sim_time_s")},
+          {"long_s", number_in(long_run, "sim_time_s")},
           {"short_mb", memory_mb(short_run)},
           {"long_mb", memory_mb(long_run)},
           {"growth", ratio(memory_mb(long_run), memory_mb(short_run))}};
@@ -327,7 +329,7 @@ Json targets_of(const Json& report) {
   for (const Json& speed : value_or(report, "speed", Json::array())) {
     const Way way = way_of(speed);
     const std::string of =
-        fmt::format("{} UAVs, {}", number(speed, "uavs"), value_or(speed, "scenario", "").get<std::string>()) +
+        fmt::format("{} UAVs, {}", number_in(speed, "uavs"), value_or(speed, "scenario", "").get<std::string>()) +
         way.text;
     const auto& [factor, aim, most_mb] = kSpeedTargets.at(way.kind);
     targets.push_back(target("real-time factor, " + of, true, factor, value_in(&speed, "real_time_factor"),
@@ -339,14 +341,14 @@ Json targets_of(const Json& report) {
   }
   for (const Json& rounds : value_or(report, "rounds", Json::array())) {
     if (value_or(rounds, "vendor", "") != "cyclonedds") continue;
-    const std::string uavs = std::to_string(static_cast<int>(number(rounds, "uavs")));
-    if (!std::ranges::count(kRoundsTargets, number(rounds, "uavs"))) continue;
+    const std::string uavs = std::to_string(static_cast<int>(number_in(rounds, "uavs")));
+    if (!std::ranges::count(kRoundsTargets, number_in(rounds, "uavs"))) continue;
     targets.push_back(target("lock-step against bare DDS, " + uavs + " UAVs", false, 1.5,
                              value_in(&rounds, "times_floor"), "times the floor"));
   }
   const auto of_size = [&](double uavs, Way::Kind kind) {
     return find(report, "scale",
-                [=](const Json& entry) { return number(entry, "uavs") == uavs && way_of(entry).kind == kind; });
+                [=](const Json& entry) { return number_in(entry, "uavs") == uavs && way_of(entry).kind == kind; });
   };
   for (const auto& [what, wanted] : kScaleTargets) {
     const auto& [uavs, kind] = what;
@@ -363,7 +365,7 @@ Json targets_of(const Json& report) {
   }
   const Json memory = value_or(report, "memory", Json::object());
   const Json measured_load = value_or(report, "load", Json::object());
-  const Json load = number(measured_load, "uavs") == 20.0 ? measured_load : Json::object();
+  const Json load = number_in(measured_load, "uavs") == 20.0 ? measured_load : Json::object();
   targets.push_back(target("radio, 20 UAVs x 20 topics x 20 Hz: arrived", true, 1.0, value_in(&load, "arrived"), ""));
   targets.push_back(target("and in real time", true, 0.98, value_in(&load, "real_time_factor"), "x"));
   const Json growth = value_or(memory, "growth", nullptr);

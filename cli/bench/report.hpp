@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/run/result.hpp"
+#include "results/result.hpp"
 
 namespace skein::cli {
 

@@ -7,18 +7,20 @@
 namespace skein::cli {
 namespace {
 
-double middle(const Json& object, const char* key) { return number(value_or(object, key, Json::object()), "median"); }
+double middle(const Json& object, const char* key) {
+  return number_in(value_or(object, key, Json::object()), "median");
+}
 
 /// "41.2 (39.8-42.0)"
 std::string spread(const Json& object, const char* key, int digits) {
   const Json figure = value_or(object, key, Json::object());
-  return fmt::format("{:.{}f} ({:.{}f}-{:.{}f})", number(figure, "median"), digits, number(figure, "min"), digits,
-                     number(figure, "max"), digits);
+  return fmt::format("{:.{}f} ({:.{}f}-{:.{}f})", number_in(figure, "median"), digits, number_in(figure, "min"), digits,
+                     number_in(figure, "max"), digits);
 }
 
 /// "cyclonedds", "one process, 2 threads"
 std::string medium(const Json& entry) {
-  const int threads = static_cast<int>(number(entry, "threads"));
+  const int threads = static_cast<int>(number_in(entry, "threads"));
   return threads > 0 ? text_of_threads(threads) : value_or(entry, "medium", "").get<std::string>();
 }
 
@@ -27,14 +29,14 @@ Json part(const Json& report, const char* key) { return value_or(report, key, Js
 void print_speed(std::ostream& out, const Json& speed) {
   out << fmt::format(
       "\n{}, {} UAVs, patrol, {}: x{} real time, {:.1f} s simulated; {} cores busy, {:.0f} MB, start-up {:.1f} s\n",
-      value_or(speed, "scenario", "").get<std::string>(), number(speed, "uavs"), medium(speed),
-      spread(speed, "real_time_factor", 1), number(speed, "sim_time_s"), spread(speed, "cores_busy", 2),
+      value_or(speed, "scenario", "").get<std::string>(), number_in(speed, "uavs"), medium(speed),
+      spread(speed, "real_time_factor", 1), number_in(speed, "sim_time_s"), spread(speed, "cores_busy", 2),
       middle(speed, "memory_mb"), middle(speed, "startup_s"));
   out << fmt::format("  {:<16}{:>10}{:>10}{:>18}\n", "CPU time of", "s", "share", "ms a simulated s");
   const Json all_work = value_or(speed, "work", Json::object());
   for (const auto& [kind, work] : all_work.items()) {
-    out << fmt::format("  {:<16}{:>10.2f}{:>9.1f}%{:>18.2f}\n", kind, number(work, "cpu_s"),
-                       100.0 * number(work, "share"), number(work, "ms_per_sim_s"));
+    out << fmt::format("  {:<16}{:>10.2f}{:>9.1f}%{:>18.2f}\n", kind, number_in(work, "cpu_s"),
+                       100.0 * number_in(work, "share"), number_in(work, "ms_per_sim_s"));
   }
   const Json exchange = value_or(value_or(all_work, "exchange", Json::object()), "by_program", Json::object());
   for (const auto& [program, cpu_s] : exchange.items()) {
@@ -46,9 +48,9 @@ void print_speed(std::ostream& out, const Json& speed) {
   out << fmt::format(
       "  LiDAR: {} scans computed at {:.3f} ms; every scan along the flown path ({}): mean {:.3f}, median {:.3f}, "
       "95 % {:.3f} ms, {:.0f} returns, {} triangles\n",
-      number(lidar, "scans_computed"), number(lidar, "ms_per_computed_scan"), number(every, "scans"),
-      number(every, "mean_ms"), number(every, "median_ms"), number(every, "p95_ms"), number(every, "mean_returns"),
-      number(every, "triangles"));
+      number_in(lidar, "scans_computed"), number_in(lidar, "ms_per_computed_scan"), number_in(every, "scans"),
+      number_in(every, "mean_ms"), number_in(every, "median_ms"), number_in(every, "p95_ms"),
+      number_in(every, "mean_returns"), number_in(every, "triangles"));
 }
 
 void print_rounds(std::ostream& out, const Json& rounds) {
@@ -59,7 +61,7 @@ void print_rounds(std::ostream& out, const Json& rounds) {
   for (const Json& entry : rounds) {
     out << fmt::format(
         "  {:<12}{:>5}{:>10}{:>10}{:>22}{:>22}{:>18}{:>26}\n", value_or(entry, "vendor", "").get<std::string>(),
-        number(entry, "uavs"), number(entry, "messages_per_round"), number(entry, "bytes_per_round"),
+        number_in(entry, "uavs"), number_in(entry, "messages_per_round"), number_in(entry, "bytes_per_round"),
         spread(entry, "fleet_rounds_per_s", 0), spread(entry, "floor_rounds_per_s", 0), spread(entry, "times_floor", 2),
         fmt::format("{:.2f} / {:.2f} = {:.2f}", middle(entry, "fleet_cpu_ms_per_round"),
                     middle(entry, "floor_cpu_ms_per_round"), middle(entry, "times_floor_cpu")));
@@ -74,11 +76,14 @@ void print_scale(std::ostream& out, const Json& scale) {
                      "exchange", "to the end");
   for (const Json& entry : scale) {
     const Json work = value_or(entry, "work", Json::object());
-    const auto share = [&](const char* kind) { return 100.0 * number(value_or(work, kind, Json::object()), "share"); };
+    const auto share = [&](const char* kind) {
+      return 100.0 * number_in(value_or(work, kind, Json::object()), "share");
+    };
     out << fmt::format("  {:>5}{:>24}{:>20}{:>12.1f}{:>12.0f}{:>14.0f}{:>14.1f}{:>14.1f}{:>9.0f}%{:>9.0f}%{:>12}\n",
-                       number(entry, "uavs"), medium(entry), spread(entry, "real_time_factor", 1),
-                       middle(entry, "rounds_per_s"), middle(entry, "memory_mb"), number(entry, "largest_process_mb"),
-                       number(entry, "mean_agent_mb"), middle(entry, "startup_s"), share("agents"), share("exchange"),
+                       number_in(entry, "uavs"), medium(entry), spread(entry, "real_time_factor", 1),
+                       middle(entry, "rounds_per_s"), middle(entry, "memory_mb"),
+                       number_in(entry, "largest_process_mb"), number_in(entry, "mean_agent_mb"),
+                       middle(entry, "startup_s"), share("agents"), share("exchange"),
                        value_or(entry, "to_the_end", false).get<bool>() ? "yes" : "no");
   }
 }
@@ -92,12 +97,12 @@ void print_radio(std::ostream& out, const Json& report) {
   }
   if (const Json load = value_or(report, "load", Json::object()); !load.empty()) {
     out << fmt::format("\nradio load, {} UAVs in real time: {:.0f} messages/s, {:.0f} lost, x{} real time\n",
-                       number(load, "uavs"), middle(load, "messages_per_s"), middle(load, "lost"),
+                       number_in(load, "uavs"), middle(load, "messages_per_s"), middle(load, "lost"),
                        spread(load, "real_time_factor", 3));
   }
   if (const Json memory = value_or(report, "memory", Json::object()); !memory.empty()) {
-    out << fmt::format("\nmemory: {:.0f} MB after {:.0f} s, {:.0f} MB after {:.0f} s\n", number(memory, "short_mb"),
-                       number(memory, "short_s"), number(memory, "long_mb"), number(memory, "long_s"));
+    out << fmt::format("\nmemory: {:.0f} MB after {:.0f} s, {:.0f} MB after {:.0f} s\n", number_in(memory, "short_mb"),
+                       number_in(memory, "short_s"), number_in(memory, "long_mb"), number_in(memory, "long_s"));
   }
 }
 
@@ -107,12 +112,12 @@ void print_targets(std::ostream& out, const Json& targets) {
     const bool at_least = value_or(target, "kind", "") == "at_least";
     std::string verdict = "not measured";
     if (target["met"].is_boolean()) {
-      const double factor = number(target, "factor");
-      verdict = fmt::format("{:.3g} {}: {}", number(target, "value"), target["unit"].get<std::string>(),
+      const double factor = number_in(target, "factor");
+      verdict = fmt::format("{:.3g} {}: {}", number_in(target, "value"), target["unit"].get<std::string>(),
                             target["met"].get<bool>() ? "met" : fmt::format("missed, {:.0f} % of it", 100.0 * factor));
     }
     out << fmt::format("  {:<54}{:>3}{:>6}   {}\n", target["name"].get<std::string>(),
-                       at_least ? ">=" : "<=", number(target, "target"), verdict);
+                       at_least ? ">=" : "<=", number_in(target, "target"), verdict);
   }
 }
 
@@ -121,8 +126,8 @@ void print_targets(std::ostream& out, const Json& targets) {
 void print_bench(std::ostream& out, const Json& report) {
   const Json machine = value_or(report, "machine", Json::object());
   out << fmt::format("{}, {} cores, load {:.1f} before the start; {} of each kind, medians (least-most)\n",
-                     value_or(machine, "cpu", "").get<std::string>(), number(machine, "cores"), number(machine, "load"),
-                     number(report, "repeats"));
+                     value_or(machine, "cpu", "").get<std::string>(), number_in(machine, "cores"),
+                     number_in(machine, "load"), number_in(report, "repeats"));
   for (const Json& speed : part(report, "speed")) print_speed(out, speed);
   print_rounds(out, part(report, "rounds"));
   print_scale(out, part(report, "scale"));

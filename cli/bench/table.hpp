@@ -3,7 +3,7 @@
 
 #include <ostream>
 
-#include "cli/run/result.hpp"
+#include "results/result.hpp"
 
 namespace skein::cli {
 

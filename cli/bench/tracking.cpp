@@ -10,8 +10,8 @@
 
 #include "cli/study_command.hpp"
 #include "process/program.hpp"
-#include "process/run_folder.hpp"
-#include "report/csv_table.hpp"
+#include "results/csv_table.hpp"
+#include "results/run_folder.hpp"
 
 namespace skein::cli {
 namespace {
@@ -26,7 +26,7 @@ struct Sample {
   double count;
 };
 
-std::vector<Sample> samples_of(const TrackingTable& table, const std::string& vehicle) {
+std::vector<Sample> samples_of(const results::TrackingTable& table, const std::string& vehicle) {
   std::vector<Sample> samples;
   for (const auto& [bin, count] : table.bins()) {
     if (bin.vehicle != vehicle) continue;
@@ -59,19 +59,19 @@ TrackingBound bound_of(const std::vector<Sample>& samples, double c1_s, double c
   return bound;
 }
 
-std::set<std::string> vehicles_in(const TrackingTable& table) {
+std::set<std::string> vehicles_in(const results::TrackingTable& table) {
   std::set<std::string> vehicles;
   for (const auto& [bin, count] : table.bins()) vehicles.insert(bin.vehicle);
   return vehicles;
 }
 
-void print_rows(std::ostream& out, const TrackingTable& table, const std::string& vehicle) {
+void print_rows(std::ostream& out, const results::TrackingTable& table, const std::string& vehicle) {
   const auto in_row = [](double value, double from, int last, int k) {
     return value >= from && (k == last || value < from + 1.0);
   };
   for (int row = 0; row < kSpeeds; ++row) {
     for (int column = 0; column < kAccelerations; ++column) {
-      const auto quantiles = table.quantiles([&](const TrackingTable::Bin& bin) {
+      const auto quantiles = table.quantiles([&](const results::TrackingTable::Bin& bin) {
         return bin.vehicle == vehicle && in_row(bin.speed_mps(), row, kSpeeds - 1, row) &&
                in_row(bin.acceleration_mps2(), column, kAccelerations - 1, column);
       });
@@ -99,19 +99,7 @@ StudyOptions flights(const BenchOptions& options) {
 
 }  // namespace
 
-void read_tracking(const std::filesystem::path& file, TrackingTable& table) {
-  if (!std::filesystem::exists(file)) throw InputError(file.string() + ": cannot be read");
-  const auto step = [](double value, double size) { return static_cast<int>(std::lround(value / size)); };
-  for (report::CsvTable rows(file); rows.next();) {
-    table.add({.speed = step(rows.number("speed_mps"), TrackingTable::kSpeedStepMps),
-               .acceleration = step(rows.number("acceleration_mps2"), TrackingTable::kAccelerationStepMps2),
-               .error = step(rows.number("error_m"), TrackingTable::kErrorStepM),
-               .vehicle = rows.text("vehicle")},
-              rows.count("samples"));
-  }
-}
-
-TrackingBound fit_bound(const TrackingTable& table, const std::string& vehicle, double share) {
+TrackingBound fit_bound(const results::TrackingTable& table, const std::string& vehicle, double share) {
   constexpr int kSteps = 40;
   constexpr double kStep = 0.01;
   const std::vector<Sample> samples = samples_of(table, vehicle);
@@ -126,7 +114,7 @@ TrackingBound fit_bound(const TrackingTable& table, const std::string& vehicle, 
   return best;
 }
 
-void print_tracking(std::ostream& out, const TrackingTable& table) {
+void print_tracking(std::ostream& out, const results::TrackingTable& table) {
   out << fmt::format("{:<14}{:>7}{:>8}{:>10}{:>8}{:>8}{:>8}{:>8}\n", "vehicle", "m/s", "m/s^2", "samples", "50 %",
                      "99 %", "99.99 %", "most");
   for (const std::string& vehicle : vehicles_in(table)) print_rows(out, table, vehicle);
@@ -148,9 +136,9 @@ int bench_tracking(const BenchOptions& options, const Console& console) {
   const StudyOutcomes outcomes = fly_study(plan, console);
   if (outcomes.interrupted) return kExitInterrupted;
   const Study study = study_of(plan, outcomes);
-  TrackingTable table;
+  results::TrackingTable table;
   for (const FlightEntry& flight : study.flights) {
-    if (flight.figures) read_tracking(flight.dir / run_folder::kTracking, table);
+    if (flight.figures) results::read_tracking(flight.dir / run_folder::kTracking, table);
   }
   console.out << '\n';
   print_tracking(console.out, table);

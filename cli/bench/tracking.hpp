@@ -8,7 +8,7 @@
 
 #include "cli/console.hpp"
 #include "cli/options.hpp"
-#include "process/results/tracking_table.hpp"
+#include "results/tracking_table.hpp"
 
 namespace skein::cli {
 
@@ -24,17 +24,13 @@ struct TrackingBound {
   }
 };
 
-/// Joins a run's tracking.csv to a table. @throws InputError when it is not there; std::runtime_error when it is
-/// damaged.
-void read_tracking(const std::filesystem::path& file, TrackingTable& table);
-
 /// The bound that is smallest on average, of those that hold for `share` of a vehicle's samples. Samples count as if
 /// they had the least speed and acceleration and the greatest error of their bin.
 /// @param share  in (0, 1].
-TrackingBound fit_bound(const TrackingTable& table, const std::string& vehicle, double share);
+TrackingBound fit_bound(const results::TrackingTable& table, const std::string& vehicle, double share);
 
 /// Quantiles by speed and acceleration, and the bounds, of each vehicle.
-void print_tracking(std::ostream& out, const TrackingTable& table);
+void print_tracking(std::ostream& out, const results::TrackingTable& table);
 
 /// Flies all planners in the scenes of the families, in runs/bench-tracking, without faults; what these programs have
 /// flown is not flown again. Takes some ten minutes, with --quick one. @returns as bench_planners().

@@ -14,8 +14,8 @@ namespace skein::cli {
 namespace {
 
 /// Errors up to a known bound.
-TrackingTable drawn_table(double c0, double c1, double c2, int count) {
-  TrackingTable table;
+results::TrackingTable drawn_table(double c0, double c1, double c2, int count) {
+  results::TrackingTable table;
   RandomStream random(1, "bench_tracking", 0);
   for (int i = 0; i < count; ++i) {
     const double v = random.uniform(0.0, 6.0), a = random.uniform(0.0, 3.0);
@@ -38,7 +38,7 @@ TEST(BenchTracking, FindsTheBoundThatTheErrorsHave) {
 }
 
 TEST(BenchTracking, HoldsForTheShareThatIsAsked) {
-  TrackingTable table;
+  results::TrackingTable table;
   for (int i = 0; i < 99; ++i) table.add("explorer", 1.0, 0.0, 0.1);
   table.add("explorer", 1.0, 0.0, 5.0);
   const TrackingBound most = fit_bound(table, "explorer", 0.99), all = fit_bound(table, "explorer", 1.0);
@@ -50,20 +50,20 @@ TEST(BenchTracking, HoldsForTheShareThatIsAsked) {
 }
 
 TEST(BenchTracking, ReadsWhatARunWrote) {
-  const TrackingTable written = drawn_table(0.2, 0.1, 0.1, 3000);
+  const results::TrackingTable written = drawn_table(0.2, 0.1, 0.1, 3000);
   const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "skein_bench_tracking.csv";
   std::ofstream(file) << written.csv();
-  TrackingTable table;
-  read_tracking(file, table);
+  results::TrackingTable table;
+  results::read_tracking(file, table);
   EXPECT_EQ(table.bins(), written.bins());
-  read_tracking(file, table);
+  results::read_tracking(file, table);
   EXPECT_EQ(table.quantiles().samples, 6000U) << "of two runs";
   std::filesystem::remove(file);
-  EXPECT_THROW(read_tracking(file, table), InputError);
+  EXPECT_THROW(results::read_tracking(file, table), InputError);
 }
 
 TEST(BenchTracking, PrintsARowForEachBinAndABoundForEachVehicle) {
-  TrackingTable table;
+  results::TrackingTable table;
   table.add("explorer", 1.5, 0.0, 0.105);
   table.add("photographer", 9.0, 7.0, 0.305);
   std::ostringstream out;

@@ -12,7 +12,7 @@
 #include "process/files/atomic_file.hpp"
 #include "process/host/environment.hpp"
 #include "process/program.hpp"
-#include "process/run_folder.hpp"
+#include "results/run_folder.hpp"
 #include "view/pages.hpp"
 
 namespace skein::cli {
@@ -155,7 +155,7 @@ void print_watching(std::ostream& out, const Json& entry) {
   for (const Row& row : kRows) {
     const Json figures = value_or(entry, row.key, Json());
     const auto cell = [&](const char* name) {
-      return figures.is_object() ? fmt::format("{:.{}f}", number(figures, name), row.digits) : std::string("-");
+      return figures.is_object() ? fmt::format("{:.{}f}", number_in(figures, name), row.digits) : std::string("-");
     };
     out << fmt::format("{:<56}{:>9}{:>9}{:>9}{:>9}\n", row.text, cell("median"), cell("min"), cell("max"), row.target);
   }

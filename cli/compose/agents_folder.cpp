@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "process/run_folder.hpp"
+#include "results/run_folder.hpp"
 
 namespace skein::cli {
 

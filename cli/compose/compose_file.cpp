@@ -19,7 +19,7 @@
 #include "core/text/text.hpp"
 #include "core/topics.hpp"
 #include "process/files/security_files.hpp"
-#include "process/run_folder.hpp"
+#include "results/run_folder.hpp"
 
 namespace skein::cli {
 namespace {

@@ -18,7 +18,7 @@
 #include "cli/testing/fake_programs.hpp"
 #include "core/config/network_config.hpp"
 #include "process/host/environment.hpp"
-#include "process/run_folder.hpp"
+#include "results/run_folder.hpp"
 #include "tests/support/places.hpp"
 
 namespace skein::cli {

@@ -8,7 +8,7 @@
 #include "cli/run/fleet_run.hpp"
 #include "core/text/text.hpp"
 #include "process/host/environment.hpp"
-#include "process/run_folder.hpp"
+#include "results/run_folder.hpp"
 
 namespace skein::cli {
 namespace {

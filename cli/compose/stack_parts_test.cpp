@@ -13,7 +13,7 @@
 #include "cli/testing/fake_programs.hpp"
 #include "process/files/security_files.hpp"
 #include "process/host/environment.hpp"
-#include "process/run_folder.hpp"
+#include "results/run_folder.hpp"
 
 namespace skein::cli {
 namespace {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "cli/host/proc_table.hpp"
-#include "process/run_folder.hpp"
+#include "results/run_folder.hpp"
 
 extern "C" {  // glibc 2.36's header forgets it
 #include <sys/pidfd.h>

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/types.hpp"
-#include "process/run_folder.hpp"
+#include "results/run_folder.hpp"
 
 namespace skein::cli {
 namespace {

@@ -8,8 +8,8 @@
 #include "cli/fault_tests/limits.hpp"
 #include "core/scoring/score_table.hpp"
 #include "core/text/text.hpp"
-#include "process/results/run_tables.hpp"
-#include "process/run_folder.hpp"
+#include "results/run_folder.hpp"
+#include "results/run_tables.hpp"
 
 namespace skein::cli {
 namespace {
@@ -42,10 +42,10 @@ std::string when(std::uint64_t step, const Scenario& scenario) {
 /// A run as the derivation looks at it.
 class Timeline {
  public:
-  Timeline(const RunRecord& run, const Scenario& scenario, const FaultPlan& plan)
+  Timeline(const results::RunRecord& run, const Scenario& scenario, const FaultPlan& plan)
       : scenario_(scenario), plan_(plan), last_step_(step_of(value_or(run.result, "sim_time_s", 0.0), scenario)) {
     const std::string station = scenario.node_name(kStationNode);
-    for (const EventRow& row : run.events) {
+    for (const results::EventRow& row : run.events) {
       if (row.event == run_tables::kJoined || row.event == run_tables::kLeft)
         present_[row.subject].set(row.step, row.event == run_tables::kJoined);
       const bool link = row.event == run_tables::kLinkUp || row.event == run_tables::kLinkDown;
@@ -53,7 +53,7 @@ class Timeline {
       if (row.event == run_tables::kCaptured) captured_[row.subject][row.step].push_back(std::stoull(row.object));
       if (row.event == run_tables::kReleased) released_[{row.subject, std::stoull(row.object)}] = row.step;
     }
-    for (const MessageRow& row : run.messages) messages_[{row.uav, row.step}] = row.arrives;
+    for (const results::MessageRow& row : run.messages) messages_[{row.uav, row.step}] = row.arrives;
   }
 
   std::uint64_t last_step() const { return last_step_; }
@@ -156,9 +156,9 @@ class Sender {
 };
 
 /// In which step the station took each capture of the ledger in, as it says; none: it did not.
-std::map<CaptureKey, std::optional<std::uint64_t>> accounted(const RunRecord& run, const Scenario& scenario) {
+std::map<CaptureKey, std::optional<std::uint64_t>> accounted(const results::RunRecord& run, const Scenario& scenario) {
   std::map<CaptureKey, std::optional<std::uint64_t>> all;
-  for (const CaptureRow& row : run.captures) {
+  for (const results::CaptureRow& row : run.captures) {
     auto& at = all[{row.uav, row.capture}];
     if (row.delivered_at_s) at = step_of(*row.delivered_at_s, scenario);
   }
@@ -178,7 +178,7 @@ std::vector<std::string> shortened(std::vector<std::string> sentences) {
 
 }  // namespace
 
-std::map<CaptureKey, std::uint64_t> derived_deliveries(const RunRecord& run, const Scenario& scenario,
+std::map<CaptureKey, std::uint64_t> derived_deliveries(const results::RunRecord& run, const Scenario& scenario,
                                                        const FaultPlan& plan) {
   const Timeline timeline(run, scenario, plan);
   const std::vector<std::string> uavs = scenario.uav_names();
@@ -190,10 +190,10 @@ std::map<CaptureKey, std::uint64_t> derived_deliveries(const RunRecord& run, con
   return delivered;
 }
 
-std::vector<std::string> custody_losses(const RunRecord& run, const Scenario& scenario) {
+std::vector<std::string> custody_losses(const results::RunRecord& run, const Scenario& scenario) {
   const auto account = accounted(run, scenario);
   std::vector<std::string> sentences;
-  for (const EventRow& row : run.events) {
+  for (const results::EventRow& row : run.events) {
     if (row.event != run_tables::kReleased) continue;
     const CaptureKey capture{row.subject, std::stoull(row.object)};
     const auto found = account.find(capture);
@@ -208,7 +208,7 @@ std::vector<std::string> custody_losses(const RunRecord& run, const Scenario& sc
     if (scenario.rules.collision_voids_score) collided.insert(value_or(collision, "uav", "").get<std::string>());
   }
   std::map<int, double> best;
-  for (const CaptureRow& row : run.captures) {
+  for (const results::CaptureRow& row : run.captures) {
     if (!row.delivered_at_s || collided.contains(row.uav) || row.q < scenario.rules.min_point_score) continue;
     best[row.point] = std::max(best[row.point], row.q);
   }
@@ -222,7 +222,8 @@ std::vector<std::string> custody_losses(const RunRecord& run, const Scenario& sc
   return shortened(std::move(sentences));
 }
 
-std::vector<std::string> custody_differences(const RunRecord& run, const Scenario& scenario, const FaultPlan& plan) {
+std::vector<std::string> custody_differences(const results::RunRecord& run, const Scenario& scenario,
+                                             const FaultPlan& plan) {
   const auto derived = derived_deliveries(run, scenario, plan);
   const auto account = accounted(run, scenario);
   const auto text = [&](const std::optional<std::uint64_t>& step) {
@@ -230,7 +231,7 @@ std::vector<std::string> custody_differences(const RunRecord& run, const Scenari
   };
   std::set<CaptureKey> all;
   for (const auto& [capture, step] : account) all.insert(capture);
-  for (const EventRow& row : run.events) {
+  for (const results::EventRow& row : run.events) {
     if (row.event == run_tables::kCaptured) all.emplace(row.subject, std::stoull(row.object));
   }
   std::vector<std::string> sentences;

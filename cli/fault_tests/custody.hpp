@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "cli/run/record.hpp"
 #include "core/faults/fault_plan.hpp"
+#include "results/run_record.hpp"
 
 namespace skein::cli {
 
@@ -23,14 +23,15 @@ using CaptureKey = std::pair<std::string, std::uint64_t>;
 /// word of it, in that of arrival, the station in the step of arrival and the one before, and a link that does not lose
 /// it. Who is killed forgets; its camera hands out again what was not acknowledged when it is back. Who is paused
 /// remembers.
-std::map<CaptureKey, std::uint64_t> derived_deliveries(const RunRecord& run, const Scenario& scenario,
+std::map<CaptureKey, std::uint64_t> derived_deliveries(const results::RunRecord& run, const Scenario& scenario,
                                                        const FaultPlan& plan);
 
 /// What was acknowledged and is missing, one sentence each: a capture that a UAV released (the acknowledgement reached
 /// it) and that the station does not have; a score that is not what the delivered captures add up to.
-std::vector<std::string> custody_losses(const RunRecord& run, const Scenario& scenario);
+std::vector<std::string> custody_losses(const results::RunRecord& run, const Scenario& scenario);
 
 /// Where the station's account differs from the derived one, one sentence each: another set, or another time.
-std::vector<std::string> custody_differences(const RunRecord& run, const Scenario& scenario, const FaultPlan& plan);
+std::vector<std::string> custody_differences(const results::RunRecord& run, const Scenario& scenario,
+                                             const FaultPlan& plan);
 
 }  // namespace skein::cli

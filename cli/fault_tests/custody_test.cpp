@@ -32,7 +32,7 @@ class CustodyTest : public testing::Test {
   Deliveries derived() const { return derived_deliveries(run_, scenario_, plan_); }
   static Deliveries first(std::uint64_t step) { return {{{"alpha", 0}, step}}; }
 
-  RunRecord run_;
+  results::RunRecord run_;
   Scenario scenario_;
   FaultPlan plan_;
 };

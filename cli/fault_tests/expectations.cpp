@@ -5,8 +5,8 @@
 #include "cli/fault_tests/windows.hpp"
 #include "core/text/suggestion.hpp"
 #include "core/text/text.hpp"
-#include "process/results/run_tables.hpp"
-#include "process/run_folder.hpp"
+#include "results/run_folder.hpp"
+#include "results/run_tables.hpp"
 
 namespace skein::cli {
 namespace {

@@ -143,8 +143,8 @@ class JudgedRun : public FaultTestFile {
     return text;
   }
 
-  RunRecord run_, fault_free_;
-  std::optional<RunRecord> again_;
+  results::RunRecord run_, fault_free_;
+  std::optional<results::RunRecord> again_;
   int exit_code_ = 0;
   std::string place_;           ///< of the last that did not hold
   std::optional<double> at_s_;  ///< and when

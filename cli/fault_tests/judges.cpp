@@ -4,9 +4,9 @@
 #include <set>
 
 #include "cli/fault_tests/custody.hpp"
-#include "cli/run/diff.hpp"
 #include "core/text/suggestion.hpp"
 #include "core/text/text.hpp"
+#include "results/diff.hpp"
 
 namespace skein::cli {
 namespace {
@@ -15,9 +15,9 @@ std::string list_text(const std::set<std::string>& names) {
   return names.empty() ? "nobody" : joined({names.begin(), names.end()});
 }
 
-double number(const RunRecord& run, const char* key) { return value_or(run.result, key, 0.0); }
+double number(const results::RunRecord& run, const char* key) { return value_or(run.result, key, 0.0); }
 
-double time_of(const EventRow& row, const Evidence& evidence) {
+double time_of(const results::EventRow& row, const Evidence& evidence) {
   return static_cast<double>(row.step) * evidence.scenario.exchange_period_s;
 }
 
@@ -41,8 +41,8 @@ Findings limit_findings(const std::map<std::string, Limits>& wanted, const Json&
 }
 
 /// When two runs part, where their digests tell.
-std::optional<double> parting_time(const RunRecord& run, const RunRecord& other) try {
-  const auto difference = first_difference(run.dir, other.dir);
+std::optional<double> parting_time(const results::RunRecord& run, const results::RunRecord& other) try {
+  const auto difference = results::first_difference(run.dir, other.dir);
   return difference ? std::optional(difference->time_s) : std::nullopt;
 } catch (const InputError&) {
   return std::nullopt;  // one of them died before it wrote any
@@ -140,7 +140,7 @@ Findings judge_members(const char* event, const std::vector<std::string>& wanted
   const std::set<std::string> expected(wanted.begin(), wanted.end());
   std::set<std::string> seen;
   std::optional<double> at_s;  // of the first who should not; else it is the end that shows who is missing
-  for (const EventRow& row : evidence.run.events) {
+  for (const results::EventRow& row : evidence.run.events) {
     if (row.event != event || row.step == 0) continue;
     seen.insert(row.subject);
     if (!at_s && !expected.contains(row.subject)) at_s = time_of(row, evidence);
@@ -171,12 +171,12 @@ Findings judge_uavs(const UavLimits& wanted, const Evidence& evidence) {
 Findings judge_taken_over(const TakenOver& wanted, const Evidence& evidence) {
   const double from_s = first_fault_of(wanted.uav, evidence.plan)->at_s, until_s = from_s + wanted.within_s;
   std::set<int> in_hand, others, done;
-  for (const CaptureRow& row : evidence.fault_free->captures) {
+  for (const results::CaptureRow& row : evidence.fault_free->captures) {
     if (row.uav == wanted.uav ? row.time_s < from_s : row.time_s <= until_s) others.insert(row.point);
     if (row.uav == wanted.uav && row.time_s >= from_s) in_hand.insert(row.point);
   }
   for (const int point : others) in_hand.erase(point);
-  for (const CaptureRow& row : evidence.run.captures) {
+  for (const results::CaptureRow& row : evidence.run.captures) {
     const bool in_time = row.time_s >= from_s && row.time_s <= until_s;
     if (in_time && row.uav != wanted.uav && in_hand.contains(row.point)) done.insert(row.point);
   }

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "cli/fault_tests/limits.hpp"
-#include "cli/run/record.hpp"
 #include "core/faults/fault_plan.hpp"
+#include "results/run_record.hpp"
 
 namespace skein::cli {
 
@@ -28,10 +28,10 @@ constexpr std::array<EnumName<Repeat>, 6> enum_names(Repeat) {
 struct Evidence {
   const Scenario& scenario;
   const FaultPlan& plan;
-  const RunRecord& run;
-  int exit_code = 0;                                              ///< of `skein run`
-  const RunRecord* fault_free = nullptr;                          ///< where an expectation asks for it
-  std::vector<std::pair<std::string, const RunRecord*>> repeats;  ///< how they were flown, and what came of it
+  const results::RunRecord& run;
+  int exit_code = 0;                                                       ///< of `skein run`
+  const results::RunRecord* fault_free = nullptr;                          ///< where an expectation asks for it
+  std::vector<std::pair<std::string, const results::RunRecord*>> repeats;  ///< how they were flown, and what came of it
 
   double end_s() const { return value_or(run.result, "sim_time_s", 0.0); }
 };

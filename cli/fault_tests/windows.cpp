@@ -1,5 +1,5 @@
 #include "cli/fault_tests/windows.hpp"
-#include "process/results/run_tables.hpp"
+#include "results/run_tables.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -25,7 +25,7 @@ class Span {
   std::vector<double> times(const std::string& counted, const std::string& uav) const {
     std::vector<double> times;
     if (counted == "lost" || counted == "late") {
-      for (const MessageRow& row : run_.messages) {
+      for (const results::MessageRow& row : run_.messages) {
         const double time_s = static_cast<double>(row.step) * period_s_;
         if ((counted == "late") == row.arrives.has_value() && is(row.uav, uav) && holds(time_s))
           times.push_back(time_s);
@@ -33,14 +33,14 @@ class Span {
       return times;
     }
     if (counted == "acknowledged") {
-      for (const EventRow& row : run_.events) {
+      for (const results::EventRow& row : run_.events) {
         const double time_s = static_cast<double>(row.step) * period_s_;
         if (row.event == run_tables::kReleased && is(row.subject, uav) && holds(time_s)) times.push_back(time_s);
       }
       return times;
     }
     std::set<std::pair<std::string, std::uint64_t>> known;  // a capture has a row for each of its points
-    for (const CaptureRow& row : run_.captures) {
+    for (const results::CaptureRow& row : run_.captures) {
       if (!is(row.uav, uav) || !known.emplace(row.uav, row.capture).second) continue;
       const std::optional<double> time_s = counted == "captures" ? std::optional(row.time_s) : row.delivered_at_s;
       if (time_s && holds(*time_s)) times.push_back(*time_s);
@@ -52,7 +52,7 @@ class Span {
   double distance_m(const std::string& uav) const {
     std::map<std::string, Vector3d> last;
     double sum = 0.0;
-    for (const PositionRow& row : run_.positions) {
+    for (const results::PositionRow& row : run_.positions) {
       if (!is(row.uav, uav) || !holds(row.time_s)) continue;
       const auto [at, is_first] = last.try_emplace(row.uav, row.p_W);
       if (!is_first) sum += (row.p_W - at->second).norm();
@@ -63,7 +63,7 @@ class Span {
 
   double score_gained() const {
     double before = 0.0, after = 0.0;
-    for (const ScoreRow& row : run_.scores) {
+    for (const results::ScoreRow& row : run_.scores) {
       if (row.time_s < from_s_) before = row.score;
       if (row.time_s <= until_s_) after = row.score;
     }
@@ -74,7 +74,7 @@ class Span {
   static bool is(const std::string& uav, const std::string& wanted) { return wanted.empty() || uav == wanted; }
   bool holds(double time_s) const { return time_s >= from_s_ - 1e-9 && time_s <= until_s_ + 1e-9; }
 
-  const RunRecord& run_;
+  const results::RunRecord& run_;
   const double period_s_, from_s_, until_s_;
 };
 

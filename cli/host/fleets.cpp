@@ -11,7 +11,7 @@
 #include "core/text/text.hpp"
 #include "core/types.hpp"
 #include "process/host/host_lock.hpp"
-#include "process/run_folder.hpp"
+#include "results/run_folder.hpp"
 
 namespace skein::cli {
 namespace {

@@ -11,13 +11,13 @@
 #include "cli/properties/judge.hpp"
 #include "cli/properties/run_signals.hpp"
 #include "cli/run/preflight.hpp"
-#include "cli/run/record.hpp"
 #include "cli/run/results_dir.hpp"
 #include "cli/run_command.hpp"
 #include "core/config/config_node.hpp"
 #include "core/text/text.hpp"
 #include "process/program.hpp"
-#include "process/run_folder.hpp"
+#include "results/run_folder.hpp"
+#include "results/run_record.hpp"
 
 #ifndef SKEIN_VERSION
 #error "SKEIN_VERSION comes from CMake's project()"
@@ -58,12 +58,13 @@ struct Replayed {
 };
 
 Replayed judge_property(const FaultTest& test, const fs::path& dir, const Console& console) {
-  const RunRecord run = read_run(dir);
-  std::optional<RunRecord> without;
+  const results::RunRecord run = results::read_run(dir);
+  std::optional<results::RunRecord> without;
   if (needs_undisturbed(test.property_set)) {
     RunOptions undisturbed = test.plan.options;
     undisturbed.faults.reset();
-    fly_aside(undisturbed, "without the faults", console, [&](const fs::path& aside) { without = read_run(aside); });
+    fly_aside(undisturbed, "without the faults", console,
+              [&](const fs::path& aside) { without = results::read_run(aside); });
   }
   FolderSignals signals(run, test.plan.scenario, without ? &*without : nullptr);
   Replayed verdict{false, "nothing is asked"};

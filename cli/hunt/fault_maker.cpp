@@ -9,7 +9,7 @@
 #include "core/faults/fault_writer.hpp"
 #include "core/radio/radio_routes.hpp"
 #include "core/text/text.hpp"
-#include "process/run_folder.hpp"
+#include "results/run_folder.hpp"
 
 namespace skein::cli {
 namespace {

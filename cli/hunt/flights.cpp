@@ -10,7 +10,7 @@
 #include "cli/study/side_by_side.hpp"
 #include "process/host/environment.hpp"
 #include "process/program.hpp"
-#include "process/run_folder.hpp"
+#include "results/run_folder.hpp"
 
 namespace skein::cli {
 namespace {

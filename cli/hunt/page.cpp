@@ -7,12 +7,12 @@
 #include "cli/hunt/report.hpp"
 #include "cli/properties/judge.hpp"
 #include "cli/properties/run_signals.hpp"
-#include "cli/run/record.hpp"
 #include "core/faults/fault_writer.hpp"
 #include "report/html.hpp"
 #include "report/page_parts.hpp"
 #include "report/style.hpp"
 #include "report/time_chart.hpp"
+#include "results/run_record.hpp"
 
 namespace skein::cli {
 namespace {
@@ -71,7 +71,7 @@ report::TimeCurve margin_curve(const HuntSummary& summary, const Find& find) {
   const properties::PropertySet set = properties_of(summary.plan.entries, scenario);
   const auto property = std::ranges::find(set, find.broke, &properties::NamedProperty::name);
   if (property == set.end() || needs_undisturbed({*property})) return curve;
-  const RunRecord run = read_run(find.run);
+  const results::RunRecord run = results::read_run(find.run);
   FolderSignals signals(run, scenario);
   std::vector<double> worst;
   for (const properties::Property& one : property->cases) {
@@ -89,7 +89,7 @@ report::TimeCurve margin_curve(const HuntSummary& summary, const Find& find) {
 }
 
 std::string chart(const HuntSummary& summary, const Find& find) try {
-  const report::RunData run = report::read_run_data(find.run);
+  const results::RunData run = results::read_run_data(find.run);
   return "<figure>" +
          report::time_chart_svg("Margin of " + find.broke + " over time", {margin_curve(summary, find)}, run, {},
                                 kChartWidth) +

@@ -5,7 +5,7 @@
 #include "cli/fault_tests/report.hpp"
 #include "core/text/text.hpp"
 #include "process/files/atomic_file.hpp"
-#include "process/run_folder.hpp"
+#include "results/run_folder.hpp"
 
 namespace skein::cli {
 namespace {

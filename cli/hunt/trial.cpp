@@ -4,14 +4,16 @@
 #include <cmath>
 #include <set>
 
+#include "cli/host/supervisor.hpp"
 #include "cli/hunt/fault_maker.hpp"
 #include "cli/properties/judge.hpp"
 #include "cli/properties/run_signals.hpp"
-#include "cli/run/record.hpp"
 #include "core/faults/fault_writer.hpp"
 #include "core/sha256.hpp"
 #include "core/text/text.hpp"
-#include "process/run_folder.hpp"
+#include "results/result.hpp"
+#include "results/run_folder.hpp"
+#include "results/run_record.hpp"
 
 namespace skein::cli {
 namespace {
@@ -38,7 +40,7 @@ TrialFinding completes(const std::filesystem::path& dir, const ExitStatus& exit,
                     " s: " + value_or(member, "reason", "").get<std::string>();
   }
   for (const Json& warning : value_or(result, "warnings", Json::array())) {
-    if (warning.is_string() && is_failure(warning.get<std::string>()))
+    if (warning.is_string() && results::is_failure(warning.get<std::string>()))
       finding.text += "; " + warning.get<std::string>();
   }
   if (!result.is_object()) {
@@ -209,9 +211,9 @@ TrialOutcome read_outcome(const std::filesystem::path& dir, const ExitStatus& ex
                                                : std::nullopt);
   }
   if (outcome.findings.front().fails()) return outcome;  // what it left behind may be half of it
-  const RunRecord run = read_run(dir);
-  std::optional<RunRecord> without;
-  if (undisturbed) without = read_run(*undisturbed);
+  const results::RunRecord run = results::read_run(dir);
+  std::optional<results::RunRecord> without;
+  if (undisturbed) without = results::read_run(*undisturbed);
   FolderSignals signals(run, scenario, without ? &*without : nullptr);
   for (const PropertyFinding& found : judge_properties(asked_of(trial.faults, set), signals)) {
     outcome.findings.push_back(finding_of(found));

@@ -25,7 +25,7 @@
 #include "core/files/file_bytes.hpp"
 #include "core/sha256.hpp"
 #include "core/text/text.hpp"
-#include "process/run_folder.hpp"
+#include "results/run_folder.hpp"
 
 #ifndef SKEIN_VERSION
 #error "SKEIN_VERSION comes from CMake's project()"

@@ -10,7 +10,7 @@
 #include "cli/run/results_dir.hpp"
 #include "core/text/text.hpp"
 #include "process/program.hpp"
-#include "process/run_folder.hpp"
+#include "results/run_folder.hpp"
 
 namespace skein::cli {
 namespace {

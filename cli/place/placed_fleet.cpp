@@ -12,7 +12,7 @@
 #include "core/text/text.hpp"
 #include "core/topics.hpp"
 #include "process/host/environment.hpp"
-#include "process/run_folder.hpp"
+#include "results/run_folder.hpp"
 
 namespace skein::cli {
 namespace {

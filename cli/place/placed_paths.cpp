@@ -5,7 +5,7 @@
 #include "cli/run/program_files.hpp"
 #include "core/planners/python_spec.hpp"
 #include "process/host/environment.hpp"
-#include "process/run_folder.hpp"
+#include "results/run_folder.hpp"
 
 namespace skein::cli {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "cli/fault_tests/custody.hpp"
 #include "cli/properties/run_signals.hpp"
-#include "process/run_folder.hpp"
+#include "results/run_folder.hpp"
 
 namespace skein::cli {
 namespace {
@@ -20,10 +20,10 @@ struct Acknowledged {
   std::size_t taken = 0, told = 0;  ///< exchanges
 };
 
-std::vector<Acknowledged> acknowledged_captures(const RunRecord& run, const std::string& uav) {
+std::vector<Acknowledged> acknowledged_captures(const results::RunRecord& run, const std::string& uav) {
   std::map<CaptureKey, std::size_t> taken;
   std::vector<Acknowledged> all;
-  for (const EventRow& row : run.events) {
+  for (const results::EventRow& row : run.events) {
     const bool is_capture = row.event == run_tables::kCaptured || row.event == run_tables::kReleased;
     if (!is_capture || (!uav.empty() && row.subject != uav)) continue;
     const CaptureKey capture{row.subject, std::stoull(row.object)};
@@ -38,10 +38,10 @@ std::vector<Acknowledged> acknowledged_captures(const RunRecord& run, const std:
 
 /// The sum over all points of the best capture so far, by time; of captures that count.
 template <class TimeOf>
-std::vector<std::pair<double, double>> score_steps(const RunRecord& run, const Scenario& scenario,
+std::vector<std::pair<double, double>> score_steps(const results::RunRecord& run, const Scenario& scenario,
                                                    const TimeOf& time_of) {
-  std::vector<std::pair<double, const CaptureRow*>> rows;
-  for (const CaptureRow& row : run.captures) {
+  std::vector<std::pair<double, const results::CaptureRow*>> rows;
+  for (const results::CaptureRow& row : run.captures) {
     const std::optional<double> time_s = time_of(row);
     if (time_s && !row.voided() && row.q >= scenario.rules.min_point_score) rows.emplace_back(*time_s, &row);
   }
@@ -59,14 +59,14 @@ std::vector<std::pair<double, double>> score_steps(const RunRecord& run, const S
   return steps;
 }
 
-std::vector<std::pair<double, double>> earned_steps(const RunRecord& run, const Scenario& scenario) {
-  return score_steps(run, scenario, [](const CaptureRow& row) { return std::optional(row.time_s); });
+std::vector<std::pair<double, double>> earned_steps(const results::RunRecord& run, const Scenario& scenario) {
+  return score_steps(run, scenario, [](const results::CaptureRow& row) { return std::optional(row.time_s); });
 }
 
 /// Points that this UAV photographs from `from_s` on, and nobody else ever, nor itself before.
-std::set<int> work_before(const RunRecord& run, const std::string& uav, double from_s) {
+std::set<int> work_before(const results::RunRecord& run, const std::string& uav, double from_s) {
   std::set<int> own, others;
-  for (const CaptureRow& row : run.captures) {
+  for (const results::CaptureRow& row : run.captures) {
     (row.uav == uav && row.time_s >= from_s ? own : others).insert(row.point);
   }
   std::erase_if(own, [&](int point) { return others.contains(point); });
@@ -74,15 +74,15 @@ std::set<int> work_before(const RunRecord& run, const std::string& uav, double f
 }
 
 /// When this UAV first photographs each point, of captures that count, that nobody photographs in `run`.
-std::vector<double> left_undone_s(const RunRecord& without, const std::string& uav, const Scenario& scenario,
-                                  const RunRecord& run) {
+std::vector<double> left_undone_s(const results::RunRecord& without, const std::string& uav, const Scenario& scenario,
+                                  const results::RunRecord& run) {
   std::map<int, double> first_s;
-  for (const CaptureRow& row : without.captures) {
+  for (const results::CaptureRow& row : without.captures) {
     if (row.uav != uav || row.voided() || row.q < scenario.rules.min_point_score) continue;
     const auto [found, is_new] = first_s.try_emplace(row.point, row.time_s);
     if (!is_new) found->second = std::min(found->second, row.time_s);
   }
-  for (const CaptureRow& row : run.captures) first_s.erase(row.point);
+  for (const results::CaptureRow& row : run.captures) first_s.erase(row.point);
   std::vector<double> times_s;
   for (const auto& [point, time_s] : first_s) times_s.push_back(time_s);
   std::ranges::sort(times_s);
@@ -95,7 +95,7 @@ FolderSignals::Values FolderSignals::of_captures(const SignalUse& signal) {
   const std::string uav = signal.argument(0);
   const auto events = [&](const char* event) {
     std::vector<std::size_t> exchanges;
-    for (const EventRow& row : run_.events) {
+    for (const results::EventRow& row : run_.events) {
       if (row.event == event && (uav.empty() || row.subject == uav)) exchanges.push_back(row.step);
     }
     return counted(exchanges);
@@ -118,7 +118,7 @@ FolderSignals::Values FolderSignals::of_captures(const SignalUse& signal) {
   }
   if (signal.is("score") || signal.is("points")) {
     std::vector<std::pair<double, double>> steps;
-    for (const ScoreRow& row : run_.scores) {
+    for (const results::ScoreRow& row : run_.scores) {
       steps.emplace_back(row.time_s, signal.is("score") ? row.score : row.points);
     }
     return stepped(steps);
@@ -130,7 +130,7 @@ FolderSignals::Values FolderSignals::of_captures(const SignalUse& signal) {
 FolderSignals::Values FolderSignals::of_custody(const SignalUse& signal) {
   const std::string uav = signal.argument(0);
   std::map<CaptureKey, std::size_t> delivered;
-  for (const CaptureRow& row : run_.captures) {
+  for (const results::CaptureRow& row : run_.captures) {
     if (row.delivered_at_s) delivered.emplace(CaptureKey{row.uav, row.capture}, exchange_at(*row.delivered_at_s));
   }
   std::vector<std::size_t> exchanges;
@@ -171,28 +171,28 @@ bool FolderSignals::has_path(const std::string& uav, std::size_t from, std::size
   return false;
 }
 
-const RunRecord& FolderSignals::undisturbed(const SignalUse& signal) const {
+const results::RunRecord& FolderSignals::undisturbed(const SignalUse& signal) const {
   if (undisturbed_ != nullptr) return *undisturbed_;
   throw InputError(signal.text() + ": is known only where the run is compared with one without faults");
 }
 
 FolderSignals::Values FolderSignals::of_work(const SignalUse& signal) {
-  const RunRecord& without = undisturbed(signal);
+  const results::RunRecord& without = undisturbed(signal);
   if (signal.is("undisturbed_score")) return constant(value_or(without.result, "score", 0.0));
   if (signal.is("undisturbed_earned")) return constant(value_or(without.result, "score_earned", 0.0));
   const std::string uav = signal.argument(0);
   if (signal.is("missed")) return missed(uav, without);
   const auto left = std::ranges::find_if(
-      run_.events, [&](const EventRow& row) { return row.event == run_tables::kLeft && row.subject == uav; });
+      run_.events, [&](const results::EventRow& row) { return row.event == run_tables::kLeft && row.subject == uav; });
   if (left == run_.events.end()) return constant(0.0);
   const double from_s = static_cast<double>(left->step) * period_s();
   std::set<int> in_hand = work_before(without, uav, from_s);
   if (signal.is("in_hand")) return constant(static_cast<double>(in_hand.size()));
   std::vector<std::size_t> exchanges;
-  std::vector<const CaptureRow*> rows;
-  for (const CaptureRow& row : run_.captures) rows.push_back(&row);
-  std::ranges::stable_sort(rows, {}, [](const CaptureRow* row) { return row->time_s; });
-  for (const CaptureRow* row : rows) {
+  std::vector<const results::CaptureRow*> rows;
+  for (const results::CaptureRow& row : run_.captures) rows.push_back(&row);
+  std::ranges::stable_sort(rows, {}, [](const results::CaptureRow* row) { return row->time_s; });
+  for (const results::CaptureRow* row : rows) {
     if (row->uav != uav && row->time_s >= from_s && in_hand.erase(row->point) > 0) {
       exchanges.push_back(exchange_at(row->time_s));
     }
@@ -202,7 +202,7 @@ FolderSignals::Values FolderSignals::of_work(const SignalUse& signal) {
 
 /// A restarted program has lost what it knew, and begins anew. So the same UAV's run without faults, from its start on,
 /// says how long it may take until it photographs again.
-FolderSignals::Values FolderSignals::missed(const std::string& uav, const RunRecord& without) {
+FolderSignals::Values FolderSignals::missed(const std::string& uav, const results::RunRecord& without) {
   Values values = constant(0.0);
   const std::optional<double> healed = healed_s();
   if (!healed) return values;

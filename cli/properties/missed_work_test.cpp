@@ -46,7 +46,7 @@ class MissedWork : public RunSignalsTest {
     }
   }
 
-  RunRecord undisturbed_;
+  results::RunRecord undisturbed_;
 };
 
 TEST_F(MissedWork, IsThatOfAsMuchTimeFromTheStartLessTheWayBack) {
@@ -117,9 +117,9 @@ TEST_F(MissedWork, WorksAgainSaysNothingWhereNobodyWasAway) {
   EXPECT_EQ(outcome("works_again"), Outcome::fails);
   run_.events.push_back({20 * 50, "captured", "a", "0"});
   EXPECT_EQ(outcome("works_again"), Outcome::holds);
-  std::erase_if(run_.events, [](const EventRow& row) { return row.step == 200; });
+  std::erase_if(run_.events, [](const results::EventRow& row) { return row.step == 200; });
   EXPECT_EQ(outcome("works_again"), Outcome::vacuous) << "it did not come back";
-  std::erase_if(run_.events, [](const EventRow& row) { return row.step == 100; });
+  std::erase_if(run_.events, [](const results::EventRow& row) { return row.step == 100; });
   EXPECT_EQ(outcome("works_again"), Outcome::vacuous) << "nobody was away";
 }
 

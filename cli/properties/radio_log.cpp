@@ -9,8 +9,8 @@
 #include <tuple>
 
 #include "core/radio/radio_routes.hpp"
-#include "process/run_folder.hpp"
 #include "recording/mcap/reader.hpp"
+#include "results/run_folder.hpp"
 
 namespace skein::cli {
 namespace {

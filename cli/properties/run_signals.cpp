@@ -5,14 +5,15 @@
 #include <limits>
 
 #include "core/text/suggestion.hpp"
-#include "process/run_folder.hpp"
+#include "core/text/text.hpp"
+#include "results/run_folder.hpp"
 
 namespace skein::cli {
 namespace {
 
 constexpr double kFarClearance_m = 100.0;  ///< as sim_server tells it
 
-std::size_t exchanges_of(const RunRecord& run, const Scenario& scenario) {
+std::size_t exchanges_of(const results::RunRecord& run, const Scenario& scenario) {
   const double end_s = value_or(run.result, "sim_time_s", 0.0);
   return static_cast<std::size_t>(std::llround(end_s / scenario.exchange_period_s)) + 1;
 }
@@ -27,7 +28,8 @@ bool is_death_for_good(const Json& fault, const Scenario& scenario) {
 
 }  // namespace
 
-FolderSignals::FolderSignals(const RunRecord& run, const Scenario& scenario, const RunRecord* undisturbed)
+FolderSignals::FolderSignals(const results::RunRecord& run, const Scenario& scenario,
+                             const results::RunRecord* undisturbed)
     : run_(run), scenario_(scenario), undisturbed_(undisturbed), exchanges_(exchanges_of(run, scenario)) {}
 
 std::optional<double> FolderSignals::healed_s() const {
@@ -95,7 +97,7 @@ const std::map<std::string, FolderSignals::Track>& FolderSignals::tracks() {
 }
 
 /// trajectories.csv has each UAV every other exchange; in between it stays where it was.
-std::map<std::string, FolderSignals::Track> FolderSignals::tracks_of(const RunRecord& run) const {
+std::map<std::string, FolderSignals::Track> FolderSignals::tracks_of(const results::RunRecord& run) const {
   std::map<std::string, Track> tracks;
   for (const std::string& name : scenario_.uav_names()) {
     tracks[name] = {std::vector<Vector3d>(exchanges_, Vector3d::Zero()),
@@ -103,7 +105,7 @@ std::map<std::string, FolderSignals::Track> FolderSignals::tracks_of(const RunRe
   }
   const double end_s = (static_cast<double>(exchanges_) - 0.5) * period_s();  // another run may have lasted longer
   std::map<std::string, std::size_t> next;                                    // exchange that is not known yet
-  for (const PositionRow& row : run.positions) {
+  for (const results::PositionRow& row : run.positions) {
     const auto track = tracks.find(row.uav);
     if (track == tracks.end() || row.time_s > end_s) continue;
     const std::size_t exchange = exchange_at(row.time_s);
@@ -197,7 +199,7 @@ FolderSignals::Values FolderSignals::separation(const SignalUse& signal) {
 FolderSignals::Values FolderSignals::on_off(const std::string& on, const std::string& off, const std::string& subject,
                                             const std::string& object) const {
   Values values = constant(0.0);
-  for (const EventRow& row : run_.events) {
+  for (const results::EventRow& row : run_.events) {
     const bool turns_on = row.event == on;
     if ((!turns_on && row.event != off) || row.subject != subject || row.object != object) continue;
     std::fill(values.begin() + static_cast<std::ptrdiff_t>(std::min<std::uint64_t>(row.step, exchanges_)), values.end(),
@@ -218,7 +220,7 @@ FolderSignals::Values FolderSignals::of_members(const SignalUse& signal) {
   if (signal.is("restarts")) {
     std::vector<std::size_t> again;
     std::map<std::string, int> lives;
-    for (const EventRow& row : run_.events) {
+    for (const results::EventRow& row : run_.events) {
       if (row.event != run_tables::kJoined || (!subject.empty() && row.subject != subject)) continue;
       if (lives[row.subject]++ > 0) again.push_back(row.step);
     }
@@ -274,7 +276,7 @@ FolderSignals::Values FolderSignals::debug(const SignalUse& signal) {
 
 FolderSignals::Values FolderSignals::without_work(const std::string& uav) const {
   Values values = constant(0.0);
-  for (const WorkRow& row : run_.work) {
+  for (const results::WorkRow& row : run_.work) {
     if (row.uav != uav || row.time_s > end_s()) continue;
     std::fill(values.begin() + static_cast<std::ptrdiff_t>(exchange_at(row.time_s)), values.end(), row.without_work_s);
   }

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "cli/properties/radio_log.hpp"
-#include "cli/run/record.hpp"
 #include "core/scenario.hpp"
 #include "properties/evaluation.hpp"
+#include "results/run_record.hpp"
 
 namespace skein::cli {
 
@@ -25,7 +25,8 @@ class FolderSignals final : public properties::RunSignals {
 
   /// @param run, scenario, undisturbed  must outlive this. @param undisturbed  the same run without faults, if there is
   ///   one.
-  FolderSignals(const RunRecord& run, const Scenario& scenario, const RunRecord* undisturbed = nullptr);
+  FolderSignals(const results::RunRecord& run, const Scenario& scenario,
+                const results::RunRecord* undisturbed = nullptr);
 
   const std::vector<double>& values(const SignalUse& signal) override;
   std::size_t exchanges() const override { return exchanges_; }
@@ -46,7 +47,7 @@ class FolderSignals final : public properties::RunSignals {
   Values of_custody(const SignalUse& signal);
   bool has_path(const std::string& uav, std::size_t from, std::size_t to);
   Values of_work(const SignalUse& signal);
-  Values missed(const std::string& uav, const RunRecord& without);
+  Values missed(const std::string& uav, const results::RunRecord& without);
   Values separation(const SignalUse& signal);
   Values result(const SignalUse& signal) const;
   Values debug(const SignalUse& signal);
@@ -57,17 +58,17 @@ class FolderSignals final : public properties::RunSignals {
   Values constant(double value) const { return Values(exchanges_, value); }
   const RadioLog& radio();
   const std::map<std::string, Track>& tracks();
-  std::map<std::string, Track> tracks_of(const RunRecord& run) const;
+  std::map<std::string, Track> tracks_of(const results::RunRecord& run) const;
   Values way_flown(const std::map<std::string, Track>& tracks, const std::string& uav) const;
   /// @throws InputError when there is none.
-  const RunRecord& undisturbed(const SignalUse& signal) const;
+  const results::RunRecord& undisturbed(const SignalUse& signal) const;
   std::size_t exchange_at(double time_s) const;
   double end_s() const { return static_cast<double>(exchanges_ - 1) * period_s(); }
   const std::vector<double>& use(const std::string& name, std::vector<std::string> arguments = {});
 
-  const RunRecord& run_;
+  const results::RunRecord& run_;
   const Scenario& scenario_;
-  const RunRecord* const undisturbed_;
+  const results::RunRecord* const undisturbed_;
   const std::size_t exchanges_;
   std::map<std::string, Values> known_;  ///< by SignalUse::text()
   std::optional<RadioLog> radio_;

@@ -31,14 +31,14 @@ class RunSignalsTest : public testing::Test {
   }
   ~RunSignalsTest() override { std::filesystem::remove_all(run_.dir); }
 
-  std::vector<double> values(const std::string& text, const RunRecord* undisturbed = nullptr) {
+  std::vector<double> values(const std::string& text, const results::RunRecord* undisturbed = nullptr) {
     const SignalNames names(scenario_);
     std::vector<SignalUse> signals;
     parse_condition("not " + text + " or " + text, {.names = names}, signals);
     FolderSignals all(run_, scenario_, undisturbed);
     return all.values(signals.at(0));
   }
-  std::vector<double> number(const std::string& text, const RunRecord* undisturbed = nullptr) {
+  std::vector<double> number(const std::string& text, const results::RunRecord* undisturbed = nullptr) {
     const SignalNames names(scenario_);
     std::vector<SignalUse> signals;
     parse_condition(text + " == " + text, {.names = names}, signals);
@@ -55,12 +55,12 @@ class RunSignalsTest : public testing::Test {
   }
 
   Scenario scenario_;
-  RunRecord run_;
+  results::RunRecord run_;
 };
 
 /// With a table of captures whose points have the number of their capture.
-inline CaptureRow capture(const std::string& uav, std::uint64_t number, double time_s,
-                          std::optional<double> delivered_at_s, int point = 0, double q = 0.5) {
+inline results::CaptureRow capture(const std::string& uav, std::uint64_t number, double time_s,
+                                   std::optional<double> delivered_at_s, int point = 0, double q = 0.5) {
   return {uav, number, time_s, point, q, delivered_at_s, "", 1.0, q, q};
 }
 

@@ -11,8 +11,8 @@
 #include "core/radio/radio_routes.hpp"
 #include "idl/cdr.hpp"
 #include "idl/type_names.hpp"
-#include "process/run_folder.hpp"
 #include "recording/mcap/writer.hpp"
+#include "results/run_folder.hpp"
 
 namespace skein::cli {
 namespace {
@@ -45,7 +45,7 @@ TEST_F(RunSignalsTest, TheFleetIsWhereItsTableSays) {
 
 TEST_F(RunSignalsTest, TheRunWithoutFaultsIsAsLongAsItWas) {
   for (const double end_s : {1.0, 2.0, 3.0}) {
-    RunRecord undisturbed = run_;
+    results::RunRecord undisturbed = run_;
     for (std::size_t tenth = 0; 0.1 * static_cast<double>(tenth) < end_s + 0.05; ++tenth) {
       const double t = 0.1 * static_cast<double>(tenth);
       undisturbed.positions.push_back({t, "a", {0, 2.0 * t, 1}, {0, 2, 0}, true, 5.0});
@@ -157,7 +157,7 @@ TEST_F(RunSignalsTest, APathIsALinkThereAndThenOneBack) {
         on[name].push_back(now);
       }
     }
-    std::ranges::stable_sort(run_.events, {}, &EventRow::step);
+    std::ranges::stable_sort(run_.events, {}, &results::EventRow::step);
     const std::size_t taken = random() % 20, told = taken + random() % 20;
     run_.events.push_back({taken, "captured", "a", "0"});
     run_.events.push_back({told, "released", "a", "0"});
@@ -176,7 +176,7 @@ TEST_F(RunSignalsTest, APathIsALinkThereAndThenOneBack) {
 }
 
 TEST_F(RunSignalsTest, WorkThatIsTakenOverIsWhatNobodyElseWouldHaveDone) {
-  RunRecord undisturbed = run_;
+  results::RunRecord undisturbed = run_;
   undisturbed.result["score"] = 9.0;
   undisturbed.captures = {capture("a", 0, 0.1, {}, 0), capture("a", 1, 1.0, {}, 1), capture("a", 2, 1.1, {}, 2),
                           capture("a", 3, 1.2, {}, 3), capture("b", 0, 1.9, {}, 3)};

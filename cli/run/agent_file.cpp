@@ -13,7 +13,7 @@
 #include "core/text/suggestion.hpp"
 #include "process/host/environment.hpp"
 #include "process/reports/reports.hpp"
-#include "process/run_folder.hpp"
+#include "results/run_folder.hpp"
 
 namespace skein::cli {
 namespace {

@@ -7,7 +7,7 @@
 #include "cli/run/fleet_plan.hpp"
 #include "cli/testing/fake_programs.hpp"
 #include "core/types.hpp"
-#include "process/run_folder.hpp"
+#include "results/run_folder.hpp"
 
 namespace skein::cli {
 namespace {

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "core/types.hpp"
-#include "process/results/result_file.hpp"
-#include "process/run_folder.hpp"
+#include "results/result_file.hpp"
+#include "results/run_folder.hpp"
 
 namespace skein::cli {
 namespace {
@@ -44,7 +44,7 @@ std::optional<double> event_time_s(const Json& result, const std::string& member
 }
 
 Json result_of_same_flight(const std::filesystem::path& run, const FleetPlan& plan) {
-  const Json result = read_result_file(run);
+  const Json result = results::read_result_file(run);
   const std::string why = "--break-from " + run.string() + ": ";
   const auto require = [&](bool same, const std::string& what) {
     if (!same) throw InputError(why + "it was flown with another " + what);

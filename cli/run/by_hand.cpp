@@ -3,7 +3,7 @@
 #include <system_error>
 
 #include "core/types.hpp"
-#include "process/run_folder.hpp"
+#include "results/run_folder.hpp"
 
 namespace skein::cli {
 

@@ -5,7 +5,7 @@
 #include "core/planners/python_spec.hpp"
 #include "core/text/suggestion.hpp"
 #include "core/types.hpp"
-#include "process/run_folder.hpp"
+#include "results/run_folder.hpp"
 
 namespace skein::cli {
 namespace {

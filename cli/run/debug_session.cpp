@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "process/run_folder.hpp"
+#include "results/run_folder.hpp"
 
 namespace skein::cli {
 namespace {

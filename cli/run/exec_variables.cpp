@@ -8,10 +8,11 @@
 
 #include "cli/ros_command.hpp"
 #include "core/config/config_files.hpp"
+#include "core/planners/uav_planner.hpp"
 #include "core/radio/radio_routes.hpp"
 #include "core/text/suggestion.hpp"
 #include "core/text/text.hpp"
-#include "process/run_folder.hpp"
+#include "results/run_folder.hpp"
 
 namespace skein::cli {
 namespace {

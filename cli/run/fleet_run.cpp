@@ -13,7 +13,7 @@
 #include "cli/python_planners.hpp"
 #include "core/text/suggestion.hpp"
 #include "core/text/text.hpp"
-#include "process/run_folder.hpp"
+#include "results/run_folder.hpp"
 
 namespace skein::cli {
 namespace {
@@ -369,7 +369,7 @@ std::string FleetRun::crash_text(const std::string& program, const ExitStatus& e
 void FleetRun::complain(const std::string& program, const std::string& how) {
   failed_programs_.insert(program);
   const std::filesystem::path& log = programs_.at(program).log;
-  facts_.warnings.push_back(failure_text(program, how));
+  facts_.warnings.push_back(results::failure_text(program, how));
   view_.message(facts_.warnings.back() + "; the end of " + log.string() + ":" + end_of_log(log, kLogLines));
 }
 

@@ -19,9 +19,9 @@
 #include "cli/run/fleet_plan.hpp"
 #include "cli/run/leave_deadline.hpp"
 #include "cli/run/progress_view.hpp"
-#include "cli/run/result.hpp"
 #include "core/run/wait_notice.hpp"
 #include "process/status/status_lines.hpp"
+#include "results/result.hpp"
 
 namespace skein::cli {
 
@@ -44,7 +44,7 @@ class FleetRun {
   void fly_in_containers(const std::vector<ProgramSpec>& containers, const std::filesystem::path& out);
 
   /// What is known of the run so far; for its result.
-  RunFacts& facts() { return facts_; }
+  results::RunFacts& facts() { return facts_; }
   ProgressView& view() { return view_; }
   /// What came through the status pipes, by program.
   const std::map<std::string, Json>& reports() const { return reports_; }
@@ -106,7 +106,7 @@ class FleetRun {
   std::unique_ptr<ProgramHost> host_;
   std::optional<ProcessOrders> orders_;
   ProgressView view_;
-  RunFacts facts_;
+  results::RunFacts facts_;
   std::map<std::string, ProgramSpec> programs_;
   std::map<std::string, Json> reports_;  ///< by program
   const Clock::time_point started_ = Clock::now();

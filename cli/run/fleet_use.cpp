@@ -26,7 +26,7 @@ void FleetRun::note_use() {
 
 void FleetRun::note_end(const Event& event) {
   if (event.exit.shared || in_containers_) return;
-  ProcessUse& use = facts_.processes[event.program];
+  results::ProcessUse& use = facts_.processes[event.program];
   use.peak_memory_mb = std::max(use.peak_memory_mb, event.exit.peak_memory_mb);
   if (!over_) use.cpu_s += event.exit.cpu_s - std::exchange(cpu_before_s_[event.program], 0.0);
 }

@@ -4,7 +4,7 @@
 
 #include "cli/python_planners.hpp"
 #include "core/planners/python_spec.hpp"
-#include "process/run_folder.hpp"
+#include "results/run_folder.hpp"
 
 namespace skein::cli {
 

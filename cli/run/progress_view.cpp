@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <iomanip>
 
-#include "cli/free_nodes.hpp"
 #include "core/planners/python_spec.hpp"
 #include "core/text/suggestion.hpp"
 #include "core/text/text.hpp"
-#include "report/causes.hpp"
+#include "results/causes.hpp"
+#include "results/from_nodes.hpp"
 
 namespace skein::cli {
 namespace {
@@ -28,11 +28,11 @@ std::string uav_state(const Json& uav) {
 /// Where the rest of what could be had was lost: a row for each cause that took something.
 void print_losses(std::ostream& out, const Json& losses) {
   const char* head = "lost      ";
-  for (const auto& [cause, text] : report::kCauses) {
+  for (const auto& [cause, text] : results::kCauses) {
     const Json sum = value_or(losses, std::string(cause).c_str(), Json::object());
-    if (number(sum, "points") <= 0.0) continue;
-    out << head << std::left << std::setw(24) << text << std::right << std::setw(10) << fixed(number(sum, "score"), 3)
-        << std::setw(8) << cell(sum, "points", 0) << " points\n";
+    if (number_in(sum, "points") <= 0.0) continue;
+    out << head << std::left << std::setw(24) << text << std::right << std::setw(10)
+        << fixed(number_in(sum, "score"), 3) << std::setw(8) << cell(sum, "points", 0) << " points\n";
     head = "          ";
   }
 }
@@ -97,9 +97,9 @@ void ProgressView::show(const std::string& text) {
 }
 
 void print_summary(std::ostream& out, const Json& result, const std::filesystem::path& dir) {
-  const double score = number(result, "score"), earned = number(result, "score_earned");
+  const double score = number_in(result, "score"), earned = number_in(result, "score_earned");
   const Json attainable = value_or(result, "attainable", Json::object());
-  const double possible = number(attainable, "score");
+  const double possible = number_in(attainable, "score");
   out << '\n'
       << "score     " << fixed(score, 3) << " of " << fixed(earned, 3) << " earned"
       << (earned > 0.0 ? " (" + fixed(100.0 * score / earned, 1) + " % delivered)" : "")
@@ -111,8 +111,8 @@ void print_summary(std::ostream& out, const Json& result, const std::filesystem:
       << " s, " << result["collisions"].size() << " collision" << (result["collisions"].size() == 1 ? "" : "s") << '\n'
       << "speed     x" << cell(result, "real_time_factor", 1) << " (" << cell(result, "sim_time_s", 1)
       << " s simulated in " << cell(result, "wall_time_s", 1) << " s), "
-      << (number(result, "memory_mb") > 0.0 ? "memory " + cell(result, "memory_mb", 0) + " MB, "
-                                            : "")  // by the launcher
+      << (number_in(result, "memory_mb") > 0.0 ? "memory " + cell(result, "memory_mb", 0) + " MB, "
+                                               : "")  // by the launcher
       << "LiDAR " << cell(result.contains("timing") ? result["timing"] : result, "lidar_ms_per_scan", 2)
       << " ms a scan\n"
       << "digest    " << (result["digest"].is_string() ? result["digest"].get<std::string>() : "none") << "\n\n";
@@ -131,7 +131,7 @@ void print_summary(std::ostream& out, const Json& result, const std::filesystem:
     row(name, {uav["role"], planner, uav_state(uav), cell(result["score_by_uav"], name.c_str(), 3),
                cell(uav, "captures", 0), cell(uav, "distance_m", 1), cell(uav, "idle_s", 1)});
   }
-  if (const std::string nodes = free_nodes_table(result["uavs"]); !nodes.empty()) out << '\n' << nodes;
+  if (const std::string nodes = results::free_nodes_table(result["uavs"]); !nodes.empty()) out << '\n' << nodes;
   for (const Json& warning : result["warnings"])
     out << "warning: " << (warning.is_string() ? warning.get<std::string>() : warning.dump()) << '\n';
   out << "\nresults   " << dir.string() << '\n';

@@ -5,8 +5,8 @@
 #include <ostream>
 #include <string>
 
-#include "cli/run/result.hpp"
 #include "process/status/status_lines.hpp"
+#include "results/result.hpp"
 
 namespace skein::cli {
 

@@ -6,10 +6,10 @@
 #include "cli/run/viewer_layout.hpp"
 #include "core/types.hpp"
 #include "process/files/atomic_file.hpp"
-#include "process/run_folder.hpp"
 #include "recording/bag.hpp"
 #include "recording/mcap/join.hpp"
 #include "recording/mcap/reader.hpp"
+#include "results/run_folder.hpp"
 
 namespace skein::cli {
 namespace {

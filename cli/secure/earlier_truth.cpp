@@ -6,7 +6,7 @@
 
 #include "process/files/closed_to_agents.hpp"
 #include "process/files/user_cache.hpp"
-#include "process/run_folder.hpp"
+#include "results/run_folder.hpp"
 
 namespace skein::cli {
 namespace {

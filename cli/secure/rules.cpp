@@ -9,7 +9,7 @@
 #include "core/text/xml_text.hpp"
 #include "core/topics.hpp"
 #include "core/view_topics.hpp"
-#include "process/run_folder.hpp"
+#include "results/run_folder.hpp"
 
 namespace skein::cli {
 namespace {

@@ -20,7 +20,7 @@
 #include "core/types.hpp"
 #include "process/files/closed_to_agents.hpp"
 #include "process/files/security_files.hpp"
-#include "process/run_folder.hpp"
+#include "results/run_folder.hpp"
 
 namespace skein::cli {
 namespace {

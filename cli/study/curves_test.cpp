@@ -6,7 +6,7 @@
 #include <random>
 
 #include "cli/testing/odd_study.hpp"
-#include "report/testing/scratch.hpp"
+#include "results/testing/scratch.hpp"
 
 namespace skein::cli {
 namespace {
@@ -14,7 +14,7 @@ namespace {
 /// The last change at or before a time, looked for one by one.
 double slow_score(const FlightTables& tables, double time_s) {
   double score = 0.0;
-  for (const report::RunScore& change : tables.scores) {
+  for (const results::RunScore& change : tables.scores) {
     if (change.time_s <= time_s) score = change.score;
   }
   return score;
@@ -47,15 +47,15 @@ TEST(ScoreCurves, AreMedianAndRangeOfTheFlightsAtEveryTime) {
 }
 
 TEST(FlightTables, AreReadAsFarAsTheyAreThere) {
-  const report::Scratch scratch;
+  const results::Scratch scratch;
   const auto dir = scratch.path();
   EXPECT_TRUE(read_flight_tables(dir).scores.empty()) << "no result at all";
-  report::write_text(dir / "result.json", R"({"sim_time_s": 80, "uavs": [{"name": "a"}, {"name": "b"}]})");
+  results::write_text(dir / "result.json", R"({"sim_time_s": 80, "uavs": [{"name": "a"}, {"name": "b"}]})");
   EXPECT_TRUE(read_flight_tables(dir).latencies.empty()) << "nobody knows of captures";
-  report::write_text(dir / "score_timeline.csv", "time_s,points,score\n0,0,0\n10,1,2.5\n20,2,nonsense\n");
-  report::write_text(dir / "captures.csv",
-                     "uav,capture,tick,time_s,point,q,delivered_at_s,reason\n"
-                     "a,0,0,1,7,0.5,3,\na,0,0,1,8,0.5,3,\na,1,0,2,9,0.5,,not received\nb,0,0,5,7,0.5,5.5,\n");
+  results::write_text(dir / "score_timeline.csv", "time_s,points,score\n0,0,0\n10,1,2.5\n20,2,nonsense\n");
+  results::write_text(dir / "captures.csv",
+                      "uav,capture,tick,time_s,point,q,delivered_at_s,reason\n"
+                      "a,0,0,1,7,0.5,3,\na,0,0,1,8,0.5,3,\na,1,0,2,9,0.5,,not received\nb,0,0,5,7,0.5,5.5,\n");
   const FlightTables tables = read_flight_tables(dir);
   EXPECT_EQ(tables.end_s, 80.0);
   EXPECT_EQ(tables.score_at(9.99), 0.0);

@@ -21,7 +21,7 @@ struct Mean {
 };
 
 void add_work(const Json& uav, FlightFigures& figures) {
-  const auto figure = [&](const char* key) { return report::number_if_any(uav, key); };
+  const auto figure = [&](const char* key) { return number_if_any(uav, key); };
   if (const auto frozen_s = figure("frozen_s")) {
     figures.frozen_uavs = figures.frozen_uavs.value_or(0) + (*frozen_s > 0.0 ? 1 : 0);
     figures.frozen_s = figures.frozen_s.value_or(0.0) + *frozen_s;
@@ -70,10 +70,10 @@ std::optional<double> greatest_share(const std::vector<UavFigures>& uavs) {
 
 FlightFigures figures_of(const Json& result) {
   FlightFigures figures;
-  figures.score = number(result, "score");
-  figures.points_detected = static_cast<int>(number(result, "points_detected"));
-  figures.points_total = static_cast<int>(number(result, "points_total"));
-  const double attainable = number(value_or(result, "attainable", Json::object()), "score");
+  figures.score = number_in(result, "score");
+  figures.points_detected = static_cast<int>(number_in(result, "points_detected"));
+  figures.points_total = static_cast<int>(number_in(result, "points_total"));
+  const double attainable = number_in(value_or(result, "attainable", Json::object()), "score");
   if (attainable > 0.0) {
     figures.attainable = attainable;
     figures.attainable_percent = 100.0 * figures.score / attainable;
@@ -81,10 +81,10 @@ FlightFigures figures_of(const Json& result) {
   if (figures.points_detected > 0) figures.mean_quality = figures.score / figures.points_detected;
   figures.collisions = static_cast<int>(value_or(result, "collisions", Json::array()).size());
   for (const Json& collision : value_or(result, "collisions", Json::array())) {
-    figures.collisions_by_battery += report::text_in(collision, "cause") == "battery" ? 1 : 0;
+    figures.collisions_by_battery += text_in(collision, "cause") == "battery" ? 1 : 0;
   }
-  figures.real_time_factor = number(result, "real_time_factor");
-  figures.mission_time_s = number(result, "mission_time_s");
+  figures.real_time_factor = number_in(result, "real_time_factor");
+  figures.mission_time_s = number_in(result, "mission_time_s");
   figures.status = value_or(result, "status", "").get<std::string>();
   figures.digest = value_or(result, "digest", "").get<std::string>();
   Mean explorers, photographers, cpu;
@@ -92,24 +92,24 @@ FlightFigures figures_of(const Json& result) {
   for (const Json& uav : value_or(result, "uavs", Json::array())) {
     (value_or(uav, "role", "") == "explorer" ? explorers : photographers).add(value_or(uav, "idle_s", nullptr));
     add_work(uav, figures);
-    figures.distance_m += number(uav, "distance_m");
+    figures.distance_m += number_in(uav, "distance_m");
     cpu.add(value_or(uav, "planner_cpu_s", nullptr));
-    const std::string name = report::text_in(uav, "name");
-    figures.uavs.push_back({name, report::text_in(uav, "role"), number(scores, name.c_str()), number(uav, "distance_m"),
-                            report::number_if_any(uav, "idle_s"), report::number_if_any(uav, "captures")});
+    const std::string name = text_in(uav, "name");
+    figures.uavs.push_back({name, text_in(uav, "role"), number_in(scores, name.c_str()), number_in(uav, "distance_m"),
+                            number_if_any(uav, "idle_s"), number_if_any(uav, "captures")});
   }
   figures.greatest_share = greatest_share(figures.uavs);
   const Json check = value_or(result, "flight_check", Json::object());
-  figures.braking_hits = report::number_if_any(check, "braking_hits");
-  figures.braking_meets = report::number_if_any(check, "braking_meets");
-  figures.ways_meet = report::number_if_any(check, "ways_meet");
-  figures.least_clearance_m = report::number_if_any(check, "least_clearance_m");
-  figures.least_separation_m = report::number_if_any(check, "least_separation_m");
-  figures.memory_mb = report::number_if_any(result, "memory_mb");
+  figures.braking_hits = number_if_any(check, "braking_hits");
+  figures.braking_meets = number_if_any(check, "braking_meets");
+  figures.ways_meet = number_if_any(check, "ways_meet");
+  figures.least_clearance_m = number_if_any(check, "least_clearance_m");
+  figures.least_separation_m = number_if_any(check, "least_separation_m");
+  figures.memory_mb = number_if_any(result, "memory_mb");
   figures.processors = report::processors_of(result);
   figures.idle_explorers_s = explorers.value();
   figures.idle_photographers_s = photographers.value();
-  const double sim_time_s = number(result, "sim_time_s");
+  const double sim_time_s = number_in(result, "sim_time_s");
   if (cpu.value() && sim_time_s > 0.0) figures.planner_cpu_ms = 1e3 * *cpu.value() / sim_time_s;
   return figures;
 }

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "cli/options.hpp"
-#include "cli/run/result.hpp"
 #include "cli/study/flight_tables.hpp"
+#include "results/result.hpp"
 
 namespace skein::cli {
 

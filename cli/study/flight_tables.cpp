@@ -3,18 +3,19 @@
 #include <algorithm>
 
 #include "core/types.hpp"
-#include "process/run_folder.hpp"
+#include "results/run_folder.hpp"
 
 namespace skein::cli {
 
 double FlightTables::score_at(double time_s) const {
-  const auto after = std::upper_bound(scores.begin(), scores.end(), time_s,
-                                      [](double time, const report::RunScore& change) { return time < change.time_s; });
+  const auto after =
+      std::upper_bound(scores.begin(), scores.end(), time_s,
+                       [](double time, const results::RunScore& change) { return time < change.time_s; });
   return after == scores.begin() ? 0.0 : std::prev(after)->score;
 }
 
 FlightTables read_flight_tables(const std::filesystem::path& dir) try {
-  report::RunData run = report::read_run_deliveries(dir);
+  results::RunData run = results::read_run_deliveries(dir);
   FlightTables tables{std::move(run.scores), run.end_s, {}};
   if (std::filesystem::exists(dir / run_folder::kCaptures)) tables.latencies = report::latency_by_uav(run);
   return tables;

@@ -9,7 +9,7 @@
 namespace skein::cli {
 
 struct FlightTables {
-  std::vector<report::RunScore> scores;    ///< whenever it changed; empty: not known
+  std::vector<results::RunScore> scores;   ///< whenever it changed; empty: not known
   double end_s = 0.0;                      ///< of the simulated time
   std::vector<report::Latency> latencies;  ///< by UAV, of captures that improved a point; empty: not known
 

@@ -11,7 +11,7 @@
 #include "cli/study/side_by_side.hpp"
 #include "process/files/atomic_file.hpp"
 #include "process/host/environment.hpp"
-#include "process/run_folder.hpp"
+#include "results/run_folder.hpp"
 
 namespace skein::cli {
 namespace {
@@ -35,7 +35,7 @@ std::string problem_of(const fs::path& dir, const Json& result, const ExitStatus
   }
   for (const Json& warning : value_or(result, "warnings", Json::array())) {
     const std::string text = warning.is_string() ? warning.get<std::string>() : "";
-    if (is_failure(text)) add(text);
+    if (results::is_failure(text)) add(text);
   }
   if (reasons.empty()) {
     for (const std::string& line : last_lines(dir / run_folder::kFlightLog, 1)) add(line);

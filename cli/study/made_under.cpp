@@ -8,7 +8,7 @@
 #include "core/scenario/drawn_worlds.hpp"
 #include "core/scenario/scenario_reader.hpp"
 #include "core/sha256.hpp"
-#include "process/run_folder.hpp"
+#include "results/run_folder.hpp"
 
 #ifndef SKEIN_VERSION
 #error "SKEIN_VERSION comes from CMake's project()"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "cli/options.hpp"
-#include "cli/run/result.hpp"
+#include "results/result.hpp"
 
 namespace skein::cli {
 

@@ -12,7 +12,7 @@
 #include "core/random_stream.hpp"
 #include "core/sha256.hpp"
 #include "core/types.hpp"
-#include "process/run_folder.hpp"
+#include "results/run_folder.hpp"
 
 namespace skein::cli {
 namespace {

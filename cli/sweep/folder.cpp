@@ -10,13 +10,12 @@
 
 #include "core/types.hpp"
 #include "process/files/atomic_file.hpp"
-#include "report/run_data.hpp"
+#include "results/run_data.hpp"
 
 namespace skein::cli {
 namespace {
 
 namespace fs = std::filesystem;
-using report::text_in;
 
 constexpr const char* kSettings = "sweep.json";
 constexpr const char* kTries = "tries.json";

@@ -21,7 +21,7 @@
 #include "core/types.hpp"
 #include "process/host/environment.hpp"
 #include "process/program.hpp"
-#include "process/run_folder.hpp"
+#include "results/run_folder.hpp"
 
 namespace skein::cli {
 namespace {

@@ -6,14 +6,13 @@
 #include "cli/study/flights.hpp"
 #include "core/types.hpp"
 #include "process/files/atomic_file.hpp"
-#include "process/run_folder.hpp"
-#include "report/run_data.hpp"
+#include "results/run_data.hpp"
+#include "results/run_folder.hpp"
 
 namespace skein::cli {
 namespace {
 
 namespace fs = std::filesystem;
-using report::text_in;
 
 /// What one program does for a unit.
 class UnitRun {

@@ -158,7 +158,7 @@ def test_the_histogram_has_every_point(flown: skein.Run) -> None:
 
 
 def test_words_and_colours_are_those_of_the_report(root: Path) -> None:
-    style, causes = (root / "report/run_style.cpp").read_text(), (root / "report/causes.hpp").read_text()
+    style, causes = (root / "report/run_style.cpp").read_text(), (root / "results/causes.hpp").read_text()
     for i, (cause, (colour, words)) in enumerate(plots.look.CAUSES.items()):
         assert f"--k{i}: {colour};" in style
         assert f'"{cause}", "{words}"' in causes

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "process/json_text.hpp"
-#include "report/causes.hpp"
-#include "report/testing/drawn_map.hpp"
-#include "report/testing/scratch.hpp"
+#include "results/causes.hpp"
+#include "results/testing/drawn_map.hpp"
+#include "results/testing/scratch.hpp"
 
 namespace skein::report {
 
@@ -39,10 +39,10 @@ class OddRun {
   }
 
   void write(const std::filesystem::path& dir) {
-    write_text(dir / "result.json", result().dump(2, ' ', false, Json::error_handler_t::replace));
+    results::write_text(dir / "result.json", result().dump(2, ' ', false, Json::error_handler_t::replace));
     const auto table = [&](const char* name, const std::string& text) {
       if (one_in(12)) return;  // never written
-      write_text(dir / name, one_in(6) ? text.substr(0, below(text.size() + 1)) : text);
+      results::write_text(dir / name, one_in(6) ? text.substr(0, below(text.size() + 1)) : text);
     };
     table("scene.json", scene());
     table("score.csv", scores());
@@ -51,7 +51,7 @@ class OddRun {
     table("captures.csv", captures());
     table("events.csv", events());
     table("score_timeline.csv", timeline());
-    for (const std::string& name : names_) table(("map-" + name + ".bt").c_str(), drawn_map(random_));
+    for (const std::string& name : names_) table(("map-" + name + ".bt").c_str(), results::drawn_map(random_));
   }
 
  private:
@@ -104,7 +104,7 @@ class OddRun {
     json["losses"] = nullptr;
     if (one_in(2)) {
       json["losses"] = Json::object();
-      for (const Cause& cause : kCauses)
+      for (const results::Cause& cause : results::kCauses)
         json["losses"][std::string(cause.key)] = {{"points", below(9)}, {"score", number(20.0) - 1.0}};
     }
     json["radio"] = {{"sent", below(1000)}, {"per_link", Json::array()}};
@@ -141,8 +141,8 @@ class OddRun {
     std::string csv = "index,x,y,z,estimate,score,cause,loss,uav,capture,q_distance,q_tilt,q_blur,q\n";
     for (std::size_t i = 0; i < points_; i += 1 + below(3)) {
       csv += std::to_string(i) + ",0,0,0," + text(number(1.0)) + ",0.1," +
-             std::string(one_in(9) ? "none" : kCauses[below(kCauses.size())].key) + "," + text(number(1.0)) +
-             ",,,,,,\n";
+             std::string(one_in(9) ? "none" : results::kCauses[below(results::kCauses.size())].key) + "," +
+             text(number(1.0)) + ",,,,,,\n";
     }
     return csv;
   }

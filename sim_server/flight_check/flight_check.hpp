@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "core/scenario.hpp"
-#include "process/results/tracking_table.hpp"
+#include "results/tracking_table.hpp"
 #include "sight/ray_scene.hpp"
 #include "sim_server/flight_check/braking.hpp"
 
@@ -60,7 +60,7 @@ class FlightCheck {
     double least_clearance_m = kMostM, least_braking_clearance_m = kMostM;  ///< now; until it stands
     double least_separation_m = kMostM, least_braking_separation_m = kMostM;
     std::vector<FlightFinding> first;  ///< kMostFindings at most
-    TrackingTable tracking;            ///< but for kCatchUpS after each take-off
+    results::TrackingTable tracking;   ///< but for kCatchUpS after each take-off
   };
 
   explicit FlightCheck(const Scenario& scenario);

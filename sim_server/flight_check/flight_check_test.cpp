@@ -149,7 +149,7 @@ TEST(FlightCheck, WhoCatchesUpAfterTakeOffDoesNotTrackYet) {
   EXPECT_EQ(seen(), 0U);
   check.add(401 + ticks(FlightCheck::kCatchUpS), nothing, std::vector{uav});
   ASSERT_EQ(seen(), 1U);
-  EXPECT_NEAR(check.findings().tracking.quantiles().max, 0.5, TrackingTable::kErrorStepM + 1e-9);
+  EXPECT_NEAR(check.findings().tracking.quantiles().max, 0.5, results::TrackingTable::kErrorStepM + 1e-9);
   uav.setpoint->p_WB = {0, 0, 0};  // none is given
   check.add(8000, nothing, std::vector{uav});
   uav.setpoint.reset();

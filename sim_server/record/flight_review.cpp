@@ -6,7 +6,7 @@ namespace {
 constexpr int kSpeeds = 8;  // from 0, 1, ... 7 m/s on
 constexpr double kSpeedStepMps = 1.0;
 
-TrackingReport report_of(const TrackingTable::Quantiles& quantiles) {
+TrackingReport report_of(const results::TrackingTable::Quantiles& quantiles) {
   TrackingReport report{.samples = quantiles.samples};
   if (quantiles.samples == 0) return report;
   report.p50 = quantiles.p50;
@@ -50,7 +50,7 @@ FlightCheckReport FlightReview::report() const {
   for (int k = 0; k < kSpeeds; ++k) {
     const double from = k * kSpeedStepMps, to = k + 1 < kSpeeds ? from + kSpeedStepMps : 1e9;
     TrackingReport row = report_of(found.tracking.quantiles(
-        [&](const TrackingTable::Bin& bin) { return bin.speed_mps() >= from && bin.speed_mps() < to; }));
+        [&](const results::TrackingTable::Bin& bin) { return bin.speed_mps() >= from && bin.speed_mps() < to; }));
     row.from_mps = from;
     if (row.samples > 0U) report.tracking_by_speed.push_back(std::move(row));
   }

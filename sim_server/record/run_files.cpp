@@ -8,8 +8,8 @@
 #include "core/camera_quality.hpp"
 #include "process/files/atomic_file.hpp"
 #include "process/reports/program_report.hpp"
-#include "process/results/run_tables.hpp"
-#include "process/run_folder.hpp"
+#include "results/run_folder.hpp"
+#include "results/run_tables.hpp"
 
 namespace skein::sim {
 namespace {

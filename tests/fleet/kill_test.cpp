@@ -7,8 +7,8 @@
 #include <sstream>
 
 #include "fleet_fixture.hpp"
-#include "process/run_folder.hpp"
 #include "recording/mcap/reader.hpp"
+#include "results/run_folder.hpp"
 #include "small_scene.hpp"
 
 namespace skein::test {

@@ -6,7 +6,7 @@
 
 #include "by_hand_fixture.hpp"
 #include "json_schema.hpp"
-#include "process/run_folder.hpp"
+#include "results/run_folder.hpp"
 #include "tests/support/places.hpp"
 
 namespace skein::test {

@@ -14,7 +14,7 @@
 #include "fleet_fixture.hpp"
 #include "process/files/closed_to_agents.hpp"
 #include "process/files/security_files.hpp"
-#include "process/run_folder.hpp"
+#include "results/run_folder.hpp"
 #include "small_scene.hpp"
 #include "tests/support/places.hpp"
 

@@ -28,9 +28,9 @@ const std::set<std::string>& applications() {
 /// Lower layers have lower numbers; applications share one, and a whole fleet in one process is made of them.
 std::optional<int> layer_of(const std::string& folder) {
   static const std::map<std::string, int> kLayers = {
-      {"core", 0},  {"process", 1},   {"idl", 1},        {"recording/mcap", 1}, {"properties", 1},
-      {"sight", 1}, {"oracle", 2},    {"bus", 3},        {"report", 3},         {"scenes", 3},
-      {"view", 4},  {"recording", 4}, {"one_process", 6}};
+      {"core", 0},      {"process", 1},    {"idl", 1}, {"recording/mcap", 1}, {"properties", 1}, {"sight", 1},
+      {"oracle", 2},    {"results", 2},    {"bus", 3}, {"report", 3},         {"scenes", 3},     {"view", 4},
+      {"recording", 4}, {"one_process", 6}};
   if (applications().contains(folder)) return 5;
   const auto found = kLayers.find(folder);
   return found == kLayers.end() ? std::nullopt : std::optional(found->second);

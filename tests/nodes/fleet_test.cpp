@@ -16,7 +16,7 @@
 #include "core/view_topics.hpp"
 #include "process/host/environment.hpp"
 #include "process/json_text.hpp"
-#include "process/run_folder.hpp"
+#include "results/run_folder.hpp"
 #include "scenes/scene_source.hpp"
 #include "sim_server/sim_node.hpp"
 #include "station/station_node.hpp"

@@ -11,7 +11,7 @@
 #include "comm_router/router_node.hpp"
 #include "core/radio/radio_routes.hpp"
 #include "idl/conversions.hpp"
-#include "process/run_folder.hpp"
+#include "results/run_folder.hpp"
 #include "tests/nodes/toy_members.hpp"
 
 namespace skein::test {

@@ -8,8 +8,8 @@
 #include "fleet_fixture.hpp"
 #include "idl/cdr.hpp"
 #include "idl/conversions.hpp"
-#include "process/run_folder.hpp"
 #include "recording/mcap/reader.hpp"
+#include "results/run_folder.hpp"
 #include "uav_agent/maps/occupancy_map.hpp"
 #include "uav_agent/onboard/key_frame_filter.hpp"
 

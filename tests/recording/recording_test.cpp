@@ -9,8 +9,8 @@
 #include "idl/cdr.hpp"
 #include "idl/type_names.hpp"
 #include "independent_reader.hpp"
-#include "process/run_folder.hpp"
 #include "recording/mcap/reader.hpp"
+#include "results/run_folder.hpp"
 #include "tests/support/places.hpp"
 
 namespace skein::test {

@@ -3,7 +3,7 @@
 #include <random>
 
 #include "fleet_fixture.hpp"
-#include "process/run_folder.hpp"
+#include "results/run_folder.hpp"
 
 namespace skein::test {
 namespace {

@@ -56,13 +56,13 @@ bool in_sight(const Vector3d& a, const Vector3d& b) {
 }  // namespace
 
 MadeUpFlight::MadeUpFlight(MadeUpSize size, view::Feed& feed) : size_(size), feed_(feed), fleet_(size.uavs) {
-  report::RunData run;
+  results::RunData run;
   const std::size_t each = size.points / kTowers, around = 50;
   const double levels = std::ceil(static_cast<double>(each) / around);
   for (std::size_t i = 0; i < each * kTowers; ++i) {
     const double angle = kTau * static_cast<double>(i % each % around) / around;
     const Vector3d out(std::cos(angle), std::sin(angle), 0.0);
-    report::RunPoint point;
+    results::RunPoint point;
     point.normal_W = out;
     point.p_W = axis_of(i / each) + kRadius_m * out;
     point.p_W.z() = kHeight_m * (static_cast<double>(i % each / around) + 0.5) / levels;

@@ -14,7 +14,7 @@
 #include "cli/study/flights.hpp"
 #include "cli/sweep/controller.hpp"
 #include "core/random_stream.hpp"
-#include "process/run_folder.hpp"
+#include "results/run_folder.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 namespace skein::cli {

@@ -1,0 +1,23 @@
+// Where two runs part: the first step whose digest differs, and which field of which entity differs in it.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace skein::results {
+
+struct RunDifference {
+  std::int64_t step = 0;
+  double time_s = 0.0;              ///< simulated time of that step
+  std::vector<std::string> fields;  ///< "jurong position", "radio": every field that differs there; never empty
+};
+
+/// Compares the `digests.csv` of two run folders line by line.
+/// @returns the first difference, or nullopt when the runs are the same.
+/// @throws InputError when a folder holds no digests.csv, or it is not one.
+std::optional<RunDifference> first_difference(const std::filesystem::path& run_a, const std::filesystem::path& run_b);
+
+}  // namespace skein::results

@@ -1,0 +1,79 @@
+#include "results/losses.hpp"
+
+#include <sstream>
+
+#include "process/files/atomic_file.hpp"
+#include "results/run_folder.hpp"
+#include "results/run_record.hpp"
+#include "results/score_losses.hpp"
+
+namespace skein::results {
+namespace {
+
+/// What is known of each point of the scene; nullopt where something is missing.
+std::optional<std::vector<PointRecord>> point_records(const std::filesystem::path& dir, const Json& answer,
+                                                      const Reports& reports, std::size_t count) {
+  if (!reports.sim_server || !reports.station || !reports.station->points) return std::nullopt;
+  const Json estimate = value_or(answer, "estimate", Json::array());
+  const std::string flyable = value_or(answer, "flyable", ""), seen = reports.sim_server->points_seen.value_or("");
+  const bool whole = estimate.size() == count && flyable.size() == count && seen.size() == count;
+  if (!whole || count == 0) return std::nullopt;
+  std::vector<PointRecord> points(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!estimate[i].is_number()) return std::nullopt;
+    points[i].estimate = estimate[i].get<float>();
+    points[i].flyable = flyable[i] == '1';
+    points[i].seen = seen[i] == '1';
+  }
+  for (const ScoredPointReport& point : *reports.station->points) {
+    const std::size_t index = point.index.value_or(count);
+    if (index >= count) return std::nullopt;
+    points[index].score = static_cast<float>(point.score.value_or(0.0));
+  }
+  for (CaptureRow& row : read_captures(dir)) {
+    const auto index = static_cast<std::size_t>(row.point);
+    if (index >= count) return std::nullopt;
+    points[index].captures.push_back(std::move(row));
+  }
+  return points;
+}
+
+/// A number that reads back as the same.
+std::string text(double value) { return Json(value).dump(); }
+
+std::string csv_line(std::size_t index, const Json& place, const PointRecord& point, const PointLoss& loss) {
+  std::ostringstream line;
+  line << index;
+  for (std::size_t axis = 0; axis < 3; ++axis) line << ',' << (axis < place.size() ? place[axis].dump() : "");
+  line << ',' << text(point.estimate) << ',' << text(point.score) << ',' << name_of(loss.cause) << ','
+       << text(loss.loss);
+  if (const auto& best = loss.best) {
+    line << ',' << best->uav << ',' << best->capture << ',' << text(best->q_distance) << ','
+         << text(tilt_quality(*best)) << ',' << text(best->q_blur) << ',' << text(best->q);
+  } else {
+    line << ",,,,,,";
+  }
+  return line.str() + "\n";
+}
+
+}  // namespace
+
+Json write_losses(const std::filesystem::path& dir, const Json& answer, const Reports& reports) {
+  const Json places = value_or(read_json(dir / run_folder::kScene), "points", Json::array());
+  const auto points = point_records(dir, answer, reports, places.size());
+  if (!points) return nullptr;
+  std::vector<PointLoss> losses;
+  std::string csv = "index,x,y,z,estimate,score,cause,loss,uav,capture,q_distance,q_tilt,q_blur,q\n";
+  for (std::size_t i = 0; i < points->size(); ++i) {
+    const PointRecord& point = (*points)[i];
+    losses.push_back(loss_of(point));
+    if (point.estimate > 0.0F || point.score > 0.0F) csv += csv_line(i, places[i], point, losses.back());
+  }
+  write_file_atomically(dir / run_folder::kLosses, csv);
+  Json by_cause = Json::object();
+  for (const auto& [cause, sum] : sum_up(losses))
+    by_cause[name_of(cause)] = {{"points", sum.points}, {"score", sum.score}};
+  return by_cause;
+}
+
+}  // namespace skein::results

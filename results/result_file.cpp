@@ -1,0 +1,46 @@
+#include "results/result_file.hpp"
+
+#include "core/sha256.hpp"
+#include "core/types.hpp"
+#include "results/run_folder.hpp"
+
+namespace skein::results {
+namespace {
+
+std::string text_of(const Json& json, int indent) {
+  return json.dump(indent, ' ', false, Json::error_handler_t::replace);
+}
+
+std::string checksum_of(const Json& result) { return Sha256().add(text_of(result, -1)).hex(); }
+
+}  // namespace
+
+std::string result_text(Json result) {
+  result.erase(kResultChecksum);
+  // What a reader gets: text that was no UTF-8 has been replaced, numbers that were none are null.
+  result = parse_json(text_of(result, -1));
+  result[kResultChecksum] = checksum_of(result);
+  return text_of(result, 2) + "\n";
+}
+
+Json read_result_file(const std::filesystem::path& run) {
+  const std::filesystem::path file = run / run_folder::kResult;
+  std::error_code error;
+  if (!std::filesystem::exists(file, error)) {
+    throw InputError(run.string() + ": there is no " + run_folder::kResult + " in it");
+  }
+  Json result = read_json(file);
+  if (!result.is_object()) throw InputError(file.string() + ": is damaged: it is no JSON object");
+  const Json told = value_or(result, kResultChecksum, nullptr);
+  if (told.is_null()) return result;
+  Json rest = result;
+  rest.erase(kResultChecksum);
+  if (told != checksum_of(rest)) {
+    throw InputError(file.string() +
+                     ": is damaged, or was edited: its checksum does not fit what it holds (without the "
+                     "key 'checksum' it is taken as it is)");
+  }
+  return result;
+}
+
+}  // namespace skein::results

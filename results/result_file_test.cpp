@@ -1,0 +1,95 @@
+#include "results/result_file.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <random>
+
+#include "core/types.hpp"
+#include "results/run_folder.hpp"
+
+namespace skein::results {
+namespace {
+
+class ResultFile : public ::testing::Test {
+ protected:
+  ResultFile() {
+    std::string name = (std::filesystem::temp_directory_path() / "skein-result-XXXXXX").string();
+    run_ = ::mkdtemp(name.data());
+  }
+  ~ResultFile() override { std::filesystem::remove_all(run_); }
+
+  void write(const std::string& text) { std::ofstream(run_ / run_folder::kResult, std::ios::binary) << text; }
+
+  static Json some_result() {
+    return {{"scenario", "towers"},
+            {"seed", 7},
+            {"score", 4.071234567890123},
+            {"digest", nullptr},
+            {"uavs", Json::array({{{"name", "jurong"}, {"distance_m", 1e-7}, {"alive", true}}})},
+            {"warnings", {"a \xFF that is no UTF-8", "two\nlines"}},
+            {"wall_time_s", 12.5}};
+  }
+
+  std::filesystem::path run_;
+};
+
+TEST_F(ResultFile, WhatIsWrittenIsReadHoweverItIsLaidOut) {
+  const std::string text = result_text(some_result());
+  write(text);
+  const Json result = read_result_file(run_);
+  EXPECT_EQ(result["score"], some_result()["score"]);
+  write(result.dump());
+  EXPECT_EQ(read_result_file(run_), result);
+  EXPECT_EQ(result_text(result), text) << "a result that is written again has one checksum";
+}
+
+TEST_F(ResultFile, AFlippedBitIsFound) {
+  const auto seed = static_cast<unsigned>(::getpid());
+  std::mt19937_64 random(seed);
+  const std::string text = result_text(some_result());
+  write(text);
+  const Json sound = read_result_file(run_);
+  for (int draw = 0; draw < 3000; ++draw) {
+    const std::uint64_t bit = random() % (8 * text.size());
+    std::string bad = text;
+    bad[bit / 8] = static_cast<char>(bad[bit / 8] ^ (1 << (bit % 8)));
+    write(bad);
+    try {
+      Json read = read_result_file(run_);
+      // The name of the checksum's own key may be hit; the figures are whole then. So may the letter of an exponent.
+      Json expected = sound;
+      if (!read.contains(kResultChecksum)) {
+        expected.erase(kResultChecksum);
+        read.erase(std::prev(read.end()));
+      }
+      ASSERT_EQ(read, expected) << "seed " << seed << " bit " << bit;
+    } catch (const InputError& error) {
+      ASSERT_NE(std::string(error.what()).find((run_ / run_folder::kResult).string()), std::string::npos);
+      ASSERT_NE(std::string(error.what()).find("damaged"), std::string::npos);
+    }
+  }
+}
+
+TEST_F(ResultFile, AResultOfAnEarlierVersionCountsAsItIs) {
+  write(some_result().dump(2, ' ', false, Json::error_handler_t::replace));
+  EXPECT_EQ(read_result_file(run_)["seed"], 7);
+}
+
+TEST_F(ResultFile, WhatIsMissingOrNoObjectIsSaid) {
+  const auto complaint = [&] {
+    try {
+      read_result_file(run_);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_NE(complaint().find("there is no result.json in it"), std::string::npos);
+  write("[1]");
+  EXPECT_NE(complaint().find("damaged"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace skein::results

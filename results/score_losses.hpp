@@ -1,0 +1,73 @@
+// What separates a fleet's score from what could be had, point by point: each loss has one cause. Pure.
+// Scores are numbers of single precision in [0, 1], so that sums and differences of them in double precision are exact:
+// estimate - score == sum of all losses, to the last bit.
+#pragma once
+
+#include <array>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "core/types.hpp"
+#include "results/run_record.hpp"
+
+namespace skein::results {
+
+/// In the order in which they are told.
+enum class LossCause {
+  none,              ///< nothing is lost
+  out_of_reach,      ///< a camera alone could get there, a whole UAV cannot
+  never_in_picture,  ///< no camera ever had it in the picture and in sight
+  below_threshold,   ///< some had, but not well enough to count
+  voided,            ///< the best picture was of a UAV that collided
+  not_delivered,     ///< the best picture never came to the station
+  distance,          ///< the best picture counts; it was taken from too far away,
+  tilt,              ///< too much from the side,
+  blur,              ///< or in too much motion, whichever is worst
+  above_estimate,    ///< it scored better than the estimate: the loss is negative
+};
+constexpr std::array<EnumName<LossCause>, 10> enum_names(LossCause) {
+  return {{{"none", LossCause::none},
+           {"out_of_reach", LossCause::out_of_reach},
+           {"never_in_picture", LossCause::never_in_picture},
+           {"below_threshold", LossCause::below_threshold},
+           {"voided", LossCause::voided},
+           {"not_delivered", LossCause::not_delivered},
+           {"distance", LossCause::distance},
+           {"tilt", LossCause::tilt},
+           {"blur", LossCause::blur},
+           {"above_estimate", LossCause::above_estimate}}};
+}
+
+/// What is known of one interest point after a run.
+struct PointRecord {
+  float estimate = 0.0F;             ///< q of the best picture that the oracle found; 0: not attainable
+  bool flyable = false;              ///< attainable for a UAV that fits there and gets there
+  bool seen = false;                 ///< was in some picture and in sight
+  float score = 0.0F;                ///< delivered
+  std::vector<CaptureRow> captures;  ///< of this point, in any order
+};
+
+struct PointLoss {
+  LossCause cause = LossCause::none;
+  double loss = 0.0;  ///< estimate - score
+  std::optional<CaptureRow>
+      best;  ///< the picture that the cause is about: the one that counts, or the one that was lost
+};
+
+/// What one point lost, and to what. It is one cause for all of the loss: a better picture that was lost comes first,
+/// unless the point scored all the same and that picture would have brought less than half of what was possible.
+PointLoss loss_of(const PointRecord& point);
+
+/// Points with a cause, and the sum of their losses.
+struct LossSum {
+  std::size_t points = 0;
+  double score = 0.0;
+};
+/// One for each cause but `none`.
+std::map<LossCause, LossSum> sum_up(const std::vector<PointLoss>& losses);
+
+/// The part of a picture's resolution that the tilt of the surface takes; above 1 where the formula prefers the axis.
+double tilt_quality(const CaptureRow& capture);
+
+}  // namespace skein::results

@@ -1,0 +1,150 @@
+// Each loss has one cause, and together they are the difference: on drawn runs, and cause by cause.
+#include "results/score_losses.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "core/random_stream.hpp"
+
+namespace skein::results {
+namespace {
+
+CaptureRow capture(double q_distance, double q_tilt, double q_blur, bool delivered, bool voided = false) {
+  CaptureRow row;
+  row.uav = "alpha";
+  row.q_distance = q_distance;
+  row.q_res = q_distance * q_tilt;
+  row.q_blur = q_blur;
+  row.q = static_cast<float>(row.q_res * q_blur);
+  if (delivered) row.delivered_at_s = 1.0;
+  if (voided) row.reason = "uav collided";
+  return row;
+}
+
+/// What the station makes of captures: the best that was delivered and not voided.
+float scored(const std::vector<CaptureRow>& captures) {
+  float best = 0.0F;
+  for (const CaptureRow& row : captures) {
+    if (row.delivered_at_s && !row.voided()) best = std::max(best, static_cast<float>(row.q));
+  }
+  return best;
+}
+
+/// A point of a drawn run: anything that may happen to one, nothing that may not.
+PointRecord drawn_point(RandomStream& random) {
+  PointRecord point;
+  if (random.uniform() < 0.8)
+    point.estimate = static_cast<float>(random.uniform() < 0.5 ? 1.0 : random.uniform(0.2, 1.0));
+  point.flyable = point.estimate > 0.0F && random.uniform() < 0.8;
+  point.seen = random.uniform() < 0.5;
+  for (int left = static_cast<int>(random.uniform(0.0, 4.0)); left > 0; --left) {
+    const CaptureRow row = capture(random.uniform(0.6, 1.0), random.uniform(0.6, 1.1), random.uniform(0.6, 1.0),
+                                   random.uniform() < 0.6, random.uniform() < 0.2);
+    point.captures.push_back(row);
+    point.seen = true;
+  }
+  point.score = scored(point.captures);
+  return point;
+}
+
+/// Whether a cause is what happened, said in other words than the code's.
+bool is_true(const PointRecord& point, LossCause cause) {
+  const auto any = [&](const auto& has) { return std::any_of(point.captures.begin(), point.captures.end(), has); };
+  // With it, the point would have come at least half of the way from its score to its estimate.
+  const auto mattered = [&](const CaptureRow& row) {
+    const float q = static_cast<float>(row.q);
+    return q > point.score && (point.score == 0.0F || 2.0 * q >= static_cast<double>(point.estimate) + point.score);
+  };
+  const bool better_lost =
+      any([&](const CaptureRow& row) { return !row.delivered_at_s && !row.voided() && mattered(row); });
+  const bool better_voided = any([&](const CaptureRow& row) { return row.voided() && mattered(row); });
+  const bool quality = point.score > 0.0F && !better_lost && !better_voided;
+  const bool lost = point.estimate > point.score;
+  switch (cause) {
+    case LossCause::none:
+      return point.estimate == point.score;
+    case LossCause::above_estimate:
+      return point.estimate < point.score;
+    case LossCause::not_delivered:
+      return lost && better_lost;
+    case LossCause::voided:
+      return lost && better_voided && !better_lost;
+    case LossCause::distance:
+    case LossCause::tilt:
+    case LossCause::blur:
+      return lost && quality;
+    case LossCause::out_of_reach:
+      return lost && point.captures.empty() && !point.flyable;
+    case LossCause::below_threshold:
+      return lost && point.captures.empty() && point.flyable && point.seen;
+    case LossCause::never_in_picture:
+      return lost && point.captures.empty() && point.flyable && !point.seen;
+  }
+  return false;
+}
+
+TEST(ScoreLosses, AllLossesTogetherAreTheDifference) {
+  std::map<LossCause, std::size_t> met;
+  for (std::uint64_t key = 0; key < 40; ++key) {
+    RandomStream random(key, "score_losses_test", 0);
+    std::vector<PointLoss> losses;
+    double estimate = 0.0, score = 0.0;
+    for (int i = 0; i < 400; ++i) {
+      const PointRecord point = drawn_point(random);
+      const PointLoss loss = loss_of(point);
+      losses.push_back(loss);
+      estimate += point.estimate;
+      score += point.score;
+      EXPECT_TRUE(is_true(point, loss.cause)) << name_of(loss.cause) << ": " << point.estimate << ' ' << point.score;
+      EXPECT_EQ(loss.loss, static_cast<double>(point.estimate) - point.score);
+      ++met[loss.cause];
+    }
+    double sum = 0.0;
+    std::size_t points = 0;
+    for (const auto& [cause, part] : sum_up(losses)) {
+      sum += part.score;
+      points += part.points;
+      EXPECT_EQ(part.score < 0.0, cause == LossCause::above_estimate && part.points > 0) << name_of(cause);
+    }
+    EXPECT_EQ(sum, estimate - score);
+    EXPECT_EQ(points, static_cast<std::size_t>(std::count_if(losses.begin(), losses.end(),
+                                                             [](const auto& loss) { return loss.loss != 0.0; })));
+  }
+  for (const auto& [name, cause] : enum_names(LossCause{})) EXPECT_GT(met[cause], 0u) << name;
+}
+
+TEST(ScoreLosses, TheWorstPartOfTheBestPictureIsToBlame) {
+  const auto cause = [](const CaptureRow& best) {
+    PointRecord point{1.0F, true, true, 0.0F, {capture(0.5, 0.5, 0.5, true), best, capture(0.4, 1.0, 1.0, true)}};
+    point.score = scored(point.captures);
+    const PointLoss loss = loss_of(point);
+    EXPECT_EQ(loss.best->q, best.q);
+    return loss.cause;
+  };
+  EXPECT_EQ(cause(capture(0.7, 0.9, 0.8, true)), LossCause::distance);
+  // Of equals the one that is mended first by flying differently: nearer, then squarer, then slower.
+  EXPECT_EQ(cause(capture(0.75, 0.75, 0.75, true)), LossCause::distance);
+  EXPECT_EQ(cause(capture(1.0, 0.75, 0.75, true)), LossCause::tilt);
+  EXPECT_EQ(cause(capture(0.75, 1.0, 0.75, true)), LossCause::distance);
+  EXPECT_EQ(cause(capture(0.9, 0.7, 0.8, true)), LossCause::tilt);
+  EXPECT_EQ(cause(capture(0.9, 0.8, 0.7, true)), LossCause::blur);
+  // The formula may prefer an axis: the tilt then gives back what the distance takes.
+  EXPECT_EQ(cause(capture(0.8, 1.2, 0.9, true)), LossCause::distance);
+}
+
+TEST(ScoreLosses, ABetterPictureThatWasLostIsNamed) {
+  PointRecord point{1.0F, true, true, 0.0F, {capture(0.6, 1.0, 1.0, true), capture(0.8, 1.0, 1.0, false)}};
+  point.score = scored(point.captures);
+  EXPECT_EQ(loss_of(point).cause, LossCause::not_delivered);
+  EXPECT_EQ(loss_of(point).best->q_distance, 0.8);
+  // Delivered or not: it went with its UAV.
+  for (const bool delivered : {false, true}) {
+    point.captures[1] = capture(0.8, 1.0, 1.0, delivered, true);
+    EXPECT_EQ(loss_of(point).cause, LossCause::voided);
+    EXPECT_EQ(loss_of(point).best->q_distance, 0.8);
+  }
+}
+
+}  // namespace
+}  // namespace skein::results
