@@ -17,6 +17,9 @@ constexpr double kMinute_s = 60.0;
 constexpr double kCorners = 0.02;  ///< of all: left over
 constexpr double kFewest = 2.0;    ///< least amounts
 
+/// At which a UAV could fly its ways [m/s].
+double way_speed(const VehicleConfig& vehicle) { return std::min(kWaySpeed, vehicle.max_speed_mps); }
+
 }  // namespace
 
 WorkLog::WorkLog(const Scenario& scenario, const Simulation& simulation)
@@ -106,7 +109,7 @@ void WorkLog::end_second(const std::function<bool(const std::string&)>& is_membe
       continue;
     }
     const Open open = open_for(i, conditions[i].camera_works, conditions[i].lidar_works);
-    if (!uav.ready_s) uav.ready_s = now_s + kBegin_s + kWayDetour * open.nearest_m / kWaySpeed;
+    if (!uav.ready_s) uav.ready_s = now_s + kBegin_s + kWayDetour * open.nearest_m / way_speed(scenario_.fleet[i].vehicle);
     const auto [done, any] = weigh(uav, open);
     uav.gains = {};
     track.open += any && now_s > *uav.ready_s ? WorkTrack::kOpen : WorkTrack::kNothingOpen;
@@ -130,7 +133,7 @@ WorkLog::Open WorkLog::open_for(UavIndex uav, bool camera_works, bool lidar_work
   const std::vector<bool> mapped = maps ? mapped_in_reach(uav) : std::vector<bool>();
   const auto places = places_.of(uav);
   const Vector3d& p_W = simulation_.uav(uav).state.p_WB;
-  const double speed = std::min(kWaySpeed, scenario_.fleet[uav].vehicle.max_speed_mps);
+  const double speed = way_speed(scenario_.fleet[uav].vehicle);
   const double reach_m = (simulation_.mission().remaining_s(simulation_.tick()) - kSpare_s) * speed / kWayDetour;
   Open open;
   double nearest_m = std::numeric_limits<double>::infinity();

@@ -9,8 +9,8 @@
 // Each is counted in least amounts, which depend on what is open for it in that second. Open for a UAV is a point
 // - that nobody has photographed half as well as it could be from its workplace (workplaces.hpp), or, for mapping, that
 //   neither it nor a mate linked to it has mapped either;
-// - whose workplace it could fly to, and from there on to the station, at 4 m/s on ways half as long again as straight
-//   lines, and have 10 s left before the mission ends.
+// - whose workplace it could fly to, and from there on to the station, at 4 m/s, or at its maximum speed if that is
+//   less, on ways half as long again as straight lines, with 10 s left before the mission ends.
 // Of a sum `open` the least amount is a tenth of what it would have to do in a minute if all were done by the end,
 // open / 10 * 60 s / time left / UAVs that could do it (time left: 60 s or more), and no less than kLeastScore or
 // kLeastMapped. Less than twice kLeastScore or kLeastMapped in all, or 2 % of all that the scene holds for the UAV, is

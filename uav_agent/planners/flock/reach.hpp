@@ -1,5 +1,5 @@
-// Which views a UAV leaves for later: those that it could not reach a moment ago, those that it comes no nearer to, and
-// those where another UAV is or is about to be.
+// Which views a UAV leaves for later: those that it could not reach a moment ago, those on the way to which it stands
+// still, and those where another UAV is or is about to be.
 // Frame W.   Units: SI.   Threads: one.   Deterministic.
 #pragma once
 

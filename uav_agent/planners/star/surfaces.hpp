@@ -3,8 +3,9 @@
 // cube (voxel_grid.hpp) and travels with the map.
 // Frames: W world, C camera.   Units: SI and radians.   Threads: one.   Effort: bounded by counts.
 // Source: paper ("surfaces are detected and clustered", "viewpoints are generated and selected accordingly");
-// viewpoints before a face at five tilts are our choice. What was in the picture counts, however blurred or oblique:
-// nothing is known of any care for quality, and the published quality is low.
+// viewpoints before a face at five tilts are our choice. What was in the picture counts from near enough and not too
+// obliquely (`seen_ratio`, `oblique_deg`), however blurred: nothing is known of any care for quality, and the published
+// quality is low.
 #pragma once
 
 #include <vector>

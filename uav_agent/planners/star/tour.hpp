@@ -1,5 +1,5 @@
 // Orders of visit in STAR: one ATSP for an explorer; for a photographer two, over clusters of viewpoints that see each
-// other and then inside the first cluster.
+// other and then inside the first two clusters.
 // Frame W.   Units: SI.   Pure and deterministic.   Effort: bounded by counts.
 // Source: FUEL (time-like cost, penalty for a change of direction), Star-Searcher (visibility clusters, hierarchical
 // ATSP, history-aware cost).
