@@ -28,7 +28,7 @@ class Shared {
   }
   ~Shared() {
     gone = true;
-    ::sleep(60);  // longer than the other thread can overlook it
+    std::latch(1).wait();  // until the other thread has missed it
   }
   static std::atomic<bool> gone;
 };

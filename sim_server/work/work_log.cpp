@@ -109,7 +109,8 @@ void WorkLog::end_second(const std::function<bool(const std::string&)>& is_membe
       continue;
     }
     const Open open = open_for(i, conditions[i].camera_works, conditions[i].lidar_works);
-    if (!uav.ready_s) uav.ready_s = now_s + kBegin_s + kWayDetour * open.nearest_m / way_speed(scenario_.fleet[i].vehicle);
+    if (!uav.ready_s)
+      uav.ready_s = now_s + kBegin_s + kWayDetour * open.nearest_m / way_speed(scenario_.fleet[i].vehicle);
     const auto [done, any] = weigh(uav, open);
     uav.gains = {};
     track.open += any && now_s > *uav.ready_s ? WorkTrack::kOpen : WorkTrack::kNothingOpen;
