@@ -52,26 +52,30 @@ std::vector<SignalInfo> make_table() {
       number("points", {}, 0, kPlainNumber, kAfterwards, "interest points with a delivered capture that counts"),
       number("earned", {}, 0, kPlainNumber, kAfterwards, "score of all captures, delivered or not"),
       number("sent", {node, node, topic}, 0, kPlainNumber, kAfterwards,
-             "radio messages sent, once for each target: from, to, on a topic; what is left out means all"),
-      number("arrived", {node, node, topic}, 0, kPlainNumber, kAfterwards, "of those, that arrived"),
+             "radio messages sent, counted once for each target; the arguments are sender, target and topic, and an "
+             "argument that is left out stands for all"),
+      number("arrived", {node, node, topic}, 0, kPlainNumber, kAfterwards,
+             "how many of the messages that `sent` counts have arrived; a message that arrives twice counts twice"),
       number("arrived_once", {node, node, topic}, 0, kPlainNumber, kAfterwards,
-             "the same without what arrived a second time"),
+             "`arrived`, but a message that arrives twice counts once"),
       number("arrived_by_link", {node, node, topic}, 0, kPlainNumber, kAfterwards,
-             "the same, of messages that were sent while their link was open"),
+             "`arrived`, but only of messages that were sent while their link was open"),
       number("in_flight", {node, node, topic}, 0, kPlainNumber, kAfterwards,
              "messages that are on their way for longer than an exchange, and will arrive"),
       number("undisturbed_score", {}, 0, kPlainNumber, kAfterwards, "`score` of the same run without faults"),
       number("undisturbed_earned", {}, 0, kPlainNumber, kAfterwards, "`earned` of the same run without faults"),
       number("undisturbed_distance", {uav}, 0, kMetres, kAfterwards, "`distance` in the same run without faults"),
       number("in_hand", {uav}, 1, kPlainNumber, kAfterwards,
-             "points that the UAV had before it when its program first left: those that in the run without faults it "
-             "is the first to photograph later on, and nobody else does"),
-      number("taken_over", {uav}, 1, kPlainNumber, kAfterwards, "of those, how many others have photographed"),
-      number(
-          "missed", {uav}, 1, kPlainNumber, kAfterwards,
-          "points that a UAV whose program was away should have photographed since: it has photographed nothing "
-          "since it came back and the last fault was over; in as much time from its start, less 40 s, it photographs "
-          "these in the same run without faults; and nobody photographs them in this one, to its end"),
+             "points that were the UAV's remaining work when its program first left: in the same run without faults, "
+             "this UAV photographs them only after that time, and no other UAV ever does. The same number all the "
+             "time; 0 if the program never left"),
+      number("taken_over", {uav}, 1, kPlainNumber, kAfterwards,
+             "how many of the points of `in_hand(uav)` other UAVs have photographed since the program first left"),
+      number("missed", {uav}, 1, kPlainNumber, kAfterwards,
+             "points that a UAV whose program was away should have photographed by now, but that no UAV photographs in "
+             "the whole run. Let T be the time since the program came back or the last fault ended, whichever was "
+             "later, less 40 s: the points are those that this UAV photographs in the first T of the same run without "
+             "faults. 0 if the program was never away, and from the UAV's next capture on"),
       number("without_work", {uav}, 1, kSeconds, kAfterwards,
              "open time since the UAV last did a least amount of work, less excused waiting, by the referee's truth; 0 "
              "while it is out or its program is away"),
