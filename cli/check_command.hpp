@@ -1,4 +1,4 @@
-// `skein check`: is this file right? Scenarios, vehicles, fault files, fault tests, and tables of reference vectors.
+// `skein check`: checks scenario, vehicle and fault files, fault tests, and tables of reference vectors.
 #pragma once
 
 #include "cli/console.hpp"
@@ -6,8 +6,8 @@
 
 namespace skein::cli {
 
-/// Prints one line a file that is right. @throws InputError for the first file that is not.
-/// @returns what sim_server's --golden ended with where reference vectors were given, else kExitDone.
+/// Prints one line for each valid file. @throws InputError for the first invalid file.
+/// @returns the exit code of `sim_server --golden` if reference vectors were given, else kExitDone.
 int check_files(const CheckOptions& options, const Console& console);
 
 }  // namespace skein::cli

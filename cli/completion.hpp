@@ -1,5 +1,5 @@
-// What a shell offers when somebody presses the tabulator key after `skein ...`. The shells' scripts (cli/completion/)
-// ask `skein --complete WORD...`, so that they know nothing themselves.
+// Tab completion: the words that a shell offers after `skein ...`. The shells' scripts (cli/completion/) only call
+// `skein --complete WORD...`; they contain no commands or options themselves.
 #pragma once
 
 #include <functional>
@@ -8,13 +8,13 @@
 
 namespace skein::cli {
 
-/// Names that only the installation knows; each is called when it is needed.
+/// Functions that list the installation's names; each is called only when it is needed.
 struct KnownNames {
   std::function<std::vector<std::string>()> scenarios, planners;
 };
 
-/// @param words  after `skein`, up to the cursor; the last one is being typed, and may be empty.
-/// @returns what the last word may become; nothing where any text or file will do.
+/// @param words  words after `skein`, up to the cursor; the user is typing the last one, which may be empty.
+/// @returns completions of the last word; empty where any text or file is allowed.
 std::vector<std::string> completions(const std::vector<std::string>& words, const KnownNames& known);
 
 }  // namespace skein::cli

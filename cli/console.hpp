@@ -1,14 +1,14 @@
-// Where a command writes.
+// The output streams of a command, and whether a user sits at them.
 #pragma once
 
 #include <ostream>
 
 namespace skein::cli {
 
-/// `terminal`: the second stream can rewrite its last line. `keyboard`: and what is typed comes to us.
+/// `terminal`: `err` is a terminal, whose last line can be rewritten. `keyboard`: and this process gets its input.
 struct Console {
   std::ostream& out;  ///< results
-  std::ostream& err;  ///< progress and complaints
+  std::ostream& err;  ///< progress, warnings and errors
   bool terminal = false;
   bool keyboard = false;
 };

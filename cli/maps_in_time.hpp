@@ -1,4 +1,4 @@
-// skein replay --maps: a run that did not keep its UAVs' maps in time is flown again from its recording to have them.
+// `skein replay --maps`: computes snapshots of UAVs' maps that a run did not keep, by flying its recording again.
 #pragma once
 
 #include <filesystem>
@@ -7,10 +7,10 @@
 
 namespace skein::cli {
 
-/// Where the folder has no maps in time, or damaged ones, they are computed and moved there. Those of software that
-/// says something else than it said then are no maps of this run: they are dropped, with a warning.
-/// @returns 0, also after such a warning; else the exit code of the flight, which has told why.
-/// @throws InputError when they are not there and cannot be computed.
+/// Computes the map snapshots and moves them into the folder, if it has none or damaged ones. If the software's
+/// messages now differ from the recorded ones, the maps are not those of this run: drops them with a warning.
+/// @returns 0, also after such a warning; else the exit code of the flight, which has printed the reason.
+/// @throws InputError when the snapshots are missing and cannot be computed.
 int add_maps_in_time(const std::filesystem::path& run, const Console& console);
 
 }  // namespace skein::cli

@@ -1,4 +1,4 @@
-// skein report: report.html of finished runs, made again.
+// `skein report`: writes report.html of finished runs anew.
 #pragma once
 
 #include "cli/command.hpp"
@@ -6,7 +6,7 @@
 
 namespace skein::cli {
 
-/// @throws InputError when a folder holds no result; the pages before it are written then.
+/// @throws InputError at the first folder without a result; the pages of the folders before it are written by then.
 int make_reports(const ReportOptions& options, const Console& console);
 
 }  // namespace skein::cli

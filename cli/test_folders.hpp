@@ -1,4 +1,4 @@
-// `skein test FOLDER...`: which of CTest's entries stand in folders of the source tree.
+// `skein test FOLDER...`: selects the CTest entries that belong to folders of the source tree.
 #pragma once
 
 #include <filesystem>
@@ -7,10 +7,10 @@
 
 namespace skein::cli {
 
-/// The regular expression for the labels of the entries that stand in these folders, and below: CTest's
-/// --label-regex. An entry has its folder as a label (skein_add_test()).
-/// @param list  a file with the folders that have tests, a line each, as CMake writes it.
-/// @throws InputError  for another folder, or one that is not named as in the source tree.
+/// A regular expression for CTest's --label-regex that matches the tests in and below these folders. A test has its
+/// folder as a label (skein_add_test()).
+/// @param list  file that CMake writes: the folders that have tests, one per line.
+/// @throws InputError  for a folder that is not in `list`, spelled as there; a '/' at its end is allowed.
 std::string labels_of_folders(const std::vector<std::string>& folders, const std::filesystem::path& list);
 
 }  // namespace skein::cli

@@ -1,5 +1,4 @@
-// An answer in a file of the cache, with the question's key and a hash over both: a damaged file is told from a whole
-// one.
+// Cached answers: a JSON file with the answer, the key of its question and a SHA-256 over both, to detect damage.
 #pragma once
 
 #include <filesystem>
@@ -9,10 +8,10 @@
 
 namespace skein::sim {
 
-/// @returns nullopt when there is no such file. @throws std::exception when it is not whole, or of another question.
+/// @returns nullopt when the file does not exist. @throws std::exception when it is damaged, or answers another key.
 std::optional<nlohmann::ordered_json> kept_answer(const std::filesystem::path& file, const std::string& key);
 
-/// Writes it atomically, and its folder where there is none. @throws std::exception where that fails.
+/// Writes the file atomically, closed to agents; creates its folder if necessary. @throws std::exception on failure.
 void keep_answer(const std::filesystem::path& file, const std::string& key, const nlohmann::ordered_json& answer);
 
 }  // namespace skein::sim

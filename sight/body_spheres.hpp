@@ -1,6 +1,6 @@
-// Which UAVs a straight line may meet at all: their bodies as spheres, against one segment in a single sweep. In a
-// large fleet most lines pass most bodies by, and to ask each body costs more than the ray.
-// Frame: W.   Units: m.   Threads: const calls from any, not beside set().
+// Finds the UAVs that a segment may hit: tests it against the bounding spheres of all bodies in a single sweep. In a
+// large fleet most rays miss most bodies, and testing every body exactly would cost more than tracing the ray.
+// Frame: W.   Units: m.   Threads: const calls from any thread, but not during set().
 #pragma once
 
 #include <vector>
@@ -11,17 +11,17 @@ namespace skein::sim {
 
 class BodySpheres {
  public:
-  /// @param radius_m  of a sphere about `p_W` that holds the body.
+  /// Sets a UAV's sphere. @param p_W  its centre. @param radius_m  its radius, large enough to contain the body.
   void set(UavIndex uav, const Vector3d& p_W, double radius_m);
 
-  /// @param uavs  receives, in the order of the fleet, all whose sphere is met by any segment with ends within
-  ///   `margin_m` of these ones, and maybe a few more.
+  /// @param uavs  is overwritten, in fleet order, with all UAVs whose sphere is hit by any segment with ends within
+  ///   `margin_m` of `from_W` and `to_W`, and maybe a few more: a conservative test.
   void about(const Vector3d& from_W, const Vector3d& to_W, double margin_m, std::vector<UavIndex>& uavs) const;
 
  private:
   static constexpr int kLanes = 16;
   using Lanes = Eigen::Array<float, kLanes, 1>;
-  /// In single precision, which about() allows for. Lanes without a UAV are far away.
+  /// Single precision: about() adds a margin for rounding. Lanes without a UAV hold a sphere far away.
   struct Block {
     Lanes x = Lanes::Constant(1e18F), y = x, z = x, radius = Lanes::Zero();
   };

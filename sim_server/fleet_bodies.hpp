@@ -1,4 +1,4 @@
-// What the bodies of a fleet are, in its order.   Units: m.   Pure.
+// Shapes and rest heights of all UAVs of a scenario, in fleet order.   Units: m.   Pure.
 #pragma once
 
 #include <vector>
@@ -15,7 +15,7 @@ inline std::vector<BodyShape> body_shapes(const Scenario& scenario) {
   return shapes;
 }
 
-/// Of Bo above the ground on which a UAV stands.
+/// Height of each body's origin Bo above the ground when the UAV stands on it.
 inline std::vector<double> rest_heights(const Scenario& scenario) {
   std::vector<double> heights;
   for (const UavConfig& uav : scenario.fleet) heights.push_back(rest_height(uav.vehicle));

@@ -1,5 +1,5 @@
-// What the two programs of a strategy have in common, the one on board and the one at the ground station: a place in
-// the lock-step, in one domain and no other.
+// Base class of the nodes of a strategy's programs, on board and at the ground station: membership in the lock-step, in
+// a single domain.   Threads: the one that takes the node's turns.
 #pragma once
 
 #include <memory>
@@ -20,26 +20,26 @@ class MemberNode : public bus::ClientNode {
   MemberNode(const MemberNode&) = delete;
   MemberNode& operator=(const MemberNode&) = delete;
 
-  void start() override;
+  void start() override;  ///< Joins the domain, again after a fault stopped it, with a new participant.
   bus::Inbox& inbox() override { return inbox_; }
   const std::string& member() const { return member_; }
-  /// CPU time spent in the strategy so far, by exchange; without transport.
+  /// CPU time of the strategy's work in each exchange so far; sending and receiving excluded.
   const CpuHistogram& planner_cpu() const { return planner_cpu_; }
-  /// Samples received that were no message of their topic's type.
+  /// Number of samples received that could not be read as their topic's type.
   std::uint64_t malformed() const { return inbox_.malformed(); }
-  /// Samples that could not be sent.
+  /// Number of samples that could not be sent.
   std::uint64_t unsent() const { return bus_.unsent()->count(); }
-  /// What it knows of the space around it, as a file that OctoMap reads; nullopt: it keeps no map.
+  /// The node's map of space, as the bytes of a .bt file of OctoMap; nullopt: it keeps no map.
   virtual std::optional<std::string> octomap_file() const { return std::nullopt; }
-  /// Ends the file of its maps in time, where it keeps one. @returns what the disk refused of it, for people.
+  /// Closes the file of map snapshots (--keep-maps), if any. @returns a message if it could not be written; else empty.
   virtual std::string end_maps() { return {}; }
-  /// Why its strategy found no ways, and how often: a sentence for each reason.
+  /// Why the strategy found no path, and how often: one sentence for each reason.
   virtual std::vector<std::string> no_ways() const { return {}; }
-  /// How long its strategy has waited for other UAVs [s]; nullopt: it flies none.
+  /// How long the strategy has waited for other UAVs [s]; nullopt: this node flies no UAV.
   virtual std::optional<double> waited_s() const { return std::nullopt; }
-  /// When, and for whom.
+  /// Begin and end of each of these waits, and the UAV that it was for.
   virtual std::optional<std::vector<WaitReport>> waits() const { return std::nullopt; }
-  /// What ROS 2 nodes said that it stands in for; nullopt: it does not.
+  /// Topics relayed for the ROS 2 nodes that this node stands in for; nullopt: it stands in for none.
   virtual std::optional<std::vector<RelayedTopic>> from_nodes() const { return std::nullopt; }
 
  protected:
@@ -47,16 +47,16 @@ class MemberNode : public bus::ClientNode {
   MemberNode(bus::Bus& bus, int domain, std::string member)
       : bus_(bus), domain_(domain), member_(std::move(member)), inbox_(bus.run()) {}
 
-  /// Declares what it reads and writes, each time that it joins; handlers may refer to this node.
+  /// Declares the topics that the node reads and writes; called each time it joins. Handlers may refer to this node.
   virtual void declare(bus::LockstepClient& client) = 0;
-  /// One step of the strategy: all that was announced has been read.
+  /// One step of the strategy. All samples announced for the step have been read before.
   virtual void work(const bus::LockstepClient::Step& step) = 0;
-  /// Sends what the step brought forth, and forgets the events of this step.
+  /// Sends the results of the step, and clears the events of this step.
   virtual void send(bus::LockstepClient& client) = 0;
-  /// For who looks on, when the step is answered. In no count, so that nobody waits for it.
+  /// Publishes data for viewers after the step is answered. Uncounted in the lock-step: no program waits for it.
   virtual void show() {}
   bus::Participant& participant() { return *participant_; }
-  /// That is to be worked on, or was last.
+  /// The current step, or the last one if none is in work.
   const bus::LockstepClient::Step& step() const { return client_->step(); }
 
  private:

@@ -1,5 +1,5 @@
-// The radio topics on which planners talk: those that carry text (std_msgs/String), as CARIC's do. One node's share of
-// them: what it may send on, what arrives at it.
+// One node's part in the radio topics of planners: the topics on which it may send and receive. Planners use only
+// topics that carry text (std_msgs/String), as CARIC's do.
 #pragma once
 
 #include <set>
@@ -14,17 +14,17 @@
 
 namespace skein::agent {
 
-/// Used from the thread that dispatches the client's inbox.
+/// Threads: only the one that dispatches the client's inbox.
 class RadioNode {
  public:
   RadioNode(const Scenario& scenario, Node node);
 
-  /// Topics that it may send on.
+  /// ROS names of the topics on which this node may send.
   const std::set<std::string>& topics() const { return out_; }
-  /// Declares this node's topics, before client.start().
-  /// @param received  takes what arrives; it must outlive the client.
+  /// Declares this node's writers and readers. Call it before client.start().
+  /// @param received  arriving messages are appended to it; it must outlive the client.
   void declare(bus::LockstepClient& client, std::vector<RadioMessage>& received) const;
-  /// Sends what the scenario lets this node send; anything else is left out.
+  /// Sends the messages on topics on which the scenario lets this node send; drops all others.
   void send(bus::LockstepClient& client, std::span<const RadioMessage> messages) const;
 
  private:

@@ -1,8 +1,8 @@
-// Who may come in: the decisions about a request that need nothing but its header lines.   Pure; any thread.
+// Access control of the page: those decisions about an HTTP request that need only its headers.   Pure; any thread.
 //
-// Host: a page of another name that resolves to an address of this host (DNS rebinding) is refused. The port in it is
-// the browser's end of whatever tunnel leads here, and tells nothing. Origin: so are requests that a page of elsewhere
-// makes its reader's browser send. Cookie: so is whoever has not shown the key.
+// Host: refuses requests for another name that resolves to an address of this host (DNS rebinding). Its port may be the
+// browser's end of a tunnel, so it is not compared. Origin: refuses requests that a page of another site makes the
+// browser send. Cookie: refuses browsers that have not presented the key.
 #pragma once
 
 #include <string>
@@ -15,17 +15,17 @@ namespace skein::view {
 
 class Door {
  public:
-  /// @param names  by which browsers may ask for the page, beside 127.0.0.1, localhost and ::1
+  /// @param names  host names that requests may use, beside 127.0.0.1, localhost and ::1. @param key  opens the page
   Door(std::vector<std::string> names, Key key);
 
-  /// Of a Host header, with whatever port.
+  /// Whether the name in a Host header is an accepted one; ignores the port.
   bool knows_host(std::string_view host) const;
-  /// Whether a page of ours sends it. @param host  a known one
+  /// Whether the Origin header is that of our own page. @param host  Host header that knows_host() accepts
   bool is_own_origin(std::string_view origin, std::string_view host) const;
-  /// Whether a Cookie header holds the key. @param host  a known one
+  /// Whether the Cookie header holds the key. @param host  as above
   bool opens(std::string_view cookie, std::string_view host) const;
   const Key& key() const { return key_; }
-  /// For a Set-Cookie header. Cookies do not know ports, so its name holds the browser's. @param host  a known one
+  /// Value of a Set-Cookie header. Cookies are not kept apart by port, so the cookie's name has that of `host`.
   std::string cookie(std::string_view host) const;
 
  private:
@@ -33,7 +33,7 @@ class Door {
   const Key key_;
 };
 
-/// The value of a field in the body of a form (application/x-www-form-urlencoded), as it stands there; empty: none.
+/// The value of a field in the body of a form (application/x-www-form-urlencoded), not decoded; empty: no such field.
 std::string_view form_field(std::string_view body, std::string_view name);
 
 }  // namespace skein::view

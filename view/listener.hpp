@@ -1,7 +1,7 @@
-// The socket that browsers connect to: on the loopback, unless somebody asks for more. The launcher opens it before
-// anything flies, so that a port that is taken is bad input, and whoever serves a run's page inherits it: the station
-// while the fleet flies, one that was started again, and the launcher afterwards. Who connects in between waits. In a
-// container there is no launcher: the station opens its own.
+// The listening socket for browsers, on the loopback address unless the user asks for another one. The launcher opens
+// it before the flight, so a taken port is reported as bad input. The program that serves the page uses the same
+// socket: the station (also a restarted one) inherits it while the fleet flies, and the launcher serves afterwards. A
+// browser that connects in between waits. In a container there is no launcher: the station opens its own socket.
 #pragma once
 
 #include <cstdint>
@@ -12,16 +12,16 @@ namespace skein::view {
 
 class Listener {
  public:
-  /// @throws InputError when it is taken or not to be had.
+  /// @throws InputError when the endpoint is taken or unavailable.
   explicit Listener(const Endpoint& endpoint);
-  /// On the loopback. @param port  0: any that is free.
+  /// Listens on the loopback address. @param port  0: any free port.
   explicit Listener(std::uint16_t port) : Listener(Endpoint{.port = port}) {}
   ~Listener();
   Listener(const Listener&) = delete;
   Listener& operator=(const Listener&) = delete;
 
   int fd() const { return fd_; }
-  /// With the port that it has.
+  /// The socket's endpoint, with its actual port.
   Endpoint endpoint() const;
   std::uint16_t port() const { return endpoint().port; }
 
@@ -29,11 +29,11 @@ class Listener {
   int fd_ = -1;
 };
 
-/// Of a socket that listens. @throws InputError when it is none.
+/// Endpoint of a listening TCP socket. @throws InputError when `fd` is none.
 Endpoint endpoint_of(int fd);
 
-/// NAME:PORT, where a name is one of this host's own: in a container it tells which of its networks is meant.
-/// @throws InputError when there is no such name.
+/// Resolves NAME:PORT, where NAME is one of this host's own names: in a container the name selects one of its networks.
+/// @throws InputError when the name cannot be resolved.
 Endpoint resolved(const std::string& text);
 
 }  // namespace skein::view

@@ -1,5 +1,5 @@
-// `skein bench --python`: what planners in Python cost beside the same planner in C++, and what fleets cost that a
-// Python program steps, resets and copies. docs/performance.md has the tables.
+// `skein bench --python`: the cost of a planner in Python compared with the same planner in C++, and the cost of fleets
+// that a Python program steps, resets and copies. docs/performance.md has the tables.
 #pragma once
 
 #include <ostream>
@@ -11,26 +11,26 @@
 
 namespace skein::cli {
 
-/// The same flight with the planner `hover` of C++ and with that of python/examples.
+/// One flight twice: with the planner `hover` in C++, and with the `hover` in Python of python/examples.
 struct LanguagePair {
   Json cpp, python;  ///< result.json
 };
 
-/// {"pairs", "speed_cpu", "speed_clock"}: figures over the pairs (report.hpp) of the real-time factor with Python over
-/// that with C++, by the fleet's CPU time and by the clock; null where no pair has one.
+/// @returns {"pairs", "speed_cpu", "speed_clock"}: the number of pairs, and figures over the pairs (report.hpp) of the
+///   ratio speed with Python / speed with C++, by the fleet's CPU time and by the clock; null where there is none.
 Json language_pairs_entry(const std::vector<LanguagePair>& pairs);
 
-/// @param planners  of language_pairs_entry(), by "one process" and "over DDS".
-/// @param stepping  what python/bench/stepping.py wrote: lists of values by figure. What is missing gets no row.
-/// @returns rows: {"name", "figure", "digits", "kind" ("at_least" or "at_most"), "target" and "met", the last two null
-///   where nothing is asked for}.
+/// @param planners  results of language_pairs_entry(), under the keys "one process" and "over DDS".
+/// @param stepping  output of python/bench/stepping.py: lists of values by figure. A missing figure gets no row.
+/// @returns rows: {"name", "figure", "digits", "kind" ("at_least" or "at_most"), "target" and "met"}; the last two are
+///   null for a row without a target.
 Json python_rows(const Json& planners, const Json& stepping);
 
-/// The rows beside their targets.
+/// Prints a table: one line per row, with its target.
 void print_python(std::ostream& out, const Json& rows);
 
-/// Flies pairs and runs stepping.py, on one core. @returns as bench_sensing(). @throws InputError when the source tree
-/// or Python is missing, before it begins.
+/// Flies pairs, then runs stepping.py, which keeps to one core. @returns as bench_sensing(). @throws InputError when
+/// the source tree or Python is missing, before anything is measured.
 int bench_python(const BenchOptions& options, const Console& console);
 
 }  // namespace skein::cli

@@ -1,4 +1,4 @@
-// --cores: what a crashed program's memory was, kept beside its log. Linux.   Threads: any.
+// --cores: keeps the core dump of a crashed program beside its log. Linux.   Threads: any, after allow_cores().
 #pragma once
 
 #include <sys/types.h>
@@ -10,16 +10,16 @@
 
 namespace skein::cli {
 
-/// From here on programs that we start may leave a core. @throws InputError when the system forbids it.
+/// Lets programs that this process starts from now on leave a core. @throws InputError when the system forbids it.
 void allow_cores();
 
-/// The file name of a core. @param pattern  of /proc/sys/kernel/core_pattern (core(5))
-/// @param adds_pid  /proc/sys/kernel/core_uses_pid
-/// @returns a pattern with '*' for what is not known here; nullopt: another program gets the cores
+/// The file name of a process's core. @param pattern  content of /proc/sys/kernel/core_pattern (core(5))
+/// @param adds_pid  whether /proc/sys/kernel/core_uses_pid is 1
+/// @returns the name with '*' for unknown parts; nullopt: the kernel pipes cores to another program
 std::optional<std::string> core_name(std::string_view pattern, bool adds_pid, pid_t pid);
 
-/// Moves the core that a process has just left to `file`. What lay there before allow_cores() is another's.
-/// @returns where it is, for people: "core in uav_agent-jurong.core"; empty: there is none.
+/// Moves the core that a process has just left to `file`. Ignores cores from before allow_cores().
+/// @returns where the core is, as text: "core in uav_agent-jurong.core"; empty: there is none.
 std::string keep_core(pid_t pid, const std::filesystem::path& file);
 
 }  // namespace skein::cli

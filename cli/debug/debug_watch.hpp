@@ -1,6 +1,6 @@
-// Under --debug a program is started by the user, or by its debugger: its end is no child's end that the kernel would
-// tell us of, and the debugger may well live on. So its process is looked for by its command line, or for a user's
-// command by its environment, and watched.   Threads: one.
+// Watches a program under --debug. The user or the debugger starts it, so it is not the launcher's child: the kernel
+// does not report its end to the launcher, and the debugger may outlive it. DebugWatch finds its process by its command
+// line (a user's command: by its environment) and watches it by pidfd.   Threads: one.
 #pragma once
 
 #include <sys/types.h>
@@ -15,22 +15,22 @@ namespace skein::cli {
 
 class DebugWatch {
  public:
-  /// Nobody announces that it starts: how often to look.
+  /// How often to look for the process: nothing announces its start.
   static constexpr std::chrono::milliseconds kPeriod{200};
 
-  /// @param out  the results folder, as it stands in the program's command line. @param file  the program
+  /// @param out  the results folder, as in the program's command line. @param file  the program's binary
   DebugWatch(Debuggee debuggee, std::filesystem::path out, std::filesystem::path file);
   ~DebugWatch();
   DebugWatch(const DebugWatch&) = delete;
   DebugWatch& operator=(const DebugWatch&) = delete;
 
-  /// @returns true once for each debugged program that has been seen and has ended; the user may start another one.
+  /// @returns true once for each debugged process that was seen and has ended; the user may then start another one.
   bool ended();
-  /// @returns true once for each debugged program that is there.
+  /// @returns true once for each debugged process that has appeared.
   bool appeared();
-  /// Waits at most so long for the end of the one that is there.
+  /// Waits at most `timeout` for the end of the present process; returns at once if there is none.
   void await_end(std::chrono::milliseconds timeout) const;
-  /// Of the last one seen; 0: none yet.
+  /// Process id of the last one seen; 0: none yet.
   pid_t pid() const { return pid_; }
   const Debuggee& debuggee() const { return debuggee_; }
 
@@ -44,7 +44,7 @@ class DebugWatch {
   const std::string out_, file_;
   pid_t pid_ = 0;
   bool told_ = true;
-  int fd_ = -1;  ///< its pidfd
+  int fd_ = -1;  ///< pidfd of the present process; -1: none
 };
 
 }  // namespace skein::cli

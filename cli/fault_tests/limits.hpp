@@ -1,4 +1,4 @@
-// Numbers that a fault test allows: `0` means exactly that; `{at_least: 3}`, `{at_most: 9}` or both mean a range.
+// Limits that a fault test sets for a number: `0` means exactly 0; `{at_least: 3}`, `{at_most: 9}` or both, a range.
 #pragma once
 
 #include <map>
@@ -27,7 +27,7 @@ struct Limits {
   }
 };
 
-/// Reads `key` of either form; `limits` stays what it is when the key is absent.
+/// Reads `key`, which has either of the two forms; `limits` is left unchanged when the key is absent.
 template <class R>
 void read_limits(R& r, const std::string& key, std::optional<Limits>& limits) {
   std::variant<std::string, Limits> given;
@@ -42,7 +42,7 @@ void read_limits(R& r, const std::string& key, std::optional<Limits>& limits) {
   limits = Limits{exact, exact};
 }
 
-/// A map whose keys are named by `Names` (a function that returns them), each with its limits.
+/// A map from names to limits. `Names` is a function that returns the names that may be keys.
 template <auto Names>
 struct LimitsByName {
   std::map<std::string, Limits> limits;

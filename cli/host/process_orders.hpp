@@ -1,6 +1,7 @@
-// The launcher's part in faults that kill or stop programs: which programs have the order to kill or stop themselves,
-// which of them can come back now, and which exits are therefore no failures. sim_server sends each order (status lines
-// of type "order"); programs carry it out on themselves (docs/lockstep.md), except users' commands.   Threads: one.
+// The launcher's part in faults that kill or stop programs: records which programs were ordered to kill or stop
+// themselves, which of them can come back now, and which exits are therefore no failures. sim_server sends each order
+// (a status line of type "order"); a program carries it out itself (docs/lockstep.md), but not a user's command.
+// Threads: one.
 #pragma once
 
 #include <chrono>
@@ -18,31 +19,31 @@ class ProcessOrders {
   /// @param host  must outlive this.
   explicit ProcessOrders(ProgramHost& host) : host_(host) {}
 
-  /// A fault kills the program, or else stops it. @param by_us  the program obeys no orders: the launcher does it.
+  /// A fault kills the program (`kill`) or stops it. @param by_us  it obeys no orders: the launcher sends the signal.
   void take_out(const std::string& program, bool kill, bool by_us);
-  /// The fault is over: the program comes back as soon as it has died, or the launcher has seen it stop.
+  /// The fault is over: the program may come back as soon as it is dead, or is seen to have stopped.
   void let_back(const std::string& program);
-  /// The programs that can come back by now, once each.
+  /// Programs that can be restarted or continued now; reports each only once.
   std::vector<std::string> take_returning();
-  /// The program takes part again.
+  /// The program has joined the lock-step again.
   void returned(const std::string& program) { programs_.erase(program); }
-  /// How long to wait for events: a short time while a program has yet to stop, because a stop is no event.
+  /// Shortens a wait for events (negative: endless) while a program to be continued has yet to stop: that is no event.
   std::chrono::milliseconds limit(std::chrono::milliseconds limit) const;
 
-  /// A program ended. @returns true when a fault had ordered that.
+  /// A program ended. @returns true when it was killed by SIGKILL as a fault, or end(), had ordered.
   bool on_exit(const std::string& program, const ExitStatus& exit);
-  /// The run is over: kills the programs that a fault keeps from leaving.
+  /// The run is over: kills all programs that are still out of it, since they cannot leave by themselves.
   void end();
-  /// The programs that are out of the run now.
+  /// Programs that are out of the run now: from take_out() until they have joined again.
   std::set<std::string> out() const;
 
  private:
   enum class State {
-    killed,       ///< has the order, or is dead
-    stopped,      ///< has the order, or is stopped
-    to_restart,   ///< as soon as it is dead
-    to_continue,  ///< as soon as it has stopped
-    returning,    ///< runs again, and has not joined yet
+    killed,       ///< has the order to kill itself, or is dead
+    stopped,      ///< has the order to stop itself, or is stopped
+    to_restart,   ///< the fault is over: restart it as soon as it is dead
+    to_continue,  ///< the fault is over: continue it as soon as it has stopped
+    returning,    ///< runs again, but has not joined the lock-step yet
     ended         ///< the launcher killed it at the run's end
   };
 

@@ -1,7 +1,7 @@
-// Starts programs, watches them and ends them. A program never outlives the launcher, nor do the children of one that
-// is minded (cli/host/minder.hpp), its death is noticed at once
-// (pidfd, not SIGCHLD), and the terminal's Ctrl-C reaches the launcher alone: what to do about it is decided there.
-// Threads: everything from one thread, which must live as long as the programs (PR_SET_PDEATHSIG goes by thread).
+// Starts programs, watches them and ends them. No program outlives the launcher, nor do the children of a program under
+// a minder (cli/host/minder.hpp). The launcher notices a program's death at once (by pidfd, not SIGCHLD). The
+// terminal's Ctrl-C reaches only the launcher, unless a program has the terminal; the launcher decides what follows.
+// Threads: one for all calls; it must live as long as the programs (the kernel ties PR_SET_PDEATHSIG to the thread).
 #pragma once
 
 #include <poll.h>
@@ -23,18 +23,18 @@ namespace skein::cli {
 class Supervisor final : public ProgramHost {
  public:
   Supervisor();
-  /// Kills whatever still runs.
+  /// Kills all programs that still run.
   ~Supervisor() override;
   Supervisor(const Supervisor&) = delete;
   Supervisor& operator=(const Supervisor&) = delete;
 
-  /// In a process group of its own, stdin closed, both pipes open.
+  /// Starts it in its own process group, with status and control pipe; stdin is /dev/null, or the terminal (`here`).
   void start(const ProgramSpec& spec) override;
   std::vector<Event> wait(std::chrono::milliseconds limit) override;
-  /// wait() returns, with events or without, as soon as one of these can be read. Negative ones are none.
+  /// From now on wait() also returns, perhaps without events, when one of these is readable. Ignores negative ones.
   void watch_too(std::vector<int> descriptors) { also_watched_ = std::move(descriptors); }
   void send(const std::string& program, const std::string& line) override;
-  /// There will be no more lines for it.
+  /// Closes the program's control pipe: it reads the end of file after the last line.
   void hang_up(const std::string& program);
   void signal(const std::string& program, int signal) override;
   bool has_stopped(const std::string& program) override;
@@ -48,9 +48,9 @@ class Supervisor final : public ProgramHost {
 
  private:
   struct Child;
-  /// At most `most` bytes: a program that writes without end must not keep the launcher from all else.
+  /// Reads about `most` bytes at most: a program that writes without end must not keep the launcher busy.
   void read_status(Child& child, std::size_t most, std::vector<Event>& events);
-  /// poll(), in which logs are kept within their limits.
+  /// poll() that meanwhile trims the programs' logs to their limits.
   int poll_and_trim(std::vector<pollfd>& polled, std::chrono::milliseconds limit) const;
   void reap(Child& child, std::vector<Event>& events);
   static void signal_child(const Child& child, int signal);
@@ -64,13 +64,13 @@ class Supervisor final : public ProgramHost {
   struct sigaction former_pipe_action_ {};
 };
 
-/// What ends a command: SIGINT, SIGTERM, and SIGHUP unless nohup had it ignored.
+/// The signals that end a command: SIGINT, SIGTERM, and SIGHUP unless it is ignored, as under nohup.
 sigset_t interrupt_signals();
 
-/// The last lines of a text file, newest last, without what is long ago in a huge one; empty when there is no such
-/// file.
+/// The last lines of a text file, newest last; reads only the end of a huge file, so that there may be fewer. Empty
+/// when there is no such file.
 std::vector<std::string> last_lines(const std::filesystem::path& file, std::size_t count);
-/// The same for the end of a message: each on a line of its own, indented.
+/// The same as text to append to a message: each line on its own line, indented.
 std::string last_lines_below(const std::filesystem::path& file, std::size_t count);
 
 }  // namespace skein::cli

@@ -1,5 +1,5 @@
-// The flights of a hunt: each is a `skein run` in a folder of its own, which is gone once it has been looked at.
-// From one thread, which must live as long as the flights.
+// The flights of a hunt: each is a `skein run` in its own folder, which is deleted once its outcome has been read.
+// Threads: one, which must live as long as the flights.
 #pragma once
 
 #include <filesystem>
@@ -17,26 +17,26 @@ namespace skein::cli {
 
 class TrialFlights {
  public:
-  /// The trial with this number, or none before another one is over.
+  /// Makes the trial with this number; nullopt: it cannot be made before another one is over.
   using Make = std::function<std::optional<Trial>(std::size_t index)>;
   using Over = std::function<void(std::size_t index, TrialOutcome outcome)>;
 
   /// @param plan, console  must outlive this.
   TrialFlights(const HuntPlan& plan, const Console& console) : plan_(plan), console_(console) {}
 
-  /// From now on only this property is asked; "" means all of the hunt. Fewer are looked at in less time, and fewer
-  /// runs without faults are flown to compare with.
+  /// From now on evaluates only this property; "": all properties of the hunt. This saves time, and those runs without
+  /// faults that only other properties compare with.
   void ask(const std::string& property) { asked_ = property; }
-  /// Flies the runs without faults that properties compare these with, each once. @throws Interrupted.
+  /// Flies the runs without faults with which properties compare these trials, each once. @throws Interrupted.
   void fly_undisturbed(const std::vector<Trial>& trials);
-  /// Flies trials with these numbers in their order, several at once. One that cannot be flown, since it is not what a
-  /// file may say, has an outcome without findings. What they are compared with was flown before. @throws Interrupted.
+  /// Flies the trials with these numbers in this order, several at once. A trial that `skein run` refuses as bad input
+  /// has an outcome without findings. Call fly_undisturbed() for these trials before. @throws Interrupted.
   void fly(const std::vector<std::size_t>& numbers, const Make& make, const Over& over);
-  std::vector<TrialOutcome> fly(const std::vector<Trial>& trials);
-  /// The same by the engine that the hunt's options name: as many as can be made fly before anything is looked at, then
-  /// the next ones. @throws Interrupted; InputError when the engine does not fly one.
+  std::vector<TrialOutcome> fly(const std::vector<Trial>& trials);  ///< fly_undisturbed() included
+  /// The same with the engine that the hunt's options name, in rounds of at most `round` trials: no outcome is read
+  /// before a whole round has flown. @throws Interrupted; InputError when the engine fails to fly a unit of a round.
   void fly_in_rounds(const std::vector<std::size_t>& numbers, const Make& make, const Over& over);
-  /// Keeps its folder, which `trial.run.out` names. @throws Interrupted.
+  /// Flies one trial, with fly_undisturbed(), and keeps its folder `trial.run.out`. @throws Interrupted.
   TrialOutcome fly_and_keep(const Trial& trial);
 
   std::size_t flown() const { return flown_; }
@@ -47,7 +47,7 @@ class TrialFlights {
     properties::PropertySet set;
   };
 
-  /// nullptr: it makes no sense.
+  /// nullptr: the trial's scenario or properties are invalid.
   const Setting* setting_of(const Trial& trial);
   static std::string name_of_trial(std::size_t index);
   std::filesystem::path dir_of(const std::string& name) const;
@@ -58,8 +58,8 @@ class TrialFlights {
 
   const HuntPlan& plan_;
   const Console& console_;
-  std::map<std::string, std::optional<Setting>> settings_;    ///< by what is flown
-  std::map<std::string, std::filesystem::path> undisturbed_;  ///< folders of runs without faults, by what is flown
+  std::map<std::string, std::optional<Setting>> settings_;    ///< by what_is_flown()
+  std::map<std::string, std::filesystem::path> undisturbed_;  ///< folders of runs without faults, by what_is_flown()
   std::size_t flown_ = 0;
   std::string asked_;  ///< see ask()
 };

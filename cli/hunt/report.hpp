@@ -1,4 +1,4 @@
-// What is said of a hunt when it is over: JUnit XML for CI servers.  Writes files.
+// The report of a finished hunt: report.html, and JUnit XML for CI servers.  Writes files.
 #pragma once
 
 #include <map>
@@ -13,29 +13,30 @@ namespace skein::cli {
 
 struct HuntSummary {
   const HuntPlan& plan;
-  const std::vector<std::optional<TrialOutcome>>& outcomes;  ///< by case
-  std::size_t count = 0;                                     ///< of cases that count
-  std::size_t states = 0;
+  const std::vector<std::optional<TrialOutcome>>& outcomes;  ///< by number of the case; nullopt: not flown
+  std::size_t count = 0;                                     ///< number of cases that count, from case 0 on
+  std::size_t states = 0;  ///< distinct states of the fleet that the hunt met (trial.hpp)
   const std::vector<Find>& finds;
-  const std::map<std::string, std::size_t>& failures;  ///< by property
+  const std::map<std::string, std::size_t>& failures;  ///< number of failed cases, by property
 };
 
-/// What became of a property in all cases of a hunt.
+/// The outcomes of one property over all cases of a hunt, and its least margin.
 struct PropertyRecord {
   std::string name;
   std::size_t held = 0, failed = 0, vacuous = 0;
-  std::optional<double> least = {};  ///< margin
-  std::size_t least_in = 0;          ///< case
+  std::optional<double> least = {};  ///< least margin, in SI; none: no case has one
+  std::size_t least_in = 0;          ///< number of the case with the least margin
 };
 
-/// In the order of the plan, kCompletes first.
+/// One record per property: kCompletes first, then in the order of the plan.
 std::vector<PropertyRecord> property_records(const HuntSummary& summary);
 
-/// The page, in the style of a run's: properties and their margins, finds with their faults on the axis of their
-/// margin's time, and how much of the fleet's states was met.
+/// The page as HTML, in the style of a run's: properties with their margins, finds with their faults on the time axis
+/// of the margin, and how many of the fleet's states were met.
 std::string hunt_page(const HuntSummary& summary);
 
-/// report.html; --junit: a case for each property. @throws InputError when that cannot be written.
+/// Writes report.html, and with --junit a test case per property. @throws std::runtime_error when the page cannot be
+/// written, InputError when the JUnit file cannot.
 void write_hunt_report(const HuntSummary& summary);
 
 }  // namespace skein::cli

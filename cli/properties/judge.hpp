@@ -1,4 +1,4 @@
-// What became of the properties of a run, and how it is told.  Pure, but for the run's folder.
+// Evaluates the properties of a run, and describes the verdicts in words.  Pure, except for reading the run's folder.
 #pragma once
 
 #include <string>
@@ -12,20 +12,20 @@ namespace skein::cli {
 
 struct PropertyFinding {
   std::string name;
-  properties::Verdict verdict;  ///< the worst of its cases
+  properties::Verdict verdict;  ///< the worst verdict of the property's cases
 
-  /// "margin 0.42 m (u = changi) at 31.25 s", "vacuous: ...", "it did not hold at ...".
+  /// "margin 0.42 m (u = changi), decided at 31.25 s", "vacuous: ...", "it did not hold at 3 s, margin -0.1 m".
   std::string text() const;
 };
 
-/// @throws InputError when a signal is not known of this run.
+/// @returns one finding per property, in the set's order. @throws InputError when the run lacks one of their signals.
 std::vector<PropertyFinding> judge_properties(const properties::PropertySet& set, properties::RunSignals& run);
 
-/// Whether a property is about a comparison with the run without faults.
+/// Whether any property compares the run with the same run without faults.
 bool needs_undisturbed(const properties::PropertySet& set);
 
-/// Adds an error for what a run of this length cannot decide: so long after the end of the last fault of the plan.
-/// @param key  under which the properties stand: "properties"
+/// Adds an error for each property whose deadline after the end of the plan's last fault is beyond the mission's end.
+/// @param key  key of the properties in the file: "properties"
 void check_against_plan(const properties::PropertySet& set, const FaultPlan& plan, const Scenario& scenario,
                         const std::string& key, ConfigErrors& errors);
 

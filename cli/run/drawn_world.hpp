@@ -1,4 +1,4 @@
-// Scenarios that are drawn whole (core/scenario/drawn_worlds.hpp): drawn once, and kept as files in the user's cache.
+// Generated worlds (core/scenario/drawn_worlds.hpp): each is generated once, and kept as files in the user's cache.
 #pragma once
 
 #include <cstdint>
@@ -7,9 +7,10 @@
 
 namespace skein::cli {
 
-/// What programs are to read for a scenario: the file in which a drawn world is kept, which is drawn now unless it was
-/// before; any other scenario as it is named.
-/// @throws InputError when the world cannot be kept; std::runtime_error when it cannot be drawn; Interrupted.
+/// The scenario argument that programs get: for a generated world its file in the cache, which sim_server generates now
+/// if it is missing; any other scenario unchanged.
+/// @throws InputError when there is no cache folder, or sim_server reports bad input; std::runtime_error when it fails
+///   otherwise; Interrupted.
 std::string scenario_source(const std::string& scenario, const std::optional<std::uint64_t>& scene_seed);
 
 }  // namespace skein::cli

@@ -1,5 +1,5 @@
-// The command line that flies a run again, of which somebody who watched it took a hand: without a page, from the files
-// that it left.   Pure; any thread.
+// The command line that repeats a run in which a watching user intervened (flew by hand, caused faults): it serves no
+// page, and takes these interventions from the files that the run left.   Pure; any thread.
 #pragma once
 
 #include <filesystem>
@@ -8,13 +8,13 @@
 
 namespace skein::cli {
 
-/// What takes the place of what was typed.
+/// New values for options of the command line; nullopt: the option stays as typed.
 struct Repeated {
-  std::optional<std::string> planners = {};          ///< of --planner
-  std::optional<std::filesystem::path> faults = {};  ///< of --faults
+  std::optional<std::string> planners = {};          ///< for --planner
+  std::optional<std::filesystem::path> faults = {};  ///< for --faults
 };
 
-/// @param command  `skein run ...` as it was given. What is about the page or the results folder is left out.
+/// @param command  `skein run ...` as typed. Options of the page and of the results folder are left out.
 std::string command_repeated(const std::string& command, const Repeated& by);
 
 }  // namespace skein::cli

@@ -1,13 +1,13 @@
-// Ground truth that earlier runs left where the agents of a secured run could read it. Only for root.
+// Closes ground truth that earlier runs left where the agents of a secured run could read it. Effective only as root.
 #pragma once
 
 #include <filesystem>
 
 namespace skein::cli {
 
-/// Closes to agents (process/files/closed_to_agents.hpp) the results that lie beside `out`, whoever flew them, and
-/// scenes, their points, estimates and plans in the user's cache. Launchers that run as root close what they write
-/// themselves: this is for what an ordinary user or an older version wrote.
+/// Closes to agents (process/files/closed_to_agents.hpp) the results folders beside `out`, whoever flew them, and in
+/// the user's cache the scenes, their points, estimates and plans. A launcher that runs as root closes its own files as
+/// it writes them: this function is for files that an ordinary user or an older version wrote.
 void close_earlier_truth(const std::filesystem::path& out);
 
 }  // namespace skein::cli

@@ -1,21 +1,22 @@
-// The folder of a sweep: a study, or a round of a hunt, that is flown unit by unit by any number of programs on any
-// number of machines that share it. It is what they have in common; there is nothing else:
+// The folder of a sweep: a study, or a round of a hunt, that any number of programs on any number of machines fly unit
+// by unit. The folder, on a shared file system, is all that these programs share:
 //
-//   sweep.json       what is flown, with a token that tells this sweep from a former one in the same folder
+//   sweep.json       what is flown, with a token that tells this sweep from an earlier one in the same folder
 //   units/N.json     the flights of unit N
-//   done/TOKEN/N.json  what came of them, written once all are over
-//   nodes/NODE.json  how a node did with the reference flight
-//   quarantine/NODE.json  why nothing of a node counts
-//   sick/NODE.json   why a node does not fly now
-//   checks/TOKEN/I.json  flight I, flown again elsewhere
+//   done/TOKEN/N.json  results of unit N, written when all its flights are over
+//   nodes/NODE.json  a node's result of the reference flight
+//   quarantine/NODE.json  why no result of a node counts
+//   sick/NODE.json   why a node should not fly at present
+//   checks/TOKEN/I.json  digest of flight I when it was flown again on another node
 //   tries.json       how often units were given to the engine
-//   log/N.log        what was said while unit N flew
+//   log/N.log        output while unit N flew; and the engines' logs
+//   lists/           files of the engines: which units a job has, and their scripts
 //   air/             flights that are not over
-//   aside/           folders that others took the place of
+//   aside/           folders of flights that were replaced by others
 //
-// Whatever is written appears whole or not at all: files by write_file_atomically(), flights by one rename of their
-// folder. So a program may be killed at any moment, two may fly the same unit at once, and a full disk loses no more
-// than what is in the air.   Threads: any; each program has an object of its own.
+// Every write is atomic: files by write_file_atomically(), flights by a single rename of their folder. So a program may
+// be killed at any moment, two programs may fly the same unit at once, and a full disk loses only the flights that are
+// in the air.   Threads: any; each program has its own object.
 #pragma once
 
 #include <filesystem>
@@ -30,20 +31,20 @@
 
 namespace skein::cli {
 
-/// A flight as any node can fly it.
+/// A flight, described so that any node can fly it.
 struct SweepFlight {
   std::size_t index = 0;               ///< in the sweep
-  std::filesystem::path dir;           ///< where its results belong
-  std::vector<std::string> arguments;  ///< of `skein`; the folder in them is another one while it is in the air
-  Json made_under;                     ///< all that its result depends on
+  std::filesystem::path dir;           ///< folder where its results belong
+  std::vector<std::string> arguments;  ///< of `skein`; in the air it flies with another results folder
+  Json made_under;                     ///< everything on which its result depends
 };
 
 struct SweepUnit {
   std::vector<SweepFlight> flights;
-  bool again = false;  ///< not a unit of the sweep, but flights that are flown again on other nodes
+  bool again = false;  ///< an extra unit: flights that are repeated on other nodes as a check
 };
 
-/// What came of a flight.
+/// The result of a flight.
 struct SweepRow {
   std::size_t index = 0;
   std::string node;
@@ -51,24 +52,24 @@ struct SweepRow {
   Json figures;         ///< null: no result that counts
 };
 
-/// A flight that was flown again.
+/// Comparison of a flight with its repetition on another node.
 struct SweepCheck {
   std::size_t index = 0;
-  std::string node, digest;              ///< of the second flight
-  std::string first_node, first_digest;  ///< of the one that counts
+  std::string node, digest;              ///< of the repetition
+  std::string first_node, first_digest;  ///< of the flight that counts
 };
 
-/// What a sweep is, as its programs read it.
+/// Description of a sweep, as its programs read it from sweep.json.
 struct SweepSettings {
-  std::string token;                     ///< no other sweep of this folder has it
+  std::string token;                     ///< unique among the sweeps of this folder
   std::string plan;                      ///< digest of all flights
-  std::size_t flights = 0;               ///< how many
-  std::size_t unit_flights = 1;          ///< unit N has the flights from N times that on
-  SweepFlight reference;                 ///< that each node flies first
-  std::string digest;                    ///< what must come of it; empty: it has none
-  std::vector<std::string> command;      ///< words behind `skein` that go on with the sweep
-  std::filesystem::path working_folder;  ///< where
-  double reference_s = 0.0;              ///< of wall time, that the reference flight took where it was planned
+  std::size_t flights = 0;               ///< number of flights
+  std::size_t unit_flights = 1;          ///< flights per unit: unit N begins with flight N * unit_flights
+  SweepFlight reference;                 ///< the flight that each node flies first
+  std::string digest;                    ///< digest that the reference flight must have; empty: none
+  std::vector<std::string> command;      ///< arguments of `skein` that continue the sweep
+  std::filesystem::path working_folder;  ///< folder in which to run that command
+  double reference_s = 0.0;              ///< wall time of the reference flight where the sweep was planned
 
   std::size_t units() const { return (flights + unit_flights - 1) / unit_flights; }
 };
@@ -81,40 +82,40 @@ class SweepFolder {
   const std::filesystem::path& dir() const { return dir_; }
   std::filesystem::path log_of(std::size_t unit) const;
 
-  /// nullopt: there is no sweep, or another version's.
+  /// nullopt: there is no sweep, or sweep.json has another format. @throws InputError when it is damaged.
   std::optional<SweepSettings> settings() const;
-  /// Begins a sweep in the place of a former one. Results of flights stay where they are.
-  /// @param nodes_stay  what is known of nodes, too: the reference flight is the same
+  /// Begins a sweep, and deletes the files of an earlier one. The results folders of its flights stay.
+  /// @param nodes_stay  keep nodes/ and quarantine/, since the reference flight is the same. @param unit  makes a unit
   void begin(const SweepSettings& settings, bool nodes_stay,
              const std::function<SweepUnit(std::size_t number)>& unit) const;
-  /// What may change of a sweep that goes on: how it is called.
+  /// Writes sweep.json. In a running sweep only `command` and `working_folder` may change.
   void write_settings(const SweepSettings& settings) const;
-  /// A unit beyond those of the sweep.
+  /// Writes the file of a unit; begin() writes those of the sweep, later calls add extra units.
   void add_unit(std::size_t number, const SweepUnit& unit) const;
   /// @throws InputError when there is no such unit.
   SweepUnit unit(std::size_t number) const;
 
-  // Of the sweep with this token: a program of a former one, which is about to end, may still write its own.
+  // By token, because a program of an earlier sweep may still write its results before it ends.
   /// Units that are over.
   std::set<std::size_t> done(const std::string& token) const;
   bool is_done(const std::string& token, std::size_t unit) const;
   void write_done(const std::string& token, std::size_t unit, const std::vector<SweepRow>& rows) const;
-  /// nullopt: it is not over.
+  /// Results of a unit; nullopt: it is not over.
   std::optional<std::vector<SweepRow>> rows(const std::string& token, std::size_t unit) const;
-  /// It must be flown again, as far as its flights are not there.
+  /// Marks a unit as not over: those of its flights whose results are missing must be flown.
   void reopen(const std::string& token, std::size_t unit) const;
 
   Json node(const std::string& name) const;
   void write_node(const std::string& name, const Json& facts) const;
   std::vector<std::string> nodes() const;
 
-  /// Nothing of this node counts. The first reason stays.
+  /// No result of this node counts from now on. Keeps the reason of the first call.
   void quarantine(const std::string& node, const std::string& reason) const;
-  /// Why; nullopt: it may fly.
+  /// The reason; nullopt: the node is not in quarantine.
   std::optional<std::string> quarantined(const std::string& node) const;
   std::set<std::string> quarantined_nodes() const;
 
-  /// Nothing should fly on this node until the user calls again: its disk is full, say. What it has flown counts.
+  /// The node should not fly until the user continues the sweep, say because its disk is full. Its results count.
   void note_sick(const std::string& node, const std::string& reason) const;
   std::set<std::string> sick_nodes() const;
   void forget_sick() const;
@@ -124,27 +125,27 @@ class SweepFolder {
   void forget_check(const std::string& token, std::size_t index) const;
   std::set<std::size_t> checks(const std::string& token) const;
 
-  /// How often units were given to an engine, by number, and how many of their flights were there then.
+  /// How often a unit was given to an engine, and how many of its flights had results then.
   struct Tries {
     std::size_t tries = 0, flown = 0;
   };
-  std::map<std::size_t, Tries> tries() const;
+  std::map<std::size_t, Tries> tries() const;  ///< by number of the unit
   void write_tries(const std::map<std::size_t, Tries>& tries) const;
 
-  /// A new folder for a flight of this program, whose name nobody else takes.
+  /// Creates a folder in air/ for a flight of this program, with a unique name.
   std::filesystem::path place_in_the_air(const std::string& node) const;
-  /// Puts a flown folder where it belongs. @param stays  whether what is there already is as good.
-  /// @returns false when that stays; then `flown` is gone.
+  /// Moves a flown folder to `dir`. @param stays  whether a folder that is already there is good and stays.
+  /// @returns false when that one stays; then `flown` is deleted. @throws std::filesystem::filesystem_error
   bool land(const std::filesystem::path& flown, const std::filesystem::path& dir,
             const std::function<bool(const std::filesystem::path&)>& stays) const;
-  /// What is in the place of a flight goes aside. @returns where; empty: there was nothing.
+  /// Moves a flight's folder into aside/. @returns its new path; empty: there was no such folder.
   std::filesystem::path set_aside(const std::filesystem::path& dir) const;
-  /// With all that is in it, as far as that can be: other programs may still write there.
+  /// Deletes a folder with its contents, as far as possible: other programs may still write there. Never throws.
   static void remove(const std::filesystem::path& dir);
-  /// What killed programs left in the air.
+  /// Deletes all folders in air/: what killed programs left there.
   void clear_air() const;
 
-  /// Of tests: called before each step that another program may notice.
+  /// For tests: `step` is called before each operation whose effect other programs can see.
   void on_step(std::function<void()> step) { step_ = std::move(step); }
 
  private:
@@ -159,7 +160,7 @@ class SweepFolder {
 };
 
 Json to_json(const SweepFlight& flight);
-/// @throws InputError for what is no such thing.
+/// @throws InputError when the JSON is no complete flight.
 SweepFlight sweep_flight_of(const Json& json);
 
 }  // namespace skein::cli

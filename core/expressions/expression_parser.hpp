@@ -7,8 +7,8 @@
 //   separation  link(jurong, gcs)  a signal (core/expressions/signal_table.hpp)
 //   min(a, b)  max(a, b)  abs(a)  gain(a)  rises(a)  falls(a)
 //   (anything)
-// Units must fit: an expression may only compare or add numbers of the same dimension. The parser of a language that
-// contains expressions (properties/property_parser.hpp) reads its own words with this class, too.  Pure.
+// Units must fit: an expression may only compare or add numbers of the same dimension. The parser of a language
+// that contains expressions (properties/property_parser.hpp) also reads its own words with this class.  Pure.
 #pragma once
 
 #include <map>
@@ -25,12 +25,12 @@ namespace skein {
 /// What an expression may name.
 struct ExpressionScope {
   const SignalNames& names;
-  bool live_only = false;                             ///< only signals known during a run, no look at the past
-  std::map<std::string, std::string> variables = {};  ///< the UAV's name for each variable
+  bool live_only = false;                             ///< only signals known during a run, no operators on the past
+  std::map<std::string, std::string> variables = {};  ///< name of the UAV that each variable stands for
   std::map<std::string, Quantity> parameters = {};
 };
 
-/// Reads a text part by part. All parts throw ExpressionError.
+/// Reads a text part by part. All member functions throw ExpressionError.
 class ExpressionParser : public ExpressionText {
  public:
   /// @param scope, text  must outlive this.
@@ -38,9 +38,9 @@ class ExpressionParser : public ExpressionText {
   ExpressionParser(std::string_view text, const ExpressionScope& scope, std::vector<SignalUse>& signals)
       : ExpressionText(text), scope_(scope), signals_(signals) {}
 
-  /// Reads a condition, and stops where it ends.
+  /// Reads one condition, and stops behind it; more text may follow.
   Expression condition();
-  /// A number of this unit without signals: "20 s". @param what  names its purpose in messages
+  /// Reads a constant with this unit: "20 s". @param what  names its purpose in error messages
   double constant(const Unit& unit, const std::string& what);
 
  private:
@@ -66,7 +66,7 @@ class ExpressionParser : public ExpressionText {
   int depth_ = 0;
 };
 
-/// The whole text as a condition. @throws ExpressionError.
+/// Reads the whole text as one condition. @throws ExpressionError, also when text follows it.
 Expression parse_condition(std::string_view text, const ExpressionScope& scope, std::vector<SignalUse>& signals);
 
 }  // namespace skein

@@ -1,4 +1,4 @@
-// Where a program is, as a shell finds it.   Threads: any, while nobody changes PATH.
+// Finds a program's file as a shell does.   Threads: any, while no thread changes PATH.
 #pragma once
 
 #include <filesystem>
@@ -6,7 +6,7 @@
 
 namespace skein {
 
-/// The file of a command: itself when it names a folder, else the first in PATH. Empty: there is no such program.
+/// The file of a command: the command itself if it contains a '/', else the first match in PATH. Empty: none found.
 std::filesystem::path command_file(const std::string& command);
 
 }  // namespace skein

@@ -1,6 +1,6 @@
-// Octrees as OctoMap serialises them in binary: what UAVs know of the space around them, in files of the kind .bt and
-// in octomap_msgs/msg/Octomap. Read byte by byte, each checked, as the library does not: a damaged tree makes it read
-// on without end. Frame W; metres. Any thread.
+// Reads octrees in OctoMap's binary serialisation (16 levels), as in .bt files, without their header, and in
+// octomap_msgs/msg/Octomap: the space that a UAV knows. Checks every byte, which OctoMap does not do: it would read
+// beyond the end of a damaged tree. Frame W; metres. Any thread.
 #pragma once
 
 #include <functional>
@@ -11,18 +11,19 @@
 
 namespace skein {
 
-/// A leaf of the tree. What none holds is unknown.
+/// A leaf of the tree. Space that no leaf covers is unknown.
 struct KnownCube {
-  Vector3d lowest_W = Vector3d::Zero();
+  Vector3d lowest_W = Vector3d::Zero();  ///< corner with the least x, y and z
   double edge_m = 0.0;
   bool occupied = false;  ///< else free
 
   Vector3d middle_W() const { return lowest_W + Vector3d::Constant(0.5 * edge_m); }
 };
 
-/// Calls `visit` with each leaf of a tree, in its order.
-/// @param cell_m  edge of its smallest cells.
-/// @returns the number of its nodes; nullopt when it is not a whole tree, of which some leaves may have been visited.
+/// Calls `visit` with each leaf of a tree, in serialisation order.
+/// @param cell_m  edge of the tree's smallest cells.
+/// @returns the number of nodes, 0 for no bytes; nullopt when the bytes are not one whole tree: `visit` may then have
+///   been called with some of its leaves.
 std::optional<std::size_t> visit_octree(std::string_view bytes, double cell_m,
                                         const std::function<void(const KnownCube&)>& visit);
 

@@ -1,5 +1,5 @@
-// When to speak of a wait that goes on: after five seconds, then each time that it has become twice as long, so that
-// nobody waits in silence and no log fills up. Pure: the caller tells the time.
+// Decides when to print a notice about a wait that goes on: after five seconds, then each time the wait has doubled. So
+// nobody waits in silence, and no log fills up. Pure: the caller passes the time.
 #pragma once
 
 #include <algorithm>
@@ -16,13 +16,13 @@ class WaitNotice {
   explicit WaitNotice(Clock::time_point since, std::chrono::milliseconds first = kFirst)
       : since_(since), next_(first) {}
 
-  /// @returns how long the wait has lasted [s] when a line is due, once for each.
+  /// @returns how long the wait has lasted [s] when a notice is due, once for each notice; else nullopt.
   std::optional<double> due(Clock::time_point now) {
     if (now - since_ < next_) return std::nullopt;
     while (next_ <= now - since_) next_ *= 2;
     return waited_s(now);
   }
-  /// Time left until one is due.
+  /// Time left until the next notice is due; 0 when it is due now.
   std::chrono::milliseconds left(Clock::time_point now) const {
     return std::max(std::chrono::ceil<std::chrono::milliseconds>(since_ + next_ - now), std::chrono::milliseconds(0));
   }

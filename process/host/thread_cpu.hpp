@@ -1,4 +1,4 @@
-// What a program has cost so far.
+// CPU time of a program so far, also of one that shares its thread with others.   Threads: each has its own account.
 #pragma once
 
 #include <ctime>
@@ -7,7 +7,7 @@ namespace skein {
 
 namespace thread_cpu_detail {
 
-/// What a thread that does the work of several programs has spent on the others.
+/// CPU time of the calling thread that belongs to other programs [s]; negative when other threads helped.
 inline thread_local double of_others_s = 0.0;
 
 inline double total_s() {
@@ -18,16 +18,16 @@ inline double total_s() {
 
 }  // namespace thread_cpu_detail
 
-/// CPU time of the calling thread [s], user and kernel. On a thread that several programs share, two of them tell the
-/// time between them within one turn; those of a program that begins its share with each turn, its own over all turns.
+/// CPU time of the calling thread [s], user and kernel. Where several programs share the thread, the difference of two
+/// calls is meaningful within one turn; across turns only for programs that begin each with begin_thread_cpu_share().
 inline double thread_cpu_s() { return thread_cpu_detail::total_s() - thread_cpu_detail::of_others_s; }
 
-/// From here on the calling thread works for a program that has cost it `so_far_s` before.
+/// From now on the calling thread works for a program whose CPU time so far is `so_far_s`.
 inline void begin_thread_cpu_share(double so_far_s) {
   thread_cpu_detail::of_others_s = thread_cpu_detail::total_s() - so_far_s;
 }
 
-/// Other threads have worked so long for the calling thread's program.
+/// Adds CPU time that other threads spent on the calling thread's program.
 inline void add_thread_cpu(double seconds) { thread_cpu_detail::of_others_s -= seconds; }
 
 }  // namespace skein

@@ -1,7 +1,7 @@
-// Whose turn it is in a process that is home to a whole fleet: memory that this process writes and the launcher reads.
-// It is the launcher's, so that it outlives a process that stops, exits or becomes another one without a word. Each
-// thread of the process has a seat of its own there, in which one program at a time has its turn.
-// Linux.   Threads: one writes in a seat; any reads.
+// Which program has its turn in a process that hosts a whole fleet: shared memory that this process writes and the
+// launcher reads. The launcher owns it, so the contents survive when the process stops, exits or calls exec() without a
+// word. Each thread of the process has its own seat in it; in a seat, one program at a time has its turn.
+// Linux.   Threads: one thread writes to a seat, any thread reads. Program names are cut to 119 bytes, reasons to 255.
 #pragma once
 
 #include <sys/types.h>
@@ -16,35 +16,35 @@ namespace skein {
 
 class TurnPage {
  public:
-  /// An empty page. @throws std::system_error
+  /// The launcher's page, empty. @throws std::system_error
   TurnPage();
-  /// The page of another process. @param file  its path() there. @throws std::system_error
+  /// Maps the launcher's page into this process. @param file  path() of that page. @throws std::system_error
   explicit TurnPage(const std::filesystem::path& file);
   ~TurnPage();
   TurnPage(const TurnPage&) = delete;
   TurnPage& operator=(const TurnPage&) = delete;
 
-  /// Under which processes of the same user find it.
+  /// The path under which processes of the same user can open the launcher's page.
   std::filesystem::path path() const;
-  /// For the next process.
+  /// Empties the page for the next process.
   void clear();
 
   static constexpr std::size_t kSeats = 64;
 
-  /// A turn begins, or ends. @param seat  below kSeats
+  /// A turn of `program` begins; the turn in the seat ends. @param seat  below kSeats
   void enter(std::size_t seat, const std::string& program);
   void leave(std::size_t seat);
-  /// Why the process ends in a turn that is under way. @param program  whose turn; empty: it is not known.
+  /// Records why the process ends during a turn. @param program  whose turn it is; empty: not known.
   void give_reason(const std::string& reason, const std::string& program = {});
 
-  /// How many turns have begun and ended in a seat; odd: one is under way.
+  /// Turns begun plus turns ended in a seat: odd while a turn is under way.
   std::uint64_t turns(std::size_t seat) const;
-  /// The program whose turn is under way there; empty: none.
+  /// The program whose turn is under way in the seat; empty: none.
   std::string holder(std::size_t seat) const;
-  /// The programs whose turns are under way: those that may have ended the process. If one has given the reason, it.
+  /// Programs that may have ended the process: the one that give_reason() named, else all whose turns are under way.
   std::vector<std::string> holders() const;
   std::string reason() const;
-  /// Of the process that writes; 0: none.
+  /// Id of the process that writes to the page; 0: none.
   pid_t process() const;
 
  private:

@@ -1,4 +1,4 @@
-// The text at the beginning of a PCD file.
+// Parses the text header of a PCD file (point cloud).   Pure; any thread.
 #pragma once
 
 #include <cstddef>
@@ -10,10 +10,10 @@
 namespace skein::sim {
 
 struct PcdField {
-  std::string name;       ///< "_" is padding
+  std::string name;       ///< "_": padding
   char type = 'F';        ///< F float, I signed, U unsigned
   std::size_t size = 4;   ///< bytes of one element
-  std::size_t count = 1;  ///< elements
+  std::size_t count = 1;  ///< number of elements
 
   std::size_t bytes() const { return size * count; }
 };
@@ -30,8 +30,8 @@ struct PcdHeader {
 };
 
 /// @param file   for messages.   @param bytes  the whole file, or at least its header.
-/// @throws InputError naming file, line and key: no PCD header, a line unknown, twice or missing, numbers that do not
-///   fit each other, no points, more than kMostPoints. Nothing is allocated by what the header promises.
+/// @throws InputError with file, line and key: no PCD header; a line unknown, repeated or missing; inconsistent
+///   numbers; no points, or more than kMostPoints. No memory is allocated according to numbers in the header.
 PcdHeader parse_pcd_header(const std::filesystem::path& file, std::string_view bytes);
 
 }  // namespace skein::sim

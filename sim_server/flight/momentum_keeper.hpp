@@ -1,7 +1,7 @@
-// Keeps the angular momentum of a turning body through one step of a physics engine that knows angular velocity only
-// (Bullet): its own gyroscopic terms cost a spinning body 2 % of its energy in a second. The engine turns the body at
-// the velocity that belongs to the middle of the step, and what its forces and contacts added to that is added to the
-// momentum.
+// Conserves a rotating body's angular momentum over one step of a physics engine that integrates only angular velocity
+// (Bullet): with Bullet's own gyroscopic terms, a spinning body loses 2 % of its energy per second. Midpoint rule:
+// Bullet rotates the body with the angular velocity at the middle of the step; the change of velocity that Bullet's
+// torques and contacts cause in the step is added to the momentum.
 // Frames: W world; P, whose axes are the body's principal axes of inertia.   Units: SI.   Threads: one.
 #pragma once
 
@@ -11,11 +11,11 @@ namespace skein::sim {
 
 class MomentumKeeper {
  public:
-  /// Before the step. @param inertia  about the axes of P [kg m^2].   @param w_WP_W  expressed in W.
+  /// Call it before the step. @param inertia  principal moments, about the axes of P [kg m^2].   @param w_WP_W  in W.
   MomentumKeeper(const Vector3d& inertia, const Matrix3d& R_WP, const Vector3d& w_WP_W, double step_s);
-  /// At which the engine is to turn the body, expressed in W.
+  /// Angular velocity that the engine must use in this step, expressed in W [rad/s].
   const Vector3d& middle_velocity() const { return w_middle_W_; }
-  /// After the step, with what the engine made of both. @returns the velocity that the momentum now amounts to, in W.
+  /// Call it after the step, with the engine's results. @returns angular velocity for the new momentum, expressed in W.
   Vector3d finish(const Matrix3d& R_WP, const Vector3d& w_WP_W);
 
  private:

@@ -1,5 +1,5 @@
-// The least value of a function that is known to change no faster than some slope: with few questions to it.
-// Pure; safe from any thread.
+// Global minimum of a Lipschitz-continuous function of one variable, with few evaluations.
+// Pure; safe from any thread, if `f` is.
 #pragma once
 
 #include <algorithm>
@@ -9,14 +9,14 @@ namespace skein::sim {
 
 struct Least {
   double value = 0.0;
-  double at = 0.0;  ///< where
+  double at = 0.0;  ///< argument at which f has this value
 };
 
-/// Piyavskii's and Shubert's search: the next question goes where the value could be least by what is known.
+/// Piyavskii-Shubert algorithm: evaluates next where the Lipschitz bound of an interval is least, depth first.
 /// @param f  on [0, length]; |f(x) - f(y)| <= slope |x - y|.   @param slope  above 0.
-/// @param most  larger values are of no interest.   @param tolerance  above 0.
-/// @returns a value of f within `tolerance` of its least one and where it is; {most, 0} when none is below `most`, or
-///          none by more than `tolerance` that the search had not come upon.
+/// @param most  values above it are ignored.   @param tolerance  above 0.
+/// @returns a value of f within `tolerance` of the minimum, and its argument; {most, 0} when no value below `most` was
+///          found: then the minimum is at least `most` - `tolerance`.
 template <class F>
 Least least_along(const F& f, double length, double slope, double most, double tolerance) {
   struct Part {
@@ -38,7 +38,7 @@ Least least_along(const F& f, double length, double slope, double most, double t
     if (least >= best.value - tolerance) continue;
     const double turn = 0.5 * (from.at + to.at) + 0.5 * (from.value - to.value) / slope;
     const Least middle = ask(std::clamp(turn, from.at, to.at));
-    if (middle.at <= from.at || middle.at >= to.at) continue;  // as narrow as numbers are
+    if (middle.at <= from.at || middle.at >= to.at) continue;  // as narrow as doubles resolve
     parts.push_back({from, middle});
     parts.push_back({middle, to});
   }

@@ -1,7 +1,7 @@
-// What planners say to each other by radio, as bytes: a writer and a reader of small numbers, and the envelope in
-// which a payload travels on the topic /plan, which every UAV may send on and everybody in line of sight hears
-// (core/radio/radio_routes.hpp). A planner puts what send_payload() returns into PlannerOutput::radio, and opens what
-// PlannerInput::radio brings with open_payload().
+// Radio messages between planners, as bytes: a writer and a reader of numbers, and the envelope in which a payload
+// travels on the topic /plan: every UAV may send on it, and all nodes in line of sight receive it
+// (core/radio/radio_routes.hpp). A planner puts the message from send_payload() into PlannerOutput::radio, and reads
+// the messages in PlannerInput::radio with open_payload().
 // Numbers are little-endian; positions are rounded to centimetres.
 // Pure.   Bounded: a payload is never longer than kMaxPayloadBytes.
 #pragma once
@@ -20,7 +20,7 @@
 
 namespace skein::agent {
 
-/// Of one payload. Whoever has more to say sends several messages, or says the rest later.
+/// Largest payload, without its envelope. A planner that has more to say sends several messages, or the rest later.
 inline constexpr std::size_t kMaxPayloadBytes = 16'384;
 
 class PayloadWriter {
@@ -28,7 +28,7 @@ class PayloadWriter {
   void u8(std::uint8_t value) { bytes_.push_back(value); }
   void u16(std::uint16_t value) { number(value, 2); }
   void u32(std::uint32_t value) { number(value, 4); }
-  /// A position within 20,000 km, to the centimetre.
+  /// Appends a position as three 32-bit numbers of centimetres; each coordinate must be within 20,000 km.
   void position(const Vector3d& p_W);
   void bytes(std::span<const std::uint8_t> bytes) { bytes_.insert(bytes_.end(), bytes.begin(), bytes.end()); }
 
@@ -42,8 +42,8 @@ class PayloadWriter {
   std::vector<std::uint8_t> bytes_;
 };
 
-/// Reads what a PayloadWriter wrote. Past the end it returns zeros, and ok() is false from then on: look at it
-/// before any of what was read is believed.
+/// Reads what a PayloadWriter wrote. Reading past the end returns zeros, and ok() is false from then on: check ok()
+/// before you use any value that was read.
 class PayloadReader {
  public:
   explicit PayloadReader(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
@@ -52,12 +52,12 @@ class PayloadReader {
   std::uint16_t u16() { return static_cast<std::uint16_t>(number(2)); }
   std::uint32_t u32() { return number(4); }
   Vector3d position();
-  /// The next `count` bytes; empty if there are not so many.
+  /// The next `count` bytes; empty if fewer are left.
   std::span<const std::uint8_t> bytes(std::size_t count);
 
   bool ok() const { return ok_; }
   std::size_t left() const { return bytes_.size(); }
-  /// All was read, and there was enough.
+  /// True when all bytes were read, and no read went past the end.
   bool at_end() const { return ok_ && bytes_.empty(); }
 
  private:
@@ -67,21 +67,22 @@ class PayloadReader {
   bool ok_ = true;
 };
 
-/// How long bytes are in a message's text, in which some take two.
+/// Length of these bytes in a message's text, where the bytes 0 and 1 are escaped and take two characters each.
 std::size_t text_bytes(std::span<const std::uint8_t> bytes);
 
-/// What arrived in an envelope.
+/// A payload that arrived.
 struct Payload {
-  std::size_t sender = 0;  ///< index in the fleet, as the sender says; the radio itself tells nobody
+  std::size_t sender = 0;  ///< index in the fleet, as the message claims: the radio does not identify senders
   std::vector<std::uint8_t> bytes;
 };
 
-/// A message on /plan.
-/// @param planner  name of the planner and version of its messages ("kios/1"): others do not open it.
-/// @throws std::logic_error when the payload is too long: that is for the planner to prevent.
+/// Wraps a payload into a message on /plan.
+/// @param planner  name of the planner and version of its messages ("kios/1"): open_payload() compares it.
+/// @throws std::logic_error when the payload is longer than kMaxPayloadBytes: the planner must prevent that.
 RadioMessage send_payload(std::string_view planner, std::size_t sender, const PayloadWriter& payload);
 
-/// @returns nullopt for a message on another topic, of another planner, damaged, too long or from nobody of the fleet.
+/// @returns nullopt for a message on another topic, of another planner, damaged, too long, or with a sender outside the
+///   fleet.
 std::optional<Payload> open_payload(const RadioMessage& message, std::string_view planner, std::size_t fleet_size);
 
 }  // namespace skein::agent

@@ -112,7 +112,7 @@ class Planner {
   /// Whether it looks at the map of what is free, occupied and unknown by all beams; asked as wants_scans() is, and at
   /// the same price where there is a LiDAR. UAVs whose planners want it tell each other what they know by radio, by up
   /// to 20 kB/s a link on /plan, and no planner sees these messages (docs/decisions/0027-maps-told-by-radio.md). In a
-  /// fleet of more than 63 UAVs a planner that wants it is refused.
+  /// fleet of more than 127 UAVs a planner that wants it is refused.
   virtual bool wants_world_map() const { return false; }
   /// How it flies, if the flight core flies it (PlannerOutput::goals); asked before the first exchange, and it must
   /// outlive all. A planner that is flown has the world map, too.

@@ -1,5 +1,5 @@
-// How a UAV comes to know what is free: by its own LiDAR, or by what others tell it.
-// Threads: one.   Deterministic.
+// From where a UAV learns of free space: from its own LiDAR, or from map messages of other UAVs.
+// Threads: one.   Deterministic.   Source: our own rules.
 #pragma once
 
 #include <cstddef>
@@ -11,12 +11,12 @@
 
 namespace skein::agent {
 
-/// Whether its own LiDAR tells something.
+/// Whether the UAV's own LiDAR works: an explorer's does until it has delivered no scan for 3 s.
 class OwnSight {
  public:
   /// @param agent  must outlive this.
   explicit OwnSight(const AgentConfig& agent);
-  /// Once per exchange.
+  /// Call it once per exchange.
   void update(const PlannerInput& in);
   bool sees() const { return sees_; }
 
@@ -26,19 +26,19 @@ class OwnSight {
   std::optional<Tick> scanned_at_;
 };
 
-/// A UAV without a LiDAR, or whose LiDAR has failed, learns of free space by radio, or never: then it takes the boxes
-/// to be all that there is.
+/// A UAV without a working LiDAR learns of free space by radio. If it was told of no space but that about its start,
+/// and of nothing new for alone_s, its safety filter takes space outside the boxes for free, except known structure.
 class ToldSpace {
  public:
   /// @param config, agent  must outlive this.
   ToldSpace(const FlightConfig& config, const AgentConfig& agent) : config_(config), agent_(agent) {}
-  /// Once per exchange. @param sees  whether its own LiDAR tells something.
+  /// Call it once per exchange. @param sees  OwnSight::sees()
   void listen(const PlannerInput& in, bool sees, SafetyFilter& filter);
 
  private:
   const FlightConfig& config_;
   const AgentConfig& agent_;
-  std::optional<Tick> told_at_;  ///< when it last was told of space in another region
+  std::optional<Tick> told_at_;  ///< when the map's number of regions last changed
   std::size_t told_regions_ = 0;
 };
 

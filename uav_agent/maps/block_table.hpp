@@ -1,6 +1,6 @@
-// Blocks of cells, found by number: a map is asked for them more often than for all else, mostly for some that it has
-// not got. Open addressing in a table of keys, never more than half full; blocks stand beside it, in the order in which
-// they came. Only ever looked up, never walked through.
+// A hash table of blocks of cells: looking up a block is a map's most frequent query, mostly for a block that is not
+// there. Open addressing in a table of keys that is never more than half full; the blocks are in a separate array, in
+// order of insertion. It offers look-up but no iteration, so no result can depend on the hash order.
 // Threads: one.
 #pragma once
 
@@ -13,14 +13,14 @@
 
 namespace skein::agent {
 
-/// Of a cell or block that is less than 2^20 from the origin along each axis.
+/// Key of a cell or block whose index along each axis is within (-2^20, 2^20): 21 bits an axis.
 inline std::uint64_t grid_key(const Eigen::Vector3i& at) {
   constexpr std::uint64_t kMask = (std::uint64_t{1} << 21) - 1;
   const auto along = [&](int axis) { return static_cast<std::uint64_t>(at[axis]) & kMask; };
   return along(0) | along(1) << 21 | along(2) << 42;
 }
 
-/// The cell about it that is 2^bits times as large.
+/// Index of the cell that contains `cell` on a grid 2^bits times as coarse.
 inline Eigen::Vector3i shifted(const Eigen::Vector3i& cell, int bits) {
   return {cell.x() >> bits, cell.y() >> bits, cell.z() >> bits};
 }
@@ -28,12 +28,12 @@ inline Eigen::Vector3i shifted(const Eigen::Vector3i& cell, int bits) {
 template <class Block>
 class BlockTable {
  public:
-  /// nullptr where there is none. Good until the next operator[].
+  /// The block with this key, or nullptr. The pointer is valid until the next operator[] or clear().
   const Block* find(std::uint64_t key) const {
     const Slot& slot = slots_[place_of(key)];
     return slot.key == key ? &blocks_[slot.block] : nullptr;
   }
-  /// An empty one where there was none. @param key  less than 2^64 - 1.
+  /// The block with this key; inserts a default one if there is none. @param key  less than 2^64 - 1.
   Block& operator[](std::uint64_t key) {
     if (const Slot& slot = slots_[place_of(key)]; slot.key == key) return blocks_[slot.block];
     if (2 * (blocks_.size() + 1) > slots_.size()) grow();
@@ -41,16 +41,16 @@ class BlockTable {
     return blocks_.emplace_back();
   }
 
-  /// Of all blocks; their memory is kept for others.
+  /// Removes all blocks, but keeps the memory for later ones.
   void clear() {
     std::ranges::fill(slots_, Slot());
     blocks_.clear();
   }
 
-  /// Of memory.
+  /// Memory allocated [bytes], without what the blocks themselves point to.
   std::size_t bytes() const { return slots_.capacity() * sizeof(Slot) + blocks_.capacity() * sizeof(Block); }
 
-  /// Whether both hold the same blocks.
+  /// Whether both hold the same keys with equal blocks, in whatever order they were inserted.
   bool operator==(const BlockTable& other) const {
     return blocks_.size() == other.blocks_.size() && std::ranges::all_of(slots_, [&](const Slot& slot) {
              if (slot.key == kNone) return true;
@@ -61,14 +61,14 @@ class BlockTable {
 
  private:
   static constexpr std::uint64_t kNone = ~std::uint64_t{0};
-  static constexpr std::uint64_t kMix = 0x9E3779B97F4A7C15;  ///< 2^64 over the golden ratio: its products spread
+  static constexpr std::uint64_t kMix = 0x9E3779B97F4A7C15;  ///< 2^64 / golden ratio: Fibonacci hashing spreads keys
 
   struct Slot {
     std::uint64_t key = kNone;
-    std::size_t block = 0;  ///< in blocks_
+    std::size_t block = 0;  ///< index in blocks_
   };
 
-  /// Where it is, or would be.
+  /// Index of the slot that holds this key, or of the free slot where it would be inserted.
   std::size_t place_of(std::uint64_t key) const {
     std::size_t place = key * kMix >> shift_;
     while (slots_[place].key != key && slots_[place].key != kNone) place = (place + 1) & (slots_.size() - 1);
@@ -84,7 +84,7 @@ class BlockTable {
   }
 
   std::vector<Slot> slots_ = std::vector<Slot>(64);
-  int shift_ = 64 - 6;  ///< leaves as many bits as number a slot
+  int shift_ = 64 - 6;  ///< 64 - log2(slots_.size()): leaves the top bits of the product as the slot's index
   std::vector<Block> blocks_;
 };
 

@@ -1,7 +1,7 @@
-// What a UAV knows of the space around it, as OctoMap keeps it: an octree of hits and a coarser one of what rays have
-// passed, in which each ray lowers a cell's log-odds by as much. What neither holds is unknown. Beside each tree stands
-// an index of it, which answers faster than a walk from the root; both always say the same.
-// Frame W.   Units: metres.   Threads: one.   Deterministic: trees are walked through in a fixed order.
+// A UAV's occupancy map as two OctoMap octrees: one of hits, and a coarser one of the cells that rays passed, in which
+// each ray lowers a cell's log-odds by the same amount. Space in neither tree is unknown. Each tree has an index with
+// the same contents, which answers faster than a descent from the root.
+// Frame W.   Units: metres.   Threads: one.   Deterministic: trees are traversed in a fixed order.
 #pragma once
 
 #include <functional>
@@ -17,39 +17,40 @@ namespace skein::agent {
 
 class KnownSpace {
  public:
-  /// @param cell_m  edge of an occupied cell.   @param free_cell_m  edge of a free one: 1, 2, 4, ... times as long.
+  /// @param cell_m  edge of an occupied cell.   @param free_cell_m  edge of a free cell: 1, 2, 4, ... times `cell_m`.
   KnownSpace(double cell_m, double free_cell_m);
   ~KnownSpace();
 
-  /// Makes the cell of p occupied, for good.
-  /// @returns whether that is news; false, too, beyond the tree: kilometres away.
+  /// Marks the cell of p as occupied, permanently.
+  /// @returns whether the cell is newly occupied; false also for a p outside the tree, kilometres away.
   bool add_hit(const Vector3d& p_W);
-  /// The same for the hits of a key frame. @returns whether any is news.
+  /// The same for the hits of a key frame. @returns whether any cell is newly occupied.
   bool add_hits(const HitCells& hits);
-  /// Asks for nothing that is known. @param ground_m  hits below are none.
+  /// The cells of these hits; does not depend on the map's contents. @param ground_m  ignores hits below this height.
   HitCells cells_of_hits(const std::vector<Eigen::Vector3f>& hits_W, double ground_m) const;
-  /// Which coarse cells the rays from one place pass; asks for nothing that is known.
+  /// The coarse cells that the rays from one place pass; does not depend on the map's contents.
   PassedCells passed_by_rays(const Vector3d& from_W, const std::vector<Vector3d>& to_W) const;
-  void add_rays(const PassedCells& passed);
+  void add_rays(const PassedCells& passed);  ///< Adds these counts to the coarse cells; a count ends at kCountedRays.
 
-  /// Occupied cubes are hits; in free ones so many rays passed, if not more. @returns whether any hit is news.
+  /// Enters another map's cubes: occupied ones as hits; of free ones raises each cell's count to `rays` if it is lower.
+  /// @returns whether any cell is newly occupied.
   bool hear(const std::vector<KnownCube>& cubes, int rays);
 
   const HitBlocks& hits() const { return hits_; }
   const RayBlocks& rays() const { return rays_; }
-  /// That passed the coarse cell of p; at most kCountedRays.
+  /// Number of rays that passed the coarse cell of p; at most kCountedRays.
   int rays_at(const Vector3d& p_W) const;
 
-  /// The tree's occupied cells in the box along W's axes, by their centres.
+  /// Calls `visit` with the centre of each occupied cell in an axis-aligned box of W, given by two corners.
   void visit_hits(const Vector3d& lowest_W, const Vector3d& highest_W,
                   const std::function<void(const Vector3d&)>& visit) const;
-  /// The tree's free cells, with the rays that passed them.
+  /// Calls `visit` with each coarse cell that rays passed, and their number.
   void visit_free(const std::function<void(const RayBlocks::Cell&, int)>& visit) const;
 
-  /// Both trees in one, in OctoMap's binary serialisation: occupied where there are hits, else free where so many rays
-  /// have passed, else nothing.
+  /// Both trees merged, in OctoMap's binary serialisation: occupied where there are hits, else free where at least
+  /// `rays` rays have passed, else unknown.
   std::string octomap_bytes(int rays) const;
-  /// The same with its head: a file of the kind .bt.
+  /// The same with OctoMap's header: the bytes of a .bt file.
   std::string octomap_file(int rays) const;
 
  private:

@@ -1,6 +1,6 @@
-// An index of free space: how many rays have passed each cell, in blocks of 4 x 4 x 4 cells found by hash, since a ray
-// passes some cells of each. Only ever looked up, never walked through.
-// Cells have OctoMap's numbers, 0 to 65535 along each axis.   Threads: one.
+// An index of free space: counts the rays that have passed each cell. Blocks of 4 x 4 x 4 cells are found by hash,
+// because a ray passes several cells of a block. It offers look-up but no iteration.
+// Cells have OctoMap's keys, 0 to 65535 along each axis.   Threads: one.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 
 namespace skein::agent {
 
-inline constexpr int kCountedRays = 20;  ///< through a cell; more make no difference
+inline constexpr int kCountedRays = 20;  ///< highest count of a cell; further rays are not counted
 
 class RayBlocks {
  public:
@@ -30,7 +30,7 @@ class RayBlocks {
   }
   static std::uint8_t counted(int rays) { return static_cast<std::uint8_t>(std::min(rays, kCountedRays)); }
 
-  /// @param news  is called as news(cell, rays) for each cell that has more rays now, and how many more.
+  /// Adds counts. @param news  called as news(cell, more) for each cell whose count rises, with the increase.
   template <class News>
   void add(const PassedCells& passed, const News& news) {
     for (const auto& [key, counts] : passed.blocks) {

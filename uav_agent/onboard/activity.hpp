@@ -1,8 +1,8 @@
-// What a UAV does and why, in words: the one place that has them (topic /{id}/activity, docs/view.md). Nothing that
-// flies asks it.
+// Describes in words what a UAV does and why (topic /{id}/activity, docs/view.md); all these words are here. Nothing
+// that controls the flight reads them.
 //
-// It tells when that changes, else once a second. What lasts an exchange or two is not told as a change: the moment
-// between two goals, or a peer in the way whom the UAV does not even slow down for.
+// A message is due when the description changes, else once a second. States of an exchange or two are not reported as a
+// change: the moment between two goals, or a peer in the way for which the UAV does not even slow down.
 // Frame W.   Units: SI.   Deterministic: cpu_s is left at 0.   Threads: one.
 #pragma once
 
@@ -18,23 +18,23 @@
 
 namespace skein::agent {
 
-/// Of a planner that the flight core does not fly: what it last asked for.
+/// For a planner that does without the flight core: the kind of its last output.
 struct OwnMotion {
   enum class Kind { none, setpoint, path, hold, command };
   Kind kind = Kind::none;
-  std::optional<Vector3d> end_W = {};  ///< of a path that is not over
+  std::optional<Vector3d> end_W = {};  ///< end of a path that is not finished
 };
 
-/// One exchange, as it ends.
+/// The UAV's state at the end of an exchange.
 struct ActivityFacts {
   Tick tick = 0;
   std::variant<Doing, OwnMotion> what;
   Vector3d p_WB = Vector3d::Zero();
   double speed_mps = 0.0;
   std::size_t undelivered = 0;
-  Held held = {};                             ///< by the safety filter
-  std::optional<std::size_t> waits_for = {};  ///< index in the fleet
-  std::string no_way = {};                    ///< news: that it found none in this exchange, and why
+  Held held = {};                             ///< why the safety filter slows the UAV down
+  std::optional<std::size_t> waits_for = {};  ///< index in the fleet of the UAV that it waits for
+  std::string no_way = {};                    ///< why no path was found in this exchange; empty: none was missed
 };
 
 class ActivityTeller {
@@ -42,7 +42,7 @@ class ActivityTeller {
   /// @param fleet  must outlive this.
   explicit ActivityTeller(const std::vector<FleetMember>& fleet) : fleet_(fleet) {}
 
-  /// @returns what to tell with this exchange; nullopt: nothing.
+  /// Call it once per exchange. @returns the message that is due in this exchange; nullopt: none.
   std::optional<Activity> step(const ActivityFacts& facts);
 
  private:
@@ -53,12 +53,12 @@ class ActivityTeller {
   void note_no_way(const ActivityFacts& facts);
 
   const std::vector<FleetMember>& fleet_;
-  Activity now_;                       ///< as it stands
-  std::optional<Activity> told_;       ///< last
-  Tick due_ = 0;                       ///< at the latest
-  std::optional<Tick> between_since_;  ///< it has no goal that it flies to
-  std::optional<Tick> slow_since_;     ///< it stands
-  std::optional<Tick> held_since_;     ///< by the safety filter, with somewhere to go
+  Activity now_;                       ///< the present description
+  std::optional<Activity> told_;       ///< the last message
+  Tick due_ = 0;                       ///< the next message at the latest
+  std::optional<Tick> between_since_;  ///< since when it flies to no goal
+  std::optional<Tick> slow_since_;     ///< since when it stands still
+  std::optional<Tick> held_since_;     ///< since when the safety filter stops it on its way
   Doing::What before_ = Doing::What::ground;
   std::optional<Vector3d> last_goal_W_;
   bool rests_ = false, held_ = false;

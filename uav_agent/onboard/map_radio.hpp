@@ -1,6 +1,6 @@
-// Tells the other UAVs what this one knows of the world, and hears what they tell, for the on-board software: puts the
-// messages of MapNews into envelopes of their own on /plan, and takes them out of what arrives, so that no planner
-// sees them.
+// Shares the map by radio, on behalf of the on-board software: sends the messages of MapNews on /plan in envelopes of
+// their own, and reads those of other UAVs into this UAV's map. is_of_maps() recognises these messages, so that the
+// on-board software can keep them from the planner.
 // Frame W.   Units: SI.   Threads: one.   Deterministic.
 #pragma once
 
@@ -15,7 +15,7 @@
 
 namespace skein::agent {
 
-/// In the place of a planner's name and version (payload.hpp): no planner has it.
+/// Stands where other envelopes have the planner's name and version (payload.hpp). No planner has this name.
 inline constexpr std::string_view kMapMessages = "map/1";
 
 class MapRadio {
@@ -24,11 +24,11 @@ class MapRadio {
   explicit MapRadio(const AgentConfig& config)
       : fleet_(config.fleet.size()), self_(config.self), news_(self_, fleet_) {}
 
-  static bool is_of_maps(const RadioMessage& message);
+  static bool is_of_maps(const RadioMessage& message);  ///< whether its envelope is one of kMapMessages
 
-  /// Takes what others told into the map. Messages of planners, and what is damaged, change nothing.
+  /// Enters the received map messages into the map. Ignores messages of planners and damaged ones.
   void hear(std::span<const RadioMessage> received, Tick now, WorldMap& map);
-  /// Called at each exchange.
+  /// Makes this UAV's next map message. Call it at each exchange.
   /// @param map  the same at each call.   @param going_to_W  where this UAV is about to fly, if that is known.
   /// @returns a message to all in line of sight, if one is due.
   std::optional<RadioMessage> tell(const WorldMap& map, const Peers& peers, const std::optional<Vector3d>& going_to_W,

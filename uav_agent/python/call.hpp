@@ -1,5 +1,5 @@
-// One call of plan(): what its inputs refer to is there until it is over. Whoever asks later gets an error, and whoever
-// keeps a view of the agent's memory is found out when the call ends.
+// One call of a Python planner's plan(): its inputs are valid until the call ends. Accessing them later raises an
+// error, and kept() detects code that still holds a view of the agent's memory.
 #pragma once
 
 #include <pybind11/numpy.h>
@@ -17,24 +17,24 @@ namespace py = pybind11;
 
 class Call {
  public:
-  /// @param order  of the planner; outlives this.
+  /// @param in  must live until end(). @param order  of the planner; must outlive this.
   Call(const PlannerInput& in, const Order& order) : in_(&in), order_(order) {}
 
   const Order& order() const { return order_; }
-  /// @param what  is asked for: "inputs.map". @throws py::error_already_set, GoneError, when the call is over.
+  /// The inputs. @param what  the requested part: "inputs.map". @throws py::error_already_set, GoneError, after end().
   const PlannerInput& in(const std::string& what) const;
-  /// An array of the agent's memory that cannot be written to. @param name  for people: "inputs.scans[0].points_W"
+  /// A read-only array that refers to the agent's memory. @param name  for messages: "inputs.scans[0].points_W"
   py::array view(const std::string& name, const py::dtype& type, std::vector<py::ssize_t> shape,
                  std::vector<py::ssize_t> strides, const void* data);
 
   void end() { in_ = nullptr; }
-  /// After the end: the name of a view that somebody still has; empty: there is none.
+  /// After end(): the name of a view to which Python code still holds a reference; empty: none.
   std::string kept() const;
 
  private:
   const PlannerInput* in_;
   const Order& order_;
-  std::vector<std::pair<std::string, py::object>> views_;  ///< what each array holds on to
+  std::vector<std::pair<std::string, py::object>> views_;  ///< name and base object of each array, for kept()
 };
 
 }  // namespace skein::agent::python

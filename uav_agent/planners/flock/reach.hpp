@@ -1,5 +1,5 @@
-// Which views a UAV leaves for later: those that it could not reach a moment ago, those on the way to which it stands
-// still, and those where another UAV is or is about to be.
+// Views that a UAV leaves for later: near one that it could not reach a moment ago or was held up on the way to, near a
+// UAV in sight or the next view of one with a lower index, or in the direction of a UAV that held this one up lately.
 // Frame W.   Units: SI.   Threads: one.   Deterministic.
 #pragma once
 
@@ -17,14 +17,14 @@ class FlockReach {
   /// @param agent, talk  must outlive this.
   FlockReach(const AgentConfig& agent, const FlockTalk& talk) : agent_(agent), talk_(talk) {}
 
-  /// The flight core found no way to this view.
+  /// The flight core found no path to this view: it and those near it are out of reach for a while.
   void refuse(const Vector3d& p_WB, Tick now);
-  /// There was no way to a view: of the others, those to which there is none either are refused for a while.
+  /// Call it after a view had no path: also refuses, for a while, those of `views` that the known free space shuts off.
   void refuse_shut_off(const std::vector<FlockView>& views, const VoxelGrid& grid, const PlannerInput& in);
-  /// Once per exchange in which the UAV works.   @param to_W  the view that it flies to, if it is not there yet.
-  /// @returns whether it came no nearer for so long that it should leave that view: it counts as out of reach from now.
+  /// Call it in each exchange in which the UAV works.   @param to_W  the view that it flies to; nullopt: it is there.
+  /// @returns whether the UAV has hardly moved for so long that it should leave this view, now out of reach.
   bool stalls(const PlannerInput& in, const std::optional<Vector3d>& to_W);
-  /// Forgets what lapsed.
+  /// Forgets refusals that have expired.
   void update(Tick now);
   bool out_of_reach(const Vector3d& p_WB, const PlannerInput& in) const;
 
@@ -37,9 +37,9 @@ class FlockReach {
   const AgentConfig& agent_;
   const FlockTalk& talk_;
   std::vector<Refused> refused_;
-  Vector3d gained_p_W_ = Vector3d::Zero();  ///< where it last got on
+  Vector3d gained_p_W_ = Vector3d::Zero();  ///< the place from which it has hardly moved since gained_at_
   Tick gained_at_ = 0;
-  std::optional<std::size_t> in_the_way_;  ///< a UAV that held this one up
+  std::optional<std::size_t> in_the_way_;  ///< the UAV that last held this one up
   Tick gives_way_until_ = 0;
 };
 

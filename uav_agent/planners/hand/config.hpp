@@ -1,4 +1,4 @@
-// Parameters of the planner hand (hand.cpp): --planner jurong=hand:safe=false.
+// Parameters of the planner `hand`, manual flight (hand.cpp): --planner jurong=hand:safe=false.
 // Units: SI unless the name says otherwise.
 #pragma once
 
@@ -10,10 +10,10 @@
 namespace skein::agent {
 
 struct HandConfig {
-  /// Commands that are flown again (core/planners/hand_file.hpp); empty: somebody gives them now
+  /// File of recorded commands to fly again (core/planners/hand_file.hpp); empty: a user gives commands during the run
   std::filesystem::path file;
-  bool safe = true;          ///< the safety filter has the last word
-  FlightConfig flight = {};  ///< approach_mps and climb_mps bound what is asked for
+  bool safe = true;          ///< the safety filter may override the commands
+  FlightConfig flight = {};  ///< approach_mps and climb_mps limit the commanded velocity
 
   template <class R>
   void describe(R& r) {

@@ -1,7 +1,7 @@
 // The second stage of KIOS: waypoints around the occupied cubes, one for each exposed face, with a direction for the
-// camera; and who of the UAVs in line of sight visits which. A face that was photographed is marked in the grid, and
-// the mark travels with the map.
-// Frame W.   Units: SI.   Pure but for the failures it remembers.   Effort: bounded by counts.
+// camera; and the assignment of waypoints to the UAVs in line of sight. A photographed face is marked in the grid, and
+// UAVs exchange the marks with the map.
+// Frame W.   Units: SI.   Pure except for the remembered failures.   Effort: bounded by counts.
 // Source: paper, "Cooperative Inspection". Where exactly in the free cube the UAV stops, and all numbers, are our
 // choice (the paper has none).
 #pragma once
@@ -17,52 +17,52 @@ namespace skein::agent {
 
 /// One waypoint.
 struct KiosStop {
-  std::uint32_t id = 0;                   ///< of the face: 6 * cube + face
+  std::uint32_t id = 0;                   ///< id of the face: 6 * cube + face
   Vector3d p_WB = Vector3d::Zero();       ///< where the UAV stops
-  Vector3d surface_W = Vector3d::Zero();  ///< where its camera looks
+  Vector3d surface_W = Vector3d::Zero();  ///< point at which its camera aims
   Vector3d out_W = Vector3d::UnitX();     ///< outward normal of the face
-  bool proved = true;                     ///< that a body may be there; else only a UAV with a LiDAR can go
+  bool proved = true;                     ///< the place is proved free; if not, only a UAV with a LiDAR can go there
 
   VoxelGrid::Id cube() const { return id / VoxelGrid::kFaces; }
   int face() const { return static_cast<int>(id % VoxelGrid::kFaces); }
 };
 
-/// A UAV among whom the stops are shared out.
+/// One of the UAVs among which the stops are divided.
 struct KiosAgent {
-  Vector3d p_WB = Vector3d::Zero();  ///< where it begins
-  double busy_s = 0.0;               ///< what it has to do before
+  Vector3d p_WB = Vector3d::Zero();  ///< where its tour begins
+  double busy_s = 0.0;               ///< time until it can begin its tour
 };
 
 class KiosStops {
  public:
   struct Config {
-    double sharp_m = 7.36;         ///< d*: no farther from the surface
-    double nearest_ratio = 0.6;    ///< no nearer to it where there is room, of d*
-    double standoff_ratio = 0.92;  ///< at most, of d*
-    int min_hits = 1;              ///< mapped cells that make a cube occupied
-    double speed_mps = 4.0;        ///< between stops
-    double stop_s = 2.0;           ///< that a stop takes, braking included
-    std::size_t max_tasks = 150;   ///< shared out in one go; the nearest ones
-    std::size_t effort = 60'000;   ///< evaluated moves
-    double retry_s = 12.0;         ///< before a stop that could not be reached is tried again
+    double sharp_m = 7.36;         ///< d*: greatest distance from the surface
+    double nearest_ratio = 0.6;    ///< least distance where there is room, as a share of d*
+    double standoff_ratio = 0.92;  ///< greatest distance of a stop, as a share of d*
+    int min_hits = 1;              ///< a cube of this UAV's own map is occupied from so many mapped cells on
+    double speed_mps = 4.0;        ///< assumed speed between stops
+    double stop_s = 2.0;           ///< assumed duration of a stop, braking included
+    std::size_t max_tasks = 150;   ///< most stops divided at once: those nearest to any of the UAVs
+    std::size_t effort = 60'000;   ///< most moves that the tour search evaluates
+    double retry_s = 12.0;         ///< wait before an unreachable stop is tried again, times its failures so far
   };
 
   explicit KiosStops(const Config& config) : config_(config) {}
 
   struct Open {
     std::vector<KiosStop> stops;
-    std::size_t out_of_reach = 0;  ///< exposed faces without a place to stop at, as far as is known
+    std::size_t out_of_reach = 0;  ///< exposed faces without a known place to stop at
   };
-  /// All faces of known surface inside the boxes that are exposed and not photographed yet.
+  /// A stop for each exposed face inside the boxes that is not photographed yet and did not fail a moment ago.
   Open open_stops(const VoxelGrid& grid, const WorldVoxels& voxels, const FreeSpace& space,
                   const std::vector<OrientedBox>& boxes, Tick now) const;
 
-  /// The tour of agents[self] when all of them share the stops out, as an order of indices into `stops`.
-  /// @param grid  has what is in between.
+  /// Divides the stops among all agents. @returns the tour of agents[self]: indices into `stops`, in order of visit.
+  /// @param grid  tells whether structure lies between two places.
   std::vector<std::size_t> own_tour(const std::vector<KiosStop>& stops, const std::vector<KiosAgent>& agents,
                                     std::size_t self, const VoxelGrid& grid) const;
 
-  /// Something else first.
+  /// This stop could not be reached: open_stops() leaves it out for a while (Config::retry_s).
   void failed(std::uint32_t stop, Tick now);
 
  private:

@@ -1,6 +1,7 @@
-// What a learner knows, as arrays in the block that it shares with the program that steps it. Nothing of it is the
-// truth: it is what the UAV's own software was told or has found out (api/planner.hpp).
-// Frame W unless the name says otherwise.   Units: SI and radians.   Threads: one.   Deterministic.
+// The observation of a learner, as arrays in a memory block shared with the program that steps the fleet. It holds no
+// ground truth, only what the UAV's own software received or computed (api/planner.hpp).
+// Frame W, angular_velocity B; quaternions w, x, y, z; ages -1: never.   Units: SI and radians.   Threads: one.
+// Deterministic.   Shapes and meaning of all arrays: docs/how-to-python.md.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +16,7 @@
 
 namespace skein::agent {
 
-/// More boxes than this are not shown.
+/// Most boxes in an observation; further boxes are left out.
 inline constexpr std::size_t kMostBoxes = 32;
 
 class Observation {
@@ -25,14 +26,15 @@ class Observation {
   Observation(const Observation&) = delete;
   Observation& operator=(const Observation&) = delete;
 
+  /// Adds this learner's arrays to the block's layout. Call it first. @param prefix  of their names
   void lay_out(BlockLayout& layout, const std::string& prefix);
-  void use(std::byte* block);
-  /// Keeps what an exchange brought until the next write(). Every exchange.
+  void use(std::byte* block);  ///< From now on writes to this block; it must be laid out so.
+  /// Keeps detections, the last outcome and the latest scan until the next write(). Call it at every exchange.
   void note(const PlannerInput& in);
-  void write(const PlannerInput& in);
+  void write(const PlannerInput& in);  ///< Writes the observation of this exchange into the block.
 
  private:
-  /// Where a window of the map begins, in its cells, and what the map was like.
+  /// Position of the map window, in its cells, and the map's state number then.
   struct Window {
     Eigen::Vector3i from = Eigen::Vector3i::Zero();
     std::uint64_t map = 0;
@@ -59,12 +61,12 @@ class Observation {
   BlockArray<std::int8_t> linked_, peers_linked_, airborne_, goal_, map_;
   BlockArray<std::int64_t> box_count_, undelivered_, detection_count_, scan_points_;
   std::deque<DetectedPoint> detected_;
-  std::int64_t detected_since_ = 0;  ///< the last write(), those that are not shown among them
+  std::int64_t detected_since_ = 0;  ///< detections since the last write(), including those that are left out
   std::optional<Tick> scan_tick_;
   std::size_t boxes_written_ = 0;
-  Outcome::Kind outcome_ = Outcome::Kind::reached;  ///< of the last goal that came to its end
+  Outcome::Kind outcome_ = Outcome::Kind::reached;  ///< outcome of the last goal that ended
   bool has_outcome_ = false;
-  std::optional<Window> window_;  ///< that is in the block
+  std::optional<Window> window_;  ///< the window that the block holds now
 };
 
 }  // namespace skein::agent
