@@ -1,4 +1,4 @@
-// What is told of a map, of maps that are small enough to count by hand.
+// What MapFigures says of maps that are small enough to count by hand.
 #include <gtest/gtest.h>
 
 #include <cmath>

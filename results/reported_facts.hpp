@@ -8,7 +8,8 @@
 
 namespace skein::results {
 
-/// Who flew, with which DDS, what was earned, and who was out at the end. Scenario, seed and clock are the caller's.
+/// The facts that programs report: the UAVs and their planners, the DDS vendors, the score earned, and who was out at
+/// the end. The caller adds scenario, seed and clock.
 /// @param dir  of the run. @param reports  with the server's.
 RunFacts reported_facts(const std::filesystem::path& dir, const Scenario& scenario, const Reports& reports);
 
