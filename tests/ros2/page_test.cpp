@@ -3,10 +3,13 @@
 #include <signal.h>
 
 #include <fstream>
+#include <optional>
 #include <regex>
+#include <set>
 #include <sstream>
 #include <utility>
 
+#include "process/host/host_lock.hpp"
 #include "tests/howto/page_test.hpp"
 #include "tests/support/places.hpp"
 #include "workspace_fixture.hpp"
@@ -26,18 +29,18 @@ class RosPageTyped : public WorkspaceTest, public testing::WithParamInterface<Pa
   void SetUp() override {
     WorkspaceTest::SetUp();
     if (IsSkipped() || HasFatalFailure()) return;
-    std::filesystem::create_directories(checkout());
+    const auto is_ours = [&] { return (lock_ = HostLock::try_take("skein " + workspace())).has_value(); };
+    ASSERT_TRUE(eventually(is_ours, std::chrono::minutes(15))) << "another test reads pages in " << workspace();
+    const std::set<std::filesystem::path> colcons = {"ros2", "build", "install", "log", "built"};
+    for (const auto& entry : std::filesystem::directory_iterator(checkout())) {  // of another reader
+      if (!colcons.contains(entry.path().filename())) std::filesystem::remove_all(entry);
+    }
     std::filesystem::create_symlink(program("skein"), checkout() / "skein");
-    for (const char* folder : {"config", "ros2"}) {
-      std::filesystem::create_directory_symlink(source_path(folder), checkout() / folder);
-    }
-    // Its reader's colcon finds that all is built.
-    for (const char* folder : {"build", "install", "log"}) {
-      std::filesystem::create_directory_symlink(workspace() + "/" + folder, checkout() / folder);
-    }
+    std::filesystem::create_directory_symlink(source_path("config"), checkout() / "config");
   }
 
-  std::filesystem::path checkout() const { return folder() / "checkout"; }
+  /// The reader's folder is the workspace, so colcon finds that all is built.
+  std::filesystem::path checkout() const { return workspace(); }
 
   /// A shell in the reader's folder that has ROS 2 set up, and the workspace once the page has built it.
   ChildProcess& shell(const std::string& text) {
@@ -68,6 +71,7 @@ class RosPageTyped : public WorkspaceTest, public testing::WithParamInterface<Pa
 
  private:
   int shells_ = 0;
+  std::optional<HostLock> lock_;  ///< of the reader's folder
 };
 
 /// The page's domains, 40 and above, as those of a fleet.
