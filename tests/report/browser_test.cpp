@@ -30,13 +30,16 @@ class ReportInABrowser : public FleetTest {
   }
 };
 
-TEST_F(ReportInABrowser, OfWholeRuns) {
+TEST_F(ReportInABrowser, OfAWholeRun) {
   run("usual", {"towers", "--one-process", "--planner", "kios", "--duration", "60"});
+  look("usual");
+}
+
+TEST_F(ReportInABrowser, OfARunWithFaults) {
   run("faulty",
       {"towers", "--one-process", "--planner", "patrol", "--duration", "40", "--seed", "3", "--no-oracle", "--faults",
        write("faults.yaml",
              "faults:\n  - {at_s: 12, until_s: 20, station_outage: true}\n  - {at_s: 15, kill: changi}\n")});
-  look("usual");
   look("faulty");
 }
 
