@@ -147,8 +147,7 @@ void tell_who_waits(const FleetPlan& plan, const std::map<std::string, std::stri
 }
 
 int fly(const ComposeOptions& options, const FleetPlan& plan, ComposeLayout layout, const Console& console) {
-  const fs::path usual = default_results_dir(plan.scenario.name, options.run.planner, options.run.seed);
-  const fs::path dir = options.run.out.value_or(options.run.force ? usual : free_results_dir(usual));
+  const fs::path dir = results_dir_of(options.run, plan.scenario.name);
   for (const auto& [program, vendor] : dds_vendors(plan)) {
     const auto [image, variable] = image_of(plan, program);
     if (!layout.images.contains(programs::member_name(program))) layout.chosen[variable] = variable_or(variable, image);
@@ -202,14 +201,7 @@ int fly(const ComposeOptions& options, const FleetPlan& plan, ComposeLayout layo
   const auto result = write_results(
       results, dir, [] { return std::vector<std::string>(); }, console);
   if (!result) return kExitProcessFailed;
-  if (page && !options.run.view.close && !run.facts().interrupted) {
-    console.err << "the page shows the replay now; Ctrl-C ends it" << std::endl;
-    try {
-      page->replay(out.path());
-    } catch (const InputError& error) {  // the engine has let go of the port, and somebody has taken it
-      console.err << error.what() << std::endl;
-    }
-  }
+  if (page && !run.facts().interrupted) page->stay_as_replay(out.path(), options.run.view, console);
   return exit_code_of(run, *result);
 }
 

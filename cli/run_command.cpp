@@ -54,6 +54,16 @@ void warn_of_surroundings(const DomainBlock* domains, FleetRun& run) {
   }
 }
 
+/// Of what agents could read of a secured fleet all the same.
+void warn_of_exposure(const FleetPlan& plan, const PlacedFleet* placed, FleetRun& run) {
+  std::vector<std::string> exposed = exposed_files(plan);
+  if (placed != nullptr) std::ranges::copy(placed->security_warnings(), std::back_inserter(exposed));
+  for (const std::string& warning : exposed) {
+    run.view().message(warning);
+    run.facts().warnings.push_back(warning);
+  }
+}
+
 /// Connects to the hosts of --place and makes sure that the fleet can fly there. @returns null without --place.
 std::unique_ptr<PlacedFleet> place_fleet(FleetPlan& plan, const Console& console) {
   if (!plan.options.place.at) return nullptr;
@@ -116,11 +126,7 @@ int run_fleet(const RunOptions& given, const Console& console) {
     console.out << place_commands(plan, read_placement(plan)) << std::flush;
     return kExitDone;
   }
-  const auto folder = [&] {
-    const auto usual = default_results_dir(plan.scenario.name, options.planner, options.seed);
-    return options.out.value_or(options.force ? usual : free_results_dir(usual));
-  };
-  ResultsDir::check(folder(), options.force);
+  ResultsDir::check(results_dir_of(options, plan.scenario.name), options.force);
   std::optional<LivePage> page;
   if (options.view.at) plan.watched = page.emplace(view::read_endpoint(*options.view.at)).watched();
   if (options.check) check_before_flight(plan, console);
@@ -133,7 +139,7 @@ int run_fleet(const RunOptions& given, const Console& console) {
     domains = &own_domains.emplace(options.domain, domain_count(plan));
   }
   const int base_domain = domains != nullptr ? domains->base() : kFirstDomain;
-  const std::filesystem::path dir = folder();  // another run may have taken one meanwhile
+  const auto dir = results_dir_of(options, plan.scenario.name);  // another run may have taken one meanwhile
   check_outlasts(options.faults, dir);
   const ResultsDir out(dir, options.force);
 
@@ -149,12 +155,7 @@ int run_fleet(const RunOptions& given, const Console& console) {
   std::optional<SecureRun> secure;
   if (options.secure) {
     secure.emplace(plan, base_domain, out.path());
-    std::vector<std::string> exposed = exposed_files(plan);
-    if (placed) std::ranges::copy(placed->security_warnings(), std::back_inserter(exposed));
-    for (const std::string& warning : exposed) {
-      run.view().message(warning);
-      run.facts().warnings.push_back(warning);
-    }
+    warn_of_exposure(plan, placed.get(), run);
   }
   run.fly(base_domain, out.path(), secure ? secure->folders() : SecureFolders{}, std::move(placed));
 
@@ -170,10 +171,7 @@ int run_fleet(const RunOptions& given, const Console& console) {
   const auto result = write_results(results, dir, collect, console);
   if (!result) return kExitProcessFailed;
   // Who has interrupted the run has seen enough.
-  if (page && !options.view.close && !run.facts().interrupted) {
-    console.err << "the page shows the replay now; Ctrl-C ends it" << std::endl;
-    page->replay(out.path());
-  }
+  if (page && !run.facts().interrupted) page->stay_as_replay(out.path(), options.view, console);
   return exit_code_of(run, *result);
 }
 

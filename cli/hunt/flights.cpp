@@ -8,7 +8,6 @@
 #include "cli/options.hpp"
 #include "cli/properties/judge.hpp"
 #include "cli/study/side_by_side.hpp"
-#include "process/host/environment.hpp"
 #include "process/program.hpp"
 #include "results/run_folder.hpp"
 
@@ -54,9 +53,7 @@ ProgramSpec TrialFlights::start(const Trial& trial, const fs::path& dir) const {
     run.faults = dir / kFaultFile;
     std::ofstream(*run.faults) << trial.text();
   }
-  std::vector<std::string> arguments = arguments_of(run);
-  arguments.insert(arguments.begin(), program_dir() / "skein");
-  return {"", std::move(arguments), environment_with({}), dir / run_folder::kFlightLog};
+  return flight_program(arguments_of(run), dir);
 }
 
 properties::PropertySet TrialFlights::asked(const properties::PropertySet& set) const {

@@ -73,6 +73,16 @@ void LivePage::replay(const fs::path& run) {
   show(feed, view::title_of_run(run));
 }
 
+void LivePage::stay_as_replay(const std::filesystem::path& run, const ViewOptions& options, const Console& console) {
+  if (options.close) return;
+  console.err << "the page shows the replay now; Ctrl-C ends it" << std::endl;
+  try {
+    replay(run);
+  } catch (const InputError& error) {  // an engine has let go of the port, say, and somebody has taken it
+    console.err << error.what() << std::endl;
+  }
+}
+
 void LivePage::show(view::Feed& feed, const std::string& title) {
   if (!listener_) listener_.emplace(endpoint_);
   const view::Server server(listener_->fd(), key_, view::site_of(title, script_), feed);

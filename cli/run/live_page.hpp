@@ -34,6 +34,8 @@ class LivePage {
   /// Serves a finished run until the user interrupts (Ctrl-C, SIGTERM, or the terminal goes).
   /// @throws InputError when the folder holds no result, or the port is not to be had any more.
   void replay(const std::filesystem::path& run);
+  /// The same of a run that the page has followed, unless it is to close. What is in the way is told, no more.
+  void stay_as_replay(const std::filesystem::path& run, const ViewOptions& options, const Console& console);
   /// The same of what has been told already.
   void show(view::Feed& feed, const std::string& title);
 

@@ -54,6 +54,12 @@ std::filesystem::path free_results_dir(const std::filesystem::path& base) {
   return dir;
 }
 
+std::filesystem::path results_dir_of(const RunOptions& run, const std::string& scenario) {
+  if (run.out) return *run.out;
+  const std::filesystem::path usual = default_results_dir(scenario, run.planner, run.seed);
+  return run.force ? usual : free_results_dir(usual);
+}
+
 void ResultsDir::check(const std::filesystem::path& dir, bool force) {
   std::error_code error;  // of a name that is too long, or of links in a circle
   const auto kind = std::filesystem::status(dir, error).type();

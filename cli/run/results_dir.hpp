@@ -6,6 +6,8 @@
 #include <optional>
 #include <string>
 
+#include "cli/command.hpp"
+
 namespace skein::cli {
 
 /// Where a run goes when the user names no folder: runs/<scenario>-<planner>-<seed> below the current folder.
@@ -14,6 +16,9 @@ std::filesystem::path default_results_dir(const std::string& scenario, const std
 /// The first of `base`, `base`-2, `base`-3, ... that is not there yet, or is an empty folder: where a run goes if the
 /// user names no folder, so that a command can be repeated. Creates nothing.
 std::filesystem::path free_results_dir(const std::filesystem::path& base);
+
+/// The folder that the user names, or else a free one; with --force the usual one. Creates nothing.
+std::filesystem::path results_dir_of(const RunOptions& run, const std::string& scenario);
 
 /// Holds a results folder for one run: two launchers never write to the same one.
 class ResultsDir {

@@ -10,7 +10,6 @@
 #include "cli/run/fleet_plan.hpp"
 #include "cli/study/side_by_side.hpp"
 #include "process/files/atomic_file.hpp"
-#include "process/host/environment.hpp"
 #include "results/run_folder.hpp"
 
 namespace skein::cli {
@@ -76,8 +75,7 @@ class StudyRun {
     const StudyFlight& flight = plan_.flights[index];
     fs::create_directories(flight.dir);
     fs::remove(flight.dir / kFlightMark);
-    return {"", flight_arguments(plan_, flight, program_dir() / "skein"), environment_with({}),
-            flight.dir / run_folder::kFlightLog};
+    return flight_program(arguments_of(flight_options(plan_, flight)), flight.dir);
   }
 
   void on_exit(std::size_t index, const ExitStatus& exit) {

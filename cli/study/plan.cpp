@@ -175,6 +175,39 @@ std::string plain(const Json& value) {
   return joined(items);
 }
 
+/// Of the scenes, for the names of their folders.
+std::vector<std::string> stems_of(const StudyPlan& plan) {
+  std::vector<std::string> stems;
+  for (const StudyScene& scene : plan.scenes) {
+    stems.push_back(fs::path(scene.scenario).stem());
+    if (plan.options.scene_seeds) stems.back() += "-" + std::to_string(*scene.scene_seed);
+    if (scene.conditions) stems.back() += "-" + *scene.conditions;
+  }
+  return stems;
+}
+
+/// What a study goes on with, or not. @param agents, inputs  by planner; by scenario and planner
+Json settings_of(const StudyPlan& plan, const std::string& programs, const Json& agents, const Json& inputs) {
+  const StudyOptions& options = plan.options;
+  return {{"command", options.contest ? "contest" : "compare"},
+          {"skein_version", SKEIN_VERSION},
+          {"planners", plan.planners},
+          {"scenarios", plan.scenarios},
+          {"seeds", plan.seeds},
+          {"scene_seed", options.scene_seed ? Json(*options.scene_seed) : Json()},
+          {"scene_seeds", options.scene_seeds ? Json(*options.scene_seeds) : Json()},
+          {"faults", options.faults ? Json(options.faults->string()) : Json()},
+          {"secure", options.secure},
+          {"duration_s", options.duration_s ? Json(*options.duration_s) : Json()},
+          {"agent_timeout_s", options.agent_timeout_s ? Json(*options.agent_timeout_s) : Json()},
+          {"rules", options.rules ? Json(*options.rules) : Json()},
+          {"conditions", options.conditions.empty() ? Json() : Json(options.conditions)},
+          {"dds", plan.medium},
+          {"programs", programs},
+          {"agents", agents},
+          {"inputs", inputs}};
+}
+
 }  // namespace
 
 Json StudyFlight::command() const {
@@ -191,13 +224,8 @@ StudyPlan plan_study(const StudyOptions& options, AskPrograms ask) {
   list_scenes(options, plan);
   plan.seeds = parse_seeds(options.seeds);
   plan.out = fs::absolute(options.out.value_or(fs::path("runs") / (options.contest ? "contest" : "compare")));
-  std::vector<std::string> stems;
-  for (const StudyScene& scene : plan.scenes) {
-    stems.push_back(fs::path(scene.scenario).stem());
-    if (options.scene_seeds) stems.back() += "-" + std::to_string(*scene.scene_seed);
-    if (scene.conditions) stems.back() += "-" + *scene.conditions;
-  }
-  const std::vector<std::string> planner_folders = folder_names(plan.labels), scenario_folders = folder_names(stems);
+  const std::vector<std::string> planner_folders = folder_names(plan.labels),
+                                 scenario_folders = folder_names(stems_of(plan));
 
   std::string programs;
   std::set<std::string> media;
@@ -239,23 +267,7 @@ StudyPlan plan_study(const StudyOptions& options, AskPrograms ask) {
       plan.flights.push_back(std::move(flight));
     }
   }
-  plan.settings = {{"command", options.contest ? "contest" : "compare"},
-                   {"skein_version", SKEIN_VERSION},
-                   {"planners", plan.planners},
-                   {"scenarios", plan.scenarios},
-                   {"seeds", plan.seeds},
-                   {"scene_seed", options.scene_seed ? Json(*options.scene_seed) : Json()},
-                   {"scene_seeds", options.scene_seeds ? Json(*options.scene_seeds) : Json()},
-                   {"faults", options.faults ? Json(options.faults->string()) : Json()},
-                   {"secure", options.secure},
-                   {"duration_s", options.duration_s ? Json(*options.duration_s) : Json()},
-                   {"agent_timeout_s", options.agent_timeout_s ? Json(*options.agent_timeout_s) : Json()},
-                   {"rules", options.rules ? Json(*options.rules) : Json()},
-                   {"conditions", options.conditions.empty() ? Json() : Json(options.conditions)},
-                   {"dds", plan.medium},
-                   {"programs", programs},
-                   {"agents", agents},
-                   {"inputs", inputs}};
+  plan.settings = settings_of(plan, programs, agents, inputs);
   plan.command_line = command_line(plan);
   return plan;
 }
@@ -315,16 +327,14 @@ std::string repeating_command(const StudyPlan& plan, const StudyFlight& flight) 
   return line;
 }
 
-std::vector<std::string> flight_arguments(const StudyPlan& plan, const StudyFlight& flight, const fs::path& skein) {
+RunOptions flight_options(const StudyPlan& plan, const StudyFlight& flight) {
   RunOptions run = run_options(plan.options, plan.scenes[flight.scenario], plan.planners[flight.planner]);
   run.seed = flight.seed;
   run.agent = flight.agent;
   run.one_process = flight.one_process;
   run.out = flight.dir;
   run.force = true;
-  std::vector<std::string> arguments = arguments_of(run);
-  arguments.insert(arguments.begin(), skein);
-  return arguments;
+  return run;
 }
 
 }  // namespace skein::cli

@@ -62,8 +62,7 @@ std::vector<std::string> differing_settings(const Json& then, const Json& now);
 /// What a user types to fly the same again.
 std::string repeating_command(const StudyPlan& plan, const StudyFlight& flight);
 
-/// The `skein run` that flies it. @param skein  the program.
-std::vector<std::string> flight_arguments(const StudyPlan& plan, const StudyFlight& flight,
-                                          const std::filesystem::path& skein);
+/// The `skein run` that flies it.
+RunOptions flight_options(const StudyPlan& plan, const StudyFlight& flight);
 
 }  // namespace skein::cli

@@ -4,9 +4,16 @@
 #include <cstdlib>
 
 #include "cli/threads.hpp"
+#include "process/host/environment.hpp"
 #include "process/program.hpp"
+#include "results/run_folder.hpp"
 
 namespace skein::cli {
+
+ProgramSpec flight_program(std::vector<std::string> arguments, const std::filesystem::path& dir) {
+  arguments.insert(arguments.begin(), program_dir() / "skein");
+  return {"", std::move(arguments), environment_with({}), dir / run_folder::kFlightLog};
+}
 
 bool SideBySide::fly(std::deque<std::size_t> waiting, const Start& start, const Over& over) {
   for (;;) {

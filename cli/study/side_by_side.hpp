@@ -2,15 +2,21 @@
 #pragma once
 
 #include <deque>
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "cli/console.hpp"
 #include "cli/host/supervisor.hpp"
 
 namespace skein::cli {
+
+/// A launcher for one flight. Its log is in the flight's folder.
+/// @param arguments  of `skein`, beginning with `run`
+ProgramSpec flight_program(std::vector<std::string> arguments, const std::filesystem::path& dir);
 
 /// From one thread, which must live as long as the flights.
 class SideBySide {

@@ -24,16 +24,9 @@ constexpr double kReference_s = 20.0;    ///< of the mission, at most
 constexpr std::size_t kUsualSlots = 64;  ///< of a cluster that nobody has asked
 constexpr std::size_t kMostTold = 20;    ///< units, one by one
 
-/// As the launcher is told to fly it.
-std::vector<std::string> arguments(const StudyPlan& plan, const StudyFlight& flight) {
-  std::vector<std::string> words = flight_arguments(plan, flight, "skein");
-  words.erase(words.begin());
-  return words;
-}
-
 SweepFlight sweep_flight(const StudyPlan& plan, std::size_t index) {
   const StudyFlight& flight = plan.flights[index];
-  return {index, flight.dir, arguments(plan, flight), flight.command()};
+  return {index, flight.dir, arguments_of(flight_options(plan, flight)), flight.command()};
 }
 
 double reference_duration_s(const StudyPlan& plan) { return std::min(plan.flights.front().mission_s, kReference_s); }
@@ -43,8 +36,7 @@ std::vector<SweepFlight> references(const StudyPlan& plan, const SweepFolder& fo
   std::vector<SweepFlight> references;
   for (std::size_t i = 0; i < plan.flights.size() && references.size() < plan.planners.size(); ++i) {
     if (plan.flights[i].planner != references.size()) continue;
-    const Command first = parse_command_line(arguments(plan, plan.flights[i]));
-    RunOptions run = std::get<RunOptions>(first);
+    RunOptions run = flight_options(plan, plan.flights[i]);
     run.duration_s = reference_duration_s(plan);
     run.record = "none";
     run.attainable = run.report = false;

@@ -19,7 +19,6 @@
 #include "core/text/suggestion.hpp"
 #include "core/text/text.hpp"
 #include "core/types.hpp"
-#include "process/host/environment.hpp"
 #include "process/program.hpp"
 #include "results/run_folder.hpp"
 
@@ -95,11 +94,7 @@ SweepNode this_machine(const Console& console) {
   node.fly = [&console](const SweepFlight& flight, const fs::path& out) {
     SideBySide sky(1, console);
     ExitStatus end;
-    const auto start = [&](std::size_t) -> ProgramSpec {
-      std::vector<std::string> arguments = arguments_into(flight, out);
-      arguments.insert(arguments.begin(), program_dir() / "skein");
-      return {"", std::move(arguments), environment_with({}), out / run_folder::kFlightLog};
-    };
+    const auto start = [&](std::size_t) { return flight_program(arguments_into(flight, out), out); };
     if (!sky.fly({0}, start, [&](std::size_t, const ExitStatus& exit) { end = exit; })) throw Interrupted{};
     return end;
   };
