@@ -59,6 +59,17 @@ Violations check_clocks(const Tree& tree);
 /// No file of C++ or Python beyond `most_lines`.
 Violations check_length(const Tree& tree, std::size_t most_lines = 400);
 
+/// A function that may be longer than others.
+struct LongFunction {
+  std::string path, name;  ///< "cli/options.cpp", "add_run"
+  std::string why;
+};
+/// The list of this project.
+const std::vector<LongFunction>& long_functions();
+/// No function of C++ but these has more than `most_lines` between its braces, and each of these has. Tests may: they
+/// tell a story.
+Violations check_functions(const Tree& tree, const std::vector<LongFunction>& known, std::size_t most_lines = 60);
+
 /// No line of C++, Python, CMake or shell beyond `most_columns`; lines that are nothing but the text of a literal may.
 Violations check_columns(const Tree& tree, std::size_t most_columns = 120);
 

@@ -212,6 +212,18 @@ TEST_F(MadeUpTree, LongFilesAreFound) {
   EXPECT_EQ(places(check_length(tree(), 3)), (Places{"core/long.cpp:4", "python/long.py:4"}));
 }
 
+TEST_F(MadeUpTree, LongFunctionsAreFoundUnlessTheListHasThem) {
+  const std::string three = " {\n1;\nif (x) {\n}\n}\n";
+  file("core/a.cpp", "namespace a {\nint X::f(int x) const" + three + "struct B {\n  void g()" + three + "};\n}\n");
+  file("core/b.cpp", "X::X(int x)\n    : a_(x), b_{x}" + three + "const int kTable[] = {\n1,\n2,\n3,\n4,\n};\n");
+  file("core/short.cpp", "void h() {\n1;\n2;\n}\nvoid long_one() { // {\n}\n");
+  file("core/a_test.cpp", "void f()" + three);
+  EXPECT_EQ(places(check_functions(tree(), {}, 2)), (Places{"core/a.cpp:2", "core/a.cpp:8", "core/b.cpp:2"}));
+  EXPECT_EQ(places(check_functions(tree(), {{"core/a.cpp", "f", ""}, {"core/a.cpp", "g", ""}}, 2)),
+            Places{"core/b.cpp:2"});
+  EXPECT_EQ(places(check_functions(tree(), {{"core/short.cpp", "h", ""}}, 3)), Places{"core/short.cpp:1"});
+}
+
 TEST_F(MadeUpTree, LongLinesAreFoundInAllCode) {
   file("core/good.cpp", "1234\n12\u00e94\n");
   file("docs/page.md", "12345\n");

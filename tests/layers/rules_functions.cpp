@@ -1,0 +1,102 @@
+// The rule of how long functions are.
+#include <algorithm>
+#include <cctype>
+#include <set>
+
+#include "tests/layers/rules.hpp"
+
+namespace skein::layers {
+namespace {
+
+struct Function {
+  std::string name;
+  std::size_t line = 0;   ///< of its opening brace, from 1
+  std::size_t lines = 0;  ///< between its braces
+};
+
+bool is_part_of_name(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
+
+/// The words of a declaration, up to where it says what it is.
+bool declares_no_function(const std::string& head) {
+  static const std::set<std::string> kOthers = {"namespace", "class", "struct", "enum", "union", "extern"};
+  const auto begin = std::ranges::find_if(head, is_part_of_name);
+  return head.find('(') == std::string::npos ||
+         kOthers.contains({begin, std::find_if_not(begin, head.end(), is_part_of_name)});
+}
+
+/// "plan" of "FleetPlan plan(const Options& options)".
+std::string name_in(const std::string& head) {
+  const auto end =
+      std::find_if(head.rend() - static_cast<std::ptrdiff_t>(head.find('(')), head.rend(), is_part_of_name);
+  return {std::find_if_not(end, head.rend(), is_part_of_name).base(), end.base()};
+}
+
+struct Brace {
+  std::string function;  ///< whose body it opens; empty: of none
+  std::string head;      ///< goes on after it
+  std::size_t line = 0;
+};
+
+/// By braces, in code that clang-format has seen. Lambdas and classes inside a function are part of it.
+std::vector<Function> functions_of(const SourceFile& file) {
+  std::vector<Function> functions;
+  std::vector<Brace> open;
+  std::string head;  // since the last statement or body, outside of functions
+  const auto in_function = [&] { return !std::ranges::all_of(open, &std::string::empty, &Brace::function); };
+  for (std::size_t i = 0; i < file.code.size(); ++i) {
+    if (file.code[i].starts_with("#")) continue;
+    for (const char c : file.code[i]) {
+      if (c == '{') {
+        const bool initializes = !head.empty() && is_part_of_name(head.back());  // "b_{x}"
+        const bool begins = !initializes && !in_function() && !declares_no_function(head);
+        open.push_back({begins ? name_in(head) : "", initializes ? head : "", i + 1});
+        head.clear();
+      } else if (c == '}' && !open.empty()) {
+        const Brace& last = open.back();
+        if (!last.function.empty()) functions.push_back({last.function, last.line, i - std::min(i, last.line)});
+        head = last.head;
+        open.pop_back();
+      } else if (c == ';') {
+        head.clear();
+      } else {
+        head += c;
+      }
+    }
+    head += ' ';
+  }
+  return functions;
+}
+
+}  // namespace
+
+const std::vector<LongFunction>& long_functions() {
+  static const std::vector<LongFunction> kLong = {
+      {"cli/options.cpp", "add_run", "a table: one statement for each option"},
+      {"cli/hunt_options.cpp", "add_hunt", "the same"},
+      {"cli/tool_options.cpp", "add_bench", "the same"},
+      {"core/expressions/signal_table.cpp", "make_table", "a table: one row for each signal"},
+      {"report/style.cpp", "base_style", "one literal: a style sheet"},
+      {"report/run_style.cpp", "run_style", "the same"},
+  };
+  return kLong;
+}
+
+Violations check_functions(const Tree& tree, const std::vector<LongFunction>& known, std::size_t most_lines) {
+  Violations violations;
+  for (const SourceFile& file : tree) {
+    if (!file.is_cpp() || file.is_test()) continue;
+    for (const Function& function : functions_of(file)) {
+      const bool is_known = std::ranges::any_of(
+          known, [&](const LongFunction& one) { return one.path == file.path && one.name == function.name; });
+      const bool is_long = function.lines > most_lines;
+      if (is_long == is_known) continue;
+      const std::string place = file.path + ":" + std::to_string(function.line) + ": " + function.name;
+      violations.push_back(is_long ? place + " has " + std::to_string(function.lines) + " lines, more than " +
+                                         std::to_string(most_lines) + "; has it two jobs?"
+                                   : place + " is short and needs no reason in the list of long functions any more");
+    }
+  }
+  return violations;
+}
+
+}  // namespace skein::layers
