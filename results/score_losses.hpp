@@ -3,41 +3,14 @@
 // estimate - score == sum of all losses, to the last bit.
 #pragma once
 
-#include <array>
 #include <map>
 #include <optional>
 #include <vector>
 
-#include "core/types.hpp"
+#include "results/causes.hpp"
 #include "results/run_record.hpp"
 
 namespace skein::results {
-
-/// In the order in which they are told.
-enum class LossCause {
-  none,              ///< nothing is lost
-  out_of_reach,      ///< a camera alone could get there, a whole UAV cannot
-  never_in_picture,  ///< no camera ever had it in the picture and in sight
-  below_threshold,   ///< some had, but not well enough to count
-  voided,            ///< the best picture was of a UAV that collided
-  not_delivered,     ///< the best picture never came to the station
-  distance,          ///< the best picture counts; it was taken from too far away,
-  tilt,              ///< too much from the side,
-  blur,              ///< or in too much motion, whichever is worst
-  above_estimate,    ///< it scored better than the estimate: the loss is negative
-};
-constexpr std::array<EnumName<LossCause>, 10> enum_names(LossCause) {
-  return {{{"none", LossCause::none},
-           {"out_of_reach", LossCause::out_of_reach},
-           {"never_in_picture", LossCause::never_in_picture},
-           {"below_threshold", LossCause::below_threshold},
-           {"voided", LossCause::voided},
-           {"not_delivered", LossCause::not_delivered},
-           {"distance", LossCause::distance},
-           {"tilt", LossCause::tilt},
-           {"blur", LossCause::blur},
-           {"above_estimate", LossCause::above_estimate}}};
-}
 
 /// What is known of one interest point after a run.
 struct PointRecord {
