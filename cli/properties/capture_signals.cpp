@@ -211,8 +211,7 @@ FolderSignals::Values FolderSignals::missed(const std::string& uav, const result
   std::size_t from = exchange_at(*healed);
   for (std::size_t k = from; k < exchanges_; ++k) {
     if (restarts[k] > restarts[from] || members[k] < 0.5) from = k;
-    if (restarts[k] < 1.0) continue;
-    if (captures[k] > captures[from]) break;
+    if (restarts[k] < 1.0 || captures[k] > captures[from]) continue;
     const double back_s = static_cast<double>(k - from) * period_s() - kWayToWork_s;
     values[k] = static_cast<double>(std::ranges::upper_bound(undone_s, back_s + 1e-6) - undone_s.begin());
   }

@@ -74,6 +74,16 @@ TEST_F(MissedWork, IsOverWithTheFirstPhotograph) {
   EXPECT_EQ(missed_at(80.0), 0.0);
 }
 
+TEST_F(MissedWork, BeginsAnewWhenTheProgramIsAwayAgain) {
+  run_.result["sim_time_s"] = 160.0;
+  run_.events.push_back({20 * 30, "captured", "a", "1"});
+  run_.events.push_back({20 * 90, "left", "a", ""});
+  run_.events.push_back({20 * 91, "joined", "a", ""});
+  EXPECT_EQ(missed_at(89.0), 0.0) << "it photographs";
+  EXPECT_EQ(missed_at(91.0 + 40.0 + 4.9), 0.0);
+  EXPECT_EQ(missed_at(91.0 + 40.0 + 17.0), 3.0);
+}
+
 TEST_F(MissedWork, IsNotKnownOfWhoIsAwayOrWhileAFaultLasts) {
   run_.result["faults"].push_back(fault(300, nullptr));
   EXPECT_EQ(missed_at(80.0), 0.0);

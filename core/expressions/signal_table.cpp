@@ -71,11 +71,12 @@ std::vector<SignalInfo> make_table() {
              "time; 0 if the program never left"),
       number("taken_over", {uav}, 1, kPlainNumber, kAfterwards,
              "how many of the points of `in_hand(uav)` other UAVs have photographed since the program first left"),
-      number("missed", {uav}, 1, kPlainNumber, kAfterwards,
-             "points that a UAV whose program was away should have photographed by now, but that no UAV photographs in "
-             "the whole run. Let T be the time since the program came back or the last fault ended, whichever was "
-             "later, less 40 s: the points are those that this UAV photographs in the first T of the same run without "
-             "faults. 0 if the program was never away, and from the UAV's next capture on"),
+      number(
+          "missed", {uav}, 1, kPlainNumber, kAfterwards,
+          "points that a UAV whose program was away should have photographed by now, but that no UAV photographs in "
+          "the whole run. Let T be the time since the program came back or the last fault ended, whichever was "
+          "later, less 40 s: the points are those that this UAV photographs in the first T of the same run without "
+          "faults. 0 if the program was never away, and from the UAV's next capture until its program is away again"),
       number("without_work", {uav}, 1, kSeconds, kAfterwards,
              "open time since the UAV last did a least amount of work, less excused waiting, by the referee's truth; 0 "
              "while it is out or its program is away"),
