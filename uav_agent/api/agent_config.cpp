@@ -43,6 +43,7 @@ AgentConfig agent_config(const Scenario& scenario, UavIndex self) {
   config.station_position = scenario.station_position;
   if (config.vehicle.lidar) know_conditions(scenario.conditions.lidar, *config.vehicle.lidar);
   config.battery = scenario.conditions.battery;
+  config.odometry = scenario.conditions.odometry;
   return config;
 }
 

@@ -30,7 +30,8 @@ struct AgentConfig {
   double duration_s = 600.0;
   double exchange_period_s = 0.05;
   Vector3d station_position = Vector3d::Zero();
-  BatteryConditions battery;  ///< of its own vehicle
+  BatteryConditions battery;    ///< of its own vehicle
+  OdometryConditions odometry;  ///< how far odometry errs here, its own and its mates'
 
   const FleetMember& me() const { return fleet.at(self); }
   /// The first of the fleet that has a LiDAR; none: nobody ever sees what is free.

@@ -16,6 +16,8 @@ constexpr double kLeastSpeedShare = 0.5;
 constexpr double kLeastGroundMps = 1.0;
 constexpr double kMarginS = 8.0, kDetours = 1.15;
 
+double square(double x) { return x * x; }
+
 }  // namespace
 
 Caution::Caution(const FlightConfig& config, const AgentConfig& agent)
@@ -28,9 +30,27 @@ void Caution::update(const PlannerInput& in) {
   if (!config_.reacts) return;
   watch_wind(in.wind_W);
   watch_battery(in);
-  const double drift_m = config_.drift_sigmas * in.uncertainty.position_m.maxCoeff();
   const double pushed_m = mean_wind_W_ ? config_.wind_error_s * mean_wind_W_->norm() : 0.0;
-  error_m_ = std::min(kMostErrorM, drift_m + pushed_m);
+  const double told_m = in.uncertainty.position_m.maxCoeff();
+  // Of structure nobody knows in which direction it is: the deviation along one of chance.
+  const double any_way_m = in.uncertainty.position_m.norm() / std::sqrt(3.0);
+  const auto kept_off = [&](double deviation_m) {
+    return std::min(kMostErrorM, config_.drift_sigmas * deviation_m + pushed_m);
+  };
+  errors_ = {kept_off(drift_since_seen_m(any_way_m)), kept_off(std::sqrt(2.0) * any_way_m), kept_off(told_m)};
+}
+
+/// Deviation of what a LiDAR has seen within the last period of its servo: of a Gauss-Markov error with time constant
+/// T, e(t + s) - e(t) has the variance 2 sigma^2 (1 - exp(-s/T)), and an offset that stays is none. While the fix is
+/// lost, and for so long after it, what the odometry tells beyond its usual deviation counts, too.
+double Caution::drift_since_seen_m(double told_m) {
+  const OdometryConditions& odometry = agent_.odometry;
+  const double told2 = square(told_m), noise2 = square(odometry.noise_sigma_m);
+  const double drifts2 = (2.0 * square(odometry.horizontal_sigma_m) + square(odometry.vertical_sigma_m)) / 3.0;
+  const double usual2 = drifts2 + square(odometry.bias_sigma_m) + noise2;
+  lost2_ = std::max(told2 - usual2, lost2_ * std::exp(-agent_.exchange_period_s / config_.look_s));
+  const double anew = -std::expm1(-config_.look_s / odometry.time_constant_s);
+  return std::sqrt(2.0 * (std::min(told2, drifts2) * anew + noise2) + lost2_);
 }
 
 void Caution::watch_wind(const std::optional<Vector3d>& wind_W) {

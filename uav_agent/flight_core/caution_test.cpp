@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "core/random_stream.hpp"
 #include "uav_agent/flight_core/flight_core.hpp"
 #include "uav_agent/testing/flown_uav.hpp"
@@ -39,23 +41,76 @@ struct Told : FlownUav {
 TEST(Caution, ChangesNothingWhereNothingIsTold) {
   Told uav;
   uav.caution.update(uav.told());
-  EXPECT_EQ(uav.caution.error_m(), 0.0);
+  EXPECT_EQ(uav.caution.errors().seen_m, 0.0);
+  EXPECT_EQ(uav.caution.errors().told_m, 0.0);
+  EXPECT_EQ(uav.caution.errors().peers_m, 0.0);
   EXPECT_EQ(uav.caution.most_mps(), std::numeric_limits<double>::infinity());
   EXPECT_FALSE(uav.caution.must_land(uav.told()));
 }
 
 TEST(Caution, KeepsFartherOffByCovarianceAndWindUpToABound) {
   Told uav;
+  const double sigmas = uav.flight_config.drift_sigmas, pushed_m = uav.flight_config.wind_error_s * 8.0;
   uav.uncertainty.position_m = {0.1, 0.1, 0.2};
+  const double any_way_m = std::sqrt(0.06 / 3.0);
   uav.caution.update(uav.told());
-  EXPECT_NEAR(uav.caution.error_m(), uav.flight_config.drift_sigmas * 0.2, 1e-12);
+  EXPECT_NEAR(uav.caution.errors().seen_m, sigmas * any_way_m, 1e-12) << "nothing is known of how it drifts";
+  EXPECT_NEAR(uav.caution.errors().told_m, sigmas * any_way_m * std::sqrt(2.0), 1e-12) << "both err";
+  EXPECT_NEAR(uav.caution.errors().peers_m, sigmas * 0.2, 1e-12);
   uav.wind_W = Vector3d(0, 8, 0);
   uav.caution.update(uav.told());
-  EXPECT_NEAR(uav.caution.error_m(), uav.flight_config.drift_sigmas * 0.2 + uav.flight_config.wind_error_s * 8.0,
-              1e-12);
+  EXPECT_NEAR(uav.caution.errors().seen_m, sigmas * any_way_m + pushed_m, 1e-12);
+  EXPECT_NEAR(uav.caution.errors().peers_m, sigmas * 0.2 + pushed_m, 1e-12);
   uav.uncertainty.position_m = {5, 5, 5};
   uav.caution.update(uav.told());
-  EXPECT_EQ(uav.caution.error_m(), 1.0);
+  for (const double error_m :
+       {uav.caution.errors().seen_m, uav.caution.errors().told_m, uav.caution.errors().peers_m}) {
+    EXPECT_EQ(error_m, 1.0);
+  }
+}
+
+// Against drawn errors: how far the position drifts in the time in which a LiDAR sees everything again.
+TEST(Caution, CountsWithTheDriftSinceStructureWasSeen) {
+  for (int seed = 0; seed < 12; ++seed) {
+    RandomStream draw(static_cast<std::uint64_t>(seed), "caution_test", 1);
+    Told uav;
+    OdometryConditions& odometry = uav.agent.odometry;
+    odometry.horizontal_sigma_m = odometry.vertical_sigma_m = draw.uniform(0.05, 0.2);
+    odometry.time_constant_s = draw.uniform(10.0, 200.0);
+    odometry.bias_sigma_m = draw.uniform(0.0, 0.2);
+    odometry.noise_sigma_m = draw.uniform(0.0, 0.02);
+    const double sigma_m = odometry.horizontal_sigma_m;
+    const double keeps = std::exp(-uav.flight_config.look_s / odometry.time_constant_s);
+    double squares = 0.0;
+    constexpr int kTimes = 20000;
+    for (int i = 0; i < kTimes; ++i) {
+      const double before_m = sigma_m * draw.normal(), bias_m = odometry.bias_sigma_m * draw.normal();
+      const double now_m = keeps * before_m + sigma_m * std::sqrt(1.0 - keeps * keeps) * draw.normal();
+      const double noise_m = odometry.noise_sigma_m * (draw.normal() - draw.normal());
+      squares += std::pow(now_m + bias_m - before_m - bias_m + noise_m, 2);
+    }
+    uav.uncertainty.position_m.setConstant(
+        std::sqrt(std::pow(sigma_m, 2) + std::pow(odometry.bias_sigma_m, 2) + std::pow(odometry.noise_sigma_m, 2)));
+    uav.caution.update(uav.told());
+    const double drift_m = uav.caution.errors().seen_m / uav.flight_config.drift_sigmas;
+    EXPECT_NEAR(drift_m / std::sqrt(squares / kTimes), 1.0, 0.03) << seed;
+    EXPECT_LT(uav.caution.errors().seen_m, uav.caution.errors().told_m) << seed;
+  }
+}
+
+TEST(Caution, CountsWithALostFixAndForAWhileAfterIt) {
+  Told uav;
+  OdometryConditions& odometry = uav.agent.odometry;
+  odometry.horizontal_sigma_m = odometry.vertical_sigma_m = 0.1;
+  const auto seen_m = [&](double told_m, double for_s) {
+    uav.uncertainty.position_m.setConstant(told_m);
+    for (double t = 0.0; t < for_s; t += uav.agent.exchange_period_s) uav.caution.update(uav.told());
+    return uav.caution.errors().seen_m;
+  };
+  const double usual_m = seen_m(0.1, 1.0), lost_m = seen_m(0.4, 1.0);
+  EXPECT_GT(lost_m, uav.flight_config.drift_sigmas * std::sqrt(0.4 * 0.4 - 0.1 * 0.1));
+  EXPECT_GT(seen_m(0.1, 0.05), 0.95 * lost_m) << "its map is of the time without a fix";
+  EXPECT_NEAR(seen_m(0.1, 20.0 * uav.flight_config.look_s), usual_m, 1e-3);
 }
 
 TEST(Caution, FliesSlowerInGustsAndNotInASteadyWind) {
@@ -116,7 +171,9 @@ TEST(Caution, CanBeTurnedOff) {
   uav.wind_W = Vector3d(9, 0, 0);
   uav.battery = BatteryStatus{.charge = 0.01};
   uav.caution.update(uav.told());
-  EXPECT_EQ(uav.caution.error_m(), 0.0);
+  EXPECT_EQ(uav.caution.errors().seen_m, 0.0);
+  EXPECT_EQ(uav.caution.errors().told_m, 0.0);
+  EXPECT_EQ(uav.caution.errors().peers_m, 0.0);
   EXPECT_FALSE(uav.caution.must_land(uav.told()));
 }
 

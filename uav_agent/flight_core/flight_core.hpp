@@ -31,7 +31,7 @@ class FlightCore {
   /// Once per exchange, before anything else.
   void update(const PlannerInput& in) {
     caution_.update(in);
-    filter_.expect(caution_.error_m());
+    filter_.expect(caution_.errors());
     navigator_.update(in);
     recovery_.update(in);
   }

@@ -51,19 +51,24 @@ std::vector<Vector3d> thinned(const std::vector<Vector3d>& way_W) {
 SafetyFilter::SafetyFilter(const FlightConfig& config, const AgentConfig& agent)
     : config_(config), agent_(agent), assumes_boxes_(!agent.first_explorer()) {}
 
-double SafetyFilter::error_m(Role role, double speed_mps) const {
-  return (role == Role::explorer ? config_.error_m : config_.light_error_m) + config_.error_per_mps_s * speed_mps +
-         more_error_m_;
+double SafetyFilter::tracking_error_m(Role role, double speed_mps) const {
+  return (role == Role::explorer ? config_.error_m : config_.light_error_m) + config_.error_per_mps_s * speed_mps;
 }
 
 double SafetyFilter::tube_m(double speed_mps, double halo_m) const {
-  return agent_.me().body_radius_m + halo_m + error_m(agent_.me().role, speed_mps);
+  const bool sees = agent_.me().role == Role::explorer;
+  return agent_.me().body_radius_m + halo_m + tracking_error_m(agent_.me().role, speed_mps) +
+         (sees ? errors_.seen_m : errors_.told_m);
+}
+
+double SafetyFilter::tube_of_told_m(std::size_t uav) const {
+  return tube_m(0.0) - agent_.me().body_radius_m + agent_.fleet[uav].body_radius_m + (errors_.told_m - errors_.seen_m);
 }
 
 double SafetyFilter::apart_m(std::size_t uav, double speed_mps) const {
   const FleetMember& other = agent_.fleet[uav];
-  return agent_.me().body_radius_m + other.body_radius_m + error_m(agent_.me().role, speed_mps) +
-         error_m(other.role, 0.0) + config_.peer_margin_m;
+  return agent_.me().body_radius_m + other.body_radius_m + tracking_error_m(agent_.me().role, speed_mps) +
+         tracking_error_m(other.role, 0.0) + 2.0 * errors_.peers_m + config_.peer_margin_m;
 }
 
 std::optional<TrajectoryCommand> SafetyFilter::step(Tracker& tracker, const Facts& facts, double most_mps,

@@ -36,6 +36,13 @@ struct Held {
   std::optional<std::size_t> peer = {};  ///< which one
 };
 
+/// On top of the tracking error [m].
+struct ExpectedErrors {
+  double seen_m = 0.0;   ///< of structure that the UAV's own LiDAR sees again and again
+  double told_m = 0.0;   ///< of structure that others have told of
+  double peers_m = 0.0;  ///< of each of two UAVs
+};
+
 class SafetyFilter {
  public:
   struct Facts {
@@ -53,8 +60,8 @@ class SafetyFilter {
   /// @param retraces  it flies back along its own trail: its body has been there.
   std::optional<TrajectoryCommand> step(Tracker& tracker, const Facts& facts, double most_mps, bool retraces = false);
 
-  /// From now on, bodies are off by so much more than their tracking error, this UAV's and the others'.
-  void expect(double more_m) { more_error_m_ = more_m; }
+  /// From now on, bodies are off by so much more than their tracking error.
+  void expect(const ExpectedErrors& errors) { errors_ = errors; }
   /// From now on, what is outside all boxes is taken to be free, or not.
   void assume_boxes(bool assume) { assumes_boxes_ = assume; }
   bool assumes_boxes() const { return assumes_boxes_; }
@@ -64,6 +71,8 @@ class SafetyFilter {
   bool proved(const Vector3d& p_W, const WorldMap& map, const std::vector<OrientedBox>& boxes) const;
   /// Radius of what must be free about a body's centre at a speed.
   double tube_m(double speed_mps) const { return tube_m(speed_mps, kHaloM); }
+  /// The same about another UAV at rest that has no LiDAR, and flies by what this one tells it.
+  double tube_of_told_m(std::size_t uav) const;
 
   /// How far this UAV's centre is kept off another one's: bodies, both tracking errors, and a margin.
   double apart_m(std::size_t uav, double speed_mps) const;
@@ -85,7 +94,7 @@ class SafetyFilter {
   using Cube = WorldMap::Cube;
 
   double tube_m(double speed_mps, double halo_m) const;
-  double error_m(Role role, double speed_mps) const;
+  double tracking_error_m(Role role, double speed_mps) const;
   bool has_room(const Facts& facts) const;
   std::vector<PeerReach> reach_of_peers(const Facts& facts) const;
   std::optional<TrajectoryCommand> move_on(Tracker& tracker, const Facts& facts, double most_mps,
@@ -98,7 +107,7 @@ class SafetyFilter {
   const FlightConfig& config_;
   const AgentConfig& agent_;
   bool assumes_boxes_;
-  double more_error_m_ = 0.0;
+  ExpectedErrors errors_;
   Held held_;
   Counts counts_;
   std::vector<Cube> cubes_;  ///< scratch

@@ -39,7 +39,7 @@ bool Showing::has_risen(std::size_t uav, const PlannerInput& in) const {
 }
 
 bool Showing::column_known(std::size_t uav, const WorldMap& map) const {
-  const double radius_m = filter_.tube_m(0.0) - agent_.me().body_radius_m + agent_.fleet[uav].body_radius_m;
+  const double radius_m = filter_.tube_of_told_m(uav);
   Vector3d low_W = agent_.fleet[uav].p_WB_start, top_W = low_W;
   low_W.z() += radius_m + 1.0;
   top_W.z() += kColumnTopM;
