@@ -119,6 +119,9 @@ class Listener:
         listed = isinstance(topics, (Sequence, Mapping)) and not isinstance(topics, str)
         if not listed or not topics or not all(isinstance(topic, str) for topic in topics):
             raise InputError(f"topics: must be a list of names like '/jurong/gimbal', not {topics!r:.80}")
+        for name, text in (("node", node), ("dds", dds)):
+            if text is not None and not isinstance(text, str):
+                raise InputError(f"{name}: must be a text, not {text!r:.80}")
         if whole("most", str(most), 10**9) < 1:
             raise InputError("most: must be at least 1")
         named = dict(topics) if isinstance(topics, Mapping) else dict.fromkeys(topics, "")
@@ -144,6 +147,8 @@ class Listener:
         _open.add(self)
 
     def _type(self, topic: str, of: str) -> str:
+        if not isinstance(of, str):
+            raise InputError(f"topics: the type of {topic} must be a name like 'std_msgs/msg/String', not {of!r:.80}")
         if of:
             messages.type_named(of)
             return of

@@ -68,8 +68,8 @@ def variable(name: str, value: Any) -> str:
 
 
 def whole(name: str, text: str, most: int) -> int:
-    if not text.isascii() or not text.isdigit() or int(text) > most:
-        raise InputError(f"{name}: must be a whole number up to {most}, not {text!r}")
+    if not text.isascii() or not text.isdigit() or len(text) > 20 or int(text) > most:
+        raise InputError(f"{name}: must be a whole number up to {most}, not {text!r:.80}")
     return int(text)
 
 
@@ -99,6 +99,9 @@ class Client:
             radio = native.radio(file, self.name)
         self._radio = {topic: of for topic, of, _ in radio}
         self._sends = {topic for topic, _, sends in radio if sends}
+        for option, wanted in (("scans", scans), ("key_frames", key_frames)):
+            if not isinstance(wanted, bool):
+                raise InputError(f"{option}: must be True or False, not {wanted!r:.80}")
         self._options = {option for option, wanted in (("scans", scans), ("key_frames", key_frames)) if wanted}
         for one in (*read, *debug):
             if not isinstance(one, str):
