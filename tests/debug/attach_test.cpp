@@ -46,7 +46,9 @@ TEST_F(Attach, GdbLooksIntoAFlyingProgramAndLeavesItFlying) {
 
 TEST_F(Attach, WhoeverLooksInAndGoesOnChangesNothing) {
   SKEIN_NEEDS_GDB();
-  const Arguments flight = {scenario_, "--planner", "patrol", "--duration", "400", "--no-oracle"};
+  // On a busy machine gdb reads symbols for longer than a fleet usually waits.
+  const Arguments flight = {scenario_, "--planner",   "patrol",          "--duration",
+                            "400",     "--no-oracle", "--agent-timeout", "600"};
   SkeinRun& fleet = start("fleet", flight);
   ASSERT_TRUE(fleet.wait_until_flying()) << fleet.err();
   ChildProcess& gdb = typed("gdb", {"skein", "attach", "changi", "--run", fleet.dir()},
