@@ -40,6 +40,7 @@ inline constexpr std::array kBreakEvents = {"collision", "rejected", "lost", "fa
 struct ViewOptions {
   std::optional<std::string> at;     ///< endpoint, as view::read_endpoint() reads it; none: no page is served
   std::optional<std::string> speed;  ///< pace of a watched flight, as view::read_speed() reads it
+  std::optional<double> pause_at_s;  ///< simulated time at which the flight pauses until the page says otherwise
   bool close = false;                ///< the page ends with the run, instead of staying as its replay
   bool browser = true;               ///< open the user's browser, if there is one
 };

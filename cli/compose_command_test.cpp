@@ -100,6 +100,7 @@ TEST_F(ComposeCommand, ThePagesKeyLiesBesideTheFileForItsOwnerAlone) {
   EXPECT_THROW(file_of({"--view"}), InputError) << "to where?";
   EXPECT_THROW(file_of({"--view", "flier:8080", "--file", file}), InputError);
   EXPECT_THROW(file_of({"--view", "--speed", "2", "--clock", "realtime", "--file", file}), InputError);
+  EXPECT_THROW(file_of({"--view", "--pause-at", "2", "--clock", "realtime", "--file", file}), InputError);
 }
 
 TEST_F(ComposeCommand, EachProgramGetsAFolderOfKeysThatOnlyItsOwnerReads) {

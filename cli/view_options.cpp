@@ -61,6 +61,13 @@ void add_view_options(CLI::App& command, ViewOptions& view) {
                   "somebody flies by hand)")
       ->type_name("SPEED")
       ->needs(watched);
+  command
+      .add_option("--pause-at", view.pause_at_s,
+                  "Pause a run that is watched at this simulated time [s], 0: before it begins, until the page lets it "
+                  "go on")
+      ->type_name("SECONDS")
+      ->check(CLI::Range(0.0, 1e6))
+      ->needs(watched);
   command.add_flag("--view-close", view.close, "The page ends with the run")->needs(watched);
   add_no_browser(command, view.browser);
 }
@@ -96,11 +103,10 @@ void add_replay(CLI::App& app, ReplayOptions& replay) {
 }
 
 void check_view(const RunOptions& run) {
-  if (!run.view.speed) return;
-  view::read_speed(*run.view.speed);
-  if (run.clock != "lockstep") {
-    throw InputError("--speed is for --clock lockstep: with --clock " + run.clock + " the clock sets the pace");
-  }
+  if (run.view.speed) view::read_speed(*run.view.speed);
+  if (run.clock == "lockstep" || !(run.view.speed || run.view.pause_at_s)) return;
+  throw InputError(std::string(run.view.speed ? "--speed" : "--pause-at") + " is for --clock lockstep: with --clock " +
+                   run.clock + " the clock sets the pace");
 }
 
 }  // namespace skein::cli

@@ -9,7 +9,7 @@ class App;
 
 namespace skein::cli {
 
-/// --view, --speed, --view-close, --no-browser; of run and compose.
+/// --view, --speed, --pause-at, --view-close, --no-browser; of run and compose.
 void add_view_options(CLI::App& command, ViewOptions& view);
 /// The command `replay`.
 void add_replay(CLI::App& app, ReplayOptions& replay);

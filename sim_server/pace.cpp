@@ -27,6 +27,13 @@ void Pace::obey(const view::TimeOrder& order) {
   }
 }
 
+bool Pace::reach(double time_s) {
+  if (!pause_at_s_ || time_s < *pause_at_s_) return false;
+  pause_at_s_.reset();
+  obey({view::TimeOrder::Kind::pause});
+  return true;
+}
+
 bool Pace::may_go_on(Clock::time_point now, double period_s) {
   const bool goes = paused_ ? steps_ > 0 : !speed_ || !due_ || now >= *due_;
   if (!goes) {

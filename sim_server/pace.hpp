@@ -15,9 +15,13 @@ class Pace {
   using Clock = std::chrono::steady_clock;
 
   /// @param speed  simulated seconds a second; none: as fast as the machine allows.
-  explicit Pace(std::optional<double> speed) : speed_(speed) {}
+  /// @param pause_at_s  simulated time [s] at which it pauses by itself, once; none: only when it is told.
+  explicit Pace(std::optional<double> speed, std::optional<double> pause_at_s = {})
+      : speed_(speed), pause_at_s_(pause_at_s) {}
 
   void obey(const view::TimeOrder& order);
+  /// At a boundary, before may_go_on(): the run has come to this simulated time [s]. @returns whether it pauses here.
+  bool reach(double time_s);
   /// At a boundary: whether the next exchange may begin now; asked again and again until it may. A step that was asked
   /// for is taken with that.
   /// @param period_s  simulated time of an exchange
@@ -31,7 +35,7 @@ class Pace {
   double held_s() const { return std::chrono::duration<double>(held_).count(); }
 
  private:
-  std::optional<double> speed_;
+  std::optional<double> speed_, pause_at_s_;
   bool paused_ = false;
   int steps_ = 0;                           ///< that were asked for
   std::optional<Clock::time_point> since_;  ///< it holds the run

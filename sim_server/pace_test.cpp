@@ -47,6 +47,20 @@ TEST_F(PaceTest, PauseHoldsUntilItGoesOn) {
   EXPECT_EQ(exchanges(1000), 40) << "what was held is not caught up with";
 }
 
+TEST(Pace, PausesByItselfOnce) {
+  Pace pace(std::nullopt, 12.0);
+  EXPECT_FALSE(pace.reach(0.0) || pace.reach(11.95) || pace.paused());
+  EXPECT_TRUE(pace.reach(12.0));
+  EXPECT_TRUE(pace.paused());
+  EXPECT_FALSE(pace.reach(12.0)) << "asked again and again while it pauses";
+  pace.obey({Kind::resume});
+  EXPECT_FALSE(pace.reach(12.0) || pace.reach(12.05) || pace.paused());
+  Pace between(2.0, 12.01);
+  EXPECT_FALSE(between.reach(12.0));
+  EXPECT_TRUE(between.reach(12.05)) << "the first boundary from then on";
+  EXPECT_FALSE(Pace(2.0).reach(1e6));
+}
+
 TEST_F(PaceTest, AStepIsOneExchange) {
   pace_.obey({Kind::step});
   EXPECT_EQ(exchanges(1000), 0) << "who asks for a step of a run that goes wants it to stand";

@@ -36,9 +36,10 @@ std::optional<double> realtime_factor(const std::string& clock) {
   throw InputError("--clock " + clock + ": it must be lockstep, realtime or realtime:FACTOR with a factor above 0");
 }
 
-std::optional<WatchOptions> watch_options(const std::string& speed, const std::string& clock, bool losses) {
+std::optional<WatchOptions> watch_options(const std::string& speed, const std::string& clock, bool losses,
+                                          std::optional<double> pause_at_s) {
   if (speed.empty()) return std::nullopt;
-  return WatchOptions{view::read_speed(speed), !realtime_factor(clock), losses};
+  return WatchOptions{view::read_speed(speed), !realtime_factor(clock), losses, pause_at_s};
 }
 
 std::vector<UavIndex> indices_of(const std::vector<std::string>& names, const Scenario& scenario) {
@@ -137,6 +138,11 @@ void ServerProgram::add_options(CLI::App& app) {
          "--watch", watch_speed_,
          "tell the station what a page needs, and fly at this speed, SPEED or max, until the page says otherwise")
       ->group("Launcher");
+  app.add_option("--watch-pause-at", watch_pause_at_s_,
+                 "pause at this simulated time [s], until that page says otherwise")
+      ->check(CLI::Validator(check_not_negative, "NONNEGATIVE"))
+      ->needs("--watch")
+      ->group("Launcher");
   app.add_flag("--watch-losses", watch_losses_, "ask the oracle what could be had, for that page")
       ->needs("--watch")
       ->group("Launcher");
@@ -180,7 +186,7 @@ std::variant<int, std::unique_ptr<bus::FleetMember>> ServerProgram::prepare(cons
                                     .replay = replay_,
                                     .notice_deaths = !options.has_launcher(),
                                     .expect_gcs_program = ground_program_,
-                                    .watch = watch_options(watch_speed_, clock_, watch_losses_),
+                                    .watch = watch_options(watch_speed_, clock_, watch_losses_, watch_pause_at_s_),
                                     .stand_ins = uavs_named(stand_ins_, *scenario),
                                     .by_hand = indices_of(by_hand_, *scenario),
                                     .faults = load_fault_plan(options.faults, *scenario, options.seed),

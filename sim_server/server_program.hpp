@@ -42,6 +42,7 @@ class ServerProgram final : public bus::FleetProgram {
   bool ground_program_ = false;
   std::string watch_speed_;  ///< empty: nobody watches
   bool watch_losses_ = false;
+  std::optional<double> watch_pause_at_s_;
   std::vector<std::string> by_hand_, stand_ins_;
   recording::ReplayOptions replay_;
   ServerTasks tasks_;

@@ -48,7 +48,7 @@ WatchNode::WatchNode(const Scenario& scenario, const Simulation& simulation, Eve
       simulation_(simulation),
       options_(options),
       hand_(hand),
-      pace_(options.paced ? options.speed : std::nullopt),
+      pace_(options.paced ? options.speed : std::nullopt, options.pause_at_s),
       look_(scenario, simulation, world, uavs),
       story_(world.create_writer(bus::spec(topics::view_story()))),
       state_(world.create_writer(bus::spec(topics::view_state()))),
@@ -241,7 +241,9 @@ bool WatchNode::may_go_on() {
   const auto now = Clock::now();
   end_wait(now);
   look_.tell(now);
-  if (!options_.paced || (pace_.paused() && !station_there_)) return true;
+  if (!options_.paced) return true;
+  if (pace_.reach(seconds(simulation_.tick()))) state_stale_ = true;
+  if (pace_.paused() && !station_there_) return true;
   const bool goes = pace_.may_go_on(now, seconds(scenario_.exchange_ticks()));
   if (!goes && state_stale_ && (pace_.paused() || now - state_told_ >= kStatePeriod)) tell_state(now);
   return goes;

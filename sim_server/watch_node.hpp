@@ -26,9 +26,10 @@
 namespace skein::sim {
 
 struct WatchOptions {
-  std::optional<double> speed;  ///< simulated seconds a second; none: as fast as the machine allows
-  bool paced = true;            ///< false: a clock of the world sets the pace, and nothing holds the run
-  bool losses = false;          ///< ask the oracle what could be had, so that the page tells what is lost
+  std::optional<double> speed;            ///< simulated seconds a second; none: as fast as the machine allows
+  bool paced = true;                      ///< false: a clock of the world sets the pace, and nothing holds the run
+  bool losses = false;                    ///< ask the oracle what could be had, so that the page tells what is lost
+  std::optional<double> pause_at_s = {};  ///< the first boundary from this time on pauses the run; none: no such one
 };
 
 class WatchNode {

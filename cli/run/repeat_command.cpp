@@ -32,7 +32,8 @@ bool is_endpoint(const std::string& word) {
 std::size_t watching_words(const Words& words, std::size_t at) {
   const bool has_place = at + 1 < words.size() && is_endpoint(words[at + 1]);
   std::size_t count = option_words(words, at, "--view", has_place);
-  for (const char* valued : {"--speed", "--out"}) count = std::max(count, option_words(words, at, valued, true));
+  for (const char* valued : {"--speed", "--pause-at", "--out"})
+    count = std::max(count, option_words(words, at, valued, true));
   for (const char* flag : {"--view-close", "--no-browser", "--force"}) {
     count = std::max(count, option_words(words, at, flag, false));
   }

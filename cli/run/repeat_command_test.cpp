@@ -11,9 +11,10 @@ TEST(RepeatCommand, NeedsNoPage) {
   EXPECT_EQ(command_repeated("skein run towers --planner kios,bob=hand --view --duration 60", by),
             "skein run towers --planner bob=hand:x.csv --duration 60");
   EXPECT_EQ(
-      command_repeated("skein run --view 8080 --planner=bob=hand --speed 2 --out a --force --view-close towers", by),
+      command_repeated(
+          "skein run --view 8080 --planner=bob=hand --speed 2 --pause-at 0 --out a --force --view-close towers", by),
       "skein run --planner bob=hand:x.csv towers");
-  EXPECT_EQ(command_repeated("skein run --view=8080 --out=a --speed=max --planner bob=hand", by),
+  EXPECT_EQ(command_repeated("skein run --view=8080 --pause-at=12.5 --out=a --speed=max --planner bob=hand", by),
             "skein run --planner bob=hand:x.csv");
   for (const char* place : {"8080", "0.0.0.0:8080", "'[::1]:8080'", "localhost:8080"}) {
     EXPECT_EQ(command_repeated(std::string("skein run --view ") + place + " towers --no-browser", {}),

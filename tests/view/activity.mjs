@@ -4,7 +4,7 @@
 import {readFileSync} from 'node:fs';
 import path from 'node:path';
 
-import {openRun, sleep, stateOf, until} from './page.mjs';
+import {letGo, openRun, pausedByItself, sleep, stateOf, until} from './page.mjs';
 
 const [web, chromium, door, run, uav, pid] = process.argv.slice(2);
 const {browser, page, complaints} = await openRun([web, chromium, door]);
@@ -31,9 +31,8 @@ function written(seconds) {
   return found;
 }
 
-await until(page, ({state, tick}) => state === 'flies' && tick > 12 * kTicks, 'it flies');
-await page.click('#pause');
-const held = await until(page, ({state}) => state === 'paused', 'it is paused');
+const held = await pausedByItself(page);
+expect(held.tick === 12 * kTicks, `it paused at tick ${held.tick}`);
 await sleep(1000);  // lines and states come by different ways
 const live = await shown();
 await page.evaluate((name) => [...document.querySelectorAll('#fleet button')]
@@ -44,8 +43,7 @@ for (const word of [live[uav][0], 'goal', 'waits for', 'ms for a simulated secon
 await page.keyboard.press('Escape');
 
 // A program that does not answer holds the run up, and the page says whose.
-await page.click('#pause');
-await until(page, ({state}) => state === 'flies', 'it goes on');
+await letGo(page);
 process.kill(Number(pid), 'SIGSTOP');
 try {
   const waits = await until(page, ({state}) => state === 'waits', `it waits for ${uav}`);

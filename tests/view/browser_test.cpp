@@ -12,7 +12,7 @@ class PageOfARun : public BrowserTest {
   /// @param script  what somebody does with the page, up to its replay.
   void watch(const Arguments& flight, const Arguments& how, const std::string& script = "watch") {
     const std::string unseen = run("unseen", joined(flight, {"--one-process"})).digest();
-    SkeinRun& seen = start("seen", joined(joined(flight, how), {"--view", "--speed", "1"}));
+    SkeinRun& seen = start("seen", joined(joined(flight, how), {"--view", "--pause-at", "0", "--speed", "1"}));
     const std::filesystem::path door = door_of(seen);
     look(script, door, seen.dir());
     seen.skein().signal(SIGINT);
@@ -34,7 +34,7 @@ TEST_F(PageOfARun, FollowsAFleetInOneProcess) { watch(kEstimatedFlight, {"--one-
 
 TEST_F(PageOfARun, TellsWhatUavsDoAndForWhomARunWaits) {
   const std::string unseen = run("unseen", joined(kWatchedFlight, {"--one-process"})).digest();
-  SkeinRun& seen = start("seen", joined(kWatchedFlight, {"--view", "--speed", "2"}));
+  SkeinRun& seen = start("seen", joined(kWatchedFlight, {"--view", "--pause-at", "12", "--speed", "2"}));
   const std::filesystem::path door = door_of(seen);
   ASSERT_TRUE(seen.wait_until_flying()) << seen.err();
   look("activity", door, seen.dir(), {"jurong", std::to_string(processes_of(seen.dir()).at("uav_agent-jurong"))});
@@ -51,7 +51,8 @@ TEST_F(PageOfARun, ComesBackWithAStationThatWasKilled) {
   const auto faults = write("faults.yaml", "faults:\n  - {at_s: 16, until_s: 18, kill: station}\n");
   for (const Arguments& how : {Arguments{"--one-process"}, Arguments{}}) {
     const std::string name = how.empty() ? "dds" : "one";
-    SkeinRun& seen = start(name, joined(joined(kWatchedFlight, how), {"--faults", faults, "--view", "--speed", "0.5"}));
+    SkeinRun& seen = start(
+        name, joined(joined(kWatchedFlight, how), {"--faults", faults, "--view", "--pause-at", "15", "--speed", "1"}));
     look("reconnect", door_of(seen), seen.dir());
     seen.skein().signal(SIGINT);
     EXPECT_EQ(seen.exit_code(), 0) << seen.err();
@@ -62,7 +63,7 @@ TEST_F(PageOfARun, ComesBackWithAStationThatWasKilled) {
 TEST_F(PageOfARun, BreaksAFleetByItsButtons) {
   for (const Arguments& how : {Arguments{"--one-process"}, Arguments{}}) {
     const std::string name = how.empty() ? "dds" : "one";
-    SkeinRun& seen = start(name, joined(joined(kWatchedFlight, how), {"--view", "--speed", "2"}));
+    SkeinRun& seen = start(name, joined(joined(kWatchedFlight, how), {"--view", "--pause-at", "12", "--speed", "2"}));
     look("by_hand", door_of(seen), seen.dir());
     seen.skein().signal(SIGINT);
     EXPECT_EQ(seen.exit_code(), 0) << seen.err();
@@ -74,7 +75,8 @@ TEST_F(PageOfARun, BreaksAFleetByItsButtons) {
 
 // As by `ssh -L`, from a machine that is not this one.
 TEST_F(PageOfARun, ComesThroughATunnelWithAnotherPort) {
-  SkeinRun& seen = start("seen", joined(kWatchedFlight, {"--one-process", "--view", "--speed", "2"}));
+  SkeinRun& seen =
+      start("seen", joined(kWatchedFlight, {"--one-process", "--view", "--pause-at", "5", "--speed", "2"}));
   look("tunnel", door_of(seen), seen.dir());
   seen.skein().signal(SIGINT);
   EXPECT_TRUE(seen.exit_code() == 0 || seen.exit_code() == 130) << seen.err();

@@ -4,7 +4,7 @@
 import {readFileSync} from 'node:fs';
 import path from 'node:path';
 
-import {openRun, stateOf, until} from './page.mjs';
+import {letGo, openRun, pausedByItself, stateOf, until} from './page.mjs';
 
 const [web, chromium, door, run] = process.argv.slice(2);
 const {browser, page, complaints} = await openRun([web, chromium, door]);
@@ -32,9 +32,10 @@ async function step() {
   await until(page, (state) => state.tick > tick, 'a step');
 }
 
-await until(page, ({state, live, tick}) => state === 'flies' && live === 'yes' && tick > 4800, 'it flies for 12 s');
+await pausedByItself(page);
+await letGo(page);
 await page.click('#pause');
-await until(page, ({state}) => state === 'paused', 'it is paused');
+await until(page, ({state}) => state === 'paused', 'it is paused by its button');
 
 // A link, by the keyboard: marked until the step has come, then cut; its other direction is not.
 await page.focus(cell(4, 0));

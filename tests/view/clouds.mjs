@@ -2,7 +2,7 @@
 // Prints what is wrong, a line each; nothing: all is well.
 // usage: node clouds.mjs WEB CHROMIUM DOOR RUN
 import {lookAt} from '../report/browser.mjs';
-import {openRun, sleep, until} from './page.mjs';
+import {letGo, openRun, pausedByItself, sleep, until} from './page.mjs';
 
 const [web, chromium, door] = process.argv.slice(2);
 const {browser, page, complaints} = await openRun([web, chromium, door]);
@@ -53,7 +53,8 @@ const stage = async () => {
 const count = (kind) => [...told.names].reduce((sum, [name, times]) => sum + (name.startsWith(kind) ? times : 0), 0);
 
 await page.reload();  // with the spy from the beginning
-await until(page, ({state, live}) => state === 'flies' && live === 'yes', 'it flies');
+await pausedByItself(page);
+await letGo(page);
 await eventually(() => told.frames > 30, 'news of the flight');
 expect(told.clouds === 0, 'there are points or maps, and nobody looks');
 expect(await note() === '', `nobody looks, and the page says ${await note()}`);
@@ -115,8 +116,7 @@ for (const [one, {png}] of Object.entries(pictures))
 expect(both.colours > none.colours, 'points and map add no colour');
 
 // Who does not look any more is sent nothing; nor is a page that has ceased to ask.
-await press('pause');
-await until(page, ({state}) => state === 'flies', 'it goes on');
+await letGo(page);
 await eventually(() => told.since > 20, 'an end of points and maps');
 await choose('lidar-of', 'all');
 await eventually(() => told.since === 0, 'points again');

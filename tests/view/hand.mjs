@@ -1,7 +1,7 @@
 // Flies a UAV by hand from the page of a run, and vanishes with a key held down. Prints what is wrong, a line each;
 // nothing: all is well. With a fifth word it leaves pictures in that folder, for people.
 // usage: node hand.mjs WEB CHROMIUM DOOR UAV [PICTURES]
-import {openRun, sleep, until} from './page.mjs';
+import {letGo, openRun, pausedByItself, sleep, until} from './page.mjs';
 
 const [web, chromium, door, uav, pictures] = process.argv.slice(2);
 const {browser, page, complaints} = await openRun([web, chromium, door]);
@@ -26,7 +26,8 @@ async function wait(holds, what) {
 }
 const shoot = (name) => pictures && page.screenshot({path: `${pictures}/${name}.png`});
 
-await until(page, ({state, live}) => state === 'flies' && live === 'yes', 'it flies');
+await pausedByItself(page);
+await letGo(page);
 // Nobody has the controls yet: keys fly nothing.
 await page.keyboard.down('w');
 await sleep(700);

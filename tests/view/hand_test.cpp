@@ -21,8 +21,8 @@ bool rests(const std::map<std::string, std::string>& row) {
 
 TEST_F(FlownByHand, RepeatsFromWhatWasKept) {
   if (const std::string why = no_browser(); !why.empty()) GTEST_SKIP() << why;
-  SkeinRun& flown =
-      start("flown", joined(kHandFlight, {"--planner", "kios,jurong=hand", "--view", "--view-close", "--record=run"}));
+  SkeinRun& flown = start("flown", joined(kHandFlight, {"--planner", "kios,jurong=hand", "--view", "--view-close",
+                                                        "--pause-at", "0", "--record=run"}));
   look_with_browser("hand", {door_of(flown), "jurong"});
   ASSERT_EQ(flown.exit_code(), 0) << flown.err();
   expect_complete_result(flown);

@@ -59,6 +59,16 @@ export async function until(page, holds, what) {
   throw new Error(`the page never got there: ${what}; it says ${JSON.stringify(await stateOf(page))}`);
 }
 
+/** Waits for a run that pauses by itself (--pause-at): however slow the browser was, it is not over yet. */
+export const pausedByItself = (page) =>
+  until(page, ({state, live}) => state === 'paused' && live === 'yes', 'it pauses by itself');
+
+/** Lets a paused run go on. */
+export async function letGo(page) {
+  await page.click('#pause');
+  return until(page, ({state}) => state === 'flies', 'it goes on');
+}
+
 /** Where a point of the scene is on the screen, by the page's own means: the pointer tells of it. */
 export async function findPoint(page, wanted) {
   const box = await (await page.$('.stage canvas')).boundingBox();

@@ -36,7 +36,7 @@ for (const host of [`localhost:${port}`, `127.0.0.1:${port}`]) {
   await page.type('input[name=key]', key);
   await page.keyboard.press('Enter');
   await page.waitForSelector('#score', {timeout: 120000});
-  await until(page, ({live, tick}) => live === 'yes' && tick > 0, 'it follows');
+  await until(page, ({state, live, tick}) => state === 'paused' && live === 'yes' && tick > 0, 'it follows');
   expect(page.url() === `http://${host}/` || page.url().startsWith(`http://${host}/#`), `it ended at ${page.url()}`);
   for (const complaint of complaints) console.log(complaint);
   await page.close();

@@ -5,14 +5,17 @@ import {readFileSync} from 'node:fs';
 import path from 'node:path';
 
 import {lookAt} from '../report/browser.mjs';
-import {addsUp, lossesOf, openRun, sleep, stateOf, until} from './page.mjs';
+import {addsUp, letGo, lossesOf, openRun, pausedByItself, sleep, stateOf, until} from './page.mjs';
 
 const [web, chromium, door, run] = process.argv.slice(2);
 const {browser, page, complaints, host} = await openRun([web, chromium, door]);
 const expect = (good, what) => good || console.log(what);
 const kStep = 20;  // ticks of an exchange
 
-await until(page, ({state, live}) => state === 'flies' && live === 'yes', 'it flies');
+const begins = await pausedByItself(page);
+expect(begins.tick === 0, `it paused at tick ${begins.tick}`);
+await letGo(page);
+await until(page, ({tick}) => tick > 0, 'it flies');
 await page.click('#pause');
 const held = await until(page, ({state}) => state === 'paused', 'it is paused');
 const before = await page.screenshot({encoding: 'base64'});

@@ -99,6 +99,8 @@ TEST_F(WatchedRun, RefusesWhatCannotBe) {
   run("clock", joined(kShort, {"--view", "--speed", "2", "--clock", "realtime"}), {}, 2);
   run("speed", joined(kShort, {"--view", "--speed", "0.01"}), {}, 2);
   run("unwatched", joined(kShort, {"--speed", "2"}), {}, 2);
+  run("unpaused", joined(kShort, {"--pause-at", "2"}), {}, 2);
+  run("before", joined(kShort, {"--view", "--pause-at", "-1"}), {}, 2);
   run("port", joined(kShort, {"--view", "70000"}), {}, 2);
   SkeinRun& seen = start("seen", joined(kShort, {"--view"}));
   ASSERT_TRUE(seen.wait_for("127.0.0.1:")) << seen.err();
