@@ -85,7 +85,9 @@ void TrialFlights::fly_round(const std::vector<std::size_t>& numbers, const std:
     controller.plan({flights.size(),
                      [&](std::size_t index) { return flights[index]; },
                      {reference(plan_, folder, made_under)},
-                     [&](double) { return std::max<std::size_t>(1, flights.size() / (4 * slots)); },
+                     [&](double) {
+                       return UnitSizes{flights.size(), std::max<std::size_t>(1, flights.size() / (4 * slots))};
+                     },
                      plan_.options.sweep.command,
                      fs::current_path()});
     write_fly_script(folder, fs::absolute(plan_.out), fs::current_path(), plan_.options.jobs);

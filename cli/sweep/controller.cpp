@@ -19,7 +19,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kUnitsPerSlot = 8;     ///< at least, where there are flights enough
 constexpr std::size_t kMostTries = 3;        ///< of a unit that does not get on
 constexpr std::size_t kMostCheckRounds = 4;  ///< chance may give a flight to the node that has flown it
 constexpr std::size_t kMostChecksHere = 10;  ///< of those that are left then
@@ -38,12 +37,6 @@ std::string new_token(const std::string& plan) {
 }
 
 }  // namespace
-
-std::size_t unit_size(std::size_t flights, double flight_s, double unit_s, std::size_t slots) {
-  const double by_time = unit_s / std::max(flight_s, 1e-3);
-  const std::size_t by_slots = flights / (kUnitsPerSlot * std::max<std::size_t>(slots, 1));
-  return std::max<std::size_t>(1, std::min(static_cast<std::size_t>(std::min(by_time, 1e6)), by_slots));
-}
 
 bool is_checked(std::size_t index, std::size_t flights) {
   if (flights < kCheckedShare) return index == flights / 2;
@@ -75,7 +68,6 @@ void SweepController::begin(const SweepPlan& plan, const std::string& digest_of_
   settings_ = {};
   settings_.token = new_token(digest_of_plan);
   settings_.plan = digest_of_plan;
-  settings_.flights = plan.flights;
   settings_.command = plan.command;
   settings_.working_folder = plan.working_folder;
   const auto former = folder_.settings();
@@ -90,13 +82,12 @@ void SweepController::begin(const SweepPlan& plan, const std::string& digest_of_
   } else {
     fly_a_reference(plan);
   }
-  settings_.unit_flights = plan.unit_flights(settings_.reference_s);
+  settings_.sizes = plan.unit_sizes(settings_.reference_s);
   folder_.forget_sick();
   folder_.begin(settings_, proved, [&](std::size_t number) {
     SweepUnit unit;
-    const std::size_t first = number * settings_.unit_flights;
-    const std::size_t end = std::min(first + settings_.unit_flights, plan.flights);
-    for (std::size_t i = first; i < end; ++i) unit.flights.push_back(plan.flight(i));
+    const std::size_t end = settings_.sizes.first(number + 1);
+    for (std::size_t i = settings_.sizes.first(number); i < end; ++i) unit.flights.push_back(plan.flight(i));
     return unit;
   });
   for (std::size_t number = 0; number < settings_.units(); ++number) close_what_is_flown(number);
@@ -153,15 +144,13 @@ bool SweepController::fly() {
     judge_checks();
     remove_quarantined();
     const std::set<std::string> before = nodes_to_avoid();
-    std::set<std::string> not_on = before;
-    std::vector<std::size_t> units = within_tries(open_units());
-    if (units.empty()) {
-      units = units_of_checks();
-      not_on.merge(nodes_of_no_use(units, before));
-    }
-    if (units.empty() && check_here()) continue;
-    if (units.empty()) break;
-    if (!engine_.fly(units, not_on, [this] { tell_progress(); })) return false;
+    EngineWork work{within_tries(open_units()), before};
+    const bool checks_follow = !work.units.empty();
+    if (work.units.empty()) work = checks_elsewhere();
+    if (work.units.empty() && check_here()) continue;
+    if (work.units.empty()) break;
+    const auto more = [&] { return checks_follow ? checks_elsewhere() : EngineWork{}; };
+    if (!engine_.fly(work, {[this] { tell_progress(); }, more})) return false;
     tell_progress();
     // A node that fails at once may have taken all units: that says nothing about them.
     if (nodes_to_avoid() != before) folder_.write_tries({});
@@ -205,15 +194,17 @@ std::vector<std::size_t> SweepController::within_tries(const std::vector<std::si
 }
 
 SweepFlight SweepController::flight(std::size_t index) const {
-  return folder_.unit(index / settings_.unit_flights).flights.at(index % settings_.unit_flights);
+  const std::size_t unit = settings_.sizes.unit_of(index);
+  return folder_.unit(unit).flights.at(index - settings_.sizes.first(unit));
 }
 
 /// Those that are to be flown again elsewhere, and were not.
 std::vector<SweepFlight> SweepController::unchecked_flights() const {
   std::vector<SweepFlight> unchecked;
-  for (std::size_t index = 0; index < settings_.flights; ++index) {
-    if (!is_checked(index, settings_.flights)) continue;
-    const auto rows = folder_.rows(settings_.token, index / settings_.unit_flights);
+  const std::size_t flights = settings_.sizes.flights;
+  for (std::size_t index = 0; index < flights; ++index) {
+    if (!is_checked(index, flights)) continue;
+    const auto rows = folder_.rows(settings_.token, settings_.sizes.unit_of(index));
     if (!rows) continue;
     const auto row = std::ranges::find(*rows, index, &SweepRow::index);
     if (row == rows->end() || digest_in(*row).empty()) continue;
@@ -235,8 +226,8 @@ std::vector<std::size_t> SweepController::units_of_checks() const {
   ++rounds;
   folder_.write_tries(tries);
   std::vector<std::size_t> units;
-  for (std::size_t i = 0; i < flights.size(); i += settings_.unit_flights) {
-    const std::size_t number = first + units.size(), end = std::min(i + settings_.unit_flights, flights.size());
+  for (std::size_t i = 0; i < flights.size(); i += settings_.sizes.size) {
+    const std::size_t number = first + units.size(), end = std::min(i + settings_.sizes.size, flights.size());
     const auto begin = flights.begin();
     folder_.add_unit(number,
                      {{begin + static_cast<std::ptrdiff_t>(i), begin + static_cast<std::ptrdiff_t>(end)}, true});
@@ -244,6 +235,13 @@ std::vector<std::size_t> SweepController::units_of_checks() const {
     units.push_back(number);
   }
   return units;
+}
+
+EngineWork SweepController::checks_elsewhere() {
+  const std::set<std::string> avoided = nodes_to_avoid();
+  EngineWork work{units_of_checks(), avoided};
+  work.not_on.merge(nodes_of_no_use(work.units, avoided));
+  return work;
 }
 
 /// For checks: the node that flew all of them, if there is another one that may fly.

@@ -22,16 +22,11 @@ struct SweepPlan {
   std::size_t flights = 0;
   std::function<SweepFlight(std::size_t index)> flight;
   std::vector<SweepFlight> references;  ///< the first of them that goes well is the reference flight
-  /// How many flights make a unit, if the reference flight takes so long [s].
-  std::function<std::size_t(double reference_s)> unit_flights;
+  /// The division into units, if the reference flight takes so long [s].
+  std::function<UnitSizes(double reference_s)> unit_sizes;
   std::vector<std::string> command;  ///< as in SweepSettings, like the next one
   std::filesystem::path working_folder;
 };
-
-/// How many flights make a unit: so many that it takes `unit_s`, but that each of `slots` gets several, so that none
-/// waits long for the last one. At least one.
-/// @param flight_s  that a flight takes
-std::size_t unit_size(std::size_t flights, double flight_s, double unit_s, std::size_t slots);
 
 /// One flight in so many is flown again on another node.
 inline constexpr std::size_t kCheckedShare = 100;
@@ -74,6 +69,7 @@ class SweepController {
   std::vector<std::size_t> units_of_checks() const;
   std::set<std::string> nodes_of_no_use(const std::vector<std::size_t>& checks,
                                         const std::set<std::string>& avoided) const;
+  EngineWork checks_elsewhere();
   bool check_here();
   void judge(const SweepCheck& check) const;
   void judge_checks() const;

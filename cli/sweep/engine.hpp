@@ -16,18 +16,27 @@ struct EngineJob {
   std::string state;  ///< in the engine's words: "RUNNING on node3", "PENDING (Resources)"
 };
 
+/// What an engine is to have flown.
+struct EngineWork {
+  std::vector<std::size_t> units;
+  std::set<std::string> not_on;  ///< nodes on which nothing of it may fly, as far as the engine can choose
+};
+
+/// What an engine calls while it has units flown.
+struct Meanwhile {
+  std::function<void()> tell;        ///< now and then
+  std::function<EngineWork()> more;  ///< at most once: it has a slot for which no unit is left. May be empty
+};
+
 class SweepEngine {
  public:
   virtual ~SweepEngine() = default;
 
   /// Has these units flown, and returns when it holds none of the sweep any more, whatever came of them: the sweep's
   /// folder tells. Units that it holds already, of an earlier call, are not given to it twice.
-  /// @param not_on  nodes on which nothing may fly, as far as the engine can choose
-  /// @param tell  called now and then meanwhile.
   /// @returns false when the user interrupted it, or does not want to wait.
   /// @throws InputError when the engine does not take them, with its own words.
-  virtual bool fly(const std::vector<std::size_t>& units, const std::set<std::string>& not_on,
-                   const std::function<void()>& tell) = 0;
+  virtual bool fly(const EngineWork& work, const Meanwhile& meanwhile) = 0;
 
   /// What it holds, asked from the engine.
   virtual std::vector<EngineJob> jobs() = 0;

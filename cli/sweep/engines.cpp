@@ -26,12 +26,11 @@ class LocalEngine : public SweepEngine {
   LocalEngine(int jobs, const SweepFolder& folder, const Console& console)
       : jobs_(jobs), folder_(folder), console_(console) {}
 
-  bool fly(const std::vector<std::size_t>& units, const std::set<std::string>&,
-           const std::function<void()>& tell) override {
+  bool fly(const EngineWork& work, const Meanwhile& meanwhile) override {
     SideBySide sky(static_cast<std::size_t>(jobs_), console_);
     return sky.fly(
-        {units.begin(), units.end()}, [&](std::size_t unit) { return start(unit); },
-        [&](std::size_t, const ExitStatus&) { tell(); });
+        {work.units.begin(), work.units.end()}, [&](std::size_t unit) { return start(unit); },
+        [&](std::size_t, const ExitStatus&) { meanwhile.tell(); });
   }
   std::vector<EngineJob> jobs() override { return {}; }
   bool has_other_nodes() const override { return false; }
@@ -61,15 +60,14 @@ class ParallelEngine : public SweepEngine {
     }
   }
 
-  bool fly(const std::vector<std::size_t>& units, const std::set<std::string>&,
-           const std::function<void()>& tell) override {
+  bool fly(const EngineWork& work, const Meanwhile& meanwhile) override {
     const fs::path list = folder_.dir() / "lists" / "parallel";
     std::string lines;
-    for (const std::size_t unit : units) lines += std::to_string(unit) + "\n";
+    for (const std::size_t unit : work.units) lines += std::to_string(unit) + "\n";
     write_file_atomically(list, lines);
     SideBySide sky(1, console_);
     return sky.fly(
-        {0}, [&](std::size_t) { return program(list); }, [&](std::size_t, const ExitStatus&) { tell(); });
+        {0}, [&](std::size_t) { return program(list); }, [&](std::size_t, const ExitStatus&) { meanwhile.tell(); });
   }
   std::vector<EngineJob> jobs() override { return {}; }
   bool has_other_nodes() const override { return !logins_.empty(); }

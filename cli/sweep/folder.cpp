@@ -111,15 +111,16 @@ void SweepFolder::write(const fs::path& file, const Json& json) const {
 std::optional<SweepSettings> SweepFolder::settings() const {
   const Json json = read_json(dir_ / kSettings);
   if (value_or(json, "format", nullptr) != kFormat) return std::nullopt;
-  SweepSettings settings{text_in(json, "token"),
-                         text_in(json, "plan"),
-                         number_in(json, "flights"),
-                         std::max<std::size_t>(number_in(json, "unit_flights"), 1),
-                         {},
-                         text_in(json, "digest"),
-                         texts_in(json, "command"),
-                         text_in(json, "working_folder"),
-                         0.0};
+  SweepSettings settings{
+      text_in(json, "token"),
+      text_in(json, "plan"),
+      {number_in(json, "flights"), std::max<std::size_t>(number_in(json, "unit_flights"), 1),
+       number_in(json, "tail_flights"), std::max<std::size_t>(number_in(json, "tail_unit_flights"), 1)},
+      {},
+      text_in(json, "digest"),
+      texts_in(json, "command"),
+      text_in(json, "working_folder"),
+      0.0};
   settings.reference = sweep_flight_of(value_or(json, "reference", Json::object()));
   settings.reference_s = value_or(json, "reference_s", 0.0).get<double>();
   return settings;
@@ -145,8 +146,10 @@ void SweepFolder::write_settings(const SweepSettings& settings) const {
   write(dir_ / kSettings, {{"format", kFormat},
                            {"token", settings.token},
                            {"plan", settings.plan},
-                           {"flights", settings.flights},
-                           {"unit_flights", settings.unit_flights},
+                           {"flights", settings.sizes.flights},
+                           {"unit_flights", settings.sizes.size},
+                           {"tail_flights", settings.sizes.tail},
+                           {"tail_unit_flights", settings.sizes.tail_size},
                            {"reference", to_json(settings.reference)},
                            {"digest", settings.digest},
                            {"reference_s", settings.reference_s},

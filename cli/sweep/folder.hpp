@@ -27,6 +27,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/sweep/unit_sizes.hpp"
 #include "process/json_text.hpp"
 
 namespace skein::cli {
@@ -63,15 +64,14 @@ struct SweepCheck {
 struct SweepSettings {
   std::string token;                     ///< unique among the sweeps of this folder
   std::string plan;                      ///< digest of all flights
-  std::size_t flights = 0;               ///< number of flights
-  std::size_t unit_flights = 1;          ///< flights per unit: unit N begins with flight N * unit_flights
+  UnitSizes sizes;                       ///< number of flights, and their division into units
   SweepFlight reference;                 ///< the flight that each node flies first
   std::string digest;                    ///< digest that the reference flight must have; empty: none
   std::vector<std::string> command;      ///< arguments of `skein` that continue the sweep
   std::filesystem::path working_folder;  ///< folder in which to run that command
   double reference_s = 0.0;              ///< wall time of the reference flight where the sweep was planned
 
-  std::size_t units() const { return (flights + unit_flights - 1) / unit_flights; }
+  std::size_t units() const { return sizes.units(); }
 };
 
 class SweepFolder {

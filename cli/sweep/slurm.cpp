@@ -23,7 +23,8 @@ namespace fs = std::filesystem;
 constexpr std::size_t kUsualArraySize = 1001;                              ///< Slurm's own default of MaxArraySize
 constexpr std::size_t kMostSilent = 40;                                    ///< looks in a row: ten minutes
 constexpr std::chrono::milliseconds kFirstLook{250}, kLongestLook{15000};  ///< at Slurm's queue
-constexpr std::chrono::milliseconds kGlance{500};                          ///< at one file of the sweep
+constexpr std::chrono::milliseconds kGlance{500};                          ///< at the folder of units that are over
+constexpr std::chrono::milliseconds kLeastLook{2000};                      ///< after one that such a unit caused
 /// So long before its limit of time a unit is told to end [s]: what is in the air then is flown again.
 constexpr const char* kNotice = "B:TERM@30";
 
@@ -71,16 +72,19 @@ class SlurmEngine : public SweepEngine {
     }
   }
 
-  bool fly(const std::vector<std::size_t>& units, const std::set<std::string>& not_on,
-           const std::function<void()>& tell) override {
+  bool fly(const EngineWork& work, const Meanwhile& meanwhile) override {
     std::set<std::size_t> held;
     for (const EngineJob& job : jobs()) held.insert(job.unit);
-    std::vector<std::size_t> given;
-    std::ranges::copy_if(units, std::back_inserter(given), [&](std::size_t unit) { return !held.contains(unit); });
-    if (!given.empty()) submit(given, not_on);
+    EngineWork given{{}, work.not_on};
+    std::ranges::copy_if(work.units, std::back_inserter(given.units),
+                         [&](std::size_t unit) { return !held.contains(unit); });
+    token_ = folder_.settings().value().token;
+    arrays_.clear();
+    merge_.clear();
+    if (!given.units.empty()) submit(given, jobs_);
     if (!held.empty()) console_.err << held.size() << " units are with Slurm already" << std::endl;
     if (detach_) return false;
-    return follow(units, tell);
+    return follow(work.units, meanwhile);
   }
 
   std::vector<EngineJob> jobs() override {
@@ -129,45 +133,58 @@ class SlurmEngine : public SweepEngine {
     return units;
   }
 
-  void submit(const std::vector<std::size_t>& units, const std::set<std::string>& not_on) {
+  /// @param at_once  units that may fly at the same time; none: as many as Slurm likes
+  void submit(const EngineWork& work, std::optional<int> at_once) {
     const std::size_t most = max_array_size();
     std::vector<std::string> ids;
-    for (std::size_t i = 0; i < units.size(); i += most) {
-      const std::size_t end = std::min(i + most, units.size());
-      const auto begin = units.begin();
+    for (std::size_t i = 0; i < work.units.size(); i += most) {
+      const auto begin = work.units.begin() + static_cast<std::ptrdiff_t>(i);
+      const auto end = work.units.begin() + static_cast<std::ptrdiff_t>(std::min(i + most, work.units.size()));
       // One array after the other where only so many may fly at once: each counts for itself.
-      ids.push_back(submit_array({begin + static_cast<std::ptrdiff_t>(i), begin + static_cast<std::ptrdiff_t>(end)},
-                                 not_on, jobs_ && !ids.empty() ? ids.back() : ""));
+      ids.push_back(submit_array({{begin, end}, work.not_on}, at_once, at_once && !ids.empty() ? ids.back() : ""));
     }
-    submit_merge(ids);
-    console_.err << fmt::format("{} units are with Slurm, job{} {}", units.size(), ids.size() == 1 ? "" : "s",
+    arrays_.insert(arrays_.end(), ids.begin(), ids.end());
+    merge_ = submit_merge();
+    console_.err << fmt::format("{} units are with Slurm, job{} {}", work.units.size(), ids.size() == 1 ? "" : "s",
                                 joined(ids))
                  << std::endl;
   }
 
-  std::string submit_array(const std::vector<std::size_t>& units, const std::set<std::string>& not_on,
-                           const std::string& after) {
+  /// While others fly: what a busy Slurm does not take now, the next call of fly() gives to it.
+  void submit_more(const EngineWork& work, std::optional<int> at_once) try {
+    if (work.units.empty()) return;
+    const std::string former = merge_;
+    submit(work, at_once);
+    if (!former.empty()) output_of("scancel " + former);  // the new one waits for all
+  } catch (const InputError& error) {
+    console_.err << error.what() << std::endl;
+  }
+
+  std::string submit_array(const EngineWork& work, std::optional<int> at_once, const std::string& after) {
     const auto settings = *folder_.settings();
     const fs::path lists = folder_.dir() / "lists";
     int number = 1;
     while (fs::exists(lists / std::to_string(number))) ++number;
     const std::string list = std::to_string(number);
     std::string lines;
-    for (const std::size_t unit : units) lines += std::to_string(unit) + "\n";
+    for (const std::size_t unit : work.units) lines += std::to_string(unit) + "\n";
     write_file_atomically(lists / list, lines);
     write_file_atomically(lists / (list + ".sh"), "#!/bin/sh\nexec /bin/sh " + shell_word(fly_script(folder_)) +
                                                       " \"$(sed -n \"$((SLURM_ARRAY_TASK_ID + 1))p\" " +
                                                       shell_word(lists / list) + ")\"\n");
     std::string command = "sbatch --parsable --requeue --signal=" + std::string(kNotice) +
-                          fmt::format(" --array=0-{}{} --job-name={}{}", units.size() - 1,
-                                      jobs_ ? "%" + std::to_string(*jobs_) : "", job_prefix(settings), list);
-    if (!not_on.empty()) command += " --exclude=" + shell_word(joined({not_on.begin(), not_on.end()}, ","));
+                          fmt::format(" --array=0-{}{} --job-name={}{}", work.units.size() - 1,
+                                      at_once ? "%" + std::to_string(*at_once) : "", job_prefix(settings), list);
+    if (!work.not_on.empty()) {
+      command += " --exclude=" + shell_word(joined({work.not_on.begin(), work.not_on.end()}, ","));
+    }
     if (!after.empty()) command += " --dependency=afterany:" + after;
     return submitted(command, lists / (list + ".sh"));
   }
 
-  /// It goes on with the sweep, whoever lives: gives Slurm what failed once more, or merges.
-  void submit_merge(const std::vector<std::string>& after) {
+  /// It goes on with the sweep after all arrays, whoever lives: gives Slurm what failed once more, or merges.
+  /// @returns its id.
+  std::string submit_merge() const {
     const auto settings = *folder_.settings();
     std::vector<std::string> words = settings.command;
     if (std::ranges::count(words, "--detach") == 0) words.emplace_back("--detach");
@@ -175,8 +192,8 @@ class SlurmEngine : public SweepEngine {
                          kMergeVariable + "=1\nexec " + shell_word(launcher_file()) + " " + shell_line(words) + "\n";
     const fs::path file = folder_.dir() / "lists" / "merge.sh";
     write_file_atomically(file, script);
-    submitted(
-        "sbatch --parsable --job-name=" + job_prefix(settings) + "merge --dependency=afterany:" + joined(after, ":"),
+    return submitted(
+        "sbatch --parsable --job-name=" + job_prefix(settings) + "merge --dependency=afterany:" + joined(arrays_, ":"),
         file);
   }
 
@@ -188,38 +205,60 @@ class SlurmEngine : public SweepEngine {
     return id.substr(0, id.find_first_of(";\n"));  // of a cluster among several its name follows
   }
 
-  /// Asks Slurm less and less often while nothing changes, but at once when all these units are done.
-  bool follow(const std::vector<std::size_t>& units, const std::function<void()>& tell) try {
-    const std::string token = folder_.settings().value().token;
-    auto undone = units.begin();
+  /// Asks Slurm less and less often while nothing changes, but soon when a unit is over.
+  bool follow(const std::vector<std::size_t>& units, const Meanwhile& meanwhile) try {
     Supervisor signals;
     std::chrono::milliseconds look = kFirstLook;
     std::size_t before = 0, silent = 0;
+    bool may_ask = true;
     for (;;) {
-      const std::optional<std::size_t> left = jobs_left(silent);
-      if (left == 0U) return true;
-      tell();
-      look = !left || left == before ? std::min(2 * look, kLongestLook) : kFirstLook;
-      before = left.value_or(before);
-      const auto until = std::chrono::steady_clock::now() + look;
-      const bool awaited = undone != units.end();
-      for (auto left_ms = look; left_ms.count() > 0;) {
-        for (const Event& event : signals.wait(std::min(left_ms, kGlance))) {
-          if (event.kind == Event::Kind::interrupt) throw Interrupted{};
-        }
-        while (undone != units.end() && folder_.is_done(token, *undone)) ++undone;
-        if (awaited && undone == units.end()) break;
-        left_ms = std::chrono::ceil<std::chrono::milliseconds>(until - std::chrono::steady_clock::now());
+      const auto left = jobs_left(silent);
+      if (left && left->empty()) return true;
+      meanwhile.tell();
+      if (left && may_ask && idle_slots(*left) > 0) {
+        may_ask = false;
+        submit_more(meanwhile.more(), jobs_ ? std::optional(idle_slots(*left)) : std::nullopt);
       }
+      look = !left || left->size() == before ? std::min(2 * look, kLongestLook) : kFirstLook;
+      before = left ? left->size() : before;
+      wait_for_next_look(signals, units, look);
     }
   } catch (const Interrupted&) {
     console_.err << "Slurm goes on flying, and merges; the same command follows again" << std::endl;
     return false;
   }
 
+  /// Slots for which no unit is left, while others still fly.
+  int idle_slots(const std::vector<EngineJob>& left) const {
+    const bool waits = std::ranges::any_of(left, [](const EngineJob& job) { return job.state.starts_with("PENDING"); });
+    if (waits || left.empty()) return 0;
+    return jobs_ ? std::max(*jobs_ - static_cast<int>(left.size()), 0) : 1;
+  }
+
+  /// @throws Interrupted
+  void wait_for_next_look(Supervisor& signals, const std::vector<std::size_t>& units, std::chrono::milliseconds look) {
+    using Clock = std::chrono::steady_clock;
+    const auto begin = Clock::now(), until = begin + look;
+    const std::size_t done = done_of(units);
+    for (auto left = look; left.count() > 0;
+         left = std::chrono::ceil<std::chrono::milliseconds>(until - Clock::now())) {
+      for (const Event& event : signals.wait(std::min(left, kGlance))) {
+        if (event.kind == Event::Kind::interrupt) throw Interrupted{};
+      }
+      const std::size_t now = done_of(units);
+      if (now != done && (now == units.size() || Clock::now() - begin > kLeastLook)) return;
+    }
+  }
+
+  std::size_t done_of(const std::vector<std::size_t>& units) const {
+    const std::set<std::size_t> done = folder_.done(token_);
+    return static_cast<std::size_t>(
+        std::ranges::count_if(units, [&](std::size_t unit) { return done.contains(unit); }));
+  }
+
   /// nullopt: a busy Slurm does not answer at times. @param silent  how often it has not
-  std::optional<std::size_t> jobs_left(std::size_t& silent) try {
-    const std::size_t left = jobs().size();
+  std::optional<std::vector<EngineJob>> jobs_left(std::size_t& silent) try {
+    std::vector<EngineJob> left = jobs();
     silent = 0;
     return left;
   } catch (const InputError&) {
@@ -232,6 +271,9 @@ class SlurmEngine : public SweepEngine {
   const std::optional<int> jobs_;
   const SweepFolder& folder_;
   const Console& console_;
+  std::string token_;                ///< of the sweep
+  std::vector<std::string> arrays_;  ///< jobs of the units that fly() gave to Slurm
+  std::string merge_;                ///< the job that goes on after them; empty: none
 };
 
 }  // namespace

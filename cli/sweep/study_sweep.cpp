@@ -59,10 +59,10 @@ SweepPlan sweep_plan(const StudyPlan& plan, const SweepFolder& folder) {
   SweepPlan sweep{plan.flights.size(),        [&plan](std::size_t index) { return sweep_flight(plan, index); },
                   references(plan, folder),   {},
                   plan.options.sweep.command, fs::current_path()};
-  sweep.unit_flights = [&plan, mission_s](double reference_s) {
+  sweep.unit_sizes = [&plan, mission_s](double reference_s) {
     constexpr double kMinute_s = 60.0;
     const double flight_s = reference_s * mission_s / reference_duration_s(plan);
-    return unit_size(plan.flights.size(), flight_s, kMinute_s * plan.options.sweep.unit_minutes, slots(plan.options));
+    return unit_sizes(plan.flights.size(), flight_s, kMinute_s * plan.options.sweep.unit_minutes, slots(plan.options));
   };
   return sweep;
 }
@@ -88,7 +88,7 @@ void note_missing(const SweepController& controller, StudyOutcomes& outcomes) {
   const std::map<std::size_t, std::string> failed = controller.failed();
   for (std::size_t i = 0; i < outcomes.flights.size(); ++i) {
     StudyOutcome& outcome = outcomes.flights[i];
-    const auto unit = failed.find(i / controller.settings().unit_flights);
+    const auto unit = failed.find(controller.settings().sizes.unit_of(i));
     if (unit == failed.end() || outcome.figures || !outcome.problem.empty()) continue;
     outcome.problem = words_of(unit->first, unit->second);
   }
@@ -113,7 +113,7 @@ StudyOutcomes fly_sweep(const StudyPlan& plan, const Console& console) {
   controller.plan(sweep_plan(plan, folder), ::getenv(kMergeVariable) == nullptr);
   write_fly_script(folder, plan.out, fs::current_path(), plan.options.jobs);
   console.err << fmt::format("{} units of up to {} flights", controller.settings().units(),
-                             controller.settings().unit_flights)
+                             controller.settings().sizes.size)
               << std::endl;
   const bool all = controller.fly();
   StudyOutcomes outcomes = outcomes_of(plan, controller);

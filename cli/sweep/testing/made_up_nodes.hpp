@@ -50,7 +50,10 @@ class MadeUpWorld {
     SweepPlan plan{flights_,
                    [this](std::size_t index) { return flight(index); },
                    {flight(kReference)},
-                   [unit_flights](double) { return unit_flights; },
+                   [this, unit_flights](double) {
+                     const std::size_t head = flights_ * 2 / 3 / unit_flights * unit_flights;
+                     return UnitSizes{flights_, unit_flights, flights_ - head, (unit_flights + 1) / 2};
+                   },
                    {"compare"},
                    scratch_.path()};
     plan.references.front().dir = study() / "reference";
@@ -159,17 +162,24 @@ class MadeUpEngine : public SweepEngine {
  public:
   MadeUpEngine(MadeUpWorld& world, std::vector<MadeUpNode>& nodes) : world_(world), nodes_(nodes) {}
 
-  bool fly(const std::vector<std::size_t>& units, const std::set<std::string>& not_on,
-           const std::function<void()>& tell) override {
+  bool fly(const EngineWork& work, const Meanwhile& meanwhile) override {
     ++rounds;
     std::vector<std::size_t> waiting;
-    for (const std::size_t unit : units) {
+    std::set<std::string> not_on = work.not_on;
+    bool asks = asks_for_more;
+    for (const std::size_t unit : work.units) {
       const bool held = std::ranges::any_of(workers_, [&](const auto& worker) { return worker->unit() == unit; });
       if (!held && !drawn(manners.forgets)) waiting.push_back(unit);
       if (drawn(manners.flies_twice)) waiting.push_back(unit);
     }
     while (!waiting.empty() || !workers_.empty()) {
       if (drawn(manners.kills_controller)) throw Killed{};
+      if (asks && waiting.empty() && drawn(0.3)) {
+        asks = false;
+        const EngineWork more = meanwhile.more();
+        waiting = more.units;
+        not_on = more.not_on;
+      }
       if (!waiting.empty() && (workers_.empty() || (workers_.size() < manners.at_once && drawn(0.3)))) {
         start(take(waiting), not_on);
         continue;
@@ -177,7 +187,7 @@ class MadeUpEngine : public SweepEngine {
       const std::size_t which = place(workers_.size());
       if (drawn(manners.kills_worker)) workers_[which]->kill();
       if (!workers_[which]->run_a_step()) workers_.erase(workers_.begin() + static_cast<std::ptrdiff_t>(which));
-      tell();
+      meanwhile.tell();
     }
     return true;
   }
@@ -185,7 +195,8 @@ class MadeUpEngine : public SweepEngine {
   bool has_other_nodes() const override { return true; }
 
   EngineManners manners;
-  std::size_t rounds = 0;  ///< in which it was given units
+  bool asks_for_more = true;  ///< units that fly while the last ones do
+  std::size_t rounds = 0;     ///< in which it was given units
 
  private:
   bool drawn(double probability) { return world_.draw.uniform() < probability; }
