@@ -61,7 +61,8 @@ TEST_F(RecorderTest, CarriesTheDefinitionOfItsMessages) {
 
 TEST_F(RecorderTest, APartIsSafeWhenItsProgramDiesAndNeverInTheWayOfTheNext) {
   msg::Tally tally;
-  auto* dies = new Recorder(folder_, programs::kStation, Scope::run);  // as after SIGKILL: never destroyed
+  // Not closed before `next` starts, as if SIGKILL had ended its program.
+  auto* dies = new Recorder(folder_, programs::kStation, Scope::run);
   dies->add("/skein/tally", tally);
   dies->flush();
   {

@@ -1,4 +1,4 @@
-// What is strange about a scene, though nothing about it is wrong. Frame W; metres.
+// Warnings about a scene that is valid but unusual. Frame W; metres.
 #pragma once
 
 #include <string>
@@ -8,9 +8,9 @@
 
 namespace skein::sim {
 
-/// Interest points outside every box: UAVs are not told of where they are. One sentence with their number and the
-/// first one. Pure.
-/// @returns sentences for the log and for `warnings` in result.json; none when there is nothing to say.
+/// Warns about interest points that lie outside all boxes: UAVs receive only the boxes, so nothing tells them where
+/// such points are. The warning states how many there are, and the index and position of the first one. Pure.
+/// @returns one sentence for the log and for `warnings` in result.json; empty if every point lies in a box.
 std::vector<std::string> scene_warnings(const Scene& scene);
 
 }  // namespace skein::sim

@@ -15,13 +15,14 @@ namespace {
 
 using std::chrono::milliseconds;
 
-// While somebody joins, matches come in without a sample to announce them.
+// Longest times between two turns: kMatchPoll while programs join, because no sample tells the server that DDS has
+// matched two endpoints; kIdlePoll while the server waits for answers.
 constexpr milliseconds kMatchPoll{2}, kIdlePoll{100};
-// The server's domains; those of the UAVs come in the order of the fleet.
+// Indices of the domains that the server joins. The UAVs' domains follow in fleet order.
 constexpr std::size_t kWorldDomain = 0, kGcsDomain = 1, kFirstUavDomain = 2;
-/// For the step that is under way when the user ends the run.
+/// How long the server still waits for the answers to the current step after the user has asked it to end the run.
 constexpr double kStopPatience_s = 2.0;
-/// After so long without all answers the step is told again to who owes one, and then as often.
+/// While members owe an answer, the server repeats the step in their domains, at this interval.
 constexpr double kAskAgain_s = 1.0;
 
 std::vector<AwaitedMember> for_people(const std::vector<bus::LockstepServer::Awaited>& awaited) {
@@ -30,7 +31,8 @@ std::vector<AwaitedMember> for_people(const std::vector<bus::LockstepServer::Awa
   return members;
 }
 
-/// Who sends commands and is no member for so many steps is taken for one who does not mean to become one.
+/// A participant that is no member and sends commands has this many steps, from its first command on, to ask to join.
+/// Then the server warns the user that these commands have no effect.
 constexpr std::uint64_t kStrangerSteps = 20;
 
 double elapsed_s(std::chrono::steady_clock::time_point since) {
@@ -118,7 +120,8 @@ void SimNode::start() {
 }
 
 void SimNode::turn(bool arrived) {
-  if (options_.notice_deaths && !arrived) server_.drop_vanished();  // if all live, something arrives before long
+  // While all members are alive, samples arrive often: it suffices to look for dead members when none have arrived.
+  if (options_.notice_deaths && !arrived) server_.drop_vanished();
   const auto go_on = [&] {
     switch (state_) {
       case State::joining:
@@ -166,7 +169,8 @@ bool SimNode::tell_waiting() {
   });
 }
 
-/// Nobody is waited for any longer who is now; whoever comes next finds the same patience.
+/// Declares all programs lost for which the server waits now, and starts the timeout again for those that it waits for
+/// next.
 void SimNode::give_up_awaited(const std::string& why) {
   for (const auto& awaited : server_.awaited()) {
     server_.lost(awaited.member, fmt::format("{} (waited for: {})", why, awaited.what));
@@ -236,7 +240,7 @@ bool SimNode::let_back() {
   return true;
 }
 
-// Somebody who knocks is let in before the next step; the fleet stands still meanwhile.
+// Lets programs that ask to join become members before the next step begins. Until then the fleet waits.
 bool SimNode::let_in_members() {
   if (!server_.at_boundary() && !aborted_ && !stop_requested_) {
     tell_waiting();
@@ -260,7 +264,8 @@ bool SimNode::let_in_members() {
   return true;
 }
 
-// Real time: the next step is due when the wall clock says so; what arrives meanwhile is taken in.
+// Begins the next step when it is due: at a time of the wall clock (--clock realtime), when the viewer's page lets the
+// run continue, else at once. Until then the server still receives samples.
 bool SimNode::keep_pace() {
   if (watch_ && watch_->obey_fault_orders()) return let_back();
   const bool held = (options_.realtime_factor && Clock::now() < due()) || (watch_ && !watch_->may_go_on());
@@ -329,7 +334,8 @@ void SimNode::write_samples(bus::LockstepServer::DomainIndex domain) {
   viz_->publish();
 }
 
-// The user ends the run, and somebody does not answer: a hung planner, an agent in a debugger that has gone.
+// Gives up the current step, kStopPatience_s after the user asked to end the run, if a member still does not answer:
+// its planner may hang, or it may stand still in a debugger.
 bool SimNode::gives_up_step() {
   if (!stop_requested_ || elapsed_s(stop_requested_at_) < kStopPatience_s) return false;
   stalled_.clear();

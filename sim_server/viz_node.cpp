@@ -46,8 +46,8 @@ VizNode::VizNode(const Scenario& scenario, const Simulation& simulation, bus::Pa
       trails_(scenario.fleet.size()),
       seen_(KeyFrameSelector::kCell) {}
 
-// Paths and map are kept whether or not somebody reads, so that who comes late finds them: that is next to no work, as
-// key frames are few and thinned out already.
+// The node records paths and map even while no viewer subscribes, so that viewers that subscribe later get them, too.
+// This costs little, because key frames are few and already thinned out.
 void VizNode::publish() {
   paths_stale_ |= trails_.add(simulation_.tick(), simulation_.uavs());
   for (const KeyFrameEvent& event : simulation_.events().key_frames) map_.stale |= seen_.add(event.key_frame.points_W);

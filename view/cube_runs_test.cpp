@@ -16,7 +16,7 @@
 namespace skein::view {
 namespace {
 
-using Cube = std::tuple<int, int, int>;  // z, y, x
+using Cube = std::tuple<int, int, int>;  // a cube's indices along z, y, x
 
 std::set<Cube> cubes_of(const std::vector<CubeRun>& runs) {
   std::set<Cube> cubes;
@@ -28,7 +28,8 @@ std::set<Cube> cubes_of(const std::vector<CubeRun>& runs) {
 
 int cell_of(double metres, double cell_m) { return static_cast<int>(std::floor(metres / cell_m)); }
 
-/// Of a tree's leaves, the obvious way.
+/// Reference implementation, cube by cube: the cubes of 0.5 m that a tree's occupied (or else its free) leaves cover.
+/// @param at_z  only the cubes with this index along z; nullopt: all.
 std::set<Cube> cubes_of(std::string_view tree, bool occupied, const std::optional<int>& at_z) {
   std::set<Cube> cubes;
   visit_octree(tree, 0.5, [&](const KnownCube& leaf) {
@@ -42,7 +43,7 @@ std::set<Cube> cubes_of(std::string_view tree, bool occupied, const std::optiona
   return cubes;
 }
 
-/// What is known of 16^3 cubes about the origin, and its tree as OctoMap serialises it.
+/// Random occupancy of 16 x 16 x 16 cubes around the origin, and its octree in OctoMap's binary serialisation.
 class DrawnCubes {
  public:
   explicit DrawnCubes(std::mt19937& random) {
@@ -61,7 +62,9 @@ class DrawnCubes {
  private:
   using Key = std::array<int, 3>;
   char& at(int x, int y, int z) { return cubes_[static_cast<std::size_t>(x + 16 * (y + 16 * z))]; }
-  /// Appends what an inner node needs. @returns 0: nothing, 1: free, 2: occupied, 3: inner
+  /// Serialises a node: appends its bytes and those of all nodes below if it is an inner node, else nothing.
+  /// @param depth  0: the root, 16: the smallest cubes. @param key  the node's lowest corner [smallest cubes].
+  /// @returns the code of the node in its parent: 0: unknown, 1: free, 2: occupied, 3: inner node
   unsigned write(int depth, const Key& key, std::string& bytes) {
     const int edge = 1 << (16 - depth);
     for (const int along : key) {
@@ -150,7 +153,7 @@ TEST(CubeRuns, ArriveAsTheyWerePacked) {
     EXPECT_EQ(unpacked_runs(packed(runs)), runs);
   }
   EXPECT_EQ(packed({}), "");
-  // The vector that web/src/packed.js is held against, too.
+  // Reference vector of the format that web/src/packed.js unpacks.
   const std::vector<CubeRun> rows = {{-3, 2, 1, 4}, {5, 2, 1, 1}, {300, -70, 2, 130}};
   EXPECT_EQ(packed(rows), "BgIEBQEEggICjwHOBA==");
 }

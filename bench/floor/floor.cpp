@@ -18,7 +18,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds kMatchPoll{2}, kRoundLimit{60'000};
-/// Before the clock starts: what is sent right after the match may wait for a heartbeat, since there is no handshake.
+/// Rounds before the measurement. A DDS match is no handshake: the first samples after it may reach the reader only
+/// with the writer's next heartbeat.
 constexpr std::uint64_t kWarmUp = 10;
 
 double process_cpu_s() {
@@ -27,7 +28,7 @@ double process_cpu_s() {
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-/// One process's part: its endpoints, and what it does in a round.
+/// One process of the benchmark: its DDS endpoints, and what it writes and awaits in each round.
 class Player {
  public:
   Player(const Seat& seat, const std::vector<Flow>& flows) : vendor_(make_vendor()) {
@@ -48,14 +49,16 @@ class Player {
     for (const auto& writer : writers_) writer->write();
   }
 
-  /// Waits for all that is meant for this process in round `round` (1, 2, ...).
+  /// Waits until this process has received every sample that the flows send to it in rounds 1 to `round`.
+  /// @throws std::runtime_error after kRoundLimit.
   void await(std::uint64_t round) {
     if (!arrivals_.wait_for(round * readers_.size(), kRoundLimit)) {
       throw std::runtime_error("round " + std::to_string(round) + " is not complete after a minute");
     }
   }
 
-  /// What has arrived must be what was sent, to the byte.
+  /// Checks that this process received as many bytes as `rounds` rounds send to it. Does not compare their values.
+  /// @throws std::runtime_error if the numbers differ.
   void check_bytes(std::uint64_t rounds) const {
     if (arrivals_.bytes() != rounds * bytes_per_round_) throw std::runtime_error("messages of another size arrived");
   }
@@ -83,7 +86,8 @@ class Player {
   std::uint64_t bytes_per_round_ = 0;
 };
 
-/// What a child tells its parent: that it is ready (one byte), and at the end what it took.
+/// The parent's handle of the child process that takes one seat. The child reports through a pipe: one byte when all
+/// its endpoints are matched, and at the end the CPU time of its measured rounds [s].
 class Child {
  public:
   Child(const Seat& seat, const std::vector<Flow>& flows, std::uint64_t rounds) {
@@ -109,7 +113,7 @@ class Child {
   Child& operator=(const Child&) = delete;
 
   void await_ready() { read_all<char>(); }
-  /// CPU time of its rounds.
+  /// Waits for the child's last round. @returns the child's CPU time in the rounds after the warm-up [s].
   double await_end() { return read_all<double>(); }
 
  private:
@@ -126,7 +130,8 @@ class Child {
     player.check_bytes(kWarmUp + rounds);
     const double cpu_s = process_cpu_s() - before_s;
     if (::write(pipe, &cpu_s, sizeof cpu_s) != sizeof cpu_s) return 3;
-    // What was sent last may still be on its way, and would go with this process: the parent ends it.
+    // DDS may not yet have delivered the last samples, and would drop them if this process exited. So it waits until
+    // its parent kills it (~Child).
     for (;;) ::pause();
   } catch (const std::exception& error) {
     std::cerr << error.what() << std::endl;

@@ -1,5 +1,5 @@
-// A Fast DDS type whose samples are opaque CDR: Fast DDS moves the bytes and never looks at them, so that one binary
-// carries types that it was not compiled for. Keyless, XCDR1.
+// A Fast DDS type whose samples are already serialised (CDR, XCDR1 encoding). Fast DDS transports these bytes and never
+// interprets them, so a program can carry message types that it was not compiled with. The type has no key.
 #pragma once
 
 #include <fastdds/dds/topic/TopicDataType.hpp>
@@ -10,7 +10,7 @@
 
 namespace skein::bus::fastdds {
 
-/// What Fast DDS writes from and reads into: a payload with encapsulation header.
+/// One serialised sample, encapsulation header included. It is what `void* sample` points to below.
 using RawSample = std::vector<std::uint8_t>;
 
 class RawType : public eprosima::fastdds::dds::TopicDataType {

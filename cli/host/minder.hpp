@@ -1,18 +1,20 @@
-// A minder stands between the launcher and a program that may leave children behind: a user's command, somebody else's
-// agent. Whoever loses its parent below it becomes its child (prctl(2), PR_SET_CHILD_SUBREAPER), in whatever session or
-// process group, so it can end them all: when the program has ended, and when the launcher has been killed.
+// A minder is a process between the launcher and a program that may leave children behind, such as a user's command or
+// agent program. If a process below the minder loses its parent, the kernel makes it a child of the minder (prctl(2),
+// PR_SET_CHILD_SUBREAPER), in whatever session or process group it runs. So the minder can kill all these processes
+// when the program has ended or the launcher has died.
 #pragma once
 
 #include <sys/types.h>
 
 namespace skein::cli {
 
-/// Makes this process, forked from the launcher, a minder. Call it before the program is started from here.
-/// @returns false when the launcher is dead already.
+/// Turns this process, a fork of the launcher, into a minder. Call it before this process forks the program.
+/// @returns false if the launcher is already dead.
 bool become_minder(pid_t launcher);
 
-/// Waits for the program and for the launcher, whichever ends first, then ends all processes that are left below this
-/// one, and itself in the program's way: with its exit code or its signal. It stops when the program does.
+/// Waits until the program or the launcher has ended. Then kills all remaining descendants of this process, and ends as
+/// the program did, with the same exit code or by the same signal; with exit code 137 if the launcher ended first. If a
+/// signal stops the program, this process stops, too; to continue them, SIGCONT must go to both.
 [[noreturn]] void mind(pid_t program, pid_t launcher);
 
 }  // namespace skein::cli

@@ -10,25 +10,26 @@
 namespace skein {
 namespace {
 
-/// glibc 2.33 and later name CPU features without the former suffix "_Usable". With these off, libm's selectors fall
-/// back to SSE2, which every x86-64 has.
+/// Disables CPU features in glibc, so that libm selects its SSE2 code, which every x86-64 CPU can execute. These names
+/// of the features are valid for glibc 2.33 and later; older releases append "_Usable" to some of them.
 constexpr const char* kBaselineMath = "glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4,-AVX,-SSE4_1";
 
-/// What Debian's NumPy may choose code for, and can do without: SSE3 is left.
+/// The CPU features for which Debian's NumPy has optional code. Without them it runs its baseline code (SSE to SSE3).
 constexpr const char* kBaselineNumpy =
     "SSSE3,SSE41,POPCNT,SSE42,AVX,F16C,FMA3,AVX2,AVX512F,AVX512CD,AVX512_SKX,AVX512_CLX,AVX512_CNL,AVX512_ICL";
-/// The oldest that OpenBLAS knows with 64 bits: SSE3.
+/// OpenBLAS's core type for the first 64-bit Intel CPUs: its code uses nothing newer than SSE3.
 constexpr const char* kBaselineBlas = "Prescott";
 
-/// Which settings a program's DDS has is decided by its bus alone. RMW_IMPLEMENTATION is left: it is the library that a
-/// ROS 2 node of the user's is built on, and none of ours reads it.
+/// Prefixes and names of variables that configure DDS or ROS 2 discovery. The programs do not inherit them, because
+/// only Skein itself may configure the DDS of its programs. RMW_IMPLEMENTATION is not among them: it selects the
+/// middleware of a user's ROS 2 nodes, and has no effect on the DDS of Skein's own programs.
 constexpr std::array<std::string_view, 5> kVendorPrefixes = {"CYCLONE", "FASTDDS_", "FASTRTPS_", "RMW_FASTRTPS_",
                                                              "RMW_CYCLONEDDS_"};
 constexpr std::array<std::string_view, 8> kVendorNames = {"ROS_DISCOVERY_SERVER",  "ROS_SUPER_CLIENT",
                                                           "ROS_DOMAIN_ID",         "ROS_LOCALHOST_ONLY",
                                                           "ROS_STATIC_PEERS",      "ROS_AUTOMATIC_DISCOVERY_RANGE",
                                                           "SKIP_DEFAULT_XML_FILE", "SKIP_DEFAULT_XML"};
-/// Told to each program by its launcher; inherited, they are those of another fleet.
+/// Variables that a launcher sets for each program that it starts. Inherited values would be those of another fleet.
 constexpr std::array<std::string_view, 10> kToldNames = {
     "SKEIN_DDS",  "SKEIN_DOMAIN", "SKEIN_OUT",      "SKEIN_RADIO_HEARS", "SKEIN_RADIO_SENDS",
     kRunVariable, "SKEIN_ROLE",   "SKEIN_SCENARIO", "SKEIN_SECURITY",    "SKEIN_UAV"};
@@ -49,7 +50,7 @@ bool is_ignored_variable(std::string_view name) {
 }
 
 std::map<std::string, std::string> pinned_variables(bool native) {
-  // SKIP...: else Fast DDS takes a file DEFAULT_FASTRTPS_PROFILES.xml that happens to lie in the current folder.
+  // Without SKIP_DEFAULT_XML_FILE, Fast DDS would load DEFAULT_FASTRTPS_PROFILES.xml if the current folder has one.
   std::map<std::string, std::string> pins = {
       {"LC_ALL", "C"},         {"OMP_NUM_THREADS", "1"},       {"OPENBLAS_NUM_THREADS", "1"}, {"MKL_NUM_THREADS", "1"},
       {"PYTHONHASHSEED", "0"}, {"SKIP_DEFAULT_XML_FILE", "1"}, {kPinnedVariable, "1"}};
@@ -93,7 +94,8 @@ std::vector<std::string> ignored_variables() {
 
 void take_fleet_environment(char** argv) {
   if (std::getenv(kPinnedVariable) != nullptr) return;
-  // No launcher started it, so whoever did may have told it the run, which belongs to no other fleet then.
+  // Since kPinnedVariable is not set, no launcher started this program. So SKEIN_RUN, if set, does not come from
+  // another fleet's launcher: whoever started this program chose it for this run, and the program keeps it.
   std::map<std::string, std::string> told;
   if (const char* run = std::getenv(kRunVariable)) told[kRunVariable] = run;
   std::vector<std::string> variables = fleet_environment(false, told);
@@ -101,7 +103,8 @@ void take_fleet_environment(char** argv) {
   for (std::string& variable : variables) environment.push_back(variable.data());
   environment.push_back(nullptr);
   ::execve("/proc/self/exe", argv, environment.data());
-  // Without /proc it goes on as it is: only a digest that is compared tells the difference.
+  // execve() has failed, for example because there is no /proc. The program goes on in the environment that it was
+  // given. If this changes a result, only a comparison of digests shows it.
 }
 
 }  // namespace skein

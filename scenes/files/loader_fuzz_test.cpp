@@ -1,5 +1,6 @@
-// A seeded corpus of damaged scene files. Whatever stands in a file, its reader returns sane data or throws an
-// InputError that names the file: no other exception, no crash, no hang, no memory beyond a bound.
+// Fuzz test of the readers of scene files: the test damages files at random, with a fixed seed. Whatever a file
+// contains, its reader must return valid data or throw an InputError that names the file. It must not throw another
+// exception, crash, hang, or use more than kMostMemory.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,8 +23,8 @@
 namespace skein::sim {
 namespace {
 
-constexpr std::uint64_t kRounds = 500;            ///< of each file of the corpus
-constexpr std::size_t kMostMemory = 1024 * 1024;  ///< for files of a few kB
+constexpr std::uint64_t kRounds = 500;            ///< damaged variants of each file of the corpus
+constexpr std::size_t kMostMemory = 1024 * 1024;  ///< [bytes] in use at once while a file of a few kB is read
 
 std::string text_bytes(const auto& value) { return {reinterpret_cast<const char*>(&value), sizeof value}; }
 
@@ -59,7 +60,7 @@ std::string ascii_pcd() {
   return text;
 }
 
-/// LZF of a kind: repeated bytes as references, all others as they are.
+/// A minimal LZF compressor: encodes long runs of one byte value as back references, and all other bytes as literals.
 std::string pack(const std::string& plain) {
   std::string packed;
   for (std::size_t at = 0; at < plain.size();) {
@@ -155,41 +156,41 @@ class Damage {
  private:
   std::size_t below(std::size_t end) { return static_cast<std::size_t>(random_.bits() % end); }
 
-  /// Every other time near the beginning, where headers are.
+  /// A random position. Half of the draws take it from the first 256 bytes only, where the headers are.
   std::size_t place(const std::string& bytes) { return below(below(2) ? bytes.size() : std::min(bytes.size(), 256ul)); }
 
   void once(std::string& bytes, const std::vector<Kind>& all) {
     const std::size_t at = place(bytes), length = below(60);
     switch (below(9)) {
-      case 0:  // one bit
+      case 0:  // flips one bit
         bytes[at] = static_cast<char>(bytes[at] ^ (1 << below(8)));
         break;
-      case 1:
+      case 1:  // truncates the file
         bytes.resize(at);
         break;
-      case 2:
+      case 2:  // deletes a piece
         bytes.erase(at, length);
         break;
-      case 3: {  // a piece of the same file or of another
+      case 3: {  // inserts a piece of the same file, or of another file of the corpus
         const std::string& other = below(2) ? bytes : all[below(all.size())].intact;
         bytes.insert(at, other.substr(below(other.size()), length));
         break;
       }
-      case 4:
+      case 4:  // overwrites one byte with a random value
         bytes[at] = static_cast<char>(random_.bits());
         break;
-      case 5:  // another digit
+      case 5:  // overwrites one byte with a digit
         bytes[at] = static_cast<char>('0' + below(10));
         break;
-      case 6: {  // a number of four bytes
+      case 6: {  // overwrites four bytes with a special number
         const std::uint32_t word = kWords[below(kWords.size())];
         if (at + sizeof word <= bytes.size()) std::memcpy(&bytes[at], &word, sizeof word);
         break;
       }
-      case 7:
+      case 7:  // appends copies of one byte
         bytes.append(length * below(40), bytes[at]);
         break;
-      default: {  // another word
+      default: {  // replaces a word after this place with a special one
         const std::size_t begin = bytes.find_first_of(" \n,[", at);
         if (begin == std::string::npos) break;
         const std::size_t end = std::min(bytes.find_first_of(" \n,]", begin + 1), bytes.size());
@@ -203,7 +204,8 @@ class Damage {
 
 class LoaderFuzz : public ScratchFiles {
  protected:
-  /// Loads one file. @returns whether it was accepted.
+  /// Writes `bytes` to a file and loads it. Fails the test if the reader breaks one of the rules at the top of this
+  /// source file. @returns whether the reader accepted the file.
   bool survives(const Kind& kind, const std::string& bytes) {
     const auto file = write("damaged", bytes);
     const test::CountedMemory memory;
@@ -235,7 +237,7 @@ TEST_F(LoaderFuzz, DamagedFilesLoadOrAreRefused) {
       accepted += survives(all[k], Damage(k, round).apply(all[k].intact, all));
       if (HasFailure()) return;
     }
-    // A corpus that is all refused, or all accepted, would test little.
+    // If a reader refused, or accepted, nearly all damaged files, this test would say little about it.
     EXPECT_GT(accepted, kRounds / 50) << all[k].name;
     EXPECT_LT(accepted, kRounds / 2) << all[k].name;
   }
@@ -251,7 +253,7 @@ TEST_F(LoaderFuzz, EveryTruncationIsRefusedOrSane) {
   }
 }
 
-/// Headers that promise far more than the file holds: nothing may be allocated on their word.
+/// A header that announces far more data than the file holds must not make a reader allocate memory for that data.
 TEST_F(LoaderFuzz, HugePromisesCostNothing) {
   std::string stl = to_stl(small_mesh());
   for (const std::uint32_t count : {2'000'000u, 10'000'000u, 4'294'967'295u}) {
@@ -270,7 +272,7 @@ TEST_F(LoaderFuzz, HugePromisesCostNothing) {
       EXPECT_FALSE(survives({"PCD", huge, load_points}, huge)) << many;
     }
   }
-  // 4 GB promised by the packed data as well as by the header.
+  // Here the header and the compressed data agree: both announce 4.16 GB of unpacked data.
   std::string packed = with(packed_pcd(), " 20\n", " 5000000\n");
   packed = with(packed, "FIELDS x", "FIELDS a x");
   packed = with(with(packed, "SIZE 4", "SIZE 8 4"), "TYPE F", "TYPE U F");

@@ -13,12 +13,15 @@
 namespace skein::sim::wild {
 namespace {
 
-constexpr double kBerth = 1.4;       ///< of a body's centre; an explorer takes up 0.63 m
-constexpr double kShare = 0.33;      ///< of the points
-constexpr std::size_t kLooks = 160;  ///< points looked at, about
+constexpr double kBerth = 1.4;       ///< least clearance of a UAV's centre [m]; an explorer's radius is 0.63 m
+constexpr double kShare = 0.33;      ///< share of the checked interest points that UAVs must be able to photograph
+constexpr std::size_t kLooks = 160;  ///< least number of interest points to check; fewer if the scene has fewer
+/// Flight time of a UAV: kDetour times the straight lines, at kSpeed [m/s], plus kFixedS [s]. It must be less than the
+/// share kTimeShare of the mission.
 constexpr double kSpeed = 4.0, kDetour = 1.5, kFixedS = 25.0, kTimeShare = 0.5;
+/// Least height of a viewpoint [m]; tangent of the angle between an oblique view and the surface normal.
 constexpr double kLowestView = 1.5, kTilt = 0.6;
-constexpr std::size_t kLeastPlaces = 5;  ///< that see the station
+constexpr std::size_t kLeastPlaces = 5;  ///< least number of reachable places with line of sight to the station
 
 class Proof {
  public:

@@ -1,10 +1,12 @@
-// How strong a radio signal arrives, beyond line of sight: log-distance path loss with shadowing that is correlated in
-// space and the same both ways.
+// Received power of a radio link, which limits links in addition to the line-of-sight rule: log-distance path loss with
+// spatially correlated shadowing. It is reciprocal: the same in both directions.
 //
 //   received [dBm] = power - loss(1 m) - 10 n log10(d / 1 m) - S,     S = sigma (f(a) + f(b)) / sqrt(2)
 //
-// f is a standard normal random field whose correlation falls with distance as exp(-|p - q| / D) (Gudmundson 1991),
-// made of waves whose numbers are drawn from the spectrum of that correlation. Two places near each other fade alike.
+// a and b are the positions of the two antennas, d is their distance (at least 1 m), n the path-loss exponent, S the
+// shadowing [dB]. f is a standard normal random field. Its correlation between two positions p and q is
+// exp(-|p - q| / D) with the decorrelation distance D (Gudmundson 1991), so nearby positions have similar shadowing.
+// The code approximates f by a sum of plane waves whose wave vectors are drawn from the spectrum of that correlation.
 // Frame: W.  Units: SI; dB and dBm where the name says so.  Pure; safe from any thread.
 #pragma once
 
@@ -19,7 +21,7 @@ namespace skein::sim {
 class ShadowField {
  public:
   ShadowField(double decorrelation_m, std::uint64_t seed);
-  /// Standard normal over seeds.
+  /// Value of the field at a position. Over all seeds it has, nearly, a standard normal distribution.
   double at(const Vector3d& p_W) const;
 
  private:
@@ -32,12 +34,12 @@ class ShadowField {
 
 class PathLoss {
  public:
-  /// @param radio  which is on.
+  /// @param radio  must have path loss: radio.on(). @param seed  draws the shadowing.
   PathLoss(const RadioConditions& radio, std::uint64_t seed) : radio_(radio), field_(radio.decorrelation_m, seed) {}
 
-  /// Between two antennas, without regard to what stands between them.
+  /// Received power [dBm] between antennas at p_W and q_W. Ignores obstacles: LinkTracer checks the line of sight.
   double received_dbm(const Vector3d& p_W, const Vector3d& q_W) const;
-  /// Place in kRadioRates, counted from 1; 0: too weak for any.
+  /// Index in kRadioRates, counted from 1, of the highest data rate that the received power allows; 0: none.
   std::uint8_t level(const Vector3d& p_W, const Vector3d& q_W) const;
 
  private:

@@ -19,29 +19,30 @@ namespace {
 constexpr std::size_t kTowers = 4;
 constexpr double kTau = 2.0 * std::numbers::pi;
 constexpr double kRadius_m = 5.0, kHeight_m = 24.0, kSpacing_m = 32.0;
-constexpr double kOrbit_m = 5.5;                      ///< from the wall
-constexpr double kTurn_rad_s = 0.25, kClimb_m = 4.0;  ///< a circle
+constexpr double kOrbit_m = 5.5;                      ///< mean distance of a UAV from the wall of its tower
+constexpr double kTurn_rad_s = 0.25, kClimb_m = 4.0;  ///< angular rate around the tower; climb per circle
 constexpr double kStay_s = 150.0, kMove_s = 12.0;
 constexpr double kRadio_m = 45.0;
-constexpr double kWindow_rad = 0.30, kWindow_m = 2.2;  ///< half of what a camera sees of a tower
-constexpr std::uint64_t kCapturePeriod = 3, kPosePeriod = 10, kLinksPeriod = 5;  ///< in exchanges
+constexpr double kWindow_rad = 0.30, kWindow_m = 2.2;  ///< half of the field of view: angle about the tower, height
+constexpr std::uint64_t kCapturePeriod = 3, kPosePeriod = 10, kLinksPeriod = 5;  ///< all periods in exchanges
 constexpr std::uint64_t kActivityPeriod = 40;
-constexpr std::uint64_t kCloudPeriod = 32, kMapPeriod = 1600;  ///< at 8 times real time 0.2 and 10 s
-constexpr std::size_t kDeliveries = 4;                         ///< of a UAV in an exchange
+constexpr std::uint64_t kCloudPeriod = 32, kMapPeriod = 1600;  ///< wall time at 8 times real time: 0.2 s, 10 s
+constexpr std::size_t kDeliveries = 4;                         ///< most captures that a UAV delivers per exchange
 const Vector3d kStation(0.0, -34.0, 0.3);
 
 Vector3d axis_of(std::size_t tower) {
   return {(static_cast<double>(tower % 2) - 0.5) * kSpacing_m, (static_cast<double>(tower / 2) - 0.5) * kSpacing_m, 0};
 }
 
-/// A number in [0, 1) for three others.
+/// Pseudo-random number in [0, 1): a hash of three integers.
 double noise(std::uint64_t a, std::uint64_t b, std::uint64_t c) {
   std::uint64_t x = a * 0x9e3779b97f4a7c15U + b * 0xbf58476d1ce4e5b9U + c * 0x94d049bb133111ebU;
   for (int i = 0; i < 2; ++i) x = (x ^ (x >> 31U)) * 0xd6e8feb86659fd93U;
   return static_cast<double>(x >> 40U) / static_cast<double>(1U << 24U);
 }
 
-/// Whether no tower stands between two places.
+/// Whether the line of sight between two positions in W is clear of towers. Approximate: for each tower it checks only
+/// the point of the line that is nearest to the tower's axis, seen from above.
 bool in_sight(const Vector3d& a, const Vector3d& b) {
   for (std::size_t tower = 0; tower < kTowers; ++tower) {
     const Vector3d axis = axis_of(tower);
@@ -99,7 +100,10 @@ MadeUpFlight::MadeUpFlight(MadeUpSize size, view::Feed& feed) : size_(size), fee
   tell_state();
 }
 
-/// UAVs stay at a tower for a while, and fly on to the next one.
+/// Position of a UAV in W on its climbing circle around a tower. Every kStay_s the position jumps to the next tower:
+/// move() replaces the last kMove_s before that by a smooth flight between the two towers.
+/// @param tower  receives the index of the tower.
+/// @param angle  receives the angle of the UAV about the tower's axis, from the x axis [rad].
 Vector3d MadeUpFlight::place_of(std::size_t uav, double time_s, std::size_t& tower, double& angle) const {
   const double stay = std::floor(time_s / kStay_s), since_s = time_s - stay * kStay_s;
   tower = (uav + static_cast<std::size_t>(stay)) % kTowers;
@@ -130,7 +134,8 @@ void MadeUpFlight::move() {
   }
 }
 
-/// The points of the tower that are before it; of these, those that it had not seen as well before.
+/// Takes a picture: a capture with the points of the UAV's tower that are in its field of view and that this picture
+/// shows clearly better than all of the UAV's pictures before. Without such points there is no capture.
 void MadeUpFlight::photograph(std::size_t index) {
   Uav& uav = fleet_[index];
   const std::size_t each = points_.size() / kTowers;
@@ -198,7 +203,7 @@ void MadeUpFlight::tell_state() {
       step_ * 20, time_s(), view::poses_json(shown), view::numbers_json(numbers)));
 }
 
-/// Each says every two seconds that it does something else.
+/// Every two simulated seconds each UAV reports another activity.
 void MadeUpFlight::tell_activities() {
   static constexpr std::array kModes = {"flies to a goal", "rests at its goal", "looks for a way", "delivers"};
   for (std::size_t i = 0; i < fleet_.size(); ++i) {
@@ -211,7 +216,7 @@ void MadeUpFlight::tell_activities() {
   }
 }
 
-/// As much as the server would tell of points that the scans meet, and of maps, to who asks for them.
+/// Gives the feed LiDAR points and maps of all UAVs, about as much as sim_server sends to a page that asks for them.
 void MadeUpFlight::tell_clouds() {
   const view::LookBudget budget = view::look_budget(fleet_.size());
   const std::size_t each = budget.points / fleet_.size();

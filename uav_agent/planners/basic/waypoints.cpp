@@ -1,5 +1,5 @@
-// Flies fixed paths from a file, one list for each UAV: for demonstrations, and to measure sensors and scoring
-// along a known path. Example:
+// Flies each UAV along a fixed path: a list of stops from a file. Use it for demonstrations, and to measure sensors and
+// scoring along a known path. Example:
 //
 //   repeat: true
 //   paths:
@@ -7,7 +7,7 @@
 //       - {position: [0, 5, 10], speed_mps: 3}
 //       - {position: [20, 5, 10], speed_mps: 2, look_at: [20, 15, 10], stay_s: 2}
 //
-// A UAV without a path stays on the ground. Frame W.   Units: SI and degrees where the name says so.
+// A UAV without a path stays on the ground. Positions are in frame W.   Units: SI, and degrees where the name says so.
 #include <algorithm>
 #include <cmath>
 
@@ -20,10 +20,10 @@ class WaypointsPlanner final : public Planner {
  public:
   struct Stop {
     Vector3d position = Vector3d::Zero();
-    double speed_mps = 2.0;           ///< on the leg that ends here
-    double stay_s = 0.0;              ///< at rest here before flying on
-    std::optional<double> yaw_deg;    ///< of the body from here on; without it, as it was
-    std::optional<Vector3d> look_at;  ///< the camera's aim on the leg that ends here and while staying
+    double speed_mps = 2.0;           ///< highest speed on the leg that ends at this stop
+    double stay_s = 0.0;              ///< how long the UAV rests at this stop
+    std::optional<double> yaw_deg;    ///< body yaw in W, from the start of this leg on; without it, as before
+    std::optional<Vector3d> look_at;  ///< target of the camera, from the start of this leg on; without it, as before
 
     template <class R>
     void describe(R& r) {
@@ -38,7 +38,7 @@ class WaypointsPlanner final : public Planner {
 
   struct Config {
     bool repeat = false;             ///< begin again after the last stop
-    Named<std::vector<Stop>> paths;  ///< by UAV
+    Named<std::vector<Stop>> paths;  ///< by name of the UAV
 
     template <class R>
     void describe(R& r) {
@@ -77,14 +77,14 @@ class WaypointsPlanner final : public Planner {
   }
 
  private:
-  /// At rest at the stop for as long as it says.
+  /// Whether the UAV has rested at the current stop for stay_s. Call it only at rest: the first call starts the time.
   bool arrived(const PlannerInput& input) {
     if (!arrived_at_) arrived_at_ = input.tick;
     return input.tick - *arrived_at_ >= ticks(stops_[next_].stay_s);
   }
 
   const Config config_;
-  std::vector<Stop> stops_;  ///< own
+  std::vector<Stop> stops_;  ///< of this UAV
   std::size_t next_ = 0;
   std::optional<Tick> arrived_at_;
   bool started_ = false, finished_ = false;

@@ -1,5 +1,6 @@
-// The patrol planner in a world without physics: what it must never do, and what it must get done. Distances between
-// UAVs are those between their bodies.
+// Tests the patrol planner in TestWorld, a world without physics: UAVs must keep their distance from the structure and
+// from each other, and must photograph the structure and deliver their captures. clearance() is the least distance from
+// a UAV's centre to the structure, gap() the least distance between the bodies of two UAVs [m].
 #include <gtest/gtest.h>
 
 #include "uav_agent/testing/test_world.hpp"
@@ -84,7 +85,8 @@ TEST(Patrol, CopesWithManyBoxes) {
   EXPECT_GT(world.coverage(), 0.3);
 }
 
-/// One box around a whole site, as the contest of 2024 had: where the structure is, only the map can tell.
+/// One box around the whole site, as in the contest of 2024. The planner learns only from its map where in the box the
+/// structure is.
 TEST(Patrol, FindsTheStructureInABoxThatHoldsEverything) {
   TestScene scene = two_towers();
   scene.boxes = {make_box({16.0, 12.0, 16.0}, {64.0, 56.0, 33.0}, 0.2)};
@@ -96,7 +98,8 @@ TEST(Patrol, FindsTheStructureInABoxThatHoldsEverything) {
   EXPECT_LE(world.undelivered(), 6U) << "only those of the last seconds";
 }
 
-/// A screen that is in no box stands where the strips of a tower's front would be flown.
+/// A tower with a thin wall (the screen) in front of it, outside the tower's box. The wall stands where a UAV would fly
+/// to photograph the strips of the tower's front.
 TestScene tower_with_a_screen() {
   TestScene scene;
   scene.solids = {make_box({0.0, 12.0, 14.0}, {16.0, 8.0, 28.0}), make_box({0.0, 3.3, 9.0}, {16.0, 0.6, 18.0})};
