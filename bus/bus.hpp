@@ -1,8 +1,8 @@
-// The only way in which Skein's processes talk: topics of already serialised CDR payloads, in numbered domains.
-// A backend (inproc/, fastdds/, cyclonedds/) moves bytes by topic name, type name and QoS; typed.hpp adds the types.
+// The message bus of all Skein processes: topics with serialised CDR payloads, in numbered domains. A backend (inproc/,
+// fastdds/, cyclonedds/) transports bytes by topic name, type name and QoS; typed.hpp adds message types.
 //
-// Threads: a backend may call Reader callbacks from its own threads; an Inbox (inbox.hpp) takes them to the one
-// thread that owns a program's state. Writers may be used from one thread at a time.
+// Threads: a backend may call Reader callbacks from its own threads; an Inbox (inbox.hpp) passes the samples to the
+// thread that owns the program's state. A Writer may be used from one thread at a time.
 #pragma once
 
 #include <netinet/in.h>
@@ -24,15 +24,15 @@
 
 namespace skein::bus {
 
-/// A DDS participant as all others in its domain see it: a hash (FNV-1a, 64 bit) of the 12 bytes of its GUID prefix,
-/// so that both vendors name the same participant alike. 0 means unknown.
+/// Identifies a DDS participant: a hash (FNV-1a, 64 bit) of the 12 bytes of its GUID prefix, so that programs of both
+/// vendors use the same id for it. 0 means unknown.
 using ParticipantId = std::uint64_t;
 
-/// Quality of service. Everything is KEEP_LAST; a writer never blocks on a dead, stopped or slow reader.
+/// Quality of service. History is always KEEP_LAST; a writer never blocks on a dead, stopped or slow reader.
 struct Qos {
   bool reliable = true;
   bool latched = false;  ///< TRANSIENT_LOCAL: a late joiner gets the last `depth` samples
-  int depth = 64;        ///< at least what one lock-step round may hold
+  int depth = 64;        ///< history depth; at least the number of samples in one exchange
 };
 
 struct TopicSpec {
@@ -44,59 +44,62 @@ struct TopicSpec {
 /// One received sample. `payload` begins with the 4-byte encapsulation header (CDR_LE for what Skein writes).
 struct Sample {
   std::vector<std::uint8_t> payload;
-  ParticipantId source = 0;  ///< who wrote it
+  ParticipantId source = 0;  ///< participant that wrote the sample
 };
 
-/// Matches are found by either side for itself: that a writer lists a reader does not mean that the reader has found
-/// the writer, and what is written in between passes it by. Who must not lose the first sample waits until the other
-/// side has said that it is ready. What a reader has not got when a writer is destroyed may be lost to it.
+/// Writer and reader discover their match independently: a writer may list a reader that has not matched the writer
+/// yet, and that reader does not receive what is written until it has. A program that must not lose its first sample
+/// waits for a message that says that the reader is ready. When a writer is destroyed, samples that a reader has not
+/// received yet may be lost.
 class Writer {
  public:
   virtual ~Writer() = default;
-  /// @param payload with encapsulation header. A length that is no multiple of four is padded with zeros, here as on
-  /// the wire. Never blocks for long: what a reader cannot take is lost to it, and what the vendor does not take at all
-  /// goes to the participant's unsent().
+  /// @param payload  with encapsulation header. All backends pad it with zeros to a multiple of four bytes, as RTPS
+  /// does. Never blocks for long: a reader loses samples that it cannot take in time; the participant's unsent() counts
+  /// samples that the vendor does not accept.
   virtual void write(std::span<const std::uint8_t> payload) = 0;
-  /// Participants with a reader that this writer has matched, one entry a reader.
+  /// Participants of the readers that this writer has matched, one entry per reader.
   virtual std::vector<ParticipantId> matched() const = 0;
-  /// Whether there are any; cheap enough to ask before each sample.
+  /// Whether any reader is matched; cheap enough to be called before each sample.
   virtual bool has_readers() const { return !matched().empty(); }
 };
 
 class Reader {
  public:
   virtual ~Reader() = default;
-  /// Participants with a writer that this reader has matched, one entry a writer. Whoever wrote a sample that was
-  /// handed out is among them until that writer has left.
+  /// Participants of the writers that this reader has matched, one entry per writer. The writer of a sample that was
+  /// passed to OnSample is among them until it leaves.
   virtual std::vector<ParticipantId> matched() const = 0;
 };
 
-/// Called for each sample in the order in which each writer wrote; from a backend's thread, one call at a time for a
-/// reader, and perhaps before create_reader() returns. It must not destroy that reader, nor block.
+/// Called for each sample; samples of one writer come in the order in which it wrote them. A backend's thread calls it,
+/// one call at a time per reader, possibly before create_reader() returns. It must neither block nor destroy the
+/// reader.
 using OnSample = std::function<void(Sample&&)>;
 
-/// One participant in one domain. Endpoints must be destroyed before it.
+/// One participant in one domain. Its readers and writers must be destroyed before it.
 class Participant {
  public:
-  /// @param unsent  shared with others, as a rule with all of the bus.
+  /// @param unsent  counter of unsent samples, usually shared by all participants of the bus.
   explicit Participant(std::shared_ptr<Unsent> unsent = std::make_shared<Unsent>()) : unsent_(std::move(unsent)) {}
   virtual ~Participant() = default;
   virtual ParticipantId id() const = 0;
   virtual std::unique_ptr<Writer> create_writer(const TopicSpec& topic) = 0;
-  /// A participant never hears its own writers.
+  /// A reader never receives samples of its own participant's writers.
   virtual std::unique_ptr<Reader> create_reader(const TopicSpec& topic, OnSample on_sample) = 0;
-  /// What this thread writes from now on may wait until it calls release(), to travel together. Both do nothing when
-  /// they were called already; nobody may wait for an answer in between. See Burst.
+  /// From hold() to release(), the backend may hold back what this thread writes, to send it together. A second call
+  /// of the same function has no effect. Do not wait for an answer to a sample before release(). See Burst.
   virtual void hold() {}
   virtual void release() {}
-  /// Where its writers count what they could not send.
+  /// Counter of the samples that the participant's writers could not send.
   Unsent& unsent() const { return *unsent_; }
 
  private:
   const std::shared_ptr<Unsent> unsent_;
 };
 
-/// Samples that are written in a row and of use only together: a step's. Sends them at the latest when it ends.
+/// Groups samples that are written in succession and useful only together, such as those of a step: calls hold(), and
+/// release() in its destructor.
 class Burst {
  public:
   explicit Burst(Participant& participant) : participant_(participant) { participant_.hold(); }
@@ -108,25 +111,25 @@ class Burst {
   Participant& participant_;
 };
 
-/// What the names of all peers told at once, and when: who joins many domains need not wait for each. It is soon out of
-/// date, while others come up.
+/// Result and time of one name look-up for all peers, so that a program that joins many domains need not look up names
+/// for each. It is valid for a few seconds only, because further hosts may start.
 struct Asked {
   std::map<std::string, in_addr> addresses{};
   std::chrono::steady_clock::time_point at{};
 };
 
-/// In BusConfig::networks.
+/// Key in BusConfig::networks of the network for all domains that have no entry.
 inline constexpr int kEveryDomain = -1;
 
 struct BusConfig {
-  std::string vendor = "cyclonedds";                 ///< "cyclonedds", "fastdds" or "inproc"
-  std::map<int, DomainNetwork> networks{};           ///< by domain, or kEveryDomain; usual: nothing leaves the host
+  std::string vendor = "cyclonedds";        ///< "cyclonedds", "fastdds" or "inproc"
+  std::map<int, DomainNetwork> networks{};  ///< by domain, or kEveryDomain; default: no message leaves the host
   std::chrono::milliseconds peers_patience{10'000};  ///< see find_reach()
-  Asked asked{};                                     ///< make_bus() does
-  int lease_s = 8;  ///< who gives no sign of life for so long is taken for dead, [1, 3600]
+  Asked asked{};                                     ///< set by make_bus()
+  int lease_s = 8;  ///< a participant that is silent for this time is considered dead, [1, 3600]
   /// Folder with the files of process/files/security_files.hpp; empty: an open domain
   std::filesystem::path security{};
-  RunId run = RunId::none;  ///< that its programs take part in
+  RunId run = RunId::none;  ///< the run to which the program belongs
 
   DomainNetwork network(int domain) const;
 };
@@ -134,17 +137,17 @@ struct BusConfig {
 /// Domain ids run from 0 to this one: the UDP ports of a domain begin at 7400 + 250 x domain and must stay below 65536.
 inline constexpr int kMaxDomain = 230;
 
-/// A vendor's implementation, for one run. A participant may outlive the bus that it was made by.
+/// A backend, for one run. A participant may outlive the bus that created it.
 class Bus {
  public:
   explicit Bus(RunId run = RunId::none) : run_(run) {}
   virtual ~Bus() = default;
-  /// The run that its programs take part in.
+  /// The run to which the bus belongs.
   RunId run() const { return run_; }
-  /// What the writers of all participants that it made did not send.
+  /// Counter of the unsent samples of all participants that this bus created.
   const std::shared_ptr<Unsent>& unsent() const { return unsent_; }
-  /// As if the process of its participants had died: they write and hear nothing more, and nobody has matched them.
-  /// For programs that share a process, hence only inproc's does something.
+  /// Has the same effect for others as the death of the process: the participants of this bus no longer send or
+  /// receive, and are no longer matched. For programs that share a process; only inproc implements it.
   virtual void vanish() {}
   /// @throws InputError when `domain` is not 0 .. kMaxDomain; std::runtime_error when the vendor fails
   virtual std::unique_ptr<Participant> join(int domain) = 0;
@@ -157,7 +160,8 @@ class Bus {
 /// @throws InputError (core/types.hpp) for an unknown vendor; the message lists the known ones. Also when a file of
 /// `security` cannot be read; inproc has no security.
 std::unique_ptr<Bus> make_bus(BusConfig config);
-/// Names of all vendors, in the order in which `mixed` deals them out: cyclonedds, fastdds. inproc is not among them.
+/// Names of all DDS vendors, in the order in which the choice `mixed` assigns them to programs: cyclonedds, fastdds.
+/// Not inproc.
 std::vector<std::string> dds_vendors();
 
 }  // namespace skein::bus

@@ -1,7 +1,7 @@
-// Takes samples from a backend's threads to the one thread that owns a program's state.
-// Handlers run inside dispatch(), one at a time, in order of arrival; samples of one writer on one topic never
-// overtake each other. With SKEIN_CHAOS=N in the environment arrivals of *different* topics and writers are held back
-// and reordered at random (seeded by N and the process): a correct program's result must not depend on it.
+// Passes samples from a backend's threads to the thread that owns a program's state. Handlers run inside dispatch(),
+// one at a time, in order of arrival; samples of one writer on one topic keep their order. With SKEIN_CHAOS=N in the
+// environment, the inbox delays and reorders arrivals of *different* topics and writers at random (seeded by N and the
+// process id): the result of a correct program does not depend on this.
 #pragma once
 
 #include <chrono>
@@ -15,13 +15,14 @@
 
 namespace skein::bus {
 
-/// Waking a thread costs more than handling a sample. In lock-step most samples are of no use before the one that
-/// says how many there are: those topics are silent, and only the others ring.
+/// Whether a sample of a topic wakes a thread that waits in dispatch(); waking costs more than handling a sample. In
+/// lock-step a program cannot use most samples before the message that says how many there are: topics of such samples
+/// are silent, the other topics ring.
 enum class Bell { rings, silent };
 
 class Inbox {
  public:
-  /// Chaos as the environment says. @param run  whose messages are taken; see note_foreign().
+  /// Takes the seed of the chaos from SKEIN_CHAOS. @param run  the program's run; see note_foreign().
   explicit Inbox(RunId run = RunId::none);
   explicit Inbox(unsigned chaos, RunId run = RunId::none);
   ~Inbox();
@@ -34,31 +35,32 @@ class Inbox {
   std::unique_ptr<Reader> subscribe(Participant& participant, const TopicSpec& topic, Handler handler,
                                     Bell bell = Bell::rings);
 
-  /// Runs handlers for all that has arrived, silent or not; waits until that is worth it, but no longer than `timeout`.
-  /// @param rings  wait for so many samples of topics that ring; 0: for any sample. Posted work is never waited over.
-  ///   Who asks for n must know that fewer cannot change anything, or it sleeps through what it waits for.
+  /// Waits until enough samples have arrived, at most for `timeout`, then runs the handlers of all arrived samples,
+  /// silent or not.
+  /// @param rings  number of samples of ringing topics to wait for; 0: any sample is enough. Posted work ends the wait.
+  ///   Pass n only if fewer than n samples cannot change anything, otherwise dispatch() waits too long.
   /// @returns false when nothing arrived in time or wake() was called.
   bool dispatch(std::chrono::milliseconds timeout, std::size_t rings = 0);
-  /// True when dispatch() would not wait. For tests that may not let time pass.
+  /// True when dispatch() would not wait. For callers that must not wait: LockstepNode::poll(), tests.
   bool ready(std::size_t rings = 0);
   /// Makes a waiting dispatch() return; from any thread, and from signal handlers' helper threads.
   void wake();
-  /// Hands in something from another thread (a control pipe, a timer) to run inside dispatch(), in order of arrival.
+  /// Makes dispatch() run `work`, in order of arrival. For other threads (a control pipe, a timer).
   void post(std::function<void()> work);
 
-  /// While it is deaf all samples that arrive are lost, as they are to a process that is stopped for long. Posted work
-  /// is not.
+  /// While the inbox is deaf, all arriving samples are lost, as for a process that is stopped for a long time. Posted
+  /// work is not lost.
   void set_deaf(bool deaf);
 
-  /// Counts a sample that was no message of its topic's type (typed.hpp); tells of the first one on each topic.
-  /// Inside dispatch(), or on its thread.
+  /// Counts a sample that is not a valid message of its topic's type (typed.hpp), and logs the first one on each topic.
+  /// Call it inside dispatch(), or on the same thread.
   void note_malformed(const std::string& topic, const Sample& sample);
   /// Malformed samples so far, on all topics.
   std::uint64_t malformed() const { return malformed_; }
 
-  /// The run that this program takes part in: lock-step messages of any other are dropped (typed.hpp).
+  /// The run to which this program belongs. typed.hpp drops lock-step messages of other runs.
   RunId run() const { return run_; }
-  /// Tells of the first message of another run on each topic.
+  /// Logs the first message of another run on each topic.
   void note_foreign(const std::string& topic, const Sample& sample, RunId run);
 
  private:

@@ -1,6 +1,6 @@
-// What of the network is this very host: a fleet keeps to it unless it is told otherwise, and still meets the nodes
-// beside it that do not, such as ROS 2 nodes with default settings. These announce the addresses of their interfaces
-// and listen to multicast on all of them; on Linux that includes what is sent to a group on the loopback interface.
+// Finds the addresses of this host. By default a fleet communicates only within the host, but must still reach other
+// nodes on it, such as ROS 2 nodes with default settings. These announce the addresses of all interfaces and listen to
+// multicast on all of them; on Linux they also receive multicast that is sent on the loopback interface.
 #pragma once
 
 #include <netinet/in.h>
@@ -16,7 +16,7 @@ struct OwnInterface {
   std::string name;
   in_addr address;
 };
-/// This host's network interfaces with IPv4 addresses, as they are now; one with several addresses comes for each.
+/// This host's current network interfaces with IPv4 addresses; one entry per address.
 std::vector<OwnInterface> own_interfaces();
 
 /// True for 127.0.0.0/8 and for the addresses of this host's interfaces, as they are now. What is sent to them never

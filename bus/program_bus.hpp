@@ -1,4 +1,4 @@
-// The bus that a program's command line asks for.
+// Creates the bus that a program's command line specifies.
 #pragma once
 
 #include "bus/bus.hpp"
@@ -7,8 +7,8 @@
 
 namespace skein::bus {
 
-/// @throws InputError for an unknown vendor, for a network interface that this host has not, or for networks of domains
-/// that the scenario has not.
+/// @throws InputError for an unknown vendor, a network interface that this host does not have, or a network for a
+/// domain that the scenario does not have.
 std::unique_ptr<Bus> make_bus(const ProgramOptions& options, const Scenario& scenario);
 
 }  // namespace skein::bus

@@ -1,5 +1,5 @@
-// A domain's network (core/config/network_config.hpp) as it is on this host now: own address, others' addresses, size
-// of a packet. What both vendors' settings are made of.
+// The network of a domain (core/config/network_config.hpp), resolved on this host: own address, addresses of peers,
+// size of a packet. Both vendors' settings are derived from it.
 #pragma once
 
 #include <netinet/in.h>
@@ -15,37 +15,40 @@
 
 namespace skein::bus {
 
-/// Of hosts, by name; those that are known.
+/// Addresses of hosts, by name; only of those whose address is known.
 using Addresses = std::map<std::string, in_addr>;
 
 struct Reach {
-  bool host_only = true;                 ///< nothing leaves the host
-  std::string address;                   ///< own IPv4 in that network; empty: whichever the vendor chooses
-  std::vector<std::string> peers;        ///< IPv4 of other hosts; if there are any, groups (multicast) are not used
-  std::size_t largest_datagram = 65500;  ///< bytes that UDP carries in one packet: what is larger, IP cuts to pieces
+  bool host_only = true;                 ///< no message leaves the host
+  std::string address;                   ///< own IPv4 address in that network; empty: the vendor chooses
+  std::vector<std::string> peers;        ///< IPv4 addresses of hosts; if there are any, multicast is not used
+  std::size_t largest_datagram = 65500;  ///< UDP payload of one packet [bytes]; IP fragments larger datagrams
 
   bool by_peers() const { return !peers.empty(); }
 };
 
-/// @param domain    names it in messages.
-/// @param patience  At most so long names are asked for until one tells the own address: that of another peer, or one
-///                  of ours. Peers that are not known yet are left out: who comes later finds those that are there, and
-///                  they find it by that.
-/// @param asked  what look_up_all() has already told of them, if it was asked.
-/// @throws InputError for an interface that this host has not; std::runtime_error when the own address stays unknown.
+/// Resolves a network.
+/// @param domain    name of the domain, for messages.
+/// @param patience  If the own address is needed, the longest time for which peers' names are looked up until one of
+///                  them determines it: a route to another peer, or a name of this host. Peers whose address is still
+///                  unknown are left out: when they start later, they contact the hosts that run already.
+/// @param asked  a recent result of look_up_all() for the peers, if there is one.
+/// @throws InputError for an interface that this host does not have; std::runtime_error if the own address stays
+///   unknown.
 Reach find_reach(const DomainNetwork& network, const std::string& domain, std::chrono::milliseconds patience,
                  const std::optional<Addresses>& asked = {});
 
-/// @throws InputError when the interface is given and this host has none such.
+/// @throws InputError if `network` names an interface that this host does not have.
 void check_interface(const DomainNetwork& network, const std::string& domain);
 
-/// The IPv4 address of a host, by name or as it is; nullopt when none is known. The system's resolver takes its time.
+/// The IPv4 address of a host, given by name or as an address; nullopt if it is unknown. May block for seconds in the
+/// system's resolver.
 std::optional<in_addr> look_up(const std::string& host);
 
-/// The same for many at once: who is not known yet may cost seconds.
+/// Looks up many hosts in parallel, because an unknown name may take seconds.
 Addresses look_up_all(std::vector<std::string> hosts);
 
-/// The own address from which packets to `peer` leave; nullopt when there is no way.
+/// The own address from which packets to `peer` are sent; nullopt if there is no route.
 std::optional<in_addr> source_towards(const in_addr& peer);
 
 /// "10.77.0.1"

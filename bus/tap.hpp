@@ -1,4 +1,4 @@
-// A listener, such as a recording, that receives in the order of the lock-step what a program writes and reads there.
+// A listener, such as a recording, that receives the samples that a program writes and reads, in lock-step order.
 // No program waits for the listener, and no result depends on it.
 #pragma once
 

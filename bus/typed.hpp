@@ -1,5 +1,5 @@
-// Topics and subscriptions of messages instead of bytes. A thin layer: everything about order, threads and quality of
-// service is as bus.hpp and inbox.hpp say.
+// Topics and subscriptions with message types instead of bytes. A thin layer: for order, threads and quality of service
+// see bus.hpp and inbox.hpp.
 #pragma once
 
 #include <concepts>
@@ -36,9 +36,10 @@ T message_of(RunId run) {
   return message;
 }
 
-/// A handler of raw samples that hands messages to `handler`: as (message) or (message, participant that wrote it).
-/// Samples that are no T are dropped, counted by `inbox` (which must outlive the handler), and told once a topic; so
-/// are messages of another run than the inbox's, which are told but not counted: they are somebody else's.
+/// Makes a handler of raw samples that decodes them and calls `handler` with (message) or (message, participant that
+/// wrote it). Samples that do not decode as T are dropped; `inbox`, which must outlive the handler, counts them and
+/// logs the first on each topic. Messages of another run are dropped and logged, too, but not counted: they are no
+/// error.
 template <class T, class Handler>
 Inbox::Handler decoding(Inbox& inbox, std::string topic, Handler handler) {
   return [&inbox, topic = std::move(topic), handler = std::move(handler)](Sample&& sample) mutable {

@@ -1,4 +1,4 @@
-// Samples that a program meant to send and that never left it. One count for all of its writers.   Threads: any.
+// Counts the samples that a program could not send. One counter serves all of its writers.   Threads: any.
 #pragma once
 
 #include <atomic>
@@ -12,8 +12,8 @@ namespace skein::bus {
 
 class Unsent {
  public:
-  /// Counts a sample, and warns in the program's log of the first one on each topic.
-  /// @param why  "its readers are too slow"
+  /// Counts a sample; logs a warning for the first one on each topic.
+  /// @param why  reason for the log: "its readers are too slow"
   void note(const std::string& topic, std::string_view why);
   /// So far, on all topics.
   std::uint64_t count() const { return count_; }
@@ -21,7 +21,7 @@ class Unsent {
  private:
   std::atomic<std::uint64_t> count_ = 0;
   std::mutex mutex_;
-  std::set<std::string> told_;  ///< topics
+  std::set<std::string> told_;  ///< topics that have had a warning
 };
 
 }  // namespace skein::bus

@@ -1,4 +1,4 @@
-// What a vendor has to say in a secured fleet: its refusals of strangers reach the program's own log.
+// In a secured fleet, copies the DDS vendor's messages about rejected participants to the program's own log.
 #pragma once
 
 #include <string>
@@ -6,8 +6,8 @@
 
 namespace skein::bus {
 
-/// Warns of it in the program's log, once for each text; after some dozens of texts that is all, so that nobody fills
-/// a disk by knocking at the door. Any thread.
+/// Logs a warning, once for each text. After 48 different texts it logs no more, so that attempts to join cannot fill
+/// the disk. Any thread.
 void log_refusal(std::string_view vendor, std::string_view text);
 
 }  // namespace skein::bus

@@ -1,5 +1,5 @@
-// What the router has counted, kept in a file from step to step, so that a router which is killed and started again
-// counts on, and what it had at hand when it died is counted as lost. Not thread-safe.
+// Keeps the router's message counts in a file, written after each step. A router that is killed and restarted continues
+// to count from there, and the messages that it held when it died count as lost. Not thread-safe.
 #pragma once
 
 #include <filesystem>
@@ -13,22 +13,22 @@ namespace skein::router {
 
 class CountStore {
  public:
-  /// Opens or creates the file; what another run counted is none of ours, and begins at 0. What is written survives the
-  /// death of this process (not of the machine). In kNowhere (process/files/nowhere.hpp) nothing is kept.
-  /// @throws std::system_error when the file cannot be opened, or made as long as it must be.
+  /// Opens or creates the file; if it has the counts of another run, all counts begin at 0. What is written survives
+  /// the death of this process (not of the machine). In kNowhere (process/files/nowhere.hpp) nothing is kept.
+  /// @throws std::system_error when the file cannot be opened or written in full length.
   CountStore(const std::filesystem::path& file, std::size_t nodes, RunId run = RunId::none);
   ~CountStore();
   CountStore(const CountStore&) = delete;
   CountStore& operator=(const CountStore&) = delete;
 
-  /// What an earlier life of this router counted. What it had not yet delivered, or delivered with its last breath, is
-  /// dropped_fault.
+  /// The counts from before the restart. Messages that the router had not delivered by then, or delivered in its last
+  /// step, count as dropped_fault.
   LinkMatrix<LinkCounts> earlier_counts() const;
 
-  /// After each step. @param last  what left the router with it: it counts as delivered from the next step on, since a
-  /// router that dies before takes it along.
+  /// Call it after each step. @param last  what the router delivers with this step. The file has it as delivered from
+  /// the next step on, because it is lost if the router dies before.
   void save(const LinkGate& gate, const GatedStep& last);
-  /// Why nothing is saved any more; empty: it is.
+  /// Why counts are no longer saved; empty: they are.
   const std::string& trouble() const { return trouble_; }
 
  private:

@@ -1,6 +1,6 @@
-// The radio: which of a step's messages reach whom, and when. A message sent in step k is judged with the links of
-// step k and arrives in step k + 1, or later where a link delays it. Order, counts and digest depend on nothing but
-// the messages and the links. Not thread-safe; no bus.
+// The radio: decides which messages of a step reach which nodes, and when. The links of step k decide about a message
+// that is sent in step k; it arrives in step k + 1, or later if a link delays it. Order, counts and digest depend on
+// nothing but the messages and the links. Not thread-safe; no bus.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,7 @@
 
 namespace skein::router {
 
-/// Shared, because one message goes to several targets and may wait in a delay queue: no copy for each.
+/// Shared, so that a message to several targets, which may wait in delay queues, needs no copies.
 using Payload = std::shared_ptr<const std::vector<std::uint8_t>>;
 
 /// One message as its sender put it on the air.
@@ -26,34 +26,36 @@ struct SentMessage {
   Payload payload;             ///< serialised, with encapsulation header
 };
 
-/// Why a link drops a message that has line of sight.
+/// Why a message is lost although its source and target are linked (Links: line of sight and range).
 enum class LinkLoss {
   none,
-  fault,    ///< loss, or a cut
+  fault,    ///< random loss, or the link is cut
   overflow  ///< no room in the queue for its bandwidth
 };
 
-/// What a link does to one message that has line of sight.
+/// What a link does to one message whose source and target are linked.
 struct LinkFate {
   LinkLoss loss = LinkLoss::none;
   std::uint64_t delay_steps = 0;  ///< on top of the one step that every message takes
-  int copies = 1;                 ///< that arrive, side by side
-  Payload payload = {};           ///< that arrives in place of the one that was sent; null: that one
+  int copies = 1;                 ///< how many arrive, all in the same step
+  Payload payload = {};           ///< arrives instead of the payload that was sent; null: unchanged
 };
 
-/// How links treat messages beyond line of sight. Called once a message and target, in a fixed order; random models
-/// must key their draws by (link, topic, sequence), so that a restarted router draws the same.
+/// What links do to messages, besides that messages need a link at all (Links). The gate calls fate() once for each
+/// message and target, in a fixed order. Random models must key their draws by (link, topic, sequence), so that a
+/// restarted router draws the same.
 class LinkModel {
  public:
   virtual ~LinkModel() = default;
   /// The links of the step whose messages come next.
   virtual void begin_step(const Links& /*links*/) {}
   virtual LinkFate fate(std::uint64_t k, const RadioRoute& route, Node target, const SentMessage& message) = 0;
-  /// A fault of the fault file that waited for a condition begins with the exchange at this tick. Told before that, and
-  /// as often as anybody likes.
+  /// A fault of the fault file that waited for a condition begins with the exchange at this tick. The router calls it
+  /// before that exchange, and may repeat the call.
   virtual void set_off(std::size_t /*fault*/, Tick /*tick*/) {}
-  /// Faults that somebody who watches has added, behind those of the fault file, all of them in their order: others may
-  /// follow, and each may get an end. Told before they begin or end, and as often as anybody likes.
+  /// Sets the faults that a viewer has added by hand; they follow those of the fault file. @param faults  all of them
+  /// so far, in their order: later calls may append faults, and give a fault an end. The router calls it before a fault
+  /// begins or ends, and may repeat the call.
   virtual void set_by_hand(const std::vector<Fault>& /*faults*/) {}
 };
 
@@ -71,20 +73,21 @@ struct Delivery {
   Payload payload;
 };
 
-/// Messages on one directed link, since the router started.
+/// Messages on one directed link, since the run began if CountStore keeps the counts (else since the router started).
 /// sent + duplicated = delivered + dropped_no_los + dropped_fault + dropped_overflow + those still delayed.
-/// Bytes are those of the serialised messages, with the four of their encapsulation, without what DDS adds.
+/// dropped_no_los are those between nodes that were not linked: no line of sight, out of range, or dead. Bytes are
+/// those of the serialised messages with the four of their encapsulation header, without the overhead of DDS.
 struct LinkCounts {
   std::uint64_t sent = 0, delivered = 0, dropped_no_los = 0, dropped_fault = 0;
   std::uint64_t dropped_overflow = 0, duplicated = 0;
-  std::uint64_t corrupted = 0;  ///< of those that were not dropped
+  std::uint64_t corrupted = 0;  ///< of those that were not dropped, with flipped bits
   std::uint64_t sent_bytes = 0, delivered_bytes = 0;
   bool operator==(const LinkCounts&) const = default;
 };
 
 /// What leaves the router after step k.
 struct GatedStep {
-  std::vector<Delivery> deliveries;  ///< by source, topic, sequence, target; equals: in the order of sending
+  std::vector<Delivery> deliveries;  ///< by source, topic, sequence, target; ties: in the order of sending
   /// SHA-256 over the deliveries in this order, empty when there are none: of each source node, target node, ROS topic
   /// (length, bytes), sequence, SHA-256 of the payload; numbers as 8 bytes, little-endian (core/sha256.hpp).
   std::vector<std::uint8_t> digest;
@@ -92,21 +95,21 @@ struct GatedStep {
 
 class LinkGate {
  public:
-  /// @param routes  of the run, a RadioTable's: others may be added, and targets to each. They must outlive this.
+  /// @param routes  those of the run's RadioTable, which may add routes, and targets to routes. They must outlive this.
   /// @param nodes  number of radio nodes: the fleet and the ground station.
-  /// @param links  the model of the links; IdealLinks unless a fault file says otherwise.
+  /// @param links  the model of the links.
   LinkGate(const std::vector<RadioRoute>& routes, std::size_t nodes,
            std::unique_ptr<LinkModel> links = std::make_unique<IdealLinks>());
   LinkGate(std::vector<RadioRoute>&&, std::size_t, std::unique_ptr<LinkModel> = nullptr) = delete;
 
-  /// Judges all messages of step k, and hands out what arrives in step k + 1. Steps come in order.
+  /// Judges all messages of step k. Call it in the order of steps. @returns what arrives in step k + 1.
   /// @param messages  of all members, in an order that is the same in every run (RouterSync's).
-  /// @throws std::invalid_argument when the links are those of another fleet or a message names no route.
+  /// @throws std::invalid_argument when `links` has another number of nodes, or a message names no route.
   GatedStep gate(std::uint64_t k, const Links& links, const std::vector<SentMessage>& messages);
 
   void set_off(std::size_t fault, Tick tick) { model_->set_off(fault, tick); }
   void set_by_hand(const std::vector<Fault>& faults) { model_->set_by_hand(faults); }
-  /// Counts of an earlier life: counting goes on from there.
+  /// Takes the counts from before a restart; counting continues from there.
   void restore(LinkMatrix<LinkCounts> counts) { counts_ = std::move(counts); }
 
   const std::vector<RadioRoute>& routes() const { return routes_; }

@@ -1,6 +1,6 @@
-// capture_messages.csv: what links that are not ideal did to messages with capture reports. One line for each message
-// with line of sight that was lost or late: the step in which it was sent, the UAV, the step in which it arrives (none:
-// it was lost). A restarted router writes on. Not thread-safe; no bus.
+// Writes capture_messages.csv: what links that are not ideal did to messages with capture reports. One line for each
+// message that was lost or late although the UAV was linked to the station: the step in which it was sent, the UAV, the
+// step in which it arrives (empty: lost). A restarted router appends to the file. Not thread-safe; no bus.
 #pragma once
 
 #include <filesystem>
@@ -13,7 +13,7 @@
 
 namespace skein::router {
 
-/// Asks another model, and writes down what it says of capture reports.
+/// Has another model decide, and records its decisions about messages with capture reports.
 class LinkRecord final : public LinkModel {
  public:
   /// @param scenario   must outlive this.
@@ -34,7 +34,7 @@ class LinkRecord final : public LinkModel {
   std::filesystem::path file_;
   std::vector<std::string>& unwritten_;
   std::optional<StreamFile> out_;  ///< opened with the first line: most runs have none
-  bool refused_ = false;           ///< by the disk
+  bool refused_ = false;           ///< the disk has refused a write: nothing more is written
 };
 
 }  // namespace skein::router

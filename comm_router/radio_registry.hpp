@@ -1,6 +1,7 @@
-// Radio topics that members register while the run lasts (docs/radio.md): who may send what to whom, who listens, and
-// what they are told about it. Requests take effect in the step in which they were made, whatever the time that
-// discovery takes: the router does not answer that step before both ends are matched. Pure; no bus. Not thread-safe.
+// Radio topics that members register during the run (docs/radio.md): who may send what to whom, who listens, and which
+// replies they get. A request takes effect in the step in which it was made, however long discovery takes: the router
+// completes that step only when both ends have matched, or when it has waited too long and refuses the request.
+// Pure; no bus. Not thread-safe.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +17,7 @@
 
 namespace skein::router {
 
-/// A member and its number of a request.
+/// A member that asks, and the number that it gave its request.
 struct Asker {
   SourceId source = 0;
   Node node = kStationNode;
@@ -24,7 +25,7 @@ struct Asker {
   bool operator==(const Asker&) const = default;
 };
 
-/// As RadioRequest_ has it (idl/skein_msgs.idl).
+/// The content of a RadioRequest_ (idl/skein_msgs.idl explains the fields).
 struct RadioRequest {
   Asker asker;
   bool listen = false;
@@ -33,7 +34,7 @@ struct RadioRequest {
   std::string name, type;
 };
 
-/// As RadioReply_ has it.
+/// The content of a RadioReply_ (idl/skein_msgs.idl).
 struct RadioReply {
   Asker asker;
   bool open = false;
@@ -42,25 +43,25 @@ struct RadioReply {
   bool operator==(const RadioReply&) const = default;
 };
 
-/// What the registry needs to know of the router's endpoints, and has it do with them.
+/// What the registry asks about the router's DDS endpoints, and what it has the router do with them.
 struct RadioEndpoints {
-  /// A route is new or has new targets: opens what it lacks.
+  /// A route is new or has new targets: opens the reader and writers that it lacks.
   std::function<void(std::size_t route)> open;
-  /// Nobody sends on this route, since the only one who asked for it was refused: frees what open() made.
+  /// No member sends on this route, because the only one that asked was refused: closes what open() opened.
   std::function<void(std::size_t route)> close;
-  /// Our reader of this route has found the member's writer.
+  /// Whether the router's reader of this route is matched with the member's writer.
   std::function<bool(std::size_t route, SourceId)> hears;
-  /// Our writer of this arrival topic has found the member's reader.
+  /// Whether the router's writer of this arrival topic is matched with the member's reader.
   std::function<bool(const RadioTarget&, SourceId)> reaches;
-  /// A member of that node declared when it joined that it reads this arrival topic.
+  /// Whether a member at the target's node declared, when it joined, that it reads this arrival topic.
   std::function<bool(const RadioTarget&)> declared;
-  /// From the next step on, what this member sends on the route counts.
+  /// From the next step on, messages of this member on the route count.
   std::function<void(std::size_t route, SourceId)> admit;
-  /// This participant is no member any more.
+  /// Whether this participant is no member any more.
   std::function<bool(SourceId)> lost;
 };
 
-/// A request that waits for an end of the asker's.
+/// A request that waits until the asker's endpoint has matched.
 struct AwaitedRequest {
   Asker asker;
   std::string what;  ///< "rt/x to match"
@@ -68,24 +69,25 @@ struct AwaitedRequest {
 
 class RadioRegistry {
  public:
-  /// Topics that one member may ever ask to send on, and as many that it may listen to at a time.
+  /// So many topics one member may ask to send on since it joined, and so many it may listen to at a time.
   static constexpr std::size_t kMaxTopics = 1024;
-  /// So many requests of one member may be waited for in vain. For a while the fleet stands still for each.
+  /// After so many requests of a member that were refused because nothing had matched in time, all its further ones are
+  /// refused at once, because the fleet stands still during each of these waits.
   static constexpr std::size_t kMaxVain = 3;
 
-  /// @param table  of this run; both must outlive this.
+  /// @param table  of this run. It and the scenario must outlive this.
   RadioRegistry(const Scenario& scenario, RadioTable& table, RadioEndpoints endpoints);
 
-  /// All requests of a step, in the order in which they count.
+  /// Takes all requests of a step. @param requests  in the order in which they take effect.
   void begin_step(const std::vector<RadioRequest>& requests);
-  /// Whether an end is not matched yet that must be before this step's messages may pass.
+  /// Whether an endpoint has not matched yet that must match before this step's messages may pass.
   bool waiting() const { return !awaited().empty(); }
-  /// Whose, and which.
+  /// The requests that wait for it, and for what.
   std::vector<AwaitedRequest> awaited() const;
-  /// What is to be said in this step. Who has not matched by now is told that it made no fitting writer.
+  /// Ends a step. @returns its replies. A request whose asker has no matched writer (or reader) by now is refused.
   std::vector<RadioReply> end_step();
-  /// Refusals of the last end_step() that depend on how long it was waited for, for a human: with more patience the
-  /// answer might have been another.
+  /// Refusals of the last end_step() that depend on how long the router waited, a sentence each for people: with more
+  /// patience the reply might have been another.
   const std::vector<std::string>& decided_by_clock() const { return decided_by_clock_; }
 
  private:
@@ -101,7 +103,7 @@ class RadioRegistry {
     std::string ros_topic, ros_type;
     RadioTarget arrival;
     State state = State::asked;
-    bool matched = false;  ///< at both ends; that it has matched us, it says by answering the step after `open`
+    bool matched = false;  ///< both ways; the asker confirms its match by answering the step after `open`
     std::optional<RadioReply> told = {};
   };
 

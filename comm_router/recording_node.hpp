@@ -8,7 +8,7 @@
 
 namespace skein::router {
 
-/// In the recording: which messages reach whom.
+/// Topic of the recording that tells which messages reach which node.
 inline constexpr const char* kArrivalsTopic = "/skein/arrivals";
 
 class RecordingNode {
@@ -16,7 +16,7 @@ class RecordingNode {
   /// Both must outlive this.
   RecordingNode(const Scenario& scenario, recording::Recorder& recorder) : scenario_(scenario), recorder_(recorder) {}
 
-  /// A step's messages, before they are handed on. @param gated  what arrives with it.
+  /// Records a step's messages. Call it before the router delivers. @param gated  what it delivers with this step.
   void add(const StepBatch& batch, const std::vector<RadioRoute>& routes, const GatedStep& gated);
   void flush() { recorder_.flush(); }
 

@@ -1,4 +1,4 @@
-// The router's part of a run that is flown again: the radio messages of then in the place of those of now.
+// The router's part when a recorded run is flown again: replaces the members' radio messages by the recorded ones.
 #pragma once
 
 #include <map>
@@ -13,11 +13,11 @@ namespace skein::router {
 
 class ReplayNode {
  public:
-  /// @param routes  of the scenario. @throws InputError when the recording is none, or has messages on other routes:
-  /// topics that were registered while it was flown cannot be flown again.
+  /// @param routes  of the scenario. @throws InputError when the file is no recording, or when messages arrived on
+  /// other routes: a run in which members registered topics cannot be flown again.
   ReplayNode(const Scenario& scenario, const std::vector<RadioRoute>& routes, const recording::ReplayOptions& options);
 
-  /// As long as the replay lasts: the step's messages become those of then.
+  /// While the replay lasts: replaces the step's messages by the recorded ones, and notes where the two differ.
   void replace(StepBatch& batch);
   const recording::Differences& differences() const { return differences_; }
 

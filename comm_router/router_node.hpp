@@ -1,5 +1,5 @@
-// The router as a process: hears every radio topic in every node's domain, lets through what the links allow.
-// It moves serialised payloads and knows no type.
+// The router as a process: reads every radio topic in every node's domain, and delivers the messages that the links let
+// through. It forwards serialised payloads and needs no type of radio message.   Threads: one.
 #pragma once
 
 #include <filesystem>
@@ -27,36 +27,36 @@
 
 namespace skein::router {
 
-/// How long the world stands still for a member that registers a topic and has no fitting end of it, by a wall clock.
-/// Discovery takes milliseconds; who gets here has made a mistake, and is told so. Since it cannot be known, the run is
-/// marked: another time the same might be found in time.
+/// How long the fleet waits, by a wall clock, for a member that registers a topic and has no fitting endpoint for it.
+/// Discovery takes milliseconds, so after this time the member has made a mistake: the router refuses its request. As
+/// the endpoint might match in time in another run, the server marks the run as not repeatable.
 inline constexpr double kMatchPatience_s = 10.0;
-/// Before the server hears for whom we wait: what is under way arrives sooner.
+/// After this time the router tells the server for whom it waits. What is merely under way arrives sooner.
 inline constexpr double kWordPatience_s = 1.0;
 
 class RouterNode final : public bus::ClientNode {
  public:
   /// @param seed    of the run: what links that are not ideal draw from.
   /// @param faults  what goes wrong with the links, and when.
-  /// @param out     folder for what that does to capture reports (link_record.hpp); empty: it is not written down.
+  /// @param out     folder for capture_messages.csv (link_record.hpp); empty: it is not written.
   RouterNode(const Scenario& scenario, std::uint64_t seed, int base_domain, bus::Bus& bus, const FaultPlan& faults = {},
              const std::filesystem::path& out = {});
 
   bus::Inbox& inbox() override { return inbox_; }
-  /// For tests: how an order of a fault is carried out.
+  /// For tests: replaces how this program carries out the order of a fault (kill or stop).
   void obey_with(std::function<void(bus::LockstepClient::Order)> obey) { client_.obey_with(std::move(obey)); }
-  /// For tests that may not let time pass; else as the constants say.
+  /// For tests that may not let time pass. The default values are the constants above.
   void set_patience(double match_s, double word_s);
   std::string waiting_for() override;
-  /// Counts on from what the store holds, and keeps it there from now on. It must outlive this.
+  /// Continues from the counts in the store, and saves the counts there from now on. `store` must outlive this.
   void keep_counts(CountStore& store);
-  /// Before start(): records what it hears and hands on. `recorder` must outlive this.
+  /// Before start(): records the messages that the router takes and delivers. `recorder` must outlive this.
   void record_with(recording::Recorder& recorder);
-  /// Before it begins: UAVs whose agents hand on what programs outside the lock-step say.
+  /// Before start(): UAVs whose agents relay messages of programs outside the lock-step.
   void expect_stand_ins(const std::vector<std::string>& uavs) { stand_ins_ = {uavs.begin(), uavs.end()}; }
-  /// Before start(): hands on what was sent when the recorded run was flown. @throws InputError as ReplayNode does.
+  /// Before start(): delivers the messages of a recorded run instead of those of now. @throws InputError as ReplayNode.
   void replay(const recording::ReplayOptions& options);
-  /// Where members say something else than then, a sentence each; nullopt: nothing is flown again.
+  /// Where members say something else than in the recorded run, a sentence each; nullopt: no run is flown again.
   std::optional<std::vector<std::string>> differences() const;
   const LinkGate& gate() const { return gate_; }
   /// How many radio messages came from outside the lock-step, and who sent them, a line each; for the end of a run.
@@ -76,13 +76,13 @@ class RouterNode final : public bus::ClientNode {
   std::size_t rings() override;
   bool answered_last() const override { return last_step_answered_; }
 
-  /// Where the members of a node say ready and done: the station at one of its own (bus/lockstep/names.hpp).
+  /// Readers of `ready` and `done` in a node's domain. The station has topics of its own (bus/lockstep/names.hpp).
   struct Door {
     Node node = kStationNode;
     std::unique_ptr<bus::Reader> ready, done;
   };
 
-  /// One participant that wants its radio topics attached.
+  /// A participant that has asked to attach its radio topics; it stays here when they are attached.
   struct Applicant {
     std::string member;
     Node node = kStationNode;
@@ -93,7 +93,7 @@ class RouterNode final : public bus::ClientNode {
   };
 
   void open_door(Node node, std::string_view member);
-  /// True when a sample is nobody's who was ever attached: it goes nowhere, and is counted.
+  /// Whether the sample's writer was never attached. Then the sample is counted, and not delivered.
   bool from_stranger(Node node, const std::string& topic, bus::ParticipantId source);
   void tell_of_strangers(std::uint64_t patience);
   void open_radio();
@@ -103,13 +103,13 @@ class RouterNode final : public bus::ClientNode {
   RadioEndpoints endpoints();
   std::vector<RadioRequest> read_requests(const StepBatch& batch);
   void on_ready(std::size_t door, const msg::Ready& ready, bus::ParticipantId source);
-  /// @returns true while somebody is not attached yet.
+  /// Attaches those whose topics have all matched. @returns true while somebody is not attached yet.
   bool attach();
-  /// @returns true while it waits for matches.
+  /// Takes and delivers all complete steps. @returns true while it waits for matches.
   bool advance();
-  /// The topic that is not matched with it yet; empty when all are.
+  /// A topic of the applicant that is not matched with its participant `source` yet; empty: all are.
   std::string unmatched(const Applicant& applicant, bus::ParticipantId source) const;
-  /// When it has waited for a while: tells the server for whom, as often as that changes.
+  /// Tells the server for whom the router waits, once it has waited for a while, and then at each change.
   void tell_awaited(bool waits);
   std::vector<msg::Await> awaited() const;
   void begin_step();
@@ -120,7 +120,7 @@ class RouterNode final : public bus::ClientNode {
   RadioTable table_;
   std::vector<std::string> unwritten_;
   LinkGate gate_;
-  const std::size_t declared_routes_;  ///< the first so many are the scenario's
+  const std::size_t declared_routes_;  ///< number of the scenario's routes, which come first
   RouterSync sync_;
   RadioRegistry registry_;
   CountStore* count_store_ = nullptr;
@@ -141,9 +141,9 @@ class RouterNode final : public bus::ClientNode {
   std::vector<std::unique_ptr<bus::Reader>> radio_readers_;    ///< by route; null: closed again
   Arrivals arrivals_;
   std::optional<StepBatch> batch_;               ///< while its registrations wait for matches
-  bus::Patience match_patience_{0.0};            ///< for those
-  std::optional<bus::Patience> word_patience_;   ///< since it waits; over: the server is told
-  std::optional<std::vector<msg::Await>> told_;  ///< to the server, in this step
+  bus::Patience match_patience_{0.0};            ///< how long they may take
+  std::optional<bus::Patience> word_patience_;   ///< running while the router waits; over: it tells the server
+  std::optional<std::vector<msg::Await>> told_;  ///< what the router has told the server in this step
   std::optional<msg::Routed> last_routed_;
   std::map<bus::ParticipantId, Applicant> applicants_;
   std::optional<std::uint64_t> last_k_;  ///< of the final step

@@ -1,6 +1,6 @@
-// The router's side of the lock-step, by counting: holds what members send until exactly the messages that the
-// senders' Done(k) announce are there, then hands them out as the batch of step k. Samples, Done, Step and Drop may
-// come in any order. Pure state machine: no bus, no clock. Not thread-safe.
+// The router's side of the lock-step. It counts: it holds the members' messages until all those that the senders'
+// Done(k) announce have arrived, then hands out exactly these as the batch of step k. Samples, Done, Step and Drop may
+// arrive in any order. Pure state machine: no bus, no clock. Not thread-safe.
 #pragma once
 
 #include <cstddef>
@@ -27,7 +27,7 @@ struct RadioMember {
   Node node = kStationNode;
 };
 
-/// Whom the router waits for, and what for, for a human: "done", "rt/broadcast 3 of 4".
+/// A member that the router waits for, and what is missing, for people: "done", "rt/broadcast 3 of 4".
 struct AwaitedMember {
   RadioMember member;
   std::string what;
@@ -38,7 +38,7 @@ struct SentCount {
   std::uint64_t count = 0;  ///< samples since it joined
 };
 
-/// A member's request for a radio topic, as it came (idl/skein_msgs.idl: RadioRequest_).
+/// A member's request for a radio topic, still serialised (idl/skein_msgs.idl: RadioRequest_).
 struct RequestSample {
   SourceId source = 0;
   Node node = kStationNode;
@@ -50,41 +50,43 @@ struct StepBatch {
   std::uint64_t k = 0;
   std::uint32_t epoch = 0;
   Links links;
-  std::vector<SentMessage> messages;    ///< by member as the step lists them, route, sequence
-  std::vector<RequestSample> requests;  ///< by member as the step lists them, sequence
+  std::vector<SentMessage> messages;    ///< ordered by member (as the step lists them), route, sequence
+  std::vector<RequestSample> requests;  ///< ordered by member (as the step lists them), sequence
 };
 
 class RouterSync {
  public:
-  /// @param routes  those of the scenario. Must outlive this; others may be added at its end, for open().
+  /// @param routes  those of the scenario. Must outlive this; further routes may be appended, for open().
   explicit RouterSync(const std::vector<RadioRoute>& routes) : routes_(routes), declared_(routes.size()) {}
 
-  /// Members of step k whose messages count; leave out those without a radio (the router itself).
-  /// Who was a member before and is no longer, is forgotten with all that it sent.
+  /// Step(k). @param members  those whose messages count; leave out those without a radio (the router itself). A former
+  /// member that is missing here is forgotten, with all that it sent.
   void on_step(std::uint64_t k, std::uint32_t epoch, std::vector<RadioMember> members, Links links);
-  /// Done(k). Topics that are no radio topic of the sender's node are passed over.
+  /// Done(k). Counts of topics that are no radio topic of the sender's node are ignored.
   void on_done(SourceId source, std::uint64_t k, std::vector<SentCount> sent);
-  /// A sample from a reader of `routes[route]`. Those of one writer must come in the order of writing. What is sent by
-  /// another member of the node than the route is bound to is passed over, and so is its count.
+  /// A sample from a reader of `routes[route]`. Those of one writer must come in the order of writing. If the route is
+  /// bound to a member (RadioRoute::member), samples and counts of other members at its node are ignored.
   void on_radio(SourceId source, std::size_t route, Payload payload);
   /// A request for a radio topic; counted and handed out like messages.
   void on_request(SourceId source, Payload payload);
-  /// From the next step on, what a member sends on a route counts that is not the scenario's. A sender's earlier
-  /// samples of it, as its last Done counts them, never will: nobody listened.
+  /// Admits a member to a route that is not the scenario's: from the next step on, its messages there count. Those that
+  /// it sent before, as counted in its last Done, never count, because nobody listened.
   void open(SourceId source, std::size_t route);
-  /// The server gave the member up in step k: what it sent in k and is not yet handed out is discarded, for good.
+  /// The server gave the member up in step k: its messages of step k that are not handed out yet are discarded, and
+  /// nothing that it sends counts again.
   void on_drop(std::uint64_t k, SourceId source);
-  /// The sender had already written `count` samples on its topic when our reader matched (a restarted router).
+  /// For a restarted router: the sender had already written `count` samples on this topic when the reader matched.
   void set_base(SourceId source, const std::string& topic, std::uint64_t count);
 
-  /// The batch of the lowest step that was announced and not yet handed out, once it is complete; else nullopt.
+  /// The batch of the lowest step for which on_step() was called and that is not handed out yet, once it is complete;
+  /// else nullopt.
   std::optional<StepBatch> take();
 
-  /// Whether a participant was a member and is no longer, or is about to be none.
+  /// Whether a participant will not count again: it left, the server gave it up, or it sent more than any member may.
   bool lost(SourceId source) const { return gone_.contains(source) || dropped_from_.contains(source); }
   /// Whether a step was announced that take() has not handed out.
   bool waiting() const { return !steps_.empty(); }
-  /// How many members have not answered that step: take() needs a Done, or a Drop, of each of them.
+  /// How many members have not answered the next step: take() needs a Done, or a Drop, of each of them.
   std::size_t missing_answers() const;
   /// What take() waits for. Empty when it waits for nothing but the next step.
   std::vector<AwaitedMember> awaited() const;
@@ -93,15 +95,15 @@ class RouterSync {
 
  private:
   struct Lane {
-    std::uint64_t taken = 0;  ///< samples handed out so far, those before our time included
+    std::uint64_t taken = 0;  ///< samples handed out so far, including those skipped by set_base() or open()
     std::deque<Payload> waiting;
   };
-  /// What a participant has sent and is not yet handed out. May exist before the step that makes it a member.
+  /// What a participant has sent and is not handed out yet. May exist before the step that makes it a member.
   struct Sender {
     std::map<std::string, Lane> lanes;                     ///< by wire topic
     std::map<std::uint64_t, std::vector<SentCount>> done;  ///< by k
     std::vector<SentCount> last_done;                      ///< of the step handed out last
-    std::set<std::size_t> opened;                          ///< routes beside the scenario's
+    std::set<std::size_t> opened;                          ///< routes that open() admitted it to
     std::size_t waiting_as_stranger = 0;                   ///< samples that came before it was a member
     std::string member;                                    ///< its name, once it is one
 
@@ -123,12 +125,12 @@ class RouterSync {
   void forget(SourceId source);
 
   const std::vector<RadioRoute>& routes_;
-  const std::size_t declared_;           ///< the first so many are the scenario's
+  const std::size_t declared_;           ///< number of the scenario's routes, which come first
   std::map<std::uint64_t, Step> steps_;  ///< announced, not yet handed out
   std::map<SourceId, Sender> senders_;
   std::map<SourceId, std::uint64_t> dropped_from_;  ///< the step from which on it does not count
-  std::vector<SourceId> members_before_;            ///< of the step that was looked at last
-  std::set<SourceId> gone_;                         ///< an identity never comes back
+  std::vector<SourceId> members_before_;            ///< of the step that take() last looked at
+  std::set<SourceId> gone_;                         ///< participants that never count again
   std::optional<std::uint64_t> last_k_;             ///< handed out last
 };
 

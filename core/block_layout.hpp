@@ -1,6 +1,6 @@
-// Memory that two programs share, field by field: one program lays the block out, and tells the other by name, type,
-// shape and offset what lies where. Fields are arrays of numbers in the machine's byte order, row by row.
-// Pure.   Threads: one lays out; how both take turns at the fields is for them to agree upon.
+// Layout of a memory block that two programs share. One program builds the layout and sends the other program the name,
+// type, shape and offset of each field. Fields are row-major arrays of numbers in the machine's byte order.
+// Pure.   Threads: one thread builds a layout. The two programs must agree on when each of them accesses the fields.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,7 @@
 
 namespace skein {
 
-/// A field as the other program needs it. `type` is as NumPy names it: "<f8".
+/// A field, as described to the other program. `type` is NumPy's name of the type: "<f8".
 struct BlockField {
   std::string name;
   std::string type;
@@ -23,7 +23,7 @@ struct BlockField {
   bool operator==(const BlockField&) const = default;
 };
 
-/// Where an array lies in every block of a layout.
+/// Place of an array, the same in every block that has this layout.
 template <class T>
 struct BlockArray {
   std::size_t offset = 0, size = 0;
@@ -32,7 +32,7 @@ struct BlockArray {
 
 class BlockLayout {
  public:
-  /// Adds a field behind the others. @param shape  empty: one number.
+  /// Appends a field. @param shape  empty: one number.
   template <class T>
   BlockArray<T> add(std::string name, std::vector<std::size_t> shape = {}) {
     const std::size_t count = std::accumulate(shape.begin(), shape.end(), std::size_t{1}, std::multiplies<>());

@@ -25,8 +25,8 @@ struct CameraState {
   Vector3d w_WC = Vector3d::Zero();  ///< angular velocity of C in W, expressed in W [rad/s]
 };
 
-/// All that the formulas give for one point. Axes: u vertical, v horizontal for pixel_move; the other way round for
-/// mm_per_pixel (the reference's names). The optionals are empty where the formulas say nothing.
+/// All results of the formulas for one point. In pixel_move, u is the vertical axis and v the horizontal one; in
+/// mm_per_pixel it is the other way round (the reference's names). An optional is empty where a formula has no result.
 struct PointQuality {
   Vector3d p_C = Vector3d::Zero();  ///< the point in the camera frame [m]
   bool in_search_radius = false;
@@ -38,25 +38,25 @@ struct PointQuality {
   std::optional<double> score;                           ///< q_blur * q_res, before any threshold
 };
 
-/// The two qualities of a point that the camera sees. All are numbers: what the formulas leave open counts as 0.
+/// The two qualities of a point that the camera sees. Never NaN: a quality that the formulas leave undefined is 0.
 struct PointScore {
   double q_blur = 0.0, q_res = 0.0;
-  /// What q_res would be of a surface that faces the camera's image plane at the point's depth, in (0, 1]; the rest of
-  /// q_res, q_res / q_distance, is the surface's tilt. That can be above 1: the formula prefers some axes (S4).
+  /// q_res of a surface that is parallel to the image plane, at the point's depth; in (0, 1]. The quotient
+  /// q_res / q_distance is the effect of the surface's tilt. It can exceed 1: the formula prefers some axes (S4).
   double q_distance = 0.0;
   double score() const { return q_blur * q_res; }
 };
 
-/// Points farther than this from the camera are not looked at [m]: the far corner of the field of view at the
-/// distance of the desired resolution, plus 5 m. The vertical half is taken by tangent, the horizontal one by
-/// 1/cosine, as the organisers' code has it. Pure.
+/// Distance [m] from which on points are ignored: that of the corner of the field of view at
+/// resolution_distance(), plus 5 m. As in the organisers' code, the formula uses the tangent of half the vertical
+/// field of view, but 1/cosine of half the horizontal one. Pure.
 /// @param desired_mm_per_pixel  > 0.
 double search_radius(const CameraConfig& camera, double desired_mm_per_pixel);
 
-/// Distance at which a wall seen head-on has just the desired resolution [m]. Pure.
+/// Distance at which a wall that is parallel to the image plane has just the desired resolution [m]. Pure.
 double resolution_distance(const CameraConfig& camera, double desired_mm_per_pixel);
 
-/// Where the camera is and how it moves. The mount tilts with the body, the view does not:
+/// Pose and motion of the camera. Roll and pitch of the body move the camera's position, but do not rotate its view:
 /// R_WC = Rz(yaw of body) Rz(gimbal yaw) Ry(gimbal pitch). Pure.
 /// @param body  pitch must not be +-pi/2, where yaw rate has no meaning.
 CameraState camera_state(const RigidBodyState& body, const GimbalState& gimbal, const CameraConfig& camera);
@@ -65,16 +65,17 @@ CameraState camera_state(const RigidBodyState& body, const GimbalState& gimbal, 
 /// Allocates nothing; const functions are safe from any thread.
 class Exposure {
  public:
-  /// By the organisers' search radius.
+  /// With the organisers' search radius.
   Exposure(const CameraState& state, const CameraConfig& camera, double desired_mm_per_pixel, ResolutionRule rule);
-  /// By the rules of a scenario: resolution rule, and whether there is a search radius (infinite if not).
+  /// With the resolution rule and search radius that a scenario's rules select; the radius may be infinite.
   Exposure(const CameraState& state, const CameraConfig& camera, double desired_mm_per_pixel, const RulesConfig& rules);
 
   /// The point in the camera frame, if it lies in the field of view (borders included) and within the search
   /// radius (border excluded).
   std::optional<Vector3d> view(const Vector3d& p_W) const;
 
-  /// Quality of a point that view() gave; nullopt if the point is too close to resolve, or not before the camera.
+  /// Quality of a point that view() returned; nullopt if the point is too close to resolve, or not in front of the
+  /// camera.
   /// @param n_W  unit normal of the surface; its sign does not matter.
   std::optional<PointScore> score(const Vector3d& p_C, const Vector3d& n_W) const;
 
@@ -107,7 +108,7 @@ class Exposure {
   ResolutionRule rule_;
 };
 
-/// Quality of one point in one exposure; see Exposure where there are many points. Pure.
+/// Quality of one point in one exposure. For many points, use Exposure. Pure.
 PointQuality evaluate_point(const CameraState& state, const CameraConfig& camera, double desired_mm_per_pixel,
                             const Vector3d& p_W, const Vector3d& n_W, ResolutionRule rule);
 

@@ -1,5 +1,5 @@
-// Non-ideal conditions of a run: wind, errors of odometry and LiDAR, image blur, batteries that run empty, path loss of
-// radio. All are off by default; then a run is bit for bit the same as without this feature.
+// Non-ideal conditions of a run: wind, errors of odometry and LiDAR, image blur, batteries that run empty, radio path
+// loss. All are off by default. A run with all of them off is bit-identical to a run without this feature.
 // docs/conditions.md has the model of each part, its parameters with their sources, and the presets.
 // Units: SI and radians unless the name says otherwise.  Pure; safe from any thread.
 #pragma once
@@ -15,7 +15,7 @@ namespace skein {
 struct WindConditions {
   std::string preset = "none";
   double mean_mps = 0.0;                  ///< mean wind at 10 m above the ground
-  std::optional<double> from_deg = {};    ///< where it blows from; 0: east, 90: north; none: drawn by the seed
+  std::optional<double> from_deg = {};    ///< direction it blows from; 0: east, 90: north; none: drawn from the seed
   double roughness_length_m = 0.03;       ///< roughness length of the ground in the logarithmic law
   double turbulence = 0.0;                ///< factor on the gust intensities of MIL-F-8785C; 0: no gusts
   double body_drag_area_m2 = 0.03;        ///< drag coefficient times area of the body, rotors excluded
@@ -28,16 +28,16 @@ struct WindConditions {
 /// Errors of a UAV's odometry: first-order Gauss-Markov processes, a constant offset, and white noise.
 struct OdometryConditions {
   std::string preset = "none";
-  double horizontal_sigma_m = 0.0, vertical_sigma_m = 0.0;  ///< stationary deviation, per axis
+  double horizontal_sigma_m = 0.0, vertical_sigma_m = 0.0;  ///< stationary standard deviation, per axis
   double time_constant_s = 60.0;                            ///< of the horizontal and the vertical error
   double yaw_sigma_deg = 0.0;
   double yaw_time_constant_s = 60.0;
-  double bias_sigma_m = 0.0;              ///< deviation of a constant offset per axis, drawn once
+  double bias_sigma_m = 0.0;              ///< standard deviation of a constant offset per axis, drawn once
   double noise_sigma_m = 0.0;             ///< white noise per sample and axis, only in the messages
   double velocity_sigma_mps = 0.0;        ///< white noise per sample and axis, only in the messages
   double latency_s = 0.0;                 ///< delay of the messages, in whole exchanges; stamps have the true time
-  std::optional<double> mean_fix_s = {};  ///< mean duration of a fix; none: it is never lost
-  double mean_lost_s = 10.0;              ///< mean duration of a loss
+  std::optional<double> mean_fix_s = {};  ///< mean duration of a position fix; none: the fix is never lost
+  double mean_lost_s = 10.0;              ///< mean time from the loss of the fix to the next fix
   double walk_m_per_sqrt_s = 0.1;         ///< random walk per axis while the fix is lost
 
   bool on() const {
@@ -60,7 +60,7 @@ struct BatteryConditions {
   bool on() const { return endurance_missions.has_value(); }
 };
 
-/// Returns that a LiDAR loses, errors of its ranges, and false returns.
+/// Lost returns, range errors and false returns of a LiDAR.
 struct LidarConditions {
   std::string preset = "none";
   double sigma_per_m = 0.0;                 ///< range noise per metre of range, on top of the vehicle's sigma_m
@@ -76,7 +76,7 @@ struct LidarConditions {
 struct CameraConditions {
   std::string preset = "none";
   double exposure_factor = 1.0;  ///< factor on the vehicle's exposure time: less light
-  double vibration_deg_s = 0.0;  ///< deviation of each component of the camera's added angular rate, drawn per picture
+  double vibration_deg_s = 0.0;  ///< standard deviation of each component of an added angular rate, drawn per picture
   double shutter_delay_s = 0.0;  ///< delay from trigger to exposure
 
   bool on() const { return exposure_factor != 1.0 || vibration_deg_s > 0.0 || shutter_delay_s > 0.0; }
@@ -87,7 +87,7 @@ struct RadioRate {
   double least_dbm = 0.0;  ///< least received power
   double rate_bit_s = 0.0;
 };
-/// IEEE 802.11n, 20 MHz, one stream: minimum sensitivities (table 20-23); half of each rate, for overhead.
+/// Minimum sensitivities of IEEE 802.11n, 20 MHz, one stream (table 20-23). Rates are half the standard's: overhead.
 inline constexpr std::array<RadioRate, 8> kRadioRates = {{{-82.0, 3.25e6},
                                                           {-79.0, 6.5e6},
                                                           {-77.0, 9.75e6},

@@ -1,5 +1,5 @@
-// The keys of a scenario's section `conditions`, each listed once. A section begins with its preset's values, and what
-// stands beside the preset replaces one of them. For scenario_reader.cpp and conditions.cpp.
+// The keys of a scenario's section `conditions`, each listed once. A section starts with the values of its preset; each
+// further key in the section replaces one of these values. For scenario_reader.cpp and conditions.cpp.
 #pragma once
 
 #include <algorithm>
@@ -28,7 +28,7 @@ inline const std::vector<std::string>& known_presets() {
   return known;
 }
 
-/// @param apply  takes over the preset's values.
+/// Describes the key `preset`. @param apply  called after a preset is read: sets the section to the preset's values.
 template <class R, class Apply>
 void describe_preset(R& r, std::string& preset, const Apply& apply) {
   r.field("preset", preset);

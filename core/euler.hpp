@@ -1,4 +1,4 @@
-// Roll, pitch and yaw of an attitude, and angles brought into one turn.
+// Roll, pitch and yaw of an attitude; wrapping of angles; rotations about z and y.
 // Convention: R_WB = Rz(yaw) Ry(pitch) Rx(roll).   Units: radians.
 #pragma once
 
@@ -22,14 +22,14 @@ inline RollPitchYaw roll_pitch_yaw(const Matrix3d& R_WB) {
           std::atan2(R_WB(1, 0), R_WB(0, 0))};
 }
 
-/// The same angle in [-pi, pi), to within rounding of pi. Pure.
+/// Wraps an angle into [-pi, pi), up to rounding errors. Pure.
 inline double wrap_angle(double angle) {
   const double turn = 2.0 * std::numbers::pi;
   const double from_behind = std::fmod(angle + std::numbers::pi, turn);
   return (from_behind < 0.0 ? from_behind + turn : from_behind) - std::numbers::pi;
 }
 
-/// Rotation about the world's vertical, and about the (already yawed) y axis. Pure.
+/// Rotation matrices about the z axis and about the y axis. Pure.
 inline Matrix3d rotation_z(double angle) { return Eigen::AngleAxisd(angle, Vector3d::UnitZ()).toRotationMatrix(); }
 inline Matrix3d rotation_y(double angle) { return Eigen::AngleAxisd(angle, Vector3d::UnitY()).toRotationMatrix(); }
 

@@ -1,6 +1,6 @@
-// How somebody has work done that falls into pieces which do not need each other: one after another, or side by side on
-// several threads (process/host/workers.hpp). Whoever asks must get the same from both: each piece writes to its own
-// place.
+// A function type for loops with independent iterations: it runs them one after another, or in parallel on several
+// threads (process/host/workers.hpp). The result must be the same in both cases, so each iteration writes only to
+// memory of its own.
 #pragma once
 
 #include <algorithm>
@@ -10,14 +10,14 @@
 
 namespace skein {
 
-/// Does work(0) ... work(count - 1), each once, in any order, and returns when all are done.
+/// Calls work(0) ... work(count - 1), each once, in any order, and returns when all calls have returned.
 using ForEach = std::function<void(std::size_t count, const std::function<void(std::size_t)>& work)>;
 
 inline void one_after_another(std::size_t count, const std::function<void(std::size_t)>& work) {
   for (std::size_t i = 0; i < count; ++i) work(i);
 }
 
-/// What `make` makes of each item, in their order.
+/// The results of make(item) for all items, in the order of the items.
 template <class T, class Item, class Make>
 std::vector<T> all_of(const ForEach& for_each, const std::vector<Item>& items, Make make) {
   std::vector<T> made(items.size());
@@ -25,7 +25,7 @@ std::vector<T> all_of(const ForEach& for_each, const std::vector<Item>& items, M
   return made;
 }
 
-/// Does work(0) ... work(count - 1), so many of them in one piece.
+/// Calls work(0) ... work(count - 1) in blocks of `at_once` calls; `for_each` runs the blocks.
 template <class Work>
 void in_blocks(const ForEach& for_each, std::size_t count, std::size_t at_once, Work work) {
   for_each((count + at_once - 1) / at_once, [&](std::size_t block) {

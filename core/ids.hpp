@@ -1,5 +1,5 @@
-// Numbers that name a UAV or a radio node, as types: who mixes them up does not compile. They are made explicitly and
-// read freely, so that they serve as an index. Pure.
+// Distinct types for the indices of UAVs and radio nodes: code that confuses the two does not compile. Construction is
+// explicit; conversion to std::size_t is implicit, so that an id can be used as an index. Pure.
 #pragma once
 
 #include <cstddef>
@@ -7,7 +7,7 @@
 
 namespace skein {
 
-/// @tparam Tag  what is counted; ids of different tags can neither be compared nor assigned to each other.
+/// @tparam Tag  kind of the id; ids with different tags can neither be compared nor assigned to each other.
 template <class Tag>
 class Id {
  public:
@@ -23,7 +23,7 @@ class Id {
   std::size_t value_ = 0;
 };
 
-/// A UAV, by its place in the fleet.
+/// A UAV, by its index in the fleet.
 using UavIndex = Id<struct UavTag>;
 /// A radio node: 0 is the ground station, UAV i (in fleet order) is node i + 1.
 using Node = Id<struct NodeTag>;
@@ -35,7 +35,7 @@ constexpr std::optional<UavIndex> uav_of_node(Node node) {
   return node == kStationNode ? std::nullopt : std::optional(UavIndex(node - 1));
 }
 
-/// The first `count` ids in turn, for a loop.
+/// The ids 0 ... count - 1, for a range-based loop.
 template <class Id>
 class FirstIds {
  public:

@@ -1,4 +1,4 @@
-// For std::visit(): a function of each alternative.
+// A visitor for std::visit() made of several lambdas, one for each alternative of the variant.
 #pragma once
 
 namespace skein {

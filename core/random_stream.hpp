@@ -1,7 +1,7 @@
-// Random numbers that depend on nothing but their key: (seed, purpose, entity, sequence). The same key gives the same
-// numbers on every machine, whatever else was drawn before, in whatever thread. Only + - * / and square roots are
-// used, never libm or std:: distributions, whose results differ between libraries.
-// That seed 0 means "draw nothing" is the caller's affair.
+// Random numbers that depend only on their key: (seed, purpose, entity, sequence). The same key gives the same numbers
+// on every machine and in every thread, independent of earlier draws. The code uses only + - * / and square roots,
+// never libm or std:: distributions, whose results differ between libraries.
+// Seed 0 is not special here: callers must check for it, where it means "draw nothing".
 #pragma once
 
 #include <array>
@@ -11,12 +11,13 @@
 
 namespace skein {
 
-/// One thread at a time.
+/// Not thread-safe.
 class RandomStream {
  public:
-  /// @param purpose what the numbers are for: "lidar_noise".
-  /// @param entity whose they are: a UAV's index, or a name such as a link's.
-  /// @param sequence which draw of it: a scan's number, a message's. A stream for each keeps draws independent.
+  /// @param purpose  what the numbers are for: "lidar_noise".
+  /// @param entity  the entity for which they are drawn: a UAV's index, or a name such as a link's.
+  /// @param sequence  number of the scan, message or other event of this entity. A separate stream for each event
+  ///   keeps the draws of different events independent.
   RandomStream(std::uint64_t seed, std::string_view purpose, std::uint64_t entity, std::uint64_t sequence = 0);
   RandomStream(std::uint64_t seed, std::string_view purpose, std::string_view entity, std::uint64_t sequence = 0);
 

@@ -1,5 +1,5 @@
-// A scenario: everything that a run needs to know before it starts. Plain structs with their defaults;
-// core/scenario/scenario_reader.hpp fills them from YAML and refuses what makes no sense.
+// A scenario: all settings of a run that are fixed before it starts. Plain structs with their defaults;
+// core/scenario/scenario_reader.hpp fills them from YAML and rejects invalid values.
 // Units: SI and radians unless the name says otherwise. Angles in files are in degrees, as CARIC has them.
 #pragma once
 
@@ -17,10 +17,10 @@ namespace skein {
 struct CameraConfig {
   double hfov_deg = 80.0, vfov_deg = 60.0;
   double exposure_s = 0.001;
-  double trigger_interval_s = 0.1;  ///< a capture every time strictly more than this has elapsed
+  double trigger_interval_s = 0.1;  ///< the next exposure is possible when strictly more than this has elapsed
   double focal_length_m = 0.016;
   double pixel_size_m = 4.35e-6;
-  Vector3d p_BC = {0.2, 0.0, -0.3};  ///< camera in the body frame; tilts with the body
+  Vector3d p_BC = {0.2, 0.0, -0.3};  ///< camera's position in B [m]; so it moves when the body rolls or pitches
 };
 
 struct GimbalConfig {
@@ -28,11 +28,11 @@ struct GimbalConfig {
   double rate_limit_deg_s = 60.0;
 };
 
-/// Columns of a LiDAR whose beams return nothing for a while, as before the sun, or on dark or oblique surfaces.
+/// Sectors of LiDAR columns whose beams return nothing for a while, as with low sun, or dark or oblique surfaces.
 struct DroppedSectors {
-  double share = 0.0;      ///< of the columns, on average over time
-  double width_deg = 0.0;  ///< of a sector; two may stand side by side
-  double hold_s = 0.0;     ///< how long drawn sectors stay before others are drawn
+  double share = 0.0;      ///< share of the columns that is dropped, on average over time
+  double width_deg = 0.0;  ///< width of a sector; two sectors may be adjacent
+  double hold_s = 0.0;     ///< time after which new sectors are drawn
 };
 
 struct LidarConfig {
@@ -41,12 +41,12 @@ struct LidarConfig {
   double rate_hz = 10.0;
   double range_min_m = 0.9, range_max_m = 50.0;
   double sigma_m = 0.01;           ///< range noise; drawn only with a seed other than 0
-  double servo_rate_deg_s = 45.0;  ///< about body x, sign switched every half period
+  double servo_rate_deg_s = 45.0;  ///< about the x axis of B; the sign changes every half period
   double servo_period_s = 8.0;
   double servo_limit_deg = 90.0;
-  bool motion_distortion = false;  ///< beams leave one after the other, while body and servo move
-  double no_return_p = 0.0;        ///< of a beam that meets something: to return nothing; drawn as sigma_m
-  std::optional<DroppedSectors> dropped_sectors;  ///< drawn as sigma_m
+  bool motion_distortion = false;  ///< beams are fired one after the other, while body and servo move
+  double no_return_p = 0.0;        ///< probability that a beam's return is lost; drawn only with a seed other than 0
+  std::optional<DroppedSectors> dropped_sectors;  ///< drawn only with a seed other than 0
 };
 
 /// Gains of CARIC's position controller (`planners.md` D, golden position_control).
@@ -58,9 +58,9 @@ struct PositionControlConfig {
   double max_tilt_deg = 45.0;
 };
 
-/// The attitude controller's gains, and what it takes for the vehicle's inertia (golden attitude_control).
+/// The attitude controller's gains, and the inertia that it assumes (golden attitude_control).
 struct AttitudeControlConfig {
-  std::optional<Vector3d> inertia;  ///< diagonal [kg m^2]; nullopt: the body's
+  std::optional<Vector3d> inertia;  ///< diagonal [kg m^2]; nullopt: VehicleConfig::inertia
   double p_gain = 40.0, q_gain = 25.0, r_gain = 20.0;
 };
 
@@ -69,17 +69,17 @@ struct VehicleLink {
   std::string name;
   double mass_kg = 0.0;
   Vector3d inertia = Vector3d::Zero();  ///< about its centre of mass, diagonal in the axes of B [kg m^2]
-  Vector3d p_BL = Vector3d::Zero();     ///< its centre of mass, and the middle of its box
+  Vector3d p_BL = Vector3d::Zero();     ///< its centre of mass, also the centre of its box [m]
   std::optional<Vector3d> box_m;        ///< full edge lengths
 };
 
-/// One vehicle type; files in config/vehicles/. What it weighs all-up says core/vehicle/airframe.hpp.
+/// One vehicle type; files in config/vehicles/. core/vehicle/airframe.hpp computes the total mass.
 struct VehicleConfig {
   std::string name;
   Role role = Role::explorer;
-  double mass_kg = 3.385;  ///< of the body alone: rotors and links come on top
+  double mass_kg = 3.385;                                            ///< of the body alone, without rotors and links
   Vector3d inertia = {0.07648816666, 0.07648816666, 0.16283333333};  ///< of the body about Bo, diagonal [kg m^2]
-  double rotor_mass_kg = 0.0;                                        ///< of each
+  double rotor_mass_kg = 0.0;                                        ///< of each rotor
   std::vector<VehicleLink> links;
   double arm_m = 0.43, rotor_radius_m = 0.2, rotor_height_m = 0.074;
   double rotor_force_constant = 2.564574e-5;  ///< thrust = constant * speed^2 [N s^2]
@@ -89,7 +89,7 @@ struct VehicleConfig {
   double rotor_drag = 8.06428e-5, rolling_moment = 1e-6;
   Vector3d collision_box_m = {0.2, 0.2, 0.32};  ///< full edge lengths
   double antenna_offset_m = 0.2;
-  double max_speed_mps = 6.0, max_acceleration_mps2 = 4.0, max_yaw_rate_deg_s = 90.0;  ///< of a command
+  double max_speed_mps = 6.0, max_acceleration_mps2 = 4.0, max_yaw_rate_deg_s = 90.0;  ///< limits of a command
   PositionControlConfig position_control;
   AttitudeControlConfig attitude_control;
   CameraConfig camera;
@@ -111,50 +111,50 @@ struct RadioTopicConfig {
   std::vector<std::string> targets;  ///< node names, or {"all"}
 };
 
-/// Where the structure comes from: files in CARIC's layout, or a procedural family.
+/// Source of the structure: files in CARIC's layout, or a procedural family.
 struct SceneConfig {
   std::string family;  ///< procedural: "towers"; empty: files
   std::uint64_t scene_seed = 0;
-  std::vector<std::filesystem::path> meshes;  ///< STL, resolved
-  std::filesystem::path points;               ///< PCD, resolved
-  std::filesystem::path boxes;                ///< box_description.yaml, resolved
+  std::vector<std::filesystem::path> meshes;  ///< STL; resolved path
+  std::filesystem::path points;               ///< PCD; resolved path
+  std::filesystem::path boxes;                ///< box_description.yaml; resolved path
 };
 
 /// Named switches; presets `contest`, `paper` and `reference`. docs/rules.md explains each.
 struct RulesConfig {
   std::string preset = "contest";
   bool reject_commands_beyond_limits = true;  ///< a velocity, acceleration or yaw rate beyond the vehicle's is ignored
-  bool guard_position_commands = true;        ///< a position and a yaw are approached within the vehicle's limits
+  bool guard_position_commands = true;        ///< a UAV approaches a commanded position and yaw within its limits
   bool limit_search_radius = true;            ///< S1: the camera looks no farther than the search radius
   bool unnormalised_displacement = true;      ///< S4 of the reference's resolution formula
-  bool ray_ends_at_point = false;             ///< S10: the ray that looks for a point ends there, in single precision
-  bool own_body_hides = true;                 ///< S11: what the camera would see of its own UAV hides what is behind it
+  bool ray_ends_at_point = false;             ///< S10: the visibility ray ends at the point, in single precision
+  bool own_body_hides = true;                 ///< S11: parts of the own UAV in the view hide what is behind them
   bool camera_blind_in_structure = true;  ///< no picture while structure stands between the body's centre and camera
-  bool phantom_gimbal_rate = false;       ///< G1-G3: report the commanded rate at the stop
-  bool collision_kills_both = false;      ///< a UAV at rest that a flying one touches is out, too
+  bool phantom_gimbal_rate = false;       ///< G1-G3: the gimbal reports rates at which it does not move
+  bool collision_kills_both = false;      ///< a UAV at rest that a flying UAV touches is out of the run, too
   bool collision_voids_score = true;      ///< a UAV that collides loses its points, retroactively
   double min_point_score = 0.2;           ///< a capture of a point below this does not count
-  double takeoff_height_m = 0.1;          ///< above rest height
-  double takeoff_speed_mps = 0.1;
+  double takeoff_height_m = 0.1;          ///< an airborne UAV is this far above its rest_height() ...
+  double takeoff_speed_mps = 0.1;         ///< ... and faster than this
 };
 
 struct Scenario {
   std::filesystem::path file;
-  std::vector<std::filesystem::path> vehicle_files;  ///< that the fleet was read from
+  std::vector<std::filesystem::path> vehicle_files;  ///< files from which the fleet's vehicles were read
   std::string name;
   std::string description;
   double duration_s = 600.0;          ///< mission time, from the first take-off
-  double takeoff_timeout_s = 60.0;    ///< the run ends if nobody flies by then
-  double exchange_period_s = 0.05;    ///< one lock-step round
-  double desired_mm_per_pixel = 2.0;  ///< r_des
+  double takeoff_timeout_s = 60.0;    ///< the run ends if no UAV has taken off by then
+  double exchange_period_s = 0.05;    ///< duration of one lock-step exchange
+  double desired_mm_per_pixel = 2.0;  ///< r_des in the paper
   Vector3d station_position = {-2.0, 8.0, 0.3};
   double station_antenna_offset_m = 0.1;
   SceneConfig scene;
   RulesConfig rules;
-  ConditionsConfig conditions;          ///< wind, odometry that errs, batteries; none by default
-  std::vector<UavConfig> fleet;         ///< fleet order: node numbers, domains and ties follow it
-  std::vector<RadioTopicConfig> radio;  ///< beyond the capture topics that Skein itself declares
-  std::vector<LinkEffect> links;        ///< how radio links differ from ideal ones, all through the run
+  ConditionsConfig conditions;          ///< wind, odometry errors, batteries, ...; none by default
+  std::vector<UavConfig> fleet;         ///< its order determines node numbers, domains, and who wins a tie
+  std::vector<RadioTopicConfig> radio;  ///< radio topics in addition to those that Skein itself declares
+  std::vector<LinkEffect> links;        ///< effects on radio links during the whole run
 
   FirstUavs uavs() const { return FirstUavs(fleet.size()); }
   FirstNodes nodes() const { return FirstNodes(fleet.size() + 1); }

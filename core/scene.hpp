@@ -1,4 +1,4 @@
-// What stands in the world: triangles, interest points and boxes. Frame W; metres.
+// The contents of the world: structure as triangles, interest points, and boxes. Frame W; metres.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 
 namespace skein {
 
-/// Indexed triangles. Geometry is double-sided: nothing may depend on the winding.
+/// Indexed triangles. Triangles are double-sided: no code may depend on the order of their vertices.
 struct TriangleMesh {
   std::vector<Eigen::Vector3f> vertices;
   std::vector<std::array<std::uint32_t, 3>> triangles;
@@ -18,7 +18,7 @@ struct TriangleMesh {
 struct Scene {
   TriangleMesh mesh;  ///< all structures together
   std::vector<InterestPoint> points;
-  std::vector<OrientedBox> boxes;  ///< all that a UAV is told
+  std::vector<OrientedBox> boxes;  ///< the only part of the scene that agents receive
 };
 
 }  // namespace skein

@@ -1,6 +1,6 @@
 // SHA-256 over named little-endian fields: the digest of a run, and the key of every random stream.
-// Numbers enter by their bits, doubles as IEEE 754: -0.0 and 0.0 differ, and so do different NaNs. A text enters with
-// its length, so that ("ab", "c") and ("a", "bc") differ.
+// Numbers are hashed by their bits (doubles: IEEE 754), so -0.0 and 0.0 give different digests, as do different NaNs. A
+// text is hashed with its length, so that ("ab", "c") and ("a", "bc") give different digests.
 // One thread at a time; copying copies the state.
 #pragma once
 
@@ -38,10 +38,10 @@ class Sha256 {
   Sha256& add(Id<Tag> id) {
     return add(static_cast<std::size_t>(id));
   }
-  /// Of a double and of nothing that only converts to one.
+  /// Accepts doubles only, no types that convert to double.
   Sha256& add(std::same_as<double> auto value) { return add_double(value); }
   Sha256& add(const Vector3d& value);     ///< x, y, z
-  Sha256& add(const Quaterniond& value);  ///< w, x, y, z; the sign as it is
+  Sha256& add(const Quaterniond& value);  ///< w, x, y, z; q and -q give different digests
   /// The length, then the bytes.
   Sha256& add(std::string_view text);
   Sha256& add(const std::string& text) { return add(std::string_view(text)); }
@@ -49,7 +49,7 @@ class Sha256 {
   /// The bytes alone.
   Sha256& add(std::span<const std::uint8_t> bytes);
 
-  /// Of all that was added so far; adding may go on.
+  /// Digest of everything added so far; more may be added afterwards.
   std::array<std::uint8_t, 32> digest() const;
   /// The same as 64 lower-case hexadecimal digits.
   std::string hex() const;

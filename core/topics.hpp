@@ -1,8 +1,8 @@
-// The one table of topics: name, type, direction and quality of service of everything that Skein itself puts on the
-// wire, the fields of every PointCloud2, and the numbers of the DDS domains. Radio topics: core/radio/radio_routes.hpp.
+// The table of all topics that Skein itself defines (name, type, direction, quality of service), the fields of every
+// PointCloud2, and the numbers of the DDS domains. For radio topics see core/radio/radio_routes.hpp.
 //
-// ROS names ("/jurong/gimbal") and ROS types ("nav_msgs/msg/Odometry") are what users write; wire names
-// ("rt/jurong/gimbal", "nav_msgs::msg::dds_::Odometry_") are what DDS sees. All topics are RELIABLE and KEEP_LAST.
+// Users write ROS names ("/jurong/gimbal") and ROS types ("nav_msgs/msg/Odometry"). On the wire, DDS uses wire names
+// ("rt/jurong/gimbal") and wire types ("nav_msgs::msg::dds_::Odometry_"). All topics are RELIABLE and KEEP_LAST.
 // Pure; safe from any thread.
 #pragma once
 
@@ -19,7 +19,7 @@ namespace skein {
 
 struct Scenario;
 
-/// Whether it is an absolute ROS topic name: "/x", "/x/y".
+/// Whether `text` is an absolute ROS topic name: "/x", "/x/y".
 bool is_topic_name(std::string_view text);
 /// "/x" -> "rt/x". @throws InputError when `ros_topic` is not an absolute ROS topic name.
 std::string wire_topic(std::string_view ros_topic);
@@ -31,7 +31,7 @@ std::string wire_type(std::string_view ros_type);
 constexpr int world_domain(int base) { return base; }
 constexpr int gcs_domain(int base) { return base + 1; }
 constexpr int uav_domain(int base, UavIndex uav) { return base + 2 + static_cast<int>(uav); }
-/// Their names, in the order of their numbers: "world", "gcs", the UAVs'.
+/// Names of the domains, in the order of their numbers: "world", "gcs", then the UAVs' names.
 std::vector<std::string> domain_names(const Scenario& scenario);
 /// Domain of a radio node: the ground station's or a UAV's.
 constexpr int node_domain(int base, Node node) { return base + 1 + static_cast<int>(node); }
@@ -40,7 +40,7 @@ namespace topics {
 
 // ---- layout of point clouds ------------------------------------------------------------------------------------
 
-/// Numbers as in sensor_msgs/msg/PointField.
+/// Data types of point fields, with the numbers of sensor_msgs/msg/PointField.
 enum class FieldType : std::uint8_t { float32 = 7, float64 = 8 };
 
 struct CloudField {
@@ -49,7 +49,7 @@ struct CloudField {
   std::uint32_t offset;  ///< bytes from the start of the point
 };
 
-/// Little-endian, no padding between points.
+/// Layout of a PointCloud2: little-endian, no padding between points.
 struct CloudLayout {
   std::span<const CloudField> fields;
   std::uint32_t point_step;  ///< bytes of one point
@@ -68,16 +68,16 @@ inline constexpr CloudField kNeighbourFields[] = {
     {"qy", FieldType::float32, 28},        {"qz", FieldType::float32, 32}, {"qw", FieldType::float32, 36},
     {"vx", FieldType::float32, 40},        {"vy", FieldType::float32, 44}, {"vz", FieldType::float32, 48},
     {"wx", FieldType::float32, 52},        {"wy", FieldType::float32, 56}, {"wz", FieldType::float32, 60}};
-/// One point a linked neighbour: x y z position in W [m], intensity = node number (0 = gcs), t = stamp [s],
-/// q = attitude, v = velocity and w = angular velocity, both in the neighbour's body frame as its odometry has them.
+/// One point per linked neighbour: x y z = position in W [m], intensity = node number (0 = gcs), t = stamp [s],
+/// q = attitude q_WB, v = velocity [m/s] and w = angular velocity [rad/s], both expressed in the neighbour's frame B.
 inline constexpr CloudLayout kNeighbourLayout{kNeighbourFields, 64};
 
 inline constexpr CloudField kDetectionFields[] = {
     {"x", FieldType::float32, 0},          {"y", FieldType::float32, 4},         {"z", FieldType::float32, 8},
     {"intensity", FieldType::float32, 12}, {"normal_x", FieldType::float32, 16}, {"normal_y", FieldType::float32, 20},
     {"normal_z", FieldType::float32, 24},  {"curvature", FieldType::float32, 28}};
-/// One point an interest point seen so far: intensity = best score of this UAV, curvature = the order in which this UAV
-/// first saw it, 0, 1, 2, ... The index of a point in the scene is for the station alone.
+/// One point per interest point that this UAV has seen: x y z in W [m], intensity = this UAV's best score of the point,
+/// curvature = its number in the order in which this UAV first saw them (detection_order.hpp), not its scene index.
 inline constexpr CloudLayout kDetectionLayout{kDetectionFields, 32};
 
 // ---- one entry of the table ------------------------------------------------------------------------------------
@@ -85,24 +85,24 @@ inline constexpr CloudLayout kDetectionLayout{kDetectionFields, 32};
 enum class Direction {
   to_agent,        ///< written by sim_server, read by on-board software (or by a program at the ground station)
   from_agent,      ///< written by on-board software, read by sim_server
-  shown_by_agent,  ///< written by on-board software into its UAV's domain, for who looks on
-  from_station,    ///< written by the station into the GCS domain; /viz/scored into the world's
-  to_viewer,       ///< written by sim_server into the world's domain, for who looks on
-  internal,        ///< lock-step and custody: between Skein's own processes and lock-step clients
+  shown_by_agent,  ///< written by on-board software into its UAV's domain, for viewers
+  from_station,    ///< written by the station into the GCS domain; /viz/scored into the world domain
+  to_viewer,       ///< written by sim_server into the world domain, for viewers
+  internal,        ///< lock-step, custody and live view: between Skein's own processes and lock-step clients
 };
 
 struct TopicInfo {
-  std::string_view pattern;  ///< ROS name; {id} stands for the unit ("jurong", "gcs")
+  std::string_view pattern;  ///< ROS name; {id} stands for the node ("jurong", "gcs")
   std::string_view type;     ///< ROS type
   Direction direction;
-  int depth;              ///< holds at least one lock-step round
+  int depth;              ///< history depth; at least the samples of one exchange
   std::string_view rate;  ///< when a sample is written
   bool latched = false;   ///< TRANSIENT_LOCAL
   bool explorers_only = false;
-  const CloudLayout* cloud = nullptr;  ///< of a PointCloud2
+  const CloudLayout* cloud = nullptr;  ///< fields, if the type is PointCloud2
 };
 
-/// A topic as DDS sees it, of one unit.
+/// A topic with its DDS name and DDS type, for one node.
 struct WireTopic {
   std::string name, type;
   bool latched = false;
@@ -112,13 +112,14 @@ struct WireTopic {
 /// @param id replaces {id} in the pattern.
 WireTopic wire(const TopicInfo& topic, std::string_view id = {});
 
-inline constexpr int kStateDepth = 8;  ///< one sample a round
-inline constexpr int kCloudDepth = 8;  ///< one large sample a round at most
+inline constexpr int kStateDepth = 8;  ///< one sample per exchange
+inline constexpr int kCloudDepth = 8;  ///< at most one large sample per exchange
 inline constexpr int kCommandDepth = 64;
 inline constexpr int kRadioDepth = 256;
-/// Of a topic on which all may send, for who does not know the fleet: twenty UAVs and the ground station.
+/// Number of sources that code assumes for a topic on which all nodes may send, if it does not know the fleet: twenty
+/// UAVs and the ground station.
 inline constexpr std::size_t kMostRadioSources = 21;
-/// Where messages of several sources arrive, each may send its share in one round.
+/// History depth where messages of several sources arrive: each source may send kRadioDepth messages in one exchange.
 constexpr int radio_depth(std::size_t sources) { return kRadioDepth * static_cast<int>(sources); }
 
 // ---- a UAV's domain --------------------------------------------------------------------------------------------
@@ -130,19 +131,19 @@ inline constexpr TopicInfo kGimbal{"/{id}/gimbal", "geometry_msgs/msg/TwistStamp
 /// Only if the scenario's conditions have batteries.
 inline constexpr TopicInfo kBattery{"/{id}/battery", "sensor_msgs/msg/BatteryState", Direction::to_agent, kStateDepth,
                                     "every exchange, if there are batteries"};
-/// What the UAV's flight controller estimates; only if the scenario's conditions have wind.
+/// The flight controller's estimate of the wind; only if the scenario's conditions have wind.
 inline constexpr TopicInfo kWind{"/{id}/wind", "geometry_msgs/msg/TwistStamped", Direction::to_agent, kStateDepth,
                                  "every exchange, if there is wind; linear: velocity of the air in W"};
 inline constexpr TopicInfo kCloud{
     "/{id}/cloud_inW", "sensor_msgs/msg/PointCloud2", Direction::to_agent, kCloudDepth, "10 Hz", false, true,
     &kScanLayout};
-/// At the instant of each scan, whether anybody reads the scan or not.
+/// State of the LiDAR's servo at the instant of each scan, also if no program reads the scan.
 inline constexpr TopicInfo kLidarServo{
     "/{id}/lidar_servo", "sensor_msgs/msg/JointState", Direction::to_agent, kStateDepth, "10 Hz", false, true};
 inline constexpr TopicInfo kSelfKeyframe{
     "/{id}/slf_kf_cloud", "sensor_msgs/msg/PointCloud2", Direction::to_agent, kCloudDepth, "on keyframe", false, true,
     &kScanLayout};
-// Every neighbour may deliver its key frame in the same round; intensity = its node number.
+// Every neighbour may deliver its key frame in the same exchange; intensity = node number of the neighbour.
 inline constexpr TopicInfo kNeighbourKeyframe{"/{id}/nbr_kf_cloud",
                                               "sensor_msgs/msg/PointCloud2",
                                               Direction::to_agent,
@@ -167,7 +168,7 @@ inline constexpr TopicInfo kDetectedPoints{"/{id}/detected_interest_points",
                                            false,
                                            false,
                                            &kDetectionLayout};
-/// For our own agents: the topic above, less what has not changed.
+/// For Skein's own agents: as kDetectedPoints, but a sample has only the points that changed.
 inline constexpr TopicInfo kDetected{"/skein/detected",
                                      "sensor_msgs/msg/PointCloud2",
                                      Direction::internal,
@@ -181,12 +182,12 @@ inline constexpr TopicInfo kMissionDurationRemained{"/{id}/mission_duration_rema
                                                     "every exchange after the first take-off"};
 inline constexpr TopicInfo kClock{"/clock", "rosgraph_msgs/msg/Clock", Direction::to_agent, kStateDepth,
                                   "every exchange"};
-/// Eight vertices a box, box after box.
+/// Eight vertices per box, box after box, in W [m].
 inline constexpr TopicInfo kBoundingBoxes{
     "/gcs/bounding_box_vertices", "sensor_msgs/msg/PointCloud", Direction::to_agent, 1, "once, latched", true};
 inline constexpr TopicInfo kCommandRejected{"/{id}/command_rejected", "skein_msgs/msg/CommandRejected",
                                             Direction::to_agent, kCommandDepth, "when a command is ignored"};
-/// To a UAV that somebody flies by hand, and to no other.
+/// Only to a UAV that a person flies by hand.
 inline constexpr TopicInfo kHand{"/{id}/hand", "skein_msgs/msg/HandCommand", Direction::to_agent, kCommandDepth,
                                  "when who flies it by hand wants something else"};
 inline constexpr TopicInfo kActivity{"/{id}/activity", "skein_msgs/msg/Activity", Direction::from_agent, kCommandDepth,
@@ -196,13 +197,13 @@ inline constexpr TopicInfo kTrajectoryCommand{"/{id}/command/trajectory", "traje
                                               "from the agent; only points[0] is used"};
 inline constexpr TopicInfo kGimbalCommand{"/{id}/command/gimbal", "geometry_msgs/msg/Twist", Direction::from_agent,
                                           kCommandDepth, "from the agent; linear.x > 0 angles, < 0 rates, 0 freeze"};
-/// Two names for one command: the reference documents the first and listens on the second.
+/// Two topics for the same command: the reference documents the first and reads the second.
 inline constexpr TopicInfo kCameraTrigger{"/{id}/command/camera_trigger", "skein_msgs/msg/BoolStamped",
                                           Direction::from_agent, kCommandDepth, "from the agent"};
 inline constexpr TopicInfo kTrigger{"/{id}/command/trigger", "skein_msgs/msg/BoolStamped", Direction::from_agent,
                                     kCommandDepth, "from the agent"};
-/// What this UAV knows of the space around it: an OcTree in its binary form, occupied and free. In no count: nobody in
-/// the fleet reads it, and it is written where somebody does.
+/// Occupied and free space on this UAV's map of key frames: an OcTree in binary form. The lock-step does not count it,
+/// because no program of the fleet reads it. Written only while it has readers.
 inline constexpr TopicInfo kOctomap{"/{id}/octomap",
                                     "octomap_msgs/msg/Octomap",
                                     Direction::shown_by_agent,
@@ -214,28 +215,30 @@ inline constexpr TopicInfo kCapture{"/skein/capture", "skein_msgs/msg/CaptureRep
 inline constexpr TopicInfo kCaptureStored{"/skein/capture_ack", "skein_msgs/msg/CaptureAck", Direction::internal,
                                           kCommandDepth, "agent -> server: the station has these"};
 
-/// All of a UAV's domain but lock-step and radio.
+/// All topics of a UAV's domain except those of lock-step and radio.
 std::span<const TopicInfo> uav_topics();
 
 // ---- the GCS domain --------------------------------------------------------------------------------------------
 
-/// All points that score by now; channels normal_x, normal_y, normal_z, score.
+/// All points that have scored so far; channels normal_x, normal_y, normal_z, score.
 inline constexpr TopicInfo kScore{"/gcs/score", "sensor_msgs/msg/PointCloud", Direction::from_station, kStateDepth,
                                   "when it changes"};
-/// The same with a fifth channel, global_index: the point's in the scene. For who judges a run, not for who flies it.
+/// The same with a fifth channel, global_index: the point's index in the scene. For judges of a run, not for agents.
 inline constexpr TopicInfo kScoreEval{"/score_eval", "sensor_msgs/msg/PointCloud", Direction::from_station, kStateDepth,
                                       "when it changes"};
 
-/// What the station tells of the score. It stays in the GCS domain: no radio topic has such a name, at either end.
+/// The station's topics about the score. They stay in the GCS domain: radio_routes.hpp rejects radio topics with these
+/// names, at either end.
 std::span<const TopicInfo> score_topics();
-/// All of the GCS domain but lock-step and radio: boxes, clock, time left, neighbours in LoS, score.
+/// All topics of the GCS domain except lock-step and radio: boxes, clock, time left, neighbours in LoS, score.
 std::span<const TopicInfo> gcs_topics();
 
-/// The station's name in the lock-step; its node is "gcs", which it may share with a user's program.
+/// The station's member name in the lock-step. Its radio node is "gcs", which it may share with a user's program.
 inline constexpr std::string_view kStationMember = "station";
 
-// ---- the world's domain, for who looks on: RViz 2 (docs/ros2.md) --------------------------------------------------
-// Nobody in the fleet reads these, and they are in no count. Written where somebody reads, at 10 Hz at most.
+// ---- the world domain, for viewers: RViz 2 (docs/ros2.md) ---------------------------------------------------------
+// No program of the fleet reads these topics, and the lock-step does not count them. Written only while they have
+// readers, at 10 Hz at most.
 
 inline constexpr int kVizDepth = 8;
 inline constexpr TopicInfo kVizStructure{
@@ -250,7 +253,7 @@ inline constexpr TopicInfo kVizFleet{"/viz/fleet", "visualization_msgs/msg/Marke
                                      kVizDepth, "10 Hz; bodies and names"};
 inline constexpr TopicInfo kVizPaths{"/viz/paths", "visualization_msgs/msg/MarkerArray", Direction::to_viewer,
                                      kVizDepth, "2 Hz; where each UAV was in the last 60 s"};
-/// What all key frames have shown so far, a point for each cube of 0.5 m.
+/// Map of all key frames so far, one point per cube of 0.5 m, in W [m].
 inline constexpr TopicInfo kVizMap{"/viz/map",
                                    "sensor_msgs/msg/PointCloud2",
                                    Direction::to_viewer,
@@ -259,7 +262,7 @@ inline constexpr TopicInfo kVizMap{"/viz/map",
                                    true,
                                    false,
                                    &kScanLayout};
-/// Points that score by now; intensity = q.
+/// Points that have scored so far, in W [m]; intensity = quality q.
 inline constexpr TopicInfo kVizScored{"/viz/scored",
                                       "sensor_msgs/msg/PointCloud2",
                                       Direction::from_station,
@@ -272,7 +275,7 @@ inline constexpr TopicInfo kTf{"/tf", "tf2_msgs/msg/TFMessage", Direction::to_vi
 inline constexpr TopicInfo kTfStatic{"/tf_static", "tf2_msgs/msg/TFMessage", Direction::to_viewer, 1, "once, latched",
                                      true};
 
-/// All of the above, and the clock.
+/// All topics of this section, and the clock.
 std::span<const TopicInfo> viewer_topics();
 
 // ---- lock-step, ledger: see idl/skein_msgs.idl and docs/lockstep.md ---------------------------------------------
@@ -281,10 +284,11 @@ inline constexpr TopicInfo kStep{"/skein/step", "skein_msgs/msg/Step", Direction
                                  "server -> every domain, every exchange"};
 inline constexpr TopicInfo kDone{"/skein/done", "skein_msgs/msg/Done", Direction::internal, 8,
                                  "member -> its domain, every exchange"};
-// The station's own doors: who shares its domain can be refused them by name (cli/secure/rules.cpp).
+// The station has topics of its own for this, so that security rules can deny them to other programs in its domain
+// (cli/secure/rules.cpp).
 inline constexpr TopicInfo kStationDone{"/skein/station/done", "skein_msgs/msg/Done", Direction::internal, 8,
                                         "station -> GCS domain, every exchange"};
-// Latched where one side may come later than the other: a restarted process finds the last word of everybody else.
+// Latched where a reader may start after the writer: a restarted process receives the last samples of all others.
 inline constexpr TopicInfo kReady{"/skein/ready",
                                   "skein_msgs/msg/Ready",
                                   Direction::internal,
@@ -315,7 +319,7 @@ inline constexpr TopicInfo kAwaits{"/skein/awaits", "skein_msgs/msg/Awaits", Dir
                                    "router -> world, while it waits for somebody"};
 inline constexpr TopicInfo kDrop{"/skein/drop", "skein_msgs/msg/Drop", Direction::internal, 128,
                                  "server -> world, when a member is lost"};
-// Latched and deep: a station that starts late or again gets the whole ledger.
+// Latched with a large depth, so that a station that starts late, or restarts, receives the whole ledger.
 inline constexpr TopicInfo kLedger{"/skein/ledger",
                                    "skein_msgs/msg/Ledger",
                                    Direction::internal,
@@ -329,10 +333,10 @@ inline constexpr TopicInfo kRadioRequest{"/skein/radio_request", "skein_msgs/msg
 inline constexpr TopicInfo kRadioReply{"/skein/radio_reply", "skein_msgs/msg/RadioReply", Direction::internal, 1024,
                                        "router -> member: what became of it, and when that changes"};
 
-/// All of the above.
+/// All topics of this section.
 std::span<const TopicInfo> lockstep_topics();
 
-// ---- short names: the wire topic of a unit ----------------------------------------------------------------------
+// ---- short names: the wire topic of a node ----------------------------------------------------------------------
 
 inline WireTopic odometry(std::string_view id) { return wire(kOdometry, id); }
 inline WireTopic gimbal(std::string_view id) { return wire(kGimbal, id); }
@@ -354,15 +358,15 @@ inline WireTopic activity(std::string_view id) { return wire(kActivity, id); }
 inline WireTopic trajectory_command(std::string_view id) { return wire(kTrajectoryCommand, id); }
 inline WireTopic gimbal_command(std::string_view id) { return wire(kGimbalCommand, id); }
 inline WireTopic camera_trigger(std::string_view id) { return wire(kCameraTrigger, id); }
-/// Debug values of one UAV; the server reads no more.
+/// Largest number of debug values of one UAV that sim_server reads.
 inline constexpr std::size_t kMostDebugNames = 64;
-/// What a program tells of itself under a name of its own, for faults and properties (docs/properties.md). The server
-/// reads those that the program names when it says hello.
+/// Topic of a debug value: a number that a program publishes under a name of its choice, for faults and properties
+/// (docs/properties.md). sim_server reads the topics that the program announces in its hello.
 inline WireTopic debug(std::string_view id, std::string_view name) {
   return {"rt/" + std::string(id) + "/debug/" + std::string(name), wire_type("std_msgs/msg/Float64"), false,
           kCommandDepth};
 }
-/// The name in such a topic of this UAV's; empty: it is none.
+/// The name of the debug value in a topic made by debug(id, name); empty if the topic is none of this UAV's.
 std::string_view debug_name(std::string_view wire_topic, std::string_view id);
 inline WireTopic trigger(std::string_view id) { return wire(kTrigger, id); }
 inline WireTopic octomap(std::string_view id) { return wire(kOctomap, id); }

@@ -1,4 +1,4 @@
-// The words that every part of Skein shares: time, frames, roles.
+// Types that all parts of Skein share: time, roles, poses, commands, boxes, interest points.
 // Frames: W world (ENU), B body (FLU), C camera (x optical axis, y left, z up), L lidar.  Units: SI, radians.
 #pragma once
 
@@ -19,7 +19,7 @@ using Eigen::Quaterniond;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// Simulated time counts physics ticks; ages and periods are ticks, never doubles.
+/// Simulated time as a number of physics ticks of 2.5 ms. Ages and periods are Ticks, never doubles.
 using Tick = std::int64_t;
 inline constexpr double kTickS = 0.0025;
 inline constexpr Tick kTicksPerSecond = 400;
@@ -29,7 +29,7 @@ inline double seconds(Tick tick) { return static_cast<double>(tick) * kTickS; }
 /// The tick nearest to a time in seconds.
 inline Tick ticks(double s) { return static_cast<Tick>(s / kTickS + (s < 0 ? -0.5 : 0.5)); }
 
-/// Names of an enum's values as files and messages write them. An enum gets names by an enum_names() beside it.
+/// Name of an enum's value in files and messages. To give an enum names, define enum_names() next to it.
 template <class Enum>
 struct EnumName {
   const char* name;
@@ -50,7 +50,7 @@ std::string name_of(Enum value) {
   return "?";
 }
 
-/// What the user gave us is wrong. Programs print what() and exit with code 2.
+/// The user's input is wrong. Programs print what() and exit with code 2.
 class InputError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -60,34 +60,34 @@ class InputError : public std::runtime_error {
 struct RigidBodyState {
   Vector3d p_WB = Vector3d::Zero();            ///< position [m]
   Quaterniond q_WB = Quaterniond::Identity();  ///< attitude, body to world
-  Vector3d v_WB = Vector3d::Zero();            ///< velocity in W, expressed in W [m/s]
+  Vector3d v_WB = Vector3d::Zero();            ///< velocity of Bo in W, expressed in W [m/s]
   Vector3d w_WB_B = Vector3d::Zero();          ///< angular velocity, expressed in B [rad/s]
 
   Isometry3d X_WB() const { return Eigen::Translation3d(p_WB) * q_WB; }
 };
 
-/// Where the gimbal stands, relative to the yawed body (roll and pitch of the body are removed):
+/// Angles of the gimbal relative to the body's heading (the gimbal cancels roll and pitch of the body):
 /// R_WC = Rz(yaw of body) Rz(yaw) Ry(pitch). Positive yaw turns left, positive pitch looks down.
 struct GimbalState {
   double pitch = 0.0, yaw = 0.0;            ///< [rad]
   double pitch_rate = 0.0, yaw_rate = 0.0;  ///< [rad/s]
 };
 
-/// Where the servo stands that turns an explorer's LiDAR about body x, at the instant of a scan.
+/// State, at the instant of a scan, of the servo that turns an explorer's LiDAR about the x axis of B.
 struct LidarServo {
   Tick tick = 0;
   double angle = 0.0;  ///< [rad]
   double rate = 0.0;   ///< [rad/s]; 0 at a stop
 };
 
-/// One set-point of a trajectory, as CARIC's controller takes it. Position, velocity and acceleration in W.
-/// |p| < 0.01 means "no position", see docs/rules.md.
+/// One setpoint for CARIC's flight controller. Position [m], velocity [m/s] and acceleration [m/s^2] in W.
+/// |p_WB| < 0.01 m means "no position", see docs/rules.md.
 struct TrajectoryCommand {
   Vector3d p_WB = Vector3d::Zero();
   Vector3d v_WB = Vector3d::Zero();
   Vector3d a_WB = Vector3d::Zero();
-  double yaw = 0.0;
-  double yaw_rate = 0.0;  ///< [rad/s]; the control law has no use for it, the vehicle's limit applies to it
+  double yaw = 0.0;       ///< [rad]
+  double yaw_rate = 0.0;  ///< [rad/s]; only checked against the vehicle's limit, the control law does not use it
 };
 
 enum class GimbalMode { angle, rate, freeze };
@@ -97,7 +97,7 @@ struct GimbalCommand {
   double pitch = 0.0, yaw = 0.0;  ///< angles [rad] or rates [rad/s], by mode
 };
 
-/// Oriented box: what a UAV knows of a structure. Axes of R_WO are the box's own axes.
+/// Oriented box, the only description of a structure that an agent receives. Frame O has the axes of the box.
 struct OrientedBox {
   std::string name;
   Vector3d center = Vector3d::Zero();    ///< [m], in W

@@ -1,13 +1,15 @@
-// What sim_server and the station say to each other in the world's domain about a run that is watched (docs/view.md):
-// only then are there such topics. Nobody else reads or writes them, and they are in no count of the lock-step. Each
-// sample is a JSON object as text. And what a UAV shows of its map and itself, in its own domain.   Pure; any thread.
+// Topics of the live view (docs/view.md). kView...: messages between sim_server and the station in the world domain,
+// only in a run that is watched; no other program uses them. Each sample is a JSON object as text. The other topics:
+// map and diagnostics of a UAV, in the UAV's own domain. The lock-step counts none of these samples.   Pure; any
+// thread.
 #pragma once
 
 #include "core/topics.hpp"
 
 namespace skein::topics {
 
-/// The scene first, then lines (view/story.hpp). Latched and deep: a station that starts late or again gets all.
+/// The scene first, then lines (view/story.hpp). Latched with a large depth, so that a station that starts late, or
+/// restarts, receives all of it.
 inline constexpr TopicInfo kViewStory{"/skein/view/story",
                                       "std_msgs/msg/String",
                                       Direction::internal,
@@ -23,7 +25,8 @@ inline constexpr TopicInfo kViewCloud{
     "/skein/view/cloud", "std_msgs/msg/String", Direction::internal, 16,
     "server -> station: points or maps that a browser asked for; the newest is enough"};
 
-/// What a UAV flies on, as the octomap is told (kOctomap). Read for a page while somebody there looks at it.
+/// The map on which a UAV flies (world map, or else map of key frames), in the format of kOctomap. sim_server reads it
+/// only while a viewer of the web page displays it.
 inline constexpr TopicInfo kFlightMap{"/{id}/flight_map",
                                       "octomap_msgs/msg/Octomap",
                                       Direction::shown_by_agent,
@@ -31,7 +34,7 @@ inline constexpr TopicInfo kFlightMap{"/{id}/flight_map",
                                       "when it has grown, 1 Hz at most; latched",
                                       true};
 
-/// What the on-board software knows of itself, for ROS 2's diagnostics tools (uav_agent/diagnostics.hpp).
+/// Status of the on-board software, for ROS 2's diagnostics tools (uav_agent/diagnostics.hpp).
 inline constexpr TopicInfo kDiagnostics{"/diagnostics", "diagnostic_msgs/msg/DiagnosticArray",
                                         Direction::shown_by_agent, kStateDepth, "1 Hz"};
 

@@ -1,4 +1,4 @@
-// Structs as JSON objects, both ways, by one list of keys a struct:
+// Converts structs to JSON objects and back; each struct lists its keys once:
 //
 //   struct Tally {
 //     int points = 0;
@@ -13,9 +13,10 @@
 //   Json json = json_of(tally);
 //   Tally tally = struct_of<Tally>(json);
 //
-// Reading never throws: what is missing, or of another kind, leaves the struct's own value (an optional: none). Members
-// may be bool, numbers, strings, enums with names (core/types.hpp), such structs, Json (any object), and optionals,
-// vectors, arrays and Named ones of all these; elements of a vector that do not fit are left out.
+// Reading never throws: a member whose key is missing, or has a value of another kind, keeps its default (an optional
+// with a value of another kind becomes empty). Members may be bool, numbers, strings, enums with names
+// (core/types.hpp), such structs, Json (any object), and optionals, vectors, arrays and Named of these. Unfit elements
+// of a vector are left out.
 #pragma once
 
 #include <array>
@@ -33,23 +34,23 @@
 
 namespace skein {
 
-/// A number that cannot be negative: a time, a distance, a score. JSON that says otherwise does not fit.
+/// A number that cannot be negative: a time, a distance, a score. Reading treats a negative number as a wrong kind.
 class Amount {
  public:
-  constexpr Amount(double value = 0.0) : value_(value) {}  // NOLINT: it stands for its number
+  constexpr Amount(double value = 0.0) : value_(value) {}  // NOLINT: implicit conversions are intended
   constexpr operator double() const { return value_; }     // NOLINT
 
  private:
   double value_;
 };
 
-/// For Json's own conversions.
+/// Lets nlohmann::json convert an Amount.
 template <class AnyJson>
 void to_json(AnyJson& json, const Amount& amount) {
   json = static_cast<double>(amount);
 }
 
-/// An object whose keys are names, in their order.
+/// An object with arbitrary names as keys, in the file's order.
 template <class T>
 using Named = std::vector<std::pair<std::string, T>>;
 
@@ -143,7 +144,7 @@ Json write(const T& value) {
   }
 }
 
-/// A number with a fraction loses it; one that the type has no room for does not fit.
+/// Reads a whole number. A fraction is cut off; nullopt for a number that T cannot represent.
 template <std::integral T>
 std::optional<T> whole_number(const Json& json) {
   constexpr double kExact = 9007199254740992.0;  // all whole numbers below 2^53 are doubles
@@ -236,7 +237,7 @@ Json json_of(const T& value) {
   return json_detail::write(value);
 }
 
-/// What is no object has none of the keys.
+/// The JSON as a T. JSON that is no object gives T's defaults.
 template <class T>
 T struct_of(const Json& json) {
   return json_detail::read<T>(json).value_or(T{});

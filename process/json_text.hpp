@@ -1,5 +1,5 @@
-// JSON that another process wrote, who may be of another version, damaged or a user's: whatever it holds, reading it
-// never throws.   Threads: any.
+// Reads JSON that another process wrote. It may be damaged, or come from another version of Skein or from a user's
+// program: reading never throws, whatever the JSON contains.   Threads: any.
 #pragma once
 
 #include <filesystem>
@@ -9,23 +9,23 @@
 
 namespace skein {
 
-/// Keeps its keys in the order in which they were set.
+/// JSON whose objects keep their keys in the order in which they were set.
 using Json = nlohmann::ordered_json;
 
-/// The value under `key` when it is there and of the same kind as `fallback`, else `fallback`. A null `fallback` takes
-/// any kind. Never throws.
+/// The value under `key` if it exists and has the same kind as `fallback`, else `fallback`. If `fallback` is null, a
+/// value of any kind is returned. Never throws.
 Json value_or(const Json& object, const char* key, Json fallback);
 
-/// Of any JSON: 0, an empty text where there is nothing of the kind.
+/// The number or text under `key` of any JSON; without one: 0, nullopt, or an empty text.
 double number_in(const Json& object, const char* key);
 std::optional<double> number_if_any(const Json& object, const char* key);
 std::string text_in(const Json& object, const char* key);
 
-/// Parses what a program wrote. @returns null when it is not JSON. What is nested deeper than anything of ours is left
-/// out: copying it would take the stack.
+/// Parses JSON. @returns null if the text is not JSON. Leaves out values that are nested deeper than any that Skein
+/// writes: copying them could overflow the stack.
 Json parse_json(const std::string& text);
 
-/// Parses a JSON file. @returns null when it is not there, not a plain file of a sensible size, or not JSON.
+/// Parses a JSON file. @returns null if the file does not exist, is not a regular file, is too large, or is not JSON.
 Json read_json(const std::filesystem::path& file);
 
 }  // namespace skein

@@ -1,14 +1,14 @@
-// How a line of a program's log looks: "[comm_router] warning text". For run_program(), which sets logs up, and for
-// whoever picks lines from them.
+// Format of a line in a program's log: "[comm_router] warning text". For run_program(), which configures the logs, and
+// for code that searches them.
 #pragma once
 
 #include <string_view>
 
 namespace skein::log_lines {
 
-/// For spdlog: name, level, text.
+/// Pattern for spdlog: name, level, text.
 inline constexpr const char* kPattern = "[%n] %l %v";
-/// The same with the simulated time behind the name (log_time.hpp).
+/// The same with the simulated time after the name (log_time.hpp).
 inline constexpr const char* kTimedPattern = "[%n%*] %l %v";
 
 inline bool is_warning(std::string_view line) {

@@ -9,10 +9,10 @@ class logger;
 
 namespace skein {
 
-/// From here on each line that this process logs begins with that time, where its log shows times at all.
+/// Sets the simulated time [s] that loggers with show_log_time() add to the lines of this process from now on.
 void set_log_time(double simulated_s);
 
-/// "[NAME 12.35] level text" once there is a time, "[NAME] level text" before.
+/// Makes a logger write "[NAME 12.35] level text" once a time is set; before, it writes "[NAME] level text".
 void show_log_time(spdlog::logger& log);
 
 }  // namespace skein

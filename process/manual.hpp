@@ -1,4 +1,4 @@
-// A program's manual page, of the same options as its --help: all is said once, where an option is added.
+// Generates a program's manual page from the same option descriptions as its --help.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@ namespace skein {
 
 /// @param app   with all its options and commands; its description may begin with "NAME: ".
 /// @param name  of the program.
-/// @returns the source of its page in section 1, for man(1).
+/// @returns source text of its manual page in section 1, for man(1).
 std::string manual_of(const CLI::App& app, const std::string& name);
 
 }  // namespace skein

@@ -40,9 +40,9 @@ inline constexpr int kExitBadInput = 2;
 inline constexpr int kExitProcessFailed = 3;
 inline constexpr int kExitInterrupted = 130;
 
-/// Lowest domain of a fleet: 0 is ROS 2's default, where any node of the host would see the world's truth.
+/// Lowest domain of a fleet. Domain 0 is ROS 2's default: there any node of the host would receive the ground truth.
 inline constexpr int kFirstDomain = 1;
-/// Highest domain of a fleet; the standard's port mapping ends at 232.
+/// Highest base domain of a fleet; the port mapping of the RTPS standard ends at 232.
 inline constexpr int kLastDomain = 200;
 
 /// Options that all programs understand.
@@ -59,32 +59,33 @@ struct ProgramOptions {
   std::optional<std::string> rules;         ///< --rules: a preset
   std::optional<std::string> conditions;    ///< --conditions: presets
   std::filesystem::path faults;             ///< --faults: fault file; empty: none
-  std::string record = "run";               ///< --record: how much (recording/choice.hpp)
+  std::string record = "run";               ///< --record: contents of the recording (recording/choice.hpp)
   bool check_only = false;                  ///< --check: validate the input, then stop
   int status_fd = -1;                       ///< --status-fd: where status_pipe.hpp writes; -1: nowhere
   std::optional<double> break_at_s;         ///< --break-at: see bus/lockstep/break_point.hpp
   bool wait_for_debugger = false;           ///< --wait-for-debugger: see debugger_wait.hpp
   bool keep = false;                        ///< --keep: see keeper.hpp
-  int lives = 0;                            ///< so far, if it is kept, this one included
-  double server_timeout_s = 0.0;            ///< --server-timeout: for sim_server to appear; 0: for ever
+  int lives = 0;                            ///< with `keep`: number of workers so far, including this one
+  double server_timeout_s = 0.0;            ///< --server-timeout: longest wait for sim_server to appear; 0: no limit
   std::filesystem::path health;             ///< --health: see heartbeat.hpp
-  int control_fd = -1;                      ///< --control-fd: where orders come from; -1: nowhere
+  int control_fd = -1;                      ///< --control-fd: where the launcher's orders come from; -1: nowhere
   std::string log_level;                    ///< --log-level; empty: SKEIN_LOG, else info
-  std::optional<std::string> network;       ///< --network: other hosts take part, by this interface or "all"
-  int lease_s = 8;                          ///< --lease: who is silent for so long is taken for dead [s]
-  RunId run = RunId::none;                  ///< --run: that the program takes part in
-  /// --security: folder of process/files/security_files.hpp; empty: not secured
+  std::optional<std::string> network;       ///< --network: text for read_network(); none: this host only
+  int lease_s = 8;                          ///< --lease: a program that is silent for this time is considered dead [s]
+  RunId run = RunId::none;                  ///< --run: the run to which the program belongs
+  /// --security: folder with the files of process/files/security_files.hpp; empty: not secured
   std::filesystem::path security;
 
-  /// Whether a launcher is there that tells who has died, kills and restarts, and goes on with what is stopped.
+  /// Whether a launcher runs the fleet: it reports dead programs, kills and restarts programs, and continues stopped
+  /// ones.
   bool has_launcher() const { return control_fd >= 0; }
-  /// For load_scenario().
+  /// Options for load_scenario().
   LoadOptions load_options() const;
-  /// The same for a program that has no use for the scene: its files need not be there.
+  /// The same for a program that does not use the scene: the scene's files need not exist.
   LoadOptions load_options_without_scene() const;
 };
 
-/// Has somebody asked the program to end? SIGINT, SIGTERM or stop(). Any thread.
+/// Tells whether the program has been asked to end, by SIGINT, SIGTERM or stop(). Any thread.
 class StopSignal {
  public:
   StopSignal() = default;
@@ -92,8 +93,9 @@ class StopSignal {
   StopSignal& operator=(const StopSignal&) = delete;
 
   bool requested() const { return requested_.load(); }
-  /// Called when the program is asked to end, from another thread; at once when it was asked already. Replaces the
-  /// one before; an empty one waits until a running call has returned, so that what it refers to may go.
+  /// Sets the function that is called, in another thread, when the program is asked to end; if it has been asked
+  /// already, calls the function at once. Replaces the previous function, and waits until a running call of that has
+  /// returned: after on_stop({}), objects that it uses may be destroyed.
   void on_stop(std::function<void()> wake);
   /// Asks the program to end.
   void stop();
@@ -116,14 +118,16 @@ using ProgramBody = std::function<int(const ProgramOptions&, StopSignal&)>;
 int run_program(const std::string& name, int argc, const char* const* argv, const AddOptions& add_options,
                 const ProgramBody& body);
 
-// The pieces of run_program(), for a process that is home to several programs (one_process/).
+// The parts of run_program(), for a process with several programs (one_process/).
 
-/// The options, or the exit code after --help or a wrong command line, which is told on stderr.
+/// Parses the command line. @returns the options; or an exit code, after --help or an error message on stderr.
 std::variant<ProgramOptions, int> parse_program(const std::string& name, int argc, const char* const* argv,
                                                 const AddOptions& add_options);
-/// A log that writes to stderr. @param level  empty: SKEIN_LOG, else info. @throws InputError for one that is none
+/// Creates a log that writes to stderr. @param level  empty: SKEIN_LOG, else info. @throws InputError for an unknown
+/// level
 std::shared_ptr<spdlog::logger> make_log(const std::string& name, const std::string& level);
-/// Does it. @returns its exit code; when it throws, that of a failed program, after telling why on stderr.
+/// Calls work(). @returns its exit code; if it throws, kExitBadInput (InputError) or kExitProcessFailed, after a
+/// message on stderr.
 int guarded(const std::string& name, const std::function<int()>& work);
 
 }  // namespace skein

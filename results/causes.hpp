@@ -10,17 +10,17 @@
 
 namespace skein::results {
 
-/// In the order in which people are told of them.
+/// In the order of tables and reports.
 enum class LossCause {
   none,              ///< nothing is lost
-  out_of_reach,      ///< a camera alone could get there, a whole UAV cannot
-  never_in_picture,  ///< no camera ever had it in the picture and in sight
-  below_threshold,   ///< some had, but not well enough to count
-  voided,            ///< the best picture was of a UAV that collided
-  not_delivered,     ///< the best picture never came to the station
-  distance,          ///< the best picture counts; it was taken from too far away,
-  tilt,              ///< too much from the side,
-  blur,              ///< or in too much motion, whichever is worst
+  out_of_reach,      ///< a camera could photograph it, but no UAV fits there
+  never_in_picture,  ///< no camera ever had it both in its picture and in sight
+  below_threshold,   ///< a camera had, but always with too low a quality to count
+  voided,            ///< its best picture is void, because the UAV collided
+  not_delivered,     ///< its best picture did not reach the station
+  distance,          ///< its best picture counts; the worst part of its quality is the distance
+  tilt,              ///< the same; the worst part is the angle to the surface
+  blur,              ///< the same; the worst part is the motion blur
   above_estimate,    ///< it scored better than the estimate: the loss is negative
 };
 
@@ -29,7 +29,7 @@ struct Cause {
   const char* title;  ///< for people
 };
 
-/// Those of LossCause but `none`, in its order.
+/// All of LossCause except `none`, in the same order.
 inline constexpr std::array<Cause, 9> kCauses = {{{"out_of_reach", "no UAV fits there"},
                                                   {"never_in_picture", "never in the picture"},
                                                   {"below_threshold", "too poor to count"},
@@ -47,7 +47,7 @@ constexpr std::array<EnumName<LossCause>, kCauses.size() + 1> enum_names(LossCau
 }
 static_assert(enum_names(LossCause{}).back().value == LossCause::above_estimate);
 
-/// @returns its place in kCauses; nullopt for "none" and what is no cause.
+/// @returns the index of a key in kCauses; nullopt for "none" and unknown keys.
 constexpr std::optional<std::size_t> cause_of(std::string_view key) {
   for (std::size_t i = 0; i < kCauses.size(); ++i) {
     if (kCauses[i].key == key) return i;

@@ -1,4 +1,4 @@
-// A CSV file with a header line and plain cells, row by row.
+// Reads a CSV file with a header line and unquoted cells, row by row.
 #pragma once
 
 #include <cstdint>
@@ -13,16 +13,17 @@ namespace skein::results {
 
 class CsvTable {
  public:
-  /// A file that is missing has no rows.
+  /// A missing file counts as a table without rows. @throws InputError if it is not a regular file.
   explicit CsvTable(const std::filesystem::path& file);
 
-  /// @returns false at the end.
+  /// Goes to the next row. @returns false at the end.
   bool next();
 
-  /// Of this row, by the column's name. @throws std::runtime_error naming file and line when there is no such cell.
+  /// The cell of this row in a column. @throws std::runtime_error, with file and line, if there is no such cell.
   const std::string& text(const std::string& column) const;
-  /// @throws also when the cell is no number.
+  /// @throws std::runtime_error also if the cell is not a number.
   double number(const std::string& column) const;
+  /// nullopt: the cell is empty.
   std::optional<double> number_if_any(const std::string& column) const;
   std::uint64_t count(const std::string& column) const { return static_cast<std::uint64_t>(number(column)); }
 

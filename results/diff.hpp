@@ -1,4 +1,4 @@
-// Where two runs part: the first step whose digest differs, and which field of which entity differs in it.
+// Finds where two runs diverge: the first step whose digests differ, and which fields of which entities differ in it.
 #pragma once
 
 #include <cstdint>

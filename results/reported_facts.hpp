@@ -1,5 +1,4 @@
-// What is known of a run of which only its folder is left, as `skein merge` finds it: its reports stand in for the
-// launcher.
+// Reconstructs what the launcher would know of a run from the reports in its folder, for `skein merge`.
 #pragma once
 
 #include <filesystem>
@@ -8,9 +7,9 @@
 
 namespace skein::results {
 
-/// The facts that programs report: the UAVs and their planners, the DDS vendors, the score earned, and who was out at
-/// the end. The caller adds scenario, seed and clock.
-/// @param dir  of the run. @param reports  with the server's.
+/// The facts that programs report: UAVs and their planners, DDS vendors, and the programs that a fault kept out at the
+/// end. The delivered score replaces the unknown earned score. The caller adds scenario, seed and clock.
+/// @param dir  the run's folder. @param reports  must include sim_server's.
 RunFacts reported_facts(const std::filesystem::path& dir, const Scenario& scenario, const Reports& reports);
 
 }  // namespace skein::results

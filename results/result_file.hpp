@@ -1,5 +1,5 @@
-// result.json as a file: what the launcher writes carries a checksum, and whoever reads it later holds it against that,
-// so that a damaged result does not pass for a run's.   Threads: any.
+// Writes and reads the file result.json. It contains a checksum, which readers verify, so that a damaged file does not
+// pass for a run's result.   Threads: any.
 #pragma once
 
 #include <filesystem>
@@ -9,14 +9,14 @@
 
 namespace skein::results {
 
-/// The key of the checksum: SHA-256 over all other keys, in their order, however the file is laid out.
+/// Key of the checksum: a SHA-256 over all other keys and values, in their order, regardless of white space.
 inline constexpr const char* kResultChecksum = "checksum";
 
 /// The text of the file, its checksum included.
 std::string result_text(Json result);
 
-/// The result in a run's folder. Without a checksum, as of earlier versions, it counts as it is.
-/// @throws InputError when there is none, it is no JSON object, or its checksum is wrong.
+/// Reads the result in a run's folder. Accepts a file without a checksum: earlier versions wrote none.
+/// @throws InputError if there is no file, it is not a JSON object, or its checksum is wrong.
 Json read_result_file(const std::filesystem::path& run);
 
 }  // namespace skein::results

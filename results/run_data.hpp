@@ -1,5 +1,5 @@
-// A finished run, read for showing it: result.json and the tables beside it (run_rows.hpp), whole or as far as they go,
-// by UAV and point, in numbers that can be drawn. Who judges a run reads run_record.hpp, which takes no damage.
+// Reads a finished run to show it: result.json and the tables beside it (run_rows.hpp), sorted by UAV and point, with
+// numbers that can be drawn. Of a damaged table it reads the rows before the damage; run_record.hpp rejects such a run.
 // Frame W (ENU), metres, simulated seconds.
 #pragma once
 
@@ -16,22 +16,22 @@ namespace skein::results {
 
 struct RunBox {
   std::string name;
-  Vector3d center = Vector3d::Zero(), size = Vector3d::Zero();
-  Eigen::Matrix3d R_WB = Eigen::Matrix3d::Identity();
+  Vector3d center = Vector3d::Zero(), size = Vector3d::Zero();  ///< in W; full edge lengths [m]
+  Eigen::Matrix3d R_WB = Eigen::Matrix3d::Identity();           ///< from the box's axes to W
 
   bool holds(const Vector3d& p_W) const;
 };
 
-/// An interest point, and what became of it.
+/// An interest point and its score.
 struct RunPoint {
   Vector3d p_W = Vector3d::Zero(), normal_W = Vector3d::Zero();
   double score = 0.0;
-  double estimate = 0.0;             ///< what could be had; 0: nothing, or not known
-  double loss = 0.0;                 ///< estimate - score; negative above the estimate
-  std::optional<std::size_t> cause;  ///< of the loss, of kCauses
+  double estimate = 0.0;             ///< attainable score; 0: none, or not known
+  double loss = 0.0;                 ///< estimate - score; negative if the score is higher
+  std::optional<std::size_t> cause;  ///< cause of the loss: index in kCauses
 };
 
-/// A point in a picture.
+/// One interest point in one capture.
 struct RunCapture {
   std::size_t uav = 0;
   std::uint64_t capture = 0;
@@ -46,17 +46,17 @@ struct RunEvent {
   std::string event, subject, object;
 };
 
-/// Where a camera looks, in W.
+/// Viewing direction of a camera in W.
 struct ViewAngles {
-  double yaw = 0.0, pitch = 0.0;  ///< [rad]; down is positive
+  double yaw = 0.0, pitch = 0.0;  ///< [rad]; yaw from x towards y; pitch is positive downwards
 };
-/// @param q_WB  of the body. Pure.
+/// @param q_WB  attitude of the body. Pure.
 ViewAngles view_angles(const Quaterniond& q_WB, const GimbalState& gimbal);
 
 struct RunPose {
   double time_s = 0.0;
   Vector3d p_WB = Vector3d::Zero();
-  double speed = 0.0;
+  double speed = 0.0;  ///< [m/s]
   bool alive = true;
   ViewAngles view = {};
 };
@@ -71,7 +71,7 @@ struct RunCollision {
   std::optional<Vector3d> p_W;
 };
 
-/// What a UAV's camera sees sharp enough.
+/// Field of view of a UAV's camera, and the distance up to which its resolution is sufficient.
 struct RunCamera {
   double hfov_deg = 0.0, vfov_deg = 0.0, range_m = 0.0;
 };
@@ -79,7 +79,7 @@ struct RunCamera {
 struct RunFault {
   std::string kind, target;
   double from_s = 0.0, until_s = 0.0;
-  bool ended = false;  ///< not only with the run
+  bool ended = false;  ///< it ended before the run did
   bool by_hand = false;
 };
 
@@ -87,7 +87,7 @@ struct RunData {
   Json result = Json::object();
   std::vector<std::string> uavs;                  ///< fleet order
   std::vector<bool> explorer;                     ///< by UAV
-  std::vector<std::optional<RunCamera>> cameras;  ///< by UAV; none: a recording of an earlier version
+  std::vector<std::optional<RunCamera>> cameras;  ///< by UAV; nullopt: not in scene.json (earlier versions), or damaged
   std::vector<RunBox> boxes;
   std::vector<RunPoint> points;  ///< by index
   bool causes_known = false;     ///< there is a losses.csv
@@ -95,19 +95,19 @@ struct RunData {
   std::vector<RunEvent> events;
   std::vector<std::vector<RunPose>> tracks;  ///< by UAV
   std::vector<RunScore> scores;
-  std::vector<std::string> maps;  ///< by UAV: a sound file of octree_file.hpp's; empty: it left none
+  std::vector<std::string> maps;  ///< by UAV: bytes of its map (octree_file.hpp); empty: none, or damaged
   std::vector<RunCollision> collisions;
   std::vector<RunFault> faults;  ///< those that happened
   std::optional<Vector3d> station;
-  double end_s = 0.0;                ///< of the simulated time
-  std::vector<std::string> missing;  ///< in sentences: tables that are not there, or not whole
+  double end_s = 0.0;                ///< end of the run [simulated s]
+  std::vector<std::string> missing;  ///< sentences about missing and damaged files
 
   std::optional<std::size_t> uav_of(const std::string& name) const;
 };
 
-/// What is damaged counts as missing. @throws InputError when there is no result.json in `dir`.
+/// Reports damage in RunData::missing. @throws InputError if result.json in `dir` is missing or damaged.
 RunData read_run_data(const std::filesystem::path& dir);
-/// Its fleet, captures and score over time alone: what a study reads of each flight. @throws InputError likewise.
+/// Reads only the fleet, captures and score over time, for a study. @throws InputError likewise.
 RunData read_run_deliveries(const std::filesystem::path& dir);
 
 }  // namespace skein::results

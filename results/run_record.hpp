@@ -1,6 +1,6 @@
-// A finished run, read for judging it: result.json and the rows of the tables beside it (run_rows.hpp), with names and
-// steps as the tables have them. What makes no sense is an error here; who shows what is there reads run_data.hpp.
-// Times in simulated seconds and steps.
+// Reads a finished run to judge it: result.json and the rows of the tables beside it (run_rows.hpp), with names and
+// steps as in the tables. An invalid row is an error; run_data.hpp reads damaged runs, too, to show them.
+// Frame W (ENU), metres, metres per second, simulated seconds and steps.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@
 
 namespace skein::results {
 
-/// One point of a capture in the ledger, as the station saw it in the end (captures.csv).
+/// One point of a capture in the referee's ledger, with its delivery as the station knew it at the end (captures.csv).
 struct CaptureRow {
   std::string uav;
   std::uint64_t capture = 0;
@@ -23,27 +23,27 @@ struct CaptureRow {
   int point = 0;
   double q = 0.0;
   std::optional<double> delivered_at_s;
-  std::string reason;  ///< why it does not count; empty when it does
+  std::string reason;  ///< why it does not count; empty: it counts
   double q_blur = 0.0, q_res = 0.0, q_distance = 0.0;
 
   bool voided() const { return reason == run_tables::kUavCollided; }
 };
 
-/// One event as the server saw it (events.csv), in force from its step on.
+/// One event that sim_server recorded (events.csv); it takes effect in its step.
 struct EventRow {
   std::uint64_t step = 0;
   std::string event;            ///< link_up, link_down, joined, left, captured, released
-  std::string subject, object;  ///< of a link: from, to; else the member, and the capture's number
+  std::string subject, object;  ///< of a link: sender, receiver; else: member, number of the capture
 };
 
 /// A message with capture reports that was lost or late on a link with faults (capture_messages.csv).
 struct MessageRow {
   std::uint64_t step = 0;  ///< in which it was sent
   std::string uav;
-  std::optional<std::uint64_t> arrives;  ///< step; none: lost
+  std::optional<std::uint64_t> arrives;  ///< step; nullopt: lost
 };
 
-/// Where a UAV was (trajectories.csv).
+/// Position and velocity of a UAV (trajectories.csv).
 struct PositionRow {
   double time_s = 0.0;
   std::string uav;
@@ -53,7 +53,7 @@ struct PositionRow {
   std::optional<double> clearance_m = {};  ///< to the structure
 };
 
-/// The delivered score from this time on, and of how many points (score_timeline.csv).
+/// The delivered score from this time on, and the number of points in it (score_timeline.csv).
 struct ScoreRow {
   double time_s = 0.0, score = 0.0, points = 0.0;
 };
@@ -76,12 +76,12 @@ struct RunRecord {
   std::vector<WorkRow> work;           ///< by time
 };
 
-/// captures.csv of a run. @throws std::runtime_error when a row makes no sense.
+/// Reads captures.csv of a run. @throws std::runtime_error if a row is invalid.
 std::vector<CaptureRow> read_captures(const std::filesystem::path& dir);
 
-/// A file that a program left out because it died is read as empty.
-/// @throws std::runtime_error when there is no result.json or a row makes no sense: the fault of the run, not of the
-/// user.
+/// Reads a run. A missing table counts as empty, since its program may have died.
+/// @throws std::runtime_error if result.json is missing or damaged, or a row is invalid. It is no InputError, because
+///   the run is wrong, not the user's input.
 RunRecord read_run(const std::filesystem::path& dir);
 
 }  // namespace skein::results

@@ -1,6 +1,6 @@
-// Rows of a run's tables. Whoever reads a table reads it here: this is the one place where readers name columns, and
-// where they go on or stop at a row that makes no sense. The parts of a row are parsed when they are asked for, so that
-// each reader needs the columns that it uses, and no others: tables of an earlier version may lack them.
+// Typed access to the rows of a run's tables, except digests.csv (diff.hpp) and tracking.csv (tracking_table.hpp). This
+// is the one place where readers name columns and go on or stop at an invalid row. A cell is parsed when a reader asks
+// for it, so that tables of an earlier version may lack columns that a reader does not use.
 // Frame W (ENU), metres, simulated seconds. docs/results.md describes the columns.   Threads: any.
 #pragma once
 
@@ -18,7 +18,8 @@
 
 namespace skein::results {
 
-/// A row while its table is at it. Its parts throw std::runtime_error naming file and line where they make no sense.
+/// The present row of a table; valid until the table goes to the next one. Access to an invalid or missing cell throws
+/// std::runtime_error, with file and line.
 class RunRow {
  public:
   explicit RunRow(const CsvTable& table) : table_(table) {}
@@ -29,7 +30,7 @@ class RunRow {
   const CsvTable& table_;
 };
 
-/// One point of a capture in the ledger, as the station saw it in the end.
+/// One point of a capture in the referee's ledger, with its delivery as the station knew it at the end.
 class CaptureCells : public RunRow {
  public:
   static constexpr const char* kTable = run_folder::kCaptures;
@@ -43,17 +44,17 @@ class CaptureCells : public RunRow {
   double q_res() const;
   double q_distance() const;
   std::optional<double> delivered_at_s() const;
-  const std::string& reason() const;  ///< why it does not count; empty when it does
+  const std::string& reason() const;  ///< why it does not count; empty: it counts
 };
 
-/// One event as the server saw it, in force from its step on.
+/// One event that sim_server recorded; it takes effect in its step.
 class EventCells : public RunRow {
  public:
   static constexpr const char* kTable = run_folder::kEvents;
   using RunRow::RunRow;
   std::uint64_t step() const;
   double time_s() const;
-  const std::string& event() const;  ///< a word of run_tables.hpp
+  const std::string& event() const;  ///< one of the events in run_tables.hpp
   const std::string& subject() const;
   const std::string& object() const;
 };
@@ -65,10 +66,10 @@ class MessageCells : public RunRow {
   using RunRow::RunRow;
   std::uint64_t step() const;
   const std::string& uav() const;
-  std::optional<std::uint64_t> arrives() const;
+  std::optional<std::uint64_t> arrives() const;  ///< step; nullopt: lost
 };
 
-/// Where a UAV was, and where its camera looked.
+/// Pose and velocity of a UAV, and the angles of its gimbal.
 class PoseCells : public RunRow {
  public:
   static constexpr const char* kTable = run_folder::kTrajectories;
@@ -79,12 +80,12 @@ class PoseCells : public RunRow {
   Quaterniond q_WB() const;
   Vector3d v_W() const;
   GimbalState gimbal() const;
-  bool alive() const;  ///< in doubt it is
-  bool alive_beyond_doubt() const;
+  bool alive() const;               ///< true unless the cell is "0"
+  bool alive_beyond_doubt() const;  ///< throws if the cell is not a number
   std::optional<double> clearance_m() const;
 };
 
-/// The delivered score from a time on, and of how many points.
+/// The delivered score from a time on, and the number of points in it.
 class ScoreCells : public RunRow {
  public:
   static constexpr const char* kTable = run_folder::kScoreTimeline;
@@ -104,7 +105,7 @@ class PointCells : public RunRow {
   double score() const;
 };
 
-/// What a point scored less than it could, and why.
+/// The loss of a point: by how much it scored less than its estimate, and why.
 class LossCells : public RunRow {
  public:
   static constexpr const char* kTable = run_folder::kLosses;
@@ -125,7 +126,7 @@ class WorkCells : public RunRow {
   double without_work_s() const;
 };
 
-/// What a UAV did, as its program said.
+/// What a UAV did, as its agent reported.
 class ActivityCells : public RunRow {
  public:
   static constexpr const char* kTable = run_folder::kActivity;
@@ -135,19 +136,19 @@ class ActivityCells : public RunRow {
   Activity activity() const;
 };
 
-/// Calls `on_row` with each row of a table, by its class; a table that is not there has none.
-/// @throws std::runtime_error naming file and line at a row that makes no sense.
+/// Calls `on_row` with each row of the table that `Row` reads; a missing table has no rows.
+/// @throws what `on_row` throws: std::runtime_error, with file and line, for an invalid cell.
 template <class Row, class OnRow>
 void each_row(const std::filesystem::path& dir, const OnRow& on_row) {
   for (CsvTable table(dir / Row::kTable); table.next();) on_row(Row(table));
 }
 
-/// The sentences of each_sound_row().
+/// The sentences that each_sound_row() adds to `missing`.
 std::string no_file(const char* file);
 std::string damaged_table(const std::filesystem::path& dir, const char* table, std::size_t rows, const char* what);
 
-/// The same as far as rows make sense, which `on_row` may judge, too, by throwing. What is not there, or is damaged, is
-/// told of in a sentence.
+/// The same, but stops at the first row for which `on_row` throws. Adds a sentence to `missing` if this happens or the
+/// table is missing.
 template <class Row, class OnRow>
 void each_sound_row(const std::filesystem::path& dir, std::vector<std::string>& missing, const OnRow& on_row) {
   std::size_t rows = 0;

@@ -1,4 +1,4 @@
-// Words in the tables of a run's folder that one program writes and another one goes by (docs/results.md has them all).
+// Words in the tables of a run's folder that one program writes and another one interprets (all: docs/results.md).
 #pragma once
 
 namespace skein::run_tables {

@@ -1,5 +1,5 @@
-// How far UAVs were from where their set-points wanted them: counts by vehicle, speed and acceleration of the
-// set-point. sim_server fills such a table, tracking.csv holds it, `skein bench --tracking` joins those of many runs.
+// Histogram of tracking errors, the distances between UAVs and their setpoints: counts by vehicle, speed and
+// acceleration of the setpoint, and error. sim_server writes tracking.csv; `skein bench --tracking` adds up many runs.
 // Units: SI.   Threads: one.
 #pragma once
 
@@ -16,12 +16,12 @@ class TrackingTable {
  public:
   static constexpr double kSpeedStepMps = 0.5, kAccelerationStepMps2 = 0.5, kErrorStepM = 0.01;
   static constexpr double kErrorsPerM = 100.0;
-  static constexpr double kMostErrorM = 100.0;  ///< larger errors count as this
+  static constexpr double kMostErrorM = 100.0;  ///< larger errors count as this one
 
-  /// Which samples are counted together: each number is the lower edge of a bin, in steps.
+  /// A bin of the histogram; each number is its lower edge, in steps of the constants above.
   struct Bin {
     int speed = 0, acceleration = 0, error = 0;
-    std::string vehicle = {};  ///< last: numbers are compared more quickly
+    std::string vehicle = {};  ///< last, since comparing numbers is faster
     auto operator<=>(const Bin&) const = default;
 
     double speed_mps() const { return speed * kSpeedStepMps; }
@@ -30,28 +30,28 @@ class TrackingTable {
     double most_error_m() const { return (error + 1) / kErrorsPerM; }
   };
 
-  /// Quantiles are upper edges of bins, so that no share is told too small an error.
+  /// Quantiles are upper edges of bins, so that no quantile is smaller than the true one.
   struct Quantiles {
     std::uint64_t samples = 0;
-    double p50 = 0.0, p99 = 0.0, p9999 = 0.0, max = 0.0;  ///< [m]; 0 of no samples
+    double p50 = 0.0, p99 = 0.0, p9999 = 0.0, max = 0.0;  ///< [m]; 0 without samples
   };
 
-  /// @param error_m  of one sample; what is not finite counts as kMostErrorM.
+  /// Adds one sample. @param error_m  a value that is not finite counts as kMostErrorM
   void add(const std::string& vehicle, double speed_mps, double acceleration_mps2, double error_m);
   void add(const Bin& bin, std::uint64_t count) { bins_[bin] += count; }
   const std::map<Bin, std::uint64_t>& bins() const { return bins_; }
 
-  /// Of the samples in bins that `which` wants.
+  /// Quantiles of the error over the bins for which `which` returns true.
   Quantiles quantiles(const std::function<bool(const Bin&)>& which = [](const Bin&) { return true; }) const;
 
-  /// As tracking.csv holds it.
+  /// The contents of tracking.csv.
   std::string csv() const;
 
  private:
   std::map<Bin, std::uint64_t> bins_;
 };
 
-/// Joins a run's tracking.csv to a table. @throws InputError when it is not there; std::runtime_error when it is
+/// Adds the counts of a tracking.csv to `table`. @throws InputError if the file is missing; std::runtime_error if it is
 /// damaged.
 void read_tracking(const std::filesystem::path& file, TrackingTable& table);
 

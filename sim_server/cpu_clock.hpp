@@ -1,4 +1,5 @@
-// CPU time of this thread and its helpers by kind of work. What it does between its kinds of work is the exchange.
+// Sums the CPU time of the server by kind of work: of the thread that calls it, and of the helpers that share this
+// thread's work. The rest of the CPU time is the exchange of messages.   Units: s.   Threads: one.
 #pragma once
 
 #include <array>
@@ -13,8 +14,8 @@ class CpuClock final : public WorkClock {
  public:
   void begin(Work work) override;
   void end(Work work, std::size_t pieces) override;
-  /// `physics_s` is what the simulation did besides LiDAR, camera and links; lidar_ms_per_scan is there when there was
-  /// a scan; cpu_s is the caller's to fill in.
+  /// The sums so far. `physics_s` is the simulation without LiDAR, camera and links. `lidar_ms_per_scan` is empty if
+  /// there was no scan. The caller fills in `cpu_s`.
   TimingReport summary() const;
 
  private:

@@ -1,5 +1,5 @@
-// How much CPU time a program takes for a simulated second, of what it says it has taken since it started.
-// Pure; any thread.
+// CPU time that a program takes per simulated second, from the totals that the program reports.
+// Pure. Not thread-safe.
 #pragma once
 
 #include <optional>
@@ -10,19 +10,19 @@ namespace skein::sim {
 
 class CpuRate {
  public:
-  /// @param cpu_s  so far; less than before: it was started again.
+  /// @param cpu_s  total since the program started [s]; a smaller total than before means that it was restarted.
   void add(Tick tick, double cpu_s) {
     if (!begin_ || cpu_s < begin_->cpu_s) {
       begin_ = {tick, cpu_s};
       per_s_.reset();
     }
-    // Over a second at least: a program thinks more in one exchange than in another.
+    // Average over a simulated second at least, because a program computes more in some exchanges than in others.
     const Tick passed = tick - begin_->tick;
     if (passed < kTicksPerSecond) return;
     per_s_ = (cpu_s - begin_->cpu_s) / seconds(passed);
     begin_ = {tick, cpu_s};
   }
-  /// [s] for a simulated second; nullopt: not known yet.
+  /// [s] of CPU time per simulated second; nullopt: not known yet.
   const std::optional<double>& per_s() const { return per_s_; }
 
  private:

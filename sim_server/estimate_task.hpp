@@ -1,5 +1,5 @@
-// What could be had of a scene, asked of the oracle while the fleet flies: so that who watches is told what is lost,
-// and to what. It takes what the machine has left, and nobody in the fleet hears of it.
+// Asks the oracle, while the fleet flies, which score is attainable in the scene. With the answer the page of a watched
+// run shows what was lost, and why. The task runs at the lowest priority, and no agent receives the answer.
 #pragma once
 
 #include <atomic>
@@ -12,22 +12,22 @@ namespace skein::sim {
 
 class EstimateTask {
  public:
-  /// Begins, in a thread of its own. @param scenario, scene  must outlive this. @param request  its `cache` keeps the
-  /// answer for the launcher, which asks the same after the run.
+  /// Starts a thread that asks. @param scenario, scene  must outlive this. @param request  its `cache` keeps the answer
+  /// for the launcher, which asks the same after the run.
   EstimateTask(const Scenario& scenario, const Scene& scene, OracleRequest request);
 
-  /// As often as one likes, from one thread. @returns the answer, once: when it is there.
+  /// May be called at any time, always from the same thread. @returns the answer, once; nullopt before and afterwards.
   std::optional<OracleSummary> take();
-  /// Whether nothing more will come than what take() returns now.
+  /// Whether the oracle has finished. Then take() returns its answer, if it gave one.
   bool over() const { return done_; }
 
  private:
   std::optional<OracleSummary> answer_;
-  std::atomic<bool> done_ = false;  ///< then answer_ is this side's
-  std::jthread thread_;             ///< ends first
+  std::atomic<bool> done_ = false;  ///< the thread no longer touches answer_
+  std::jthread thread_;             ///< last member: joined before the others are destroyed
 };
 
-/// As `skein run` asks it. Nothing where it would take long.
+/// The request that `skein run` makes, too. There is no answer if computing it would take long.
 OracleRequest estimate_request();
 
 }  // namespace skein::sim

@@ -1,5 +1,6 @@
-// The faults of a run as the server has to do with them: when each begins and ends, which programs it takes out and
-// lets back, whether what a fault waits for has come, and those that somebody who watches begins and ends.
+// The server's part in the faults of a run. It tracks when each fault begins and ends, takes out the programs that a
+// fault kills or stops, lets them back, checks the conditions that faults wait for, and obeys a viewer who begins and
+// ends faults by hand.
 // Threads: one.
 #pragma once
 
@@ -24,38 +25,41 @@ namespace skein::sim {
 
 class FaultNode {
  public:
-  /// All must outlive this. @param replay  who takes part in a run that is flown again. @param folder  of the run, for
-  /// by-hand.yaml
+  /// All references but `folder` must outlive this. @param replay  says which members take part if a recorded run is
+  /// flown again. @param folder  of the run; by-hand.yaml is written there.
   FaultNode(const Scenario& scenario, Simulation& simulation, bus::LockstepServer& server, StatusPipe& status,
             const recording::ReplayOptions& replay, const std::filesystem::path& folder);
 
-  /// As a step begins. @returns what begins and ends with it, a line for people each; the log has them then.
+  /// Call it when a step begins. @returns a line for people for each fault that begins or ends with the step. It also
+  /// writes these lines to the log.
   std::vector<std::string> begin_step();
-  /// The same, for a page: of the last begin_step().
+  /// A fault that begins or ends, for the viewers' page.
   struct Change {
     view::ToldFault fault;
     bool begins = false;
   };
+  /// Of the last begin_step().
   std::vector<Change> changes() const;
-  /// Before the step is published, which then tells the victims what to do.
+  /// Call it before the step is published: the step then carries the orders (kill, stop) to the programs concerned.
   void take_out_victims();
   LiveSignals& signals() { return signals_; }
-  /// When a step has been answered, and signals() know all of it: sets off what has waited for it.
+  /// Call it when a step is answered and signals() has its values: sets off the faults whose condition now holds. They
+  /// begin with the next step.
   void end_step();
-  /// At the boundary before the next step: who may come back.
+  /// At the boundary before the next step: lets programs join again whose fault is over in that step.
   void let_back_victims();
-  /// At the boundary before the next step, who watches begins a fault with it, or ends one. Who may come back then is
-  /// let back by let_back_victims(). @returns why not, for people; empty: it is done.
+  /// At the boundary before the next step: begins or ends a fault with that step, as a viewer asks. Call
+  /// let_back_victims() afterwards. @returns why the order was refused, for people; empty: it was obeyed.
   std::string obey(const view::FaultOrder& order);
 
-  /// What has been set off so far.
+  /// The faults that waited for a condition and were set off so far.
   const std::vector<msg::FaultBegin>& begun() const { return begun_; }
-  /// Those by hand that somebody may end.
+  /// The faults by hand that a viewer may still end.
   std::vector<HandFault> open_by_hand() const { return hand_.open(simulation_.tick() + period_); }
-  /// Those by hand so far, each as an entry of a fault file.
+  /// All faults by hand so far, each as an entry of a fault file.
   std::vector<std::string> by_hand() const { return hand_.lines(); }
   std::vector<FaultReport> report() const;
-  /// Sentences for people, since the last call.
+  /// Warnings for people since the last call, a sentence each.
   std::vector<std::string> take_warnings() { return std::exchange(warnings_, {}); }
 
  private:
@@ -69,7 +73,7 @@ class FaultNode {
   const recording::ReplayOptions& replay_;
   const std::filesystem::path folder_;
   const Tick period_;
-  const std::size_t planned_;  ///< faults of the fault file
+  const std::size_t planned_;  ///< number of faults in the fault file
   LiveSignals signals_;
   FaultTimeline timeline_;
   ProcessFaults processes_;

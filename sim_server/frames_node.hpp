@@ -1,6 +1,6 @@
-// The frames of one UAV for ROS 2's tf, in its own domain, for who looks on there (docs/ros2.md): /tf in each exchange,
-// /tf_static once. They tell what the UAV is told of itself, nothing of another UAV and nothing of the truth. Written
-// only while a program reads them; in no count of the lock-step, so no program waits for them.
+// Publishes the frames of one UAV for ROS 2's tf in the UAV's own domain, for viewers there (docs/ros2.md): /tf in each
+// exchange, /tf_static once. The poses are those that the UAV is told, not the true ones, and none of other UAVs. The
+// server writes only while a program reads them. The lock-step does not count them, so no program waits for them.
 #pragma once
 
 #include <memory>
@@ -15,7 +15,7 @@ class FramesNode {
   /// @param participant  in the UAV's domain; it and the references must outlive this.
   FramesNode(const UavConfig& uav, UavIndex index, const Simulation& simulation, bus::Participant& participant);
 
-  /// In each step.
+  /// Call it once per step.
   void publish();
 
  private:

@@ -1,5 +1,5 @@
-// What the server writes for the ground station's side: the GCS domain's topics, and the referee's ledger, which
-// reaches the station over the world's domain.
+// Writes what the server has for the ground station: the topics of the GCS domain, and the referee's ledger, which the
+// station reads in the world domain.
 #pragma once
 
 #include "bus/bus.hpp"
@@ -10,13 +10,13 @@ namespace skein::sim {
 
 class GcsNode {
  public:
-  /// @param world  of the server; it and the references must outlive this.
+  /// @param world  the server's participant in the world domain. All references must outlive this.
   GcsNode(const Scenario& scenario, const Simulation& simulation, bus::LockstepServer& server,
           bus::LockstepServer::DomainIndex domain, bus::Participant& world);
 
-  /// All of this step in the GCS domain.
+  /// Publishes the samples of this step in the GCS domain.
   void publish();
-  /// What this step adds to the ledger, in the world domain.
+  /// Publishes the ledger entries that this step adds in the world domain; the first message has the interest points.
   void publish_ledger(RunId run);
 
  private:

@@ -1,10 +1,10 @@
-// What who flies a UAV by hand wants of it, between the browser and the run: takes orders whenever they come, and says
-// at each boundary what is new since the last one.
+// Takes the orders of people who fly UAVs by hand. Orders from a browser may come at any time; at each boundary between
+// two steps the server asks which commands have changed since the last one.
 //
-// An order holds for so long as it is renewed: if the browser vanishes, or its host sleeps, the UAV comes to rest. That
-// time is the wall clock's, the only one that runs for people. It decides nothing that is hashed by itself: what comes
-// of it, like any order, is a command at a step, which goes to the UAV and into its file (core/planners/hand_file.hpp),
-// and who flies it again takes that file and no clock.
+// An order lapses unless the page renews it: if the browser vanishes, or its host sleeps, the UAV comes to rest. This
+// timeout uses the wall clock, because it is for people. The run stays repeatable: a timeout, like any order, becomes a
+// command at a step, which goes to the UAV and into its file (core/planners/hand_file.hpp). A run that repeats the
+// flight reads that file, and no clock.
 // Units: SI and radians.   Threads: one.
 #pragma once
 
@@ -23,22 +23,23 @@ namespace skein::sim {
 class HandDesk {
  public:
   using Clock = std::chrono::steady_clock;
-  /// A page says what it wants several times in that (web/src/hand_flight.js).
+  /// Wall time after which an order lapses. While a UAV is to move, the page renews its order several times in this
+  /// time (web/src/hand_flight.js).
   static constexpr std::chrono::milliseconds kHolds{1000};
 
-  /// @param uavs  that somebody flies by hand.
+  /// @param uavs  those that somebody flies by hand.
   HandDesk(const Scenario& scenario, const std::vector<UavIndex>& uavs);
 
-  /// The newest order counts, whoever gave it. Those for other UAVs, or for nobody, go nowhere.
+  /// The newest order counts, whoever gave it. Orders for UAVs that nobody flies by hand are ignored.
   void take(const view::FlyOrder& order, Clock::time_point now);
-  /// At a boundary. @returns what is wanted of this UAV from now on; nullopt: what was wanted before.
+  /// Call it at a boundary. @returns the command for this UAV from now on; nullopt: it has not changed.
   std::optional<HandCommand> news(UavIndex uav, Clock::time_point now);
 
  private:
   struct Place {
     UavIndex uav;
     std::string name;
-    HandCommand wanted, told;
+    HandCommand wanted, told;  ///< as ordered last; as news() returned last
     Clock::time_point until{};
   };
   std::vector<Place> places_;

@@ -1,5 +1,5 @@
-// Faults that somebody who watches a run begins and ends: each from the next exchange on, so that a fault file can say
-// the same. What such a file could not say is refused.
+// Faults that a viewer of a run begins and ends by hand. Each order takes effect with the next exchange, so that a
+// fault file can describe the same faults. An order that no fault file could express is refused.
 // Threads: one.   Pure: knows no bus, and writes no file.
 #pragma once
 
@@ -14,27 +14,27 @@ namespace skein::sim {
 
 /// A fault by hand.
 struct HandFault {
-  std::uint64_t number = 0;  ///< by which it is ended
+  std::uint64_t number = 0;  ///< by which an order to end it names it
   Fault fault;
 };
 
 class HandFaults {
  public:
-  /// @param scenario  must outlive this. @param own  those of the run's fault file, as it was read.
+  /// @param scenario  must outlive this. @param own  the faults of the run's fault file, as it was read.
   HandFaults(const Scenario& scenario, const FaultPlan& own);
 
-  /// @param next  tick of the exchange that begins next: what it asks for holds from then on.
-  /// @returns why not, for people; empty: it is done.
+  /// @param next  tick of the exchange that begins next, with which the order takes effect.
+  /// @returns why the order is refused, for people; empty: it was obeyed.
   std::string obey(const view::FaultOrder& order, Tick next);
 
-  /// In the order in which they began; until_s is no more than what is known so far.
+  /// All faults by hand, in the order in which they began. `until_s` is empty while the end is not known.
   const std::vector<HandFault>& all() const { return faults_; }
-  /// Those that are in force in the exchange at this tick, or will be.
+  /// The faults that are in force in the exchange at this tick, or will be later.
   std::vector<HandFault> open(Tick tick) const;
   bool empty() const { return faults_.empty(); }
   /// Each as an entry of a fault file.
   std::vector<std::string> lines() const;
-  /// The fault file with which the run is flown again: its own faults first.
+  /// Text of the fault file that repeats the run: the faults of its own fault file, then these.
   std::string file_text() const;
 
  private:

@@ -1,6 +1,6 @@
-// UAVs that somebody flies by hand, at the server's end: what is wanted of each goes to its agent at the next boundary,
-// and into hand-<uav>.csv, from which the planner `hand` flies it again. Where nobody flies (--by-hand) nothing of it
-// happens.   Threads: one.
+// The server's part in flying UAVs by hand. At each boundary the server takes the commands that have changed, publishes
+// them to the UAVs' agents, and writes them to hand-<uav>.csv, from which the planner `hand` can repeat the flight.
+// Without --by-hand this class does nothing.   Threads: one.
 #pragma once
 
 #include <filesystem>
@@ -18,30 +18,30 @@ namespace skein::sim {
 
 class HandNode {
  public:
-  /// @param uavs  that somebody flies; @param folder  for their files. All references must outlive this.
+  /// @param uavs  those that somebody flies. @param folder  for their files. Scenario and simulation must outlive this.
   HandNode(const Scenario& scenario, const Simulation& simulation, const std::vector<UavIndex>& uavs,
            const std::filesystem::path& folder);
 
-  /// Declares the topic of a UAV in its domain. Nothing happens when nobody flies it.
+  /// Declares the command topic of a UAV in its domain. Does nothing if nobody flies this UAV.
   void declare(UavIndex uav, bus::LockstepServer& server, bus::LockstepServer::DomainIndex domain);
   void take(const view::FlyOrder& order) { desk_.take(order, HandDesk::Clock::now()); }
-  /// Before the samples of a step are written: takes what is wanted from it on.
+  /// Call it before the samples of a step are written: takes the commands that hold from this step on.
   void begin_step();
-  /// Publishes the samples of the present step in this UAV's domain.
+  /// Publishes this UAV's command in its domain if it has changed with the present step, or if its agent is new.
   void publish(UavIndex uav);
-  /// The agent is new, and knows nothing of what is wanted of it.
+  /// A new agent has joined and does not know the command: it is published again with the next step.
   void resend(UavIndex uav);
-  /// What a UAV's planner says of itself: of interest is what holds it back.
+  /// Takes a debug value that a UAV's planner has published. Only kHeldSignal matters: what holds the UAV back.
   void hear(UavIndex uav, const std::string& name, double value);
-  /// Of the UAVs that somebody flies.
+  /// Names of the UAVs that somebody flies.
   std::vector<std::string> names() const;
-  /// For who looks on: by UAV what is wanted of it, and what holds it back (HeldBack).
+  /// For the viewers' page, by UAV: commanded velocity and yaw rate, and what holds the UAV back (HeldBack).
   std::string state_json() const;
 
   bool flies() const { return !flown_.empty(); }
   /// nullopt: nobody flies.
   std::optional<std::vector<HandReport>> report() const;
-  /// At the end: puts the files out. @returns what the disk refused, a sentence each.
+  /// At the end of the run: flushes the files. @returns a sentence for each file that could not be written.
   std::vector<std::string> finish();
 
  private:
@@ -53,8 +53,8 @@ class HandNode {
     bus::CountedWriter* writer = nullptr;
     HandCommand command;
     std::uint64_t commands = 0;
-    double held = 0.0;  ///< as its planner says
-    bool due = false;   ///< to be published
+    double held = 0.0;  ///< HeldBack, as its planner said last
+    bool due = false;   ///< `command` is yet to be published
   };
   Flown* find(UavIndex uav);
 

@@ -1,5 +1,5 @@
-// Which radio links there are: line of sight between antennas, range, and what faults cut.
-// Threads: one.   Frames: W.
+// Determines which radio links exist: by line of sight between antennas, range, path loss, and faults that cut links.
+// Threads: one, which may share its work.   Frames: W.   Units: m, ticks.
 #pragma once
 
 #include <optional>
@@ -17,7 +17,7 @@ namespace skein::sim {
 
 class LinkTracer {
  public:
-  /// Where a UAV's body is, and whether it is on the air.
+  /// Position of a UAV's body, and whether the UAV is alive: a dead one has no radio.
   struct Place {
     Vector3d p_WB = Vector3d::Zero();
     bool alive = true;
@@ -26,17 +26,17 @@ class LinkTracer {
   /// Both must outlive this. @param seed  draws the shadowing, if the scenario's conditions have any.
   LinkTracer(const Scenario& scenario, const FaultPlan& faults, std::uint64_t seed = 0);
 
-  /// @param rays  with the bodies where they are. @param uavs  in fleet order.
-  /// @returns 1 for a link; with path loss the place of its rate in kRadioRates, counted from 1.
+  /// @param rays  with all bodies at their present poses. @param uavs  in fleet order.
+  /// @returns 0: no link; 1: a link, or with path loss the index of its data rate in kRadioRates, counted from 1.
   Links trace(Tick tick, const RayScene& rays, const std::vector<Place>& uavs,
               const ForEach& for_each = one_after_another);
-  /// Those of the last trace() before faults limited their range.
+  /// The links of the last trace() as they would be if no fault limited their range.
   const Links& unfailed() const { return unfailed_; }
-  /// Those that blackouts, outages and partitions leave.
+  /// @returns `links` without those that blackouts, outages and partitions cut in the exchange at this tick.
   Links open(Tick tick, const Links& links) const;
 
  private:
-  /// Whether an effect ends the link before this distance.
+  /// Whether this effect limits this link to a range shorter than this distance.
   bool ends_before(const LinkEffect& effect, Node from, Node to, double distance_m) const;
   bool in_range(Node from, Node to, double distance_m) const;
   bool fails(Tick tick, Node from, Node to, double distance_m) const;
@@ -44,7 +44,7 @@ class LinkTracer {
   const Scenario& scenario_;
   const FaultPlan& faults_;
   std::optional<PathLoss> path_loss_;
-  LinkMatrix<SightMemory> sights_;  ///< of each pair of nodes, the lower one first
+  LinkMatrix<SightMemory> sights_;  ///< by pair of nodes, at (lower, higher)
   Links unfailed_;
 };
 

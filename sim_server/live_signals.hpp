@@ -1,5 +1,5 @@
-// The signals of a run (core/expressions/signal_table.hpp) that the server knows while it goes on: what faults wait
-// for. It has the same values as whoever reads the run's folder later (cli/properties/run_signals.hpp).
+// Values of the signals (core/expressions/signal_table.hpp) that the server knows during a run, for the conditions that
+// faults wait for. Readers of the run's folder get the same values later (cli/properties/run_signals.hpp).
 // Threads: one.   Pure: knows no bus.
 #pragma once
 
@@ -21,13 +21,13 @@ class LiveSignals {
   /// Both must outlive this.
   LiveSignals(const Scenario& scenario, const Simulation& simulation);
 
-  /// Once a step, when it has been answered. @param is_member  of the run, by name.
+  /// Call it once per step, when the step is answered. @param is_member  whether the program of this name is a member.
   void end_step(const std::function<bool(const std::string&)>& is_member);
   /// The station's acknowledgement of a capture has reached this UAV.
   void add_release(UavIndex uav) { ++captures_.at(uav).released; }
-  /// What this UAV's program has published.
+  /// This UAV's program has published a debug value.
   void set_debug(UavIndex uav, const std::string& name, double value) { debug_[{uav, name}] = value; }
-  /// @param signal  a live one. @returns its value in this step.
+  /// @param signal  one that the table marks as live. @returns its value in this step, in the table's unit.
   double value(const SignalUse& signal) const;
 
  private:
@@ -50,8 +50,8 @@ class LiveSignals {
   const Scenario& scenario_;
   const Simulation& simulation_;
   std::map<std::string, Member> members_;
-  std::vector<Captures> captures_;  ///< by UAV
-  std::map<std::pair<std::size_t, std::string>, double> debug_;
+  std::vector<Captures> captures_;                               ///< by UAV
+  std::map<std::pair<std::size_t, std::string>, double> debug_;  ///< by UAV and name
 };
 
 }  // namespace skein::sim

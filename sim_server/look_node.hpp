@@ -1,10 +1,10 @@
-// What somebody looks at on the page of a watched run, beside what everybody is told: LiDAR points of some UAVs, and
-// maps. Points come from the simulation, maps from the UAVs' own domains, which the server has joined: the station
-// joins none of these. Both go to the station as the newest that there is, at a bounded rate (view::look_budget()).
+// Sends the station what viewers of a watched run ask for beyond what all viewers get: LiDAR points of some UAVs, and
+// maps. The points come from the simulation. The maps come from the UAVs' own domains, which the server has joined and
+// the station has not. The server sends the newest points and maps, at a bounded rate (view::look_budget()).
 //
-// Nobody in the fleet hears of it, and it is in no count. Wall time decides what is shown and when, and nothing else: a
-// scan that is computed for the page alone changes nothing (Simulation::want_scans()).
-// Threads: one, but for what the bus calls.
+// No agent receives this, and the lock-step does not count it. Wall time decides what is shown and when, and nothing
+// else: a scan that is computed for the page alone has no other effect (Simulation::want_scans()).
+// Frame: W.   Threads: one; the readers of maps store what arrives from threads of the bus.
 #pragma once
 
 #include <chrono>
@@ -28,35 +28,36 @@ class LookNode {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// @param world, uavs  of the server, by UAV; they and the references must outlive this.
+  /// @param world, uavs  the server's participants in the world domain and, by UAV, in the UAVs' domains. They and the
+  /// references must outlive this.
   LookNode(const Scenario& scenario, const Simulation& simulation, bus::Participant& world,
            std::span<const std::unique_ptr<bus::Participant>> uavs);
 
-  /// For the page: whose "lidar" and whose "maps" there are to look at.
+  /// For the page: the UAVs that have a "lidar", and those whose "maps" it may ask for.
   Json offer() const;
-  /// UAVs that nobody has heard of are passed over.
+  /// Grants what a page asks for, for view::kLookLease from now on. Unknown UAVs are ignored.
   void obey(const view::LookOrder& order, Clock::time_point now);
   /// Whether the next scan of this UAV is to be shown.
   bool wants_scan(UavIndex uav, Clock::time_point now) const;
-  /// In each step: takes its scans.
+  /// Call it in each step: keeps the step's scans that a page asks for.
   void begin_step();
-  /// As often as one likes: tells what is due.
+  /// Sends the points and maps that are due. May be called at any time.
   void tell(Clock::time_point now);
 
  private:
   struct Lidar {
     Clock::time_point until{};
     view::ScanPoints points{};
-    Tick tick = 0;  ///< of the newest
+    Tick tick = 0;  ///< of the newest scan
   };
   /// Newest map of a UAV, handed over by a thread of the bus.
   struct Arrived {
     std::mutex mutex;
-    std::optional<std::vector<std::uint8_t>> payload;  ///< none: nothing new
+    std::optional<std::vector<std::uint8_t>> payload;  ///< none: nothing new since the last one was taken
   };
   struct Map {
-    Clock::time_point until{}, since{}, due{};
-    bool told = false;
+    Clock::time_point until{}, since{}, due{};  ///< asked for until, and since; when the next one may be sent
+    bool told = false;                          ///< since then: a map, or that there is none
     std::shared_ptr<Arrived> arrived;
     std::unique_ptr<bus::Reader> reader;
   };

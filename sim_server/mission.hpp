@@ -1,5 +1,5 @@
-// The mission's clock and who is still in it: take-off, flight, landing, collision, end.
-// Units: ticks; positions in W.  Rules: planners' notes on the reference, docs/rules.md.
+// The mission's clock, and which UAVs still take part: take-off, flight, landing, collision, end.
+// Units: SI, ticks; positions in W.  Rules: docs/rules.md.
 #pragma once
 
 #include <optional>
@@ -15,38 +15,39 @@ namespace skein::sim {
 /// Why a mission ended.
 enum class MissionEnd { none, duration, nobody_flies, takeoff_timeout };
 
-/// A UAV hit something while airborne, and is out. A collision of two UAVs is two of these.
+/// The death of one UAV by collision. If two UAVs die in one collision, there are two of these.
 struct Collision {
   Tick tick = 0;
   UavIndex uav = {};
-  BodyId with;                      ///< the structure or another UAV
-  Vector3d p_W = Vector3d::Zero();  ///< where they touched
-  bool battery_empty = false;       ///< it fell: that is why
+  BodyId with;                      ///< structure or another UAV; for a UAV that falls without power also the ground
+  Vector3d p_W = Vector3d::Zero();  ///< point of contact [m]
+  bool battery_empty = false;       ///< the cause: the UAV fell because its battery was empty
 };
 
 /// Watches the fleet tick by tick. Not thread-safe.
 ///
-/// A UAV is airborne once it is `takeoff_height_m` above its rest height and faster than `takeoff_speed_mps`, and
-/// grounded again once it is slow and either low or on the ground. The clock starts when the first UAV becomes
-/// airborne. An airborne UAV that touches anything but the ground dies (one without power: the ground, too), each of
-/// two UAVs by its own state (with `rules.collision_kills_both` the one that one touches dies with it, though it
-/// rests). The mission ends when the time is up, when every UAV is dead or has landed after a flight, or when nobody
-/// took off in time.
+/// A UAV becomes airborne when it is more than `takeoff_height_m` above its rest height and faster than
+/// `takeoff_speed_mps`. It is grounded again when it is slower and either lower or in contact with the ground. The
+/// clock starts when the first UAV becomes airborne.
+/// An airborne UAV dies when it touches structure or a UAV; if it falls without power, also when it touches the ground.
+/// When two UAVs touch, a grounded one survives, unless `rules.collision_kills_both` is on and the other is airborne.
+/// The mission ends when the time is up, when every UAV is dead or has landed after a flight, or when no UAV took off
+/// in time.
 class Mission {
  public:
   /// @param rest_heights  z of each UAV's centre at rest on the ground, in fleet order [m].
   Mission(const Scenario& scenario, std::vector<double> rest_heights);
 
-  /// Take in the state after a tick: the clock, who flies, who collided.
+  /// Takes in the state after a tick: updates the clock, which UAVs are airborne, and which have collided.
   /// @param states  of all UAVs in fleet order.    @param contacts  of this tick.
-  /// @returns the collisions of this tick; those who collided are dead from here on.
+  /// @returns the collisions of this tick; these UAVs are dead from now on. Empty once the mission has ended.
   std::vector<Collision> update(Tick tick, const std::vector<RigidBodyState>& states,
                                 const std::vector<Contact>& contacts);
 
-  /// A UAV that is no longer of this world: dead from here on, without a collision.
+  /// The UAV has left the world: it is dead from now on, without a collision.
   void take_out(UavIndex uav) { uavs_[uav].alive = uavs_[uav].airborne = false; }
 
-  /// Its battery is empty: if it is in the air it falls, and then the ground kills it, too.
+  /// The UAV's battery is empty: if it is airborne, it falls, and then contact with the ground kills it, too.
   void lose_power(UavIndex uav) { uavs_[uav].falls = uavs_[uav].airborne; }
 
   Phase phase() const { return phase_; }
@@ -65,7 +66,7 @@ class Mission {
   struct Member {
     double rest_height = 0.0;
     bool alive = true, airborne = false, has_flown = false;
-    bool falls = false;  ///< without power
+    bool falls = false;  ///< airborne without power
   };
 
   void update_airborne(Tick tick, const std::vector<RigidBodyState>& states, const std::vector<Contact>& contacts);

@@ -1,5 +1,5 @@
-// The time of a run that somebody watches: it holds the server at boundaries between two exchanges, where everybody has
-// answered and nobody waits for anything. What the run computes does not depend on it.
+// Paces a run that somebody watches: it holds the server at boundaries between two exchanges, at which every program
+// has answered and none waits for a message. The results of the run do not depend on it.
 // Threads: one.   Pure: knows no bus, and reads no clock.
 #pragma once
 
@@ -14,32 +14,33 @@ class Pace {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// @param speed  simulated seconds a second; none: as fast as the machine allows.
-  /// @param pause_at_s  simulated time [s] at which it pauses by itself, once; none: only when it is told.
+  /// @param speed  simulated seconds per second of wall time; nullopt: as fast as the machine allows.
+  /// @param pause_at_s  the first boundary at or after this simulated time [s] pauses the run, once; nullopt: none.
   explicit Pace(std::optional<double> speed, std::optional<double> pause_at_s = {})
       : speed_(speed), pause_at_s_(pause_at_s) {}
 
   void obey(const view::TimeOrder& order);
-  /// At a boundary, before may_go_on(): the run has come to this simulated time [s]. @returns whether it pauses here.
+  /// Call it at a boundary, before may_go_on(). @param time_s  simulated time of the boundary [s].
+  /// @returns whether `pause_at_s` has paused the run with this call.
   bool reach(double time_s);
-  /// At a boundary: whether the next exchange may begin now; asked again and again until it may. A step that was asked
-  /// for is taken with that.
-  /// @param period_s  simulated time of an exchange
+  /// At a boundary: whether the next exchange may begin now; ask again until it may. While the run is paused, a call
+  /// that returns true uses up one of the single steps that a viewer has ordered.
+  /// @param period_s  simulated time of an exchange [s]
   bool may_go_on(Clock::time_point now, double period_s);
-  /// At a boundary at which it may not: for how long there is nothing to ask, unless an order comes.
+  /// While may_go_on() returns false: time until it is worth asking again, unless an order comes first.
   Clock::duration left(Clock::time_point now) const;
 
   bool paused() const { return paused_; }
   const std::optional<double>& speed() const { return speed_; }
-  /// For how long it has held the run in all [s].
+  /// Total wall time for which it has held the run [s].
   double held_s() const { return std::chrono::duration<double>(held_).count(); }
 
  private:
   std::optional<double> speed_, pause_at_s_;
   bool paused_ = false;
-  int steps_ = 0;                           ///< that were asked for
-  std::optional<Clock::time_point> since_;  ///< it holds the run
-  std::optional<Clock::time_point> due_;    ///< of the next exchange, by the speed; none: at once
+  int steps_ = 0;                           ///< single steps that are ordered and not yet taken
+  std::optional<Clock::time_point> since_;  ///< when it began to hold the run; none: it does not
+  std::optional<Clock::time_point> due_;    ///< when `speed_` lets the next exchange begin; none: at once
   Clock::duration held_{};
 };
 

@@ -1,5 +1,5 @@
-// The faults of a plan that kill or stop a program: which begin and which end with an exchange.
-// Threads: one.   Pure: what becomes of the programs is the caller's business.
+// Finds the faults of a plan that kill or stop a program and begin or end with an exchange.
+// Threads: one.   Pure: the caller kills, stops and restarts the programs.
 #pragma once
 
 #include <string>
@@ -14,24 +14,24 @@ class ProcessFaults {
   struct Victim {
     std::string member;
     bool killed = false;  ///< else stopped
-    std::string kind;     ///< of the fault, as files spell it
+    std::string kind;     ///< of the fault, as fault files spell it
   };
 
-  /// @param plan  must outlive this. Meanwhile its faults that wait for a condition may be set off, others may be added
-  /// at its end, and get an end.
+  /// @param plan  must outlive this. Meanwhile the server may set off its faults that wait for a condition, append
+  /// further faults, and give these an end.
   explicit ProcessFaults(const FaultPlan& plan) : plan_(plan) {}
   explicit ProcessFaults(FaultPlan&&) = delete;
 
-  /// Those that begin with the exchange at this tick, in the plan's order.
+  /// The programs whose fault begins with the exchange at this tick, in the plan's order.
   std::vector<Victim> take_beginning(Tick tick);
-  /// Those that act, and will no longer in the exchange at this tick.
+  /// The programs whose fault was in force and is over in the exchange at this tick.
   std::vector<Victim> take_ending(Tick tick);
 
  private:
   std::vector<Victim> take(Tick tick, bool beginning);
 
   const FaultPlan& plan_;
-  std::vector<bool> acting_;  ///< by fault of the plan
+  std::vector<bool> acting_;  ///< by fault of the plan: whether it is in force
 };
 
 }  // namespace skein::sim

@@ -18,9 +18,9 @@ class ProgressTeller {
   /// Both must outlive this.
   ProgressTeller(const Scenario& scenario, StatusPipe& status) : scenario_(scenario), status_(status) {}
 
-  /// To be called again and again. @param lost  so far.
+  /// Call it often: it sends only when a message is due. @param lost  all programs that were lost so far.
   void tell(const Simulation& simulation, const std::vector<LostProcess>& lost);
-  /// Whenever it was told last.
+  /// Sends at once, even if the last message was just sent.
   void tell_now(const Simulation& simulation, const std::vector<LostProcess>& lost);
 
  private:

@@ -1,5 +1,5 @@
-// The server's part of a run's recording: its samples, the commands that it takes, what happens, the faults, and what
-// viewers draw.
+// The server's part of a run's recording: the samples that it writes, the commands that it takes, events, faults, and
+// the frames and markers that viewers draw. If a recorded run is flown again, it also replays what the members said.
 #pragma once
 
 #include <filesystem>
@@ -16,24 +16,25 @@ namespace skein::sim {
 
 class RecordingNode {
  public:
-  /// @param events  are recorded as they are logged; must not log after this has gone.
+  /// @param events  recorded as they are logged; nothing may be logged after this is destroyed.
   RecordingNode(const std::filesystem::path& folder, recording::Scope scope, const Scenario& scenario, EventLog& events,
                 const recording::ReplayOptions& replay);
 
   bus::Tap* tap() { return replay_ ? static_cast<bus::Tap*>(&*replay_) : &recorder_; }
-  /// Before the samples of a step. @param faults  what begins and ends with it (FaultTimeline).
+  /// Call it before the samples of a step are written. @param faults  the lines of FaultTimeline::enter_step().
   void begin_step(const Simulation& simulation, const std::vector<std::string>& faults);
-  /// When the members have answered a step: of a run that is flown again, what they said then is taken.
+  /// Call it when the members have answered a step. While a recorded run is flown again, the server now takes what they
+  /// said in the recording.
   void end_step();
-  /// Whether nothing is left of a run that is flown again.
+  /// Whether a recorded run is flown again and its recording has nothing left at this tick.
   bool is_replayed(Tick tick) const;
-  /// Where members say something else than then, a sentence each; nullopt: nothing is flown again.
+  /// Where members say something else than in the recorded run, a sentence each; nullopt: no run is flown again.
   std::optional<std::vector<std::string>> differences() const;
   /// @returns what went wrong, for people; empty: nothing.
   std::string close();
 
  private:
-  /// As VizNode shows it, less often.
+  /// Records the frames and markers that VizNode publishes, less often.
   void add_views(const Simulation& simulation);
 
   const Scenario& scenario_;

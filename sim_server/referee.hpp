@@ -1,5 +1,6 @@
-// Keeps the ledger: which captures were really taken, and who collided. Append-only, in the order of time.
-// A capture enters with a random token, so that nobody can claim what no camera saw (see DESIGN section "custody").
+// Keeps the ledger: which captures were really taken, and which UAVs collided. Append-only, in the order of time.
+// Each capture gets a random token, without which no report of it counts, so nobody can claim what no camera saw
+// (docs/architecture.md, "Custody of the score").
 #pragma once
 
 #include <cstdint>
@@ -17,8 +18,8 @@ class Referee {
   /// @param seed  tokens are drawn from streams keyed by (seed, "custody", uav, capture).
   Referee(std::uint64_t seed, std::size_t uavs, std::size_t points, const RulesConfig& rules);
 
-  /// Enters a capture if it raised at least one point for that UAV; only such points enter.
-  /// @returns the report for the UAV (the ledger holds the same), or nullopt: nothing raised, or the UAV has collided.
+  /// Enters a capture if it raised this UAV's best quality of at least one interest point; only such points enter.
+  /// @returns the report for the UAV, as the ledger has it; nullopt: it raised none, or the UAV has collided.
   /// @throws std::logic_error when `capture.tick` is earlier than the last entry's.
   std::optional<CaptureReport> enter(UavIndex uav, const Capture& capture);
 
@@ -27,7 +28,7 @@ class Referee {
   bool enter_collision(UavIndex uav, Tick tick);
 
   const std::vector<LedgerEntry>& ledger() const { return ledger_; }
-  /// All reports of one UAV, oldest first: what its camera's card holds.
+  /// The reports of all captures of one UAV in the ledger, oldest first.
   std::vector<CaptureReport> reports(UavIndex uav) const;
   /// The score as if every capture were delivered.
   const ScoreTable& earned() const { return earned_; }

@@ -1,5 +1,5 @@
-// The run's fingerprint: SHA-256 over what happened, exchange by exchange, little-endian. Two runs with the same
-// digest went the same way; the short hashes of each field tell where two runs parted (`skein diff`).
+// The digest of a run: SHA-256 over its states, captures, deliveries and tally changes, exchange by exchange,
+// little-endian. Equal digests mean equal runs; a short hash of each field tells where two runs part (`skein diff`).
 #pragma once
 
 #include <cstdint>
@@ -27,10 +27,10 @@ struct DigestInput {
   std::span<const std::uint8_t> tally;  ///< the station's digest of this step's changes; empty if there were none
 };
 
-/// One line of digests.csv: 8 hexadecimal digits (the first of each field's SHA-256) a column.
+/// One line of digests.csv. Each field has 8 hexadecimal digits: its 64-bit FNV-1a hash, folded to 32 bits.
 struct StepDigest {
   std::uint64_t k = 0;
-  std::string running;              ///< of all steps so far
+  std::string running;              ///< SHA-256 of all steps so far, 64 hexadecimal digits
   std::vector<std::string> fields;  ///< as RunDigest::columns() names them
 };
 
@@ -43,7 +43,7 @@ class RunDigest {
   /// Column names: "<uav>.position", "<uav>.attitude", ".velocity", ".body_rates", ".gimbal", ".alive" for each UAV,
   /// then "ledger", "radio", "tally".
   const std::vector<std::string>& columns() const { return columns_; }
-  /// Hash one exchange; they must come in order of k.
+  /// Hashes one exchange. Call it in the order of k. @throws std::logic_error when the fleet has another size.
   StepDigest add(const DigestInput& input);
   /// 64 hexadecimal digits over all exchanges so far; more may follow.
   std::string hex() const;

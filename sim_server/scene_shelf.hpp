@@ -1,5 +1,5 @@
-// A scene that is loaded before anybody flies in it: processes that are copied (one_process/session.hpp) have it at
-// hand.   Threads: one.
+// Holds a scene that was loaded in advance. A process that is then copied (one_process/session.hpp) hands it to each
+// copy, which need not load it.   Threads: one.
 #pragma once
 
 #include <optional>
@@ -12,7 +12,7 @@ namespace skein::sim {
 class SceneShelf {
  public:
   void put(Scene scene) { scene_ = std::move(scene); }
-  /// Once. @returns nullopt: there is none.
+  /// @returns the scene, once; nullopt: there is none any more.
   std::optional<Scene> take() { return std::exchange(scene_, std::nullopt); }
 
  private:

@@ -1,4 +1,4 @@
-// sim_server as a program: it flies a run, or does one of the things that take its code and no fleet
+// sim_server as a program: it simulates the world of a run, or does a task that needs its code but no fleet
 // (server_tasks.hpp).
 #pragma once
 
@@ -20,13 +20,13 @@ namespace skein::sim {
 
 class ServerProgram final : public bus::FleetProgram {
  public:
-  /// @param gate  of whoever steps the fleet in this process; nullptr: it flies by itself.
-  /// @param shelf  with the scene of its scenario; nullptr, or empty: it loads that.
-  /// @param for_each  how the simulation has its work done.
+  /// @param gate  with which this process steps the fleet; nullptr: the run advances by itself.
+  /// @param shelf  holds the scene of the scenario; nullptr, or empty: the server loads the scene.
+  /// @param for_each  executes work of the simulation that can be shared among threads.
   explicit ServerProgram(std::shared_ptr<StepGate> gate = nullptr, std::shared_ptr<SceneShelf> shelf = nullptr,
                          ForEach for_each = one_after_another)
       : gate_(std::move(gate)), shelf_(std::move(shelf)), for_each_(std::move(for_each)) {}
-  /// Loads the scene that a server with these options will have. @throws InputError
+  /// Loads the scene that a server with these options would load. @throws InputError
   static Scene load_ahead(const ProgramOptions& options);
   const char* name() const override { return programs::kSimServer; }
   void add_options(CLI::App& app) override;

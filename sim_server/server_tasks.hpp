@@ -1,4 +1,5 @@
-// What sim_server does without a fleet: reference vectors, scenes as files, what is attainable.
+// What sim_server does without a fleet: it checks reference vectors, writes scenes to files, and asks the oracle for
+// the attainable score.
 #pragma once
 
 #include <filesystem>
@@ -15,21 +16,21 @@ class App;
 
 namespace skein::sim {
 
-/// As its options say.
+/// The tasks that the command line asks for.
 struct ServerTasks {
-  std::vector<std::filesystem::path> golden;
-  std::filesystem::path export_scene;   ///< folder; empty: none
-  std::filesystem::path scene_picture;  ///< folder for a drawing of it; empty: none
-  std::string draw_world;               ///< the world that is written; empty: the scenario's scene
+  std::vector<std::filesystem::path> golden;  ///< files with reference vectors to check
+  std::filesystem::path export_scene;         ///< folder; empty: none
+  std::filesystem::path scene_picture;        ///< folder for a drawing of the scene; empty: none
+  std::string draw_world;                     ///< the generated world to export or draw; empty: the scenario's scene
   bool overwrite_export = false;
-  std::filesystem::path oracle;      ///< file for its answer; empty: it is not asked
-  std::vector<double> clearances_m;  ///< empty: the usual one
-  bool vehicle = false;              ///< it is the UAVs' bodies that keep them
-  std::optional<double> oracle_patience_s;
-  bool plan = false;  ///< search for what is scored in the mission's time, too; else only what is in the cache is told
+  std::filesystem::path oracle;             ///< file for the oracle's answer; empty: the oracle is not asked
+  std::vector<double> clearances_m;         ///< from the structure; empty: the default one
+  bool vehicle = false;                     ///< the UAVs' bodies keep the clearances, not their cameras
+  std::optional<double> oracle_patience_s;  ///< no answer that takes longer to compute; nullopt: any
+  bool plan = false;  ///< search, too, for the score within the mission's time; else report it only from the cache
 
   void add_options(CLI::App& app);
-  /// Each @returns an exit code.
+  /// Each runs one task. @returns an exit code.
   int check_golden() const;
   int write_scene(const ProgramOptions& options) const;
   int ask_oracle(const Scenario& scenario) const;

@@ -41,19 +41,19 @@ struct SimNodeOptions {
   std::uint64_t seed = 0;
   std::optional<double> realtime_factor;  ///< nullopt: lock-step, as fast as the machine allows
   std::optional<double> stop_at_s;        ///< end at this simulated time
-  double agent_timeout_s = 60.0;          ///< of wall time, for an answer; 0: for ever
-  double startup_timeout_s = 60.0;        ///< of wall time, for everybody to join; 0: for ever
-  FlightReport flight = {};               ///< for the report
+  double agent_timeout_s = 60.0;          ///< wall time to wait for a member's answer; 0: for ever
+  double startup_timeout_s = 60.0;        ///< wall time to wait for all members to join; 0: for ever
+  FlightReport flight = {};               ///< describes the run in the report
   recording::Scope record = recording::Scope::none;
   recording::ReplayOptions replay = {};
-  bool notice_deaths = false;               ///< nobody tells who died (report_lost())
-  bool expect_gcs_program = false;          ///< a user's program at the ground station takes part
-  std::optional<WatchOptions> watch = {};   ///< somebody looks on (--watch)
-  std::vector<std::string> stand_ins = {};  ///< UAVs whose agent hands on what programs outside the lock-step say
-  std::vector<UavIndex> by_hand = {};       ///< UAVs that somebody who looks on flies (--by-hand)
+  bool notice_deaths = false;               ///< no launcher calls report_lost(): the server detects dead members
+  bool expect_gcs_program = false;          ///< wait for a user's program at the ground station before the start
+  std::optional<WatchOptions> watch = {};   ///< set: somebody watches the run (--watch)
+  std::vector<std::string> stand_ins = {};  ///< UAVs whose agent relays messages of programs outside the lock-step
+  std::vector<UavIndex> by_hand = {};       ///< UAVs that a viewer flies (--by-hand)
   FaultPlan faults;
-  std::shared_ptr<StepGate> gate = nullptr;  ///< somebody in this process steps the fleet
-  ForEach for_each = one_after_another;      ///< how the simulation has its work done
+  std::shared_ptr<StepGate> gate = nullptr;  ///< with which this process steps the fleet; null: none does
+  ForEach for_each = one_after_another;      ///< executes work of the simulation that can be shared
 };
 
 class SimNode final : public bus::LockstepNode {
@@ -66,14 +66,14 @@ class SimNode final : public bus::LockstepNode {
   std::optional<bus::NodeEnd> end() const override;
   bus::Inbox& inbox() override { return inbox_; }
   Rest rest() override;
-  /// After the end; all files are written.
+  /// Complete once end() has a value. Then all files are written, too.
   const RunSummary& summary() const { return summary_; }
 
   /// From other threads: end at the next step (the launcher's `stop`, a signal).
   void request_stop();
   /// From other threads: a process of the fleet died (the launcher's `lost NAME`).
   void report_lost(const std::string& name);
-  /// From other threads: the process is told to end at once.
+  /// From other threads: end at once, in the middle of a step (the process must end).
   void abort();
 
  private:
@@ -84,7 +84,7 @@ class SimNode final : public bus::LockstepNode {
   void declare_members();
   void wait_for(State state, const char* what, double patience_s);
   bool tell_waiting();
-  /// What is possible in each state. @returns false when there is nothing more to do in this turn.
+  /// Each does what is possible in one state. @returns false when there is nothing more to do in this turn.
   bool join_members();
   bool take_answers(bool arrived);
   bool let_back();
@@ -116,7 +116,7 @@ class SimNode final : public bus::LockstepNode {
   bus::Inbox inbox_;
   std::vector<std::unique_ptr<bus::Participant>> participants_;  ///< world, gcs, UAVs
   bus::LockstepServer server_;
-  bus::Strangers strangers_;  ///< who sends commands without being a member
+  bus::Strangers strangers_;  ///< participants that send commands and are no members
   HeardKeyFrames heard_;
   std::vector<std::unique_ptr<UavNode>> uavs_;
   std::vector<std::unique_ptr<FramesNode>> frames_;  ///< of each UAV
@@ -125,18 +125,18 @@ class SimNode final : public bus::LockstepNode {
   HandNode hand_;
   std::unique_ptr<WatchNode> watch_;  ///< none: nobody watches
   FaultNode faults_;
-  std::optional<WorkLog> work_;  ///< for the report alone: none where nobody reads it
+  std::optional<WorkLog> work_;  ///< for the report alone; none where a gate steps the fleet
   ProgressTeller progress_;
   State state_ = State::joining;
-  std::optional<WaitTeller> wait_;  ///< for whom this state waits
+  std::optional<WaitTeller> wait_;  ///< reports whom this state waits for
   double patience_s_ = 0.0;
   bus::Patience patience_{0.0}, until_asked_again_{0.0};
-  Clock::time_point started_{};  ///< first step
-  double cpu_before_s_ = 0.0;    ///< of this thread, by then
+  Clock::time_point started_{};  ///< when the first step began
+  double cpu_before_s_ = 0.0;    ///< CPU time of this thread until then
   RunSummary summary_;
   bool stop_requested_ = false, aborted_ = false, last_step_ = false;
   Clock::time_point stop_requested_at_{};
-  std::vector<std::string> stalled_;  ///< who had not answered when a stop was requested, nor for some time after
+  std::vector<std::string> stalled_;  ///< members that had still not answered some time after a stop was requested
 };
 
 }  // namespace skein::sim

@@ -1,4 +1,5 @@
 // Everything in the simulation that belongs to one UAV.
+// Frames: W world, B body, L LiDAR, `told`: W as the UAV's odometry makes it appear.   Units: SI, ticks.
 #pragma once
 
 #include <optional>
@@ -24,20 +25,21 @@ struct SimulatedUav {
   KeyFrameSelector keyframes;
   UavView view;
   std::optional<GimbalCommand> gimbal_command;  ///< arrived since the last control step
-  VehicleCondition condition;                   ///< in this exchange
+  VehicleCondition condition;                   ///< what faults do to it in this exchange
   bool manual_trigger = false, triggered = false;
-  std::optional<Tick> shutter_at = {};  ///< a picture that was triggered is taken then
+  std::optional<Tick> shutter_at = {};  ///< when the picture that was triggered is taken
   bool scans_wanted = true;
-  Tick last_raise = 0, idle_ticks = 0;  ///< when a capture last raised a score; how long it has idled
+  Tick last_raise = 0, idle_ticks = 0;  ///< last capture that raised a score, or mission start; time idle
 
-  /// Where it takes itself to be. @param truth  its state.
+  /// Pose of the body as the UAV's odometry has it. @param truth  the true state.
   Isometry3d X_told_B(const RigidBodyState& truth) const {
     const auto X_told_W = surroundings.X_told_W(truth);
     return X_told_W ? *X_told_W * truth.X_WB() : truth.X_WB();
   }
 
-  /// One tick of its flight controller, if that is due, and of its rotors in this air.
-  /// @param listens  it takes commands.
+  /// One tick: runs the 20 Hz controllers if they are due, then the attitude loop and the rotors in the present wind.
+  /// @param listens  whether the UAV takes commands; if not, the 20 Hz controllers do not run.
+  /// @returns the wrench on the body, in B.
   Wrench fly(Tick tick, const RigidBodyState& truth, bool listens) {
     surroundings.begin_tick(tick, truth, condition.gust_W);
     if (tick % kControlTicks == 0 && listens) {
@@ -47,7 +49,7 @@ struct SimulatedUav {
     return surroundings.fly(vehicle, truth);
   }
 
-  /// Whether a picture is taken at this tick: triggered now, or so much earlier.
+  /// Whether a picture is taken at this tick. @param delay  from the trigger to the picture [ticks].
   bool shutter_opens(Tick tick, Tick delay) {
     const bool wanted = (!manual_trigger || triggered) && camera.ready(tick);
     if (!shutter_at && wanted) {
@@ -60,7 +62,7 @@ struct SimulatedUav {
   }
 };
 
-/// Moves a scan to where the UAV sees it.
+/// Transforms a scan from W to the frame `told`: its points lie where the UAV's odometry makes them appear.
 inline void place(LidarScan& scan, const Isometry3d& X_told_W) {
   scan.X_WL = X_told_W * scan.X_WL;
   for (Eigen::Vector3f& p_W : scan.points_W) p_W = (X_told_W * p_W.cast<double>()).cast<float>();

@@ -1,10 +1,12 @@
 // The whole simulated world, one exchange at a time: vehicles, sensors, radio links, mission, referee.
-// Pure: no middleware, no wall clock. The same scenario, scene, seed and commands give the same bits, whoever helps.
+// Pure: no middleware, no wall clock. The same scenario, scene, seed, faults and commands give the same result, bit for
+// bit, however many threads share the work.
 // Threads: one, which may share its work. Frames: W world (ENU), B body (FLU).  Units: SI, radians; times are ticks.
 //
-// Commands are handed in at a step boundary, between two calls of advance(); what happened in the exchange is in
-// events(). LiDARs run from the beginning, cameras while the clock runs, nothing after the mission's end: motors stop
-// then. What the seed draws is said in fleet_start.hpp, lidar.hpp and referee.hpp; seed 0 draws nothing.
+// The server hands in commands at a step boundary, between two calls of advance(), and reads in events() what happened
+// in the exchange. LiDARs run from the beginning, cameras while the mission's clock runs. At the mission's end all
+// sensors and motors stop. fleet_start.hpp, lidar.hpp and referee.hpp say what the seed draws. With seed 0, starts,
+// command latency and LiDARs are without random effects; the tokens and the scenario's conditions are drawn even so.
 #pragma once
 
 #include <cstdint>
@@ -31,16 +33,16 @@
 
 namespace skein::sim {
 
-/// Clearances beyond this are told as this.
+/// Larger clearances are reported as this value.
 inline constexpr double kFarClearance_m = 100.0;
 
-/// A scan; all its points are of the instant `scan.tick`.
+/// A scan; all its points are of the instant `scan.tick`, unless the scenario has `motion_distortion` (lidar.hpp).
 struct LidarEvent {
   UavIndex uav = {};
   LidarScan scan;
 };
 
-/// Where a LiDAR's servo stood when a scan was due, computed or not.
+/// Angle of a LiDAR's servo when a scan was due, whether or not the scan was computed.
 struct ServoEvent {
   UavIndex uav = {};
   LidarServo servo;
@@ -57,8 +59,8 @@ struct KeyFrameEvent {
 struct CaptureEvent {
   UavIndex uav = {};
   Capture capture;
-  std::optional<Isometry3d> X_told_W = {};  ///< takes what is in W to where the UAV sees it; nullopt: where it is
-  std::optional<CaptureReport> report;      ///< what the ledger holds of it: the points not seen as well before
+  std::optional<Isometry3d> X_told_W = {};  ///< from W to the frame `told` of the UAV's odometry; nullopt: W itself
+  std::optional<CaptureReport> report;      ///< as in the ledger: points whose quality it raised; nullopt: none
 };
 
 /// A command that was ignored.
@@ -70,14 +72,14 @@ struct RejectionEvent {
   std::uint64_t total = 0;  ///< of this UAV so far, this one included
 };
 
-/// A UAV that left the world, or whose motion no number describes any more: it is out, and its body stays where it was.
+/// A UAV that left the world, or whose state is no longer finite: it is dead, and its body stays where it last was.
 struct Stray {
   Tick tick = 0;
   UavIndex uav = {};
   Vector3d p_W = Vector3d::Zero();  ///< where it last was
 };
 
-/// What happened since the step before.
+/// What happened in the exchange that led to this step.
 struct StepEvents {
   std::vector<LidarEvent> scans;
   std::vector<ServoEvent> servos;
@@ -94,16 +96,18 @@ class RayScene;
 class Simulation {
  public:
   /// The fleet at rest on the ground at tick 0, links traced, first scans in events().
-  /// @param faults  of which sensors, rotors, commands and what neighbours hear of each other are its business.
+  /// @param faults  the simulation applies those of vehicles, sensors, wind and commands, and the ranges and cuts of
+  ///   links. The router and the server apply the others.
   /// @throws InputError if a UAV's start or the station lies in the structure or is enclosed by it.
   Simulation(const Scenario& scenario, Scene scene, std::uint64_t seed, const FaultPlan& faults = {});
   ~Simulation();
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
 
-  /// A set-point for a UAV. Of several within one exchange the last acceptable one counts. Refused, and told in
-  /// events().rejections, if a number is not finite or, with rules.reject_commands_beyond_limits, if it is
-  /// beyond the vehicle's speed, acceleration or yaw rate. Dead UAVs and an ended mission ignore it silently.
+  /// A set-point for a UAV. If several arrive within one exchange, the last one that is not refused counts. A command
+  /// is refused, and listed in the next events().rejections, if a number is not finite or, with
+  /// rules.reject_commands_beyond_limits, if it exceeds the vehicle's speed, acceleration or yaw rate. Commands to a
+  /// dead UAV, or after the mission's end, are ignored silently.
   /// @returns false when refused.
   bool command_trajectory(UavIndex uav, const TrajectoryCommand& command);
   /// A gimbal command; refused only if a number is not finite.
@@ -114,21 +118,21 @@ class Simulation {
   /// Cut the motors, for good: the UAV falls.
   void stop(UavIndex uav);
 
-  /// A fault that waited begins with the exchange at this tick, which is the next one.
+  /// A fault that waited for a condition begins with the exchange at this tick, which must be the next one.
   void set_off(std::size_t fault, Tick tick);
-  /// Somebody who watches adds faults, which stand behind those of the plan.
-  /// @param faults  all of them; what they were in exchanges that are over stays as it was.
+  /// Sets the faults that a viewer has added by hand; they follow those of the plan.
+  /// @param faults  all of them so far. What they meant for exchanges that are over must not change.
   void set_faults_by_hand(const std::vector<Fault>& faults);
 
-  /// Whether anybody reads this UAV's scans (they do, until told otherwise). Those that nobody reads and that would
-  /// not become key frames are not computed: the LiDAR is the most expensive sensor. Nothing else depends on it.
+  /// Tells whether anybody reads this UAV's scans; initially somebody does. A scan that nobody reads and that would not
+  /// become a key frame is not computed, because the LiDAR is the most expensive sensor. Only events().scans differs.
   void want_scans(UavIndex uav, bool wanted);
-  /// What does not depend on one another is done so from now on: scans, exposures, links, and forces of a large fleet.
+  /// From now on `for_each` executes independent work: scans, exposures, links, and the forces of a large fleet.
   void share_work(ForEach for_each);
-  /// Announces work to a clock from now on. @param clock  must outlive the simulation; null: nobody.
+  /// Announces its work to a clock from now on. @param clock  must outlive the simulation; null: no clock.
   void watch(WorkClock* clock);
 
-  /// One exchange period; afterwards all getters speak of the new step.
+  /// Simulates one exchange period; afterwards all getters return values of the new step.
   void advance();
 
   std::uint64_t step() const;  ///< exchanges so far
@@ -137,10 +141,11 @@ class Simulation {
   const Mission& mission() const;
   const UavView& uav(UavIndex i) const;
   std::span<const UavView> uavs() const;
-  /// Line of sight and range; the dead have no links. Symmetric unless the scenario limits the range of some links.
-  /// Range is judged here, with the positions that only the server has; what else links do to messages, in the router.
+  /// Links with line of sight and in range; dead UAVs have none. Symmetric unless the scenario or a fault limits the
+  /// range of links in one direction. The simulation judges range, because only the server has the true positions; the
+  /// router judges everything else that links do to messages.
   const Links& links() const;
-  /// links() less those that blackouts, outages and partitions cut: who gets whose odometry and key frames.
+  /// links() without those that blackouts, outages and partitions cut. Over them UAVs get odometry and key frames.
   const Links& open_links() const;
   const StepEvents& events() const;
   const Referee& referee() const;
@@ -148,11 +153,11 @@ class Simulation {
   std::vector<bool> points_seen() const;
   const Scene& scene() const;
   const RayScene& rays() const;  ///< of the scene
-  /// Distance from a body's centre to the structure, kFarClearance_m at most.
+  /// Distance from a body's centre to the structure [m], kFarClearance_m at most.
   double clearance(UavIndex uav) const;
   /// What links() would be if no fault limited their range.
   const Links& unfailed_links() const;
-  /// Those that wait for a condition begin by set_off(); those by hand stand at the end.
+  /// The plan, with what set_off() and set_faults_by_hand() have changed; the faults by hand are at the end.
   const FaultPlan& faults() const;
   /// This step for the digest; radio and tally are the caller's to fill in.
   DigestInput digest_input() const;

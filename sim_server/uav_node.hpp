@@ -1,4 +1,4 @@
-// One UAV's domain at the server's end: publishes what its sensors say, takes its commands.
+// The server's end of one UAV's domain: publishes the data of the UAV's sensors, and takes its commands.
 #pragma once
 
 #include <map>
@@ -17,13 +17,13 @@
 
 namespace skein::sim {
 
-/// Who is linked to `node` at this step: nbr_odom_cloud.
+/// The message nbr_odom_cloud: position (of UAVs: odometry) of each node that `node` hears at this step.
 msg::PointCloud2 neighbour_cloud(const Simulation& simulation, const Scenario& scenario, Node node);
 
-/// The key frames of a step as those get them who hear their explorer: each is encoded once, however many they are.
+/// The key frames of a step as other UAVs receive them: each is encoded once, however many UAVs receive it.
 class HeardKeyFrames {
  public:
-  /// @param event  of this step's key frames. @returns what is valid until the next step.
+  /// @param event  index in this step's events().key_frames. @returns the message, valid until the next step.
   std::span<const std::uint8_t> payload(const Simulation& simulation, std::size_t event);
 
  private:
@@ -33,28 +33,28 @@ class HeardKeyFrames {
 
 class UavNode {
  public:
-  /// Declares all topics of UAV `uav` in `domain`. `simulation` gets its commands when a step is answered.
+  /// Declares all topics of UAV `uav` in `domain`. `simulation` gets the UAV's commands when a step is answered.
   /// @param heard  shared by all UAVs' nodes.
   UavNode(UavIndex uav, const Scenario& scenario, Simulation& simulation, HeardKeyFrames& heard,
           bus::LockstepServer& server, bus::LockstepServer::DomainIndex domain);
 
-  /// Has the simulation compute the next step's scan if somebody reads it. To be called once those who take part in
-  /// that step are known, and before it is simulated: the program that was let in just now gets its first scan, whether
-  /// DDS still counts its dead predecessor as a reader or not. @param shown  who looks on wants it, too.
+  /// Has the simulation compute the next step's scan if somebody reads it. Call it when the members of that step are
+  /// known, and before it is simulated. So a program that has just joined gets its first scan, whether or not DDS still
+  /// counts its dead predecessor as a reader. @param shown  a viewer wants to see the scan.
   void choose_scans(bool shown = false);
   /// Publishes the samples of the present step.
   void publish();
-  /// Commands on this topic come from outside the lock-step: says so with the next publish().
+  /// Commands on this topic come from outside the lock-step: the next publish() says that they are ignored.
   void reject_unheard(const std::string& topic) { unheard_.push_back(topic); }
-  /// The agent is new: the camera hands out again whatever was never acknowledged, and all that it has shown.
+  /// The agent is new: the next publish() repeats all reports that were never acknowledged, and all detected points.
   void resend_captures() { resend_ = true; }
-  /// The program says hello: reads those of its topics that tell of itself.
+  /// A program says hello: reads its debug values and activity from now on. @param writes  topics that it will write.
   void read_debug(const std::vector<std::string>& writes);
-  /// What it has told of itself since the last call: name, value.
+  /// Debug values that the program has published since the last call: name, value.
   std::vector<std::pair<std::string, double>> take_debug() { return std::exchange(debug_, {}); }
-  /// What it says that it does, since the last call; nullopt: nothing new.
+  /// The last activity that the program has published since the last call; nullopt: none.
   std::optional<Activity> take_activity() { return std::exchange(activity_, std::nullopt); }
-  /// Captures that the agent has released since the last call: the station has them.
+  /// Captures that the agent has released since the last call, because the station has acknowledged them.
   std::vector<std::uint64_t> take_released() { return std::exchange(released_, {}); }
 
  private:
@@ -78,13 +78,13 @@ class UavNode {
   bus::CountedWriter *cloud_ = nullptr, *servo_ = nullptr, *self_keyframe_ = nullptr;  ///< explorers only
   bus::CountedWriter *battery_ = nullptr, *wind_ = nullptr;  ///< if the scenario's conditions have them
   DetectionLog detections_;
-  std::map<std::uint64_t, CaptureReport> card_;  ///< captures that the agent has not released, as it is told of them
+  std::map<std::uint64_t, CaptureReport> card_;  ///< reports, as told to the agent, that it has not released
   std::vector<std::uint64_t> released_;
-  std::set<std::string> debug_names_;  ///< that are read
+  std::set<std::string> debug_names_;  ///< debug values that are read
   std::vector<std::pair<std::string, double>> debug_;
   bool reads_activity_ = false;
   std::optional<Activity> activity_;
-  std::vector<std::string> unheard_;  ///< topics
+  std::vector<std::string> unheard_;  ///< topics for reject_unheard()
   bool resend_ = false, boxes_sent_ = false;
 };
 

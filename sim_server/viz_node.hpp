@@ -1,6 +1,6 @@
-// What the server writes into the world's domain for who looks on, in RViz 2 as a rule (docs/ros2.md). Only what
-// somebody reads is made, at 10 Hz of simulated time at most. Nobody in the fleet reads any of it and it is in no
-// count, so that nobody waits for a viewer; what a slow one does not take is lost to it.
+// Publishes frames, markers and a map in the world domain for viewers, usually RViz 2 (docs/ros2.md), at no more than
+// 10 Hz of simulated time. The server computes only what somebody reads. No program of the fleet reads these topics and
+// the lock-step does not count them, so no program waits for a viewer; a slow viewer loses samples.   Frame: W.
 #pragma once
 
 #include <memory>
@@ -14,15 +14,15 @@ namespace skein::sim {
 
 class VizNode {
  public:
-  /// @param world  of the server; it and the references must outlive this.
+  /// @param world  the server's participant in the world domain; it and the references must outlive this.
   VizNode(const Scenario& scenario, const Simulation& simulation, bus::Participant& world);
 
-  /// In each step.
+  /// Call it once per step.
   void publish();
 
  private:
   using Writer = std::unique_ptr<bus::Writer>;
-  /// A latched topic, written when somebody reads it and it is not what was written last.
+  /// A latched topic. It is written when somebody reads it and its content has changed since it was last written.
   struct Latched {
     Writer writer;
     bool stale = true;

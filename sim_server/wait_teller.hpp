@@ -1,4 +1,4 @@
-// Tells the launcher and the log whom the fleet waits for, as long as it does.   Threads: one.
+// Tells the launcher and the log which members the fleet waits for, while it waits.   Threads: one.
 #pragma once
 
 #include <string>
@@ -11,18 +11,18 @@ namespace skein::sim {
 
 struct AwaitedMember {
   std::string name;
-  std::string missing;  ///< what of it: "rt/plan 3 of 4"
+  std::string missing;  ///< what has not come from it yet: "rt/plan 3 of 4"
 };
 
 class WaitTeller {
  public:
-  /// The wait begins now. @param what  is awaited of somebody: "to join". @param status  must outlive this.
+  /// The wait begins now. @param what  the members are to do: "to join". @param status  must outlive this.
   WaitTeller(StatusPipe& status, const char* what) : status_(status), what_(what), notice_(told_) {}
 
-  /// To be called again and again while the wait lasts. The launcher hears of it twice a second once it is no trifle,
-  /// the log when a line is due (core/run/wait_notice.hpp); "due" marks that for the launcher, too.
-  /// @param awaited  gives whom; only asked when there is something to tell.
-  /// @returns false while it is a trifle.
+  /// Call it often while the wait lasts. After kTrifle_s it tells the launcher twice a second, and the log when a line
+  /// is due (core/run/wait_notice.hpp). The message for the launcher says whether a line is due.
+  /// @param awaited  returns the awaited members; called only when there is something to tell.
+  /// @returns false until the wait has lasted kTrifle_s.
   template <class Awaited>
   bool tell(const Awaited& awaited) {
     const auto now = WaitNotice::Clock::now();

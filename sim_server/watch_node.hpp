@@ -1,5 +1,5 @@
-// The server's side of a run that is watched (--watch): it tells the station what a page needs, and holds the run where
-// the page says so. It is there only then; nobody in the fleet hears of it, and it is in no count.
+// The server's side of a watched run (--watch): it sends the station what the viewers' page needs, and holds the run
+// when the page asks for it. No agent receives its messages, and the lock-step does not count them.
 #pragma once
 
 #include <chrono>
@@ -26,37 +26,38 @@
 namespace skein::sim {
 
 struct WatchOptions {
-  std::optional<double> speed;            ///< simulated seconds a second; none: as fast as the machine allows
-  bool paced = true;                      ///< false: a clock of the world sets the pace, and nothing holds the run
-  bool losses = false;                    ///< ask the oracle what could be had, so that the page tells what is lost
-  std::optional<double> pause_at_s = {};  ///< the first boundary from this time on pauses the run; none: no such one
+  std::optional<double> speed;            ///< simulated seconds per second of wall time; none: as fast as possible
+  bool paced = true;                      ///< false: --clock realtime sets the pace, and the page cannot hold the run
+  bool losses = false;                    ///< ask the oracle for the attainable score, to show what is lost
+  std::optional<double> pause_at_s = {};  ///< the first boundary at or after this simulated time pauses the run
 };
 
 class WatchNode {
  public:
-  /// @param world, uavs  of the server, by UAV; they and the references must outlive this. @param hand  takes what the
-  /// page says of UAVs that somebody flies.
+  /// @param world, uavs  the server's participants in the world domain and, by UAV, in the UAVs' domains. They and the
+  /// references must outlive this. @param hand  takes the page's orders for UAVs that somebody flies.
   WatchNode(const Scenario& scenario, const Simulation& simulation, EventLog& events, bus::Inbox& inbox,
             bus::Participant& world, std::span<const std::unique_ptr<bus::Participant>> uavs,
             const WatchOptions& options, FaultNode& faults, HandNode& hand);
 
-  /// In each step, when it is published. @param faults  that begin or end with it, in words
+  /// Call it in each step, before it is published. @param faults  a line for each fault that begins or ends with it
   void begin_step(const std::vector<std::string>& faults);
-  /// What a UAV says of itself. @param news  it does something else.
+  /// What a UAV's program says that it does. @param news  whether that has changed, beyond its numbers.
   void add_activity(UavIndex uav, const Activity& activity, bool news);
-  /// While no step goes on, again and again: for whom, until the next step.
-  /// @param what  is awaited of them: "to answer"
+  /// Call it often while the server waits for members: the page shows for whom, until the wait is over.
+  /// @param what  the members are to do: "to answer"
   void wait_for(const std::vector<AwaitedMember>& awaited, const std::string& what);
   /// Whether the next scan of this UAV is to be shown, if there is one.
   bool wants_scan(UavIndex uav) const { return look_.wants_scan(uav, Clock::now()); }
-  /// At a boundary: does what browsers have asked of faults since. @returns whether any of it was done: who may come
-  /// back then is to be let back.
+  /// At a boundary: obeys the orders about faults that have come from browsers since the last call. @returns whether
+  /// any was obeyed; then the caller must call FaultNode::let_back_victims().
   bool obey_fault_orders();
-  /// At a boundary: whether the next exchange may begin. Without a station nobody could end a pause: then it may.
+  /// At a boundary: whether the next exchange may begin. While the station is away, a pause does not hold the run,
+  /// because nobody could end it.
   bool may_go_on();
-  /// While it may not: for how long there is nothing to do unless something arrives.
+  /// While may_go_on() returns false: time until it is worth asking again, unless something arrives first.
   std::chrono::milliseconds left() const;
-  /// For how long the run was held in all [s]: no time of its own.
+  /// Total wall time for which the run was held [s]; it does not count as run time.
   double held_s() const { return pace_.held_s(); }
 
  private:
@@ -84,8 +85,8 @@ class WatchNode {
   std::unique_ptr<bus::Reader> orders_;
   FaultNode& faults_;
   std::vector<view::FaultOrder> fault_orders_;  ///< since the last boundary
-  std::uint64_t done_ = 0, refused_ = 0;        ///< of those so far
-  std::string refusal_;                         ///< why the last of them was
+  std::uint64_t done_ = 0, refused_ = 0;        ///< numbers of orders about faults so far
+  std::string refusal_;                         ///< why the last refused one was refused
   bool station_there_ = true;
   std::vector<view::ShownLink> told_links_;
   struct Saying {
@@ -98,7 +99,7 @@ class WatchNode {
   Tick pose_due_ = 0, links_due_ = 0;
   bool state_stale_ = true;
   Clock::time_point state_told_{};
-  std::optional<EstimateTask> estimate_;  ///< none: nobody asked, or it has been told
+  std::optional<EstimateTask> estimate_;  ///< none: not asked for, or over
 };
 
 }  // namespace skein::sim

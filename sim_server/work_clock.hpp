@@ -1,5 +1,5 @@
-// Tells where the server's time goes without giving the simulation a clock of its own: it announces what it is about
-// to do, and whoever wants to know takes the time.
+// Lets the server measure where its time goes, without a clock in the simulation: the simulation announces when a piece
+// of work begins and ends, and a WorkClock measures the time between.   Threads: one.
 #pragma once
 
 #include <cstddef>
@@ -7,11 +7,11 @@
 namespace skein::sim {
 
 enum class Work {
-  simulation,  ///< all of Simulation::advance(), the others included
-  lidar,       ///< one scan
-  camera,      ///< one exposure
+  simulation,  ///< all of Simulation::advance(): includes lidar, camera and links
+  lidar,       ///< the scans of one tick
+  camera,      ///< the exposures of one tick
   links,       ///< the radio matrix of one step
-  recording,   ///< digest and files of one step; no part of the simulation
+  recording,   ///< digest and files of one step, outside the simulation
 };
 inline constexpr int kWorkKinds = 5;
 
@@ -19,11 +19,11 @@ class WorkClock {
  public:
   virtual ~WorkClock() = default;
   virtual void begin(Work work) = 0;
-  /// @param pieces  of its kind that were done: scans, exposures.
+  /// @param pieces  how many pieces of this kind were done: scans, exposures.
   virtual void end(Work work, std::size_t pieces) = 0;
 };
 
-/// Announces work as long as it lives. @param clock  may be null. @param pieces  as WorkClock::end() has them.
+/// Announces work from its construction to its destruction. @param clock  may be null. @param pieces  for end().
 class WorkSection {
  public:
   WorkSection(WorkClock* clock, Work work, std::size_t pieces = 1) : clock_(clock), work_(work), pieces_(pieces) {

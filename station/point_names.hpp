@@ -1,5 +1,6 @@
-// What UAVs call the interest points in their reports, and which points these are. Each UAV numbers what it has seen
-// (core/scoring/detection_order.hpp); the ledger, which it never sees, tells the station the same in the same order.
+// Translates the numbers by which UAVs name interest points in their reports into indices of the scene. Each UAV
+// numbers the points in the order in which it first saw them (core/scoring/detection_order.hpp). The ledger, which no
+// UAV receives, has these points in the same order, so the station can assign the same numbers.
 #pragma once
 
 #include <cstdint>
@@ -14,15 +15,15 @@ namespace skein::station {
 /// Not thread-safe.
 class PointNames {
  public:
-  /// In the place of a number that its UAV never gave: the index of no point, so that the report equals no entry.
+  /// Replaces a number that its UAV never gave: no point has this index, so that the report equals no ledger entry.
   static constexpr std::uint32_t kNoPoint = std::numeric_limits<std::uint32_t>::max();
 
   /// @param uavs  size of the fleet.
   explicit PointNames(std::size_t uavs) : of_uav_(uavs) {}
 
-  /// The next entries of the ledger. @param ledger  from its beginning, without gaps; what is known is passed over.
+  /// Takes the new entries of the ledger. @param ledger  from its beginning, without gaps; known entries are skipped.
   void follow(const std::vector<LedgerEntry>& ledger);
-  /// Puts indices in the place of a report's numbers. What its UAV has reported must have been followed.
+  /// Replaces the numbers in a report by indices. follow() must have had the ledger's entry of this report before.
   void resolve(CaptureReport& report) const;
 
  private:

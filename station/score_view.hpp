@@ -1,4 +1,4 @@
-// The tally of a station, for whoever shares its process (one_process/session.hpp).   Threads: one.
+// Shows the station's tally to other code in the same process (one_process/session.hpp).   Threads: one.
 #pragma once
 
 #include "station/scoreboard.hpp"
@@ -6,7 +6,7 @@
 namespace skein::station {
 
 struct ScoreView {
-  const Scoreboard* board = nullptr;  ///< null: it knows of no points yet, or there is no station
+  const Scoreboard* board = nullptr;  ///< null: there is no station, or it does not know the points yet
 };
 
 }  // namespace skein::station

@@ -1,5 +1,6 @@
 // The station's tally: which captures were delivered, and what they are worth. Only a report that equals an entry of
-// the referee's ledger counts, and only from the UAV that took it. Pure; the result of a step does not depend on the
+// the referee's ledger counts, and only from the UAV that took it. An entry *stands* once the `ledger_upto` of
+// a step includes it; only then are reports compared with it. Pure; the result of a step does not depend on the
 // order in which its reports and entries came in. Not thread-safe.
 #pragma once
 
@@ -20,13 +21,13 @@ namespace skein::station {
 /// Why a report does not count.
 enum class Refusal {
   unknown,   ///< no camera took such a capture: no entry has its token
-  borrowed,  ///< it came from another UAV than the one that took it
+  borrowed,  ///< it came from another UAV than the one that took the capture
   altered,   ///< taken by this UAV, but with another content
 };
 inline constexpr std::size_t kRefusals = 3;
 std::string_view to_string(Refusal reason);
 
-/// Something that moved the tally, as the journal keeps it: a report that was accepted, or a collision.
+/// Something that changed the tally, as the journal keeps it: a report that was accepted, or a collision.
 struct TallyRecord {
   Tick tick = 0;      ///< of the step in which the station took it in
   LedgerEntry entry;  ///< the entry that the report equals, or the collision's
@@ -37,7 +38,7 @@ struct TallyRecord {
 struct StepOutcome {
   std::vector<TallyRecord> records;              ///< to be journalled before anything is acknowledged
   std::vector<std::vector<std::uint64_t>> acks;  ///< by UAV: captures to acknowledge, ascending
-  /// SHA-256 over the points whose tally changed, by index, empty without any: of each index, UAV, capture, bits of q
+  /// SHA-256 over the points whose tally changed, by index; empty if none did: of each index, UAV, capture, bits of q
   /// (UAV, capture and q are 0 for a point that nobody holds any more); 8 bytes each (core/sha256.hpp).
   std::vector<std::uint8_t> digest;
   bool score_changed = false;
@@ -63,21 +64,22 @@ class Scoreboard {
   Scoreboard(std::size_t uavs, std::size_t points, const RulesConfig& rules);
 
   /// An entry of the ledger, in any order, repetitions allowed (a restarted station gets the whole ledger again).
-  /// @throws std::invalid_argument when it contradicts an entry with the same index, or names no UAV or point.
+  /// @throws std::invalid_argument when it differs from the entry of ledger() with its index, or names no UAV or point.
   void add_entry(const LedgerEntry& entry);
-  /// True when all entries 0 .. upto - 1 are here: a step that says `upto` may be ended.
+  /// Whether all entries 0 .. upto - 1 have arrived: then a step with this `ledger_upto` may be ended.
   bool has_entries(std::uint64_t upto) const { return ledger_.size() >= upto; }
 
-  /// A report that the radio brought from `source` (fleet index). report.uav >= fleet size: a name that nobody has.
+  /// A report that arrived by radio from `source` (fleet index). report.uav >= fleet size: no UAV has the name in it.
   void add_report(std::size_t source, CaptureReport report);
 
-  /// Ends the step at `tick`: entries 0 .. upto - 1 stand; reports are matched with them. A report whose entry is
-  /// known but does not stand yet waits until it does; one without an entry waits kPatience steps, then it is refused.
+  /// Ends the step at `tick`: entries 0 .. upto - 1 stand from now on, and reports are compared with them. A report
+  /// whose entry is known but does not stand yet waits until it does; one without an entry waits for kPatience steps,
+  /// then it is refused.
   /// @throws std::logic_error unless has_entries(upto).
   StepOutcome end_step(Tick tick, std::uint64_t upto);
   static constexpr int kPatience = 2;
 
-  /// Takes back what the journal kept, before the first step; no step will report it again.
+  /// Restores a record of the journal, before the first step; no StepOutcome will contain it again.
   /// @throws std::invalid_argument when the record names no UAV or point of this run.
   void restore(const TallyRecord& record);
 
@@ -97,16 +99,16 @@ class Scoreboard {
 
  private:
   using Key = std::pair<std::size_t, std::uint64_t>;   ///< UAV, capture
-  using Before = std::map<std::uint32_t, PointTally>;  ///< points touched in a step, as they were
+  using Before = std::map<std::uint32_t, PointTally>;  ///< points that a step may change, before it
   struct Held {
     std::size_t source;
     CaptureReport report;
-    int steps = 0;  ///< that it has waited
+    int steps = 0;  ///< how many it has waited
   };
   struct Verdict {
     enum class Kind { accepted, duplicate, refused, wait } kind;
     Refusal reason = Refusal::unknown;
-    const LedgerEntry* entry = nullptr;  ///< that it is about, if any
+    const LedgerEntry* entry = nullptr;  ///< with the report's token, if any
   };
 
   void check(const LedgerEntry& entry) const;

@@ -1,4 +1,4 @@
-// The last will of a station that was killed for good: what its journal holds is what it acknowledged.
+// Writes the result files of a station that was killed and did not come back. Its journal has all that it acknowledged.
 #pragma once
 
 #include <filesystem>
@@ -9,9 +9,9 @@
 
 namespace skein::station {
 
-/// Writes the station's files into `folder` from the journal there (station_report.hpp). captures.csv lists what was
-/// delivered, and nothing else; what was earned is unknown and left out.
-/// @throws std::runtime_error when there is no scene.json, which has the points; or a file cannot be read or written.
+/// Writes the station's files into `folder` from the journal there (station_report.hpp). captures.csv lists only
+/// captures that were delivered. The score earned is unknown: it is left out, or 0 if the journal is empty.
+/// @throws std::runtime_error when scene.json, which has the points, is missing; or a file cannot be read or written.
 void settle(const std::filesystem::path& folder, const Scenario& scenario, RunId run, StatusPipe& status);
 
 }  // namespace skein::station

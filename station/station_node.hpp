@@ -25,26 +25,27 @@ namespace skein::station {
 
 class StationNode final : public bus::ClientNode {
  public:
-  /// @param out  where the journal is; what it holds from an earlier life of this run is taken up again.
-  /// @param recorder  records the tally, and the score as others read it; must outlive this. nullptr: nobody does.
-  /// @param view  the page that is served; nullptr: none is.
-  /// @param score  gets the tally to look at; nullptr: nobody does.
+  /// @param out  folder of the journal; if it has records of this run, a restarted station continues from them.
+  /// @param recorder  records the tally, and the score topics; must outlive this. nullptr: nothing is recorded.
+  /// @param view  the page to serve to browsers; nullptr: none.
+  /// @param score  gets a pointer to the tally, for others in this process; nullptr: nobody needs it.
   StationNode(const Scenario& scenario, int base_domain, bus::Bus& bus, const std::filesystem::path& out,
               StatusPipe& status, recording::Recorder* recorder = nullptr, const ReadyView* view = nullptr,
               std::shared_ptr<ScoreView> score = nullptr);
   ~StationNode() override;
 
   bus::Inbox& inbox() override { return inbox_; }
-  /// A file of another that the disk refused, a sentence; for the report.
+  /// Adds to the report that another file could not be written. @param trouble  a sentence; empty: none.
   void note_unwritten(std::string trouble);
-  /// At the end of its part: the files of a run (station_report.hpp), unless it never heard of the points.
+  /// When the station's part in the run is over: writes its result files (station_report.hpp), unless it never received
+  /// the number of points. @param dds  DDS vendor
   void write_report(const std::string& dds = {});
-  /// It ends in the middle of things: browsers are told nothing more.
+  /// Ends the page at once, as if the process were killed: browsers are told nothing more.
   void stop_serving();
 
  private:
   bus::LockstepClient& client() override { return client_; }
-  /// On the ground station's domain.
+  /// A writer in the GCS domain; the recorder, if any, records what it writes.
   bus::CountedWriter heard_writer(const topics::WireTopic& topic);
   void think() override;
   bool answered_last() const override { return last_step_answered_; }
@@ -66,14 +67,14 @@ class StationNode final : public bus::ClientNode {
   std::vector<std::string> unwritten_;  ///< what the disk refused, one sentence each
   const std::shared_ptr<ScoreView> score_view_;
   std::optional<Scoreboard> scoreboard_;  ///< once the ledger told the number of points
-  std::vector<InterestPoint> points_;     ///< once it told where they are
+  std::vector<InterestPoint> points_;     ///< once the ledger told where they are
   PointNames names_;
   bus::Inbox inbox_;
   std::unique_ptr<bus::Participant> world_, gcs_;
   std::unique_ptr<bus::Reader> ledger_reader_;
   bus::CountedWriter score_, score_eval_;
   std::unique_ptr<bus::Writer> viz_scored_;
-  bool viz_stale_ = true;  ///< what viewers were shown last is not how it stands
+  bool viz_stale_ = true;  ///< the tally has changed since viewers were last shown it
   Tick viz_due_ = 0;
   bus::LockstepClient client_;
   std::unique_ptr<ViewNode> view_;  ///< none: nobody watches

@@ -1,10 +1,10 @@
-// The station's side of a run that is watched (--view-fd, --view-listen): it serves the page to browsers. What
-// sim_server tells goes to them as it comes; what only the station knows, captures and what became of them, it adds.
-// What browsers ask of the run goes back to sim_server.
+// The station's side of a watched run (--view-fd, --view-listen): it serves the page to browsers. It forwards to them
+// what sim_server sends, and adds what only the station knows: captures and whether they were delivered. It sends the
+// browsers' orders to sim_server.
 //
-// What comes from sim_server is handed on by the bus's own threads and wakes nobody: the station's part in the
-// lock-step takes the same turns whether or not somebody looks on.
-// Threads: one, but for what the bus and the server's thread call.
+// The bus's own threads forward what comes from sim_server and do not wake the station's thread: the station's part in
+// the lock-step takes the same turns whether or not somebody watches.
+// Threads: one, except for callbacks from threads of the bus and of view::Server.
 #pragma once
 
 #include <filesystem>
@@ -23,19 +23,19 @@
 namespace skein::station {
 
 struct ViewOptions {
-  int listener = -1;               ///< a socket that browsers connect to
-  std::string listen;              ///< else NAME:PORT, where the station opens one itself; empty: nobody watches
-  std::vector<std::string> names;  ///< by which browsers may ask for the page, beside those of that socket
-  std::filesystem::path key;       ///< file (view/key.hpp)
-  std::filesystem::path script;    ///< of the page, a file
+  int listener = -1;   ///< descriptor of a socket that browsers connect to; -1: none
+  std::string listen;  ///< NAME:PORT, where the station opens the socket itself, not `listener`; empty: none
+  std::vector<std::string> names;  ///< by which browsers may ask for the page, besides those of the socket's address
+  std::filesystem::path key;       ///< file with the page's key (view/key.hpp)
+  std::filesystem::path script;    ///< file with the page's script
   std::string title;               ///< of the run, for people: "towers by kios"
 };
 
-/// Its page, before anything flies. @throws InputError for what is wrong with the options.
+/// The page, made ready before the run starts. @throws InputError for what is wrong with the options.
 struct ReadyView {
   explicit ReadyView(const ViewOptions& options);
 
-  std::unique_ptr<view::Listener> own;  ///< null: it is the launcher's
+  std::unique_ptr<view::Listener> own;  ///< null: the launcher opened the socket
   int listener;
   view::Key key;
   view::Site site;
@@ -44,14 +44,14 @@ struct ReadyView {
 
 class ViewNode {
  public:
-  /// @param world, inbox  of the station; they must outlive this.
+  /// @param world, inbox  the station's participant in the world domain, and its inbox; they must outlive this.
   ViewNode(const ReadyView& ready, bus::Participant& world, bus::Inbox& inbox);
 
-  /// After each step: what is news of the ledger and the tally.
+  /// Call it in each step: tells browsers what is new in ledger and tally. @param standing  entries that stand.
   void end_step(const Scoreboard& scoreboard, const StepOutcome& outcome, std::uint64_t standing);
-  /// What a journal of an earlier life had in it.
+  /// Tells browsers of deliveries: those of the journal after a restart, or those of a step.
   void add_records(const std::vector<TallyRecord>& records);
-  /// As a process does that is killed.
+  /// Ends at once, as if the process were killed.
   void stop() { server_->stop(); }
 
  private:

@@ -1,5 +1,5 @@
-// One UAV's on-board software as a process: topics in, one step of Agent, topics out. Joins its own domain only.
-// Everything happens on the thread that calls run().
+// One UAV's on-board software as a DDS node: reads topics, executes one step of Agent, writes topics. It joins only the
+// UAV's own DDS domain. Everything happens on the thread that calls run().
 #pragma once
 
 #include <cstdint>
@@ -19,13 +19,13 @@ namespace skein::agent {
 
 class AgentNode final : public MemberNode {
  public:
-  /// @param frames  see Agent. @param by_hand  whether its planner is told what who flies it by hand wants.
+  /// @param frames  see Agent. @param by_hand  whether the node reads commands of a person who flies the UAV by hand.
   AgentNode(const Scenario& scenario, UavIndex uav, std::unique_ptr<Planner> planner, int base_domain, bus::Bus& bus,
             std::shared_ptr<ReadyFrames> frames = nullptr, bool by_hand = false);
 
-  /// Its planner, which is a learner, is stepped from now on. Before it begins. @param desk  must outlive this.
+  /// Lets `desk` step the planner, which must be a learner. Call it before start(). @param desk  must outlive this.
   void step_by(const LearnerDesk& desk) { desk_ = &desk; }
-  /// From now on its maps are kept. Before it begins.
+  /// Writes snapshots of the map that the UAV flies on to `maps`. Call it before start().
   void keep_maps(std::unique_ptr<KeptMaps> maps);
 
   void start() override;
@@ -53,20 +53,19 @@ class AgentNode final : public MemberNode {
   const bool by_hand_;
   const RadioNode radio_;
   Agent agent_;
-  AgentInput input_;  ///< being filled for the step to come
+  AgentInput input_;  ///< inputs of the next step, filled as samples arrive
   AgentOutput output_;
-  std::map<std::uint64_t, msg::CaptureReport> reports_;  ///< that may yet have to be sent, by capture
+  std::map<std::uint64_t, msg::CaptureReport> reports_;  ///< not yet acknowledged, by capture
   std::vector<std::uint64_t> released_;                  ///< acknowledged captures that the camera may forget
   std::unique_ptr<bus::Writer> octomap_, flight_map_, diagnostics_;
   Tick octomap_due_ = 0, flight_map_due_ = 0, diagnostics_due_ = 0;
-  std::uint64_t breaches_told_ = 0;  ///< of the safety filter, with the last diagnostics
+  std::uint64_t breaches_told_ = 0;  ///< the safety filter's breaches in the last diagnostics
   std::uint64_t shown_key_frames_ = 0;
-  /// As it was written to flight_map_.
-  std::optional<MapTree> shown_tree_;
-  std::uint64_t shown_flight_key_frames_ = 0;  ///< where there is no map of beams
-  std::unique_ptr<KeptMaps> kept_maps_;        ///< nullptr: they are not kept
-  const LearnerDesk* desk_ = nullptr;          ///< nullptr: its planner decides by itself
-  bool looked_ = false;                        ///< in this step
+  std::optional<MapTree> shown_tree_;          ///< as last written to flight_map_; nullopt: not written yet
+  std::uint64_t shown_flight_key_frames_ = 0;  ///< the same for a UAV without a world map: number of key frames
+  std::unique_ptr<KeptMaps> kept_maps_;        ///< nullptr: no snapshots
+  const LearnerDesk* desk_ = nullptr;          ///< nullptr: the planner decides by itself
+  bool looked_ = false;                        ///< whether the learner has looked in this step
 };
 
 }  // namespace skein::agent

@@ -10,8 +10,8 @@ namespace skein::agent {
 
 class AgentProgram final : public bus::FleetProgram {
  public:
-  /// @param frames  that the agents of this process have in common; nullptr: there is one.
-  /// @param desk  steps this program's learner; nullptr: nobody can, and a learner is refused.
+  /// @param frames  cache of key frames for the agents of this process; nullptr: the process has one agent.
+  /// @param desk  steps this program's learner; nullptr: planners that are learners are refused.
   explicit AgentProgram(std::shared_ptr<ReadyFrames> frames = nullptr, std::shared_ptr<LearnerDesk> desk = nullptr)
       : frames_(std::move(frames)), desk_(std::move(desk)) {}
   const char* name() const override { return programs::kAgent; }

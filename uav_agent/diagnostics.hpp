@@ -1,5 +1,5 @@
-// What a UAV's on-board software knows of itself, as diagnostic_msgs/msg/DiagnosticArray for ROS 2's tools: four parts,
-// radio, captures, flight and program, and the battery where there is one.   Pure; any thread.
+// The state of a UAV's on-board software as diagnostic_msgs/msg/DiagnosticArray for ROS 2 tools, with the statuses
+// radio, captures, flight and program, and battery if the UAV has one.   Pure; any thread.
 #pragma once
 
 #include <cstdint>
@@ -14,17 +14,17 @@
 namespace skein::agent {
 
 struct DiagnosticFacts {
-  std::string uav;
-  std::uint64_t k = 0;  ///< of the lock-step
+  std::string uav;      ///< name
+  std::uint64_t k = 0;  ///< number of the step
   Tick tick = 0;
   std::optional<double> mission_remaining_s = {};  ///< nullopt before the first take-off
   std::vector<std::string> linked = {};            ///< nodes in line of sight
   std::size_t undelivered = 0;                     ///< captures that the station has not acknowledged
-  std::uint64_t unreadable = 0, unsent = 0;        ///< samples
+  std::uint64_t unreadable = 0, unsent = 0;        ///< samples that could not be read, or not be sent, so far
   double planner_cpu_s = 0.0;                      ///< so far
-  const SafetyFilter::Counts* filter = nullptr;    ///< none: no flight core flies the planner
-  std::uint64_t breaches_told = 0;                 ///< of the filter, with the last message
-  std::string no_way = {};                         ///< why its planner found none in this exchange
+  const SafetyFilter::Counts* filter = nullptr;    ///< nullptr: no flight core flies the UAV
+  std::uint64_t breaches_told = 0;                 ///< filter->broken at the last message
+  std::string no_way = {};                         ///< why no path was found in this exchange; empty: none was missed
   std::optional<BatteryStatus> battery = {};
 };
 

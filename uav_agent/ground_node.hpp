@@ -1,5 +1,6 @@
-// A strategy's program at the ground station as a process (`uav_agent --role gcs`): topics in, one step of it, radio
-// out. Joins the ground station's domain only. Everything happens on the thread that calls run().
+// A strategy's program at the ground station as a DDS node (`uav_agent --role gcs`): reads topics, executes one step of
+// the program, sends its radio messages. It joins only the ground station's DDS domain. Everything happens on the
+// thread that calls run().
 #pragma once
 
 #include <memory>
@@ -23,7 +24,7 @@ class GroundNode final : public MemberNode {
 
   const RadioNode radio_;
   const std::unique_ptr<GroundProgram> program_;
-  GroundInput input_;  ///< being filled for the step to come
+  GroundInput input_;  ///< inputs of the next step, filled as samples arrive
   std::vector<RadioMessage> output_;
 };
 

@@ -1,7 +1,6 @@
-// The map that a UAV flies on, in time: every so often a snapshot of it in a file of its own, maps-<uav>.mcap in the
-// run's folder (docs/results.md). Times are simulated: the same run makes the same file. A program that was killed and
-// started again writes one more part.
-// Each snapshot is in the file when keep() returns. A disk that refuses ends the file, never the run.
+// Snapshots of the map that a UAV flies on, at regular simulated times, in the file maps-<uav>.mcap in the run's folder
+// (docs/results.md). Equal runs write equal files. A restarted program writes another file, with the next number.
+// Each snapshot is in the file when keep() returns. A disk error ends the file, but not the run.
 // Frame W.   Threads: one.   Deterministic.
 #pragma once
 
@@ -18,15 +17,15 @@ namespace skein::agent {
 
 class KeptMaps {
  public:
-  /// Opens nothing yet. @param folder  the run's. @param period  at least 1.
+  /// Opens no file yet. @param folder  of the run. @param period  between snapshots, at least 1.
   KeptMaps(std::filesystem::path folder, std::string uav, Tick period);
 
-  /// After each step: a snapshot where one is due and the map has changed since the last.
-  /// @param world  nullptr: it flies on the map of key frames. The same kind at each call.
+  /// Writes a snapshot if one is due and the map has changed since the last. Call it after each step.
+  /// @param world  the map that the UAV flies on; nullptr at each call: it flies on `key_frames`.
   void keep(Tick tick, const WorldMap* world, const OccupancyMap& key_frames);
-  /// Once, when nothing more will follow: one of the end, changed or not, if there was any step at all.
+  /// Writes a last snapshot, even of an unchanged map, if there was any step, and closes the file. Call it once.
   void end(const WorldMap* world, const OccupancyMap& key_frames);
-  /// What went wrong, for people; empty as long as nothing did.
+  /// Error message for the user; empty: no error.
   const std::string& trouble() const { return trouble_; }
 
  private:
@@ -38,9 +37,9 @@ class KeptMaps {
   const std::string uav_;
   const Tick period_;
   Tick due_ = 0;
-  std::optional<Tick> tick_, written_;  ///< of the last step, and of the last snapshot
-  MapTree tree_;                        ///< of a WorldMap, as of the last snapshot
-  std::uint64_t key_frames_ = 0;        ///< else: how many the last snapshot had
+  std::optional<Tick> tick_, written_;  ///< tick of the last step, and of the last snapshot
+  MapTree tree_;                        ///< the world map, at the last look
+  std::uint64_t key_frames_ = 0;        ///< without a world map: number of key frames at the last look
   std::optional<mcap::Writer> file_;
   std::uint16_t channel_ = 0;
   std::string trouble_;

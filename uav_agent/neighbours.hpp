@@ -1,4 +1,4 @@
-// Neighbours' odometry as the server sends it (CARIC's PointCloud2, one point a node in line of sight).
+// Reads the neighbours' odometry as sim_server sends it: CARIC's PointCloud2, one point for each node in line of sight.
 #pragma once
 
 #include <vector>
@@ -8,12 +8,13 @@
 
 namespace skein::agent {
 
-/// A node as it travels in a point of a cloud; nullopt when the number is none.
+/// Node number from the float field of a cloud's point; nullopt if it is no valid whole number.
 inline std::optional<Node> node_of(float number) {
   const auto node = whole_number(number);
   return node ? std::optional(Node(*node)) : std::nullopt;
 }
 
+/// Positions and velocities in W; the cloud has velocities in the neighbour's body frame.
 inline std::vector<Neighbour> neighbours_of(const msg::PointCloud2& cloud) {
   std::vector<Neighbour> neighbours;
   for (const NeighbourPoint& p : from_cloud<NeighbourPoint>(cloud)) {

@@ -1,4 +1,4 @@
-// Maps as octomap_msgs/msg/Octomap: what an agent shows, and what it keeps.   Pure; any thread.
+// Maps as octomap_msgs/msg/Octomap, for an agent's topics and its files of snapshots.   Pure; any thread.
 #pragma once
 
 #include "core/types.hpp"
@@ -7,7 +7,7 @@
 
 namespace skein::agent {
 
-/// @param bytes  of a tree, as OctoMap serialises it.
+/// @param bytes  an octree in OctoMap's binary serialisation.
 template <class Bytes>
 msg::Octomap octomap_of(const Bytes& bytes, double resolution_m, Tick tick) {
   msg::Octomap message;

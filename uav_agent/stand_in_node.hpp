@@ -1,6 +1,6 @@
-// A UAV's place in the lock-step for ROS 2 nodes that run freely in its domain and know nothing of Skein: what they say
-// on its topics for commands and radio is handed on with the next step, and counted. For runs in real time: no step
-// waits for a node, so the same nodes may fly another flight each time (docs/ros2.md).
+// A UAV's member of the lock-step on behalf of ROS 2 nodes that run freely in the UAV's DDS domain and know nothing of
+// Skein. It relays their messages on the UAV's command and radio topics with the next step, and counts them. For runs
+// in real time: no step waits for the nodes, so the same nodes may fly differently in each run (docs/ros2.md).
 // Everything happens on the thread that drives it.
 #pragma once
 
@@ -16,7 +16,7 @@ namespace skein::agent {
 
 class StandInNode final : public UserNode {
  public:
-  /// @param debug_names  of the values that nodes tell on /<uav>/debug/<name>.
+  /// @param debug_names  names of the values that the nodes publish on /<uav>/debug/<name>.
   StandInNode(const Scenario& scenario, UavIndex uav, int base_domain, bus::Bus& bus,
               const std::vector<std::string>& debug_names);
 
@@ -32,7 +32,7 @@ class StandInNode final : public UserNode {
   const std::string uav_;
   std::vector<Relay> relays_;
   std::vector<std::unique_ptr<bus::Reader>> ears_;
-  bool was_away_ = false;  ///< until its first step after it has come back
+  bool was_away_ = false;  ///< it has rejoined, and has had no step since
 };
 
 }  // namespace skein::agent

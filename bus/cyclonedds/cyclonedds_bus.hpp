@@ -7,7 +7,7 @@
 
 namespace skein::bus {
 
-/// Several buses of one process share a domain; its settings are those of the first that joined.
+/// All buses of a process share each domain that they join; the settings of the first bus to join apply.
 std::unique_ptr<Bus> make_cyclonedds_bus(const BusConfig& config);
 
 }  // namespace skein::bus

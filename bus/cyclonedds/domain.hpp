@@ -1,4 +1,4 @@
-// A domain of Cyclone DDS in this process: its configuration, and its life.
+// A domain of Cyclone DDS in this process: its configuration and its lifetime.
 #pragma once
 
 #include <dds/dds.h>

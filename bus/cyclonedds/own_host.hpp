@@ -1,7 +1,7 @@
-// What a domain of Cyclone DDS hears of the host's networks, and what it reaches.
+// Restricts a domain of Cyclone DDS to this host, or to one of its networks.
 //
-// Cyclone DDS on the loopback interface takes every other address for one that it cannot reach, this host's own ones
-// included, which nodes with default settings announce. Here it learns to reach them.
+// On the loopback interface, Cyclone DDS considers all other addresses unreachable, including the host's own addresses,
+// which nodes with default settings announce. reach_own_host() makes Cyclone DDS use these.
 #pragma once
 
 #include <string>
@@ -10,15 +10,16 @@
 
 namespace skein::bus::cyclonedds {
 
-/// Nothing goes in or out until one of the two below: who announced itself before would be passed over, and for long.
+/// Makes the domain deaf and mute until one of the two functions below is called. Otherwise Cyclone would ignore, for a
+/// long time, a node that announces itself before that call.
 /// @throws std::runtime_error when Cyclone fails
 void await_own_host(dds_entity_t domain);
-/// From here on the domain reaches whoever is on this host by the loopback interface, and nobody else.
+/// From now on the domain reaches all nodes on this host, over the loopback interface, and no other nodes.
 /// @param participant  in that domain. @throws std::runtime_error when Cyclone fails
 void reach_own_host(dds_entity_t domain, dds_entity_t participant);
 
-/// From here on the domain hears what was sent to this address of ours, and not what came by another network: its
-/// sockets are bound to no address. @throws as above
+/// From now on the domain receives only packets to this address of the host. This excludes other networks, because
+/// Cyclone binds its sockets to no address. @throws std::exception when Cyclone or the system fails
 void hear_own_address(dds_entity_t domain, dds_entity_t participant, const std::string& ipv4);
 
 }  // namespace skein::bus::cyclonedds

@@ -1,5 +1,5 @@
-// RTPS messages of one participant put behind each other, so that what goes to one destination leaves as one datagram.
-// RTPS lets any submessages of one participant share a message: those that follow go without their header.
+// Concatenates RTPS messages of one participant, so that messages to the same destination leave in one datagram.
+// RTPS permits any submessages of one participant in one message: appended messages lose their RTPS header.
 // Sizes in bytes.   Threads: one.
 #pragma once
 
@@ -17,15 +17,16 @@ template <class Destination>
 class PackedMessages {
  public:
   static constexpr std::size_t kHeaderSize = 20;  ///< protocol, version, vendor, GUID prefix
-  /// What a message said about its destination must not hold for the one that is put behind it: INFO_DST, to nobody in
-  /// particular.
+  /// INFO_DST submessage without a particular destination: ends the effect that an INFO_DST in the previous message
+  /// would have on the appended one.
   static constexpr std::array<std::uint8_t, 16> kToAnybody = {0x0e, 0x01, 12, 0};
 
-  /// @param largest  datagram. A message that is larger goes alone.
+  /// @param largest  largest datagram. A larger message is sent alone.
   explicit PackedMessages(std::size_t largest) : largest_(largest) {}
 
-  /// Sends what waits for the destination if this does not fit behind it: too much, or of another participant.
-  /// @param parts  of the message, iov_base and iov_len; the first holds its header.
+  /// Appends a message to those that wait for the destination. Sends these first if the message does not fit (the
+  /// datagram would be too large, or they are of another participant).
+  /// @param parts  parts of the message (iov_base, iov_len); the first contains the RTPS header.
   /// @param send  is called as send(destination, bytes).
   template <class Part, class Send>
   void add(const Destination& destination, std::span<const Part> parts, const Send& send) {
@@ -61,7 +62,7 @@ class PackedMessages {
 
   template <class Part>
   bool fits(const std::vector<std::uint8_t>& bytes, const Part& first, std::size_t size) const {
-    // Another participant of this process in the same domain has another header.
+    // Messages of another participant of this process in the same domain have another RTPS header.
     return bytes.size() + kToAnybody.size() + size - kHeaderSize <= largest_ && first.iov_len >= kHeaderSize &&
            std::equal(bytes.begin(), bytes.begin() + kHeaderSize, static_cast<const std::uint8_t*>(first.iov_base));
   }
@@ -72,7 +73,7 @@ class PackedMessages {
   }
 
   const std::size_t largest_;
-  std::vector<Datagram> datagrams_;  ///< emptied, not erased: destinations are few and stay
+  std::vector<Datagram> datagrams_;  ///< by destination; emptied, not erased, since destinations are few and recur
 };
 
 }  // namespace skein::bus::cyclonedds

@@ -1,10 +1,10 @@
-// Fewer datagrams: what one thread writes in a row to one destination leaves as one RTPS message.
-// Cyclone DDS 0.10 packs the samples of one writer only, and in lock-step each writer has one sample a step; sending,
-// receiving and waking the receiver's thread for each of them is what a step costs most. Every vendor can read the
-// result.
+// Reduces the number of datagrams: samples that one thread writes in succession to one destination leave as one RTPS
+// message. Cyclone DDS 0.10 packs only samples of the same writer, and in lock-step each writer has about one sample
+// per step. Most of the cost of a step is sending and receiving each datagram and waking the receiver's thread for it.
+// All vendors can read the combined messages.
 #pragma once
 
-// Before all other headers of Cyclone, see there.
+// Before all other headers of Cyclone; raw_sertype.hpp says why.
 #include "bus/cyclonedds/raw_sertype.hpp"
 
 #include <dds/ddsi/ddsi_locator.h>
@@ -19,21 +19,21 @@
 
 namespace skein::bus::cyclonedds {
 
-/// Of one participant. Stands between Cyclone and the sockets of its domain.
+/// Packs the messages of one participant. Intercepts Cyclone's writes to the sockets of the participant's domain.
 class Packing {
  public:
-  /// @param largest  datagram, in bytes
+  /// @param largest  largest datagram, in bytes
   explicit Packing(std::size_t largest) : messages_(largest) {}
   ~Packing() { release(); }
   Packing(const Packing&) = delete;
   Packing& operator=(const Packing&) = delete;
 
-  /// Before the first hold().
-  /// @param type  registered in the participant's domain; all domains of a process may be given.
+  /// Replaces the write function of the domain's UDP sockets. Call it before the first hold().
+  /// @param type  a type that is registered in the participant's domain
   void install(const ddsi_sertype* type);
-  /// From now on, what this thread writes to the domain waits for release().
+  /// From now on, messages that this thread writes to the domain wait for release().
   void hold();
-  /// Sends what waits; on the thread that called hold(). Without hold() it does nothing.
+  /// Sends the waiting messages. Call it on the thread that called hold(). Without hold() it does nothing.
   void release();
 
  private:

@@ -1,5 +1,5 @@
-// A Cyclone DDS type whose samples are opaque CDR: Cyclone moves the bytes and never looks at them, so that one
-// binary carries types that it was not compiled for. Keyless, XCDR1.
+// A Cyclone DDS type whose samples are already serialised (CDR, XCDR1 encoding). Cyclone transports these bytes and
+// never interprets them, so a program can carry message types that it was not compiled with. The type has no key.
 #pragma once
 
 // dds.h comes first: it defines what the structs of the other headers depend on.
@@ -13,10 +13,10 @@
 
 namespace skein::bus::cyclonedds {
 
-/// @returns a new type with one reference, which dds_create_topic_sertype takes over when it succeeds.
+/// @returns a new type with one reference, of which dds_create_topic_sertype takes ownership if it succeeds.
 ddsi_sertype* make_raw_sertype(const std::string& type_name);
 
-/// A sample to write, with one reference, which dds_writecdr takes over.
+/// Creates a sample to write, with one reference, of which dds_writecdr takes ownership.
 /// @param payload with encapsulation header; padded with zeros to a multiple of four bytes
 ddsi_serdata* make_raw_sample(const ddsi_sertype* type, std::span<const std::uint8_t> payload);
 

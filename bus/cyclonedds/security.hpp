@@ -9,16 +9,15 @@
 namespace skein::bus::cyclonedds {
 
 /// Adds <Security> to a domain's configuration.
-/// @param folder  of process/files/security_files.hpp
+/// @param folder  folder with the files of process/files/security_files.hpp
 /// @throws InputError when Cyclone's plugins are not installed; it names the Debian package.
 void add_security(pugi::xml_node domain, const std::filesystem::path& folder);
 
-/// From now on Cyclone's warnings and errors go through log_refusal(), those of all domains of this process.
+/// From now on, log_refusal() logs Cyclone's warnings and errors of all domains of this process.
 void log_refusals();
 
-/// Says so in the program's log when somebody without a certificate comes to the domain, whom Cyclone ignores in
-/// silence.
-/// @param participant  of this process in `domain`; its end is the end of it
+/// Logs a message when a participant without a certificate appears in the domain; Cyclone itself ignores it silently.
+/// @param participant  of this process in `domain`; the watch ends when it is deleted
 void watch_strangers(int domain, dds_entity_t participant);
 
 }  // namespace skein::bus::cyclonedds

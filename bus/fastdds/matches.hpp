@@ -1,4 +1,4 @@
-// The endpoints that one endpoint has matched, by what Fast DDS tells its listener. Any thread.
+// The remote endpoints that one endpoint has matched, as reported by Fast DDS to the endpoint's listener. Any thread.
 #pragma once
 
 #include <fastdds/rtps/common/Guid.h>
@@ -22,17 +22,18 @@ inline ParticipantId id_of(const GuidPrefix_t& prefix) {
   return participant_id(std::span<const std::uint8_t, 12>(prefix.value, 12));
 }
 
-/// Cyclone DDS: its GUIDs begin with its vendor id, 1.16.
+/// Whether a participant is one of Cyclone DDS: its GUIDs begin with Cyclone's vendor id, 1.16.
 inline bool is_cyclone(const GuidPrefix_t& prefix) { return prefix.value[0] == 1 && prefix.value[1] == 16; }
 
 class Matches {
  public:
-  /// @param own  Fast DDS matches endpoints of one participant, too; these do not count.
+  /// @param own  GUID prefix of the own participant. Fast DDS also matches endpoints within one participant; these are
+  /// ignored.
   explicit Matches(const GuidPrefix_t& own) : own_(own) {}
 
   void begin(const GUID_t& endpoint) {
     const std::scoped_lock lock(mutex_);
-    ended_.erase(endpoint);  // it was cut off and is back
+    ended_.erase(endpoint);  // the connection was cut, and the endpoint is back
     add(endpoint);
   }
   void end(const GUID_t& endpoint) {
@@ -40,14 +41,14 @@ class Matches {
     participants_.erase(endpoint);
     ended_.insert(endpoint);
   }
-  /// A sample of it is here. Fast DDS hands samples out from one thread and tells of matches from another one, so the
-  /// first sample may come before the match, and the last one after its end.
+  /// Call this when a sample of an endpoint has arrived. Fast DDS delivers samples and reports matches in different
+  /// threads, so the first sample may arrive before the match is reported, and the last one after its end.
   void note_sample(const GUID_t& endpoint) {
     const std::scoped_lock lock(mutex_);
     if (!participants_.contains(endpoint) && !ended_.contains(endpoint)) add(endpoint);
   }
 
-  /// One entry an endpoint.
+  /// Participants of the matched endpoints, one entry per endpoint.
   std::vector<ParticipantId> participants() const {
     const std::scoped_lock lock(mutex_);
     std::vector<ParticipantId> ids;
@@ -58,7 +59,7 @@ class Matches {
     const std::scoped_lock lock(mutex_);
     return participants_.empty();
   }
-  /// Whether Cyclone DDS is among them.
+  /// Whether any matched endpoint is one of Cyclone DDS.
   bool any_cyclone() const {
     const std::scoped_lock lock(mutex_);
     return std::any_of(participants_.begin(), participants_.end(),

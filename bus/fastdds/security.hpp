@@ -8,14 +8,14 @@
 
 namespace skein::bus::fastdds {
 
-/// Of a participant. @param folder  of process/files/security_files.hpp
+/// Security properties of a participant. @param folder  folder with the files of process/files/security_files.hpp
 eprosima::fastrtps::rtps::PropertyPolicy security_properties(const std::filesystem::path& folder);
 
-/// From now on Fast DDS's warnings and errors go through log_refusal(), those of all participants of this process.
+/// From now on, log_refusal() logs Fast DDS's warnings and errors of all participants of this process.
 void log_refusals();
 
-/// Says so in the program's log when somebody without a certificate comes to the domain, whom Fast DDS ignores in
-/// silence. Of one participant, which it must outlive.
+/// Listener of one participant, which it must outlive. Logs a message when a participant without a certificate appears
+/// in the domain; Fast DDS itself ignores it silently.
 class StrangerWatch : public eprosima::fastdds::dds::DomainParticipantListener {
  public:
   void on_participant_discovery(eprosima::fastdds::dds::DomainParticipant* participant,

@@ -1,4 +1,4 @@
-// How Skein sets up Fast DDS.
+// Skein's QoS settings for Fast DDS.
 #pragma once
 
 #include <fastdds/dds/domain/qos/DomainParticipantQos.hpp>
@@ -11,7 +11,7 @@
 namespace skein::bus::fastdds {
 
 eprosima::fastdds::dds::DomainParticipantQos participant_qos(int domain, const BusConfig& config, const Reach& reach);
-/// @param one_host  nobody else's network is in between
+/// @param one_host  all readers and writers are on this host
 eprosima::fastdds::dds::DataWriterQos writer_qos(const Qos& qos, bool one_host);
 eprosima::fastdds::dds::DataReaderQos reader_qos(const Qos& qos);
 

@@ -1,6 +1,6 @@
-// A participant's side of the lock-step (docs/lockstep.md): hello, matched, ready; then step after step
-// "all that was announced is here" -> think -> done. Built from events, so that a test can drive every order of them.
-// Threads: all calls from the thread that dispatches the inbox.
+// A member's side of the lock-step (docs/lockstep.md). It joins (hello, matching, ready), then in each step: wait for
+// all announced samples -> think -> done. "Think" means that the program computes its answer to a step. Event-driven,
+// so that a test can try all orders of events.   Threads: all calls from the thread that dispatches the inbox.
 #pragma once
 
 #include <map>
@@ -18,83 +18,86 @@ class LockstepClient {
   enum class Event {
     none,     ///< nothing to do yet
     think,    ///< step() is complete, handlers have run: think, write, then call done()
-    dropped,  ///< the server goes on without us
-    resumed,  ///< a fault stopped us and is over: join again, with a new participant and a new client
+    dropped,  ///< the server has removed this member and continues without it
+    resumed,  ///< a fault that stopped this program is over: join again, with a new participant and a new client
   };
-  /// What a fault file does to this program (docs/lockstep.md).
+  /// The server's order to this program because of a fault (docs/lockstep.md).
   enum class Order { kill, stop };
 
   /// @param member  UAV name, "gcs", "station" or "comm_router".
   LockstepClient(Participant& participant, Inbox& inbox, std::string member);
 
-  /// Declarations, before start(). Handlers run inside poll(), in an order that depends on nothing but
-  /// the announcement.
+  /// Declares a topic to read; call it before start(). Handlers run inside poll(), in an order that depends only on the
+  /// server's announcement.
   void read(const TopicSpec& topic, Counterpart counterpart, CountedQueues::Handler handler);
-  /// The same for messages: `handler` gets (message); what is no Message is dropped and counted (typed.hpp).
+  /// The same for messages: `handler` gets (message); invalid samples are dropped and counted (typed.hpp).
   template <WireMessage Message, class Handler>
   void read(const TopicSpec& topic, Counterpart counterpart, Handler handler) {
     read(topic, counterpart, decoding<Message>(inbox_, topic.name, std::move(handler)));
   }
-  /// The writer exists once the server has invited us: use write() below from the first think on.
+  /// Declares a topic to write; call it before start(). The writer exists once the server has invited this program: use
+  /// write() below from the first think on.
   void declare_writer(const TopicSpec& topic, Counterpart counterpart);
 
-  /// Radio topics that are registered with the router while the run lasts (radio_topics.hpp tells when to call these).
-  /// A writer, from now on, unless there is one; what it sends counts once it is open.
+  /// For radio topics that are registered with the router during the run; only RadioTopics (radio_topics.hpp) calls
+  /// these. Creates a writer, unless the topic has one. The router does not match it before open_radio_writer().
   void add_radio_writer(const TopicSpec& topic);
-  /// The router hears it: the present step is not thought about before it is matched. Inside a handler.
+  /// Call it in a handler, when the router has opened the topic: the current step waits until the router has matched
+  /// the writer.
   void open_radio_writer(const std::string& topic);
-  /// A reader of what arrives from the next step on; the present one is not thought about before it is matched. Inside
-  /// a handler.
+  /// Creates a reader for messages from the next step on. Call it in a handler: the current step waits until the router
+  /// has matched the reader.
   void open_radio_reader(const TopicSpec& topic, CountedQueues::Handler handler);
 
-  /// Says hello; poll() does the rest.
+  /// Sends the hello; poll() continues from there.
   void start();
   /// Call after every dispatch of the inbox.
   Event poll();
   /// The step that poll() announced.
   const Step& step() const { return *step_; }
 
-  /// Sends on a declared topic. @returns false when the step's share of its history is used up (not sent).
+  /// Sends on a declared topic. @returns false, without sending, when this step has used up the topic's history depth,
+  /// or when the router of a radio topic is away. @throws std::logic_error for a topic that was not declared.
   bool write(const std::string& topic, std::span<const std::uint8_t> payload);
   template <WireMessage Message>
   bool write(const std::string& topic, const Message& message) {
     return write(topic, encode(message));
   }
-  /// Ends our part in step(). @param digest  station: hash of the tally changes.
+  /// Answers step(): sends Done. @param digest  only from the station: hash of the tally changes.
   void done(const std::vector<std::uint8_t>& digest = {});
 
-  /// True from the first step on in which we are a member.
+  /// True from the first step on in which this program is a member.
   bool is_member() const { return phase_ == Phase::member; }
-  /// True once it has said what it reads and writes: the server and it have matched each other's topics.
+  /// True once the client has sent its declaration (topics that it reads and writes): then it has matched the server.
   bool has_declared() const { return phase_ >= Phase::declared; }
-  /// True as long as the server's step writer is there (whoever's, before we are invited): after the last step, stay
-  /// until it has gone.
+  /// True while the server's step writer is matched (before the invitation: any step writer). After the last step, a
+  /// program must stay until this is false.
   bool server_present() const;
-  /// The run that we take part in.
+  /// The run to which this program belongs.
   RunId run() const { return inbox_.run(); }
-  /// Our participant.
+  /// This program's participant.
   ParticipantId id() const { return participant_.id(); }
-  /// Who the server and the router are; 0 when unknown or absent.
+  /// Participants of the server and of the router; 0 when unknown or absent.
   ParticipantId server() const { return server_; }
   ParticipantId router() const { return router_; }
-  /// Counts that the server told us at the invitation (the router needs its members').
+  /// Counts that came with the server's invitation (the router needs those of its members).
   const std::vector<CountedQueues::Expected>& base() const { return base_; }
-  /// A further condition that must hold before the declaration goes out (the router: its other endpoints).
+  /// Sets a further condition for sending the declaration (the router: its other endpoints).
   void declare_when(std::function<bool()> condition) { declare_condition_ = std::move(condition); }
-  /// A further condition that must hold before a step is thought about (the station: the ledger).
+  /// Sets a further condition for Event::think (the station: the ledger has arrived).
   void think_when(std::function<bool(const Step&)> condition) { think_condition_ = std::move(condition); }
-  /// How an order is carried out: by raising SIGKILL or SIGSTOP on this process, unless a test does otherwise.
+  /// Sets how an order is executed. Default: by kill_ourselves() or stop_ourselves() (self_signal.hpp).
   void obey_with(std::function<void(Order)> obey) { obey_ = std::move(obey); }
-  /// What is done before an order is carried out: the last chance to write something down.
+  /// Sets a function that is called before an order is executed: the last chance to save something.
   void before_obeying(std::function<void()> prepare) { before_obeying_ = std::move(prepare); }
-  /// True while it waits for matches, which no sample announces: poll often.
+  /// True while the client waits for matches. No sample announces these, so call poll() often.
   bool waits_for_matches() const;
-  /// For Inbox::dispatch(): how many rings there must be before poll() can do more than it did.
+  /// For Inbox::dispatch(): the number of ringing samples before which poll() cannot make progress.
   std::size_t rings() const { return phase_ == Phase::member && !pending_ && !handed_out_ ? 1 : 0; }
-  /// What is to be done when the server tells the last answered step again (its answer may be lost); by default Done is
-  /// said again.
+  /// Sets the reaction when the server repeats a step that was answered already (the answer may be lost). Default: send
+  /// Done again.
   void answer_again_with(std::function<void()> answer) { answer_again_ = std::move(answer); }
-  /// What it waits for, for a human.
+  /// What the client waits for, for people.
   std::string waiting_for() const;
 
  private:
@@ -102,14 +105,14 @@ class LockstepClient {
     TopicSpec topic;
     Counterpart counterpart;
     std::unique_ptr<Reader> reader;
-    bool registered = false;  ///< not declared at the start
+    bool registered = false;  ///< radio topic that was registered during the run, not declared before start()
   };
   struct Writing {
     TopicSpec topic;
     Counterpart counterpart;
     std::unique_ptr<CountedWriter> writer;
     bool registered = false;
-    bool open = true;  ///< its counterpart is to match it
+    bool open = true;  ///< the counterpart must have matched it before Event::think
   };
   enum class Phase { created, hello, matching, declared, member, ordered, stopped, dropped };
 
@@ -127,23 +130,23 @@ class LockstepClient {
   std::string member_;
   Phase phase_ = Phase::created;
   ParticipantId server_ = 0, router_ = 0;
-  ParticipantId matched_router_ = 0;  ///< found once, there is no need to look again at every step
+  ParticipantId matched_router_ = 0;  ///< router that has matched all topics; avoids a check in every step
   std::vector<Reading> readings_;
   std::vector<Writing> writings_;
   CountedQueues queues_;
   std::vector<CountedQueues::Expected> base_;
-  std::map<std::string, std::uint64_t> delivered_;  ///< by the present router, by topic, whether we read it or not
+  std::map<std::string, std::uint64_t> delivered_;  ///< samples from the current router, by topic, read or not
   std::function<bool()> declare_condition_;
   std::function<bool(const Step&)> think_condition_;
   std::function<void(Order)> obey_;
   std::function<void()> before_obeying_;
   std::function<void()> answer_again_;
   std::optional<msg::Done> last_done_;
-  Order order_ = Order::kill;  ///< in phase `ordered`
+  Order order_ = Order::kill;  ///< valid in phase `ordered`
   std::unique_ptr<CountedWriter> ready_, done_;
   std::unique_ptr<Reader> resync_reader_, step_reader_;
   std::optional<Step> pending_, step_;
-  bool handed_out_ = false;  ///< the handlers have run for step(), which still waits for what they opened to match
+  bool handed_out_ = false;  ///< step()'s handlers have run, but radio topics that they opened are not matched yet
 };
 
 }  // namespace skein::bus

@@ -1,4 +1,4 @@
-// Base of every program except the server: a client of the lock-step that thinks about each step, and answers it.
+// Base class of the nodes of all programs except sim_server: a lock-step client that computes and answers each step.
 #pragma once
 
 #include "bus/lockstep/client.hpp"
@@ -15,7 +15,7 @@ class ClientNode : public LockstepNode {
   void turn(bool arrived) override;
   std::optional<NodeEnd> end() const override { return end_; }
   Rest rest() override;
-  /// Whether the run ended before this program could join: then it has nothing to report. What it did before a restart
+  /// Whether the run ended before this program could join. Then it must not report: after a restart, what it did before
   /// is in its records.
   bool came_too_late() const { return end_ == NodeEnd::finished && !was_member_; }
   /// What the program waits for, for people.
@@ -24,18 +24,18 @@ class ClientNode : public LockstepNode {
  protected:
   virtual LockstepClient& client() = 0;
 
-  /// Thinks about client().step(), writes, and calls client().done(); the router calls it later, from serve().
+  /// Computes client().step(), writes, and calls client().done(). (The router calls done() later, from serve().)
   virtual void think() = 0;
-  /// A step has arrived completely. @returns whether it is time for think(); else turn() asks again next time.
+  /// Called in each turn after a step is complete, until it returns true; then turn() calls think().
   virtual bool may_think() { return true; }
   /// Runs in every turn. @returns true while the node waits for something that no sample announces (a match).
   virtual bool serve() { return false; }
-  /// For Inbox::dispatch(), while the node waits for nothing else.
+  /// Number of rings for Inbox::dispatch(), while the node waits only for samples.
   virtual std::size_t rings() { return client().rings(); }
   /// Whether the node has answered the last step.
   virtual bool answered_last() const = 0;
-  /// A fault had stopped this node and is over. @returns true if start() can join again, with a new participant and a
-  /// new client; false if only a new node can.
+  /// Called when a fault that stopped this node is over. @returns true if the node has a new participant and a new
+  /// client, so that start() can join again; false if only a new node can join.
   virtual bool rejoin() { return false; }
   /// After this time without a step, the log says what the node waits for; again after twice the time, and so on.
   virtual std::chrono::milliseconds first_word() const { return WaitNotice::kFirst; }
@@ -46,12 +46,12 @@ class ClientNode : public LockstepNode {
 
   std::optional<NodeEnd> end_;
   WaitNotice wait_{WaitNotice::Clock::now()};
-  std::optional<Patience> leaving_;  ///< since the node answered the last step
+  std::optional<Patience> leaving_;  ///< set once the node has answered the last step: limit of the wait until it ends
   double patience_with_server_s_ = 0.0;
   Patience until_server_{0.0};
   bool was_member_ = false, met_server_ = false;
   bool thinking_ = false;  ///< a step is here, but may_think() has not returned true yet
-  bool serving_ = true;    ///< waits for what no sample announces
+  bool serving_ = true;    ///< the node waits for something that no sample announces
 };
 
 }  // namespace skein::bus

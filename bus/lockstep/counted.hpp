@@ -1,5 +1,5 @@
-// The counting on which lock-step rests: writers that count what they sent, queues that hand out exactly what was
-// announced, in the order in which it was announced, whatever the order of arrival.
+// The counting on which the lock-step is based: writers count the samples that they send; queues pass on exactly the
+// announced samples, in the announced order, independent of the order of arrival.
 // Threads: none of this is shared; all calls from the thread that dispatches the inbox.
 #pragma once
 
@@ -25,37 +25,37 @@ concept WireMessage = requires {
   TypeName<T>::kValue;
 };
 
-/// "So many samples of this topic has this participant written": what announces are made of.
+/// An announcement: the number of samples that a participant has written on a topic.
 msg::TopicCount topic_count(const std::string& topic, ParticipantId source, std::uint64_t count);
 
 /// True when `who` is among the participants that an endpoint has matched.
 bool contains(const std::vector<ParticipantId>& matched, ParticipantId who);
 
-/// A writer that counts its samples since it was made, and refuses more in one step than its history can hold:
-/// beyond that a reader might lose one, and the count would never come out.
+/// A writer that counts its samples since its creation. In one step it sends no more samples than its history depth:
+/// otherwise a reader could lose one, and would wait for the announced count for ever.
 class CountedWriter {
  public:
-  /// @param ear  hears what is written.
+  /// @param ear  receives a copy of each written sample.
   CountedWriter(Participant& participant, TopicSpec topic, Ear ear = {});
 
-  /// @returns false when this step's share of the history is used up; the sample is not sent then, and counted by the
-  /// participant's unsent().
+  /// @returns false when this step has used up the history depth. Then the sample is not sent, and the participant's
+  /// unsent() counts it.
   bool write(std::span<const std::uint8_t> payload);
   template <WireMessage Message>
   bool write(const Message& message) {
     return write(encode(message));
   }
-  /// Counts a sample that nobody reads without the cost of building it; see is_wanted().
+  /// Counts a sample without sending it, which saves building a sample that has no readers; see is_wanted().
   void skip() { ++count_; }
 
   bool has_readers() const { return writer_->has_readers(); }
-  /// Somebody reads it, or it is recorded all the same.
+  /// Whether samples must be built: the topic has readers, or it is recorded also without readers.
   bool is_wanted() const { return ear_.also_unread || has_readers(); }
   bool matches(ParticipantId who) const { return contains(writer_->matched(), who); }
   std::uint64_t count() const { return count_; }
   const std::string& topic() const { return topic_.name; }
   bool latched() const { return topic_.qos.latched; }
-  /// A new step: the history has room again.
+  /// Begins a new step, in which the whole history depth is available again.
   void begin_step() { step_start_ = count_; }
 
  private:
@@ -66,7 +66,7 @@ class CountedWriter {
   std::uint64_t count_ = 0, step_start_ = 0;
 };
 
-/// Samples of some topics, kept apart by writer until they are called for.
+/// Queues of samples, by topic and writer, which wait for release().
 class CountedQueues {
  public:
   using Handler = std::function<void(Sample&&)>;
@@ -78,23 +78,25 @@ class CountedQueues {
 
   void add_topic(const std::string& topic, Handler handler);
   void remove_topic(const std::string& topic);
-  /// The writer had already sent `count` samples when we began to listen.
+  /// Sets the initial count: the writer had already sent `count` samples when reading began.
   void set_base(const std::string& topic, ParticipantId source, std::uint64_t count);
   void arrive(const std::string& topic, Sample&& sample);
-  /// What must have arrived; topics that were never added are left out. Replaces the former expectation.
+  /// Sets the expected counts, instead of the previous ones; ignores topics that were not added.
   void expect(const std::vector<Expected>& expected);
+  /// Whether all expected samples have arrived.
   bool complete() const;
-  /// Runs the handlers for all that is expected and not yet handed out, in the order of expect(), then of writing.
+  /// Runs the handlers of all expected samples that are still queued: in the order of the entries in expect(), within
+  /// an entry in the order of writing.
   void release();
-  /// Forgets a source: what it sent, and what is expected of it.
+  /// Removes a source: its queued samples and its expected counts.
   void discard(ParticipantId source);
   struct Surplus {
     std::string topic;
     std::uint64_t announced = 0, arrived = 0;  ///< cumulative, since the source joined
   };
-  /// Where more has arrived from a source than is expected of it; the first such topic.
+  /// The first topic on which more samples have arrived from a source than expected; nullopt: none.
   std::optional<Surplus> surplus(ParticipantId source) const;
-  /// What is still missing of all sources, or of one, for a human: "rt/x 3 of 4".
+  /// The missing samples of all sources, or of one, as texts for people: "rt/x 3 of 4".
   std::vector<std::string> missing(std::optional<ParticipantId> source = std::nullopt) const;
 
  private:

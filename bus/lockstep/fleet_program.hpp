@@ -1,5 +1,5 @@
-// One of a fleet's programs: what its main() runs in a process of its own, and what a process that is home to the whole
-// fleet (one_process/) makes of the same command line.
+// Interface of a fleet's programs. The same classes run in a process of their own, started by main(), or together with
+// the whole fleet in one process (one_process/), with the same command lines.
 #pragma once
 
 #include <memory>
@@ -13,8 +13,8 @@
 
 namespace skein::bus {
 
-/// A program at work: its node, and what it does when that has ended.
-/// Threads: one, but for on_stop() and obey(), which only one at a time may call, and not beside ended().
+/// A running program: its node, and its actions when the node ends.
+/// Threads: one, except for on_stop() and obey(), which other threads may call: one call at a time, not during ended().
 class FleetMember {
  public:
   FleetMember() = default;
@@ -22,41 +22,43 @@ class FleetMember {
   FleetMember(const FleetMember&) = delete;
   FleetMember& operator=(const FleetMember&) = delete;
 
-  /// Not yet started. Another one after each ended() that returns nullopt.
+  /// The current node. It is new, and not yet started, at first and after each ended() that returns nullopt.
   virtual LockstepNode& node() = 0;
-  /// All that it has on the bus.
+  /// The bus of all of the program's participants.
   virtual Bus& bus() = 0;
-  /// Its node has ended so.
+  /// Called when the node has ended.
   /// @returns the program's exit code, once its report is handed in; nullopt: there is a new node.
   virtual std::optional<int> ended(NodeEnd end) = 0;
 
-  /// Whether a program that is asked to end gets no more turns. Else it takes those in which it comes to its end.
+  /// True: the program gets no more turns once it is asked to end. False: it gets turns until its node ends.
   virtual bool stops_at_once() const { return true; }
-  /// It is asked to end.
+  /// Called when the program is asked to end.
   virtual void on_stop() { node().inbox().wake(); }
-  /// It is killed, and its memory is kept: of all that others see of it nothing stays. Only one_process/ does that.
+  /// Simulates SIGKILL without freeing the program's memory: its participants disappear for all others. Only
+  /// one_process/ calls it.
   virtual void vanish() { bus().vanish(); }
-  /// Whether its turns, one at a time, may be on any thread and beside those of other programs: it shares nothing with
-  /// them but the bus. Only one_process/ asks.
+  /// Whether the program shares nothing with others but the bus, so that its turns (one at a time) may run on any
+  /// thread, in parallel with other programs' turns. Only one_process/ calls it.
   virtual bool flies_beside() const { return false; }
-  /// A line of the launcher's (process/status/status_lines.hpp).
+  /// Called with each line from the launcher (process/status/status_lines.hpp).
   virtual void obey(const std::string& /*line*/) {}
 };
 
-/// What a program is before it is at work.
+/// A program before it runs: its name and options.
 class FleetProgram {
  public:
   virtual ~FleetProgram() = default;
   virtual const char* name() const = 0;
   virtual void add_options(CLI::App& app) = 0;
-  /// Once, after the options are read. @param status  must outlive the member.
-  /// @returns the program at work; or an exit code, after it has done what else its options asked for (--check).
-  /// @throws InputError for what is wrong in its input.
+  /// Called once, after the options are parsed. @param status  must outlive the member.
+  /// @returns the running program; or an exit code, if the options ask for something else (--check), which is then
+  /// done.
+  /// @throws InputError if the input is wrong.
   virtual std::variant<int, std::unique_ptr<FleetMember>> prepare(const ProgramOptions& options,
                                                                   StatusPipe& status) = 0;
 };
 
-/// All of a main(): see run_program() (process/program.hpp).
+/// Implements main() for a program in a process of its own: see run_program() (process/program.hpp).
 int run_fleet_program(FleetProgram& program, int argc, const char* const* argv);
 
 }  // namespace skein::bus

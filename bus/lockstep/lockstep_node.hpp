@@ -1,6 +1,6 @@
-// The seam of all programs of a fleet: whoever drives a node gives it turns, and nothing else makes it work. A program
-// of its own sleeps between them (run_node()); a test, or a process that is home to a whole fleet, gives each node its
-// turn with poll().   Threads: one.
+// Interface of the nodes of all programs of a fleet. A node works only in turns that its caller gives it: run_node() in
+// a process of its own, which sleeps between turns; a test, or a process with a whole fleet, calls poll() on each node.
+// Threads: one.
 #pragma once
 
 #include <chrono>
@@ -16,38 +16,40 @@ namespace skein::bus {
 
 /// How a node's part in a run ended.
 enum class NodeEnd {
-  finished,     ///< the last step is answered, the server has gone; of the server: the run is over
-  stopped,      ///< asked to stop
-  server_gone,  ///< the server vanished in the middle of the run
-  dropped,      ///< the server went on without us
-  resumed,      ///< a fault stopped us and is over: go on with a new node
+  finished,     ///< client: it has answered the last step, and the server has left; server: the run is over
+  stopped,      ///< the program was asked to stop
+  server_gone,  ///< the server disappeared during the run
+  dropped,      ///< the server removed this member and continued without it
+  resumed,      ///< a fault that stopped the program is over: continue with a new node
 };
 
 class LockstepNode {
  public:
   virtual ~LockstepNode() = default;
 
-  /// Before start(): a client that has met no server after so long ends, as after a run. 0: it waits for ever.
+  /// Call it before start(). A client that has found no server after this time ends with NodeEnd::finished. 0: no
+  /// limit.
   virtual void give_up_after(double /*seconds*/) {}
-  /// Begins to look for the others. Once, before any turn.
+  /// Starts to look for the other programs. Call it once, before any turn.
   virtual void start() = 0;
   /// One turn after Inbox::dispatch(): does all that is possible with what has arrived, and never waits.
   /// @param arrived  what dispatch() returned.
   virtual void turn(bool arrived) = 0;
-  /// nullopt while it goes on.
+  /// How the node ended; nullopt while it runs.
   virtual std::optional<NodeEnd> end() const = 0;
   virtual Inbox& inbox() = 0;
 
-  /// How long it can be left alone.
+  /// How long the caller may wait before the next turn.
   struct Rest {
     std::chrono::milliseconds longest{0};
     std::size_t rings = 0;  ///< for Inbox::dispatch()
     bool until_rung =
-        true;  ///< until then nothing can happen; else it waits for what no sample announces, such as a match
+        true;  ///< true: it can do nothing before these rings; false: it waits for an event without a sample (a match)
   };
   virtual Rest rest() = 0;
 
-  /// Its turn, unless it sleeps. It does not look at the time: a fleet that needs a time-out to go on stands still.
+  /// Gives the node a turn, unless it can only wait for samples that have not arrived. It ignores Rest::longest, so a
+  /// fleet that can continue only after a time-out makes no progress.
   void poll() {
     const Rest now = rest();
     if (end() || (now.until_rung && !inbox().ready(now.rings))) return;
@@ -55,12 +57,12 @@ class LockstepNode {
   }
 };
 
-/// Starts a node and gives it turns on this thread until it ends, asleep between them.
-/// @param stop  asked between turns; inbox().wake() makes it look at once. null: nobody stops it.
-/// @param on_turn  called before each.
+/// Starts a node and gives it turns on this thread until it ends; sleeps between turns.
+/// @param stop  checked between turns; inbox().wake() ends the sleep. nullptr: the node runs to its own end.
+/// @param on_turn  called before each turn.
 NodeEnd run_node(LockstepNode& node, const StopSignal* stop = nullptr, const std::function<void()>& on_turn = {});
 
-/// Exit code of a program whose node ended so; logs why when that is not a good end.
+/// Exit code of a program whose node ended in this way; logs the reason of a failure.
 int exit_code(NodeEnd end, const std::string& member);
 
 }  // namespace skein::bus

@@ -1,5 +1,5 @@
-// Names under which programs take part in the lock-step; a UAV's agent has the UAV's name, a user's program at the
-// ground station that of its node, "gcs".
+// Member names of programs in the lock-step. The name of an agent is that of its UAV; the name of a user's program at
+// the ground station is that of its radio node, "gcs".
 #pragma once
 
 #include <string_view>
@@ -15,16 +15,17 @@ inline constexpr std::string_view kStationName = topics::kStationMember;
 static_assert(kStationName == programs::kStation);
 inline constexpr std::string_view kGcsName = "gcs";
 
-/// Orders in a Step.
+/// Values of an order in a Step.
 inline constexpr std::string_view kOrderKill = "kill";
 inline constexpr std::string_view kOrderStop = "stop";
 
-/// A topic of the one table (core/topics.hpp) as a backend takes it.
+/// The TopicSpec, as a backend needs it, of a topic of the table (core/topics.hpp).
 inline TopicSpec spec(const topics::WireTopic& topic) {
   return {topic.name, topic.type, Qos{.reliable = true, .latched = topic.latched, .depth = topic.depth}};
 }
 
-/// Where a member says ready and done: the station at doors of its own, since it may share its domain.
+/// Topics on which a member sends Ready and Done. The station has topics of its own, because it may share its domain
+/// with a user's program.
 inline TopicSpec ready_spec(std::string_view member) {
   return spec(member == kStationName ? topics::station_ready() : topics::ready());
 }

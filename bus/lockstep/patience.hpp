@@ -1,6 +1,6 @@
-// How long somebody is waited for. A wall clock goes on while a process stands still (stopped, swapped out, its machine
-// asleep) and what arrived meanwhile lies unread: that is nobody else's fault. So only the time counts in which the one
-// who waits was awake to see an answer. Not thread-safe.
+// A time-out that counts only the time in which the waiting process was running. While a process stands still (stopped,
+// swapped out, its machine asleep), a wall clock advances and answers stay unread, which is not the fault of the
+// program that is waited for. Not thread-safe.
 #pragma once
 
 #include <algorithm>
@@ -12,13 +12,13 @@ class Patience {
  public:
   using Clock = std::chrono::steady_clock;
   using Seconds = std::chrono::duration<double>;
-  /// More than this between two looks was not spent awake.
+  /// Of the time between two calls of over(), at most this counts: in the rest, the process was not running.
   static constexpr Seconds kLongestLook{1.0};
 
-  /// @param limit_s  0: for ever
+  /// @param limit_s  0: no limit
   explicit Patience(double limit_s, Clock::time_point now = Clock::now()) : limit_s_(limit_s), last_look_(now) {}
 
-  /// Look at least as often as kLongestLook. @returns true when it has been waited for long enough.
+  /// Call it at least once every kLongestLook. @returns true when the wait has reached the limit.
   bool over(Clock::time_point now = Clock::now()) {
     waited_ += std::min<Seconds>(now - last_look_, kLongestLook);
     last_look_ = now;

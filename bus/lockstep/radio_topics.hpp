@@ -18,11 +18,11 @@ class RadioTopics {
   /// Create it before client.start(); the client must outlive it. @param node  the asking node: "gcs" or a UAV's name.
   RadioTopics(LockstepClient& client, std::string node);
 
-  /// How a registration stands.
+  /// State of a registration.
   struct Status {
-    bool open = false;                 ///< messages pass
-    std::string refusal;               ///< why the topic is not open, and never will be
-    std::vector<std::string> unheard;  ///< send(): targets at which no program listens yet
+    bool open = false;                 ///< messages can pass
+    std::string refusal;               ///< the router's reason for a refusal; empty: not refused
+    std::vector<std::string> unheard;  ///< for send(): targets at which no program listens yet
   };
 
   /// Asks to send on a topic. Call it while thinking; write() works once the topic is open, not before the next step.
@@ -64,8 +64,8 @@ class RadioTopics {
   LockstepClient& client_;
   const std::string node_;
   const ParticipantId self_;
-  ParticipantId router_ = 0;  ///< the router that has our requests
-  std::uint32_t last_id_ = 0;
+  ParticipantId router_ = 0;                 ///< the router that has our requests
+  std::uint32_t last_id_ = 0;                ///< of a request
   std::map<std::string, Sending> sendings_;  ///< by ROS topic
   std::map<std::string, Listening> listenings_;
 };

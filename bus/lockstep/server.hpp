@@ -1,6 +1,6 @@
-// The server's side of the lock-step (docs/lockstep.md): it owns membership and the clock. Built from events.
-// Between two steps it stands still while somebody joins; within a step it waits for everybody's answer.
-// Threads: all calls from the thread that dispatches the inbox.
+// The server's side of the lock-step (docs/lockstep.md): it decides about membership and advances the clock.
+// Event-driven. Between two steps it pauses while a program joins; within a step it waits for the answers of all
+// members. Threads: all calls from the thread that dispatches the inbox.
 #pragma once
 
 #include <map>
@@ -15,17 +15,17 @@ namespace skein::bus {
 
 class LockstepServer {
  public:
-  /// A domain that the server joined; the first one added is the world's, where the router is a member.
+  /// Index of a domain that the server joined. Index 0 is the world domain, in which the router is a member.
   using DomainIndex = std::size_t;
 
   struct StepInfo {
     std::uint64_t k = 0;
     std::int64_t tick = 0;
-    std::vector<std::uint8_t> links;  ///< row-major radio matrix, published in the world domain only
+    std::vector<std::uint8_t> links;  ///< row-major link matrix (Links), published in the world domain only
     std::uint64_t ledger_upto = 0;
     bool final_step = false;
-    std::vector<msg::FaultBegin> faults = {};      ///< likewise
-    std::vector<std::string> faults_by_hand = {};  ///< likewise
+    std::vector<msg::FaultBegin> faults = {};      ///< in the world domain only
+    std::vector<std::string> faults_by_hand = {};  ///< in the world domain only
   };
   struct LostMember {
     std::string name;
@@ -34,85 +34,88 @@ class LockstepServer {
   };
   struct Awaited {
     std::string member;
-    std::string what;  ///< for a human: "done of step 7", "rt/plan 3 of 4"
+    std::string what;  ///< for people: "done of step 7", "rt/plan 3 of 4"
   };
 
-  /// @param tap  hears the samples of writer() and of read(); it must outlive this.
+  /// @param tap  listens to the samples of writer() and of read(); it must outlive this.
   explicit LockstepServer(Inbox& inbox, Tap* tap = nullptr) : inbox_(inbox), tap_(tap) {}
 
-  /// @param node  radio node whose domain this is ("gcs" or a UAV's name); "" for the world's.
+  /// @param node  radio node of the domain ("gcs" or a UAV's name); "" for the world domain.
   DomainIndex add_domain(const std::string& node, Participant& participant);
-  /// A place for a member; its name may say ready in this domain only. @param awaited  before the first step.
+  /// Adds a place for a member, which may join only in this domain. @param awaited  the first step waits for it.
   void add_place(const std::string& member, DomainIndex domain, bool awaited);
-  /// Topic that the server writes; announced in every step of that domain.
+  /// Adds a topic that the server writes; the steps in that domain announce its samples.
   CountedWriter& writer(DomainIndex domain, const TopicSpec& topic);
-  /// Topic that a member of this domain writes and whose samples are handed out when the step is answered.
+  /// Adds a topic that members in this domain write. `handler` gets its samples when the step is answered.
   void read(DomainIndex domain, const TopicSpec& topic, CountedQueues::Handler handler);
-  /// The same for messages: `handler` gets (message); what is no Message is dropped and counted (typed.hpp).
+  /// The same for messages: `handler` gets (message); invalid samples are dropped and counted (typed.hpp).
   template <WireMessage Message, class Handler>
   void read(DomainIndex domain, const TopicSpec& topic, Handler handler) {
     read(domain, topic, decoding<Message>(inbox_, topic.name, std::move(handler)));
   }
 
-  /// Called for each sample on a topic of read() whose writer is no member, and which therefore goes nowhere; it may be
-  /// on its way in or out: see is_stranger(). Inside dispatch().
+  /// Sets a function that is called, inside dispatch(), for each ignored sample on a topic of read(): its writer has no
+  /// place. The writer may just be joining or have left: see is_stranger().
   using OnStranger = std::function<void(DomainIndex, const std::string& topic, ParticipantId source)>;
   void on_stranger(OnStranger tell) { on_stranger_ = std::move(tell); }
-  /// Called when somebody says hello in a domain, with the topics that it means to write: time to read() more of them.
-  /// Inside dispatch().
+  /// Sets a function that is called, inside dispatch(), when a program sends its hello in a domain, with the topics
+  /// that it announces to write: the function may read() further ones.
   using OnHello = std::function<void(DomainIndex, const std::vector<std::string>& writes)>;
   void on_hello(OnHello tell) { on_hello_ = std::move(tell); }
-  /// True for who neither is a member, nor was one, nor has asked to become one.
+  /// True for a participant that neither is or was a member nor has asked to join.
   bool is_stranger(ParticipantId source) const;
 
-  /// At a boundary: lets in whoever knocks. @returns true when nobody is at the door any more: publish() may follow.
+  /// Call it repeatedly at a boundary, that is between two steps: lets programs join. @returns true when no program is
+  /// joining or awaited any more: publish() may follow.
   bool at_boundary();
-  /// Writes a domain's samples of a step; they leave together with the step.
+  /// Writes a domain's samples of a step; they are sent together with the step.
   using WriteSamples = std::function<void(DomainIndex)>;
-  /// Domain by domain, so that the first members think while the last are still being told.
-  /// @param write_samples  called once for each domain in turn, before its step is told.
+  /// Publishes a step domain by domain, so that members in the first domains compute while the last ones are written.
+  /// @param write_samples  called once for each domain in turn, before its step is written.
   void publish(
       const StepInfo& info, const WriteSamples& write_samples = [](DomainIndex) {});
-  /// @returns true when everybody has answered the published step; handlers of read() have run then, member by member.
+  /// @returns true, once, when all members have answered the published step; then the handlers of read() have run,
+  /// domain by domain and member by member.
   bool answered();
-  /// For Inbox::dispatch(), while answered() is false: each answer that is missing rings once at least.
+  /// For Inbox::dispatch(), while answered() is false: each missing answer rings at least once.
   std::size_t rings() const;
-  /// While answered() is false and nothing happens: tells the step once more where an answer is missing. Either may
-  /// have been lost with a lease that was over, and whoever has answered answers the same again. Notes whose lease is
-  /// over: what it has said may be lost then, or come twice, and the reason of its loss says so.
+  /// Call it while answered() is false and no samples arrive: repeats the step in domains where an answer is missing,
+  /// because step or answer may have been lost when a lease expired. A member that has answered sends its answer again.
+  /// Also notes members whose lease has expired: their samples may be lost, or come twice. If such a member is lost
+  /// later, the reason says so.
   void ask_again();
 
-  /// At a boundary, before publish(): a fault takes this member out, and the steps to come tell it what to do to
-  /// itself. That is no loss. Nobody gets its place until let_back().
+  /// Call it at a boundary, before publish(): a fault removes this member from the run, and the following steps contain
+  /// the order that it must execute. This does not count as a loss. Its place stays empty until let_back().
   /// @param order  kOrderKill or kOrderStop (names.hpp).
-  /// @returns false, with nothing done, when it is no member.
+  /// @returns false, with no effect, when there is no such member.
   bool take_out(const std::string& member, std::string_view order);
-  /// At a boundary: the fault is over; at_boundary() waits until the member has joined again.
-  /// @returns false when it has been lost meanwhile.
+  /// Call it at a boundary, when the fault is over: at_boundary() then waits until the member has joined again.
+  /// @returns false when the member has been lost meanwhile.
   bool let_back(const std::string& member);
 
-  /// A process died (launcher), hangs (time-out) or left: nobody waits for it any longer.
+  /// A process died (says the launcher), hangs (time-out) or left: the server no longer waits for it.
   void lost(const std::string& member, const std::string& reason);
-  /// For a fleet in which nobody tells who died: members that have left, or are silent for longer than their lease
-  /// (`--lease`), are lost.
+  /// For a fleet without a launcher that reports dead processes: members that have left, or are silent for longer than
+  /// their lease (`--lease`), are lost.
   void drop_vanished();
   /// Members and joiners that are lost since the last call.
   std::vector<LostMember> take_lost();
 
   bool is_member(const std::string& name) const;
-  /// Joined again after it had been lost, since the last call.
+  /// Members that have joined again since the last call, after a loss or a fault.
   std::vector<std::string> take_rejoined();
-  /// Who has not answered, or has not joined, and nobody who only waits for them; for messages and time-outs. Never
-  /// empty while at_boundary() or answered() is false.
+  /// Programs that have not answered, or not joined, without those that only wait for others; for messages and
+  /// time-outs. Never empty while at_boundary() or answered() is false.
   std::vector<Awaited> awaited() const;
-  /// What the router decided by a wall clock since the last call: it might turn out otherwise another time.
+  /// The router's decisions since the last call that depended on a wall clock, and may differ in another run.
   std::vector<std::string> take_doubts();
-  /// Of the last answered step: the router's hash of its deliveries, the station's of its tally changes.
+  /// Digests of the last answered step: the router's of its deliveries, the station's of its tally changes.
   const std::vector<std::uint8_t>& routed_digest() const { return routed_digest_; }
   const std::vector<std::uint8_t>& station_digest() const { return station_digest_; }
 
  private:
-  /// Where members say ready and done: the station at one of its own (names.hpp).
+  /// Readers of Ready and Done. Members of a domain share one door; the station has a door of its own (names.hpp).
   struct Door {
     std::unique_ptr<Reader> ready, done;
   };
@@ -123,7 +126,7 @@ class LockstepServer {
     std::vector<Door> doors;
     std::vector<std::unique_ptr<CountedWriter>> writers;
     std::vector<std::uint64_t> announced;  ///< counts of `writers` that the members know
-    bool newcomer = false;  ///< since the last step somebody joined, who knows no counts of what is latched
+    bool newcomer = false;  ///< a program joined since the last step: it does not know the counts of latched topics
     msg::Step last;         ///< published
     std::vector<std::pair<std::string, std::unique_ptr<Reader>>> readers;
     CountedQueues commands;
@@ -134,14 +137,14 @@ class LockstepServer {
     std::size_t door = 0;
     bool awaited = false;  ///< at_boundary() waits for it
     bool member = false, was_member = false;
-    std::optional<msg::Order> order;  ///< taken out by a fault: who knocks waits at the door
-    ParticipantId source = 0;         ///< of the member, or of who knocks
+    std::optional<msg::Order> order;  ///< set while a fault has taken the member out: a program that joins has to wait
+    ParticipantId source = 0;         ///< of the member, or of a program that is joining
     bool invited = false, declared = false;
     std::vector<std::string> reads, writes;
     bool answered = false;
-    bool unheard = false;  ///< for a while within a step: its lease was over, and it may be back since
-    std::vector<CountedQueues::Expected> sent;                 ///< by its last Done
-    std::optional<std::pair<ParticipantId, msg::Ready>> next;  ///< knocked while the place was taken
+    bool unheard = false;                       ///< its lease expired during a step; it may be back since
+    std::vector<CountedQueues::Expected> sent;  ///< by its last Done
+    std::optional<std::pair<ParticipantId, msg::Ready>> next;  ///< asked to join while the place was taken
   };
 
   std::size_t open_door(DomainIndex domain, std::string_view member);
@@ -178,12 +181,12 @@ class LockstepServer {
   std::unique_ptr<CountedWriter> drop_;
   /// (router, member): the router's participant in the member's domain.
   std::map<std::pair<ParticipantId, ParticipantId>, ParticipantId> attached_;
-  /// What the present router delivered, by node, topic; and what of it the members do not know yet.
+  /// Counts that the current router delivered, by node and topic; and those that no step has announced yet, by node.
   std::map<std::string, std::map<std::string, msg::TopicCount>> delivered_;
   std::map<std::string, std::vector<msg::TopicCount>> newly_delivered_;
   std::vector<std::uint8_t> routed_digest_, station_digest_;
-  std::set<ParticipantId> gone_;  ///< lost; what they said may still arrive
-  msg::Awaits awaits_;            ///< the router's last word of whom it waits for
+  std::set<ParticipantId> gone_;  ///< lost or taken out; their samples may still arrive
+  msg::Awaits awaits_;            ///< the router's last report of the members for which it waits
   std::vector<LostMember> lost_;
   std::vector<std::string> rejoined_, doubts_;
   std::uint64_t k_ = 0;

@@ -1,6 +1,6 @@
-// Who writes where only members are heard: samples from outside the lock-step, which go nowhere. They are counted here,
-// and told of once a topic and writer, however many there are.
-// Threads: none of this is shared.
+// Counts the samples of programs outside the lock-step on topics that only members may write. Such samples have no
+// effect. There is one notice for each topic and writer.
+// Not thread-safe.
 #pragma once
 
 #include <cstdint>
@@ -14,25 +14,25 @@
 
 namespace skein::bus {
 
-/// Why such a sample goes nowhere, for its sender.
+/// Reason why such a sample has no effect, for the user.
 inline constexpr const char* kUnheardReason = "from outside the lock-step: not heard; see docs/ros2.md";
 
 class Strangers {
  public:
-  /// A writer that is to be told of.
+  /// A writer that the user should be told about.
   struct Notice {
-    std::string node;           ///< in whose domain
-    std::string topic;          ///< on the wire
+    std::string node;           ///< radio node of the domain
+    std::string topic;          ///< DDS name
     std::uint64_t samples = 0;  ///< so far
   };
-  /// Whether a participant is still a stranger: who joins a little later is none, nor who has just left.
+  /// Whether a participant is still a stranger. One that joins a little later, or has just left, is none.
   using IsStranger = std::function<bool(ParticipantId)>;
 
-  /// A sample in `step`. Beyond a number of writers that no fleet needs, they are counted without a word of each.
+  /// Counts a sample that arrived in `step`. Beyond 256 writers, further writers' samples are counted without notices.
   void add(const std::string& node, const std::string& topic, ParticipantId source, std::uint64_t step);
-  /// Who has been a stranger since at least `patience` steps, by `step`, and has not been told of.
+  /// Notices about writers that have been strangers for at least `patience` steps at `step`; one per topic and writer.
   std::vector<Notice> take_notices(std::uint64_t step, std::uint64_t patience, const IsStranger& is_stranger);
-  /// Samples of strangers in a node's domain, of those that were told of.
+  /// Number of samples in a node's domain by writers that had a notice, or came after the 256th.
   std::uint64_t unheard(const std::string& node) const;
 
  private:

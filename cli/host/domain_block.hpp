@@ -1,6 +1,5 @@
-// A fleet's block of DDS domains: world, ground station, then one domain a UAV. Locks keep two fleets out of each
-// other's blocks wherever their domains would collide: in one network namespace, whoever runs them and whatever their
-// TMPDIR.
+// A fleet's block of DDS domains: one for the world, one for the ground station, then one for each UAV. A lock on each
+// domain prevents two fleets in the same network namespace from using the same domain, also fleets of different users.
 #pragma once
 
 #include <optional>
@@ -12,31 +11,31 @@
 
 namespace skein::cli {
 
-/// Above this domain the standard's ports reach those that the kernel hands out to clients.
+/// Above this domain, the UDP ports that the DDS standard prescribes reach into Linux's ephemeral port range.
 inline constexpr int kLastQuietDomain = 101;
 
 /// Holds the domains base .. base + size - 1 for as long as it lives.
 class DomainBlock {
  public:
-  /// @param base the user's choice; without one the first block is taken that is free as a whole.
-  /// @param size number of domains. @param realm  for tests: blocks of other realms are not in the way.
-  /// @param from  without a choice, no block before it.
-  /// @throws InputError when `base` is out of range or taken (it says by which process), or no block of this size is
-  /// free.
+  /// @param base  first domain, if the user chose one; nullopt: takes the first block that is completely free.
+  /// @param size  number of domains. @param realm  for tests: blocks conflict only within the same realm.
+  /// @param from  if `base` is nullopt: the lowest first domain to try.
+  /// @throws InputError if `base` is out of range, if a domain of its block is taken (the message names the process, if
+  ///   it can be seen), or if no block of this size is free.
   DomainBlock(std::optional<int> base, int size, std::string realm = {}, int from = kFirstDomain);
 
   int base() const { return base_; }
   int last() const { return base_ + static_cast<int>(locks_.size()) - 1; }
 
  private:
-  /// @returns the first domain of the block at `base` that somebody else holds; nullopt when all are ours now.
+  /// @returns the first domain of the block at `base` that is already locked; nullopt: this object now holds all locks.
   std::optional<int> try_lock(int base, int size);
   std::string lock_name(int domain) const;
   std::string taken_text(int base, int size, int taken) const;
 
   const std::string realm_;
   int base_ = 0;
-  std::vector<HostLock> locks_;  ///< one a domain
+  std::vector<HostLock> locks_;  ///< one for each domain
 };
 
 }  // namespace skein::cli

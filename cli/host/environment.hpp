@@ -1,4 +1,4 @@
-// The launcher's own environment: what its user should know of it. What it gives to programs:
+// Checks of the launcher's own environment variables. For the environment that the launcher gives to its programs, see
 // process/host/environment.hpp.
 #pragma once
 
@@ -9,26 +9,26 @@
 
 namespace skein::cli {
 
-/// What the user should know of his environment: what is ignored, and names like SKEIN_CHOAS that nobody reads.
+/// @returns warnings for the user: variables that programs do not inherit, and unknown names such as SKEIN_CHOAS.
 std::vector<std::string> environment_warnings();
 
-/// @throws InputError when a variable that the programs read means nothing: SKEIN_CHAOS that is no whole number.
+/// @throws InputError if SKEIN_CHAOS, which the programs read, is set and not a whole number.
 void check_environment();
 
-/// Length of the missions of commands that name none.
+/// Mission duration [s] of `skein run`, `compose`, `compare` and `contest` without --duration.
 inline constexpr const char* kDurationVariable = "SKEIN_DURATION";
 
-/// A command line as its user would have typed it without that variable: with `--duration` where the command flies and
-/// has none, so that a run is repeated by what it says of itself.
-/// @throws InputError when the variable is no time.
+/// Appends `--duration` with the value of kDurationVariable to the arguments of such a command without --duration. So
+/// the command that a result records repeats the run without the variable.
+/// @throws InputError if the variable is needed and not a valid duration.
 std::vector<std::string> with_duration_of_environment(std::vector<std::string> arguments);
 
-/// The part of it that differs from what a shell would give, as words to put before a command: `NAME=VALUE `, after
-/// `env -u NAME ` for what is to be ignored.
+/// A prefix for a command that the user types in a shell, to give a program the environment of a fleet: `env -u NAME `
+/// for variables that it must not inherit, then `NAME=VALUE ` for those that the launcher would set.
 std::string fleet_environment_prefix(bool native);
 
-/// Of the launcher itself, before it opens anything: descriptors 0 to 2 are open, what it makes is its user's to use
-/// whatever the umask, and the ends of children are told whatever was inherited.
+/// Puts the launcher process into a defined state; call it before opening files. Opens closed descriptors 0 to 2 on
+/// /dev/null, removes the owner's bits from the umask, and restores SIGCHLD's default, so that children can be awaited.
 void settle_process();
 
 }  // namespace skein::cli

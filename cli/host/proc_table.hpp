@@ -1,4 +1,4 @@
-// The processes of this host as /proc tells of them. What is gone, or closed to us, reads as empty.   Threads: any.
+// Reads the processes of this host from /proc. What is gone or not readable yields empty, 0 or false.   Threads: any.
 #pragma once
 
 #include <sys/types.h>
@@ -9,20 +9,21 @@
 namespace skein::cli {
 
 std::vector<pid_t> all_processes();
-/// 0 when it is gone.
+/// 0: the process is gone.
 pid_t parent_of(pid_t pid);
-/// Who debugs it; 0: nobody.
+/// Process id of its debugger; 0: none.
 pid_t tracer_of(pid_t pid);
-/// Whether a signal made it stand still.
+/// Whether a signal such as SIGSTOP has stopped it; false if its debugger has.
 bool has_stopped(pid_t pid);
-/// Its short name, as `ps` shows it.
+/// Short name of a process, as `ps` shows it.
 std::string process_name(pid_t pid);
-/// @param what "cmdline" or "environ".
+/// Words of the command line, or entries NAME=VALUE. @param what  "cmdline" or "environ".
 std::vector<std::string> words_of(pid_t pid, const std::string& what);
-/// Its user ids: real, effective, saved; none of what is dead and only waits for its parent.
+/// Its user ids: real, effective, saved, file system; none of a zombie.
 std::vector<uid_t> users_of(pid_t pid);
+/// Whether `user` is one of these ids.
 bool belongs_to(pid_t pid, uid_t user);
-/// Whether it has the network of this process, not that of a container or of `ip netns`.
+/// Whether it is in the network namespace of this process, not in that of a container or of `ip netns`.
 bool shares_network(pid_t pid);
 
 }  // namespace skein::cli

@@ -19,20 +19,22 @@ class ProcessOrders {
   /// @param host  must outlive this.
   explicit ProcessOrders(ProgramHost& host) : host_(host) {}
 
-  /// A fault kills the program (`kill`) or stops it. @param by_us  it obeys no orders: the launcher sends the signal.
+  /// A fault kills the program (`kill`) or stops it.
+  /// @param by_us  the program does not obey orders (a user's command), so the launcher sends the signal.
   void take_out(const std::string& program, bool kill, bool by_us);
-  /// The fault is over: the program may come back as soon as it is dead, or is seen to have stopped.
+  /// The fault is over: the program may come back as soon as it has died, or the launcher has seen it stop.
   void let_back(const std::string& program);
   /// Programs that can be restarted or continued now; reports each only once.
   std::vector<std::string> take_returning();
   /// The program has joined the lock-step again.
   void returned(const std::string& program) { programs_.erase(program); }
-  /// Shortens a wait for events (negative: endless) while a program to be continued has yet to stop: that is no event.
+  /// Shortens a wait for events (negative: endless) while a program that is to be continued has not stopped yet, since
+  /// ProgramHost reports no event when a program stops.
   std::chrono::milliseconds limit(std::chrono::milliseconds limit) const;
 
-  /// A program ended. @returns true when it was killed by SIGKILL as a fault, or end(), had ordered.
+  /// A program ended. @returns true if SIGKILL ended it and a fault or end() had ordered that: it is no failure.
   bool on_exit(const std::string& program, const ExitStatus& exit);
-  /// The run is over: kills all programs that are still out of it, since they cannot leave by themselves.
+  /// The run is over: kills all programs that a fault still keeps out of it, since they cannot end by themselves.
   void end();
   /// Programs that are out of the run now: from take_out() until they have joined again.
   std::set<std::string> out() const;

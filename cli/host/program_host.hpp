@@ -1,5 +1,5 @@
-// Whoever runs the programs of a fleet for the launcher: each as a process of its own (supervisor.hpp), or all as
-// objects of one process (shared_process.hpp).
+// Interface through which the launcher runs the programs of a fleet: each program as a process of its own
+// (supervisor.hpp), or all as objects of one process (shared_process.hpp).
 #pragma once
 
 #include <sys/types.h>
@@ -13,10 +13,11 @@
 
 namespace skein::cli {
 
-/// File descriptors under which a process finds its end of the two pipes: JSON lines to us, text lines from us.
+/// File descriptors at which a program finds its two pipes: on the status pipe it writes JSON lines to the launcher, on
+/// the control pipe it reads lines of text from the launcher.
 inline constexpr int kStatusFd = 3;
 inline constexpr int kControlFd = 4;
-/// And a socket that browsers connect to, where it gets one.
+/// File descriptor of a listening socket for browsers, if the program has one (ProgramSpec::listener).
 inline constexpr int kViewFd = 5;
 
 struct UserId {
@@ -25,37 +26,37 @@ struct UserId {
 };
 
 struct ProgramSpec {
-  std::string name;                            ///< unique; names the log file too
+  std::string name;                            ///< unique; the log file is named after it, too
   std::vector<std::string> argv;               ///< argv[0] is the path of the binary
   std::vector<std::string> env;                ///< the whole environment, NAME=VALUE
-  std::filesystem::path log;                   ///< takes stdout and stderr; empty: they go where the launcher's go
-  bool append_log = false;                     ///< or overwritten
-  std::uint64_t most_status_bytes = 64 << 20;  ///< on the status pipe in all; who writes more is cut off
-  std::uint64_t most_log_bytes = 64 << 20;     ///< beyond it the log keeps its first half and its newest lines
-  std::optional<UserId> user{};                ///< as whom it runs, in no other group; only root can choose
-  bool here = false;                           ///< it has the launcher's terminal, or whatever is in its place
-  int listener = -1;                           ///< it has this socket of the launcher's as kViewFd
-  bool minded = false;                         ///< it may have children, which end with it wherever they went
+  std::filesystem::path log;                   ///< of stdout and stderr; empty: they go to the launcher's
+  bool append_log = false;                     ///< false: the log is overwritten
+  std::uint64_t most_status_bytes = 64 << 20;  ///< in all; on more, the launcher closes the status pipe
+  std::uint64_t most_log_bytes = 64 << 20;     ///< beyond it, only its first half and newest lines stay
+  std::optional<UserId> user{};                ///< user to run as, without other groups; needs root
+  bool here = false;                           ///< it has the launcher's stdin, stdout and stderr
+  int listener = -1;                           ///< the launcher's socket to pass as kViewFd; -1: none
+  bool minded = false;                         ///< it runs under a minder, which ends all its children
 };
 
 struct ExitStatus {
   int code = 0;
-  int signal = 0;               ///< 0 unless a signal ended it
+  int signal = 0;               ///< the signal that ended it; 0: none
   double peak_memory_mb = 0.0;  ///< largest resident set, shared pages included
-  double cpu_s = 0.0;           ///< of all its threads, from its start to its end
-  pid_t pid = 0;                ///< of the process that it was
-  bool shared = false;          ///< it was no process of its own: memory and time are told of that process
-  bool dragged = false;         ///< it ended for no other reason than that its process did
-  std::string lost_host = {};   ///< it ran on a host of which nothing is known any more, and why; empty: it ended
+  double cpu_s = 0.0;           ///< CPU time of all its threads, from start to end [s]
+  pid_t pid = 0;                ///< its process id
+  bool shared = false;          ///< it was an object in a shared process, whose own exit has memory and CPU time
+  bool dragged = false;         ///< no failure of its own: it ended together with a shared process
+  std::string lost_host = {};   ///< why the launcher lost contact with the host that ran it; empty: it ended
   bool ok() const { return code == 0 && signal == 0 && lost_host.empty(); }
-  /// "exit code 3", "signal 11 (Segmentation fault)", or what became of its host.
+  /// "exit code 3", "signal 11 (Segmentation fault)", or `lost_host`.
   std::string text() const;
 };
 
 struct Event {
   enum class Kind {
     status_line,  ///< `program` wrote `line`
-    cut_off,      ///< `program` wrote too much on its status pipe, as `line` says: it is not listened to any more
+    cut_off,      ///< `program` wrote too much on its status pipe (`line` says what), so the pipe is closed
     exited,       ///< `program` ended with `exit`; its last status lines came before
     interrupt     ///< the user or the system asked the launcher to end (SIGINT, SIGTERM, SIGHUP)
   };
@@ -72,33 +73,33 @@ class ProgramHost {
 
   /// Starts a program. @throws std::system_error when the log cannot be written or the binary cannot be started.
   virtual void start(const ProgramSpec& spec) = 0;
-  /// Waits until something happens, at most `limit`. @returns what happened, in order; empty after `limit`. What any
-  /// program wrote before another one ended comes before that end.
+  /// Waits for events, at most `limit` (negative: without limit). @returns the events in order; none: `limit` has
+  /// passed. Everything that any program wrote before another program ended comes before the event of that end.
   virtual std::vector<Event> wait(std::chrono::milliseconds limit) = 0;
-  /// Writes one line to a program's control pipe; nothing happens when the program is gone or does not read.
+  /// Writes one line to a program's control pipe. Does nothing if the program is gone or does not read.
   virtual void send(const std::string& program, const std::string& line) = 0;
-  /// Sends a signal to a program and its children; nothing happens when it is gone.
+  /// Sends a signal to a program and its process group. Does nothing if the program is gone.
   virtual void signal(const std::string& program, int signal) = 0;
-  /// Whether a program has been stopped (SIGSTOP) since this was last true for it.
+  /// Whether a program has been stopped (SIGSTOP, say) since the last call that returned true for it.
   virtual bool has_stopped(const std::string& program) = 0;
-  /// A program that has the terminal may have been stopped there with Ctrl-Z: then we stop, too, as one job with it,
-  /// and both go on together.
+  /// If Ctrl-Z has stopped a program that has the terminal, the launcher stops itself, too, so that the shell sees one
+  /// stopped job. When the shell continues the launcher, the launcher continues the program.
   virtual void follow_job_control() {}
-  /// SIGTERM to all, SIGKILL to what is left after `grace` or at once when the user interrupts again.
+  /// Sends SIGTERM to all programs, and SIGKILL to those left after `grace`, or at once when the user interrupts.
   /// @returns all events until the last program, and the last process, ended.
   virtual std::vector<Event> end_all(std::chrono::milliseconds grace) = 0;
-  /// Once no program is left: brings what programs wrote elsewhere to the results folder.
-  /// @returns what was left behind, a sentence each.
+  /// Copies files that programs wrote elsewhere (on other hosts) to the results folder; call it when no program runs.
+  /// @returns one sentence about each thing that could not be copied.
   virtual std::vector<std::string> collect(const std::filesystem::path&) { return {}; }
-  /// Names of the programs that run, in the order of their names.
+  /// Names of the running programs, sorted.
   virtual std::vector<std::string> running() const = 0;
   virtual bool running(const std::string& program) const = 0;
 
-  /// Names of the processes that run.
+  /// Names of the running processes: those of the programs, or that of the shared process.
   virtual std::vector<std::string> processes() const = 0;
-  /// CPU time of a running process so far, all threads [s]; 0 when it does not run.
+  /// CPU time so far of all threads of a process [s]; 0: it does not run.
   virtual double cpu_s(const std::string& process) const = 0;
-  /// Its share of the memory that it uses now [MB]: pages that several processes share count in parts (PSS).
+  /// Proportional set size (PSS) of a process now [MB]: each shared page is divided among the processes that share it.
   virtual double memory_share_mb(const std::string& process) const = 0;
 };
 

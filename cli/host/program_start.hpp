@@ -1,5 +1,5 @@
-// A child process from fork to exec: its descriptors, its user, its minder, and the news whether all that went well.
-// Linux.   Threads: one, which must live as long as the programs (PR_SET_PDEATHSIG goes by thread).
+// Starts a child process, from fork to exec: sets up its file descriptors, user and minder, and reports errors to the
+// launcher. Linux.   Threads: one, which must live as long as the programs (the kernel ties PR_SET_PDEATHSIG to it).
 #pragma once
 
 #include <sys/types.h>
@@ -31,25 +31,25 @@ class Fd {
   int fd_ = -1;
 };
 
-/// @throws std::system_error with errno's reason.
+/// @throws std::system_error for the present errno; `what` begins its message.
 [[noreturn]] void throw_errno(const std::string& what);
 
 struct StartedProgram {
-  pid_t pid = -1;           ///< our child: the program, or its minder
-  pid_t program = -1;       ///< leads a process group
-  bool foreground = false;  ///< of the terminal, which was ours
+  pid_t pid = -1;           ///< the launcher's child: the program, or its minder
+  pid_t program = -1;       ///< process id of the program, which leads a process group
+  bool foreground = false;  ///< its group got the terminal, which the launcher had
   Fd pidfd;                 ///< of `pid`
-  Fd status, control;       ///< our ends of the pipes, which never block
-  Fd log;                   ///< where the program appends; none when it has our own output
+  Fd status, control;       ///< the launcher's ends of the pipes, non-blocking
+  Fd log;                   ///< to which the program appends; none: it has the launcher's output
 };
 
-/// Whether what is typed comes to us.
+/// Whether stdin is a terminal whose foreground process group is the launcher's.
 bool owns_terminal();
-/// From here on Ctrl-C and what is typed are for that process group.
+/// Makes `group` the terminal's foreground process group: from now on it gets Ctrl-C and what the user types.
 void give_terminal_to(pid_t group);
 
-/// Starts a program in a process group of its own, both pipes open, stdin closed unless it is to have the terminal.
-/// @throws std::system_error when the log cannot be written or the binary cannot be started.
+/// Starts a program in a process group of its own, with both pipes. Its stdin is /dev/null, or the launcher's (`here`).
+/// @throws std::system_error if the log cannot be opened, or the binary cannot be started or watched.
 StartedProgram start_program(const ProgramSpec& spec);
 
 }  // namespace skein::cli

@@ -17,7 +17,7 @@ namespace skein::cli {
 
 class SharedProcess final : public ProgramHost {
  public:
-  /// @param process  runs all of them; starts with the first program. The launcher adds --turn-page to its arguments.
+  /// @param process  runs all programs; starts with the first one. The constructor adds --turn-page to its arguments.
   /// @param patience_s  wall time that a turn may take. When a turn takes longer and the process does not end itself
   ///                    (it may be stopped), the launcher kills it; 0: no limit.
   explicit SharedProcess(ProgramSpec process, double patience_s = 0.0);
@@ -41,7 +41,7 @@ class SharedProcess final : public ProgramHost {
   /// Ends the process when a turn takes too long.
   void look_after_turns();
   /// Finds the program in whose turn the process ended, and writes the reason to its log. @returns its name; empty: no
-  /// running program is to blame, or one of several is, as the log of the process then says.
+  /// program is to blame, or one of several is, which the log of the process then names.
   std::string blame(const ExitStatus& exit);
 
   ProgramSpec process_;

@@ -31,10 +31,11 @@ class Supervisor final : public ProgramHost {
   /// Starts it in its own process group, with status and control pipe; stdin is /dev/null, or the terminal (`here`).
   void start(const ProgramSpec& spec) override;
   std::vector<Event> wait(std::chrono::milliseconds limit) override;
-  /// From now on wait() also returns, perhaps without events, when one of these is readable. Ignores negative ones.
+  /// From now on wait() also returns, perhaps without events, if one of these descriptors is readable. Negative
+  /// descriptors have no effect.
   void watch_too(std::vector<int> descriptors) { also_watched_ = std::move(descriptors); }
   void send(const std::string& program, const std::string& line) override;
-  /// Closes the program's control pipe: it reads the end of file after the last line.
+  /// Closes the program's control pipe: the program reads end-of-file after the last line.
   void hang_up(const std::string& program);
   void signal(const std::string& program, int signal) override;
   bool has_stopped(const std::string& program) override;
@@ -67,8 +68,8 @@ class Supervisor final : public ProgramHost {
 /// The signals that end a command: SIGINT, SIGTERM, and SIGHUP unless it is ignored, as under nohup.
 sigset_t interrupt_signals();
 
-/// The last lines of a text file, newest last; reads only the end of a huge file, so that there may be fewer. Empty
-/// when there is no such file.
+/// The last `count` lines of a text file, newest last. Reads only the end of a large file and may then return fewer.
+/// Shortens very long lines. Empty if there is no such file.
 std::vector<std::string> last_lines(const std::filesystem::path& file, std::size_t count);
 /// The same as text to append to a message: each line on its own line, indented.
 std::string last_lines_below(const std::filesystem::path& file, std::size_t count);

@@ -1,4 +1,4 @@
-// --break-on: when something happens to a UAV, as a former run of the same flight tells.   Threads: any.
+// --break-on: finds in an earlier run when an event first happened to a member.   Threads: any.
 #pragma once
 
 #include <filesystem>
@@ -10,11 +10,12 @@
 
 namespace skein::cli {
 
-/// A time that lies behind the exchange in which a member has it in its hands, and before the next one [s]: that of the
-/// first one. @param what  of kBreakEvents. @param result  of result.json
+/// When `what` (of kBreakEvents) first happened to `member`, for --break-at, which stops in the last exchange before
+/// that simulated time [s]. For "lost" and "rejected", adds half an exchange, since the exchange of their time decides
+/// them. @param result  result.json. @returns nullopt: it never happened.
 std::optional<double> event_time_s(const Json& result, const std::string& member, const std::string& what);
 
-/// Of a run that must have been the same flight. @throws InputError when there is none, or it was another flight
+/// The result of an earlier run. @throws InputError if there is none, or it has another scenario, seed or planner
 Json result_of_same_flight(const std::filesystem::path& run, const FleetPlan& plan);
 
 }  // namespace skein::cli

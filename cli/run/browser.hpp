@@ -1,4 +1,4 @@
-// The user's own browser, for a page that this command serves.
+// Starts the user's browser, for a page that this command serves.
 #pragma once
 
 #include <filesystem>
@@ -8,14 +8,14 @@
 
 namespace skein::cli {
 
-/// What opens a file in a browser here: the first command of $BROWSER that there is, else xdg-open. Empty where there
-/// is no screen, no such command, or the user sits at another machine (ssh).
-/// @param variable  of the environment, null: not set
+/// The command line that opens a file in a browser: the first command in $BROWSER that exists, else xdg-open. Empty if
+/// there is no display, no such command, or the user is logged in from another machine (ssh).
+/// @param variable  returns the value of an environment variable; null: it is not set
 std::vector<std::string> browser_command(const std::filesystem::path& file,
                                          const std::function<const char*(const char*)>& variable);
 
-/// Starts it in a session of its own and leaves it alone: it outlives this command, and nobody hears what it says.
-/// @returns false when it could not be started.
+/// Starts a browser in a session of its own, with its output discarded; it may outlive this command.
+/// @returns false if no process could be created; does not notice if the browser itself fails to start.
 bool start_browser(const std::vector<std::string>& command);
 
 }  // namespace skein::cli

@@ -1,4 +1,4 @@
-// The fault file of a run that somebody broke by hand (run_folder::kByHand), when it is flown again.   Any thread.
+// Protects the fault file of an earlier run (run_folder::kByHand) when that run is flown again.   Any thread.
 #pragma once
 
 #include <filesystem>
@@ -6,8 +6,8 @@
 
 namespace skein::cli {
 
-/// The fault file of a run must outlast the emptying of its results folder.
-/// @param faults  of the run. @throws InputError when it is one of the files that a run in `dir` replaces.
+/// A run first deletes an earlier run's files from its results folder `dir`: its own fault file must not be among them.
+/// @param faults  the run's fault file. @throws InputError if a run in `dir` would delete it.
 void check_outlasts(const std::optional<std::filesystem::path>& faults, const std::filesystem::path& dir);
 
 }  // namespace skein::cli

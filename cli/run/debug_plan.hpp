@@ -1,4 +1,4 @@
-// What a user wants to look into, of the fleet that he has.   Threads: any.
+// Resolves --debug and --log for the programs of a planned fleet.   Threads: any.
 #pragma once
 
 #include <map>
@@ -9,10 +9,10 @@
 
 namespace skein::cli {
 
-/// Whom --debug names, and how. @throws InputError for what is wrong in it, or cannot be
+/// The programs that --debug names, with their tools. @throws InputError for values that are not valid or not possible
 std::vector<Debuggee> debuggees(const FleetPlan& plan);
 
-/// Of --log, by program. @throws InputError for what is wrong in it
+/// The log levels of --log, by program. @throws InputError for values that are not valid
 std::map<std::string, std::string> log_levels(const FleetPlan& plan);
 
 }  // namespace skein::cli

@@ -1,5 +1,5 @@
-// What of a run the user looks into: tells him how, lets a debugger have the terminal while the fleet's progress goes
-// to a file, and says whose program has ended.   Threads: one.
+// The debugged programs of a run (--debug): prints how to attach to them, writes the fleet's progress to a file while a
+// debugger has the terminal, and notices when a debugged program ends.   Threads: one.
 #pragma once
 
 #include <filesystem>
@@ -16,22 +16,25 @@ namespace skein::cli {
 
 class DebugSession {
  public:
-  /// Before the programs start. @param plan, view, console  must outlive this. @param terminal  of the console
+  /// Create it before the programs start. @param plan, view, console  must outlive this.
+  /// @param terminal  `console` can rewrite its last line.
   DebugSession(const FleetPlan& plan, int base_domain, const std::filesystem::path& out, const SecureFolders& secure,
                ProgressView& view, std::ostream& console, bool terminal);
   ~DebugSession();
   DebugSession(const DebugSession&) = delete;
   DebugSession& operator=(const DebugSession&) = delete;
 
-  /// Looks after them. @returns those that have ended since, while their tool may live on.
+  /// Call it often: looks for debugged processes that have started or ended. @returns those that have ended since the
+  /// last call; their tools may still run.
   std::vector<const DebugWatch*> take_ended();
-  /// What the user started himself is no child of ours: at the end it may still be about to leave its report.
+  /// Waits for debugged processes, for each at most `timeout`, since they may still be writing their reports: as
+  /// they are not children of the launcher, it gets no event at their end.
   void await_reports(std::chrono::milliseconds timeout) const;
-  /// Of a program; null: nobody looks into it.
+  /// The watch of a program; null: it is not debugged.
   const DebugWatch* find(const std::string& program) const;
-  /// It starts again after a fault, below its tool.
+  /// The program starts again after a fault, under its tool, which may need the terminal again.
   void on_restart(const std::string& program);
-  /// A program, or the tool that it was below, has ended: the terminal may be ours again.
+  /// A program or its tool has ended: if it had the terminal, progress goes to the console again.
   void on_exit(const std::string& program);
 
  private:

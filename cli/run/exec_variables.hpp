@@ -1,4 +1,4 @@
-// What a command of the user's in the place of uav_agent is told, and when there cannot be one.
+// Environment variables for a user's command in place of uav_agent, and a check whether it can fly at all.
 #pragma once
 
 #include <filesystem>
@@ -9,15 +9,15 @@
 
 namespace skein::cli {
 
-/// What such a program is told wherever it runs: its radio topics and, unless it is the ground station's, its UAV's
-/// role.
+/// The variables that do not depend on where the command runs: its radio topics and, unless it runs at the ground
+/// station, its UAV's role.
 std::map<std::string, std::string> part_variables(const FleetPlan& plan, const std::string& program);
 
-/// Environment variables of an agent that is a user's command (README.md). It joins SKEIN_DOMAIN and no other.
+/// All environment variables of a user's command (README.md). The command joins only the DDS domain SKEIN_DOMAIN.
 std::map<std::string, std::string> exec_variables(const FleetPlan& plan, const std::string& program, int base_domain,
                                                   const std::filesystem::path& out, const SecureFolder& secure);
 
-/// @throws InputError for a ROS 2 node of another DDS vendor in a secured fleet
+/// @throws InputError if a secured fleet has ROS 2 nodes and RMW_IMPLEMENTATION does not select the fleet's DDS vendor
 void check_exec(const FleetPlan& plan);
 
 }  // namespace skein::cli

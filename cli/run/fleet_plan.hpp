@@ -1,4 +1,4 @@
-// Which programs a run consists of, and the command line of each.
+// Plans a run: which programs it consists of, and the command line of each.
 #pragma once
 
 #include <filesystem>
@@ -16,99 +16,102 @@
 
 namespace skein::cli {
 
-/// All that is decided before a run starts.
-/// The page of a run that is watched.
+/// The web page on which users watch a run.
 struct WatchedBy {
-  int listener = -1;                  ///< a socket that browsers connect to
+  int listener = -1;                  ///< socket that browsers connect to; -1: none (the station is in a container)
   std::filesystem::path key, script;  ///< files: the page's key, and its script
 };
 
+/// Everything that is decided before a run starts.
 struct FleetPlan {
   RunOptions options;
   Scenario scenario;
-  std::vector<UavPlanner> planners;                 ///< fleet order
-  std::filesystem::path bin_dir;                    ///< where the programs are
-  FaultPlan faults;                                 ///< of --faults
-  std::optional<UavPlanner> ground = {};            ///< what runs at the ground station: a strategy or "exec:CMD"
-  std::optional<std::filesystem::path> agent = {};  ///< flies in the place of uav_agent what names no agent of its own
-  std::vector<Debuggee> debug = {};                 ///< what the user looks into
-  std::map<std::string, std::string> log_levels = {};  ///< by program, of --log
-  std::optional<WatchedBy> watched = {};               ///< none: nobody watches
-  std::uint64_t run = 0;  ///< what the programs of one run know each other by (draw_run_id())
+  std::vector<UavPlanner> planners;                    ///< fleet order
+  std::filesystem::path bin_dir;                       ///< folder of the programs
+  FaultPlan faults;                                    ///< from --faults
+  std::optional<UavPlanner> ground = {};               ///< program at the ground station: a strategy or "exec:CMD"
+  std::optional<std::filesystem::path> agent = {};     ///< the fleet's own agent program; nullopt: uav_agent
+  std::vector<Debuggee> debug = {};                    ///< debugged programs
+  std::map<std::string, std::string> log_levels = {};  ///< by program, from --log
+  std::optional<WatchedBy> watched = {};               ///< nullopt: the run has no page
+  std::uint64_t run = 0;  ///< id by which programs recognise those of their own run (draw_run_id())
 };
 
-/// What flies a UAV, or runs at the ground station. @param program  of an agent
+/// The planner of a UAV or of the ground station. @param program  name of an agent: "uav_agent-jurong"
 const UavPlanner& planner_of(const FleetPlan& plan, const std::string& program);
 
-/// The program that a UAV's on-board software is, or the one at the ground station: its planner's, else the fleet's.
-/// @param program  of an agent
+/// File of the agent program of a UAV or of the ground station: the one that its planner names, else the fleet's.
+/// @param program  name of an agent
 std::filesystem::path agent_file(const FleetPlan& plan, const std::string& program);
 
-/// All agent programs of a fleet, each once, in fleet order; of users' commands alone, the one that would fly.
+/// Files of all agent programs of a fleet, each once, in fleet order. If all agents are users' commands: only the
+/// fleet's own agent program.
 std::vector<std::filesystem::path> agent_files(const FleetPlan& plan);
 
-/// The program that is home to a whole fleet with those agents.
+/// The file of the program that runs a whole fleet with the first of these agent programs in one process.
 std::filesystem::path fleet_file(const FleetPlan& plan);
 
-/// Why a fleet cannot fly in one process, for people; nullopt: it can.
+/// Why a fleet cannot fly in one process, as a message; nullopt: it can.
 std::optional<std::string> needs_processes(const FleetPlan& plan);
 
-/// What a program of a secured fleet is given (cli/secure/security.hpp).
+/// Folders and user of a program in a secured fleet (cli/secure/security.hpp).
 struct SecureFolder {
-  std::filesystem::path keys;  ///< its key, certificate and permissions
-  std::filesystem::path out;   ///< where it writes instead of the results folder; empty: there
-  std::optional<UserId> user;  ///< as whom it runs; nullopt: as the launcher
+  std::filesystem::path keys;  ///< holds the program's key, certificate and permissions
+  std::filesystem::path out;   ///< where it writes; empty: the results folder
+  std::optional<UserId> user;  ///< user to run as; nullopt: the launcher's
 };
 using SecureFolders = std::map<std::string, SecureFolder>;  ///< by program
 
-/// A number that no other run has. It decides nothing and is in no digest.
+/// Draws a random id for a run, not 0. It does not influence the run and is in no digest.
 std::uint64_t draw_run_id();
 
-/// What a run says of its scenario.
+/// The part of a run's options that changes how its scenario is loaded.
 LoadOptions load_options(const RunOptions& options);
 
-/// Loads the scenario and takes the planners apart. @throws InputError for whatever is wrong in them.
+/// Loads the scenario and resolves all options into a plan. @throws InputError for whatever is not valid in them.
 FleetPlan plan_fleet(const RunOptions& options, const std::filesystem::path& bin_dir);
 
-/// Where the sibling programs are: SKEIN_BIN_DIR, else this executable's own folder.
+/// Folder of the programs: SKEIN_BIN_DIR, else the folder of this executable.
 std::filesystem::path program_dir();
 
-/// World, ground station and one domain a UAV.
+/// Number of DDS domains: world, ground station, and one for each UAV.
 int domain_count(const FleetPlan& plan);
 
 /// The only DDS domain that an agent joins.
 int agent_domain(const FleetPlan& plan, const std::string& program, int base_domain);
 
-/// DDS vendor by program. `mixed` deals the vendors out in turn: sim_server, comm_router, station, then the UAVs.
+/// DDS vendor by program; "inproc" in one process. `mixed` alternates the vendors in this order: sim_server,
+/// comm_router, station, agents of the UAVs, program at the ground station.
 std::map<std::string, std::string> dds_vendors(const FleetPlan& plan);
 
-/// What one of our programs is told wherever it runs; where it writes, its run, its keys and its network come on top.
+/// Arguments of one of Skein's programs that do not depend on the host that runs it. Its folders, run id, keys and
+/// network are added elsewhere.
 std::vector<std::string> program_arguments(const FleetPlan& plan, const std::string& program, int base_domain);
 
-/// The whole fleet in the order in which it starts; what the user starts himself under --debug is left out.
-/// @param secure  of all programs, or of none
+/// All programs of a fleet in the order in which they start, without those that the user starts (--debug).
+/// @param secure  has all programs, or none
 std::vector<ProgramSpec> fleet_programs(const FleetPlan& plan, int base_domain, const std::filesystem::path& out,
                                         const SecureFolders& secure = {});
 
-/// The process that is home to all of them, under --one-process.
+/// The process that runs all programs of the fleet under --one-process.
 ProgramSpec shared_process(const FleetPlan& plan, const std::filesystem::path& out);
 
-/// Whether the program of this UAV, or of "gcs", flies: all of them, but in some runs that are flown again.
+/// Whether the agent of this UAV, or of "gcs", runs. False only in a rerun that replays its recorded output instead.
 bool takes_part(const FleetPlan& plan, const std::string& member);
 
-/// True when this program is a user's command (`--planner exec:CMD`) in the place of uav_agent.
+/// Whether this program is a user's command (exec: or ros:) in place of uav_agent.
 bool is_exec(const FleetPlan& plan, const std::string& program);
 
-/// What to type to run an agent in gdb (a user's command: as it is, with its environment).
+/// The shell command with which the user runs a program in gdb (a user's command: without gdb).
 std::string debug_command(const FleetPlan& plan, const std::string& program, int base_domain,
                           const std::filesystem::path& out, const SecureFolders& secure = {});
 
-/// The file that a program of the fleet is; of a user's command the shell.
+/// The executable file of a program of the fleet; for a user's command, that of the shell.
 std::filesystem::path program_file(const FleetPlan& plan, const std::string& program);
 
-/// Programs that only validate (--check): sim_server, then the agent of each different planner. A user's command is not
-/// asked: nothing is known about it.
-/// @param scratch folder for their logs. @param agent_user  as whom agents will run
+/// Programs that only validate their input (--check): sim_server, one agent for each different planner, and the program
+/// at the ground station. Users' commands are left out, since they need not know --check.
+/// @param scratch  folder for their logs. @param agent_user  user that agents run as
 std::vector<ProgramSpec> check_programs(const FleetPlan& plan, const std::filesystem::path& scratch,
                                         const std::optional<UserId>& agent_user = {});
 

@@ -1,5 +1,5 @@
-// One fleet from its start to its last process: starts the programs, follows what they say, tells sim_server who is
-// lost, carries out what faults do to programs, and ends what does not leave by itself.
+// Runs one fleet from the start of its programs to the end of the last one: reads their status lines, tells sim_server
+// which programs are lost, executes faults that concern programs, and ends programs that do not leave by themselves.
 // Threads: everything from one thread, which must live as long as the programs (see supervisor.hpp).
 #pragma once
 
@@ -25,28 +25,28 @@
 
 namespace skein::cli {
 
-/// How what follows a container ends when the engine no longer says what became of the container: a signal, because
-/// a container may end with any exit code.
+/// The signal by which a container's follower (cli/compose/followers.hpp) ends if the Docker engine does not tell how
+/// the container ended. It is a signal because a container may end with any exit code.
 inline constexpr int kEngineLost = SIGUSR2;
 
 class FleetRun {
  public:
-  /// @param out  for progress and complaints; must outlive this. @param terminal  it can rewrite its last line.
+  /// @param out  receives progress and messages; must outlive this. @param terminal  `out` can rewrite its last line.
   FleetRun(const FleetPlan& plan, std::ostream& out, bool terminal);
 
-  /// Starts all programs and returns when none is left. Once.
-  /// @param elsewhere  what runs them, if it is not this process alone.
+  /// Starts all programs and returns when all have ended. Call it once.
+  /// @param elsewhere  runs them, on other hosts say; null: they are children of this process.
   void fly(int base_domain, const std::filesystem::path& out, const SecureFolders& secure,
            std::unique_ptr<ProgramHost> elsewhere = nullptr);
 
-  /// The same, where something else watches over the programs, brings them back, and tells nobody: what a fault does to
-  /// them is their own business. @param containers  what follows each of them here.
+  /// The same for programs in containers, which are restarted there and not by the launcher. So this process does not
+  /// execute faults that concern programs. @param containers  the follower process of each container.
   void fly_in_containers(const std::vector<ProgramSpec>& containers, const std::filesystem::path& out);
 
-  /// What is known of the run so far; for its result.
+  /// What the launcher knows of the run so far; for its result.
   results::RunFacts& facts() { return facts_; }
   ProgressView& view() { return view_; }
-  /// What came through the status pipes, by program.
+  /// The reports that came through the status pipes, by program.
   const std::map<std::string, Json>& reports() const { return reports_; }
   bool anything_failed() const { return failed_ || !failed_programs_.empty(); }
 
@@ -95,7 +95,7 @@ class FleetRun {
   milliseconds scaled(milliseconds time) const;
   bool only_commands_run() const;
 
-  // What the programs take of the machine between the first step and the last.
+  // CPU time and memory of the programs between the first step and the last.
   void on_first_step();
   void note_use();
   void note_end(const Event& event);
@@ -112,17 +112,17 @@ class FleetRun {
   const Clock::time_point started_ = Clock::now();
   std::optional<Clock::time_point> first_progress_;
   std::map<std::string, double> cpu_before_s_;  ///< of each process at the first step
-  LeaveDeadline leave_by_;                      ///< whoever runs then is ended
+  LeaveDeadline leave_by_;                      ///< the launcher then ends all programs that still run
   std::optional<DebugSession> debug_;           ///< under --debug
-  std::set<std::string> debugged_lost_;         ///< programs
+  std::set<std::string> debugged_lost_;         ///< debugged programs that ended before the run did
   WaitNotice silence_{Clock::now()};            ///< since sim_server last said something
   bool in_containers_ = false;
   bool server_done_ = false;  ///< sim_server has ended the run in good order
-  bool stalled_ = false;      ///< by Ctrl-C, in a step that somebody never answered
+  bool stalled_ = false;      ///< Ctrl-C ended the run in a step that a program never answered
   bool over_ = false;         ///< the last step is done
   bool ending_ = false;       ///< the launcher itself ends the programs
   bool failed_ = false;
-  std::set<std::string> failed_programs_;  ///< and have not come back
+  std::set<std::string> failed_programs_;  ///< without those that have rejoined
 };
 
 }  // namespace skein::cli

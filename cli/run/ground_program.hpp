@@ -1,4 +1,4 @@
-// What runs at the ground station.
+// Selects the program at the ground station.
 #pragma once
 
 #include <filesystem>
@@ -8,9 +8,9 @@
 
 namespace skein::cli {
 
-/// What the user named for `gcs`; where they named nothing, the strategy that flies the UAVs which they did not name
-/// either, if it has a program at the ground station. The agent that flies it is asked which have.
-/// @param agent  the program that flies them where they name no other.
+/// The program that the user named for `gcs`. If they named none: the strategy of the UAVs that they did not name
+/// either, if its agent program lists it as one with a program at the ground station.
+/// @param agent  the fleet's agent program, for a strategy that names no other.
 /// @returns a strategy, with its parameters if any, or "exec:CMD"; nullopt: nothing runs there ("gcs=none" too).
 std::optional<UavPlanner> ground_program(const Planners& planners, const std::filesystem::path& agent);
 

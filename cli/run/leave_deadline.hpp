@@ -1,5 +1,5 @@
-// Until when the programs of a run may leave. Wall time, but for what the launcher itself stood still (Ctrl-Z,
-// SIGSTOP): its programs may have stood still with it, and what they did meanwhile it has not looked at yet.
+// The deadline by which the programs of a run must have left, in wall time. Time in which the launcher was stopped
+// (Ctrl-Z, SIGSTOP) does not count: its programs may have been stopped too, and it has not read their output yet.
 // Threads: one.
 #pragma once
 
@@ -19,17 +19,17 @@ class LeaveDeadline {
   void bring_forward(milliseconds from_now, Clock::time_point now = Clock::now()) {
     by_ = by_ ? std::min(*by_, now + from_now) : now + from_now;
   }
-  /// 0: it is over. Only if it is set.
+  /// Time left; 0: the deadline has passed. Call it only if is_set().
   milliseconds left(Clock::time_point now = Clock::now()) const {
     return std::max(std::chrono::ceil<milliseconds>(*by_ - now), milliseconds(0));
   }
-  /// What should have taken `asked` at most took this long: the launcher stood still meanwhile.
+  /// Postpones the deadline if a wait of at most `asked` took so much longer that the launcher must have been stopped.
   void excuse(Clock::duration took, milliseconds asked) {
     if (by_ && took > asked + kStandstill) *by_ += took - asked;
   }
 
  private:
-  static constexpr milliseconds kStandstill{2000};  ///< a busy machine does not take longer for a look
+  static constexpr milliseconds kStandstill{2000};  ///< a busy machine does not delay a wait longer
 
   std::optional<Clock::time_point> by_;
 };

@@ -1,6 +1,6 @@
-// The page of a run for a browser, as long as this command lives: its socket, which the station serves while the fleet
-// flies, its key, and its replay once the run is over (docs/view.md).
-// Threads: all calls from one; while the replay is served the server has a thread of its own.
+// The web page of a run, which exists until this command ends: its socket, on which the station serves the page while
+// the fleet flies, its key, and its replay after the run (docs/view.md).
+// Threads: all calls from one; while this command serves the replay, the server has a thread of its own.
 #pragma once
 
 #include <filesystem>
@@ -19,41 +19,41 @@ namespace skein::cli {
 
 class LivePage {
  public:
-  /// Opens the socket, draws the key and writes it down for the browser and the station.
-  /// @param in_container  the socket is only proven to be free: an engine opens it for the station in its container
-  /// @throws InputError when it is taken, or the page's script is missing.
+  /// Opens the socket, draws a random key, and writes it to files for the browser and the station.
+  /// @param in_container  closes the socket again, since the container engine opens it for the station
+  /// @throws InputError if the port is taken, or the page's script is missing.
   explicit LivePage(const view::Endpoint& endpoint, bool in_container = false);
 
-  /// For the fleet's plan.
+  /// The socket and files, for FleetPlan::watched.
   WatchedBy watched() const;
   const view::Key& key() const { return key_; }
   const view::Endpoint& endpoint() const { return endpoint_; }
-  /// Tells people where the page is, and the risk if others than programs of this host reach it; opens the user's
-  /// browser where there is one. @param in_browser  the user may be there to look
+  /// Prints where the page is, and warns if other hosts can reach it.
+  /// @param say  receives the messages, a line each. @param in_browser  also opens the user's browser, if there is one
   void announce(const std::function<void(const std::string&)>& say, bool in_browser) const;
-  /// Serves a finished run until the user interrupts (Ctrl-C, SIGTERM, or the terminal goes).
-  /// @throws InputError when the folder holds no result, or the port is not to be had any more.
+  /// Serves the replay of a finished run until a signal ends it (SIGINT, SIGTERM, or SIGHUP of a closed terminal).
+  /// @throws InputError if the folder holds no result, or another program has taken the port.
   void replay(const std::filesystem::path& run);
-  /// The same of a run that the page has followed, unless it is to close. What is in the way is told, no more.
+  /// The same for the run that the page has shown, unless `options.close`. Only prints an InputError, never throws it.
   void stay_as_replay(const std::filesystem::path& run, const ViewOptions& options, const Console& console);
-  /// The same of what has been told already.
+  /// The same for a feed that already holds a run.
   void show(view::Feed& feed, const std::string& title);
 
  private:
   std::string address() const;
 
-  const std::filesystem::path script_;  ///< before anything flies: it may be missing
+  const std::filesystem::path script_;  ///< found before anything flies, since it may be missing
   std::optional<view::Listener> listener_;
   const view::Endpoint endpoint_;
   const view::Key key_;
-  ScratchDir folder_;  ///< of the key
+  ScratchDir folder_;  ///< holds the key and the page that opens with it
 };
 
-/// Names of files in a folder of a page.
+/// Names of a page's files: its key, the local HTML file that opens it with the key, and its script.
 inline constexpr const char *kViewKey = "view.key", *kViewDoor = "view.html", *kViewScript = "live.js";
 
-/// What a station in a container reads: the key and the script. Makes the folder, of mode 0700.
-/// @throws InputError when the script is missing, std::runtime_error when the folder cannot be written.
+/// Writes the files that a station in a container reads: the key and the script. Creates the folder, with mode 0700.
+/// @throws InputError if the script is missing, std::runtime_error if the folder cannot be written.
 void write_for_station(const std::filesystem::path& folder, const view::Key& key);
 
 }  // namespace skein::cli

@@ -1,4 +1,4 @@
-// Everything that can be wrong is found before anything flies.
+// Checks before a run: lets programs validate their input, and runs helper programs to their end.
 #pragma once
 
 #include <functional>
@@ -10,23 +10,24 @@ namespace skein::cli {
 /// The user pressed Ctrl-C before the fleet had started.
 struct Interrupted {};
 
-/// Is told whom we wait for, when that takes long.
+/// Receives a message about the programs that the launcher waits for, if that takes long.
 using TellWaiting = std::function<void(const std::string&)>;
 
-/// Runs programs that only validate, all at once, and waits for them.
-/// @returns what they warn of, line by line.
+/// Runs programs that only validate (--check), all at once, and waits for them.
+/// @returns their warnings, a line each.
 /// @throws InputError with the message of the first program (in the order given) that ended with exit code 2;
 ///   std::runtime_error when one failed in another way; Interrupted.
 std::vector<std::string> run_checks(const std::vector<ProgramSpec>& programs, const TellWaiting& tell = {});
 
-/// Runs one program and waits for it. @throws Interrupted after ending it when the user pressed Ctrl-C.
+/// Runs one program and waits for its end. If the user presses Ctrl-C, ends it and throws Interrupted.
 ExitStatus run_to_end(const ProgramSpec& program);
 
-/// Runs the program that does what a command is for. @returns its exit code, or that of a failed one for any odd end.
+/// Runs the program that does a command's work. @returns the command's exit code: that of the program, or
+/// kExitProcessFailed if a signal ended it or its code is not one of 0 to kExitBadInput. @throws Interrupted.
 int hand_over(const ProgramSpec& program);
 
-/// A folder for one purpose, removed with all that is in it: by this, or, should this process be killed, by the next
-/// one that makes such a folder in the same place. Whoever lives holds a lock on his.
+/// A temporary folder. The destructor deletes it with its contents. If this process is killed, the next process that
+/// creates such a folder in the same place deletes it: each living process holds a lock on its folder.
 class ScratchDir {
  public:
   /// @throws InputError when no folder can be made under TMPDIR.

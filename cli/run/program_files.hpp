@@ -1,5 +1,5 @@
-// Which files each program of a fleet reads, for programs that run where this host's files are not: in containers, on
-// other hosts. An agent gets neither meshes nor interest points.   Threads: any.
+// Lists the files that each program of a fleet reads, for programs that run without access to this host's files: in
+// containers and on other hosts. Only sim_server gets the files of the scene.   Threads: any.
 #pragma once
 
 #include <filesystem>
@@ -9,13 +9,13 @@
 
 namespace skein::cli {
 
-/// The file FILE of NAME:FILE, which holds a planner's parameters, as written; empty: there is none.
+/// The parameter file of a planner NAME:FILE, as the user wrote its path; empty: there is none.
 std::filesystem::path parameter_file(const UavPlanner& planner);
 
-/// Of the scenario and the fault file: what this program reads, as the plan names it.
+/// The files of the scenario and the faults that this program reads, with the paths of the plan.
 std::vector<std::filesystem::path> scenario_files(const FleetPlan& plan, const std::string& program);
 
-/// Of an agent's planner: its parameters, its source in Python and the modules beside that. Of other programs: none.
+/// The files of an agent's planner: parameters, Python source, and the modules beside it. None for other programs.
 std::vector<std::filesystem::path> planner_files(const FleetPlan& plan, const std::string& program);
 
 }  // namespace skein::cli

@@ -1,5 +1,5 @@
-// What the user sees while a run goes on: one line that is rewritten on a terminal, a plain line every tenth of the
-// mission elsewhere.
+// Shows the progress of a run: on a terminal, one line that is rewritten; elsewhere, a new line every tenth of the
+// mission.
 #pragma once
 
 #include <ostream>
@@ -15,15 +15,15 @@ class ProgressView {
   /// @param terminal whether `out` can rewrite its last line.
   ProgressView(std::ostream& out, bool terminal) : out_(&out), terminal_(terminal) {}
 
-  /// From here on it writes there. @param out  must outlive this.
+  /// Writes to `out` from now on. @param out  must outlive this.
   void write_to(std::ostream& out, bool terminal);
 
   /// @param wall_s time since the programs started; gives the speed.
   void progress(const status::Progress& progress, double wall_s);
-  /// A terminal shows each, elsewhere there is a line when one is due.
+  /// Shows whom the fleet waits for: on a terminal always, elsewhere only if `wait.due`.
   void waiting_for(const status::WaitingFor& wait);
   void tally(const status::Tally& tally) { tally_ = tally; }
-  /// A line of its own, above the progress.
+  /// Prints a message on a line of its own, above the progress.
   void message(const std::string& text);
   /// Ends the progress line.
   void finish();
@@ -36,10 +36,10 @@ class ProgressView {
   std::string shown_;
   status::Tally tally_;
   int tenths_shown_ = 0;
-  double first_sim_s_ = 0.0, first_wall_s_ = -1.0;  ///< from where the speed is measured
+  double first_sim_s_ = 0.0, first_wall_s_ = -1.0;  ///< of the first progress: start for the speed
 };
 
-/// The final table. @param dir where the results are.
+/// Prints the summary of a finished run. @param result  result.json. @param dir  the results folder
 void print_summary(std::ostream& out, const Json& result, const std::filesystem::path& dir);
 
 }  // namespace skein::cli

@@ -1,4 +1,4 @@
-// recording.mcap of what the programs of a run have recorded, each for itself.
+// Joins the recordings of a run's programs (the parts) into recording.mcap.
 #pragma once
 
 #include <filesystem>
@@ -10,21 +10,21 @@
 
 namespace skein::cli {
 
-/// What of a run's recording, or of its parts, is damaged: which file and chunk, and what is missing. A sentence each;
-/// a part that is cut off is not damaged.
+/// @returns a sentence for each damage of a run's recording or its parts: file, chunk, and what is missing. A part that
+/// was cut off, because its program was killed, is not damaged.
 std::vector<std::string> recording_damage(const std::filesystem::path& dir);
 
-/// The parts that programs left in a run's folder.
+/// The parts in a run's folder that are not empty.
 std::vector<std::filesystem::path> recording_parts(const std::filesystem::path& dir);
 
-/// Joins the parts in a run's folder to recording.mcap, and removes them.
-/// @param result  what the recording says of its run. @returns as join_recording().
+/// Joins the parts in a run's folder into recording.mcap, and removes them.
+/// @param result  result.json, for the recording's metadata.
+/// @returns an error message, and the parts stay; empty: no error.
 std::string join_parts(const std::filesystem::path& dir, const Json& result);
 
-/// Joins the parts in a run's folder, and removes them. Without parts it does nothing. Beside the recording it puts a
-/// layout for viewers of Foxglove's family.
-/// @param result  what the recording says of its run.
-/// @returns what went wrong, for people; empty: nothing. The parts stay then.
+/// Calls join_parts(), then writes rosbag2's metadata.yaml and a layout for Foxglove and related viewers beside the
+/// recording. Does nothing if there are no parts.
+/// @param result  as for join_parts(). @returns an error message; empty: no error.
 std::string join_recording(const std::filesystem::path& dir, const Scenario& scenario, const Json& result);
 
 }  // namespace skein::cli

@@ -23,14 +23,14 @@ std::filesystem::path results_dir_of(const RunOptions& run, const std::string& s
 /// Holds a results folder for one run: two launchers never write to the same one.
 class ResultsDir {
  public:
-  /// Looks only; creates and changes nothing.
-  /// @throws InputError when `dir` holds a result and `force` is not set, or is no folder.
+  /// Only checks; creates and changes nothing.
+  /// @throws InputError if `dir` holds a result and `force` is not set, or if it is not a folder.
   static void check(const std::filesystem::path& dir, bool force);
 
-  /// Checks, creates the folder where it is missing, and removes what an earlier run left of the files that a run
-  /// writes: a stale report must not pass for one of this run. Other files stay.
-  /// Root's is closed to the agents of secured runs (process/files/closed_to_agents.hpp), for good.
-  /// @throws InputError as check(), when another run is writing there, and when the disk has no room for a result.
+  /// Checks and locks the folder, creates it if it is missing, and deletes an earlier run's files from it, so that a
+  /// stale report does not pass for one of this run. Other files stay.
+  /// If root runs this, agents of secured runs can never read the folder again (process/files/closed_to_agents.hpp).
+  /// @throws InputError as check(), and if another run is writing there or the disk has no room for a result.
   ResultsDir(const std::filesystem::path& dir, bool force);
   ~ResultsDir();
   ResultsDir(const ResultsDir&) = delete;
@@ -38,8 +38,8 @@ class ResultsDir {
 
   const std::filesystem::path& path() const { return path_; }  ///< absolute
 
-  /// Writes result.json, into room that was kept for it from the start on: a run that fills the disk has a result all
-  /// the same. @returns what went wrong, for people; empty when it is written.
+  /// Writes result.json into disk space that the constructor has reserved: a run that fills the disk has a result, too.
+  /// @returns an error message; empty: the file is written.
   std::string write_result(const std::string& text) const;
 
  private:

@@ -1,4 +1,4 @@
-// What programs are told of a run that somebody looks on, and perhaps flies by hand.
+// Arguments of programs for a run that a user watches, and in which they may fly UAVs by hand.
 #pragma once
 
 #include <string>
@@ -8,10 +8,10 @@
 
 namespace skein::cli {
 
-/// sim_server.   @param plan  of a run that is watched.
+/// Arguments of sim_server. @param plan  of a watched run.
 std::vector<std::string> watch_arguments(const FleetPlan& plan);
 
-/// The station, to serve the page.   @param plan  as above.
+/// Arguments of the station, which serves the page. @param plan  of a watched run.
 std::vector<std::string> view_arguments(const FleetPlan& plan);
 
 }  // namespace skein::cli

@@ -1,4 +1,4 @@
-// Which figures of a flight are compared, in the order of the tables. Pure; any thread.
+// The figures by which a study compares flights: the columns of its tables, in order. Pure; any thread.
 #pragma once
 
 #include <functional>
@@ -14,17 +14,17 @@ struct StudyColumn {
   std::string name;   ///< in CSV files
   std::string title;  ///< in the report, with its unit
   std::string help;   ///< what it means, in a sentence
-  int digits = 0;     ///< behind the point, in the report
+  int digits = 0;     ///< decimal places in the report
   bool in_report = true;
   std::function<std::optional<double>(const FlightFigures&)> value;
-  bool paired = false;  ///< pairs.csv compares planners by it, beside the score (pairs.hpp)
+  bool paired = false;  ///< other_pairs() compares planners by it (pairs.hpp)
 };
 
 const std::vector<StudyColumn>& study_columns();
-/// The one of this name. @throws std::out_of_range when there is none.
+/// The column of this name. @throws std::out_of_range if there is none.
 const StudyColumn& study_column(const std::string& name);
 
-/// Of the flights of one cell that have this figure.
+/// The values of this figure in those `flights` (of one planner in one scene) that have it.
 std::vector<double> column_values(const StudyColumn& column, const std::vector<const FlightEntry*>& flights);
 
 }  // namespace skein::cli

@@ -1,4 +1,4 @@
-// What conditions cost planners: a study that flew every scene under several. Pure.
+// Table of how conditions (docs/conditions.md) change the results of planners. Pure.
 #pragma once
 
 #include <iosfwd>
@@ -7,9 +7,9 @@
 
 namespace skein::cli {
 
-/// For each conditions and planner: the median share of the estimate over all scenes and seeds, that as a share of the
-/// first conditions' median, collisions, and those of UAVs whose battery was empty. Markdown, as docs/conditions.md has
-/// it. Nothing if the study names no conditions.
+/// Prints a Markdown table with a row for each set of conditions and planner: flights, median share of the estimate
+/// over all scenes and seeds [%], this median relative to that under the first conditions [%], collisions, and those
+/// of UAVs with an empty battery. Prints nothing if the study names no conditions.
 void print_conditions(std::ostream& out, const Study& study);
 
 }  // namespace skein::cli

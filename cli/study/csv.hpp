@@ -1,5 +1,5 @@
-// The tables of a study as CSV (RFC 4180; empty cells where nobody could tell). docs/how-to-compare-planners.md lists
-// the columns. Pure; any thread.
+// The tables of a study as CSV (RFC 4180; a cell is empty if its value is not known). docs/how-to-compare-planners.md
+// lists the columns. Pure; any thread.
 #pragma once
 
 #include <string>
@@ -9,13 +9,13 @@
 
 namespace skein::cli {
 
-/// A line a flight, in the order in which they were planned.
+/// A line for each flight, in the order of the plan.
 std::string flights_csv(const Study& study);
-/// A line a figure and pair of planners in a scenario, then over all of them, for which the scenario's cell is empty.
+/// A line for each pair, in the given order. The scenario's cell is empty for pairs over all scenarios.
 std::string pairs_csv(const Study& study, const std::vector<PlannerPair>& pairs);
-/// A line a scenario and planner: median, min and max over the seeds.
+/// A line for each scenario and planner: median, min and max over the seeds.
 std::string summary_csv(const Study& study);
-/// Of a contest, a line a planner in order of rank: totals a test, and what ranks them.
+/// For a contest. A line for each planner, by rank: its total in each test, and the max, median and worst of these.
 std::string totals_csv(const Study& study);
 
 }  // namespace skein::cli

@@ -1,4 +1,4 @@
-// Scores over time: how far each planner was at which time, over its seeds. Pure; any thread.
+// Scores over simulated time: median, least and greatest over the seeds of each planner. Pure; any thread.
 #pragma once
 
 #include <vector>
@@ -7,17 +7,18 @@
 
 namespace skein::cli {
 
-/// One planner in one scene, at the times of the study's grid.
+/// Scores of one planner in one scene, each at the times of curve_times().
 struct ScoreCurve {
   std::size_t planner = 0;
-  std::size_t flights = 0;  ///< with a known score over time
+  std::size_t flights = 0;  ///< flights whose score over time is known
   std::vector<double> median, least, greatest;
 };
 
-/// Times that all scenes share: from 0 to the end of the longest flight, simulated seconds.
+/// The times of all curves: equally spaced from 0 to the end of the study's longest flight [simulated s].
 std::vector<double> curve_times(const Study& study);
 
-/// Of planners with such a flight in the scene. A flight that is over keeps its score.
+/// Curves of the planners that have a flight with a known score over time in the scene. After the end of a flight its
+/// score stays the same.
 std::vector<ScoreCurve> score_curves(const Study& study, std::size_t scenario, const std::vector<double>& times_s);
 
 }  // namespace skein::cli

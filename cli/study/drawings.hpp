@@ -1,4 +1,4 @@
-// The figures of a study: the same on its page and in files. Panels of one quantity have one axis. Pure; any thread.
+// The drawings of a study, used on its page and as files. Panels of one quantity have the same axis. Pure; any thread.
 #pragma once
 
 #include <map>
@@ -12,26 +12,26 @@
 
 namespace skein::cli {
 
-/// Of the best flights, by scenario and planner.
+/// Drawings of the best flights, by indices of scenario and planner.
 using StudyPictures = std::map<std::pair<std::size_t, std::size_t>, report::FlightPicture>;
 
 enum class FigureKind { total, score, curves, difference, flight };
 
 struct StudyFigure {
   FigureKind kind = FigureKind::score;
-  std::optional<std::size_t> scenario;  ///< none: all of them
+  std::optional<std::size_t> scenario;  ///< nullopt: all scenarios
   std::string file;                     ///< "score-towers.svg"
   std::string caption, small;
   std::string svg;
-  std::string page = {};                 ///< of the flight that it shows, as FlightEntry has it
-  std::vector<LegendEntry> legend = {};  ///< for who sees the file alone
+  std::string page = {};                 ///< report of the flight that it shows, as FlightEntry::page
+  std::vector<LegendEntry> legend = {};  ///< for the file; the page has its own
 };
 
-/// In the order in which the page has them. @param titles  of the scenes.
+/// All figures, in the order of the page. @param titles  of the scenes.
 std::vector<StudyFigure> study_figures(const Study& study, const StudyPictures& pictures,
                                        const std::vector<PlannerPair>& pairs, const std::vector<std::string>& titles);
 
-/// From 0 to a round number that no score of the study exceeds.
+/// Axis from 0 to a round number that is not below any score of the study.
 report::Axis score_axis(const Study& study);
 
 }  // namespace skein::cli

@@ -1,4 +1,4 @@
-// Figures of a study as files for papers: each an SVG that needs nothing else, black text on white. Pure; any thread.
+// Figures of a study as files for papers: self-contained SVG, black text on white. Pure; any thread.
 #pragma once
 
 #include <string>
@@ -7,8 +7,8 @@
 
 namespace skein::cli {
 
-/// With its style in it, all colours as numbers, a common font, and its legend below. Curves differ by their dashes,
-/// too, so that a copy in grey can be read.
+/// The SVG includes its style sheet, with numeric colours and a common font, and a legend below the drawing. Curves
+/// also differ in their dashes, so that a grey copy is readable.
 std::string paper_svg(const StudyFigure& figure);
 
 }  // namespace skein::cli

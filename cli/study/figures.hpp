@@ -1,4 +1,4 @@
-// The arithmetic of a study: from the results of its flights to figures, medians, totals and ranks. Pure; any thread.
+// Computes a study's figures, medians, totals and ranks from the results of its flights. Pure; any thread.
 #pragma once
 
 #include <filesystem>
@@ -23,25 +23,25 @@ struct UavFigures {
   std::optional<double> idle_s, captures;
 };
 
-/// What is compared of one flight. Empty where nobody could tell.
+/// The figures of one flight. nullopt: not known.
 struct FlightFigures {
   double score = 0.0;
   int points_detected = 0, points_total = 0;
-  std::optional<double> attainable_percent;                      ///< of the score that full knowledge could get
-  std::optional<double> attainable;                              ///< that score
-  std::optional<double> mean_quality;                            ///< score by detected point
-  std::optional<double> greatest_share;                          ///< of one UAV in the score [%]
-  int collisions = 0, collisions_by_battery = 0;                 ///< the latter: it fell, since that was empty
-  std::optional<int> frozen_uavs, waiting_uavs;                  ///< without work; excused since they waited
-  std::optional<double> frozen_s, waited_s, without_work_s;      ///< of all; of all; the longest of any
-  std::optional<double> idle_explorers_s, idle_photographers_s;  ///< a UAV of that role on average
-  double distance_m = 0.0;                                       ///< of all UAVs
-  std::optional<double> planner_cpu_ms;                          ///< a simulated second and UAV; of UAVs that tell
+  std::optional<double> attainable_percent;                      ///< score as a share of `attainable` [%]
+  std::optional<double> attainable;                              ///< score possible with full knowledge
+  std::optional<double> mean_quality;                            ///< score per detected point
+  std::optional<double> greatest_share;                          ///< greatest share of one UAV in the score [%]
+  int collisions = 0, collisions_by_battery = 0;                 ///< the latter: falls with an empty battery
+  std::optional<int> frozen_uavs, waiting_uavs;                  ///< UAVs that were ever frozen; that were ever excused
+  std::optional<double> frozen_s, waited_s, without_work_s;      ///< sums over the fleet; the longest of any UAV
+  std::optional<double> idle_explorers_s, idle_photographers_s;  ///< mean per UAV of that role
+  double distance_m = 0.0;                                       ///< sum over the fleet
+  std::optional<double> planner_cpu_ms;                          ///< per UAV and simulated second
   double real_time_factor = 0.0, mission_time_s = 0.0;
-  std::string status, digest;                             ///< digest: empty where it would not repeat
+  std::string status, digest;                             ///< digest: empty if the run has none
   std::vector<UavFigures> uavs = {};                      ///< fleet order
-  std::optional<double> memory_mb = {}, processors = {};  ///< of all its programs; how many of them were busy
-  std::optional<double> braking_hits = {}, braking_meets = {}, ways_meet = {};  ///< of the flight check
+  std::optional<double> memory_mb = {}, processors = {};  ///< sum over its programs; their CPU time per wall time
+  std::optional<double> braking_hits = {}, braking_meets = {}, ways_meet = {};  ///< exchanges, from the flight check
   std::optional<double> least_clearance_m = {}, least_separation_m = {};        ///< between surfaces
 };
 
@@ -52,23 +52,23 @@ struct Spread {
   std::size_t count = 0;
   double min = 0.0, q1 = 0.0, median = 0.0, q3 = 0.0, max = 0.0;
 };
-/// Zeros of an empty sample.
+/// All zeros for an empty sample.
 Spread spread_of(std::vector<double> values);
 
 struct FlightEntry {
   std::size_t planner = 0, scenario = 0;
   std::uint64_t seed = 0;
   std::filesystem::path dir;
-  std::optional<FlightFigures> figures;  ///< none: no result that counts
+  std::optional<FlightFigures> figures;  ///< nullopt: no result that counts
   std::string problem;                   ///< empty: none
-  std::string page = {};                 ///< its own report, from the study's folder; empty: there is none
+  std::string page = {};                 ///< its report, relative to the study's folder; empty: none
   std::optional<FlightTables> tables = {};
-  std::string command = {};  ///< that repeats it
-  std::string folder = {};   ///< of its results, from the study's folder
+  std::string command = {};  ///< repeats the flight
+  std::string folder = {};   ///< results folder, relative to the study's folder
 };
 
-/// Flights in the order in which they were planned, found by what they are: of 100 000 nobody may look at all for each
-/// figure. Planner, scenario and seed of what is in it stay as they are.
+/// Flights in the order of the plan, with indices by planner, scenario and seed, since a study may have 100 000 flights
+/// and a search through all for each figure takes too long. Do not change planner, scenario or seed of an entry.
 class FlightList {
  public:
   FlightList() = default;
@@ -83,7 +83,7 @@ class FlightList {
   auto begin() const { return flights_.begin(); }
   auto end() const { return flights_.end(); }
 
-  /// Of a planner in a scenario, and of a planner with a seed in any: where they are in the list, ascending.
+  /// Ascending positions in the list: flights of a planner in a scenario; flights of a planner with a seed.
   const std::vector<std::size_t>& in_scenario(std::size_t planner, std::size_t scenario) const;
   const std::vector<std::size_t>& with_seed(std::size_t planner, std::uint64_t seed) const;
 
@@ -92,10 +92,10 @@ class FlightList {
   static const std::vector<std::size_t>& places_in(const Places& all, std::size_t planner, std::uint64_t other);
 
   std::vector<FlightEntry> flights_;
-  Places by_scenario_, by_seed_;  ///< of a planner and one of these
+  Places by_scenario_, by_seed_;  ///< keys: planner, and scenario or seed
 };
 
-/// All that tables and pages show.
+/// Everything that the tables and pages of a study show.
 struct Study {
   bool contest = false;
   Rank rank = Rank::maximum;
@@ -104,30 +104,30 @@ struct Study {
   FlightList flights;
   std::string command_line, version, programs, medium;
   int jobs = 1;
-  std::string conditions = {};                     ///< other than the scenarios' own: "missions of 120 s"; empty: none
-  std::vector<std::string> scene_conditions = {};  ///< by scenario, as --conditions has them; empty: not told apart
-  std::string machine = {};                        ///< on which this was written; empty: nobody asked
+  std::string conditions = {};                     ///< if not the scenarios': "missions of 120 s"; else empty
+  std::vector<std::string> scene_conditions = {};  ///< by scenario, from --conditions; empty: no such option
+  std::string machine = {};                        ///< that wrote this; empty: not recorded
 
-  /// The flights of a planner in a scenario that count, by seed.
+  /// The flights of a planner in a scenario that have figures, in the order of the plan.
   std::vector<const FlightEntry*> cell(std::size_t planner, std::size_t scenario) const;
-  /// The one with the highest score, the first of equals; null without any.
+  /// The flight of the cell with the highest score (of equals, the first); null: the cell is empty.
   const FlightEntry* best(std::size_t planner, std::size_t scenario) const;
   bool any_problem() const;
 };
 
-/// What of all scenes together counts for a planner with a seed: the sum over its flights, if all of them count and
-/// have a value. @param value  of a flight that counts.
+/// The sum of `value` over a planner's flights with one seed in all scenes; nullopt if a flight lacks figures or value.
+/// @param value  returns the value of a flight that has figures.
 std::optional<double> total_of(const Study& study, std::size_t planner, std::uint64_t seed,
                                const std::function<std::optional<double>(const FlightEntry&)>& value);
 
 /// One planner in the ranking.
 struct Standing {
   std::size_t planner = 0;
-  std::vector<std::optional<double>> totals;  ///< by test (seed); none: a flight of the test does not count
-  std::optional<double> decides;              ///< by Study::rank; none without a complete test
-  int place = 0;                              ///< from 1; equals share the better one
+  std::vector<std::optional<double>> totals;  ///< by test (seed); nullopt: a flight of the test has no figures
+  std::optional<double> decides;              ///< the total that ranks it, by Study::rank; nullopt: no complete test
+  int place = 0;                              ///< from 1; equal planners share the better place
 };
-/// Best first; equals in the order in which they were named; those without a complete test last.
+/// Best first; equal planners in the order of the study; planners without a complete test last.
 std::vector<Standing> standings(const Study& study);
 
 /// The totals of complete tests.

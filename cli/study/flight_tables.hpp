@@ -1,4 +1,4 @@
-// What a study reads of each flight beside its result: the score over time, and how captures reached the station.
+// The tables of a flight that a study reads: the score over time, and the delays of captures to the station.
 #pragma once
 
 #include <filesystem>
@@ -9,15 +9,16 @@
 namespace skein::cli {
 
 struct FlightTables {
-  std::vector<results::RunScore> scores;   ///< whenever it changed; empty: not known
-  double end_s = 0.0;                      ///< of the simulated time
+  std::vector<results::RunScore> scores;   ///< at each change; empty: not known
+  double end_s = 0.0;                      ///< end of the flight [simulated s]
   std::vector<report::Latency> latencies;  ///< by UAV, of captures that improved a point; empty: not known
 
-  /// At a time; 0 before the first change. Scores must be known.
+  /// Score at a simulated time; 0 before the first change, and if the scores are not known.
   double score_at(double time_s) const;
 };
 
-/// A table that is missing gives nothing, one that is damaged what is whole of it. Never throws.
+/// Reads the tables of a results folder. A missing table counts as empty, a damaged one ends before the damage.
+/// Never throws for damage; without a valid result.json, everything is empty.
 FlightTables read_flight_tables(const std::filesystem::path& dir);
 
 }  // namespace skein::cli

@@ -1,4 +1,4 @@
-// The flights of a study: each is a `skein run` in a folder of its own, and what has been flown once stays.
+// Flies a study. Each flight is a `skein run` in a folder of its own; flights that have a result are not flown again.
 #pragma once
 
 #include <optional>
@@ -12,33 +12,34 @@
 
 namespace skein::cli {
 
-/// Written into a flight's folder when it is over: under what it was flown, and how it ended.
+/// File in a flight's folder, written at its end: everything on which its result depends, and its problem, if any.
 inline constexpr const char* kFlightMark = "flight.json";
 
 /// How a flight of the plan ended.
 struct StudyOutcome {
-  std::optional<FlightFigures> figures;  ///< of a flight to its end
-  std::string problem;                   ///< what went wrong; empty: nothing, or not flown before Ctrl-C
+  std::optional<FlightFigures> figures;  ///< nullopt: the flight did not go to its end
+  std::string problem;                   ///< error message; empty: no error, or not flown because of Ctrl-C
 };
 
 struct StudyOutcomes {
   std::vector<StudyOutcome> flights;  ///< in the plan's order
-  bool interrupted = false;           ///< the user pressed Ctrl-C before all had flown
-  bool detached = false;              ///< an engine flies them, and nobody waits for it
+  bool interrupted = false;           ///< the user pressed Ctrl-C before all flights were over
+  bool detached = false;              ///< the engine of a sweep flies on; this command did not wait (--detach)
 };
 
-/// Whether a result is of a flight to its end.
+/// Whether a flight went to its end: its status is `completed` or `no_takeoff`.
 bool went_to_its_end(const Json& result);
 
-/// Why `skein run` ended with another code than 0, in a sentence. @param dir  of the flight
+/// Error message for a flight that failed. @param dir  its folder. @param exit  of its `skein run`
 std::string problem_of(const std::filesystem::path& dir, const Json& result, const ExitStatus& exit);
 
-/// The outcome that is there already: of the same command, to its end, without a problem. nullopt: it must be flown.
+/// The outcome of an earlier flight with the same StudyFlight::command() that went to its end without a problem.
+/// nullopt: it must be flown.
 std::optional<StudyOutcome> flown_before(const StudyFlight& flight);
 
-/// Flies what has not been flown, `plan.jobs` at once, with progress on `console.err`. A flight that fails is
-/// noted and the others go on; Ctrl-C ends those in the air at their next step, a second one at once.
-/// From one thread, which must live as long as the flights.
+/// Flies all flights that have no outcome yet, `plan.jobs` at once, with progress on `console.err`. Records a flight
+/// that fails, and flies the others. Ctrl-C ends running flights at their next step, a second Ctrl-C at once.
+/// Threads: one, which must live as long as the flights.
 StudyOutcomes fly_study(const StudyPlan& plan, const Console& console);
 
 /// "45 s", "12 min", "3 h 20 min".

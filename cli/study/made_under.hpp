@@ -1,5 +1,5 @@
-// All that the result of a flight depends on but its seed: another build, other files or another draw of a world make
-// another text of it. Reads the programs and the files.
+// Describes everything on which a flight's result depends, except its seed, as JSON. The JSON changes whenever the
+// programs, an input file or a generated world changes. Reads the programs and the files.
 #pragma once
 
 #include <filesystem>
@@ -11,22 +11,22 @@
 
 namespace skein::cli {
 
-/// In or over which a fleet flies, for people: "one process", or a vendor.
+/// How a fleet's programs communicate, for messages: "one process", or the DDS vendor.
 std::string medium_of(const FleetPlan& fleet);
 
-/// Reads each program once, so that many fleets cost little. One thread.
+/// Reads each program only once, also for many fleets. One thread.
 class MadeUnder {
  public:
-  /// Version, digests of the programs and of the agent's file, scenario, planner, digest of their files, medium.
-  /// @throws InputError for a file that cannot be read.
+  /// Version, digests of the server programs and of the agent programs, scenario, planner, digest of the input files,
+  /// medium. @throws InputError if a file cannot be read.
   Json of(const FleetPlan& fleet);
 
  private:
   std::string agent_digest(const FleetPlan& fleet);
   const std::string& digest(const std::filesystem::path& agent);
 
-  std::string programs_;                                  ///< of those that fly with every planner
-  std::map<std::filesystem::path, std::string> digests_;  ///< of agents
+  std::string programs_;                                  ///< digest of the programs that are the same for all planners
+  std::map<std::filesystem::path, std::string> digests_;  ///< by file of an agent program
 };
 
 }  // namespace skein::cli

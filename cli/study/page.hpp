@@ -1,5 +1,5 @@
-// The report of a study as one HTML page: ranking, tables, plots and drawings of the best flights, links to the pages
-// of its flights. It asks for nothing from elsewhere, and its links are relative: the folder can be moved. Pure; any
+// The report of a study as one HTML page: ranking, tables, plots, drawings of the best flights, and links to reports
+// of its flights. It loads nothing from the network, and its links are relative, so the folder can be moved. Pure; any
 // thread.
 #pragma once
 
@@ -10,7 +10,7 @@
 
 namespace skein::cli {
 
-/// All that the page and the files beside it show.
+/// Everything that the page and the files beside it show.
 struct StudyReport {
   /// @param study  must live as long as this.
   StudyReport(const Study& study, StudyPictures pictures);
@@ -22,7 +22,7 @@ struct StudyReport {
   std::vector<StudyFigure> figures;
 };
 
-/// Where the figures and the LaTeX table are, from the study's folder.
+/// Folder of the figures, and file of the LaTeX table, relative to the study's folder.
 inline constexpr const char* kFiguresFolder = "figures";
 inline constexpr const char* kTexTable = "table.tex";
 

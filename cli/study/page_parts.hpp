@@ -8,23 +8,23 @@
 
 namespace skein::cli {
 
-/// Of a contest.
+/// The ranking of a contest.
 std::string ranking_section(const StudyReport& report);
 /// Score, share and points of every planner in every scene.
 std::string overview_section(const StudyReport& report);
-/// Dots and boxes, then curves over time.
+/// Plots of scores (dots and boxes), then of scores over time.
 std::string spread_section(const StudyReport& report);
 std::string pairs_section(const StudyReport& report);
 std::string delivery_section(const StudyReport& report);
-/// Of one scene: figures, flights, UAVs, drawings.
+/// Everything about one scene: figures, flights, UAVs, drawings.
 std::string scene_section(const StudyReport& report, std::size_t scenario);
 
 /// A planner's name with its colour.
 std::string planner_cell(const Study& study, std::size_t planner);
-/// Figures of these kinds side by side; of a scene, or of all.
+/// Figures of these kinds side by side. @param scenario  nullopt: figures that are about all scenes
 std::string figure_panels(const StudyReport& report, std::initializer_list<FigureKind> kinds,
                           std::optional<std::size_t> scenario = {});
-/// "3 flights".
+/// A count with its noun: "1 flight", "3 flights".
 std::string plural(std::size_t count, const std::string& what);
 
 }  // namespace skein::cli

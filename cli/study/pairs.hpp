@@ -1,4 +1,4 @@
-// Planner against planner: the differences of their scores and of other figures, seed by seed. Pure; any thread.
+// Compares planners in pairs: the differences of their scores and other figures, seed by seed. Pure; any thread.
 #pragma once
 
 #include <optional>
@@ -14,27 +14,29 @@ namespace skein::cli {
 struct PlannerPair {
   std::string figure = "score";  ///< a column of flights.csv, or kDeviation
   std::size_t first = 0, second = 0;
-  std::optional<std::size_t> scenario;  ///< none: totals, the sums over all scenes
-  /// First less second, by seed, of the seeds with which both have flights that count.
+  std::optional<std::size_t> scenario;  ///< nullopt: over all scenes, sums of scores or means of others
+  /// Value of `first` minus value of `second`, for each seed with which both have a value.
   std::vector<std::pair<std::uint64_t, double>> differences;
-  std::optional<double> median;      ///< none without a difference
-  std::optional<Interval> interval;  ///< for the median; from kFewestPairs on
-  std::optional<SignedRank> test;    ///< from kFewestPairs on
-  /// Of the test, corrected for those of the same two planners and figure in all scenes; of totals, for all pairs.
+  std::optional<double> median;      ///< nullopt: there is no difference
+  std::optional<Interval> interval;  ///< for the median; nullopt below kFewestPairs
+  std::optional<SignedRank> test;    ///< nullopt below kFewestPairs
+  /// p of the test after Holm's correction for all tests of the same figure and the same two planners in single scenes;
+  /// without `scenario`, for those of the same figure and all pairs over all scenes.
   std::optional<double> p_holm;
 
   std::vector<double> values() const;
 };
 
-/// How far a score is from the planner's median in the scene, in percent of that: whose scores are spread wider.
+/// Figure: distance of a score from the planner's median score in the scene, in percent of that median. A greater one
+/// means more widely spread scores.
 inline constexpr const char* kDeviation = "score_deviation_percent";
 
-/// All pairs in each scene, then, where there are several scenes, over all of them: sums of scores.
+/// Scores of all pairs in each scene; then, if there are several scenes, sums of scores over all scenes.
 std::vector<PlannerPair> planner_pairs(const Study& study);
-/// The same of what else is paired (columns.hpp), and of deviations; over all scenes their means.
+/// The same for the columns that are `paired` (columns.hpp) and for kDeviation; over all scenes, means.
 std::vector<PlannerPair> other_pairs(const Study& study);
 
-/// "0.031", "< 0.001"; none: an empty text.
+/// "0.031", "< 0.001"; nullopt: an empty text.
 std::string p_text(const std::optional<double>& p);
 
 }  // namespace skein::cli

@@ -1,4 +1,4 @@
-// A study: every planner flies every scenario with every seed. All that is decided before its first flight.
+// Plans a study: every planner flies every scenario with every seed.
 #pragma once
 
 #include <filesystem>
@@ -16,14 +16,14 @@ struct StudyFlight {
   std::size_t planner = 0, scenario = 0;  ///< indices in the plan
   std::uint64_t seed = 0;
   std::filesystem::path dir;
-  double mission_s = 0.0;                      ///< at most
-  std::optional<std::filesystem::path> agent;  ///< program that flies it; nullopt: the user named none
-  bool one_process = false;                    ///< or as processes over DDS
-  /// All that its result depends on but for the seed. One for all flights of a planner in a scene: it takes a kilobyte,
-  /// and a study may have 100 000 flights.
+  double mission_s = 0.0;                      ///< longest duration of the mission
+  std::optional<std::filesystem::path> agent;  ///< agent program; nullopt: the user named none
+  bool one_process = false;                    ///< false: as processes over DDS
+  /// Everything on which its result depends, except the seed (made_under.hpp). All flights of a planner in a scene
+  /// share it, because it takes a kilobyte and a study may have 100 000 flights.
   std::shared_ptr<const Json> made_under;
 
-  /// All that its result depends on; a result that was made under the same needs no second flight.
+  /// Everything on which its result depends. If a flight with an equal command() has a result, it is not flown again.
   Json command() const;
 };
 
@@ -36,33 +36,34 @@ struct StudyScene {
 struct StudyPlan {
   StudyOptions options;
   std::vector<std::string> planners;   ///< as `skein run --planner` takes them
-  std::vector<std::string> labels;     ///< what they are called: planner_labels()
-  std::vector<std::string> scenarios;  ///< what its scenes are called: "towers", "wild 7", "wild 7 harsh"
-  std::vector<StudyScene> scenes;      ///< the same, as they are flown
+  std::vector<std::string> labels;     ///< their names: planner_labels()
+  std::vector<std::string> scenarios;  ///< names of the scenes: "towers", "wild 7", "wild 7 harsh"
+  std::vector<StudyScene> scenes;      ///< the scenes, in the same order
   std::vector<std::uint64_t> seeds;
   std::filesystem::path out;         ///< absolute
-  std::vector<StudyFlight> flights;  ///< by seed, then scenario, then planner: cut short, all have flown about as much
+  std::vector<StudyFlight> flights;  ///< by seed, scenario, planner: if interrupted, all have flown about equally often
   int jobs = 1;                      ///< flights at once
-  std::string medium;                ///< in or over which they fly, for people
-  Json settings;                     ///< all that the results of the study depend on
-  std::string command_line;          ///< that makes this study, but for how it is flown
+  std::string medium;                ///< medium_of() the fleets, for messages
+  Json settings;                     ///< everything on which the results of the study depend
+  std::string command_line;          ///< repeats the study; without options such as --jobs
 };
 
-/// Whether the programs themselves are asked what they think of it: it takes a while.
+/// Whether the programs themselves check the plan (--check), which takes a while.
 enum class AskPrograms { no, yes };
 
-/// Reads everything that is named, and lets the programs themselves check every planner in every scenario.
-/// @throws InputError naming what is wrong and what would be right: a planner or scenario that is unknown or named
-///   twice, seeds, a missing agent program. Interrupted. Nothing is written.
+/// Reads all files that the options name, and lets the programs check every planner in every scenario (of scenes that
+/// differ only in scene seed or conditions, in the first one). Writes nothing into the study's folder.
+/// @throws InputError, with a correct value: for a planner or scenario that is unknown or named twice, for seeds, for a
+///   missing agent program. Interrupted.
 StudyPlan plan_study(const StudyOptions& options, AskPrograms ask = AskPrograms::yes);
 
-/// How two studies' settings differ, a sentence each; empty when they do not.
+/// How the settings of two studies differ, in phrases for a message; empty: not at all.
 std::vector<std::string> differing_settings(const Json& then, const Json& now);
 
-/// What a user types to fly the same again.
+/// The shell command that repeats a flight.
 std::string repeating_command(const StudyPlan& plan, const StudyFlight& flight);
 
-/// The `skein run` that flies it.
+/// The options of the `skein run` that flies `flight`.
 RunOptions flight_options(const StudyPlan& plan, const StudyFlight& flight);
 
 }  // namespace skein::cli

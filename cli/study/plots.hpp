@@ -1,5 +1,5 @@
-// Plots of a study as SVG: rows of dots, and curves over time. Their axes are the caller's, so that panels of one
-// quantity have the same. Colours are CSS classes of report/style.hpp. Pure; any thread.
+// Plots of a study as SVG: rows of dots, and curves over time. The caller gives the axes, so that panels of one
+// quantity have the same axis. Colours are CSS classes of report/style.hpp. Pure; any thread.
 #pragma once
 
 #include <optional>
@@ -13,34 +13,34 @@
 namespace skein::cli {
 
 inline constexpr std::size_t kPlotColours = 7;
-/// With fewer values a row has no box: quartiles of so few are mostly invented.
+/// A row with fewer values has no box, because quartiles of so few values are mostly interpolation.
 inline constexpr std::size_t kFewestInABox = 5;
 
-/// The class of a planner's colour; they repeat.
+/// CSS class of a planner's colour. The classes repeat after kPlotColours planners.
 std::string colour_class(std::size_t planner);
 
 struct PlotValue {
   double value = 0.0;
-  std::string name;  ///< shown when pointed at
+  std::string name;  ///< tooltip
 };
 
 struct PlotRow {
   std::string label;
-  std::string style;  ///< colour_class(), or "neutral" for what is of no planner
+  std::string style;  ///< colour_class(), or "neutral": of no single planner
   std::vector<PlotValue> values;
-  /// Drawn in the place of a box: where the median is to be looked for.
+  /// Confidence interval of the median; drawn instead of a box.
   std::optional<Interval> interval = {};
 };
 
 struct DotPlot {
-  std::string title;  ///< for those who hear the page; the caption is the page's
+  std::string title;  ///< for screen readers; the page has its own caption
   std::string quantity;
-  report::Axis axis;  ///< holds all values
+  report::Axis axis;  ///< must contain all values
   std::vector<PlotRow> rows;
-  bool boxes = true;  ///< of rows with kFewestInABox values: from quartile to quartile, whiskers to the ends
+  bool boxes = true;  ///< boxes between the quartiles and whiskers to the ends, in rows of kFewestInABox or more values
 };
 
-/// Every value is a dot, the median a line. Width 360.
+/// Draws each value as a dot and the median as a line. Width 360 (SVG units).
 std::string dot_plot_svg(const DotPlot& plot);
 
 struct CurvePlot {
@@ -51,15 +51,15 @@ struct CurvePlot {
   std::vector<std::string> names;  ///< of planners
 };
 
-/// Medians as lines, in bands from the least to the greatest; a legend above. Width 440.
+/// Draws medians as lines, bands from the least to the greatest value, and a legend above. Width 440 (SVG units).
 std::string curve_plot_svg(const CurvePlot& plot);
 
-/// An entry of a legend within a drawing: a line, or a square where it is of `points`.
+/// An entry of a legend in a drawing, with a line or a square as its symbol.
 struct LegendEntry {
   std::string style, text;
   bool square = false;
 };
-/// In lines of `width`, from `top` on. @param height  is set to what they take.
+/// Draws a legend from `top` downwards, in lines of at most `width`. @param height  returns its height.
 std::string legend_svg(const std::vector<LegendEntry>& entries, double left, double top, double width, double& height);
 
 }  // namespace skein::cli

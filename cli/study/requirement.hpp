@@ -1,5 +1,5 @@
-// What every flight of a study must keep: `collisions==0`, `attainable_percent>=5`. Names are those of study_columns().
-// Pure.
+// Requirements that every flight of a study must meet: `collisions==0`, `attainable_percent>=5`. Names are those of
+// study_columns(). Pure.
 #pragma once
 
 #include <optional>
@@ -12,16 +12,16 @@ namespace skein::cli {
 struct Requirement {
   enum class Relation { equal, unequal, less, at_most, more, at_least };
 
-  std::string text;  ///< as it was written
+  std::string text;  ///< as the user wrote it
   const StudyColumn* column = nullptr;
   Relation relation = Relation::equal;
   double value = 0.0;
 
-  /// What a flight without this figure, or without any, does not keep.
+  /// Whether a flight meets it; false if this figure, or all figures (nullopt), are not known.
   bool holds(const std::optional<FlightFigures>& figures) const;
 };
 
-/// @throws InputError for anything but NAME RELATION NUMBER; it lists the names.
+/// @throws InputError unless `text` is NAME RELATION NUMBER; for an unknown name, the message suggests names.
 Requirement parse_requirement(const std::string& text);
 
 }  // namespace skein::cli

@@ -1,4 +1,4 @@
-// Flights side by side: each is a child process with a log of its own.
+// Runs several flights at once, each as a child process with a log of its own.
 #pragma once
 
 #include <deque>
@@ -14,25 +14,25 @@
 
 namespace skein::cli {
 
-/// A launcher for one flight. Its log is in the flight's folder.
+/// The `skein` process for one flight. Its log is in the flight's folder.
 /// @param arguments  of `skein`, beginning with `run`
 ProgramSpec flight_program(std::vector<std::string> arguments, const std::filesystem::path& dir);
 
-/// From one thread, which must live as long as the flights.
+/// Threads: one, which must live as long as the flights.
 class SideBySide {
  public:
-  /// What starts flight `index`; its name does not matter. Nothing: not before another one is over; where none is in
-  /// the air, all is over.
+  /// Returns the program for flight `index` (its name is ignored). nullopt: fly() asks again when another flight has
+  /// ended, and returns if no flight is running.
   using Start = std::function<std::optional<ProgramSpec>(std::size_t index)>;
-  /// Told of each flight that came to its end.
+  /// Receives each flight that has ended, also with an error.
   using Over = std::function<void(std::size_t index, const ExitStatus& exit)>;
 
   SideBySide(std::size_t at_once, const Console& console) : at_once_(at_once), console_(console) {}
 
-  /// Flies these in their order, each with its part of the cores (cli/threads.hpp). Returns when none is in the air.
-  /// Ctrl-C ends those in the air at their next step, a second one at once: nothing more starts then, and of a flight
-  /// that did not go to its end nobody is told.
-  /// @returns false when it was interrupted, also when only one of the flights was told to end.
+  /// Flies these flights in order, each with its share of the cores (cli/threads.hpp). Returns when none is running.
+  /// Ctrl-C ends running flights at their next step, a second Ctrl-C at once. Then no more flights start, and `over` is
+  /// only called for flights with exit code 0.
+  /// @returns false if it was interrupted, also if only one of the flights was interrupted.
   bool fly(std::deque<std::size_t> waiting, const Start& start, const Over& over);
 
  private:

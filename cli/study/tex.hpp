@@ -8,10 +8,11 @@
 
 namespace skein::cli {
 
-/// Text as LaTeX prints it, in a table too; control characters and what is no UTF-8 become '?'.
+/// Escapes a text for LaTeX, also in a table. Line feeds and tabs become spaces, other control
+/// characters and invalid UTF-8 become '?'.
 std::string tex_escaped(const std::string& text);
 
-/// For \input: needs the package booktabs, and UTF-8 as LaTeX has it by default.
+/// A file for \input. It needs the package booktabs, and UTF-8 as LaTeX's input encoding (the default).
 std::string study_tex(const Study& study, const std::vector<PlannerPair>& pairs,
                       const std::vector<std::string>& titles);
 

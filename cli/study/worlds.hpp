@@ -1,5 +1,5 @@
-// A study over many scenes of one family: how planners do in worlds that nobody has seen, and the worst flights with
-// the commands that repeat them. Pure.
+// Summary of a study over many generated scenes: how planners perform in worlds that nobody has seen, and the worst
+// flights with the commands that repeat them. Pure.
 #pragma once
 
 #include <iosfwd>
@@ -10,15 +10,15 @@
 
 namespace skein::cli {
 
-/// The worst flights first: those that failed, then by collisions, by UAVs that froze, and by their share of the
-/// estimate, the least first.
+/// The `most` worst flights, worst first: failed flights, then those with the most collisions, then the most frozen
+/// UAVs, then the least share of the estimate.
 std::vector<const FlightEntry*> worst_flights(const Study& study, std::size_t most);
 
-/// Each planner's share of the estimate over all scenes (median, tenth percentile, least), flights in which anybody
-/// froze, and collisions; then the ten worst flights.
+/// Prints for each planner its flights, its share of the estimate (median, tenth percentile, least) [%], flights with a
+/// frozen UAV, idle and waiting time of all UAVs [s], and collisions; then the ten worst flights.
 void print_worlds(std::ostream& out, const Study& study);
 
-/// A line for each flight that does not keep a requirement. @returns whether there is none.
+/// Prints each flight that does not meet a requirement, with its command. @returns whether all flights meet all.
 bool print_requirements(std::ostream& out, const Study& study, const std::vector<Requirement>& requirements);
 
 }  // namespace skein::cli

@@ -1,5 +1,5 @@
-// Decides what of a sweep is given to the engine, until all is flown, checked and agreed upon. It keeps nothing in its
-// memory that the folder does not hold: it may be killed at any moment, and another one goes on.
+// The controller of a sweep decides which units the engine gets, until all flights have been flown and a sample of them
+// has been checked on a second node. All that matters is in the sweep's folder: if it is killed, another one continues.
 // Reads and writes the sweep's folder. One thread.
 #pragma once
 
@@ -17,44 +17,45 @@
 
 namespace skein::cli {
 
-/// What is to be flown, and in which pieces.
+/// The flights of a sweep, and their division into units.
 struct SweepPlan {
   std::size_t flights = 0;
   std::function<SweepFlight(std::size_t index)> flight;
-  std::vector<SweepFlight> references;  ///< the first of them that goes well is the reference flight
-  /// The division into units, if the reference flight takes so long [s].
+  std::vector<SweepFlight> references;  ///< candidates: the first one that succeeds is the reference flight
+  /// Divides the flights into units. @param reference_s  wall time of the reference flight [s]
   std::function<UnitSizes(double reference_s)> unit_sizes;
-  std::vector<std::string> command;  ///< as in SweepSettings, like the next one
+  std::vector<std::string> command;  ///< as in SweepSettings, like `working_folder`
   std::filesystem::path working_folder;
 };
 
-/// One flight in so many is flown again on another node.
+/// One flight in this many is flown again on another node, as a check.
 inline constexpr std::size_t kCheckedShare = 100;
 
-/// Whether this one is; of a sweep with few flights one is at least.
+/// Whether flight `index` is checked. In a sweep of fewer than kCheckedShare flights, exactly one flight is.
 bool is_checked(std::size_t index, std::size_t flights);
 
 class SweepController {
  public:
-  /// @param here  this machine: it flies the reference flight, and judges between two nodes that differ.
+  /// @param here  this machine: flies the reference flight. If the digests of two nodes differ, its digest decides.
   SweepController(SweepFolder& folder, SweepEngine& engine, const SweepNode& here, std::ostream& say)
       : folder_(folder), engine_(engine), here_(here), say_(say) {}
 
-  /// Begins the sweep, or goes on with it where it is the same.
-  /// @param anew  the user asked: what failed before gets all its tries again
+  /// Begins the sweep; if the folder already holds the same one, continues it.
+  /// @param anew  the user started this: failed units get all their tries again
   void plan(const SweepPlan& plan, bool anew = true);
-  /// Of a sweep that is there, to be looked at. @throws InputError when there is none.
+  /// Reads the settings of an existing sweep, to report on it. @throws InputError if the folder holds none.
   void look();
-  /// @returns false when it was interrupted, or nobody waits for the engine.
+  /// Flies and checks until nothing is left to do. @returns false if the user interrupted it, or does not want to wait
+  /// for the engine (--detach).
   bool fly();
 
-  /// Calls `take` with what came of each flight that is over, in no order that means anything.
+  /// Calls `take` with the result of each flight that is over, in no particular order.
   void collect(const std::function<void(SweepRow row)>& take) const;
 
   const SweepSettings& settings() const { return settings_; }
-  /// Units that are not over, each with the last words of its log.
+  /// The units that are not over, by number, each with the last line of its log (empty: none).
   std::map<std::size_t, std::string> failed() const;
-  /// What is known of nodes and of flights that were flown again, for people, a line each.
+  /// Lines for the user about quarantined nodes, and about the flights that were checked.
   std::vector<std::string> findings() const;
 
  private:
@@ -82,9 +83,9 @@ class SweepController {
   const SweepNode& here_;
   std::ostream& say_;
   SweepSettings settings_;
-  std::set<std::string> removed_;  ///< nodes in quarantine, of which nothing is there any more
-  std::size_t checked_here_ = 0;   ///< flights
-  std::size_t told_ = 0;           ///< units that were over when progress was told last
+  std::set<std::string> removed_;  ///< quarantined nodes whose results have been set aside
+  std::size_t checked_here_ = 0;   ///< number of flights that this machine has checked
+  std::size_t told_ = 0;           ///< units that were over at the last report of progress
 };
 
 }  // namespace skein::cli

@@ -1,4 +1,4 @@
-// What flies the units of a sweep: this machine, GNU parallel over ssh, or Slurm. Skein schedules nothing itself.
+// Interface to the engine that schedules and runs the units of a sweep: this machine, GNU parallel over ssh, or Slurm.
 #pragma once
 
 #include <cstddef>
@@ -10,41 +10,42 @@
 
 namespace skein::cli {
 
-/// A unit as the engine has it.
+/// A unit that the engine has accepted and not finished.
 struct EngineJob {
   std::size_t unit = 0;
   std::string state;  ///< in the engine's words: "RUNNING on node3", "PENDING (Resources)"
 };
 
-/// What an engine is to have flown.
+/// Units for an engine.
 struct EngineWork {
   std::vector<std::size_t> units;
-  std::set<std::string> not_on;  ///< nodes on which nothing of it may fly, as far as the engine can choose
+  std::set<std::string> not_on;  ///< nodes that must not fly these units, if the engine can exclude nodes
 };
 
-/// What an engine calls while it has units flown.
+/// Functions that an engine calls while its units fly.
 struct Meanwhile {
-  std::function<void()> tell;        ///< now and then
-  std::function<EngineWork()> more;  ///< at most once: it has a slot for which no unit is left. May be empty
+  std::function<void()> tell;        ///< reports progress; called now and then
+  std::function<EngineWork()> more;  ///< called at most once, when a slot is idle and no unit is left for it;
+                                     ///< the work that it returns may be empty
 };
 
 class SweepEngine {
  public:
   virtual ~SweepEngine() = default;
 
-  /// Has these units flown, and returns when it holds none of the sweep any more, whatever came of them: the sweep's
-  /// folder tells. Units that it holds already, of an earlier call, are not given to it twice.
-  /// @returns false when the user interrupted it, or does not want to wait.
-  /// @throws InputError when the engine does not take them, with its own words.
+  /// Lets the engine run these units, and returns when it holds no unit any more, whether they succeeded or not: their
+  /// results are in the sweep's folder. Does not submit units again that it still holds from an earlier call.
+  /// @returns false if the user interrupted it, or does not want to wait.
+  /// @throws InputError if the engine rejects the units, with the engine's own message.
   virtual bool fly(const EngineWork& work, const Meanwhile& meanwhile) = 0;
 
-  /// What it holds, asked from the engine.
+  /// The units that the engine holds; always empty for engines other than Slurm.
   virtual std::vector<EngineJob> jobs() = 0;
 
-  /// Ends what it holds of this sweep, which was planned anew.
+  /// Cancels all units of the sweep that the engine holds, because a new sweep replaces it.
   virtual void cancel() {}
 
-  /// Whether units fly on other machines than this one.
+  /// Whether units can fly on machines other than this one.
   virtual bool has_other_nodes() const = 0;
 };
 

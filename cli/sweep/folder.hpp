@@ -36,7 +36,7 @@ namespace skein::cli {
 struct SweepFlight {
   std::size_t index = 0;               ///< in the sweep
   std::filesystem::path dir;           ///< folder where its results belong
-  std::vector<std::string> arguments;  ///< of `skein`; in the air it flies with another results folder
+  std::vector<std::string> arguments;  ///< of `skein`; while it flies, with another results folder
   Json made_under;                     ///< everything on which its result depends
 };
 
@@ -85,7 +85,7 @@ class SweepFolder {
   /// nullopt: there is no sweep, or sweep.json has another format. @throws InputError when it is damaged.
   std::optional<SweepSettings> settings() const;
   /// Begins a sweep, and deletes the files of an earlier one. The results folders of its flights stay.
-  /// @param nodes_stay  keep nodes/ and quarantine/, since the reference flight is the same. @param unit  makes a unit
+  /// @param nodes_stay  keep nodes/ and quarantine/, since the reference flight is the same. @param unit  gives a unit
   void begin(const SweepSettings& settings, bool nodes_stay,
              const std::function<SweepUnit(std::size_t number)>& unit) const;
   /// Writes sweep.json. In a running sweep only `command` and `working_folder` may change.
@@ -95,7 +95,7 @@ class SweepFolder {
   /// @throws InputError when there is no such unit.
   SweepUnit unit(std::size_t number) const;
 
-  // By token, because a program of an earlier sweep may still write its results before it ends.
+  // Results are stored under the sweep's token: a program of an earlier sweep may still write its own before it ends.
   /// Units that are over.
   std::set<std::size_t> done(const std::string& token) const;
   bool is_done(const std::string& token, std::size_t unit) const;

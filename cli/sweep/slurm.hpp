@@ -1,4 +1,5 @@
-// Slurm: units as a job array, and a job behind it that merges. docs: sbatch(1), squeue(1).
+// The engine for Slurm: submits units as a job array, then a job that continues the sweep after the array, and at the
+// end merges it. Source: sbatch(1), squeue(1).
 #pragma once
 
 #include <memory>
@@ -12,14 +13,14 @@
 
 namespace skein::cli {
 
-/// Whether the shell would find it.
+/// Whether PATH has such a program.
 bool is_installed(const std::string& program);
 
-/// @throws InputError when there is no Slurm.
+/// @throws InputError if Slurm's commands are not installed, or an option for sbatch is not valid.
 std::unique_ptr<SweepEngine> make_slurm_engine(const SweepOptions& options, std::optional<int> jobs,
                                                const SweepFolder& folder, const Console& console);
 
-/// Set where the job behind an array goes on with the sweep: it does not give what failed all its tries again.
+/// Environment variable of the job that runs after an array: it continues the sweep without new tries for failed units.
 inline constexpr const char* kMergeVariable = "SKEIN_SWEEP_MERGES";
 
 }  // namespace skein::cli

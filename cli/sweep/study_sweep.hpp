@@ -1,4 +1,4 @@
-// A study as a sweep: planned once into a folder of units, flown by an engine, merged.
+// Flies a study as a sweep: plans it into a folder of units, lets an engine fly them, and merges the results.
 #pragma once
 
 #include "cli/console.hpp"
@@ -6,16 +6,16 @@
 
 namespace skein::cli {
 
-/// Flies what has not been flown, by the engine that the plan's options name. Interrupted at any moment, it goes on
-/// with the next call. From one thread. @throws InputError when there is no such engine, or it takes no units.
+/// Lets the engine of the plan's options fly all flights that have no result yet. It can be interrupted at any moment;
+/// the next call continues. Threads: one. @throws InputError if the engine is not installed, or rejects the units.
 StudyOutcomes fly_sweep(const StudyPlan& plan, const Console& console);
 
-/// Tells what is there of a sweep, what its engine holds, and what failed with its last words.
-/// @returns what is there of its flights.
+/// Prints the state of a sweep: flights with results, units that its engine holds, and failed units with the last line
+/// of their logs. @returns the outcomes so far. @throws InputError if there is no sweep.
 StudyOutcomes tell_sweep(const StudyPlan& plan, const Console& console);
 
-/// The command of a sweep in a study's folder, from the working folder in which it was typed, where this goes, too.
-/// @throws InputError when there is none.
+/// Changes to the working folder in which the user started the sweep of a study.
+/// @returns the arguments of `skein` that continue it. @throws InputError if the study's folder holds no sweep.
 std::vector<std::string> enter_sweep(const std::filesystem::path& study);
 
 }  // namespace skein::cli

@@ -6,16 +6,17 @@
 
 namespace skein::cli {
 
-/// What this node is called: SKEIN_NODE, as Slurm calls it, or the host's name.
+/// The name of this node: SKEIN_NODE, else Slurm's name for it (SLURMD_NODENAME), else the host's name.
 std::string node_name();
 
-/// From one thread, which must live as long as the flights. @param console  must outlive it.
+/// Threads: one, which must live as long as the flights. @param console  must outlive the returned node.
 SweepNode this_machine(const Console& console);
 
-/// A flight as `skein` is told it, in a folder of its own. @throws InputError for what is no flight.
+/// The arguments of `skein` that fly `flight` with `out` as its results folder.
+/// @throws InputError if the flight's arguments are not those of `skein run`.
 std::vector<std::string> arguments_into(const SweepFlight& flight, const std::filesystem::path& out);
 
-/// `skein --unit STUDY N`, which engines run on nodes. @returns its exit code.
+/// Executes `skein --unit STUDY N`, which an engine runs on a node. @returns the exit code.
 int run_unit(const UnitOptions& options, const Console& console);
 
 }  // namespace skein::cli

@@ -30,7 +30,7 @@ struct SweepNode {
   std::function<std::string(const std::filesystem::path& out, const ExitStatus& exit)> reason;
 };
 
-/// The node has a problem, and not a flight: no result is lost, and another node can continue.
+/// The node has a problem, not a flight. No result is lost, and another node can continue the unit.
 class NodeTrouble : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

@@ -14,7 +14,7 @@ struct UnitSizes {
   std::size_t tail_size = 1;  ///< flights of a unit in the tail, at most
 
   std::size_t units() const { return head_units() + divided(tail, tail_size); }
-  /// The first flight of a unit; of units(): the number of flights.
+  /// Index of a unit's first flight; for `unit` == units(): the number of flights.
   std::size_t first(std::size_t unit) const;
   std::size_t unit_of(std::size_t flight) const;
 
@@ -24,8 +24,8 @@ struct UnitSizes {
   std::size_t head_units() const { return divided(head(), size); }
 };
 
-/// Units that take `unit_s`, but several for each of `slots`.
-/// @param flight_s  duration of a flight [s]
+/// Chooses sizes so that a unit takes about `unit_s`, or less, so that each of `slots` gets several units.
+/// @param flight_s  wall time of a flight [s]. @param unit_s  [s]. @param slots  units that fly at once
 UnitSizes unit_sizes(std::size_t flights, double flight_s, double unit_s, std::size_t slots);
 
 }  // namespace skein::cli

@@ -7,16 +7,16 @@
 
 namespace skein {
 
-/// Folder of the shipped configuration: SKEIN_CONFIG_DIR, else share/skein/config of the prefix that this executable is
-/// installed in, else config/ of the source tree that it was built in (<exe>/../config up to four levels above).
-/// @throws InputError when there is none.
+/// Folder of the shipped configuration: SKEIN_CONFIG_DIR, else share/skein/config under this executable's install
+/// prefix, else config/ of the source tree in which it was built (<exe>/../config up to four levels above).
+/// @throws InputError if there is no such folder.
 std::filesystem::path default_config_dir();
 
-/// The file that a user means.
-/// @param what "scenario", for messages.
-/// @param name_or_path a path when it holds a '/' or ends in .yaml (relative ones from `base`; from the working
-///   directory when that is empty); else the name of `folder`/<name>.yaml.
-/// @throws InputError when there is no such file; the message helps with the names that exist.
+/// Finds a configuration file by name or path.
+/// @param what  kind of file, for error messages: "scenario".
+/// @param name_or_path  a path if it contains a '/' or ends in .yaml; otherwise a name, for `folder`/<name>.yaml.
+/// @param base  folder to which a relative path refers; empty: the working directory.
+/// @throws InputError if there is no such file; the message suggests names that exist.
 std::filesystem::path find_config_file(const std::string& what, const std::string& name_or_path,
                                        const std::filesystem::path& folder, const std::filesystem::path& base = {});
 

@@ -1,5 +1,5 @@
-// A configuration document as a tree that remembers its lines. YAML comes in through here and nowhere else; the
-// rest of Skein sees neither yaml-cpp nor text. Strict: one document, no duplicate keys, no anchors.
+// A configuration document as a tree whose nodes know their lines in the file. Only this module parses YAML; the rest
+// of Skein uses neither yaml-cpp nor the text. Strict: one document, no duplicate keys, no anchors.
 // Pure; safe from any thread.
 #pragma once
 
@@ -12,18 +12,18 @@
 
 namespace skein {
 
-/// One value with the place where it stands.
+/// One value, with its position in the file.
 struct ConfigNode {
   enum class Kind { null, scalar, list, map };
 
   Kind kind = Kind::null;
-  int line = 0;                   ///< counted from 1; 0 means no place in a file
-  int column = 0;                 ///< the same within the line
+  int line = 0;                   ///< counted from 1; 0: not from a file
+  int column = 0;                 ///< counted from 1; 0: not from a file
   bool quoted = false;            ///< a scalar in quotes: text, never a number
-  std::string scalar;             ///< of a scalar
-  std::vector<ConfigNode> items;  ///< of a list; of a map, the values in the file's order
-  std::vector<std::string> keys;  ///< of a map, in the file's order
-  std::vector<int> key_lines;     ///< of a map
+  std::string scalar;             ///< a scalar's text
+  std::vector<ConfigNode> items;  ///< a list's items, or a map's values in the file's order
+  std::vector<std::string> keys;  ///< a map's keys, in the file's order
+  std::vector<int> key_lines;     ///< lines of a map's keys
 
   /// The value under `key`, or nullptr.
   const ConfigNode* find(std::string_view key) const;
@@ -33,28 +33,28 @@ struct ConfigNode {
   static ConfigNode make_scalar(std::string text, bool quoted = false);
   static ConfigNode make_map() { return make(Kind::map); }
   static ConfigNode make_list() { return make(Kind::list); }
-  /// Appends to a map.
+  /// Appends a key with its value to a map.
   void add(std::string key, ConfigNode value);
-  /// Forgets a key of a map, if it is there.
+  /// Removes a key and its value from a map, if the map has it.
   void remove(std::string_view key);
 
  private:
   static ConfigNode make(Kind kind);
 };
 
-/// A tree and the name by which messages call it (a file's path, "--planner kios").
+/// A tree, with its origin for error messages (a file's path, "--planner kios").
 struct ConfigDocument {
   std::string origin;
   ConfigNode root;
-  std::string text = {};  ///< that it was read from
+  std::string text = {};  ///< the text from which the tree was read
 };
 
-/// Where something stands in a document's text, both counted from 1.
+/// A position in a document's text; line and column are counted from 1.
 struct ConfigPlace {
   int line = 0, column = 0;
 };
-/// Where a letter of a scalar stands: in lines that YAML has joined, too.
-/// @param at  counted from 0; the scalar's length: behind it
+/// Position of a character of a scalar in the document's text, also if YAML joined several lines to this scalar.
+/// @param at  index of the character in the scalar, from 0; the scalar's length: the position after its end
 ConfigPlace place_in(const ConfigDocument& document, const ConfigNode& scalar, std::size_t at);
 
 /// @throws InputError when the file cannot be read or is not YAML; the message names file and line.
@@ -63,8 +63,8 @@ ConfigDocument read_config_document(const std::filesystem::path& file);
 /// @param origin names the text in messages.  @throws InputError as above.
 ConfigDocument parse_config_document(const std::string& text, const std::string& origin);
 
-/// A document from "key=value,key=value", as command lines have it; an empty text is an empty map. Values are plain
-/// scalars.  @throws InputError when a part has no '=' or a key occurs twice.
+/// Parses "key=value,key=value" from a command line; an empty text gives an empty map. Values are plain scalars.
+/// @throws InputError if a part has no '=', or a key occurs twice.
 ConfigDocument parse_assignments(const std::string& text, const std::string& origin);
 
 /// The tree as YAML text that parse_config_document() reads back to an equal tree.

@@ -1,5 +1,5 @@
-// The one strict reader of configuration. A struct lists its keys once, in describe(); reading, checking and
-// printing (config_writer.hpp) all follow that list:
+// The strict reader of all configuration files. A struct lists its keys once, in describe(). Reading, checking and
+// printing (config_writer.hpp) use this list:
 //
 //   struct LinkFault {
 //     std::string from;            ///< node name
@@ -12,13 +12,13 @@
 //   };
 //   const auto fault = read_config_file<LinkFault>("fault.yaml");
 //
-// Instead of the member, a free function `template <class R> void describe(R& r, LinkFault& fault)` beside the
-// struct does as well. Readable types: bool, integers, double, std::string, std::filesystem::path, enums with
+// Instead of the member function, a free function `template <class R> void describe(R& r, LinkFault& fault)` in the
+// same namespace also works. Readable types: bool, integers, double, std::string, std::filesystem::path, enums with
 // enum_names() (core/types.hpp), Vector2d and Vector3d, std::array<double, N>, structs, std::vector and
 // std::optional of all these, Named<T> (a map with free keys), std::variant<std::string, T> (a text, else a T).
 //
-// An unknown or duplicate key, a wrong type, a number that is out of range or not finite, a missing required
-// key: each is an error. All errors of a document are collected and thrown as one InputError, one line each:
+// Errors are: an unknown or duplicate key, a wrong type, a number that is out of range or not finite, a missing
+// required key. The reader collects the errors of a document and throws them as one InputError, one line each:
 // "file:line: key: what would be right".  Pure; a reader is used from one thread.
 #pragma once
 
@@ -38,7 +38,7 @@
 
 namespace skein {
 
-/// Which numbers a key accepts; of a list or vector, for each element.
+/// The range of numbers that a key accepts. For a list or vector, it applies to each element.
 struct Bounds {
   double lo = -std::numeric_limits<double>::infinity();
   double hi = std::numeric_limits<double>::infinity();
@@ -56,16 +56,16 @@ inline Bounds above(double lo) { return {lo, std::numeric_limits<double>::infini
 template <class T>
 using Named = std::vector<std::pair<std::string, T>>;
 
-/// What is wrong in one document.
+/// Collects the errors of one document.
 class ConfigErrors {
  public:
   /// @param document must outlive this.
   explicit ConfigErrors(const ConfigDocument& document) : document_(document) {}
 
   void add(int line, const std::string& message);
-  /// Adds an error unless `ok`. `key_path` ("fleet[2].start") names the key and finds its line.
+  /// Adds an error unless `ok`. The message has `key_path` ("fleet[2].start") and the line of that key.
   void check(bool ok, const std::string& key_path, const std::string& what);
-  /// Adds an error at a letter of the text under a key. @param at  counted from 0
+  /// Adds an error at a character of a key's text. @param at  index of the character, from 0
   void add_at(const std::string& key_path, std::size_t at, const std::string& what);
   std::size_t count() const { return errors_.size(); }
   /// @throws InputError with one line for each error in the order of the file; ten at most.
@@ -76,7 +76,7 @@ class ConfigErrors {
     ConfigPlace place;  ///< column 0: the line as a whole
     std::string message;
   };
-  /// The line of a key, and its value: those of what stands around a key that is not there.
+  /// Line and value of a key; for a missing key, those of the innermost existing part of its path.
   std::pair<int, const ConfigNode*> find(const std::string& key_path) const;
 
   const ConfigDocument& document_;
@@ -88,20 +88,20 @@ class ConfigReader {
  public:
   static constexpr bool kReads = true;  ///< false in ConfigWriter
 
-  /// @param path of the map, for messages; empty at the root.
+  /// @param path  path of the map's key, for messages; empty at the root.
   ConfigReader(const ConfigNode& map, std::string path, ConfigErrors& errors);
 
-  /// A key that may be absent: `value` then stays what it is.
+  /// Reads an optional key. If the key is absent, `value` does not change.
   template <class T>
   void field(const std::string& key, T& value, const Bounds& bounds = {});
-  /// A key that must be there.
+  /// Reads a required key.
   template <class T>
   void required(const std::string& key, T& value, const Bounds& bounds = {});
-  /// A rule that the values must obey. Not looked at when they could not be read in the first place.
+  /// Adds an error if a rule about the values is broken (`ok` is false), but only if this map has no errors so far.
   void check(bool ok, const std::string& key, const std::string& what);
   bool has(const std::string& key) const { return map_.find(key) != nullptr; }
 
-  /// Reports the keys that nobody asked for; after describe().
+  /// Adds an error for each key that describe() has not read. Call it after describe().
   void refuse_unknown_keys();
 
  private:
@@ -150,7 +150,7 @@ void call_describe(R& r, T& value) {
   }
 }
 
-/// A node with its path and where to complain.
+/// A node, its path, and the collector of its errors.
 struct Place {
   const ConfigNode& node;
   const std::string& path;
@@ -165,9 +165,9 @@ void read_double(const Place& place, double& value, const Bounds& bounds);
 void read_integer(const Place& place, std::int64_t& value, const Bounds& bounds);
 void read_unsigned(const Place& place, std::uint64_t& value, const Bounds& bounds);
 void read_text(const Place& place, std::string& value);
-/// Index in `names`, or nothing after a complaint.
+/// Index of the node's text in `names`; nullopt, after an error was added, if `names` lacks it.
 std::optional<std::size_t> read_name(const Place& place, const std::vector<std::string>& names);
-/// False after a complaint.
+/// Each adds an error and returns false if the node has another kind or, for numbers, another count.
 bool expect_list(const Place& place);
 bool expect_numbers(const Place& place, std::size_t count);
 bool expect_map(const Place& place);
@@ -280,8 +280,8 @@ void ConfigReader::required(const std::string& key, T& value, const Bounds& boun
   field(key, value, bounds);
 }
 
-/// The document as a T on top of T's defaults.
-/// @throws InputError that lists all that is wrong.
+/// Reads a document as a T; absent keys keep T's defaults.
+/// @throws InputError with the document's errors, ten at most.
 template <class T>
 T read_config(const ConfigDocument& document) {
   T value{};

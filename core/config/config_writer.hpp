@@ -1,5 +1,5 @@
-// Prints a configuration with every key that its describe() lists: the counterpart of config_reader.hpp, so that what
-// is printed can be read back. Pure; safe from any thread.
+// Prints a configuration with every key that its describe() lists, so that config_reader.hpp can read it back.
+// Pure; safe from any thread.
 #pragma once
 
 #include <string>
@@ -23,7 +23,7 @@ class ConfigWriter {
   }
   void check(bool, const std::string&, const std::string&) {}
 
-  /// Nothing for an empty optional: its key is left out.
+  /// The value as a node; nullopt for an empty optional, whose key is left out.
   template <class T>
   static std::optional<ConfigNode> node_of(const T& value);
 

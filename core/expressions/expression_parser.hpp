@@ -22,7 +22,7 @@
 
 namespace skein {
 
-/// What an expression may name.
+/// The names that an expression may use.
 struct ExpressionScope {
   const SignalNames& names;
   bool live_only = false;                             ///< only signals known during a run, no operators on the past
@@ -30,7 +30,7 @@ struct ExpressionScope {
   std::map<std::string, Quantity> parameters = {};
 };
 
-/// Reads a text part by part. All member functions throw ExpressionError.
+/// Parses a text part by part. All member functions throw ExpressionError.
 class ExpressionParser : public ExpressionText {
  public:
   /// @param scope, text  must outlive this.
@@ -38,7 +38,7 @@ class ExpressionParser : public ExpressionText {
   ExpressionParser(std::string_view text, const ExpressionScope& scope, std::vector<SignalUse>& signals)
       : ExpressionText(text), scope_(scope), signals_(signals) {}
 
-  /// Reads one condition, and stops behind it; more text may follow.
+  /// Parses one condition and stops after it; more text may follow.
   Expression condition();
   /// Reads a constant with this unit: "20 s". @param what  names its purpose in error messages
   double constant(const Unit& unit, const std::string& what);

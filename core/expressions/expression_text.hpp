@@ -1,4 +1,4 @@
-// The letters of an expression, read from the beginning to the end: words, marks, numbers with units.  Pure.
+// Tokenizer for expressions: reads words, marks (operators, parentheses) and numbers with units in order.  Pure.
 #pragma once
 
 #include <stdexcept>
@@ -9,11 +9,11 @@
 
 namespace skein {
 
-/// What is wrong in an expression, where, and what would be right.
+/// An error in an expression: the message says what is wrong and what would be right.
 struct ExpressionError : std::runtime_error {
   ExpressionError(std::size_t at_, const std::string& what) : std::runtime_error(what), at(at_) {}
 
-  std::size_t at;  ///< counted from 0, in the text
+  std::size_t at;  ///< index in the text, from 0
 };
 
 class ExpressionText {
@@ -21,25 +21,25 @@ class ExpressionText {
   /// @param text  must outlive this.
   explicit ExpressionText(std::string_view text) : text_(text) {}
 
-  /// Where the next thing begins.
+  /// Index in the text at which the next token begins.
   std::size_t at();
-  /// The word that comes next; empty: none.
+  /// The next token if it is a word, otherwise empty. Does not consume it.
   std::string_view peek_word();
-  /// Whether a digit or a point comes next.
+  /// Whether the next character is a digit or a decimal point.
   bool at_number();
-  /// Takes this word, or this mark, if it comes next.
+  /// Consumes this word, or this mark, if it comes next. @returns whether it did.
   bool accept(std::string_view word);
   bool accept_mark(std::string_view mark);
-  /// A word, which need not be any that is known. @param what  it must be, for messages
+  /// Consumes any word. @param what  what the word must be, for messages. @throws ExpressionError if there is none.
   std::string word(const std::string& what);
-  /// A word with these marks in it.
+  /// Consumes a word that may also contain these characters.
   std::string word_with(std::string_view marks, const std::string& what);
-  /// A number with its unit: "20 s".
+  /// Consumes a number with its unit: "20 s".
   Quantity number();
-  /// Takes this mark. @throws when something else comes next.
+  /// Consumes this mark. @throws ExpressionError if another token comes next.
   void expect(char mark);
   void expect_end();
-  /// What comes next, for messages.
+  /// The next token, for messages.
   std::string next_text();
   [[noreturn]] static void fail(std::size_t at, const std::string& message) { throw ExpressionError(at, message); }
 

@@ -27,7 +27,7 @@ enum class SignalArgument {
 struct SignalInfo {
   std::string_view name;
   std::vector<SignalArgument> arguments;
-  std::size_t required = 0;  ///< how many must be given; one that is left out, or `all`, means all
+  std::size_t required = 0;  ///< how many arguments must be given; an omitted argument, or `all`, means all
   Unit unit;                 ///< with a `path`: see unit_of_result()
   bool is_boolean = false;   ///< true or false, as 1 or 0
   bool is_live = false;      ///< known during a run, so `when` may name it
@@ -45,7 +45,7 @@ struct SignalUse {
   std::vector<std::string> arguments;
 
   bool is(std::string_view name) const { return info->name == name; }
-  /// The argument at a place, or "" for all.
+  /// The argument at an index; "" if it was omitted.
   std::string argument(std::size_t place) const { return place < arguments.size() ? arguments[place] : std::string(); }
   std::string text() const;
   bool operator==(const SignalUse&) const = default;

@@ -1,5 +1,5 @@
-// What a number counts in, for expressions over the signals of a run (expression.hpp): exponents of metre, second,
-// radian and byte. Counts, shares and scores have none of them.  Pure.
+// Units of numbers in expressions over the signals of a run (expression.hpp): the exponents of metre, second, radian
+// and byte. For counts, shares and scores, all exponents are 0.  Pure.
 #pragma once
 
 #include <array>
@@ -24,13 +24,13 @@ struct Unit {
 inline constexpr Unit kPlainNumber{}, kMetres{.metre = 1}, kSeconds{.second = 1}, kRadians{.radian = 1},
     kBytes{.byte = 1}, kMetresPerSecond{.metre = 1, .second = -1}, kRadiansPerSecond{.second = -1, .radian = 1};
 
-/// A unit as people write it behind a number; times `factor` it is in SI.
+/// A unit as users write it after a number. The number times `factor` is in SI units.
 struct UnitName {
   std::string_view name;
   Unit unit;
   double factor = 1.0;
 };
-/// Those with a slash first: "m" begins "m/s".
+/// Units with a slash come first, because a search for "m" would also match "m/s".
 inline constexpr std::array kUnitNames = {
     UnitName{"m/s", kMetresPerSecond},
     UnitName{"deg/s", kRadiansPerSecond, 3.14159265358979323846 / 180.0},

@@ -1,5 +1,5 @@
-// What makes sense in a fault file: names that exist, times within the mission, no two faults that hold the same thing
-// at once.  Pure.
+// Checks of a fault file: names exist, times are within the mission, and no two faults affect the same resource at the
+// same time.  Pure.
 #pragma once
 
 #include <map>
@@ -12,16 +12,17 @@
 
 namespace skein {
 
-/// What a fault takes hold of: two that hold the same thing at once contradict each other. Links hold nothing, since
-/// several effects may act on one link.
+/// The resource that a fault holds, as a text. Two faults that hold the same resource at the same time contradict each
+/// other. nullopt for a LinkEffect: several effects may act on one link.
 std::optional<std::string> held_by(const FaultAction& action);
 
 class FaultChecker {
  public:
-  /// @param scenario, errors  must outlive this. @param latest_s  beyond which no time may be
+  /// @param scenario, errors  must outlive this. @param latest_s  latest permitted time in the file [s]
   FaultChecker(const Scenario& scenario, ConfigErrors& errors, double latest_s);
 
-  /// Adds errors. @param longest  as long as any seed, or its condition, can make it. @param shortest  and as short
+  /// Checks a fault and adds its errors. @param longest  the fault with the longest duration that a seed or the fault's
+  /// condition can give it. @param shortest  the same with the shortest duration
   void check(const Fault& longest, const Fault& shortest, const std::string& path);
 
  private:
@@ -38,12 +39,13 @@ class FaultChecker {
   ConfigErrors& errors_;
   const double latest_s_;
   std::vector<std::string> uavs_, nodes_, members_;
-  /// From its begin on.
+  /// The fault that holds a resource, until `end`.
   struct Holder {
     Tick end;
     std::string path;
   };
-  /// By what is held, then by begin. They do not overlap, so that a new one need be compared with its neighbours only.
+  /// By resource, then by begin. The intervals of a resource do not overlap, so a new one is compared only with its
+  /// neighbours.
   std::map<std::string, std::map<Tick, Holder>> holders_;
 };
 

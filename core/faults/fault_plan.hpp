@@ -1,6 +1,6 @@
-// A fault file: what goes wrong in a run, when, and until when. The same file gives the same faults, bit for bit, in
-// every run of the same scenario and seed: times are simulated and mean the first exchange at or after them, and
-// random links draw from keyed streams. docs/faults.md lists all faults for users; config/faults/ has worked examples.
+// A fault file: which faults a run has, and when each begins and ends. With the same scenario and seed, a file gives
+// bit-identical faults in every run: times are simulated, a fault begins with the first exchange at or after its time,
+// and random effects on links draw from keyed streams. docs/faults.md lists all faults; config/faults/ has examples.
 // Pure; files are read by load_fault_plan().
 #pragma once
 
@@ -19,11 +19,11 @@
 
 namespace skein {
 
-/// Messages pass between nodes of one group only; who is in no group is in a group of its own.
+/// Messages pass only between nodes of the same group. A node that is in no group can exchange messages with no other.
 struct Partition {
   std::vector<std::vector<std::string>> groups;
 };
-/// A UAV's radio is dead: no message, key frame or neighbour's odometry goes in or out.
+/// A UAV's radio is dead: it neither sends nor receives messages, key frames and odometry of neighbours.
 struct Blackout {
   std::string uav;
 };
@@ -33,23 +33,24 @@ struct StationOutage {};
 struct Kill {
   std::string member;  ///< UAV, "station", "comm_router" or "gcs"
 };
-/// A program is stopped (SIGSTOP) at the fault's beginning and goes on (SIGCONT) at its end: it misses all between.
+/// A program is stopped (SIGSTOP) at the fault's beginning and continued (SIGCONT) at its end. It misses all messages
+/// in between.
 struct Pause {
   std::string member;
 };
-/// No scans, no key frames.
+/// A UAV's LiDAR yields no scans and no key frames.
 struct LidarFailure {
   std::string uav;
 };
-/// No captures.
+/// A UAV's camera yields no captures.
 struct CameraFailure {
   std::string uav;
 };
-/// What the UAV's software, and its neighbours, are told of where it is stays what it was; stamps go on.
+/// The odometry that the UAV's software and its neighbours receive keeps its last value; its stamps advance.
 struct OdometryFreeze {
   std::string uav;
 };
-/// They are told that it is somewhere else. Its flight control knows better.
+/// The UAV's software and its neighbours receive odometry with an offset. The flight controller uses the true position.
 struct OdometryJump {
   std::string uav;
   Vector3d offset_m = Vector3d::Zero();  ///< in W
@@ -61,15 +62,15 @@ struct OdometryJump {
     r.check(!offset_m.isZero(0.0), "offset_m", "must not be zero");
   }
 };
-/// The gimbal stays where it is, whatever it is told.
+/// The gimbal keeps its angles and ignores commands.
 struct StuckGimbal {
   std::string uav;
 };
-/// A rotor gives only a part of its thrust and torque.
+/// A rotor yields only a part of its thrust and torque.
 struct MotorFailure {
   std::string uav;
-  int rotor = 0;        ///< 0..5, at 30 + 60 rotor degrees from the body's x axis
-  double thrust = 0.0;  ///< share that is left, [0, 1)
+  int rotor = 0;        ///< 0..5; rotor i is at 30 + 60 i degrees from body x towards y
+  double thrust = 0.0;  ///< remaining share, [0, 1)
 
   template <class R>
   void describe(R& r) {
@@ -78,10 +79,10 @@ struct MotorFailure {
     r.field("thrust", thrust, within(0.0, 0.999));
   }
 };
-/// The air about a UAV moves by this much more.
+/// Adds a velocity to that of the air around a UAV.
 struct Gust {
   std::string uav;
-  Vector3d velocity_mps = Vector3d::Zero();  ///< of the air, in W
+  Vector3d velocity_mps = Vector3d::Zero();  ///< added velocity of the air, in W
 
   template <class R>
   void describe(R& r) {
@@ -90,7 +91,7 @@ struct Gust {
     r.check(!velocity_mps.isZero(0.0), "velocity_mps", "must not be zero");
   }
 };
-/// A UAV's commands take effect later.
+/// A UAV's commands take effect this many exchanges later.
 struct CommandDelay {
   std::string uav;
   int exchanges = 0;
@@ -106,27 +107,28 @@ using FaultAction =
     std::variant<LinkEffect, Partition, Blackout, StationOutage, Kill, Pause, LidarFailure, CameraFailure, MotorFailure,
                  CommandDelay, OdometryFreeze, OdometryJump, StuckGimbal, Gust>;
 
-/// What a fault waits for: the server looks at it at the end of each exchange.
+/// The condition that a fault waits for. sim_server evaluates it at the end of each exchange.
 struct FaultCondition {
   std::string text;
   Expression condition = {};
-  std::vector<SignalUse> signals = {};  ///< that it is about
+  std::vector<SignalUse> signals = {};  ///< the signals that the condition uses
 };
 
 struct Fault {
-  double at_s = 0.0;              ///< simulated time since the start of the run; while it waits, not before
-  std::optional<double> until_s;  ///< none: to the end of the run
+  double at_s = 0.0;              ///< begin, simulated time since the start of the run; while `waits`: earliest begin
+  std::optional<double> until_s;  ///< end; none: the end of the run
   FaultAction action;
-  std::optional<FaultCondition> when = {};  ///< it begins with the first exchange after one in which this holds
-  std::optional<double> for_s = {};         ///< beside `when`: ends so long after its beginning, if not by `until_s`
-  bool waits = false;                       ///< for its condition; then it is not in force
+  std::optional<FaultCondition> when = {};  ///< the fault begins with the exchange after the first in which this holds
+  std::optional<double> for_s = {};         ///< only with `when`: duration, unless `until_s` ends the fault earlier
+  bool waits = false;                       ///< true: the condition has not held yet, and the fault is not active
 
-  /// Its condition has held: it begins with the exchange at this tick, unless that is after its end.
+  /// To be called when the condition holds: the fault begins with the exchange at this tick, unless that is after its
+  /// end.
   void set_off(Tick tick);
-  /// Whether it is time to look at its condition, for an exchange at this tick.
+  /// Whether the fault waits, and could begin with an exchange at this tick: then its condition must be evaluated.
   bool may_begin(Tick tick) const;
-  /// Whether it is in force in the exchange at this tick: from the first one at or after `at_s` to the last one
-  /// before `until_s`.
+  /// Whether the fault is active in the exchange at this tick: from the first exchange at or after `at_s` to the last
+  /// one before `until_s`.
   bool active(Tick tick) const { return !waits && tick >= begin() && (!end() || tick < *end()); }
   Tick begin() const;  ///< in ticks, rounded up
   std::optional<Tick> end() const;
@@ -136,12 +138,12 @@ struct FaultPlan {
   std::filesystem::path file;  ///< empty: no faults
   std::string name, description;
   std::vector<Fault> faults;         ///< in the file's order
-  std::filesystem::path named = {};  ///< the fault file that it names; empty: none
+  std::filesystem::path named = {};  ///< the fault file that `file` refers to with `faults: NAME`; empty: none
 
   bool empty() const { return faults.empty(); }
 };
 
-/// Where a fault stands in its file: "faults[2]".
+/// Key path of a fault in its file: "faults[2]".
 std::string fault_path(std::size_t index);
 /// The kind of a fault as files spell it ("partition") and whom it concerns ("jurong", "gcs jurong | raffles"); for
 /// results and logs.
@@ -152,10 +154,10 @@ std::string fault_target(const Fault& fault);
 /// nothing to cut.
 std::optional<LinkMatrix<std::uint8_t>> cut_links(const FaultPlan& plan, const Scenario& scenario, Tick tick);
 
-/// Of a file that is a fault test too, `run` and `expect` are not looked at. `faults` may name another fault file, of
-/// config/faults/ or beside this one.
+/// Reads a fault file. Keys of a fault test (`run`, `expect`, `properties`, `capsule`) are ignored. `faults` may be the
+/// name of another fault file, in config/faults/ or beside this one.
 /// @param file      empty: an empty plan.
-/// @param scenario  whose nodes may be named, and whose mission's end no time may exceed.
+/// @param scenario  has the nodes that faults may name, and the mission time that no time may exceed.
 /// @param seed      of the run: draws the times that the file leaves open (`at_s: [8, 12]`); every program that loads
 ///   the file must be given the same.
 /// @throws InputError naming file, line and key: a node, UAV or program that does not exist, a time after the end, an
@@ -163,7 +165,8 @@ std::optional<LinkMatrix<std::uint8_t>> cut_links(const FaultPlan& plan, const S
 ///   other (the same thing failing twice at once).
 FaultPlan load_fault_plan(const std::filesystem::path& file, const Scenario& scenario, std::uint64_t seed = 0);
 
-/// The faults of a file that by_hand_text() (fault_writer.hpp) wrote. Times may go on as long as a run may.
+/// Parses the text of a file that by_hand_text() (fault_writer.hpp) wrote. Its times may lie up to takeoff_timeout_s
+/// beyond the mission time, because they count from the start of the run.
 /// @param origin  names the text in messages. @throws InputError as load_fault_plan().
 std::vector<Fault> read_faults_by_hand(const std::string& text, const std::string& origin, const Scenario& scenario);
 

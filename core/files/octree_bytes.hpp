@@ -1,6 +1,6 @@
-// Reads octrees in OctoMap's binary serialisation (16 levels), as in .bt files, without their header, and in
-// octomap_msgs/msg/Octomap: the space that a UAV knows. Checks every byte, which OctoMap does not do: it would read
-// beyond the end of a damaged tree. Frame W; metres. Any thread.
+// Reads octrees (maps of a UAV) in OctoMap's binary serialisation with 16 levels: the data of octomap_msgs/msg/Octomap,
+// and of .bt files after their header. Checks every byte, unlike OctoMap's own reader, which reads beyond the end of a
+// damaged tree. Frame W; metres. Any thread.
 #pragma once
 
 #include <functional>
@@ -15,7 +15,7 @@ namespace skein {
 struct KnownCube {
   Vector3d lowest_W = Vector3d::Zero();  ///< corner with the least x, y and z
   double edge_m = 0.0;
-  bool occupied = false;  ///< else free
+  bool occupied = false;  ///< false: free
 
   Vector3d middle_W() const { return lowest_W + Vector3d::Constant(0.5 * edge_m); }
 };

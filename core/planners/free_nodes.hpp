@@ -1,14 +1,14 @@
-// The planner `ros`: a UAV that ROS 2 nodes fly in real time, outside of the lock-step (docs/ros2.md).
+// The planner `ros`: ROS 2 nodes fly the UAV in real time, outside of the lock-step (docs/ros2.md).
 #pragma once
 
 #include <string_view>
 
 namespace skein {
 
-/// As --planner takes it.
+/// Its name in --planner.
 inline constexpr std::string_view kFreeNodes = "ros";
 
-/// In the environment: the names of the debug values that ROS 2 nodes tell, with spaces between them.
+/// Environment variable with the names of the debug values that the ROS 2 nodes publish, separated by spaces.
 inline constexpr const char* kDebugValuesVariable = "SKEIN_DEBUG_VALUES";
 
 }  // namespace skein

@@ -1,6 +1,7 @@
-// The file of a UAV that was flown by hand: what was wanted of it, from which step on. Who flies writes it
-// (sim_server), and the planner `hand` flies it again. Each number is written so that it comes back to the bit.
-// Columns: step, tick, and those of a HandCommand; ticks rise. SI and radians.   Pure but for the file; any thread.
+// The file of a pilot's commands to a UAV that was flown by hand. sim_server writes it during the flight, and the
+// planner `hand` flies the commands again. Each number is written so that reading it returns the same bits.
+// Columns: step, tick, and those of a HandCommand; ticks increase.   Units: SI and radians.
+// Pure except for read(); safe from any thread.
 #pragma once
 
 #include <cstdint>
@@ -13,18 +14,19 @@
 namespace skein {
 
 struct HandRow {
-  std::uint64_t step = 0;  ///< for people
-  Tick tick = 0;           ///< of that step: from then on it is wanted
+  std::uint64_t step = 0;  ///< for readers of the file; the planner ignores it
+  Tick tick = 0;           ///< beginning of that step; the command holds from then on
   HandCommand command;
 };
 
 namespace hand_file {
 
-/// The first line, with its end.
+/// The first line of the file, including the newline.
 std::string head();
-/// A row as a line, with its end.
+/// A row as a line, including the newline.
 std::string line_of(const HandRow& row);
-/// @throws InputError naming file and line when it is no such file, or cannot be read.
+/// @throws InputError naming the file, and the line if any, when it cannot be read, is no such file, or a tick does not
+/// increase.
 std::vector<HandRow> read(const std::filesystem::path& file);
 
 }  // namespace hand_file

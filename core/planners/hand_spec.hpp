@@ -1,5 +1,5 @@
-// The planner `hand` as --planner names it: whether somebody must fly, or a file does. Launcher and agent go by the
-// same words.   Pure but for files of parameters; any thread.
+// Specs of the planner `hand` in the syntax of --planner: whether a pilot or a file of commands flies the UAV.
+// Launcher and agent share these functions.   Pure, but they read parameter files; safe from any thread.
 #pragma once
 
 #include <optional>
@@ -8,12 +8,12 @@
 
 namespace skein {
 
-/// The parameters of that planner as "key=value": of "hand", "hand:safe=false", "hand:params.yaml" or "hand:FILE.csv",
-/// which is "file=FILE.csv". nullopt: it is another planner.
+/// The parameters in a spec, each as "key=value". @param spec  "hand", "hand:safe=false", "hand:params.yaml" or
+/// "hand:FILE.csv", which means "hand:file=FILE.csv". @returns nullopt for another planner.
 /// @throws InputError when a YAML file cannot be read.
 std::optional<std::vector<std::string>> hand_parameters(const std::string& spec);
 
-/// Whether somebody must fly: there is no file of commands. @throws InputError as above.
+/// Whether a pilot must fly: the planner is `hand`, without a file of commands. @throws InputError as above.
 bool wants_hands(const std::string& spec);
 
 }  // namespace skein

@@ -1,5 +1,6 @@
-// A planner written in Python as --planner names it: py:FILE, py:FILE:CLASS, and parameters behind another colon, as
-// those of any planner: py:FILE:CLASS:key=value,... Launcher and agent go by the same words.   Pure; any thread.
+// Specs of planners in Python in the syntax of --planner: py:FILE or py:FILE:CLASS, and parameters after another colon,
+// as for any planner: py:FILE:CLASS:key=value,... Launcher and agent share these functions.
+// Pure; safe from any thread.
 #pragma once
 
 #include <filesystem>
@@ -16,14 +17,14 @@ struct PythonSpec {
   bool operator==(const PythonSpec&) const = default;
 };
 
-/// @param spec  without an AGENT. @returns nullopt: it is another planner.
-/// @throws InputError when no file follows.
+/// @param spec  without "@AGENT" (uav_planner.hpp). @returns nullopt for another planner.
+/// @throws InputError when no file follows "py:".
 std::optional<PythonSpec> python_spec(const std::string& spec);
 
-/// What python_spec() reads back.
+/// The inverse of python_spec().
 std::string text_of(const PythonSpec& spec);
 
-/// For a table: of a planner in Python without the folders of its file; any other one as it is.
+/// A short form for tables: the spec of a planner in Python without the folders of FILE; any other spec unchanged.
 std::string without_folders(const std::string& spec);
 
 }  // namespace skein

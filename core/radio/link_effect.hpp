@@ -1,6 +1,7 @@
-// What a directed radio link does to the messages that have line of sight. Everything is ideal by default: nothing is
-// lost, late, doubled or out of order. Standing effects are in a scenario (`radio.links`), timed ones in a fault file.
-// Times are simulated; a link works in whole exchanges, so delays are rounded up to those.
+// Effects of a directed radio link on the messages that it carries. By default a link is ideal: no message is lost,
+// delayed, duplicated or reordered. Permanent effects are in a scenario (`radio.links`), temporary ones in a fault
+// file. Times are simulated. The router delivers messages once per exchange, so delays are rounded up to whole
+// exchanges.
 #pragma once
 
 #include <algorithm>
@@ -18,8 +19,8 @@ namespace skein {
 
 /// Bursts of loss (Gilbert and Elliott): the link changes between a good and a bad state at random.
 struct BurstLoss {
-  double mean_good_s = 10.0, mean_burst_s = 1.0;  ///< how long a state lasts on average
-  double loss = 1.0;                              ///< of a message sent during a burst, [0, 1]
+  double mean_good_s = 10.0, mean_burst_s = 1.0;  ///< mean duration of the good and of the bad state
+  double loss = 1.0;                              ///< loss probability of a message sent in the bad state, [0, 1]
 
   template <class R>
   void describe(R& r) {
@@ -29,7 +30,7 @@ struct BurstLoss {
   }
 };
 
-/// Some messages take longer than those behind them.
+/// Some messages, chosen at random, are delayed, so that later messages overtake them.
 struct Reordering {
   double probability = 0.0, delay_s = 0.0;
 
@@ -43,16 +44,16 @@ struct Reordering {
 /// One stage of a link. Several stages on one link act one after the other, in the order in which they are given.
 struct LinkEffect {
   std::vector<std::string> from = {"all"}, to = {"all"};  ///< node names, or {"all"}
-  std::optional<double> range_m;                          ///< no link beyond it
-  double latency_s = 0.0, jitter_s = 0.0;  ///< latency plus an even draw from [0, jitter], beside the usual exchange
-  std::optional<double> bandwidth_bit_s;   ///< messages queue for it
-  std::int64_t queue_bytes = 65536;        ///< that may wait; what does not fit is dropped
-  double loss = 0.0;                       ///< of each message independently, [0, 1]
+  std::optional<double> range_m;                          ///< beyond this distance there is no link
+  double latency_s = 0.0, jitter_s = 0.0;  ///< latency + uniform draw from [0, jitter], on top of the usual exchange
+  std::optional<double> bandwidth_bit_s;   ///< data rate; messages that exceed it wait in a queue
+  std::int64_t queue_bytes = 65536;        ///< capacity of that queue; messages that do not fit are dropped
+  double loss = 0.0;                       ///< loss probability of each message, independently, [0, 1]
   std::optional<BurstLoss> burst_loss;
   double duplication = 0.0;  ///< probability that a message arrives twice
   std::optional<Reordering> reordering;
   double corruption = 0.0;                    ///< probability that some bits of a message are flipped
-  std::vector<std::string> topics = {"all"};  ///< that it acts on, or {"all"}; see names_topic()
+  std::vector<std::string> topics = {"all"};  ///< topics to which the effect applies, or {"all"}; see names_topic()
 
   template <class R>
   void describe(R& r) {
@@ -89,7 +90,7 @@ struct LinkEffect {
   }
 };
 
-/// Whether a list of node names means this node.
+/// Whether a list of node names contains this node, or "all".
 inline bool names_node(const std::vector<std::string>& nodes, const std::string& node) {
   for (const std::string& name : nodes) {
     if (name == "all" || name == node) return true;
@@ -97,7 +98,7 @@ inline bool names_node(const std::vector<std::string>& nodes, const std::string&
   return false;
 }
 
-/// Whether a list of topics means this one: `/captures` means `/captures/jurong`, too.
+/// Whether a list of topics covers this one: "all" covers every topic, and `/captures` also covers `/captures/jurong`.
 inline bool names_topic(const std::vector<std::string>& topics, const std::string& ros_topic) {
   const auto means = [&](const std::string& name) {
     return name == "all" ||

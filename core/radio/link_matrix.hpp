@@ -1,5 +1,5 @@
-// Something for each directed link between two radio nodes. On the wire and in files it is row-major: row by sender,
-// column by receiver. Pure.
+// A value for each directed link between two radio nodes. On the wire and in files the matrix is row-major: one row per
+// sender, one column per receiver. Pure.
 #pragma once
 
 #include <cstddef>
@@ -37,7 +37,7 @@ class LinkMatrix {
   std::vector<T> values_;
 };
 
-/// Which links there are: 0 = none; else, with path loss, the place of the rate in kRadioRates, counted from 1.
+/// The open links: 0 = no link; otherwise, with path loss, the index of the link's rate in kRadioRates plus 1.
 using Links = LinkMatrix<std::uint8_t>;
 
 }  // namespace skein

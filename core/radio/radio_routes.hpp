@@ -1,5 +1,5 @@
-// Radio routes: which topic may go from which node to which others. A message on "/x" at its source arrives as
-// "/x/<target>" in each target's domain; it never comes back to its source. Pure; safe from any thread.
+// Radio routes: for each radio topic, the nodes that may send on it and the nodes that receive it. A message that its
+// source writes on "/x" arrives on "/x/<target>" in each target's domain, never at the source. Pure; any thread.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,7 @@ namespace skein {
 
 struct RadioTarget {
   Node node = kStationNode;
-  std::string topic;  ///< on the wire of the target's domain: "rt/x/<target>"
+  std::string topic;  ///< DDS name in the target's domain: "rt/x/<target>"
 };
 
 /// One permitted source of one radio topic.
@@ -23,10 +23,10 @@ struct RadioRoute {
   Node source = kStationNode;
   std::string ros_topic;             ///< "/x"
   std::string ros_type;              ///< "std_msgs/msg/String"
-  std::string topic;                 ///< on the wire of the source's domain: "rt/x"
-  std::string type;                  ///< on the wire: "std_msgs::msg::dds_::String_"
+  std::string topic;                 ///< DDS name in the source's domain: "rt/x"
+  std::string type;                  ///< DDS type: "std_msgs::msg::dds_::String_"
   std::vector<RadioTarget> targets;  ///< ascending nodes (of each registration), without the source
-  std::string member = {};           ///< who alone may send on it, where programs share the node; empty: any of them
+  std::string member = {};           ///< the only program of the node that may send on it; empty: any program may
 };
 
 /// All routes of a scenario: first those that carry captures and their acknowledgements (always there: for each UAV
@@ -39,8 +39,8 @@ struct RadioRoute {
 ///   or another topic's arrivals), or that the station uses to tell the score.
 std::vector<RadioRoute> radio_routes(const Scenario& scenario);
 
-/// The routes of a run, to which nodes add theirs while it lasts (docs/radio.md). Knows every name that is taken.
-/// Routes are never taken away and keep their numbers. Not thread-safe.
+/// The routes of a run. Nodes may add routes during the run (docs/radio.md). The table rejects names that are in use.
+/// Routes are never removed and keep their numbers. Not thread-safe.
 class RadioTable {
  public:
   /// @param scenario  must outlive this. @throws InputError as radio_routes() does.
@@ -48,7 +48,7 @@ class RadioTable {
   ~RadioTable();
 
   const std::vector<RadioRoute>& routes() const;
-  /// A route for what `source` sends on a topic; targets that an older one of the same name lacks are added to it.
+  /// Adds a route for messages of `source` on a topic. If there is one already, adds the targets that it lacks.
   /// @param targets  names of other nodes, or {"all"}
   /// @returns the route's number
   /// @throws InputError, and changes nothing, for: a malformed or reserved name; a malformed type, or another type than
@@ -56,7 +56,7 @@ class RadioTable {
   ///   either end.
   std::size_t open(Node source, const std::string& ros_topic, const std::string& ros_type,
                    const std::vector<std::string>& targets);
-  /// Type on the wire of what arrives at a node on a topic that need not exist yet.
+  /// The target entry (node and DDS name) for a topic's arrivals at a node. The topic need not exist yet.
   /// @throws InputError for a malformed name or type, for another type than the topic has, and for a taken name.
   RadioTarget arrival(Node node, const std::string& ros_topic, const std::string& ros_type) const;
 
@@ -68,7 +68,7 @@ class RadioTable {
 /// Name under which a radio topic arrives: ("/x", "jurong") -> "/x/jurong".
 std::string arrival_topic(std::string_view ros_topic, std::string_view target);
 
-/// Radio topic on which planners talk to each other and to the station: std_msgs/String, always there.
+/// Radio topic for messages between planners, and between them and the ground station: std_msgs/String, always there.
 inline constexpr std::string_view kPlanTopic = "/plan";
 
 /// Radio topics of a UAV's captures (UAV to station) and of their acknowledgements (station to UAV): ROS names.
@@ -77,7 +77,7 @@ std::string captures_ack_topic(std::string_view uav);
 inline constexpr std::string_view kCapturesType = "skein_msgs/msg/CaptureReports";
 inline constexpr std::string_view kCapturesAckType = "skein_msgs/msg/CaptureAck";
 
-/// Wire topics of custody at both ends, for the programs that write and read them.
+/// DDS topics of custody (delivery of captures) at both ends, for the programs that write and read them.
 namespace topics {
 WireTopic captures(std::string_view uav);             ///< written in the UAV's domain
 WireTopic captures_at_station(std::string_view uav);  ///< read in the GCS domain

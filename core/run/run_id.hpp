@@ -1,5 +1,5 @@
-// The number of a run. Programs of one run know each other by it, and what they leave behind (messages, journals,
-// reports) says whose it is, so that no run takes up what another has left. It decides nothing and is in no digest.
+// The number of a run. Messages, journals and reports contain it, so that programs ignore those of another run. It has
+// no influence on a result and is in no digest.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Where a run stands, and how it ended, in the words of files and messages.
+// Phases and end states of a run, with their names in files and messages.
 #pragma once
 
 #include <array>
@@ -18,9 +18,9 @@ constexpr std::array<EnumName<Phase>, 3> enum_names(Phase) {
 
 enum class RunStatus {
   completed,
-  no_takeoff,   ///< in time
-  interrupted,  ///< by the user
-  aborted       ///< nothing that it left can be relied on
+  no_takeoff,   ///< no UAV took off before the time-out
+  interrupted,  ///< ended by the user
+  aborted       ///< ended prematurely: its results are not reliable
 };
 constexpr std::array<EnumName<RunStatus>, 4> enum_names(RunStatus) {
   return {{{"completed", RunStatus::completed},

@@ -1,4 +1,4 @@
-// Simulated time as recordings have it.   Pure.
+// Simulated time in nanoseconds, the unit of recordings.   Pure.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@
 
 namespace skein {
 
-/// Exact: a tick is a whole number of them.
+/// Exact: a tick is a whole number of nanoseconds.
 constexpr std::uint64_t nanoseconds(Tick tick) {
   constexpr std::uint64_t kTickNs = 1'000'000'000 / kTicksPerSecond;
   static_assert(kTickNs * kTicksPerSecond == 1'000'000'000);

@@ -1,5 +1,5 @@
-// Decides when to print a notice about a wait that goes on: after five seconds, then each time the wait has doubled. So
-// nobody waits in silence, and no log fills up. Pure: the caller passes the time.
+// Decides when to print a notice about a long wait: after five seconds, then each time the wait has doubled. So the log
+// shows every long wait, but does not fill up. Pure: the caller passes the time.
 #pragma once
 
 #include <algorithm>

@@ -1,10 +1,10 @@
-// How long UAVs went without work, from what the referee wrote down of each second and from whom they said they waited
-// for. Pure; any thread.
+// Computes how long UAVs were without work. Inputs: the referee's record of each second, and the reports of UAVs that
+// they waited for another UAV. Pure; any thread.
 //
-// Work is counted in least amounts (sim_server/work/work_log.hpp). Only open seconds count: those in which there was
-// work within a UAV's reach. Of any 60 of them that follow each other, whatever lies between them, one least amount is
-// asked; all seconds of 60 that hold less are without work. A second of waiting does not count, as if nothing had been
-// open, while the mate that the UAV waits for works itself, for 45 s at most until the UAV works again.
+// The unit of work is the least amount (sim_server/work/work_log.hpp). Only open seconds count: those with work within
+// the UAV's reach. In any 60 successive open seconds, even if other seconds lie between them, a UAV must do one least
+// amount; otherwise all 60 are without work (frozen). An open second in which the UAV waits for another UAV that itself
+// works is excused: it does not count. At most 45 s are excused until the UAV has done another least amount.
 #pragma once
 
 #include <cstddef>
@@ -18,37 +18,38 @@ namespace skein {
 inline constexpr std::size_t kWorkWindow_s = 60;
 inline constexpr std::size_t kMostExcused_s = 45;
 
-/// What the referee wrote down of one UAV: a letter and a number for each whole second since the start of the run.
+/// The referee's record of one UAV: a letter and an amount of work for each whole second since the start of the run.
 struct WorkTrack {
   static constexpr char kOpen = '1', kNothingOpen = '0';
-  /// It is out, its program is away, or the mission is not on: all begins anew then.
+  /// The UAV is out of the run, its program is away, or the mission is not running. Afterwards all counts restart at 0.
   static constexpr char kAway = '-';
 
-  std::string open;
-  std::vector<double> done;  ///< in least amounts; as long as `open`
+  std::string open;          ///< by second: kOpen, kNothingOpen or kAway
+  std::vector<double> done;  ///< by second: work in least amounts; as long as `open`
 };
 
-/// Simulated time in which a UAV said that it waited for a mate.
+/// A span of simulated time for which a UAV reported that it waited for another UAV.
 struct WaitSpan {
   double from_s = 0.0, until_s = 0.0;
-  std::size_t mate = 0;  ///< index of the UAV
+  std::size_t mate = 0;  ///< index of the other UAV
 };
 
 struct WorkSecond {
-  bool excused = false;          ///< open, and it waited for a mate that worked
-  bool frozen = false;           ///< one of 60 open seconds without the least amount of work
-  std::size_t without_work = 0;  ///< open seconds since when it has not done a least amount of work
+  bool excused = false;          ///< open, but the UAV waited for another UAV that worked
+  bool frozen = false;           ///< one of 60 open seconds with less than one least amount of work
+  std::size_t without_work = 0;  ///< number of open seconds since the UAV last completed a least amount of work
   std::optional<std::size_t> waits_for;
 };
 
 struct WorkTime {
-  std::vector<WorkSecond> seconds;  ///< one for each of the track
+  std::vector<WorkSecond> seconds;  ///< one for each second of the track
   std::size_t frozen_s = 0, excused_s = 0;
-  std::size_t longest_s = 0;  ///< the most that `without_work` came to
+  std::size_t longest_s = 0;  ///< maximum of `without_work`
 };
 
 /// @param tracks  of all UAVs, in fleet order.
-/// @param waits   by UAV; those without an entry, and spans of mates that there are not, waited for nobody.
+/// @param waits   by UAV; UAVs without an entry waited for no other. Spans with an unknown mate, or the UAV itself, are
+///   ignored.
 std::vector<WorkTime> judge_work(std::span<const WorkTrack> tracks, std::span<const std::vector<WaitSpan>> waits);
 
 }  // namespace skein

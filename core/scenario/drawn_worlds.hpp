@@ -1,6 +1,6 @@
-// Scenarios that are drawn whole from a scene seed: fleet, starts, station, resolution and time, too. No file of
-// config/scenarios/ stands behind such a name: sim_server draws it (scenes/wild/world.hpp), and the launcher keeps
-// what was drawn as an ordinary scenario with its files.
+// Wild scenes: scenarios that are generated completely from a scene seed, including fleet, starts, station, resolution
+// and duration. There is no file in config/scenarios/ for such a name: sim_server generates the scenario
+// (scenes/wild/world.hpp), and the launcher stores it as an ordinary scenario with its files.
 #pragma once
 
 #include <algorithm>
@@ -11,13 +11,14 @@
 
 namespace skein {
 
-inline constexpr const char* kBlindWorld = "wild_blind";  ///< nobody has a LiDAR: no clutter, walls or canopies
+inline constexpr const char* kBlindWorld = "wild_blind";  ///< no UAV has a LiDAR; without clutter, walls and canopies
 inline constexpr std::array<const char*, 2> kDrawnWorlds = {"wild", kBlindWorld};
 
-/// To be raised with every change of what is drawn: worlds that were kept are drawn again.
+/// Increase this number with every change to the generator, so that stored worlds are generated again.
 inline constexpr int kWorldGrammar = 1;
 
-/// Whether a scene is one of files. Those of a drawn world say which one it is: then there is a family, too.
+/// Whether a scene is loaded from files. The stored scene of a drawn world has both files and a family, the world's
+/// name.
 inline bool from_files(const SceneConfig& scene) { return !scene.meshes.empty(); }
 
 inline bool is_drawn_world(std::string_view name) {

@@ -93,7 +93,7 @@ void describe(R& r, VehicleLink& link) {
   r.field("box_m", link.box_m, within(0.01, 10.0));
 }
 
-/// What no vehicle is like, and no integration in steps of a tick survives.
+/// Adds an error for values that no real vehicle has, and with which the integration in steps of one tick is unstable.
 template <class R>
 void check_plausible(R& r, const VehicleConfig& vehicle) {
   constexpr double kMostThrust = 50.0, kMostTurn = 5000.0, kMostLoss = 0.1;  // see the messages
@@ -208,7 +208,7 @@ void describe(R& r, RadioTopicConfig& topic) {
 struct FleetEntry {
   std::string name;
   std::variant<std::string, VehicleConfig> vehicle;
-  std::optional<Vector2d> start;  ///< none: the procedural scene's place of this UAV
+  std::optional<Vector2d> start;  ///< x, y in W [m]; none: the start that the procedural scene has for this UAV
   std::optional<double> start_yaw_deg;
 
   template <class R>
@@ -240,7 +240,7 @@ struct RadioKeys {
   }
 };
 
-/// A scenario file: the scenario, but for the fleet, whose vehicles are looked up afterwards.
+/// A scenario file. Its fleet is read separately, because the vehicles are looked up afterwards.
 struct ScenarioFile {
   Scenario scenario;
   std::vector<FleetEntry> fleet;

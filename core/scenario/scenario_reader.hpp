@@ -18,20 +18,21 @@
 namespace skein {
 
 struct LoadOptions {
-  std::filesystem::path assets_dir = {};         ///< folder that holds models/; empty: SKEIN_ASSETS, else none
+  std::filesystem::path assets_dir = {};         ///< folder that contains models/; empty: SKEIN_ASSETS, else none
   std::filesystem::path config_dir = {};         ///< empty: default_config_dir()
   std::optional<double> duration_s = {};         ///< instead of the file's, (0, 36000]
   std::optional<std::uint64_t> scene_seed = {};  ///< instead of the file's; only for a procedural scene
-  /// Fleet size: the first of the file's fleet, or beyond it the same UAVs again ("jurong2") in places of the scene.
+  /// Fleet size. A smaller fleet has the file's first UAVs. In a larger one, copies of them ("jurong2") follow, which
+  /// start at further places of the scene.
   std::optional<std::size_t> uavs = {};
-  std::optional<std::string> rules = {};       ///< a preset, instead of all that the file says of rules
-  std::optional<std::string> conditions = {};  ///< as chosen_conditions() reads it, on top of the file's
-  bool needs_scene_files = true;  ///< false for programs that do not look at the scene: they need no assets
+  std::optional<std::string> rules = {};       ///< a preset, instead of the file's section `rules`
+  std::optional<std::string> conditions = {};  ///< text for chosen_conditions(), applied to the file's conditions
+  bool needs_scene_files = true;               ///< false for programs that do not use the scene: they need no assets
 };
 
-/// @param name_or_path a name under config/scenarios/, or a path (it holds a '/' or ends in .yaml).
-/// @throws InputError when the file or a vehicle file is wrong, when a rule across keys is broken (names, starts,
-///   radio nodes), or when the scene's files are not there; the message says file, line, key and what would be right.
+/// @param name_or_path  a name under config/scenarios/, or a path (it contains a '/' or ends in .yaml).
+/// @throws InputError if the file or a vehicle file is wrong, if a rule across keys is broken (names, starts, radio
+///   nodes), or if the scene's files do not exist; the message says file, line, key and what would be right.
 Scenario load_scenario(const std::string& name_or_path, const LoadOptions& options = {});
 
 /// @param name_or_path as above, under config_dir/vehicles/.  @throws InputError.
@@ -39,15 +40,15 @@ VehicleConfig load_vehicle(const std::string& name_or_path, const std::filesyste
 
 /// All presets of rules: "contest", which is the default, "paper" and "reference".
 std::span<const RulesConfig> rules_presets();
-/// A preset's switches by its name.  @throws InputError for a name that there is not.
+/// The switches of a preset.  @throws InputError if there is no preset of this name.
 RulesConfig rules_preset(const std::string& preset);
 
-/// A switch of rules and what it is set to.
+/// Key and value of a rule switch.
 using RuleSwitch = std::pair<std::string, std::variant<bool, double>>;
-/// Those that differ from their preset's, by their keys in a scenario file, in its order.  @throws as rules_preset().
+/// The switches that differ from the preset, in the order of the keys in a scenario file.  @throws as rules_preset().
 std::vector<RuleSwitch> own_switches(const RulesConfig& rules);
 
-/// The scenario with every key that it resolved to, vehicles in place; load_scenario() reads it back to the same.
+/// The scenario as YAML, with all keys and with the vehicles inline; load_scenario() reads back the same scenario.
 std::string to_yaml(const Scenario& scenario);
 /// The same for a vehicle file.
 std::string to_yaml(const VehicleConfig& vehicle);

@@ -1,5 +1,5 @@
-// The families of procedural scenes that a scenario may name: what every program may know of them. scenes/
-// builds the structures, one file a family.
+// Names, descriptions and start places of the procedural scene families, which every program may know. The folder
+// scenes/ generates the structures, with one file for each family.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ struct StartPlace {
 struct SceneFamily {
   const char* name;
   const char* description;
-  std::vector<Vector2d> starts;  ///< of scene seed 0, in fleet order; nothing may be built within 4 m of one
+  std::vector<Vector2d> starts;  ///< with scene seed 0, in fleet order; no structure may be within 4 m of a start
 };
 
 /// All families, in the order in which they are listed to a user.
@@ -28,13 +28,12 @@ std::span<const SceneFamily> scene_families();
 /// @returns nullptr when no family has this name.
 const SceneFamily* find_scene_family(const std::string& name);
 
-/// From this scene seed on, scenes differ in more than those before: who starts where, and boxes that are loose or
-/// empty.
+/// From this scene seed on, scenes vary in more respects: which UAV starts at which place, and loose or empty boxes.
 inline constexpr std::uint64_t kVariedSeeds = 100;
 
-/// Where a fleet starts in one member of a family: with seed 0 its nominal places and yaw 0, otherwise places up to
-/// 2 m from those, and any yaw. In fleet order. From kVariedSeeds on anybody may start at any of the places; with one
-/// seed in four all crowd at one of them, 1.45 m apart. Pure.
+/// Start places of a fleet in one scene of a family, in fleet order: with seed 0 the nominal places with yaw 0,
+/// otherwise places up to 2 m from the nominal ones, with random yaw. From kVariedSeeds on the places are shuffled
+/// among the UAVs; with one seed in four, all UAVs start close to one place, 1.45 m apart. Pure.
 std::vector<StartPlace> scene_starts(const SceneFamily& family, std::uint64_t scene_seed);
 
 }  // namespace skein

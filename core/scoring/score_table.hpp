@@ -1,5 +1,5 @@
-// What a capture is worth: the records of the referee, and the one rule that turns captures into a score.
-// The referee counts what was earned with it, the station what was delivered.
+// The referee's records of captures, and the rule that turns captures into a score. The referee applies the rule to all
+// captures (score earned), the station to the delivered ones (score).
 #pragma once
 
 #include <cstddef>
@@ -14,24 +14,24 @@ namespace skein {
 struct CapturePoint {
   std::uint32_t index = 0;
   float q_blur = 0.0F, q_res = 0.0F, q = 0.0F;
-  float q_distance = 0.0F;  ///< what q_res would be of a surface that faces the camera at this depth
+  float q_distance = 0.0F;  ///< q_res of a surface at this depth that is parallel to the image plane
   bool operator==(const CapturePoint&) const = default;
 };
 
-/// The points of one capture that this UAV had not seen as well before.
+/// One capture, with the points that it shows better than all earlier captures of this UAV.
 struct CaptureReport {
   UavIndex uav = {};
   std::uint64_t capture = 0;  ///< 0, 1, ... without gaps for this UAV
   Tick tick = 0;
-  std::uint64_t token = 0;  ///< known only to the camera and the ledger
+  std::uint64_t token = 0;  ///< proof of origin: only the camera and the ledger know it
   std::vector<CapturePoint> points;
   bool operator==(const CaptureReport&) const = default;
 };
 
-/// A report that is not acknowledged is sent again after so many exchanges.
+/// Number of exchanges after which a report that was not acknowledged is sent again.
 inline constexpr std::uint64_t kResendSteps = 10;
 
-/// What the referee wrote down.
+/// An entry of the referee's ledger: a capture or a collision.
 struct LedgerEntry {
   std::uint64_t index = 0;  ///< 0, 1, ... without gaps
   Tick tick = 0;
@@ -41,9 +41,9 @@ struct LedgerEntry {
   bool operator==(const LedgerEntry&) const = default;
 };
 
-/// Whose capture of a point counts at present.
+/// The capture of a point that counts at present.
 struct PointTally {
-  float q = 0.0F;  ///< 0: nobody's
+  float q = 0.0F;  ///< its quality; 0: there is no such capture
   UavIndex uav = {};
   std::uint64_t capture = 0;
   Tick tick = 0;
@@ -57,7 +57,7 @@ struct TallyChange {
   bool operator==(const TallyChange&) const = default;
 };
 
-/// A point is detected from this quality on, whatever less the rules let count.
+/// A point is detected if its quality is at least this, even if the rules let smaller qualities score.
 inline constexpr float kDetectedQuality = 0.2F;
 
 /// Score of a fleet. For each interest point counts the best capture among the UAVs without a collision (of all UAVs
@@ -67,13 +67,13 @@ class ScoreTable {
  public:
   ScoreTable(std::size_t uavs, std::size_t points, const RulesConfig& rules);
 
-  /// Counts a capture. Points below `rules.min_point_score` are passed over.
-  /// @returns what changed, in the order of the report.
-  /// @throws std::out_of_range when the UAV or a point does not exist; then nothing was counted.
+  /// Counts a capture. Points below `rules.min_point_score` are ignored.
+  /// @returns the changes, in the order of the report.
+  /// @throws std::out_of_range if the UAV or a point does not exist; then the table does not change.
   std::vector<TallyChange> add(const CaptureReport& report);
 
-  /// Takes all points from a UAV that collided, those to come too, if the rules say so.
-  /// @returns what changed, by point.   @throws std::out_of_range when the UAV does not exist.
+  /// If the rules say so, a UAV that collided loses all its points, including those of later captures.
+  /// @returns the changes, by point.   @throws std::out_of_range if the UAV does not exist.
   std::vector<TallyChange> collide(UavIndex uav);
 
   const std::vector<PointTally>& points() const { return standing_; }

@@ -10,9 +10,9 @@
 
 namespace skein {
 
-/// With padding, in one line.
+/// Encodes bytes, with padding and without line breaks.
 std::string base64(std::span<const std::uint8_t> bytes);
-/// @returns nullopt when `text` is none, with its padding and without line breaks.
+/// Decodes a text. @returns nullopt unless `text` is valid Base64 with padding and without line breaks.
 std::optional<std::vector<std::uint8_t>> read_base64(std::string_view text);
 
 }  // namespace skein

@@ -1,14 +1,15 @@
-// What a number on a command line must be, for programs without the launcher's own checks (cli/option_checks.hpp).
-// Each is a validator for CLI11, whose own names the largest double, 309 digits, as the limit.   Pure.
+// Range checks for numbers on the command line, for programs that do not use the launcher's checks
+// (cli/option_checks.hpp). Each function is a CLI11 validator. CLI11's own validators would print the largest double,
+// with 309 digits, as the upper limit.   Pure.
 #pragma once
 
 #include <string>
 
 namespace skein {
 
-/// @returns what is wrong with a text that must be a number above 0, or nothing.
+/// @returns an error message unless the text is a number above 0, otherwise an empty text.
 std::string check_positive(const std::string& text);
-/// @returns what is wrong with a text that must be a number of at least 0, or nothing.
+/// @returns an error message unless the text is a number of at least 0, otherwise an empty text.
 std::string check_not_negative(const std::string& text);
 
 }  // namespace skein

@@ -1,4 +1,4 @@
-// Small texts: numbers as people and files want them, the same in every locale; lists taken apart; words for a shell.
+// Text helpers: formatting and parsing of numbers, the same in every locale; splitting of lists; quoting for a shell.
 // Pure; safe from any thread.
 #pragma once
 
@@ -11,32 +11,33 @@ namespace skein {
 
 /// The shortest text that reads back to the same number.
 std::string shortest(double value);
-/// For a sentence: to six decimals, none too many.
+/// For messages: rounded to six decimals, without trailing zeros.
 std::string number_text(double value);
-/// With this many digits behind the point; "-0" is "0".
+/// With this many decimals; "0" instead of "-0".
 std::string fixed(double value, int digits);
-/// With at most this many digits behind the point: "3" and not "3.0".
+/// With at most this many decimals: "3" and not "3.0".
 std::string fixed_at_most(double value, int digits);
-/// With this many digits that count, none of them a zero at the end.
+/// With this many significant digits, as printf's %g: without trailing zeros after the point, and with an exponent if
+/// the number is very large or small.
 std::string significant(double value, int digits);
 
-/// The number that the whole text is: finite, in decimal notation, without a "+", blanks or 0x10.
+/// Parses the whole text as a finite decimal number. @returns nullopt if it is none, as with a "+", blanks, or "0x10".
 std::optional<double> parse_number(std::string_view text);
 
-/// What stands before, between and behind the separators: one part more than there are of these.
+/// Splits a text at each separator. n separators give n + 1 parts; parts may be empty.
 std::vector<std::string> split(std::string_view text, char separator = ',');
 
-/// A word as a shell takes it, in quotes where it needs them.
+/// Quotes a word for a shell, if necessary.
 std::string shell_word(const std::string& word);
 
-/// A command line of words.
+/// Joins words to a command line, quoted where necessary.
 std::string shell_line(const std::vector<std::string>& words);
 
-/// The words of a command line, quoted as a shell would have it, without what else a shell does.
-/// @throws InputError when they are no words.
+/// Splits a command line into words. Quotes and backslashes work as in a shell.
+/// @throws InputError for an unclosed quote, or a character with another meaning in a shell (; | & < > ( ) $ `).
 std::vector<std::string> shell_words(const std::string& line);
 
-/// Control characters other than line breaks and tabs become '?': XML has no way to write them.
+/// Replaces control characters other than line feeds and tabs by '?', because XML cannot represent most of them.
 std::string printable(std::string text);
 
 }  // namespace skein

@@ -1,4 +1,4 @@
-// XML documents that pugixml holds, written as text. Pure; safe from any thread.
+// Builds pugixml documents and writes them as text. Pure; safe from any thread.
 #pragma once
 
 #include <pugixml.hpp>
@@ -6,13 +6,13 @@
 
 namespace skein {
 
-/// Appends an element to `parent`. @param text  all that it holds, in UTF-8
+/// Appends an element to `parent`. @param text  the element's content, in UTF-8
 void add_element(pugi::xml_node parent, const char* name, const std::string& text);
 
-/// As a file has it: a declaration, then an element a line.
+/// Text for a file: a declaration, then one element per line.
 std::string xml_file(const pugi::xml_document& document);
 
-/// As a setting has it: no declaration, all on one line.
+/// Text for a setting: on one line, without a declaration.
 std::string xml_line(const pugi::xml_document& document);
 
 }  // namespace skein

@@ -1,7 +1,7 @@
-// What flying costs, by momentum theory: a rotor of disc area A that gives thrust T accelerates air of density rho by
-// the induced velocity v_i. Hovering, v_i = v_h = sqrt(T / (2 rho A)). Through air that comes with V across the disc,
-// and climbing with V_c, v_i = v_h^2 / sqrt(V^2 + (V_c + v_i)^2) (Glauert). Ideal power: T (v_i + V_c). What a vehicle
-// needs beyond that (profile drag, motors, controllers) is one efficiency.
+// Power of flight by momentum theory: a rotor with disc area A and thrust T accelerates air of density rho by the
+// induced velocity v_i. In hover, v_i = v_h = sqrt(T / (2 rho A)). With an air speed V across the disc and a climb
+// speed V_c, v_i = v_h^2 / sqrt(V^2 + (V_c + v_i)^2) (Glauert). The ideal power is T (v_i + V_c). One efficiency
+// accounts for all other losses (profile drag, motors, motor controllers).
 // Source: J. G. Leishman, Principles of Helicopter Aerodynamics, 2nd ed., chapter 2.   Units: SI.   Pure.
 #pragma once
 
@@ -14,8 +14,9 @@ inline constexpr double kAirDensity = 1.225;  ///< at sea level and 15 degrees C
 inline constexpr double kStandardGravity = 9.8;
 
 /// @param thrust_n  of one rotor, at least 0.  @param across_mps  speed of the air across the disc.
-/// @param climb_mps  of the disc along its axis through the air; negative: it descends.
-/// @returns 0 without thrust or disc. Momentum theory fails for descents near v_h: there, that of the hover counts.
+/// @param climb_mps  speed of the disc along its axis through the air; negative: descent.
+/// @returns induced velocity [m/s]; 0 without thrust or disc area. Where momentum theory fails (descent near v_h), that
+///   of the hover.
 double induced_velocity(double thrust_n, double disc_area_m2, double across_mps, double climb_mps);
 
 /// Ideal power of one rotor [W], not negative.

@@ -1,4 +1,4 @@
-// Files that appear whole or not at all. Any thread.
+// Writes files so that a reader never sees a partly written file. Any thread.
 #pragma once
 
 #include <filesystem>
@@ -7,16 +7,16 @@
 
 namespace skein {
 
-/// Which users may read a file that root writes (closed_to_agents.hpp).
+/// Who may read a file that root writes: all users, or all but agents (closed_to_agents.hpp).
 enum class Readers { all, no_agents };
 
-/// Writes a temporary file beside `path`, brings it to the disk and renames it: a reader sees the old content or the
-/// new, also after a crash. The folder must exist.
+/// Writes a temporary file in the same folder, flushes it to the disk and renames it to `path`: a reader sees either
+/// the old content or the new, also after a crash. The folder must exist.
 /// @throws std::runtime_error with the system's reason; no temporary file is left.
 void write_file_atomically(const std::filesystem::path& path, std::string_view content, Readers readers = Readers::all);
 
-/// The same, for a file that the program can do without; one in kNowhere (process/files/nowhere.hpp) is not written.
-/// @returns what went wrong, with the file's name, for people; empty when it is written.
+/// The same, for a file that the program can do without; a file in kNowhere (process/files/nowhere.hpp) is not written.
+/// @returns an error message for people, with the file's name; empty if there was no error.
 std::string write_if_possible(const std::filesystem::path& path, std::string_view content);
 
 }  // namespace skein

@@ -1,6 +1,6 @@
-// What the launcher and its programs write and no agent may read: results and scenes hold ground truth. Agents of a
-// secured run have user ids of their own when the launcher is root (docs/security.md), and all of them are members of
-// one group. A file of that group with no rights for it is closed to them, and as open to everybody else as it was.
+// Hides files that contain ground truth (results, scenes) from agents. If the launcher of a secured run is root, each
+// agent has a user id of its own (docs/security.md), and all these ids are members of one group. A file that belongs to
+// this group, and gives it no permissions, is closed to agents; for all other users nothing changes.
 #pragma once
 
 #include <sys/types.h>
@@ -9,14 +9,13 @@
 
 namespace skein {
 
-/// The group of all agents that have user ids of their own. systemd's table of ids has it unused, nor does Debian's
-/// policy give it away.
+/// The group of all agents with user ids of their own. Neither systemd's table of ids nor Debian's policy assigns it.
 inline constexpr gid_t kAgentsGroup = 61183;
 
-/// Closes a file or a folder, with all below it, to agents. Where its group has other rights than all others, or the
-/// file system knows no groups, it is closed to all others instead.
-/// Only root's call does anything: any other user's agents are that user. Follows no link.
-/// @returns whether it was open to others before, and is closed to agents now.
+/// Closes a file, or a folder and so its contents, to agents. If the permissions of its group differ from those of
+/// others, or its group cannot be changed, it loses its permissions for others instead.
+/// Has an effect only for root: agents of any other user run as that same user. Does not follow symbolic links.
+/// @returns true if the file was open to others before, and is now closed to agents.
 bool close_to_agents(const std::filesystem::path& path);
 
 }  // namespace skein

@@ -1,5 +1,5 @@
-// The folder /dev/null, in which nothing is kept: a program that is told to write there (--out /dev/null) leaves no
-// files. Of a fleet that is stepped nobody reads any, and many of them fly at once.   Pure; any thread.
+// The output folder /dev/null: a program with --out /dev/null writes no files. For fleets that a caller steps, many at
+// the same time, and whose files would have no reader.   Pure; any thread.
 #pragma once
 
 #include <filesystem>
@@ -8,7 +8,7 @@ namespace skein {
 
 inline constexpr const char* kNowhere = "/dev/null";
 
-/// Whether a file would be in that folder.
+/// Whether the path of a file is directly in that folder.
 inline bool is_nowhere(const std::filesystem::path& file) { return file.parent_path() == kNowhere; }
 
 }  // namespace skein

@@ -1,5 +1,6 @@
-// A text file that grows while its program works. A disk that refuses (it is full, a quota, a limit) ends the file and
-// not the program: the file then ends with its last whole line, and trouble() says why. Not thread-safe.
+// A text file to which a program appends while it runs. If a write fails (disk full, quota, size limit), the program
+// continues, but nothing more is written: the file ends with its last complete line, and trouble() has the reason.
+// Not thread-safe.
 #pragma once
 
 #include <filesystem>
@@ -12,23 +13,23 @@ class StreamFile {
  public:
   enum class Mode { fresh, append };
 
-  /// @param file  in kNowhere (process/files/nowhere.hpp): nothing is written.
-  /// @throws std::system_error, with the file's name, when it cannot be opened.
+  /// @param file  a file in kNowhere (process/files/nowhere.hpp) is not written.
+  /// @throws std::system_error, with the file's name, if the file cannot be opened.
   explicit StreamFile(const std::filesystem::path& file, Mode mode = Mode::fresh);
   ~StreamFile();
   StreamFile(const StreamFile&) = delete;
   StreamFile& operator=(const StreamFile&) = delete;
 
-  /// Reaches the file in blocks, or with flush().
+  /// Appends to a buffer, which is written to the file when it is full, and by flush().
   StreamFile& operator<<(std::string_view text);
   void flush();
-  /// Whether what is written goes anywhere: it need not be made otherwise.
+  /// False for a file in kNowhere: then callers need not produce any text.
   bool kept() const { return fd_ >= 0; }
-  /// What went wrong, with the file's name, for people; empty as long as nothing did.
+  /// Error message for people, with the file's name; empty while there was no error.
   const std::string& trouble() const { return trouble_; }
 
  private:
-  /// Writes the buffer. @returns how much of it the disk has taken.
+  /// Writes the buffer. @returns number of bytes written.
   std::size_t put_out() const;
 
   const std::filesystem::path file_;

@@ -1,4 +1,4 @@
-// Where programs keep what they can make again.
+// The user's cache folder, for files that programs can generate again.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,5 @@
-// Where a program was when it crashed, as addresses in its log; cli/debug/crash_trace.hpp gives them names. Linux.
+// Writes the call stack of a crashed program, as addresses, to its log; cli/debug/crash_trace.hpp translates the
+// addresses to names. Linux.
 #pragma once
 
 #include <filesystem>
@@ -8,20 +9,20 @@
 namespace skein {
 
 namespace crash_notes {
-/// The lines: "[skein] crashed: ...", then one for each frame, innermost first: "  at FILE +0x1a2b".
+/// Beginnings of the lines: "[skein] crashed: ...", then one for each frame, innermost first: "  at FILE +0x1a2b".
 inline constexpr std::string_view kHead = "[skein] crashed:";
 inline constexpr std::string_view kFrame = "  at ";
 }  // namespace crash_notes
 
-/// From here on SIGSEGV, SIGABRT, SIGFPE, SIGBUS and SIGILL write that to stderr before the process dies of them. Does
-/// nothing about signals that somebody else, a sanitizer, handles already. Once, before there are threads.
-/// @param folder  where the process then dies, and leaves its core if it may leave one
+/// Installs handlers for SIGSEGV, SIGABRT, SIGFPE, SIGBUS and SIGILL that write these lines to stderr before the signal
+/// kills the process. Keeps existing handlers, such as those of a sanitizer. Call it once, before threads are started.
+/// @param folder  working directory in which the process then dies, and in which it may leave a core file
 void note_crashes(const std::filesystem::path& folder);
-/// Is called in the handler, when the notes are written: nothing that a signal handler may not do. nullptr: nobody.
+/// Sets a function that the signal handler calls after writing the lines; it must be async-signal-safe. nullptr: none.
 void after_crash_notes(void (*call)(int signal));
 
-/// For a thread that may overflow its stack, as long as it lives: another one for the handler. The first thread has
-/// one by note_crashes().
+/// While an object of this class exists, signal handlers in its thread run on a stack of their own, also after a stack
+/// overflow. For all threads but the first, which has such a stack by note_crashes().
 class CrashStack {
  public:
   CrashStack();
@@ -32,7 +33,7 @@ class CrashStack {
  private:
   std::vector<char> memory_;
 };
-/// From here on the calling thread's notes go to this descriptor. Usual: stderr's.
+/// From now on the calling thread's crash notes go to this file descriptor. Default: stderr.
 void note_crashes_in(int fd);
 
 }  // namespace skein

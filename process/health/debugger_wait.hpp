@@ -1,4 +1,4 @@
-// A program that stands still until somebody looks into it. Linux.
+// Lets a program wait for a debugger. Linux.
 #pragma once
 
 #include <functional>
@@ -8,9 +8,9 @@ namespace skein {
 /// Whether a debugger is attached to this process.
 bool is_debugged();
 
-/// Returns when a debugger is attached to this process, or has been and has left again, or SIGCONT has come, or `stop`
-/// is true. Any process of this user may attach from here on, whatever the kernel's rules for others (Yama). Call it
-/// from one thread.
+/// Waits until a debugger is attached (or was attached and has left again), SIGCONT arrives, or `stop` returns true.
+/// From now on any process of this user may attach, even if the kernel's security module Yama restricts this. Call it
+/// from one thread only.
 void wait_for_debugger(const std::function<bool()>& stop);
 
 }  // namespace skein

@@ -1,5 +1,5 @@
-// A file that is touched as long as a program takes its turns, for whoever asks whether it hangs, such as the health
-// check of a container.   Threads: one.
+// A file whose modification time a running program updates, so that others, such as the health check of a container,
+// can detect that the program hangs.   Threads: one.
 #pragma once
 
 #include <chrono>
@@ -9,10 +9,10 @@ namespace skein {
 
 class Heartbeat {
  public:
-  /// @param file  empty: nobody asks. A file that cannot be written is as good as none.
+  /// @param file  empty: no heartbeat. If the file cannot be written, there is no error message.
   explicit Heartbeat(std::filesystem::path file) : file_(std::move(file)) {}
 
-  /// To be called again and again; touches the file every other second at most.
+  /// Call it in each turn; touches the file at most every two seconds.
   void beat();
 
  private:

@@ -1,17 +1,17 @@
-// For programs that no launcher watches over, such as those in containers: the process that was started only keeps
-// another one alive that does the work, and starts it again whenever it has been killed, as faults do.
+// For programs without a launcher, such as those in containers: the started process, the keeper, forks a worker process
+// that runs the program, and starts a new worker whenever SIGKILL has ended it (as a fault `kill` does).
 #pragma once
 
 #include <optional>
 
 namespace skein {
 
-/// Before any thread is started. Parts this process in two.
-/// @param lives  counts on in the one that is to do the work.
-/// @returns nullopt in the one that is to do the work. In the other, which keeps it, not before the work has ended in
-///   any way but by SIGKILL: its exit code, or 128 + its signal. SIGTERM, SIGINT and SIGHUP are passed on; after the
-///   first of them nothing is started again.
-/// @throws std::system_error when there can be no other process.
+/// Forks this process into keeper and worker. Call it before any thread is started.
+/// @param lives  number of workers so far; incremented for each worker, in both processes.
+/// @returns nullopt in the worker. In the keeper it returns when a worker has ended and none will follow: the worker's
+///   exit code, or 128 + its signal. The keeper passes on SIGTERM, SIGINT and SIGHUP; after the first of these, it
+///   starts no further worker.
+/// @throws std::system_error if no process can be forked.
 std::optional<int> keep_alive(int& lives);
 
 }  // namespace skein

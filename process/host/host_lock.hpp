@@ -1,6 +1,6 @@
-// A name that one process of the host holds at a time. The kernel gives it back when its holder ends, however that
-// happens, and nothing is left on disk: it is the name of an abstract Unix socket, so it is the same for all users and
-// temporary folders, and as far-reaching as a network namespace. Linux.   Threads: any.
+// A named lock that one process of the host holds at a time. The lock is the name of an abstract Unix socket: the
+// kernel releases it when its holder ends in any way, it leaves no file, and it is valid for all users of the same
+// network namespace. Linux.   Threads: any.
 #pragma once
 
 #include <sys/types.h>
@@ -12,9 +12,9 @@ namespace skein {
 
 class HostLock {
  public:
-  /// @returns nullopt when somebody holds it, this process included. @throws std::system_error when the kernel refuses.
+  /// @returns nullopt if a process, perhaps this one, holds the lock. @throws std::system_error for any other failure.
   static std::optional<HostLock> try_take(const std::string& name);
-  /// Who holds it; nullopt when nobody does, or somebody whom this process cannot see (in another container).
+  /// The process that holds the lock; nullopt if there is none, or this process cannot see it (in another container).
   static std::optional<pid_t> holder(const std::string& name);
 
   HostLock(HostLock&& other) noexcept;
@@ -27,7 +27,7 @@ class HostLock {
   int fd_ = -1;
 };
 
-/// What keeps two fleets of a host out of each other's DDS domains.
+/// Name of the lock that a fleet takes for a DDS domain, so that no other fleet of the host uses the domain.
 std::string domain_lock_name(int domain);
 
 }  // namespace skein

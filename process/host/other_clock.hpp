@@ -1,11 +1,11 @@
-// A library to be preloaded: whoever asks for the time of the wall clock gets another one. For skein check-planner.
+// A library for LD_PRELOAD that shifts the wall clock of a process, for skein check-planner.
 #pragma once
 
 namespace skein {
 
-/// Beside the programs.
+/// File name of the library, in the same folder as the programs.
 inline constexpr const char* kOtherClockLibrary = "libskein_other_clock.so";
-/// Seconds to add.
+/// Environment variable: seconds to add to the wall clock.
 inline constexpr const char* kOtherClockVariable = "SKEIN_OTHER_CLOCK_S";
 
 }  // namespace skein

@@ -1,4 +1,5 @@
-// CPU time of a program so far, also of one that shares its thread with others.   Threads: each has its own account.
+// CPU time that a program has used, also if it shares its thread with other programs.   Threads: any; values are per
+// thread.
 #pragma once
 
 #include <ctime>
@@ -7,7 +8,7 @@ namespace skein {
 
 namespace thread_cpu_detail {
 
-/// CPU time of the calling thread that belongs to other programs [s]; negative when other threads helped.
+/// Part of the calling thread's CPU time that belongs to other programs [s]. add_thread_cpu() can make it negative.
 inline thread_local double of_others_s = 0.0;
 
 inline double total_s() {
@@ -18,8 +19,9 @@ inline double total_s() {
 
 }  // namespace thread_cpu_detail
 
-/// CPU time of the calling thread [s], user and kernel. Where several programs share the thread, the difference of two
-/// calls is meaningful within one turn; across turns only for programs that begin each with begin_thread_cpu_share().
+/// CPU time of the calling thread [s], user and kernel. If several programs share the thread, differences of two
+/// results are meaningful within one turn; across turns only for programs that call begin_thread_cpu_share() in each
+/// turn.
 inline double thread_cpu_s() { return thread_cpu_detail::total_s() - thread_cpu_detail::of_others_s; }
 
 /// From now on the calling thread works for a program whose CPU time so far is `so_far_s`.

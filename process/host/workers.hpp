@@ -1,6 +1,6 @@
-// Threads that help the one that has the work: of a flight in one process, which may use more than one core.
-// Nothing of a result may depend on who does what, or when: each piece writes to its own place, and whoever shares the
-// work adds up in the order of the pieces.
+// A pool of threads for the parallel loops (core/for_each.hpp) of a flight in one process. Results must not depend on
+// which thread runs an iteration, or when: each iteration writes only to memory of its own, and the caller combines the
+// results in the order of the iterations.
 #pragma once
 
 #include <atomic>
@@ -17,20 +17,20 @@ namespace skein {
 
 class Workers {
  public:
-  /// @param threads  of which one is the caller's; with 1 there are no others.
+  /// @param threads  number of threads, including the caller's; 1: no further threads.
   explicit Workers(int threads);
   ~Workers();
   Workers(const Workers&) = delete;
   Workers& operator=(const Workers&) = delete;
 
   int threads() const { return static_cast<int>(helpers_.size()) + 1; }
-  /// Which of the threads this is: 0 is the one that made them, or none of them.
+  /// Number of the calling thread: 1, 2, ... for the pool's helpers, 0 for all other threads.
   static int here();
 
-  /// Does work(0) ... work(count - 1), each once, on any of the threads, and returns when all are done. If some throw,
-  /// the exception of the first of them leaves, when all that have begun are over. Within a piece of work: one after
-  /// another, on that thread. The CPU time of the helpers counts as the caller's (thread_cpu.hpp).
-  /// Threads: the one that made this, and its helpers.
+  /// Calls work(0) ... work(count - 1), each once, on any of the threads, and returns when all calls have returned. If
+  /// calls throw, run() throws the exception of the one with the lowest index. A call of run() within work() runs its
+  /// loop on the calling thread. The helpers' CPU time counts as the caller's (thread_cpu.hpp).
+  /// Threads: only the thread that created the pool, and its helpers.
   void run(std::size_t count, const std::function<void(std::size_t)>& work);
 
  private:
@@ -49,8 +49,8 @@ class Workers {
 
   std::mutex mutex_;
   std::condition_variable changed_, done_;
-  Job* job_ = nullptr;                    ///< under way
-  std::atomic<std::uint64_t> round_ = 0;  ///< which job; helpers look at it before they sleep
+  Job* job_ = nullptr;                    ///< current job
+  std::atomic<std::uint64_t> round_ = 0;  ///< number of the job; helpers poll it for a while before they sleep
   std::size_t wanted_ = 0;                ///< helpers that may yet join the job
   std::atomic<std::size_t> busy_ = 0;     ///< helpers in the job
   bool over_ = false;

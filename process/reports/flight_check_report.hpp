@@ -1,4 +1,4 @@
-// What sim_server reports of its flight check (docs/flight-safety.md): part of reports.hpp.
+// sim_server's report of its flight check (docs/flight-safety.md): part of reports.hpp.
 #pragma once
 
 #include <array>
@@ -7,9 +7,9 @@
 
 namespace skein {
 
-/// Distances of UAVs from their set-points, in quantiles; empty of no samples.
+/// Quantiles of the distance [m] between UAVs and their setpoints; empty without samples.
 struct TrackingReport {
-  Number from_mps = {};  ///< of set-points from this speed on; empty: of all
+  Number from_mps = {};  ///< only for setpoints of at least this speed; empty: for all
   Count samples = {};
   Number p50 = {}, p99 = {}, p9999 = {}, max = {};
 };
@@ -23,13 +23,13 @@ void describe(Fields& f, TrackingReport& tracking) {
   f.field("samples", tracking.samples);
 }
 
-/// A UAV that could not stop short of something.
+/// A UAV whose braking trajectory collides with something.
 struct FlightFindingReport {
   Number time_s = {};
   Text uav = {};
   Text with = {};                                      ///< "structure" or a UAV
-  std::optional<std::array<double, 3>> position = {};  ///< of the UAV where it is nearest
-  std::optional<double> distance_m = {};               ///< between the surfaces there; below 0
+  std::optional<std::array<double, 3>> position = {};  ///< of the UAV in W [m], at the least distance
+  std::optional<double> distance_m = {};               ///< distance between the surfaces there; below 0
 };
 template <class Fields>
 void describe(Fields& f, FlightFindingReport& finding) {
@@ -40,9 +40,9 @@ void describe(Fields& f, FlightFindingReport& finding) {
   f.field("with", finding.with);
 }
 
-/// Whether UAVs flew such that they could stop (docs/flight-safety.md). Distances may be below 0.
+/// Whether UAVs could always stop without a collision (docs/flight-safety.md). Distances may be below 0.
 struct FlightCheckReport {
-  Count exchanges = {};  ///< of UAVs that flew
+  Count exchanges = {};  ///< sum over all UAVs of the exchanges in flight
   Count braking_hits = {}, braking_meets = {}, ways_meet = {};
   std::optional<double> least_clearance_m = {}, least_braking_clearance_m = {};
   std::optional<double> least_separation_m = {}, least_braking_separation_m = {};

@@ -1,5 +1,5 @@
-// A program's last words: what it did, for the launcher's result.json. They go through the status pipe, so that a full
-// disk does not take them along, and into a file for whoever has no launcher.
+// A program's final report, for the launcher's result.json. The program sends it through the status pipe, so that a
+// full disk cannot destroy it, and writes it to a file, for runs without a launcher.
 #pragma once
 
 #include <filesystem>
@@ -9,12 +9,12 @@
 
 namespace skein {
 
-/// Sends it as a status::Report, after writing `file`. A file that cannot be written is added to the report's
-/// list `unwritten`, where a program names all such files, one sentence each.
-/// @throws std::runtime_error when the file cannot be written and there is no launcher either.
+/// Writes the report to `file`, then sends it as a status::Report. If the file cannot be written, adds a sentence to
+/// the report's list `unwritten`, in which a program names all files that it could not write.
+/// @throws std::runtime_error if the file cannot be written and the status pipe is not open (no launcher).
 void hand_in_report(Json report, const std::filesystem::path& file, StatusPipe& status);
 
-/// When a program begins to work: what lies there was said of another run, by one that used the same folder.
+/// Deletes the report of an earlier run from the same folder. Call it when the program starts to work.
 void withdraw_report(const std::filesystem::path& file);
 
 }  // namespace skein

@@ -1,18 +1,18 @@
-// What a stand-in for ROS 2 nodes reports of one topic.
+// Report, about one topic, of a stand-in: the lock-step member that represents free-running ROS 2 nodes.
 #pragma once
 
 #include "process/reports/report_types.hpp"
 
 namespace skein {
 
-/// What free-running ROS 2 nodes said on a topic of their UAV (docs/ros2.md), and what became of it.
+/// Numbers of messages from free-running ROS 2 nodes on a topic of their UAV (docs/ros2.md).
 struct RelayedTopic {
   Text topic = {};      ///< ROS name
-  Count received = {};  ///< all of it: what was handed on, lost, and refused as no message
+  Count received = {};  ///< all messages: handed on, lost, and refused as invalid
   Count handed_on = {};
-  Count late = {};         ///< of those, by their stamp
-  Count lost = {};         ///< more than a step can hold, or the UAV's program was away
-  Count refused = {};      ///< no message of the topic's type, or handed on and rejected by sim_server
+  Count late = {};         ///< messages among those handed on whose stamp says that they are late
+  Count lost = {};         ///< more than one step may have, or received while the UAV's program was away
+  Count refused = {};      ///< not valid for the topic's type, or handed on and rejected by sim_server
   Count other_clock = {};  ///< stamps that are not of simulated time
 };
 template <class Fields>

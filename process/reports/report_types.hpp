@@ -1,4 +1,4 @@
-// Types of members of reports (reports.hpp): each may be missing.
+// Types for the members of reports (reports.hpp). Each member may be missing from a report.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 namespace skein {
 
 using Count = std::optional<std::uint64_t>;
-using Number = std::optional<Amount>;  // none of them can be negative
+using Number = std::optional<Amount>;  // never negative
 using Text = std::optional<std::string>;
 using Texts = std::vector<std::string>;
 

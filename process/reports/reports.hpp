@@ -1,6 +1,6 @@
-// What programs report at their end, for the launcher's result.json and for people (program_report.hpp). The key of
-// each member stands in its describe(), in the order in which files have them. A report may be damaged, or a user's:
-// what it lacks is empty.
+// Final reports of all programs, for the launcher's result.json and for people (program_report.hpp). describe() of each
+// struct lists the members' keys in the order of the files. A report may be damaged, or come from a user's program:
+// missing members are empty.
 #pragma once
 
 #include <array>
@@ -21,7 +21,7 @@ struct CollisionReport {
   Number time_s = {};
   Text uav = {};
   Text with = {};   ///< "ground", "structure" or a UAV
-  Text cause = {};  ///< "battery": it fell, since its battery was empty; else none
+  Text cause = {};  ///< "battery": the UAV fell because its battery was empty; otherwise missing
   std::optional<std::array<double, 3>> position = {};
 };
 template <class Fields>
@@ -33,13 +33,13 @@ void describe(Fields& f, CollisionReport& collision) {
   f.field("with", collision.with);
 }
 
-/// A fault of the run's fault file, or one that somebody who watched it began.
+/// A fault of the run's fault file, or one that a viewer added during the run.
 struct FaultReport {
   Text kind = {}, target = {};
-  Number at_s = {}, until_s = {};          ///< without `until_s`: to the end; without `at_s`: it waited in vain
-  Count began_step = {}, ended_step = {};  ///< empty: not in this run
-  Text when = {};                          ///< what it waited for
-  std::optional<bool> by_hand = {};        ///< empty: of the file
+  Number at_s = {}, until_s = {};          ///< `until_s` empty: to the end; `at_s` empty: its condition never held
+  Count began_step = {}, ended_step = {};  ///< empty: it did not begin, or end, during the run
+  Text when = {};                          ///< the condition for which it waited
+  std::optional<bool> by_hand = {};        ///< true: added by a viewer; empty: from the fault file
 };
 template <class Fields>
 void describe(Fields& f, FaultReport& fault) {
@@ -58,7 +58,7 @@ struct LostMember {
   Count step = {};
   Number time_s = {};
   Text reason = {};
-  Number back_at_s = {};  ///< when it took part again; none: it did not
+  Number back_at_s = {};  ///< time at which it joined again; none: it did not
 };
 template <class Fields>
 void describe(Fields& f, LostMember& lost) {
@@ -69,10 +69,10 @@ void describe(Fields& f, LostMember& lost) {
   f.field("time_s", lost.time_s);
 }
 
-/// CPU time of the server's thread by kind of work, and how often it did it.
+/// CPU time of the server's thread by kind of work, and the counts of this work.
 struct TimingReport {
   Number physics_s = {}, lidar_s = {}, camera_s = {}, links_s = {}, recording_s = {};
-  Number cpu_s = {};  ///< in all
+  Number cpu_s = {};  ///< total
   Count scans = {}, exposures = {}, steps = {};
   Number lidar_ms_per_scan = {};
 };
@@ -92,7 +92,7 @@ void describe(Fields& f, TimingReport& timing) {
 
 /// The referee's record of a UAV's work, second by second (core/run/work_time.hpp).
 struct WorkReport {
-  std::string open = {};          ///< a letter a second, as WorkTrack has it
+  std::string open = {};          ///< one letter per second, as in WorkTrack
   std::vector<Amount> done = {};  ///< in least amounts
 };
 template <class Fields>
@@ -101,11 +101,11 @@ void describe(Fields& f, WorkReport& work) {
   f.field("open", work.open);
 }
 
-/// A battery at a run's end.
+/// A battery at the end of the run.
 struct BatteryReport {
-  Number charge = {};  ///< share that is left
+  Number charge = {};  ///< remaining share
   Number energy_wh = {}, capacity_wh = {}, mean_power_w = {};
-  Number empty_s = {};  ///< when it was empty
+  Number empty_s = {};  ///< time at which it became empty
 };
 template <class Fields>
 void describe(Fields& f, BatteryReport& battery) {
@@ -145,11 +145,11 @@ void describe(Fields& f, UavReport& uav) {
   f.field("work", uav.work);
 }
 
-/// A UAV that somebody flew by hand.
+/// A UAV that a person flew by hand.
 struct HandReport {
   Text uav = {};
-  Text file = {};       ///< in the run's folder, with what was wanted of it
-  Count commands = {};  ///< in the file
+  Text file = {};       ///< file in the run's folder with the hand commands
+  Count commands = {};  ///< number of commands in the file
 };
 template <class Fields>
 void describe(Fields& f, HandReport& hand) {
@@ -158,9 +158,9 @@ void describe(Fields& f, HandReport& hand) {
   f.field("uav", hand.uav);
 }
 
-/// What a run was: for whoever has no launcher that would know.
+/// The settings of a run, for runs without a launcher, which would know them.
 struct FlightReport {
-  Text scenario = {};  ///< as the server was told it
+  Text scenario = {};  ///< as given to the server
   Count seed = {}, scene_seed = {}, uavs = {}, run = {};
   Number duration_s = {};
   Text clock = {}, dds = {};
@@ -183,22 +183,22 @@ struct SimServerReport {
   Text digest = {};
   Number sim_time_s = {}, mission_time_s = {}, wall_time_s = {};
   Text rules = {};       ///< the preset
-  Text conditions = {};  ///< in the words of --conditions; none: an ideal world
+  Text conditions = {};  ///< in the syntax of --conditions; none: ideal conditions
   Count points_total = {};
-  Text points_seen = {};  ///< a digit for each point: 1 was in some picture
+  Text points_seen = {};  ///< one digit per interest point; 1: it was in some picture
   std::vector<CollisionReport> collisions = {};
   std::vector<UavReport> uavs = {};
   std::vector<LostMember> lost_members = {};
   std::vector<FaultReport> faults = {};
-  std::optional<std::vector<HandReport>> hand = {};  ///< only where somebody flew
+  std::optional<std::vector<HandReport>> hand = {};  ///< only if a person flew a UAV
   TimingReport timing = {};
   FlightReport flight = {};
   std::optional<FlightCheckReport> flight_check = {};
   Texts warnings = {};
-  Count malformed = {};  ///< samples that were no message of their topic's type; of all reports, like the next two
+  Count malformed = {};  ///< invalid samples for their topic's type; all reports have this and the next two members
   Count unsent = {};     ///< samples that could not be sent
-  Texts unwritten = {};  ///< files that the disk refused, one sentence each
-  std::optional<Texts> differences = {};  ///< from the run that was flown again, one sentence each
+  Texts unwritten = {};  ///< files that could not be written, one sentence each
+  std::optional<Texts> differences = {};  ///< differences from the run that this run repeats, one sentence each
 };
 template <class Fields>
 void describe(Fields& f, SimServerReport& report) {
@@ -229,7 +229,7 @@ void describe(Fields& f, SimServerReport& report) {
 
 // ---- station ----------------------------------------------------------------------------------------------------
 
-/// A point that scored, and by whose capture.
+/// A point that scored, with the UAV and the capture that count for it.
 struct ScoredPointReport {
   Count index = {};
   Number score = {};
@@ -247,10 +247,10 @@ void describe(Fields& f, ScoredPointReport& point) {
 struct StationReport {
   Count points_detected = {};
   Number score = {};
-  Number score_earned = {};  ///< empty: nobody knows
+  Number score_earned = {};  ///< score of all captures, delivered or not; empty: unknown
   Named<double> score_by_uav = {};
   std::optional<std::vector<ScoredPointReport>> points = {};
-  Named<std::uint64_t> refused = {};  ///< capture reports, by reason
+  Named<std::uint64_t> refused = {};  ///< number of refused capture reports, by reason
   Count reports_received = {}, duplicates = {}, malformed = {}, unsent = {};
   Text dds = {};
   Texts unwritten = {};
@@ -273,7 +273,7 @@ void describe(Fields& f, StationReport& report) {
 
 // ---- comm_router ------------------------------------------------------------------------------------------------
 
-/// What became of radio messages.
+/// Numbers of radio messages by what happened to them.
 struct RadioCounts {
   Count sent = {}, delivered = {}, dropped_no_los = {}, dropped_fault = {}, dropped_overflow = {}, duplicated = {};
   Count corrupted = {};
@@ -310,12 +310,12 @@ void describe(Fields& f, LinkReport& link) {
 struct RouterReport {
   RadioCounts total = {};
   Count malformed = {};
-  Count unheard = {};  ///< messages of who is no member
+  Count unheard = {};  ///< messages of programs outside the lock-step
   Count unsent = {};
   std::vector<LinkReport> per_link = {};
   Text dds = {};
   Texts warnings = {}, unwritten = {};
-  std::optional<Texts> differences = {};  ///< as the server's
+  std::optional<Texts> differences = {};  ///< as in SimServerReport
 };
 template <class Fields>
 void describe(Fields& f, RouterReport& report) {
@@ -333,7 +333,7 @@ void describe(Fields& f, RouterReport& report) {
 
 // ---- agents -----------------------------------------------------------------------------------------------------
 
-/// Simulated time in which its planner said that it waited for another UAV.
+/// A span of simulated time in which the agent's planner reported that it waited for another UAV.
 struct WaitReport {
   Number from_s = {}, until_s = {};
   Text uav = {};
@@ -351,9 +351,9 @@ struct AgentReport {
   Number waited_s = {};
   std::optional<std::vector<WaitReport>> waits = {};  ///< by time
   std::optional<Texts> no_way = {};
-  std::optional<std::vector<RelayedTopic>> from_nodes = {};  ///< of a stand-in for ROS 2 nodes: topics with anything
+  std::optional<std::vector<RelayedTopic>> from_nodes = {};  ///< only of a stand-in: topics with any ROS 2 messages
   Count malformed = {}, unsent = {};
-  Text planner = {};  ///< as it was told
+  Text planner = {};  ///< as given to the agent
   Text dds = {};
   std::optional<Texts> unwritten = {};
 };
@@ -374,7 +374,7 @@ void describe(Fields& f, AgentReport& report) {
   f.field("waits", report.waits);
 }
 
-/// What an agent program prints of itself (--list-planners).
+/// Output of an agent program with --list-planners.
 struct StrategyList {
   Texts planners = {}, ground_programs = {};
 };

@@ -1,5 +1,5 @@
-// What the launcher and a process that is home to a whole fleet (one_process/) say to each other: the lines of several
-// programs on one pair of pipes (status_pipe.hpp), each with the program's name.   Threads: any.
+// Messages between the launcher and a process with a whole fleet (one_process/): lines of several programs on one pair
+// of pipes (status_pipe.hpp), each with the program's name.   Threads: any.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -14,18 +14,18 @@ namespace skein::shared_lines {
 
 // ---- from the process --------------------------------------------------------------------------------------------
 
-/// A program says something (status_lines.hpp).
+/// A status line of a program (status_lines.hpp).
 struct Said {
   std::string program = {};
   Json line = Json::object();
 };
-/// A program has ended, with an exit code or as if by a signal.
+/// A program has ended, with an exit code or as if killed by a signal.
 struct Ended {
   std::string program = {};
   int code = 0, signal = 0;
-  bool fatal = false;  ///< the process, and all that is in it, ends with it
+  bool fatal = false;  ///< true: the whole process, with all programs, ends
 };
-/// A fault has stopped a program: it stands still from now on.
+/// A fault has stopped a program: it gets no turns until it is continued.
 struct Stopped {
   std::string program = {};
 };
@@ -39,7 +39,7 @@ std::optional<News> read_news(const std::string& text);
 
 // ---- from the launcher -------------------------------------------------------------------------------------------
 
-/// A program is to begin. What it needs is as for a process of its own (cli/host/supervisor.hpp).
+/// Starts a program, with the same data as for a process of its own (cli/host/supervisor.hpp).
 struct Start {
   std::string program = {};
   std::vector<std::string> argv = {};
@@ -58,7 +58,7 @@ struct Signal {
 
 using Order = std::variant<Start, Tell, Signal>;
 
-/// Without an end of line.
+/// The order as a line of text, without the end of line.
 std::string text_of(const Order& order);
 /// @returns nullopt when the text is none of these.
 std::optional<Order> read_order(const std::string& text);

@@ -1,5 +1,5 @@
-// What programs say on their status pipes (status_pipe.hpp) while a run goes on: a JSON object a line, whose "type"
-// says which of these it is. Times in seconds. And what the launcher says on their control pipes.
+// Messages from programs to the launcher on status pipes (status_pipe.hpp) during a run: one JSON object per line,
+// whose "type" names one of the structs below. Times are in seconds. Also the launcher's orders on control pipes.
 #pragma once
 
 #include <array>
@@ -14,34 +14,34 @@
 
 namespace skein::status {
 
-/// Of sim_server, several times a second.
+/// From sim_server, several times a second.
 struct Progress {
   static constexpr const char* kType = "progress";
-  double time_s = 0.0, mission_s = 0.0;  ///< simulated, since the start and since the first take-off
+  double time_s = 0.0, mission_s = 0.0;  ///< simulated time since the start, and since the first take-off
   double duration_s = 0.0;               ///< of the mission
   Phase phase = Phase::waiting;
   std::vector<std::string> in_contact = {};  ///< UAVs with a link to the ground station
-  std::size_t alive = 0;                     ///< UAVs
-  std::vector<std::string> lost = {};        ///< members
+  std::size_t alive = 0;                     ///< number of UAVs that are not out of the run
+  std::vector<std::string> lost = {};        ///< names of lost members
 };
 
-/// Of the station, when the score has changed.
+/// From the station, when the score has changed.
 struct Tally {
   static constexpr const char* kType = "tally";
   int points = 0;
   double score = 0.0, earned = 0.0;
 };
 
-/// Of sim_server: whom the fleet waits for, as long as it does.
+/// From sim_server, while the fleet waits: the members for which it waits.
 struct WaitingFor {
   static constexpr const char* kType = "waiting_for";
-  std::vector<std::string> members = {}, missing = {};  ///< missing: of each, what
+  std::vector<std::string> members = {}, missing = {};  ///< missing: for each member, what has not arrived
   std::string what = {};                                ///< "to join"
-  double seconds = 0.0;                                 ///< so far
-  bool due = false;                                     ///< it is time for a line of text
+  double seconds = 0.0;                                 ///< wall time of the wait so far
+  bool due = false;                                     ///< true: the launcher should print a line about the wait
 };
 
-/// Of sim_server: a fault takes a member out of the run, or lets it back.
+/// From sim_server: a fault takes a member out of the run, or lets it back.
 struct Order {
   static constexpr const char* kType = "order";
   enum class What { kill, stop, start, resume };
@@ -56,26 +56,26 @@ constexpr std::array<EnumName<Order::What>, 4> enum_names(Order::What) {
            {"continue", Order::What::resume}}};
 }
 
-/// Of sim_server, for the user to see at once.
+/// From sim_server: a warning that the user should see at once.
 struct Warning {
   static constexpr const char* kType = "warning";
   std::string text = {};
 };
 
-/// Of sim_server: a member takes part again.
+/// From sim_server: a member has joined again.
 struct Rejoined {
   static constexpr const char* kType = "rejoined";
   std::string member = {};
 };
 
-/// Of sim_server, after its report: the run is over.
+/// From sim_server, after its report: the run is over.
 struct Ended {
   static constexpr const char* kType = "ended";
   RunStatus status = RunStatus::completed;
-  std::vector<std::string> stalled = {};  ///< who had not answered when the user ended the run
+  std::vector<std::string> stalled = {};  ///< members that had not answered when the user ended the run
 };
 
-/// Of every program, at its end (reports.hpp).
+/// From every program, at its end (reports.hpp).
 struct Report {
   static constexpr const char* kType = "report";
   Json report = Json::object();
@@ -86,17 +86,17 @@ using Line = std::variant<Progress, Tally, WaitingFor, Order, Warning, Rejoined,
 /// For StatusPipe::send().
 nlohmann::json line_json(const Line& line);
 
-/// @returns nullopt when the text is none of these; what a line lacks, or has of another kind, is as above. Never
-/// throws: a user's command may write anything.
+/// @returns nullopt if the text is none of these. Members that a line lacks, or has with another type, keep the
+/// defaults above. Never throws: a user's command may write anything.
 std::optional<Line> read_line(const std::string& text);
 
 }  // namespace skein::status
 
 namespace skein::orders {
 
-/// The run is to end at the next step.
+/// Order: end the run at the next step.
 struct Stop {};
-/// The process of a member has ended.
+/// Message: the process of a member has ended.
 struct Lost {
   std::string member = {};
 };

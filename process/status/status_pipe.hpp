@@ -1,6 +1,6 @@
-// How the launcher and its programs talk besides the bus: one line of text each, over inherited file
-// descriptors. A program reports with StatusPipe (--status-fd) and takes orders with ControlPipe
-// (--control-fd). Without a launcher both do nothing.
+// Communication between the launcher and its programs besides the bus: lines of text over inherited file descriptors. A
+// program reports with StatusPipe (--status-fd) and receives orders with ControlPipe (--control-fd). Without a launcher
+// both do nothing.
 #pragma once
 
 #include <functional>
@@ -12,20 +12,22 @@
 
 namespace skein {
 
-/// Writes JSON objects, one a line. Any thread.
+/// Writes JSON objects, one per line. Any thread.
 class StatusPipe {
  public:
-  /// @param fd open for writing; negative: nothing is sent. Not closed by this. SIGPIPE is ignored from here on.
+  /// @param fd  open for writing; negative: nothing is sent. The destructor does not close it. From now on, the process
+  ///   ignores SIGPIPE. @throws std::runtime_error if `fd` is not open.
   explicit StatusPipe(int fd);
-  /// One of several programs in this process, which share a pipe: what it sends is wrapped
+  /// For one of several programs of this process that share a pipe: its lines also contain its name
   /// (process/status/shared_lines.hpp).
   StatusPipe(const StatusPipe& shared, std::string program);
   bool is_open() const { return pipe_->fd >= 0; }
 
-  /// Never waits: what does not fit because the reader is slow is dropped, always by whole lines. A reader that has
-  /// gone is no error.
+  /// Never waits: if the pipe is full because the reader is slow, the whole line is dropped. A closed reader is no
+  /// error.
   void send(const nlohmann::json& message);
-  /// For what must not be lost, such as a result: waits until the reader has taken it or is gone.
+  /// For messages that must not be lost, such as a result: waits until the pipe has taken the line, or its reader is
+  /// gone.
   void send_surely(const nlohmann::json& message);
 
  private:
@@ -35,21 +37,21 @@ class StatusPipe {
 
     const int fd;
     std::mutex mutex = {};
-    std::string unsent = {};  ///< rest of a line that the pipe took only in part
+    std::string unsent = {};  ///< rest of a line that was written only in part
   };
 
   std::string line_of(const nlohmann::json& message) const;
 
   const std::shared_ptr<Pipe> pipe_;
-  const std::string program_;  ///< empty: alone
+  const std::string program_;  ///< empty: the program does not share the pipe
 };
 
-/// Reads lines in a thread of its own and hands each, without its end, to a callback there.
+/// Reads lines in a thread of its own and calls a callback in this thread with each line, without the end of line.
 class ControlPipe {
  public:
-  /// @param fd open for reading; negative: nothing ever comes. Not closed by this.
-  /// @param on_line called for each line; may be called until the destructor returns.
-  /// @param on_end called once when the other end closes: the launcher is gone.
+  /// @param fd  open for reading; negative: there are no lines. The destructor does not close it.
+  /// @param on_line  called for each line; may be called until the destructor returns.
+  /// @param on_end  called once when the other end closes: the launcher is gone.
   ControlPipe(int fd, std::function<void(const std::string&)> on_line, std::function<void()> on_end = {});
   ~ControlPipe();
   ControlPipe(const ControlPipe&) = delete;

@@ -1,4 +1,4 @@
-// For tests: files as OctoMap writes them, drawn at random.
+// For tests: random map files in OctoMap's format.
 #pragma once
 
 #include <array>
@@ -7,7 +7,7 @@
 
 namespace skein::results {
 
-/// A tree's file. What it knows lies near the origin, at positive coordinates, in cells of 0.5 m and larger.
+/// A random octree as a file. Its leaves lie near the origin, at positive coordinates, and have edges of 0.5 m or more.
 class DrawnMap {
  public:
   explicit DrawnMap(std::mt19937& random) : random_(random) {
@@ -19,7 +19,7 @@ class DrawnMap {
   }
 
  private:
-  static constexpr int kDepth = 16, kNear = 9;  ///< from `kNear` on, cubes are no larger than 64 m
+  static constexpr int kDepth = 16, kNear = 9;  ///< at depth kNear, a cube has an edge of 64 m
 
   void add_inner(int depth) {
     if (depth == 0) nodes_ = 1;

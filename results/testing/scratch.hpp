@@ -1,4 +1,4 @@
-// For tests: a folder that is gone afterwards, and files in it.
+// For tests: a temporary folder, and text files in it.
 #pragma once
 
 #include <filesystem>

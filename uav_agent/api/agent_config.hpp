@@ -1,5 +1,5 @@
-// What one UAV's on-board software knows before it flies: the rules of the game, its own vehicle, who else flies.
-// Deliberately not the scene and not the interest points: those are for the UAV to find out.
+// What the on-board software of one UAV knows before the flight: the rules of the mission, its own vehicle and the
+// fleet. It deliberately does not know the scene or the interest points: the UAV must discover these.
 // Frame W (world, ENU).   Units: SI and radians unless the name says otherwise.
 #pragma once
 
@@ -17,36 +17,36 @@ namespace skein::agent {
 struct FleetMember {
   std::string name;
   Role role = Role::explorer;
-  Vector3d p_WB_start = Vector3d::Zero();  ///< nominal place on the ground; the real one may be off by decimetres
-  double body_radius_m = 0.63;             ///< sphere around the body's origin that holds the whole UAV
+  Vector3d p_WB_start = Vector3d::Zero();  ///< nominal, on the ground (z = 0); the true start may be decimetres off
+  double body_radius_m = 0.63;             ///< of a sphere about Bo that contains the whole UAV
   double max_speed_mps = 6.0;
 };
 
 struct AgentConfig {
-  UavIndex self = {};              ///< index into fleet
-  std::vector<FleetMember> fleet;  ///< in fleet order, the same on every UAV
-  VehicleConfig vehicle;           ///< its own
-  double desired_mm_per_pixel = 2.0;
-  double duration_s = 600.0;
+  UavIndex self = {};                 ///< index of this UAV in `fleet`
+  std::vector<FleetMember> fleet;     ///< in fleet order, the same on every UAV
+  VehicleConfig vehicle;              ///< of this UAV; its LiDAR with the noise and losses of the scenario's conditions
+  double desired_mm_per_pixel = 2.0;  ///< resolution on the surface that loses no score
+  double duration_s = 600.0;          ///< of the mission
   double exchange_period_s = 0.05;
-  Vector3d station_position = Vector3d::Zero();
-  BatteryConditions battery;    ///< of its own vehicle
-  OdometryConditions odometry;  ///< how far odometry errs here, its own and its mates'
+  Vector3d station_position = Vector3d::Zero();  ///< of the ground station, in W
+  BatteryConditions battery;                     ///< of this UAV
+  OdometryConditions odometry;                   ///< error model of the odometry, the same for all UAVs
 
   const FleetMember& me() const { return fleet.at(self); }
-  /// The first of the fleet that has a LiDAR; none: nobody ever sees what is free.
+  /// Index of the first UAV of the fleet with a LiDAR; nullopt: no UAV has one, so no space is ever proved free.
   std::optional<std::size_t> first_explorer() const;
-  /// Whether something that is done every `every_s` falls into exchange k; whoever has another `offset` does it in
-  /// another one, so that not all do it at once.
+  /// Whether a task with the period `every_s` [s] is due in exchange k. `offset` [exchanges] shifts it: with another
+  /// offset on each UAV, such as its index, not all UAVs do the task in the same exchange.
   bool due(std::uint64_t k, double every_s, std::size_t offset) const {
     return (k + offset) % static_cast<std::uint64_t>(std::max(1.0, every_s / exchange_period_s)) == 0;
   }
 };
 
-/// Radius of the sphere around the body's origin that holds arms, rotors and camera [m].
+/// Radius of the sphere about Bo that contains the rotors and the boxes of all parts [m].
 double body_radius_m(const VehicleConfig& vehicle);
 
-/// The part of a scenario that UAV `self` (in fleet order) may know.
+/// The part of a scenario that the UAV with index `self` may know.
 /// @throws std::out_of_range when there is no such UAV.
 AgentConfig agent_config(const Scenario& scenario, UavIndex self);
 

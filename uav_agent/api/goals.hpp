@@ -1,5 +1,6 @@
-// How a strategy says where it wants to go, and what it hears of it. The flight core (flight_core/flight_core.hpp) does
-// the flying: it finds ways, keeps clear, takes off, brings captures home, and gets on where something is in the way.
+// Goals, by which a planner tells the flight core where to fly, and their outcomes. The flight core
+// (flight_core/flight_core.hpp) takes off, searches paths, keeps clear of structure and UAVs, returns to the station to
+// deliver captures, and recovers when it reaches no goal.
 // Frame W.   Units: SI and radians unless the name says otherwise.
 #pragma once
 
@@ -14,38 +15,42 @@
 
 namespace skein::agent {
 
-/// Where the camera looks: monostate: carry on; a point in W to keep in the image's centre; or a command as it is.
+/// Aim of the camera. monostate: the last aim stays; Vector3d: a point in W to keep in the centre of the image;
+/// GimbalCommand: goes to the gimbal unchanged.
 using GimbalAim = std::variant<std::monostate, Vector3d, GimbalCommand>;
 
-/// Something that a strategy wants: to be at a place, or to fly along a line from there.
+/// What the planner wants: to be at a place, or to fly along a line of waypoints that begins there.
 struct Goal {
-  std::int64_t id = 0;             ///< its strategy's name for it
-  std::vector<Waypoint> way = {};  ///< at least one: the core finds a way to the first, and flies on along the others
-  std::optional<double> yaw = {};  ///< of the body, from the first waypoint on
-  GimbalAim gimbal = {};           ///< from when it is taken up
+  /// The planner's own number. If the first goal of a new list has the id of the goal being flown, the core goes on
+  /// with it; its `way` may have changed.
+  std::int64_t id = 0;
+  /// At least one waypoint. The core searches a path to the first one, then flies straight from each to the next.
+  std::vector<Waypoint> way = {};
+  std::optional<double> yaw = {};  ///< of the body in W, from 4 m before the first waypoint on; nullopt: any
+  GimbalAim gimbal = {};           ///< applied when the core sets out to the goal
 };
 
-/// What became of a goal.
+/// How a goal ended.
 struct Outcome {
   enum class Kind : std::uint8_t {
     reached,  ///< the UAV rests at the end of its way
-    no_way,   ///< there is no way to its first waypoint, or none that could be proved to be free
-    blocked,  ///< something stands on its way: `leg` tells how far it came
+    no_way,   ///< the UAV could not reach the first waypoint: no path, or none proved free
+    blocked,  ///< past the first waypoint, structure, unproved space or a UAV was in the way
   };
-  std::int64_t id = 0;
+  std::int64_t id = 0;  ///< Goal::id
   Kind kind = Kind::reached;
-  std::size_t leg = 0;      ///< waypoint of its way that it did not reach
-  std::string reason = {};  ///< for a log
+  std::size_t leg = 0;      ///< if `blocked`: index in Goal::way of the waypoint that the UAV did not reach
+  std::string reason = {};  ///< for a log; empty if `reached`
 };
 
-/// What the flight core is about, for a strategy.
+/// State of the flight core, as the planner needs it.
 struct FlightState {
-  bool working = false;                   ///< in the air, and free to fly to goals; else they wait
-  bool idle = false;                      ///< working, and no goal is left
-  std::optional<std::int64_t> goal = {};  ///< the one it flies to or along
-  bool on_way = false;                    ///< along its way: past the first waypoint
-  std::size_t leg = 0;                    ///< waypoint of its way that it flies to
-  std::vector<Outcome> outcomes = {};     ///< since the exchange before, in their order
+  bool working = false;                   ///< the core flies to goals now; otherwise (takeoff, recovery, ...) they wait
+  bool idle = false;                      ///< working, and no goal of the last list is left
+  std::optional<std::int64_t> goal = {};  ///< id of the goal being flown; only while working
+  bool on_way = false;                    ///< the UAV has reached the first waypoint and flies along `way`
+  std::size_t leg = 0;                    ///< while on_way: index in Goal::way of the waypoint that it flies to
+  std::vector<Outcome> outcomes = {};     ///< of goals that ended since the last exchange with `working`, in order
 };
 
 }  // namespace skein::agent

@@ -1,8 +1,8 @@
-// What a strategy has at the ground station, if it has anything there: a program that hears the radio, sees which UAVs
-// are in line of sight, and answers by radio. It flies nothing. The registry finds it by the strategy's name; it takes
-// the same parameters as the planner of that name.
+// The program of a strategy at the ground station; not every strategy has one. It receives radio messages, knows which
+// UAVs are in line of sight of the station, and answers by radio. It flies nothing. It is registered under the name of
+// the strategy's planner, and takes the same parameters.
 //
-// Pure, as a planner is: what it returns may depend only on its inputs and its own past.
+// Deterministic, as a planner is: its output may depend only on its present and past inputs.
 // Frame W.   Units: SI.   Threads: one program is used by one thread.
 #pragma once
 
@@ -21,32 +21,33 @@
 namespace skein::agent {
 
 struct GroundInput {
-  std::uint64_t k = 0;  ///< exchange
+  std::uint64_t k = 0;  ///< number of the exchange
   Tick tick = 0;
   std::vector<OrientedBox> boxes;             ///< empty until received
-  std::vector<Neighbour> linked;              ///< UAVs in line of sight at this step
-  std::optional<double> mission_remaining_s;  ///< nullopt before the first take-off
-  std::vector<RadioMessage> radio;            ///< received at this step
+  std::vector<Neighbour> linked;              ///< UAVs in line of sight in this exchange
+  std::optional<double> mission_remaining_s;  ///< nullopt before the first takeoff of the fleet
+  std::vector<RadioMessage> radio;            ///< received in this exchange
 };
 
 class GroundProgram {
  public:
   virtual ~GroundProgram() = default;
-  /// Called once per exchange, also before take-off. @returns what it sends, on topics that the scenario lets "gcs"
-  /// send on ("/plan" always).
+  /// Called once per exchange, also before takeoff. @returns messages to send, on topics on which the scenario lets
+  /// "gcs" send ("/plan" always). Others are dropped.
   virtual std::vector<RadioMessage> work(const GroundInput& input) = 0;
 };
 
 /// @param spec    as make_planner() takes it: "xxh", "xxh:voxel=4", "xxh:params.yaml".
-/// @param ground  of ground_config().
+/// @param ground  what ground_config() returns.
 /// @throws InputError for a strategy that has no program at the ground station (those that have are listed), and for
 ///   parameters that it does not take.
 std::unique_ptr<GroundProgram> make_ground_program(const std::string& spec, const AgentConfig& ground);
 
-/// Strategies that have one, sorted.
+/// Names of the strategies that have a program at the ground station, sorted.
 std::vector<std::string> ground_program_names();
 
-/// What is known at the ground station before anybody flies: as agent_config(), but `self` is nobody.
+/// What the ground station knows before the flight: as agent_config(), but `self` is fleet.size(), which is no UAV, and
+/// `vehicle` is a default one.
 AgentConfig ground_config(const Scenario& scenario);
 
 }  // namespace skein::agent

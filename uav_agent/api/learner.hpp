@@ -1,6 +1,7 @@
-// A planner that is told in each step what to do by a program outside: by Python, which steps the fleet
-// (docs/how-to-python.md). It looks first and shows what it sees; the step stands still until it is told; then it
-// plans. Both go by a block of memory that the planner lays out and the program outside shares.   Threads: one.
+// A learner is a planner that an external program controls: Python code that steps the fleet with skein.Fleet
+// (docs/how-to-python.md). In a step of that program, the learner first writes its observation into a block of memory
+// that it shares with the program. The simulation waits until the program has written its orders into the block. Then
+// the learner plans by these orders. The learner defines the layout of the block.   Threads: one.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +15,7 @@ namespace skein::agent {
 
 struct PlannerInput;
 
-/// What such a planner is to whoever steps it.
+/// The learner, as the program that steps the fleet sees it.
 class Learner {
  public:
   Learner() = default;
@@ -22,16 +23,17 @@ class Learner {
   Learner& operator=(const Learner&) = delete;
   virtual ~Learner() = default;
 
-  /// Lays out what it shows and what it is told. The same each time, so that a program that is started again finds the
-  /// block of the one before. @param prefix  of all names.
+  /// Adds the arrays of observations and orders to the layout: the same arrays at each call.
+  /// @param prefix  of the names of all arrays.
   virtual void lay_out(BlockLayout& layout, const std::string& prefix) = 0;
-  /// From now on it uses this block, which must outlive it. After lay_out().
+  /// From now on, the learner uses this block. Call it after lay_out(). @param block  must outlive the learner.
   virtual void use(std::byte* block) = 0;
-  /// Shows what it knows. Before plan(), with the same input; not in every step.
+  /// Writes the observation into the block. Called before plan(), with the same input, in the steps in which
+  /// LearnerDesk::looks() is true.
   virtual void look(const PlannerInput& input) = 0;
 };
 
-/// Whoever steps the learners of a process.
+/// The program that steps the fleet, as the agents of the learners see it.
 class LearnerDesk {
  public:
   LearnerDesk() = default;
@@ -39,11 +41,12 @@ class LearnerDesk {
   LearnerDesk& operator=(const LearnerDesk&) = delete;
   virtual ~LearnerDesk() = default;
 
-  /// A learner takes its place; its program may have been started again. @param learner  lives as long as its program.
+  /// Registers a learner when its agent starts. @param learner  must live as long as its agent.
+  /// @throws std::logic_error once the learners use a block: an agent cannot be restarted then.
   virtual void enter(const std::string& uav, Learner& learner) = 0;
-  /// Whether learners are to look in step k, and then to wait.
+  /// Whether the learners must write their observation in step k, and then wait for orders.
   virtual bool looks(std::uint64_t k) const = 0;
-  /// Whether they have been told for step k.
+  /// Whether the orders for step k are in the block.
   virtual bool told(std::uint64_t k) const = 0;
 };
 

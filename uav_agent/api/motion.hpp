@@ -1,4 +1,4 @@
-// What a planner can ask for by way of motion. Frame W.   Units: SI and radians.
+// The motions that a planner can request. Frame W.   Units: SI and radians.
 #pragma once
 
 #include <variant>
@@ -8,7 +8,8 @@
 
 namespace skein::agent {
 
-/// A point to fly to now: it goes to the flight controller as it is, clamped to the vehicle's limits.
+/// A setpoint for the flight controller, sent without smoothing in every exchange until the next motion. Only velocity
+/// and acceleration are clamped, to the tracker's limits (flight_core/tracker.hpp).
 struct Setpoint {
   Vector3d p_WB = Vector3d::Zero();
   double yaw = 0.0;
@@ -18,22 +19,22 @@ struct Setpoint {
 
 struct Waypoint {
   Vector3d p_WB = Vector3d::Zero();
-  double speed_mps = 1.0;  ///< not exceeded on the leg that ends here
+  double speed_mps = 1.0;  ///< maximum speed on the leg that ends here
 };
 
-/// A polyline to follow from the present set-point on; replaces any path before. The UAV stops at its end.
+/// A polyline to follow from the present setpoint on; it replaces any earlier path. The UAV stops at its end.
 struct Path {
   std::vector<Waypoint> waypoints;
 };
 
-/// Brake as hard as the limits allow, then stay.
+/// Brake as hard as the tracker's limits allow, then hover.
 struct Hold {};
 
-/// What the set-point does now. monostate: carry on as told before; before the first motion: motors stay off.
-/// A TrajectoryCommand goes to the flight controller as it is, in this exchange and no other: nothing smooths it or
-/// keeps it within limits, and parts of it may be left at zero (a velocity without a position, an acceleration alone,
-/// yaw alone; docs/rules.md, P1 to P3). After it nothing is sent until the next motion: then the flight controller
-/// stays where the last command lapsed. A Path or Hold after it begins where the UAV is, at the velocity that it has.
+/// The requested motion. monostate: the last motion continues; before the first motion, the motors stay off.
+/// The agent sends a TrajectoryCommand to the flight controller unchanged, in this exchange only, without smoothing or
+/// limits. Parts of it may be zero, which means "none": a velocity without a position, an acceleration alone, yaw alone
+/// (docs/rules.md, P1 to P3). Afterwards the agent sends nothing until the next motion. Once the command has expired,
+/// the flight controller holds the position. A later Path or Hold begins at the UAV's present position and velocity.
 using Motion = std::variant<std::monostate, Setpoint, Path, Hold, TrajectoryCommand>;
 
 }  // namespace skein::agent

@@ -1,8 +1,10 @@
 // The interface that a planner implements, and the registry that finds it by name.
 //
-// A planner is one class in one file under planners/: a constructor that takes its Config (and, if it wants, the
-// AgentConfig), plan(), and SKEIN_REGISTER_PLANNER("name", Class) in namespace skein::agent. It is pure: what it
-// returns may depend only on its inputs and on its own past; it bounds its effort by counts, never by time.
+// A planner is one class in one file under planners/: a constructor that takes its Config (and optionally the
+// AgentConfig), plan(), and SKEIN_REGISTER_PLANNER("name", Class) in namespace skein::agent. It must be deterministic:
+// its output may depend only on its present and past inputs. It bounds its effort by counts, never by time.
+// The agent, the on-board software of one UAV ("this UAV"), calls plan() once per exchange (also called step): every
+// AgentConfig::exchange_period_s of simulated time.
 // Frames: W world (ENU), B body (FLU).   Units: SI and radians.   Threads: one planner is used by one thread.
 #pragma once
 
@@ -32,43 +34,44 @@ class WorldMap;       // maps/world_map.hpp
 struct FlightConfig;  // flight_core/flight_config.hpp
 class Learner;        // api/learner.hpp
 
-/// How far the tracker has come with the last Path.
+/// Progress of the tracker (flight_core/tracker.hpp) along the last Path.
 struct TrackingState {
-  Setpoint setpoint;      ///< where the next path begins; what is commanded follows it smoothly (tracker.hpp)
-  std::size_t leg = 0;    ///< index of the waypoint being flown to; waypoints.size() when done
-  bool done = true;       ///< at rest at the end of the path, or no path
+  Setpoint setpoint;      ///< where the next path would begin; the commanded setpoint follows it smoothly
+  std::size_t leg = 0;    ///< index of the waypoint that the UAV flies to; waypoints.size() when done
+  bool done = true;       ///< at rest at the end of the path, or there is no path
   bool airborne = false;  ///< a first motion was commanded
 };
 
 struct PlannerInput {
-  std::uint64_t k = 0;  ///< exchange
-  Tick tick = 0;
-  RigidBodyState state;  ///< own; velocity in W
+  std::uint64_t k = 0;   ///< number of the exchange
+  Tick tick = 0;         ///< simulated time
+  RigidBodyState state;  ///< of this UAV, by its odometry; velocity in W
   GimbalState gimbal;
   TrackingState tracking;
-  const OccupancyMap& map;
-  const std::vector<OrientedBox>& boxes;  ///< empty until received
-  const Peers& peers;
-  std::optional<double> mission_remaining_s;  ///< nullopt before the first take-off
-  bool station_linked = false;                ///< direct link at this step
-  std::size_t undelivered_captures = 0;
-  std::span<const DetectedPoint> detected;    ///< in this step's pictures; after a restart all that it ever saw
-  std::span<const RadioMessage> radio;        ///< received at this step
-  std::span<const KeyFrame> key_frames = {};  ///< that came at this step, as the LiDARs saw them: own, then neighbours'
-  std::span<const Scan> scans = {};           ///< own, since the step before; only if wants_scans()
-  std::span<const BeamScan> beam_scans = {};  ///< own, since the step before; only if wants_beams()
-  const WorldMap* world_map = nullptr;        ///< what beams have proved to be free; only if wants_world_map()
-  bool scanned = false;                       ///< the own LiDAR told something since the step before
-  FlightState flight = {};                    ///< what became of its goals; only if flight() is given
-  std::optional<HandCommand> hand = {};       ///< news of who flies it by hand; only for planners named "hand"
-  PoseUncertainty uncertainty = {};           ///< of `state`; as the odometry says
-  std::optional<BatteryStatus> battery = {};  ///< nullopt: this world has no batteries
-  std::optional<Vector3d> wind_W = {};        ///< estimated velocity of the air [m/s]; nullopt: there is no wind
-  const FreeSpace* space = nullptr;           ///< where the flight core may fly it; only if flight() is given
+  const OccupancyMap& map;                    ///< from key frames of all LiDARs in line of sight
+  const std::vector<OrientedBox>& boxes;      ///< loose boxes around the structures; empty until received
+  const Peers& peers;                         ///< the other UAVs
+  std::optional<double> mission_remaining_s;  ///< nullopt before the first takeoff of the fleet
+  bool station_linked = false;                ///< the station is in line of sight in this exchange
+  std::size_t undelivered_captures = 0;       ///< of this UAV, not yet acknowledged by the station
+  std::span<const DetectedPoint> detected;    ///< in the pictures since the last exchange; after a restart: in all
+  std::span<const RadioMessage> radio;        ///< received in this exchange
+  std::span<const KeyFrame> key_frames = {};  ///< received in this exchange, unfiltered: own first, then others'
+  std::span<const Scan> scans = {};           ///< own, since the last exchange; only if wants_scans()
+  std::span<const BeamScan> beam_scans = {};  ///< own, since the last exchange; only if wants_beams()
+  const WorldMap* world_map = nullptr;  ///< from own beams and others' maps; only if wants_world_map() or flight()
+  /// A scan of this UAV's own LiDAR arrived. Always false without wants_beams(), wants_world_map() and flight().
+  bool scanned = false;
+  FlightState flight = {};                    ///< of the flight core: outcomes of goals, ...; only if flight()
+  std::optional<HandCommand> hand = {};       ///< the pilot's new command, if any; only for the planner `hand`
+  PoseUncertainty uncertainty = {};           ///< of `state`, as the odometry reports it
+  std::optional<BatteryStatus> battery = {};  ///< nullopt: the scenario has no batteries
+  std::optional<Vector3d> wind_W = {};        ///< estimated wind velocity [m/s]; nullopt: no wind
+  const FreeSpace* space = nullptr;           ///< where the flight core may fly; only if flight()
 };
 
-/// What a planner tells of itself, as /<id>/debug/<name>: faults may wait for it and properties be about it
-/// (docs/properties.md).
+/// A value that the planner publishes on the topic /<id>/debug/<name>. Faults may wait for it, and properties may refer
+/// to it (docs/properties.md).
 struct DebugValue {
   std::string name;
   double value = 0.0;
@@ -76,56 +79,59 @@ struct DebugValue {
 
 struct PlannerOutput {
   Motion motion = {};
-  std::optional<double> yaw = {};  ///< body yaw to turn to at the tracker's rate; only with a Path or Hold
-  GimbalAim gimbal = {};
-  bool trigger = false;                  ///< ask for a capture; only where the camera is in manual mode
+  std::optional<double> yaw = {};  ///< [rad] the tracker turns the body to it; only on a Path or Hold
+  GimbalAim gimbal = {};           ///< aim of the camera
+  bool trigger = false;  ///< take a picture now; the first trigger ends the camera's automatic rhythm for good
   std::vector<RadioMessage> radio = {};  ///< on topics that the scenario lets this UAV send on
-  /// Where it wants to go, what it likes best first: the flight core flies to the first that can be reached. None: it
-  /// rests, and after some seconds is taken to where more may be seen; to wait at a place, want that place. nullopt: as
-  /// before. Only if flight() is given; then `motion` is not looked at, and `yaw` only while the
-  /// core does not turn the UAV itself: it turns one with a LiDAR, but not along a goal's way that has a yaw.
+  /// Goals, best first: the flight core flies to the first one that it can reach. An empty list: the UAV hovers, and
+  /// after 4 s the core begins a recovery behaviour; to wait at a place, make that place a goal. nullopt: the last list
+  /// stays. Only if flight(). Then the agent ignores `motion`, and applies `yaw` only in exchanges in which the core
+  /// does not turn the UAV itself. The core turns a UAV with a working LiDAR along its path, and any UAV to the yaw of
+  /// its goal near the goal; along the way of a goal with a yaw, it does not turn the UAV any more.
   std::optional<std::vector<Goal>> goals = {};
-  /// What others said of their maps (OccupancyMap::octomap_bytes()), to be taken into the one on board.
+  /// Maps received from other UAVs (OccupancyMap::octomap_bytes()); the agent merges them into PlannerInput::map.
   std::vector<std::string> heard_maps = {};
-  /// Where it is about to fly: others tell its UAV soonest what they know of the way there, if it wants_world_map().
-  /// While it does not say, they take where the tracker has it fly just now.
+  /// Where this UAV is about to fly: the other UAVs send it map updates about the way there first. Only if
+  /// wants_world_map(); with flight(), the flight core sets it. nullopt: the tracker's present setpoint counts.
   std::optional<Vector3d> going_to_W = {};
-  /// Why it found no way in this exchange, if it looked for one: counted by reason, and told in log and report.
+  /// Why the planner found no path in this exchange; empty if it found or needed none. The agent counts the reasons:
+  /// log and report show them.
   std::string no_way = {};
-  /// A UAV of the fleet for which its strategy lets it wait in this exchange: the report says so.
+  /// Index in the fleet of the UAV for which this UAV waits in this exchange, for the report.
   std::optional<std::size_t> waits_for = {};
-  std::vector<DebugValue> debug = {};  ///< of Planner::debug_names()
+  std::vector<DebugValue> debug = {};  ///< new values; names from Planner::debug_names()
 };
 
 class Planner {
  public:
   virtual ~Planner() = default;
-  /// Called once per exchange, also before take-off. What `input` refers to is gone afterwards.
+  /// Called once per exchange, also before takeoff. References in `input` are valid during the call only.
   virtual PlannerOutput plan(const PlannerInput& input) = 0;
-  /// Whether it looks at the LiDAR's scans; asked before the first exchange, and the answer must stay the same. The map
-  /// has what key frames show without them. A scan that nobody reads is not even computed, and that is most of a run's
-  /// cost (docs/decisions/0006-scans-on-demand.md).
+  /// Whether the planner reads all scans of the LiDAR. The agent asks before the first exchange; the answer must not
+  /// change. PlannerInput::map does not need them: it uses key frames. The simulator computes scans only if a program
+  /// reads them, and they would be most of a run's cost (docs/decisions/0006-scans-on-demand.md).
   virtual bool wants_scans() const { return false; }
-  /// Whether it looks at the beams of the scans, those without a return among them; asked as wants_scans() is, and at
-  /// the same price. Only explorers have any.
+  /// Whether the planner reads the beams of all scans, including beams without a return. Asked like wants_scans(), at
+  /// the same cost. Only explorers have beams.
   virtual bool wants_beams() const { return false; }
-  /// Whether it looks at the map of what is free, occupied and unknown by all beams; asked as wants_scans() is, and at
-  /// the same price where there is a LiDAR. UAVs whose planners want it tell each other what they know by radio, by up
-  /// to 20 kB/s a link on /plan, and no planner sees these messages (docs/decisions/0027-maps-told-by-radio.md). In a
-  /// fleet of more than 127 UAVs a planner that wants it is refused.
+  /// Whether the planner reads the world map, which holds free, occupied and unknown space from all beams. Asked like
+  /// wants_scans(), at the same cost on a UAV with a LiDAR. UAVs whose planners want it share their maps by radio, with
+  /// up to 20 kB/s per link on /plan; planners do not receive these messages
+  /// (docs/decisions/0027-maps-told-by-radio.md). Skein refuses such a planner in a fleet of more than 127 UAVs.
   virtual bool wants_world_map() const { return false; }
-  /// How it flies, if the flight core flies it (PlannerOutput::goals); asked before the first exchange, and it must
-  /// outlive all. A planner that is flown has the world map, too.
+  /// Parameters of the flight core, if it is to fly this UAV to PlannerOutput::goals; nullptr: no flight core. Asked
+  /// before the first exchange; the object must live as long as the planner. The planner then has the world map, too.
   virtual const FlightConfig* flight() const { return nullptr; }
-  /// Names of the values that it publishes; asked before the first exchange, and the answer must stay the same.
+  /// Names of the debug values that it publishes. Asked before the first exchange; the answer must not change.
   virtual std::vector<std::string> debug_names() const { return {}; }
-  /// What it is to a program outside that tells it in each step what to do; nullptr: it decides by itself.
+  /// Interface for an external program that controls this planner (api/learner.hpp); nullptr: it decides by itself.
   virtual Learner* learner() { return nullptr; }
 };
 
 /// Makes the planner that `spec` names: "hover", "hover:height_m=4,climb_mps=1" or "patrol:params.yaml" (a
 /// YAML file with the same keys).
-/// @throws InputError naming the planner or key that is unknown, and those that exist.
+/// @throws InputError when a name or key is unknown (the message has similar or valid ones), a value is invalid, or the
+/// file cannot be read.
 std::unique_ptr<Planner> make_planner(const std::string& spec, const AgentConfig& agent);
 
 /// Names of all registered planners, sorted.
@@ -133,6 +139,6 @@ std::vector<std::string> planner_names();
 
 }  // namespace skein::agent
 
-/// Registers a planner under a name, before main(). Its file must be linked as an object, not from a static
-/// library.
+/// Registers a planner under a name, before main(). Link its file as an object file: from a static library, a linker
+/// may leave it out.
 #define SKEIN_REGISTER_PLANNER(name, Class) SKEIN_REGISTER_STRATEGY(Planner, name, Class)

@@ -1,4 +1,4 @@
-// Finds by name what registered itself before main(): planners, and programs at the ground station.
+// Registry of planners and of programs at the ground station, by name. Each class registers itself before main().
 #pragma once
 
 #include <map>
@@ -14,13 +14,13 @@
 
 namespace skein::agent {
 
-/// @tparam Product  what is made: Planner or GroundProgram.
+/// @tparam Product  base class of what the registry makes: Planner or GroundProgram.
 template <class Product>
 class StrategyRegistry {
  public:
   using Factory = std::unique_ptr<Product> (*)(const ConfigDocument& parameters, const AgentConfig& agent);
 
-  /// @throws std::logic_error when the name is taken.
+  /// Registers a factory. @returns true. @throws std::logic_error when the name is taken.
   static bool add(const std::string& name, Factory factory) {
     if (!factories().emplace(name, factory).second) {
       throw std::logic_error("two of a kind are registered as '" + name + "'");
@@ -28,7 +28,7 @@ class StrategyRegistry {
     return true;
   }
 
-  /// Sorted.
+  /// All registered names, sorted.
   static std::vector<std::string> names() {
     std::vector<std::string> names;
     for (const auto& entry : factories()) names.push_back(entry.first);
@@ -36,8 +36,9 @@ class StrategyRegistry {
   }
 
   /// @param spec  "hover", "hover:height_m=4,climb_mps=1" or "patrol:params.yaml" (a YAML file with the same keys).
-  /// @param what  for messages: "planner".
-  /// @throws InputError naming the product or key that is unknown, and those that exist.
+  /// @param what  the word for Product in error messages: "planner".
+  /// @throws InputError when a name or key is unknown (the message has similar or valid ones), a value is invalid, or
+  ///   the file cannot be read.
   static std::unique_ptr<Product> make(const std::string& spec, const AgentConfig& agent, const std::string& what) {
     const auto colon = spec.find(':');
     const std::string name = spec.substr(0, colon);
@@ -64,7 +65,7 @@ class StrategyRegistry {
   }
 
  private:
-  /// Constructed on first use, because files register before main() in no particular order.
+  /// Constructed on first use: static objects of different files are initialised in no defined order.
   static std::map<std::string, Factory>& factories() {
     static std::map<std::string, Factory> factories;
     return factories;
@@ -73,8 +74,8 @@ class StrategyRegistry {
 
 }  // namespace skein::agent
 
-/// Registers Class, a Product, under a name, before main(). Its file must be linked as an object, not from a static
-/// library. Inside namespace skein::agent.
+/// Registers Class, which derives from Product, under a name, before main(). Use it inside namespace skein::agent. Link
+/// its file as an object file: from a static library, a linker may leave it out.
 #define SKEIN_REGISTER_STRATEGY(Product, name, Class)                                                    \
   [[maybe_unused]] const bool skein_registered_##Class = ::skein::agent::StrategyRegistry<Product>::add( \
       name, &::skein::agent::StrategyRegistry<Product>::construct<Class>)

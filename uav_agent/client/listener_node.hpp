@@ -1,6 +1,6 @@
-// A program that only listens in one domain: it is no member, nobody waits for it, and what it hears has come by then.
-// What it does not take in time is thrown away, the oldest first, and counted.
-// Threads: vendors' threads bring samples; all else from the thread that made it.
+// Reads topics of one DDS domain without being a member of the lock-step: no step waits for it. It queues a limited
+// number of messages; if the queue is full, it discards and counts the oldest.
+// Threads: the DDS vendor's threads fill the queue; call all functions from the thread that constructed it.
 #pragma once
 
 #include <chrono>
@@ -20,21 +20,21 @@ namespace skein::agent {
 
 class ListenerNode {
  public:
-  /// @param most  messages that wait to be taken. @throws InputError, std::runtime_error as Bus::join()
+  /// @param most  length of the queue, at least 1. @throws InputError, std::runtime_error as Bus::join()
   ListenerNode(bus::Bus& bus, int domain, const std::vector<topics::WireTopic>& topics, std::size_t most);
   ListenerNode(const ListenerNode&) = delete;
   ListenerNode& operator=(const ListenerNode&) = delete;
   ~ListenerNode();
 
   struct Heard {
-    std::string topic;  ///< on the wire
+    std::string topic;  ///< name on the wire
     bus::Sample sample;
   };
-  /// The oldest message; nullopt when none has come in time.
+  /// Takes the oldest message, and waits for one if there is none; nullopt after the timeout [ms of wall time].
   std::optional<Heard> next(std::chrono::milliseconds timeout);
-  /// Whether somebody writes one of the topics.
+  /// Whether one of the readers is matched with a writer.
   bool has_writers() const;
-  /// Messages that were thrown away so far.
+  /// Number of messages discarded so far.
   std::uint64_t missed() const;
 
  private:
@@ -44,7 +44,7 @@ class ListenerNode {
   std::deque<Heard> waiting_;
   std::uint64_t missed_ = 0;
   std::unique_ptr<bus::Participant> participant_;
-  std::vector<std::unique_ptr<bus::Reader>> readers_;  ///< last: gone before what their callbacks use
+  std::vector<std::unique_ptr<bus::Reader>> readers_;  ///< destroyed before what their callbacks use
 };
 
 }  // namespace skein::agent

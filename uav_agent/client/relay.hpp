@@ -1,5 +1,5 @@
-// What programs outside of the lock-step say on one topic, until a step takes it along; and the count of what became of
-// it. Pure; times are simulated [s].   Threads: none of this is shared.
+// Queue for the messages of programs outside the lock-step on one topic, until the next step takes them, with counts of
+// what became of them. Pure; times are simulated [s].   Threads: one.
 #pragma once
 
 #include <cstdint>
@@ -16,19 +16,20 @@ class Relay {
  public:
   using Payload = std::vector<std::uint8_t>;  ///< with encapsulation header
 
-  /// @param topic  its depth is what a step may hold; its type decides what is checked: of types that Skein does not
-  ///   know, nothing. @param exchange_s  the duration of a step.
+  /// @param topic  its depth limits the messages of one step. Messages of types that Skein knows are checked.
+  /// @param exchange_s  duration of a step.
   Relay(topics::WireTopic topic, double exchange_s);
 
   const topics::WireTopic& topic() const { return topic_; }
-  /// A sample has arrived. Where a step can hold no more, the oldest that waits is lost. Refuses what is no message.
+  /// Queues a sample. If the queue has the topic's depth, the oldest message is lost. A sample that is no message of
+  /// the topic's type is refused.
   void hear(Payload payload);
-  /// All that waits is lost: its time is over.
+  /// Discards all queued messages, and counts them as lost: they are from before the UAV's program came back.
   void forget();
-  /// All that waits, oldest first: it is handed on with the step that begins at `now_s`. A message is late if its stamp
-  /// is older than two exchanges; without a stamp it never is.
+  /// Takes all queued messages, oldest first, to hand them on with the step that begins at `now_s`. A message whose
+  /// stamp is older than two exchanges counts as late, but is handed on, too; one without a stamp never counts as late.
   std::vector<Payload> take(double now_s);
-  /// sim_server has rejected a message that was handed on.
+  /// Call it when sim_server has rejected a message that was handed on: it counts as refused, too.
   void reject() { ++refused_; }
   RelayedTopic report() const;
 

@@ -1,6 +1,7 @@
-// A program of the user's in the place of a UAV's software, or at the ground station: it takes part in the lock-step,
-// and hands bytes to whoever drives it. Captures are delivered here, so that no user's program can lose one.
-// Everything happens on the thread that drives it.
+// The lock-step member of a user's program, which replaces a UAV's on-board software or the program at the ground
+// station. It exchanges serialised messages with the user's code, the caller. The node itself delivers the UAV's
+// captures to the station, so that no user's program can lose one. Everything happens on the thread that takes the
+// node's turns.
 #pragma once
 
 #include <cstdint>
@@ -21,13 +22,13 @@
 
 namespace skein::agent {
 
-/// A message on its way, by the name of its topic on the wire, with encapsulation header.
+/// A serialised message: topic name on the wire, payload with CDR encapsulation header.
 struct WireMessage {
   std::string topic;
   std::vector<std::uint8_t> payload;
 };
 
-/// What a user's program reads and writes beyond radio and custody; names and types on the wire.
+/// Topics that a user's program reads and writes, besides those of radio and custody; names and types on the wire.
 struct UserTopics {
   std::vector<topics::WireTopic> reads;
   std::vector<topics::WireTopic> writes;
@@ -35,32 +36,35 @@ struct UserTopics {
 
 class UserNode : public MemberNode {
  public:
-  /// @param node  of the radio: a UAV's, or the station's. @param domain  of the DDS.
+  /// @param node  radio node: of a UAV, or kStationNode. @param domain  DDS domain.
   UserNode(const Scenario& scenario, Node node, int domain, bus::Bus& bus, UserTopics topics);
 
   // ---- while a step waits for its answer ---------------------------------------------------------------------------
 
-  /// Whether it does: all that belongs to it is here.
+  /// Whether a step waits for answer(); all its samples have arrived.
   bool has_step() const { return waits_; }
   using MemberNode::step;
-  /// What has arrived with this step, once, by topics and then in the order of writing.
+  /// Takes the messages that arrived with this step, by topic and then in the order of writing. They are returned once.
   std::vector<WireMessage> take() { return std::exchange(arrived_, {}); }
-  /// Whether the station is in sight, and how many captures it has not acknowledged.
+  /// Whether there is a link to the station, and the number of captures that it has not acknowledged.
   bool station_linked() const { return station_linked_; }
   std::size_t undelivered() const { return uplink_.undelivered(); }
-  /// How often it has joined: another time after a fault had stopped it.
+  /// How often the node has joined the lock-step: once, and again after each fault that stopped it.
   int joins() const { return joins_; }
 
   enum class Said { sent, undeclared, full, closed };
-  /// Sends with this step's answer. `full`: the step's share of the topic's history is used up; `closed`: a radio topic
-  /// that is registered, and not open yet. Nothing is sent then.
+  /// Queues a message, to be sent with this step's answer. Otherwise it is dropped: `undeclared`: the node does not
+  /// write this topic; `full`: the step already has as many messages as the topic's depth; `closed`: the radio topic is
+  /// registered, but not open yet.
   Said say(const std::string& topic, std::vector<std::uint8_t> payload);
-  /// Sends all of it: the step is over with the next turn.
+  /// Answers the step: the node's next turn sends all queued messages and ends the step.
   void answer() { answered_ = true; }
 
-  // ---- radio topics of a program's own (docs/radio.md), while a step waits; ROS names and types --------------------
+  // ---- the program's own radio topics (docs/radio.md), while a step waits; ROS names and types ---------------------
 
-  /// @throws InputError when topic or type is malformed
+  /// open() registers a topic for sending to `targets`, listen() one for receiving. The node repeats this when it
+  /// rejoins.
+  /// @throws InputError if topic or type is malformed
   void open(const std::string& topic, const std::string& type, const std::vector<std::string>& targets);
   void listen(const std::string& topic, const std::string& type);
   bus::RadioTopics::Status sending(const std::string& topic) const { return radio_->sending(topic); }
@@ -91,20 +95,20 @@ class UserNode : public MemberNode {
   const Node node_;
   const UserTopics topics_;
   std::unique_ptr<bus::RadioTopics> radio_;
-  std::map<std::string, Opened> opened_;         ///< what it asked for, by ROS topic
-  std::map<std::string, std::string> listened_;  ///< type by ROS topic
-  std::set<std::string> read_;                   ///< topics on the wire
-  std::map<std::string, std::size_t> share_;     ///< messages per step of each topic that is written
-  std::map<std::string, std::size_t> said_;      ///< in this step
+  std::map<std::string, Opened> opened_;         ///< arguments of open(), by ROS topic
+  std::map<std::string, std::string> listened_;  ///< arguments of listen(): type, by ROS topic
+  std::set<std::string> read_;                   ///< topics with a reader, names on the wire
+  std::map<std::string, std::size_t> share_;     ///< most messages per step, by topic on the wire
+  std::map<std::string, std::size_t> said_;      ///< messages so far in this step, by topic on the wire
   std::vector<WireMessage> arrived_, to_send_;
   bool waits_ = false, answered_ = false;
-  bool fresh_ = true;  ///< it has just joined
+  bool fresh_ = true;  ///< it has joined, and has had no step since
   int joins_ = 0;
 
   Uplink uplink_;
   bool station_linked_ = false;
-  std::map<std::uint64_t, msg::CaptureReport> reports_;  ///< that may yet have to be sent, by capture
-  std::vector<std::uint64_t> released_;                  ///< captures that the camera may forget
+  std::map<std::uint64_t, msg::CaptureReport> reports_;  ///< not yet acknowledged, by capture
+  std::vector<std::uint64_t> released_;                  ///< acknowledged captures that the camera may forget
 };
 
 }  // namespace skein::agent

@@ -1,5 +1,5 @@
-// Where a UAV's body may be as far as its map proves, for the many questions of a search for ways. Answers are kept for
-// a while; the safety filter asks anew before anybody flies.
+// Whether a UAV's body fits at a place within space that its map proves free, for the many queries of a path search.
+// Answers are cached for 1 to 4 s and may be out of date; the safety filter checks again before the UAV flies.
 // Frame W.   Units: metres.   Threads: one.   Deterministic.
 #pragma once
 
@@ -12,22 +12,23 @@ namespace skein::agent {
 
 class BodyFit {
  public:
-  /// @param radius_m  about the body's centre, all must be free.   @param ground_m  below, nothing is asked.
+  /// @param radius_m  radius around the body's centre in which all space must be free.
+  /// @param ground_m  cubes entirely below this height are ignored.
   BodyFit(double radius_m, double ground_m) : radius_m_(radius_m), ground_m_(ground_m) {}
 
-  /// Once per exchange.
+  /// Call it once per exchange. @param map  must outlive the calls of fits() that follow.
   void update(const WorldMap& map, Tick now);
-  /// At this very place, as the safety filter asks it of a UAV at rest.
+  /// Whether the body fits with its centre at p, by the condition that the safety filter has for a UAV at rest.
   bool fits(const Vector3d& p_W) const;
 
  private:
-  /// The body, with its middle in a cube of the map.
+  /// At which places of a cube of the map the body's centre may be; somewhere: each place must be checked.
   enum class Fits : std::uint8_t { unasked, nowhere, somewhere, everywhere };
   struct Answer {
-    Tick at : 56 = 0;
+    Tick at : 56 = 0;  ///< when it was determined
     Fits fits : 8 = Fits::unasked;
   };
-  /// A search asks for many cubes beside each other: their answers lie beside each other, too.
+  /// Answers are stored in blocks of 4^3 cubes, since a search asks for many adjacent cubes.
   static constexpr int kBlockBits = 2, kBlock = 1 << kBlockBits;
   using Answers = std::array<Answer, kBlock * kBlock * kBlock>;
 

@@ -1,4 +1,4 @@
-// Where captures can be delivered from, and how long it takes to get there.
+// Places from which a UAV can deliver captures to the station, and the time to fly there.
 // Frame W.   Units: SI.   Pure.
 #pragma once
 
@@ -9,12 +9,12 @@
 
 namespace skein::agent {
 
-/// Places with a free line to the station as far as is known, best first: above it, each UAV at a height and
-/// in a direction of its own, so that the whole fleet can gather there.
-/// @param lowest_m  no place is lower than this.
+/// Free places with a line of sight to the station as far as is known, best first. They are higher than the station;
+/// each UAV has a height and a preferred direction of its own, so that the whole fleet can gather there.
+/// @param lowest_m  least height of the places.
 std::vector<Vector3d> delivery_places(const AgentConfig& agent, const FreeSpace& space, double lowest_m);
 
-/// Time to fly to `place`, on the safe side: the way is not straight [s].
+/// Conservative estimate of the time to fly to a place [s]: it assumes that the path is not straight.
 double time_home_s(const Vector3d& from_W, const Vector3d& place_W, double speed_mps);
 
 }  // namespace skein::agent

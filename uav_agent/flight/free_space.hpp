@@ -1,6 +1,7 @@
-// Where this UAV may choose to fly, as far as it knows: not into structure, not into another UAV; and by the map of all
-// beams, or by boxes and key frames alone, not where nothing was proved. The safety filter asks anew before anybody
-// flies (flight_core/safety_filter.hpp).
+// Where a planner may plan paths, as far as this UAV knows: clear of structure and of other UAVs. With the world map of
+// all beams, unproved space is passable, at a cost, or excluded (Config::proved_only). Without it, space in and near
+// boxes is excluded until key frames prove it free. The safety filter checks again before the UAV flies
+// (flight_core/safety_filter.hpp).
 // Frame W.   Units: metres.   Pure; threads: any, as long as the map does not change.
 #pragma once
 
@@ -12,7 +13,7 @@
 
 namespace skein::agent {
 
-/// A place to keep away from: another UAV.
+/// A ball that the UAV's centre must not enter, around another UAV.
 struct Sphere {
   Vector3d p_W = Vector3d::Zero();
   double radius_m = 0.0;
@@ -21,19 +22,19 @@ struct Sphere {
 class FreeSpace {
  public:
   struct Config {
-    double clearance_m = 1.8;  ///< of the UAV's centre to structure, and to boxes that must be kept off
-    double floor_m = 2.0;
-    /// The map of all beams: what is unknown may be planned through, at a cost, since it is proved before anybody flies
-    /// there. Must outlive this. Without it, what key frames show is structure, and boxes are kept off where nobody has
-    /// looked.
+    double clearance_m = 1.8;  ///< least distance of the UAV's centre to structure
+    double floor_m = 2.0;      ///< least height
+    /// The world map of all beams; must outlive this. Paths may lead through unknown space, at a cost, because the
+    /// safety filter lets the UAV enter only proved space. nullptr: key frames show structure, and paths keep clear of
+    /// boxes where key frames have not proved free space.
     const WorldMap* world = nullptr;
-    double jut_m = 3.0;            ///< so far outside a box there may be structure, too; never less than clearance_m
-    bool use_map = true;           ///< without `world`: false knows of the boxes alone
-    double unknown_cost = 1.0;     ///< of a metre, in metres
-    const BodyFit* fit = nullptr;  ///< what is proved of it; must outlive this
-    /// For who proves nothing itself: unknown space may not be planned through.
+    double jut_m = 3.0;            ///< boxes count as larger by this on each side, or by clearance_m if that is more
+    bool use_map = true;           ///< false: ignores the map, excludes boxes as a whole; not with `world`
+    double unknown_cost = 1.0;     ///< cost() where the body does not fit in proved space
+    const BodyFit* fit = nullptr;  ///< where the body fits in proved space; must outlive this
+    /// Excludes unproved space, for a UAV that cannot prove space itself. Needs `fit`.
     bool proved_only = false;
-    bool blind_fleet = false;  ///< nobody has a LiDAR: boxes are kept clear of
+    bool blind_fleet = false;  ///< no UAV has a LiDAR: with `world`, keeps clear of all boxes
   };
 
   /// @param boxes, map  must outlive this.
@@ -42,14 +43,15 @@ class FreeSpace {
       : config_(config), boxes_(boxes), map_(map), keep_out_(std::move(keep_out)) {}
 
   bool free(const Vector3d& p_W) const;
-  /// Every point of the segment is free.
+  /// Whether all points of the segment are free; sampled every 0.5 m.
   bool segment_free(const Vector3d& a_W, const Vector3d& b_W) const;
-  /// What a metre costs there, in metres.
+  /// Cost of a metre of path at p, in metres of path through proved space.
   double cost(const Vector3d& p_W) const;
-  /// Whether the segment leads out of a place that is not free: no nearer to structure than that place, or hardly.
+  /// For a start a_W that is not free: whether the segment is a way out, which enters no structure and comes at most
+  /// 0.3 m nearer to structure than a_W is.
   bool leads_out(const Vector3d& a_W, const Vector3d& b_W) const;
-  /// Line of sight as far as map and boxes tell: no mapped cell within `radius` of the segment, no unknown box
-  /// on it.
+  /// Line of sight as far as map and boxes tell: no occupied cell of the map of key frames within `radius` of the
+  /// segment (with use_map), and all parts of it that lie in boxes are known to be free.
   bool sees(const Vector3d& a_W, const Vector3d& b_W, double radius) const;
 
   const Config& config() const { return config_; }
@@ -58,7 +60,7 @@ class FreeSpace {
  private:
   bool near_box(const Vector3d& p_W) const;
   double structure_distance_m(const Vector3d& p_W) const;
-  /// As free(), but for the clearance to structure, and for proof by the map of all beams.
+  /// free() without the conditions on clearance to structure and on proof by the world map.
   bool allowed(const Vector3d& p_W) const;
 
   const Config config_;

@@ -1,4 +1,4 @@
-// What a UAV knows of its link to the station: when it had one, where, and whether captures arrive.
+// The history of a UAV's link to the station: when and where it had a link, and whether captures arrive.
 // Frame W.   Units: SI.   Threads: one.
 #pragma once
 
@@ -10,16 +10,16 @@ namespace skein::agent {
 
 class LinkWatch {
  public:
-  /// Once per exchange in the air.
+  /// Call it once per exchange while the UAV is airborne.
   void update(const PlannerInput& in);
-  /// It was told of an exchange.
+  /// Whether update() was called at least once.
   bool begun() const { return delivered_at_.has_value(); }
-  /// What is taken here arrives, one by one on a poor link. A link that has just gone may be back, where nothing waits
-  /// for it.
+  /// Whether captures taken here are delivered. With a link: a capture was delivered, or none was waiting, within the
+  /// last 5 s. Without a link: none is waiting, and the link was lost less than 1 s ago.
   bool delivers_here(const PlannerInput& in) const;
-  /// Whether something has been undelivered for longer than that; only once begun().
+  /// Whether captures have been waiting without a break for longer than `time_s`. Only if begun().
   bool waits_for_longer_than(double time_s, const PlannerInput& in) const;
-  /// Where it last had a link for a while, and somewhat before that ended.
+  /// Setpoint of the UAV in the last link of at least 1 s, at least 1 s before the link's end or the present time.
   const std::optional<Vector3d>& linked_at_W() const { return linked_at_W_; }
 
  private:
@@ -29,11 +29,11 @@ class LinkWatch {
     Tick tick = 0;
     Vector3d p_WB = Vector3d::Zero();
   };
-  std::optional<Tick> delivered_at_;  ///< when nothing was undelivered
-  std::optional<Tick> arrived_at_;    ///< when a capture last was delivered, or none was to be
-  std::optional<Tick> linked_at_;     ///< when it last had a link
+  std::optional<Tick> delivered_at_;  ///< last tick without undelivered captures, or the first tick
+  std::optional<Tick> arrived_at_;    ///< last tick at which a capture was delivered, or none was waiting
+  std::optional<Tick> linked_at_;     ///< last tick with a link
   std::size_t undelivered_ = 0;       ///< in the last exchange
-  std::optional<Sighting> sighting_;  ///< of the station, in the present link
+  std::optional<Sighting> sighting_;  ///< in the present link, the last one that was noted
   std::optional<Vector3d> linked_at_W_;
 };
 

@@ -1,4 +1,4 @@
-// A path through free space: A* on a lattice, then shortened by taking every short cut that is free.
+// Path search through free space: weighted A* on a lattice; then short cuts that are free shorten the path.
 // Frame W.   Units: metres.   Pure and deterministic: effort is bounded by a count of expanded cells.
 #pragma once
 
@@ -11,28 +11,29 @@
 namespace skein::agent {
 
 struct PathSearchConfig {
-  double cell_m = 2.0;
+  double cell_m = 2.0;  ///< spacing of the lattice
   int max_expansions = 6000;
-  double heuristic = 1.2;  ///< a path at most this much longer than the best is good enough
-  double margin_m = 25.0;  ///< the search stays in the box around start, goal and all structure, widened by this
+  double heuristic = 1.2;  ///< weight of the heuristic: the cost may be this many times the least
+  double margin_m = 25.0;  ///< limits: the box around start, goal and structure, plus this
 };
 
-/// @param structure  boxes that the search may have to go around.
-/// @returns corners from the first after `from_W` up to `to_W`, or nullopt if there is no path or none was
-/// found in time.          A start that is not free itself (something new was seen near by) is left by the
-/// nearest way.
-/// @param gave_up  if given, becomes true when there may be a path, but the search ended after max_expansions.
+/// If the start is not free (something new was seen near it), the path begins with a straight way out to the nearest
+/// free cell, see FreeSpace::leads_out().
+/// @param structure  boxes that the path may have to go around.
+/// @param gave_up  optional: set to true if there may be a path, but the search ended after max_expansions; else false.
+/// @returns corners from the first after `from_W` up to `to_W`; nullopt if there is no path, or none was found.
 std::optional<std::vector<Vector3d>> find_path(const FreeSpace& space, const std::vector<OrientedBox>& structure,
                                                const Vector3d& from_W, const Vector3d& to_W,
                                                const PathSearchConfig& config = {}, bool* gave_up = nullptr);
 
-/// The same to the place, of those that can be reached, that is nearest to a goal which cannot.
-/// @param worth_m  by less than this it is not worth the way: nullopt.
+/// For a goal that cannot be reached: a path to the reachable lattice point that is nearest to it.
+/// @param worth_m  least decrease of the distance to the goal.
+/// @returns corners as above; nullopt if no such point was found.
 std::optional<std::vector<Vector3d>> find_approach(const FreeSpace& space, const std::vector<OrientedBox>& structure,
                                                    const Vector3d& from_W, const Vector3d& to_W, double worth_m,
                                                    const PathSearchConfig& config = {});
 
-/// Through all of these places, at one speed.
+/// A path through all of these places, at one speed.
 Path path_through(const std::vector<Vector3d>& places_W, double speed_mps);
 
 /// Length of the polyline from `from_W` through all corners [m].

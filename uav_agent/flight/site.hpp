@@ -1,4 +1,4 @@
-// What follows from the boxes before anything has been seen.
+// Properties of the boxes, known before any structure has been seen.
 // Frame W.   Units: metres.   Pure.
 #pragma once
 
@@ -8,10 +8,11 @@
 
 namespace skein::agent {
 
-/// Whether a box is too large to be one piece of structure whose faces are worth flying.
+/// Whether a box is so large (45 m by 45 m, 20 m high) that it probably holds a whole site, and flights along its faces
+/// would be useless.
 bool is_roomy(const OrientedBox& box);
 
-/// z of the highest point of all boxes, 0 without boxes.
+/// z in W of the highest point of all boxes, at least 0; 0 without boxes.
 double top_of(const std::vector<OrientedBox>& boxes);
 
 }  // namespace skein::agent

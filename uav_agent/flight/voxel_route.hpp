@@ -1,6 +1,6 @@
-// From one place to another by the cubes of a voxel grid, as corners that can be flown: straight where nothing is in
-// the way; else A* through the graph, shortened where a short cut is free, too. What the graph takes to be free is
-// checked against the finer map (free_space.hpp); a cube that fails is left out, and the search begins again.
+// Path search through the cubes of a voxel grid, with the result as corners that a UAV can fly: a straight line if that
+// is free; else A* through the cubes, shortened by free short cuts. Each leg is checked against the finer map
+// (free_space.hpp). If a leg is not free, the cube at its end is excluded, and the search starts again.
 // Frame W.   Units: metres.   Pure and deterministic: effort is bounded by counts.
 #pragma once
 
@@ -15,20 +15,20 @@ namespace skein::agent {
 
 struct VoxelRouteConfig {
   VoxelSearchConfig search;
-  int retries = 3;  ///< with another cube left out each time
+  int retries = 3;  ///< each excludes one more cube
 };
 
-/// @param claimed  cubes that are taken: none of them is entered, but the one that the way begins in may be left.
-/// @returns corners from the first after `from_W` up to `to_W`; nullopt if there is no way or none was found with that
-/// effort. Occupied cubes are not entered, but for the one of `to_W`.
+/// The path enters no occupied cube, except the one that contains `to_W`.
+/// @param claimed  cubes that other UAVs have claimed: the path enters none of them, but may begin in one.
+/// @returns corners from the first after `from_W` up to `to_W`; nullopt if there is no path, or none was found.
 std::optional<std::vector<Vector3d>> find_voxel_route(const VoxelGrid& grid, const FreeSpace& space,
                                                       const Vector3d& from_W, const Vector3d& to_W,
                                                       const std::set<VoxelGrid::Id>& claimed = {},
                                                       const VoxelRouteConfig& config = {});
 
-/// The cubes to which find_voxel_route() finds a way, as far as their middles tell: the way to a place in a cube
-/// beside them may be free, too.
-/// @returns nullopt outside the grid, or if they are too many to say.
+/// By cube: whether a path leads to its centre along free centres of cubes that are not occupied, with no cube claimed.
+/// find_voxel_route() may also reach places in adjacent cubes.
+/// @returns nullopt if `from_W` is outside the grid, or if there are too many such cubes.
 std::optional<std::vector<bool>> voxels_in_reach(const VoxelGrid& grid, const FreeSpace& space, const Vector3d& from_W);
 
 }  // namespace skein::agent

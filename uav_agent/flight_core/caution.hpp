@@ -1,10 +1,10 @@
-// What the flight core makes of what it is told beside its state: how sure its odometry is, the wind, the battery.
-//   Clearance: so many deviations of the told position, and what wind of that strength pushes a UAV off its setpoint.
-//   What a UAV's own LiDAR has seen is off by what its odometry has drifted since; what others have told of, by the
-//   errors of both.
-//   Speed: less in gusts.
-//   Way home: by the charge that is left and what a second has cost so far, against the wind that blows.
-// In a world that tells nothing of this, nothing changes.   Frame W.   Units: SI.   Threads: one.
+// How the flight core reacts to the uncertainty of the odometry, to wind and to the battery.
+//   Clearance grows by drift_sigmas standard deviations of the position, and by what the mean wind pushes a UAV off its
+//   setpoint. Structure that the UAV's own LiDAR has seen is off by the drift of its odometry since then; structure on
+//   maps of other UAVs is off by the errors of both UAVs.
+//   Speed is lower in gusts.
+//   Landing: in time, by the charge that is left, the charge used per second so far, and the present wind.
+// In a scenario without these conditions, nothing changes.   Frame W.   Units: SI.   Threads: one.
 #pragma once
 
 #include <optional>
@@ -20,14 +20,15 @@ class Caution {
   /// @param config, agent  must outlive this.
   Caution(const FlightConfig& config, const AgentConfig& agent);
 
-  /// Once per exchange, before anything else.
+  /// Call it once per exchange, before the other functions.
   void update(const PlannerInput& in);
+  /// What the safety filter must add to its tracking errors.
   const ExpectedErrors& errors() const { return errors_; }
-  /// How fast it may fly in these gusts [m/s]; infinite in still air.
+  /// Maximum speed in these gusts [m/s]; infinite while they are below 1 m/s.
   double most_mps() const { return most_mps_; }
-  /// Whether the charge is only just enough for the way to its start and down, with the reserve left.
+  /// Whether the charge is only just enough to fly to the start and land there with the reserve left.
   bool must_land(const PlannerInput& in) const;
-  /// Time from a place to its start against the wind, and down to the ground [s].
+  /// Time to fly from p_WB to above the start against the wind, and down to the ground [s].
   double way_down_s(const Vector3d& p_WB, const std::optional<Vector3d>& wind_W) const;
 
  private:
@@ -39,12 +40,12 @@ class Caution {
   const AgentConfig& agent_;
   ExpectedErrors errors_;
   double most_mps_;
-  double lost2_ = 0.0;                   ///< variance beyond the usual one: the fix is lost, or was until now [m^2]
+  double lost2_ = 0.0;                   ///< position variance beyond the usual one: the fix is, or was, lost [m^2]
   std::optional<Vector3d> mean_wind_W_;  ///< over the last 20 s or so
-  double gusts2_ = 0.0;                  ///< mean square about it [m^2/s^2]
-  double charge_per_s_;                  ///< what a second costs
+  double gusts2_ = 0.0;                  ///< mean square deviation from mean_wind_W_ [m^2/s^2]
+  double charge_per_s_;                  ///< share of the capacity used per second of flight [1/s]
   std::optional<double> last_charge_;
-  Tick last_tick_ = 0;  ///< of last_charge_
+  Tick last_tick_ = 0;  ///< time of last_charge_
 };
 
 }  // namespace skein::agent

@@ -1,5 +1,5 @@
-// How a UAV flies, whatever its strategy: all values of the flight core that are choices. Strategies take them beside
-// their own parameters (--planner patrol:approach_mps=3), so `skein compare` can sweep them.
+// Parameters of the flight core, which are the same for every strategy. Users set them beside the planner's own
+// parameters (--planner patrol:approach_mps=3), so `skein compare` can sweep them.
 // Units: SI and radians unless the name says otherwise.
 #pragma once
 
@@ -8,41 +8,42 @@
 namespace skein::agent {
 
 struct FlightConfig {
-  // Safety. What must be free about a body is its radius, kHaloM (maps/free_evidence.hpp) and the tracking error.
-  double error_m = 0.33;          ///< tracking error at rest, with a LiDAR; docs/flight-safety.md has the measurement
-  double light_error_m = 0.23;    ///< the same without one
-  double error_per_mps_s = 0.03;  ///< and so much more a metre a second
-  double tight_halo_m = 0.35;     ///< about the body, in place of kHaloM, where a UAV was put down with less room
-  double tight_mps = 0.8;         ///< no faster then
-  double ground_m = 1.0;          ///< below, nothing is asked of the map: the ground is level, at z = 0
-  double floor_m = 2.0;           ///< nobody flies lower, except at takeoff
-  double peer_margin_m = 0.6;     ///< between two bodies when both have braked
-  double peer_memory_s = 20.0;    ///< a UAV that went out of sight is taken to be where it came to rest for so long
+  // Safety. A sphere about the UAV must be free. Its radius is the sum of the body's radius, kHaloM
+  // (maps/free_evidence.hpp) and the tracking error.
+  double error_m = 0.33;          ///< tracking error at rest of a UAV with a LiDAR; measured in docs/flight-safety.md
+  double light_error_m = 0.23;    ///< the same of a UAV without a LiDAR
+  double error_per_mps_s = 0.03;  ///< additional tracking error per m/s of speed
+  double tight_halo_m = 0.35;     ///< replaces kHaloM for a UAV whose start has less room
+  double tight_mps = 0.8;         ///< maximum speed while tight_halo_m counts
+  double ground_m = 1.0;          ///< the map need not prove space below this height: the ground is level, at z = 0
+  double floor_m = 2.0;           ///< lowest height of a planned path, unless the UAV is lower already
+  double peer_margin_m = 0.6;     ///< between the bodies of two UAVs that have both braked
+  double peer_memory_s = 20.0;    ///< for so long, a UAV that went out of sight counts as braking or at rest
 
   // Motion.
-  double approach_mps = 5.0;  ///< from here to there; the map decides how much of it can be had
-  double climb_mps = 3.0;
-  double sweep_s = 4.0;       ///< the LiDAR sees all directions in so long: no faster than through what is proved in it
-  double unknown_cost = 1.5;  ///< of a metre through space that is not known, in metres
+  double approach_mps = 5.0;  ///< speed on the path to a goal; lower where little space ahead is proved
+  double climb_mps = 3.0;     ///< speed of climbs
+  double sweep_s = 4.0;       ///< in so long, the LiDAR sees all directions; speed limit: proved length ahead / sweep_s
+  double unknown_cost = 1.5;  ///< path cost of a metre through unknown space, in metres of free space
 
-  // When something comes to nothing.
-  double stall_s = 4.0;     ///< no way is gained for so long: the goal is given up, or the UAV looks around
-  double look_s = 8.0;      ///< the LiDAR has looked in all directions: a period of its servo
-  double refused_s = 40.0;  ///< a place that could not be proved is left out of ways for so long
-  double alone_s = 45.0;    ///< a UAV without a LiDAR that is told of no free space for so long takes boxes to be all
-  double alone_mps = 1.5;   ///< ...and flies no faster then
-  double yield_s = 5.0;     ///< a UAV waits for one of lower number for so long
+  // When something fails.
+  double stall_s = 4.0;     ///< without progress for so long, the UAV looks around, replans, or ends the goal
+  double look_s = 8.0;      ///< duration of looking around: one period of the LiDAR's servo
+  double refused_s = 40.0;  ///< for so long, paths avoid a place that could not be proved free
+  double alone_s = 45.0;    ///< so long a UAV without a LiDAR waits for news of free space (sight.hpp)
+  double alone_mps = 1.5;   ///< maximum speed of a UAV that assumes that space outside the boxes is free
+  double yield_s = 5.0;     ///< beyond stall_s, a UAV waits so long for one with a lower index
 
-  // What it makes of what it is told of odometry, wind and battery (caution.hpp).
-  bool reacts = true;
-  double drift_sigmas = 2.0;     ///< of the told position that are kept off structure and UAVs
-  double wind_error_s = 0.03;    ///< tracking error for each m/s of wind
-  double gust_slows_s_m = 0.15;  ///< share of approach_mps that each m/s of gusts costs, beyond the first
-  double land_mps = 1.0;         ///< down to the ground
+  // Reactions to the uncertainty of the odometry, to wind and to the battery (caution.hpp).
+  bool reacts = true;            ///< false: none
+  double drift_sigmas = 2.0;     ///< standard deviations of the position, added to clearances
+  double wind_error_s = 0.03;    ///< additional tracking error per m/s of wind
+  double gust_slows_s_m = 0.15;  ///< share of approach_mps lost per m/s of gusts beyond 1 m/s
+  double land_mps = 1.0;         ///< sinking speed of a landing
 
-  // Bringing captures home.
-  double deliver_every_s = 240.0;
-  double return_margin_s = 12.0;
+  // Return to the station, to deliver captures (homing.hpp).
+  double deliver_every_s = 240.0;  ///< longest time for which a UAV keeps undelivered captures and works on
+  double return_margin_s = 12.0;   ///< added to the time of the flight home, before the mission ends
 
   template <class R>
   void describe(R& r) {

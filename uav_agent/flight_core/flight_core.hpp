@@ -1,10 +1,10 @@
-// Flies a UAV for its strategy: takeoff, goals, trips that bring captures home, and recovery where nothing works.
+// Flies a UAV for its planner: takeoff, goals, return-to-link to deliver captures, recovery and landing. Its modes:
 //
-//   ground -> takeoff -> working <-> homing
-//                          \-> showing, recovering -> working
+//   ground -> takeoff -> working <-> homing, showing, recovering
+//   showing, recovering -> homing -> recovering (no way home);   any but ground -> landing (battery nearly empty)
 //
-// A strategy hands over ranked goals (api/goals.hpp) and hears what became of them; it needs to call nothing else.
-// Where a UAV may fly is not decided here but by the safety filter (safety_filter.hpp).
+// A UAV that is restarted in flight goes from ground to working. The planner returns ranked goals (api/goals.hpp) and
+// receives their outcomes; it calls nothing here. The safety filter (safety_filter.hpp) decides where a UAV may fly.
 // Frame W.   Units: SI.   Threads: one.   Deterministic.
 #pragma once
 
@@ -28,33 +28,33 @@ class FlightCore {
   FlightCore(const FlightCore&) = delete;  // parts refer to each other
   FlightCore& operator=(const FlightCore&) = delete;
 
-  /// Once per exchange, before anything else.
+  /// Call it once per exchange, before the other functions.
   void update(const PlannerInput& in) {
     caution_.update(in);
     filter_.expect(caution_.errors());
     navigator_.update(in);
     recovery_.update(in);
   }
-  /// For PlannerInput: what became of the goals since this was asked last. Outcomes are kept until the UAV works: its
-  /// strategy hears each of them at a time when it decides.
+  /// The state for PlannerInput. It has the outcomes since the last call in mode `working`: outcomes wait for that
+  /// mode, so that the planner receives them when its goals count.
   FlightState state();
-  /// One exchange, after the strategy has decided.   @param goals  see PlannerOutput::goals.
+  /// Runs one exchange, after the planner has decided.   @param goals  see PlannerOutput::goals.
   Steering step(const PlannerInput& in, std::optional<std::vector<Goal>> goals);
-  /// Lets the tracker go on by one exchange, as fast as is safe.
+  /// Advances the tracker by one exchange, as fast as the safety filter allows.
   std::optional<TrajectoryCommand> move(Tracker& tracker, const SafetyFilter::Facts& facts) {
     const double most_mps = filter_.assumes_boxes() ? config_.alone_mps : navigator_.pace_mps();
     return filter_.step(tracker, facts, std::min(most_mps, caution_.most_mps()), navigator_.retraces());
   }
 
-  /// Whom it waits for, in this exchange.
+  /// Index in the fleet of the UAV for which this UAV waits in this exchange.
   const std::optional<std::size_t>& waits_for() const { return waits_for_; }
-  /// Why there was no way to a goal, in this exchange; empty: there was none to look for, or one.
+  /// Why a goal ended in this exchange without being reached; empty: none did.
   const std::string& no_way() const { return no_way_; }
-  /// What it is about, in this exchange, for people.   @param in  as step() had it.
+  /// What the core does in this exchange, for display.   @param in  the input of step().
   Doing doing(const PlannerInput& in) const;
-  /// Where it is about to fly: what others should tell it of first.
+  /// Where the UAV is about to fly: the other UAVs send map updates about the way there first (map sharing).
   std::optional<Vector3d> going_to_W() const;
-  /// Where its strategy may choose to work, as of now.
+  /// PlannerInput::space: where the planner may choose to work.
   FreeSpace space(const PlannerInput& in) const { return navigator_.open_space(in); }
   const SafetyFilter& filter() const { return filter_; }
 
@@ -86,18 +86,18 @@ class FlightCore {
   Recovery recovery_;
   Showing showing_;
   Mode mode_ = Mode::ground;
-  Tick since_ = 0;                   ///< in this mode
-  std::optional<Tick> ready_since_;  ///< on the ground
-  std::optional<Vector3d> top_W_;    ///< of the climb
-  double climbed_m_ = 0.0;           ///< so high, at...
+  Tick since_ = 0;                   ///< when this mode began, or a goal was last flown in it
+  std::optional<Tick> ready_since_;  ///< when it could first lift off
+  std::optional<Vector3d> top_W_;    ///< where the climb of the takeoff ends
+  double climbed_m_ = 0.0;           ///< height reached in the climb, at climbed_at_
   Tick climbed_at_ = 0;
-  Tick show_at_ = 0;                    ///< not before
-  std::optional<Tick> at_place_since_;  ///< of homing, without a link
-  std::size_t next_place_ = 0;
-  bool lost_way_home_ = false;     ///< it recovers since there was no way to any place of homing
-  bool descends_ = false;          ///< above where it lands
-  std::vector<Outcome> outcomes_;  ///< for the strategy
-  std::vector<Goal> wanted_;       ///< by the strategy, to be taken up when it works again
+  Tick show_at_ = 0;                    ///< earliest time of the next look for a mate to show its way
+  std::optional<Tick> at_place_since_;  ///< when homing reached its place, still without a link
+  std::size_t next_place_ = 0;          ///< index of the place that homing tries first
+  bool lost_way_home_ = false;          ///< it recovers because homing could not reach its places
+  bool descends_ = false;               ///< landing: it sinks to the ground
+  std::vector<Outcome> outcomes_;       ///< that the planner has not received yet
+  std::vector<Goal> wanted_;            ///< the planner's last goals, for when `working` begins again
   std::optional<std::size_t> waits_for_;
   std::string no_way_;
 };

@@ -1,5 +1,5 @@
-// Bringing captures home: when a UAV must leave to be in direct line of sight of the station, and where to. The nearest
-// such place is often the one where it last had the link: it comes first.
+// Return-to-link: when a UAV must fly to a place in direct line of sight of the station, to deliver its captures, and
+// to which place. The first choice is where it last had a link, because that is often the nearest such place.
 // Frame W.   Units: SI.   Threads: one.
 #pragma once
 
@@ -18,18 +18,21 @@ class Homing {
   /// @param config, agent  must outlive this.
   Homing(const FlightConfig& config, const AgentConfig& agent) : config_(config), agent_(agent) {}
 
-  /// Once per exchange: takes note of links and of what has been delivered.
+  /// Notes the link to the station, and whether captures arrive. Call it once per exchange.
   void update(const PlannerInput& in) { link_.update(in); }
-  /// Whether it is time to leave: by the clock, unless captures are delivered from where it is.
+  /// Whether the UAV must leave now: the remaining time is only just enough for the way and its captures do not arrive
+  /// from here, or captures have been undelivered for longer than deliver_every_s.
   bool due(const PlannerInput& in) const;
-  /// All is delivered, and there is time to work on.
+  /// Whether the UAV is linked, all its captures are delivered, and there is enough time to work on.
   bool done(const PlannerInput& in) const;
-  /// It is linked, and what it has arrives: it may stay where it is.
+  /// Whether captures arrive from where the UAV is, or none is left and it had a link within the last second.
   bool delivers_here(const PlannerInput& in) const { return link_.delivers_here(in); }
-  /// Where to go, best first: places from which the station is in sight as far as is known, then above all structure.
+  /// Places to try (p_WB), best first: the last one with a link, places that see the station as far as is known, and
+  /// one above the station and all boxes.
   std::vector<Vector3d> places(const PlannerInput& in, const FreeSpace& space) const;
 
  private:
+  /// Estimated time of the flight to a link [s].
   double way_home_s(const PlannerInput& in) const;
 
   const FlightConfig& config_;

@@ -1,7 +1,7 @@
-// Flies to goals: the first of a ranked list to which there is a way. It plans through what is known to be free and, at
-// a cost, through what is unknown; the safety filter (safety_filter.hpp) lets the UAV go only as far as is proved. A
-// way that gains nothing for a while is given up, and the place that could not be proved is left out of ways for a
-// time.
+// Flies to goals: to the first of a ranked list to which it finds a path. Paths lead through free space and, at a cost,
+// through unknown space; the safety filter (safety_filter.hpp) lets the UAV fly only through space that is proved free.
+// If the UAV makes no progress on a path, the navigator gives the path up. Later paths avoid the place that could not
+// be proved free for some time.
 // Frame W.   Units: SI.   Threads: one.   Deterministic: effort is bounded by counts.
 #pragma once
 
@@ -19,7 +19,7 @@
 
 namespace skein::agent {
 
-/// What the flight core asks of tracker and gimbal in an exchange.
+/// What the flight core requests from tracker and gimbal in one exchange. Empty values: no change.
 struct Steering {
   Motion motion = {};
   std::optional<double> yaw = {};
@@ -31,41 +31,43 @@ class Navigator {
   /// @param config, agent, filter  must outlive this.
   Navigator(const FlightConfig& config, const AgentConfig& agent, const SafetyFilter& filter);
 
-  /// Once per exchange, before anything else.
+  /// Call it once per exchange, before the other functions.
   void update(const PlannerInput& in);
-  /// Whether this UAV has a LiDAR that tells something: it may fly into the unknown, and proves it on the way.
+  /// Whether this UAV has a working LiDAR. Then paths may lead through unknown space, which it proves on the way.
   bool sees() const { return sight_.sees(); }
-  /// What to fly to from now on. A goal that is being flown goes on if it is the first one; its way may have changed.
+  /// Replaces the goals. The goal being flown goes on if the first of `goals` has its id; its way may have changed.
   void want(std::vector<Goal> goals);
-  /// Flies back along its own trail, whose places are given from here on. Its body has been there: the safety filter
-  /// asks for less about it, and nothing is looked for.
+  /// Flies back along the UAV's own trail, without a path search. Because its body has been there, the safety filter
+  /// asks for less free space around it. @param trail  in the order of flight, from the present position on.
   void retrace(std::vector<Waypoint> trail);
   bool retraces() const { return current_ && retraces_; }
-  /// Brakes, and wants nothing.
+  /// Brakes, and drops all goals.
   void stop(Steering& steering);
 
-  /// One exchange, with what the filter said of the last one.
+  /// Runs one exchange. @param held  SafetyFilter::held() of the last exchange.
   void step(const PlannerInput& in, const Held& held, Steering& steering);
 
   /// Turns the body of a UAV with a LiDAR step by step, so that the LiDAR sees more.
   void look_around(const PlannerInput& in, Steering& steering);
-  /// How fast it may fly now, so that what is ahead is proved by the time that it gets there.
+  /// Maximum speed at which the LiDAR proves the space ahead before the UAV gets there [m/s]; infinite without one.
   double pace_mps() const { return pace_mps_; }
   /// No goal is being flown, and none is left to try.
   bool idle() const { return !current_ && goals_.empty(); }
   const std::optional<Goal>& current() const { return current_; }
+  /// Whether it has reached the goal's first waypoint, and flies along its way.
   bool on_way() const { return on_way_; }
+  /// Index in Goal::way of the waypoint that it flies to; only if on_way().
   std::size_t leg() const { return leg_; }
-  /// Outcomes since it was last asked.
+  /// Outcomes since the last call.
   std::vector<Outcome> take_outcomes() { return std::exchange(outcomes_, {}); }
-  /// The last place to which there was no way.
+  /// First waypoint of the last goal that ended with no_way; nullopt once another goal is reached.
   const std::optional<Vector3d>& missed_W() const { return missed_W_; }
-  /// Where it is about to fly.
+  /// End of the present path; without a goal, missed_W().
   std::optional<Vector3d> going_to_W() const;
 
-  /// Where this UAV may plan to fly as of now, other UAVs and refused places left out.
+  /// Space for path search as of now. Places near other UAVs, and refused places, are not free in it.
   FreeSpace space(const PlannerInput& in) const { return space(in, in.tracking.setpoint.p_WB); }
-  /// The same with them: for strategies, which choose where to work.
+  /// The same without these exceptions, for planners, which choose where to work.
   FreeSpace open_space(const PlannerInput& in) const { return {space_config(in), in.boxes, in.map}; }
 
  private:
@@ -97,20 +99,20 @@ class Navigator {
   const SafetyFilter& filter_;
   BodyFit fit_;
   OwnSight sight_;
-  std::vector<Goal> goals_;  ///< that are not flown yet, what is liked best first
+  std::vector<Goal> goals_;  ///< not flown yet, best first
   std::optional<Goal> current_;
   bool on_way_ = false;
   std::size_t leg_ = 0;
-  std::vector<Waypoint> path_;  ///< being flown: to the goal's first waypoint, or along its way
-  bool new_way_ = false;        ///< the current goal's way has changed
-  bool retraces_ = false;       ///< the current goal is its own trail
-  int replans_ = 0;             ///< for the current goal
-  Tick search_at_ = 0;          ///< not before
+  std::vector<Waypoint> path_;  ///< that it flies: to the goal's first waypoint, or along its way
+  bool new_way_ = false;        ///< want() has changed the way of the current goal
+  bool retraces_ = false;       ///< the current goal is the UAV's own trail
+  int replans_ = 0;             ///< number of new searches for the current goal
+  Tick search_at_ = 0;          ///< earliest time of the next search
   double pace_mps_ = std::numeric_limits<double>::infinity();
   std::deque<Refused> refused_;
   std::vector<Outcome> outcomes_;
   std::optional<Vector3d> missed_W_;
-  Vector3d gained_p_W_ = Vector3d::Zero();  ///< where it last got on
+  Vector3d gained_p_W_ = Vector3d::Zero();  ///< where it last made progress, at gained_at_
   Tick gained_at_ = 0, turn_at_ = 0;
 };
 

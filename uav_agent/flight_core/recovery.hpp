@@ -1,7 +1,7 @@
-// What a UAV does whose goals all came to nothing: an ordered list of behaviours, each tried in turn until its strategy
-// gets to a goal again. Looking around lets a LiDAR prove more; nearer to a place that it missed it sees how to go on;
-// elsewhere and higher up the world looks different. Where all that is not proved to be free, the way that it came is.
-// A UAV that structure seen since has shut in flies back at once.
+// What a UAV does if it can reach none of its goals. The flight core tries an ordered list of recovery behaviours, one
+// after the other, until the UAV reaches a goal again: look around, so that the LiDAR proves more space free; approach
+// the goal that it missed; fly elsewhere; climb; fly back along its own trail. If the UAV's position no longer counts
+// as free, because of structure discovered meanwhile, the UAV flies back at once.
 // Frame W.   Units: SI.   Threads: one.   Deterministic.
 #pragma once
 
@@ -19,15 +19,15 @@ class Recovery {
   /// @param config, navigator  must outlive this.
   Recovery(const FlightConfig& config, Navigator& navigator);
 
-  /// Once per exchange, before anything else: remembers where it was.
+  /// Adds the UAV's position to its trail. Call it once per exchange, before the other functions.
   void update(const PlannerInput& in);
-  /// The strategy got on: the list begins anew.
+  /// The UAV reached a goal: the next recovery starts with the first behaviour.
   void progress() { tries_ = backs_ = 0; }
-  /// Takes up the next behaviour.
+  /// Starts the next behaviour that is possible here.
   void begin(const PlannerInput& in);
-  /// One exchange of it. @returns whether it is over, and the strategy may decide anew.
+  /// One exchange of the behaviour. @returns whether it has ended, so that the planner's goals count again.
   bool step(const PlannerInput& in, const Held& held, Steering& steering);
-  /// Which behaviour it is, for people.
+  /// The present behaviour, for display.
   Doing::What doing() const;
 
  private:
@@ -42,11 +42,11 @@ class Recovery {
 
   const FlightConfig& config_;
   Navigator& navigator_;
-  int tries_ = 0;  ///< since the strategy last got on
-  int backs_ = 0;  ///< of these, along the trail
+  int tries_ = 0;  ///< behaviours tried since progress()
+  int backs_ = 0;  ///< flights back along the trail tried since then
   Behaviour behaviour_ = kOrder[0];
-  Tick until_ = 0;
-  std::deque<Vector3d> trail_W_;  ///< the way that it came, oldest first, without the loops in it
+  Tick until_ = 0;                ///< when the behaviour ends at the latest
+  std::deque<Vector3d> trail_W_;  ///< where the UAV came from, oldest first, without loops
 };
 
 }  // namespace skein::agent

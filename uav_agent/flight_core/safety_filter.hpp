@@ -1,18 +1,19 @@
-// The one place where a UAV's motion is found safe or not. Everything that a UAV is told to fly goes through it.
+// The only place that decides whether a motion is safe. All paths and stops of the flight core pass through it.
 //
-// Invariant, in each exchange: if the UAV braked from what it is commanded next, then on the way to rest
-//   - all about its body would be proved to be free: its radius, kHaloM, and the tracking error;
-//   - it would not touch what any other UAV can sweep that brakes from the last word of it.
-// A motion is commanded only if the invariant holds after it. Else the UAV goes on slower, or brakes: braking was found
-// safe in the exchange before, so it is safe still, unless the world has changed (a new hit, a UAV out of nowhere, a
-// restart). Where it is broken so, nothing that breaks it may come nearer; but a UAV that was put down where there
-// is less room than kHaloM, beside a wall perhaps, may leave slowly with less (FlightConfig::tight_halo_m), all of it
-// proved, until it has had room once. So may one that structure seen since has shut in fly back along its own trail:
-// kHaloM is there for what beams may have missed, and nothing was in its way where its body has been.
+// Invariant, in each exchange: if the UAV braked after its next command, then on its braking trajectory
+//   - a sphere about it would be proved free, whose radius is that of the body plus kHaloM plus the tracking error;
+//   - it would stay clear of the space that any other UAV sweeps if that UAV brakes, by its last known state.
+// The filter commands a motion only if the invariant holds after it. Otherwise the UAV slows down or brakes. Braking
+// was safe in the exchange before, so it still is, unless the known world has changed (a new hit, a UAV that came into
+// sight, a restart). Then the invariant may be broken, and the UAV may not come nearer to what breaks it. Two
+// exceptions need less room than kHaloM, but all of it proved, and are slow (FlightConfig::tight_halo_m, tight_mps):
+//   - a UAV whose start has less room, beside a wall perhaps, until it has had full room once;
+//   - a UAV that flies back along its own trail. kHaloM allows for structure that beams have missed, and there was none
+//     where its body has been.
 //
-// Two UAVs that both keep it never meet: either could brake at any time, and neither counts on what the other will do.
-// In a fleet without a LiDAR nobody can prove anything, nor can a UAV that nobody tells anything: there, what is
-// outside all boxes, and off what is known to be occupied, is taken to be free (assume_boxes()).
+// Two UAVs that both keep the invariant never meet: either may brake at any time, and neither relies on the other.
+// In a fleet without a LiDAR, no UAV can prove space free; nor can a UAV without a working LiDAR that receives no map.
+// Such a UAV assumes that space is free outside all boxes and away from known structure (assume_boxes()).
 // Frame W.   Units: SI.   Threads: one.   Deterministic.
 #pragma once
 
@@ -32,19 +33,20 @@ namespace skein::agent {
 struct Held {
   enum class By : std::uint8_t { nothing, unproved, structure, peer };
   By by = By::nothing;
-  Vector3d at_W = Vector3d::Zero();      ///< where on its way
-  std::optional<std::size_t> peer = {};  ///< which one
+  Vector3d at_W = Vector3d::Zero();      ///< first place on its braking trajectory that is not safe
+  std::optional<std::size_t> peer = {};  ///< if `by` is peer: its index in the fleet
 };
 
-/// On top of the tracking error [m].
+/// Position errors that add to the tracking error [m] (caution.hpp).
 struct ExpectedErrors {
-  double seen_m = 0.0;   ///< of structure that the UAV's own LiDAR sees again and again
-  double told_m = 0.0;   ///< of structure that others have told of
+  double seen_m = 0.0;   ///< of structure that the UAV's own LiDAR sees
+  double told_m = 0.0;   ///< of structure on maps that other UAVs sent
   double peers_m = 0.0;  ///< of each of two UAVs
 };
 
 class SafetyFilter {
  public:
+  /// What the filter knows in one exchange; valid during step().
   struct Facts {
     Tick tick = 0;
     const RigidBodyState& state;
@@ -56,40 +58,42 @@ class SafetyFilter {
   /// @param config, agent  must outlive this.
   SafetyFilter(const FlightConfig& config, const AgentConfig& agent);
 
-  /// Lets the tracker go on by one exchange, as fast as is safe.   @param most_mps  and no faster than that.
-  /// @param retraces  it flies back along its own trail: its body has been there.
+  /// Advances the tracker by one exchange, as fast as is safe. Only Path and Hold are filtered.
+  /// @param most_mps  speed limit.   @param retraces  the UAV flies back along its own trail.
   std::optional<TrajectoryCommand> step(Tracker& tracker, const Facts& facts, double most_mps, bool retraces = false);
 
-  /// From now on, bodies are off by so much more than their tracking error.
+  /// Sets the errors that add to the tracking errors from now on.
   void expect(const ExpectedErrors& errors) { errors_ = errors; }
-  /// From now on, what is outside all boxes is taken to be free, or not.
+  /// Whether space outside all boxes is assumed to be free from now on.
   void assume_boxes(bool assume) { assumes_boxes_ = assume; }
   bool assumes_boxes() const { return assumes_boxes_; }
-  /// Of the last step.
+  /// What slowed the UAV down in the last step().
   const Held& held() const { return held_; }
-  /// Whether a body may be there: all about it is proved to be free.
+  /// Whether this UAV may rest at p_W (centre): all space about it that the invariant needs is proved free.
   bool proved(const Vector3d& p_W, const WorldMap& map, const std::vector<OrientedBox>& boxes) const;
-  /// Radius of what must be free about a body's centre at a speed.
+  /// Radius of the sphere that must be free about this UAV's centre at a speed [m].
   double tube_m(double speed_mps) const { return tube_m(speed_mps, kHaloM); }
-  /// The same about another UAV at rest that has no LiDAR, and flies by what this one tells it.
+  /// The same for another UAV at rest that has no LiDAR, and flies on this UAV's map.
   double tube_of_told_m(std::size_t uav) const;
 
-  /// How far this UAV's centre is kept off another one's: bodies, both tracking errors, and a margin.
+  /// Minimum distance of the centres of this and another UAV [m]: both bodies, both errors, and a margin.
   double apart_m(std::size_t uav, double speed_mps) const;
 
+  /// Numbers of exchanges on a Path or Hold: all; those in which the filter made the UAV brake; those in which the
+  /// space about the UAV's commanded position was not proved free beforehand.
   struct Counts {
-    std::uint64_t exchanges = 0, slowed = 0, broken = 0;  ///< broken: the invariant did not hold beforehand
+    std::uint64_t exchanges = 0, slowed = 0, broken = 0;
   };
   const Counts& counts() const { return counts_; }
 
  private:
-  /// What a UAV sweeps that brakes from the last word of it.
+  /// Space that another UAV sweeps if it brakes, by its last known state: a segment.
   struct PeerReach {
     std::size_t uav = 0;
-    Vector3d from_W, to_W;  ///< of its centre
-    double apart_m = 0.0;   ///< centres must stay so far off
-    double now_m = 0.0;     ///< from this UAV to all that the peer sweeps
-    double from_m = 0.0;    ///< from this UAV to from_W
+    Vector3d from_W, to_W;  ///< of its centre: last known position, and where it comes to rest
+    double apart_m = 0.0;   ///< minimum distance of this UAV's centre from the segment
+    double now_m = 0.0;     ///< distance from now_W_ to the segment
+    double from_m = 0.0;    ///< distance from now_W_ to from_W
   };
   using Cube = WorldMap::Cube;
 
@@ -111,11 +115,11 @@ class SafetyFilter {
   Held held_;
   Counts counts_;
   std::vector<Cube> cubes_;  ///< scratch
-  /// Where it is commanded to be: what may not come nearer is measured from there. From the measured place, a UAV that
-  /// swings about it would creep.
+  /// The commanded position. The filter compares with it whether the UAV comes nearer to something. Compared with its
+  /// measured position, a UAV that swings about its setpoint would advance only at a crawl.
   Vector3d now_W_ = Vector3d::Zero();
-  double halo_m_ = kHaloM;  ///< in this exchange
-  bool had_room_ = false;   ///< once since it was put down, or its program began
+  double halo_m_ = kHaloM;  ///< that counts in this exchange
+  bool had_room_ = false;   ///< the full kHaloM was free once since the start or restart
 };
 
 }  // namespace skein::agent

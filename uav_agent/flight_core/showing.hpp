@@ -1,6 +1,6 @@
-// Who has a LiDAR shows those that have none a way up: it hovers beside a mate that has not risen until its map knows
-// the column above that one's start, which the radio then tells (onboard/map_radio.hpp).
-// Each photographer is shown its way by the explorer that starts nearest.
+// An explorer shows photographers, which have no LiDAR, a way up. It hovers beside the start of a mate that has not
+// risen yet, until its map proves the column above that start free, or for FlightConfig::look_s. Map sharing tells the
+// mate (onboard/map_radio.hpp). The explorer that starts nearest to a photographer is in charge of it.
 // Frame W.   Units: SI.   Threads: one.   Deterministic.
 #pragma once
 
@@ -18,13 +18,15 @@ class Showing {
   /// @param agent, filter  must outlive this.
   Showing(const AgentConfig& agent, const SafetyFilter& filter);
 
-  /// Whom to show a way now, nearest first: a goal beside it. nullopt: nobody.
+  /// Chooses the nearest mate that needs to be shown its way. @returns a goal beside its start; nullopt: none.
   std::optional<Goal> next(const PlannerInput& in, const FreeSpace& space);
-  /// Whether the one that next() named last has been shown its way, or has risen.
+  /// Whether the column above the mate() is proved free, or the mate has risen.
   bool shown(const PlannerInput& in) const;
+  /// Index in the fleet of the mate that next() chose last.
   std::size_t mate() const { return mate_; }
 
  private:
+  /// A photographer that this UAV has to show its way.
   struct Charge {
     std::size_t uav = 0;
     int attempts = 0;

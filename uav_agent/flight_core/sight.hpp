@@ -26,8 +26,9 @@ class OwnSight {
   std::optional<Tick> scanned_at_;
 };
 
-/// A UAV without a working LiDAR learns of free space by radio. If it was told of no space but that about its start,
-/// and of nothing new for alone_s, its safety filter takes space outside the boxes for free, except known structure.
+/// A UAV without a working LiDAR learns of free space by radio. If its map holds only the space around its start, and
+/// nothing new arrives for alone_s, its safety filter assumes that space outside the boxes is free, except known
+/// structure.
 class ToldSpace {
  public:
   /// @param config, agent  must outlive this.

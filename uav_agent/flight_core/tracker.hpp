@@ -1,13 +1,12 @@
-// Turns what a planner wants (a set-point, a path, a stop) into one full-state set-point per exchange whose
-// position, velocity and acceleration belong together and stay within the vehicle's limits, as the simulator
-// demands. A path is followed by a point mass that heads for a spot a little ahead on the polyline: it may be
-// replaced at any time without a jump, and rounds a corner by about `corner_m`, in the
-// worst zigzag by twice that.
+// The tracker turns a requested motion (a setpoint, a path, a hold) into one full setpoint per exchange. Position,
+// velocity and acceleration of the setpoints are consistent and stay within the vehicle's limits, as the simulator
+// demands. On a path, a simulated point mass flies towards a point a little ahead on the polyline. The path may be
+// replaced at any time without a jump. The mass cuts a corner by about `corner_m`, in the worst zigzag by twice that.
 //
-// What is commanded is the mean of the last `smoothing_s` of that point mass. A mean keeps every limit that the
-// mass keeps, stays within the bends of its track (a stop ends where the mass stops, without overshoot), and its
-// acceleration changes by no more than twice the limit in `smoothing_s`: a multirotor has to tilt before it
-// accelerates, and one whose demand flips from step to step swings instead of following.
+// The commanded setpoint is the mean of the mass's states over the last `smoothing_s`. The mean keeps every limit that
+// the mass keeps, and stays within the bends of the mass's track: a stop ends where the mass stops, without overshoot.
+// The mean acceleration changes by at most twice the limit in `smoothing_s`. This matters because a multirotor must
+// tilt before it accelerates: with a demand that flips from step to step, it swings instead of following.
 // Frame W.   Units: SI and radians.   Pure; threads: one.
 #pragma once
 
@@ -24,38 +23,41 @@ class Tracker {
   struct Config {
     double max_speed_mps = 6.0;
     double max_acceleration_mps2 = 3.0;
-    double max_sink_acceleration_mps2 = 2.5;  ///< downwards: with little thrust left there is no attitude control
-    double smoothing_s = 0.4;
-    double max_yaw_rate = 0.8;       ///< [rad/s]
-    double corner_m = 0.25;          ///< how far a corner may be cut
-    double slow_down_error_m = 0.6;  ///< the point mass waits for a UAV that lags this much behind its set-point
-    double lost_error_m = 3.0;       ///< farther apart, the set-point starts again from where the UAV is
+    double max_sink_acceleration_mps2 = 2.5;  ///< downward part; attitude control needs the remaining thrust
+    double smoothing_s = 0.4;                 ///< time over which the commanded setpoint is the mean
+    double max_yaw_rate = 0.8;                ///< [rad/s]
+    double corner_m = 0.25;                   ///< by which a path may cut a corner
+    double slow_down_error_m = 0.6;  ///< with more tracking error, the mass slows down: to 10 % at twice as much
+    double lost_error_m = 3.0;       ///< with more tracking error, the setpoint restarts at the UAV
   };
 
   explicit Tracker(const Config& config) : config_(config) {}
 
-  void follow(const Path& path);
-  void hold();
+  void follow(const Path& path);  ///< Follows the path from the present setpoint on; an empty path means hold().
+  void hold();                    ///< Brakes to rest and stays there.
+  /// From now on commands this setpoint, with velocity and acceleration clamped to the limits.
   void fly_to(const Setpoint& setpoint);
+  /// Turns to a yaw [rad] at max_yaw_rate, while it holds or follows a path.
   void turn_to(double yaw) { yaw_goal_ = yaw; }
-  /// Commands come from elsewhere: what it was told is over, and what it is told next begins at this state. To be
-  /// called again in each exchange, with the new state, as long as stands_by().
+  /// Ends the present motion, because the planner sends commands of its own. The next motion begins at `state`. As long
+  /// as stands_by(), call it again in each exchange with the UAV's new state.
   void stand_by(const RigidBodyState& state);
   bool stands_by() const { return mode_ == Mode::stand_by; }
-  /// From now on no faster than that along a path; 0: it brakes, and stays where it comes to rest.
+  /// Limits the speed along a path from now on; 0: the UAV brakes and stays where it comes to rest.
   void limit_speed(double speed_mps) { speed_limit_mps_ = speed_mps; }
 
   /// Advances by one exchange.
-  /// @returns nullopt as long as no motion was asked for, and while it stands by.
+  /// @returns nullopt before the first motion, and while stands_by().
   std::optional<TrajectoryCommand> step(const RigidBodyState& state, double dt_s);
 
   TrackingState tracking() const;
 
-  /// What it commanded last.
+  /// The last commanded setpoint.
   const Setpoint& commanded() const { return ref_; }
+  /// Whether it holds or follows a path.
   bool moves() const { return mode_ == Mode::hold || mode_ == Mode::path; }
-  /// Where it would be commanded from now on, exchange by exchange, if it were told to hold: up to rest, and at least
-  /// the present place. As hold() and step() do it, as long as the UAV follows.
+  /// Positions (p_WB) that it would command in the next exchanges after hold(), from the present one until rest: the
+  /// braking trajectory. Exact as long as the tracking error stays below lost_error_m.
   std::vector<Vector3d> stopping_places(double dt_s) const;
 
  private:
@@ -70,40 +72,41 @@ class Tracker {
   /// Changes the velocity of the point mass towards `v_goal` as far as the limits allow, and moves it.
   void accelerate(const Vector3d& v_goal, double dt_s);
   void smooth();
-  /// The greatest acceleration in a direction.
+  /// Maximum acceleration in a direction [m/s^2].
   double strength(const Vector3d& direction) const;
   double speed_limit(double dt_s) const;
-  /// From one leg into another, over so much way.
+  /// Maximum speed in the turn from the leg `in` to the leg `out`, which takes bend_m of the path [m/s].
   double turn_speed(const Vector3d& in, const Vector3d& out, double bend_m) const;
   void slow_down_in_bends();
   std::size_t leg_at(double s) const;
   Vector3d point_at(double s) const;
 
-  /// One corner of the polyline. The first is where the point mass was when the path came.
+  /// One corner of the polyline. The first one is the position of the point mass when the path began.
   struct Corner {
     Vector3d p_W;
-    double s = 0.0;          ///< arc length from the start
-    double leg_speed = 0.0;  ///< of the leg that ends here
-    double braking = 0.0;    ///< on that leg
-    double speed = 0.0;      ///< at most, when passing here; 0 at the end
-    bool sharp = false;      ///< must be touched before the next leg begins
+    double s = 0.0;          ///< arc length from the first corner [m]
+    double leg_speed = 0.0;  ///< maximum speed on the leg that ends here [m/s]
+    double braking = 0.0;    ///< deceleration on that leg [m/s^2]
+    double speed = 0.0;      ///< maximum speed at this corner [m/s]; 0 at the last one
+    bool sharp = false;      ///< the mass must come within 0.1 m before the next leg begins
   };
 
   Config config_;
   Mode mode_ = Mode::off;
   bool started_ = false;
-  Setpoint ref_;                ///< what was commanded last
+  Setpoint ref_;                ///< the last commanded setpoint
   Setpoint mass_;               ///< the point mass; its yaw is not used
-  std::deque<Setpoint> track_;  ///< of the point mass, as much as is smoothed; empty: begins anew from ref_
+  std::deque<Setpoint> track_;  ///< states of the mass over smoothing_s; empty: starts again at ref_
   std::optional<double> yaw_goal_;
-  std::vector<Waypoint> waypoints_;  ///< as asked for
-  std::vector<Corner> corners_;      ///< laid out at the first step with a new path
-  double progress_ = 0.0;            ///< arc length reached
+  std::vector<Waypoint> waypoints_;  ///< of the requested path
+  std::vector<Corner> corners_;      ///< made from waypoints_ in the first step of a path
+  double progress_ = 0.0;            ///< arc length that the mass has reached [m]
   double speed_limit_mps_ = std::numeric_limits<double>::infinity();
-  bool done_ = true;  ///< the point mass is
+  bool done_ = true;  ///< the mass has reached the end of the path, or there is none
 };
 
-/// What a vehicle may be told to fly: its flight controller corrects with what is left of its limits.
+/// Limits for setpoints of a vehicle: 0.7 of its acceleration, because the flight controller needs the rest for
+/// corrections.
 Tracker::Config tracker_config(const VehicleConfig& vehicle);
 
 }  // namespace skein::agent

@@ -1,6 +1,6 @@
-// How far it is to the nearest cell that is occupied. Kept up to date where it is asked for: a block of cells is worked
-// out when one of its cells is asked for, and again only if something within reach has changed since. A LiDAR sees
-// 30,000 cells of the ground, and nobody asks about most of them.
+// Distance field: the distance from a cell to the nearest occupied cell, computed on demand. The distances of a block
+// of cells are computed at the first query for one of its cells, and again only if an occupied cell within reach has
+// changed since then. A LiDAR sees 30,000 cells of the ground, and most of them are never queried.
 // Units: metres; cells as in map_level.hpp.   Threads: one.   Deterministic.
 #pragma once
 
@@ -17,17 +17,18 @@ class DistanceField {
  public:
   using Cell = Eigen::Vector3i;
   static constexpr int kBlockBits = 3, kBlock = 1 << kBlockBits;  ///< cells along an edge of a block
-  /// Appends the cells of a block of 8^3, given by its number, that are occupied.
+  /// Appends the occupied cells of a block of 8^3 cells to `cells`. @param block  cell index divided by 8 (block_of()).
   using OccupiedIn = std::function<void(const Cell& block, std::vector<Cell>& cells)>;
 
-  /// @param reach_m  farther cells are not looked for: 1 to 8 cells.
-  /// @throws std::invalid_argument for another reach.
+  /// @param reach_m  search radius; it must be 1 to 8 times `cell_m`.
+  /// @throws std::invalid_argument if it is not.
   DistanceField(double cell_m, double reach_m);
 
-  /// The cell has become occupied, or is occupied no more.
+  /// Call it when a cell becomes occupied, or ceases to be occupied.
   void changed(const Cell& cell) { changed_[grid_key(block_of(cell))] = ++changes_; }
 
-  /// Between the nearest points of the cell and of the nearest occupied one; reach_m if that is not nearer.
+  /// Distance between the nearest points of this cell and of the nearest occupied cell, at most reach_m.
+  /// @param occupied_in  reads the map; called for the blocks whose cells must be looked at again.
   double distance_m(const Cell& cell, const OccupiedIn& occupied_in);
 
   std::size_t bytes() const { return blocks_.bytes() + changed_.bytes() + newest_.bytes(); }
@@ -35,24 +36,24 @@ class DistanceField {
  private:
   static constexpr std::uint8_t kFar = 255;
   struct Block {
-    std::uint64_t made_at = 0;                                      ///< in changes
-    std::array<std::uint8_t, kBlock* kBlock* kBlock> squares = {};  ///< of distances in cells, x first
+    std::uint64_t made_at = 0;                                      ///< value of changes_ when it was computed
+    std::array<std::uint8_t, kBlock* kBlock* kBlock> squares = {};  ///< [cells^2], x first; or kFar
   };
 
-  /// The last change within reach of a block, as it was when there had been so many in all.
+  /// Cached result of newest_change() for a block: `at`, valid as long as changes_ equals `changes`.
   struct Newest {
     std::uint64_t at = 0, changes = 0;
   };
 
   static Cell block_of(const Cell& cell) { return shifted(cell, kBlockBits); }
-  /// Of a block and those about it; 0: none.
+  /// Number of the last change in a block or in its 26 neighbours; 0: there was none.
   std::uint64_t newest_change(const Cell& at);
   void make(const Cell& at, const OccupiedIn& occupied_in, Block& block);
 
   double cell_m_, reach_m_;
   BlockTable<Block> blocks_;
   BlockTable<std::uint64_t> changed_;  ///< by block: number of its last change
-  BlockTable<Newest> newest_;          ///< of blocks that were asked for
+  BlockTable<Newest> newest_;          ///< by block that was queried
   std::uint64_t changes_ = 0;
   std::vector<Cell> occupied_;
 };

@@ -1,7 +1,7 @@
-// Where the known ends: free cubes with an unknown neighbour, kept up to date as the map grows (only what changed and
-// its neighbours are looked at), and the clusters that they form.
-// Frame W.   Units: metres.   Threads: one.   Deterministic.   Effort: in proportion to what changed; clusters() to the
-// number of frontier cubes.
+// Frontiers: free cubes with an unknown neighbour, and the clusters that they form. An update looks only at cubes that
+// have changed and at their neighbours.
+// Frame W.   Units: metres.   Threads: one.   Deterministic.   Effort: update() in proportion to the number of changed
+// cubes; clusters() to the number of frontier cubes, plus one bit for each cube of the grid.
 // Source: Yamauchi 1997; incremental bookkeeping and clusters split along their longest spread as in FUEL (STAR).
 #pragma once
 
@@ -13,8 +13,8 @@
 namespace skein::agent {
 
 struct CubeCluster {
-  std::vector<VoxelGrid::Id> cubes;  ///< ascending
-  Vector3d middle_W = Vector3d::Zero();
+  std::vector<VoxelGrid::Id> cubes;      ///< ascending
+  Vector3d middle_W = Vector3d::Zero();  ///< mean of the cubes' centres
 };
 
 class Frontiers {
@@ -26,19 +26,19 @@ class Frontiers {
 
   /// In ascending order.
   const std::set<Id>& cubes() const { return cubes_; }
-  /// What a frontier is; for whoever wants to know it of one cube.
+  /// Whether the cube is free, and a cube that shares a face with it is unknown.
   static bool is_frontier(const VoxelGrid& grid, Id id);
 
   using Cluster = CubeCluster;
-  /// Frontier cubes that touch (26 neighbours), in pieces of at most `max_m` along their direction of greatest spread.
-  /// @param min_cubes  smaller clusters are left out.
+  /// Connected sets of frontier cubes (26 neighbours), cut into pieces of at most `max_m` along their direction of
+  /// greatest spread. @param min_cubes  pieces with fewer cubes are left out.
   std::vector<Cluster> clusters(const VoxelGrid& grid, double max_m, std::size_t min_cubes) const;
 
  private:
   std::set<Id> cubes_;
 };
 
-/// Cubes of any kind that touch (26 neighbours), in pieces as above.   @param cubes  ascending.
+/// The same for any set of cubes.   @param cubes  ascending.
 std::vector<CubeCluster> clusters_of(const VoxelGrid& grid, const std::vector<VoxelGrid::Id>& cubes, double max_m,
                                      std::size_t min_cubes);
 

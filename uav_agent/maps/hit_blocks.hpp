@@ -1,5 +1,5 @@
-// An index of occupied cells, for questions of distance: one bit a cell, in blocks of 4 x 4 x 4 cells, 4 x 4 x 4 blocks
-// in a region, regions found by hash. Only ever looked up, never walked through.
+// An index of occupied cells for distance queries: one bit per cell, blocks of 4 x 4 x 4 cells, regions of 4 x 4 x 4
+// blocks in a hash table. It offers look-up but no iteration.
 // Frame W.   Units: metres.   Threads: one.
 #pragma once
 
@@ -16,14 +16,14 @@ class HitBlocks {
  public:
   explicit HitBlocks(double cell_m) : cell_m_(cell_m) {}
 
-  /// Block (0, 0, 0) begins with cell (0, 0, 0), and that at 0 m.
+  /// The lowest corners of block (0, 0, 0) and of cell (0, 0, 0) are the origin of W.
   static Eigen::Vector3i block_of(const Eigen::Vector3i& cell) { return {cell.x() >> 2, cell.y() >> 2, cell.z() >> 2}; }
-  /// Of a cell in its block, 0 to 63.
+  /// Index of a cell within its block, 0 to 63, x first.
   static unsigned place_of(const Eigen::Vector3i& cell) {
     return static_cast<unsigned>((cell.x() & 3) | (cell.y() & 3) << 2 | (cell.z() & 3) << 4);
   }
 
-  /// @param cells  bits of a block, by place_of().   @returns those that were not set before.
+  /// Adds occupied cells. @param cells  one bit per cell, at place_of().   @returns the bits that were not set before.
   std::uint64_t add(const Eigen::Vector3i& block, std::uint64_t cells);
   bool test(const Vector3d& p_W) const;
   std::size_t count() const { return count_; }
@@ -38,7 +38,7 @@ class HitBlocks {
  private:
   using Region = std::array<std::uint64_t, 64>;
 
-  /// Rounded down by hand: floor() is a call on the processors that we build for, and most of a question.
+  /// Rounds down without floor(): on our target processors that is a function call, and most of a query's time.
   Eigen::Vector3i cell(const Vector3d& p_W) const {
     const auto down = [](double along) {
       const int whole = static_cast<int>(along);

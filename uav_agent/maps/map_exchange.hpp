@@ -1,9 +1,9 @@
-// Who knows what of a voxel grid: keeps the maps of all UAVs that hear each other the same, without
-// acknowledgements. Everybody says now and then what it knows in form of a hash for each chunk; from that the others
-// see which chunks somebody in line of sight lacks, and send these. What was lost on the way still differs and goes
-// out again; what somebody else sent in the meantime does not.
-// Threads: one.   Bounded: a message has one hash a chunk and at most `max_chunks` chunks.   Deterministic.
-// Source: chunk-wise exchange as in RACER; hashes in place of its lists of intervals, because maps merge (voxel_grid).
+// Exchange of voxel grids by radio: UAVs that hear each other come to equal grids, without acknowledgements. Each UAV
+// sends from time to time a hash of each chunk of its grid. From these hashes the others see which chunks differ at a
+// UAV in line of sight, and send them. A chunk that was lost on the way still differs, so it is sent again. A chunk
+// that a third UAV has sent in the meantime no longer differs, so it is not.
+// Threads: one.   Bounded: a message has one hash per chunk and at most `max_chunks` chunks.   Deterministic.
+// Source: chunk-wise exchange as in RACER; hashes replace its lists of intervals, since grids merge (voxel_grid.hpp).
 #pragma once
 
 #include <cstdint>
@@ -19,28 +19,28 @@ class MapExchange {
  public:
   struct Config {
     std::size_t max_chunks = 4;    ///< in one message
-    std::size_t max_bytes = 4096;  ///< of chunks in one message; at least one goes out
-    double forget_s = 10.0;        ///< an account of what somebody knows that is older does not count
+    std::size_t max_bytes = 4096;  ///< of chunks in one message; the first chunk may exceed it
+    double forget_s = 10.0;        ///< a peer's hashes that are older than this are ignored
   };
 
   MapExchange() : MapExchange(Config()) {}
   explicit MapExchange(const Config& config) : config_(config) {}
 
-  /// Appends what is to be said now: all hashes, and chunks that somebody in line of sight lacks.
+  /// Appends a message: the hashes of all chunks, and chunks that differ at a UAV in line of sight.
   void write(const VoxelGrid& grid, const Peers& peers, Tick now, PayloadWriter& writer);
-  /// Takes in what write() wrote elsewhere: chunks into the grid, hashes as the sender's account.
-  /// @returns false when the message is damaged or of another grid; what came before the damage was taken.
+  /// Reads a message of another UAV's write(): merges its chunks into the grid, and remembers its hashes.
+  /// @returns false if the message is damaged or of another grid; the parts before the damage have taken effect.
   bool read(std::size_t sender, Tick now, VoxelGrid& grid, PayloadReader& reader);
 
  private:
-  struct Account {
-    std::vector<std::uint16_t> hashes;
+  struct Account {                      ///< what a peer knows
+    std::vector<std::uint16_t> hashes;  ///< by chunk
     Tick heard = 0;
   };
 
   const Config config_;
   std::map<std::size_t, Account> accounts_;  ///< by sender
-  std::size_t next_chunk_ = 0;               ///< chunks take turns
+  std::size_t next_chunk_ = 0;               ///< where the search for the next chunk begins: chunks take turns
 };
 
 }  // namespace skein::agent

@@ -1,6 +1,6 @@
-// What a UAV knows of the space around it at one size of cells: which are free, occupied or unknown, and the evidence
-// that was gathered about those that are unknown. Cells lie in blocks of 8^3; a block that is free all over takes no
-// memory.
+// One level of a WorldMap: the cells of one size, which are free, occupied or unknown, and the free-space evidence
+// about the unknown ones (free_evidence.hpp). Cells are stored in blocks of 8^3; tidy() frees the memory of a block
+// whose cells are all free.
 // Frame W.   Units: metres.   Threads: one.   Deterministic: no answer depends on an order in memory.
 #pragma once
 
@@ -18,16 +18,16 @@ namespace skein::agent {
 
 enum class Space : std::uint8_t { unknown, free, occupied };
 
-/// Beams of the LiDAR that leave beside each other, taken as one; or one alone.
+/// Adjacent beams of the LiDAR that are treated as one; or a single beam.
 struct BeamBundle {
   Vector3d from_W = Vector3d::Zero();
-  Eigen::Vector3f direction_W = Eigen::Vector3f::UnitX();  ///< unit vector: their middle
-  float free_m = 0.0F;                                     ///< from `from_W` on, none of them met anything so far
-  float around_free_m = 0.0F;                              ///< nor did those around them; at most free_m
+  Eigen::Vector3f direction_W = Eigen::Vector3f::UnitX();  ///< unit vector: the middle of the beams
+  float free_m = 0.0F;                                     ///< distance from `from_W` up to which no beam met anything
+  float around_free_m = 0.0F;                              ///< the same for the bundles around, too; at most free_m
   int beams = 1;
 };
 
-/// By whom a cell became what it is: by this UAV's own LiDAR, or by one of the fleet (its index + 1), who told it.
+/// Who determined a cell's state: kOwn, or the UAV whose map message reported it (its index in the fleet + 1).
 using Teller = std::uint8_t;
 inline constexpr Teller kOwn = 0;
 
@@ -35,7 +35,7 @@ class MapLevel {
  public:
   using Cell = Eigen::Vector3i;
   static constexpr int kBlockBits = 3, kBlock = 1 << kBlockBits, kCells = kBlock * kBlock * kBlock;
-  static constexpr int kMostCells = 256;  ///< that a beam passes along an axis are fewer
+  static constexpr int kMostCells = 256;  ///< a beam passes fewer cells than this along an axis
 
   struct Known {
     Space space = Space::unknown;
@@ -44,8 +44,9 @@ class MapLevel {
     bool operator==(const Known&) const = default;
   };
 
-  /// @param coarser  of cells twice as large, for beams from farther off: what is free there is free here, and its
-  ///                 evidence counts here, too. It outlives this, and tells this of its evidence. Or nullptr.
+  /// @param coarser  level with cells twice as large, for beams from farther away; nullptr: none. What is free there is
+  ///                 free here, and its evidence counts here, too. It must outlive this level, to which it keeps a
+  ///                 pointer: new evidence there may prove cells of this level free.
   MapLevel(double cell_m, const FreeCriterion& criterion, MapLevel* coarser);
   MapLevel(const MapLevel&) = delete;
   MapLevel& operator=(const MapLevel&) = delete;
@@ -53,37 +54,39 @@ class MapLevel {
   double cell_m() const { return cell_m_; }
   Cell cell_of(const Vector3d& p_W) const;
 
-  /// Counts beams in each layer across the axis of W that they are nearest to, for the cell whose window in the middle
-  /// of that layer they pass, from one distance to another.
+  /// Adds the bundle's beams to the evidence of the cells that it passes between two distances from its origin. Layers
+  /// are normal to the axis of W that the beam is closest to. In each layer, the beams count for the one cell whose
+  /// window, its section at the layer's middle, they pass.
   void pass(const BeamBundle& bundle, double from_m, double to_m);
-  /// Occupied overwrites all else, and nothing overwrites it but forget() and what doubt() says. A doubt is over when
-  /// this UAV finds the cell occupied again.
-  /// @returns what it was before.
+  /// Raises a cell's state: free replaces unknown, occupied replaces both. An occupied cell stays so until forget(),
+  /// settle_free(), or free-space evidence after doubt(). Occupied by kOwn ends a doubt.
+  /// @returns the state before.
   Known set(const Cell& cell, Space space, Teller teller);
-  /// Makes a cell unknown, whatever it was, and what was gathered about it is gone. At coarser levels it may still be
-  /// free.
+  /// Makes a cell of this level unknown, and discards its evidence. Coarser levels stay as they are, and may still call
+  /// it free.
   void forget(const Cell& cell);
-  /// From now on an occupied cell gathers evidence from nothing, and becomes free as an unknown one does.
+  /// Doubts an occupied cell: it stays occupied, and its evidence restarts at zero. New evidence that proves the cell
+  /// free makes it free, like an unknown cell.
   void doubt(const Cell& cell);
   bool doubted(const Cell& cell) const;
   std::size_t doubts() const { return doubts_; }
-  /// Makes those cells of a cube within a block free that are in doubt, if this UAV itself knows them to be free now,
-  /// or whoever told of them.   @param edge  in cells.
+  /// For a cube that `teller` knows to be free: makes its doubted cells free, all of them if the teller is kOwn, else
+  /// those that this teller had reported occupied.   @param edge  of the cube, in cells; it lies within one block.
   void settle_free(const Cell& lowest, int edge, Teller teller);
 
-  /// Of this level alone.
+  /// State at this level alone.
   Known known(const Cell& cell) const;
-  /// Of all cells of a block, x first.
+  /// The same for all cells of a block, x first.
   void read(const Cell& block, std::array<Known, kCells>& known) const;
 
-  /// Takes memory back: of blocks that are free all over, and of those of which nothing is known, farther than
-  /// `forget_m` from a place, evidence and all.
+  /// Frees memory: of blocks whose cells are all free by the same teller, and of blocks farther than `forget_m` from a
+  /// place whose cells are all unknown. Their evidence is lost.
   void tidy(const Vector3d& p_W, double forget_m);
-  /// Only of the former.
+  /// The same for free blocks only.
   void tidy() { tidy(Vector3d::Zero(), std::numeric_limits<double>::infinity()); }
-  /// Cells of which something new was said since it was asked last.
+  /// Cells whose state was set anew since the last call; a cell may occur twice.
   std::vector<Cell> take_changes() { return std::exchange(changes_, {}); }
-  /// Cells that became occupied, or are so no longer, since it was asked last.
+  /// Cells that became occupied, or ceased to be occupied, since the last call.
   std::vector<Cell> take_structure_changes() { return std::exchange(structure_changes_, {}); }
 
   std::size_t free_cells() const { return free_; }
@@ -95,12 +98,12 @@ class MapLevel {
   std::uint64_t windows() const { return windows_; }
 
   static Cell block_of(const Cell& cell) { return shifted(cell, kBlockBits); }
-  /// Of a cell in its block, x first.
+  /// Index of a cell within its block, x first.
   static std::size_t place_of(const Cell& cell) {
     const auto along = [&](int axis) { return static_cast<std::size_t>(cell[axis] & (kBlock - 1)); };
     return along(0) | along(1) << kBlockBits | along(2) << 2 * kBlockBits;
   }
-  /// Of the cell at a place of a block, x first: where it is in the block.
+  /// The inverse: the cell's indices within its block.
   static Cell in_block(std::size_t place) {
     const auto at = static_cast<int>(place);
     return {at & (kBlock - 1), at >> kBlockBits & (kBlock - 1), at >> 2 * kBlockBits};
@@ -109,39 +112,39 @@ class MapLevel {
  private:
   using Evidence = std::array<BeamEvidence, kCells>;
   struct Block {
-    Cell at = Cell::Zero();  ///< its number
+    Cell at = Cell::Zero();  ///< index of the block, see block_of()
     int free = 0, occupied = 0;
-    std::unique_ptr<Evidence> evidence = {};  ///< none before a beam passes: a map that is only told of has none at all
+    std::unique_ptr<Evidence> evidence = {};  ///< nullptr until a beam passes or a cell is doubted
     std::array<Space, kCells> space = {};
     std::array<Teller, kCells> teller = {};
   };
-  /// Where a block is, or what all of it is.
+  /// Where a block is stored, or that all its cells are free.
   struct Slot {
-    std::uint32_t number = kNone;  ///< kNone, kAllFree or kFirst and more: in blocks_
-    Teller teller = kOwn;          ///< of kAllFree
+    std::uint32_t number = kNone;  ///< kNone, kAllFree, or kFirst + index in blocks_
+    Teller teller = kOwn;          ///< if kAllFree: of all cells
   };
   struct Walk;
   static constexpr std::uint32_t kNone = 0, kAllFree = 1, kFirst = 2;
 
   static Cell cell_at(const Block& block, std::size_t place) { return block.at * kBlock + in_block(place); }
-  /// Made if there is none. nullptr where all of it is free.
+  /// The block with this index; created if there is none. nullptr if all its cells are free.
   Block* block(const Cell& at);
-  /// Made even if all of it is free.
+  /// The same, but never nullptr: a block that was stored as all free gets its cells again.
   Block& opened_block(const Cell& at);
   Block& new_block(const Cell& at, Slot& slot);
-  /// Of this level, or of the coarser one about it.
+  /// State at this level, or, if unknown here, at the finest coarser level that knows it.
   Known known_at_all(const Cell& cell) const;
-  /// Of this level and of all coarser ones.
+  /// Evidence of this level and of all coarser ones.
   BeamEvidence all_evidence(const Cell& cell) const;
   void change(Block& block, std::size_t place, Space space, Teller teller);
   static bool doubted(const Block& block, std::size_t place) {
     return block.space[place] == Space::occupied && block.evidence && (*block.evidence)[place].may_remind();
   }
   void settle(Block& block, std::size_t place);
-  /// Made if there is none.
+  /// The block's evidence; created if there is none.
   Evidence& evidence_of(Block& block);
   void ask(Block& block, std::size_t place);
-  /// Whether it is free by now, or some of the finer cells in it.
+  /// Makes the cell free if its evidence proves it; else asks the same for the finer cells in it.
   /// @param beyond  evidence of all coarser levels.
   void ask(Block& block, std::size_t place, const BeamEvidence& beyond);
   void ask_within(const Cell& coarser_cell, const BeamEvidence& beyond);
@@ -152,7 +155,7 @@ class MapLevel {
   MapLevel* finer_ = nullptr;
   BlockTable<Slot> slots_;
   std::vector<Block> blocks_;
-  std::vector<std::uint32_t> spare_;  ///< in blocks_
+  std::vector<std::uint32_t> spare_;  ///< indices in blocks_ that are free for reuse
   std::vector<Cell> changes_, structure_changes_;
   std::size_t free_ = 0, occupied_ = 0, doubts_ = 0, evidences_ = 0;
   std::uint64_t windows_ = 0;

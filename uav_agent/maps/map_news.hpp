@@ -1,16 +1,17 @@
-// What UAVs tell each other of their WorldMaps by radio: what is free and what is occupied.
+// Map sharing: the messages by which UAVs tell each other by radio which cubes of their WorldMaps are free or occupied.
 //
-// All of the fleet keep one of these beside their map, explorers and photographers alike. A message is for everybody in
-// line of sight: what somebody lacks goes out once and reaches all. It has
-//   - news: chunks of the map as one tree in OctoMap's serialisation (map_subtrees.hpp), readable alone;
-//   - for each UAV that was heard of late which of its messages arrived: the last one and 32 before. What was lost is
-//     told again, as it is then (told_chunks.hpp);
-//   - the place that the sender is going to: news of the way there come soonest.
-// What others told is passed on, except to the UAV that told it and to those that hear that UAV themselves. A UAV that
-// was started anew shows it by another incarnation, on either side: it is told everything again.
-// What is told only adds to a listener's map, and occupied outweighs free. A cube that a teller vacates stays occupied
-// where it was told before, until the listener vacates it, too: that is the safe side. Only a cube that the listener
-// doubts (WorldMap::doubt()) becomes free by what its teller says.
+// Each UAV of the fleet, explorer or photographer, has a MapNews beside its map. A message is for all UAVs in line of
+// sight: a chunk that some of them lack is sent once to all. A message has
+//   - news: chunks of the map as one tree in OctoMap's serialisation (map_subtrees.hpp), readable without other
+//     messages;
+//   - a receipt for each UAV heard recently, which says which of that UAV's messages have arrived: the last one and the
+//     32 before it. The content of a lost message is sent again, in its state at that time (told_chunks.hpp);
+//   - the place that the sender flies to: the others send it news about the way there first.
+// A UAV passes on what others told it, except to the UAV that told it and to UAVs that hear that UAV themselves. A
+// restarted program has a new incarnation number. From it the others see that they must tell it everything again.
+// News only add to a listener's map, and occupied outweighs free. If a teller vacates a cube (WorldMap::vacate()), the
+// cube stays occupied at the listeners until they vacate it, too: that is the safe side. A teller's news make an
+// occupied cube free only if the listener doubts it (WorldMap::doubt()) and this teller had reported it occupied.
 // Frame W.   Units: SI, bytes.   Threads: one.   Deterministic: no clock but `now`.
 // Bounded: bytes_per_s in any second, and memory by the size of the map (told_chunks.hpp).
 #pragma once
@@ -30,38 +31,38 @@ namespace skein::agent {
 class MapNews {
  public:
   struct Config {
-    double bytes_per_s = 20'000.0;  ///< on each link, in any second, all that goes out counted
-    double period_s = 0.2;          ///< from one message to the next
-    double idle_period_s = 1.0;     ///< if there is nothing to tell and nothing to acknowledge
-    double heard_s = 3.0;           ///< messages of a UAV are acknowledged so long after the last one
+    double bytes_per_s = 20'000.0;  ///< limit of all that a link carries in any second
+    double period_s = 0.2;          ///< least time from one message to the next
+    double idle_period_s = 1.0;     ///< the same if there is neither news to tell nor a message to acknowledge
+    double heard_s = 3.0;           ///< a UAV gets receipts for this long after its last message
     ToldChunks::Config told = {};
   };
-  /// What a message takes on a link besides its payload's text: its encoding, its length, the planner's name and what
-  /// else send_payload() adds.
+  /// Bytes that a message takes on a link besides its payload's text: CDR header, length, the planner's name and all
+  /// else that send_payload() adds.
   static constexpr std::size_t kEnvelopeBytes = 40;
 
   MapNews(UavIndex self, std::size_t fleet) : MapNews(self, fleet, Config()) {}
   /// @throws std::invalid_argument for more than kMostUavs.
   MapNews(UavIndex self, std::size_t fleet, const Config& config);
 
-  /// Appends a message, if one is due and somebody is in line of sight. Called at each exchange. In the first second it
-  /// says nothing: one that was started anew does not know what it sent before.
-  /// @param map  the same at each call.   @param going_to_W  where this UAV is about to fly.
+  /// Appends a message, if one is due and a UAV is in line of sight. Call it at each exchange. It sends nothing in its
+  /// first second: a restarted program does not know how much its predecessor sent in that second.
+  /// @param map  the same at each call.   @param going_to_W  place that this UAV flies to, if known.
   /// @returns whether it appended one.
   bool write(const WorldMap& map, const Peers& peers, const std::optional<Vector3d>& going_to_W, Tick now,
              PayloadWriter& writer);
-  /// Takes in what write() wrote elsewhere: news into the map, with the sender as their teller.
-  /// @returns false, and takes nothing, when the message is damaged, of cubes of another size, or from nobody else of
-  /// the fleet.
+  /// Reads a message of another UAV's write(): enters its news into the map, with the sender as their teller.
+  /// @returns false, and changes nothing, if the message is damaged, has cubes of another size, or if the sender is
+  /// this UAV or not in the fleet.
   bool read(std::size_t sender, Tick now, WorldMap& map, PayloadReader& reader);
 
-  /// Of messages that went out while it was in line of sight, as the link carries them.
+  /// Bytes on the link to a UAV: of all messages that were sent while it was in line of sight.
   std::uint64_t bytes_to(std::size_t uav) const { return others_.at(uav).bytes; }
 
  private:
-  struct Receipt {  ///< what somebody says of the messages of a UAV
+  struct Receipt {  ///< which messages of `uav` have arrived at the sender of the receipt
     std::size_t uav = 0;
-    std::uint32_t incarnation = 0, latest = 0, before = 0;
+    std::uint32_t incarnation = 0, latest = 0, before = 0;  ///< before: a bit for each of the 32 before `latest`
   };
   struct Message {
     std::uint32_t incarnation = 0;  ///< of the sender; from 1 on
@@ -74,9 +75,9 @@ class MapNews {
     std::uint32_t incarnation = 0;  ///< 0: never heard
     std::uint32_t latest = 0, before = 0;
     Tick heard = 0;
-    bool restarted = false;  ///< it may not know what it told before
+    bool restarted = false;  ///< its present program may not know what its former one told
     std::optional<Vector3d> going_to_W = {};
-    Tellers hears = 0;  ///< of those that this UAV has heard, too
+    Tellers hears = 0;  ///< UAVs that it hears, and that this UAV has heard, too
     std::uint64_t bytes = 0;
   };
 
@@ -95,11 +96,11 @@ class MapNews {
   const Config config_;
   ToldChunks told_;
   std::vector<Other> others_;      ///< by UAV
-  std::uint32_t incarnation_ = 0;  ///< the tick at which it was started, from 1 on; 0: not yet
+  std::uint32_t incarnation_ = 0;  ///< tick of this program's first exchange, plus 1; 0: not begun
   std::uint32_t number_ = 0;       ///< of the last message with news
   bool owes_receipt_ = false;
   std::optional<Tick> written_;
-  std::deque<std::pair<Tick, std::size_t>> sent_;  ///< bytes of the last second
+  std::deque<std::pair<Tick, std::size_t>> sent_;  ///< tick and bytes of the messages in the last second
 };
 
 }  // namespace skein::agent

@@ -1,5 +1,5 @@
-// What this UAV knows of the space around it, from LiDAR key frames: occupied, free and unknown, kept by OctoMap in an
-// octree of hits and a coarser one of free space (known_space.hpp).
+// The map of key frames: occupied, free and unknown space by LiDAR key frames, in two OctoMap octrees, one of hits and
+// a coarser one of free space (known_space.hpp).
 // Frame W.   Units: metres.   Threads: one.   Deterministic: no answer depends on a hash order.
 #pragma once
 
@@ -29,28 +29,28 @@ struct HitCells {
 
 /// How many of a key frame's rays pass which coarse cells.
 struct PassedCells {
-  using Block = std::array<std::uint8_t, 64>;  ///< 4 x 4 x 4 cells; counts end at 20
-  std::vector<std::pair<std::uint64_t, Block>> blocks;
+  using Block = std::array<std::uint8_t, 64>;           ///< counts of 4 x 4 x 4 cells, 20 at most
+  std::vector<std::pair<std::uint64_t, Block>> blocks;  ///< key: RayBlocks::block_of()
 };
 
-/// A key frame as a map takes it in: all that inserting it takes time for.
+/// A key frame, traced: the costly part of its insertion into a map is done.
 struct FrameCells {
   HitCells hits;
   PassedCells passed;
 };
 
-/// So many rays must have passed a place before it is believed to be free where something may well be: in and beside
-/// boxes.
+/// Number of rays that must have passed a coarse cell before it counts as free in and near boxes, where structure is
+/// likely.
 inline constexpr int kProofRays = 12;
 
 class OccupancyMap {
  public:
   struct Config {
     double resolution_m = 0.5;       ///< edge of an occupied cell
-    double free_resolution_m = 2.0;  ///< free space is traced on a grid this coarse: 1, 2, 4, ... times the other
-    double ground_m = 0.3;           ///< hits below end a ray, but are no obstacle
-    double free_range_m = 30.0;      ///< and only this far from the sensor
-    int max_free_rays = 400;         ///< a key frame; evenly picked
+    double free_resolution_m = 2.0;  ///< edge of a free cell: 1, 2, 4, ... times resolution_m
+    double ground_m = 0.3;           ///< hits below this height end a ray, but are no obstacle
+    double free_range_m = 30.0;      ///< free space is traced only up to this distance from the sensor
+    int max_free_rays = 400;         ///< about so many rays of a key frame are traced, evenly picked
   };
 
   OccupancyMap();
@@ -60,23 +60,23 @@ class OccupancyMap {
   OccupancyMap& operator=(OccupancyMap&&) noexcept;
 
   /// Marks the hits as occupied, for good: thin members must not be carved away by later rays.
-  /// @param p_WS where the sensor stood, if known: free space up to the hits is marked, too.
+  /// @param p_WS position of the sensor. If it is known, the free space up to the hits is marked, too.
   void insert(const std::vector<Eigen::Vector3f>& hits_W, const std::optional<Vector3d>& p_WS);
-  /// The same in two parts: trace() asks for nothing that is in the map, and serves all maps of a Config.
+  /// The same in two parts. trace() does not depend on the map's contents: its result serves all maps with this Config.
   void insert(const FrameCells& frame);
   FrameCells trace(const std::vector<Eigen::Vector3f>& hits_W, const std::optional<Vector3d>& p_WS) const;
 
   const Config& config() const;
   bool empty() const;
   std::size_t occupied_cells() const;
-  /// Number of insert() calls that changed anything that is occupied.
+  /// Number of calls of insert() and hear() that made a cell occupied.
   std::uint64_t revision() const;
   /// Number of all insert() calls.
   std::uint64_t key_frames() const;
 
   /// True when the cell of p holds a hit.
   bool occupied(const Vector3d& p_W) const;
-  /// True when at least so many rays (20 at most) passed the coarse cell of p, and nothing was hit at p.
+  /// True when at least min(rays, 20) rays passed the coarse cell of p, and the cell of p holds no hit.
   bool known_free(const Vector3d& p_W, int rays = 3) const;
   /// True when the centre of an occupied cell lies within `radius` of p.
   bool any_occupied_within(const Vector3d& p_W, double radius) const;
@@ -91,14 +91,15 @@ class OccupancyMap {
   /// Calls `visit` with the centre of every occupied cell that is inside the box, in a fixed order.
   void visit_occupied(const OrientedBox& box, const std::function<void(const Vector3d&)>& visit) const;
 
-  /// All of it as one OcTree in OctoMap's binary serialisation: a leaf is occupied where occupied() is true, free where
-  /// known_free() is with so many rays. What octomap_msgs/msg/Octomap carries.
+  /// The map as one OcTree in OctoMap's binary serialisation, as octomap_msgs/msg/Octomap carries it. Leaves are
+  /// occupied where occupied() is true, free where known_free(p, rays) is true.
   std::string octomap_bytes(int rays = 3) const;
-  /// Takes in what the octomap_bytes() of another UAV's map say: its hits, and of places that were free to it as if so
-  /// many rays had passed here, too, unless more did. To hear the same twice changes nothing.
-  /// @returns false, and takes nothing, when these are no such bytes, or tell of more space than a UAV can know.
+  /// Merges the octomap_bytes() of another UAV's map: its hits become hits, and its free cells count as passed by
+  /// `rays` rays, or by more if more passed them here. Merging the same bytes again changes nothing.
+  /// @returns false, and changes nothing, if the bytes are damaged, or describe more space (10^6 cells) than a UAV can
+  /// know.
   bool hear(std::string_view bytes, int rays = 3);
-  /// The same with its head: a file of the kind .bt, for octovis and whatever else stands on OctoMap.
+  /// octomap_bytes() with OctoMap's header: the bytes of a .bt file, for octovis and other programs that use OctoMap.
   std::string octomap_file(int rays = 3) const;
 
  private:

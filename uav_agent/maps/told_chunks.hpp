@@ -1,10 +1,12 @@
-// Which chunks of a WorldMap the others have been told, and what they need next: the book that MapNews keeps.
+// The record by which MapNews chooses what to send: which chunks of this UAV's WorldMap each listener knows, and which
+// it needs next.
 //
-// A chunk is told whole, as it is at that moment. A listener knows what was in a message once it has acknowledged it;
-// what it has not acknowledged is told again, and so is what has changed since. What lies nearest to a listener, or to
-// its way, comes first, and where it knows nothing before where it knows something.
+// A chunk is always sent whole, in its state at that time. A listener counts as knowing a chunk once it has
+// acknowledged the message; a chunk that it has not acknowledged, or that has changed since, is sent again. Chunks
+// nearest to a listener or to its way come first; chunks of which it knows nothing come before chunks that it knows in
+// part.
 // Frame W.   Units: metres, ticks.   Threads: one.   Deterministic: no answer depends on an order in memory.
-// Bounded: some 100 bytes a chunk of the map, and the last kRemembered messages.
+// Bounded: some 100 bytes for each chunk of the map, and the last kRemembered messages.
 #pragma once
 
 #include <array>
@@ -19,7 +21,7 @@
 
 namespace skein::agent {
 
-/// A set of UAVs and this one itself, as a bit for each Teller.
+/// A set of tellers (kOwn and UAVs of the fleet), as one bit for each Teller.
 using Tellers = unsigned __int128;
 inline constexpr std::size_t kMostUavs = 127;
 constexpr Teller teller_of(std::size_t uav) { return static_cast<Teller>(uav + 1); }
@@ -29,65 +31,65 @@ class ToldChunks {
  public:
   struct Config {
     double repeat_after_s = 1.0;   ///< a message that is not acknowledged by then counts as lost
-    double settle_s = 1.0;         ///< a chunk that changes all the time is told so often
-    double known_handicap_m = 12;  ///< news of chunks that a listener knows in part come as if so much farther away
+    double settle_s = 1.0;         ///< least time between two messages with a chunk that keeps changing
+    double known_handicap_m = 12;  ///< added to the distance of a chunk that the listener knows in part
   };
-  static constexpr std::size_t kRemembered = 64;
+  static constexpr std::size_t kRemembered = 64;  ///< messages whose content is remembered
 
-  struct Listener {
+  struct Listener {  ///< a UAV in line of sight
     std::size_t uav = 0;
     Vector3d p_W = Vector3d::Zero();
-    Vector3d going_to_W = Vector3d::Zero();  ///< p_W if it does not say
-    /// What these told of is no news to it: they have it from itself, or it hears them as well as this UAV does.
+    Vector3d going_to_W = Vector3d::Zero();  ///< place that it flies to; p_W if unknown
+    /// Tellers whose news it has already: itself, and the UAVs that both it and this UAV hear.
     Tellers informed = 0;
   };
   struct News {
-    std::uint32_t chunk = 0;  ///< in this book
-    std::uint64_t revision = 0;
+    std::uint32_t chunk = 0;     ///< index in chunks_
+    std::uint64_t revision = 0;  ///< WorldMap::changed_at() of the content
     Subtree subtree;
   };
 
   ToldChunks(std::size_t fleet, const Config& config);
 
-  /// Calls `take` with chunks that some of the listeners do not know, what is needed soonest first, until it returns
-  /// false or there are no more.
+  /// Calls `take` with each chunk that is due for at least one listener, the most urgent first, until it returns false.
   /// @param map  the same at each call.
   void visit_due(const WorldMap& map, std::span<const Listener> listeners, Tick now,
                  const std::function<bool(News&&)>& take);
-  /// These have gone out to the listeners.   @param number  of the message: one more than that of the message before.
+  /// Call it after a message with these chunks was sent to all listeners.
+  /// @param number  of the message.   @throws std::logic_error unless it is one more than that of the last message.
   void sent(std::uint32_t number, std::span<const News> news, std::span<const Listener> listeners, Tick now);
-  /// @param latest  number of the last message that a listener has got.
-  /// @param before  whether it has got the one before that, the one before that one, ..., from the lowest bit on.
+  /// Enters a receipt of a listener.   @param latest  number of the last message that it has received.
+  /// @param before  bit i tells whether it has received message latest - 1 - i.
   void acknowledge(std::size_t uav, std::uint32_t latest, std::uint32_t before);
-  /// Takes what somebody told into the map, and notes that whatever is new now is known by that teller.
+  /// Enters a teller's cubes into the map, and notes that the teller knows all that is new in the map by them.
   void hear(WorldMap& map, std::span<const HeardCube> cubes, Teller teller);
-  /// It has lost all that it was told.
+  /// Call it when a UAV's program was restarted: it has lost all that it was told.
   void forget(std::size_t uav);
 
  private:
   struct Chunk {
     Eigen::Vector3i at = Eigen::Vector3i::Zero();
     std::uint64_t revision = 0;       ///< WorldMap::changed_at()
-    std::uint64_t sent_revision = 0;  ///< in its last message
-    std::uint64_t read_revision = 0;  ///< of `tellers`
-    Tellers tellers = 0;              ///< by whom its cubes are known
-    std::uint32_t sent_in = 0;        ///< number of its last message; 0: none
+    std::uint64_t sent_revision = 0;  ///< revision in the last message that had it
+    std::uint64_t read_revision = 0;  ///< revision of which `tellers` is
+    Tellers tellers = 0;              ///< tellers of its known cubes
+    std::uint32_t sent_in = 0;        ///< number of the last message that had it; 0: none
   };
   struct Region {
     Eigen::Vector3i at = Eigen::Vector3i::Zero();
     std::uint64_t revision = 0;
-    std::array<std::int32_t, WorldMap::kRegionChunks> chunks;  ///< in chunks_; -1: nothing is known
-    std::vector<std::uint64_t> settled;                        ///< by listener: at this revision it knew all of it
+    std::array<std::int32_t, WorldMap::kRegionChunks> chunks;  ///< index in chunks_; -1: nothing is known
+    std::vector<std::uint64_t> settled;                        ///< by UAV: the last revision of which it lacks nothing
   };
   struct Message {
     Tick tick = 0;
     Tellers to = 0, acknowledged = 0;
-    std::vector<std::pair<std::uint32_t, std::uint64_t>> chunks;  ///< and their revisions
+    std::vector<std::pair<std::uint32_t, std::uint64_t>> chunks;  ///< index in chunks_, and revision
   };
   struct Account {
-    std::vector<std::uint64_t> told;  ///< by chunk: the revision that it knows
+    std::vector<std::uint64_t> told;  ///< by chunk: the last revision that it has acknowledged
     std::uint32_t latest = 0;         ///< the last message that it acknowledges
-    Tellers informed = 0;
+    Tellers informed = 0;             ///< see Listener
   };
   struct Candidate {
     double key_m = 0.0;
@@ -96,26 +98,27 @@ class ToldChunks {
   };
 
   void take_regions(const WorldMap& map);
-  /// @param by  all that has changed was told by this one; else it is to be read.
+  /// Takes over the region's new revisions. @param by  the teller of all that has changed; nullopt: not known.
   void take_changes(const WorldMap& map, Region& region, std::optional<Teller> by);
   void note_informed(const Listener& listener);
   Message* message(std::uint32_t number);
-  /// Whether a listener lacks news of a chunk; and whether they are to be told it now.
+  /// lacks(): whether a listener lacks news of a chunk; due(): whether they are to be sent in the next message.
   bool lacks(const Listener& listener, std::uint32_t chunk) const;
   bool due(const Listener& listener, std::uint32_t chunk, Tick now);
+  /// Urgency of a place for a listener; the smallest key comes first.
   double key_m(const Listener& listener, const Vector3d& p_W) const;
-  /// The least that one of its chunks can have; nullopt when all listeners know all of it.
+  /// Lower bound on the keys of the region's chunks; nullopt if no listener lacks any of them.
   std::optional<double> key_m(const Region& region, std::span<const Listener> listeners, double chunk_m) const;
   void open(Region& region, std::span<const Listener> listeners, Tick now, double chunk_m,
             std::vector<Candidate>& candidates);
   std::optional<News> read(const WorldMap& map, std::uint32_t chunk, std::span<const Listener> listeners, Tick now);
 
   const Config config_;
-  std::vector<Region> regions_;          ///< as WorldMap::regions()
-  BlockTable<std::uint32_t> region_of_;  ///< in regions_, from 1 on
+  std::vector<Region> regions_;          ///< in the order of WorldMap::regions()
+  BlockTable<std::uint32_t> region_of_;  ///< index in regions_, plus 1
   std::vector<Chunk> chunks_;
   std::vector<Account> accounts_;  ///< by UAV
-  std::deque<Message> messages_;   ///< the last ones
+  std::deque<Message> messages_;   ///< the last kRemembered
   std::uint32_t last_number_ = 0;
 };
 

@@ -1,4 +1,4 @@
-// Keeps a WorldMap from the scans of a LiDAR.
+// Builds a WorldMap from the scans of this UAV's LiDAR.
 // Frames: W world, B body.   Units: metres.   Threads: one.   Deterministic.
 #pragma once
 
@@ -11,18 +11,20 @@ class WorldMapper {
  public:
   struct Config {
     WorldMap::Config map = {};
-    /// Each so many scans one is taken in. All are affordable, and what they prove goes with their number.
+    /// Uses one scan in `every`. The default uses all: the CPU time allows it, and more scans prove more space free.
     int every = 1;
-    double bundle_rad = ScanBundler::kBundleRad;
-    /// Where it was put down, so much about its LiDAR is clear: more than the LiDAR is blind (decision 25).
+    double bundle_rad = ScanBundler::kBundleRad;  ///< see ScanBundler
+    /// Radius of the ball around the LiDAR that counts as free at the start: greater than the range in which the LiDAR
+    /// is blind, so that the first beams can prove more (decision 25).
     double start_clear_m = 1.2;
   };
 
-  /// @param lidar   tells how many returns are lost, which the map's criterion accounts for.
+  /// @param lidar   its share of lost returns enters the map's criterion as no_return_p.
   /// @param config  its `map.criterion.no_return_p` is not read.
   WorldMapper(const LidarConfig& lidar, const Config& config);
 
-  /// All scans of the LiDAR in their order: those that are not taken in are counted. The first tells of the start.
+  /// Enters a scan. Call it with all scans of the LiDAR, in order. It ignores scans in doubt (ScanDoubt), and those
+  /// whose tick is no multiple of `every` scan periods. The first one used marks the ball at the start as free.
   void insert(const BeamScan& scan);
 
   const WorldMap& map() const { return map_; }

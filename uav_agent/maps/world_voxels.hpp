@@ -1,9 +1,9 @@
-// From the map of all beams (world_map.hpp) to a coarser voxel grid, for strategies that plan in cubes of their own: a
-// cube that holds something occupied is occupied, one with free space all about its middle is free. Beside it, where in
-// each cube the surface is.
-// What may have been a UAV (WorldMap::doubt()) counts for nothing: the grid forgets nothing.
+// Transfers the world map (world_map.hpp) to a coarser voxel grid, for strategies that plan in larger cubes. A cube of
+// the grid is occupied if it holds an occupied cube of the map; it is free if all space around its centre is free. This
+// class also keeps the mean position of the surface in each cube.
+// Doubted cubes of the map (WorldMap::doubt()) do not count as occupied, because the grid could not take them back.
 // Frame W.   Units: metres.   Threads: one.   Deterministic.
-// Effort: chunks of the map that changed since the last update, and a counted number of unknown cubes.
+// Effort: chunks of the map that changed since the last update, and at most max_looks unknown cubes.
 #pragma once
 
 #include <bitset>
@@ -18,8 +18,8 @@ namespace skein::agent {
 class WorldVoxels {
  public:
   struct Config {
-    double around_m = 1.0;         ///< about the middle of a cube that is free, all must be free
-    std::size_t max_looks = 8000;  ///< unknown cubes looked at in one update; they take turns
+    double around_m = 1.0;         ///< radius around a cube's centre that must be free for the cube to be free
+    std::size_t max_looks = 8000;  ///< most unknown cubes examined in one update; they take turns
   };
 
   WorldVoxels() : WorldVoxels(Config()) {}
@@ -28,14 +28,15 @@ class WorldVoxels {
   /// @param map, grid  the same at each call.
   void update(const WorldMap& map, VoxelGrid& grid);
 
-  /// The mean of what is occupied in a cube; nullopt if this UAV knows of nothing (others may have told of it).
+  /// Mean position of the map's occupied cubes in a cube of the grid; nullopt if there are none. The grid may still
+  /// call it occupied, by another UAV's message.
   std::optional<Vector3d> surface_W(VoxelGrid::Id id) const;
-  /// Occupied cubes of the map in a cube of the grid.
+  /// Number of the map's occupied cubes in a cube of the grid.
   int hits(VoxelGrid::Id id) const { return id < hits_.size() ? hits_[id].count : 0; }
 
  private:
   void find_occupied(const WorldMap& map, VoxelGrid& grid);
-  /// Something of the chunk has changed: the cubes of the grid about it are to be looked at again.
+  /// Called for a changed chunk: marks the cubes of the grid in and around it for another look.
   void note(const WorldMap& map, const WorldMap::Cube& chunk, const VoxelGrid& grid);
   void count(const WorldMap& map, const WorldMap::Cube& chunk, std::uint64_t changed_at, VoxelGrid& grid);
   void find_free(const WorldMap& map, VoxelGrid& grid);
@@ -44,7 +45,7 @@ class WorldVoxels {
     Vector3d sum_W = Vector3d::Zero();
     int count = 0;
   };
-  /// Of a chunk of the map: when it was looked at last, and which of its cubes are counted.
+  /// State of a chunk of the map: its revisions at the last look, and which of its cubes are counted in hits_.
   struct Counted {
     std::uint64_t changed_at = 0, structure_changed_at = 0;
     bool any_in_doubt = false;
@@ -52,11 +53,11 @@ class WorldVoxels {
   };
 
   const Config config_;
-  std::vector<Hits> hits_;  ///< by cube
+  std::vector<Hits> hits_;  ///< by cube of the grid
   BlockTable<Counted> chunks_;
-  BlockTable<std::uint64_t> regions_;  ///< when they were looked at last
+  BlockTable<std::uint64_t> regions_;  ///< by region of the map: region_changed_at() at the last look
   VoxelGrid::Id next_look_ = 0;
-  /// By cube: 0 if nothing about it has changed since it was found not to be free.
+  /// By cube of the grid: 0 if nothing around it has changed since it was found not to be free.
   std::vector<std::uint8_t> look_again_;
 };
 

@@ -25,77 +25,81 @@ namespace skein::agent {
 struct AgentInput {
   std::uint64_t k = 0;
   Tick tick = 0;
-  RigidBodyState state;                 ///< odometry, twist already turned into W
-  std::optional<Tick> state_tick = {};  ///< when that was so; nullopt: at this tick
+  RigidBodyState state;                 ///< odometry, twist already in W
+  std::optional<Tick> state_tick = {};  ///< tick of the odometry; nullopt: this tick
   PoseUncertainty uncertainty;          ///< of the odometry
   std::optional<BatteryStatus> battery;
   std::optional<Vector3d> wind_W;  ///< estimated velocity of the air
   GimbalState gimbal;
   std::optional<double> mission_remaining_s;  ///< nullopt before the first take-off
-  std::vector<OrientedBox> boxes;             ///< when they arrived at this step; else empty
-  std::vector<Neighbour> neighbours;          ///< in line of sight now
+  std::vector<OrientedBox> boxes;             ///< if they arrived in this step; else empty
+  std::vector<Neighbour> neighbours;          ///< odometry of the nodes in line of sight now
   std::vector<KeyFrame> key_frames;           ///< in order: own first, then neighbours'
   std::vector<Scan> scans;                    ///< own; only if wants_scans() or wants_beams()
-  std::vector<LidarServo> servos;             ///< own, in their order; only if wants_beams()
+  std::vector<LidarServo> servos;             ///< own, in order of time; only if wants_beams()
   std::vector<DetectedPoint> detected;
   std::vector<HandedOut> capture_reports;   ///< from the camera; it may repeat unacknowledged ones
   std::vector<std::uint64_t> capture_acks;  ///< capture numbers that the station has journalled
-  std::vector<RadioMessage> radio;          ///< of other UAVs: of their planners, and what they tell of their maps
-  std::optional<HandCommand> hand;          ///< news of who flies it by hand; the last of a step
+  std::vector<RadioMessage> radio;          ///< from other UAVs: messages of their planners and of map sharing
+  std::optional<HandCommand> hand;          ///< command of the person who flies it by hand; the last of a step
 };
 
 struct AgentOutput {
-  /// nullopt before the first motion, and where a planner that commands by itself says nothing (motion.hpp).
+  /// nullopt before the first motion, and in exchanges in which a planner that sends its own TrajectoryCommands sends
+  /// none (motion.hpp).
   std::optional<TrajectoryCommand> trajectory;
   std::optional<GimbalCommand> gimbal;
   bool trigger = false;
   std::vector<RadioMessage> radio;
-  std::vector<std::uint64_t> captures;  ///< whose reports to send to the station now
-  std::vector<DebugValue> debug;        ///< of the planner
-  std::optional<Activity> activity;     ///< what it does, when that is news; without its CPU time
+  std::vector<std::uint64_t> captures;  ///< captures whose reports are to be sent to the station now
+  std::vector<DebugValue> debug;        ///< values that the planner publishes
+  std::optional<Activity> activity;     ///< what the UAV does, if a message is due; without cpu_s
 };
 
 class Agent {
  public:
-  /// @param planner decides; see make_planner().
-  /// @param frames  shared by the agents of this process; nullptr: this one works them out for itself.
-  /// @throws std::invalid_argument when the planner wants the world map in a fleet of more than kMostUavs.
+  /// @param planner see make_planner().
+  /// @param frames  cache of prepared key frames, shared by the agents of this process; nullptr: none.
+  /// @throws std::invalid_argument if the planner uses the world map in a fleet of more than kMostUavs.
   Agent(const AgentConfig& config, std::unique_ptr<Planner> planner, std::shared_ptr<ReadyFrames> frames = nullptr);
   ~Agent();
   Agent(Agent&&) noexcept;
   Agent& operator=(Agent&&) noexcept;
 
-  /// Whether the planner looks at scans: nobody needs to compute them or send them otherwise.
+  /// Whether the planner uses LiDAR scans; if not, the server need not compute or send them.
   bool wants_scans() const;
-  /// Whether it looks at their beams, or at the map of them, for which scans and the servo's angles are needed.
+  /// Whether the agent needs scans and the servo's angles to reconstruct all beams: for the planner or for the world
+  /// map.
   bool wants_beams() const;
-  /// Names of what the planner tells of itself.
+  /// Names of the values that the planner publishes.
   std::vector<std::string> debug_names() const;
   /// One exchange. Inputs must come in order of k.
   AgentOutput step(const AgentInput& input);
-  /// What its planner is to a program outside that tells it what to do; nullptr: its planner decides by itself.
+  /// The planner, if an external program steps it (api/learner.hpp); nullptr: the planner decides by itself.
   Learner* learner();
-  /// The first half of step(), in which all is taken in; then the learner looks. step() with the same input, which must
-  /// be there until then, does the rest.
+  /// The first half of step(): updates map and peers, and lets the learner look. Only if learner() is not nullptr. The
+  /// next call must be step() with the same input, which does the rest; the input must live until then.
   void look(const AgentInput& input);
-  /// Scans whose beams were asked for, by what was wrong with them.
+  /// Number of scans whose beams were reconstructed (ScanDoubt::none), or could not be, by reason.
   std::uint64_t beam_scans(ScanDoubt doubt) const;
-  /// Whether that capture's report may yet have to be sent.
+  /// Whether this capture's report must be kept, because the station has not acknowledged it.
   bool holds_capture(std::uint64_t capture) const;
-  /// Captures whose reports the station has not acknowledged.
+  /// Number of captures whose reports the station has not acknowledged.
   std::size_t undelivered() const;
   /// How often the safety filter has intervened; nullptr: no flight core flies the planner.
   const SafetyFilter::Counts* filter_counts() const;
+  /// The map of key frames.
   const OccupancyMap& map() const;
-  /// That of all beams, on which its planner flies; nullptr: its planner uses none.
+  /// The world map of all beams; nullptr: neither the planner nor a flight core uses one.
   const WorldMap* world_map() const;
-  /// Why its planner found no ways (PlannerOutput::no_way), and how often.
+  /// Reasons why no path was found (PlannerOutput::no_way), and in how many exchanges.
   const std::map<std::string, std::uint64_t>& no_ways() const;
-  /// The reason in the last exchange; empty: there was none.
+  /// The reason in the last exchange; empty: no path was missed.
   const std::string& no_way() const;
-  /// How long its planner has waited for other UAVs (PlannerOutput::waits_for) [s].
+  /// How long this UAV has waited for other UAVs (PlannerOutput::waits_for) [s].
   double waited_s() const;
-  /// When it did, and for whom, as index in the fleet; breaks of half a second or less are none.
+  /// Begin and end of each wait, and the index in the fleet of the UAV waited for. Waits for the same UAV with a break
+  /// of at most 0.5 s between them are one.
   const std::vector<WaitSpan>& waits() const;
 
  private:

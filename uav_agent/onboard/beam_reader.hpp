@@ -1,10 +1,11 @@
-// Rebuilds all beams of a scan from what a UAV hears of its LiDAR: the points that returned, the angle of the servo,
-// and its own odometry. What did not return is no point in the cloud, so each point is given to the beam in whose
-// direction it lies, and what is left over returned nothing.
+// Reconstructs all beams of a LiDAR scan from the point cloud, the servo's angles and the UAV's odometry. The cloud has
+// no points for beams without a return, so the reader assigns each point to the beam in whose direction it lies; beams
+// that get no point returned nothing.
 //
-// A cloud is in the order of the beams and all its points lie on their lines, so one that does not shows that the
-// odometry or the angle was wrong: then nothing is known of the whole scan. Points are placed from the pose at the end
-// of the scan, so this holds with motion distortion, too; there each column gets the pose that it was fired from.
+// The points of a cloud are in the order of the beams, and each lies on the line of its beam. If one does not, the
+// odometry or the angle was wrong, and the whole scan is rejected (ScanDoubt::misfit). The simulator computes the
+// points of a scan in W from the pose at its end, so this holds with motion distortion, too; each column's Firing then
+// has the pose from which it was fired.
 // Frames: W world, B body, L LiDAR.   Units: SI, radians.   Pure; threads: one.
 #pragma once
 
@@ -26,15 +27,17 @@ class BeamReader {
  public:
   explicit BeamReader(const LidarConfig& config);
 
-  /// The odometry of an exchange, and the servo at a scan: both up to the scan that is read next, in their order.
+  /// Enters the odometry of an exchange, or the servo's angle at a scan. Before read(), enter all of them up to at
+  /// least the tick of the scan, in order of time.
   void hear(Tick tick, const RigidBodyState& state) { track_.add(tick, state); }
   void hear(const LidarServo& servo);
 
-  /// @param others  bodies of the other UAVs, as far as this one knows of them. What a beam met there is no structure,
-  ///                and one that met nothing there may have missed structure that the body hid.
+  /// Reconstructs the beams of a scan.
+  /// @param others  bodies of other UAVs, as far as known. A beam that ended in a body hit no structure
+  ///                (BeamState::uav); a beam without return that passes a body says nothing (BeamState::unknown).
   BeamScan read(const Scan& scan, std::span<const KnownBody> others);
 
-  /// Scans read so far, by what was wrong with them.
+  /// Number of scans read so far, by doubt.
   std::uint64_t scans(ScanDoubt doubt) const { return scans_[static_cast<std::size_t>(doubt)]; }
 
  private:
@@ -53,8 +56,8 @@ class BeamReader {
 
   LidarConfig config_;
   Tick period_;
-  double column_step_, ring_step_;  ///< between neighbouring beams; no ring_step_: all in one plane
-  double most_off_;                 ///< a point that is farther from its beam's line belongs to none
+  double column_step_, ring_step_;  ///< angle between neighbouring beams; ring_step_ 0: one ring
+  double most_off_;                 ///< greatest angle between a point's direction and its beam [rad]
   std::vector<Vector3d> directions_L_;
   BodyTrack track_;
   std::deque<LidarServo> servos_;

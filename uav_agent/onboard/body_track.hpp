@@ -1,4 +1,4 @@
-// Where the body was between two exchanges, from the odometry of the exchanges.
+// Interpolates the pose of the body between the odometry messages of two exchanges.
 // Frames: W world, B body.   Units: SI, radians.   Pure; threads: one.
 #pragma once
 
@@ -13,19 +13,21 @@ class BodyTrack {
  public:
   struct Pose {
     Isometry3d X_WB = Isometry3d::Identity();
-    double error_m = 0.0, error_rad = 0.0;  ///< bounds of what interpolation adds; 0 at the tick of an odometry
+    double error_m = 0.0, error_rad = 0.0;  ///< bounds of the interpolation error; 0 at the tick of a message
   };
 
-  /// @param memory  how old a pose may be asked for; @param longest_gap  between two odometries, to interpolate.
+  /// @param memory  greatest age of a pose that at() can return.
+  /// @param longest_gap  greatest time between two messages over which at() interpolates.
   BodyTrack(Tick memory, Tick longest_gap) : memory_(memory), longest_gap_(longest_gap) {}
 
-  /// One that is not younger than the last begins a new track.
+  /// Adds an odometry message. If it is not newer than the last one, the track begins anew with it.
   void add(Tick tick, const RigidBodyState& state);
 
-  /// Between two odometries: cubic in time, with the velocities at both ends; the same for the rotation vector from the
-  /// first attitude. Such a curve is off by h^2 / 32 times as much as its second derivative is off: within h = 0.05 s,
-  /// and with accelerations up to kMost..., by 3.2 mm and 6.3 mrad at most. Flights stay far below.
-  /// @returns nullopt outside of what it has, and in a gap.
+  /// Pose at a tick. Between two messages, the position is a cubic Hermite curve through the positions and velocities
+  /// at both; so is the rotation vector relative to the first attitude. The error is at most h^2 / 32 times the error
+  /// of the curve's second derivative: for h = 0.05 s and accelerations up to the limits below, 3.2 mm and 6.3 mrad.
+  /// Errors in flight are far smaller.
+  /// @returns nullopt outside the messages' times, and in gaps longer than longest_gap.
   std::optional<Pose> at(Tick tick) const;
 
   static constexpr double kMostAcceleration = 20.0;         ///< of the body [m/s^2]

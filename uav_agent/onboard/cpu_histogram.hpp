@@ -1,5 +1,5 @@
-// Histogram of the CPU time per exchange: a mean would hide one slow exchange in a hundred, too slow in the field.
-// Memory is bounded, however long the run. For reports only: no decision uses it. Not thread-safe.
+// Histogram of the CPU time per exchange. A mean would hide that one exchange in a hundred is too slow for a real UAV.
+// Memory is bounded for runs of any length. For reports only: no decision uses it. Not thread-safe.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@ namespace skein::agent {
 
 class CpuHistogram {
  public:
-  /// Period of the reference's exchanges [s]: a planner that takes longer would not keep up in the field.
+  /// Period of the reference's exchanges [s]: a planner that takes longer would not keep up on a real UAV.
   static constexpr double kFieldExchangeS = 0.05;
 
   /// @param cpu_s  CPU time of one exchange; a negative value counts as zero.
@@ -21,12 +21,13 @@ class CpuHistogram {
   std::uint64_t count() const { return count_; }
   /// Number of exchanges that took more than kFieldExchangeS.
   std::uint64_t over_field_exchange() const { return over_; }
-  /// Quantile [s]: the time that a share of all exchanges did not exceed; never too low, at most 5 % (or 1 us) too
-  /// high. 0 without exchanges. @param share  in (0, 1].
+  /// Quantile [s]: the time that a share of all exchanges did not exceed. The result is never too low, and at most 5 %
+  /// (or 1 us) too high. 0 if there were no exchanges. @param share  in (0, 1].
   double quantile_s(double share) const;
 
  private:
-  /// The end of each bucket is 2^(1/16) times that of the one before; the first ends at 1 us, the last has no end.
+  /// Upper limits of buckets: 1 us for the first, 2^(1/16) times the one before for each further one, none for the
+  /// last.
   static constexpr std::size_t kBuckets = 512, kBucketsAnOctave = 16;
   static constexpr double kFirstEndS = 1e-6;
   static double end_s(std::size_t bucket);

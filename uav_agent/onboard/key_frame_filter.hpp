@@ -1,5 +1,5 @@
-// Cleans a LiDAR key frame before it enters the map: other UAVs' bodies, lone and absurd points are taken out,
-// and what remains is thinned to one point a voxel. Frame W.   Units: metres.   Pure: same cloud, same result.
+// Cleans a LiDAR key frame before it enters the map: removes points on UAVs' bodies, isolated points and impossible
+// points, and thins the rest to one point per voxel. Frame W.   Units: metres.   Pure: same cloud, same result.
 #pragma once
 
 #include <vector>
@@ -11,14 +11,14 @@ namespace skein::agent {
 /// A UAV whose body the LiDAR may have hit.
 struct KnownBody {
   Vector3d p_W = Vector3d::Zero();
-  double radius_m = 0.0;  ///< points closer than this are its own
+  double radius_m = 0.0;  ///< points within this distance of p_W lie on the body
 };
 
-/// From west to east: a point is held against the few that may hold it, however large the fleet.
+/// Bodies sorted by x: a point is compared only with the few bodies near it, however large the fleet.
 class KnownBodies {
  public:
   explicit KnownBodies(const std::vector<KnownBody>& bodies);
-  /// Whether the point is of one of them.
+  /// Whether the point lies on one of the bodies.
   bool hold(const Vector3d& p_W) const;
 
  private:
@@ -33,23 +33,23 @@ class KeyFrameFilter {
   struct Config {
     double lowest_m = -1.0;  ///< points outside these heights are dropped
     double highest_m = 500.0;
-    double voxel_m = 0.25;        ///< finer than the map's cells, or hits would wander between them
-    double lone_radius_m = 2.0;   ///< a point with no other point this near is dropped...
-    int lone_min_neighbours = 1;  ///< ...0 keeps all; thin members must survive, so this stays low
+    double voxel_m = 0.25;        ///< finer than the map's cells, or averaging would move hits into neighbouring cells
+    double lone_radius_m = 2.0;   ///< a point with fewer than lone_min_neighbours others within this is dropped
+    int lone_min_neighbours = 1;  ///< 0 keeps all points; low, since points on thin members must survive
   };
 
   KeyFrameFilter() : KeyFrameFilter(Config()) {}
   explicit KeyFrameFilter(const Config& config) : config_(config) {}
 
-  /// @param bodies own body and those of UAVs in line of sight.
+  /// @param bodies own body and those of other UAVs, as far as known.
   std::vector<Eigen::Vector3f> operator()(const std::vector<Eigen::Vector3f>& points_W,
                                           const std::vector<KnownBody>& bodies) const {
     return thinned(sound(points_W, KnownBodies(bodies)));
   }
 
-  /// First part: without bodies and what is absurd.
+  /// First part: removes points on bodies, points that are not finite, and points outside of plausible limits.
   std::vector<Eigen::Vector3f> sound(const std::vector<Eigen::Vector3f>& points_W, const KnownBodies& bodies) const;
-  /// Second part, which takes most of the time: thinned, without lone points.
+  /// Second part, which takes most of the time: thins the points, then removes isolated ones.
   std::vector<Eigen::Vector3f> thinned(const std::vector<Eigen::Vector3f>& sound_W) const;
 
  private:

@@ -24,12 +24,12 @@ class MapRadio {
   explicit MapRadio(const AgentConfig& config)
       : fleet_(config.fleet.size()), self_(config.self), news_(self_, fleet_) {}
 
-  static bool is_of_maps(const RadioMessage& message);  ///< whether its envelope is one of kMapMessages
+  static bool is_of_maps(const RadioMessage& message);  ///< whether the message is of map sharing
 
   /// Enters the received map messages into the map. Ignores messages of planners and damaged ones.
   void hear(std::span<const RadioMessage> received, Tick now, WorldMap& map);
   /// Makes this UAV's next map message. Call it at each exchange.
-  /// @param map  the same at each call.   @param going_to_W  where this UAV is about to fly, if that is known.
+  /// @param map  the same at each call.   @param going_to_W  place that this UAV flies to, if known.
   /// @returns a message to all in line of sight, if one is due.
   std::optional<RadioMessage> tell(const WorldMap& map, const Peers& peers, const std::optional<Vector3d>& going_to_W,
                                    Tick now);

@@ -1,7 +1,7 @@
-// Key frames, ready for a map. What it takes to get one ready depends on nothing but the frame, and most frames are
-// heard by many: the agents of one process do it once for all of them. Frame W.   Units: metres.
-// Pure to who asks: an answer is the same whether or not it was worked out before.   Threads: any. Who asks for what
-// another thread works out just now waits for it.
+// Cache of key frames that are prepared for a map: thinned, and traced into cells. The result depends only on the
+// frame, and many UAVs receive the same frame, so the agents of one process compute it once. Frame W.   Units: metres.
+// Results do not depend on the cache's contents.   Threads: any. A thread that asks for a frame that another thread is
+// just computing waits for it.
 #pragma once
 
 #include <cstddef>
@@ -17,13 +17,13 @@ namespace skein::agent {
 
 class ReadyFrames {
  public:
-  /// @param most  frames that are remembered; one without memory is for an agent that is alone.
+  /// @param most  number of frames that are remembered; 0: no cache, for a process with a single agent.
   explicit ReadyFrames(std::size_t most = 0);
 
   /// @param sound_W     see KeyFrameFilter::sound()
-  /// @param p_WS        where the sensor stood, if known
-  /// @param keep_lone   whether hits without any other near them are kept
-  /// @returns what is to be inserted into maps of the usual Config.
+  /// @param p_WS        position of the sensor, if known
+  /// @param keep_lone   whether isolated hits are kept
+  /// @returns the frame for OccupancyMap::insert(), for maps with the default Config.
   std::shared_ptr<const FrameCells> ready(std::vector<Eigen::Vector3f> sound_W, const std::optional<Vector3d>& p_WS,
                                           bool keep_lone);
 
@@ -43,18 +43,18 @@ class ReadyFrames {
   };
 
   FrameCells work_out(const Question& question) const;
-  /// The one that is remembered; a new one if there is none. Under the lock.
+  /// The remembered entry for this question, or a new one. The caller holds mutex_.
   std::shared_ptr<Known> known(Question&& question, std::size_t hash);
 
   const std::size_t most_;
   const KeyFrameFilter usual_;
   const KeyFrameFilter keeping_lone_;
-  const OccupancyMap rays_;                    ///< empty: it traces
-  std::mutex mutex_;                           ///< of all below
-  std::vector<std::shared_ptr<Known>> known_;  ///< the oldest is replaced
+  const OccupancyMap rays_;                    ///< stays empty; used for trace() only
+  std::mutex mutex_;                           ///< guards all members below
+  std::vector<std::shared_ptr<Known>> known_;  ///< at most most_; a new entry replaces the oldest
   std::vector<std::size_t> hashes_;            ///< of the questions in known_
   std::size_t oldest_ = 0;
-  std::size_t expected_ = 0;  ///< in known_: who comes after another asks for the same in the same order
+  std::size_t expected_ = 0;  ///< index in known_ to try first: agents ask for the same frames in the same order
 };
 
 }  // namespace skein::agent

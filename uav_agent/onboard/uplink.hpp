@@ -1,6 +1,6 @@
 // Delivery of captures: on-board custody from the camera to the station's acknowledgement.
-// Every report is kept until the station acknowledges it, and sent whenever there is a *direct* link to the
-// station: nobody relays. Units: bytes and exchanges.   Threads: one.
+// The uplink holds every report until the station acknowledges it, and sends it while there is a *direct* link to the
+// station: other UAVs do not relay reports. Units: bytes and exchanges.   Threads: one.
 #pragma once
 
 #include <cstddef>
@@ -12,31 +12,31 @@
 
 namespace skein::agent {
 
-/// A capture report that the camera handed out. The report itself stays with whoever feeds the uplink.
+/// A capture report that the camera handed out. The caller of the uplink keeps the report itself.
 struct HandedOut {
-  std::uint64_t capture = 0;  ///< 0, 1, ... for this UAV
-  std::size_t bytes = 0;      ///< of the report, serialised
+  std::uint64_t capture = 0;  ///< number of the capture: 0, 1, ... for this UAV
+  std::size_t bytes = 0;      ///< size of the serialised report
 };
 
 class Uplink {
  public:
   struct Config {
-    std::size_t max_bytes_per_step = 200'000;  ///< at least one report goes out, whatever its size
-    std::uint64_t resend_after_steps = kResendSteps;
+    std::size_t max_bytes_per_step = 200'000;         ///< the first report may exceed it
+    std::uint64_t resend_after_steps = kResendSteps;  ///< exchanges without acknowledgement, then it is sent again
   };
 
   Uplink() : Uplink(Config()) {}
   explicit Uplink(const Config& config) : config_(config) {}
 
-  /// Takes custody. A report that is held or was acknowledged before is ignored, so the camera may repeat itself.
+  /// Takes custody of reports. The camera may repeat reports: those that are held or acknowledged already are ignored.
   void take(const std::vector<HandedOut>& reports);
-  /// The station has them for good.
+  /// Call it when the station has stored these captures: custody ends.
   void acknowledge(const std::vector<std::uint64_t>& captures);
-  /// Captures whose reports are to be sent at exchange k: the oldest first, none without a link.
+  /// Captures whose reports are to be sent at exchange k, the oldest first; none without a link.
   std::vector<std::uint64_t> send(std::uint64_t k, bool station_linked);
 
   std::size_t undelivered() const { return held_.size(); }
-  /// Whether a capture's report may yet have to be sent.
+  /// Whether a capture's report is in custody: taken, and not acknowledged.
   bool holds(std::uint64_t capture) const { return held_.contains(capture); }
 
  private:

@@ -1,4 +1,4 @@
-// Where the gimbal must stand for the camera to look at a point, and how far off it is.
+// Gimbal angles that point the camera at a point, and the error of the present angles.
 // Frames: W world, B body, C camera; angles as in GimbalState (core/types.hpp).   Units: SI and radians.   Pure.
 #pragma once
 
@@ -9,14 +9,14 @@
 
 namespace skein::agent {
 
-/// Gimbal angles that put p_W into the middle of the image, as near as the gimbal's limits allow.
+/// Gimbal angles that put p_W into the middle of the image, clamped to the gimbal's limits.
 GimbalCommand aim_at(const Vector3d& p_W, const RigidBodyState& state, const VehicleConfig& vehicle);
 
-/// Yaw of a body that looks straight at a face.   @param out_W  the face's outward unit normal.
-/// @returns nullopt for one that faces up or down: any yaw will do.
+/// Yaw of a body that faces a face of a box.   @param out_W  the face's outward unit normal.
+/// @returns nullopt for a face that faces up or down (|z| >= 0.5): any yaw will do.
 std::optional<double> yaw_facing(const Vector3d& out_W);
 
-/// Angle between the camera's optical axis and its direction once it has been aimed at p_W.
+/// Angle between the camera's present optical axis and its axis at the angles of aim_at() [rad].
 double aim_error(const Vector3d& p_W, const RigidBodyState& state, const GimbalState& gimbal,
                  const VehicleConfig& vehicle);
 

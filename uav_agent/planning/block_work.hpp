@@ -1,8 +1,8 @@
-// Work in boxes that say little: one box around a whole site, most of it empty. Such a box is cut into blocks. What
-// the map shows in a block gets a tight box of its own, whose faces are flown as strips; so the strips follow the
-// structure as far as it is known, and become more as the map grows. The blocks are dealt out by number: all UAVs
-// agree on whose a block is, however much their maps differ. Who is done with its own goes on with the others'.
-// Frame W.   Units: SI.   Threads: one.   Effort: a look at all occupied cells every few seconds, no more.
+// Strips for roomy boxes (flight/site.hpp): one box around a whole site, most of it empty. The box is cut into blocks.
+// The occupied cells of a block get a tight box, whose faces are flown as strips. So the strips follow the structure as
+// far as it is known, and their number rises as the map grows. Each block belongs to one UAV by its number: all UAVs
+// agree on the owners, however much their maps differ. A UAV prefers its own blocks, and then helps with the others.
+// Frame W.   Units: SI.   Threads: one.   Effort: one pass over all occupied cells at most every look_again_s.
 #pragma once
 
 #include <map>
@@ -16,42 +16,44 @@
 
 namespace skein::agent {
 
-/// Whose a block is; neighbours go to different UAVs, so that structure anywhere is shared.
-/// @param block  its place along the box's axes.
+/// Index in the fleet of a block's owner. With four UAVs or more, blocks with a common face have different owners, so
+/// that several UAVs share structure anywhere.
+/// @param block  index of the block along the box's axes.
 std::size_t block_owner(const Eigen::Vector3i& block, std::size_t uavs);
 
 class BlockWork {
  public:
   struct Config {
     StripConfig strips;
-    double block_m = 12.0;  ///< edges, about
-    double transit_mps = 4.5;
-    double look_again_s = 8.0;  ///< at the map
+    double block_m = 12.0;      ///< approximate edge of a block
+    double transit_mps = 4.5;   ///< speed between strips, for costs
+    double look_again_s = 8.0;  ///< least time between two looks at the map
   };
-  /// A strip: box, block, direction of its face, number on that face.
+  /// Identifies a strip: roomy box, block, direction of the face along the box's axes (0 to 5), number on that face.
   using Key = std::tuple<std::size_t, std::size_t, int, int>;
   struct Task {
     Key key;
     Strip strip;
     bool reversed = false;
-    int flown = 0;  ///< so often already, by this UAV
+    int flown = 0;  ///< how often this UAV has flown it
   };
 
-  /// @param boxes  of which the roomy ones (flight/site.hpp) are taken.   @param agent, reach  must outlive this.
+  /// @param boxes  only the roomy ones are used.   @param agent, reach  must outlive this.
   BlockWork(const Config& config, const AgentConfig& agent, const CameraReach& reach,
             const std::vector<OrientedBox>& boxes);
 
-  bool any() const { return !sites_.empty(); }
-  /// What to fly next: near by, own, not flown yet. nullopt: nothing on the map, or all of it tried in vain lately.
+  bool any() const { return !sites_.empty(); }  ///< whether there is a roomy box
+  /// The strip to fly next: of least cost by distance, others' ownership, and earlier flights and failures. nullopt:
+  /// the map shows no structure in the boxes, or all strips failed recently.
   std::optional<Task> next(Tick now, const Vector3d& p_WB, const OccupancyMap& map);
   void flown(const Task& task) { ++records_[task.key].flown; }
-  /// It could not be flown: something else first.
+  /// The task could not be flown: it is not offered again for 30 s, longer after each further failure.
   void failed(const Task& task, Tick now);
 
  private:
   struct Site {
     OrientedBox box;
-    Eigen::Vector3i count;  ///< of blocks along its axes
+    Eigen::Vector3i count;  ///< number of blocks along the box's axes
   };
   struct Job {
     Key key;
@@ -64,7 +66,7 @@ class BlockWork {
   };
 
   void look(const OccupancyMap& map);
-  /// @param extents_O  of all blocks' structure, along the site's axes.
+  /// Makes the strips of a block. @param box  tight box. @param extents_O  of each block's cells, in the site's frame.
   void cut(std::size_t site, std::size_t block, const OrientedBox& box,
            const std::vector<Eigen::AlignedBox3d>& extents_O);
 

@@ -1,5 +1,5 @@
-// One UAV's share of the strips: which to fly next, and how often each has been flown. What cannot be flown now, since
-// nobody has proved the space before it, comes again later.
+// One UAV's share of the strips: which to fly next, and how often each was flown. A strip that cannot be flown now,
+// because the space in front of it is not proved free yet, is offered again later.
 // Frame W.   Units: SI.   Threads: one.
 #pragma once
 
@@ -15,15 +15,16 @@ class OwnStrips {
   OwnStrips() = default;
   explicit OwnStrips(const WorkShare& share);
 
-  /// Of those that were flown least often, the one that begins nearest; nullopt: none can be tried now.
+  /// Of the strips that were flown least often, the one with the nearest end point; nullopt: all failed recently.
   std::optional<std::size_t> next(Tick now, const Vector3d& p_WB) const;
   const Strip& strip(std::size_t number) const { return records_[number].strip; }
+  /// How often the strip was flown.
   int looks(std::size_t number) const { return records_[number].flown; }
-  /// Whether its end is nearer than its beginning.
+  /// Whether the strip's end is nearer than its beginning, so that it should be flown in reverse.
   bool begins_at_end(std::size_t number, const Vector3d& p_WB) const;
 
   void flown(std::size_t number) { ++records_[number].flown; }
-  /// It could not be flown: something else first.
+  /// The strip could not be flown: it is not offered again for 15 s.
   void failed(std::size_t number, Tick now);
 
  private:

@@ -1,5 +1,5 @@
-// From a strip on a box's face to a line that can be flown: how far off the real surface, and how fast, from
-// what the map knows so far. Boxes are loose; the structure may begin many metres behind the face.
+// Converts a strip on a box's face into lines that a UAV can fly: positions and speeds by the distance to the real
+// surface, as far as the map knows it. Boxes are loose: the structure may begin many metres behind the face.
 // Frame W.   Units: SI.   Pure.
 #pragma once
 
@@ -13,27 +13,27 @@
 namespace skein::agent {
 
 struct StandoffConfig {
-  double ratio = 0.92;        ///< distance to the surface, in units of d*
-  double blind_ratio = 0.55;  ///< the same off the box's face, where the map knows no surface
-  double step_m = 1.5;        ///< along the strip
-  double speed_gain = 1.0;    ///< 1: as fast as no blur allows
+  double ratio = 0.92;        ///< distance to the surface, in units of d* (CameraReach::sharp_distance_m)
+  double blind_ratio = 0.55;  ///< distance to the box's face where the map knows no surface, in units of d*
+  double step_m = 1.5;        ///< between waypoints, along the strip
+  double speed_gain = 1.0;    ///< in units of the greatest speed without blur
   double min_speed_mps = 0.5, max_speed_mps = 4.0;
 };
 
 /// A stretch of a strip that can be flown in one go.
 struct Run {
   std::vector<Waypoint> waypoints;  ///< in the order of flight
-  double first_s = 0.0;             ///< where on the strip it begins [m]
+  double first_s = 0.0;             ///< its beginning: distance along the strip in the direction of flight [m]
 };
 
-/// Depth of the surface behind the face at a point of the strip, as the map knows it: the median over the
-/// strip's width.
-/// @returns nullopt where less than half of the width has been seen.
+/// Depth of the surface behind the face at a point of the strip, by the map [m]: the median over five rays across the
+/// strip's width; negative in front of the face.
+/// @returns nullopt if fewer than three of the rays hit a surface.
 std::optional<double> surface_depth(const Strip& strip, const Vector3d& on_face_W, const OccupancyMap& map);
 
-/// Lines along the strip, from `from_s` metres on in the direction of flight. Parts that cannot be reached are
-/// left out.
-/// @param p_W_now  where the UAV is, if it flies this strip already: the line then goes on from there.
+/// Lines along the strip, from `from_s` metres on in the direction of flight. Parts that cannot be flown are left out.
+/// @param reversed  whether the UAV flies from the strip's end to its beginning.
+/// @param p_W_now  the UAV's position, if it flies this strip already: the first line then continues from there.
 std::vector<Run> fit_strip(const Strip& strip, bool reversed, double from_s, const std::optional<Vector3d>& p_W_now,
                            const FreeSpace& space, const CameraReach& reach, const StandoffConfig& config);
 

@@ -12,13 +12,14 @@ namespace skein::agent {
 
 /// What the camera resolves, from its data sheet.
 struct CameraReach {
-  double sharp_distance_m = 7.36;  ///< a wall this far away, seen head-on, has just the desired resolution (d*)
-  double half_width_slope = 0.84;  ///< half of the image's width and height, per metre of depth
+  double sharp_distance_m = 7.36;  ///< d*: distance at which a wall, seen head-on, has the desired resolution
+  double half_width_slope = 0.84;  ///< half of the width (and height) that the image shows, per metre of depth
   double half_height_slope = 0.58;
-  double blur_speed_mps = 2.0;  ///< sideways at d* without blur; proportional to the depth
+  double blur_speed_mps = 2.0;  ///< greatest sideways speed without blur at d*; in proportion to depth
 };
 
-/// d* = r_des f / (1000 pixel); a point may move by one pixel during the exposure.
+/// d* = r_des f / (1000 pixel), with r_des in mm per pixel. Without blur: a point moves by at most one pixel during the
+/// exposure.
 CameraReach camera_reach(const CameraConfig& camera, double desired_mm_per_pixel);
 
 enum class FaceKind { side, top, bottom };
@@ -38,7 +39,7 @@ struct Strip {
 
 struct StripConfig {
   double standoff_ratio = 0.92;  ///< distance to the surface, in units of d*
-  double overlap = 0.2;          ///< of neighbouring strips, share of what the camera sees
+  double overlap = 0.2;          ///< of neighbouring strips, as a share of the width that the camera sees
   double min_length_m = 2.0;     ///< smaller faces get no strip
   double max_length_m = 60.0;    ///< longer strips are cut in pieces, so that they can be shared out
   double lowest_m = 2.0;         ///< UAVs do not fly below this height
@@ -59,7 +60,7 @@ struct Visit {
 /// shortens each tour by reversing parts of it.
 /// @param p_W_start  where each UAV begins, in fleet order.
 /// @param work_s     time that each strip takes.   @param transit_mps  speed between strips.
-/// @param hands      how many times faster than that each UAV works; empty: 1 for all.
+/// @param hands      by UAV: factor by which it works faster than work_s; empty: 1 for all.
 /// @returns one tour for each UAV.
 std::vector<std::vector<Visit>> share_strips(const std::vector<Strip>& strips, const std::vector<double>& work_s,
                                              const std::vector<Vector3d>& p_W_start, double transit_mps,

@@ -1,7 +1,7 @@
-// Orders of visit: travelling-salesman heuristics for one traveller. Node 0 is where the tour begins; it visits all
-// other nodes once. Nearest neighbour, then improvement: in both directions (2-opt and Or-opt) where the way back
-// costs what the way there does, in one direction only (Or-opt and the exchange of neighbouring segments, a 3-opt move
-// without reversal) where it does not; then a counted number of double-bridge kicks, of which the better ones stay.
+// Heuristics for the travelling salesman problem. The tour begins at node 0 and visits all other nodes once. It begins
+// with the nearest-neighbour tour. Then moves improve it: 2-opt and Or-opt if costs are symmetric; else moves that do
+// not reverse a segment (Or-opt, and the exchange of adjacent segments, a 3-opt move). Then come a limited number of
+// random double-bridge kicks, each followed by the same improvement; a better tour replaces the best one so far.
 // Pure and deterministic: kicks are drawn from a fixed stream, and effort is bounded by a count of evaluated moves.
 // Source: Croes 1958 (2-opt), Or 1976, Lin 1965 (3-opt), Martin, Otto, Felten 1991 (kicks). KIOS (mTSP), STAR (ATSP).
 #pragma once
@@ -19,7 +19,7 @@ class CostMatrix {
   std::size_t nodes() const { return nodes_; }
   double& operator()(std::size_t from, std::size_t to) { return costs_[from * nodes_ + to]; }
   double operator()(std::size_t from, std::size_t to) const { return costs_[from * nodes_ + to]; }
-  /// Whether every way back costs what the way there does, among the nodes from `first` on.
+  /// Whether costs are equal in both directions between all nodes from number `first` on.
   bool symmetric(std::size_t first = 0) const;
 
  private:
@@ -28,8 +28,8 @@ class CostMatrix {
 };
 
 struct TourConfig {
-  bool closed = false;                    ///< true: back to node 0 in the end
-  std::size_t max_evaluations = 200'000;  ///< of moves, in all
+  bool closed = false;                    ///< whether the tour returns to node 0
+  std::size_t max_evaluations = 200'000;  ///< most moves evaluated in all
   int kicks = 20;
 };
 
@@ -40,11 +40,11 @@ double tour_cost(const CostMatrix& costs, const Tour& tour, bool closed);
 
 Tour nearest_neighbour_tour(const CostMatrix& costs);
 
-/// Shortens a tour as far as its moves go. With costs that differ by direction, it only uses moves that keep it.
-/// @param evaluations  is counted down; at 0 the tour stays as good as it got.
+/// Improves a tour until no move helps. If costs are not symmetric, it uses only moves that reverse no segment.
+/// @param evaluations  moves that may be evaluated; counted down. At 0 the function ends, with the best tour so far.
 void improve_tour(const CostMatrix& costs, bool symmetric, bool closed, std::size_t& evaluations, Tour& tour);
 
-/// All of the above. Costs may differ by direction.
+/// Nearest neighbour, improvement and kicks, as above. Costs may be asymmetric.
 Tour solve_tour(const CostMatrix& costs, const TourConfig& config = {});
 
 }  // namespace skein::agent

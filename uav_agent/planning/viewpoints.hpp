@@ -1,5 +1,5 @@
-// Places to look from: candidates around a target, what can be seen from each, and clusters of places that see each
-// other.
+// Viewpoints: candidates around a target, the targets that are visible from each, and clusters of places in sight of
+// each other.
 // Frame W.   Units: SI and radians.   Pure and deterministic.   Effort: candidates times targets, cut by range first.
 // Source: cylindrical sampling as in FUEL (STAR's explorer); clusters by distance and mutual visibility as in
 // Star-Searcher (STAR's photographers).
@@ -12,18 +12,18 @@
 namespace skein::agent {
 
 struct RingConfig {
-  double inner_m = 4.0, outer_m = 8.0;  ///< radii of the cylinder's rings, horizontally from the target
+  double inner_m = 4.0, outer_m = 8.0;  ///< horizontal distances of the inner and the outer ring from the target
   int rings = 3;
   int directions = 12;                    ///< on each ring
-  std::vector<double> heights_m = {0.0};  ///< above the target
+  std::vector<double> heights_m = {0.0};  ///< heights of each ring above the target
 };
 
-/// Places on the rings around a target, ring by ring from the inside, each from +x to the left.
+/// Places around a target: ring by ring from the inside, height by height, counter-clockwise from +x (seen from above).
 std::vector<Vector3d> ring_around(const Vector3d& target_W, const RingConfig& config);
 
 struct ViewLimits {
   double range_m = 10.0;
-  /// Half angles of what is in the image, about the direction to its centre; pi: all around.
+  /// Half angles of the image [rad]; pi or more: all around.
   double half_width = 3.2, half_height = 3.2;
 };
 
@@ -32,17 +32,19 @@ struct ViewLimits {
 std::vector<std::size_t> visible_targets(const VoxelGrid& grid, const Vector3d& from_W, double yaw, double pitch,
                                          const std::vector<Vector3d>& targets_W, const ViewLimits& limits);
 
-/// Groups of places, as indices: the first that is left begins a group, and those within `radius_m` that it sees join.
+/// Groups of places, as indices. The first place without a group begins one; all others without a group join that are
+/// within `radius_m` of it and in its sight.
 std::vector<std::vector<std::size_t>> visibility_clusters(const VoxelGrid& grid, const std::vector<Vector3d>& places_W,
                                                           double radius_m);
 
-/// Greedy set cover: takes the candidate that sees most of what nobody has taken yet, until none sees `min_gain` more.
-/// @param seen  indices of targets, by candidate.   @returns candidates in the order of choice; ties to the lower one.
+/// Greedy set cover: always chooses the candidate that sees most targets that no chosen one sees, until no candidate
+/// sees at least `min_gain` (and one) of them. Ties go to the lower index.
+/// @param seen  indices of targets, by candidate.   @returns candidates in the order of choice.
 std::vector<std::size_t> cover(const std::vector<std::vector<std::size_t>>& seen, std::size_t targets,
                                std::size_t min_gain);
 
-/// One place of several at each stop, so that the way from `from_W` through all stops is shortest. (FUEL's refinement
-/// of the next viewpoints: Dijkstra in a graph of layers, which comes to going through them one by one.)
+/// Chooses one place for each stop, so that the path from `from_W` through all stops is shortest. Source: FUEL's
+/// refinement of the next viewpoints: Dijkstra in a layered graph, here as dynamic programming over the layers.
 /// @param options  places by stop; none may be empty.   @returns an index for each stop; ties go to the lower one.
 std::vector<std::size_t> shortest_through(const Vector3d& from_W, const std::vector<std::vector<Vector3d>>& options);
 

@@ -1,5 +1,4 @@
-// Who does what: this UAV's part of all strips. Every UAV computes the same division from the boxes and the
-// nominal starts.
+// This UAV's share of all strips. Each UAV computes the same division from the boxes and the nominal starts.
 // Frame W.   Units: SI.   Pure.
 #pragma once
 
@@ -18,15 +17,16 @@ struct WorkShareConfig {
 };
 
 struct WorkShare {
-  std::vector<Strip> strips;  ///< of the whole fleet
-  std::vector<Visit> tour;    ///< own
+  std::vector<Strip> strips;  ///< strips of the whole fleet
+  std::vector<Visit> tour;    ///< strips of this UAV, in order
 };
 
-/// For fleets whose LiDARs prove where others may fly: each explorer has a part of the site together with the
-/// photographers that start near it. In a team of n, the explorer flies every n-th strip of that part, and each
-/// photographer as many of those between. Without explorers, or without photographers, each UAV is a team.
-/// Strips that run inside another box all along are nobody's.
-/// @param middle_height_m  at which everybody is taken to begin.
+/// Division for fleets in which the explorers' LiDARs prove the space in which photographers fly. An explorer and the
+/// photographers that start near it are a team, with equal numbers as far as possible; each team has a part of the
+/// site. In a team of n UAVs, each flies every n-th strip of that part. Without explorers, or without photographers,
+/// each UAV is a team. Strips that the boxes alone make impossible to fly, for example inside another box, are left
+/// out.
+/// @param middle_height_m  height at which all tours are assumed to begin.
 WorkShare team_share(const AgentConfig& agent, const std::vector<OrientedBox>& boxes, const CameraReach& reach,
                      double middle_height_m, const WorkShareConfig& config);
 

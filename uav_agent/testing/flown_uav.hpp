@@ -1,5 +1,5 @@
-// One UAV that parts of the flight core fly, without a strategy and without physics: it is where it was commanded to
-// be. What is free, who is near and how its links are is up to the test.
+// One UAV for tests of parts of the flight core, without a strategy and without physics: it is always exactly where it
+// was commanded to be. The test sets the map, the peers and the link.
 // Frame W.   Units: SI.
 #pragma once
 
@@ -13,10 +13,10 @@ struct FlownUav {
     tracker.follow({{{at_W, 1.0}}});  // airborne, and at rest
     for (int i = 0; i < 20; ++i) tracker.step(state, agent.exchange_period_s);
   }
-  FlownUav(const FlownUav&) = delete;  // parts refer to each other
+  FlownUav(const FlownUav&) = delete;  // members refer to each other
   FlownUav& operator=(const FlownUav&) = delete;
 
-  /// Makes cubes of 2 m free, all that lie between two corners.
+  /// Makes space between two corners free, in cubes of 2 m.
   void clear(const Vector3d& low_W, const Vector3d& high_W) {
     const Eigen::Vector3i low = (0.5 * low_W).array().floor().cast<int>(),
                           high = (0.5 * high_W).array().ceil().cast<int>();
@@ -26,7 +26,7 @@ struct FlownUav {
       }
     }
   }
-  /// Structure: all smallest cubes between two corners.
+  /// Makes all smallest cubes between two corners occupied.
   void build(const Vector3d& low_W, const Vector3d& high_W) {
     const WorldMap::Cube low = map.cube_of(low_W), high = map.cube_of(high_W);
     for (int x = low.x(); x <= high.x(); ++x) {
@@ -52,7 +52,7 @@ struct FlownUav {
             .world_map = &map,
             .scanned = lidar_works};
   }
-  /// Does what a part of the core asked for in this exchange, and goes on to the next.
+  /// Executes the steering of this exchange through tracker and safety filter, and moves the UAV on by one exchange.
   void fly(const Steering& steering) {
     if (steering.yaw) tracker.turn_to(*steering.yaw);
     if (const auto* path = std::get_if<Path>(&steering.motion)) tracker.follow(*path);
@@ -64,7 +64,7 @@ struct FlownUav {
     state.v_WB = tracker.commanded().v_WB;
     ++k;
   }
-  /// Lets the navigator fly until it has nothing more to do. @returns what became of its goals.
+  /// Flies the navigator until it has no goals left, or for `most_exchanges`. @returns outcomes of its goals.
   std::vector<Outcome> navigate(int most_exchanges) {
     std::vector<Outcome> outcomes;
     for (int i = 0; i < most_exchanges && !navigator.idle(); ++i) {
@@ -73,7 +73,7 @@ struct FlownUav {
     }
     return outcomes;
   }
-  /// One exchange.
+  /// Flies the navigator for one exchange.
   void navigate() {
     const PlannerInput in = input();
     navigator.update(in);

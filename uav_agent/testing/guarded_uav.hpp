@@ -1,5 +1,6 @@
-// For tests of what the safety filter lets through: UAVs that fly through a real tracker, and are where they were
-// commanded to be but for a drawn error.
+// UAVs for tests of the safety filter. They fly with a real tracker, and are where they were commanded to be, plus a
+// random error if the test calls drift().
+// Frame W.   Units: SI.   Threads: one.   Deterministic.
 #pragma once
 
 #include <algorithm>
@@ -40,7 +41,7 @@ inline Vector3d drawn_in(RandomStream& random, const Vector3d& low, const Vector
   return {random.uniform(low.x(), high.x()), random.uniform(low.y(), high.y()), random.uniform(low.z(), high.z())};
 }
 
-/// One UAV under its filter, for whoever wants to see where it is let.
+/// One UAV whose motion the safety filter limits.
 struct GuardedUav {
   explicit GuardedUav(const Vector3d& start_W, AgentConfig config = fleet_of(1, Role::explorer, 0))
       : agent(std::move(config)), peers(agent) {
@@ -56,7 +57,7 @@ struct GuardedUav {
   void drift(RandomStream& random) {
     state.p_WB += drawn_within(random, config.error_m + config.error_per_mps_s * state.v_WB.norm());
   }
-  /// Up to rest, from what it was commanded last; flown, not foretold.
+  /// Positions on the braking trajectory from the last command to rest: a copy of the tracker flies it step by step.
   std::vector<Vector3d> braking_way() const {
     Tracker brakes = tracker;
     RigidBodyState follows;
@@ -69,12 +70,13 @@ struct GuardedUav {
     } while (brakes.commanded().v_WB.norm() > 1e-9);
     return way;
   }
+  /// Smallest cubes near p that are not free.
   std::vector<WorldMap::Cube> not_free_about(const Vector3d& p_W, double radius_m) const {
     std::vector<WorldMap::Cube> cubes;
     map.not_free_near(p_W, radius_m, config.ground_m, cubes);
     return cubes;
   }
-  /// From the nearest of these places.
+  /// Distance of a cube from the nearest of these places [m].
   double off_m(const WorldMap::Cube& cube, const std::vector<Vector3d>& places_W) const {
     double off = 1e9;
     for (const Vector3d& p_W : places_W) off = std::min(off, map.distance_to_m(cube, p_W));
@@ -92,7 +94,8 @@ struct GuardedUav {
   Tick tick = 0;
 };
 
-/// Free balls one beside the other, as a LiDAR carves them out of the unknown, with some structure in between.
+/// Makes overlapping balls free, as a LiDAR would, along a random walk from at_W; then makes some cubes near its end
+/// occupied.
 inline void carve(RandomStream& random, int balls, int cubes, WorldMap& map, Vector3d at_W) {
   for (int i = 0; i < balls; ++i) {
     map.set_free(at_W, random.uniform(2.5, 5.0));
@@ -112,7 +115,7 @@ inline std::vector<Waypoint> drawn_way(RandomStream& random, const Vector3d& abo
   return way;
 }
 
-/// Two explorers in wide free space that know of each other what was true some exchanges ago.
+/// Two explorers in a large free space. While in sight, each knows the other's state of `latency` exchanges ago.
 class TwoGuardedUavs {
  public:
   TwoGuardedUavs(RandomStream& random, int latency) : latency_(latency) {

@@ -1,5 +1,5 @@
-// A LiDAR in a world of solid boxes on level ground (z = 0), for tests: all its beams at once, no noise, no return
-// lost. Other UAVs' bodies are not there for it.
+// A simulated LiDAR for tests, in a world of solid boxes on level ground (z = 0). It fires all beams at once, without
+// noise and lost returns, and does not see other UAVs.
 // Frames: W world, B body, L LiDAR (core/vehicle/lidar_geometry.hpp).   Units: SI, radians.   Pure; threads: any.
 #pragma once
 
@@ -16,9 +16,9 @@ class TestLidar {
 
   /// Whether a scan falls on this tick.
   bool due(Tick tick) const;
-  /// Where the servo stands, which was at angle 0 at tick 0.
+  /// Angle and rate of the servo; its angle was 0 at tick 0.
   LidarServo servo(Tick tick) const;
-  /// In the order of the beams, as the simulator's.
+  /// The points that returned, in the order of the beams, like the simulator's cloud.
   Scan scan(Tick tick, const Isometry3d& X_WB, const std::vector<OrientedBox>& solids) const;
 
  private:

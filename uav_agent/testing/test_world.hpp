@@ -1,7 +1,7 @@
-// A small world for tests of planners: solid boxes, UAVs that are exactly where they were told to be, and a
-// LiDAR that sees all surface points in line of sight. Who asks for beams gets those of a LiDAR on its servo, too
-// (test_lidar.hpp). No physics, no noise: what goes wrong here is the planner's fault.
-// Frame W.   Units: SI and radians.
+// A small world for tests of planners: solid boxes, UAVs that are exactly where they were commanded to be, and key
+// frames with all sampled surface points in line of sight within 40 m. Agents that ask for beams also get the scans of
+// a LiDAR on its servo (test_lidar.hpp). No physics, no noise: what goes wrong here is the planner's fault.
+// Frame W.   Units: SI and radians.   Threads: one.
 #pragma once
 
 #include <memory>
@@ -13,12 +13,12 @@
 namespace skein::agent {
 
 struct TestScene {
-  std::vector<OrientedBox> solids;  ///< what really stands there
-  std::vector<OrientedBox> boxes;   ///< what the UAVs are told, at boxes_at_s
+  std::vector<OrientedBox> solids;  ///< the structure
+  std::vector<OrientedBox> boxes;   ///< boxes that the UAVs receive, from boxes_at_s on
   Vector3d station = {-12.0, -12.0, 0.3};
   double boxes_at_s = 0.0;
-  bool radio = true;  ///< false: nobody ever sees anybody
-  bool talk = true;   ///< false: they see each other, but no planner hears another
+  bool radio = true;  ///< false: no links at all
+  bool talk = true;   ///< false: UAVs see each other's odometry, but receive no radio messages
 };
 
 OrientedBox make_box(const Vector3d& centre, const Vector3d& size, double yaw = 0.0);
@@ -30,7 +30,7 @@ struct TestUav {
   Role role = Role::explorer;
   Vector2d start = Vector2d::Zero();
 };
-/// Alternating roles, in a row, 3 m apart.
+/// UAVs in a row, 3 m apart, with alternating roles; the first is an explorer.
 std::vector<TestUav> test_fleet(std::size_t count);
 
 class TestWorld {
@@ -39,26 +39,27 @@ class TestWorld {
   ~TestWorld();
 
   void run(double seconds_to_run);
-  /// The on-board software of one UAV begins anew, in flight, and knows nothing.
+  /// Restarts the on-board software of one UAV in flight: it has lost all its knowledge.
   void restart(std::size_t uav);
 
-  /// Everything that the agents said, as one number: equal runs have equal ones.
+  /// Hash of all UAVs' positions and gimbal yaws in all steps: equal runs have equal fingerprints.
   std::uint64_t fingerprint() const;
-  /// Smallest distance of a UAV's centre to a solid, while it was above half a metre.
+  /// Smallest distance of a UAV's centre to a solid, while the UAV was higher than 0.5 m.
   double clearance() const;
-  /// Smallest distance between two UAVs' centres, both off the ground.
+  /// Smallest distance between two UAVs' centres, while both were higher than 0.5 m.
   double separation() const;
   /// The same between their bodies (FleetMember::body_radius_m).
   double gap() const;
-  /// Share of the solids' surface points outside the ground and other solids that a camera saw from a sharp
-  /// distance.
+  /// Share of surface points that a camera has seen from a sharp distance. It counts points in the scene's boxes,
+  /// higher than 5 m and not covered by another solid.
   double coverage() const;
+  /// Captures of all UAVs that the station has not acknowledged.
   std::size_t undelivered() const;
   /// Commands that were not finite, or beyond the vehicle's limits of speed and acceleration.
   std::size_t bad_commands() const;
-  /// Scans whose beams an agent asked for and could not tell.
+  /// Number of scans whose beams an agent could not reconstruct.
   std::uint64_t doubtful_scans() const;
-  /// The longest text that a planner sent.
+  /// Length of the longest radio message that an agent sent [bytes].
   std::size_t longest_message() const;
   double highest_m(std::size_t uav) const;
   Vector3d position(std::size_t uav) const;

@@ -1,6 +1,6 @@
-// For tests: nodes that make flights up, and an engine that has units flown on them in an order that is drawn, several
-// at a time, one step at a time. It kills workers and the controller between any two steps, flies units twice, forgets
-// them, and fills disks. The folder, the workers and the controller are the real ones.
+// For tests: nodes that simulate flights, and an engine that runs several units on them at once, one step at a time, in
+// random order. It kills workers and the controller between any two steps, runs units twice and forgets units; disks of
+// nodes fill up. The folder, fly_unit() and the controller are the real ones.
 #pragma once
 
 #include <atomic>
@@ -19,17 +19,17 @@
 
 namespace skein::cli {
 
-/// As SIGKILL: nothing may catch it.
+/// Thrown to simulate SIGKILL; the code under test must not catch it.
 struct Killed {};
 
-/// What may be wrong with a node.
+/// A node, and its faults.
 struct MadeUpNode {
   std::string name;
-  bool other_arithmetic = false;  ///< the reference flight shows it
-  bool odd_once_proved = false;   ///< all flights but the reference flight are others
+  bool other_arithmetic = false;  ///< all digests differ, also that of the reference flight
+  bool odd_once_proved = false;   ///< digests of all flights but the reference flight differ
   bool other_build = false;
-  double disk_fills = 0.0;  ///< how probable it is that a flight finds no room
-  bool sick = false;        ///< since then nothing flies there
+  double disk_fills = 0.0;  ///< probability that the disk is full at a flight
+  bool sick = false;        ///< the disk is full: from then on every flight fails
 };
 
 inline constexpr const char* kMadeUpProblem = "skein run ended with exit code 3: uav_agent-jurong crashed";
@@ -61,7 +61,7 @@ class MadeUpWorld {
   }
   std::string digest(std::size_t index) const { return build + "/" + std::to_string(index); }
 
-  /// @param step  called between any two things that it does
+  /// @param step  called before and after the flight writes its result
   SweepNode node(MadeUpNode& of, const std::function<void()>& step) {
     SweepNode node{of.name, "boot", "cpu", {}, {}, {}, {}};
     node.fly = [this, &of, step](const SweepFlight& flight, const std::filesystem::path& out) {
@@ -83,7 +83,7 @@ class MadeUpWorld {
     return node;
   }
 
-  /// Flights that fail wherever they are flown.
+  /// Whether a flight fails on every node.
   bool fails(std::size_t index) const { return failing.contains(index); }
 
   static constexpr std::size_t kReference = 1'000'000;
@@ -96,7 +96,7 @@ class MadeUpWorld {
   ScratchFolder scratch_;
 };
 
-/// A unit on its way on a node: a thread that runs while it is told to, one step at a time.
+/// Runs a unit on a node, in a thread that advances one step per run_a_step().
 class MadeUpWorker {
  public:
   MadeUpWorker(MadeUpWorld& world, MadeUpNode& node, std::size_t unit) : unit_(unit) {
@@ -122,7 +122,7 @@ class MadeUpWorker {
   MadeUpWorker(const MadeUpWorker&) = delete;
   MadeUpWorker& operator=(const MadeUpWorker&) = delete;
 
-  /// @returns whether there is more to do.
+  /// @returns false when the unit is over.
   bool run_a_step() {
     if (!over_) {
       go_.release();
@@ -152,7 +152,7 @@ class MadeUpWorker {
   std::thread thread_;
 };
 
-/// What an engine may do to a sweep; each number is how probable it is at a step.
+/// Faults that the engine causes, as the probability of each at a step; and the number of units at once.
 struct EngineManners {
   double kills_worker = 0.0, kills_controller = 0.0, flies_twice = 0.0, forgets = 0.0;
   std::size_t at_once = 4;
@@ -195,8 +195,8 @@ class MadeUpEngine : public SweepEngine {
   bool has_other_nodes() const override { return true; }
 
   EngineManners manners;
-  bool asks_for_more = true;  ///< units that fly while the last ones do
-  std::size_t rounds = 0;     ///< in which it was given units
+  bool asks_for_more = true;  ///< fly() calls Meanwhile::more once, when no unit waits
+  std::size_t rounds = 0;     ///< calls of fly()
 
  private:
   bool drawn(double probability) { return world_.draw.uniform() < probability; }
