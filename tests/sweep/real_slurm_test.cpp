@@ -56,6 +56,9 @@ TEST_F(RealSlurm, ANodeAndTheControllerOfTheClusterMayDie) {
   ASSERT_TRUE(kill_daemon("slurmctld"));
   ASSERT_TRUE(kill_daemon("node-n2"));
   EXPECT_LT(flown("deaths"), flights()) << "they were to die in its midst";
+  // Slurm may need four minutes: if its controller died just after a task had ended, the next one takes the task for
+  // running, until it asks the node.
+  EXPECT_TRUE(eventually([&] { return study.ended().has_value(); }, std::chrono::minutes(10))) << study.err();
   EXPECT_EQ(study.wait().code, 0) << study.err() << logs("deaths");
   expect_as_plain("deaths");
 }
