@@ -7,7 +7,7 @@
 
 namespace skein {
 
-/// Who may read a file that root writes: all users, or all but agents (closed_to_agents.hpp).
+/// The users that may read a file that root writes: all, or all but agents (closed_to_agents.hpp).
 enum class Readers { all, no_agents };
 
 /// Writes a temporary file in the same folder, flushes it to the disk and renames it to `path`: a reader sees either

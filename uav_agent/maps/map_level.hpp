@@ -27,7 +27,7 @@ struct BeamBundle {
   int beams = 1;
 };
 
-/// Who determined a cell's state: kOwn, or the UAV whose map message reported it (its index in the fleet + 1).
+/// The UAV that determined a cell's state: kOwn, or the one whose map message reported it (fleet index + 1).
 using Teller = std::uint8_t;
 inline constexpr Teller kOwn = 0;
 
