@@ -86,8 +86,8 @@ std::optional<ExitStatus> ChildProcess::ended() {
   return exit_;
 }
 
-ExitStatus ChildProcess::wait() {
-  if (!eventually([this] { return ended().has_value(); })) {
+ExitStatus ChildProcess::wait(std::chrono::seconds patience) {
+  if (!eventually([this] { return ended().has_value(); }, patience)) {
     throw std::runtime_error("process " + std::to_string(pid_) + " does not end; its stderr: " + err());
   }
   return *exit_;

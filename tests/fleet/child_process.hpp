@@ -30,6 +30,10 @@ struct ExitStatus {
   int signal = 0;  ///< 0 unless a signal ended it
 };
 
+/// For a script that looks at pages through a browser, which draws on the same cores: minutes, on a busy machine. The
+/// script says on stderr what it waits for.
+inline constexpr std::chrono::seconds kBrowserPatience{600};
+
 /// Starts at construction, in a process group of its own; killed with its group at destruction, and by the kernel when
 /// the test dies. From one thread, which must live as long as it.
 class ChildProcess {
@@ -45,8 +49,8 @@ class ChildProcess {
   void signal(int signal) const;
   /// @returns nullopt while it runs.
   std::optional<ExitStatus> ended();
-  /// @returns how it ended. @throws std::runtime_error when it has not after kPatience.
-  ExitStatus wait();
+  /// @returns how it ended. @throws std::runtime_error when it has not by then.
+  ExitStatus wait(std::chrono::seconds patience = kPatience);
   /// What it wrote so far.
   std::string out() const { return text_of(out_); }
   std::string err() const { return text_of(err_); }

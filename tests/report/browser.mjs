@@ -2,6 +2,40 @@
 import {createRequire} from 'node:module';
 import path from 'node:path';
 
+export const sleep = (ms) => new Promise((resolve) => setTimeout(resolve, ms));
+
+/**
+ * Waits until a fact holds, however slow the machine is: the test that started the script ends it when it waits for ever,
+ * and shows what it says here on stderr. @param ask  what is looked at; what it throws counts as null.
+ * @returns what it was when the fact held.
+ */
+export async function waitUntil(ask, holds, what) {
+  const kQuiet = 20000;  // ms
+  const patient = async () => {
+    try {
+      return await ask();
+    } catch {
+      return null;  // the page is loaded anew, say
+    }
+  };
+  for (let told = Date.now();;) {
+    const seen = await patient();
+    if (seen !== null && holds(seen)) return seen;
+    if (Date.now() - told > kQuiet) {
+      console.error(`waits: ${what}; the page says ${JSON.stringify(seen)}`);
+      told = Date.now();
+    }
+    await sleep(100);
+  }
+}
+
+/** @param browser  or a context of it. @returns a page that is waited for as long as it takes, as waitUntil() does. */
+export async function openTab(browser) {
+  const page = await browser.newPage();
+  page.setDefaultTimeout(0);
+  return page;
+}
+
 /** @param web  the folder of puppeteer-core's package.json. */
 export async function openBrowser(web, executablePath) {
   const require = createRequire(path.join(web, 'package.json'));
@@ -10,13 +44,15 @@ export async function openBrowser(web, executablePath) {
   return puppeteer.launch({
     executablePath,
     headless: true,
+    timeout: 0,
+    protocolTimeout: 0,
     args: [...asRoot, '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--disable-dev-shm-usage'],
   });
 }
 
 /** Opens a page of a file. @returns it, and what it complained of as it goes on. */
 export async function openPage(browser, file, {width, scheme}) {
-  const page = await browser.newPage();
+  const page = await openTab(browser);
   const complaints = [];
   page.on('console', (message) => message.type() === 'error' && complaints.push(`console: ${message.text()}`));
   page.on('pageerror', (error) => complaints.push(`error: ${error.message}`));
@@ -38,7 +74,7 @@ let table = null;  // where pictures are looked at
  * @param parts  [left, top, width, height] of each; none: the whole picture, whose figures are returned then.
  */
 export async function lookAt(browser, png, parts = null) {
-  table ??= await browser.newPage();
+  table ??= await openTab(browser);
   const seen = await table.evaluate(async (source, rectangles) => {
     const image = new Image();
     image.src = `data:image/png;base64,${source}`;

@@ -25,7 +25,7 @@ class ReportInABrowser : public FleetTest {
   void look(const std::string& run) {
     ChildProcess& node = start_program("look", {command_file("node"), source_path("tests/report/look.mjs"), kWeb,
                                                 command_file("chromium"), program("skein"), kBundle, folder() / run});
-    EXPECT_EQ(node.wait().code, 0) << node.err() << node.out();
+    EXPECT_EQ(node.wait(kBrowserPatience).code, 0) << node.err() << node.out();
     EXPECT_EQ(node.out(), "");
   }
 };

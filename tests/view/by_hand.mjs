@@ -4,7 +4,7 @@
 import {readFileSync} from 'node:fs';
 import path from 'node:path';
 
-import {letGo, openRun, pausedByItself, stateOf, until} from './page.mjs';
+import {letGo, openRun, pausedByItself, stateOf, until, waitUntil} from './page.mjs';
 
 const [web, chromium, door, run] = process.argv.slice(2);
 const {browser, page, complaints} = await openRun([web, chromium, door]);
@@ -15,16 +15,6 @@ const look = (selector) => page.$eval(selector, (found) => ({
   text: found.textContent, title: found.title, kind: found.className, pressed: found.getAttribute('aria-pressed'), disabled: found.disabled,
 }));
 const faults = () => page.$$eval('#faults ol li', (rows) => rows.map((row) => row.textContent));
-/** Waits for what a page says of itself. */
-async function shows(ask, holds, what) {
-  for (let tries = 0; tries < 1200; ++tries) {
-    const said = await ask().catch(() => null);
-    if (said !== null && holds(said)) return said;
-    await new Promise((resolve) => setTimeout(resolve, 100));
-  }
-  throw new Error(`the page never got there: ${what}; it says ${JSON.stringify(await ask().catch(String))}`);
-}
-
 async function step() {
   const {tick} = await stateOf(page);
   await page.evaluate(() => document.activeElement.blur());
@@ -40,10 +30,10 @@ await until(page, ({state}) => state === 'paused', 'it is paused by its button')
 // A link, by the keyboard: marked until the step has come, then cut; its other direction is not.
 await page.focus(cell(4, 0));
 await page.keyboard.press('Enter');
-await shows(() => look(cell(4, 0)), ({kind}) => kind.includes('waits'), 'the cut waits for the next step');
+await waitUntil(() => look(cell(4, 0)), ({kind}) => kind.includes('waits'), 'the cut waits for the next step');
 expect((await faults()).some((text) => text.includes('begins with the next step')), `no fault waits: ${await faults()}`);
 await step();
-const cut = await shows(() => look(cell(4, 0)), ({kind}) => !kind.includes('waits'), 'the link is cut');
+const cut = await waitUntil(() => look(cell(4, 0)), ({kind}) => !kind.includes('waits'), 'the link is cut');
 expect(cut.title.includes('click heals it'), `the cell says ${cut.title}`);
 expect(['l l2', 'l l0'].includes(cut.kind), `the cell is ${cut.kind}`);  // blocked anyway, if out of sight
 expect((await look(cell(0, 4))).kind !== 'l l2', 'the other direction is cut, too');
@@ -51,42 +41,42 @@ expect((await look(cell(0, 4))).kind !== 'l l2', 'the other direction is cut, to
 // What has not begun is taken back.
 await page.click('#fleet tbody tr:nth-child(4) button');
 const kill = '#uav-faults button[data-fault="kill"]';
-await shows(() => look(kill), ({disabled}) => !disabled, 'the chosen UAV can be broken');
+await waitUntil(() => look(kill), ({disabled}) => !disabled, 'the chosen UAV can be broken');
 await page.click(kill);
-await shows(() => look(kill), ({text}) => text.includes('take back'), 'the kill waits');
+await waitUntil(() => look(kill), ({text}) => text.includes('take back'), 'the kill waits');
 expect((await look('#uav-faults button[data-fault="pause"]')).disabled, 'who is killed could be paused, too');
 await page.click(kill);
-await shows(() => look(kill), ({pressed}) => pressed === 'false', 'it is taken back');
+await waitUntil(() => look(kill), ({pressed}) => pressed === 'false', 'it is taken back');
 // And once more in earnest; its program starts again.
 await page.click(kill);
-await shows(() => look(kill), ({pressed}) => pressed === 'true', 'the kill waits again');
+await waitUntil(() => look(kill), ({pressed}) => pressed === 'true', 'the kill waits again');
 await step();
 await step();
-await shows(() => look(kill), ({text}) => text.includes('Start'), 'it is killed');
+await waitUntil(() => look(kill), ({text}) => text.includes('Start'), 'it is killed');
 await page.click('#uav-faults button[data-fault="camera_failure"]');
 await page.click(kill);
-await shows(() => look(kill), ({text}) => text.includes('Kill'), 'it starts again');
+await waitUntil(() => look(kill), ({text}) => text.includes('Kill'), 'it starts again');
 await step();
-await shows(faults, (texts) => texts.some((text) => /killed.*changi.*\d to \d/.test(text)), 'the kill is in the list as over');
+await waitUntil(faults, (texts) => texts.some((text) => /killed.*changi.*\d to \d/.test(text)), 'the kill is in the list as over');
 
 // The other way to end a fault, and one that is refused.
 await page.$$eval('#faults ol li.on button', (buttons) => buttons.at(-1).click());  // the oldest: the link
 await step();
-await shows(() => look(cell(4, 0)), ({title}) => title.includes('Click cuts it'), 'the link is healed');
+await waitUntil(() => look(cell(4, 0)), ({title}) => title.includes('Click cuts it'), 'the link is healed');
 await page.evaluate(() => document.querySelector('#uav-faults button[data-fault="motor_failure"]').click());
-await shows(faults, (texts) => texts.some((text) => text.includes('rotor weak')), 'a rotor is to be weak');
+await waitUntil(faults, (texts) => texts.some((text) => text.includes('rotor weak')), 'a rotor is to be weak');
 await page.evaluate(() => document.querySelector('#uav-faults button[data-fault="motor_failure"]').click());
-await shows(() => page.$eval('#faults .refused', ({textContent}) => textContent), (text) => text.includes('rotor 0 of changi has a fault'), 'it says why it refuses');
+await waitUntil(() => page.$eval('#faults .refused', ({textContent}) => textContent), (text) => text.includes('rotor 0 of changi has a fault'), 'it says why it refuses');
 await page.evaluate(() => document.querySelector('#faults ol li.waits button').click());
-await shows(faults, (texts) => !texts.some((text) => text.includes('rotor weak')), 'the rotor is left alone');
+await waitUntil(faults, (texts) => !texts.some((text) => text.includes('rotor weak')), 'the rotor is left alone');
 
 await page.evaluate(() => document.activeElement.blur());
 await page.keyboard.press('p');
 await until(page, ({state}) => state === 'flies', 'it goes on');
 await page.$eval('#faults button[data-fault="kill"][data-of="comm_router"]', (button) => button.click());
-await shows(() => look('#faults button[data-fault="kill"][data-of="comm_router"]'), ({text}) => text.includes('Start'), 'the router is killed');
+await waitUntil(() => look('#faults button[data-fault="kill"][data-of="comm_router"]'), ({text}) => text.includes('Start'), 'the router is killed');
 await page.$eval('#faults button[data-fault="kill"][data-of="comm_router"]', (button) => button.click());
-await shows(() => look('#faults button[data-fault="kill"][data-of="comm_router"]'), ({text}) => text.includes('Kill'), 'it starts again');
+await waitUntil(() => look('#faults button[data-fault="kill"][data-of="comm_router"]'), ({text}) => text.includes('Kill'), 'it starts again');
 await page.select('#speed', 'max');
 
 await until(page, ({state, live}) => state === 'replay' && live === 'yes', 'its replay');
@@ -96,7 +86,7 @@ for (const one of ['begin link changi > gcs', 'end link changi > gcs', 'begin ki
                    'begin kill comm_router', 'end kill comm_router'])
   expect(done.includes(one), `result.json does not name "${one}": ${done}`);
 expect(done.length === 7, `result.json names ${done}`);
-const told = await shows(faults, (texts) => texts.length === 4, 'the replay lists them');
+const told = await waitUntil(faults, (texts) => texts.length === 4, 'the replay lists them');
 expect(await page.$('#faults button') === null, 'a replay can be broken');
 expect((await look(cell(4, 0))).disabled, 'a link of a replay can be cut');
 expect(told.some((text) => text.includes('camera fails')), `the replay lists ${told}`);

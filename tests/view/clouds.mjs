@@ -2,7 +2,7 @@
 // Prints what is wrong, a line each; nothing: all is well.
 // usage: node clouds.mjs WEB CHROMIUM DOOR RUN
 import {lookAt} from '../report/browser.mjs';
-import {letGo, openRun, pausedByItself, sleep, until} from './page.mjs';
+import {letGo, openRun, pausedByItself, sleep, until, waitUntil} from './page.mjs';
 
 const [web, chromium, door] = process.argv.slice(2);
 const {browser, page, complaints} = await openRun([web, chromium, door]);
@@ -33,13 +33,8 @@ spy.on('Network.webSocketFrameReceived', ({response}) => {
     }
   }
 });
-const eventually = async (holds, what) => {
-  for (let tries = 0; tries < 1200; ++tries) {
-    if (await holds()) return;
-    await sleep(100);
-  }
-  throw new Error(`it never came: ${what}; told ${JSON.stringify([...told.names])}`);
-};
+const eventually = (holds, what) => waitUntil(
+    async () => ({holds: await holds(), told: [...told.names]}), (now) => now.holds, what);
 const note = () => page.$eval('#clouds-note', (element) => element.textContent);
 const choose = (id, value) => page.select(`#${id}`, value);
 const press = (id) => page.evaluate((name) => document.getElementById(name).click(), id);

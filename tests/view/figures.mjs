@@ -3,7 +3,7 @@
 // usage: node figures.mjs WEB CHROMIUM DOOR FEEDER
 import {lookAt} from '../report/browser.mjs';
 import {makeUp} from './made_up.mjs';
-import {openRun, sleep} from './page.mjs';
+import {openRun, waitUntil} from './page.mjs';
 
 const kSpeed = 8;               // simulated seconds a second
 const kStates = 1000 / 80;      // a second that the server sends at most (kPause of view/server.cpp)
@@ -19,26 +19,12 @@ const note = (...what) => process.env.FIGURES && console.error(...what);
 const flight = await makeUp(feeder, door);
 const {browser, page, complaints} = await openRun([web, chromium, door]);
 const devtools = await page.createCDPSession();
-/** A page whose connection was cut, as on a machine that is very busy, loads itself anew: it is asked again then. */
-async function figures() {
-  for (;;) {
-    try {
-      await page.waitForFunction(() => globalThis.skein !== undefined);
-      return await page.evaluate(() => globalThis.skein.figures());
-    } catch (error) {
-      if (!/context was destroyed|navigation/.test(error.message)) throw error;
-    }
-  }
-}
-
 /** Flies to a simulated time, and waits until the page shows it. */
 async function flyTo(seconds) {
   await flight.tell(`to ${seconds}`);
-  for (;;) {
-    const shown = await figures();
-    if (shown.end >= seconds - 1e-3 && shown.shown >= seconds - 1e-3) return shown;
-    await sleep(100);
-  }
+  return waitUntil(
+      () => page.evaluate(() => globalThis.skein?.figures() ?? null),
+      ({end, shown}) => end >= seconds - 1e-3 && shown >= seconds - 1e-3, `it shows ${seconds} s`);
 }
 
 async function memory() {
@@ -98,6 +84,8 @@ after.hour = await flyTo(3600);
 after.hour.memory = await memory();
 note(after.hour);
 expect(after.hour.mostDrawCalls <= kMostDrawCalls, `a picture takes ${after.hour.mostDrawCalls} draw calls`);
+const early = after.hour.early - after.tenMinutes.early;
+expect(early === 0, `${early} pictures were begun before the one before was finished: the page waits for the graphics driver`);
 const growth = after.hour.memory / after.tenMinutes.memory;
 expect(growth <= kMostGrowth, `after an hour the page takes ${growth.toFixed(2)} times the memory of ten minutes`);
 for (const complaint of complaints) console.log(complaint);

@@ -1,7 +1,7 @@
 // Flies a UAV by hand from the page of a run, and vanishes with a key held down. Prints what is wrong, a line each;
 // nothing: all is well. With a fifth word it leaves pictures in that folder, for people.
 // usage: node hand.mjs WEB CHROMIUM DOOR UAV [PICTURES]
-import {letGo, openRun, pausedByItself, sleep, until} from './page.mjs';
+import {letGo, openRun, pausedByItself, sleep, until, waitUntil} from './page.mjs';
 
 const [web, chromium, door, uav, pictures] = process.argv.slice(2);
 const {browser, page, complaints} = await openRun([web, chromium, door]);
@@ -16,14 +16,7 @@ const hand = () => page.evaluate(() => ({
   chosen: document.querySelector('#chosen h2').textContent,
 }));
 const position = async () => (await hand()).facts.position.split(',').map(Number.parseFloat);
-async function wait(holds, what) {
-  for (let tries = 0; tries < 600; ++tries) {
-    const now = await hand();
-    if (holds(now)) return now;
-    await sleep(100);
-  }
-  throw new Error(`it never came to that: ${what}; the page says ${JSON.stringify(await hand())}`);
-}
+const wait = (holds, what) => waitUntil(hand, holds, what);
 const shoot = (name) => pictures && page.screenshot({path: `${pictures}/${name}.png`});
 
 await pausedByItself(page);

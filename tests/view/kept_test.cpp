@@ -16,7 +16,7 @@ class KeptRun : public ViewTest {
  protected:
   ChildProcess& replay(const Arguments& arguments, int exit_code = 0) {
     ChildProcess& command = skein(joined({"replay"}, arguments));
-    EXPECT_EQ(command.wait().code, exit_code) << command.err() << command.out();
+    EXPECT_EQ(command.wait(kBrowserPatience).code, exit_code) << command.err() << command.out();
     return command;
   }
 
@@ -122,7 +122,7 @@ TEST_F(FilmOfARun, IsTheSameEachTime) {
   EXPECT_EQ(text_of(folder() / "one.mp4"), text_of(folder() / "two.mp4"));
   ChildProcess& pictures = start_program(
       "pictures", {command_file("ffmpeg"), "-v", "error", "-i", folder() / "one.mp4", "-f", "framemd5", "-"});
-  ASSERT_EQ(pictures.wait().code, 0) << pictures.err();
+  ASSERT_EQ(pictures.wait(kBrowserPatience).code, 0) << pictures.err();
   std::istringstream lines(pictures.out());
   std::set<std::string> sums;
   std::size_t count = 0;
@@ -149,7 +149,7 @@ TEST_F(FilmOfARun, LeavesNobodyBehind) {
     ASSERT_TRUE(eventually([&] { return fs::exists(film.string() + ".part"); })) << command.err();
     EXPECT_GT(processes_there(), 1U);
     command.signal(signal);
-    const ExitStatus ended = command.wait();
+    const ExitStatus ended = command.wait(kBrowserPatience);
     EXPECT_EQ(signal == SIGINT ? ended.code : ended.signal, signal == SIGINT ? 130 : SIGKILL);
     EXPECT_TRUE(eventually([&] { return processes_there() == 0; }));
     EXPECT_FALSE(fs::exists(film));

@@ -5,7 +5,7 @@ import {readFileSync} from 'node:fs';
 
 import {unpackedRuns} from '../../web/src/packed.js';
 import {openBrowser, openPage} from '../report/browser.mjs';
-import {openRun, sleep, until} from './page.mjs';
+import {openRun, sleep, until, waitUntil} from './page.mjs';
 
 const [web, chromium, file, run] = process.argv.slice(2);
 const expect = (good, what) => good || console.log(what);
@@ -42,7 +42,7 @@ const stage = async () => (await page.$('.stage')).screenshot({encoding: 'base64
 
 expect(await page.$eval('#clouds', (tools) => !tools.textContent.includes('--maps')), 'it says that maps in time are missing');
 await page.select('#map-of', kUav);
-for (let tries = 0; tries < 600 && !/what it flies on/.test(await note()); ++tries) await sleep(100);
+await waitUntil(note, (text) => /what it flies on/.test(text), 'a map');
 
 const shown = [];
 for (const seconds of [9.5, 12, 19.9, 20, 25, 38, 45, 52, 60]) {

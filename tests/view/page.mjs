@@ -1,14 +1,14 @@
 // The page of a run in a browser, opened as a user opens it, and what it complains of as it goes on.
 import {readFileSync} from 'node:fs';
 
-import {openBrowser} from '../report/browser.mjs';
+import {openBrowser, openTab, sleep, waitUntil} from '../report/browser.mjs';
 
-export const sleep = (ms) => new Promise((resolve) => setTimeout(resolve, ms));
+export {sleep, waitUntil};
 
 /** @param known  a browser that is open already. @param webgl  false: as one that has none. @returns browser, page, complaints, and the page's host. */
 export async function openRun([web, chromium, door], {width = 1400, height = 950, scheme = 'light', webgl = true} = {}, known = null) {
   const browser = known ?? await openBrowser(web, chromium);
-  const page = await browser.newPage();
+  const page = await openTab(browser);
   const host = /http:\/\/(127\.0\.0\.1:\d+)\/enter/.exec(readFileSync(door, 'utf8'))[1];
   const complaints = [];
   page.on('console', (message) => message.type() === 'error' && complaints.push(`console: ${message.text()}`));
@@ -29,7 +29,7 @@ export async function openRun([web, chromium, door], {width = 1400, height = 950
   await page.setViewport({width, height});
   await page.emulateMediaFeatures([{name: 'prefers-color-scheme', value: scheme}]);
   await page.goto(`file://${door}`, {waitUntil: 'load'});
-  await page.waitForSelector('#score', {timeout: 120000});
+  await page.waitForSelector('#score');
   return {browser, page, complaints, host};
 }
 
@@ -50,14 +50,7 @@ export async function stateOf(page) {
 }
 
 /** Waits until a fact holds. @returns what the page says then. */
-export async function until(page, holds, what) {
-  for (let tries = 0; tries < 1200; ++tries) {
-    const state = await stateOf(page);
-    if (state !== null && holds(state)) return state;
-    await sleep(100);
-  }
-  throw new Error(`the page never got there: ${what}; it says ${JSON.stringify(await stateOf(page))}`);
-}
+export const until = (page, holds, what) => waitUntil(() => stateOf(page), holds, what);
 
 /** Waits for a run that pauses by itself (--pause-at): however slow the browser was, it is not over yet. */
 export const pausedByItself = (page) =>

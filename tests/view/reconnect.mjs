@@ -3,7 +3,7 @@
 import {readFileSync} from 'node:fs';
 import path from 'node:path';
 
-import {letGo, openRun, pausedByItself, sleep, stateOf, until} from './page.mjs';
+import {letGo, openRun, pausedByItself, stateOf, until, waitUntil} from './page.mjs';
 
 const [web, chromium, door, run] = process.argv.slice(2);
 const {browser, page} = await openRun([web, chromium, door]);
@@ -19,12 +19,7 @@ await page.click('#pause');  // it must not be over before the events are read
 expect(loads === 1, `the page was loaded ${loads} times`);
 const told = () => page.$$eval('#events li', (all) => all.map((li) => li.textContent).join('\n'));
 for (const word of ['station takes no part any more', 'jurong takes part']) {
-  let events = await told();
-  for (let tries = 0; tries < 300 && !events.includes(word); ++tries) {  // panels follow the head after a while
-    await sleep(100);
-    events = await told();
-  }
-  expect(events.includes(word), `the events do not tell that ${word}: ${events}`);
+  await waitUntil(told, (events) => events.includes(word), `the events tell that ${word}`);
 }
 await page.select('#speed', 'max');
 await letGo(page);

@@ -5,7 +5,7 @@ import {readFileSync} from 'node:fs';
 import net from 'node:net';
 import path from 'node:path';
 
-import {openBrowser} from '../report/browser.mjs';
+import {openBrowser, openTab} from '../report/browser.mjs';
 import {until} from './page.mjs';
 
 const [web, chromium, door] = process.argv.slice(2);
@@ -23,7 +23,7 @@ const {port} = tunnel.address();
 
 const browser = await openBrowser(web, chromium);
 for (const host of [`localhost:${port}`, `127.0.0.1:${port}`]) {
-  const page = await browser.newPage();
+  const page = await openTab(browser);
   const complaints = [];
   page.on('console', (message) => message.type() === 'error' && complaints.push(`console: ${message.text()}`));
   page.on('pageerror', (error) => complaints.push(`error: ${error.message}`));
@@ -35,7 +35,7 @@ for (const host of [`localhost:${port}`, `127.0.0.1:${port}`]) {
   complaints.length = 0;  // of the refusal
   await page.type('input[name=key]', key);
   await page.keyboard.press('Enter');
-  await page.waitForSelector('#score', {timeout: 120000});
+  await page.waitForSelector('#score');
   await until(page, ({state, live, tick}) => state === 'paused' && live === 'yes' && tick > 0, 'it follows');
   expect(page.url() === `http://${host}/` || page.url().startsWith(`http://${host}/#`), `it ended at ${page.url()}`);
   for (const complaint of complaints) console.log(complaint);

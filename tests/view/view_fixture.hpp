@@ -45,7 +45,7 @@ class ViewTest : public FleetTest {
         start_program(script, joined({command_file("node"), source_path("tests/view/" + script + ".mjs"),
                                       source_path("web"), command_file("chromium")},
                                      arguments));
-    EXPECT_EQ(node.wait().code, 0) << node.err() << node.out();
+    EXPECT_EQ(node.wait(kBrowserPatience).code, 0) << node.err() << node.out();
     EXPECT_EQ(node.out(), "");
   }
 };

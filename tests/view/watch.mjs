@@ -4,8 +4,8 @@
 import {readFileSync} from 'node:fs';
 import path from 'node:path';
 
-import {lookAt} from '../report/browser.mjs';
-import {addsUp, letGo, lossesOf, openRun, pausedByItself, sleep, stateOf, until} from './page.mjs';
+import {lookAt, openTab} from '../report/browser.mjs';
+import {addsUp, letGo, lossesOf, openRun, pausedByItself, sleep, stateOf, until, waitUntil} from './page.mjs';
 
 const [web, chromium, door, run] = process.argv.slice(2);
 const {browser, page, complaints, host} = await openRun([web, chromium, door]);
@@ -31,12 +31,11 @@ await sleep(500);
 expect((await stateOf(page)).tick === held.tick + 3 * kStep, 'it went on after a step');
 
 // What could be had is told as soon as the oracle knows, with the next step.
-let losses = null;
-for (let tries = 0; losses === null && tries < 300; ++tries) {
+const losses = await waitUntil(async () => {
   await page.keyboard.press('s');
   await sleep(200);
-  losses = await lossesOf(page);
-}
+  return lossesOf(page);
+}, () => true, 'losses are told');
 expect(losses?.when === 'so far' && addsUp(losses), `of losses it tells ${JSON.stringify(losses)}`);
 const stepped = await stateOf(page);
 
@@ -62,7 +61,7 @@ expect(lost?.rows['could be had, by estimate'][0] === result.attainable.points &
 const picture = await lookAt(browser, await page.screenshot({encoding: 'base64'}));
 expect(picture.colours > 100 && picture.largest < 0.9, `the page is blank: ${JSON.stringify(picture)}`);
 // Who has not shown the key sees nothing.
-const stranger = await (await browser.createBrowserContext()).newPage();
+const stranger = await openTab(await browser.createBrowserContext());
 await stranger.goto(`http://${host}/`, {waitUntil: 'load'});
 expect(await stranger.$('#flight') === null, 'a browser without the key sees the run');
 for (const complaint of complaints) console.log(complaint);

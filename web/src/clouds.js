@@ -2,7 +2,7 @@
 // points, one for what a map has occupied, one for what it has free.
 import * as THREE from 'three';
 
-import {colour, data, element, moment, trackColour} from './page.js';
+import {colour, data, element, growth, moment, trackColour} from './page.js';
 import {unpackedPoints, unpackedRuns} from './packed.js';
 
 const kAskAgain = 2000;    // ms; who does not ask for three times as long is told no more
@@ -14,6 +14,7 @@ const kHeights = ['c0', 'c2', 'c4', 'c1'];  // from the ground up
 const maps = new Map();     // UAV -> the newest that was told
 const scans = new Map();    // UAV -> the newest points that were told; of a finished run, all
 let layers = null;
+let fresh = false;          // what came in is in no picture yet
 
 /** Colours by height, up to that of what is inspected. */
 function heightColours() {
@@ -186,6 +187,16 @@ class Layers {
     this.note = element('span', {id: 'clouds-note', class: 'soft', role: 'status'});
     this.asked = '';
     setInterval(() => this.ask(), kAskAgain);
+    growth.listen(() => this.takeFresh());
+  }
+
+  /** Shows what came in. The newest moment moves on, and is drawn with it anyway. */
+  takeFresh() {
+    if (fresh && !moment.newest) {
+      this.show(moment.seconds);
+      this.scene.draw();
+    }
+    fresh = false;
   }
 
   /** UAVs whose points are wanted. */
@@ -306,9 +317,8 @@ class Layers {
   }
 }
 
-/** Takes in what was asked for. */
+/** Takes in what was asked for; the page's next picture shows it. */
 export function takeClouds(list) {
-  let news = false;
   for (const cloud of list) {
     const at = cloud.n.indexOf(' ');
     const [kind, name] = [cloud.n.slice(0, at), cloud.n.slice(at + 1)];
@@ -320,11 +330,8 @@ export function takeClouds(list) {
       maps.set(name, cloud);
       if (layers?.chosen.map === name) layers.showMap();
     }
-    news = true;
+    fresh = true;
   }
-  if (!news || !layers) return;
-  layers.show(moment.seconds);
-  layers.scene.draw();
 }
 
 /** Controls of these layers, which they add to a scene. */

@@ -200,6 +200,7 @@ async function show(order) {
     else if (later === 0) later = setTimeout(showPanelsDue, wait);
   });
   scene = sceneView(places.scene);
+  isPictureFinished = () => scene?.isFinished() ?? true;
   addFigures(() => ({
     end: data.end, shown: scene?.shown ?? moment.seconds, points: data.points.length / 9, capturesKept: flights.reduce((sum, flight) => sum + flight.kept(), 0),
     otherModes: data.uavs.flatMap((_, uav) => otherModes(data.saidBy(uav))),
@@ -232,6 +233,7 @@ async function show(order) {
   if (keptFlight !== null) offerFilm(open, showPanels);
 }
 
+let isPictureFinished = () => true;
 let begun = false;
 let ready = Promise.resolve();
 const keptFlight = document.getElementById('kept');
@@ -257,7 +259,10 @@ const order = follow({
     stand(state);
     ready.then(grow);
   },
-  clouds: takeClouds,
+  clouds(clouds) {
+    takeClouds(clouds);
+    ready.then(grow);
+  },
   gone() {
     live = false;
     if (begun && main.querySelector('.bar')) showHead();
@@ -265,12 +270,12 @@ const order = follow({
 });
 
 let waiting = false;
-/** Once a picture of the screen, however much came in. */
+/** Once a picture of the screen, however much came in; without a graphics card a picture may take a second. */
 function grow() {
   if (waiting) return;
   waiting = true;
   const draw = () => {
-    if (!waiting) return;
+    if (!isPictureFinished()) return requestAnimationFrame(draw);
     waiting = false;
     growth.tell();
     document.body.dataset.live = 'yes';

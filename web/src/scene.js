@@ -283,10 +283,27 @@ class Scene {
   }
 
   draw() {
+    const early = !this.isFinished();
     this.renderer.render(this.scene, this.camera);
-    countFrame(this.renderer.info);
+    countFrame(this.renderer.info, early);
+    this.markEnd();
     const followed = this.followed ?? -1;
     this.labels?.show(this.camera, this.size, this.fleet.object.visible, followed, this.through ? followed : -1);
+  }
+
+  /** The graphics driver passes this mark when it has finished the picture. */
+  markEnd() {
+    const gl = this.renderer.getContext();
+    gl.deleteSync(this.mark ?? null);
+    this.mark = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
+    gl.flush();
+  }
+
+  /** Whether the last picture is finished: who draws again before that only waits, and the page with it. */
+  isFinished() {
+    const gl = this.renderer.getContext();
+    if (!this.mark || gl.isContextLost()) return true;
+    return gl.getSyncParameter(this.mark, gl.SYNC_STATUS) !== gl.UNSIGNALED;
   }
 
   /** @returns what is hit of some objects, first the nearest. */
@@ -360,8 +377,8 @@ function layer(name, objects, scene) {
   return element('label', {}, box, name);
 }
 
-/** Slider and play button of the moment; a run plays in half a minute. */
-function timeTools() {
+/** Slider and play button of the moment; a run plays in half a minute. @param scene  undefined: none is drawn */
+function timeTools(scene) {
   const slider = element(
       'input', {type: 'range', min: '0', max: String(data.end), step: 'any', 'aria-label': 'time', id: 'moment'});
   slider.value = String(data.end);
@@ -374,6 +391,7 @@ function timeTools() {
   };
   const turn = (now) => {
     if (last === null) return;
+    if (scene && !scene.isFinished()) return requestAnimationFrame(turn);
     moment.set(moment.seconds + ((now - last) / 1000) * Math.max(data.end / 30, 1));
     last = now;
     if (moment.seconds >= data.end)
@@ -453,7 +471,7 @@ export function sceneView(figure) {
       layer('station, collisions', [scene.marks.object], scene),
       ...(scene.links ? [layer('links', [scene.links.object], scene)] : []),
       ...(scene.goals ? [layer('goals', [scene.goals.object], scene)] : []),
-      ...(scene.frusta ? [layer('cameras', [scene.frusta.object], scene)] : []), timeTools());
+      ...(scene.frusta ? [layer('cameras', [scene.frusta.object], scene)] : []), timeTools(scene));
   live.prepend(tools);
   if (data.clouds) {
     scene.clouds = makeClouds(scene);
