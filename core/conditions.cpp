@@ -32,6 +32,7 @@ ConditionsConfig breezy() {
   odometry.bias_sigma_m = 0.05;
   odometry.noise_sigma_m = 0.01;
   odometry.velocity_sigma_mps = 0.03;
+  odometry.known_start = true;
   conditions.battery.endurance_missions = 1.5;
   conditions.lidar.sigma_per_m = 0.001;
   conditions.lidar.reflectivity = 0.5;

@@ -39,6 +39,7 @@ struct OdometryConditions {
   std::optional<double> mean_fix_s = {};  ///< mean duration of a position fix; none: the fix is never lost
   double mean_lost_s = 10.0;              ///< mean time from the loss of the fix to the next fix
   double walk_m_per_sqrt_s = 0.1;         ///< random walk per axis while the fix is lost
+  bool known_start = false;               ///< until a UAV takes off, its position has no error but bias and noise
 
   bool on() const {
     return horizontal_sigma_m > 0.0 || vertical_sigma_m > 0.0 || yaw_sigma_deg > 0.0 || bias_sigma_m > 0.0 ||

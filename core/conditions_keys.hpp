@@ -66,6 +66,7 @@ void describe(R& r, OdometryConditions& odometry) {
   r.field("mean_fix_s", odometry.mean_fix_s, within(1.0, 36000.0));
   r.field("mean_lost_s", odometry.mean_lost_s, within(0.1, 3600.0));
   r.field("walk_m_per_sqrt_s", odometry.walk_m_per_sqrt_s, within(0.0, 5.0));
+  r.field("known_start", odometry.known_start);
 }
 
 template <class R>

@@ -8,7 +8,9 @@
 namespace skein::sim {
 
 void GaussMarkov::step(double keeps, RandomStream& draw) {
-  value_ = keeps * value_ + std::sqrt(1.0 - keeps * keeps) * draw.normal();
+  const double fresh = 1.0 - keeps * keeps;
+  value_ = keeps * value_ + std::sqrt(fresh) * draw.normal();
+  variance_ = keeps * keeps * variance_ + fresh;
 }
 
 OdometryError::OdometryError(const OdometryConditions& config, std::uint64_t seed, UavIndex uav)
@@ -16,10 +18,11 @@ OdometryError::OdometryError(const OdometryConditions& config, std::uint64_t see
       draw_(seed, "odometry_error", uav),
       noise_draw_(seed, "odometry_noise", uav),
       bias_m_(config.bias_sigma_m * normals(draw_)),
-      x_(draw_),
-      y_(draw_),
-      z_(draw_),
-      yaw_(draw_) {
+      x_(first_error()),
+      y_(first_error()),
+      z_(first_error()),
+      yaw_(draw_),
+      at_start_(config.known_start) {
   if (config_.mean_fix_s) until_change_s_ = draw_duration(*config_.mean_fix_s);
   draw_noise();
 }
@@ -33,9 +36,10 @@ Vector3d OdometryError::position_error_m() const { return lost_ ? walked_m_ : wi
 double OdometryError::yaw_error() const { return config_.yaw_sigma_deg * kRadPerDeg * yaw_.value(); }
 
 void OdometryError::step(double step_s) {
+  yaw_.step(std::exp(-step_s / config_.yaw_time_constant_s), draw_);
+  if (at_start_) return;
   const double keeps = std::exp(-step_s / config_.time_constant_s);
   for (GaussMarkov* axis : {&x_, &y_, &z_}) axis->step(keeps, draw_);
-  yaw_.step(std::exp(-step_s / config_.yaw_time_constant_s), draw_);
   if (!config_.mean_fix_s) return;
   if (lost_) {
     lost_s_ += step_s;
@@ -45,6 +49,7 @@ void OdometryError::step(double step_s) {
   if (until_change_s_ > 0.0) return;
   if (!lost_) {
     walked_m_ = with_fix_m();
+    variance_when_lost_ = x_.variance();
     lost_s_ = 0.0;
   }
   lost_ = !lost_;
@@ -72,8 +77,9 @@ RigidBodyState OdometryError::told(const RigidBodyState& truth) const {
 
 PoseUncertainty OdometryError::uncertainty() const {
   const double walk_m = lost_ ? config_.walk_m_per_sqrt_s * std::sqrt(lost_s_) : 0.0;
+  const double variance = lost_ ? variance_when_lost_ : x_.variance();  // the three axes have the same
   const auto deviation = [&](double sigma_m) {
-    return std::sqrt(sigma_m * sigma_m + config_.bias_sigma_m * config_.bias_sigma_m +
+    return std::sqrt(variance * sigma_m * sigma_m + config_.bias_sigma_m * config_.bias_sigma_m +
                      config_.noise_sigma_m * config_.noise_sigma_m + walk_m * walk_m);
   };
   const double horizontal_m = deviation(config_.horizontal_sigma_m);

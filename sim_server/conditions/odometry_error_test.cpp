@@ -44,6 +44,39 @@ TEST(OdometryError, IsAGaussMarkovProcessOfItsDeviationAndTimeConstant) {
   }
 }
 
+TEST(OdometryError, IsNoneAtAKnownStartAndThenGrowsToItsDeviation) {
+  constexpr std::uint64_t kSeeds = 4000;
+  const OdometryConditions config{.horizontal_sigma_m = 0.3,
+                                  .vertical_sigma_m = 0.6,
+                                  .time_constant_s = 20.0,
+                                  .yaw_sigma_deg = 2.0,
+                                  .mean_fix_s = {},
+                                  .known_start = true};
+  for (const double flown_s : {1.0, 5.0, 20.0, 60.0}) {
+    double horizontal2 = 0.0, vertical2 = 0.0;
+    Vector3d told_m = Vector3d::Zero();
+    for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+      OdometryError error(config, seed, UavIndex{seed % 5});
+      const double waits_s = 30.0 * RandomStream(seed, "start_test", 0).uniform();
+      for (double t = 0.0; t < waits_s; t += kStep_s) error.step(kStep_s);
+      ASSERT_EQ(error.position_error_m(), Vector3d::Zero()) << "it has not taken off";
+      ASSERT_EQ(error.uncertainty().position_m, Vector3d::Zero());
+      ASSERT_NE(error.yaw_error(), 0.0) << "nobody surveys where it looks";
+      error.leave_start();
+      for (double t = 0.0; t < flown_s - kStep_s / 2; t += kStep_s) error.step(kStep_s);
+      horizontal2 += std::pow(error.position_error_m().x(), 2);
+      vertical2 += std::pow(error.position_error_m().z(), 2);
+      told_m = error.uncertainty().position_m;
+    }
+    const double share = 1.0 - std::exp(-2.0 * flown_s / 20.0);
+    const double tolerance = 4.0 * std::sqrt(2.0 / kSeeds);
+    EXPECT_NEAR(horizontal2 / kSeeds / (0.09 * share), 1.0, tolerance) << flown_s;
+    EXPECT_NEAR(vertical2 / kSeeds / (0.36 * share), 1.0, tolerance) << flown_s;
+    EXPECT_NEAR(told_m.x(), 0.3 * std::sqrt(share), 1e-9) << flown_s;
+    EXPECT_NEAR(told_m.z(), 0.6 * std::sqrt(share), 1e-9) << flown_s;
+  }
+}
+
 /// Normalised estimation errors squared, of position, yaw and velocity; each is 1 a degree of freedom if what the
 /// odometry says of its errors is true.
 struct Nees {
@@ -58,8 +91,12 @@ Nees nees(const OdometryConditions& config, bool only_without_fix = false) {
   Nees sum;
   for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
     OdometryError error(config, seed, UavIndex{seed % 5});
-    const double until_s = kDuration_s * RandomStream(seed, "nees_test", 0).uniform();
-    for (double t = 0.0; t < until_s; t += kStep_s) error.step(kStep_s);
+    RandomStream draw(seed, "nees_test", 0);
+    const double until_s = kDuration_s * draw.uniform(), leaves_s = 0.3 * kDuration_s * draw.uniform();
+    for (double t = 0.0; t < until_s; t += kStep_s) {
+      if (t >= leaves_s) error.leave_start();
+      error.step(kStep_s);
+    }
     error.draw_noise();
     sum.without_fix += error.has_fix() ? 0 : 1;
     if (only_without_fix && error.has_fix()) continue;

@@ -32,6 +32,7 @@ void Surroundings::begin_tick(Tick tick, const RigidBodyState& state, const Vect
 }
 
 Wrench Surroundings::fly(Vehicle& vehicle, const RigidBodyState& state) {
+  if (odometry_ && vehicle.mode() != ControlMode::idle) odometry_->leave_start();
   vehicle.control_attitude(believed(state));
   Wrench wrench = vehicle.fly(state, v_WA_);
   // A UAV that has not begun to fly stands firm; without wind the reference has no drag of the body.

@@ -42,6 +42,7 @@ AgentConfig agent_config(const Scenario& scenario, UavIndex self) {
   config.exchange_period_s = scenario.exchange_period_s;
   config.station_position = scenario.station_position;
   if (config.vehicle.lidar) know_conditions(scenario.conditions.lidar, *config.vehicle.lidar);
+  config.lidar_clutter = scenario.conditions.lidar.clutter_p > 0.0;
   config.battery = scenario.conditions.battery;
   config.odometry = scenario.conditions.odometry;
   return config;

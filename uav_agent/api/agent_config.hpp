@@ -32,6 +32,7 @@ struct AgentConfig {
   Vector3d station_position = Vector3d::Zero();  ///< of the ground station, in W
   BatteryConditions battery;                     ///< of this UAV
   OdometryConditions odometry;                   ///< error model of the odometry, the same for all UAVs
+  bool lidar_clutter = false;                    ///< rain or dust may return beams of the LiDARs
 
   const FleetMember& me() const { return fleet.at(self); }
   /// Index of the first UAV of the fleet with a LiDAR; nullopt: no UAV has one, so no space is ever proved free.

@@ -14,7 +14,17 @@ constexpr std::size_t kMostAnswers = 200'000;
 void BodyFit::update(const WorldMap& map, Tick now) {
   map_ = &map;
   now_ = now;
-  if (asked_ <= kMostAnswers) return;
+  if (asked_ > kMostAnswers) forget();
+}
+
+void BodyFit::set(double radius_m, double ground_m) {
+  if (radius_m == radius_m_ && ground_m == ground_m_) return;
+  radius_m_ = radius_m;
+  ground_m_ = ground_m;
+  forget();
+}
+
+void BodyFit::forget() {
   answers_.clear();
   asked_ = 0;
 }

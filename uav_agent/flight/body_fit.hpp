@@ -18,6 +18,8 @@ class BodyFit {
 
   /// Call it once per exchange. @param map  must outlive the calls of fits() that follow.
   void update(const WorldMap& map, Tick now);
+  /// From now on, instead of those of the constructor. Forgets the answers if any of the two changes.
+  void set(double radius_m, double ground_m);
   /// Whether the body fits with its centre at p, by the condition that the safety filter has for a UAV at rest.
   bool fits(const Vector3d& p_W) const;
 
@@ -32,6 +34,7 @@ class BodyFit {
   static constexpr int kBlockBits = 2, kBlock = 1 << kBlockBits;
   using Answers = std::array<Answer, kBlock * kBlock * kBlock>;
 
+  void forget();
   Answer& answer_of(const WorldMap::Cube& cube) const;
   Fits fits_in(const WorldMap::Cube& cube) const;
 

@@ -46,6 +46,21 @@ TEST(BodyFit, FitsWhereTheBallAboutThePlaceIsFree) {
   }
 }
 
+TEST(BodyFit, AnotherRadiusIsAskedAnew) {
+  RandomStream random(6, "fit", 0);
+  WorldMap map(WorldMap::Config{});
+  clear_places(map, random);
+  BodyFit fit(kRadiusM, kGroundM);
+  fit.update(map, 0);
+  std::vector<Vector3d> places_W;
+  for (int i = 0; i < 500; ++i) places_W.push_back(drawn_W(random));
+  for (int turn = 0; turn < 6; ++turn) {
+    const double radius_m = turn == 5 ? kRadiusM : random.uniform(0.5, 2.5);
+    fit.set(radius_m, kGroundM);
+    for (const Vector3d& p_W : places_W) ASSERT_EQ(fit.fits(p_W), slow_ball_free(map, p_W, radius_m)) << radius_m;
+  }
+}
+
 TEST(BodyFit, AnAnswerIsKeptForAWhileAndWhatDoesNotFitIsAskedSoonerAgain) {
   const Vector3d here_W(1.25, 1.25, 5.25), beside_W(7.25, 1.25, 5.25);
   WorldMap map(WorldMap::Config{});

@@ -10,6 +10,9 @@ namespace skein::agent {
 namespace {
 
 constexpr double kMostErrorM = 1.0;  ///< beyond that, the UAV could go nowhere
+/// Errors are rounded up to steps: what is known of places lasts as long as the clearance is the same.
+constexpr double kErrorStepM = 0.05;
+constexpr double kMostGroundErrorM = 2.0;
 constexpr double kWindMemoryS = 20.0, kPowerMemoryS = 10.0;
 constexpr double kCalmMps = 1.0;  ///< gusts below this are no reason to fly slower
 constexpr double kLeastSpeedShare = 0.5;
@@ -17,6 +20,7 @@ constexpr double kLeastGroundMps = 1.0;
 constexpr double kMarginS = 8.0, kDetours = 1.15;
 
 double square(double x) { return x * x; }
+double in_steps_m(double error_m) { return kErrorStepM * std::ceil(error_m / kErrorStepM - 1e-9); }
 
 }  // namespace
 
@@ -35,9 +39,12 @@ void Caution::update(const PlannerInput& in) {
   // Of structure nobody knows in which direction it is: the deviation along one of chance.
   const double any_way_m = in.uncertainty.position_m.norm() / std::sqrt(3.0);
   const auto kept_off = [&](double deviation_m) {
-    return std::min(kMostErrorM, config_.drift_sigmas * deviation_m + pushed_m);
+    return std::min(kMostErrorM, in_steps_m(config_.drift_sigmas * deviation_m + pushed_m));
   };
-  errors_ = {kept_off(drift_since_seen_m(any_way_m)), kept_off(std::sqrt(2.0) * any_way_m), kept_off(told_m)};
+  // The ground was seen with the error of that time, by this UAV or another one; the wind does not lift it.
+  const double ground_m = in_steps_m(config_.drift_sigmas * std::sqrt(2.0) * in.uncertainty.position_m.z());
+  errors_ = {kept_off(drift_since_seen_m(any_way_m)), kept_off(std::sqrt(2.0) * any_way_m), kept_off(told_m),
+             std::min(kMostGroundErrorM, ground_m)};
 }
 
 /// Deviation of what a LiDAR has seen within the last period of its servo: of a Gauss-Markov error with time constant
@@ -91,6 +98,12 @@ bool Caution::must_land(const PlannerInput& in) const {
   if (!config_.reacts || !in.battery) return false;
   const double needs_s = kDetours * way_down_s(in.state.p_WB, in.wind_W) + kMarginS;
   return in.battery->charge < agent_.battery.reserve + needs_s * charge_per_s_;
+}
+
+bool Caution::must_sink(const PlannerInput& in) const {
+  if (!config_.reacts || !in.battery) return false;
+  const double needs_s = kDetours * std::max(0.0, in.state.p_WB.z()) / config_.land_mps + kMarginS;
+  return in.battery->charge < needs_s * charge_per_s_;
 }
 
 }  // namespace skein::agent

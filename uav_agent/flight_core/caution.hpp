@@ -28,6 +28,8 @@ class Caution {
   double most_mps() const { return most_mps_; }
   /// Whether the charge is only just enough to fly to the start and land there with the reserve left.
   bool must_land(const PlannerInput& in) const;
+  /// Whether the charge is only just enough to land right here: nothing is left for a way.
+  bool must_sink(const PlannerInput& in) const;
   /// Time to fly from p_WB to above the start against the wind, and down to the ground [s].
   double way_down_s(const Vector3d& p_WB, const std::optional<Vector3d>& wind_W) const;
 

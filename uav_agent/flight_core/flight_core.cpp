@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "uav_agent/flight_core/landing_place.hpp"
+
 namespace skein::agent {
 namespace {
 
@@ -17,7 +19,8 @@ constexpr double kClimbGainM = 0.3;
 constexpr double kNoLinkS = 4.0;  ///< at a place from which the station should be seen
 constexpr double kIdleS = 4.0;    ///< without a goal that can be flown to
 constexpr std::int64_t kHome = -2;
-constexpr double kLandFromM = 5.0;     ///< above its start, before it comes down
+constexpr double kLandFromM = 5.0;     ///< above its landing place, before it comes down
+constexpr double kLandingRoomM = 0.5;  ///< between landing places, beyond what the filter demands now
 constexpr double kBelowGroundM = 1.0;  ///< of the setpoint of a UAV that has landed: it stands firm
 constexpr double kShowCheckS = 5.0;
 constexpr std::uint64_t kShowLook = 10;  ///< exchanges
@@ -308,27 +311,42 @@ void FlightCore::begin_landing(const PlannerInput& in, Steering& steering) {
   navigator_.stop(steering);
   outcomes();
   descends_ = false;
+  double apart_m = 0.0;
+  for (std::size_t uav = 0; uav < agent_.fleet.size(); ++uav) {
+    if (uav != agent_.self) apart_m = std::max(apart_m, filter_.apart_m(uav, config_.land_mps));
+  }
+  landing_W_ = landing_place_W(agent_, apart_m + kLandingRoomM);
   enter(Mode::landing, in);
 }
 
-/// To above its start, where it was seen that nothing stands; then down. While no way there is found, it comes down
-/// where it is: the filter keeps it off structure.
+/// To above its landing place or, if there is no way, above its start; then down. If it finds neither way and must sink
+/// now, it comes down where it is: the filter keeps it off structure.
 void FlightCore::land(const PlannerInput& in, Steering& steering) {
-  const Vector3d start_W = agent_.me().p_WB_start;
   if (descends_) return;
   navigator_.step(in, filter_.held(), steering);
   bool arrived = false;
   for (const Outcome& outcome : outcomes()) arrived = arrived || outcome.kind == Outcome::Kind::reached;
-  const bool in_need = in.battery && in.battery->charge < 0.5 * agent_.battery.reserve;
-  const double off_m = (in.state.p_WB - start_W).head<2>().norm();
-  if (arrived || off_m < 0.5 * kRisenM || (in_need && navigator_.idle())) {
-    const Vector3d& at_W = off_m < kLandFromM ? start_W : in.state.p_WB;
-    steering.motion = Path{{{Vector3d(at_W.x(), at_W.y(), -kBelowGroundM), config_.land_mps}}};
-    descends_ = true;
+  const auto off_m = [&](const Vector3d& place_W) { return (in.state.p_WB - place_W).head<2>().norm(); };
+  if (arrived || off_m(landing_W_) < 0.5 * kRisenM || caution_.must_sink(in)) {
+    navigator_.stop(steering);
+    outcomes();
+    const Vector3d& start_W = agent_.me().p_WB_start;
+    const Vector3d& nearer_W = off_m(landing_W_) < off_m(start_W) ? landing_W_ : start_W;
+    descend(off_m(nearer_W) < kLandFromM ? nearer_W : in.state.p_WB, in, steering);
     return;
   }
   if (!navigator_.idle()) return;
-  navigator_.want({{.id = kHome, .way = {{start_W + Vector3d(0.0, 0.0, kLandFromM), config_.approach_mps}}}});
+  const Vector3d up_W(0.0, 0.0, kLandFromM);
+  navigator_.want({{.id = kHome, .way = {{landing_W_ + up_W, config_.approach_mps}}},
+                   {.id = kHome, .way = {{agent_.me().p_WB_start + up_W, config_.approach_mps}}}});
+}
+
+void FlightCore::descend(const Vector3d& at_W, const PlannerInput& in, Steering& steering) {
+  Path path;
+  if (in.state.p_WB.z() > kLandFromM) path.waypoints.push_back({{at_W.x(), at_W.y(), kLandFromM}, config_.climb_mps});
+  path.waypoints.push_back({{at_W.x(), at_W.y(), -kBelowGroundM}, config_.land_mps});
+  steering.motion = std::move(path);
+  descends_ = true;
 }
 
 }  // namespace skein::agent

@@ -70,6 +70,7 @@ class FlightCore {
   void go_home(const PlannerInput& in, Steering& steering);
   void begin_landing(const PlannerInput& in, Steering& steering);
   void land(const PlannerInput& in, Steering& steering);
+  void descend(const Vector3d& at_W, const PlannerInput& in, Steering& steering);
   bool flies_along() const;
   Doing::What doing_home(const PlannerInput& in) const;
   int neighbours_after() const;
@@ -91,13 +92,14 @@ class FlightCore {
   std::optional<Vector3d> top_W_;    ///< where the climb of the takeoff ends
   double climbed_m_ = 0.0;           ///< height reached in the climb, at climbed_at_
   Tick climbed_at_ = 0;
-  Tick show_at_ = 0;                    ///< earliest time of the next look for a mate to show its way
-  std::optional<Tick> at_place_since_;  ///< when homing reached its place, still without a link
-  std::size_t next_place_ = 0;          ///< index of the place that homing tries first
-  bool lost_way_home_ = false;          ///< it recovers because homing could not reach its places
-  bool descends_ = false;               ///< landing: it sinks to the ground
-  std::vector<Outcome> outcomes_;       ///< that the planner has not received yet
-  std::vector<Goal> wanted_;            ///< the planner's last goals, for when `working` begins again
+  Tick show_at_ = 0;                       ///< earliest time of the next look for a mate to show its way
+  std::optional<Tick> at_place_since_;     ///< when homing reached its place, still without a link
+  std::size_t next_place_ = 0;             ///< index of the place that homing tries first
+  bool lost_way_home_ = false;             ///< it recovers because homing could not reach its places
+  Vector3d landing_W_ = Vector3d::Zero();  ///< on the ground
+  bool descends_ = false;                  ///< landing: it sinks to the ground
+  std::vector<Outcome> outcomes_;          ///< that the planner has not received yet
+  std::vector<Goal> wanted_;               ///< the planner's last goals, for when `working` begins again
   std::optional<std::size_t> waits_for_;
   std::string no_way_;
 };

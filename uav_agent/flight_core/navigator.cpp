@@ -34,6 +34,7 @@ Navigator::Navigator(const FlightConfig& config, const AgentConfig& agent, const
     : config_(config), agent_(agent), filter_(filter), fit_(filter.tube_m(kFitMps), config.ground_m), sight_(agent) {}
 
 void Navigator::update(const PlannerInput& in) {
+  fit_.set(filter_.tube_m(kFitMps), filter_.ground_m());
   fit_.update(*in.world_map, in.tick);
   sight_.update(in);
 }

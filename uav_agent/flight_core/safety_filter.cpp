@@ -6,9 +6,10 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kSampleM = 0.3;     ///< between two places of a way that are looked at
-constexpr double kNearerM = 1e-6;    ///< rounding, where nothing may come nearer
-constexpr double kPeerDelayS = 0.1;  ///< a UAV may fly on so long before it brakes: one exchange and a late command
+constexpr double kSampleM = 0.3;      ///< between two places of a way that are looked at
+constexpr double kNearerM = 1e-6;     ///< rounding, where nothing may come nearer
+constexpr double kNoiseSigmas = 4.0;  ///< so many of the odometry's noise are no motion
+constexpr double kPeerDelayS = 0.1;   ///< a UAV may fly on so long before it brakes: one exchange and a late command
 constexpr double kPeerBrakesMps2 = 2.0;
 /// Commands are means over so long (tracker.hpp): braking begins that much softer.
 constexpr double kPeerSmoothS = 0.4;
@@ -49,7 +50,7 @@ std::vector<Vector3d> thinned(const std::vector<Vector3d>& way_W) {
 }  // namespace
 
 SafetyFilter::SafetyFilter(const FlightConfig& config, const AgentConfig& agent)
-    : config_(config), agent_(agent), assumes_boxes_(!agent.first_explorer()) {}
+    : config_(config), agent_(agent), assumes_boxes_(!agent.first_explorer()), nearer_m_(kNearerM) {}
 
 double SafetyFilter::tracking_error_m(Role role, double speed_mps) const {
   return (role == Role::explorer ? config_.error_m : config_.light_error_m) + config_.error_per_mps_s * speed_mps;
@@ -74,7 +75,9 @@ double SafetyFilter::apart_m(std::size_t uav, double speed_mps) const {
 std::optional<TrajectoryCommand> SafetyFilter::step(Tracker& tracker, const Facts& facts, double most_mps,
                                                     bool retraces) {
   held_ = {};
-  now_W_ = tracker.moves() && tracker.tracking().airborne ? tracker.commanded().p_WB : facts.state.p_WB;
+  const bool flies = tracker.moves() && tracker.tracking().airborne;
+  now_W_ = flies ? tracker.commanded().p_WB : facts.state.p_WB;
+  nearer_m_ = std::max(kNearerM, flies ? 0.0 : kNoiseSigmas * agent_.odometry.noise_sigma_m);
   const double dt_s = agent_.exchange_period_s;
   if (!tracker.moves()) return tracker.step(facts.state, dt_s);
   ++counts_.exchanges;
@@ -123,7 +126,7 @@ std::optional<TrajectoryCommand> SafetyFilter::move_on(Tracker& tracker, const F
 /// As much as is asked for, about where it is commanded to be.
 bool SafetyFilter::has_room(const Facts& facts) const {
   if (assumes_boxes_) return true;
-  return facts.map.ball_free(now_W_, tube_m(0.0), config_.ground_m);
+  return facts.map.ball_free(now_W_, tube_m(0.0), ground_m());
 }
 
 std::vector<SafetyFilter::PeerReach> SafetyFilter::reach_of_peers(const Facts& facts) const {
@@ -156,7 +159,7 @@ Held SafetyFilter::judge(const std::vector<Vector3d>& way_W, double speed_mps, c
       const double off_m = distance_to_segment(p_W, peer.from_W, peer.to_W);
       if (off_m >= peer.apart_m) continue;
       // What the peer sweeps may reach this UAV: then no place is nearer to it. So the peer's own place counts, too.
-      const bool nearer = off_m < peer.now_m - kNearerM || (p_W - peer.from_W).norm() < peer.from_m - kNearerM;
+      const bool nearer = off_m < peer.now_m - nearer_m_ || (p_W - peer.from_W).norm() < peer.from_m - nearer_m_;
       if (nearer) return {Held::By::peer, p_W, peer.uav};
     }
     Held held{.at_W = p_W};
@@ -166,12 +169,12 @@ Held SafetyFilter::judge(const std::vector<Vector3d>& way_W, double speed_mps, c
 }
 
 bool SafetyFilter::proved(const Vector3d& p_W, double radius_m, const Facts& facts, Held& held) {
-  if (facts.map.ball_free(p_W, radius_m, config_.ground_m)) return true;
+  if (facts.map.ball_free(p_W, radius_m, ground_m())) return true;
   cubes_.clear();
-  facts.map.not_free_near(p_W, radius_m, config_.ground_m, cubes_);
+  facts.map.not_free_near(p_W, radius_m, ground_m(), cubes_);
   if (assumes_boxes_ && assumed(p_W, radius_m, facts.map, facts.boxes)) return true;
   for (const Cube& cube : cubes_) {
-    if (facts.map.distance_to_m(cube, p_W) >= facts.map.distance_to_m(cube, now_W_) - kNearerM) continue;
+    if (facts.map.distance_to_m(cube, p_W) >= facts.map.distance_to_m(cube, now_W_) - nearer_m_) continue;
     held.by = facts.map.known(cube).space == Space::occupied ? Held::By::structure : Held::By::unproved;
     return false;
   }
@@ -180,7 +183,7 @@ bool SafetyFilter::proved(const Vector3d& p_W, double radius_m, const Facts& fac
 
 bool SafetyFilter::proved(const Vector3d& p_W, const WorldMap& map, const std::vector<OrientedBox>& boxes) const {
   if (assumes_boxes_) return assumed(p_W, tube_m(0.0), map, boxes);
-  return map.ball_free(p_W, tube_m(0.0), config_.ground_m);
+  return map.ball_free(p_W, tube_m(0.0), ground_m());
 }
 
 bool SafetyFilter::assumed(const Vector3d& p_W, double radius_m, const WorldMap& map,
@@ -191,7 +194,7 @@ bool SafetyFilter::assumed(const Vector3d& p_W, double radius_m, const WorldMap&
            // Where it was put down in a box, or below one, there is nothing but that way out.
            const bool about_start = above_start && box.contains(agent_.me().p_WB_start, radius_m);
            return !about_start && off_box_m(box, p_W) <= room_m &&
-                  off_box_m(box, p_W) < off_box_m(box, now_W_) - kNearerM;
+                  off_box_m(box, p_W) < off_box_m(box, now_W_) - nearer_m_;
          });
 }
 

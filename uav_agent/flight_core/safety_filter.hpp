@@ -39,9 +39,10 @@ struct Held {
 
 /// Position errors that add to the tracking error [m] (caution.hpp).
 struct ExpectedErrors {
-  double seen_m = 0.0;   ///< of structure that the UAV's own LiDAR sees
-  double told_m = 0.0;   ///< of structure on maps that other UAVs sent
-  double peers_m = 0.0;  ///< of each of two UAVs
+  double seen_m = 0.0;    ///< of structure that the UAV's own LiDAR sees
+  double told_m = 0.0;    ///< of structure on maps that other UAVs sent
+  double peers_m = 0.0;   ///< of each of two UAVs
+  double ground_m = 0.0;  ///< of the height in which the ground was seen
 };
 
 class SafetyFilter {
@@ -71,6 +72,8 @@ class SafetyFilter {
   const Held& held() const { return held_; }
   /// Whether this UAV may rest at p_W (centre): all space about it that the invariant needs is proved free.
   bool proved(const Vector3d& p_W, const WorldMap& map, const std::vector<OrientedBox>& boxes) const;
+  /// Space below this height need not be proved free: what was seen there may be the ground.
+  double ground_m() const { return config_.ground_m + errors_.ground_m; }
   /// Radius of the sphere that must be free about this UAV's centre at a speed [m].
   double tube_m(double speed_mps) const { return tube_m(speed_mps, kHaloM); }
   /// The same for another UAV at rest that has no LiDAR, and flies on this UAV's map.
@@ -118,6 +121,7 @@ class SafetyFilter {
   /// The commanded position. The filter compares with it whether the UAV comes nearer to something. Compared with its
   /// measured position, a UAV that swings about its setpoint would advance only at a crawl.
   Vector3d now_W_ = Vector3d::Zero();
+  double nearer_m_;         ///< a place that is nearer by less than this does not count as nearer: rounding, and noise
   double halo_m_ = kHaloM;  ///< that counts in this exchange
   bool had_room_ = false;   ///< the full kHaloM was free once since the start or restart
 };

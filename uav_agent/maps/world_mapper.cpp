@@ -37,7 +37,11 @@ void WorldMapper::insert(const BeamScan& scan) {
     };
   }
   const ScanBundler::Bundles& bundles = bundler_.bundle(scan, repeated, near_free, clear_way);
-  map_.insert(bundles.bundles, bundles.hits_W);
+  if (!config_.clutter) return map_.insert(bundles.bundles, bundles.hits_W);
+  hits_W_ = bundles.hits_W;
+  clutter_.keep_confirmed(seconds(scan.tick), map_, hits_W_);
+  map_.insert(bundles.bundles, hits_W_);
+  clutter_.doubt_new(map_);
 }
 
 }  // namespace skein::agent

@@ -2,6 +2,7 @@
 // Frames: W world, B body.   Units: metres.   Threads: one.   Deterministic.
 #pragma once
 
+#include "uav_agent/maps/clutter_filter.hpp"
 #include "uav_agent/maps/scan_bundles.hpp"
 #include "uav_agent/maps/world_map.hpp"
 
@@ -17,6 +18,7 @@ class WorldMapper {
     /// Radius of the ball around the LiDAR that counts as free at the start: greater than the range in which the LiDAR
     /// is blind, so that the first beams can prove more (decision 25).
     double start_clear_m = 1.2;
+    bool clutter = false;  ///< rain or dust may return beams: ClutterFilter
   };
 
   /// @param lidar   its share of lost returns enters the map's criterion as no_return_p.
@@ -36,6 +38,8 @@ class WorldMapper {
   WorldMap map_;
   ScanBundler bundler_;
   RepeatedScans repeated_;
+  ClutterFilter clutter_;
+  std::vector<Eigen::Vector3f> hits_W_;  ///< of one scan, without clutter
   bool started_ = false;
 };
 

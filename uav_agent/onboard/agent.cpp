@@ -56,7 +56,8 @@ struct Agent::Impl {
     if (lidar && (planner->wants_beams() || maps_world)) beam_reader.emplace(*lidar);
     if (!maps_world) return;
     if (lidar) {
-      world_mapper = std::make_unique<WorldMapper>(*lidar, WorldMapper::Config{.map = world_map_config()});
+      world_mapper = std::make_unique<WorldMapper>(
+          *lidar, WorldMapper::Config{.map = world_map_config(), .clutter = config.lidar_clutter});
     } else {
       world_map = std::make_unique<WorldMap>(world_map_config());
     }

@@ -1,0 +1,63 @@
+#include "uav_agent/flight_core/landing_place.hpp"
+
+#include <algorithm>
+#include <vector>
+
+namespace skein::agent {
+namespace {
+
+constexpr double kSameM = 0.1;    ///< places closer than this cannot be told apart: no factor separates them
+constexpr double kRoundM = 1e-6;  ///< against rounding, so that a group is apart after one turn
+constexpr int kMostTurns = 10;
+
+using Places = std::vector<Vector3d>;
+using Group = std::vector<std::size_t>;
+
+/// Those that are linked with `first`, itself included, in ascending order.
+Group group_of(std::size_t first, const Places& places_W, double apart_m) {
+  Group group = {first};
+  for (std::size_t next = 0; next < group.size(); ++next) {
+    for (std::size_t i = 0; i < places_W.size(); ++i) {
+      const bool linked = (places_W[i] - places_W[group[next]]).norm() < apart_m;
+      if (linked && std::ranges::find(group, i) == group.end()) group.push_back(i);
+    }
+  }
+  std::ranges::sort(group);
+  return group;
+}
+
+void spread(const Group& group, double apart_m, Places& places_W) {
+  Vector3d centre_W = Vector3d::Zero();
+  double closest_m = apart_m;
+  for (const std::size_t i : group) {
+    centre_W += places_W[i] / static_cast<double>(group.size());
+    for (const std::size_t j : group) {
+      if (j < i) closest_m = std::min(closest_m, std::max(kSameM, (places_W[i] - places_W[j]).norm()));
+    }
+  }
+  const double factor = (apart_m + kRoundM) / closest_m;
+  for (const std::size_t i : group) places_W[i] = centre_W + factor * (places_W[i] - centre_W);
+}
+
+}  // namespace
+
+Vector3d landing_place_W(const AgentConfig& agent, double apart_m) {
+  Places places_W;
+  for (const FleetMember& member : agent.fleet) {
+    places_W.emplace_back(member.p_WB_start.x(), member.p_WB_start.y(), 0.0);
+  }
+  // A group that has grown may have come close to another one.
+  bool any_moved = true;
+  for (int turn = 0; any_moved && turn < kMostTurns; ++turn) {
+    any_moved = false;
+    for (std::size_t first = 0; first < places_W.size(); ++first) {
+      const Group group = group_of(first, places_W, apart_m);
+      if (group.size() < 2 || group.front() != first) continue;
+      spread(group, apart_m, places_W);
+      any_moved = true;
+    }
+  }
+  return places_W.at(agent.self);
+}
+
+}  // namespace skein::agent

@@ -1,0 +1,78 @@
+#include "uav_agent/maps/clutter_filter.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/random_stream.hpp"
+
+namespace skein::agent {
+namespace {
+
+constexpr double kScanS = 0.1;
+
+struct Filtered {
+  void scan(std::vector<Eigen::Vector3f> hits_W) {
+    filter.keep_confirmed(time_s, map, hits_W);
+    map.insert({}, hits_W);
+    filter.doubt_new(map);
+    time_s += kScanS;
+  }
+  Space at(const Eigen::Vector3f& p_W) const { return map.at(p_W.cast<double>()); }
+  bool doubted(const Eigen::Vector3f& p_W) const { return map.doubted(map.cube_of(p_W.cast<double>())); }
+
+  WorldMap map{WorldMap::Config{}};
+  ClutterFilter filter;
+  double time_s = 0.0;
+};
+
+Eigen::Vector3f drawn_W(RandomStream& random, double reach_m) {
+  const auto along = [&] { return static_cast<float>(random.uniform(-reach_m, reach_m)); };
+  return {along(), along(), along()};
+}
+
+TEST(ClutterFilter, LoneReturnsLeaveTheMapAsItWas) {
+  RandomStream random(1, "clutter", 0);
+  Filtered rain;
+  std::size_t drops = 0;
+  for (int scan = 0; scan < 600; ++scan) {
+    std::vector<Eigen::Vector3f> hits_W;
+    while (random.uniform() < 0.6) hits_W.push_back(drawn_W(random, 20.0));
+    drops += hits_W.size();
+    rain.scan(hits_W);
+  }
+  ASSERT_GT(drops, 500U);
+  EXPECT_LE(rain.map.counts().occupied, 2U) << "of " << drops << " drops, hardly two fall into one cube within 2 s";
+}
+
+TEST(ClutterFilter, StructureIsThereWithItsThirdReturnAndStays) {
+  RandomStream random(2, "clutter", 0);
+  Filtered wall;
+  std::vector<Eigen::Vector3f> hits_W;
+  for (int i = 0; i < 40; ++i) hits_W.emplace_back(7.25F, -10.0F + 0.5F * static_cast<float>(i), 3.25F);
+  wall.scan(hits_W);
+  for (const Eigen::Vector3f& hit_W : hits_W) EXPECT_EQ(wall.at(hit_W), Space::unknown) << "one return may be a drop";
+  wall.scan(hits_W);
+  for (const Eigen::Vector3f& hit_W : hits_W) {
+    EXPECT_EQ(wall.at(hit_W), Space::occupied);
+    EXPECT_TRUE(wall.doubted(hit_W));
+  }
+  wall.scan(hits_W);
+  for (int scan = 0; scan < 100; ++scan) wall.scan({drawn_W(random, 20.0)});
+  for (const Eigen::Vector3f& hit_W : hits_W) {
+    EXPECT_EQ(wall.at(hit_W), Space::occupied);
+    EXPECT_FALSE(wall.doubted(hit_W));
+  }
+}
+
+TEST(ClutterFilter, ReturnsThatAreTooFarApartInTimeDoNotConfirmEachOther) {
+  const Eigen::Vector3f p_W(3.0F, 2.0F, 1.0F);
+  for (const double wait_s : {1.0, 1.9, 2.2, 60.0}) {
+    Filtered drops;
+    drops.scan({p_W});
+    drops.time_s = wait_s;
+    drops.scan({p_W});
+    EXPECT_EQ(drops.at(p_W), wait_s < 2.0 ? Space::occupied : Space::unknown) << wait_s;
+  }
+}
+
+}  // namespace
+}  // namespace skein::agent
