@@ -3,8 +3,9 @@
 // Position and yaw: first-order Gauss-Markov processes, and a constant offset. Before takeoff, the place where a UAV
 // stands is known (`known_start`): the position's process begins at 0 when the UAV takes off.
 // While the fix is lost, the position walks off at random from where it was, and the yaw goes on as before; afterwards
-// the error jumps back to what it would have been. The flight controller flies by this, the LiDAR's clouds and what the camera finds are placed by it:
-// all that a UAV is told agrees. The messages have white noise on top, the same in all samples of an exchange.
+// the error jumps back to what it would have been.
+// The flight controller flies by this, the LiDAR's clouds and what the camera finds are placed by it: all that a UAV is
+// told agrees. The messages have white noise on top, the same in all samples of an exchange.
 // Frames: W world, B body.  Units: SI, radians.  Threads: one.  The same seed gives the same bits.
 #pragma once
 
