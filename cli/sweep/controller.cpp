@@ -217,7 +217,7 @@ std::vector<SweepFlight> SweepController::unchecked_flights() const {
 
 /// Whichever node gets one flies what others have flown.
 std::vector<std::size_t> SweepController::units_of_checks() const {
-  if (!engine_.has_other_nodes() || folder_.nodes().size() < 2) return {};
+  if (!engine_.has_other_nodes() || engine_.lacks_nodes() || folder_.nodes().size() < 2) return {};
   const std::size_t first = settings_.units();
   std::map<std::size_t, SweepFolder::Tries> tries = folder_.tries();
   std::size_t& rounds = tries[first].tries;

@@ -147,6 +147,25 @@ TEST(SweepController, ACheckGoesToAnotherNodeAtOnce) {
   EXPECT_GT(meanwhile, 5U) << "while the last units fly, an idle slot flies the check";
 }
 
+// The node that flew a flight first must not fly its check, and all other nodes have died. The engine says so once, and
+// this machine repeats the flight.
+TEST(SweepController, ACheckForWhichNoNodeIsLeftIsFlownHere) {
+  std::size_t gone = 0;
+  for (std::uint64_t order = 1; order <= 30; ++order) {
+    SCOPED_TRACE("order " + std::to_string(order));
+    Sweep sweep(order, 12, 2, {{"sound 1"}, {"sound 2"}});
+    sweep.engine.asks_for_more = order % 2 == 0;
+    sweep.engine.others_are_gone = true;
+    ASSERT_TRUE(sweep.control());
+    sweep.expect_all(12);
+    const SweepFolder folder(sweep.world.study());
+    EXPECT_EQ(folder.checks(folder.settings().value().token).size(), 1U);
+    EXPECT_LE(sweep.engine.rounds, 2U) << "asking again would wait again: " << sweep.said.str();
+    gone += sweep.engine.lacks_nodes() ? 1 : 0;
+  }
+  EXPECT_GT(gone, 10U);
+}
+
 TEST(SweepController, AnotherArithmeticIsFoundByTheReferenceFlight) {
   std::vector<MadeUpNode> nodes = {{"sound"}, {"odd"}};
   nodes[1].other_arithmetic = true;

@@ -47,6 +47,8 @@ class SweepEngine {
 
   /// Whether units can fly on machines other than this one.
   virtual bool has_other_nodes() const = 0;
+  /// Whether the engine gave up units with `not_on`, because no other node is left.
+  virtual bool lacks_nodes() const { return false; }
 };
 
 }  // namespace skein::cli

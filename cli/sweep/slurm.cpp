@@ -24,7 +24,8 @@ constexpr std::size_t kUsualArraySize = 1001;                              ///< 
 constexpr std::size_t kMostSilent = 40;                                    ///< looks in a row: ten minutes
 constexpr std::chrono::milliseconds kFirstLook{250}, kLongestLook{15000};  ///< at Slurm's queue
 constexpr std::chrono::milliseconds kGlance{500};                          ///< at the folder of units that are over
-constexpr std::chrono::milliseconds kLeastLook{2000};                      ///< after one that such a unit caused
+constexpr std::chrono::seconds kStrandedFor{60};       ///< then nodes that are gone will hardly come back soon
+constexpr std::chrono::milliseconds kLeastLook{2000};  ///< after one that such a unit caused
 /// So long before its limit of time a unit is told to end [s]: what is in the air then is flown again.
 constexpr const char* kNotice = "B:TERM@30";
 
@@ -113,15 +114,16 @@ class SlurmEngine : public SweepEngine {
   }
 
   bool has_other_nodes() const override { return true; }
+  bool lacks_nodes() const override { return lacks_nodes_; }
 
  private:
-  /// Of all jobs with such a name: job, name, index in its array, state, node.
+  /// Of all jobs with such a name: job, name, index in its array, state, node, why it waits.
   std::vector<std::vector<std::string>> queue(const std::string& prefix) const {
     std::vector<std::vector<std::string>> jobs;
-    std::istringstream lines(output_of("squeue --noheader --array --format='%F|%j|%K|%T|%N'"));
+    std::istringstream lines(output_of("squeue --noheader --array --format='%F|%j|%K|%T|%N|%r'"));
     for (std::string line; std::getline(lines, line);) {
       std::vector<std::string> parts = split(line, '|');
-      if (parts.size() == 5 && parts[1].starts_with(prefix)) jobs.push_back(std::move(parts));
+      if (parts.size() == 6 && parts[1].starts_with(prefix)) jobs.push_back(std::move(parts));
     }
     return jobs;
   }
@@ -179,7 +181,9 @@ class SlurmEngine : public SweepEngine {
       command += " --exclude=" + shell_word(joined({work.not_on.begin(), work.not_on.end()}, ","));
     }
     if (!after.empty()) command += " --dependency=afterany:" + after;
-    return submitted(command, lists / (list + ".sh"));
+    const std::string id = submitted(command, lists / (list + ".sh"));
+    if (!work.not_on.empty()) excluding_.insert(id);
+    return id;
   }
 
   /// It goes on with the sweep after all arrays, whoever lives: gives Slurm what failed once more, or merges.
@@ -215,6 +219,7 @@ class SlurmEngine : public SweepEngine {
       const auto left = jobs_left(silent);
       if (left && left->empty()) return true;
       meanwhile.tell();
+      if (left) give_up_stranded(*left);
       if (left && may_ask && idle_slots(*left) > 0) {
         may_ask = false;
         submit_more(meanwhile.more(), jobs_ ? std::optional(idle_slots(*left)) : std::nullopt);
@@ -226,6 +231,36 @@ class SlurmEngine : public SweepEngine {
   } catch (const Interrupted&) {
     console_.err << "Slurm goes on flying, and merges; the same command follows again" << std::endl;
     return false;
+  }
+
+  /// If the only nodes that may fly what is left have died, Slurm waits for them for ever.
+  void give_up_stranded(const std::vector<EngineJob>& left) {
+    const auto now = std::chrono::steady_clock::now();
+    const std::set<std::string> arrays = stranded_arrays(left);
+    if (arrays.empty()) stranded_since_.reset();
+    if (arrays.empty() || now - stranded_since_.value_or(now) < kStrandedFor) {
+      if (!arrays.empty() && !stranded_since_) stranded_since_ = now;
+      return;
+    }
+    stranded_since_.reset();
+    lacks_nodes_ = true;
+    for (const std::string& id : arrays) output_of("scancel " + id);
+    console_.err << "no node is left for job " << joined({arrays.begin(), arrays.end()})
+                 << ", which must not fly on others: cancelled" << std::endl;
+  }
+
+  /// Arrays that exclude nodes, if nothing is left but units of these, and Slurm says that all other nodes are gone.
+  std::set<std::string> stranded_arrays(const std::vector<EngineJob>& left) const {
+    const auto waits = [](const EngineJob& job) { return job.state == "PENDING"; };
+    if (excluding_.empty() || left.empty() || !std::ranges::all_of(left, waits)) return {};
+    std::set<std::string> arrays;
+    for (const std::vector<std::string>& job : queue(job_prefix(*folder_.settings()))) {
+      if (!parse_number(job[2])) continue;  // the job that merges
+      const bool no_node = job[5].starts_with("ReqNodeNotAvail") || job[5].starts_with("Nodes required");
+      if (!no_node || !excluding_.contains(job[0])) return {};
+      arrays.insert(job[0]);
+    }
+    return arrays;
   }
 
   /// Slots for which no unit is left, while others still fly.
@@ -273,7 +308,10 @@ class SlurmEngine : public SweepEngine {
   const Console& console_;
   std::string token_;                ///< of the sweep
   std::vector<std::string> arrays_;  ///< jobs of the units that fly() gave to Slurm
-  std::string merge_;                ///< the job that goes on after them; empty: none
+  std::set<std::string> excluding_;  ///< those of them that exclude nodes
+  std::optional<std::chrono::steady_clock::time_point> stranded_since_;
+  bool lacks_nodes_ = false;
+  std::string merge_;  ///< the job that goes on after them; empty: none
 };
 
 }  // namespace

@@ -134,11 +134,15 @@ def squeue(words):
     if "--noheader" not in words or "--array" not in words:
         sys.exit("squeue: the stand-in knows --noheader --array --format alone")
     with Locked() as jobs:
+        nodes = set((STATE / "nodes").read_text().split())
         for number, job in jobs.items():
+            excluded = set(job["options"].get("exclude", "").split(","))
+            waits_for = "Resources" if nodes - excluded else "ReqNodeNotAvail, UnavailableNodes"
             for task, state in enumerate(job["tasks"]):
                 if state in ("PENDING", "RUNNING"):
                     index = task if "array" in job["options"] else "N/A"
-                    print(f"{number}|{job['options']['job-name']}|{index}|{state}|{job['nodes'][task]}")
+                    reason = waits_for if state == "PENDING" else "None"
+                    print(f"{number}|{job['options']['job-name']}|{index}|{state}|{job['nodes'][task]}|{reason}")
 
 
 def scancel(words):

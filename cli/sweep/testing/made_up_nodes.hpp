@@ -193,10 +193,12 @@ class MadeUpEngine : public SweepEngine {
   }
   std::vector<EngineJob> jobs() override { return {}; }
   bool has_other_nodes() const override { return true; }
+  bool lacks_nodes() const override { return lacks_nodes_; }
 
   EngineManners manners;
-  bool asks_for_more = true;  ///< fly() calls Meanwhile::more once, when no unit waits
-  std::size_t rounds = 0;     ///< calls of fly()
+  bool others_are_gone = false;  ///< where units exclude a node, all others have died
+  bool asks_for_more = true;     ///< fly() calls Meanwhile::more once, when no unit waits
+  std::size_t rounds = 0;        ///< calls of fly()
 
  private:
   bool drawn(double probability) { return world_.draw.uniform() < probability; }
@@ -213,12 +215,17 @@ class MadeUpEngine : public SweepEngine {
     for (MadeUpNode& node : nodes_) {
       if (!not_on.contains(node.name)) free.push_back(&node);
     }
+    if (others_are_gone && !not_on.empty()) {
+      lacks_nodes_ = true;
+      return;
+    }
     if (!free.empty()) workers_.push_back(std::make_unique<MadeUpWorker>(world_, *free[place(free.size())], unit));
   }
 
   MadeUpWorld& world_;
   std::vector<MadeUpNode>& nodes_;
   std::vector<std::unique_ptr<MadeUpWorker>> workers_;
+  bool lacks_nodes_ = false;
 };
 
 }  // namespace skein::cli
