@@ -237,11 +237,9 @@ class SlurmEngine : public SweepEngine {
   void give_up_stranded(const std::vector<EngineJob>& left) {
     const auto now = std::chrono::steady_clock::now();
     const std::set<std::string> arrays = stranded_arrays(left);
-    if (arrays.empty()) stranded_since_.reset();
-    if (arrays.empty() || now - stranded_since_.value_or(now) < kStrandedFor) {
-      if (!arrays.empty() && !stranded_since_) stranded_since_ = now;
-      return;
-    }
+    if (arrays.empty()) return stranded_since_.reset();
+    if (!stranded_since_) stranded_since_ = now;
+    if (now - *stranded_since_ < kStrandedFor) return;
     stranded_since_.reset();
     lacks_nodes_ = true;
     for (const std::string& id : arrays) output_of("scancel " + id);

@@ -1,6 +1,5 @@
 #include "uav_agent/flight_core/caution.hpp"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -49,8 +48,8 @@ TEST(Caution, ChangesNothingWhereNothingIsTold) {
   EXPECT_FALSE(uav.caution.must_land(uav.told()));
 }
 
-/// Up to the next step of 5 cm.
-MATCHER_P(RoundedUp, error_m, "") { return arg > error_m - 1e-9 && arg < error_m + 0.05 + 1e-9; }
+/// To the next step of 5 cm.
+double rounded_up_m(double error_m) { return 0.05 * std::ceil(error_m / 0.05 - 1e-9); }
 
 TEST(Caution, KeepsFartherOffByCovarianceAndWindUpToABound) {
   Told uav;
@@ -58,13 +57,16 @@ TEST(Caution, KeepsFartherOffByCovarianceAndWindUpToABound) {
   uav.uncertainty.position_m = {0.1, 0.1, 0.2};
   const double any_way_m = std::sqrt(0.06 / 3.0);
   uav.caution.update(uav.told());
-  EXPECT_THAT(uav.caution.errors().seen_m, RoundedUp(sigmas * any_way_m)) << "nothing is known of how it drifts";
-  EXPECT_THAT(uav.caution.errors().told_m, RoundedUp(sigmas * any_way_m * std::sqrt(2.0))) << "both err";
-  EXPECT_THAT(uav.caution.errors().peers_m, RoundedUp(sigmas * 0.2));
+  EXPECT_NEAR(uav.caution.errors().seen_m, rounded_up_m(sigmas * any_way_m), 1e-12)
+      << "nothing is known of how it drifts";
+  EXPECT_NEAR(uav.caution.errors().told_m, rounded_up_m(sigmas * any_way_m * std::sqrt(2.0)), 1e-12) << "both err";
+  EXPECT_NEAR(uav.caution.errors().peers_m, rounded_up_m(sigmas * 0.2), 1e-12);
+  EXPECT_NEAR(uav.caution.errors().ground_m, rounded_up_m(sigmas * 0.2 * std::sqrt(2.0)), 1e-12)
+      << "seen with an error";
   uav.wind_W = Vector3d(0, 8, 0);
   uav.caution.update(uav.told());
-  EXPECT_THAT(uav.caution.errors().seen_m, RoundedUp(sigmas * any_way_m + pushed_m));
-  EXPECT_THAT(uav.caution.errors().peers_m, RoundedUp(sigmas * 0.2 + pushed_m));
+  EXPECT_NEAR(uav.caution.errors().seen_m, rounded_up_m(sigmas * any_way_m + pushed_m), 1e-12);
+  EXPECT_NEAR(uav.caution.errors().peers_m, rounded_up_m(sigmas * 0.2 + pushed_m), 1e-12);
   uav.uncertainty.position_m = {5, 5, 5};
   uav.caution.update(uav.told());
   for (const double error_m :
@@ -97,8 +99,8 @@ TEST(Caution, CountsWithTheDriftSinceStructureWasSeen) {
         std::sqrt(std::pow(sigma_m, 2) + std::pow(odometry.bias_sigma_m, 2) + std::pow(odometry.noise_sigma_m, 2)));
     uav.caution.update(uav.told());
     const double drift_m = uav.flight_config.drift_sigmas * std::sqrt(squares / kTimes);
-    EXPECT_GT(uav.caution.errors().seen_m, 0.97 * drift_m) << seed;
-    EXPECT_LT(uav.caution.errors().seen_m, 1.03 * drift_m + 0.05) << seed;
+    EXPECT_GE(uav.caution.errors().seen_m, rounded_up_m(0.97 * drift_m) - 1e-12) << seed;
+    EXPECT_LE(uav.caution.errors().seen_m, rounded_up_m(1.03 * drift_m) + 1e-12) << seed;
     EXPECT_LT(uav.caution.errors().seen_m, uav.caution.errors().told_m) << seed;
   }
 }
@@ -180,6 +182,26 @@ TEST(Caution, CanBeTurnedOff) {
   EXPECT_EQ(uav.caution.errors().told_m, 0.0);
   EXPECT_EQ(uav.caution.errors().peers_m, 0.0);
   EXPECT_FALSE(uav.caution.must_land(uav.told()));
+  EXPECT_FALSE(uav.caution.must_sink(uav.told()));
+}
+
+// A way home of a minute needs more than the descent from here: it must land first, and sink much later.
+TEST(Caution, MustSinkOnlyWhenTheDescentFromHereNeedsAllThatIsLeft) {
+  for (const double height_m : {2.0, 20.0, 60.0}) {
+    Told uav;
+    uav.agent.battery.endurance_missions = 1.0;
+    uav.agent.duration_s = 200.0;  // at hover, half a percent of the charge a second
+    const Caution caution(uav.flight_config, uav.agent);
+    uav.state.p_WB = {60.0, 0.0, height_m};
+    const double descent_s = height_m / uav.flight_config.land_mps;
+    for (double charge = 1.0; charge > 0.0; charge -= 0.005) {
+      uav.battery = BatteryStatus{.charge = charge};
+      const bool sinks = caution.must_sink(uav.told());
+      EXPECT_TRUE(sinks || charge >= 0.005 * descent_s) << height_m << " " << charge;
+      EXPECT_FALSE(sinks && charge > 0.005 * (1.5 * descent_s + 20.0)) << height_m << " " << charge;
+      EXPECT_TRUE(!sinks || caution.must_land(uav.told())) << height_m << " " << charge;
+    }
+  }
 }
 
 // What the core does with it, until the UAV rests.
