@@ -1,22 +1,41 @@
 #include "uav_agent/api/peers.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace skein::agent {
 namespace {
 
 constexpr double kMaxGapS = 0.25;      ///< two sightings further apart give no velocity
 constexpr double kVelocityGain = 0.5;  ///< of the newest difference; smooths the 20 Hz positions
+constexpr double kStandsM = 0.5;       ///< within it of its start, and not faster than kStandsMps, a UAV stands there
+constexpr double kStandsMps = 0.3;
+
+double square(double x) { return x * x; }
+
+/// Of an error that has grown to a share of its stationary variance.
+Vector3d deviation_m(const OdometryConditions& odometry, double grown) {
+  const double always2 = square(odometry.bias_sigma_m) + square(odometry.noise_sigma_m);
+  const double across_m = std::sqrt(always2 + grown * square(odometry.horizontal_sigma_m));
+  return {across_m, across_m, std::sqrt(always2 + grown * square(odometry.vertical_sigma_m))};
+}
 
 }  // namespace
 
-Peers::Peers(const AgentConfig& config) {
+Vector3d deviation_in_flight_m(const OdometryConditions& odometry) { return deviation_m(odometry, 1.0); }
+
+Vector3d relative_deviation_m(const PoseUncertainty& own, const Peer& peer) {
+  return (own.position_m.cwiseAbs2() + peer.deviation_m.cwiseAbs2()).cwiseSqrt();
+}
+
+Peers::Peers(const AgentConfig& config) : odometry_(config.odometry) {
   for (const UavIndex uav : FirstUavs(config.fleet.size())) {
     if (uav == config.self) continue;
     Peer peer;
     peer.uav = uav;
     peer.p_W = config.fleet[uav].p_WB_start;
     peers_.push_back(peer);
+    starts_.push_back({peer.p_W});
   }
 }
 
@@ -49,6 +68,23 @@ void Peers::update(Tick tick, const std::vector<Neighbour>& neighbours) {
     peer.seen = tick;
     peer.visible = true;
   }
+  if (!odometry_.on()) return;
+  for (std::size_t i = 0; i < peers_.size(); ++i) {
+    Start& start = starts_[i];
+    if (peers_[i].visible && !start.left) {
+      start.left = (peers_[i].p_W - start.p_W).norm() > kStandsM || peers_[i].v_W.norm() > kStandsMps;
+      if (!start.left) start.stood = tick;
+    }
+    peers_[i].left_start = start.left;
+    peers_[i].deviation_m = deviation_m(odometry_, grown(start, tick));
+  }
+}
+
+/// If starts are known, the error of a UAV's odometry grows from when it leaves its start. Whether it has lost its fix,
+/// no one tells.
+double Peers::grown(const Start& start, Tick tick) const {
+  if (!odometry_.known_start || (start.left && !start.stood)) return 1.0;
+  return -std::expm1(-2.0 * seconds(tick - start.stood.value_or(0)) / odometry_.time_constant_s);
 }
 
 }  // namespace skein::agent

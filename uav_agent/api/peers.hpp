@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/told_state.hpp"
 #include "uav_agent/api/agent_config.hpp"
 #include "uav_agent/api/messages.hpp"
 
@@ -17,7 +18,15 @@ struct Peer {
   Vector3d a_W = Vector3d::Zero();  ///< change of v_W between two sightings at most 0.25 s apart; else zero
   std::optional<Tick> seen;         ///< when it was last in line of sight; nullopt: never
   bool visible = false;             ///< in line of sight in this exchange
+  bool left_start = false;          ///< has moved away from its start, as far as this UAV has heard
+  /// Standard deviation of p_W's error, per axis, as far as the scenario's conditions tell; 0: exact.
+  Vector3d deviation_m = Vector3d::Zero();
 };
+
+/// Usual standard deviation of a UAV's position in flight, along each axis [m]; beyond it while the fix is lost.
+Vector3d deviation_in_flight_m(const OdometryConditions& odometry);
+/// Standard deviation of another UAV's position relative to the own one, along each axis [m].
+Vector3d relative_deviation_m(const PoseUncertainty& own, const Peer& peer);
 
 class Peers {
  public:
@@ -32,7 +41,16 @@ class Peers {
   bool station_visible() const { return station_visible_; }
 
  private:
+  struct Start {
+    Vector3d p_W = Vector3d::Zero();
+    std::optional<Tick> stood = {};  ///< when it last stood there; nullopt: never, as far as this UAV has heard
+    bool left = false;
+  };
+  double grown(const Start& start, Tick tick) const;
+
+  const OdometryConditions odometry_;
   std::vector<Peer> peers_;
+  std::vector<Start> starts_;  ///< of peers_
   bool station_visible_ = false;
 };
 

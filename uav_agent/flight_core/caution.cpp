@@ -12,7 +12,7 @@ namespace {
 constexpr double kMostErrorM = 1.0;  ///< beyond that, the UAV could go nowhere
 /// Errors are rounded up to steps: what is known of places lasts as long as the clearance is the same.
 constexpr double kErrorStepM = 0.05;
-constexpr double kMostGroundErrorM = 2.0;
+constexpr double kMostGroundErrorM = 2.0, kMostPeerErrorM = 2.0;
 constexpr double kWindMemoryS = 20.0, kPowerMemoryS = 10.0;
 constexpr double kCalmMps = 1.0;  ///< gusts below this are no reason to fly slower
 constexpr double kLeastSpeedShare = 0.5;
@@ -27,6 +27,7 @@ double in_steps_m(double error_m) { return kErrorStepM * std::ceil(error_m / kEr
 Caution::Caution(const FlightConfig& config, const AgentConfig& agent)
     : config_(config),
       agent_(agent),
+      in_flight_m_(deviation_in_flight_m(agent.odometry)),
       most_mps_(std::numeric_limits<double>::infinity()),
       charge_per_s_(agent.battery.on() ? 1.0 / (*agent.battery.endurance_missions * agent.duration_s) : 0.0) {}
 
@@ -35,16 +36,35 @@ void Caution::update(const PlannerInput& in) {
   watch_wind(in.wind_W);
   watch_battery(in);
   const double pushed_m = mean_wind_W_ ? config_.wind_error_s * mean_wind_W_->norm() : 0.0;
-  const double told_m = in.uncertainty.position_m.maxCoeff();
+  // A UAV that still knows where it stands will not for long: before it takes off, it looks for the room that it needs
+  // in flight.
+  PoseUncertainty own = in.uncertainty;
+  if (!own.exact()) own.position_m = own.position_m.cwiseMax(in_flight_m_);
   // Of structure nobody knows in which direction it is: the deviation along one of chance.
-  const double any_way_m = in.uncertainty.position_m.norm() / std::sqrt(3.0);
+  const double any_way_m = own.position_m.norm() / std::sqrt(3.0);
   const auto kept_off = [&](double deviation_m) {
     return std::min(kMostErrorM, in_steps_m(config_.drift_sigmas * deviation_m + pushed_m));
   };
   // The ground was seen with the error of that time, by this UAV or another one; the wind does not lift it.
-  const double ground_m = in_steps_m(config_.drift_sigmas * std::sqrt(2.0) * in.uncertainty.position_m.z());
-  errors_ = {kept_off(drift_since_seen_m(any_way_m)), kept_off(std::sqrt(2.0) * any_way_m), kept_off(told_m),
-             std::min(kMostGroundErrorM, ground_m)};
+  const double ground_m = in_steps_m(config_.drift_sigmas * std::sqrt(2.0) * own.position_m.z());
+  errors_.seen_m = kept_off(drift_since_seen_m(any_way_m));
+  errors_.told_m = kept_off(std::sqrt(2.0) * any_way_m);
+  errors_.ground_m = std::min(kMostGroundErrorM, ground_m);
+  watch_peers(own, in.peers, pushed_m);
+}
+
+/// The same wind pushes both UAVs the same way: what counts of it is once its effect, for gusts.
+void Caution::watch_peers(const PoseUncertainty& own, const Peers& peers, double pushed_m) {
+  errors_.peers_m.clear();
+  if (own.exact() && pushed_m == 0.0) return;
+  errors_.peers_m.resize(agent_.fleet.size(), Vector3d::Zero());
+  for (const Peer& peer : peers.all()) {
+    const Vector3d deviation_m = relative_deviation_m(own, peer);
+    for (int axis = 0; axis < 3; ++axis) {
+      const double error_m = in_steps_m(config_.drift_sigmas * deviation_m[axis] + pushed_m);
+      errors_.peers_m[peer.uav][axis] = std::min(kMostPeerErrorM, error_m);
+    }
+  }
 }
 
 /// Deviation of what a LiDAR has seen within the last period of its servo: of a Gauss-Markov error with time constant

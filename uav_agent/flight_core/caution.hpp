@@ -1,7 +1,7 @@
 // How the flight core reacts to the uncertainty of the odometry, to wind and to the battery.
 //   Clearance grows by drift_sigmas standard deviations of the position, and by what the mean wind pushes a UAV off its
 //   setpoint. Structure that the UAV's own LiDAR has seen is off by the drift of its odometry since then; structure on
-//   maps of other UAVs is off by the errors of both UAVs.
+//   maps of other UAVs is off by the errors of both UAVs, and so are the other UAVs.
 //   Speed is lower in gusts.
 //   Landing: in time, by the charge that is left, the charge used per second so far, and the present wind.
 // In a scenario without these conditions, nothing changes.   Frame W.   Units: SI.   Threads: one.
@@ -35,11 +35,13 @@ class Caution {
 
  private:
   double drift_since_seen_m(double told_m);
+  void watch_peers(const PoseUncertainty& own, const Peers& peers, double pushed_m);
   void watch_wind(const std::optional<Vector3d>& wind_W);
   void watch_battery(const PlannerInput& in);
 
   const FlightConfig& config_;
   const AgentConfig& agent_;
+  const Vector3d in_flight_m_;  ///< usual deviation of the position in flight
   ExpectedErrors errors_;
   double most_mps_;
   double lost2_ = 0.0;                   ///< position variance beyond the usual one: the fix is, or was, lost [m^2]

@@ -43,7 +43,7 @@ TEST(Caution, ChangesNothingWhereNothingIsTold) {
   uav.caution.update(uav.told());
   EXPECT_EQ(uav.caution.errors().seen_m, 0.0);
   EXPECT_EQ(uav.caution.errors().told_m, 0.0);
-  EXPECT_EQ(uav.caution.errors().peers_m, 0.0);
+  EXPECT_TRUE(uav.caution.errors().peers_m.empty());
   EXPECT_EQ(uav.caution.most_mps(), std::numeric_limits<double>::infinity());
   EXPECT_FALSE(uav.caution.must_land(uav.told()));
 }
@@ -60,18 +60,56 @@ TEST(Caution, KeepsFartherOffByCovarianceAndWindUpToABound) {
   EXPECT_NEAR(uav.caution.errors().seen_m, rounded_up_m(sigmas * any_way_m), 1e-12)
       << "nothing is known of how it drifts";
   EXPECT_NEAR(uav.caution.errors().told_m, rounded_up_m(sigmas * any_way_m * std::sqrt(2.0)), 1e-12) << "both err";
-  EXPECT_NEAR(uav.caution.errors().peers_m, rounded_up_m(sigmas * 0.2), 1e-12);
   EXPECT_NEAR(uav.caution.errors().ground_m, rounded_up_m(sigmas * 0.2 * std::sqrt(2.0)), 1e-12)
       << "seen with an error";
   uav.wind_W = Vector3d(0, 8, 0);
   uav.caution.update(uav.told());
   EXPECT_NEAR(uav.caution.errors().seen_m, rounded_up_m(sigmas * any_way_m + pushed_m), 1e-12);
-  EXPECT_NEAR(uav.caution.errors().peers_m, rounded_up_m(sigmas * 0.2 + pushed_m), 1e-12);
   uav.uncertainty.position_m = {5, 5, 5};
   uav.caution.update(uav.told());
-  for (const double error_m :
-       {uav.caution.errors().seen_m, uav.caution.errors().told_m, uav.caution.errors().peers_m}) {
-    EXPECT_EQ(error_m, 1.0);
+  for (const double error_m : {uav.caution.errors().seen_m, uav.caution.errors().told_m}) EXPECT_EQ(error_m, 1.0);
+}
+
+// Two errors that have nothing to do with each other add as squares; the wind pushes both UAVs, so it counts once.
+TEST(Caution, KeepsOffAnotherUavByBothErrorsAlongEachAxis) {
+  for (int seed = 0; seed < 20; ++seed) {
+    RandomStream draw(static_cast<std::uint64_t>(seed), "caution_peers", 0);
+    AgentConfig agent = with_battery();
+    agent.fleet.push_back({.name = "b", .p_WB_start = {2.0, 0.0, 0.1}});
+    agent.odometry.horizontal_sigma_m = draw.uniform(0.05, 0.4);
+    agent.odometry.vertical_sigma_m = draw.uniform(0.05, 0.4);
+    agent.odometry.bias_sigma_m = draw.uniform(0.0, 0.2);
+    agent.odometry.known_start = true;
+    FlownUav uav(agent, {0.0, 0.0, 20.0});
+    const FlightConfig config;
+    Caution caution(config, uav.agent);
+    const double wind_mps = draw.uniform(0.0, 10.0);
+    const auto errors_m = [&](Tick tick, const Vector3d& p_W, const Vector3d& v_W) {
+      uav.peers.update(tick, {{.node = Node{2}, .p_W = p_W, .v_W = v_W}});
+      PlannerInput in = uav.input();
+      in.uncertainty.position_m = deviation_in_flight_m(agent.odometry);
+      in.wind_W = Vector3d(wind_mps, 0.0, 0.0);
+      caution.update(in);
+      return caution.errors().peers_m.at(1);
+    };
+    const auto expected_m = [&](double sigma_m, double grown) {
+      const double own2 = sigma_m * sigma_m, bias2 = std::pow(agent.odometry.bias_sigma_m, 2);
+      const double both_m = std::sqrt(own2 + bias2 + grown * own2 + bias2);
+      return std::min(2.0, rounded_up_m(config.drift_sigmas * both_m + config.wind_error_s * wind_mps));
+    };
+    const Vector3d start_W(2.0, 0.0, 0.1), still_W = Vector3d::Zero();
+    const double across_m = agent.odometry.horizontal_sigma_m, up_m = agent.odometry.vertical_sigma_m;
+    const Vector3d stands_m = errors_m(ticks(5.0), start_W, still_W);
+    EXPECT_NEAR(stands_m.x(), expected_m(across_m, 0.0), 1e-9) << seed << ": it knows where it stands";
+    EXPECT_NEAR(stands_m.z(), expected_m(up_m, 0.0), 1e-9) << seed;
+    const double for_s = draw.uniform(1.0, 200.0);
+    const Vector3d flies_m = errors_m(ticks(5.0) + ticks(for_s), start_W + Vector3d(0, 0, 8), still_W);
+    const double grown = 1.0 - std::exp(-2.0 * seconds(ticks(for_s)) / agent.odometry.time_constant_s);
+    EXPECT_NEAR(flies_m.x(), expected_m(across_m, grown), 1e-9) << seed;
+    EXPECT_NEAR(flies_m.z(), expected_m(up_m, grown), 1e-9) << seed;
+    // Back at its start, it still errs as it did in the air.
+    const Vector3d landed_m = errors_m(ticks(5.0) + 2 * ticks(for_s), start_W, still_W);
+    EXPECT_GE(landed_m.x(), flies_m.x() - 1e-9) << seed;
   }
 }
 
@@ -180,7 +218,7 @@ TEST(Caution, CanBeTurnedOff) {
   uav.caution.update(uav.told());
   EXPECT_EQ(uav.caution.errors().seen_m, 0.0);
   EXPECT_EQ(uav.caution.errors().told_m, 0.0);
-  EXPECT_EQ(uav.caution.errors().peers_m, 0.0);
+  EXPECT_TRUE(uav.caution.errors().peers_m.empty());
   EXPECT_FALSE(uav.caution.must_land(uav.told()));
   EXPECT_FALSE(uav.caution.must_sink(uav.told()));
 }

@@ -2,9 +2,6 @@
 
 #include <algorithm>
 #include <utility>
-
-#include "uav_agent/flight_core/landing_place.hpp"
-
 namespace skein::agent {
 namespace {
 
@@ -19,9 +16,6 @@ constexpr double kClimbGainM = 0.3;
 constexpr double kNoLinkS = 4.0;  ///< at a place from which the station should be seen
 constexpr double kIdleS = 4.0;    ///< without a goal that can be flown to
 constexpr std::int64_t kHome = -2;
-constexpr double kLandFromM = 5.0;     ///< above its landing place, before it comes down
-constexpr double kLandingRoomM = 0.5;  ///< between landing places, beyond what the filter demands now
-constexpr double kBelowGroundM = 1.0;  ///< of the setpoint of a UAV that has landed: it stands firm
 constexpr double kShowCheckS = 5.0;
 constexpr std::uint64_t kShowLook = 10;  ///< exchanges
 
@@ -36,7 +30,8 @@ FlightCore::FlightCore(const FlightConfig& config, const AgentConfig& agent)
       navigator_(config, agent, filter_),
       homing_(config, agent),
       recovery_(config, navigator_),
-      showing_(agent, filter_) {}
+      showing_(agent, filter_),
+      landing_(config, agent, filter_, navigator_) {}
 
 FlightState FlightCore::state() {
   FlightState state{.working = mode_ == Mode::working};
@@ -110,7 +105,10 @@ Steering FlightCore::step(const PlannerInput& in, std::optional<std::vector<Goal
   if (goals) wanted_ = std::move(*goals);
   const bool asked = goals.has_value();
   if (mode_ != Mode::ground) homing_.update(in);
-  if (mode_ != Mode::ground && mode_ != Mode::landing && caution_.must_land(in)) begin_landing(in, steering);
+  if (mode_ != Mode::ground && mode_ != Mode::landing && caution_.must_land(in)) {
+    landing_.begin(steering);
+    enter(Mode::landing, in);
+  }
   const bool recovers = mode_ == Mode::recovering && !lost_way_home_;
   const bool works = mode_ == Mode::working || recovers || mode_ == Mode::showing;
   if (works && homing_.due(in)) {
@@ -143,7 +141,7 @@ Steering FlightCore::step(const PlannerInput& in, std::optional<std::vector<Goal
       enter(Mode::working, in);
       break;
     case Mode::landing:
-      land(in, steering);
+      landing_.step(in, caution_.must_sink(in), steering);
       break;
   }
   return steering;
@@ -152,6 +150,11 @@ Steering FlightCore::step(const PlannerInput& in, std::optional<std::vector<Goal
 void FlightCore::leave_ground(const PlannerInput& in, Steering& steering) {
   const Vector3d p_W = in.state.p_WB;
   if (in.boxes.empty()) return;
+  if (sinks_back_) {
+    sinks_back_ = in.tracking.setpoint.p_WB.z() > 0.0;  // below it stands firm
+    if (!sinks_back_) filter_.set_trust(SafetyFilter::Trust::proved);
+    return;
+  }
   if (p_W.z() > kAirborneM) {
     steering.motion = Hold{};
     navigator_.want(wanted_);
@@ -159,7 +162,7 @@ void FlightCore::leave_ground(const PlannerInput& in, Steering& steering) {
     return;
   }
   waits_for_ = lifts_off_after(in);
-  if (waits_for_) return;
+  if (waits_for_ || may_drift_into_neighbours(in)) return;
   const double layer_m = kClimbLayerM * neighbours_after();
   top_W_ = Vector3d(p_W.x(), p_W.y(), p_W.z() + kLowestTopM + layer_m);
   steering.motion = Path{{{*top_W_, config_.climb_mps}}};
@@ -195,15 +198,38 @@ std::optional<std::size_t> FlightCore::lifts_off_after(const PlannerInput& in) {
   return seconds(in.tick - *ready_since_) > kStartPatienceS * before ? std::nullopt : stands;
 }
 
-/// As high as is proved. A UAV that sees begins to work where the climb ends; one that does not waits on the ground.
+/// A UAV knows where it stands, but not for long where it hovers. So it lifts off only when nothing holds it until it is
+/// well above those that stand beside it.
+bool FlightCore::may_drift_into_neighbours(const PlannerInput& in) {
+  if (!drifts(in)) return false;
+  bool clear =
+      filter_.clear_up_to(agent_.me().p_WB_start.z() + kClearM, {in.tick, in.state, *in.world_map, in.boxes, in.peers});
+  // A LiDAR on the ground does not see all that is above it.
+  clear = clear || (navigator_.sees() && filter_.held().by == Held::By::unproved);
+  if (!clear && filter_.held().by == Held::By::peer) waits_for_ = filter_.held().peer;
+  if (!clear && !waits_for_ && !navigator_.sees()) waits_for_ = agent_.first_explorer();
+  return !clear;
+}
+
+/// As high as is proved. A UAV that sees begins to work where the climb ends; one that does not waits on the ground. If
+/// positions drift, a UAV that is held beside others that stand sinks to the ground again.
 void FlightCore::take_off(const PlannerInput& in, Steering& steering) {
   const double height_m = in.tracking.setpoint.p_WB.z();
   if (height_m > climbed_m_ + kClimbGainM) {
     climbed_m_ = height_m;
     climbed_at_ = in.tick;
   }
-  const bool risen = in.state.p_WB.z() > agent_.me().p_WB_start.z() + kRisenM;
+  const double risen_m = drifts(in) && !navigator_.sees() ? kClearM : kRisenM;
+  const bool risen = in.state.p_WB.z() > agent_.me().p_WB_start.z() + risen_m;
   const bool stalled = seconds(in.tick - climbed_at_) > config_.stall_s + config_.look_s;
+  const double waits_s = config_.stall_s + (navigator_.sees() ? config_.look_s : 0.0);
+  if (drifts(in) && !risen && seconds(in.tick - climbed_at_) > waits_s) {
+    filter_.set_trust(SafetyFilter::Trust::start);
+    steering.motion = landing_.down_at(in.tracking.setpoint.p_WB, in);
+    sinks_back_ = true;
+    enter(Mode::ground, in);
+    return;
+  }
   if (in.tracking.done || (stalled && risen)) {
     steering.motion = Hold{};
     outcomes_.clear();
@@ -305,48 +331,6 @@ void FlightCore::go_home(const PlannerInput& in, Steering& steering) {
   }
   ++next_place_;
   navigator_.want(std::move(goals));
-}
-
-void FlightCore::begin_landing(const PlannerInput& in, Steering& steering) {
-  navigator_.stop(steering);
-  outcomes();
-  descends_ = false;
-  double apart_m = 0.0;
-  for (std::size_t uav = 0; uav < agent_.fleet.size(); ++uav) {
-    if (uav != agent_.self) apart_m = std::max(apart_m, filter_.apart_m(uav, config_.land_mps));
-  }
-  landing_W_ = landing_place_W(agent_, apart_m + kLandingRoomM);
-  enter(Mode::landing, in);
-}
-
-/// To above its landing place or, if there is no way, above its start; then down. If it finds neither way and must sink
-/// now, it comes down where it is: the filter keeps it off structure.
-void FlightCore::land(const PlannerInput& in, Steering& steering) {
-  if (descends_) return;
-  navigator_.step(in, filter_.held(), steering);
-  bool arrived = false;
-  for (const Outcome& outcome : outcomes()) arrived = arrived || outcome.kind == Outcome::Kind::reached;
-  const auto off_m = [&](const Vector3d& place_W) { return (in.state.p_WB - place_W).head<2>().norm(); };
-  if (arrived || off_m(landing_W_) < 0.5 * kRisenM || caution_.must_sink(in)) {
-    navigator_.stop(steering);
-    outcomes();
-    const Vector3d& start_W = agent_.me().p_WB_start;
-    const Vector3d& nearer_W = off_m(landing_W_) < off_m(start_W) ? landing_W_ : start_W;
-    descend(off_m(nearer_W) < kLandFromM ? nearer_W : in.state.p_WB, in, steering);
-    return;
-  }
-  if (!navigator_.idle()) return;
-  const Vector3d up_W(0.0, 0.0, kLandFromM);
-  navigator_.want({{.id = kHome, .way = {{landing_W_ + up_W, config_.approach_mps}}},
-                   {.id = kHome, .way = {{agent_.me().p_WB_start + up_W, config_.approach_mps}}}});
-}
-
-void FlightCore::descend(const Vector3d& at_W, const PlannerInput& in, Steering& steering) {
-  Path path;
-  if (in.state.p_WB.z() > kLandFromM) path.waypoints.push_back({{at_W.x(), at_W.y(), kLandFromM}, config_.climb_mps});
-  path.waypoints.push_back({{at_W.x(), at_W.y(), -kBelowGroundM}, config_.land_mps});
-  steering.motion = std::move(path);
-  descends_ = true;
 }
 
 }  // namespace skein::agent

@@ -15,6 +15,7 @@
 #include "uav_agent/flight_core/caution.hpp"
 #include "uav_agent/flight_core/doing.hpp"
 #include "uav_agent/flight_core/homing.hpp"
+#include "uav_agent/flight_core/landing.hpp"
 #include "uav_agent/flight_core/navigator.hpp"
 #include "uav_agent/flight_core/recovery.hpp"
 #include "uav_agent/flight_core/showing.hpp"
@@ -42,7 +43,8 @@ class FlightCore {
   Steering step(const PlannerInput& in, std::optional<std::vector<Goal>> goals);
   /// Advances the tracker by one exchange, as fast as the safety filter allows.
   std::optional<TrajectoryCommand> move(Tracker& tracker, const SafetyFilter::Facts& facts) {
-    const double most_mps = filter_.assumes_boxes() ? config_.alone_mps : navigator_.pace_mps();
+    const bool assumes = filter_.assumes_boxes() || filter_.trust() == SafetyFilter::Trust::unknown;
+    const double most_mps = assumes ? config_.alone_mps : navigator_.pace_mps();
     return filter_.step(tracker, facts, std::min(most_mps, caution_.most_mps()), navigator_.retraces());
   }
 
@@ -68,13 +70,13 @@ class FlightCore {
   bool begin_showing(const PlannerInput& in);
   void show(const PlannerInput& in, Steering& steering);
   void go_home(const PlannerInput& in, Steering& steering);
-  void begin_landing(const PlannerInput& in, Steering& steering);
-  void land(const PlannerInput& in, Steering& steering);
-  void descend(const Vector3d& at_W, const PlannerInput& in, Steering& steering);
   bool flies_along() const;
   Doing::What doing_home(const PlannerInput& in) const;
   int neighbours_after() const;
   std::optional<std::size_t> lifts_off_after(const PlannerInput& in);
+  bool may_drift_into_neighbours(const PlannerInput& in);
+  /// Whether the UAV knows its position only with an error, and reacts to it.
+  bool drifts(const PlannerInput& in) const { return config_.reacts && !in.uncertainty.exact(); }
   void enter(Mode mode, const PlannerInput& in);
 
   const FlightConfig& config_;
@@ -86,20 +88,20 @@ class FlightCore {
   Homing homing_;
   Recovery recovery_;
   Showing showing_;
+  Landing landing_;
   Mode mode_ = Mode::ground;
   Tick since_ = 0;                   ///< when this mode began, or a goal was last flown in it
   std::optional<Tick> ready_since_;  ///< when it could first lift off
   std::optional<Vector3d> top_W_;    ///< where the climb of the takeoff ends
+  bool sinks_back_ = false;          ///< it gave up a takeoff, and is not on the ground yet
   double climbed_m_ = 0.0;           ///< height reached in the climb, at climbed_at_
   Tick climbed_at_ = 0;
-  Tick show_at_ = 0;                       ///< earliest time of the next look for a mate to show its way
-  std::optional<Tick> at_place_since_;     ///< when homing reached its place, still without a link
-  std::size_t next_place_ = 0;             ///< index of the place that homing tries first
-  bool lost_way_home_ = false;             ///< it recovers because homing could not reach its places
-  Vector3d landing_W_ = Vector3d::Zero();  ///< on the ground
-  bool descends_ = false;                  ///< landing: it sinks to the ground
-  std::vector<Outcome> outcomes_;          ///< that the planner has not received yet
-  std::vector<Goal> wanted_;               ///< the planner's last goals, for when `working` begins again
+  Tick show_at_ = 0;                    ///< earliest time of the next look for a mate to show its way
+  std::optional<Tick> at_place_since_;  ///< when homing reached its place, still without a link
+  std::size_t next_place_ = 0;          ///< index of the place that homing tries first
+  bool lost_way_home_ = false;          ///< it recovers because homing could not reach its places
+  std::vector<Outcome> outcomes_;       ///< that the planner has not received yet
+  std::vector<Goal> wanted_;            ///< the planner's last goals, for when `working` begins again
   std::optional<std::size_t> waits_for_;
   std::string no_way_;
 };

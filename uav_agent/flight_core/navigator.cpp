@@ -48,7 +48,7 @@ FreeSpace::Config Navigator::space_config(const PlannerInput& in) const {
   config.fit = &fit_;
   config.unknown_cost = config_.unknown_cost;
   config.blind_fleet = filter_.assumes_boxes();
-  config.proved_only = !sees() && !filter_.assumes_boxes();
+  config.proved_only = !sees() && !filter_.assumes_boxes() && filter_.trust() == SafetyFilter::Trust::proved;
   return config;
 }
 
@@ -74,8 +74,9 @@ Vector3d Navigator::way_begins_W(const PlannerInput& in) const {
   const Vector3d here_W = in.tracking.setpoint.p_WB;
   Vector3d from_W = here_W;
   for (const Peer& peer : in.peers.all()) {
-    const double apart_m = filter_.apart_m(peer.uav, kFitMps);
-    const double off_m = (here_W - peer.p_W).norm(), back_m = apart_m + 2.0 * kHereM - off_m;
+    const double off_m = (here_W - peer.p_W).norm();
+    const double apart_m = filter_.apart_m(peer.uav, kFitMps, here_W - peer.p_W);
+    const double back_m = apart_m + 2.0 * kHereM - off_m;
     if (!peer.visible || back_m <= 0.0 || off_m <= 0.0) continue;
     from_W += (here_W - peer.p_W) / off_m * back_m;
   }

@@ -16,16 +16,24 @@ constexpr double kPeerSmoothS = 0.4;
 /// So long a UAV goes on to get faster when it is told to brake: what it is commanded lags, and it lags behind that.
 constexpr double kPeerLagS = kPeerDelayS + 0.5 * kPeerSmoothS;
 constexpr double kRestsMps = 0.2;
+constexpr double kFarM = 40.0;
+constexpr double kClimbsMps = 1.0;  ///< at least, in a climb that nothing holds
 /// One that went out of sight in a turn, or while it set out, comes to rest beside what its last word foretold: the
 /// velocity that it tells lags behind by half of kPeerSmoothS. Measured over drawn flights: 0.48 m at most.
 constexpr double kUnheardM = 0.5;
 constexpr double kAboveStartM = 30.0, kStartM = 1.0;
 
-double distance_to_segment(const Vector3d& p_W, const Vector3d& a_W, const Vector3d& b_W) {
+/// To p from the nearest place of a segment.
+Vector3d from_segment(const Vector3d& p_W, const Vector3d& a_W, const Vector3d& b_W) {
   const Vector3d ab = b_W - a_W;
   const double length2 = ab.squaredNorm();
   const double part = length2 > 0.0 ? std::clamp((p_W - a_W).dot(ab) / length2, 0.0, 1.0) : 0.0;
-  return (a_W + part * ab - p_W).norm();
+  return p_W - (a_W + part * ab);
+}
+
+/// Of an error with these bounds along the axes, in a direction.
+double along_m(const Vector3d& error_m, const Vector3d& direction_W) {
+  return error_m.cwiseProduct(direction_W.normalized()).norm();
 }
 
 /// How far a place lies off a box: what has to be added to its sides to hold it.
@@ -66,10 +74,22 @@ double SafetyFilter::tube_of_told_m(std::size_t uav) const {
   return tube_m(0.0) - agent_.me().body_radius_m + agent_.fleet[uav].body_radius_m + (errors_.told_m - errors_.seen_m);
 }
 
-double SafetyFilter::apart_m(std::size_t uav, double speed_mps) const {
+double SafetyFilter::apart_if_exact_m(std::size_t uav, double speed_mps) const {
   const FleetMember& other = agent_.fleet[uav];
   return agent_.me().body_radius_m + other.body_radius_m + tracking_error_m(agent_.me().role, speed_mps) +
-         tracking_error_m(other.role, 0.0) + 2.0 * errors_.peers_m + config_.peer_margin_m;
+         tracking_error_m(other.role, 0.0) + config_.peer_margin_m;
+}
+
+Vector3d SafetyFilter::error_of_m(std::size_t uav) const {
+  return uav < errors_.peers_m.size() ? errors_.peers_m[uav] : Vector3d::Zero();
+}
+
+double SafetyFilter::apart_m(std::size_t uav, double speed_mps, const Vector3d& direction_W) const {
+  return apart_if_exact_m(uav, speed_mps) + along_m(error_of_m(uav), direction_W);
+}
+
+double SafetyFilter::apart_m(std::size_t uav, double speed_mps) const {
+  return apart_if_exact_m(uav, speed_mps) + error_of_m(uav).maxCoeff();
 }
 
 std::optional<TrajectoryCommand> SafetyFilter::step(Tracker& tracker, const Facts& facts, double most_mps,
@@ -129,22 +149,32 @@ bool SafetyFilter::has_room(const Facts& facts) const {
   return facts.map.ball_free(now_W_, tube_m(0.0), ground_m());
 }
 
+/// What of an acceleration, taken from two velocities, is not their noise.
+Vector3d SafetyFilter::certain_W(const Vector3d& a_W) const {
+  const double change_mps = a_W.norm() * agent_.exchange_period_s;
+  const double noise_mps = kNoiseSigmas * std::sqrt(2.0) * agent_.odometry.velocity_sigma_mps;
+  if (noise_mps == 0.0) return a_W;
+  return change_mps > noise_mps ? Vector3d(a_W * (1.0 - noise_mps / change_mps)) : Vector3d::Zero();
+}
+
 std::vector<SafetyFilter::PeerReach> SafetyFilter::reach_of_peers(const Facts& facts) const {
   std::vector<PeerReach> reach;
   for (const Peer& peer : facts.peers.all()) {
-    if (!peer.seen) continue;
+    if (!peer.seen || (trust_ == Trust::start && !peer.left_start)) continue;
     const double age_s = peer.visible ? 0.0 : seconds(facts.tick - *peer.seen);
     if (age_s > config_.peer_memory_s) continue;
     Vector3d v_W = peer.v_W;
-    const Vector3d soon_W = peer.v_W + kPeerLagS * peer.a_W;
+    const Vector3d soon_W = peer.v_W + kPeerLagS * certain_W(peer.a_W);
     if (peer.visible && soon_W.norm() > v_W.norm()) v_W = soon_W;
     const double speed_mps = v_W.norm();
     Vector3d to_W = peer.p_W;
     // One that is heard may have changed its mind since. Who rests goes nowhere before it is heard again.
-    if (speed_mps > kRestsMps) to_W += v_W * (stopping_m(speed_mps) / speed_mps);
-    const double off_m = apart_m(peer.uav, facts.state.v_WB.norm()) + (peer.visible ? 0.0 : kUnheardM);
-    const double now_m = distance_to_segment(now_W_, peer.p_W, to_W);
-    if (now_m < 40.0) reach.push_back({peer.uav, peer.p_W, to_W, off_m, now_m, (now_W_ - peer.p_W).norm()});
+    if (speed_mps > std::max(kRestsMps, kNoiseSigmas * agent_.odometry.velocity_sigma_mps))
+      to_W += v_W * (stopping_m(speed_mps) / speed_mps);
+    const double apart_m = apart_if_exact_m(peer.uav, facts.state.v_WB.norm()) + (peer.visible ? 0.0 : kUnheardM);
+    const double now_m = from_segment(now_W_, peer.p_W, to_W).norm();
+    if (now_m > kFarM) continue;
+    reach.push_back({peer.uav, peer.p_W, to_W, apart_m, error_of_m(peer.uav), now_m, (now_W_ - peer.p_W).norm()});
   }
   return reach;
 }
@@ -153,11 +183,15 @@ std::vector<SafetyFilter::PeerReach> SafetyFilter::reach_of_peers(const Facts& f
 Held SafetyFilter::judge(const std::vector<Vector3d>& way_W, double speed_mps, const Facts& facts,
                          const std::vector<PeerReach>& peers) {
   const std::vector<Vector3d> places_W = thinned(way_W);
-  const double radius_m = tube_m(speed_mps, halo_m_);
+  const bool exact = trust_ == Trust::all;
+  const FleetMember& me = agent_.me();
+  const double radius_m = exact ? me.body_radius_m + config_.tight_halo_m + tracking_error_m(me.role, speed_mps)
+                                : tube_m(speed_mps, halo_m_);
   for (const Vector3d& p_W : places_W) {
     for (const PeerReach& peer : peers) {
-      const double off_m = distance_to_segment(p_W, peer.from_W, peer.to_W);
-      if (off_m >= peer.apart_m) continue;
+      const Vector3d off_W = from_segment(p_W, peer.from_W, peer.to_W);
+      const double off_m = off_W.norm();
+      if (off_m >= peer.apart_m + (exact ? 0.0 : along_m(peer.error_m, off_W))) continue;
       // What the peer sweeps may reach this UAV: then no place is nearer to it. So the peer's own place counts, too.
       const bool nearer = off_m < peer.now_m - nearer_m_ || (p_W - peer.from_W).norm() < peer.from_m - nearer_m_;
       if (nearer) return {Held::By::peer, p_W, peer.uav};
@@ -174,11 +208,24 @@ bool SafetyFilter::proved(const Vector3d& p_W, double radius_m, const Facts& fac
   facts.map.not_free_near(p_W, radius_m, ground_m(), cubes_);
   if (assumes_boxes_ && assumed(p_W, radius_m, facts.map, facts.boxes)) return true;
   for (const Cube& cube : cubes_) {
+    if (trust_ != Trust::proved && facts.map.known(cube).space != Space::occupied) continue;
     if (facts.map.distance_to_m(cube, p_W) >= facts.map.distance_to_m(cube, now_W_) - nearer_m_) continue;
     held.by = facts.map.known(cube).space == Space::occupied ? Held::By::structure : Held::By::unproved;
     return false;
   }
   return true;
+}
+
+bool SafetyFilter::clear_up_to(double height_m, const Facts& facts) {
+  now_W_ = facts.state.p_WB;
+  nearer_m_ = std::max(kNearerM, kNoiseSigmas * agent_.odometry.noise_sigma_m);
+  halo_m_ = had_room_ ? kHaloM : config_.tight_halo_m;
+  std::vector<Vector3d> way_W;
+  for (double up_m = kSampleM; up_m < height_m - now_W_.z() + kSampleM; up_m += kSampleM) {
+    way_W.emplace_back(now_W_.x(), now_W_.y(), std::min(height_m, now_W_.z() + up_m));
+  }
+  held_ = way_W.empty() ? Held{} : judge(way_W, kClimbsMps, facts, reach_of_peers(facts));
+  return held_.by == Held::By::nothing;
 }
 
 bool SafetyFilter::proved(const Vector3d& p_W, const WorldMap& map, const std::vector<OrientedBox>& boxes) const {

@@ -41,8 +41,9 @@ struct Held {
 struct ExpectedErrors {
   double seen_m = 0.0;    ///< of structure that the UAV's own LiDAR sees
   double told_m = 0.0;    ///< of structure on maps that other UAVs sent
-  double peers_m = 0.0;   ///< of each of two UAVs
   double ground_m = 0.0;  ///< of the height in which the ground was seen
+  /// Between this UAV and each other one, by index in the fleet, along each axis; empty: none.
+  std::vector<Vector3d> peers_m = {};
 };
 
 class SafetyFilter {
@@ -68,10 +69,21 @@ class SafetyFilter {
   /// Whether space outside all boxes is assumed to be free from now on.
   void assume_boxes(bool assume) { assumes_boxes_ = assume; }
   bool assumes_boxes() const { return assumes_boxes_; }
+  /// What a UAV trusts that must get down: because its battery is nearly empty, or beside others that stand.
+  enum class Trust : std::uint8_t {
+    proved,   ///< the usual rules
+    start,    ///< unknown space counts as free, and UAVs that have not left their starts cannot be in the way
+    unknown,  ///< unknown space counts as free
+    all,      ///< so it does, and positions count as exact
+  };
+  void set_trust(Trust trust) { trust_ = trust; }
+  Trust trust() const { return trust_; }
   /// What slowed the UAV down in the last step().
   const Held& held() const { return held_; }
   /// Whether this UAV may rest at p_W (centre): all space about it that the invariant needs is proved free.
   bool proved(const Vector3d& p_W, const WorldMap& map, const std::vector<OrientedBox>& boxes) const;
+  /// Whether this UAV, which stands on the ground, could climb straight up to a height [m] without being held.
+  bool clear_up_to(double height_m, const Facts& facts);
   /// Space below this height need not be proved free: what was seen there may be the ground.
   double ground_m() const { return config_.ground_m + errors_.ground_m; }
   /// Radius of the sphere that must be free about this UAV's centre at a speed [m].
@@ -79,7 +91,10 @@ class SafetyFilter {
   /// The same for another UAV at rest that has no LiDAR, and flies on this UAV's map.
   double tube_of_told_m(std::size_t uav) const;
 
-  /// Minimum distance of the centres of this and another UAV [m]: both bodies, both errors, and a margin.
+  /// Minimum distance of the centres of this and another UAV that is in a direction [m]: both bodies,
+  /// both errors, and a margin.
+  double apart_m(std::size_t uav, double speed_mps, const Vector3d& direction_W) const;
+  /// The greatest of all directions.
   double apart_m(std::size_t uav, double speed_mps) const;
 
   /// Numbers of exchanges on a Path or Hold: all; those in which the filter made the UAV brake; those in which the
@@ -94,15 +109,19 @@ class SafetyFilter {
   struct PeerReach {
     std::size_t uav = 0;
     Vector3d from_W, to_W;  ///< of its centre: last known position, and where it comes to rest
-    double apart_m = 0.0;   ///< minimum distance of this UAV's centre from the segment
-    double now_m = 0.0;     ///< distance from now_W_ to the segment
-    double from_m = 0.0;    ///< distance from now_W_ to from_W
+    double apart_m = 0.0;   ///< minimum distance of this UAV's centre from the segment, if positions were exact
+    Vector3d error_m = Vector3d::Zero();  ///< ExpectedErrors::peers_m
+    double now_m = 0.0;                   ///< distance from now_W_ to the segment
+    double from_m = 0.0;                  ///< distance from now_W_ to from_W
   };
   using Cube = WorldMap::Cube;
 
   double tube_m(double speed_mps, double halo_m) const;
   double tracking_error_m(Role role, double speed_mps) const;
+  double apart_if_exact_m(std::size_t uav, double speed_mps) const;
+  Vector3d error_of_m(std::size_t uav) const;
   bool has_room(const Facts& facts) const;
+  Vector3d certain_W(const Vector3d& a_W) const;
   std::vector<PeerReach> reach_of_peers(const Facts& facts) const;
   std::optional<TrajectoryCommand> move_on(Tracker& tracker, const Facts& facts, double most_mps,
                                            const std::vector<PeerReach>& peers);
@@ -114,6 +133,7 @@ class SafetyFilter {
   const FlightConfig& config_;
   const AgentConfig& agent_;
   bool assumes_boxes_;
+  Trust trust_ = Trust::proved;
   ExpectedErrors errors_;
   Held held_;
   Counts counts_;

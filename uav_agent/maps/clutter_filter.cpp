@@ -2,22 +2,43 @@
 
 namespace skein::agent {
 
-void ClutterFilter::keep_confirmed(double scan_s, const WorldMap& map, std::vector<Eigen::Vector3f>& hits_W) {
+namespace {
+
+/// Returns that drops hardly give a cube at a distance.
+int needed(double range_m) {
+  if (range_m >= 6.0) return 2;
+  return range_m >= 3.0 ? 3 : range_m >= 1.5 ? 5 : 8;
+}
+
+}  // namespace
+
+bool ClutterFilter::confirmed(double scan_s, double range_m, bool in_doubt, const WorldMap::Cube& cube) {
+  Returns& returns = returns_[grid_key(cube)];
+  if (returns.since_s == kNever) ++cubes_;
+  if (scan_s - returns.since_s > kConfirmedWithinS) returns = {scan_s, 0};
+  ++returns.count;
+  const int enough = needed(range_m) - (in_doubt ? 1 : 0);
+  if (returns.count < enough) return false;
+  returns = {scan_s, 0};
+  return true;
+}
+
+void ClutterFilter::keep_confirmed(double scan_s, const Vector3d& p_WL, const WorldMap& map,
+                                   std::vector<Eigen::Vector3f>& hits_W) {
   constexpr std::size_t kMostCubes = 200'000;
   if (cubes_ > kMostCubes) {
-    last_.clear();
+    returns_.clear();
     cubes_ = 0;
   }
   new_.clear();
   std::erase_if(hits_W, [&](const Eigen::Vector3f& hit_W) {
-    const WorldMap::Cube cube = map.cube_of(hit_W.cast<double>());
-    if (map.known(cube).space == Space::occupied) return false;
-    LastReturn& last = last_[grid_key(cube)];
-    const bool confirmed = scan_s - last.at_s <= kConfirmedWithinS;
-    if (last.at_s == kNever) ++cubes_;
-    last.at_s = scan_s;
-    if (confirmed && (new_.empty() || new_.back() != cube)) new_.push_back(cube);
-    return !confirmed;
+    const Vector3d p_W = hit_W.cast<double>();
+    const WorldMap::Cube cube = map.cube_of(p_W);
+    const bool in_doubt = map.doubted(cube);
+    if (!in_doubt && map.known(cube).space == Space::occupied) return false;
+    if (!confirmed(scan_s, (p_W - p_WL).norm(), in_doubt, cube)) return true;
+    if (!in_doubt && (new_.empty() || new_.back() != cube)) new_.push_back(cube);
+    return false;
   });
 }
 

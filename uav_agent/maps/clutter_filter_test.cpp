@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <set>
+
 #include "core/random_stream.hpp"
 
 namespace skein::agent {
@@ -11,7 +15,7 @@ constexpr double kScanS = 0.1;
 
 struct Filtered {
   void scan(std::vector<Eigen::Vector3f> hits_W) {
-    filter.keep_confirmed(time_s, map, hits_W);
+    filter.keep_confirmed(time_s, p_WL, map, hits_W);
     map.insert({}, hits_W);
     filter.doubt_new(map);
     time_s += kScanS;
@@ -19,6 +23,7 @@ struct Filtered {
   Space at(const Eigen::Vector3f& p_W) const { return map.at(p_W.cast<double>()); }
   bool doubted(const Eigen::Vector3f& p_W) const { return map.doubted(map.cube_of(p_W.cast<double>())); }
 
+  Vector3d p_WL = Vector3d::Zero();
   WorldMap map{WorldMap::Config{}};
   ClutterFilter filter;
   double time_s = 0.0;
@@ -64,13 +69,53 @@ TEST(ClutterFilter, StructureIsThereWithItsThirdReturnAndStays) {
 }
 
 TEST(ClutterFilter, ReturnsThatAreTooFarApartInTimeDoNotConfirmEachOther) {
-  const Eigen::Vector3f p_W(3.0F, 2.0F, 1.0F);
+  const Eigen::Vector3f p_W(9.0F, 2.0F, 1.0F);
   for (const double wait_s : {1.0, 1.9, 2.2, 60.0}) {
     Filtered drops;
     drops.scan({p_W});
     drops.time_s = wait_s;
     drops.scan({p_W});
     EXPECT_EQ(drops.at(p_W), wait_s < 2.0 ? Space::occupied : Space::unknown) << wait_s;
+  }
+}
+
+// As many drops as with the preset `harsh`, most of them close to a LiDAR that stands still. No beam passes the cubes.
+TEST(ClutterFilter, ALidarThatStandsInRainIsNotClosedIn) {
+  constexpr double kMeanM = 4.0, kLeastM = 0.5, kNearM = 3.0;
+  constexpr int kDropsPerScan = 6;
+  for (const std::uint64_t seed : {1, 2, 3, 4, 5}) {
+    RandomStream random(seed, "clutter_stands", 0);
+    Filtered rain;
+    rain.p_WL = Vector3d(0.1, 0.2, 0.3);
+    std::vector<Eigen::Vector3f> near_W;
+    for (int scan = 0; scan < 3000; ++scan) {
+      std::vector<Eigen::Vector3f> hits_W;
+      for (int i = 0; i < kDropsPerScan; ++i) {
+        const Vector3d direction = Vector3d(random.normal(), random.normal(), random.normal()).normalized();
+        const double range_m = kLeastM - kMeanM * std::log(1.0 - random.uniform());
+        hits_W.push_back((rain.p_WL + direction * range_m).cast<float>());
+        if (range_m < kNearM) near_W.push_back(hits_W.back());
+      }
+      rain.scan(hits_W);
+    }
+    EXPECT_LE(rain.map.counts().occupied, 10U) << "of 18,000 drops, seed " << seed;
+    std::set<std::uint64_t> near_cubes;
+    for (const Eigen::Vector3f& p_W : near_W) {
+      if (rain.at(p_W) == Space::occupied) near_cubes.insert(grid_key(rain.map.cube_of(p_W.cast<double>())));
+    }
+    EXPECT_LE(near_cubes.size(), 2U) << "seed " << seed;
+  }
+}
+
+// Structure returns more beams the nearer it is: 2 cm of a pole, with 0.2 degrees between two beams of a ring.
+TEST(ClutterFilter, APoleIsThereAfterTwoScansHoweverNear) {
+  for (const double range_m : {1.0, 1.6, 2.0, 4.0, 5.9, 6.1}) {
+    Filtered pole;
+    const auto beams = static_cast<int>(std::max(1.0, 0.02 / (range_m * 0.0035) + 1.0));
+    const Eigen::Vector3f hit_W(static_cast<float>(range_m), 0.25F, 0.25F);
+    for (int scan = 0; scan < 4; ++scan)
+      pole.scan(std::vector<Eigen::Vector3f>(static_cast<std::size_t>(beams), hit_W));
+    EXPECT_EQ(pole.at(hit_W), Space::occupied) << range_m;
   }
 }
 

@@ -39,7 +39,7 @@ void WorldMapper::insert(const BeamScan& scan) {
   const ScanBundler::Bundles& bundles = bundler_.bundle(scan, repeated, near_free, clear_way);
   if (!config_.clutter) return map_.insert(bundles.bundles, bundles.hits_W);
   hits_W_ = bundles.hits_W;
-  clutter_.keep_confirmed(seconds(scan.tick), map_, hits_W_);
+  clutter_.keep_confirmed(seconds(scan.tick), X_WL.translation(), map_, hits_W_);
   map_.insert(bundles.bundles, hits_W_);
   clutter_.doubt_new(map_);
 }

@@ -28,7 +28,7 @@ namespace {
 constexpr double kBodyMarginM = 0.3;  ///< around a known body
 constexpr double kGroundM = 0.3;      ///< what a LiDAR meets below is the ground
 constexpr double kScanAgeS = 0.1;     ///< a scan is at most this much older than the positions with it
-constexpr double kBodySigmas = 2.0;   ///< of odometry, by which another UAV's body may be off
+constexpr double kBodySigmas = 3.0;   ///< of the relative position, by which another UAV's body may be off
 constexpr double kWaitBreak_s = 0.5;
 
 WorldMap::Config world_map_config() {
@@ -122,12 +122,12 @@ void Agent::Impl::wait_for(std::size_t mate, double now_s) {
 }
 
 std::vector<KnownBody> Agent::Impl::other_bodies(const PoseUncertainty& uncertainty) const {
-  // The others' odometry is taken to be as good as the own: what lies between two that err so.
-  const double off_m = kBodySigmas * std::sqrt(2.0) * uncertainty.position_m.maxCoeff();
   std::vector<KnownBody> bodies;
   for (const Peer& peer : peers.all()) {
     // One that was never seen still stands where it was put.
     if (!peer.visible && peer.seen) continue;
+    // Its returns must not become structure, which the map would never forget.
+    const double off_m = kBodySigmas * relative_deviation_m(uncertainty, peer).maxCoeff();
     bodies.push_back(known_body(peer.p_W, peer.v_W, config.fleet[peer.uav].body_radius_m + off_m));
   }
   return bodies;

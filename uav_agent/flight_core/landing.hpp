@@ -1,0 +1,43 @@
+// Landing of a UAV whose battery is nearly empty: the way to a place to land, and the descent. It tries, in this order,
+// its landing place (landing_place.hpp), its start, and places about them. Where it finds no proved way, a UAV without a
+// LiDAR takes unknown space for free, since it falls otherwise. Without any way, it sinks where it is, in time.
+// Frame W.   Units: SI.   Threads: one.   Deterministic.
+#pragma once
+
+#include <vector>
+
+#include "uav_agent/flight_core/navigator.hpp"
+
+namespace skein::agent {
+
+class Landing {
+ public:
+  /// @param config, agent, filter, navigator  must outlive this.
+  Landing(const FlightConfig& config, const AgentConfig& agent, SafetyFilter& filter, Navigator& navigator)
+      : config_(config), agent_(agent), filter_(filter), navigator_(navigator) {}
+
+  void begin(Steering& steering);
+  /// Runs one exchange.   @param must_sink  the charge is only just enough to land right here.
+  void step(const PlannerInput& in, bool must_sink, Steering& steering);
+  /// From where the UAV is to a place on the ground, straight down at last.
+  Path down_at(const Vector3d& place_W, const PlannerInput& in) const;
+
+ private:
+  void find_sites(const PlannerInput& in);
+  void fly_to_site(const PlannerInput& in, bool must_sink, Steering& steering);
+  void sink(const PlannerInput& in, bool must_sink, Steering& steering);
+  void begin_descent(const Vector3d& place_W, const PlannerInput& in, Steering& steering);
+
+  const FlightConfig& config_;
+  const AgentConfig& agent_;
+  SafetyFilter& filter_;
+  Navigator& navigator_;
+  Vector3d place_W_ = Vector3d::Zero();  ///< its landing place, on the ground
+  std::vector<Vector3d> sites_W_;        ///< on the ground; index is -1 - Goal::id
+  std::vector<Vector3d> held_above_W_;   ///< sites to which it could not sink
+  std::optional<Vector3d> descends_at_W_;
+  double lowest_m_ = 0.0;  ///< setpoint's height in the descent, reached at sank_at_
+  Tick sank_at_ = 0;
+};
+
+}  // namespace skein::agent
