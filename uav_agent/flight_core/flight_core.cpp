@@ -198,8 +198,8 @@ std::optional<std::size_t> FlightCore::lifts_off_after(const PlannerInput& in) {
   return seconds(in.tick - *ready_since_) > kStartPatienceS * before ? std::nullopt : stands;
 }
 
-/// A UAV knows where it stands, but not for long where it hovers. So it lifts off only when nothing holds it until it is
-/// well above those that stand beside it.
+/// A UAV knows where it stands, but not for long where it hovers. So it lifts off only when nothing holds it until it
+/// is well above those that stand beside it.
 bool FlightCore::may_drift_into_neighbours(const PlannerInput& in) {
   if (!drifts(in)) return false;
   bool clear =

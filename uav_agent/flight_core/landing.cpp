@@ -52,7 +52,7 @@ void Landing::fly_to_site(const PlannerInput& in, bool must_sink, Steering& stee
   for (const Outcome& outcome : navigator_.take_outcomes()) {
     if (outcome.kind == Outcome::Kind::reached) at_W = sites_W_.at(static_cast<std::size_t>(-1 - outcome.id));
   }
-  if (across_m(in.state.p_WB, place_W_) < kAboveSiteM) at_W = place_W_;
+  if (across_m(in.state.p_WB, place_W_) < kAboveSiteM && !was_held_above(place_W_)) at_W = place_W_;
   if (must_sink && !at_W) at_W = in.tracking.setpoint.p_WB;
   if (at_W) {
     navigator_.stop(steering);
@@ -71,11 +71,15 @@ void Landing::fly_to_site(const PlannerInput& in, bool must_sink, Steering& stee
   navigator_.want(std::move(goals));
 }
 
+bool Landing::was_held_above(const Vector3d& site_W) const {
+  return std::ranges::any_of(held_above_W_,
+                             [&](const Vector3d& held_W) { return across_m(held_W, site_W) < kOtherSiteM; });
+}
+
 void Landing::find_sites(const PlannerInput& in) {
   sites_W_.clear();
   const auto add = [&](const Vector3d& site_W) {
-    const auto near = [&](const Vector3d& held_W) { return across_m(held_W, site_W) < kOtherSiteM; };
-    if (std::ranges::none_of(held_above_W_, near)) sites_W_.emplace_back(site_W.x(), site_W.y(), 0.0);
+    if (!was_held_above(site_W)) sites_W_.emplace_back(site_W.x(), site_W.y(), 0.0);
   };
   add(place_W_);
   add(agent_.me().p_WB_start);

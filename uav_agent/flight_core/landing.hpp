@@ -1,6 +1,6 @@
 // Landing of a UAV whose battery is nearly empty: the way to a place to land, and the descent. It tries, in this order,
-// its landing place (landing_place.hpp), its start, and places about them. Where it finds no proved way, a UAV without a
-// LiDAR takes unknown space for free, since it falls otherwise. Without any way, it sinks where it is, in time.
+// its landing place (landing_place.hpp), its start, and places about them. Where it finds no proved way, a UAV without
+// a LiDAR takes unknown space for free, since it falls otherwise. Without any way, it sinks where it is, in time.
 // Frame W.   Units: SI.   Threads: one.   Deterministic.
 #pragma once
 
@@ -24,6 +24,7 @@ class Landing {
 
  private:
   void find_sites(const PlannerInput& in);
+  bool was_held_above(const Vector3d& site_W) const;
   void fly_to_site(const PlannerInput& in, bool must_sink, Steering& steering);
   void sink(const PlannerInput& in, bool must_sink, Steering& steering);
   void begin_descent(const Vector3d& place_W, const PlannerInput& in, Steering& steering);

@@ -3,8 +3,8 @@
 // close to the LiDAR; a structure returns the beams of scan after scan, and the nearer it is, the more of them. So a
 // return in a cube that is not occupied is kept only if the cube has had as many returns within kConfirmedWithinS as
 // drops would hardly give it: 2 at 6 m and beyond, up to 8 close by. The cube then becomes occupied in doubt
-// (WorldMap::doubt()), until nearly as many returns again end in it, or beams that pass it prove it free. Until then the
-// cube is as unknown, or as free, as it was.
+// (WorldMap::doubt()), until nearly as many returns again end in it, or beams that pass it prove it free. Until then
+// the cube is as unknown, or as free, as it was.
 // Source of the numbers: with 60 drops a second at a mean distance of 4 m (preset `harsh`), some 5 of 18,000 drops are
 // taken for structure in five minutes, most of them beyond 3 m, before passing beams free those cubes again (test).
 // Frame W.   Units: SI.   Threads: one.   Deterministic.
