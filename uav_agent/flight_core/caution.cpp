@@ -27,7 +27,6 @@ double in_steps_m(double error_m) { return kErrorStepM * std::ceil(error_m / kEr
 Caution::Caution(const FlightConfig& config, const AgentConfig& agent)
     : config_(config),
       agent_(agent),
-      in_flight_m_(deviation_in_flight_m(agent.odometry)),
       most_mps_(std::numeric_limits<double>::infinity()),
       charge_per_s_(agent.battery.on() ? 1.0 / (*agent.battery.endurance_missions * agent.duration_s) : 0.0) {}
 
@@ -39,7 +38,7 @@ void Caution::update(const PlannerInput& in) {
   // A UAV that still knows where it stands will not for long: before it takes off, it looks for the room that it needs
   // in flight.
   PoseUncertainty own = in.uncertainty;
-  if (!own.exact()) own.position_m = own.position_m.cwiseMax(in_flight_m_);
+  if (!own.exact()) own.position_m = own.position_m.cwiseMax(deviation_in_flight_m(agent_.odometry));
   // Of structure nobody knows in which direction it is: the deviation along one of chance.
   const double any_way_m = own.position_m.norm() / std::sqrt(3.0);
   const auto kept_off = [&](double deviation_m) {
@@ -74,7 +73,7 @@ double Caution::drift_since_seen_m(double told_m) {
   const OdometryConditions& odometry = agent_.odometry;
   const double told2 = square(told_m), noise2 = square(odometry.noise_sigma_m);
   const double drifts2 = (2.0 * square(odometry.horizontal_sigma_m) + square(odometry.vertical_sigma_m)) / 3.0;
-  const double usual2 = drifts2 + square(odometry.bias_sigma_m) + noise2;
+  const double usual2 = deviation_in_flight_m(odometry).squaredNorm() / 3.0;
   lost2_ = std::max(told2 - usual2, lost2_ * std::exp(-agent_.exchange_period_s / config_.look_s));
   const double anew = -std::expm1(-config_.look_s / odometry.time_constant_s);
   return std::sqrt(2.0 * (std::min(told2, drifts2) * anew + noise2) + lost2_);

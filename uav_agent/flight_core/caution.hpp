@@ -41,7 +41,6 @@ class Caution {
 
   const FlightConfig& config_;
   const AgentConfig& agent_;
-  const Vector3d in_flight_m_;  ///< usual deviation of the position in flight
   ExpectedErrors errors_;
   double most_mps_;
   double lost2_ = 0.0;                   ///< position variance beyond the usual one: the fix is, or was, lost [m^2]

@@ -76,8 +76,9 @@ TEST(Caution, KeepsOffAnotherUavByBothErrorsAlongEachAxis) {
     RandomStream draw(static_cast<std::uint64_t>(seed), "caution_peers", 0);
     AgentConfig agent = with_battery();
     agent.fleet.push_back({.name = "b", .p_WB_start = {2.0, 0.0, 0.1}});
-    agent.odometry.horizontal_sigma_m = draw.uniform(0.05, 0.4);
-    agent.odometry.vertical_sigma_m = draw.uniform(0.05, 0.4);
+    // Up to and beyond the bound of 2 m.
+    agent.odometry.horizontal_sigma_m = draw.uniform(0.05, seed % 2 == 0 ? 0.4 : 1.2);
+    agent.odometry.vertical_sigma_m = draw.uniform(0.05, seed % 2 == 0 ? 0.4 : 1.2);
     agent.odometry.bias_sigma_m = draw.uniform(0.0, 0.2);
     agent.odometry.known_start = true;
     FlownUav uav(agent, {0.0, 0.0, 20.0});

@@ -36,7 +36,6 @@ void Landing::begin(Steering& steering) {
 }
 
 void Landing::step(const PlannerInput& in, bool must_sink, Steering& steering) {
-  // A UAV that has landed drifts in its own eyes: when the tracker then begins anew from there, it is sent down again.
   const bool landed = in.tracking.setpoint.p_WB.z() < 0.0;
   if (must_sink && !landed) filter_.set_trust(SafetyFilter::Trust::all);
   if (descends_at_W_) {
@@ -114,6 +113,7 @@ void Landing::sink(const PlannerInput& in, bool must_sink, Steering& steering) {
     descends_at_W_.reset();
     return;
   }
+  // A UAV that has landed drifts in its own eyes: when the tracker then begins anew from there, it is sent down again.
   if (in.tracking.done || (held && must_sink)) begin_descent(held ? setpoint_W : *descends_at_W_, in, steering);
 }
 

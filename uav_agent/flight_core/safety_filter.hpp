@@ -12,6 +12,7 @@
 //     where its body has been.
 //
 // Two UAVs that both keep the invariant never meet: either may brake at any time, and neither relies on the other.
+// A UAV that must get down, or falls, asks for less (Trust).
 // In a fleet without a LiDAR, no UAV can prove space free; nor can a UAV without a working LiDAR that receives no map.
 // Such a UAV assumes that space is free outside all boxes and away from known structure (assume_boxes()).
 // Frame W.   Units: SI.   Threads: one.   Deterministic.

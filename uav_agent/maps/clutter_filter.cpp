@@ -1,7 +1,6 @@
 #include "uav_agent/maps/clutter_filter.hpp"
 
 namespace skein::agent {
-
 namespace {
 
 /// Returns that drops hardly give a cube at a distance.

@@ -108,13 +108,13 @@ TEST(ClutterFilter, ALidarThatStandsInRainIsNotClosedIn) {
 }
 
 // Structure returns more beams the nearer it is: 2 cm of a pole, with 0.2 degrees between two beams of a ring.
-TEST(ClutterFilter, APoleIsThereAfterTwoScansHoweverNear) {
+TEST(ClutterFilter, APoleIsThereAfterFourScansHoweverNear) {
   for (const double range_m : {1.0, 1.6, 2.0, 4.0, 5.9, 6.1}) {
     Filtered pole;
     const auto beams = static_cast<int>(std::max(1.0, 0.02 / (range_m * 0.0035) + 1.0));
     const Eigen::Vector3f hit_W(static_cast<float>(range_m), 0.25F, 0.25F);
-    for (int scan = 0; scan < 4; ++scan)
-      pole.scan(std::vector<Eigen::Vector3f>(static_cast<std::size_t>(beams), hit_W));
+    const std::vector<Eigen::Vector3f> hits_W(static_cast<std::size_t>(beams), hit_W);
+    for (int scan = 0; scan < 4; ++scan) pole.scan(hits_W);
     EXPECT_EQ(pole.at(hit_W), Space::occupied) << range_m;
   }
 }
