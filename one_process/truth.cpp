@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "sim_server/points_shown.hpp"
+
 namespace skein::one_process {
 namespace {
 
@@ -134,7 +136,7 @@ nlohmann::json Truth::scene() const {
                      {"attitude", {q.w(), q.x(), q.y(), q.z()}}});
   }
   const station::Scoreboard* board = score_->board;
-  const std::vector<bool> seen = simulation_->points_seen();
+  const std::vector<bool> seen = sim::points_shown(*simulation_).seen;
   for (std::size_t i = 0; i < simulation_->scene().points.size(); ++i) {
     const InterestPoint& point = simulation_->scene().points[i];
     const float delivered = board != nullptr ? board->delivered().points().at(i).q : 0.0F;

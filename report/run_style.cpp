@@ -5,12 +5,12 @@ namespace skein::report {
 // Causes (k) are Tol's muted colours, which people with any colour vision can tell apart.
 std::string_view run_style() {
   return R"css(:root {
-  --k0: #8a8f98; --k1: #332288; --k2: #cc6677; --k3: #882255; --k4: #c98a00; --k5: #3a9fcf; --k6: #2f9585; --k7: #8f8f2a; --k8: #117733;
+  --k0: #8a8f98; --k1: #332288; --k2: #cc6677; --k3: #882255; --k4: #c98a00; --k5: #3a9fcf; --k6: #2f9585; --k7: #8f8f2a; --k8: #aa4499; --k9: #5b7fa6; --k10: #a5501e; --k11: #117733;
   --flying: #a9cbe8; --still: #e3a63a; --direct: #2f9585; --relayed: #a3d3cb; --fault: #d55e0033; --good: #00734f; --bad: #b3261e;
 }
 @media (prefers-color-scheme: dark) {
   :root {
-    --k0: #9aa0aa; --k1: #8f83f0; --k2: #f08a9a; --k3: #d66aa6; --k4: #f0bb3d; --k5: #7fc9ee; --k6: #55c4b1; --k7: #cfcf5a; --k8: #5fc47a;
+    --k0: #9aa0aa; --k1: #8f83f0; --k2: #f08a9a; --k3: #d66aa6; --k4: #f0bb3d; --k5: #7fc9ee; --k6: #55c4b1; --k7: #cfcf5a; --k8: #d98fcb; --k9: #9dbbe0; --k10: #e09668; --k11: #5fc47a;
     --flying: #2f5b86; --still: #d9a13b; --direct: #3fae9b; --relayed: #245f56; --fault: #f08a4b3a; --good: #3fcf9b; --bad: #ff8a80;
   }
 }
@@ -43,7 +43,8 @@ body.run main { max-width: 1560px; }
 .run svg.fall { max-width: none; width: 100%; height: 18px; margin: 0; }
 .fall rect { fill: var(--c0); } .fall .whole { fill: var(--q0); }
 .fall .k0 { fill: var(--k0); } .fall .k1 { fill: var(--k1); } .fall .k2 { fill: var(--k2); } .fall .k3 { fill: var(--k3); } .fall .k4 { fill: var(--k4); }
-.fall .k5 { fill: var(--k5); } .fall .k6 { fill: var(--k6); } .fall .k7 { fill: var(--k7); } .fall .k8 { fill: var(--k8); }
+.fall .k5 { fill: var(--k5); } .fall .k6 { fill: var(--k6); } .fall .k7 { fill: var(--k7); } .fall .k8 { fill: var(--k8); } .fall .k9 { fill: var(--k9); }
+.fall .k10 { fill: var(--k10); } .fall .k11 { fill: var(--k11); }
 .run tr.sum td { font-weight: 700; border-top: 1.5px solid var(--soft); }
 td.heat { background: color-mix(in srgb, var(--h) var(--v), transparent); }
 .matrix td { text-align: center; } .matrix th { text-align: center; min-width: 4.5em; }
@@ -52,7 +53,8 @@ td.heat { background: color-mix(in srgb, var(--h) var(--v), transparent); }
 .run figure + .wide { margin-top: 14px; }
 .pairs { margin-top: 12px; } .pairs td { border: none; padding: 2px 14px 2px 0; }
 .points .k0 { stroke: var(--k0); } .points .k1 { stroke: var(--k1); } .points .k2 { stroke: var(--k2); } .points .k3 { stroke: var(--k3); } .points .k4 { stroke: var(--k4); }
-.points .k5 { stroke: var(--k5); } .points .k6 { stroke: var(--k6); } .points .k7 { stroke: var(--k7); } .points .k8 { stroke: var(--k8); }
+.points .k5 { stroke: var(--k5); } .points .k6 { stroke: var(--k6); } .points .k7 { stroke: var(--k7); } .points .k8 { stroke: var(--k8); } .points .k9 { stroke: var(--k9); }
+.points .k10 { stroke: var(--k10); } .points .k11 { stroke: var(--k11); }
 .run svg { max-width: none; }
 .views { grid-template-columns: repeat(auto-fit, minmax(min(520px, 100%), 1fr)); }
 .places { grid-template-columns: repeat(auto-fill, minmax(min(235px, 100%), 1fr)); }
@@ -80,7 +82,7 @@ footer { margin-top: 3em; border-top: 1px solid var(--line); font-size: 0.88em; 
 }
 @media print {
   :root {
-    --k0: #8a8f98; --k1: #332288; --k2: #cc6677; --k3: #882255; --k4: #c98a00; --k5: #3a9fcf; --k6: #2f9585; --k7: #8f8f2a; --k8: #117733;
+    --k0: #8a8f98; --k1: #332288; --k2: #cc6677; --k3: #882255; --k4: #c98a00; --k5: #3a9fcf; --k6: #2f9585; --k7: #8f8f2a; --k8: #aa4499; --k9: #5b7fa6; --k10: #a5501e; --k11: #117733;
     --flying: #a9cbe8; --still: #e3a63a; --direct: #2f9585; --relayed: #a3d3cb; --fault: #d55e0033; --good: #00734f; --bad: #b3261e;
   }
   .live { display: none !important; } .still-drawing { display: block !important; } .narrow, .narrow.still-drawing { display: none !important; } .broad { display: block !important; }

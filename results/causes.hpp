@@ -21,6 +21,9 @@ enum class LossCause {
   distance,          ///< its best picture counts; the worst part of its quality is the distance
   tilt,              ///< the same; the worst part is the angle to the surface
   blur,              ///< the same; the worst part is the motion blur
+  drift,             ///< it would have a better picture if the UAV had been where it believed to be
+  wind,              ///< it would have a better picture without wind
+  energy,            ///< a UAV's empty battery cost its best picture; or none counts, and batteries kept all UAVs down
   above_estimate,    ///< it scored better than the estimate: the loss is negative
 };
 
@@ -30,15 +33,18 @@ struct Cause {
 };
 
 /// All of LossCause except `none`, in the same order.
-inline constexpr std::array<Cause, 9> kCauses = {{{"out_of_reach", "no UAV fits there"},
-                                                  {"never_in_picture", "never in the picture"},
-                                                  {"below_threshold", "too poor to count"},
-                                                  {"voided", "UAV collided"},
-                                                  {"not_delivered", "not delivered"},
-                                                  {"distance", "from too far away"},
-                                                  {"tilt", "too much from the side"},
-                                                  {"blur", "blurred"},
-                                                  {"above_estimate", "above the estimate"}}};
+inline constexpr std::array<Cause, 12> kCauses = {{{"out_of_reach", "no UAV fits there"},
+                                                   {"never_in_picture", "never in the picture"},
+                                                   {"below_threshold", "too poor to count"},
+                                                   {"voided", "UAV collided"},
+                                                   {"not_delivered", "not delivered"},
+                                                   {"distance", "from too far away"},
+                                                   {"tilt", "too much from the side"},
+                                                   {"blur", "blurred"},
+                                                   {"drift", "position was off"},
+                                                   {"wind", "pushed by wind"},
+                                                   {"energy", "battery empty"},
+                                                   {"above_estimate", "above the estimate"}}};
 
 constexpr std::array<EnumName<LossCause>, kCauses.size() + 1> enum_names(LossCause) {
   std::array<EnumName<LossCause>, kCauses.size() + 1> names{{{"none", LossCause::none}}};

@@ -10,6 +10,11 @@
 namespace skein::results {
 namespace {
 
+/// @returns 0 where a table has no entry.
+float score_of(const std::optional<std::vector<Amount>>& table, std::size_t point) {
+  return table && point < table->size() ? static_cast<float>((*table)[point]) : 0.0F;
+}
+
 /// What is known of each point of the scene; nullopt where something is missing.
 std::optional<std::vector<PointRecord>> point_records(const std::filesystem::path& dir, const Json& answer,
                                                       const Reports& reports, std::size_t count) {
@@ -24,6 +29,8 @@ std::optional<std::vector<PointRecord>> point_records(const std::filesystem::pat
     points[i].estimate = estimate[i].get<float>();
     points[i].flyable = flyable[i] == '1';
     points[i].seen = seen[i] == '1';
+    points[i].if_exact = score_of(reports.sim_server->points_if_exact, i);
+    points[i].if_calm = score_of(reports.sim_server->points_if_calm, i);
   }
   for (const ScoredPointReport& point : *reports.station->points) {
     const std::size_t index = point.index.value_or(count);
@@ -36,6 +43,21 @@ std::optional<std::vector<PointRecord>> point_records(const std::filesystem::pat
     points[index].captures.push_back(std::move(row));
   }
   return points;
+}
+
+BatteryEffects battery_effects(const SimServerReport& report) {
+  BatteryEffects effects;
+  bool all = true, any = false;
+  for (const UavReport& uav : report.uavs) {
+    const bool grounded = uav.battery && uav.battery->grounded.value_or(false);
+    any |= grounded;
+    all &= grounded || !uav.alive.value_or(true);
+  }
+  effects.nobody_could_fly = all && any;
+  for (const CollisionReport& collision : report.collisions) {
+    if (collision.cause == "battery" && collision.uav) effects.fell.insert(*collision.uav);
+  }
+  return effects;
 }
 
 /// A number that reads back as the same.
@@ -62,11 +84,12 @@ Json write_losses(const std::filesystem::path& dir, const Json& answer, const Re
   const Json places = value_or(read_json(dir / run_folder::kScene), "points", Json::array());
   const auto points = point_records(dir, answer, reports, places.size());
   if (!points) return nullptr;
+  const BatteryEffects batteries = battery_effects(*reports.sim_server);
   std::vector<PointLoss> losses;
   std::string csv = "index,x,y,z,estimate,score,cause,loss,uav,capture,q_distance,q_tilt,q_blur,q\n";
   for (std::size_t i = 0; i < points->size(); ++i) {
     const PointRecord& point = (*points)[i];
-    losses.push_back(loss_of(point));
+    losses.push_back(loss_of(point, batteries));
     if (point.estimate > 0.0F || point.score > 0.0F) csv += csv_line(i, places[i], point, losses.back());
   }
   write_file_atomically(dir / run_folder::kLosses, csv);

@@ -38,7 +38,7 @@ TEST_F(RunLosses, EveryPointHasItsLine) {
   EXPECT_EQ(losses["never_in_picture"], (Json{{"points", 1}, {"score", 1.0}}));
   EXPECT_EQ(losses["out_of_reach"], (Json{{"points", 1}, {"score", 0.5}}));
   EXPECT_EQ(losses["above_estimate"], (Json{{"points", 1}, {"score", -0.25}}));
-  EXPECT_EQ(losses.size(), 9u);
+  EXPECT_EQ(losses.size(), 12u);
   double sum = 0.0;
   for (const Json& part : losses) sum += part["score"].get<double>();
   EXPECT_EQ(sum, 3.25 - 0.75);

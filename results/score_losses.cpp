@@ -15,12 +15,21 @@ std::optional<CaptureRow> best_of(const std::vector<CaptureRow>& captures, const
   return best == nullptr ? std::nullopt : std::optional(*best);
 }
 
-/// Whether a better picture was had, and that it does not count costs at least as much as what it lacked itself. Of a
-/// point that scored nothing it always does.
-bool is_to_blame(const std::optional<CaptureRow>& lost, const PointRecord& point) {
-  if (!lost) return false;
-  const double q = static_cast<float>(lost->q), score = point.score;
+/// Whether a picture was better, and that it does not count costs at least as much as what it lacked itself. Of a point
+/// that scored nothing it always does.
+bool is_to_blame(float lost_q, const PointRecord& point) {
+  const double q = lost_q, score = point.score;
   return q > score && (score == 0.0 || q - score >= point.estimate - q);
+}
+bool is_to_blame(const std::optional<CaptureRow>& lost, const PointRecord& point) {
+  return lost && is_to_blame(static_cast<float>(lost->q), point);
+}
+
+/// Of a point without a picture that counts.
+LossCause why_not_taken(const PointRecord& point, const BatteryEffects& batteries) {
+  if (!point.flyable) return LossCause::out_of_reach;
+  if (batteries.nobody_could_fly) return LossCause::energy;
+  return point.seen ? LossCause::below_threshold : LossCause::never_in_picture;
 }
 
 /// What is worst about a picture.
@@ -36,7 +45,7 @@ double tilt_quality(const CaptureRow& capture) {
   return capture.q_distance > 0.0 ? capture.q_res / capture.q_distance : 0.0;
 }
 
-PointLoss loss_of(const PointRecord& point) {
+PointLoss loss_of(const PointRecord& point, const BatteryEffects& batteries) {
   PointLoss result;
   result.loss = static_cast<double>(point.estimate) - static_cast<double>(point.score);
   const auto voided = best_of(point.captures, [](const CaptureRow& row) { return row.voided(); });
@@ -49,14 +58,12 @@ PointLoss loss_of(const PointRecord& point) {
     result.cause = LossCause::not_delivered;
     result.best = earned;
   } else if (is_to_blame(voided, point)) {
-    result.cause = LossCause::voided;
+    result.cause = batteries.fell.contains(voided->uav) ? LossCause::energy : LossCause::voided;
     result.best = voided;
-  } else if (result.best) {
-    result.cause = worst_part(*result.best);
-  } else if (!point.flyable) {
-    result.cause = LossCause::out_of_reach;
+  } else if (is_to_blame(std::max(point.if_exact, point.if_calm), point)) {
+    result.cause = point.if_exact >= point.if_calm ? LossCause::drift : LossCause::wind;
   } else {
-    result.cause = point.seen ? LossCause::below_threshold : LossCause::never_in_picture;
+    result.cause = result.best ? worst_part(*result.best) : why_not_taken(point, batteries);
   }
   return result;
 }

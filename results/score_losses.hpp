@@ -5,6 +5,8 @@
 
 #include <map>
 #include <optional>
+#include <set>
+#include <string>
 #include <vector>
 
 #include "results/causes.hpp"
@@ -19,6 +21,14 @@ struct PointRecord {
   bool seen = false;                 ///< was ever in a camera's picture and in sight
   float score = 0.0F;                ///< delivered
   std::vector<CaptureRow> captures;  ///< of this point, in any order
+  /// q of the best picture that would have been taken if UAVs had been where they believed to be, and without wind.
+  float if_exact = 0.0F, if_calm = 0.0F;
+};
+
+/// What batteries did in the run.
+struct BatteryEffects {
+  bool nobody_could_fly = false;  ///< at the end of the mission, all UAVs that had not collided
+  std::set<std::string> fell;     ///< UAVs that collided because their battery was empty
 };
 
 struct PointLoss {
@@ -28,9 +38,10 @@ struct PointLoss {
       best;  ///< the capture that the cause is about: the best one that counts, or the one that was lost
 };
 
-/// The loss of one point, with one cause for all of it. If a better picture was lost (not delivered, else voided), that
-/// is the cause, unless the point scored and this picture would have made up for less than half of the loss.
-PointLoss loss_of(const PointRecord& point);
+/// The loss of one point, with one cause for all of it. If a better picture was lost (not delivered, else voided, else
+/// not taken because of drift or wind), that is the cause, unless the point scored and this picture would have made up
+/// for less than half of the loss.
+PointLoss loss_of(const PointRecord& point, const BatteryEffects& batteries = {});
 
 /// Number of points with one cause, and the sum of their losses.
 struct LossSum {

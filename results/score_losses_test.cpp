@@ -38,9 +38,12 @@ PointRecord drawn_point(RandomStream& random) {
     point.estimate = static_cast<float>(random.uniform() < 0.5 ? 1.0 : random.uniform(0.2, 1.0));
   point.flyable = point.estimate > 0.0F && random.uniform() < 0.8;
   point.seen = random.uniform() < 0.5;
+  if (random.uniform() < 0.5) point.if_exact = static_cast<float>(random.uniform(0.2, 1.0));
+  if (random.uniform() < 0.5) point.if_calm = static_cast<float>(random.uniform(0.2, 1.0));
   for (int left = static_cast<int>(random.uniform(0.0, 4.0)); left > 0; --left) {
-    const CaptureRow row = capture(random.uniform(0.6, 1.0), random.uniform(0.6, 1.1), random.uniform(0.6, 1.0),
-                                   random.uniform() < 0.6, random.uniform() < 0.2);
+    CaptureRow row = capture(random.uniform(0.6, 1.0), random.uniform(0.6, 1.1), random.uniform(0.6, 1.0),
+                             random.uniform() < 0.6, random.uniform() < 0.2);
+    if (random.uniform() < 0.5) row.uav = "falls";
     point.captures.push_back(row);
     point.seen = true;
   }
@@ -49,17 +52,24 @@ PointRecord drawn_point(RandomStream& random) {
 }
 
 /// Whether a cause is what happened, said in other words than the code's.
-bool is_true(const PointRecord& point, LossCause cause) {
+bool is_true(const PointRecord& point, const BatteryEffects& batteries, LossCause cause) {
   const auto any = [&](const auto& has) { return std::any_of(point.captures.begin(), point.captures.end(), has); };
   // With it, the point would have come at least half of the way from its score to its estimate.
-  const auto mattered = [&](const CaptureRow& row) {
-    const float q = static_cast<float>(row.q);
+  const auto would_matter = [&](float q) {
     return q > point.score && (point.score == 0.0F || 2.0 * q >= static_cast<double>(point.estimate) + point.score);
   };
+  const auto mattered = [&](const CaptureRow& row) { return would_matter(static_cast<float>(row.q)); };
   const bool better_lost =
       any([&](const CaptureRow& row) { return !row.delivered_at_s && !row.voided() && mattered(row); });
   const bool better_voided = any([&](const CaptureRow& row) { return row.voided() && mattered(row); });
-  const bool quality = point.score > 0.0F && !better_lost && !better_voided;
+  const auto best_voided = std::max_element(
+      point.captures.begin(), point.captures.end(),
+      [](const auto& a, const auto& b) { return (a.voided() ? a.q : -1.0) < (b.voided() ? b.q : -1.0); });
+  const bool fell = better_voided && best_voided->uav == "falls" && batteries.fell.contains("falls");
+  const bool better_elsewhere = would_matter(point.if_exact) || would_matter(point.if_calm);
+  const bool not_lost = !better_lost && !better_voided && !better_elsewhere;
+  const bool quality = point.score > 0.0F && not_lost;
+  const bool never = point.captures.empty() && point.flyable && not_lost;
   const bool lost = point.estimate > point.score;
   switch (cause) {
     case LossCause::none:
@@ -69,17 +79,23 @@ bool is_true(const PointRecord& point, LossCause cause) {
     case LossCause::not_delivered:
       return lost && better_lost;
     case LossCause::voided:
-      return lost && better_voided && !better_lost;
+      return lost && better_voided && !better_lost && !fell;
+    case LossCause::energy:
+      return lost && !better_lost && (fell || (never && batteries.nobody_could_fly));
+    case LossCause::drift:
+      return lost && !better_lost && !better_voided && would_matter(point.if_exact) && point.if_exact >= point.if_calm;
+    case LossCause::wind:
+      return lost && !better_lost && !better_voided && would_matter(point.if_calm) && point.if_calm > point.if_exact;
     case LossCause::distance:
     case LossCause::tilt:
     case LossCause::blur:
       return lost && quality;
     case LossCause::out_of_reach:
-      return lost && point.captures.empty() && !point.flyable;
+      return lost && point.captures.empty() && !point.flyable && not_lost;
     case LossCause::below_threshold:
-      return lost && point.captures.empty() && point.flyable && point.seen;
+      return lost && never && !batteries.nobody_could_fly && point.seen;
     case LossCause::never_in_picture:
-      return lost && point.captures.empty() && point.flyable && !point.seen;
+      return lost && never && !batteries.nobody_could_fly && !point.seen;
   }
   return false;
 }
@@ -88,15 +104,18 @@ TEST(ScoreLosses, AllLossesTogetherAreTheDifference) {
   std::map<LossCause, std::size_t> met;
   for (std::uint64_t key = 0; key < 40; ++key) {
     RandomStream random(key, "score_losses_test", 0);
+    BatteryEffects batteries{.nobody_could_fly = random.uniform() < 0.3, .fell = {}};
+    if (random.uniform() < 0.5) batteries.fell.insert("falls");
     std::vector<PointLoss> losses;
     double estimate = 0.0, score = 0.0;
     for (int i = 0; i < 400; ++i) {
       const PointRecord point = drawn_point(random);
-      const PointLoss loss = loss_of(point);
+      const PointLoss loss = loss_of(point, batteries);
       losses.push_back(loss);
       estimate += point.estimate;
       score += point.score;
-      EXPECT_TRUE(is_true(point, loss.cause)) << name_of(loss.cause) << ": " << point.estimate << ' ' << point.score;
+      EXPECT_TRUE(is_true(point, batteries, loss.cause))
+          << name_of(loss.cause) << ": " << point.estimate << ' ' << point.score;
       EXPECT_EQ(loss.loss, static_cast<double>(point.estimate) - point.score);
       ++met[loss.cause];
     }

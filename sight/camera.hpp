@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/camera_quality.hpp"
 #include "core/scenario.hpp"
 #include "core/scene.hpp"
 #include "sight/ray_scene.hpp"
@@ -42,6 +43,12 @@ struct Capture {
   bool improved() const;              ///< any of them
 };
 
+/// States that a camera's body would have at the same instant if one of the conditions were off.
+struct OtherStates {
+  std::optional<RigidBodyState> exact;  ///< it flies by an exact position; nullopt: it does
+  std::optional<RigidBodyState> calm;   ///< there is no wind; nullopt: there is none
+};
+
 class Camera {
  public:
   /// @param points  interest points of the scene; must outlive the camera.
@@ -59,8 +66,10 @@ class Camera {
   /// UAVs hide. With `rules.camera_blind_in_structure` it sees nothing while structure stands between the body's origin
   /// and the camera: then it is not where a camera could be.
   /// @param world  with the poses of all UAVs at this tick.
+  /// @param other  what pictures from these states would show is kept apart, and changes nothing else.
   /// Not thread-safe; cameras of different UAVs may work in parallel.
-  Capture capture(Tick tick, const RigidBodyState& body, const GimbalState& gimbal, const RayScene& world);
+  Capture capture(Tick tick, const RigidBodyState& body, const GimbalState& gimbal, const RayScene& world,
+                  const OtherStates& other = {});
 
   std::uint64_t captures() const { return captures_; }
   /// Best score of each interest point so far, 0 when never seen.
@@ -68,9 +77,19 @@ class Camera {
   /// Which interest points were ever in the picture and in sight, whatever their quality.
   const std::vector<bool>& seen() const { return seen_; }
 
+  /// Best score of each interest point that pictures from the other states would have had, where it was more than
+  /// best() at that time, else 0; empty if there never was such a state.
+  const std::vector<float>& best_if_exact() const { return best_if_exact_; }
+  const std::vector<float>& best_if_calm() const { return best_if_calm_; }
+
   static constexpr double kSurfaceTolerance = 0.025;  ///< [m]
 
  private:
+  /// The camera with the body in this state, as it shakes at this picture.
+  CameraState shaken(const RigidBodyState& body, const GimbalState& gimbal) const;
+  void imagine(const std::optional<RigidBodyState>& body, const GimbalState& gimbal, const RayScene& world,
+               std::vector<float>& best_if) const;
+
   CameraConfig config_;
   double vibration_;  ///< deviation of each component of the turn [rad/s]
   std::uint64_t seed_;
@@ -83,6 +102,7 @@ class Camera {
   std::uint64_t captures_ = 0;
   std::vector<float> best_;
   std::vector<bool> seen_;
+  std::vector<float> best_if_exact_, best_if_calm_;
 };
 
 }  // namespace skein::sim

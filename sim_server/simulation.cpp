@@ -199,7 +199,8 @@ void Simulation::Impl::take_pictures() {
   auto captures = [&] {
     const WorkSection section(clock, Work::camera, firing.size());
     return all_of<Capture>(for_each, firing, [&](UavIndex i) {
-      return uavs[i].camera.capture(tick, world.state(i), uavs[i].vehicle.gimbal(), rays);
+      return uavs[i].camera.capture(tick, world.state(i), uavs[i].vehicle.gimbal(), rays,
+                                    uavs[i].surroundings.other_states(world.state(i)));
     });
   }();
   for (std::size_t n = 0; n < firing.size(); ++n) {
@@ -247,6 +248,7 @@ void Simulation::Impl::finish_exchange() {
   for (const UavIndex i : FirstUavs(uavs.size())) {
     UavView& view = uavs[i].view;
     view.state = world.state(i);
+    if (mission.airborne(i)) uavs[i].surroundings.note_flight(tick);
     tell(i, conditions[i]);
     view.gimbal = uavs[i].vehicle.gimbal();
     view.alive = mission.alive(i);
@@ -358,6 +360,7 @@ std::size_t Simulation::size() const { return impl_->uavs.size(); }
 const Mission& Simulation::mission() const { return impl_->mission; }
 const UavView& Simulation::uav(UavIndex i) const { return impl_->views.at(i); }
 std::span<const UavView> Simulation::uavs() const { return impl_->views; }
+const Camera& Simulation::camera(UavIndex i) const { return impl_->uavs.at(i).camera; }
 const Links& Simulation::links() const { return impl_->links; }
 const Links& Simulation::open_links() const { return impl_->open_links; }
 const Links& Simulation::unfailed_links() const { return impl_->tracer.unfailed(); }
@@ -369,14 +372,6 @@ const StepEvents& Simulation::events() const { return impl_->events; }
 const Referee& Simulation::referee() const { return impl_->referee; }
 const Scene& Simulation::scene() const { return impl_->scene; }
 const RayScene& Simulation::rays() const { return impl_->rays; }
-
-std::vector<bool> Simulation::points_seen() const {
-  std::vector<bool> seen(impl_->scene.points.size(), false);
-  for (const SimulatedUav& uav : impl_->uavs) {
-    for (std::size_t i = 0; i < seen.size(); ++i) seen[i] = seen[i] || uav.camera.seen()[i];
-  }
-  return seen;
-}
 
 DigestInput Simulation::digest_input() const {
   DigestInput input;

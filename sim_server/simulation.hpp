@@ -149,8 +149,7 @@ class Simulation {
   const Links& open_links() const;
   const StepEvents& events() const;
   const Referee& referee() const;
-  /// By interest point: whether it was ever in a picture and in sight, whatever its quality.
-  std::vector<bool> points_seen() const;
+  const Camera& camera(UavIndex i) const;
   const Scene& scene() const;
   const RayScene& rays() const;  ///< of the scene
   /// Distance from a body's centre to the structure [m], kFarClearance_m at most.

@@ -7,6 +7,7 @@
 #include <ostream>
 
 #include "core/text/text.hpp"
+#include "results/causes.hpp"
 
 namespace skein::cli {
 namespace {
@@ -14,6 +15,8 @@ namespace {
 struct Row {
   int flights = 0, collisions = 0, by_battery = 0;
   std::vector<double> shares;  ///< of the estimate [%]
+  double estimates = 0.0;      ///< sum, of flights whose losses are known
+  std::map<std::string, double> losses;
   std::optional<double> median() const {
     return shares.empty() ? std::nullopt : std::optional(spread_of(shares).median);
   }
@@ -28,8 +31,31 @@ Row row_of(const Study& study, const std::string& conditions, std::size_t planne
     row.collisions += flight.figures->collisions;
     row.by_battery += flight.figures->collisions_by_battery;
     if (flight.figures->attainable_percent) row.shares.push_back(*flight.figures->attainable_percent);
+    if (flight.figures->losses.empty()) continue;
+    row.estimates += flight.figures->attainable.value_or(0.0);
+    for (const auto& [cause, score] : flight.figures->losses) row.losses[cause] += score;
   }
   return row;
+}
+
+void print_losses(std::ostream& out, const Study& study, const std::vector<std::string>& all) {
+  out << "\nLost, as a share of the estimate [%]:\n\n| conditions | planner |";
+  for (const results::Cause& cause : results::kCauses) out << ' ' << cause.title << " |";
+  out << "\n|---|---|";
+  for (std::size_t i = 0; i < results::kCauses.size(); ++i) out << "---|";
+  out << '\n';
+  for (const std::string& conditions : all) {
+    for (std::size_t p = 0; p < study.planners.size(); ++p) {
+      const Row row = row_of(study, conditions, p);
+      out << fmt::format("| `{}` | `{}` |", conditions, study.planners[p]);
+      for (const results::Cause& cause : results::kCauses) {
+        const auto lost = row.losses.find(cause.key);
+        const bool known = lost != row.losses.end() && row.estimates > 0.0;
+        out << ' ' << (known ? fmt::format("{:.1f}", 100.0 * lost->second / row.estimates) : "-") << " |";
+      }
+      out << '\n';
+    }
+  }
 }
 
 }  // namespace
@@ -53,6 +79,7 @@ void print_conditions(std::ostream& out, const Study& study) {
                          row.by_battery);
     }
   }
+  print_losses(out, study, all);
 }
 
 }  // namespace skein::cli

@@ -21,6 +21,8 @@ TEST(ConditionsTable, ComparesMediansWithTheFirstConditionsAndCountsFalls) {
     entry.figures->attainable_percent = percent;
     entry.figures->collisions = collisions;
     entry.figures->collisions_by_battery = falls;
+    entry.figures->attainable = 200.0;
+    if (planner == 0) entry.figures->losses = {{"never_in_picture", 200.0 - 2.0 * percent - falls}, {"energy", falls}};
     study.scenarios.push_back("wild " + conditions);
     study.scene_conditions.push_back(conditions);
     study.flights.push_back(std::move(entry));
@@ -34,6 +36,10 @@ TEST(ConditionsTable, ComparesMediansWithTheFirstConditionsAndCountsFalls) {
   EXPECT_NE(text.find("| `none` | `kios` | 3 | 50.0 | 100 | 0 | 0 |"), std::string::npos) << text;
   EXPECT_NE(text.find("| `harsh` | `kios` | 3 | 30.0 | 60 | 6 | 3 |"), std::string::npos) << text;
   EXPECT_NE(text.find("| `harsh` | `star` | 1 | 10.0 | - | 1 | 0 |"), std::string::npos) << text;
+  // Of 600 points 430 are lost, 3 of them to batteries.
+  EXPECT_NE(text.find("| `harsh` | `kios` | - | 71.2 | - | - | - | - | - | - | - | - | 0.5 | - |"), std::string::npos)
+      << text;
+  EXPECT_NE(text.find("| `harsh` | `star` | - | - |"), std::string::npos) << text;
 }
 
 TEST(ConditionsTable, IsEmptyWithoutConditions) {

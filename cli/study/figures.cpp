@@ -83,6 +83,9 @@ FlightFigures figures_of(const Json& result) {
   for (const Json& collision : value_or(result, "collisions", Json::array())) {
     figures.collisions_by_battery += text_in(collision, "cause") == "battery" ? 1 : 0;
   }
+  for (const auto& [cause, sum] : value_or(result, "losses", Json::object()).items()) {
+    figures.losses[cause] = number_in(sum, "score");
+  }
   figures.real_time_factor = number_in(result, "real_time_factor");
   figures.mission_time_s = number_in(result, "mission_time_s");
   figures.status = value_or(result, "status", "").get<std::string>();

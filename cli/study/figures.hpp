@@ -38,6 +38,7 @@ struct FlightFigures {
   double distance_m = 0.0;                                       ///< sum over the fleet
   std::optional<double> planner_cpu_ms;                          ///< per UAV and simulated second
   double real_time_factor = 0.0, mission_time_s = 0.0;
+  std::map<std::string, double> losses;                   ///< lost score by cause (results/causes.hpp); empty: unknown
   std::string status, digest;                             ///< digest: empty if the run has none
   std::vector<UavFigures> uavs = {};                      ///< fleet order
   std::optional<double> memory_mb = {}, processors = {};  ///< sum over its programs; their CPU time per wall time

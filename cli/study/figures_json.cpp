@@ -26,6 +26,7 @@ void each_figure(Figures& f, const Each& each) {
   each("planner_cpu_ms", f.planner_cpu_ms);
   each("real_time_factor", f.real_time_factor);
   each("mission_time_s", f.mission_time_s);
+  each("losses", f.losses);
   each("status", f.status);
   each("digest", f.digest);
   each("memory_mb", f.memory_mb);
@@ -63,6 +64,13 @@ struct Read {
   const Json& json;
   void operator()(const char* key, std::string& value) const {
     value = value_or(json, key, "").template get<std::string>();
+  }
+  void operator()(const char* key, std::map<std::string, double>& values) const {
+    const auto found = json.find(key);
+    if (found == json.end() || !found->is_object()) return;
+    for (const auto& [name, value] : found->items()) {
+      if (value.is_number()) values[name] = value.template get<double>();
+    }
   }
   template <class Value>
   void operator()(const char* key, Value& value) const {

@@ -33,6 +33,11 @@ Json drawn_result(RandomStream& draw) {
     maybe(scores, name, draw.uniform(0.0, 99.0));
     uavs.push_back(uav);
   }
+  Json losses = Json::object();
+  for (const char* cause : {"drift", "never_in_picture"}) {
+    if (draw.uniform() < 0.8) losses[cause] = {{"points", 3}, {"score", draw.uniform(-1.0, 99.0)}};
+  }
+  result["losses"] = losses;
   result["attainable"] = attainable;
   result["flight_check"] = check;
   result["score_by_uav"] = scores;
@@ -51,6 +56,7 @@ TEST(FiguresJson, AreTheSameAfterwards) {
     EXPECT_EQ(again.attainable_percent, figures.attainable_percent);
     EXPECT_EQ(again.frozen_uavs, figures.frozen_uavs);
     EXPECT_EQ(again.least_clearance_m, figures.least_clearance_m);
+    EXPECT_EQ(again.losses, figures.losses);
     EXPECT_EQ(again.planner_cpu_ms, figures.planner_cpu_ms);
     ASSERT_EQ(again.uavs.size(), 2U);
     EXPECT_EQ(again.uavs[1].name, figures.uavs[1].name);

@@ -106,6 +106,8 @@ struct BatteryReport {
   Number charge = {};  ///< remaining share
   Number energy_wh = {}, capacity_wh = {}, mean_power_w = {};
   Number empty_s = {};  ///< time at which it became empty
+  /// The UAV did not fly to the end of the mission, because the charge above the reserve would not have lasted.
+  std::optional<bool> grounded = {};
 };
 template <class Fields>
 void describe(Fields& f, BatteryReport& battery) {
@@ -113,6 +115,7 @@ void describe(Fields& f, BatteryReport& battery) {
   f.field("charge", battery.charge);
   f.field("empty_s", battery.empty_s);
   f.field("energy_wh", battery.energy_wh);
+  f.field("grounded", battery.grounded);
   f.field("mean_power_w", battery.mean_power_w);
 }
 
@@ -186,6 +189,9 @@ struct SimServerReport {
   Text conditions = {};  ///< in the syntax of --conditions; none: ideal conditions
   Count points_total = {};
   Text points_seen = {};  ///< one digit per interest point; 1: it was in some picture
+  /// By interest point: the best score that pictures would have had if UAVs had been where they believed to be, and
+  /// without wind; empty: without such a condition, or without pictures.
+  std::optional<std::vector<Amount>> points_if_exact = {}, points_if_calm = {};
   std::vector<CollisionReport> collisions = {};
   std::vector<UavReport> uavs = {};
   std::vector<LostMember> lost_members = {};
@@ -213,6 +219,8 @@ void describe(Fields& f, SimServerReport& report) {
   f.field("lost_members", report.lost_members);
   f.field("malformed", report.malformed);
   f.field("mission_time_s", report.mission_time_s);
+  f.field("points_if_calm", report.points_if_calm);
+  f.field("points_if_exact", report.points_if_exact);
   f.field("points_seen", report.points_seen);
   f.field("points_total", report.points_total);
   f.field("rules", report.rules);

@@ -13,6 +13,7 @@ constexpr Tick kPowerTicks = 4;              ///< between two looks at the power
 Surroundings::Surroundings(const Scenario& scenario, std::uint64_t seed, UavIndex uav)
     : conditions_(scenario.conditions),
       vehicle_(scenario.fleet[uav].vehicle),
+      push_(vehicle_),
       latency_(static_cast<std::size_t>(std::lround(conditions_.odometry.latency_s / scenario.exchange_period_s))) {
   if (conditions_.wind.on()) wind_.emplace(conditions_.wind, seed, uav);
   if (conditions_.odometry.on()) odometry_.emplace(conditions_.odometry, seed, uav);
@@ -38,6 +39,8 @@ Wrench Surroundings::fly(Vehicle& vehicle, const RigidBodyState& state) {
   // A UAV that has not begun to fly stands firm; without wind the reference has no drag of the body.
   if (v_WA_.isZero(0.0) || vehicle.mode() == ControlMode::idle) return wrench;
   wrench.force_B += state.q_WB.conjugate() * body_drag(conditions_.wind.body_drag_area_m2, state.v_WB - v_WA_);
+  if (!wind_) return wrench;
+  push_.step(state.q_WB * (wrench.force_B - vehicle.wrench(state).force_B), kTickS);
   return wrench;
 }
 
@@ -51,8 +54,23 @@ bool Surroundings::spend(Tick tick, const Vehicle& vehicle, const RigidBodyState
   return true;
 }
 
+void Surroundings::note_flight(Tick tick) {
+  if (battery_) landing_ = {tick, battery_->charge()};
+}
+
 RigidBodyState Surroundings::believed(const RigidBodyState& truth) const {
   return odometry_ ? odometry_->believed(truth) : truth;
+}
+
+OtherStates Surroundings::other_states(const RigidBodyState& truth) const {
+  OtherStates other;
+  if (odometry_) other.exact = odometry_->believed(truth);
+  if (wind_) {
+    other.calm = truth;
+    other.calm->p_WB -= push_.offset_W();
+    other.calm->v_WB -= push_.velocity_W();
+  }
+  return other;
 }
 
 std::optional<Isometry3d> Surroundings::X_told_W(const RigidBodyState& truth) const {
@@ -70,7 +88,7 @@ BatteryUse Surroundings::battery_use() const {
   if (!battery_) return {};
   const double time_s = battery_->time_s();
   return {battery_->capacity_wh(), battery_->given_j() / kJoulesPerWh,
-          time_s > 0.0 ? battery_->given_j() / time_s : 0.0, empty_};
+          time_s > 0.0 ? battery_->given_j() / time_s : 0.0, empty_, landing_};
 }
 
 }  // namespace skein::sim

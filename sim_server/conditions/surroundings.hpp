@@ -8,9 +8,11 @@
 
 #include "core/scenario.hpp"
 #include "core/told_state.hpp"
+#include "sight/camera.hpp"
 #include "sim_server/conditions/battery.hpp"
 #include "sim_server/conditions/odometry_error.hpp"
 #include "sim_server/conditions/wind.hpp"
+#include "sim_server/conditions/wind_push.hpp"
 #include "sim_server/flight/vehicle.hpp"
 
 namespace skein::sim {
@@ -25,6 +27,12 @@ struct ToldState {
 struct BatteryUse {
   double capacity_wh = 0.0, given_wh = 0.0, mean_power_w = 0.0;
   std::optional<Tick> empty;  ///< since when
+  /// When the UAV last was airborne, and what share of the charge was left then; nullopt: it has not flown.
+  struct Landing {
+    Tick tick = 0;
+    double charge = 0.0;
+  };
+  std::optional<Landing> landing;
 };
 
 class Surroundings {
@@ -42,8 +50,12 @@ class Surroundings {
   /// @returns true once: now it is empty.
   bool spend(Tick tick, const Vehicle& vehicle, const RigidBodyState& state);
 
+  /// At the end of an exchange: the UAV is in the air.
+  void note_flight(Tick tick);
   /// What the UAV's flight controller takes for true.
   RigidBodyState believed(const RigidBodyState& truth) const;
+  /// Where a UAV would be that knows its position, and one without wind.
+  OtherStates other_states(const RigidBodyState& truth) const;
   /// Takes what is in W to where the UAV sees it; nullopt: where it is.
   std::optional<Isometry3d> X_told_W(const RigidBodyState& truth) const;
   /// What its software is told at the end of an exchange, and how sure that is.
@@ -57,9 +69,11 @@ class Surroundings {
   const ConditionsConfig& conditions_;
   const VehicleConfig& vehicle_;
   std::optional<Wind> wind_;
+  WindPush push_;  ///< of `wind_`
   std::optional<OdometryError> odometry_;
   std::optional<Battery> battery_;
   std::optional<Tick> empty_;
+  std::optional<BatteryUse::Landing> landing_;
   Vector3d v_WA_ = Vector3d::Zero();  ///< of the air
   std::size_t latency_;               ///< exchanges
   std::deque<ToldState> told_;        ///< that has yet to arrive, and the last that has

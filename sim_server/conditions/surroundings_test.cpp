@@ -3,10 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <functional>
 #include <memory>
 
 #include "core/vehicle/rotor_power.hpp"
+#include "sim_server/points_shown.hpp"
 #include "sim_server/run_digest.hpp"
 #include "sim_server/simulation.hpp"
 #include "sim_server/testing/test_flight.hpp"
@@ -233,6 +236,36 @@ TEST_F(Windy, AShutterThatIsLateAndALongExposureBlurWhatAMovingCameraSees) {
   EXPECT_LT(flown_with({.exposure_factor = 4.0}).best, usual.best);
   EXPECT_LT(flown_with({.vibration_deg_s = 40.0}).mean_blur, usual.mean_blur) << "the best picture may be a lucky one";
   EXPECT_GT(flown_with({.shutter_delay_s = 0.5}).first, usual.first);
+}
+
+TEST_F(Windy, DriftAndWindTellWhatTheyCostAndNothingElseDoes) {
+  const auto shown_with = [&](const std::string& odometry, const std::string& wind) {
+    scenario_.conditions = {};
+    scenario_.conditions.odometry = conditions_preset(odometry).odometry;
+    scenario_.conditions.odometry.horizontal_sigma_m *= 4.0;
+    scenario_.conditions.wind = conditions_preset(wind).wind;
+    Simulation& sim = start(3);
+    for (int k = 0; k < 500; ++k) {  // past the wall's points, up and down
+      const double z = 10.0 + 8.0 * std::sin(0.02 * k);
+      sim.command_trajectory(UavIndex{0}, {.p_WB = {6.0, 0.0, z}, .v_WB = {0, 0, 3.2 * std::cos(0.02 * k)}});
+      sim.command_gimbal(UavIndex{0}, {GimbalMode::angle, 0.0, 0.0});
+      sim.advance();
+    }
+    return points_shown(sim);
+  };
+  const auto count = [](const std::vector<float>& best) {
+    return std::ranges::count_if(best, [](float q) { return q > 0.0F; });
+  };
+  const PointsShown ideal = shown_with("none", "none"), drift = shown_with("harsh", "none"),
+                    wind = shown_with("none", "harsh"), both = shown_with("harsh", "harsh");
+  EXPECT_GT(std::ranges::count(ideal.seen, true), 5);
+  EXPECT_TRUE(ideal.if_exact.empty() && ideal.if_calm.empty());
+  EXPECT_GT(count(drift.if_exact), 0);
+  EXPECT_TRUE(drift.if_calm.empty());
+  EXPECT_TRUE(wind.if_exact.empty());
+  EXPECT_GT(count(wind.if_calm), 0);
+  EXPECT_GT(count(both.if_exact), 0);
+  EXPECT_GT(count(both.if_calm), 0);
 }
 
 TEST_F(Windy, OldOdometryCarriesTheTickThatItIsOf) {

@@ -14,7 +14,6 @@ constexpr double kNone = 0.01;           ///< a shorter vector means "not given"
 constexpr double kAtTarget = 0.05;       ///< a target nearer than this does not make the UAV move [m]
 constexpr double kMaxHorizontal = 10.0;  ///< [m/s^2]
 constexpr double kMinVertical = 0.3 * kGravity, kMaxVertical = 2.0 * kGravity;
-constexpr double kPositionSumLimit = 10.0;  ///< [m]
 constexpr double kYawGain = 2.0, kYawIntegralGain = 0.02;
 constexpr double kYawSumLimit = 1.57;
 constexpr double kMaxYawRate = 90.0 * kRadPerDeg;

@@ -39,12 +39,13 @@ class PositionController {
  public:
   /// A command older than this is dropped for holding; exactly this old, nothing changes.
   static constexpr Tick kMaxAge = 40;
+  static constexpr double kPositionSumLimit = 10.0;  ///< of the sum of errors, per axis [m]
 
   /// All that it remembers from step to step.
   struct Memory {
     ControlMode mode = ControlMode::idle;
     TrajectoryCommand command;                       ///< in effect, after the rules on modes
-    Vector3d position_error_sum = Vector3d::Zero();  ///< [m], per axis within +-10
+    Vector3d position_error_sum = Vector3d::Zero();  ///< [m], within +-kPositionSumLimit
     double yaw_error_sum = 0.0;                      ///< [rad], within +-1.57
   };
 

@@ -89,6 +89,11 @@ class Vehicle {
   /// Cut the motors, for good.
   void stop() { position_control_.stop(); }
 
+  /// What the motors do at their present speeds. @param v_WA  velocity of the air.
+  Wrench wrench(const RigidBodyState& state, const Vector3d& v_WA = Vector3d::Zero()) const {
+    return rotors_.wrench(state, v_WA);
+  }
+
   const GimbalState& gimbal() const { return gimbal_.state(); }
   ControlMode mode() const { return position_control_.memory().mode; }
   /// What the trajectory controller asked for in its last step, the vehicle's yaw rate considered.

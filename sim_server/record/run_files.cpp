@@ -10,6 +10,7 @@
 #include "process/reports/program_report.hpp"
 #include "results/run_folder.hpp"
 #include "results/run_tables.hpp"
+#include "sim_server/points_shown.hpp"
 
 namespace skein::sim {
 namespace {
@@ -22,12 +23,24 @@ Text conditions_of(const Scenario& scenario) {
   return text == "none" ? Text() : Text(text);
 }
 
-BatteryReport battery_report(const BatteryStatus& battery, const BatteryUse& use) {
+/// Whether a UAV did not fly to the end of the mission because its charge above the reserve would not have lasted.
+/// A battery lets it hover for `endurance_missions` missions.
+bool is_grounded(const Scenario& scenario, const Mission& mission, const UavView& uav) {
+  const auto& landing = uav.battery_use.landing;
+  if (uav.airborne || !landing || !mission.start_tick() || !scenario.conditions.battery.on()) return false;
+  const BatteryConditions& battery = scenario.conditions.battery;
+  const double mission_s = scenario.duration_s;
+  const double left_s = mission_s - seconds(landing->tick - *mission.start_tick());
+  return (landing->charge - battery.reserve) * *battery.endurance_missions * mission_s < left_s;
+}
+
+BatteryReport battery_report(const BatteryStatus& battery, const BatteryUse& use, bool grounded) {
   return {.charge = battery.charge,
           .energy_wh = use.given_wh,
           .capacity_wh = use.capacity_wh,
           .mean_power_w = use.mean_power_w,
-          .empty_s = use.empty ? Number(seconds(*use.empty)) : Number()};
+          .empty_s = use.empty ? Number(seconds(*use.empty)) : Number(),
+          .grounded = grounded};
 }
 
 nlohmann::json vector_json(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
@@ -152,7 +165,9 @@ std::vector<UavReport> RunFiles::uav_reports(const Simulation& simulation, const
                        .commands_rejected = uav.commands_rejected,
                        .first_rejected_s = uav.first_rejected ? Number(seconds(*uav.first_rejected)) : Number(),
                        .commands_unheard = i < summary.commands_unheard.size() ? summary.commands_unheard[i] : 0});
-    if (uav.battery) reports.back().battery = battery_report(*uav.battery, uav.battery_use);
+    if (uav.battery)
+      reports.back().battery =
+          battery_report(*uav.battery, uav.battery_use, is_grounded(scenario_, simulation.mission(), uav));
     if (i < summary.work.size()) {
       const WorkTrack& work = summary.work[i];
       reports.back().work = WorkReport{work.open, std::vector<Amount>(work.done.begin(), work.done.end())};
@@ -187,7 +202,10 @@ SimServerReport RunFiles::report(const Simulation& simulation, const RunSummary&
   if (mission.start_tick()) {
     report.mission_time_s = seconds(mission.end_tick().value_or(simulation.tick()) - *mission.start_tick());
   }
-  for (const bool flag : simulation.points_seen()) *report.points_seen += flag ? '1' : '0';
+  const PointsShown shown = points_shown(simulation);
+  for (const bool flag : shown.seen) *report.points_seen += flag ? '1' : '0';
+  if (!shown.if_exact.empty()) report.points_if_exact.emplace(shown.if_exact.begin(), shown.if_exact.end());
+  if (!shown.if_calm.empty()) report.points_if_calm.emplace(shown.if_calm.begin(), shown.if_calm.end());
   for (const Collision& c : summary.collisions) {
     report.collisions.push_back({.time_s = seconds(c.tick),
                                  .uav = scenario_.fleet[c.uav].name,

@@ -159,6 +159,38 @@ TEST_F(RunFilesTest, TheReportNamesWhoWasLostWhatWasSeenAndWhatIsMissing) {
   EXPECT_EQ(report["unwritten"][1], "the disk is full");
 }
 
+// The mission lasts 30 s; each UAV lands early, as its charge would last to the end or not.
+TEST_F(RunFilesTest, AUavIsGroundedIfItsChargeWouldNotHaveLasted) {
+  scenario_.duration_s = 30.0;
+  scenario_.conditions.battery.endurance_missions = 1.0;
+  scenario_.conditions.battery.reserve = 0.2;
+  const auto grounded_after = [&](double up_s) {
+    Simulation simulation(scenario_, {}, 0);
+    const auto fly = [&](double until_s, double height_m, double climb_mps) {
+      while (seconds(simulation.tick()) < until_s) {
+        const TrajectoryCommand command{.p_WB = {0.0, 0.0, height_m}, .v_WB = {0.0, 0.0, climb_mps}};
+        simulation.command_trajectory(UavIndex{0}, command);
+        simulation.advance();
+      }
+    };
+    fly(up_s, 1.5, 0.0);
+    fly(up_s + 4.0, 0.05, -1.0);
+    EXPECT_FALSE(simulation.uav(UavIndex{0}).airborne);
+    StatusPipe nobody(-1);
+    RunFiles(folder_, scenario_, RunDigest(scenario_.uav_names())).write_report(simulation, {}, nobody);
+    const auto report = nlohmann::json::parse(std::ifstream(folder_ / "sim_server.report.json"));
+    EXPECT_EQ(report["uavs"][1]["battery"]["grounded"], false) << "it has never flown";
+    return report["uavs"][0]["battery"]["grounded"].get<bool>();
+  };
+  // After t seconds a charge of 1 - t / 30 s is left, and would last 24 s - t beyond the reserve: always too short.
+  EXPECT_TRUE(grounded_after(6.0));
+  scenario_.conditions.battery.endurance_missions = 1.5;  // 36 s - t
+  EXPECT_FALSE(grounded_after(6.0));
+  EXPECT_FALSE(grounded_after(15.0));
+  scenario_.conditions.battery.reserve = 0.6;  // 18 s - t
+  EXPECT_TRUE(grounded_after(6.0));
+}
+
 TEST_F(RunFilesTest, APoseHasAValueForEachColumn) {
   const Simulation simulation(scenario_, {}, 0);
   RunFiles files(folder_, scenario_, RunDigest(scenario_.uav_names()));

@@ -11,6 +11,7 @@
 #include "json_schema.hpp"
 #include "process/host/host_lock.hpp"
 #include "results_page.hpp"
+#include "shared_memory.hpp"
 #include "tests/support/places.hpp"
 
 namespace skein::test {
@@ -42,15 +43,6 @@ std::string variable(const std::vector<std::string>& variables, const std::strin
   return "";
 }
 
-std::set<std::string> shared_memory() {
-  std::set<std::string> names;
-  std::error_code ignored;
-  for (fs::directory_iterator it("/dev/shm", ignored), end; it != end; it.increment(ignored)) {
-    names.insert(it->path().filename());
-  }
-  return names;
-}
-
 /// The shipped configuration, wherever the build folder is, and no cache but the test's own.
 Environment with_config(Environment environment, const fs::path& folder) {
   environment.try_emplace("XDG_CACHE_HOME", folder / "cache");
@@ -75,7 +67,7 @@ std::vector<std::map<std::string, std::string>> read_csv(const fs::path& file) {
   std::getline(in, line);
   const std::vector<std::string> columns = split(line, ',');
   std::vector<std::map<std::string, std::string>> rows;
-  while (std::getline(in, line)) {
+  while (std::getline(in, line) && !in.eof()) {  // a line without its end is still being written
     const std::vector<std::string> cells = split(line, ',');
     if (cells.size() != columns.size()) throw std::runtime_error(file.string() + ": odd line: " + line);
     for (std::size_t i = 0; i < cells.size(); ++i) {
@@ -228,9 +220,13 @@ void FleetTest::expect_nothing_left() {
       EXPECT_NE(HostLock::holder(domain_lock_name(domain)), run->skein().pid()) << domain;
     }
   }
-  for (const std::string& name : shared_memory()) {
-    EXPECT_TRUE(shared_memory_before_.contains(name)) << name << " is left in /dev/shm";
-  }
+  std::set<std::string> left;
+  const auto nothing_new_is_unused = [&] {
+    left = shared_memory();
+    std::erase_if(left, [&](const std::string& name) { return shared_memory_before_.contains(name); });
+    return (left = unused_shared_memory(left)).empty();
+  };
+  EXPECT_TRUE(eventually(nothing_new_is_unused, std::chrono::seconds(20))) << *left.begin() << " is left in /dev/shm";
 }
 
 void FleetTest::expect_complete_result(const SkeinRun& run) {

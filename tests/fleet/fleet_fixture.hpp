@@ -25,7 +25,7 @@ bool long_tests();
 /// Path of a built program.
 std::string program(const std::string& name);
 
-/// Every row of a CSV file with a header, by column.
+/// Every whole row of a CSV file with a header, by column; the file may still grow.
 std::vector<std::map<std::string, std::string>> read_csv(const std::filesystem::path& file);
 
 /// Processes that were started with `--out dir`, or as a user's command with SKEIN_OUT=dir, by the names that Skein's
@@ -68,7 +68,10 @@ class FleetTest : public testing::Test {
  protected:
   FleetTest();
   ~FleetTest() override;
-  void TearDown() override { expect_nothing_left(); }
+  void TearDown() override {
+    programs_.clear();
+    expect_nothing_left();
+  }
 
   const std::filesystem::path& folder() const { return folder_; }
   std::filesystem::path write(const std::string& name, const std::string& text) const;
@@ -86,7 +89,8 @@ class FleetTest : public testing::Test {
   /// `skein diff`, and similar: @returns the process after its end.
   ChildProcess& skein(const Arguments& arguments);
 
-  /// No process of a run of this test, no shared memory, no lock on a DDS domain.
+  /// No process of a run of this test, no lock on a DDS domain, and no shared memory that nobody uses: what other tests
+  /// use meanwhile is theirs.
   void expect_nothing_left();
 
   /// Everything that docs/results.md promises of any run, also of one that failed.

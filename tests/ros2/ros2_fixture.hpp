@@ -2,14 +2,26 @@
 #pragma once
 
 #include <cstdlib>
+#include <optional>
 
 #include "fleet_fixture.hpp"
+#include "process/host/host_lock.hpp"
 #include "tests/support/places.hpp"
 
 namespace skein::test {
 
+/// Its fleets fly in DDS domains that belong to the test program. A node may outlive its fleet for a moment, and would
+/// meet the next one in a domain that any fleet may take.
 class Ros2Test : public FleetTest {
  protected:
+  SkeinRun& start(const std::string& name, const Arguments& arguments, const Environment& environment = {}) {
+    return FleetTest::start(name, joined(arguments, {"--domain", first_domain()}), environment);
+  }
+  SkeinRun& run(const std::string& name, const Arguments& arguments, const Environment& environment = {},
+                int exit_code = 0) {
+    return FleetTest::run(name, joined(arguments, {"--domain", first_domain()}), environment, exit_code);
+  }
+
   void SetUp() override {
     const char* folder = std::getenv("SKEIN_ROS2");
     if (folder == nullptr || *folder == '\0') GTEST_SKIP() << "no ROS 2: SKEIN_ROS2 is not set";
@@ -30,6 +42,21 @@ class Ros2Test : public FleetTest {
     const std::string shell = ". " + build_path("ros2") + "/env.sh " + middleware + " " + std::to_string(domain) + " " +
                               localhost + "; exec " + command;
     return start_program(name, {"/bin/bash", "-c", shell}, {{"ROS_LOG_DIR", folder() / "ros"}});
+  }
+
+  /// Of a block that no other test program has: far from the lowest free one, which a fleet takes by itself, and below
+  /// those whose ports the system gives to anybody (from 102 on).
+  static std::string first_domain() {
+    static std::optional<HostLock> block;
+    static int first = 0;
+    const auto has_block = [] {
+      for (first = 94; !block && first >= 62; first -= 8) {
+        if ((block = HostLock::try_take("skein tests: domains from " + std::to_string(first)))) break;
+      }
+      return block.has_value();
+    };
+    if (!block && !eventually(has_block, std::chrono::minutes(15))) throw std::runtime_error("all domains are taken");
+    return std::to_string(first);
   }
 
   std::string file(const std::string& name) const { return folder() / (name + ".json"); }

@@ -28,6 +28,9 @@ CAUSES = {
     "distance": ("#3a9fcf", "from too far away"),
     "tilt": ("#2f9585", "too much from the side"),
     "blur": ("#8f8f2a", "blurred"),
+    "drift": ("#aa4499", "position was off"),
+    "wind": ("#5b7fa6", "pushed by wind"),
+    "energy": ("#a5501e", "battery empty"),
 }
 DIRECT, RELAYED, FAULT, BAD = "#2f9585", "#a3d3cb", "#d55e00", "#b3261e"
 LINE_STYLES = ("-", (0, (5, 1.5)), (0, (1.2, 1.2)), (0, (6, 1.5, 1.2, 1.5)))  # for print without colours

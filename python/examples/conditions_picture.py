@@ -1,0 +1,23 @@
+"""Two flights side by side, from above, and where the points of each went: one in an ideal world, and one under
+conditions.
+
+    python3 python/examples/conditions_picture.py runs/ideal runs/harsh picture.svg
+"""
+
+import sys
+
+import skein
+from skein import plots
+
+*paths, file = sys.argv[1:]
+runs = [skein.Run(path) for path in paths]
+labels = [str(run.result.get("conditions") or "none") for run in runs]
+maps, bars = plots.axes(2, 2, height=5.6, width=7.0)
+for run, label, ax in zip(runs, labels, maps):
+    plots.map(run, ax)
+    ax.set_title(f"{label}: {run.score:.0f} points")
+grid = bars[0].get_gridspec()
+for ax in bars:
+    ax.remove()
+plots.losses(runs, maps[0].figure.add_subplot(grid[1, :]), labels=labels)
+plots.save(maps[0], file)
