@@ -83,7 +83,8 @@ FlightFigures figures_of(const Json& result) {
   for (const Json& collision : value_or(result, "collisions", Json::array())) {
     figures.collisions_by_battery += text_in(collision, "cause") == "battery" ? 1 : 0;
   }
-  for (const auto& [cause, sum] : value_or(result, "losses", Json::object()).items()) {
+  const Json losses = value_or(result, "losses", Json::object());
+  for (const auto& [cause, sum] : losses.items()) {
     figures.losses[cause] = number_in(sum, "score");
   }
   figures.real_time_factor = number_in(result, "real_time_factor");
