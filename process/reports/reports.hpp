@@ -106,7 +106,7 @@ struct BatteryReport {
   Number charge = {};  ///< remaining share
   Number energy_wh = {}, capacity_wh = {}, mean_power_w = {};
   Number empty_s = {};  ///< time at which it became empty
-  /// The UAV did not fly to the end of the mission, because the charge above the reserve would not have lasted.
+  /// The UAV was on the ground at the end, and had landed with at most a tenth of the charge above its reserve.
   std::optional<bool> grounded = {};
 };
 template <class Fields>

@@ -23,15 +23,12 @@ Text conditions_of(const Scenario& scenario) {
   return text == "none" ? Text() : Text(text);
 }
 
-/// Whether a UAV did not fly to the end of the mission because its charge above the reserve would not have lasted.
-/// A battery lets it hover for `endurance_missions` missions.
-bool is_grounded(const Scenario& scenario, const Mission& mission, const UavView& uav) {
+/// Whether a UAV was on the ground at the end because of its battery: what was left when it landed was its reserve and
+/// little more, as after a way home in time. One that landed with more could have flown on.
+bool is_grounded(const BatteryConditions& battery, const UavView& uav) {
+  constexpr double kLittleMore = 0.1;
   const auto& landing = uav.battery_use.landing;
-  if (uav.airborne || !landing || !mission.start_tick() || !scenario.conditions.battery.on()) return false;
-  const BatteryConditions& battery = scenario.conditions.battery;
-  const double mission_s = scenario.duration_s;
-  const double left_s = mission_s - seconds(landing->tick - *mission.start_tick());
-  return (landing->charge - battery.reserve) * *battery.endurance_missions * mission_s < left_s;
+  return !uav.airborne && landing && landing->charge <= battery.reserve + kLittleMore;
 }
 
 BatteryReport battery_report(const BatteryStatus& battery, const BatteryUse& use, bool grounded) {
@@ -167,7 +164,7 @@ std::vector<UavReport> RunFiles::uav_reports(const Simulation& simulation, const
                        .commands_unheard = i < summary.commands_unheard.size() ? summary.commands_unheard[i] : 0});
     if (uav.battery)
       reports.back().battery =
-          battery_report(*uav.battery, uav.battery_use, is_grounded(scenario_, simulation.mission(), uav));
+          battery_report(*uav.battery, uav.battery_use, is_grounded(scenario_.conditions.battery, uav));
     if (i < summary.work.size()) {
       const WorkTrack& work = summary.work[i];
       reports.back().work = WorkReport{work.open, std::vector<Amount>(work.done.begin(), work.done.end())};

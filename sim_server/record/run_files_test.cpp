@@ -159,8 +159,8 @@ TEST_F(RunFilesTest, TheReportNamesWhoWasLostWhatWasSeenAndWhatIsMissing) {
   EXPECT_EQ(report["unwritten"][1], "the disk is full");
 }
 
-// The mission lasts 30 s; each UAV lands early, as its charge would last to the end or not.
-TEST_F(RunFilesTest, AUavIsGroundedIfItsChargeWouldNotHaveLasted) {
+// The battery lets a UAV hover for 30 s. A UAV lands with more or less of it left.
+TEST_F(RunFilesTest, AUavIsGroundedIfItLandsWithLittleMoreThanItsReserve) {
   scenario_.duration_s = 30.0;
   scenario_.conditions.battery.endurance_missions = 1.0;
   scenario_.conditions.battery.reserve = 0.2;
@@ -182,13 +182,13 @@ TEST_F(RunFilesTest, AUavIsGroundedIfItsChargeWouldNotHaveLasted) {
     EXPECT_EQ(report["uavs"][1]["battery"]["grounded"], false) << "it has never flown";
     return report["uavs"][0]["battery"]["grounded"].get<bool>();
   };
-  // After t seconds a charge of 1 - t / 30 s is left, and would last 24 s - t beyond the reserve: always too short.
-  EXPECT_TRUE(grounded_after(6.0));
-  scenario_.conditions.battery.endurance_missions = 1.5;  // 36 s - t
   EXPECT_FALSE(grounded_after(6.0));
-  EXPECT_FALSE(grounded_after(15.0));
-  scenario_.conditions.battery.reserve = 0.6;  // 18 s - t
+  EXPECT_TRUE(grounded_after(21.0));
+  scenario_.conditions.battery.reserve = 0.7;
   EXPECT_TRUE(grounded_after(6.0));
+  scenario_.conditions.battery.endurance_missions = 2.0;
+  scenario_.conditions.battery.reserve = 0.2;
+  EXPECT_FALSE(grounded_after(21.0));
 }
 
 TEST_F(RunFilesTest, APoseHasAValueForEachColumn) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "uav_agent/flight_core/place_aside.hpp"
+
 namespace skein::agent {
 namespace {
 
@@ -14,8 +16,9 @@ constexpr double kClearM = 3.0;          ///< the one before is this far up, or 
 constexpr double kStartPatienceS = 6.0;  ///< for each one before; after that it is taken to be broken
 constexpr double kRisenM = 1.2;          ///< so high above its start, a UAV may begin to work
 constexpr double kClimbGainM = 0.3;
-constexpr double kNoLinkS = 4.0;  ///< at a place from which the station should be seen
-constexpr double kIdleS = 4.0;    ///< without a goal that can be flown to
+constexpr double kLowAsideM = 0.3;  ///< height above the start at which it flies to where it climbs instead
+constexpr double kNoLinkS = 4.0;    ///< at a place from which the station should be seen
+constexpr double kIdleS = 4.0;      ///< without a goal that can be flown to
 constexpr std::int64_t kHome = -2;
 constexpr double kShowCheckS = 5.0;
 constexpr std::uint64_t kShowLook = 10;  ///< exchanges
@@ -224,6 +227,10 @@ void FlightCore::take_off(const PlannerInput& in, Steering& steering) {
   const bool risen = in.state.p_WB.z() > agent_.me().p_WB_start.z() + risen_m;
   const bool stalled = seconds(in.tick - climbed_at_) > config_.stall_s + config_.look_s;
   const double waits_s = config_.stall_s + (navigator_.sees() ? config_.look_s : 0.0);
+  if (!risen && filter_.held().by == Held::By::structure && seconds(in.tick - climbed_at_) > config_.stall_s) {
+    climb_aside(in, steering);
+    return;
+  }
   if (drifts(in) && !risen && seconds(in.tick - climbed_at_) > waits_s) {
     filter_.set_trust(SafetyFilter::Trust::start);
     steering.motion = landing_.down_at(in.tracking.setpoint.p_WB, in);
@@ -239,6 +246,18 @@ void FlightCore::take_off(const PlannerInput& in, Steering& steering) {
     return;
   }
   if (stalled && !navigator_.sees()) waits_for_ = agent_.first_explorer();
+}
+
+/// Beside its start, farther from the structure that holds it down.
+void FlightCore::climb_aside(const PlannerInput& in, Steering& steering) {
+  climbed_at_ = in.tick;
+  const Vector3d p_W = in.state.p_WB;
+  const auto places_W = places_aside_W(p_W, top_W_->z(), filter_.tube_m(0.0), *in.world_map);
+  if (places_W.empty()) return;
+  const Vector3d& place_W = places_W[next_aside_++ % places_W.size()];
+  const double low_m = std::max(p_W.z(), agent_.me().p_WB_start.z() + kLowAsideM);
+  top_W_ = Vector3d(place_W.x(), place_W.y(), top_W_->z());
+  steering.motion = Path{{{{place_W.x(), place_W.y(), low_m}, config_.tight_mps}, {*top_W_, config_.climb_mps}}};
 }
 
 /// Of the navigator, since it was last asked.

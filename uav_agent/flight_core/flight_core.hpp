@@ -65,6 +65,7 @@ class FlightCore {
 
   void leave_ground(const PlannerInput& in, Steering& steering);
   void take_off(const PlannerInput& in, Steering& steering);
+  void climb_aside(const PlannerInput& in, Steering& steering);
   std::vector<Outcome> outcomes();
   void work(const PlannerInput& in, Steering& steering);
   bool begin_showing(const PlannerInput& in);
@@ -94,6 +95,7 @@ class FlightCore {
   std::optional<Tick> ready_since_;  ///< when it could first lift off
   std::optional<Vector3d> top_W_;    ///< where the climb of the takeoff ends
   bool sinks_back_ = false;          ///< it gave up a takeoff, and is not on the ground yet
+  std::size_t next_aside_ = 0;       ///< index of the place beside the start that the takeoff tries next
   double climbed_m_ = 0.0;           ///< height reached in the climb, at climbed_at_
   Tick climbed_at_ = 0;
   Tick show_at_ = 0;                    ///< earliest time of the next look for a mate to show its way
