@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/camera_quality.hpp"
 #include "core/euler.hpp"
 #include "core/normals.hpp"
 
@@ -32,22 +33,6 @@ bool is_through_structure(const Vector3d& p_WB, const Vector3d& p_WC, const RayS
   return world.first_hit_distance(p_WB, p_WC, {.ground = false, .uavs = false}).has_value();
 }
 
-/// Calls `judge(index, p_W, quality, q)` for each point in an exposure's field of view and radius, by index.
-template <class Judge>
-void for_each_in_view(const Exposure& exposure, const std::vector<InterestPoint>& points, const Judge& judge) {
-  // A first sieve in single precision, a hair wide: most points of a scene are out of reach.
-  const Eigen::Vector3f centre = exposure.position().cast<float>();
-  const float reach = static_cast<float>(exposure.radius()) + 0.01F;
-  for (std::uint32_t i = 0; i < points.size(); ++i) {
-    if ((points[i].p_W - centre).squaredNorm() > reach * reach) continue;
-    const Vector3d p_W = points[i].p_W.cast<double>();
-    const auto p_C = exposure.view(p_W);
-    if (!p_C) continue;
-    const auto quality = exposure.score(*p_C, points[i].n_W.cast<double>());
-    judge(i, p_W, quality, quality ? quality->score() : 0.0);
-  }
-}
-
 }  // namespace
 
 bool Capture::improved() const { return std::ranges::any_of(detections, &Detection::improved); }
@@ -68,36 +53,47 @@ Camera::Camera(const CameraConfig& config, double desired_mm_per_pixel, const Ru
   config_.exposure_s *= conditions.exposure_factor;
 }
 
-CameraState Camera::shaken(const RigidBodyState& body, const GimbalState& gimbal) const {
+template <class Judge>
+void Camera::for_each_in_view(const RigidBodyState& body, const GimbalState& gimbal, const RayScene& world,
+                              const Judge& judge) const {
   CameraState state = camera_state(body, gimbal, config_);
   if (vibration_ > 0.0) {
     RandomStream draw(seed_, "vibration", uav_, captures_);
     state.w_WC += vibration_ * normals(draw);
   }
-  return state;
+  const Exposure exposure(state, config_, desired_mm_per_pixel_, rules_);
+  const Vector3d& p_WC = exposure.position();
+  if (rules_.camera_blind_in_structure && is_through_structure(body.p_WB, p_WC, world)) return;
+  const SightTest sees = sight_test(rules_);
+  const UavIndex sees_through = rules_.own_body_hides ? kNobody : uav_;
+  // A first sieve in single precision, a hair wide: most points of a scene are out of reach.
+  const Eigen::Vector3f centre = p_WC.cast<float>();
+  const float reach = static_cast<float>(exposure.radius()) + 0.01F;
+  for (std::uint32_t i = 0; i < points_.size(); ++i) {
+    if ((points_[i].p_W - centre).squaredNorm() > reach * reach) continue;
+    const Vector3d p_W = points_[i].p_W.cast<double>();
+    const auto p_C = exposure.view(p_W);
+    if (!p_C) continue;
+    judge(i, exposure.score(*p_C, points_[i].n_W.cast<double>()), [&] { return sees(p_WC, p_W, sees_through, world); });
+  }
 }
 
 Capture Camera::capture(Tick tick, const RigidBodyState& body, const GimbalState& gimbal, const RayScene& world,
                         const OtherStates& other) {
-  const Exposure exposure(shaken(body, gimbal), config_, desired_mm_per_pixel_, rules_);
-  const Vector3d& p_WC = exposure.position();
   Capture capture{tick, {}};
   last_ = tick;
-  const bool blind = rules_.camera_blind_in_structure && is_through_structure(body.p_WB, p_WC, world);
-  const SightTest sees = sight_test(rules_);
-  const UavIndex sees_through = rules_.own_body_hides ? kNobody : uav_;
-  const auto judge = [&](std::uint32_t i, const Vector3d& p_W, const std::optional<PointScore>& quality, double q) {
+  for_each_in_view(body, gimbal, world, [&](std::uint32_t i, const auto& quality, const auto& in_sight) {
+    const double q = quality ? quality->score() : 0.0;
     const bool counts = q > 0.0 && q >= rules_.min_point_score;  // what is no number does not
     // The ray comes last: it costs more than all formulas together. Of what does not count it is asked until the point
     // has been seen once.
-    if ((!counts && seen_[i]) || !sees(p_WC, p_W, sees_through, world)) return;
+    if ((!counts && seen_[i]) || !in_sight()) return;
     seen_[i] = true;
     if (!counts) return;
     const bool improved = static_cast<float>(q) > best_[i];
     best_[i] = std::max(best_[i], static_cast<float>(q));
     capture.detections.push_back({i, quality->q_blur, quality->q_res, quality->q_distance, q, best_[i], improved});
-  };
-  if (!blind) for_each_in_view(exposure, points_, judge);
+  });
   imagine(other.exact, gimbal, world, best_if_exact_);
   imagine(other.calm, gimbal, world, best_if_calm_);
   ++captures_;
@@ -108,15 +104,10 @@ void Camera::imagine(const std::optional<RigidBodyState>& body, const GimbalStat
                      std::vector<float>& best_if) const {
   if (!body) return;
   best_if.resize(points_.size(), 0.0F);
-  const Exposure exposure(shaken(*body, gimbal), config_, desired_mm_per_pixel_, rules_);
-  const Vector3d& p_WC = exposure.position();
-  if (rules_.camera_blind_in_structure && is_through_structure(body->p_WB, p_WC, world)) return;
-  const SightTest sees = sight_test(rules_);
-  const UavIndex sees_through = rules_.own_body_hides ? kNobody : uav_;
-  for_each_in_view(exposure, points_, [&](std::uint32_t i, const Vector3d& p_W, const auto&, double q) {
-    const float better_than = std::max(best_[i], best_if[i]);
-    if (!(q >= rules_.min_point_score && static_cast<float>(q) > better_than)) return;
-    if (sees(p_WC, p_W, sees_through, world)) best_if[i] = static_cast<float>(q);
+  for_each_in_view(*body, gimbal, world, [&](std::uint32_t i, const auto& quality, const auto& in_sight) {
+    const double q = quality ? quality->score() : 0.0;
+    const bool better = q >= rules_.min_point_score && static_cast<float>(q) > std::max(best_[i], best_if[i]);
+    if (better && in_sight()) best_if[i] = static_cast<float>(q);
   });
 }
 

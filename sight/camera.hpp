@@ -6,7 +6,6 @@
 #include <optional>
 #include <vector>
 
-#include "core/camera_quality.hpp"
 #include "core/scenario.hpp"
 #include "core/scene.hpp"
 #include "sight/ray_scene.hpp"
@@ -85,8 +84,11 @@ class Camera {
   static constexpr double kSurfaceTolerance = 0.025;  ///< [m]
 
  private:
-  /// The camera with the body in this state, as it shakes at this picture.
-  CameraState shaken(const RigidBodyState& body, const GimbalState& gimbal) const;
+  /// Calls `judge(index, quality, in_sight)` for each point in the field of view and radius of a picture with the body
+  /// in this state, by index. `quality` may be missing; `in_sight()` traces a ray.
+  template <class Judge>
+  void for_each_in_view(const RigidBodyState& body, const GimbalState& gimbal, const RayScene& world,
+                        const Judge& judge) const;
   void imagine(const std::optional<RigidBodyState>& body, const GimbalState& gimbal, const RayScene& world,
                std::vector<float>& best_if) const;
 

@@ -248,7 +248,7 @@ void Simulation::Impl::finish_exchange() {
   for (const UavIndex i : FirstUavs(uavs.size())) {
     UavView& view = uavs[i].view;
     view.state = world.state(i);
-    if (mission.airborne(i)) uavs[i].surroundings.note_flight(tick);
+    if (mission.airborne(i)) uavs[i].surroundings.note_flight();
     tell(i, conditions[i]);
     view.gimbal = uavs[i].vehicle.gimbal();
     view.alive = mission.alive(i);

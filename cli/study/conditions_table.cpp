@@ -38,7 +38,10 @@ Row row_of(const Study& study, const std::string& conditions, std::size_t planne
   return row;
 }
 
-void print_losses(std::ostream& out, const Study& study, const std::vector<std::string>& all) {
+/// By conditions and planner.
+using Rows = std::map<std::pair<std::string, std::size_t>, Row>;
+
+void print_losses(std::ostream& out, const Study& study, const std::vector<std::string>& all, const Rows& rows) {
   out << "\nLost, as a share of the estimate [%]:\n\n| conditions | planner |";
   for (const results::Cause& cause : results::kCauses) out << ' ' << cause.title << " |";
   out << "\n|---|---|";
@@ -46,7 +49,7 @@ void print_losses(std::ostream& out, const Study& study, const std::vector<std::
   out << '\n';
   for (const std::string& conditions : all) {
     for (std::size_t p = 0; p < study.planners.size(); ++p) {
-      const Row row = row_of(study, conditions, p);
+      const Row& row = rows.at({conditions, p});
       out << fmt::format("| `{}` | `{}` |", conditions, study.planners[p]);
       for (const results::Cause& cause : results::kCauses) {
         const auto lost = row.losses.find(cause.key);
@@ -66,12 +69,16 @@ void print_conditions(std::ostream& out, const Study& study) {
     if (std::ranges::find(all, conditions) == all.end()) all.push_back(conditions);
   }
   if (all.empty()) return;
+  Rows rows;
+  for (const std::string& conditions : all) {
+    for (std::size_t p = 0; p < study.planners.size(); ++p) rows[{conditions, p}] = row_of(study, conditions, p);
+  }
   out << "\n| conditions | planner | flights | share of the estimate [%], median | of " << all.front()
       << "'s [%] | collisions | of these with an empty battery |\n|---|---|---|---|---|---|---|\n";
   for (const std::string& conditions : all) {
     for (std::size_t p = 0; p < study.planners.size(); ++p) {
-      const Row row = row_of(study, conditions, p);
-      const auto median = row.median(), first = row_of(study, all.front(), p).median();
+      const Row& row = rows.at({conditions, p});
+      const auto median = row.median(), first = rows.at({all.front(), p}).median();
       const bool comparable = median && first && *first > 0.0;
       out << fmt::format("| `{}` | `{}` | {} | {} | {} | {} | {} |\n", conditions, study.planners[p], row.flights,
                          median ? fmt::format("{:.1f}", *median) : "-",
@@ -79,7 +86,7 @@ void print_conditions(std::ostream& out, const Study& study) {
                          row.by_battery);
     }
   }
-  print_losses(out, study, all);
+  print_losses(out, study, all, rows);
 }
 
 }  // namespace skein::cli

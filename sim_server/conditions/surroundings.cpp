@@ -38,9 +38,9 @@ Wrench Surroundings::fly(Vehicle& vehicle, const RigidBodyState& state) {
   Wrench wrench = vehicle.fly(state, v_WA_);
   // A UAV that has not begun to fly stands firm; without wind the reference has no drag of the body.
   if (v_WA_.isZero(0.0) || vehicle.mode() == ControlMode::idle) return wrench;
-  wrench.force_B += state.q_WB.conjugate() * body_drag(conditions_.wind.body_drag_area_m2, state.v_WB - v_WA_);
-  if (!wind_) return wrench;
-  push_.step(state.q_WB * (wrench.force_B - vehicle.wrench(state).force_B), kTickS);
+  const Vector3d body_W = body_drag(conditions_.wind.body_drag_area_m2, state.v_WB - v_WA_);
+  wrench.force_B += state.q_WB.conjugate() * body_W;
+  if (wind_) push_.step(body_W + state.q_WB * vehicle.rotors_pushed_B(state.q_WB.conjugate() * v_WA_), kTickS);
   return wrench;
 }
 
@@ -54,8 +54,8 @@ bool Surroundings::spend(Tick tick, const Vehicle& vehicle, const RigidBodyState
   return true;
 }
 
-void Surroundings::note_flight(Tick tick) {
-  if (battery_) landing_ = {tick, battery_->charge()};
+void Surroundings::note_flight() {
+  if (battery_) last_in_flight_ = battery_->charge();
 }
 
 RigidBodyState Surroundings::believed(const RigidBodyState& truth) const {
@@ -88,7 +88,7 @@ BatteryUse Surroundings::battery_use() const {
   if (!battery_) return {};
   const double time_s = battery_->time_s();
   return {battery_->capacity_wh(), battery_->given_j() / kJoulesPerWh,
-          time_s > 0.0 ? battery_->given_j() / time_s : 0.0, empty_, landing_};
+          time_s > 0.0 ? battery_->given_j() / time_s : 0.0, empty_, last_in_flight_};
 }
 
 }  // namespace skein::sim

@@ -26,13 +26,8 @@ struct ToldState {
 /// What a battery has given.
 struct BatteryUse {
   double capacity_wh = 0.0, given_wh = 0.0, mean_power_w = 0.0;
-  std::optional<Tick> empty;  ///< since when
-  /// When the UAV last was airborne, and what share of the charge was left then; nullopt: it has not flown.
-  struct Landing {
-    Tick tick = 0;
-    double charge = 0.0;
-  };
-  std::optional<Landing> landing;
+  std::optional<Tick> empty;             ///< since when
+  std::optional<double> last_in_flight;  ///< share of the charge when the UAV was last airborne; nullopt: never
 };
 
 class Surroundings {
@@ -51,7 +46,7 @@ class Surroundings {
   bool spend(Tick tick, const Vehicle& vehicle, const RigidBodyState& state);
 
   /// At the end of an exchange: the UAV is in the air.
-  void note_flight(Tick tick);
+  void note_flight();
   /// What the UAV's flight controller takes for true.
   RigidBodyState believed(const RigidBodyState& truth) const;
   /// Where a UAV would be that knows its position, and one without wind.
@@ -73,10 +68,10 @@ class Surroundings {
   std::optional<OdometryError> odometry_;
   std::optional<Battery> battery_;
   std::optional<Tick> empty_;
-  std::optional<BatteryUse::Landing> landing_;
-  Vector3d v_WA_ = Vector3d::Zero();  ///< of the air
-  std::size_t latency_;               ///< exchanges
-  std::deque<ToldState> told_;        ///< that has yet to arrive, and the last that has
+  std::optional<double> last_in_flight_;  ///< BatteryUse::last_in_flight
+  Vector3d v_WA_ = Vector3d::Zero();      ///< of the air
+  std::size_t latency_;                   ///< exchanges
+  std::deque<ToldState> told_;            ///< that has yet to arrive, and the last that has
 };
 
 }  // namespace skein::sim

@@ -47,6 +47,12 @@ Wrench Rotors::wrench(const RigidBodyState& state, const Vector3d& v_WA) const {
   return sum;
 }
 
+Vector3d Rotors::pushed_B(const Vector3d& v_A_B) const {
+  double drag_n_s_m = 0.0;
+  for (std::size_t i = 0; i < kRotors; ++i) drag_n_s_m += shares_[i] * drag_ * speeds_[i];
+  return drag_n_s_m * Vector3d(v_A_B.x(), v_A_B.y(), 0.0);
+}
+
 namespace {
 
 /// Control steps from one command to the next, when they come every `command_ticks`.

@@ -39,6 +39,8 @@ class Rotors {
   void step(const RotorSpeeds& demand);
   /// @param v_WA  velocity of the air.
   Wrench wrench(const RigidBodyState& state, const Vector3d& v_WA = Vector3d::Zero()) const;
+  /// By which the force in moving air exceeds that in still air, in B. @param v_A_B  velocity of the air, in B
+  Vector3d pushed_B(const Vector3d& v_A_B) const;
   /// Thrust of each [N].
   std::array<double, kRotors> thrusts_n() const;
   /// Damage. @param shares  of thrust and torque that each rotor gives at its speed, [0, 1].
@@ -89,10 +91,8 @@ class Vehicle {
   /// Cut the motors, for good.
   void stop() { position_control_.stop(); }
 
-  /// What the motors do at their present speeds. @param v_WA  velocity of the air.
-  Wrench wrench(const RigidBodyState& state, const Vector3d& v_WA = Vector3d::Zero()) const {
-    return rotors_.wrench(state, v_WA);
-  }
+  /// The part of the rotors' force that is due to wind, in B: their drag is linear. @param v_A_B  of the air, in B
+  Vector3d rotors_pushed_B(const Vector3d& v_A_B) const { return rotors_.pushed_B(v_A_B); }
 
   const GimbalState& gimbal() const { return gimbal_.state(); }
   ControlMode mode() const { return position_control_.memory().mode; }

@@ -27,8 +27,8 @@ Text conditions_of(const Scenario& scenario) {
 /// little more, as after a way home in time. One that landed with more could have flown on.
 bool is_grounded(const BatteryConditions& battery, const UavView& uav) {
   constexpr double kLittleMore = 0.1;
-  const auto& landing = uav.battery_use.landing;
-  return !uav.airborne && landing && landing->charge <= battery.reserve + kLittleMore;
+  const std::optional<double>& left = uav.battery_use.last_in_flight;
+  return !uav.airborne && left && *left <= battery.reserve + kLittleMore;
 }
 
 BatteryReport battery_report(const BatteryStatus& battery, const BatteryUse& use, bool grounded) {

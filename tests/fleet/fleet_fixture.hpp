@@ -25,8 +25,12 @@ bool long_tests();
 /// Path of a built program.
 std::string program(const std::string& name);
 
-/// Every whole row of a CSV file with a header, by column; the file may still grow.
-std::vector<std::map<std::string, std::string>> read_csv(const std::filesystem::path& file);
+/// Of a file that somebody still writes, the last line may lack its end: it is left out.
+enum class LastLine { whole, may_be_unfinished };
+
+/// Every row of a CSV file with a header, by column.
+std::vector<std::map<std::string, std::string>> read_csv(const std::filesystem::path& file,
+                                                         LastLine last = LastLine::whole);
 
 /// Processes that were started with `--out dir`, or as a user's command with SKEIN_OUT=dir, by the names that Skein's
 /// messages give them.

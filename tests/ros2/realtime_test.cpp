@@ -146,7 +146,7 @@ TEST_P(FreeNodes, InCppFlyWithSimulatedTime) {
                                     ":plain::Climber --ros-args -p height_m:=4.0 -p use_sim_time:=true -r __ns:=/" +
                                     kNodesUav)));
   const auto climbed = [&] {
-    const auto rows = read_csv(fleet.dir() / "trajectories.csv");
+    const auto rows = read_csv(fleet.dir() / "trajectories.csv", LastLine::may_be_unfinished);
     return std::ranges::any_of(rows, [](const auto& row) {
       return row.at("uav") == kNodesUav && row.contains("z") && !row.at("z").empty() && std::stod(row.at("z")) > 3.5;
     });
