@@ -59,6 +59,7 @@ template <class Check>
 std::string checked_with(const CheckOptions& options, const Check& check) {
   LoadOptions load;
   load.assets_dir = options.assets.value_or("");
+  load.conditions = options.conditions;
   load.needs_scene_files = false;  // only the fleet and the times matter
   const Scenario scenario = load_scenario(options.scenario, load);
   check(scenario);

@@ -40,6 +40,13 @@ TEST_F(CheckCommand, FaultFilesAreCheckedWithAScenario) {
   EXPECT_EQ(check(options), kExitDone);
 }
 
+TEST_F(CheckCommand, FaultFilesAreCheckedWithConditions) {
+  CheckOptions options{{file("f.yaml", "faults: [{at_s: 10, fix_loss: changi}]")}, {}, {}};
+  EXPECT_THROW(check(options), InputError) << "by default a fix is never lost";
+  options.conditions = "odometry=breezy";
+  EXPECT_EQ(check(options), kExitDone);
+}
+
 TEST_F(CheckCommand, FaultFilesNeedNoFilesOfTheScene) {
   CheckOptions options{{file("f.yaml", "faults: [{at_s: 10, blackout: changi}]")}, {}, {}};
   options.scenario = "mbs";

@@ -185,6 +185,7 @@ struct CheckOptions {
   std::optional<std::filesystem::path> assets;
   std::optional<std::filesystem::path> agent = {};  ///< as in RunOptions
   std::string scenario = "towers";                  ///< for fault files that name no scenario themselves
+  std::optional<std::string> conditions = {};       ///< that such files are for, instead of the scenario's
 };
 
 struct SceneOptions {

@@ -147,6 +147,7 @@ TEST(Options, OtherCommands) {
   EXPECT_THROW(parse<TestOptions>({"test", "--repeat", "again"}), InputError) << "of what?";
   EXPECT_EQ(parse<CheckOptions>({"check", "a.yaml"}).scenario, "towers");
   EXPECT_EQ(parse<CheckOptions>({"check", "a.yaml", "--scenario", "mbs"}).scenario, "mbs");
+  EXPECT_EQ(parse<CheckOptions>({"check", "a.yaml", "--conditions", "wind=harsh"}).conditions, "wind=harsh");
   const auto scene = parse<SceneOptions>({"scene", "towers", "--scene-seed", "4", "--out", "there", "--force"});
   EXPECT_EQ(scene.scenario, "towers");
   EXPECT_EQ(scene.scene_seed, 4u);

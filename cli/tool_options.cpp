@@ -129,6 +129,8 @@ void add_check(CLI::App& app, CheckOptions& check) {
                       "Agent program with planners of your own (default: SKEIN_AGENT, else uav_agent)");
   command->add_option("--scenario", check.scenario, "What fault files are for that name no scenario themselves")
       ->capture_default_str();
+  command->add_option("--conditions", check.conditions,
+                      "Conditions that such fault files are for: none, breezy, harsh, ...");
   command->footer(
       "Examples:\n"
       "  skein check my_scenario.yaml my_vehicle.yaml my_faults.yaml\n"

@@ -40,8 +40,8 @@ bool Capture::improved() const { return std::ranges::any_of(detections, &Detecti
 Camera::Camera(const CameraConfig& config, double desired_mm_per_pixel, const RulesConfig& rules,
                const std::vector<InterestPoint>& points, UavIndex uav, const CameraConditions& conditions,
                std::uint64_t seed)
-    : config_(config),
-      vibration_(conditions.vibration_deg_s * kRadPerDeg),
+    : rated_exposure_s_(config.exposure_s),
+      config_(config),
       seed_(seed),
       desired_mm_per_pixel_(desired_mm_per_pixel),
       rules_(rules),
@@ -50,7 +50,12 @@ Camera::Camera(const CameraConfig& config, double desired_mm_per_pixel, const Ru
       interval_(ticks(config.trigger_interval_s)),
       best_(points.size(), 0.0F),
       seen_(points.size(), false) {
-  config_.exposure_s *= conditions.exposure_factor;
+  change_conditions(conditions);
+}
+
+void Camera::change_conditions(const CameraConditions& conditions) {
+  config_.exposure_s = rated_exposure_s_ * conditions.exposure_factor;
+  vibration_ = conditions.vibration_deg_s * kRadPerDeg;
 }
 
 template <class Judge>

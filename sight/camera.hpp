@@ -57,6 +57,9 @@ class Camera {
          const std::vector<InterestPoint>& points, UavIndex uav, const CameraConditions& conditions = {},
          std::uint64_t seed = 0);
 
+  /// @param conditions  for the pictures that follow.
+  void change_conditions(const CameraConditions& conditions);
+
   /// Whether strictly more than the trigger interval has passed since the last capture (0.1 s: every 41 ticks).
   bool ready(Tick tick) const { return !last_ || tick - *last_ > interval_; }
 
@@ -92,8 +95,9 @@ class Camera {
   void imagine(const std::optional<RigidBodyState>& body, const GimbalState& gimbal, const RayScene& world,
                std::vector<float>& best_if) const;
 
-  CameraConfig config_;
-  double vibration_;  ///< deviation of each component of the turn [rad/s]
+  double rated_exposure_s_;  ///< of the vehicle's file
+  CameraConfig config_;      ///< with the true exposure
+  double vibration_ = 0.0;   ///< deviation of each component of the turn [rad/s]
   std::uint64_t seed_;
   double desired_mm_per_pixel_;
   RulesConfig rules_;

@@ -26,6 +26,11 @@ class LinkTracer {
   /// Both must outlive this. @param seed  draws the shadowing, if the scenario's conditions have any.
   LinkTracer(const Scenario& scenario, const FaultPlan& faults, std::uint64_t seed = 0);
 
+  /// @param radio  for the traces that follow; only where the scenario has path loss.
+  void change(const RadioConditions& radio) {
+    if (path_loss_) path_loss_->change(radio);
+  }
+
   /// @param rays  with all bodies at their present poses. @param uavs  in fleet order.
   /// @returns 0: no link; 1: a link, or with path loss the index of its data rate in kRadioRates, counted from 1.
   Links trace(Tick tick, const RayScene& rays, const std::vector<Place>& uavs,

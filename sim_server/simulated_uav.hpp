@@ -37,6 +37,22 @@ struct SimulatedUav {
     return X_told_W ? *X_told_W * truth.X_WB() : truth.X_WB();
   }
 
+  /// Sets what faults do to the UAV in the exchange that begins.
+  void suffer(const VehicleCondition& faulty) {
+    condition = faulty;
+    vehicle.damage_rotors(faulty.rotor_shares);
+    vehicle.jam_gimbal(!faulty.gimbal_works);
+    surroundings.suffer(faulty.fix_lost, faulty.most_charge);
+    if (!faulty.camera_works) triggered = false;
+  }
+
+  /// @param conditions  of the ticks that follow.
+  void change_conditions(const ConditionsConfig& conditions) {
+    surroundings.change(conditions);
+    camera.change_conditions(conditions.camera);
+    if (lidar) lidar->change_conditions(conditions.lidar);
+  }
+
   /// One tick: runs the 20 Hz controllers if they are due, then the attitude loop and the rotors in the present wind.
   /// @param listens  whether the UAV takes commands; if not, the 20 Hz controllers do not run.
   /// @returns the wrench on the body, in B.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/faults/conditions_change.hpp"
 #include "scenes/enclosure.hpp"
 #include "sight/moving_clearance.hpp"
 #include "sight/ray_scene.hpp"
@@ -28,6 +29,7 @@ struct Simulation::Impl {
   Impl(const Scenario& the_scenario, Scene the_scene, std::uint64_t the_seed, const FaultPlan& the_faults);
 
   void meet_faults();
+  void meet_conditions();
   void deliver_commands();
   void run_tick();
   void control_and_fly();
@@ -46,6 +48,8 @@ struct Simulation::Impl {
   const Scenario scenario;
   const Scene scene;
   FaultPlan faults;
+  ConditionsConfig conditions;  ///< the scenario's, as faults have changed them
+  bool conditions_changed = false;
   const std::size_t planned_faults;  ///< without those by hand
   PhysicsWorld world;
   RayScene rays;
@@ -70,6 +74,7 @@ Simulation::Impl::Impl(const Scenario& the_scenario, Scene the_scene, std::uint6
     : scenario(the_scenario),
       scene(std::move(the_scene)),
       faults(the_faults),
+      conditions(scenario.conditions),
       planned_faults(the_faults.faults.size()),
       world(scene.mesh),
       rays(scene.mesh, body_shapes(scenario)),
@@ -106,13 +111,18 @@ Simulation::Impl::Impl(const Scenario& the_scenario, Scene the_scene, std::uint6
 
 void Simulation::Impl::meet_faults() {
   if (faults.empty()) return;
-  const std::vector<VehicleCondition> conditions = vehicle_conditions(faults, scenario.uav_names(), tick);
-  for (const UavIndex i : FirstUavs(uavs.size())) {
-    uavs[i].condition = conditions[i];
-    uavs[i].vehicle.damage_rotors(conditions[i].rotor_shares);
-    uavs[i].vehicle.jam_gimbal(!conditions[i].gimbal_works);
-    if (!conditions[i].camera_works) uavs[i].triggered = false;
-  }
+  meet_conditions();
+  const std::vector<VehicleCondition> faulty = vehicle_conditions(faults, scenario.uav_names(), tick);
+  for (const UavIndex i : FirstUavs(uavs.size())) uavs[i].suffer(faulty[i]);
+}
+
+void Simulation::Impl::meet_conditions() {
+  const auto changed = changed_conditions(faults, scenario, tick);
+  if (!changed && !conditions_changed) return;
+  conditions = changed.value_or(scenario.conditions);
+  conditions_changed = changed.has_value();
+  for (SimulatedUav& uav : uavs) uav.change_conditions(conditions);
+  tracer.change(conditions.radio);
 }
 
 void Simulation::Impl::deliver_commands() {
@@ -187,7 +197,7 @@ void Simulation::Impl::measure(const std::vector<RigidBodyState>& before) {
 }
 
 void Simulation::Impl::take_pictures() {
-  const Tick shutter_delay = ticks(scenario.conditions.camera.shutter_delay_s);
+  const Tick shutter_delay = ticks(conditions.camera.shutter_delay_s);
   std::vector<UavIndex> firing;
   for (const UavIndex i : FirstUavs(uavs.size())) {
     SimulatedUav& uav = uavs[i];
@@ -242,19 +252,20 @@ void Simulation::Impl::take_scans() {
 }
 
 void Simulation::Impl::finish_exchange() {
+  meet_conditions();
   trace_links();
-  const auto conditions = vehicle_conditions(faults, scenario.uav_names(), tick);  // of the exchange that begins
+  const auto faulty = vehicle_conditions(faults, scenario.uav_names(), tick);  // of the exchange that begins
   std::vector<UavView> now;
   for (const UavIndex i : FirstUavs(uavs.size())) {
     UavView& view = uavs[i].view;
     view.state = world.state(i);
     if (mission.airborne(i)) uavs[i].surroundings.note_flight();
-    tell(i, conditions[i]);
+    tell(i, faulty[i]);
     view.gimbal = uavs[i].vehicle.gimbal();
     view.alive = mission.alive(i);
     view.airborne = mission.airborne(i);
     view.idle_s = seconds(uavs[i].idle_ticks);
-    view.command_latency = uavs[i].link.latency(conditions[i].command_delay);
+    view.command_latency = uavs[i].link.latency(faulty[i].command_delay);
     now.push_back(view);
     view.setpoint.reset();
   }

@@ -81,7 +81,7 @@ void write_action(const FaultAction& action, Json& json) {
                           json["from"] = f.from.front();
                           json["to"] = f.to.front();
                         },
-                        [](const Partition&) {}, [](const StationOutage&) {},
+                        [](const Partition&) {}, [](const StationOutage&) {}, [](const ConditionsChange&) {},
                         [&](const Kill& f) { json["of"] = f.member; }, [&](const Pause& f) { json["of"] = f.member; },
                         [&](const MotorFailure& f) {
                           json["of"] = f.uav;

@@ -42,8 +42,8 @@ bool names_any(const Fault& fault, const std::set<std::string>& of) {
                           add(f.to);
                         },
                         [&](const Partition& f) { std::ranges::for_each(f.groups, add); }, [](const StationOutage&) {},
-                        [&](const Kill& f) { names.insert(f.member); }, [&](const Pause& f) { names.insert(f.member); },
-                        [&](const auto& f) { names.insert(f.uav); }},
+                        [](const ConditionsChange&) {}, [&](const Kill& f) { names.insert(f.member); },
+                        [&](const Pause& f) { names.insert(f.member); }, [&](const auto& f) { names.insert(f.uav); }},
              fault.action);
   const std::string condition = fault.waits ? fault.when->text : "";
   return std::ranges::any_of(

@@ -6,6 +6,7 @@
 #include <optional>
 #include <set>
 
+#include "core/faults/conditions_change.hpp"
 #include "core/overloaded.hpp"
 #include "core/text/suggestion.hpp"
 #include "core/text/text.hpp"
@@ -28,7 +29,10 @@ std::optional<std::string> held_by(const FaultAction& action) {
                  [](const OdometryFreeze& f) -> Text { return "the odometry of " + f.uav; },
                  [](const OdometryJump& f) -> Text { return "the odometry of " + f.uav; },
                  [](const StuckGimbal& f) -> Text { return "the gimbal of " + f.uav; },
-                 [](const Gust& f) -> Text { return "the air about " + f.uav; }},
+                 [](const Gust& f) -> Text { return "the air about " + f.uav; },
+                 [](const FixLoss& f) -> Text { return "the position fix of " + f.uav; },
+                 [](const BatteryLoss& f) -> Text { return "the battery of " + f.uav; },
+                 [](const ConditionsChange&) -> Text { return std::nullopt; }},
       action);
 }
 
@@ -54,7 +58,9 @@ void FaultChecker::check(const Fault& longest, const Fault& shortest, const std:
           [&](const CommandDelay& f) { check_uav(f.uav, key + ".uav"); },
           [&](const OdometryFreeze& f) { check_uav(f.uav, key); },
           [&](const OdometryJump& f) { check_uav(f.uav, key + ".uav"); },
-          [&](const StuckGimbal& f) { check_uav(f.uav, key); }, [&](const Gust& f) { check_uav(f.uav, key + ".uav"); }},
+          [&](const StuckGimbal& f) { check_uav(f.uav, key); }, [&](const Gust& f) { check_uav(f.uav, key + ".uav"); },
+          [&](const FixLoss& f) { check_fix(f, key); }, [&](const BatteryLoss& f) { check_battery(f, key); },
+          [&](const ConditionsChange& f) { check_conditions_change(f.values, scenario_, key, errors_); }},
       longest.action);
   check_contradiction(longest, path);
 }
@@ -104,6 +110,18 @@ void FaultChecker::check_lidar(const LidarFailure& failure, const std::string& k
   if (uav == uavs_.end()) return;
   const bool has_one = scenario_.fleet[static_cast<std::size_t>(uav - uavs_.begin())].vehicle.lidar.has_value();
   errors_.check(has_one, key, "'" + failure.uav + "' has no LiDAR");
+}
+
+void FaultChecker::check_fix(const FixLoss& loss, const std::string& key) {
+  check_uav(loss.uav, key);
+  errors_.check(scenario_.conditions.odometry.on(), key,
+                "needs a scenario whose odometry has errors, as with --conditions odometry=breezy");
+}
+
+void FaultChecker::check_battery(const BatteryLoss& loss, const std::string& key) {
+  check_uav(loss.uav, key + ".uav");
+  errors_.check(scenario_.conditions.battery.on(), key,
+                "needs a scenario with batteries, as with --conditions battery=breezy");
 }
 
 void FaultChecker::check_contradiction(const Fault& fault, const std::string& path) {

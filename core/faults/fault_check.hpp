@@ -13,7 +13,7 @@
 namespace skein {
 
 /// The resource that a fault holds, as a text. Two faults that hold the same resource at the same time contradict each
-/// other. nullopt for a LinkEffect: several effects may act on one link.
+/// other. nullopt for a LinkEffect and a ConditionsChange: several may act at once.
 std::optional<std::string> held_by(const FaultAction& action);
 
 class FaultChecker {
@@ -33,6 +33,8 @@ class FaultChecker {
   void check_link(const LinkEffect& effect, const std::string& key);
   void check_partition(const Partition& partition, const std::string& key);
   void check_lidar(const LidarFailure& failure, const std::string& key);
+  void check_fix(const FixLoss& loss, const std::string& key);
+  void check_battery(const BatteryLoss& loss, const std::string& key);
   void check_contradiction(const Fault& fault, const std::string& path);
 
   const Scenario& scenario_;

@@ -20,7 +20,9 @@ const char* key_of(const FaultAction& action) {
           [](const LidarFailure&) { return "lidar_failure"; }, [](const CameraFailure&) { return "camera_failure"; },
           [](const MotorFailure&) { return "motor_failure"; }, [](const CommandDelay&) { return "command_delay"; },
           [](const OdometryFreeze&) { return "odometry_freeze"; }, [](const OdometryJump&) { return "odometry_jump"; },
-          [](const StuckGimbal&) { return "stuck_gimbal"; }, [](const Gust&) { return "gust"; }},
+          [](const StuckGimbal&) { return "stuck_gimbal"; }, [](const Gust&) { return "gust"; },
+          [](const FixLoss&) { return "fix_loss"; }, [](const BatteryLoss&) { return "battery_loss"; },
+          [](const ConditionsChange&) { return "conditions"; }},
       action);
 }
 
@@ -48,11 +50,12 @@ std::string fault_target(const Fault& fault) {
     for (const auto& group : partition.groups) texts.push_back(joined(group, " "));
     return joined(texts, " | ");
   };
-  return std::visit(
-      Overloaded{[](const LinkEffect& f) { return joined(f.from, " ") + " > " + joined(f.to, " "); }, groups,
-                 [](const StationOutage&) { return std::string("gcs"); }, [](const Kill& f) { return f.member; },
-                 [](const Pause& f) { return f.member; }, [](const auto& f) { return f.uav; }},
-      fault.action);
+  return std::visit(Overloaded{[](const LinkEffect& f) { return joined(f.from, " ") + " > " + joined(f.to, " "); },
+                               groups, [](const StationOutage&) { return std::string("gcs"); },
+                               [](const Kill& f) { return f.member; }, [](const Pause& f) { return f.member; },
+                               [](const ConditionsChange& f) { return joined(f.values.keys, " "); },
+                               [](const auto& f) { return f.uav; }},
+                    fault.action);
 }
 
 std::optional<LinkMatrix<std::uint8_t>> cut_links(const FaultPlan& plan, const Scenario& scenario, Tick tick) {

@@ -11,6 +11,7 @@
 #include <variant>
 #include <vector>
 
+#include "core/config/config_node.hpp"
 #include "core/expressions/expression.hpp"
 #include "core/expressions/signal_table.hpp"
 #include "core/radio/link_effect.hpp"
@@ -91,6 +92,26 @@ struct Gust {
     r.check(!velocity_mps.isZero(0.0), "velocity_mps", "must not be zero");
   }
 };
+/// A UAV's position fix is lost: until the fault ends, its position error is a random walk.
+struct FixLoss {
+  std::string uav;
+};
+/// A UAV's battery loses the charge that it has above a share of its capacity. The charge does not come back.
+struct BatteryLoss {
+  std::string uav;
+  double charge = 0.0;  ///< share of the capacity, [0, 1)
+
+  template <class R>
+  void describe(R& r) {
+    r.required("uav", uav);
+    r.required("charge", charge, within(0.0, 0.999));
+  }
+};
+/// Values of the scenario's conditions that differ while the fault is active, for the whole fleet. If several such
+/// faults change the same value, the last one in the file wins.
+struct ConditionsChange {
+  ConfigNode values;  ///< as in a scenario's section `conditions`
+};
 /// A UAV's commands take effect this many exchanges later.
 struct CommandDelay {
   std::string uav;
@@ -105,7 +126,7 @@ struct CommandDelay {
 
 using FaultAction =
     std::variant<LinkEffect, Partition, Blackout, StationOutage, Kill, Pause, LidarFailure, CameraFailure, MotorFailure,
-                 CommandDelay, OdometryFreeze, OdometryJump, StuckGimbal, Gust>;
+                 CommandDelay, OdometryFreeze, OdometryJump, StuckGimbal, Gust, FixLoss, BatteryLoss, ConditionsChange>;
 
 /// The condition that a fault waits for. sim_server evaluates it at the end of each exchange.
 struct FaultCondition {

@@ -14,6 +14,7 @@ namespace {
 
 Scenario fleet() {
   Scenario scenario;
+  scenario.conditions = conditions_preset("breezy");
   scenario.name = "small";
   scenario.duration_s = 300.0;
   for (const char* name : {"jurong", "changi"}) {
@@ -69,7 +70,11 @@ TEST_F(FaultFile, EveryKindIsRead) {
       "  - {at_s: 1, command_delay: {uav: changi, exchanges: 3}}\n"
       "  - {at_s: 1, for_s: 2, odometry_freeze: changi}\n"
       "  - {at_s: 4, odometry_jump: {uav: changi, offset_m: [1, 0, 0]}}\n"
-      "  - {when: 'held(changi) >= 3', stuck_gimbal: changi}\n");
+      "  - {when: 'held(changi) >= 3', stuck_gimbal: changi}\n"
+      "  - {at_s: 1, gust: {uav: changi, velocity_mps: [0, 8, 0]}}\n"
+      "  - {at_s: 1, for_s: 9, fix_loss: jurong}\n"
+      "  - {at_s: 1, battery_loss: {uav: changi, charge: 0.3}}\n"
+      "  - {at_s: 1, conditions: {wind: {mean_mps: 9}, camera: {preset: harsh}}}\n");
   const std::vector<std::pair<std::string, std::string>> expected = {
       {"link", "jurong > gcs"},      {"partition", "gcs jurong | changi"},
       {"blackout", "changi"},        {"station_outage", "gcs"},
@@ -77,7 +82,9 @@ TEST_F(FaultFile, EveryKindIsRead) {
       {"lidar_failure", "jurong"},   {"camera_failure", "changi"},
       {"motor_failure", "changi"},   {"command_delay", "changi"},
       {"odometry_freeze", "changi"}, {"odometry_jump", "changi"},
-      {"stuck_gimbal", "changi"}};
+      {"stuck_gimbal", "changi"},    {"gust", "changi"},
+      {"fix_loss", "jurong"},        {"battery_loss", "changi"},
+      {"conditions", "wind camera"}};
   ASSERT_EQ(plan.faults.size(), expected.size());
   for (std::size_t i = 0; i < expected.size(); ++i) {
     EXPECT_EQ(fault_kind(plan.faults[i]), expected[i].first);

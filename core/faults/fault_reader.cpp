@@ -1,6 +1,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/conditions_keys.hpp"
 #include "core/config/config_files.hpp"
 #include "core/config/config_node.hpp"
 #include "core/config/config_reader.hpp"
@@ -57,6 +58,9 @@ struct FaultEntry {
   std::optional<std::string> odometry_freeze, stuck_gimbal;
   std::optional<OdometryJump> odometry_jump;
   std::optional<Gust> gust;
+  std::optional<std::string> fix_loss;
+  std::optional<BatteryLoss> battery_loss;
+  std::optional<ConditionsConfig> conditions;  ///< read_faults() takes the values that the file has
 
   template <class R>
   void describe(R& r) {
@@ -79,6 +83,9 @@ struct FaultEntry {
     r.field("odometry_jump", odometry_jump);
     r.field("stuck_gimbal", stuck_gimbal);
     r.field("gust", gust);
+    r.field("fix_loss", fix_loss);
+    r.field("battery_loss", battery_loss);
+    r.field("conditions", conditions);
   }
 
   /// As long as any seed, or its condition, can make it; and as short.
@@ -126,6 +133,9 @@ struct FaultEntry {
     if (odometry_jump) all.emplace_back(*odometry_jump);
     if (stuck_gimbal) all.emplace_back(StuckGimbal{*stuck_gimbal});
     if (gust) all.emplace_back(*gust);
+    if (fix_loss) all.emplace_back(FixLoss{*fix_loss});
+    if (battery_loss) all.emplace_back(*battery_loss);
+    if (conditions) all.emplace_back(ConditionsChange{});
     return all;
   }
 };
@@ -194,11 +204,15 @@ std::vector<Fault> read_faults(const FaultFile& content, const ConfigDocument& d
     errors.check(
         actions.size() == 1, path,
         "must have exactly one of link, partition, blackout, station_outage, kill, pause, lidar_failure, "
-        "camera_failure, motor_failure, command_delay, odometry_freeze, odometry_jump, stuck_gimbal, gust; it has " +
+        "camera_failure, motor_failure, command_delay, odometry_freeze, odometry_jump, stuck_gimbal, gust, fix_loss, "
+        "battery_loss, conditions; it has " +
             std::to_string(actions.size()));
     errors.check(entry.station_outage.value_or(true), path + ".station_outage", "must be true, or be left out");
     if (actions.size() != 1) continue;
     Fault& fault = faults.emplace_back(entry.drawn(actions.front(), seed, i));
+    if (auto* change = std::get_if<ConditionsChange>(&fault.action)) {
+      change->values = *document.root.find("faults")->items[i].find("conditions");
+    }
     if (entry.when) fault.when = read_condition(*entry.when, names, path + ".when", errors);
     checker.check(entry.longest(fault.action), entry.shortest(fault.action), path);
   }

@@ -35,7 +35,8 @@ ConfigNode action_node(const FaultAction& action) {
                  [](const StationOutage&) { return written(true); }, [](const Kill& f) { return written(f.member); },
                  [](const Pause& f) { return written(f.member); }, [](const MotorFailure& f) { return written(f); },
                  [](const CommandDelay& f) { return written(f); }, [](const OdometryJump& f) { return written(f); },
-                 [](const Gust& f) { return written(f); }, [](const auto& f) { return written(f.uav); }},
+                 [](const Gust& f) { return written(f); }, [](const BatteryLoss& f) { return written(f); },
+                 [](const ConditionsChange& f) { return f.values; }, [](const auto& f) { return written(f.uav); }},
       action);
 }
 

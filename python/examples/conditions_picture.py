@@ -12,12 +12,11 @@ from skein import plots
 *paths, file = sys.argv[1:]
 runs = [skein.Run(path) for path in paths]
 labels = [str(run.result.get("conditions") or "none") for run in runs]
-maps, bars = plots.axes(2, 2, height=5.6, width=7.0)
+maps, bars = plots.axes(2, 2, height=5.0, width=7.0)
 for run, label, ax in zip(runs, labels, maps):
     plots.map(run, ax)
-    ax.set_title(f"{label}: {run.score:.0f} points")
-grid = bars[0].get_gridspec()
-for ax in bars:
-    ax.remove()
-plots.losses(runs, maps[0].figure.add_subplot(grid[1, :]), labels=labels)
+    ax.set_title(f"{label}: {run.score:.0f} points", fontsize="medium")
+bars[1].remove()
+bars[0].set_subplotspec(bars[0].get_gridspec()[1, :])
+plots.losses(runs, bars[0], labels=labels)
 plots.save(maps[0], file)

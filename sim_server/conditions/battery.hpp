@@ -3,6 +3,7 @@
 // Units: SI; charge in ampere hours where the name says so.  Pure; threads: one.
 #pragma once
 
+#include <algorithm>
 #include <array>
 
 #include "core/conditions.hpp"
@@ -19,6 +20,9 @@ class Battery {
 
   /// Power at its terminals for some time. What an empty battery cannot give, it does not.
   void draw(double power_w, double time_s);
+
+  /// Loses the charge above a share of the capacity, if it has more.
+  void limit(double charge) { left_as_ = std::min(left_as_, charge * capacity_as_); }
 
   bool empty() const { return left_as_ <= 0.0; }
   double charge() const { return left_as_ / capacity_as_; }

@@ -23,6 +23,8 @@ class LidarErrors {
   LidarErrors(const LidarConditions& conditions, const LidarConfig& lidar, std::uint64_t seed, UavIndex uav)
       : conditions_(conditions), lidar_(lidar), seed_(seed), uav_(uav) {}
 
+  /// @param conditions  for the scans that follow.
+  void change(const LidarConditions& conditions) { conditions_ = conditions; }
   bool any() const { return conditions_.on(); }
   /// @param ranges  true ranges of all beams, ring by ring; infinite: the beam hits nothing.
   /// @returns the measured ranges of the same beams; infinite: no return.

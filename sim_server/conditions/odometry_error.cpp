@@ -40,20 +40,47 @@ void OdometryError::step(double step_s) {
   if (at_start_) return;
   const double keeps = std::exp(-step_s / config_.time_constant_s);
   for (GaussMarkov* axis : {&x_, &y_, &z_}) axis->step(keeps, draw_);
-  if (!config_.mean_fix_s) return;
   if (lost_) {
     lost_s_ += step_s;
     walked_m_ += config_.walk_m_per_sqrt_s * std::sqrt(step_s) * normals(draw_);
   }
+  if (!config_.mean_fix_s || jammed_) return;
   until_change_s_ -= step_s;
   if (until_change_s_ > 0.0) return;
-  if (!lost_) {
-    walked_m_ = with_fix_m();
-    variance_when_lost_ = x_.variance();
+  if (lost_) {
+    lost_ = false;
+  } else {
+    lose_fix();
+  }
+  until_change_s_ = draw_duration(lost_ ? config_.mean_lost_s : *config_.mean_fix_s);
+}
+
+void OdometryError::lose_fix() {
+  walked_m_ = with_fix_m();
+  variance_when_lost_ = x_.variance();
+  horizontal_sigma_when_lost_m_ = config_.horizontal_sigma_m;
+  vertical_sigma_when_lost_m_ = config_.vertical_sigma_m;
+  lost_s_ = walked_before_m2_ = 0.0;
+  lost_ = true;
+}
+
+void OdometryError::jam(bool jammed) {
+  if (jammed == jammed_) return;
+  jammed_ = jammed;
+  if (jammed) {
+    if (!lost_) lose_fix();
+    return;
+  }
+  lost_ = false;
+  if (config_.mean_fix_s) until_change_s_ = draw_duration(*config_.mean_fix_s);
+}
+
+void OdometryError::change(const OdometryConditions& config) {
+  if (lost_) {
+    walked_before_m2_ += config_.walk_m_per_sqrt_s * config_.walk_m_per_sqrt_s * lost_s_;
     lost_s_ = 0.0;
   }
-  lost_ = !lost_;
-  until_change_s_ = draw_duration(lost_ ? config_.mean_lost_s : *config_.mean_fix_s);
+  config_ = config;
 }
 
 void OdometryError::draw_noise() {
@@ -80,12 +107,12 @@ PoseUncertainty OdometryError::uncertainty() const {
   const double variance = lost_ ? variance_when_lost_ : x_.variance();  // the three axes have the same
   const auto deviation = [&](double sigma_m) {
     return std::sqrt(variance * sigma_m * sigma_m + config_.bias_sigma_m * config_.bias_sigma_m +
-                     config_.noise_sigma_m * config_.noise_sigma_m + walk_m * walk_m);
+                     config_.noise_sigma_m * config_.noise_sigma_m + walk_m * walk_m +
+                     (lost_ ? walked_before_m2_ : 0.0));
   };
-  const double horizontal_m = deviation(config_.horizontal_sigma_m);
-  return {{horizontal_m, horizontal_m, deviation(config_.vertical_sigma_m)},
-          config_.yaw_sigma_deg * kRadPerDeg,
-          config_.velocity_sigma_mps};
+  const double horizontal_m = deviation(lost_ ? horizontal_sigma_when_lost_m_ : config_.horizontal_sigma_m);
+  const double vertical_m = deviation(lost_ ? vertical_sigma_when_lost_m_ : config_.vertical_sigma_m);
+  return {{horizontal_m, horizontal_m, vertical_m}, config_.yaw_sigma_deg * kRadPerDeg, config_.velocity_sigma_mps};
 }
 
 }  // namespace skein::sim

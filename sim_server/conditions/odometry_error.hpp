@@ -39,6 +39,11 @@ class OdometryError {
 
   /// The UAV takes off: where it is, is known no more.
   void leave_start() { at_start_ = false; }
+  /// @param config  for the steps that follow. The constant offset stays, and so does the time of the next loss or
+  ///   return of the fix.
+  void change(const OdometryConditions& config);
+  /// @param jammed  true: there is no fix from now on. false: if there was none for that reason, it is back.
+  void jam(bool jammed);
   /// A time step later.
   void step(double step_s);
   /// Another exchange begins: its noise.
@@ -61,15 +66,18 @@ class OdometryError {
   GaussMarkov first_error() { return config_.known_start ? GaussMarkov() : GaussMarkov(draw_); }
   double draw_duration(double mean_s) { return -mean_s * portable_log(1.0 - draw_.uniform()); }
   Vector3d with_fix_m() const;
+  void lose_fix();
 
   OdometryConditions config_;
   RandomStream draw_, noise_draw_;
   Vector3d bias_m_;
   GaussMarkov x_, y_, z_, yaw_;
   bool at_start_;  ///< whose place is known
-  bool lost_ = false;
+  bool lost_ = false, jammed_ = false;
   double until_change_s_ = 0.0;  ///< of the fix
   double lost_s_ = 0.0, variance_when_lost_ = 0.0;
+  double horizontal_sigma_when_lost_m_ = 0.0, vertical_sigma_when_lost_m_ = 0.0;
+  double walked_before_m2_ = 0.0;         ///< variance of the walk before `lost_s_`, at other values of `config_`
   Vector3d walked_m_ = Vector3d::Zero();  ///< the error while the fix is lost
   Vector3d noise_m_ = Vector3d::Zero(), velocity_noise_mps_ = Vector3d::Zero();
 };

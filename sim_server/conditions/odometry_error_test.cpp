@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <vector>
 
 #include "core/euler.hpp"
@@ -84,7 +85,9 @@ struct Nees {
   std::size_t samples = 0, without_fix = 0;
 };
 
-Nees nees(const OdometryConditions& config, bool only_without_fix = false) {
+/// @param disturb  called before each step with the time and a draw of the flight's own.
+Nees nees(const OdometryConditions& config, bool only_without_fix = false,
+          const std::function<void(OdometryError&, double, double)>& disturb = {}) {
   constexpr std::uint64_t kSeeds = 4000;
   constexpr double kDuration_s = 40.0;
   const RigidBodyState truth{.p_WB = {3, -4, 20}, .q_WB = kTilted, .v_WB = {1, 2, 0}};
@@ -93,8 +96,10 @@ Nees nees(const OdometryConditions& config, bool only_without_fix = false) {
     OdometryError error(config, seed, UavIndex{seed % 5});
     RandomStream draw(seed, "nees_test", 0);
     const double until_s = kDuration_s * draw.uniform(), leaves_s = 0.3 * kDuration_s * draw.uniform();
+    const double own = draw.uniform();
     for (double t = 0.0; t < until_s; t += kStep_s) {
       if (t >= leaves_s) error.leave_start();
+      if (disturb) disturb(error, t, own);
       error.step(kStep_s);
     }
     error.draw_noise();
@@ -135,6 +140,24 @@ TEST(OdometryError, ItsCovarianceIsConsistentWithoutAFixToo) {
   config.walk_m_per_sqrt_s = 0.3;
   const Nees lost = nees(config, true);
   ASSERT_GT(lost.samples, 1000U) << "of 4000 flights, about half have no fix";
+  EXPECT_NEAR(lost.position, 3.0, tolerance(3.0, lost.samples));
+}
+
+TEST(OdometryError, ItsCovarianceIsConsistentWhileItIsJammedAndItsConditionsChange) {
+  OdometryConditions config = conditions_preset("harsh").odometry, worse = config;
+  config.mean_fix_s = 10.0;
+  worse.horizontal_sigma_m *= 3.0;
+  worse.walk_m_per_sqrt_s *= 2.0;
+  worse.noise_sigma_m *= 4.0;
+  const auto disturb = [&](OdometryError& error, double t, double own) {
+    const double begin_s = 20.0 * own;
+    error.jam(t > begin_s && t < begin_s + 12.0);
+    if (std::abs(t - begin_s - 5.0) < kStep_s / 2) error.change(worse);
+    if (std::abs(t - begin_s - 9.0) < kStep_s / 2) error.change(config);
+  };
+  const Nees all = nees(config, false, disturb), lost = nees(config, true, disturb);
+  EXPECT_NEAR(all.position, 3.0, tolerance(3.0, all.samples));
+  ASSERT_GT(lost.samples, 1000U);
   EXPECT_NEAR(lost.position, 3.0, tolerance(3.0, lost.samples));
 }
 

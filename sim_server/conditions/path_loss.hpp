@@ -37,6 +37,9 @@ class PathLoss {
   /// @param radio  must have path loss: radio.on(). @param seed  draws the shadowing.
   PathLoss(const RadioConditions& radio, std::uint64_t seed) : radio_(radio), field_(radio.decorrelation_m, seed) {}
 
+  /// @param radio  as for the constructor; the shadowing's field stays.
+  void change(const RadioConditions& radio) { radio_ = radio; }
+
   /// Received power [dBm] between antennas at p_W and q_W. Ignores obstacles: LinkTracer checks the line of sight.
   double received_dbm(const Vector3d& p_W, const Vector3d& q_W) const;
   /// Index in kRadioRates, counted from 1, of the highest data rate that the received power allows; 0: none.

@@ -20,6 +20,17 @@ Surroundings::Surroundings(const Scenario& scenario, std::uint64_t seed, UavInde
   if (conditions_.battery.on()) battery_.emplace(conditions_.battery, vehicle_, scenario.duration_s);
 }
 
+void Surroundings::change(const ConditionsConfig& conditions) {
+  conditions_ = conditions;
+  if (wind_) wind_->change(conditions.wind);
+  if (odometry_) odometry_->change(conditions.odometry);
+}
+
+void Surroundings::suffer(bool fix_lost, double most_charge) {
+  if (odometry_) odometry_->jam(fix_lost);
+  if (battery_) battery_->limit(most_charge);
+}
+
 void Surroundings::begin_exchange() {
   if (odometry_) odometry_->draw_noise();
 }

@@ -35,8 +35,13 @@ class Surroundings {
   /// @param scenario  must outlive this.
   Surroundings(const Scenario& scenario, std::uint64_t seed, UavIndex uav);
 
+  /// @param conditions  as the constructor's but for what faults change: for the ticks that follow.
+  void change(const ConditionsConfig& conditions);
   /// Before the first tick of an exchange.
   void begin_exchange();
+  /// What faults do in an exchange. @param fix_lost  the UAV has no position fix. @param most_charge  share of the
+  /// capacity that the battery can have.
+  void suffer(bool fix_lost, double most_charge);
   /// Before each tick. @param gust_W  by which a fault makes the air faster.
   void begin_tick(Tick tick, const RigidBodyState& state, const Vector3d& gust_W);
   /// The wrench of a vehicle in this air, which is told what it believes.
@@ -61,7 +66,7 @@ class Surroundings {
   BatteryUse battery_use() const;
 
  private:
-  const ConditionsConfig& conditions_;
+  ConditionsConfig conditions_;
   const VehicleConfig& vehicle_;
   std::optional<Wind> wind_;
   WindPush push_;  ///< of `wind_`

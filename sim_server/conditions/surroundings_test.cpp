@@ -8,6 +8,7 @@
 #include <functional>
 #include <memory>
 
+#include "core/config/config_node.hpp"
 #include "core/vehicle/rotor_power.hpp"
 #include "sim_server/points_shown.hpp"
 #include "sim_server/run_digest.hpp"
@@ -117,6 +118,90 @@ TEST_F(Windy, AGustIsAFaultWithoutAnyWind) {
     if (t > 12.0) most_m = std::max(most_m, y);
   });
   EXPECT_GT(most_m, before_m + 0.15) << "along the gust";
+}
+
+TEST_F(Windy, AFaultFreshensTheWindForATime) {
+  scenario_.conditions.wind = {.mean_mps = 4.0, .from_deg = 180.0};
+  const ConfigNode wind = parse_config_document("{wind: {mean_mps: 10}}", "").root;
+  const FaultPlan faults{"test.yaml", "", "", {{.at_s = 20.0, .until_s = 30.0, .action = ConditionsChange{wind}}}};
+  start(1, faults);
+  const auto tilt_at = [&](double time_s) {
+    hover(time_s);
+    const Vector3d up_W = uav().state.q_WB * Vector3d::UnitZ();
+    return up_W.x() / up_W.z();
+  };
+  const double before = tilt_at(20.0), during = tilt_at(30.0), after = tilt_at(45.0);
+  EXPECT_LT(before, 0.0) << "against the wind";
+  EXPECT_LT(during, 2.3 * before) << "drag of the rotors by the speed, of the body by its square";
+  EXPECT_NEAR(after, before, 0.05 * std::abs(before));
+}
+
+TEST_F(Windy, WithoutAFixAUavKnowsLessUntilTheFaultEnds) {
+  scenario_.conditions.odometry = conditions_preset("breezy").odometry;
+  const FaultPlan faults{"test.yaml", "", "", {{.at_s = 15.0, .until_s = 30.0, .action = FixLoss{"uav0"}}}};
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    std::vector<Vector3d> told_m, untouched_m;
+    for (auto* sigmas : {&untouched_m, &told_m}) {
+      sigmas == &told_m ? start(seed, faults) : start(seed);
+      for (const double time_s : {14.9, 29.9, 35.0}) {
+        hover(time_s);
+        sigmas->push_back(uav().uncertainty.position_m);
+      }
+    }
+    EXPECT_EQ(told_m[0], untouched_m[0]);
+    EXPECT_GT(told_m[1].x(), 0.1 * std::sqrt(14.0)) << "of the walk alone";
+    EXPECT_EQ(told_m[2], untouched_m[2]) << "as if nothing had been";
+  }
+}
+
+TEST_F(Windy, ABatteryThatLosesChargeDoesNotGetItBack) {
+  add("photographer", 0, 4);
+  scenario_.conditions.battery.endurance_missions = 2.0;
+  const FaultPlan faults{"test.yaml",
+                         "",
+                         "",
+                         {{.at_s = 15.0, .until_s = 20.0, .action = BatteryLoss{"uav0", 0.2}},
+                          {.at_s = 25.0, .until_s = {}, .action = BatteryLoss{"uav1", 0.0}}}};
+  start(1, faults);
+  hover(15.0);
+  EXPECT_GT(uav().battery->charge, 0.8);
+  hover(15.1);
+  EXPECT_NEAR(uav().battery->charge, 0.2, 0.001);
+  hover(24.0);
+  EXPECT_NEAR(uav().battery->charge, 0.2 - 9.0 / 120.0, 0.01) << "what a hover costs, of two missions of 60 s";
+  EXPECT_TRUE(uav(1).alive);
+  hover(35.0);
+  EXPECT_TRUE(uav().alive);
+  EXPECT_FALSE(uav(1).alive) << "an empty battery lets it fall";
+}
+
+TEST_F(Windy, SensorsAndRadioAreAsBeforeOnceAChangeEnds) {
+  add("photographer", 0, 4);
+  scenario_.conditions.radio = conditions_preset("breezy").radio;
+  const ConfigNode change = parse_config_document("{lidar: {reflectivity: 0.002}, radio: {power_dbm: -30}}", "").root;
+  const FaultPlan faults{"test.yaml", "", "", {{.at_s = 15.0, .until_s = 20.0, .action = ConditionsChange{change}}}};
+  Simulation& sim = start(1, faults);
+  std::vector<double> points;
+  std::vector<int> linked;
+  const auto look_until = [&](double time_s) {
+    double sum = 0.0;
+    int scans = 0;
+    hover(time_s, [&] {
+      for (const LidarEvent& event : sim.events().scans) {
+        sum += static_cast<double>(event.scan.points_W.size());
+        ++scans;
+      }
+    });
+    points.push_back(sum / std::max(1, scans));
+    linked.push_back(sim.links().at(node_of_uav(UavIndex{0}), node_of_uav(UavIndex{1})));
+  };
+  hover(10.0);
+  for (const double time_s : {14.9, 20.0 - 0.1, 25.0}) look_until(time_s);
+  EXPECT_LT(points[1], 0.5 * points[0]) << "a wet, dark wall";
+  EXPECT_NEAR(points[2], points[0], 0.1 * points[0]) << "the servo swings";
+  EXPECT_GT(linked[0], 0);
+  EXPECT_EQ(linked[1], 0);
+  EXPECT_EQ(linked[2], linked[0]);
 }
 
 TEST_F(Windy, AHoverCostsWhatMomentumTheorySays) {

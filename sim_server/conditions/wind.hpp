@@ -51,6 +51,8 @@ class Wind {
   /// @param wind  with a mean above 0. @param uav  keys the gusts; the direction is the same for all.
   Wind(const WindConditions& wind, std::uint64_t seed, UavIndex uav);
 
+  /// @param wind  for the steps that follow; the direction and the gusts' state stay.
+  void change(const WindConditions& wind) { wind_ = wind; }
   /// The air about a UAV, a time step later. @param extra_W  that a fault adds.
   void step(const Vector3d& p_WB, const Vector3d& v_WB, double step_s, const Vector3d& extra_W = Vector3d::Zero());
 

@@ -22,6 +22,8 @@ class Applier {
   void operator()(const OdometryJump& fault) const { of(fault.uav).odometry_offset_m = fault.offset_m; }
   void operator()(const StuckGimbal& fault) const { of(fault.uav).gimbal_works = false; }
   void operator()(const Gust& fault) const { of(fault.uav).gust_W = fault.velocity_mps; }
+  void operator()(const FixLoss& fault) const { of(fault.uav).fix_lost = true; }
+  void operator()(const BatteryLoss& fault) const { of(fault.uav).most_charge = fault.charge; }
   template <class OfSomethingElse>
   void operator()(const OfSomethingElse&) const {}
 

@@ -19,6 +19,8 @@ struct VehicleCondition {
   Vector3d odometry_offset_m = Vector3d::Zero();  ///< in W
   std::array<double, kRotors> rotor_shares;       ///< of its thrust and torque that each rotor gives, [0, 1]
   Vector3d gust_W = Vector3d::Zero();             ///< that the air about it moves faster [m/s]
+  bool fix_lost = false;                          ///< of its position
+  double most_charge = 1.0;                       ///< share of the capacity that its battery can have
   int command_delay = 0;                          ///< exchanges, on top of the UAV's own latency
 
   VehicleCondition() { rotor_shares.fill(1.0); }

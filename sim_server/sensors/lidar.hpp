@@ -31,6 +31,9 @@ class Lidar {
   /// @param conditions  what it measures worse than its vehicle's file says; drawn with seed 0, too.
   Lidar(const LidarConfig& config, UavIndex uav, std::uint64_t seed, const LidarConditions& conditions = {});
 
+  /// @param conditions  for the scans that follow.
+  void change_conditions(const LidarConditions& conditions) { errors_.change(conditions); }
+
   /// Whether a scan falls on this tick: tick 0 and every period after it.
   bool due(Tick tick) const { return tick % period_ == 0; }
 

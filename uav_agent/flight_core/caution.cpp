@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "uav_agent/flight/delivery_places.hpp"
+#include "uav_agent/flight_core/landing.hpp"
 
 namespace skein::agent {
 namespace {
@@ -17,7 +18,7 @@ constexpr double kWindMemoryS = 20.0, kPowerMemoryS = 10.0;
 constexpr double kCalmMps = 1.0;  ///< gusts below this are no reason to fly slower
 constexpr double kLeastSpeedShare = 0.5;
 constexpr double kLeastGroundMps = 1.0;
-constexpr double kMarginS = 8.0, kDetours = 1.15;
+constexpr double kMarginS = 8.0;
 
 double square(double x) { return x * x; }
 double in_steps_m(double error_m) { return kErrorStepM * std::ceil(error_m / kErrorStepM - 1e-9); }
@@ -108,20 +109,22 @@ double Caution::way_down_s(const Vector3d& p_WB, const std::optional<Vector3d>& 
   // A vehicle keeps its commanded speed over ground while it can lean into the wind; what that costs is in the power.
   // The commanded speed is what is at risk: count with less of it against strong wind.
   const double ground_mps = std::max(kLeastGroundMps, std::min(config_.approach_mps, most_mps_) - 0.1 * head_mps);
-  const double across_s =
-      way_W.norm() > 1.0 ? time_home_s(p_WB, {start_W.x(), start_W.y(), p_WB.z()}, ground_mps) : 0.0;
-  return across_s + std::max(0.0, p_WB.z()) / config_.land_mps;
+  // It loses its height on the way, and sinks slowly only above the place.
+  const double down_s = Landing::descent_s(p_WB.z(), config_);
+  if (way_W.norm() <= 1.0) return down_s;
+  const Vector3d above_W(start_W.x(), start_W.y(), std::min(p_WB.z(), Landing::kFromM));
+  return std::max(down_s, time_home_s(p_WB, above_W, ground_mps) + Landing::descent_s(above_W.z(), config_));
 }
 
 bool Caution::must_land(const PlannerInput& in) const {
   if (!config_.reacts || !in.battery) return false;
-  const double needs_s = kDetours * way_down_s(in.state.p_WB, in.wind_W) + kMarginS;
+  const double needs_s = way_down_s(in.state.p_WB, in.wind_W) + kMarginS;
   return in.battery->charge < agent_.battery.reserve + needs_s * charge_per_s_;
 }
 
 bool Caution::must_sink(const PlannerInput& in) const {
   if (!config_.reacts || !in.battery) return false;
-  const double needs_s = kDetours * std::max(0.0, in.state.p_WB.z()) / config_.land_mps + kMarginS;
+  const double needs_s = Landing::descent_s(in.state.p_WB.z(), config_) + kMarginS;
   return in.battery->charge < needs_s * charge_per_s_;
 }
 

@@ -195,7 +195,8 @@ TEST(Caution, GoesHomeByTheChargeTheWayAndTheWind) {
   const double near = lands_at({0, 0, 10}, {}), far = lands_at({60, 0, 10}, {}), high = lands_at({0, 0, 40}, {});
   EXPECT_GT(near, reserve);
   EXPECT_GT(far, near + 0.005 * 60.0 / 6.0) << "60 m take 10 s at least";
-  EXPECT_NEAR(high - near, 1.15 * 0.005 * 30.0, 0.01) << "30 m more at 1 m/s";
+  EXPECT_NEAR(high - near, 0.005 * 30.0 / 3.0, 0.005) << "30 m more at climb_mps";
+  EXPECT_LT(lands_at({60, 0, 40}, {}), far + 0.005 * 10.0) << "it loses the height on the way";
   EXPECT_GT(lands_at({60, 0, 10}, Vector3d(10, 0, 0)), far) << "against the wind";
   EXPECT_NEAR(lands_at({60, 0, 10}, Vector3d(-10, 0, 0)), far, 1e-3) << "a tail wind is not counted on";
 }
@@ -232,7 +233,7 @@ TEST(Caution, MustSinkOnlyWhenTheDescentFromHereNeedsAllThatIsLeft) {
     uav.agent.duration_s = 200.0;  // at hover, half a percent of the charge a second
     const Caution caution(uav.flight_config, uav.agent);
     uav.state.p_WB = {60.0, 0.0, height_m};
-    const double descent_s = height_m / uav.flight_config.land_mps;
+    const double descent_s = Landing::descent_s(height_m, uav.flight_config);
     for (double charge = 1.0; charge > 0.0; charge -= 0.005) {
       uav.battery = BatteryStatus{.charge = charge};
       const bool sinks = caution.must_sink(uav.told());
@@ -250,7 +251,7 @@ TEST(FlightCore, AUavWithALowBatteryFliesToItsStartAndLands) {
   uav.boxes = {make_box({0.0, 15.0, 9.0}, {6.0, 6.0, 8.0})};
   FlightCore core(uav.flight_config, uav.agent);
   uav.state.p_WB = {12.0, -9.0, 12.0};
-  double charge = 0.5;
+  double charge = 0.5, landed_with = 0.0;
   bool landing = false;
   for (int i = 0; i < 2400; ++i, charge -= 0.005 * 0.05) {
     uav.battery = BatteryStatus{.charge = charge};
@@ -264,9 +265,12 @@ TEST(FlightCore, AUavWithALowBatteryFliesToItsStartAndLands) {
               {.tick = in.tick, .state = uav.state, .map = uav.map, .boxes = uav.boxes, .peers = uav.peers});
     uav.state.p_WB = uav.tracker.commanded().p_WB;
     uav.state.v_WB = uav.tracker.commanded().v_WB;
+    if (landing && uav.state.p_WB.z() < 0.2) landed_with = std::max(landed_with, charge);
     ++uav.k;
   }
   EXPECT_TRUE(landing);
+  EXPECT_GT(landed_with, uav.agent.battery.reserve - 0.01);
+  EXPECT_LT(landed_with, uav.agent.battery.reserve + 0.1) << "it could have worked for longer";
   EXPECT_LT(uav.state.p_WB.head<2>().norm(), 1.0) << "at its start";
   EXPECT_LT(uav.state.p_WB.z(), 0.0) << "its setpoint is below the ground: it stands firm";
 }

@@ -16,9 +16,10 @@ constexpr double kClearM = 3.0;          ///< the one before is this far up, or 
 constexpr double kStartPatienceS = 6.0;  ///< for each one before; after that it is taken to be broken
 constexpr double kRisenM = 1.2;          ///< so high above its start, a UAV may begin to work
 constexpr double kClimbGainM = 0.3;
-constexpr double kLowAsideM = 0.3;  ///< height above the start at which it flies to where it climbs instead
-constexpr double kNoLinkS = 4.0;    ///< at a place from which the station should be seen
-constexpr double kIdleS = 4.0;      ///< without a goal that can be flown to
+constexpr double kStepAsideM = 0.3;  ///< more than half a cube of the map
+constexpr double kLowAsideM = 0.3;   ///< height above the start at which it flies to where it climbs instead
+constexpr double kNoLinkS = 4.0;     ///< at a place from which the station should be seen
+constexpr double kIdleS = 4.0;       ///< without a goal that can be flown to
 constexpr std::int64_t kHome = -2;
 constexpr double kShowCheckS = 5.0;
 constexpr std::uint64_t kShowLook = 10;  ///< exchanges
@@ -172,6 +173,7 @@ void FlightCore::leave_ground(const PlannerInput& in, Steering& steering) {
   steering.motion = Path{{{*top_W_, config_.climb_mps}}};
   steering.gimbal = GimbalCommand{GimbalMode::angle, 0.0, 0.0};
   climbed_m_ = p_W.z();
+  stepped_aside_ = false;
   climbed_at_ = in.tick;
   enter(Mode::takeoff, in);
 }
@@ -231,6 +233,13 @@ void FlightCore::take_off(const PlannerInput& in, Steering& steering) {
     climb_aside(in, steering);
     return;
   }
+  // With more clearance than usual, the cube that counts may be right above, where a LiDAR never sees.
+  const bool looked = navigator_.sees() && seconds(in.tick - climbed_at_) > config_.look_s;
+  if (drifts(in) && !risen && looked && !stepped_aside_ && filter_.held().by == Held::By::unproved) {
+    stepped_aside_ = true;
+    climb_from(in.tracking.setpoint.p_WB + kStepAsideM * away_from_neighbours_W(in), in, steering);
+    return;
+  }
   if (drifts(in) && !risen && seconds(in.tick - climbed_at_) > waits_s) {
     filter_.set_trust(SafetyFilter::Trust::start);
     steering.motion = landing_.down_at(in.tracking.setpoint.p_WB, in);
@@ -251,13 +260,29 @@ void FlightCore::take_off(const PlannerInput& in, Steering& steering) {
 /// Beside its start, farther from the structure that holds it down.
 void FlightCore::climb_aside(const PlannerInput& in, Steering& steering) {
   climbed_at_ = in.tick;
-  const Vector3d p_W = in.state.p_WB;
-  const auto places_W = places_aside_W(p_W, top_W_->z(), filter_.tube_m(0.0), *in.world_map);
+  const auto places_W = places_aside_W(in.state.p_WB, top_W_->z(), filter_.tube_m(0.0), *in.world_map);
   if (places_W.empty()) return;
-  const Vector3d& place_W = places_W[next_aside_++ % places_W.size()];
-  const double low_m = std::max(p_W.z(), agent_.me().p_WB_start.z() + kLowAsideM);
+  Vector3d place_W = places_W[next_aside_++ % places_W.size()];
+  place_W.z() = std::max(place_W.z(), agent_.me().p_WB_start.z() + kLowAsideM);
+  climb_from(place_W, in, steering);
+}
+
+/// Flies to a place beside, and climbs from there.
+void FlightCore::climb_from(const Vector3d& place_W, const PlannerInput& in, Steering& steering) {
+  climbed_at_ = in.tick;
   top_W_ = Vector3d(place_W.x(), place_W.y(), top_W_->z());
-  steering.motion = Path{{{{place_W.x(), place_W.y(), low_m}, config_.tight_mps}, {*top_W_, config_.climb_mps}}};
+  steering.motion = Path{{{place_W, config_.tight_mps}, {*top_W_, config_.climb_mps}}};
+}
+
+/// Horizontal unit vector, mostly away from the nearest of those that start near by.
+Vector3d FlightCore::away_from_neighbours_W(const PlannerInput& in) const {
+  Vector3d away_W = Vector3d::Zero();
+  for (const Peer& peer : in.peers.all()) {
+    Vector3d off_W = in.state.p_WB - peer.p_W;
+    off_W.z() = 0.0;
+    if (off_W.norm() > 0.0 && off_W.norm() <= kCrowdM) away_W += off_W.normalized() / off_W.squaredNorm();
+  }
+  return away_W.norm() > 0.0 ? Vector3d(away_W.normalized()) : Vector3d::UnitX();
 }
 
 /// Of the navigator, since it was last asked.

@@ -65,6 +65,8 @@ class FlightCore {
 
   void leave_ground(const PlannerInput& in, Steering& steering);
   void take_off(const PlannerInput& in, Steering& steering);
+  void climb_from(const Vector3d& place_W, const PlannerInput& in, Steering& steering);
+  Vector3d away_from_neighbours_W(const PlannerInput& in) const;
   void climb_aside(const PlannerInput& in, Steering& steering);
   std::vector<Outcome> outcomes();
   void work(const PlannerInput& in, Steering& steering);
@@ -96,6 +98,7 @@ class FlightCore {
   std::optional<Vector3d> top_W_;    ///< where the climb of the takeoff ends
   bool sinks_back_ = false;          ///< it gave up a takeoff, and is not on the ground yet
   std::size_t next_aside_ = 0;       ///< index of the place beside the start that the takeoff tries next
+  bool stepped_aside_ = false;       ///< in this climb
   double climbed_m_ = 0.0;           ///< height reached in the climb, at climbed_at_
   Tick climbed_at_ = 0;
   Tick show_at_ = 0;                    ///< earliest time of the next look for a mate to show its way

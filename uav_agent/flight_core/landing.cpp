@@ -9,10 +9,9 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kFromM = 5.0;         ///< above a site, before the UAV sinks to it
 constexpr double kRoomM = 0.5;         ///< between landing places, beyond what the filter demands now
 constexpr double kBelowGroundM = 1.0;  ///< of the setpoint of a UAV that has landed: it stands firm
-constexpr double kAboveSiteM = 0.6;    ///< horizontal distance at which a UAV is above a site
+constexpr double kAboveSiteM = 0.6;    ///< distance, across or down, at which a UAV is above a site
 constexpr double kRingsM[] = {4.0, 8.0, 12.0};
 constexpr int kRingHeadings = 8;
 constexpr double kSinksM = 0.3, kHeldS = 10.0, kOtherSiteM = 2.0;
@@ -20,6 +19,11 @@ constexpr double kSinksM = 0.3, kHeldS = 10.0, kOtherSiteM = 2.0;
 double across_m(const Vector3d& a_W, const Vector3d& b_W) { return (a_W - b_W).head<2>().norm(); }
 
 }  // namespace
+
+double Landing::descent_s(double height_m, const FlightConfig& config) {
+  const double slow_m = std::clamp(height_m, 0.0, kFromM);
+  return std::max(0.0, height_m - kFromM) / config.climb_mps + slow_m / config.land_mps;
+}
 
 void Landing::begin(Steering& steering) {
   navigator_.stop(steering);
@@ -120,7 +124,9 @@ void Landing::sink(const PlannerInput& in, bool must_sink, Steering& steering) {
 Path Landing::down_at(const Vector3d& place_W, const PlannerInput& in) const {
   Path path;
   const Vector3d at_W(place_W.x(), place_W.y(), 0.0);
-  if (in.state.p_WB.z() > kFromM && across_m(place_W, in.tracking.setpoint.p_WB) > kAboveSiteM) {
+  const Vector3d& setpoint_W = in.tracking.setpoint.p_WB;
+  const bool beside = across_m(place_W, setpoint_W) > kAboveSiteM, above = setpoint_W.z() > kFromM + kAboveSiteM;
+  if (in.state.p_WB.z() > kFromM && (beside || above)) {
     path.waypoints.push_back({at_W + Vector3d(0.0, 0.0, kFromM), config_.climb_mps});
   }
   path.waypoints.push_back({at_W - Vector3d(0.0, 0.0, kBelowGroundM), config_.land_mps});

@@ -12,6 +12,10 @@ namespace skein::agent {
 
 class Landing {
  public:
+  static constexpr double kFromM = 5.0;  ///< height of the place above a site from which the UAV sinks slowly
+  /// Time to sink from a height to the ground [s]: with climb_mps down to kFromM, then with land_mps.
+  static double descent_s(double height_m, const FlightConfig& config);
+
   /// @param config, agent, filter, navigator  must outlive this.
   Landing(const FlightConfig& config, const AgentConfig& agent, SafetyFilter& filter, Navigator& navigator)
       : config_(config), agent_(agent), filter_(filter), navigator_(navigator) {}

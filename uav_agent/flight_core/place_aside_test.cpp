@@ -19,20 +19,15 @@ AgentConfig explorer_at_its_start() {
   return agent;
 }
 
-/// On the ground, beside a wall of 6 m width and 12 m height at a distance in some direction.
-struct BesideAWall : FlownUav {
-  BesideAWall(double direction, double off_m) : FlownUav(explorer_at_its_start(), {0.0, 0.0, 0.16}) {
-    clear({-12.0, -12.0, 0.0}, {12.0, 12.0, 20.0});
+/// On the ground.
+struct Climber : FlownUav {
+  Climber() : FlownUav(explorer_at_its_start(), {0.0, 0.0, 0.16}) {
     boxes = {make_box({20.0, 0.0, 6.0}, {4.0, 4.0, 12.0})};
-    const Vector3d ahead(std::cos(direction), std::sin(direction), 0.0), along = Vector3d::UnitZ().cross(ahead);
-    for (double side_m = -3.0; side_m <= 3.0; side_m += 0.2) {
-      const Vector3d foot_W = off_m * ahead + side_m * along;
-      build(foot_W, foot_W + Vector3d(0.0, 0.0, 12.0));
-    }
     tracker = Tracker(Tracker::Config{.max_acceleration_mps2 = 2.8});  // it stands
   }
   void exchange() {
     PlannerInput in = input();
+    in.uncertainty.position_m = deviation_in_flight_m(agent.odometry);
     core.update(in);
     in.flight = core.state();
     works = works || in.flight.working;
@@ -53,6 +48,18 @@ struct BesideAWall : FlownUav {
   FlightCore core{config, agent};
   double nearest_m = 1e9;
   bool works = false, was_held = false;
+};
+
+/// Beside a wall of 6 m width and 12 m height at a distance in some direction.
+struct BesideAWall : Climber {
+  BesideAWall(double direction, double off_m) {
+    clear({-12.0, -12.0, 0.0}, {12.0, 12.0, 20.0});
+    const Vector3d ahead(std::cos(direction), std::sin(direction), 0.0), along = Vector3d::UnitZ().cross(ahead);
+    for (double side_m = -3.0; side_m <= 3.0; side_m += 0.2) {
+      const Vector3d foot_W = off_m * ahead + side_m * along;
+      build(foot_W, foot_W + Vector3d(0.0, 0.0, 12.0));
+    }
+  }
 };
 
 TEST(PlaceAside, AUavBesideAWallGetsUpAndComesNoNearer) {
@@ -95,6 +102,42 @@ TEST(PlaceAside, ThereIsNoneWithoutStructureAndNoneInAShaft) {
     }
   }
   EXPECT_TRUE(places_aside_W(free.state.p_WB, 6.0, 2.0, free.map).empty());
+}
+
+/// Under one cube that its LiDAR does not see from there.
+struct UnderABlindCube : Climber {
+  explicit UnderABlindCube(const Vector2d& off_m) {
+    state.p_WB.head<2>() = Vector2d(0.25, 0.25) + off_m;
+    agent.fleet.front().p_WB_start = state.p_WB;
+    agent.odometry = conditions_preset("harsh").odometry;
+    see(WorldMap::Cube(0, 0, 4));
+  }
+  /// All smallest cubes about its way up but for one.
+  void see(const WorldMap::Cube& blind) {
+    for (int x = -12; x < 12; ++x) {
+      for (int y = -12; y < 12; ++y) {
+        for (int z = 0; z < 24; ++z) {
+          if (WorldMap::Cube(x, y, z) != blind) map.hear({x, y, z}, 0, Space::free, kOwn);
+        }
+      }
+    }
+  }
+};
+
+TEST(PlaceAside, WhatItsLidarNeverSeesRightAboveAUavSeesFromBeside) {
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    RandomStream random(seed, "place_aside_test", 2);
+    UnderABlindCube uav({random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1)});
+    const Vector3d begun_W = uav.state.p_WB;
+    bool unproved = false;
+    for (int i = 0; i < 1200 && !uav.works; ++i) {
+      uav.exchange();
+      unproved = unproved || uav.core.filter().held().by == Held::By::unproved;
+      if ((uav.state.p_WB - begun_W).head<2>().norm() > 0.2) uav.see({-1, -1, -1});
+    }
+    EXPECT_TRUE(unproved) << seed;
+    EXPECT_TRUE(uav.works) << seed << ", at " << uav.state.p_WB.transpose();
+  }
 }
 
 }  // namespace

@@ -6,10 +6,11 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kSampleM = 0.3;      ///< between two places of a way that are looked at
-constexpr double kNearerM = 1e-6;     ///< rounding, where nothing may come nearer
-constexpr double kNoiseSigmas = 4.0;  ///< so many of the odometry's noise are no motion
-constexpr double kPeerDelayS = 0.1;   ///< a UAV may fly on so long before it brakes: one exchange and a late command
+constexpr double kSampleM = 0.3;       ///< between two places of a way that are looked at
+constexpr double kNearerM = 1e-6;      ///< rounding, where nothing may come nearer
+constexpr double kHeightSigmas = 2.0;  ///< so much a standing UAV may be told to be above the ground
+constexpr double kNoiseSigmas = 4.0;   ///< so many of the odometry's noise are no motion
+constexpr double kPeerDelayS = 0.1;    ///< a UAV may fly on so long before it brakes: one exchange and a late command
 constexpr double kPeerBrakesMps2 = 2.0;
 /// Commands are means over so long (tracker.hpp): braking begins that much softer.
 constexpr double kPeerSmoothS = 0.4;
@@ -97,7 +98,7 @@ std::optional<TrajectoryCommand> SafetyFilter::step(Tracker& tracker, const Fact
   held_ = {};
   const bool flies = tracker.moves() && tracker.tracking().airborne;
   now_W_ = flies ? tracker.commanded().p_WB : facts.state.p_WB;
-  nearer_m_ = std::max(kNearerM, flies ? 0.0 : kNoiseSigmas * agent_.odometry.noise_sigma_m);
+  nearer_m_ = std::max(kNearerM, (flies ? 0.1 : kNoiseSigmas) * agent_.odometry.noise_sigma_m);
   const double dt_s = agent_.exchange_period_s;
   if (!tracker.moves()) return tracker.step(facts.state, dt_s);
   ++counts_.exchanges;
@@ -157,24 +158,33 @@ Vector3d SafetyFilter::certain_W(const Vector3d& a_W) const {
   return change_mps > noise_mps ? Vector3d(a_W * (1.0 - noise_mps / change_mps)) : Vector3d::Zero();
 }
 
+/// A UAV that is told to be slow and as low as the errors of two heights explain stands on the ground. One beside it,
+/// which knows that it stands there, too, does not have to climb past its height as told.
+bool SafetyFilter::stands(const Peer& peer) const {
+  const double error_m = kHeightSigmas * std::sqrt(2.0) * peer.deviation_m.z();
+  const double slow_mps = kRestsMps + kNoiseSigmas * agent_.odometry.velocity_sigma_mps;
+  return error_m > 0.0 && peer.v_W.norm() < slow_mps && peer.p_W.z() < agent_.fleet[peer.uav].p_WB_start.z() + error_m;
+}
+
 std::vector<SafetyFilter::PeerReach> SafetyFilter::reach_of_peers(const Facts& facts) const {
   std::vector<PeerReach> reach;
   for (const Peer& peer : facts.peers.all()) {
     if (!peer.seen || (trust_ == Trust::start && !peer.left_start)) continue;
     const double age_s = peer.visible ? 0.0 : seconds(facts.tick - *peer.seen);
     if (age_s > config_.peer_memory_s) continue;
-    Vector3d v_W = peer.v_W;
+    Vector3d p_W = peer.p_W, v_W = peer.v_W;
+    if (stands(peer)) p_W.z() = std::min(p_W.z(), agent_.fleet[peer.uav].p_WB_start.z());
     const Vector3d soon_W = peer.v_W + kPeerLagS * certain_W(peer.a_W);
     if (peer.visible && soon_W.norm() > v_W.norm()) v_W = soon_W;
     const double speed_mps = v_W.norm();
-    Vector3d to_W = peer.p_W;
+    Vector3d to_W = p_W;
     // One that is heard may have changed its mind since. Who rests goes nowhere before it is heard again.
     if (speed_mps > std::max(kRestsMps, kNoiseSigmas * agent_.odometry.velocity_sigma_mps))
       to_W += v_W * (stopping_m(speed_mps) / speed_mps);
     const double apart_m = apart_if_exact_m(peer.uav, facts.state.v_WB.norm()) + (peer.visible ? 0.0 : kUnheardM);
-    const double now_m = from_segment(now_W_, peer.p_W, to_W).norm();
+    const double now_m = from_segment(now_W_, p_W, to_W).norm();
     if (now_m > kFarM) continue;
-    reach.push_back({peer.uav, peer.p_W, to_W, apart_m, error_of_m(peer.uav), now_m, (now_W_ - peer.p_W).norm()});
+    reach.push_back({peer.uav, p_W, to_W, apart_m, error_of_m(peer.uav), now_m, (now_W_ - p_W).norm()});
   }
   return reach;
 }

@@ -123,6 +123,7 @@ class SafetyFilter {
   Vector3d error_of_m(std::size_t uav) const;
   bool has_room(const Facts& facts) const;
   Vector3d certain_W(const Vector3d& a_W) const;
+  bool stands(const Peer& peer) const;
   std::vector<PeerReach> reach_of_peers(const Facts& facts) const;
   std::optional<TrajectoryCommand> move_on(Tracker& tracker, const Facts& facts, double most_mps,
                                            const std::vector<PeerReach>& peers);

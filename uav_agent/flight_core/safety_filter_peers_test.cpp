@@ -9,6 +9,33 @@
 namespace skein::agent {
 namespace {
 
+// By their odometry, one of two UAVs that stand side by side is higher by what both are off. That must not keep the
+// other one on the ground; one that hovers above the ground, or moves, does.
+TEST(SafetyFilter, AUavClimbsBesideOneThatStandsHoweverHighThatIsTold) {
+  int held = 0;
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    RandomStream random(seed, "stands_beside", 0);
+    AgentConfig agent;
+    const double heading = random.uniform(-3.1, 3.1), off_m = random.uniform(1.1, 1.6);
+    const Vector3d beside_W(off_m * std::cos(heading), off_m * std::sin(heading), 0.16);
+    agent.fleet = {{.name = "a", .p_WB_start = {0.0, 0.0, 0.16}}, {.name = "b", .p_WB_start = beside_W}};
+    agent.odometry = conditions_preset("harsh").odometry;
+    FlownUav uav(agent, {0.0, 0.0, 0.16});
+    uav.clear({-12.0, -12.0, 0.0}, {12.0, 12.0, 12.0});
+    const Vector3d deviation_m = deviation_in_flight_m(agent.odometry);
+    uav.filter.expect({.peers_m = {Vector3d::Zero(), 2.0 * deviation_m}});
+    const auto climbs = [&](double told_m, const Vector3d& v_W) {
+      Peers peers(uav.agent);
+      peers.update(uav.input().tick, {{node_of_uav(UavIndex{1}), beside_W + Vector3d(0.0, 0.0, told_m), v_W}});
+      return uav.filter.clear_up_to(3.0, {uav.input().tick, uav.state, uav.map, uav.boxes, peers});
+    };
+    EXPECT_TRUE(climbs(random.uniform(0.0, 1.0) * std::sqrt(2.0) * agent.odometry.bias_sigma_m, Vector3d::Zero()));
+    EXPECT_FALSE(climbs(random.uniform(1.6, 2.4), Vector3d::Zero())) << seed << ": it hovers";
+    held += climbs(random.uniform(0.3, 1.0), {0.0, 0.0, random.uniform(0.6, 2.0)}) ? 0 : 1;
+  }
+  EXPECT_GT(held, 20) << "one that climbs is in the way where it is told to be";
+}
+
 // Both want to be where the other one is, or across its way.
 TEST(SafetyFilter, TwoUavsNeverTouch) {
   double nearest_m = 1e9;

@@ -160,6 +160,7 @@ const kKinds = {
   link: 'link', partition: 'partition', blackout: 'radio blackout', station_outage: 'radio outage', kill: 'killed',
   pause: 'paused', lidar_failure: 'LiDAR fails', camera_failure: 'camera fails', motor_failure: 'rotor weak',
   command_delay: 'commands late', odometry_freeze: 'odometry frozen', odometry_jump: 'odometry jumped', stuck_gimbal: 'gimbal stuck',
+  gust: 'gust', fix_loss: 'position fix lost', battery_loss: 'battery loses charge', conditions: 'conditions change',
 };
 const targetText = ({kind, of}) => (kind === 'link' ? of.replaceAll(kStation, 'station').replace(' > ', ' to ') : of === kStation ? 'station' : of);
 

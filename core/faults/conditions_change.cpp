@@ -1,0 +1,90 @@
+#include "core/faults/conditions_change.hpp"
+
+#include <array>
+#include <utility>
+
+#include "core/conditions_keys.hpp"
+#include "core/config/config_writer.hpp"
+
+namespace skein {
+namespace {
+
+/// Values that are drawn, sized or told to programs when a run begins.
+constexpr std::array kFixedKeys = {std::pair("wind", "from_deg"),        std::pair("odometry", "bias_sigma_m"),
+                                   std::pair("odometry", "latency_s"),   std::pair("odometry", "mean_fix_s"),
+                                   std::pair("odometry", "known_start"), std::pair("battery", "endurance_missions"),
+                                   std::pair("battery", "reserve"),      std::pair("battery", "sag"),
+                                   std::pair("battery", "cells"),        std::pair("radio", "decorrelation_m"),
+                                   std::pair("radio", "rate_share")};
+
+/// Reads values onto conditions: a key that is absent stays.
+void read_onto(ConditionsConfig& conditions, const ConfigNode& values, const std::string& path, ConfigErrors& errors) {
+  config_detail::read_value(config_detail::Place{values, path, errors}, conditions, Bounds{});
+}
+
+/// The scenario's values of kFixedKeys, as a section `conditions`.
+ConfigNode fixed_values(const ConditionsConfig& conditions) {
+  const ConfigNode all = ConfigWriter::node_of(conditions).value_or(ConfigNode::make_map());
+  ConfigNode fixed = ConfigNode::make_map();
+  for_each_section([&](const char* section, auto) {
+    ConfigNode keys = ConfigNode::make_map();
+    for (const auto& [of, key] : kFixedKeys) {
+      if (std::string(of) != section) continue;
+      const ConfigNode* value = all.find(section)->find(key);
+      keys.add(key, value ? *value : ConfigNode{});
+    }
+    fixed.add(section, std::move(keys));
+  });
+  return fixed;
+}
+
+/// A preset among the values brings a value for each key: those that cannot change stay the scenario's.
+ConditionsConfig with_change(const ConditionsConfig& before, const ConfigNode& values, const ConfigNode& fixed) {
+  ConditionsConfig after = before;
+  const ConfigDocument document{"conditions", values};
+  ConfigErrors errors(document);
+  read_onto(after, values, "", errors);
+  read_onto(after, fixed, "", errors);
+  errors.throw_if_any();
+  return after;
+}
+
+}  // namespace
+
+std::optional<ConditionsConfig> changed_conditions(const FaultPlan& plan, const Scenario& scenario, Tick tick) {
+  std::optional<ConditionsConfig> now;
+  for (const Fault& fault : plan.faults) {
+    const auto* change = std::get_if<ConditionsChange>(&fault.action);
+    if (change == nullptr || !fault.active(tick)) continue;
+    now = with_change(now.value_or(scenario.conditions), change->values, fixed_values(scenario.conditions));
+  }
+  return now;
+}
+
+void check_conditions_change(const ConfigNode& values, const Scenario& scenario, const std::string& path,
+                             ConfigErrors& errors) {
+  errors.check(!values.keys.empty(), path, "must have values of conditions, as {wind: {mean_mps: 12}}");
+  for (const auto& [section, key] : kFixedKeys) {
+    const ConfigNode* part = values.find(section);
+    errors.check(part == nullptr || part->find(key) == nullptr, path + "." + section + "." + key,
+                 "cannot change in a run");
+  }
+  ConditionsConfig after = scenario.conditions;
+  const std::size_t errors_before = errors.count();
+  read_onto(after, values, path, errors);
+  if (errors.count() > errors_before) return;
+  read_onto(after, fixed_values(scenario.conditions), path, errors);
+  // These have a state that begins with the run.
+  const auto check_part = [&](const char* section, auto member) {
+    errors.check((scenario.conditions.*member).on() || !(after.*member).on(), path + "." + section,
+                 "is off in the scenario, and a fault cannot switch it on: fly with --conditions " +
+                     std::string(section) + "=breezy, say");
+  };
+  check_part("wind", &ConditionsConfig::wind);
+  check_part("odometry", &ConditionsConfig::odometry);
+  check_part("battery", &ConditionsConfig::battery);
+  check_part("radio", &ConditionsConfig::radio);
+  errors.check(!scenario.conditions.radio.on() || after.radio.on(), path + ".radio", "cannot switch the path loss off");
+}
+
+}  // namespace skein
