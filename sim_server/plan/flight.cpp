@@ -71,7 +71,9 @@ class Pilot {
 
 }  // namespace
 
-PlanFlight fly_plan(const Scenario& scenario, const Scene& scene, const PlanConfig& config, const Plan& plan) {
+PlanFlight fly_plan(const Scenario& of_scenario, const Scene& scene, const PlanConfig& config, const Plan& plan) {
+  Scenario scenario = of_scenario;
+  scenario.conditions = {};  // estimates are those of an ideal world (docs/conditions.md)
   const Team team(scenario, config);
   Simulation sim(scenario, scene, 0);
   std::vector<Pilot> pilots;

@@ -16,6 +16,9 @@ TEST(PlanFlown, AtASmallSite) {
   EXPECT_GE(flown.score, 0.95 * plan.score);
   EXPECT_LT(flown.astray_m, site.config.margin_m);
   EXPECT_EQ(fly_plan(site.scenario, site.scene, site.config, plan), flown);
+  Scenario harsh = site.scenario;
+  harsh.conditions = conditions_preset("harsh");
+  EXPECT_EQ(fly_plan(harsh, site.scene, site.config, plan), flown) << "an estimate is that of an ideal world";
 }
 
 /// A third of the mission: less is searched, and flown.

@@ -42,10 +42,10 @@ Peers all_in_sight(const AgentConfig& agent) {
   return peers;
 }
 
-std::vector<DetectedPoint> drawn_points(RandomStream& random, int count) {
+std::vector<DetectedPoint> drawn_points(RandomStream& random, int count, double reach_m = 60.0) {
   std::vector<DetectedPoint> points;
   for (int i = 0; i < count; ++i) {
-    const auto along = [&] { return static_cast<float>(random.uniform(-60.0, 60.0)); };
+    const auto along = [&] { return static_cast<float>(random.uniform(-reach_m, reach_m)); };
     Eigen::Vector3f normal(along(), along(), along());
     points.push_back(
         {{along(), along(), along()}, random.uniform(0.2, 1.0), static_cast<std::uint32_t>(i), normal.normalized()});
@@ -100,6 +100,31 @@ TEST(FlockPoints, AllEndUpWithTheBestOfAllWhateverIsLost) {
     uavs[1] = FlockPoints();
     talk(80);
     EXPECT_EQ(qualities(uavs[1]), best) << "seed " << seed;
+  }
+}
+
+/// A dense region has more points than a message has room for.
+TEST(FlockPoints, DenseRegionsGoOutInSlices) {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    RandomStream random(seed, "points", 1);
+    std::vector<FlockPoints> uavs(3);
+    uavs[0].detect(drawn_points(random, 1500, 8.0), Vector3d::Zero());
+    uavs[1].detect(drawn_points(random, 60), Vector3d::Zero());
+    Tick now = 0;
+    for (int round = 0; round < 120; ++round, now += 200) {
+      for (std::size_t from = 0; from < uavs.size(); ++from) {
+        PayloadWriter writer;
+        uavs[from].write(all_in_sight(three_uavs(from)), now, 1500, writer);
+        ASSERT_LE(writer.size(), kMaxPayloadBytes);
+        for (std::size_t to = 0; to < uavs.size(); ++to) {
+          PayloadReader reader(writer.data());
+          if (to == from || random.bits() % 4 == 0) continue;
+          EXPECT_TRUE(uavs[to].read(from, now, reader));
+        }
+      }
+    }
+    EXPECT_GT(uavs[2].all().size(), 1000U) << "seed " << seed;
+    for (const FlockPoints& points : uavs) EXPECT_EQ(qualities(points), qualities(uavs[2])) << "seed " << seed;
   }
 }
 

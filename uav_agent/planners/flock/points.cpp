@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace skein::agent {
 namespace {
@@ -92,19 +93,36 @@ void FlockPoints::write(const Peers& peers, Tick now, std::size_t room, PayloadW
   std::uint16_t count = 0;
   for (std::size_t i = 0; i < lacking.size(); ++i) {
     const auto& [cell, region] = *lacking[(next_ + i) % lacking.size()];
-    if (chosen.size() + kPointBytes * region.points.size() > room) break;
-    write_region(cell, region, chosen);
+    const std::size_t most = (room - std::min(room, chosen.size())) / kPointBytes;
+    if (region.points.size() > most) {
+      if (count == 0) count += write_slice(cell, region, most, chosen);
+      break;
+    }
+    write_region(cell, region, 0, region.points.size(), chosen);
     ++count;
   }
-  next_ += count;
+  if (slice_ == 0) next_ += count;
   writer.u16(count);
   writer.bytes(chosen.data());
 }
 
-void FlockPoints::write_region(const Cell& cell, const Region& region, PayloadWriter& writer) const {
+/// The next `most` points of a region that has more than fit in one message.
+std::uint16_t FlockPoints::write_slice(const Cell& cell, const Region& region, std::size_t most,
+                                       PayloadWriter& writer) const {
+  if (slice_ >= region.points.size()) slice_ = 0;  // it was that of another region
+  const std::size_t count = std::min(most, region.points.size() - slice_);
+  write_region(cell, region, slice_, count, writer);
+  slice_ = slice_ + count < region.points.size() ? slice_ + count : 0;
+  return 1;
+}
+
+void FlockPoints::write_region(const Cell& cell, const Region& region, std::size_t first, std::size_t count,
+                               PayloadWriter& writer) const {
   for (const std::int16_t along : cell) writer.u16(static_cast<std::uint16_t>(along));
-  writer.u16(static_cast<std::uint16_t>(region.points.size()));
-  for (const auto& [place, index] : region.points) {
+  writer.u16(static_cast<std::uint16_t>(count));
+  auto next = std::next(region.points.begin(), static_cast<std::ptrdiff_t>(first));
+  for (std::size_t i = 0; i < count; ++i, ++next) {
+    const auto& [place, index] = *next;
     for (const std::uint16_t cm : place) writer.u16(cm);
     const FlockPoint& point = points_[index];
     for (int i = 0; i < 3; ++i) writer.u8(component(point.n_W[i]));

@@ -62,13 +62,16 @@ class FlockPoints {
 
   void take(const Vector3d& p_W, const Vector3d& n_W, double q, const Vector3d* p_WC);
   std::uint16_t hash_of(const Region& region) const;
-  void write_region(const Cell& cell, const Region& region, PayloadWriter& writer) const;
+  std::uint16_t write_slice(const Cell& cell, const Region& region, std::size_t most, PayloadWriter& writer) const;
+  void write_region(const Cell& cell, const Region& region, std::size_t first, std::size_t count,
+                    PayloadWriter& writer) const;
   bool read_region(PayloadReader& reader);
 
   std::vector<FlockPoint> points_;
   std::map<Cell, Region> regions_;
   std::map<std::size_t, Account> accounts_;  ///< by sender: what it said that it has
   mutable std::size_t next_ = 0;             ///< regions take turns
+  mutable std::size_t slice_ = 0;            ///< first point of the next slice of a region; 0: no slice is due
 };
 
 }  // namespace skein::agent

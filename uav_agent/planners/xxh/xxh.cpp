@@ -165,7 +165,7 @@ void XxhPlanner::enter_region(std::size_t index, const PlannerInput& in) {
 
 /// Where the team comes from to a region: the far end of the one before, or its leader's start.
 Vector3d XxhPlanner::end_before(std::size_t index, const PlannerInput& in) const {
-  if (index == 0) return agent_.fleet[crew_.leader()].p_WB_start;
+  if (index == 0 || crew_.regions().empty()) return agent_.fleet[crew_.leader()].p_WB_start;
   if (site_ && index == region_index_ + 1) return site_.far_end_W();
   const XxhRegion& last = crew_.regions()[(index - 1) % crew_.regions().size()];
   return far_end(last, in.boxes[last.box]);
