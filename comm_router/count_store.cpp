@@ -15,7 +15,7 @@ namespace skein::router {
 
 static_assert(std::is_trivially_copyable_v<LinkCounts>);
 
-/// What the file begins with.
+/// The beginning of the file.
 struct CountStore::Head {
   std::array<char, 8> magic{'s', 'k', 'e', 'i', 'n', 'c', 'n', 't'};
   RunId run = RunId::none;
@@ -38,7 +38,8 @@ CountStore::CountStore(const std::filesystem::path& file, std::size_t nodes, Run
     counts_ = {nodes, std::move(links)};
     return;
   }
-  // New, or of another run: none of ours. Written in full now: a disk that is full says so before the first count.
+  // A new file, or one of another run: all counts begin at 0. Writes the file in full length at once, so that a full
+  // disk is noticed before the first count.
   if (!write(0, &ours, sizeof ours) || !write(sizeof ours, counts_.row_major().data(), bytes) ||
       ::ftruncate(fd_, static_cast<off_t>(sizeof ours + bytes)) != 0) {
     const std::system_error error = failure();

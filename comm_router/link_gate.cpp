@@ -28,8 +28,8 @@ GatedStep LinkGate::gate(std::uint64_t k, const Links& links, const std::vector<
     std::ranges::move(arrival->second, std::back_inserter(step.deliveries));
   }
   in_flight_.erase(in_flight_.begin(), due);
-  // Stable: two programs of one node may use the same topic and number; for each target they stay in the order of
-  // sending. Targets count by their node, since a route may have got them one by one.
+  // Stable: two programs of one node may use the same topic and sequence number; for each target, their messages stay
+  // in the order of sending. Targets are ordered by node, not by index, which depends on when a route got them.
   std::ranges::stable_sort(step.deliveries, {}, [&](const Delivery& delivery) {
     const RadioRoute& route = routes_[delivery.route];
     return std::tuple<Node, const std::string&, std::uint64_t, Node>(route.source, route.ros_topic, delivery.sequence,
@@ -76,7 +76,7 @@ std::vector<std::uint8_t> LinkGate::digest(const std::vector<Delivery>& deliveri
   const std::vector<std::uint8_t>* hashed = nullptr;
   std::array<std::uint8_t, 32> payload_hash{};
   for (const Delivery& delivery : deliveries) {
-    if (delivery.payload.get() != hashed) {  // the same message for several targets lies side by side
+    if (delivery.payload.get() != hashed) {  // copies of a message for several targets follow each other
       hashed = delivery.payload.get();
       payload_hash = Sha256().add(std::span(*hashed)).digest();
     }

@@ -9,10 +9,10 @@
 namespace skein::router {
 namespace {
 
-/// Of the serialised message, behind the header that says how it is encoded.
+/// Length of the encapsulation header, which precedes the content of a serialised message.
 constexpr std::size_t kEncapsulationBytes = 4;
 
-/// One bit is flipped, or three: an odd number, so that it differs. What has no content is left as it is.
+/// A copy with one or three flipped bits: an odd number, so that it differs. nullptr if the message has no content.
 Payload with_flipped_bits(const std::vector<std::uint8_t>& bytes, RandomStream& random) {
   if (bytes.size() <= kEncapsulationBytes) return nullptr;
   auto damaged = std::make_shared<std::vector<std::uint8_t>>(bytes);
@@ -90,7 +90,7 @@ void LinkStages::set_by_hand(const std::vector<Fault>& faults) {
   cut_step_ = ~std::uint64_t{0};
 }
 
-/// Of the stages of a fault that has got one meanwhile; their state goes on.
+/// Sets the end of a fault's stages once it is known; their state is kept.
 void LinkStages::set_end(std::size_t fault) {
   const auto end = faults_.faults[fault].end();
   for (const Node from : scenario_.nodes()) {
@@ -121,8 +121,8 @@ LinkFate LinkStages::fate(std::uint64_t k, const RadioRoute& route, Node target,
   return {.delay_steps = delay, .copies = passage.twice ? 2 : 1, .payload = std::move(passage.payload)};
 }
 
-// All numbers are drawn for every message, whether they are needed or not, so that each effect sees the same ones
-// whatever the others are set to.
+// Draws all random numbers for every message, whether they are needed or not, so that the numbers of one effect do not
+// depend on the settings of the others.
 void LinkStages::pass(Stage& stage, std::uint64_t k, const RadioRoute& route, const SentMessage& message,
                       Passage& passage) {
   const LinkEffect& effect = stage.effect;
@@ -156,7 +156,7 @@ bool LinkStages::queue(Stage& stage, std::uint64_t k, double size_bytes, double&
   return true;
 }
 
-// The chain of states begins good with the effect itself; a router that starts in the middle walks it from there.
+// The chain begins in the good state in the effect's first step. A restarted router recomputes it from there.
 bool LinkStages::in_burst(Stage& stage, std::uint64_t k) const {
   const BurstLoss& burst = *stage.effect.burst_loss;
   while (stage.burst_step < k) {

@@ -1,4 +1,4 @@
-// comm_router: relays radio messages between the domains of the nodes, as far as there is line of sight.
+// comm_router: relays radio messages between the domains of the nodes, as far as the radio links permit.
 #include "comm_router/router_program.hpp"
 #include "process/host/environment.hpp"
 

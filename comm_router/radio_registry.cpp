@@ -57,7 +57,7 @@ void RadioRegistry::send(const RadioRequest& request) {
   const std::size_t route = table_.open(request.asker.node, request.name, request.type, request.targets);
   asked.insert(route);
   endpoints_.open(route);
-  // Asking again is allowed; the last request is the one that is answered.
+  // A member may ask again; only its last request is answered.
   std::erase_if(sendings_, [&](const Sending& s) { return by_asker(s) && s.route == route; });
   sendings_.push_back({.asker = request.asker, .route = route});
 }
@@ -152,7 +152,7 @@ void RadioRegistry::settle_sendings() {
 
 void RadioRegistry::settle_listenings() {
   for (Listening& listening : listenings_) {
-    if (listening.state != State::asked) continue;  // refused, or told already
+    if (listening.state != State::asked) continue;  // open, or refused already
     const auto arrives = [&](const RadioRoute& route) {
       return route.ros_topic == listening.ros_topic &&
              std::ranges::find(route.targets, listening.asker.node, &RadioTarget::node) != route.targets.end();

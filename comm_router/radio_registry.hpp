@@ -1,6 +1,7 @@
-// Radio topics that members register during the run (docs/radio.md): who may send what to whom, who listens, and which
-// replies they get. A request takes effect in the step in which it was made, however long discovery takes: the router
-// completes that step only when both ends have matched, or when it has waited too long and refuses the request.
+// Radio topics that members register during the run (docs/radio.md): which members may send on them, to which nodes,
+// which members listen, and which replies they get. A request takes effect in the step in which it was made, however
+// long discovery takes: the router completes that step only when both ends have matched, or when it has waited too long
+// and refuses the request.
 // Pure; no bus. Not thread-safe.
 #pragma once
 
@@ -69,10 +70,10 @@ struct AwaitedRequest {
 
 class RadioRegistry {
  public:
-  /// So many topics one member may ask to send on since it joined, and so many it may listen to at a time.
+  /// Most topics that a member may ask to send on since it joined, and most that it may listen to at a time.
   static constexpr std::size_t kMaxTopics = 1024;
-  /// After so many requests of a member that were refused because nothing had matched in time, all its further ones are
-  /// refused at once, because the fleet stands still during each of these waits.
+  /// After this many requests of a member that were refused because nothing had matched in time, its further requests
+  /// are refused at once, because the fleet stands still during each of these waits.
   static constexpr std::size_t kMaxVain = 3;
 
   /// @param table  of this run. It and the scenario must outlive this.
@@ -82,12 +83,12 @@ class RadioRegistry {
   void begin_step(const std::vector<RadioRequest>& requests);
   /// Whether an endpoint has not matched yet that must match before this step's messages may pass.
   bool waiting() const { return !awaited().empty(); }
-  /// The requests that wait for it, and for what.
+  /// The requests that wait for such a match.
   std::vector<AwaitedRequest> awaited() const;
   /// Ends a step. @returns its replies. A request whose asker has no matched writer (or reader) by now is refused.
   std::vector<RadioReply> end_step();
-  /// Refusals of the last end_step() that depend on how long the router waited, a sentence each for people: with more
-  /// patience the reply might have been another.
+  /// For people: the refusals of the last end_step() that depend on how long the router waited, a sentence each. With a
+  /// longer timeout, the reply might have been another.
   const std::vector<std::string>& decided_by_clock() const { return decided_by_clock_; }
 
  private:

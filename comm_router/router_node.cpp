@@ -18,7 +18,7 @@ using bus::LockstepClient;
 
 namespace {
 
-/// Who sends and is not attached for so many steps is taken for one who does not mean to become a member.
+/// A participant that sends for this many steps without being attached is taken for a stranger: it will not join.
 constexpr std::uint64_t kStrangerSteps = 20;
 
 bool listed(const std::vector<std::string>& names, const std::string& name) {
@@ -80,14 +80,14 @@ void RouterNode::open_door(Node node, std::string_view member) {
                                                }),
                     bus::subscribe<msg::Done>(inbox_, *nodes_[node], bus::done_spec(member),
                                               [this](const msg::Done& done, bus::ParticipantId source) {
-                                                // At the door we hear of steps that are none of ours, however many.
+                                                // Before the invitation, there may be answers to any number of steps.
                                                 if (!radio_open_) return;
                                                 sync_.on_done(source, done.k(), sent_counts(done));
                                               })});
 }
 
-// Only after the server's invitation: it stands still until we are a member, so no message is under way, and the
-// members' counts that it told us are exact.
+// Called only after the server's invitation. The server stands still until the router is a member, so no message is
+// under way, and the members' counts in the invitation are exact.
 void RouterNode::open_radio() {
   if (std::exchange(radio_open_, true)) return;
   for (const Node node : scenario_.nodes()) open_requests(node);
@@ -115,21 +115,21 @@ void RouterNode::open_route(std::size_t number) {
       sync_.on_radio(sample.source, number,
                      std::make_shared<const std::vector<std::uint8_t>>(std::move(sample.payload)));
     };
-    // Of no use before the Done that counts them; once all of those are here, rings() waits for any sample.
+    // Silent: a sample is of no use before the Done that counts it. When all Done are here, rings() waits for samples.
     radio_readers_[number] =
         inbox_.subscribe(*nodes_[route.source], radio_spec(route.topic, route.type), queue, bus::Bell::silent);
   }
   arrivals_.open_route(number, route);
 }
 
-// Nothing ever went over it, so whoever opens it again begins to count at 0 as everybody does.
+// No message ever passed on this route, so the counts can begin at 0 again when it is reopened.
 void RouterNode::close_route(std::size_t number) {
   if (number < declared_routes_) return;
   radio_readers_[number].reset();
   arrivals_.close_route(number);
 }
 
-// Whoever sends as a member has been attached before.
+// A sender that is no applicant is a stranger: members are attached before they send.
 bool RouterNode::from_stranger(Node node, const std::string& topic, bus::ParticipantId source) {
   if (applicants_.contains(source)) return false;
   const std::string name = scenario_.node_name(node);
@@ -294,7 +294,7 @@ void RouterNode::deliver(const StepBatch& batch) {
   last_step_answered_ = batch.k == last_k_;
 }
 
-// Replies are counted like what arrives by radio, but are none: they need no link, and are in no digest.
+// Replies are counted like radio messages, but they are none: they need no link, and are in no digest.
 void RouterNode::reply() {
   for (const RadioReply& answer : registry_.end_step()) {
     if (!answer.reason.empty()) {

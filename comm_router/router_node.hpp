@@ -31,7 +31,8 @@ namespace skein::router {
 /// Discovery takes milliseconds, so after this time the member has made a mistake: the router refuses its request. As
 /// the endpoint might match in time in another run, the server marks the run as not repeatable.
 inline constexpr double kMatchPatience_s = 10.0;
-/// After this time the router tells the server for whom it waits. What is merely under way arrives sooner.
+/// After this wall time the router tells the server which members it waits for. Messages that are merely under way
+/// arrive sooner.
 inline constexpr double kWordPatience_s = 1.0;
 
 class RouterNode final : public bus::ClientNode {
@@ -56,15 +57,15 @@ class RouterNode final : public bus::ClientNode {
   void expect_stand_ins(const std::vector<std::string>& uavs) { stand_ins_ = {uavs.begin(), uavs.end()}; }
   /// Before start(): delivers the messages of a recorded run instead of those of now. @throws InputError as ReplayNode.
   void replay(const recording::ReplayOptions& options);
-  /// Where members say something else than in the recorded run, a sentence each; nullopt: no run is flown again.
+  /// Where members send other messages than in the recorded run, a sentence each; nullopt: this is no replay.
   std::optional<std::vector<std::string>> differences() const;
   const LinkGate& gate() const { return gate_; }
-  /// How many radio messages came from outside the lock-step, and who sent them, a line each; for the end of a run.
+  /// For the end of a run: the number of radio messages from outside the lock-step, and their senders, a line each.
   std::uint64_t unheard() const;
   std::vector<std::string> stranger_warnings() const { return stranger_warnings_; }
-  /// Samples received that were no message of their topic's type.
+  /// Number of received samples that were no message of their topic's type.
   std::uint64_t malformed() const { return inbox_.malformed(); }
-  /// Samples that could not be sent.
+  /// Number of samples that could not be sent.
   std::uint64_t unsent() const { return world_->unsent().count(); }
   /// Files that the disk refused, one sentence each.
   const std::vector<std::string>& unwritten() const { return unwritten_; }
@@ -103,13 +104,13 @@ class RouterNode final : public bus::ClientNode {
   RadioEndpoints endpoints();
   std::vector<RadioRequest> read_requests(const StepBatch& batch);
   void on_ready(std::size_t door, const msg::Ready& ready, bus::ParticipantId source);
-  /// Attaches those whose topics have all matched. @returns true while somebody is not attached yet.
+  /// Attaches the applicants whose topics have all matched. @returns true while some are not attached yet.
   bool attach();
   /// Takes and delivers all complete steps. @returns true while it waits for matches.
   bool advance();
   /// A topic of the applicant that is not matched with its participant `source` yet; empty: all are.
   std::string unmatched(const Applicant& applicant, bus::ParticipantId source) const;
-  /// Tells the server for whom the router waits, once it has waited for a while, and then at each change.
+  /// Tells the server which members the router waits for, once it has waited for a while, and then at each change.
   void tell_awaited(bool waits);
   std::vector<msg::Await> awaited() const;
   void begin_step();
@@ -129,7 +130,7 @@ class RouterNode final : public bus::ClientNode {
   bus::Strangers strangers_;
   std::set<std::string> stand_ins_, present_;  ///< UAVs; members of this step
   std::vector<std::string> stranger_warnings_;
-  std::vector<std::string> by_hand_;  ///< faults, as the last step told them
+  std::vector<std::string> by_hand_;  ///< faults by hand, from the last step
   std::uint64_t k_ = 0;               ///< the step that was begun last
   bus::Inbox inbox_;
   std::unique_ptr<bus::Participant> world_;
@@ -141,7 +142,7 @@ class RouterNode final : public bus::ClientNode {
   std::vector<std::unique_ptr<bus::Reader>> radio_readers_;    ///< by route; null: closed again
   Arrivals arrivals_;
   std::optional<StepBatch> batch_;               ///< while its registrations wait for matches
-  bus::Patience match_patience_{0.0};            ///< how long they may take
+  bus::Patience match_patience_{0.0};            ///< timeout for these matches
   std::optional<bus::Patience> word_patience_;   ///< running while the router waits; over: it tells the server
   std::optional<std::vector<msg::Await>> told_;  ///< what the router has told the server in this step
   std::optional<msg::Routed> last_routed_;

@@ -14,11 +14,11 @@
 namespace skein::router {
 namespace {
 
-/// What a router knows beside its counts.
+/// Facts for the report besides the counts.
 struct Notes {
   std::uint64_t malformed = 0, unheard = 0, unsent = 0;
   std::vector<std::string> warnings = {};
-  std::vector<std::string> unwritten = {};  ///< files that the disk refused
+  std::vector<std::string> unwritten = {};  ///< files that could not be written
   std::optional<std::vector<std::string>> differences = {};
 };
 
@@ -59,7 +59,7 @@ void write_report(const ProgramOptions& options, const Scenario& scenario, const
   hand_in_report(json_of(report), report_of(options), status);
 }
 
-/// A router that died for good has left its counts: makes its report of them.
+/// Writes the report of a router that died for good, from the counts that it left on disk.
 int settle(const ProgramOptions& options, const Scenario& scenario, StatusPipe& status) {
   const std::filesystem::path counts = options.out / run_folder::kCounts;
   const std::vector<RadioRoute> no_routes;
@@ -71,7 +71,7 @@ int settle(const ProgramOptions& options, const Scenario& scenario, StatusPipe& 
   return kExitDone;
 }
 
-/// A router without counts on disk routes as well as any; it only forgets them when it is killed.
+/// If the file cannot be opened, the router works without it, but loses its counts when it is killed.
 void open_counts(std::optional<CountStore>& store, const std::filesystem::path& file, std::size_t nodes, RunId run,
                  std::vector<std::string>& unwritten) try {
   store.emplace(file, nodes, run);
@@ -101,7 +101,7 @@ class RouterMember final : public bus::FleetMember {
   bus::LockstepNode& node() override { return *node_; }
   bus::Bus& bus() override { return *bus_; }
 
-  // Once more after a fault that stopped us: what waited in the router is lost, as after its death.
+  // Starts a new node after a fault that stopped the router: messages that waited in it are lost, as after its death.
   std::optional<int> ended(bus::NodeEnd end) override {
     if (end == bus::NodeEnd::resumed) {
       make_node();

@@ -5,14 +5,14 @@
 namespace skein::router {
 namespace {
 
-/// A participant that is no member and still talks (a tool in a UAV's domain) must not fill the memory; nobody who
-/// becomes a member sends nearly as much before.
+/// Limits the memory for a participant that is no member and still sends (a tool in a UAV's domain). No participant
+/// sends nearly as many samples before it becomes a member.
 constexpr std::size_t kMaxStrangerSamples = 4096;
 
-/// Nor must a member's that never announces what it sends: no step has nearly as many messages of one topic.
+/// Limits the memory for a sender that never announces its messages. No step has nearly as many messages on one topic.
 constexpr std::size_t kMaxWaiting = 16 * topics::kRadioDepth;
 
-/// A member answers the step that it was asked; who answers so many that nobody asked is none.
+/// A member answers only the steps that it is asked. A participant with this many answers waiting is no member.
 constexpr std::size_t kMaxAnswers = 64;
 
 const std::string kRequests = topics::radio_request().name;
@@ -40,7 +40,7 @@ void RouterSync::on_done(SourceId source, std::uint64_t k, std::vector<SentCount
 }
 
 void RouterSync::on_radio(SourceId source, std::size_t route, Payload payload) {
-  // Who has not registered it may talk as it likes: it is not heard, and nothing is kept.
+  // Discards messages on a registered topic from participants that open() has not admitted to it.
   const auto sender = senders_.find(source);
   if (route >= declared_ && (sender == senders_.end() || !sender->second.opened.contains(route))) return;
   const std::string& bound = routes_[route].member;
@@ -147,7 +147,7 @@ bool RouterSync::counts(const Sender& sender, std::size_t route, const RadioMemb
 }
 
 bool RouterSync::complete(std::uint64_t k, const RadioMember& member) const {
-  if (gone_.contains(member.source)) return true;  // nobody waits for it, and it adds nothing
+  if (gone_.contains(member.source)) return true;  // not waited for, and adds nothing
   const auto found = senders_.find(member.source);
   if (found == senders_.end() || !found->second.done.contains(k)) return false;
   const std::vector<SentCount> counts = radio_counts(found->second, k, member);
@@ -161,7 +161,7 @@ void RouterSync::take_messages(std::uint64_t k, const RadioMember& member, StepB
   Sender& sender = found->second;
   sender.last_done = std::move(sender.done.at(k));
   sender.done.erase(sender.done.begin(), sender.done.upper_bound(k));
-  // What came beyond the count stays: it belongs to the next step.
+  // Samples beyond the count stay in the lane: they belong to the next step.
   const auto take = [&](const std::string& topic, auto&& use) {
     const auto count = count_of(sender.last_done, topic);
     if (!count) return;

@@ -20,7 +20,8 @@
 namespace skein::one_process {
 namespace {
 
-// What a fault makes of a program in the middle of its turn. No std::exception: nobody but us catches them.
+// Thrown when a fault kills or stops a program in the middle of its turn. They are no std::exception, so that only
+// outcome_of() catches them.
 struct Killed {};
 struct Paused {};
 
@@ -41,21 +42,21 @@ struct Crew::Place {
         status(pipe, order.program) {}
 
   const std::string name;
-  const bool counts_cpu;  ///< from one turn to another, as only the server does: asking for the time takes time
+  const bool counts_cpu;  ///< across turns; only for the server, since reading the clock takes time
   ProgramOutput output;
   const DeathNotice notice;
   StatusPipe status;
   std::unique_ptr<bus::FleetProgram> program;
   std::unique_ptr<bus::FleetMember> member;
-  bool started = false;    ///< its present node
+  bool started = false;    ///< whether its present node was started
   bool paused = false;     ///< by a fault
-  bool continued = false;  ///< it is over: the program is due a turn
-  bool stopped = false;    ///< it was asked to end
+  bool continued = false;  ///< the pause is over: the program is due a turn
+  bool stopped = false;    ///< the program was asked to end
   bool over = false;
   double cpu_s = 0.0;
 };
 
-/// As long as it lives, this thread, and with it the process if nobody has a turn beside, is the one of that program.
+/// While it exists, this thread works for the program; in a turn alone, so does the whole process.
 struct Crew::Turn {
   Turn(Crew& crew, Place& place, bool is_beside)
       : crew_(crew), place_(place), beside(is_beside), number(static_cast<std::size_t>(Workers::here())) {
@@ -78,7 +79,7 @@ struct Crew::Turn {
   Crew& crew_;
   Place& place_;
   const bool beside;
-  const std::size_t number;  ///< of the seat
+  const std::size_t number;  ///< the seat
 };
 
 Crew::Crew(StatusPipe& pipe, MakeProgram make_program, TurnPage* page, int status_fd, Workers* workers)
@@ -116,7 +117,7 @@ void Crew::start(const shared_lines::Start& order) try {
     place.member = std::move(std::get<std::unique_ptr<bus::FleetMember>>(prepared));
     return std::nullopt;
   });
-} catch (const std::system_error& error) {  // no log: where others would not start at all
+} catch (const std::system_error& error) {  // the log cannot be opened: a process of its own would not have started
   spdlog::error("{} cannot be started: {}", order.program, error.what());
   pipe_.send_surely(shared_lines::news_json(shared_lines::Ended{order.program, kExitProcessFailed, 0, false}));
 }
@@ -124,11 +125,11 @@ void Crew::start(const shared_lines::Start& order) try {
 bool Crew::round() {
   bool any = false;
   std::vector<Place*> beside;
-  for (std::size_t i = 0; i < places_.size(); ++i) {  // whoever comes meanwhile is at the end
+  for (std::size_t i = 0; i < places_.size(); ++i) {  // programs that are added meanwhile are at the end
     Place& place = *places_[i];
     if (place.over || place.paused) continue;
     const bool flies_beside = seats() > 1 && place.member->flies_beside();
-    if (!flies_beside) turns_beside(beside);  // what they say may be what this one waits for
+    if (!flies_beside) turns_beside(beside);  // this one may wait for what they send
     if (!is_due(place, any)) continue;
     if (flies_beside) {
       beside.push_back(&place);
@@ -201,12 +202,12 @@ Crew::Outcome Crew::outcome_of(Place& place, bool beside, const std::function<st
     place.paused = true;
     place.member->node().inbox().set_deaf(true);
     pipe_.send_surely(shared_lines::news_json(shared_lines::Stopped{place.name}));
-  } catch (...) {  // where nobody can say what it is, a process of its own would have aborted
+  } catch (...) {  // an unknown exception: a process of its own would have aborted
     std::cerr << place.name << ": failed: an exception that is no std::exception" << std::endl;
     outcome.signal = SIGABRT;
     outcome.code = kExitProcessFailed;
   }
-  if (outcome.code) place.member.reset();  // says goodbye
+  if (outcome.code) place.member.reset();  // leaves the bus properly
   check_pipe(place, beside);
   return outcome;
 }
@@ -221,7 +222,7 @@ void Crew::check_pipe(const Place& place, bool beside) const {
   if (status_fd_ < 0 || (::fstat(status_fd_, &status) == 0 && status.st_ino == pipe_inode_)) return;
   const std::string reason = "closed file descriptors that are not its own, which ends the whole fleet here";
   if (!beside) std::cerr << place.name << ": " << reason << std::endl;
-  if (page_ != nullptr) page_->give_reason("this program " + reason);  // it, or one that has its turn just now
+  if (page_ != nullptr) page_->give_reason("this program " + reason);  // or one that has its turn in parallel
   ::_exit(kExitProcessFailed);
 }
 
@@ -232,8 +233,8 @@ void Crew::end(Place& place, int code, int signal) {
   pipe_.send_surely(shared_lines::news_json(ended));
 }
 
-// Not destroyed: no destructor of its own or of its planner may say or write anything more. It is out of reach, and
-// kept for the memory checkers to see.
+// The killed program is not destroyed, because no destructor of the program or its planner may send or write anything.
+// It is kept in a global list, so that leak checkers see it as reachable.
 void Crew::kill(Place& place) {
   static auto& graveyard =
       *new std::vector<std::pair<std::unique_ptr<bus::FleetProgram>, std::unique_ptr<bus::FleetMember>>>;

@@ -1,10 +1,10 @@
-// The programs of a fleet as objects of this process. Each gets a turn when it can do something. Programs that share
-// nothing but the bus, the agents, have theirs side by side where there are threads for it; all others have theirs
-// alone. Nothing of a result depends on it: what a program hears in a turn is counted (docs/lockstep.md).
-// What a process is to its program is kept up: a log of its own, a death that leaves no last words, standing still
-// while it is stopped, an end by an exception; and the CPU time that the server is told is its own
+// The programs of a fleet as objects in this process. Each program gets a turn when it has something to do. Agents
+// share nothing but the bus, so their turns run in parallel if there are threads; every other program has its turn
+// alone. Results do not depend on this: what a program receives in a turn is counted (docs/lockstep.md).
+// A program behaves as in a process of its own: it has its own log; when it is killed, it writes nothing more; while it
+// is stopped, it gets no turns; an exception ends it; and the CPU time that the server measures is the server's own
 // (process/host/thread_cpu.hpp).
-// Threads: one, but for turns() and holder().
+// Threads: one, except for turns() and holder().
 #pragma once
 
 #include <array>
@@ -32,10 +32,11 @@ class Crew {
   /// Makes a program by its name in a run ("uav_agent-jurong").
   using MakeProgram = std::function<std::unique_ptr<bus::FleetProgram>(const std::string& name)>;
 
-  /// @param pipe  for what the programs say and what becomes of them; must outlive this.
-  /// @param page  where the launcher reads whose turn it is; null: nowhere. @param status_fd  of the pipe: the process
-  ///               ends when a program closes it; -1: none. @param workers  for turns side by side, no more than there
-  ///               are seats on the page, and output is led by threads (program_output.hpp); null: all turns are alone.
+  /// @param pipe  gets the programs' status lines and news of their ends; must outlive this.
+  /// @param page  shows the launcher whose turn it is; null: there is none.
+  /// @param status_fd  descriptor of the pipe: the process ends when a program closes it; -1: not checked.
+  /// @param workers  threads for turns in parallel, at most TurnPage::kSeats, after ProgramOutput::lead_by_thread();
+  ///                 null: there are no turns in parallel.
   Crew(StatusPipe& pipe, MakeProgram make_program, TurnPage* page = nullptr, int status_fd = -1,
        Workers* workers = nullptr);
   ~Crew();
@@ -43,25 +44,25 @@ class Crew {
   Crew& operator=(const Crew&) = delete;
 
   void obey(const shared_lines::Order& order);
-  /// Asks all to end.
+  /// Asks all programs to end.
   void stop();
-  /// A turn for everybody who can do something. @returns whether anybody had anything to do.
+  /// Gives a turn to each program that can do something. @returns whether any program had something to do.
   bool round();
   bool empty() const { return places_.empty(); }
-  /// At its next round a program gets a turn though nothing has arrived: something else has come about.
+  /// Gives a program a turn in the next round although no sample has arrived for it.
   void ring(const std::string& program);
-  /// The first program that ended in any other way than it should.
+  /// The first program that failed: it ended with another exit code than 0, or by a signal.
   const std::optional<shared_lines::Ended>& failure() const { return failure_; }
 
-  /// After so many rounds in which nobody had anything to do they wait for a clock, and whoever drives them naps.
+  /// After this many idle rounds, programs can only wait for wall time to pass: the caller of round() sleeps for kNap.
   static constexpr int kIdleRounds = 3;
   static constexpr std::chrono::microseconds kNap{100};
 
-  /// Each thread has a seat, in which one program at a time has its turn.
+  /// Number of seats. Each thread has a seat, in which one program at a time has its turn.
   std::size_t seats() const { return workers_ == nullptr ? 1 : static_cast<std::size_t>(workers_->threads()); }
-  /// How many turns have begun and ended there; even: none is under way. From any thread.
+  /// Turns begun plus turns ended in a seat: odd while a turn is under way. Any thread.
   std::uint64_t turns(std::size_t seat = 0) const { return seats_[seat].turns; }
-  /// Whose turn is under way there; null: nobody's. From any thread.
+  /// The program whose turn is under way in a seat; null: none. Any thread.
   const DeathNotice* holder(std::size_t seat) const { return seats_[seat].holder; }
 
  private:
@@ -71,27 +72,28 @@ class Crew {
     std::atomic<std::uint64_t> turns = 0;
     std::atomic<const DeathNotice*> holder = nullptr;
   };
-  /// How a turn left its program.
+  /// What became of a program in its turn.
   struct Outcome {
-    std::optional<int> code;  ///< it has ended
-    int signal = 0;           ///< by which, if it did as if by one
-    bool killed = false;
+    std::optional<int> code;  ///< exit code, if the program has ended
+    int signal = 0;           ///< signal that would have ended a process of its own; 0: none
+    bool killed = false;      ///< by a fault
   };
 
   void start(const shared_lines::Start& order);
   void signal(Place& place, int signal);
-  /// Whether a program can do something. @param any  set if it is more than looking around.
+  /// Whether a program is to get a turn. @param any  set if the program has something to do, and not only polls.
   bool is_due(Place& place, bool& any) const;
-  /// Turns of programs that fly beside each other.
+  /// Gives these programs their turns in parallel, and empties the list.
   void turns_beside(std::vector<Place*>& places);
-  /// Whatever a program does: an exception is its death. @param work  returns its exit code when it has ended.
+  /// Runs part of a program as its turn; an exception ends the program. @param work  returns its exit code if it ended.
   void in_turn(Place& place, const std::function<std::optional<int>()>& work);
   Outcome outcome_of(Place& place, bool beside, const std::function<std::optional<int>()>& work);
   void settle(Place& place, const Outcome& outcome);
   std::optional<int> go_on(Place& place);
   void end(Place& place, int code, int signal);
   void kill(Place& place);
-  /// Without its pipe the process cannot say anything: whose turn it is has closed it.
+  /// Ends the process if the status pipe was closed, since it cannot report anything then: the program whose turn it is
+  /// has closed it.
   void check_pipe(const Place& place, bool beside) const;
   Place* find(const std::string& program);
 

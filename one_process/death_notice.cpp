@@ -15,19 +15,19 @@
 #include "process/status/shared_lines.hpp"
 #include "results/run_folder.hpp"
 
-/// Of the sanitizers, where the program is built with one: they end the process without any signal.
+/// Exists only in builds with a sanitizer: sanitizers end the process without a signal.
 extern "C" void __sanitizer_set_death_callback(void (*callback)(void)) __attribute__((weak));
 
 namespace skein::one_process {
 namespace {
 
-// A signal handler can reach nothing but globals.
+// A signal handler can access only globals.
 thread_local std::atomic<const DeathNotice*> in_turn = nullptr;
 std::atomic<int> status_fd = -1;
-/// Two threads may crash at once; the process dies of the first.
+/// Whether the cause has been reported: two threads may crash at once, and only the first one is the cause.
 std::atomic<bool> told = false;
 
-/// The line before it may be torn: a pipe takes what fits.
+/// Begins with a line end, because the line before it may be incomplete: a pipe takes only what fits.
 std::string line_of(const std::string& program, int code, int signal) {
   return "\n" + shared_lines::news_json(shared_lines::Ended{program, code, signal, true}).dump() + "\n";
 }
@@ -51,7 +51,7 @@ namespace {
 
 extern "C" void on_sanitizer_death() { tell_of_death(SIGABRT); }
 
-/// Ends the process at once: what exit() would destroy, other threads still fly with.
+/// Called by exit(). Ends the process at once, because other threads still use the objects that exit() would destroy.
 void tell_of_exit(int code, void*) {
   const DeathNotice* notice = in_turn.exchange(nullptr);
   if (notice == nullptr) return;
@@ -63,8 +63,8 @@ void tell_of_exit(int code, void*) {
   ::_exit(code);
 }
 
-/// exit() destroys what is its thread's own before anything of the process. What is registered then runs first of all,
-/// however late a static object was made.
+/// Makes tell_of_exit() run before any static object is destroyed. exit() first destroys the thread_local objects of
+/// its thread, and calls the functions that these register before all others.
 class ExitWatch {
  public:
   ExitWatch() = default;
@@ -73,7 +73,7 @@ class ExitWatch {
   }
   ExitWatch(const ExitWatch&) = delete;
   ExitWatch& operator=(const ExitWatch&) = delete;
-  /// Makes it, in this thread.
+  /// Constructs the thread_local object in this thread.
   void begin() const {}
 };
 
@@ -99,14 +99,14 @@ const DeathNotice* DeathNotice::here() { return in_turn; }
 
 void DeathNotice::watch(int fd) {
   status_fd = fd;
-  after_crash_notes(tell_of_death);  // whose log the launcher then quotes has all of them
+  after_crash_notes(tell_of_death);  // after them: the launcher quotes the log, which must have the notes by then
   if (__sanitizer_set_death_callback != nullptr) __sanitizer_set_death_callback(on_sanitizer_death);
 }
 
 void DeathNotice::give_up(const std::string& why) const {
   const std::string line = std::string(programs::kOneProcess) + ": " + why + "\n";
   static_cast<void>(!::write(log_ < 0 ? STDERR_FILENO : log_, line.data(), line.size()));
-  in_turn = this;  // the one that does not end is another thread's
+  in_turn = this;  // the turn that does not end is in another thread
   tell_of_death(SIGABRT);
   ::_exit(kExitProcessFailed);
 }

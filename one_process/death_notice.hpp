@@ -1,5 +1,5 @@
-// When the process dies, by a signal or because somebody called exit(), the launcher must be able to say of whom: all
-// programs die with it. Each thread works for one program at a time.   Threads: any, each for itself.
+// Tells the launcher which program caused the death of the process, by a signal or a call of exit(): all programs of
+// the process die with it. A thread works for one program at a time.   Threads: any; the state is per thread.
 #pragma once
 
 #include <array>
@@ -9,28 +9,28 @@ namespace skein::one_process {
 
 class DeathNotice {
  public:
-  /// @param log  descriptor that takes what is said of its end; -1: stderr.
+  /// @param log  descriptor of the log in which give_up() writes why the program ends; -1: stderr.
   explicit DeathNotice(const std::string& program, int log = -1);
   ~DeathNotice();
   DeathNotice(const DeathNotice&) = delete;
   DeathNotice& operator=(const DeathNotice&) = delete;
 
-  /// Should the process die from here on by what this thread does, it is this program's doing.
+  /// From now on this thread works for this program: if the thread makes the process die, the program is the cause.
   void enter() const;
   const std::string& program() const { return program_; }
-  /// For which program this thread is at work; null: none.
+  /// The notice of the program that this thread works for; null: none.
   static const DeathNotice* here();
 
-  /// Watches over this process. Once. @param fd  of the status pipe.
+  /// Begins to watch this process. Call it once. @param fd  descriptor of the status pipe
   static void watch(int fd);
-  /// Gives up this program, which does not end its turn: the process ends, as if the program had been aborted.
+  /// Ends the process because this program does not end its turn, as if the program had been aborted.
   [[noreturn]] void give_up(const std::string& why) const;
-  /// The same for the program for which this thread is at work, in handlers of signals.
+  /// The same for the program that this thread works for; may be called in signal handlers.
   [[noreturn]] static void give_up_at_once();
-  /// This thread works for nobody any more.
+  /// From now on this thread works for no program.
   static void stand_down();
 
-  /// What may happen to a process through no wish of its own.
+  /// The signals that are watched: those of a crash.
   static const std::array<int, 5> kSignals;
 
  private:
@@ -38,7 +38,7 @@ class DeathNotice {
 
   const std::string program_;
   const int log_;
-  std::array<std::string, 5> lines_;  ///< by signal, ready to be written by a handler
+  std::array<std::string, 5> lines_;  ///< by signal: the line that the signal handler writes, made in advance
 };
 
 }  // namespace skein::one_process

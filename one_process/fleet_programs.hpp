@@ -1,4 +1,4 @@
-// Makes the programs of a fleet in this process, by their names in a run ("uav_agent-jurong").
+// Creates the programs of a fleet in this process, by their names in a run ("uav_agent-jurong").
 #pragma once
 
 #include <memory>
@@ -12,17 +12,17 @@
 
 namespace skein::one_process {
 
-/// More than a large fleet hears in a step.
+/// More key frames than a large fleet receives in a step.
 inline constexpr std::size_t kFramesRemembered = 256;
 
-/// What they share. Desk, gate, score and shelf are of whoever steps the fleet; null: it flies by itself.
+/// What the programs share. Desk, gate, score and shelf belong to the owner of a stepped fleet; null: no one steps it.
 struct FleetPrograms {
   std::shared_ptr<agent::ReadyFrames> frames = std::make_shared<agent::ReadyFrames>(kFramesRemembered);
   std::shared_ptr<agent::LearnerDesk> desk = {};
   std::shared_ptr<sim::StepGate> gate = {};
   std::shared_ptr<station::ScoreView> score = {};
   std::shared_ptr<sim::SceneShelf> shelf = {};
-  ForEach for_each = one_after_another;  ///< how the server has its work done
+  ForEach for_each = one_after_another;  ///< how the server runs its loops: one after another, or in parallel
 
   std::unique_ptr<bus::FleetProgram> make(const std::string& name) const {
     if (name == programs::kSimServer) return std::make_unique<sim::ServerProgram>(gate, shelf, for_each);

@@ -1,5 +1,5 @@
-// A fleet in one process: sim_server, comm_router, station and all agents with the strategies that are linked with it,
-// over the inproc bus. The launcher says on the control pipe what is to be started (process/status/shared_lines.hpp).
+// A whole fleet in one process: sim_server, comm_router, station, and all agents whose strategies are linked into it,
+// over the inproc bus. The launcher orders on the control pipe what to start (process/status/shared_lines.hpp).
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
@@ -22,7 +22,7 @@
 #include "process/host/environment.hpp"
 #include "results/run_folder.hpp"
 
-/// Of LeakSanitizer, where the program is built with it.
+/// Exists only in builds with LeakSanitizer.
 extern "C" void __lsan_do_leak_check(void) __attribute__((weak));
 
 namespace skein::one_process {
@@ -92,5 +92,5 @@ int main(int argc, char** argv) {
   one_process::DeathNotice::stand_down();
   std::cout.flush();
   if (__lsan_do_leak_check != nullptr) __lsan_do_leak_check();
-  ::_exit(code);  // programs that were killed have no last words, nor have the files that they had open
+  ::_exit(code);  // runs no destructors: killed programs must write nothing more, not even buffered output
 }

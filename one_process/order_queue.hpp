@@ -1,4 +1,4 @@
-// The launcher's orders, from the thread that reads them to the one that carries them out.
+// Queue of the launcher's orders, from the thread that reads them to the thread that executes them.
 #pragma once
 
 #include <spdlog/spdlog.h>
@@ -24,7 +24,7 @@ class OrderQueue {
     orders_.push_back(*order);
     changed_.notify_one();
   }
-  /// There will be no more.
+  /// Call it when there will be no more orders.
   void end() {
     const std::scoped_lock lock(mutex_);
     over_ = true;
@@ -35,12 +35,12 @@ class OrderQueue {
     const std::scoped_lock lock(mutex_);
     return std::exchange(orders_, {});
   }
-  /// No more will come, and all are taken.
+  /// Whether end() was called and all orders are taken.
   bool over() {
     const std::scoped_lock lock(mutex_);
     return over_ && orders_.empty();
   }
-  /// Until there is one, at most so long.
+  /// Waits until there is an order or end() was called, but at most `longest`.
   void wait(std::chrono::microseconds longest) {
     std::unique_lock lock(mutex_);
     changed_.wait_for(lock, longest, [this] { return over_ || !orders_.empty(); });

@@ -17,12 +17,12 @@
 namespace skein::one_process {
 namespace {
 
-/// Whose the descriptors are now.
+/// The program whose log descriptors 1 and 2 lead to; null: none.
 const ProgramOutput* current = nullptr;
-/// Whose output the thread's is.
+/// The program whose log this thread's output goes to; null: none.
 thread_local const ProgramOutput* mine = nullptr;
 
-/// Of the process: descriptors and log from before there were programs.
+/// Descriptors and log of the process, from before there were programs; and the log that chooses by thread.
 int own_stdout = -1, own_stderr = -1;
 std::shared_ptr<spdlog::logger> own_log, led_log;
 
@@ -38,7 +38,7 @@ ssize_t write_all(int fd, const char* text, std::size_t size) {
   return static_cast<ssize_t>(size);
 }
 
-/// Keeps nothing back: what one thread writes must not wait among what another one does.
+/// Unbuffered, so that the output of different threads does not mix in a buffer.
 class LedBuffer final : public std::streambuf {
  public:
   explicit LedBuffer(const int& own) : own_(own) {}
@@ -61,7 +61,7 @@ ssize_t write_led(void* own, const char* text, std::size_t size) {
   return write_all(descriptor_here(*static_cast<const int*>(own)), text, size);
 }
 
-/// A stream of C that leads to the log of whose turn it is.
+/// A C stream that writes to the log of the calling thread's program.
 FILE* led_file(int& own) {
   FILE* file = ::fopencookie(&own, "w", {.read = nullptr, .write = write_led, .seek = nullptr, .close = nullptr});
   if (file == nullptr) throw std::system_error(errno, std::generic_category(), "fopencookie");
@@ -69,7 +69,7 @@ FILE* led_file(int& own) {
   return file;
 }
 
-/// Hands each line to the log of whose turn it is.
+/// Passes each line to the log of the calling thread's program.
 class LedLog final : public spdlog::logger {
  public:
   LedLog() : spdlog::logger("led") {
@@ -109,7 +109,7 @@ ProgramOutput::~ProgramOutput() {
 void ProgramOutput::enter() {
   if (current == this) return;
   if (fd_ >= 0) {
-    std::fflush(stdout);  // of the one before
+    std::fflush(stdout);  // of the program before
     ::dup2(fd_, STDOUT_FILENO);
     ::dup2(fd_, STDERR_FILENO);
   }
@@ -135,7 +135,7 @@ void ProgramOutput::lead_by_thread(std::ostream& out) {
   own_stderr = ::fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 3);
   stdout = led_file(own_stdout);
   stderr = led_file(own_stderr);
-  static auto& led_out = *new LedBuffer(own_stdout);  // until the very end of the process
+  static auto& led_out = *new LedBuffer(own_stdout);  // never destroyed: used until the process ends
   static auto& led_err = *new LedBuffer(own_stderr);
   out.rdbuf(&led_out);
   std::cerr.rdbuf(&led_err);

@@ -1,8 +1,8 @@
-// Where a program that shares its process writes: its own log takes what it logs, and all else that reaches stdout and
-// stderr in its turns. A program that has the process to itself has its descriptors, too. Where several have their
-// turns side by side, streams of C++ and of C lead each thread to its own program's log; what somebody then writes to
-// descriptor 1 or 2 past them goes to the log of the process.
-// Threads: enter_beside() and leave_beside() from any; the rest from the one that works for all programs.
+// Output of a program that shares its process with others: its log gets what the program logs, and all that reaches
+// stdout and stderr in its turns. In a turn that a program has alone, descriptors 1 and 2 lead to its log, too. In
+// turns that run in parallel, the streams of C++ and C write to the log of the calling thread's program; what is
+// written to descriptor 1 or 2 directly then goes to the log of the process.
+// Threads: enter_beside() and leave_beside() from any; all others from the main thread, which runs the rounds.
 #pragma once
 
 #include <filesystem>
@@ -18,31 +18,33 @@ namespace skein::one_process {
 
 class ProgramOutput {
  public:
-  /// @param file  empty: it writes where its process does. @throws std::system_error when the file cannot be opened.
+  /// @param file  the log; empty: the program writes where its process does.
+  /// @throws std::system_error when the file cannot be opened.
   ProgramOutput(const std::filesystem::path& file, bool append);
   ~ProgramOutput();
   ProgramOutput(const ProgramOutput&) = delete;
   ProgramOutput& operator=(const ProgramOutput&) = delete;
 
-  /// From here on all that is written goes there.
+  /// Begins a turn alone: from now on all output of the process goes to this program's log.
   void enter();
-  /// From here on what this thread writes through streams goes there, until it calls leave_beside().
+  /// Begins a turn in parallel: what this thread writes to streams goes to this program's log until leave_beside().
   void enter_beside() const;
   static void leave_beside();
-  /// Whose output this thread's is; null: the process's.
+  /// The program output that this thread writes to; null: that of the process.
   static const ProgramOutput* here();
 
-  /// Streams and logs are led by threads from here on, for good. Once, before there are other threads.
-  /// @param out  of C++, for stdout.
+  /// From now on, for good, streams and logs choose their destination by the calling thread. Call it once, before there
+  /// are other threads. @param out  the C++ stream for stdout. @throws std::system_error
   static void lead_by_thread(std::ostream& out);
-  /// The descriptors, and what threads write that work for nobody, are the process's again. After lead_by_thread().
+  /// Gives the descriptors back to the process, and also the output of threads that work for no program. Call it after
+  /// lead_by_thread(), before turns in parallel.
   static void stand_aside();
 
-  /// @throws InputError for a level that is none (process/program.hpp).
+  /// @throws InputError for an unknown level (process/program.hpp).
   void set_log(const std::string& name, const std::string& level);
-  /// @returns -1: it has no file of its own.
+  /// Descriptor of the log. @returns -1: the program has no log file of its own.
   int descriptor() const { return fd_; }
-  /// null before set_log().
+  /// @returns nullptr before set_log().
   spdlog::logger* log() const { return log_.get(); }
 
  private:

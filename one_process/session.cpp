@@ -29,16 +29,16 @@
 namespace skein::one_process {
 namespace {
 
-/// A copy's files, in the order in which they come.
+/// The descriptors for a copy, in the order in which a message has them.
 enum File : std::size_t { kSocketFile, kBlockFile, kLogFile, kFiles };
 
-/// What the programs print is there for whoever asks why they failed: its newest part will do.
-constexpr off_t kLongestLog = 4 << 20;
-constexpr std::uint64_t kLookAtLog = 1024;  ///< answers
+/// The programs' output is kept to explain failures, for which its newest part is enough: a longer log is emptied.
+constexpr off_t kLongestLog = 4 << 20;      ///< bytes
+constexpr std::uint64_t kLookAtLog = 1024;  ///< answers from one check of the log's length to the next
 
 [[noreturn]] void throw_errno(const char* what) { throw std::system_error(errno, std::generic_category(), what); }
 
-/// @param at  null: anywhere.
+/// @param at  address of the block; null: any.
 std::byte* map_block(int file, std::size_t bytes, std::byte* at = nullptr) {
   void* const block = ::mmap(at, bytes, PROT_READ | PROT_WRITE, MAP_SHARED | (at != nullptr ? MAP_FIXED : 0), file, 0);
   if (block == MAP_FAILED) throw_errno("mmap");
@@ -82,9 +82,9 @@ SessionPlan read_session_plan(const std::filesystem::path& file) {
 
 Session::Session(SessionPlan plan, int socket, double patience_s)
     : plan_(std::move(plan)), socket_(socket), guard_(patience_s) {
-  ::prctl(PR_SET_PDEATHSIG, 0);        // of the thread that started the launcher, which may end before the fleet does
-  ::prctl(PR_SET_CHILD_SUBREAPER, 1);  // of copies whose own parent has gone
-  std::signal(SIGCHLD, SIG_IGN);       // nobody waits for them
+  ::prctl(PR_SET_PDEATHSIG, 0);        // no signal when the thread ends that started this: it may end before the fleet
+  ::prctl(PR_SET_CHILD_SUBREAPER, 1);  // adopts copies whose parent has ended
+  std::signal(SIGCHLD, SIG_IGN);       // nobody waits for copies
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
   DeathNotice::watch(socket);
@@ -93,7 +93,7 @@ Session::Session(SessionPlan plan, int socket, double patience_s)
 
 Session::~Session() = default;
 
-/// So that copies need not.
+/// Loads the scene in advance, so that copies need not load it.
 void Session::load_scene() {
   const auto server = std::ranges::find(plan_.programs, programs::kSimServer, &shared_lines::Start::program);
   if (server == plan_.programs.end()) throw std::runtime_error("there is no sim_server in the plan");
@@ -146,7 +146,7 @@ void Session::answer(const SessionMessage& message) {
 
 bool Session::copy(const SessionMessage& message) {
   if (message.files.size() != kFiles) throw std::logic_error("a copy needs files of its own");
-  // The block is copied before: afterwards both go their own ways.
+  // Copies the block before fork(), since afterwards the parent may change its own.
   if (fleet_) {
     const std::size_t bytes = fleet_->layout().bytes();
     if (::ftruncate(message.files[kBlockFile], static_cast<off_t>(bytes)) != 0) throw_errno("ftruncate");
@@ -167,7 +167,7 @@ bool Session::copy(const SessionMessage& message) {
   ::close(message.files[kLogFile]);
   block_fd_ = message.files[kBlockFile];
   if (fleet_) {
-    map_block(block_fd_, fleet_->layout().bytes(), block_);  // where the fleet looks for it
+    map_block(block_fd_, fleet_->layout().bytes(), block_);  // at the address that the fleet uses
     ::close(std::exchange(block_fd_, -1));
   }
   guard_.watch(socket_.descriptor());  // timers are not copied
@@ -184,7 +184,7 @@ void Session::begin(std::uint64_t seed) {
   fleet_->begin(block_);
 }
 
-/// It is ready, and what there is to know of it.
+/// Tells the program that steps the fleet that this process is ready, and describes its memory block.
 void Session::hello() {
   if (!fleet_) return socket_.send(nlohmann::json({{"pid", ::getpid()}, {"about", plan_.about}}).dump());
   const BlockLayout& layout = fleet_->layout();
@@ -217,7 +217,7 @@ int run_session(int argc, const char* const* argv) {
   };
   const auto options = parse_program(programs::kOneProcess, argc, argv, add_options);
   if (const int* code = std::get_if<int>(&options)) return *code;
-  note_crashes("/");  // no place for a core
+  note_crashes("/");  // no core dumps
   return guarded(programs::kOneProcess, [&] { return Session(read_session_plan(plan), socket, patience_s).serve(); });
 }
 

@@ -1,16 +1,17 @@
-// A process whose fleet is stepped by a program outside (skein.Fleet in Python). It stands between steps, and is copied
-// there: a reset is a copy of a process that has no fleet yet, a fork is one of a fleet.
-// They talk over a socket (SOCK_SEQPACKET), a message each way in turn, JSON but for "s COUNT" and "k":
+// A process whose fleet an external program steps (skein.Fleet in Python). Between steps the fleet stands still, and
+// the process can be copied by fork(): a reset copies a process that has no fleet yet, a fork copies one with a fleet.
+// The two talk over a socket (SOCK_SEQPACKET): to each message there is one reply, before the next message. Messages
+// are JSON except for "s COUNT", "k" (done) and "e":
 //
-//   {"do": "reset", "seed": N}  a copy begins a fleet. With it come three descriptors: the copy's own socket, a memfd
-//                               for its block of memory, and a file for what its programs print. The copy says hello
-//                               on its socket.
-//   {"do": "fork"}              the same, of the fleet as it stands.
-//   s COUNT                     the fleet goes on by so many steps: "k", and "e" when the run has ended.
-//   {"do": "result"}, {"do": "scene"}  see SteppedFleet. With them comes a memfd, into which the answer goes.
+//   {"do": "reset", "seed": N}  a copy of the process starts a fleet. Three descriptors come with the message: the
+//                               copy's own socket, a memfd for its memory block, and a file for what its programs
+//                               print. The copy sends its hello on its own socket.
+//   {"do": "fork"}              the same, but the copy continues the fleet in its present state.
+//   s COUNT                     the fleet flies COUNT steps. Reply: "k", or "e" when the run has ended.
+//   {"do": "result"}, {"do": "scene"}  see SteppedFleet. A memfd comes with the message; the answer is written into it.
 //
-// What went wrong is {"failed": why, "program": name, "code": exit code, "signal": number}; after that the process
-// ends. It also ends when the socket's other end is closed.   Linux.   Threads: one.
+// After an error the process sends {"failed": why, "program": name, "code": exit code, "signal": number} and ends. It
+// also ends when the other end of the socket is closed.   Linux.   Threads: one.
 #pragma once
 
 #include <cstddef>
@@ -26,27 +27,27 @@
 
 namespace skein::one_process {
 
-/// What the launcher says of a fleet that is to be stepped (cli/fleet_command.cpp).
+/// What the launcher specifies about a fleet that is to be stepped (cli/fleet_command.cpp).
 struct SessionPlan {
   std::vector<shared_lines::Start> programs;
   std::vector<std::string> uavs;  ///< names in fleet order
-  nlohmann::json about;           ///< handed on with each hello
+  nlohmann::json about;           ///< sent unchanged with the hello of a process without fleet
 };
 
-/// @throws std::runtime_error when the file is none.
+/// @throws std::exception when the file is missing or is no plan.
 SessionPlan read_session_plan(const std::filesystem::path& file);
 
 class Session {
  public:
-  /// @param socket  its descriptor. @param patience_s  see SessionGuard.
+  /// @param socket  descriptor of the socket. @param patience_s  see SessionGuard.
   Session(SessionPlan plan, int socket, double patience_s);
   ~Session();
-  /// Until the other end is closed. @returns the exit code.
+  /// Answers messages until the other end of the socket is closed, or an error occurs. @returns the exit code.
   int serve();
 
  private:
   void answer(const SessionMessage& message);
-  /// In the parent true; in the copy false, and its descriptors are those of the message.
+  /// Copies the process. @returns true in the parent; false in the copy, which now uses the descriptors of the message.
   bool copy(const SessionMessage& message);
   void load_scene();
   void begin(std::uint64_t seed);
@@ -59,12 +60,12 @@ class Session {
   SessionGuard guard_;
   const std::shared_ptr<sim::SceneShelf> shelf_ = std::make_shared<sim::SceneShelf>();
   std::unique_ptr<SteppedFleet> fleet_;
-  std::byte* block_ = nullptr;  ///< of `fleet_`
-  int block_fd_ = -1;           ///< between copy() and begin()
+  std::byte* block_ = nullptr;  ///< memory block of `fleet_`
+  int block_fd_ = -1;           ///< its memfd, between copy() and begin()
   std::uint64_t answers_ = 0;
 };
 
-/// main() of such a process. @param argv  --session DESCRIPTOR --plan FILE
+/// The main() of a process with a session. @param argv  --session DESCRIPTOR --plan FILE
 int run_session(int argc, const char* const* argv);
 
 }  // namespace skein::one_process

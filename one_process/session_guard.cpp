@@ -20,12 +20,12 @@ namespace {
 
 constexpr std::chrono::milliseconds kLook{250};
 
-// A signal handler can reach nothing but globals.
+// A signal handler can access only globals.
 std::atomic<int> guarded_socket = -1;
 std::atomic<const SteppedFleet*> guarded_fleet = nullptr;
 std::atomic<std::uint64_t> most_looks = 0, looks = 0, turn_seen = 0;
 
-/// Nothing that a handler may not do: poll(), _exit() and atomics.
+/// Uses only what is allowed in a signal handler: poll(), _exit() and atomics.
 void on_timer(int) {
   const int saved = errno;
   pollfd other{guarded_socket.load(), POLLRDHUP, 0};

@@ -1,6 +1,6 @@
-// Watches over a process whose only thread works for somebody else: when that program has gone, so does this one,
-// whatever it is about; and a turn without an end is given up. By a timer's signal, not by a thread: a process is to be
-// copied with all that it has, and fork() takes along the thread that calls it alone.
+// Watches the process of a session, which has a single thread. It ends the process when the program that steps the
+// fleet has closed its end of the socket, or when a turn takes too long. It uses the signal of a timer instead of a
+// thread, because the process is copied by fork(), which copies only the calling thread.
 // Linux.   Threads: one.
 #pragma once
 
@@ -14,14 +14,15 @@ class SteppedFleet;
 
 class SessionGuard {
  public:
-  /// @param patience_s  wall time that a program may take for one turn; 0: for ever.
+  /// @param patience_s  wall time that a program may take for one turn; 0: no limit.
   explicit SessionGuard(double patience_s);
   SessionGuard(const SessionGuard&) = delete;
   SessionGuard& operator=(const SessionGuard&) = delete;
 
-  /// Begins, also in a copy of this process. @param socket  its other end is that program's
+  /// Starts the timer; call it again in a copy of the process. @param socket  the socket to the program that steps the
+  /// fleet @throws std::system_error
   void watch(int socket);
-  /// Whose turns it looks after; null: nobody's. What it refers to must live until it is told otherwise.
+  /// Sets the fleet whose turns are watched; null: none. It must live until the next call.
   void look_after(const SteppedFleet* fleet);
 };
 

@@ -1,4 +1,4 @@
-// A socket that carries messages with open files, to and from the program that steps a fleet (session.hpp).
+// A socket for messages to and from the program that steps a fleet (session.hpp). Messages may carry descriptors.
 // Linux.   Threads: one.
 #pragma once
 
@@ -11,7 +11,7 @@ namespace skein::one_process {
 
 struct SessionMessage {
   std::string text;
-  std::vector<int> files;  ///< descriptors, closed on exec; whoever takes the message owns them
+  std::vector<int> files;  ///< descriptors (close-on-exec), which the receiver owns
 };
 
 class SessionSocket {
@@ -19,11 +19,12 @@ class SessionSocket {
   explicit SessionSocket(int descriptor) : descriptor_(descriptor) {}
 
   int descriptor() const { return descriptor_; }
-  /// Waits. @returns nullopt when the other end is closed.
+  /// Waits for a message of up to 4 kB and four descriptors. @returns nullopt when the other end is closed.
   std::optional<SessionMessage> receive() const;
-  /// To an end that is closed nothing is sent.
+  /// Sends a message; does nothing if the other end is closed.
   void send(std::string_view text) const;
-  /// Another socket takes the place of this one, under the same descriptor. @param descriptor  is closed
+  /// Replaces this socket by another one, under the same descriptor number. @param descriptor  of the other socket; is
+  /// closed.
   void become(int descriptor) const;
 
  private:

@@ -6,7 +6,7 @@
 namespace skein::one_process {
 namespace {
 
-/// As long as it lives, this thread works for the program that another one works for.
+/// While it exists, this thread works for the same program as the thread that shares its turn.
 class Helping {
  public:
   Helping(const ProgramOutput* output, const DeathNotice* notice)

@@ -1,4 +1,4 @@
-// A program's turn, shared with other threads: what they do of it is that program's doing.
+// Shares a program's turn with other threads: their output and their crashes count as those of the program.
 #pragma once
 
 #include "core/for_each.hpp"
@@ -6,7 +6,7 @@
 
 namespace skein::one_process {
 
-/// For a program that has its turn alone. @param workers  must outlive it.
+/// Runs loops of a program that has its turn alone in parallel. @param workers  must outlive the result.
 ForEach shared_turn(Workers& workers);
 
 }  // namespace skein::one_process

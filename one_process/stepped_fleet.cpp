@@ -14,7 +14,7 @@
 namespace skein::one_process {
 namespace {
 
-/// They wait for nothing that comes.
+/// After this idle wall time the fleet has failed: its programs wait for something that will not happen.
 constexpr std::chrono::seconds kStandstill{60};
 
 std::vector<shared_lines::Start> with_seed(std::vector<shared_lines::Start> starts, std::uint64_t seed) {
@@ -28,7 +28,7 @@ std::vector<shared_lines::Start> with_seed(std::vector<shared_lines::Start> star
   return starts;
 }
 
-/// What they wait for then is a clock.
+/// Sleeps for kNap: after some idle rounds, programs can only wait for wall time to pass.
 void nap() {
   const timespec nap{0, std::chrono::nanoseconds(Crew::kNap).count()};
   ::ppoll(nullptr, 0, &nap, nullptr);
@@ -36,7 +36,7 @@ void nap() {
 
 }  // namespace
 
-/// What server and learners are told by whoever steps them.
+/// The program that steps the fleet, as the server and the learners see it.
 class SteppedFleet::Desk final : public agent::LearnerDesk, public sim::StepGate {
  public:
   Desk(std::shared_ptr<station::ScoreView> score, const std::vector<std::string>& uavs)
@@ -68,8 +68,8 @@ class SteppedFleet::Desk final : public agent::LearnerDesk, public sim::StepGate
   BlockLayout layout;
   std::byte* block = nullptr;
   std::vector<std::pair<std::string, agent::Learner*>> learners;
-  std::uint64_t target = 0;            ///< the step in which the fleet is to stand
-  std::optional<std::uint64_t> begun;  ///< the step that all were told last
+  std::uint64_t target = 0;            ///< the step in which the fleet is to stand still
+  std::optional<std::uint64_t> begun;  ///< the last step that the server has announced
   bool is_last = false, over = false;
 };
 
@@ -105,7 +105,7 @@ void SteppedFleet::step(std::uint64_t steps) {
   run();
 }
 
-/// Until it stands: at the target a round began in which nobody had anything to do.
+/// Runs rounds until the fleet stands still: no program had anything to do in a round that began in the target step.
 void SteppedFleet::run() {
   using Clock = std::chrono::steady_clock;
   const auto ring = [this] {
@@ -129,7 +129,7 @@ void SteppedFleet::run() {
     if (there) {
       desk_->truth.write(desk_->block);
       if (!desk_->is_last) return;
-      desk_->target += 1;  // nobody is asked any more
+      desk_->target += 1;  // the last step needs no orders: lets it end
       ring();
       continue;
     }

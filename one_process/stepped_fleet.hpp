@@ -1,7 +1,7 @@
-// A fleet in this process that goes on by so many steps as it is told, and then stands still. It stands when a step is
-// told to all: everybody has answered it but the learners, who have looked, and the server, which holds it. What the
-// learners see and what they are told, and the truth, lie in one block of memory.
-// Frame W.   Units: SI and radians.   Threads: one.   Deterministic: how many steps are taken at once changes nothing.
+// A fleet in this process that flies a given number of steps and then stands still. It stands still within a step: the
+// server has announced the step and holds it open (StepGate); the learners have written their observations; all other
+// programs have answered the step. Observations, orders to the learners, and the truth are in one block of memory.
+// Frame W.   Units: SI and radians.   Threads: one.   Deterministic: results do not depend on the steps per call.
 #pragma once
 
 #include <sys/types.h>
@@ -25,37 +25,39 @@
 
 namespace skein::one_process {
 
-/// A program of the fleet has failed, or the fleet as a whole: nothing more can be had of it.
+/// Thrown when a program of the fleet, or the fleet as a whole, has failed: it cannot be used any more.
 struct FleetFailed {
-  std::string program;  ///< empty: no one in particular
+  std::string program;  ///< the program that failed; empty: none in particular
   int code = 0, signal = 0;
   std::string why;  ///< a sentence
 };
 
 class SteppedFleet {
  public:
-  /// @param starts  of its programs, as the launcher has them. @param uavs  names in fleet order.
-  /// @param seed  instead of what those say. @param shelf  with their scene. @throws FleetFailed
+  /// @param starts  start orders of the programs, from the launcher. @param uavs  names in fleet order.
+  /// @param seed  replaces the seed in `starts`. @param shelf  holds the scene, loaded in advance.
+  /// @throws FleetFailed; std::logic_error when a start order has no seed.
   SteppedFleet(const std::vector<shared_lines::Start>& starts, const std::vector<std::string>& uavs, std::uint64_t seed,
                std::shared_ptr<sim::SceneShelf> shelf);
   ~SteppedFleet();
   SteppedFleet(const SteppedFleet&) = delete;
   SteppedFleet& operator=(const SteppedFleet&) = delete;
 
-  /// Before begin(): where what lies in the block.
+  /// Layout of the memory block; known before begin().
   const BlockLayout& layout() const;
-  /// Starts the fleet, up to its first step. @param block  zeroes; must outlive this.
-  /// @throws FleetFailed, as step() does.
+  /// Starts the fleet, which then stands still in its first step. @param block  layout().bytes() zeros; must outlive
+  /// this. @throws FleetFailed
   void begin(std::byte* block);
-  /// Goes on by so many steps, or to the run's last one, which it ends. Not after that.
+  /// Flies this many steps, or fewer if the run's last step comes before: then it ends the run.
+  /// @throws FleetFailed; std::logic_error when the run is over.
   void step(std::uint64_t steps);
-  /// The run has ended.
+  /// Whether the run has ended.
   bool over() const;
-  /// Digest, score and what each UAV did, until now.
+  /// Digest, score, and what each UAV has done so far; see Truth.
   nlohmann::json result() const;
-  /// Where the structure, the boxes and the interest points are, and what was delivered of each.
+  /// Boxes and interest points, and what was delivered of each point; see Truth.
   nlohmann::json scene() const;
-  /// See Crew::turns(); from any thread and from handlers of signals.
+  /// See Crew::turns(). May be called in any thread and in signal handlers.
   std::uint64_t turns() const;
 
  private:

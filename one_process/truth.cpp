@@ -82,7 +82,7 @@ void Truth::write(std::byte* block) const {
   }
 }
 
-/// What is earned is added up only when a capture came to it.
+/// Computes the score earned only if entries of the ledger were added, since the computation is costly.
 void Truth::write_score(std::byte* block) const {
   const station::Scoreboard* board = score_->board;
   if (board == nullptr) return;

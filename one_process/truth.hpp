@@ -1,5 +1,5 @@
-// The truth about a fleet that is stepped, for those who ask for it by that name: the server's world and the station's
-// tally. No UAV knows any of it.
+// The ground truth of a fleet that is stepped: the server's world and the station's tally. The program that steps the
+// fleet gets it under names of their own ("truth."); no UAV gets any of it.
 // Frame W.   Units: SI and radians.   Threads: one.
 #pragma once
 
@@ -20,16 +20,17 @@ class Truth {
   /// @param uavs  names in fleet order.
   Truth(std::shared_ptr<station::ScoreView> score, std::vector<std::string> uavs)
       : score_(std::move(score)), uavs_(std::move(uavs)) {}
+  /// Adds the arrays of the truth to the layout.
   void lay_out(BlockLayout& layout);
 
-  /// It is about these from now on.
+  /// Call it in each step: notes its collisions. @param simulation, digest  must live until keep().
   void follow(const sim::Simulation& simulation, const sim::RunDigest& digest);
-  /// They end: what result() and scene() say is kept.
+  /// Call it before simulation and digest end: result() and scene() keep returning their last values.
   void keep();
 
-  /// Into the block of the layout, how it stands.
+  /// Writes the present state into a block with the layout of lay_out().
   void write(std::byte* block) const;
-  /// Digest, score and what each UAV did.
+  /// Digest, score, and what each UAV has done.
   nlohmann::json result() const;
   /// Boxes and interest points, with what was delivered of each.
   nlohmann::json scene() const;
@@ -39,9 +40,9 @@ class Truth {
 
   const std::shared_ptr<station::ScoreView> score_;
   const std::vector<std::string> uavs_;
-  const sim::Simulation* simulation_ = nullptr;  ///< null: it has ended
+  const sim::Simulation* simulation_ = nullptr;  ///< null: not begun, or ended
   const sim::RunDigest* digest_ = nullptr;
-  mutable std::uint64_t standing_ = 0;  ///< entries of the ledger, when what is earned was written last
+  mutable std::uint64_t standing_ = 0;  ///< Scoreboard::standing() when the score earned was written last
   nlohmann::json kept_result_, kept_scene_;
   nlohmann::json collisions_ = nlohmann::json::array();
   BlockArray<std::int64_t> step_, points_, captures_;

@@ -1,5 +1,5 @@
-// A program that shares its process and never ends its turn stops all others, on whatever thread it has that. Nothing
-// can be done for them but to end the process, and to say whose fault it is.
+// Finds a program that does not end its turn. It blocks all other programs of the process, in whichever thread the turn
+// is. The only remedy is to end the process, and to report which program is the cause.
 #pragma once
 
 #include <condition_variable>
@@ -12,7 +12,7 @@ namespace skein::one_process {
 
 class Watchdog {
  public:
-  /// Watches from a thread of its own. @param patience_s  of wall time for one turn; 0: for ever.
+  /// Starts the watching thread. @param crew  must outlive this. @param patience_s  wall time for a turn; 0: no limit.
   Watchdog(const Crew& crew, double patience_s);
   ~Watchdog();
   Watchdog(const Watchdog&) = delete;

@@ -10,16 +10,17 @@
 namespace skein::sim {
 namespace {
 
-constexpr int kTurns = 36;  ///< all around: a point straight below may be shown with any heading
+constexpr int kTurns = 36;  ///< over the full circle: any heading may show a point straight below
 constexpr double kTurnStep = 2.0 * std::numbers::pi / kTurns;
-/// Of half the vertical field of view.
+/// Lifts of the coarse grid, as shares of half the vertical field of view.
 constexpr std::array<double, 7> kLifts = {0.0, -0.4, 0.4, -0.8, 0.8, -1.0, 1.0};
-constexpr double kLeastScore = 0.01;  ///< where rules count even less, this is as far as the oracle looks
-constexpr double kHopeful = 0.5;      ///< a hill whose foot is lower than this part of the best top is not climbed
+constexpr double kLeastScore = 0.01;  ///< limits reach() if `min_point_score` is less than this
+constexpr double kHopeful = 0.5;      ///< no climb from an aim whose q is less than this share of the best q so far
 constexpr double kFinestStep = 0.1 * kRadPerDeg;
 
-/// Quality is at most (d* / d) sqrt(1 + h^2) sqrt(1 + h^2 + v^2), h and v being the slopes of the picture's corner,
-/// h the larger: the step along a surface spans that many pixels more there than in the centre.
+/// Distance beyond which no point can have a sufficient quality. The quality is at most
+/// (d* / d) sqrt(1 + h^2) sqrt(1 + h^2 + v^2), where h and v are the slopes of the picture's corner and h is the larger
+/// one: by this factor, the step along a surface can span more pixels there than in the centre.
 double farthest(const CameraConfig& camera, double desired_mm_per_pixel, const RulesConfig& rules) {
   const double a = std::tan(0.5 * camera.hfov_deg * kRadPerDeg), b = std::tan(0.5 * camera.vfov_deg * kRadPerDeg);
   const double larger = std::max(a, b);
@@ -29,10 +30,10 @@ double farthest(const CameraConfig& camera, double desired_mm_per_pixel, const R
 
 }  // namespace
 
-/// An aim, as it is searched for.
+/// An aim with its search variables.
 struct BestAim::Try {
-  double turn = 0.0;  ///< heading, relative to the point's azimuth
-  double lift = 0.0;  ///< how far above the optical axis the point is, seen in the vertical plane of the heading
+  double turn = 0.0;  ///< heading of the camera, relative to the azimuth of the point
+  double lift = 0.0;  ///< angle by which the point is above the optical axis, in the vertical plane of the heading
   Aim aim;
 
   void improve(const Try& other) {
@@ -40,10 +41,10 @@ struct BestAim::Try {
   }
 };
 
-/// A heading of the camera, and what it looks at as seen from there.
+/// A heading of the camera, and the point and its normal relative to it.
 struct BestAim::Heading {
   double yaw;
-  Vector3d ray_Y, n_Y;  ///< in the frame Y that has the camera's heading and is level
+  Vector3d ray_Y, n_Y;  ///< in Y, the level frame with the camera's heading
   bool allowed;
 
   Heading(const Vector3d& ray_W, const Vector3d& n_W, double turn, const std::function<bool(double)>& is_allowed)
@@ -58,7 +59,7 @@ BestAim::BestAim(const CameraKind& kind, double desired_mm_per_pixel, const Rule
     : exposure_(CameraState{}, kind.camera, desired_mm_per_pixel, rules),
       pitch_limit_(kind.gimbal.pitch_limit_deg * kRadPerDeg),
       tan_half_hfov_(std::tan(0.5 * kind.camera.hfov_deg * kRadPerDeg)),
-      // A hair inside the border, where rounding cannot push the point out of the picture.
+      // Slightly less than half, so that rounding cannot push a point at the border out of the picture.
       half_vfov_(0.5 * kind.camera.vfov_deg * kRadPerDeg - 1e-9),
       reach_(std::min(exposure_.radius(), farthest(kind.camera, desired_mm_per_pixel, rules))) {}
 
@@ -72,12 +73,12 @@ Aim BestAim::look(const Heading& heading, double lift) const {
   return aim;
 }
 
-/// Climbs from one aim in ever smaller steps of heading and lift.
+/// Improves an aim by hill climbing, in ever smaller steps of heading and lift.
 BestAim::Try BestAim::climb(const Vector3d& ray_W, const Vector3d& n_W, const std::function<bool(double)>& allowed,
                             Try best) const {
   for (double step = 0.5 * kTurnStep; step > kFinestStep && best.aim.q < 1.0;) {
     const Try centre = best;
-    // Where the two resolutions are equal there is a ridge, and on it few directions lead up.
+    // There is a ridge where the two resolutions are equal. On it few directions lead up, so 24 neighbours are tried.
     for (const int side : {-2, -1, 0, 1, 2}) {
       const double turn = centre.turn + side * step;
       const Heading heading(ray_W, n_W, turn, allowed);
@@ -95,14 +96,14 @@ Aim BestAim::find(const Vector3d& ray_W, const Vector3d& n_W, const std::functio
   if (ray_W.squaredNorm() >= reach_ * reach_) return {};
   Try best{0.0, 0.0, look({ray_W, n_W, 0.0, allowed}, 0.0)};
   if (best.aim.q >= 1.0) return best.aim;
-  // The quarters of the picture, each with a hill of its own, as the worse of two resolutions counts; and once more
-  // for headings away from the point, which show it when it is far below or above.
+  // The best aim in each quarter of the picture: as the worse of two resolutions counts, each quarter has a local
+  // maximum of its own. Twice, as headings away from the point also show it if it is far below or above.
   std::array<Try, 8> hills;
   for (int i = -kTurns / 2; i < kTurns / 2; ++i) {
     const double turn = i * kTurnStep;
     const Heading heading(ray_W, n_W, turn, allowed);
     const Vector3d& ray = heading.ray_Y;
-    // Too far to the side, whatever the pitch.
+    // With this heading, the point is outside the picture at any pitch.
     if (std::abs(ray.y()) > tan_half_hfov_ * std::hypot(ray.x(), ray.z())) continue;
     for (const double part : kLifts) {
       const Try next{turn, part * half_vfov_, look(heading, part * half_vfov_)};

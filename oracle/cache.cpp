@@ -11,8 +11,8 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-/// Goes up whenever the same question may get another answer: a change in the search, in what counts as visible, or in
-/// a formula.
+/// Must be increased with every change that may change an answer: of the search, of the visibility test, or of a
+/// formula.
 constexpr int kOracleVersion = 2;
 
 Json part_to_json(const OracleSummary::Part& part) {

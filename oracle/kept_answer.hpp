@@ -8,10 +8,12 @@
 
 namespace skein::sim {
 
-/// @returns nullopt when the file does not exist. @throws std::exception when it is damaged, or answers another key.
+/// @returns nullopt if the file does not exist. @throws std::exception if it is damaged, or has the answer to another
+///   key.
 std::optional<nlohmann::ordered_json> kept_answer(const std::filesystem::path& file, const std::string& key);
 
-/// Writes the file atomically, closed to agents; creates its folder if necessary. @throws std::exception on failure.
+/// Writes the file atomically, unreadable for agents (process/files/closed_to_agents.hpp). Creates its folder if
+/// necessary. @throws std::exception on failure.
 void keep_answer(const std::filesystem::path& file, const std::string& key, const nlohmann::ordered_json& answer);
 
 }  // namespace skein::sim

@@ -1,4 +1,4 @@
-// Triangles in the keys of what is kept in the user's cache.   Pure.
+// Adds the triangles of a mesh to a hash that is the key of a cached result.   Pure.
 #pragma once
 
 #include <cstdint>

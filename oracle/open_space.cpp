@@ -10,9 +10,9 @@ namespace {
 
 constexpr double kFinestCell = 0.25, kCoarsestCell = 1.0;
 constexpr double kMostLines = 1e6;
-/// Structure farther than this beyond the clearance needs no exact distance: the query costs more than a step.
+/// Range of a query beyond the clearance [m]: a query of longer range would cost more than another step.
 constexpr double kFar = 2.0;
-/// How far above a start its UAV is free to leave from.
+/// Free stretches up to this height above a start are open if the start has line of sight to them [m].
 constexpr double kClimb = 5.0;
 
 std::size_t lines_over(double length, double step) { return static_cast<std::size_t>(std::ceil(length / step)) + 1; }
@@ -20,7 +20,7 @@ std::size_t lines_over(double length, double step) { return static_cast<std::siz
 }  // namespace
 
 OpenSpace::Grid::Grid(const Eigen::AlignedBox3d& structure, double clearance)
-    // A margin, so that the outermost lines run clear of the structure and all sky hangs together around it.
+    // The margin keeps the outermost lines clear of the structure, so that all space around it is connected.
     : low(structure.min() - Vector3d::Constant(clearance + 2.0 * kCoarsestCell)),
       high(structure.max() + Vector3d::Constant(clearance + 2.0 * kCoarsestCell)) {
   low.z() = 0.0;
@@ -60,7 +60,8 @@ Vector3d OpenSpace::on_line(std::size_t line, double x) const {
           grid_.low.z() + static_cast<double>(line / grid_.lines_y) * grid_.step};
 }
 
-/// The sky is at the sides and on top. The ground is no border: below a floating box it is the box's own inside.
+/// Whether a line is at a side or at the top of the grid, and so open. The bottom is no border: lines on the ground may
+/// be inside a hollow structure.
 bool OpenSpace::at_border(std::size_t line) const {
   const std::size_t iy = line % grid_.lines_y, iz = line / grid_.lines_y;
   return iy == 0 || iy + 1 == grid_.lines_y || iz + 1 == grid_.lines_z;
@@ -74,7 +75,7 @@ OpenSpace::Line OpenSpace::walk_line(std::size_t line) const {
     const double room = std::min(world_.clearance(on_line(line, x), far), far) - clearance_;
     const double next = x + std::max(std::abs(room), least_step);
     if (room >= 0.0) {
-      // Free up to x + room for certain; a longer step was only taken to get on.
+      // Certainly free up to x + room; a longer step is only taken to make progress.
       if (was_free) {
         stretches.back().until = x + room;
       } else {
@@ -136,7 +137,7 @@ bool OpenSpace::reaches(const Vector3d& p_W) const {
     for (const Stretch& stretch : lines_[line]) {
       const double x = std::clamp(p_W.x(), stretch.from, stretch.until);
       if (!stretch.open || std::abs(x - p_W.x()) > grid_.step) continue;
-      // One step is shorter than a wall is far from two free places, unless the scene is huge or the clearance small.
+      // The ray is needed if the scene is huge or the clearance small; else a grid step is too short to cross a wall.
       if (!world_.first_hit_distance(p_W, on_line(line, x), {.ground = false})) return true;
     }
   }

@@ -1,5 +1,5 @@
-// Where a fleet can get to: the part of free space that hangs together with the open sky or with a start.
-// Frame: W, ground z = 0.   Units: m.
+// The space that a fleet can reach ("open space"): the part of free space that is connected to the unbounded space
+// around the structure, or to a start.   Frame: W, ground z = 0.   Units: m.
 #pragma once
 
 #include <cstdint>
@@ -11,41 +11,42 @@
 
 namespace skein::sim {
 
-/// Free space is cut into level lines along x, a grid step apart. Each line is walked by clearances, which change by no
-/// more than a metre a metre: so its free stretches cost few queries and are exact along x. Stretches of neighbouring
-/// lines that overlap belong together. Immutable; safe from any thread.
+/// Represents free space by horizontal lines along x, one grid step apart. The clearance changes by at most a metre per
+/// metre, so stepping along a line from clearance to clearance finds its free stretches with few queries, and exactly
+/// along x. Overlapping stretches of neighbouring lines are connected. Immutable; safe from any thread.
 class OpenSpace {
  public:
   /// @param world      must outlive this.
-  /// @param structure  a box around all of it. Beyond that all is open sky.
-  /// @param clearance  of free space [m]; not less than just over half a grid step is used, because two neighbouring
-  ///                   lines could otherwise meet through a wall.
-  /// @param starts     where UAVs stand; the space above them counts as open as well, also below a roof.
-  /// @param threads    that walk the lines; nothing depends on their number.
+  /// @param structure  a box around the whole structure. All space beyond it is open.
+  /// @param clearance  of free space from the structure [m]. The class uses at least 0.51 grid steps, because otherwise
+  ///                   two neighbouring lines could be connected through a wall.
+  /// @param starts     where UAVs stand; the space above them is open, too, even under a roof.
+  /// @param threads    number of threads that process the lines; the result does not depend on it.
   OpenSpace(const RayScene& world, const Eigen::AlignedBox3d& structure, double clearance,
             std::span<const Vector3d> starts, unsigned threads = 1);
 
-  /// How many lines that takes: its cost. Pure.
+  /// Number of lines that the constructor would process: a measure of its cost. Pure.
   static std::size_t line_count(const Eigen::AlignedBox3d& structure, double clearance);
 
-  /// Whether a place has a clear straight way to open space, to a line next to it and no farther along than a step.
+  /// Whether a place is connected to open space: a clear straight line leads to an open stretch of one of the four
+  /// lines around it, at most a grid step away along x. True beyond the grid.
   bool reaches(const Vector3d& p_W) const;
 
-  /// Distance of neighbouring lines: the clearance, as far as that is between 0.25 and 1 m, and never so fine that a
-  /// very large scene needs more than a million lines.
+  /// Distance between neighbouring lines: the clearance, limited to 0.25 to 1 m; larger if a very large scene would
+  /// otherwise need more than about a million lines.
   double step() const { return grid_.step; }
 
  private:
   struct Stretch {
-    double from = 0.0, until = 0.0;  ///< x
+    double from = 0.0, until = 0.0;  ///< range of x
     bool open = false;
   };
   struct Place {
     std::size_t line = 0, stretch = 0;
   };
-  using Line = std::vector<Stretch>;  ///< in order of x
+  using Line = std::vector<Stretch>;  ///< ascending in x
 
-  /// The lines over a structure: margins, step and numbers.
+  /// The grid of lines over a structure with its margins.
   struct Grid {
     Vector3d low, high;
     double step;

@@ -17,7 +17,7 @@
 namespace skein::sim {
 namespace {
 
-constexpr double kFaintest = 1e-6;  ///< of qualities that are more than nothing
+constexpr double kFaintest = 1e-6;  ///< least quality that ends a search if `min_point_score` is 0
 
 std::vector<Vector3d> starts_of(const Scenario& scenario) {
   std::vector<Vector3d> starts;
@@ -33,7 +33,7 @@ Eigen::AlignedBox3d extent(const TriangleMesh& mesh) {
   return box;
 }
 
-/// Spaces by clearance, each made once.
+/// Open spaces by clearance, each computed once, on demand.
 class Spaces {
  public:
   Spaces(const RayScene& world, const TriangleMesh& mesh, const Scenario& scenario, unsigned threads)
@@ -53,7 +53,7 @@ class Spaces {
   std::map<double, std::unique_ptr<OpenSpace>> by_clearance_;
 };
 
-/// What one kind of camera keeps clear, by the question.
+/// Clearance from the structure that one kind of camera (or its body's centre) must keep [m].
 double needed_clearance(const CameraKind& kind, Berth berth, double clearance) {
   return berth == Berth::camera ? clearance : Body(kind.body).radius + clearance;
 }
@@ -64,7 +64,7 @@ Viewer viewer_of(const CameraKind& kind, const Scenario& scenario, double cleara
           CameraMount(kind, scenario.rules.own_body_hides), clearance, std::move(spaces)};
 }
 
-/// @param wide_berth  beyond which a place is outside; 0: any place will do.
+/// @param wide_berth  places must also be next to open space with this clearance [m]; 0: no such condition.
 std::vector<Viewer> viewers(const Scenario& scenario, const OracleConfig& config, double wide_berth, Spaces& spaces) {
   std::vector<Viewer> all;
   std::vector<std::array<double, 5>> optics;
@@ -86,12 +86,13 @@ Attainable sum_up(const std::vector<PointView>& views, double least) {
   for (const PointView& view : views) {
     if (!counts(view, least)) continue;
     ++sum.points;
-    sum.score += static_cast<float>(view.q);  // as captures are scored, so that differences of the two are exact
+    sum.score += static_cast<float>(view.q);  // single precision, as for captures: differences of the two are exact
   }
   return sum;
 }
 
-/// Which attainable points a whole UAV can take: the slimmest first, the others only for what it cannot.
+/// Which attainable points a whole UAV can photograph. Tries the kind with the smallest body first, and larger kinds
+/// only for the remaining points.
 class FlyablePoints {
  public:
   FlyablePoints(const Scenario& scenario, const Scene& scene, const OracleConfig& config, const RayScene& world,
@@ -107,7 +108,8 @@ class FlyablePoints {
     std::ranges::stable_sort(kinds, {}, [](const CameraKind& kind) { return Body(kind.body).radius; });
     for (const CameraKind& kind : kinds) {
       const double needed = Body(kind.body).radius;
-      // A space with a wider berth is part of the body's own, which costs more: it is made for the rest.
+      // An open space with more clearance is a subset of the one that the body needs, and is known already. So it is
+      // searched first, and the body's own space, which costs time, is computed only for the remaining points.
       const double known = config_.clearance_m >= needed ? config_.clearance_m : config_.outside_berth_m;
       if (known > needed) search(kind, needed, known);
       search(kind, needed, needed);
@@ -134,7 +136,7 @@ class FlyablePoints {
   Spaces& spaces_;
   const double least_ = scenario_.rules.min_point_score;
   std::vector<std::uint8_t> flyable_;
-  std::vector<std::size_t> open_;  ///< points that nobody has taken yet
+  std::vector<std::size_t> open_;  ///< attainable points for which no kind has been found yet
 };
 
 }  // namespace
@@ -182,7 +184,7 @@ OracleReport consult_oracle(const Scenario& scenario, const Scene& scene, const 
     return OracleAnswer{fine, sum_up(fine, least), sum_up(coarse, least)};
   };
   OracleReport report{answer(reachable), answer(outside), {}};
-  if (config.berth == Berth::body) {  // then a whole UAV has taken them
+  if (config.berth == Berth::body) {  // all pictures are from a whole UAV
     for (const PointView& view : report.reachable.best) report.flyable.push_back(counts(view, least) ? 1 : 0);
   } else {
     report.flyable = FlyablePoints(scenario, scene, config, world, spaces).among(report.reachable.best);

@@ -1,4 +1,4 @@
-// Independent pieces of work over a few threads.
+// Distributes independent pieces of work over a few threads.
 #pragma once
 
 #include <atomic>
@@ -8,9 +8,9 @@
 
 namespace skein::sim {
 
-/// Calls `work(i)` once for each i below `count`, in whatever order and thread: the pieces must not depend on each
-/// other, and must not throw. Returns when all are done.
-/// @param threads  this one included; 0 counts as 1.
+/// Calls `work(i)` once for each i < `count`, in any order and on any thread: the calls must not depend on each other,
+/// and must not throw. Returns when all are done.
+/// @param threads  number of threads, including the caller's; 0 counts as 1.
 template <class Work>
 void share_out(std::size_t count, unsigned threads, const Work& work) {
   std::atomic<std::size_t> next = 0;

@@ -13,21 +13,21 @@ namespace skein::sim {
 namespace {
 
 constexpr double kNowhere = std::numeric_limits<double>::infinity();
-/// The camera's least distance from a point, when no clearance asks for more [m].
+/// The camera's least distance from a point, if the clearance does not demand more [m].
 constexpr double kNearest = 2.0 * Camera::kSurfaceTolerance;
-/// Where rays from a point begin: just out of the surface that it lies on [m].
+/// Rays from a point begin this far from it, clear of its surface [m].
 constexpr double kLiftOff = 0.03;
-constexpr double kLeastStep = 0.05;        ///< along a direction that runs beside the structure [m]
+constexpr double kLeastStep = 0.05;        ///< along a direction close to the structure [m]
 constexpr double kBodyStep = 0.1;          ///< along a direction where the body fits with no heading [m]
-constexpr std::size_t kHeadingsApart = 4;  ///< of the body's, which are tried on the way to a place
-constexpr double kReachStep = 0.5;         ///< along a direction where the camera is out of reach [m]
-constexpr int kHalvings = 4;               ///< of the last such step
+constexpr std::size_t kHeadingsApart = 4;  ///< body_lacks() tries every fourth heading of the body
+constexpr double kReachStep = 0.5;         ///< along a direction where the camera is outside open space [m]
+constexpr int kHalvings = 4;               ///< of the last step
 constexpr double kFinestTurn = 1.0 * kRadPerDeg;
-constexpr int kMostRefinements = 16, kMostUnseen = 5;  ///< steps of a refinement; of one where nothing has been seen
+constexpr int kMostRefinements = 16, kMostUnseen = 5;  ///< steps of a refinement; of one without any picture so far
 constexpr std::array<std::array<double, 2>, 8> kNeighbours = {
     {{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {1, -1}, {-1, 1}, {-1, -1}}};
 
-/// 1 / g and 1 / g^2, g^3 = g + 1: the numbers whose multiples fill a square most evenly (Roberts' R2 sequence).
+/// 1 / g and 1 / g^2, where g^3 = g + 1: their multiples fill a square very evenly (Roberts' R2 sequence).
 constexpr double kHeightStep = 0.7548776662466927, kAzimuthStep = 0.5698402909980532;
 
 bool is_within(const std::vector<const OpenSpace*>& spaces, const Vector3d& p_W) {
@@ -36,10 +36,10 @@ bool is_within(const std::vector<const OpenSpace*>& spaces, const Vector3d& p_W)
 
 }  // namespace
 
-/// A direction from the point, and what it is good for.
+/// A direction from the point, and the best picture from there.
 struct ViewSearch::Trial {
   Vector3d direction = Vector3d::UnitZ();
-  /// How nearly a place there is free, in [0, 1]: leads the search while nothing has been seen.
+  /// How close a place in this direction is to being free, in [0, 1]: guides the search as long as there is no picture.
   double openness = 0.0;
   PointView view;
 
@@ -48,7 +48,7 @@ struct ViewSearch::Trial {
   }
 };
 
-/// The best picture so far, and the best few trials, the very best first.
+/// The best picture so far, and the best two trials, the better one first.
 class ViewSearch::Best {
  public:
   explicit Best(double enough) : enough_(enough) {}
@@ -85,12 +85,12 @@ Vector3d sphere_direction(std::size_t n) {
   return {r * std::cos(azimuth), r * std::sin(azimuth), z};
 }
 
-/// One kind of camera that looks at a point from somewhere along a direction.
+/// One kind of camera that looks at a point from some distance in a direction.
 struct ViewSearch::Look {
   const Viewer& viewer;
-  Vector3d p_W, direction;  ///< the point, and the way from it to the camera
-  double until;             ///< where something else is in the way
-  BodyHeadings headings;    ///< with which the body leaves the view clear; where they matter to a place
+  Vector3d p_W, direction;  ///< the point, and the unit vector from it towards the camera
+  double until;             ///< distance from the point at which something blocks the view
+  BodyHeadings headings;    ///< with which the body does not block the view; set only if heading_matters()
 
   Vector3d place(double d) const { return p_W + d * direction; }
 };
@@ -104,8 +104,8 @@ ViewSearch::ViewSearch(const RayScene& world, const std::vector<Viewer>& viewers
   for (const Viewer& viewer : viewers) reach_ = std::max(reach_, viewer.aim.reach());
 }
 
-/// Whether it matters to a place how the body is turned there. A camera is no farther from its body's centre than some
-/// decimetres: with as much room around either of them nothing is between the two.
+/// Whether a place can be free with some headings of the body and not with others. A camera is only some decimetres
+/// from its body's centre: if the clearance is at least this distance, no structure can be between the two.
 bool ViewSearch::heading_matters(const Viewer& viewer) const {
   const bool room_for_arm = !blind_in_structure_ || viewer.clearance >= viewer.mount.offset();
   return berth_ == Berth::body || !room_for_arm;
@@ -121,10 +121,10 @@ bool ViewSearch::fits(const Viewer& viewer, const Vector3d& p_WC, double body_ya
   return room_for_arm || !world_.first_hit_distance(centre, p_WC, {.ground = false, .uavs = false});
 }
 
-/// How far to go on from a place with the body, at least; 0 where it may be.
+/// For Berth::body: 0 if the place is free, else a distance to step on before another place is tried.
 double ViewSearch::body_lacks(const Look& look, const Vector3d& p_WC, double& openness) const {
   const auto& [aim, mount, needed, spaces, optics] = look.viewer;
-  // All centres that the headings give lie on a circle about this one.
+  // The body's centres for all headings lie on a circle around this point.
   const Vector3d mean = mount.mean_centre(p_WC);
   const double room = world_.clearance(mean, needed), lacking = needed - mount.arm() - room;
   if (room < needed) openness = std::max(openness, room / needed);
@@ -136,11 +136,11 @@ double ViewSearch::body_lacks(const Look& look, const Vector3d& p_WC, double& op
   return kBodyStep;
 }
 
-/// How far to go on from a place with the camera, at least; 0 where it may be.
+/// For Berth::camera: 0 if the place is free, else a distance to step on before another place is tried.
 double ViewSearch::camera_lacks(const Look& look, const Vector3d& p_WC, double& openness) const {
   const double needed = look.viewer.clearance;
   if (!is_within(look.viewer.spaces, p_WC)) return kReachStep;
-  // Of a surface the distance changes by no more than a metre a metre: what lacks of the clearance can be skipped.
+  // The clearance changes by at most a metre per metre: a distance as long as the lacking clearance can be skipped.
   const double lacking = needed - world_.clearance(p_WC, needed);
   if (lacking > 0.0) {
     openness = std::max(openness, 1.0 - lacking / needed);
@@ -149,14 +149,14 @@ double ViewSearch::camera_lacks(const Look& look, const Vector3d& p_WC, double& 
   return heading_matters(look.viewer) && fitting(look, p_WC).allowed.none() ? kLeastStep : 0.0;
 }
 
-/// Distance of the first place along a direction where a camera may be, kNowhere if there is none.
+/// Distance from the point of the nearest free place in a direction; kNowhere if there is none.
 double ViewSearch::nearest_place(const Look& look, double& openness) const {
   const auto step_on = [&](double d) {
     return berth_ == Berth::body ? body_lacks(look, look.place(d), openness)
                                  : camera_lacks(look, look.place(d), openness);
   };
   const double nearest = berth_ == Berth::camera ? std::max(look.viewer.clearance, kNearest) : kNearest;
-  double refused = 0.0;  // the last place that was not
+  double refused = 0.0;  // the last place that was not free
   for (double d = nearest; d < look.until && look.place(d).z() >= 0.0;) {
     if (const double step = step_on(d); step > 0.0) {
       refused = d;
@@ -164,7 +164,7 @@ double ViewSearch::nearest_place(const Look& look, double& openness) const {
       continue;
     }
     openness = 1.0;
-    // The way into reach was taken in long steps: back to where it began.
+    // The last step may have been long: bisect it to find where the free places begin.
     for (int i = 0; i < kHalvings && refused > 0.0; ++i) {
       const double middle = 0.5 * (refused + d);
       (step_on(middle) == 0.0 ? d : refused) = middle;
@@ -182,7 +182,7 @@ BodyHeadings ViewSearch::fitting(const Look& look, const Vector3d& p_WC) const {
   return headings;
 }
 
-/// Of the headings with which the body fits, the one that turns the gimbal least.
+/// Of the headings with which the body fits, the one with the least gimbal yaw; nullopt if there is none.
 std::optional<double> ViewSearch::fitting_yaw(const Look& look, const Vector3d& p_WC, BodyHeadings headings,
                                               double camera_yaw) const {
   while (const auto nearest = look.viewer.mount.nearest_heading(headings, camera_yaw)) {
@@ -193,8 +193,8 @@ std::optional<double> ViewSearch::fitting_yaw(const Look& look, const Vector3d& 
   return std::nullopt;
 }
 
-/// Takes the best picture from a place if it is better than `best`.
-/// @param aim  the best aim whatever the body's heading.
+/// Replaces `best` by the best picture from a place, if that is better.
+/// @param aim  the best aim if the body may have any heading.
 void ViewSearch::take_picture(const Look& look, const Vector3d& p_WC, const Vector3d& n_W, Aim aim,
                               PointView& best) const {
   if (aim.q <= best.q) return;
@@ -219,14 +219,14 @@ void ViewSearch::take_picture(const Look& look, const Vector3d& p_WC, const Vect
   }
 }
 
-/// Ends at the first kind of camera whose picture is good enough.
+/// Tries the kinds of camera one by one, until a picture is good enough.
 ViewSearch::Trial ViewSearch::try_direction(const InterestPoint& point, const Vector3d& direction,
                                             double enough) const {
   const Vector3d p_W = point.p_W.cast<double>(), n_W = point.n_W.cast<double>();
   Trial trial{direction, 0.0, {}};
   double until = 0.0, d = kNowhere;
   bool visible = false;
-  std::optional<Aim> aim;  // from there
+  std::optional<Aim> aim;  // the best one from distance d, with the optics of `before`
   const Viewer* before = nullptr;
   for (const Viewer& viewer : viewers_) {
     if (trial.view.q >= enough) break;
@@ -239,7 +239,7 @@ ViewSearch::Trial ViewSearch::try_direction(const InterestPoint& point, const Ve
       const auto hit = world_.first_hit(p_W + kLiftOff * direction, direction, reach_);
       look.until = until = hit ? kLiftOff + hit->distance : reach_;
     }
-    // Where the body does not matter all kinds of camera stand in the same place.
+    // If the heading does not matter, the nearest free place is the same for all kinds of camera.
     if (before == nullptr || heading_matters(viewer)) {
       d = nearest_place(look, trial.openness);
       visible = d < kNowhere && sees_(look.place(d), p_W, kNobody, world_);
@@ -258,7 +258,7 @@ ViewSearch::Trial ViewSearch::try_direction(const InterestPoint& point, const Ve
 void ViewSearch::refine(const InterestPoint& point, double step, Best& best) const {
   const auto starts = best.trials();
   for (Trial trial : starts) {
-    if (trial.openness <= 0.0) continue;  // nothing to go by
+    if (trial.openness <= 0.0) continue;  // no indication of a free place nearby
     double turn = step;
     for (int i = 0; turn > kFinestTurn && !best.done(); ++i) {
       if (i == (trial.view.q > 0.0 ? kMostRefinements : kMostUnseen)) break;
@@ -284,11 +284,11 @@ ViewSearch::Found ViewSearch::find(const InterestPoint& point, std::size_t direc
     for (std::size_t n = from; n < until && !best.done(); ++n) {
       best.offer(try_direction(point, sphere_direction(n), enough));
     }
-    // Half the mean distance of neighbours on the unit sphere.
+    // The first step is half the mean distance between neighbours on the unit sphere.
     refine(point, 0.5 * std::sqrt(4.0 * std::numbers::pi / static_cast<double>(until)), best);
     return best.view();
   };
-  best.know(known.coarse);  // one that is good enough needs no search
+  best.know(known.coarse);  // no search is needed if this one is good enough
   const Vector3d n_W = point.n_W.cast<double>();
   for (const Vector3d& direction : {n_W, Vector3d(-n_W)}) {
     if (!best.done()) best.offer(try_direction(point, direction, enough));

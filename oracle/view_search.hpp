@@ -14,18 +14,18 @@
 
 namespace skein::sim {
 
-/// The n-th of a sequence of unit vectors that covers the sphere evenly however long it is. Pure.
+/// The n-th vector of a sequence of unit vectors. The first n vectors cover the sphere evenly for every n. Pure.
 Vector3d sphere_direction(std::size_t n);
 
-/// A kind of camera, and where it may be.
+/// A kind of camera, and the places where it may be.
 struct Viewer {
   BestAim aim;
   CameraMount mount;
-  /// Of the camera from the structure, or of the body's centre, by the search's Berth [m].
+  /// Clearance from the structure [m], depending on the search's Berth: of the camera, or of the body's centre.
   double clearance = 0.0;
-  /// The camera, or the body's centre, must be within reach of each; they must outlive this.
+  /// All of them must reach the camera, or the body's centre (OpenSpace::reaches()); they must outlive this.
   std::vector<const OpenSpace*> spaces;
-  std::size_t optics = 0;  ///< equal where `aim` gives equal answers
+  std::size_t optics = 0;  ///< equal for viewers whose `aim` gives equal answers
 };
 
 /// Immutable; safe from any thread.
@@ -33,15 +33,16 @@ class ViewSearch {
  public:
   /// @param world, viewers  must outlive this. With Berth::camera all viewers have the same clearance and
   ///                              spaces.
-  /// @param rules  what a camera sees: whether one that reaches through the structure is blind, and how a ray meets a
-  ///               point.
+  /// @param rules  used for visibility: whether a camera that passes through the structure is blind, and the test for
+  ///               line of sight.
   ViewSearch(const RayScene& world, const std::vector<Viewer>& viewers, Berth berth, const RulesConfig& rules);
 
   struct Found {
-    PointView coarse, fine;  ///< with `directions` and with twice as many; fine.q >= coarse.q
+    PointView coarse, fine;  ///< with `directions` and with twice the number; fine.q >= coarse.q
   };
-  /// @param known   what is found is not worse: pictures from places that are allowed here too.
-  /// @param enough  a picture as good as this ends the search.
+  /// Searches for the best picture of a point.
+  /// @param known   pictures from places that this search allows, too; the result is never worse.
+  /// @param enough  a picture with at least this quality ends the search.
   Found find(const InterestPoint& point, std::size_t directions, const Found& known, double enough = 1.0) const;
 
  private:

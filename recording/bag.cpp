@@ -13,12 +13,13 @@
 namespace skein::recording {
 namespace {
 
-// Numbers of rmw's enumerations.
+// Values of the enumerations of rmw.
 constexpr int kKeepLast = 1, kReliable = 1, kTransientLocal = 1, kVolatile = 2, kAutomatic = 1;
-constexpr int kOtherDepth = 64;  ///< of topics that the table has not got: radio topics and debug values
+constexpr int kOtherDepth = 64;  ///< for topics that are not in the tables: radio topics and debug values
 constexpr int kLatchedDepth = 1;
 
-/// "/jurong/clock" is /clock of jurong's domain, "/jurong/gimbal" is /{id}/gimbal.
+/// Whether `info` describes a recorded topic. "/jurong/clock" is /clock in jurong's domain, "/jurong/gimbal" is
+/// /{id}/gimbal.
 bool is(const topics::TopicInfo& info, std::string_view topic) {
   if (info.pattern == topic) return true;
   const std::size_t end = topic.find('/', 1);

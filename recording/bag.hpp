@@ -1,5 +1,5 @@
-// What ROS 2's bag tools want to know of a recording beside its messages: the quality of service that each topic was
-// offered with, in its channel, and a metadata.yaml, which makes a run's folder a bag (`ros2 bag play FOLDER`).
+// ROS 2's bag tools need more than the messages of a recording: the QoS with which each topic was offered (in the
+// metadata of its channel), and a metadata.yaml, which makes a run's folder a bag (`ros2 bag play FOLDER`).
 #pragma once
 
 #include <filesystem>
@@ -8,16 +8,16 @@
 
 namespace skein::recording {
 
-/// In the run's folder.
+/// File name in the run's folder.
 inline constexpr const char* kBagMetadata = "metadata.yaml";
 
-/// The QoS of a recorded topic as rosbag2 of ROS 2 Humble writes it, in YAML: of the topic on the wire.
+/// The QoS of a recorded topic on the wire, in YAML, as rosbag2 of ROS 2 Humble writes it. Pure.
 /// @param topic  its ROS name in the recording.
 std::string offered_qos_profiles(std::string_view topic);
 
-/// The metadata.yaml of a folder with this recording: version 5, which rosbag2 reads from Humble on. Topics whose type
-/// nobody knows are left out, since no player could publish them.
-/// @throws InputError when the recording cannot be read.
+/// The metadata.yaml of a folder with this recording, in version 5, which rosbag2 reads from Humble on. Topics of
+/// unknown type are left out, since no player could publish them.
+/// @throws InputError if the recording cannot be read.
 std::string bag_metadata(const std::filesystem::path& recording);
 
 }  // namespace skein::recording

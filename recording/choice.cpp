@@ -8,7 +8,8 @@
 namespace skein::recording {
 namespace {
 
-/// Frames have the poses five times a second. What a UAV is told in each exchange follows from its commands.
+/// Period of odometry and similar topics. More is not needed: /tf contains the poses five times a second, and what a
+/// UAV receives in each exchange follows from its commands.
 constexpr double kPosePeriod_s = 0.5;
 
 bool is(const topics::TopicInfo& info, std::string_view node, std::string_view topic) {
@@ -44,8 +45,8 @@ std::optional<Choice> choice_of(Scope scope, std::string_view node, std::string_
   if (tells_of_itself) return Choice{0, true};
   if (is(kBoundingBoxes, node, topic)) return node == "gcs" ? std::optional(Choice{0, true}) : std::nullopt;
   if (scope == Scope::run) return std::nullopt;
-  if (is(kScore, node, topic)) return Choice{0, true};  // nobody in a fleet reads it
-  // A cloud is no scan without the angle of its servo.
+  if (is(kScore, node, topic)) return Choice{0, true};  // no program of a fleet reads it
+  // A LiDAR cloud is of no use without the angle of the LiDAR's servo.
   const bool cloud = is_one_of({kCloud, kLidarServo, kSelfKeyframe, kNeighbourKeyframe}, node, topic);
   return Choice{0, cloud && scope == Scope::clouds};
 }

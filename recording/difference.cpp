@@ -38,13 +38,13 @@ std::string text_of(const msg::MultiDOFJointTrajectory& trajectory) {
 std::string text_of(const msg::String& string) {
   const std::string& text = string.data();
   const auto is_plain = [](unsigned char c) { return c >= 0x20 && c < 0x7F; };
-  if (!std::ranges::all_of(text, is_plain)) return "";  // planners put numbers into strings, too
+  if (!std::ranges::all_of(text, is_plain)) return "";  // planners also put binary data into strings
   return text.size() <= kLongestText ? "'" + text + "'" : fmt::format("'{}'...", text.substr(0, kLongestText));
 }
 
 std::string text_of(const msg::BoolStamped& trigger) { return trigger.data() ? "true" : "false"; }
 
-/// @returns empty when the payload is of another type.
+/// @returns an empty string if the payload has another type or cannot be decoded.
 template <class Message>
 std::string text_if(const std::string& wire_type, mcap::ByteView payload) {
   Message message;

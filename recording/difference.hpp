@@ -1,4 +1,4 @@
-// Where what a program says parts from what was recorded of it. Pure.
+// Finds the first difference between the samples that a program sends in a replay and its recorded samples. Pure.
 #pragma once
 
 #include <optional>
@@ -11,17 +11,18 @@
 
 namespace skein::recording {
 
-/// Of one topic, in one step.
+/// A difference on one topic in one step.
 struct Difference {
-  std::string node, topic;
+  std::string node, topic;  ///< topic: name in the recording
   Tick tick = 0;
-  std::string recorded, now;  ///< what was said, for people; "nothing"
+  std::string recorded, now;  ///< the two samples as text for people; "nothing": there is no sample
 };
 
-/// What a sample says: numbers of commands, the text of a string, else how long it is.
+/// A sample as text for people: the numbers of a command, the text of a string, else size and checksum.
 std::string describe(const std::string& wire_type, mcap::ByteView payload);
 
-/// The first sample in which two steps differ on a topic. @returns nullopt: none.
+/// The first two samples of a topic that differ between the recorded step and the present one, as text (describe(), or
+/// "nothing"). @returns nullopt: there is no difference.
 std::optional<std::pair<std::string, std::string>> first_difference(const std::string& wire_type,
                                                                     std::span<const mcap::Bytes> recorded,
                                                                     std::span<const mcap::Bytes> now);

@@ -1,4 +1,5 @@
-// A recording, taken apart by time: who said what when, to be said again. Immutable; any thread.
+// A recording in memory, ordered by time: which sample was sent on which topic and when, for a replay. Immutable; any
+// thread.
 #pragma once
 
 #include <cstdint>
@@ -15,22 +16,22 @@ namespace skein::recording {
 
 /// One recorded sample.
 struct Said {
-  std::string topic;  ///< as recorded: "/jurong/command/gimbal"
-  std::uint32_t sequence = 0;
+  std::string topic;           ///< name in the recording: "/jurong/command/gimbal"
+  std::uint32_t sequence = 0;  ///< number of the sample at its source; 0 if it has none
   mcap::Bytes payload;
 };
 
 class RecordedRun {
  public:
-  /// @param wanted  of a recorded topic: whether its samples are kept.
-  /// @throws InputError when the file is no whole recording.
+  /// @param wanted  whether the samples of a recorded topic are kept.
+  /// @throws InputError if the file is not a complete, undamaged recording.
   RecordedRun(const std::filesystem::path& file, const std::function<bool(const std::string& topic)>& wanted);
 
-  /// What was said at this time, in the order in which it was taken.
+  /// The kept samples of this time, in recorded order.
   const std::vector<Said>& at(Tick tick) const;
-  /// All that was kept, in the order of time.
+  /// Calls `visit` for each kept sample, in order of time.
   void each(const std::function<void(Tick, const Said&)>& visit) const;
-  /// Of the last sample.
+  /// Time of the last recorded sample, kept or not.
   Tick end() const { return end_; }
 
  private:

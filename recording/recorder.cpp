@@ -13,7 +13,8 @@
 namespace skein::recording {
 namespace {
 
-/// Ids of schemas and channels are unique in the recording, whose parts are joined as they are.
+/// Range of ids of schemas and channels for a program. The ids must be unique in the whole recording, since its parts
+/// are joined without changing them. A program that is started again ("life") uses the next `of_a_life` ids.
 struct Ids {
   std::uint16_t first, lives, of_a_life;
 };
@@ -31,7 +32,7 @@ mcap::WriterOptions options_of(const std::string& program, int life) {
   return {.first_id = first, .last_id = static_cast<std::uint16_t>(first + ids.of_a_life - 1)};
 }
 
-/// Without what no run repeats: the CPU time of what a program says that it does.
+/// An Activity message without its CPU time, which differs from run to run; any other payload unchanged.
 mcap::Bytes repeatable(std::span<const std::uint8_t> payload) {
   msg::Activity activity;
   if (!decode(payload, activity)) return {payload.begin(), payload.end()};

@@ -1,6 +1,6 @@
-// A program's part of a run's recording: an MCAP file of its own in the run's folder, from which the launcher makes
-// recording.mcap. Times are simulated: the same run makes the same recording.
-// Not thread-safe. A disk that refuses ends the recording, never the run.
+// A program's part of a run's recording: an MCAP file of its own in the run's folder. The launcher joins all parts to
+// recording.mcap. Times are simulated times, so the same run gives the same recording.
+// Not thread-safe. A write error (such as a full disk) ends the recording, never the run.
 #pragma once
 
 #include <filesystem>
@@ -19,19 +19,20 @@ namespace skein::recording {
 
 class Recorder final : public bus::Tap {
  public:
-  /// @param folder   the run's.
-  /// @param program  results/run_folder.hpp's name of it; started again, it writes one more part.
+  /// If the file cannot be opened, nothing is recorded, and trouble() says why.
+  /// @param folder   the run's folder.
+  /// @param program  its name in results/run_folder.hpp. A program that is started again writes another part.
   Recorder(const std::filesystem::path& folder, const std::string& program, Scope scope);
 
   Scope scope() const { return scope_; }
-  /// The time of all that follows. It may go back: what waited is told at the time to which it belongs.
+  /// Sets the time of all samples that follow. With add(), the time may go back: a delayed sample gets its own time.
   void set_time(Tick tick) { tick_ = tick; }
 
-  /// Records what the scope asks for.
+  /// Records the topic as the scope demands (choice.hpp).
   bus::Ear ear(const std::string& node, const bus::TopicSpec& topic) override;
-  /// Whatever the scope, unless nothing is recorded. @param topic  ROS name in the recording.
-  /// @param wire_type  one that the IDL does not know is recorded without its definition.
-  /// @param sequence  its number at its source, where it has one.
+  /// Records a sample with every scope but `none`. @param topic  ROS name in the recording.
+  /// @param wire_type  DDS type name; a type that the IDL does not contain is recorded without its definition.
+  /// @param sequence  number of the sample at its source, if it has one.
   void add(const std::string& topic, const std::string& wire_type, std::span<const std::uint8_t> payload,
            std::uint64_t sequence = 0);
   template <class Message>
@@ -39,18 +40,18 @@ class Recorder final : public bus::Tap {
     if (scope_ != Scope::none) add(topic, type_name<Message>(), encode(message));
   }
 
-  /// What has been recorded is in the file when this returns.
+  /// When this returns, all samples so far are in the file.
   void flush();
-  /// Nothing may follow.
+  /// Ends the recording: later samples are dropped.
   void close();
-  /// What went wrong, for people; empty as long as nothing did.
+  /// Description of the first error, for people; empty if there was none.
   std::string trouble() const;
 
  private:
   std::uint16_t channel(const std::string& topic, const std::string& wire_type);
 
   const Scope scope_;
-  std::optional<mcap::Writer> file_;  ///< none: nothing is recorded
+  std::optional<mcap::Writer> file_;  ///< nullopt: nothing is recorded
   std::string trouble_;
   Tick tick_ = 0;
   std::map<std::string, std::uint16_t, std::less<>> channels_;  ///< by topic

@@ -10,10 +10,11 @@
 namespace skein::recording {
 namespace {
 
-/// Nothing depends on it, and a program may say it in other words than it did then.
+/// Whether a topic has text for people only. No result depends on it, and another version may use other words.
 bool is_for_people(const std::string& topic) { return topic.ends_with("/activity"); }
 
-/// By the server, from a UAV: commands, that the station has a capture, and what programs tell of themselves.
+/// Whether the server receives this topic from a UAV: commands, notes that the station has a capture, debug values and
+/// activities.
 bool is_taken(const std::string& topic) {
   return topic.find("/command/") != std::string::npos || topic.ends_with(topics::kCaptureStored.pattern) ||
          topic.find("/debug/") != std::string::npos || is_for_people(topic);
@@ -65,7 +66,7 @@ bus::OnSample Replay::taken(const std::string& node, const bus::TopicSpec& topic
   topics_[name] = {node, topic.type, recorder_.taken(node, topic, std::move(handler)), {}};
   return [this, name](bus::Sample&& sample) {
     Taken& taken = topics_.at(name);
-    const bool lacks = is_for_people(name) && !recorded_.contains(name);  // a recording from before there was such
+    const bool lacks = is_for_people(name) && !recorded_.contains(name);  // recording of a version without the topic
     if (!replays() || lacks) return taken.handler(std::move(sample));
     taken.now.push_back(std::move(sample.payload));
   };

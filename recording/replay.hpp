@@ -1,6 +1,6 @@
-// A recorded run, flown again: what programs said then is taken in the place of what they say now, which is compared
-// with it. So a single agent can think again what it thought in a fleet that is not there, or a fleet be brought to
-// the moment at which something is to change. Not thread-safe.
+// Replays a recorded run: the simulator uses the recorded samples of the programs instead of their present ones, and
+// compares the two. So a single agent can repeat its decisions without the rest of its fleet, or a fleet can be brought
+// to the moment from which something is to change. Not thread-safe.
 #pragma once
 
 #include <filesystem>
@@ -23,15 +23,15 @@ namespace skein::recording {
 
 struct ReplayOptions {
   std::filesystem::path file;           ///< --replay: recording.mcap; empty: nothing is replayed
-  std::optional<double> until_s;        ///< --replay-until: from then on what programs say counts
-  std::vector<std::string> only;        ///< --replay-only: who takes part, by name of the UAV; empty: everybody
-  std::vector<std::string> other = {};  ///< --replay-other: who runs other software than then, and so is not compared
+  std::optional<double> until_s;        ///< --replay-until: from this time on, the present samples count
+  std::vector<std::string> only;        ///< --replay-only: UAVs whose programs take part, by name; empty: all
+  std::vector<std::string> other = {};  ///< --replay-other: UAVs with different software, which are not compared
 
   bool active() const { return !file.empty(); }
   bool takes_part(const std::string& member) const;
-  /// Whether what this member says is compared with what it said then.
+  /// Whether the samples of this UAV are compared with the recorded ones.
   bool compares(const std::string& member) const;
-  /// Whether at this time what was said then counts.
+  /// Whether the recorded samples count at this time.
   bool replays(Tick tick) const { return active() && (!until_s || tick < ticks(*until_s)); }
 };
 
@@ -40,34 +40,35 @@ void add_replay_options(CLI::App& app, ReplayOptions& options);
 /// Keeps the first difference of each node.
 class Differences {
  public:
-  /// What one step's samples on a topic were, and are.
+  /// Compares the recorded samples of one step on a topic with the present ones.
   void compare(const std::string& node, const std::string& topic, const std::string& wire_type, Tick tick,
                std::span<const mcap::Bytes> recorded, std::span<const mcap::Bytes> now);
   /// In the order in which they were found.
   const std::vector<Difference>& list() const { return list_; }
-  /// A sentence each.
+  /// The differences as sentences (text_of()).
   std::vector<std::string> texts() const;
 
  private:
   std::vector<Difference> list_;
 };
 
-/// For the lock-step's server: its members' samples.
+/// For the server of the lock-step: replaces the samples of its members by the recorded ones.
 class Replay final : public bus::Tap {
  public:
-  /// @param recorder  hears what is taken. Must outlive this. @throws InputError when the file cannot be replayed.
+  /// @param recorder  receives the samples that count. Must outlive this.
+  /// @throws InputError if the file is not a complete, undamaged recording.
   Replay(const ReplayOptions& options, bus::Tap& recorder);
 
   bus::Ear ear(const std::string& node, const bus::TopicSpec& topic) override { return recorder_.ear(node, topic); }
   bus::OnSample taken(const std::string& node, const bus::TopicSpec& topic, bus::OnSample handler) override;
 
-  /// Before a step's samples are taken.
+  /// Must be called before the samples of a step are processed.
   void begin_step(Tick tick) { tick_ = tick; }
-  /// After they were: takes what was said in this step then.
+  /// Must be called after that: passes on the recorded samples of this step, and compares.
   void end_step();
-  /// Whether what was said then would still count, but nothing more was said.
+  /// Whether the recorded samples would still count, but the recording has ended.
   bool is_over(Tick tick) const { return options_.replays(tick) && tick >= run_.end(); }
-  /// Whether it still goes on.
+  /// Whether the recorded samples count in this step.
   bool replays() const { return options_.replays(tick_); }
   const Differences& differences() const { return differences_; }
 
@@ -75,15 +76,15 @@ class Replay final : public bus::Tap {
   struct Taken {
     std::string node, wire_type;
     bus::OnSample handler;
-    std::vector<mcap::Bytes> now;  ///< said in this step
+    std::vector<mcap::Bytes> now;  ///< present samples of this step
   };
 
   const ReplayOptions options_;
   bus::Tap& recorder_;
   const RecordedRun run_;
-  std::set<std::string> recorded_;  ///< topics that it has
+  std::set<std::string> recorded_;  ///< topics in the recording
   Tick tick_ = 0;
-  std::map<std::string, Taken> topics_;  ///< by name in the recording
+  std::map<std::string, Taken> topics_;  ///< by name of the topic in the recording
   Differences differences_;
 };
 

@@ -8,7 +8,7 @@
 namespace skein::sim {
 namespace {
 
-/// A cross-section of a wing: where its leading edge is, in A; its chord runs aft.
+/// A cross-section of a wing: position of its leading edge in A; the chord runs aft.
 struct Section {
   Vector3d leading;
   double chord = 0.0;
@@ -142,7 +142,7 @@ class Airliner {
   /// A wing, fin or tail plane: sections that follow each other along `span`.
   void add_surface(const std::vector<Section>& sections, const Vector3d& span) {
     constexpr double kChordShares[] = {0.0, 0.02, 0.07, 0.17, 0.35, 0.6, 0.85, 1.0};
-    constexpr double kTrailingEdge = 0.02;  // at least half as thick as this everywhere
+    constexpr double kTrailingEdge = 0.02;  // least thickness aft of the leading edge [m]
     const Vector3d aft = Vector3d::UnitX(), up = aft.cross(span);
     std::vector<Ring> rings;
     for (const Section& section : sections) {
@@ -159,7 +159,7 @@ class Airliner {
     builder_.add_loft(rings);
   }
 
-  /// A nacelle under the wing, its intake hollowed to a funnel, on a pylon.
+  /// A nacelle on a pylon under the wing; its intake is a funnel.
   void add_engine(double side, double y, double radius) {
     const double length = 3.3 * radius, front = leading_edge(y) - 0.7 * length, wing_z = wing_height(y);
     const double z = std::max(radius + 0.7, wing_z - radius - 0.25);

@@ -1,5 +1,5 @@
 // A wide-body airliner of about 70 x 64 x 20 m on its wheels, as a part of scenes.
-// Frames: W; A, the airliner's: origin on the ground below the tip of the nose, x aft, z up.   Units: m, rad.
+// Frames: W world; A airliner: origin on the ground below the tip of the nose, x aft, z up.   Units: m, rad.
 #pragma once
 
 #include <vector>
@@ -9,7 +9,7 @@
 
 namespace skein::sim {
 
-/// What distinguishes one airliner from another of its kind.
+/// The parameters of an airliner's shape.
 struct AirlinerShape {
   double length = 70.0, half_span = 32.0, height = 20.0;
   double radius = 3.0;       ///< of the fuselage
@@ -21,11 +21,11 @@ struct AirlinerShape {
   bool four_engines = false;
 };
 
-/// Draws a shape; each of its numbers within some percent of a real airliner's.
+/// Draws a shape; each of its numbers is within some percent of a real airliner's.
 AirlinerShape draw_airliner(RandomStream& random);
 
-/// Appends the airliner: fuselage, wings with engines, tail, wheels; overlapping closed solids.
-/// @returns its boxes: fuselage, either wing (turned along the wing), tail.
+/// Appends the airliner (fuselage, wings with engines, tail, wheels) as overlapping closed solids.
+/// @returns its boxes: fuselage, each wing (aligned with the wing), tail.
 std::vector<OrientedBox> add_airliner(MeshBuilder& builder, const Isometry3d& X_WA, const AirlinerShape& shape,
                                       double box_margin);
 

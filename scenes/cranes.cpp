@@ -20,8 +20,9 @@ constexpr std::size_t kCranesPoints = 3600;
 constexpr double kPi = std::numbers::pi;
 
 // ------------------------------------------------------------------------------------------------------ tower cranes
-// The fleet starts along the x axis; the cranes stand some 50 m from it in y, 76 m from each other. Their jibs turn on
-// the far side. The low jib ends before the high crane's mast; the high one's hook never reaches the low jib.
+// The fleet starts along the x axis; the cranes stand some 50 m from it in y, and 76 m from each other. Their jibs turn
+// on the far side. The low crane's jib ends before the high crane's mast, and the high crane's hook never reaches the
+// low crane's jib.
 
 std::vector<OrientedBox> add_low_crane(MeshBuilder& builder, std::uint64_t scene_seed) {
   RandomStream random(scene_seed, "cranes_low", 0);
@@ -113,7 +114,7 @@ class GantryCrane {
     member({x, -half, low}, {x, half, low}, 0.25);
   }
 
-  /// @param trolley  its place along x.
+  /// @param trolley  its position along x.
   void add_girder(double trolley) {
     add_trusses();
     add_walkway();
@@ -121,7 +122,7 @@ class GantryCrane {
     add_trolley(trolley);
   }
 
-  /// Two side by side; the hoist runs between them.
+  /// Two parallel trusses; the hoist runs between them.
   void add_trusses() {
     const double length = span_ + 2.0 * overhang_;
     const int fields = static_cast<int>(std::lround(length / random_.uniform(1.7, 2.3)));

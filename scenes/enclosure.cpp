@@ -12,10 +12,10 @@ constexpr double kHorizon = 1e6;  ///< beyond any structure
 constexpr int kDirections = 256;
 constexpr std::size_t kMostPlaces = 1000;
 constexpr double kPlaceSpacing = 1.0;
-constexpr double kFromWall = 0.5;  ///< the next look is taken this far before what a ray met
+constexpr double kFromWall = 0.5;  ///< distance of the next place from the hit of a ray, towards the ray's start
 
-/// Directions evenly over the sphere, from up to down: points on a spiral, each a golden angle on from the last. Every
-/// place has others, so that a narrow way out that one misses is found from the next.
+/// Directions that cover the sphere evenly, from up to down: points on a spiral with steps of the golden angle. Each
+/// place has different directions, so that another place may find a narrow way out that one place misses.
 Vector3d direction(std::size_t place, int i) {
   const double golden_angle = std::numbers::pi * (3.0 - std::sqrt(5.0));
   const double turn = golden_angle * (i + static_cast<double>(place) * kDirections);

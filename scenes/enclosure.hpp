@@ -1,5 +1,5 @@
-// Where a UAV can be: whether a place is shut in by the structure, so that a UAV that starts there can never leave, and
-// how far away the world ends. Frame: W.  Units: m.
+// Limits of where a UAV can be: whether the structure encloses a place, so that a UAV that starts there can never
+// leave, and how far from the origin a UAV can get.   Frame: W.   Units: m.
 #pragma once
 
 #include "core/scenario.hpp"
@@ -9,15 +9,16 @@
 
 namespace skein::sim {
 
-/// Looks for a way out: in all directions from the place, then again from what could be seen from there, and so on.
-/// The structure need not be closed or wound consistently. Errs on the side of "not enclosed": any gap that a ray
-/// passes counts as a way out. Pure; safe from any thread. Some microseconds in the open, up to half a second inside.
+/// Looks for a way out: traces rays in all directions from the place, then from places close to the hits, and so on,
+/// from up to 1000 places. The structure need not be closed or wound consistently. Errs on the side of "not enclosed":
+/// any gap that a ray passes counts as a way out, even if no UAV fits through it.
+/// Pure; safe from any thread. Takes some microseconds in the open, up to half a second inside.
 /// @param p_W  clear of the structure, above the ground.
-/// @returns true when every line of sight ends at the structure or the ground.
+/// @returns true if all rays end at the structure or the ground.
 bool is_enclosed(const RayScene& world, const Vector3d& p_W);
 
-/// How far from the origin a UAV can be that flies as UAVs do: beyond all that stands in the scene, the fleet's starts
-/// and the station, as far as a fast one gets in the time of the run, with room to spare.
+/// Upper limit of the distance of a UAV from the origin in a plausible flight: the farthest point of the structure, the
+/// starts and the station, plus the distance that a fast UAV flies during the run, plus a margin. Pure.
 double world_reach_m(const Scenario& scenario, const Scene& scene);
 
 }  // namespace skein::sim

@@ -15,10 +15,10 @@ namespace skein::sim {
 namespace {
 
 constexpr std::size_t kHangarPoints = 3500;
-constexpr double kApron = 11.0;             ///< at least between the origin, near the starts, and the airliner
+constexpr double kApron = 11.0;             ///< least distance between the origin, near the starts, and the airliner
 constexpr double kWall = 0.4, kRoof = 0.5;  ///< thicknesses
 
-/// Where everything stands. Frame H: origin on the ground in the middle of the hangar's mouth, x into the hangar.
+/// The layout of the site. Frame H: origin on the ground in the middle of the hangar's mouth, x into the hangar.
 struct HangarSite {
   AirlinerShape airliner;
   Isometry3d X_WH = Isometry3d::Identity(), X_WA = Isometry3d::Identity();
@@ -31,7 +31,7 @@ HangarSite draw_hangar_site(std::uint64_t scene_seed) {
   HangarSite site;
   site.airliner = draw_airliner(random);
   site.nose_first = random.uniform() < 0.65;
-  // Deep enough to be at the mouth, but the wings' outer parts stay out: the doors leave no room for them.
+  // Deep enough that the airliner stands in the mouth. The outer parts of the wings stay outside: the doors are there.
   site.inside = site.nose_first ? random.uniform(20.0, 32.0) : random.uniform(13.0, 16.0);
   const double heading = random.uniform(-0.22, 0.22);
   const double mouth = site.airliner.length + 1.0 - site.inside + kApron + random.uniform(0.0, 5.0);
@@ -56,7 +56,7 @@ class Hangar {
         eaves_(random.uniform(22.0, 23.5)),
         rise_(random.uniform(3.0, 5.0)) {}
 
-  /// Walls, roof, and what carries it.
+  /// Walls, roof, and its supports.
   void add_shell(RandomStream& random) {
     for (const double side : {-1.0, 1.0}) {
       box({0.5 * depth_, side * 0.5 * width_, 0.5 * (eaves_ + kSunk)}, {depth_, kWall, eaves_ - kSunk});
@@ -80,7 +80,7 @@ class Hangar {
     return enclosing_box("hangar_front", builder_.mesh(), first, site_.X_WH.linear(), kBoxMargin);
   }
 
-  /// Sliding doors, pushed open: leaves one in front of the other, each a little further towards the middle.
+  /// Open sliding doors: the leaves stand one in front of the other, each a little closer to the middle.
   /// @param side  of the mouth, +1 or -1.
   OrientedBox add_doors(double side, RandomStream& random) {
     const std::size_t first = builder_.mesh().vertices.size();
@@ -95,7 +95,7 @@ class Hangar {
                          kBoxMargin);
   }
 
-  /// Mobile platforms under the roof, to either side of the airliner.
+  /// Mobile work platforms under the roof, on both sides of the airliner.
   void add_stands(RandomStream& random) {
     const int stands = 1 + static_cast<int>(random.uniform(0.0, 3.0));
     for (int i = 0; i < stands; ++i) {
@@ -125,7 +125,7 @@ class Hangar {
     builder_.add_member(site_.X_WH * from, site_.X_WH * to, thickness);
   }
 
-  /// The wall across the hangar at x, from a height up to the roof.
+  /// The wall across the hangar at x, from the height `bottom` up to the roof.
   void add_gable(double x, double bottom) {
     constexpr int kSteps = 16;
     Polygon outline{{-0.5 * width_, bottom}, {0.5 * width_, bottom}};

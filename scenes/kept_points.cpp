@@ -26,7 +26,7 @@ std::string key_of(const UnsampledScene& unsampled) {
   return hash.hex();
 }
 
-/// Their bits, as text: numbers of JSON would take ten times as long to read.
+/// The bits of the points as hexadecimal text: reading JSON numbers would take ten times as long.
 std::string text_of(const std::vector<InterestPoint>& points) {
   std::vector<float> numbers;
   for (const InterestPoint& point : points) {
@@ -37,7 +37,7 @@ std::string text_of(const std::vector<InterestPoint>& points) {
   return to_hex(std::span(reinterpret_cast<const std::uint8_t*>(numbers.data()), numbers.size() * sizeof(float)));
 }
 
-/// @throws std::runtime_error for what text_of() has not written.
+/// Inverse of text_of(). @throws std::runtime_error if the text has an incomplete point.
 std::vector<InterestPoint> points_of(const std::string& text) {
   constexpr std::size_t kDigitsOfAPoint = 6 * 2 * sizeof(float);
   if (text.size() % kDigitsOfAPoint != 0) throw std::runtime_error("its points are cut short");

@@ -1,6 +1,7 @@
-// Points of procedural scenes, kept from run to run: drawing them takes a tenth of a second and more, and each run
-// needs them three times (the check before it, the flight, the estimate). A file each, named by a hash of all that they
-// depend on. A cache that cannot be read or written costs time, never a result. Several programs may share one.
+// The cache of interest points of procedural scenes: sampling them takes a tenth of a second or more, and each run
+// needs them three times (for the check before the run, the flight and the estimate). One file per scene, named by a
+// hash of everything that the points depend on. If a file cannot be read or written, this costs time, but the result is
+// the same. Several programs may share a cache.
 #pragma once
 
 #include <filesystem>
@@ -9,7 +10,7 @@
 
 namespace skein::sim {
 
-/// As sampled(); from the folder where they lie there, else drawn and kept.
+/// As sampled(), but uses the points in the folder `cache` if they are there; else samples them and writes them there.
 Scene sampled_or_kept(UnsampledScene unsampled, const std::filesystem::path& cache);
 
 }  // namespace skein::sim

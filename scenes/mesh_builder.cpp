@@ -125,7 +125,7 @@ void MeshBuilder::add_sheet(std::span<const Ring> front, std::span<const Ring> b
       add_quad(quad[3] + other_side, quad[2] + other_side, quad[1] + other_side, quad[0] + other_side);
     }
   }
-  std::vector<std::uint32_t> rim;  // once around, as the front turns
+  std::vector<std::uint32_t> rim;  // once around, in the front's winding
   for (std::size_t c = 0; c + 1 < columns; ++c) rim.push_back(at(0, c));
   for (std::size_t r = 0; r + 1 < rows; ++r) rim.push_back(at(r, columns - 1));
   for (std::size_t c = columns - 1; c > 0; --c) rim.push_back(at(rows - 1, c));

@@ -52,7 +52,7 @@ class Podium {
     }
   }
 
-  /// What fills the corners above an arch: upright slices between the arch and the ceiling.
+  /// The wall above an arch: upright slices between the arch and the ceiling.
   void add_arch(const Isometry3d& X_WA, double opening) {
     constexpr int kSlices = 8;
     const double height = rise_ * opening, crown = storey_ - 0.35;
@@ -102,7 +102,7 @@ class Podium {
     }
   }
 
-  /// One thing in each field of a grid, where the tower is not.
+  /// One object in each field of a grid, except where the tower stands.
   void add_roof() {
     const int columns = static_cast<int>(plan_.size.x() / 9.0), rows = static_cast<int>(plan_.size.y() / 9.0);
     const Vector2d field = (plan_.size - Vector2d::Constant(3.0)).cwiseQuotient(Vector2d(columns, rows));

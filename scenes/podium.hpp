@@ -1,4 +1,4 @@
-// The podium of the spire: a wide low block with an arcade around it and things on its roof.   Frame: W.   Units: m.
+// The podium of the spire: a wide low block with an arcade around it and objects on its roof.   Frame: W.   Units: m.
 #pragma once
 
 #include "core/random_stream.hpp"
@@ -11,10 +11,10 @@ struct PodiumPlan {
   Vector2d size = Vector2d::Zero();
   double height = 0.0;                ///< of the roof
   Vector2d tower = Vector2d::Zero();  ///< where the tower stands, in P
-  double tower_radius = 0.0;          ///< in which nothing else stands on the roof
+  double tower_radius = 0.0;          ///< no other object stands on the roof within this distance of the tower
 };
 
-/// Only the canopy over the entrance reaches beyond the plan, by up to 5 m at y < 0.
+/// Appends the podium. Only the canopy over the entrance reaches beyond the plan's size: by up to 5 m, at y < 0.
 void add_podium(MeshBuilder& builder, const PodiumPlan& plan, RandomStream& random);
 
 }  // namespace skein::sim

@@ -19,7 +19,7 @@ constexpr std::size_t kSailPoints = 4000;
 /// u in [-1, 1] runs across, from the mast to the free edge, v in [0, 1] up.
 struct SailShape {
   double height = 100.0, foot_width = 50.0, top_width = 7.0;
-  double narrowing = 2.0;                    ///< exponent: large keeps the width up to the top
+  double narrowing = 2.0;                    ///< exponent: the larger, the higher up the sail keeps its width
   double camber = 9.0;                       ///< depth of the curve across, at the foot
   double belly = 6.0;                        ///< depth of the curve upwards
   double foot_depth = 5.0, top_depth = 1.4;  ///< thickness of the sheet
@@ -85,7 +85,7 @@ class Sail {
     }
   }
 
-  /// Booms that follow the concave side at some distance, with struts to the sheet and diagonals between them.
+  /// Booms along the concave side at some distance, with struts to the sheet and diagonals between the booms.
   void add_frame(RandomStream& random) {
     const int booms = 2 + static_cast<int>(random.uniform(0.0, 2.0));
     const int bays = static_cast<int>(std::lround(shape_.height / random.uniform(8.0, 11.0)));
@@ -168,10 +168,10 @@ class Sail {
   SailShape shape_;
 };
 
-/// Boxes one above the other around the vertices from `first_vertex` on.
+/// Adds boxes one above the other around the vertices from `first_vertex` on; `heights` are their limits.
 void add_stacked_boxes(std::vector<OrientedBox>& boxes, const TriangleMesh& mesh, std::size_t first_vertex,
                        const Matrix3d& R_WS, std::span<const double> heights) {
-  constexpr double kReach = 5.0;  // an edge from one box into the next is that long at most, or slants but little
+  constexpr double kReach = 5.0;  // edges from one box into the next are shorter than this, or almost vertical
   const char* names[] = {"sail_low", "sail_middle", "sail_high"};
   for (std::size_t i = 0; i + 1 < heights.size(); ++i) {
     TriangleMesh part;
@@ -204,7 +204,7 @@ void add_main_sail(MeshBuilder& builder, std::vector<OrientedBox>& boxes, const 
   add_stacked_boxes(boxes, builder.mesh(), first, X_WS.linear(), heights);
 }
 
-/// Two low steps about the foot of the sail, with a canopy on posts.
+/// Two low steps around the foot of the sail, with a canopy on posts.
 OrientedBox add_podium(MeshBuilder& builder, const Isometry3d& X_WS, std::uint64_t scene_seed) {
   RandomStream random(scene_seed, "sail_podium", 0);
   const std::size_t first = builder.mesh().vertices.size();

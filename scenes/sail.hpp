@@ -1,5 +1,5 @@
-// The family `sail`: a tower like a sail in the wind. A tall curved sheet with terraces on the convex side and a frame
-// of booms and struts on the concave one; a podium below it, and a small sail apart.
+// The family `sail`: a tower shaped like a sail in the wind. A tall curved sheet with terraces on its convex side and a
+// frame of booms and struts on its concave side; a podium below it, and a small sail at some distance.
 // Frame: W, ground z = 0.   Units: m.
 #pragma once
 
@@ -9,8 +9,8 @@
 
 namespace skein::sim {
 
-/// Builds one member of the family. Size, curvature, relief and where everything stands follow from the seed alone.
-/// Five boxes before they vary: three up the sail, podium, small sail. 4,000 interest points.
+/// Builds one scene of the family. Sizes, curvature, relief and positions depend on the seed alone.
+/// Five boxes before variation: three along the height of the sail, podium, small sail. 4,000 interest points.
 UnsampledScene make_sail(std::uint64_t scene_seed);
 
 }  // namespace skein::sim

@@ -36,7 +36,7 @@ std::string origin(const SceneConfig& scene) {
   return "the family " + scene.family + ", scene_seed " + std::to_string(scene.scene_seed);
 }
 
-/// The scenario with this scene from files beside it.
+/// The text of the scenario, changed to take its scene from the files beside it.
 std::string scenario_text(Scenario scenario, const fs::path& mesh, const fs::path& points, const fs::path& boxes) {
   const std::string comment = "# Written by `skein scene`. Its scene is from " + origin(scenario.scene) + ".\n";
   if (!is_drawn_world(scenario.scene.family)) scenario.scene = {};
@@ -46,7 +46,7 @@ std::string scenario_text(Scenario scenario, const fs::path& mesh, const fs::pat
   return comment + to_yaml(scenario);
 }
 
-/// Whether a file of an earlier export would be lost: not one that is the same.
+/// Whether writing would destroy an existing file with other content.
 bool is_in_the_way(const fs::path& path, const std::string& content) {
   std::error_code error;
   if (!fs::exists(path, error)) return false;

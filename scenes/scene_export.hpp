@@ -1,5 +1,5 @@
-// A scene as files in CARIC's layout, with a scenario that flies it. What is written reads back to the same scene, bit
-// for bit: a run of the exported scenario has the digest of a run of the original.
+// Exports a scene as files in CARIC's layout, with a scenario that uses them. Reading the files gives the same scene,
+// bit for bit: a run of the exported scenario has the same digest as a run of the original.
 #pragma once
 
 #include <filesystem>
@@ -18,8 +18,8 @@ struct ExportedFile {
   std::string content;
 };
 
-/// All files of an export. <name> is the scenario's, what no file name should have replaced by '_':
-///   <name>.yaml                                     the scenario: all keys, starts and vehicles as they were resolved
+/// All files of an export. <name> is the scenario's name, with '_' for characters that do not belong in a file name:
+///   <name>.yaml                                     the scenario: all keys, with resolved starts and vehicles
 ///   models/<name>/<name>.stl                        all triangles, in order
 ///   models/<name>/<name>_interest_points.pcd        all points, in order
 ///   models/<name>/bounding_boxes/box_description.yaml, and <box>.stl for each box
@@ -29,10 +29,9 @@ std::vector<ExportedFile> scene_export(const Scenario& scenario, const Scene& sc
 /// A drawing of the scene (scene_picture.hpp): <name>.svg. Pure.
 ExportedFile scene_picture_file(const Scenario& scenario, const Scene& scene);
 
-/// Writes them, each whole or not at all. All but the scenario are closed to agents
-/// (process/files/closed_to_agents.hpp).
+/// Writes the files, each atomically. All but the scenario are closed to agents (process/files/closed_to_agents.hpp).
 /// @param overwrite  replace files of an earlier export.
-/// @throws InputError when one of the files exists and `overwrite` is false, before anything is written; or when the
+/// @throws InputError if `overwrite` is false and a file exists with other content (then nothing is written), or if the
 ///   folder cannot be written.
 void write_export(const std::vector<ExportedFile>& files, const std::filesystem::path& folder, bool overwrite);
 

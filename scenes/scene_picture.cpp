@@ -14,12 +14,12 @@ namespace {
 
 constexpr int kWide = 560, kHigh = 480;  ///< of one view [pixels]
 constexpr int kShades = 8;
-constexpr double kAround = 6.0;  ///< around all that is shown [m]
+constexpr double kAround = 6.0;  ///< margin around all objects [m]
 
-/// Parallel rays into a picture.
+/// A parallel projection.
 class View {
  public:
-  /// @param elevation  from which one looks down: a right angle is from above.
+  /// @param azimuth, elevation  of the viewer as seen from the scene [rad]; an elevation of pi/2 is a view from above.
   View(double azimuth, double elevation, const Eigen::AlignedBox3d& shown) {
     const Vector3d away(-std::cos(elevation) * std::cos(azimuth), -std::cos(elevation) * std::sin(azimuth),
                         -std::sin(elevation));
@@ -35,12 +35,12 @@ class View {
     scale_ = std::min(kWide / seen.sizes().x(), kHigh / seen.sizes().y());
   }
 
-  /// Where a point is drawn.
+  /// Position of a point in the picture [pixels].
   Vector2d at(const Vector3d& p_W) const {
     return {0.5 * kWide + scale_ * (right_.dot(p_W) - middle_.x()),
             0.5 * kHigh - scale_ * (up_.dot(p_W) - middle_.y())};
   }
-  /// The ray of a pixel, from far before the scene.
+  /// Start of a pixel's ray, far in front of the scene. The direction is into().
   Vector3d origin(int x, int y) const {
     constexpr double kFar = 1000.0;
     return (middle_.x() + (x + 0.5 - 0.5 * kWide) / scale_) * right_ +
@@ -67,7 +67,7 @@ Eigen::AlignedBox3d all_that_is_shown(const Scenario& scenario, const Scene& sce
   return shown;
 }
 
-/// Pixels of each shade, row by row: where light comes from above and from the side.
+/// The structure as SVG: for each shade, runs of pixels, row by row. The light comes from above and from the side.
 std::string surfaces(const View& view, const Scene& scene) {
   const RayScene world(scene.mesh);
   const Vector3d light = Vector3d(0.4, -0.55, 0.73).normalized();

@@ -1,4 +1,4 @@
-// A scene drawn: what stands there, with hidden surfaces hidden, the boxes, who starts where, and the station.
+// Draws a scene: the structure (with hidden surfaces removed), the boxes, the UAVs' starts, and the station.
 // Frame W; metres.   Pure.
 #pragma once
 
@@ -9,7 +9,7 @@
 
 namespace skein::sim {
 
-/// From the south-south-east and from above, side by side; an SVG file.
+/// @returns the text of an SVG file with two views side by side: from the south-south-east, and from above.
 std::string scene_picture(const Scenario& scenario, const Scene& scene);
 
 }  // namespace skein::sim

@@ -20,7 +20,7 @@
 namespace skein::sim {
 namespace {
 
-/// One line a family, as in core/scenario/scene_families.cpp.
+/// One entry per family in core/scenario/scene_families.cpp.
 const std::map<std::string, UnsampledScene (*)(std::uint64_t scene_seed)> kBuilders = {
     {"towers", &make_towers}, {"hangar", &make_hangar}, {"cranes", &make_cranes},
     {"sail", &make_sail},     {"spire", &make_spire},

@@ -9,8 +9,8 @@
 
 namespace skein::sim {
 
-/// @param cache  folder in which points of procedural families are kept (kept_points.hpp); nullopt: they are drawn.
-/// @throws InputError if a file is missing or malformed, or no family has the name; the message lists those that exist.
+/// @param cache  folder of cached points of procedural families (kept_points.hpp); nullopt: points are always sampled.
+/// @throws InputError if a file is missing or malformed, or the family is unknown; the message lists all families.
 Scene load_scene(const Scenario& scenario, const std::optional<std::filesystem::path>& cache = {});
 
 }  // namespace skein::sim

@@ -55,7 +55,7 @@ class Spire {
       const Matrix3d R_WO = X_WT_.linear() * Eigen::AngleAxisd(turn, Vector3d::UnitZ()).toRotationMatrix();
       boxes.push_back(enclosing_box(name, builder_.mesh(), first, R_WO, kBoxMargin));
     };
-    std::vector<double> share{0.0};  // of the height, where the tiers end: lower ones are taller
+    std::vector<double> share{0.0};  // tops of the tiers, in proportion to the height; lower tiers are taller
     for (int i = 0; i < tiers_; ++i)
       share.push_back(share.back() + random_.uniform(0.8, 1.2) * (1.3 - 0.6 * i / tiers_));
     double foot = floor_ - 0.5;
@@ -78,7 +78,7 @@ class Spire {
     return radius_ + (top_radius_ - radius_) * std::pow(static_cast<double>(tier) / (tiers_ - 1), bend_);
   }
 
-  /// Plan of a tier, its walls moved out by `out`: a rectangle with its corners cut, or a regular polygon.
+  /// Plan of a tier, with its walls moved out by `out`: a rectangle with its corners cut off, or a regular polygon.
   Polygon plan(double radius, double out) const {
     if (corners_ == 4) {
       const Vector2d size = 1.75 * radius * Vector2d(1.0, slender_);
@@ -145,7 +145,7 @@ class Spire {
     }
   }
 
-  /// A needle, a pyramid in steps, or a dome; with blades around its foot.
+  /// A needle, a stepped pyramid, or a dome; with blades around its foot.
   void add_crown() {
     const Isometry3d X_WL = tier_frame(tiers_ - 1);
     const double kind = random_.uniform(), radius = top_radius_ - 0.8, bulge = random_.uniform(1.3, 2.2);

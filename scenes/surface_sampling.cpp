@@ -10,19 +10,19 @@ namespace skein::sim {
 namespace {
 
 constexpr std::size_t kCandidatesPerPoint = 8;
-constexpr std::size_t kDrawsPerCandidate = 50;  ///< at most, where the boxes hold but a part of the surface
+constexpr std::size_t kDrawsPerCandidate = 50;  ///< at most, in case the boxes contain only a small part of the surface
 constexpr double kLowest = 0.3;                 ///< points below this height are hidden by the ground
 constexpr double kCovered = 0.4;                ///< another solid this close in front hides a point
-constexpr double kFreeView = 4.5;               ///< length of a view that counts as free
-constexpr double kViewHeight = 0.8;             ///< a view must not end lower than this
-constexpr double kViewRoom = 0.6;               ///< around the end of a view, for a UAV
-constexpr double kViewTilt = 0.7;               ///< tangent of the angle at which slanted views leave the surface
-constexpr double kLift = 0.001;                 ///< by which views start off the surface; thinner gaps count as none
+constexpr double kFreeView = 4.5;               ///< length of an unobstructed view
+constexpr double kViewHeight = 0.8;             ///< least height of a viewpoint
+constexpr double kViewRoom = 0.6;               ///< clearance of a viewpoint, for a UAV
+constexpr double kViewTilt = 0.7;               ///< tangent of the angle between an oblique view and the surface normal
+constexpr double kLift = 0.001;                 ///< views start this far from the surface; thinner gaps count as none
 
 Vector3d vertex(const TriangleMesh& mesh, std::uint32_t index) { return mesh.vertices[index].cast<double>(); }
 
-/// Tells inside from outside of overlapping closed surfaces: how many of them a place lies in.
-/// Triangles are kept by the columns of ground that they stand over, for a ray straight up.
+/// Determines whether a place is inside any of several overlapping closed surfaces, with a ray straight up. The
+/// triangles are stored in a grid of vertical columns.
 class SolidQuery {
  public:
   explicit SolidQuery(const TriangleMesh& mesh) : mesh_(mesh) {
@@ -54,7 +54,7 @@ class SolidQuery {
   std::size_t index(int x, int y) const { return static_cast<std::size_t>(y * columns_x_ + x); }
   std::vector<std::uint32_t>& at(int x, int y) { return columns_[index(x, y)]; }
 
-  /// 1 if the ray up from p leaves a solid through this triangle, -1 if it enters one, 0 if it misses.
+  /// 1 if the ray up from p leaves a solid through this triangle, -1 if it enters one, 0 if it misses the triangle.
   int crossing(const std::array<std::uint32_t, 3>& triangle, const Vector3d& p) const {
     const Vector3d a = vertex(mesh_, triangle[0]), b = vertex(mesh_, triangle[1]), c = vertex(mesh_, triangle[2]);
     if (std::max({a.z(), b.z(), c.z()}) <= p.z()) return 0;
@@ -66,8 +66,8 @@ class SolidQuery {
     return n.z() < 0.0 && above < 0.0 ? -1 : 0;
   }
 
-  /// Whether an edge, seen from above, crosses the line from p towards +x. The ends are taken in one order for both
-  /// triangles of an edge, so that a ray never slips through between them.
+  /// Whether an edge, seen from above, crosses the line from p towards +x. The result is the same for both triangles of
+  /// an edge, since the order of its ends does not matter: so a ray never passes between two triangles.
   static bool passes_left_of(const Vector3d& a, const Vector3d& b, const Vector3d& p) {
     if ((a.y() > p.y()) == (b.y() > p.y())) return false;
     const Vector3d& low = a.y() < b.y() ? a : b;
@@ -81,8 +81,8 @@ class SolidQuery {
   std::vector<std::vector<std::uint32_t>> columns_;
 };
 
-/// Whether cameras some metres off could see places on the surfaces: straight on, or slantwise. Rays are exact, so that
-/// thin members are neither missed nor seen through.
+/// Determines whether a camera at some metres could see a point on a surface: along the normal, or obliquely. The rays
+/// neither miss nor pass through thin members.
 class ViewQuery {
  public:
   explicit ViewQuery(const TriangleMesh& mesh) : solids_(mesh), rays_(mesh) {}
@@ -110,7 +110,7 @@ class ViewQuery {
   RayScene rays_;
 };
 
-/// Points drawn uniformly by area from the triangles; those that count as seen, in the order of drawing.
+/// Visible points out of random points on the triangles, which are uniform over the area. In the order of drawing.
 class Candidates {
  public:
   Candidates(const TriangleMesh& mesh, std::span<const OrientedBox> boxes, std::size_t wanted, std::uint64_t seed) {
@@ -146,7 +146,7 @@ class Candidates {
   double visible_area = 0.0;
 };
 
-/// Accepted points by grid cell, to ask whether one is near.
+/// Accepted points in grid cells, to find neighbours.
 class Neighbours {
  public:
   Neighbours(const Eigen::AlignedBox3f& extent, double cell) : cell_(cell), extent_(extent) {
@@ -155,8 +155,8 @@ class Neighbours {
                   static_cast<std::size_t>(size_.z()));
   }
 
-  /// Those on the far side of a thin wall or member do not count.
-  /// @param radius  at most the cell's edge.
+  /// Whether an accepted point is within a radius. Points on the far side of a thin wall or member do not count.
+  /// @param radius  at most the edge of a cell.
   bool any_within(const InterestPoint& point, double radius) const {
     const Eigen::Vector3i at = cell_of(point.p_W);
     const Eigen::Vector3i low = (at.array() - 1).max(0), high = (at.array() + 1).min(size_.array() - 1);
@@ -190,7 +190,8 @@ class Neighbours {
   std::vector<std::vector<InterestPoint>> cells_;
 };
 
-/// A number by which places near to each other come near to each other (Morton's order).
+/// Sort key (Morton order) with which neighbouring places are mostly neighbours in the sorted list.
+/// @param share  coordinates in [0, 1].
 std::uint64_t place_in_order(const Vector3d& share) {
   constexpr int kBits = 10;
   std::uint64_t key = 0;
@@ -200,7 +201,8 @@ std::uint64_t place_in_order(const Vector3d& share) {
   return key;
 }
 
-/// For each candidate the region that it lies in. Regions hold equally many candidates, so equal areas.
+/// Divides the candidates into regions, and returns the region of each candidate. All regions have the same number of
+/// candidates, and so the same area.
 std::vector<std::size_t> regions(const std::vector<InterestPoint>& candidates, const Eigen::AlignedBox3f& extent,
                                  std::size_t count) {
   const double edge = std::max(1e-9, static_cast<double>(extent.sizes().maxCoeff()));
@@ -218,8 +220,8 @@ std::vector<std::size_t> regions(const std::vector<InterestPoint>& candidates, c
 
 std::vector<InterestPoint> sample_surface(const TriangleMesh& mesh, std::span<const OrientedBox> boxes,
                                           std::size_t count, std::uint64_t seed) {
-  // Darts keep their distance; whenever no more fit, the distance shrinks a little, until there are enough. As thin
-  // members have room for more darts than their area is worth, each region takes but its share.
+  // Dart throwing: accept candidates that keep a distance from all accepted ones, and reduce the distance a little
+  // whenever no more fit. Thin members have room for more points than their area justifies, so each region has a quota.
   constexpr double kFirstDistance = 0.85, kShrink = 0.96, kLastDistance = 0.3;  // of the mean spacing
   constexpr std::size_t kPointsPerRegion = 20;
   std::vector<InterestPoint> chosen;

@@ -10,30 +10,32 @@
 
 namespace skein::sim {
 
-/// What a procedural family builds: its points are still to be drawn.
+/// A scene that a procedural family has built, still without interest points.
 struct UnsampledScene {
   Scene scene;
   std::size_t point_count = 0;
   std::uint64_t seed = 0;
 };
 
-/// Goes up whenever sample_surface() may draw other points for the same arguments: caches have what it drew before.
+/// Must be increased with every change after which sample_surface() may give other points for the same arguments:
+/// caches contain its earlier results.
 inline constexpr int kSamplingVersion = 1;
 
-/// Sample points on the triangles inside the boxes, with the triangles' true normals. All surfaces get their share by
-/// area, thin members and both sides of thin plates too. Of points that face the same way no two are much closer than
-/// the mean spacing.
+/// Samples points on the triangles inside the boxes, with the triangles' normals. All surfaces get points in proportion
+/// to their area, including thin members and both sides of thin plates. No two points are much closer than the mean
+/// spacing, unless they face in opposite directions.
 ///
-/// Left out are points that no camera could see: inside another solid, covered by one within 0.4 m, lower than 0.3 m
-/// above the ground, or without a free view of some metres from a place with room for a UAV.
+/// Leaves out points that no camera could see: those inside another solid, covered by one within 0.4 m, lower than
+/// 0.3 m above the ground, or without an unobstructed view of 4.5 m to a place with room for a UAV.
 /// The result depends on nothing but the arguments.
 /// @param mesh   closed surfaces with outward winding; they may overlap.
-/// @param count  as many points, unless the surfaces have room for fewer (they do not at sensible densities).
+/// @param count  number of points. The result has fewer if the surfaces have no room for more; this does not happen at
+///               sensible densities.
 /// @param seed   key of the random numbers.
 std::vector<InterestPoint> sample_surface(const TriangleMesh& mesh, std::span<const OrientedBox> boxes,
                                           std::size_t count, std::uint64_t seed);
 
-/// The same, into the scene.
+/// The scene with its interest points, from sample_surface().
 Scene sampled(UnsampledScene unsampled);
 
 }  // namespace skein::sim

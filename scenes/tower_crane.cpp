@@ -10,7 +10,7 @@
 namespace skein::sim {
 namespace {
 
-constexpr double kTurntable = 1.8;    ///< height of what stands between the mast and the foot of the jib
+constexpr double kTurntable = 1.8;    ///< height of the turntable, between the mast and the foot of the jib
 constexpr double kCounterHalf = 0.9;  ///< half the width of the counter-jib
 
 Polygon square(double edge) { return rectangle(Vector2d::Zero(), {edge, edge}); }
@@ -57,7 +57,7 @@ class TowerCrane {
   Vector3d apex() const { return {0.0, 0.0, head_ - 0.4}; }
   double jib_root() const { return 0.4 * width_; }
 
-  /// A box in the frame S of what turns: origin in the middle of the jib's foot, x along the jib.
+  /// A box in S, the frame of the slewing part: origin in the middle of the jib's foot, x along the jib.
   void box(const Vector3d& center, const Vector3d& size) {
     builder_.add_box(X_WS_ * Eigen::Translation3d(center), size);
   }
@@ -83,7 +83,7 @@ class TowerCrane {
     Isometry3d X_WL = plan_.X_WC * Eigen::Translation3d(0, 0, foot);
     add_square_truss(X_WL, width_, length, fields(length, width_ * random_.uniform(0.95, 1.25)), style);
 
-    // The collar in which the mast was raised, with a platform below and above.
+    // The climbing collar, with a platform below and one above.
     const double collar = random_.uniform(5.0, 7.0), wide = width_ + 0.5;
     X_WL = plan_.X_WC * Eigen::Translation3d(0, 0, random_.uniform(0.45, 0.85) * mast_top() - 0.5 * collar);
     add_square_truss(X_WL, wide, collar, 3, {0.14, brace_ + 0.02, true});
@@ -199,7 +199,7 @@ class TowerCrane {
   const TowerCranePlan& plan_;
   RandomStream& random_;
   double width_, head_, counter_jib_, jib_height_, brace_;
-  Isometry3d X_WS_;  ///< of what turns
+  Isometry3d X_WS_;  ///< of the slewing part
 };
 
 }  // namespace

@@ -15,11 +15,11 @@ struct TowerCranePlan {
   double height = 0.0;                       ///< of the apex
   double jib_length = 0.0;
   double jib_heading = 0.0;  ///< in W
-  double trolley = 0.0;      ///< its place, as a share of the jib
+  double trolley = 0.0;      ///< its position, as a share of the jib's length
 };
 
-/// Foundation, mast with a climbing collar, turntable, cabin, tower head, jib with its trolley, counter-jib with
-/// ballast, tie bars, ropes and hook. What the plan leaves open is drawn.
+/// Appends a crane: foundation, mast with a climbing collar, turntable, cabin, tower head, jib with its trolley,
+/// counter-jib with ballast, tie bars, ropes and hook. Everything that the plan does not specify is random.
 /// @returns boxes around the mast, the head, the jib, the counter-jib and the hook.
 std::vector<OrientedBox> add_tower_crane(MeshBuilder& builder, const TowerCranePlan& plan, RandomStream& random);
 

@@ -16,7 +16,7 @@ namespace {
 constexpr std::size_t kTowersPoints = 4000;
 constexpr double kStripHeading = -0.3;  ///< of the row of the starts, in W
 
-/// Where everything stands. The site is a strip along the row of the starts (core/scenario/scene_families.cpp).
+/// The layout of the site, which is a strip along the row of the starts (core/scenario/scene_families.cpp).
 struct TowersSite {
   double heading = 0.0;                      ///< of the deck, in W
   Isometry3d X_WD = Isometry3d::Identity();  ///< deck: origin on the ground below its middle, x along it
@@ -74,7 +74,7 @@ class Tower {
   }
 
  private:
-  /// Where a point of the plan is at a height: wider at the foot, and leaning.
+  /// A point of the plan at the height z: the tower is wider at the foot, and leans.
   Vector3d place(const Vector2d& plan, double z) const {
     const double up = std::clamp(z / height_, 0.0, 1.0);
     const double foot = 1.0 + splay_ * (1.0 - up) * (1.0 - up);
@@ -208,7 +208,7 @@ OrientedBox add_deck(MeshBuilder& builder, const TowersSite& site, std::uint64_t
 
 // ---------------------------------------------------------------------------------------------------------- museum
 
-/// One petal: a hollow-backed leaf that rises outwards from the middle; its sections are flat ellipses.
+/// One petal: a curved leaf that rises outwards from the middle; its sections are flat ellipses.
 void add_petal(MeshBuilder& builder, const Isometry3d& X_WM, double azimuth, double reach, double height) {
   constexpr int kSections = 9, kSides = 12;
   const Isometry3d X_WP = X_WM * Eigen::AngleAxisd(azimuth, Vector3d::UnitZ());

@@ -1,5 +1,5 @@
-// The family `towers`: three tall towers that carry one long deck, a museum of petals beside them and a small building
-// apart. Of the size, and made for the fleet and the starts, of the benchmark's MBS scene; all shapes are our own.
+// The family `towers`: three tall towers that carry one long deck, a museum of petals beside them, and a small building
+// at some distance. Size, fleet and starts are those of the benchmark's MBS scene; all shapes are original.
 // Frame: W, ground z = 0.   Units: m.
 #pragma once
 
@@ -9,8 +9,8 @@
 
 namespace skein::sim {
 
-/// Builds one member of the family. Sizes, angles, positions and relief follow from the seed alone.
-/// Six boxes before they vary: deck, three towers, museum, kiosk. 4,000 interest points, all inside the boxes.
+/// Builds one scene of the family. Sizes, angles, positions and relief depend on the seed alone.
+/// Six boxes before variation: deck, three towers, museum, kiosk. 4,000 interest points, all inside the boxes.
 UnsampledScene make_towers(std::uint64_t scene_seed);
 
 }  // namespace skein::sim

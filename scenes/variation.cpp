@@ -17,9 +17,9 @@ namespace {
 
 constexpr double kSingleBox = 0.25, kMerge = 0.3, kSplit = 0.3;  ///< shares of the seeds
 constexpr double kLargestTurn = 0.12;                            ///< of a box's axes [rad]
-constexpr double kLargestSwing = 2.0;   ///< how far a turn may move the ends of a box: long boxes turn less
-constexpr double kLargestMargin = 1.0;  ///< that is added to the family's own
-constexpr double kLongBox = 30.0;       ///< that may be split
+constexpr double kLargestSwing = 2.0;   ///< turn [rad] times length [m], at most: long boxes turn less
+constexpr double kLargestMargin = 1.0;  ///< added to the family's own margin [m]
+constexpr double kLongBox = 30.0;       ///< least length of a box that may be split [m]
 
 /// The smallest box with the given axes around others.
 OrientedBox box_around(const std::string& name, std::span<const OrientedBox> boxes, const Matrix3d& R_WO,
@@ -39,7 +39,7 @@ OrientedBox box_around(const std::string& name, std::span<const OrientedBox> box
   return around;
 }
 
-/// Puts one box around the two that waste the least space together.
+/// Replaces two boxes by one around both: the pair for which this adds the least volume.
 void merge_two(std::vector<OrientedBox>& boxes) {
   OrientedBox best;
   std::size_t first = 0, second = 0;
@@ -52,13 +52,13 @@ void merge_two(std::vector<OrientedBox>& boxes) {
       if (waste < least_waste) std::tie(best, first, second, least_waste) = std::tuple(both, i, j, waste);
     }
   }
-  if (second == 0) return;  // there is but one
+  if (second == 0) return;  // there is only one box
   boxes[first] = best;
   boxes.erase(boxes.begin() + static_cast<std::ptrdiff_t>(second));
 }
 
-/// Cuts the longest box in two across its longest edge.
-/// @param share  of the first part.
+/// Cuts the longest box in two across its longest edge, if it is long enough.
+/// @param share  length of the first part, as a share of the whole.
 void split_longest(std::vector<OrientedBox>& boxes, double share) {
   const auto longest = std::max_element(boxes.begin(), boxes.end(), [](const OrientedBox& a, const OrientedBox& b) {
     return a.size.maxCoeff() < b.size.maxCoeff();
@@ -95,7 +95,7 @@ void vary_as_ever(Scene& scene, std::uint64_t scene_seed) {
   }
 }
 
-/// A box with nothing in it, or nearly so, beside another one.
+/// An empty or almost empty box beside another one.
 OrientedBox idle_box(const OrientedBox& near, RandomStream& random) {
   const double heading = random.uniform(-std::numbers::pi, std::numbers::pi);
   const double away = 0.5 * near.size.head<2>().norm() + random.uniform(8.0, 25.0);
@@ -107,7 +107,7 @@ OrientedBox idle_box(const OrientedBox& near, RandomStream& random) {
   return box;
 }
 
-/// What seeds from kVariedSeeds on have beside the rest.
+/// Additional variation for seeds from kVariedSeeds on.
 void vary_further(std::vector<OrientedBox>& boxes, std::uint64_t scene_seed) {
   constexpr double kLoose = 0.35, kIdle = 0.3;  // shares of the boxes, of the seeds
   RandomStream random(scene_seed, "scene_boxes_further", 0);

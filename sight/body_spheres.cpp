@@ -19,7 +19,7 @@ void BodySpheres::about(const Vector3d& from_W, const Vector3d& to_W, double mar
   uavs.clear();
   const Eigen::Vector3f from = from_W.cast<float>(), way = (to_W - from_W).cast<float>();
   const float length2 = way.squaredNorm(), per_length2 = length2 > 0.0F ? 1.0F / length2 : 0.0F;
-  // A generous bound of what rounding moves.
+  // Includes a generous bound of the rounding errors.
   const auto slack = static_cast<float>(margin_m + 0.01 + 1e-5 * (from_W.norm() + to_W.norm()));
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
     const Block& block = blocks_[b];

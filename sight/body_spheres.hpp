@@ -14,8 +14,8 @@ class BodySpheres {
   /// Sets a UAV's sphere. @param p_W  its centre. @param radius_m  its radius, large enough to contain the body.
   void set(UavIndex uav, const Vector3d& p_W, double radius_m);
 
-  /// @param uavs  is overwritten, in fleet order, with all UAVs whose sphere is hit by any segment with ends within
-  ///   `margin_m` of `from_W` and `to_W`, and maybe a few more: a conservative test.
+  /// @param uavs  receives, in fleet order, every UAV whose sphere is within `margin_m` of the segment from `from_W` to
+  ///   `to_W`, and maybe a few more (a conservative test). Previous content is lost.
   void about(const Vector3d& from_W, const Vector3d& to_W, double margin_m, std::vector<UavIndex>& uavs) const;
 
  private:

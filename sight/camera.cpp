@@ -14,7 +14,7 @@ bool in_sight(const Vector3d& p_WC, const Vector3d& p_W, UavIndex own_uav, const
   const double distance = ray.norm();
   RayFilter filter;
   filter.except_uav = own_uav;
-  // Beyond the tolerance nothing matters; a little more, so that a hit at its very end is not cut off.
+  // Hits beyond the tolerance do not matter. The ray is a little longer, so that a hit at the tolerance is not cut off.
   const auto hit = world.first_hit(p_WC, ray, distance + 2.0 * Camera::kSurfaceTolerance, filter);
   return hit && std::abs(hit->distance - distance) <= Camera::kSurfaceTolerance;
 }
@@ -28,7 +28,7 @@ bool in_sight_of_reference(const Vector3d& p_WC, const Vector3d& p_W, UavIndex o
 
 namespace {
 
-/// The camera hangs below its body and is no body itself: it may reach through a roof.
+/// The camera is not part of the collision shape: it may pass through a roof below its body.
 bool is_through_structure(const Vector3d& p_WB, const Vector3d& p_WC, const RayScene& world) {
   return world.first_hit_distance(p_WB, p_WC, {.ground = false, .uavs = false}).has_value();
 }
@@ -71,7 +71,7 @@ void Camera::for_each_in_view(const RigidBodyState& body, const GimbalState& gim
   if (rules_.camera_blind_in_structure && is_through_structure(body.p_WB, p_WC, world)) return;
   const SightTest sees = sight_test(rules_);
   const UavIndex sees_through = rules_.own_body_hides ? kNobody : uav_;
-  // A first sieve in single precision, a hair wide: most points of a scene are out of reach.
+  // Most points of a scene are outside the search radius: a fast test in single precision, with a margin, drops them.
   const Eigen::Vector3f centre = p_WC.cast<float>();
   const float reach = static_cast<float>(exposure.radius()) + 0.01F;
   for (std::uint32_t i = 0; i < points_.size(); ++i) {
@@ -89,9 +89,9 @@ Capture Camera::capture(Tick tick, const RigidBodyState& body, const GimbalState
   last_ = tick;
   for_each_in_view(body, gimbal, world, [&](std::uint32_t i, const auto& quality, const auto& in_sight) {
     const double q = quality ? quality->score() : 0.0;
-    const bool counts = q > 0.0 && q >= rules_.min_point_score;  // what is no number does not
-    // The ray comes last: it costs more than all formulas together. Of what does not count it is asked until the point
-    // has been seen once.
+    const bool counts = q > 0.0 && q >= rules_.min_point_score;  // false for NaN
+    // The ray comes last: it costs more than all formulas together. A point that does not count needs a ray only until
+    // it has been seen once.
     if ((!counts && seen_[i]) || !in_sight()) return;
     seen_[i] = true;
     if (!counts) return;

@@ -65,7 +65,7 @@ CameraMount::CameraMount(const CameraKind& kind, bool body_hides)
 
 BodyHeadings CameraMount::clear_headings(const Vector3d& ray_W) const {
   BodyHeadings headings{std::atan2(ray_W.y(), ray_W.x()), {}};
-  // A camera below its body that does not look up has nothing of it before it.
+  // If the camera hangs below its body and does not look up, no part of the body is in its view.
   double lowest = std::min(-0.5 * body_.shape.box_m.z(), body_.shape.rotor_height_m);
   for (const BodyBox& link : body_.shape.links) lowest = std::min(lowest, link.p_B.z() - 0.5 * link.edges_m.z());
   const bool below = p_BC_.z() < lowest;
@@ -73,7 +73,7 @@ BodyHeadings CameraMount::clear_headings(const Vector3d& ray_W) const {
     headings.allowed.set();
     return headings;
   }
-  // Against a body turned by some angle from the ray's azimuth.
+  // Body heading i is the ray's azimuth plus turn i, so in B the ray is turned by the opposite angle.
   const double across = ray_W.head<2>().norm();
   for (std::size_t i = 0; i < BodyHeadings::kCount; ++i) {
     const Vector3d ray_B(across * kTurns[i].x(), -across * kTurns[i].y(), ray_W.z());

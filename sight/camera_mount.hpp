@@ -1,6 +1,6 @@
-// The mount of a camera: where the body is for a given camera position, and which rays it hides. For the oracle, and
-// for plans and workplaces in sim_server. The body hovers at rest and level. The camera's heading is the body's heading
-// plus the gimbal's yaw, so many body headings are possible for one camera heading.
+// The mount of a camera: where the body is for a given camera position, and which rays the body blocks. For the oracle,
+// and for plans and viewpoints in sim_server. The body hovers, level and at rest. The camera's heading is the body's
+// heading plus the gimbal's yaw, so many body headings are possible for one camera heading.
 // Frames: W world, B body, C camera.   Units: SI, radians.
 #pragma once
 
@@ -21,9 +21,9 @@ struct CameraKind {
   GimbalConfig gimbal;
   BodyShape body;
 
-  /// The parameters that decide which pictures the camera can take from a place, for a free choice of body heading.
+  /// The parameters that decide which pictures the camera can take from a place if the body may have any heading.
   std::array<double, 5> optics() const;
-  /// All parameters that matter to a camera at rest; kinds with equal ones are the same kind.
+  /// All parameters that matter to a camera at rest; cameras with equal parameters are of the same kind.
   std::vector<double> essence() const;
 };
 
@@ -45,7 +45,7 @@ class CameraMount {
   /// @param body_hides  false: the camera looks through its own body (`rules.own_body_hides`).
   CameraMount(const CameraKind& kind, bool body_hides);
 
-  /// The headings with which the body does not block a ray from its camera; heading 0 is the azimuth of the ray.
+  /// The body headings with which the body does not block a ray from its camera; heading 0 is the azimuth of the ray.
   BodyHeadings clear_headings(const Vector3d& ray_W) const;
 
   /// Index of the allowed body heading that needs the least gimbal yaw for this camera heading; nullopt when each needs

@@ -5,7 +5,7 @@
 namespace skein::sim {
 namespace {
 
-/// Beyond the clearance: a query costs more the farther it looks, and a step is so long.
+/// Range of a query beyond the clearance, and so the longest step [m]. Queries of longer range cost more.
 constexpr double kFarQuery = 1.5;
 
 }  // namespace

@@ -1,6 +1,6 @@
-// Eight floats at a time, as two SSE registers or one AVX register, whatever the file that includes this is compiled
-// for. Every operation is the plain IEEE one, lane by lane, so that both give the same bits.
-// Everything here is private to the file that includes it: two files may be compiled for different instruction sets.
+// Eight floats at a time: one AVX register if the including file is compiled for AVX2, else two SSE registers.
+// Every operation is the plain IEEE one, lane by lane, so both variants give the same bits.
+// Everything here is private to the including file: two such files may be compiled for different instruction sets.
 #pragma once
 
 #include <immintrin.h>
@@ -79,7 +79,7 @@ inline Float8 dot(const Vector8& a, const Vector8& b) { return a.x * b.x + a.y *
 inline Vector8 cross(const Vector8& a, const Vector8& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
-/// Sum of the magnitudes: a bound of the length that costs no root.
+/// Sum of the magnitudes: an upper bound of the length that needs no square root.
 inline Float8 extent(const Vector8& a) { return magnitude(a.x) + magnitude(a.y) + magnitude(a.z); }
 
 }  // namespace

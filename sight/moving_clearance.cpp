@@ -5,7 +5,7 @@
 namespace skein::sim {
 namespace {
 
-constexpr double kSlackM = 0.01;  ///< more than single precision rounds away
+constexpr double kSlackM = 0.01;  ///< more than the rounding errors of single precision
 
 }  // namespace
 

@@ -1,5 +1,5 @@
-// Distance of something that moves from the structure, which stands still: no farther than last time and what it has
-// moved since, so a query need not look beyond; the answers are those of RayScene::clearance().
+// Clearance of a moving body from the static structure. It is at most the previous clearance plus the distance moved
+// since, which limits the range of each query. The results are those of RayScene::clearance(), limited to `most_m`.
 // Frame W.   Units: m.   Threads: one.
 #pragma once
 
@@ -9,9 +9,10 @@ namespace skein::sim {
 
 class MovingClearance {
  public:
-  /// @param most_m  what is not nearer counts as so far away
+  /// @param most_m  upper limit of the result: greater clearances count as this.
   explicit MovingClearance(double most_m) : most_m_(most_m), last_m_(most_m) {}
 
+  /// Clearance of the body at its present place. @param rays  must have the same structure in all calls.
   double at(const RayScene& rays, const Vector3d& p_W);
 
  private:

@@ -14,7 +14,7 @@ static_assert(RayFan::kNothing == fan::kNoTriangle);
 
 void copy(const Eigen::Vector3f& from, float (&to)[3]) { std::copy_n(from.data(), 3, to); }
 
-/// The tile's axes: ahead through the middle of its corners, across in the sense of its rows.
+/// Sets the tile's axes: "ahead" through the middle of its corner rays, "across" from the left corners to the right.
 void set_axes(fan::Window& window, std::span<const Eigen::Vector3f> directions, std::size_t grid_columns,
               const Eigen::Matrix3f& R_TW) {
   const auto corner = [&](int row, int column) {
@@ -24,7 +24,7 @@ void set_axes(fan::Window& window, std::span<const Eigen::Vector3f> directions, 
   const int row = window.rows - 1, column = window.columns - 1;
   const Eigen::Vector3f left = corner(0, 0) + corner(row, 0), right = corner(0, column) + corner(row, column);
   Eigen::Vector3f ahead = left + right;
-  // Rays all round have no middle: whatever is taken here, the kernel will find that they make no tile.
+  // Rays in all directions have no mean direction. Any axis will do: the kernel will reject such a tile.
   ahead = ahead.squaredNorm() > 0.0F ? ahead.normalized() : corner(0, 0);
   Eigen::Vector3f across = right - left;
   across -= across.dot(ahead) * ahead;

@@ -1,5 +1,5 @@
-// The only file that is compiled with -mavx2. It includes nothing that could leave an inline function behind which the
-// linker might choose for other files too.
+// The only file that is compiled with -mavx2. It must include no header with inline functions of external linkage: the
+// linker might use the AVX2 version of such a function for other files, too.
 #include "sight/ray_fan_kernel.hpp"
 
 namespace skein::sim::fan {

@@ -1,8 +1,8 @@
-// The inside of RayFan: the search of a tile of rays through the tree; docs/decisions/0007-fan-of-rays.md tells how it
-// works. Included by ray_fan_sse2.cpp and ray_fan_avx2.cpp alone, which compile it for their instruction set. It uses
-// nothing but built-in types: an inline function of a library, compiled for AVX2 there, might be linked into code that
-// runs on other CPUs too.
-// Frames: W world, T the tree's axes; a tile has axes across it, along its columns, and ahead.
+// The kernel of RayFan: a tile of rays traverses the search tree (docs/decisions/0007-fan-of-rays.md).
+// Only ray_fan_sse2.cpp and ray_fan_avx2.cpp include this file, and compile it for their instruction set. It uses only
+// built-in types: an inline function of a library, compiled for AVX2 here, might be linked into code that also runs on
+// CPUs without AVX2.
+// Frames: W world, T the tree's axes. A tile has axes of its own: across it, along its columns, and ahead.
 #pragma once
 
 #include "sight/ray_fan_leaf.hpp"
@@ -11,9 +11,9 @@ namespace skein::sim::fan {
 namespace {
 
 struct Entry {
-  std::int32_t link;
-  float depth;  ///< where its box begins
-  Rect rect;    ///< rays that may meet it
+  std::int32_t link;  ///< as Branch::children
+  float depth;        ///< at which its box begins, along the tile's "ahead" axis [m]
+  Rect rect;          ///< rays that may hit it
 };
 
 struct Stack {
@@ -21,7 +21,7 @@ struct Stack {
   int size;
 };
 
-/// Has the memory of a branch or leaf fetched before it is needed.
+/// Prefetches the memory of a branch or leaf.
 inline void fetch(const Job& job, std::int32_t link) {
   const char* memory =
       link < 0 ? reinterpret_cast<const char*>(&job.leaves[~link]) : reinterpret_cast<const char*>(&job.branches[link]);
@@ -29,14 +29,14 @@ inline void fetch(const Job& job, std::int32_t link) {
   for (std::size_t at = 0; at < sizeof(Branch); at += kLine) __builtin_prefetch(memory + at);
 }
 
-/// Children of a branch that rays of the rect may meet, the nearest on top.
+/// Pushes those children of a branch that rays of the rectangle may hit, the nearest on top.
 inline void push_children(const Tile& tile, const Job& job, const Branch& branch, const Rect& rect, Stack& stack) {
   const Vector8 centre = load3(branch.centre_T) - tile.origin_T, half = load3(branch.half_T);
   const Float8 across = dot(tile.axes_T[0], centre), width = dot(tile.spans_T[0], half) + tile.slack;
   const Float8 along = dot(tile.axes_T[1], centre), height = dot(tile.spans_T[1], half) + tile.slack;
   const Float8 ahead = dot(tile.axes_T[2], centre), depth = dot(tile.spans_T[2], half) + tile.slack;
   const Float8 front = ahead - depth, back = ahead + depth;
-  // Of a box that the tile's origin lies beside or in, only the part ahead counts.
+  // If a box contains the tile's origin or lies beside it, only its part ahead counts.
   const Float8 by_front = all(1.0F) / larger(front, all(1e-6F)), by_back = all(1.0F) / back;
   const auto lowest = [&](Float8 low) { return smaller(low * by_front, low * by_back); };
   const auto highest = [&](Float8 high) { return larger(high * by_front, high * by_back); };

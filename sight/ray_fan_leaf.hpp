@@ -1,4 +1,4 @@
-// The triangles of RayFan against the rays of a tile. Part of ray_fan_kernel.hpp, whose first lines hold here too.
+// Tests the triangles of a leaf against the rays of a tile. Part of ray_fan_kernel.hpp: see its first lines.
 #pragma once
 
 #include "sight/ray_fan_tile.hpp"
@@ -8,20 +8,20 @@ namespace {
 
 /// Eight triangles as seen from the origin.
 struct Triangles {
-  Vector8 corners[3];  ///< from the origin, in W
-  Float8 depths[3];    ///< of the corners, along the tile's axis
-  Float8 front, back;  ///< the least depth and the greatest
+  Vector8 corners[3];  ///< relative to the origin, in W
+  Float8 depths[3];    ///< of the corners, along the tile's "ahead" axis
+  Float8 front, back;  ///< the least and the greatest depth
 };
 
-/// Their planes. Each edge spans one with the origin; a ray meets the triangle when it lies on the inner side of all
-/// three. Triangles that share an edge compute its plane from the same numbers, with opposite sign, to the last bit: no
-/// ray passes between them. The margin covers rounding errors at the corners, where several planes meet.
+/// Planes of eight triangles. The origin and an edge span a plane; a ray hits the triangle if it lies on the inner side
+/// of all three. Two triangles that share an edge compute its plane from the same numbers with opposite sign, to the
+/// last bit, so no ray passes between them. The margin covers rounding errors at corners, where several planes meet.
 struct Planes {
   Vector8 edges[3];
   Float8 margins[3];
-  Vector8 nearness;  ///< plane of the triangle: its scalar product with a ray is 1 / depth
+  Vector8 nearness;  ///< plane of the triangle: its scalar product with a ray is the nearness, 1 / depth
   Float8 least_nearness, most_nearness;
-  Float8 seen;  ///< which of them are triangles at all, and not edge-on
+  Float8 seen;  ///< mask: not degenerate, not edge-on, and not behind the origin
 };
 
 inline Triangles triangles_of(const Leaf& leaf, const Tile& tile) {
@@ -40,27 +40,27 @@ inline Planes planes_of(const Triangles& triangles) {
   const auto& p = triangles.corners;
   const Vector8 normal = cross(p[1] - p[0], p[2] - p[0]);
   const Float8 volume = dot(normal, p[0]);
-  // From either side the inner sides of the edges are made the positive ones.
+  // Makes the inner sides of the edges positive, from whichever side the origin sees the triangle.
   const Float8 turn = sign_of(volume);
   Planes planes;
   for (int k = 0; k < 3; ++k) {
     const Vector8 &a = p[k], &b = p[(k + 1) % 3];
-    // Twice a x b, but without its cancellation where the edge is short; and antisymmetric to the last bit.
+    // Twice a x b, but without cancellation if the edge is short, and antisymmetric to the last bit.
     const Vector8 sum = a + b, along = b - a;
     planes.edges[k] = cross(sum, along) ^ turn;
     planes.margins[k] = all(2.4e-7F) * extent(sum) * extent(along);
   }
-  // Exactly edge-on, no triangle at all, or behind: no nearness, so that no ray meets it.
+  // Triangles that are exactly edge-on, degenerate or behind get a nearness of 0, so that no ray hits them.
   const Float8 seen = (magnitude(volume) > all(1e-9F) * extent(normal) * extent(p[0])) & (triangles.back > all(0.0F));
   planes.seen = seen;
   planes.nearness = normal * ((all(1.0F) / volume) & seen);
-  // Almost edge-on the plane is badly conditioned: the triangle's own depths bound it.
+  // If the triangle is almost edge-on, its plane is ill-conditioned: the depths of its corners bound the nearness.
   planes.least_nearness = (all(1.0F) / larger(triangles.back, all(1e-9F))) & seen;
   planes.most_nearness = (all(1.0F) / larger(triangles.front, all(1e-9F))) & seen;
   return planes;
 }
 
-/// Not negative where rays pass through triangles.
+/// Negative in the lanes in which the ray misses the triangle.
 inline Float8 inner_side(const Planes& planes, const Vector8& d) {
   return smaller(smaller(dot(planes.edges[0], d) + planes.margins[0], dot(planes.edges[1], d) + planes.margins[1]),
                  dot(planes.edges[2], d) + planes.margins[2]);
@@ -70,7 +70,7 @@ inline Float8 nearness_of(const Planes& planes, const Vector8& d) {
   return larger(planes.least_nearness, smaller(planes.most_nearness, dot(planes.nearness, d)));
 }
 
-/// The planes of all eight as numbers, and those of one of them for eight rays.
+/// Stores the planes of eight triangles; of() returns those of one triangle, repeated in all lanes, to test eight rays.
 struct StoredPlanes {
   alignas(32) float lanes[17][kLanes];
 
@@ -101,10 +101,10 @@ struct StoredPlanes {
   }
 };
 
-/// Which rays of a rect may meet each of eight triangles.
+/// Which rays of a rectangle may hit each of eight triangles.
 struct Shadows {
   Indices columns, rows;
-  unsigned some;  ///< triangles with any ray
+  unsigned some;  ///< bit mask of the triangles that any ray may hit
 };
 inline Shadows shadows_of(const Triangles& triangles, const Tile& tile, const Rect& rect) {
   Float8 low[2], high[2];
@@ -116,7 +116,7 @@ inline Shadows shadows_of(const Triangles& triangles, const Tile& tile, const Re
       high[axis] = k == 0 ? slope : larger(high[axis], slope);
     }
   }
-  // One that begins beside or behind the origin has no slope there, or too steep a one: any ray may meet it.
+  // If a triangle begins beside or behind the origin, its slopes are undefined or too steep: any ray may hit it.
   const Float8 ahead = triangles.front > all(1e-3F) * triangles.back, any = without(all(1e9F), ahead);
   const auto lowest = [&](int axis) { return (low[axis] & ahead) - any; };
   const auto highest = [&](int axis) { return (high[axis] & ahead) + any; };
@@ -125,7 +125,7 @@ inline Shadows shadows_of(const Triangles& triangles, const Tile& tile, const Re
   return {columns, rows, bits((columns.past_last > columns.first) & (rows.past_last > rows.first))};
 }
 
-/// All eight triangles on one ray after the other: for few rays.
+/// Tests all eight triangles at once, ray by ray: faster for few rays.
 inline void try_by_rays(Tile& tile, const Leaf& leaf, const Planes& planes, const Rect& rect, float depth) {
   for (int row = rect.row0; row <= rect.row1; ++row) {
     for (int column = rect.column0; column <= rect.column1; ++column) {
@@ -148,7 +148,7 @@ inline void try_by_rays(Tile& tile, const Leaf& leaf, const Planes& planes, cons
   }
 }
 
-/// One triangle after the other on all eight rays of each row: for many rays.
+/// Tests the eight rays of a row at once, triangle by triangle: faster for many rays.
 inline void try_by_triangles(Tile& tile, const Leaf& leaf, const Planes& planes, const Shadows& shadows) {
   const StoredPlanes stored(planes);
   alignas(32) int row0[kLanes], row1[kLanes];
@@ -172,9 +172,9 @@ inline void try_by_triangles(Tile& tile, const Leaf& leaf, const Planes& planes,
   }
 }
 
-/// Tries the triangles of a leaf on the rays of a rect.   @param depth  where the box of the leaf begins.
+/// Tests the triangles of a leaf against the rays of a rectangle.   @param depth  at which the leaf's box begins.
 inline void try_leaf(Tile& tile, const Leaf& leaf, const Rect& rect, float depth) {
-  constexpr int kFewRays = 16;  // where the two ways cost the same, measured
+  constexpr int kFewRays = 16;  // at which both ways cost the same (measured)
   if (hidden(tile, rect, depth)) return;
   const Triangles triangles = triangles_of(leaf, tile);
   if ((rect.column1 - rect.column0 + 1) * (rect.row1 - rect.row0 + 1) <= kFewRays) {

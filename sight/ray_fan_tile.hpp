@@ -1,5 +1,5 @@
-// A tile of RayFan: neighbouring rays from one point, and where in it a box or a triangle may be met.
-// Part of ray_fan_kernel.hpp, whose first lines hold here too.
+// A tile of RayFan: neighbouring rays from one point, and which of them may hit a box or a triangle.
+// Part of ray_fan_kernel.hpp: see its first lines.
 #pragma once
 
 #include "sight/float8.hpp"
@@ -15,24 +15,24 @@ constexpr float min(float a, float b) { return b < a ? b : a; }
 constexpr float max(float a, float b) { return b > a ? b : a; }
 constexpr int min(int a, int b) { return b < a ? b : a; }
 
-/// Rays of a tile, from the first column and row to the last.
+/// A rectangle of rays of a tile: first and last column, first and last row.
 struct Rect {
   int column0, column1, row0, row1;
 };
 
-/// From a slope in the tile to the index of a column, or of a row: index = slope * scale + offset. The offsets to the
-/// first and past the last are widened by how far the rays stray from a regular grid, and by rounding errors.
+/// Converts a slope in the tile to the index of a column or a row: index = slope * scale + offset. Both offsets, to the
+/// first index and to the one past the last, include the rays' deviation from a regular grid, and rounding errors.
 struct Ruler {
   Float8 scale, to_first, to_past_last;
 };
 
-/// Neighbouring rays, each stretched so that it goes as far ahead as a metre along the tile's axis.
+/// Neighbouring rays. Each direction is scaled so that its component along the tile's "ahead" axis is 1.
 struct Tile {
   alignas(32) float x[kRays], y[kRays], z[kRays];  ///< directions in W
-  alignas(32) float nearness[kRays];               ///< 1 / depth of what the ray meets, or of its end
+  alignas(32) float nearness[kRays];               ///< 1 / depth of the first hit so far, or of the ray's end
   std::uint32_t triangle[kRays];
   Vector8 origin_W, origin_T;
-  Vector8 axes_W[3], axes_T[3], spans_T[3];  ///< across, along, ahead; spans are magnitudes
+  Vector8 axes_W[3], axes_T[3], spans_T[3];  ///< across, along, ahead; spans_T: magnitudes of the components of axes_T
   Float8 slack;
   Ruler columns, rows;
 };
@@ -52,10 +52,10 @@ inline float least(Float8 a) {
 }
 inline float most(Float8 a) { return -least(all(0.0F) - a); }
 
-/// The columns of a rect as bits.
+/// The columns of a rectangle as a bit mask.
 inline unsigned columns_of(const Rect& rect) { return (2U << rect.column1) - (1U << rect.column0); }
 
-/// Whether all rays of a rect end before a depth.
+/// Whether all rays of a rectangle end in front of a depth.
 inline bool hidden(const Tile& tile, const Rect& rect, float depth) {
   if (depth <= 0.0F) return false;
   Float8 farthest = load(&tile.nearness[rect.row0 * kLanes]);
@@ -65,7 +65,7 @@ inline bool hidden(const Tile& tile, const Rect& rect, float depth) {
   return (bits(all(1.0F) > farthest * all(depth)) & columns_of(rect)) == 0;
 }
 
-/// Of the rays whose slope may lie between two: the first index, and one past the last. None where that is no more.
+/// Rays whose slope may lie between two values: the first index, and one past the last. Empty if past_last <= first.
 struct Indices {
   Float8 first, past_last;
 };
@@ -75,8 +75,8 @@ inline Indices indices(const Ruler& ruler, Float8 low, Float8 high, int first, i
           truncated(larger(smaller(to, all(static_cast<float>(last + 1))), all(0.0F)))};
 }
 
-/// Lays a ruler along slopes that grow with an index.   @param index_of  of a row of rays.
-/// @param blur  receives how far slopes stray from it, in steps.
+/// Fits a ruler to slopes that grow with the index.   @param index_of  returns the true indices of a row of rays.
+/// @param blur  receives the largest deviation of a slope from the ruler, as a number of index steps.
 template <class IndexOf>
 Ruler fit_ruler(const float (&slopes)[kRays], int last, IndexOf index_of, float& blur) {
   Float8 low = load(slopes), high = low;
@@ -96,7 +96,8 @@ Ruler fit_ruler(const float (&slopes)[kRays], int last, IndexOf index_of, float&
   return {all(scale), all(1.0F - margin - start * scale), all(1.0F + margin - start * scale)};
 }
 
-/// Gathers the rays; a tile at the rim of the grid repeats its last ones. Leaves their reaches in `nearness`.
+/// Copies the rays into the tile; a tile at the rim of the grid repeats its last ones. `nearness` receives their
+/// lengths, which arrange() converts.
 inline void gather(const Job& job, const Window& window, Tile& tile) {
   for (int row = 0; row < kTileRows; ++row) {
     const std::size_t first =
@@ -114,7 +115,7 @@ inline void gather(const Job& job, const Window& window, Tile& tile) {
   }
 }
 
-/// Stretches the rays and lays the rulers.   @returns false when they do not make a tile.
+/// Scales the rays and fits the rulers.   @returns false if the rays do not form a tile.
 inline bool arrange(const Job& job, const Window& window, Tile& tile) {
   constexpr float kLeastAhead = 0.5F, kMostBlur = 1.5F;
   alignas(32) float across[kRays], along[kRays];

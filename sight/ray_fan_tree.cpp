@@ -16,20 +16,20 @@ namespace {
 
 using Box = Eigen::AlignedBox3f;
 
-/// How many pieces may be cut off long triangles, as a share of the triangles.
+/// Additional pieces from cutting long triangles, at most, as a share of the number of triangles.
 constexpr double kExtraPieces = 0.2;
 constexpr int kBins = 16;
-/// From this depth on pieces are divided in equal halves, so that a tree of any mesh ends within kMostLevels: 32 levels
-/// later, since a piece's number has 32 bits.
+/// From this depth on, the builder divides pieces into equal halves instead of by surface area. So the tree of any mesh
+/// has at most kMostLevels: the number of pieces has 32 bits, so 32 more levels are enough.
 constexpr int kLevelsBySurface = 24;
 
-/// A triangle, or the part of one that lies in a box.
+/// A triangle, or the part of it that lies in a box.
 struct Piece {
   Box box;
   std::uint32_t triangle;
 };
 
-/// Half the surface of a box: in proportion to how many rays meet it.
+/// Half the surface of a box, which is proportional to the number of rays that hit it.
 float half_area(const Box& box) {
   const Eigen::Vector3f d = box.sizes();
   return d.x() * d.y() + d.y() * d.z() + d.z() * d.x();
@@ -46,8 +46,8 @@ TriangleMesh turned(TriangleMesh mesh, const Eigen::Matrix3f& R_TW) {
   return mesh;
 }
 
-/// The turn about z, in steps of 5 degrees, under which the boxes about the triangles are smallest. Buildings are full
-/// of parallel walls and bars; boxes along their axes hold less air.
+/// The turn about z, in steps of 5 degrees, with which the boxes around the triangles are smallest. Buildings have many
+/// parallel walls and bars, and boxes along their directions contain less empty space.
 Eigen::Matrix3f best_axes(const TriangleMesh& mesh) {
   Eigen::Matrix3f best = Eigen::Matrix3f::Identity();
   double least = std::numeric_limits<double>::infinity();
@@ -87,7 +87,7 @@ std::pair<Piece, Piece> cut(const Piece& piece, const TriangleMesh& mesh, int ax
 
 std::vector<Piece> pieces_of(const TriangleMesh& mesh) {
   std::vector<Piece> pieces;
-  std::vector<float> flat;  // half the surface of the tightest box that could hold the piece: a flat one
+  std::vector<float> flat;  // lower bound of half the surface of a box around the piece
   for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
     const auto& [a, b, c] = mesh.triangles[i];
     const Eigen::Vector3f &p = mesh.vertices[a], &q = mesh.vertices[b], &r = mesh.vertices[c];
@@ -96,7 +96,7 @@ std::vector<Piece> pieces_of(const TriangleMesh& mesh) {
     pieces.push_back({triangle_box(mesh, i), i});
     flat.push_back(0.5F * normal.cwiseAbs().sum());
   }
-  // Always cut the piece whose box holds the most air.
+  // Always cut the piece whose box exceeds this bound most ("air").
   std::priority_queue<std::pair<float, std::size_t>> air;
   for (std::size_t i = 0; i < pieces.size(); ++i) air.push({half_area(pieces[i].box) - flat[i], i});
   const auto most = static_cast<std::size_t>((1.0 + kExtraPieces) * static_cast<double>(pieces.size()));
@@ -133,8 +133,8 @@ struct Slices {
   }
 };
 
-/// Divides pieces in two by the surface area heuristic; in the middle of the list where all centres coincide.
-/// @returns how many come first.
+/// Partitions the pieces into two parts by the surface area heuristic; into halves of the list if all centres coincide.
+/// @returns the size of the first part.
 std::size_t divide(std::span<Piece> pieces) {
   Box centres;
   for (const Piece& piece : pieces) centres.extend(piece.box.center());
@@ -143,7 +143,7 @@ std::size_t divide(std::span<Piece> pieces) {
   int best_slice = -1;
   for (int axis = 0; axis < 3; ++axis) {
     const float length = centres.sizes()[axis];
-    if (!(length > 1e-30F)) continue;  // nothing to divide, and its inverse would be infinite
+    if (!(length > 1e-30F)) continue;  // nothing to divide along this axis, and 1 / length would be infinite
     const Slices slices{axis, centres.min()[axis], kBins / length};
     std::array<Box, kBins> boxes;
     std::array<int, kBins> counts{};
@@ -199,7 +199,7 @@ class Builder {
     return ~static_cast<std::int32_t>(tree_.leaves.size() - 1);
   }
 
-  /// Divides the largest of the children until there are eight, or all fit into leaves.
+  /// Repeatedly divides the largest child, until there are eight children or each fits into a leaf.
   std::int32_t add_branch(std::span<Piece> pieces, int level) {
     constexpr float kNoBox = -1e18F;
     const auto index = static_cast<std::int32_t>(tree_.branches.size());

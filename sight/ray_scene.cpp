@@ -24,7 +24,7 @@ struct SceneRelease {
 using Device = std::unique_ptr<std::remove_pointer_t<RTCDevice>, DeviceRelease>;
 using EmbreeScene = std::unique_ptr<std::remove_pointer_t<RTCScene>, SceneRelease>;
 
-/// One instruction set that every x86-64 has, and one thread: the search tree is built the same way every time.
+/// Uses one thread, and an instruction set that every x86-64 CPU has: so the search tree is the same every time.
 Device make_device(bool native_cpu) {
   std::string config = "threads=1,start_threads=0,set_affinity=0";
   if (!native_cpu) {
@@ -85,7 +85,7 @@ struct RayScene::Impl {
         scene(rtcNewScene(device.get())),
         mesh(structure),
         bodies(shapes.begin(), shapes.end()) {
-    // Robust: a ray between two triangles that share an edge meets one of them, and thin members are not lost.
+    // Robust: no ray passes between two triangles that share an edge, or through a thin member.
     // Context filter: for before_end().
     rtcSetSceneFlags(scene.get(),
                      static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
@@ -130,14 +130,14 @@ struct RayScene::Impl {
             mesh.vertices[triangle[2]].cast<double>()};
   }
 
-  /// Where a ray meets the triangle that Embree or the fan named for it.
-  /// @param ray  as they had it, rounded to single precision: the one that they found inside the triangle.
+  /// Distance at which a ray hits a triangle that Embree or the fan has found.
+  /// @param ray  rounded to single precision: the ray that Embree or the fan has tested.
   double structure_distance(const Ray& ray, unsigned triangle) const {
     const Plane& plane = planes[triangle];
     const double slope = plane.normal.dot(ray.direction);
     const double height = plane.offset - plane.normal.dot(ray.origin);
     if (std::abs(slope) > 0.01) return std::max(0.0, height / slope);
-    // Almost along the plane the crossing is badly conditioned: keep it on the triangle.
+    // If the ray is almost parallel to the plane, the crossing is ill-conditioned: limit it to the triangle.
     const auto points = corners(mesh.triangles[triangle]);
     std::array<double, 3> along;
     std::ranges::transform(points, along.begin(),
@@ -150,7 +150,7 @@ struct RayScene::Impl {
     return bodies[uav].placed && uav != filter.except_uav && uav != filter.except_other_uav;
   }
 
-  /// The structure on a single ray; nullopt when there is none up to `distance_max`.
+  /// The first hit of the structure; nullopt if there is none up to `distance_max`.
   std::optional<Hit> first_structure(const Ray& ray, double distance_max) const {
     const Eigen::Vector3f origin = ray.origin.cast<float>(), direction = ray.direction.cast<float>();
     RTCRayHit query = ray_query(origin, direction, static_cast<float>(distance_max));
@@ -161,8 +161,8 @@ struct RayScene::Impl {
                .triangle = query.hit.primID};
   }
 
-  /// The first of ground and bodies; nullopt when there is none up to `distance_max`.
-  /// @param enough  what is nearer need not be the first.
+  /// The first hit of the ground or a body; nullopt if there is none up to `distance_max`.
+  /// @param enough  a hit at less than this distance ends the search, so it need not be the first.
   std::optional<Hit> first_shape(const Ray& ray, double distance_max, const RayFilter& filter,
                                  double enough = 0.0) const {
     Hit nearest{.distance = distance_max};
@@ -203,15 +203,15 @@ struct RayScene::Impl {
     return structure ? structure : shape;
   }
 
-  /// What the Embree filter of before_end() carries along a ray.
+  /// State of the Embree filter of before_end() along a ray.
   struct Crossings {
-    RTCIntersectContext context;  ///< first: the filter finds the rest behind it
+    RTCIntersectContext context;  ///< must be the first member: the filter casts its address to Crossings
     const Impl* impl;
     Eigen::Vector3f origin, direction;
     float length, nearest;
   };
 
-  /// Embree names every triangle on the ray; each is tried, none ends the search.
+  /// Embree filter, called for each triangle on the ray: tests the triangle and rejects it, so that the search goes on.
   static void try_crossing(const RTCFilterFunctionNArguments* args) {
     auto& crossings = *reinterpret_cast<Crossings*>(args->context);
     const auto& triangle = crossings.impl->mesh.triangles[RTCHitN_primID(args->hit, args->N, 0)];
@@ -222,9 +222,9 @@ struct RayScene::Impl {
     args->valid[0] = 0;
   }
 
-  /// Of the structure alone, up to `length`; infinity when nothing is there.
+  /// Distance of the first hit of the structure alone that is less than `length`; infinity if there is none.
   float before_end(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction, float length) const {
-    constexpr float kReach = 0.05F;  // beyond the end, so that Embree names all whose float distance may be less
+    constexpr float kReach = 0.05F;  // beyond the end: Embree must find all triangles whose float distance may be less
     Crossings crossings{make_context(RTC_INTERSECT_CONTEXT_FLAG_NONE), this, origin, direction, length,
                         std::numeric_limits<float>::infinity()};
     crossings.context.filter = &Impl::try_crossing;
@@ -233,7 +233,7 @@ struct RayScene::Impl {
     return crossings.nearest;
   }
 
-  /// Distances to the structure, and to the ground, which ends a ray before it is traced.
+  /// Distances to the structure or the ground. The ground limits the length of a ray before it is traced.
   void scan_structure(const Vector3d& origin, std::span<const Eigen::Vector3f> directions, std::size_t columns,
                       double distance_max, bool ground, std::span<double> distances) const {
     std::vector<float> reaches(directions.size());
@@ -257,7 +257,7 @@ struct RayScene::Impl {
     const double area2 = normal.norm(), length = way.norm();
     const double slope = normal.dot(way);  // area2 * length * sine of the angle between plane and ray
     const double share = normal.dot(a - from) / slope;
-    // Rays are rounded to single precision: a tenth of a millimetre at a hundred metres is a generous bound of that.
+    // Rays are rounded to single precision: 0.1 mm at 100 m is a generous bound of the error.
     constexpr double kLeastSine = 0.02, kInside = 1e-4 / kLeastSine;
     if (!(std::abs(slope) > kLeastSine * area2 * length && share > 0.0)) return false;
     const double distance = share * length;
@@ -269,13 +269,13 @@ struct RayScene::Impl {
     return inside(a, b) && inside(b, c) && inside(c, a);
   }
 
-  /// Shortens the distances of the rays that meet this body.
+  /// Shortens the distances of the rays that hit this body.
   void scan_body(const Body& body, const Vector3d& origin, std::span<const Eigen::Vector3f> directions,
                  double distance_max, std::span<double> distances) const {
     const Vector3d offset = body.p_WB - origin;
     const double far = offset.norm();
     if (far - body.radius > distance_max) return;
-    // Rays outside the cone about the body cannot meet it; from inside its sphere all may.
+    // Rays outside the cone around the body cannot hit it. If the origin is inside the body's sphere, all rays may.
     const double tangent2 = far * far - body.radius * body.radius;
     const float least_along =
         tangent2 > 0.0 ? static_cast<float>(std::sqrt(tangent2)) * 0.9999F : -std::numeric_limits<float>::infinity();
@@ -290,7 +290,7 @@ struct RayScene::Impl {
     }
   }
 
-  /// What a closest-point query carries from triangle to triangle.
+  /// State of a closest-point query.
   struct Nearest {
     const Impl* impl;
     Vector3d p;
@@ -347,7 +347,8 @@ std::optional<double> RayScene::first_hit_distance(const Vector3d& from_W, const
 
 std::optional<RayScene::HitBeforeEnd> RayScene::first_hit_before_end(const Vector3d& from_W, const Vector3d& to_W,
                                                                      const RayFilter& filter) const {
-  // Rounded one by one: that the origin moves by its rounding and the length does not is most of what decides.
+  // Origin, direction and length are rounded separately. Rounding moves the origin but does not adapt the length: this
+  // mostly decides whether a surface at the end is hit.
   const Ray ray{from_W, (to_W - from_W).normalized()};
   const auto length = static_cast<float>((to_W - from_W).norm());
   if (!(length > 0.0F)) return std::nullopt;

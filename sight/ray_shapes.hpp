@@ -1,5 +1,5 @@
-// A ray against the shapes that need no search tree: ground, boxes, a UAV's body; and a point against a triangle.
-// Pure. Frames: W world, B body.   Units: m.
+// Intersection of a ray with shapes that need no search tree (ground, boxes, a UAV's body), and the distance between a
+// point and a triangle.   Pure.   Frames: W world, B body.   Units: m.
 #pragma once
 
 #include <algorithm>
@@ -25,7 +25,8 @@ inline double ground_distance(const Ray& ray) {
   return ray.origin.z() * ray.direction.z() < 0.0 ? -ray.origin.z() / ray.direction.z() : kInfinity;
 }
 
-/// Where a ray enters a solid box about the origin; 0 from inside.
+/// Distance at which a ray enters a solid box that is centred at the frame's origin; 0 if the ray starts inside,
+/// infinity if it misses the box.   @param half  half the edge lengths.
 inline double box_distance(const Ray& ray, const Vector3d& half) {
   double enter = 0.0, leave = kInfinity;
   for (int axis = 0; axis < 3; ++axis) {
@@ -43,8 +44,8 @@ inline double box_distance(const Ray& ray, const Vector3d& half) {
   return enter <= leave ? enter : kInfinity;
 }
 
-/// Where a ray crosses a triangle, in single precision from end to end (Moeller and Trumbore 1997, both sides): what
-/// lies on its plane or its edges to the last bit is met or missed by rounding. Infinity when it is missed.
+/// Distance at which a ray crosses a triangle, from either side (Moeller and Trumbore 1997); infinity if it misses. All
+/// in single precision: if the ray starts on the triangle's plane or crosses its edge, rounding decides.
 inline float crossing_distance(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction,
                                const std::array<Eigen::Vector3f, 3>& corners) {
   constexpr float kMissed = std::numeric_limits<float>::infinity();
@@ -63,8 +64,8 @@ inline float crossing_distance(const Eigen::Vector3f& origin, const Eigen::Vecto
   return t >= 0.0F ? t : kMissed;
 }
 
-/// Squared distance from a point to a triangle: the region of the triangle that is nearest decides which of the
-/// three corners, three edges or the inside counts.
+/// Squared distance from a point to a triangle: to its plane if the foot of the perpendicular lies inside the triangle,
+/// else to the nearest edge.
 inline double squared_distance(const Vector3d& p, const Vector3d& a, const Vector3d& b, const Vector3d& c) {
   const auto to_edge = [&p](const Vector3d& from, const Vector3d& to) {
     const Vector3d edge = to - from;
@@ -83,12 +84,12 @@ inline double squared_distance(const Vector3d& p, const Vector3d& a, const Vecto
   return std::min({to_edge(a, b), to_edge(b, c), to_edge(c, a)});
 }
 
-/// A UAV's body where it stands now.
+/// A UAV's body at its present pose.
 struct Body {
   BodyShape shape;
-  double radius = 0.0;  ///< of a sphere about Bo that holds everything
+  double radius = 0.0;  ///< of a sphere about Bo that contains the whole shape
   std::array<Vector2d, 6> rotors;
-  bool placed = false;
+  bool placed = false;  ///< whether it has a pose yet
   Isometry3d X_BW = Isometry3d::Identity();
   Vector3d p_WB = Vector3d::Zero();
 
@@ -101,7 +102,7 @@ struct Body {
     }
   }
 
-  /// Distance of the first hit, infinity when the ray passes by.
+  /// Distance of the first hit; infinity if the ray misses the body.
   double distance(const Ray& ray_W) const {
     const Ray ray{X_BW * ray_W.origin, X_BW.linear() * ray_W.direction};
     double nearest = box_distance(ray, 0.5 * shape.box_m);

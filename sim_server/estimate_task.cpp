@@ -11,7 +11,7 @@
 namespace skein::sim {
 namespace {
 
-/// On a machine that has nothing else to do [s]; a run that ends earlier waits for the rest of it.
+/// Limit of the computing time on an idle machine [s]. If the run ends earlier, it waits for the rest.
 constexpr double kPatience_s = 5.0;
 constexpr int kLeastUrgent = 19;
 
@@ -19,7 +19,7 @@ constexpr int kLeastUrgent = 19;
 
 EstimateTask::EstimateTask(const Scenario& scenario, const Scene& scene, OracleRequest request)
     : thread_([this, &scenario, &scene, request = std::move(request)] {
-        // Of this thread alone: Linux has a priority for each.
+        // Of this thread only: on Linux each thread has its own priority.
         ::setpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()), kLeastUrgent);
         try {
           OracleReply reply = ask_oracle(scenario, scene, request);

@@ -74,7 +74,7 @@ bool FaultNode::holds(const FaultCondition& when) const {
   return margin_at(when.condition, {values, values, values}).holds;
 }
 
-// The order to carry on comes from the launcher: the program cannot hear us.
+// The launcher starts or resumes the program: a killed or stopped program receives no messages of the server.
 void FaultNode::let_back_victims() {
   const Tick next_tick = simulation_.tick() + period_;
   for (const auto& [member, killed, kind] : processes_.take_ending(next_tick)) {

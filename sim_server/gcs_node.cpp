@@ -28,7 +28,7 @@ void GcsNode::publish() {
   neighbours_.write(neighbour_cloud(simulation_, scenario_, kStationNode));
 }
 
-// The first message is sent even when nothing is written down: it tells the station which points there are.
+// The first message is sent even if the ledger has no entries: it has the interest points.
 void GcsNode::publish_ledger(RunId run) {
   const std::vector<LedgerEntry>& entries = simulation_.referee().ledger();
   const std::size_t begin = simulation_.events().ledger_begin;

@@ -27,7 +27,7 @@ class HandDesk {
   /// time (web/src/hand_flight.js).
   static constexpr std::chrono::milliseconds kHolds{1000};
 
-  /// @param uavs  those that somebody flies by hand.
+  /// @param uavs  UAVs that somebody flies by hand.
   HandDesk(const Scenario& scenario, const std::vector<UavIndex>& uavs);
 
   /// The newest order counts, whoever gave it. Orders for UAVs that nobody flies by hand are ignored.

@@ -15,7 +15,7 @@
 namespace skein::sim {
 namespace {
 
-/// More are no experiment, and each step tells the router all of them.
+/// Maximum number of faults by hand, because each step has to tell the router all of them.
 constexpr std::size_t kMost = 200;
 
 bool overlap(const Fault& a, const Fault& b) {
@@ -23,7 +23,8 @@ bool overlap(const Fault& a, const Fault& b) {
   return a.begin() < b.end().value_or(kNever) && b.begin() < a.end().value_or(kNever);
 }
 
-/// What two faults may not take hold of at once. Several effects may act on a link, but it is cut by hand only once.
+/// The thing that a fault acts on and on which only one fault may act at a time. In a fault file several effects may
+/// act on a link; by hand only one.
 std::optional<std::string> held(const Fault& fault) {
   if (std::holds_alternative<LinkEffect>(fault.action)) return "the link " + fault_target(fault);
   return held_by(fault.action);
@@ -33,10 +34,10 @@ bool is_of_process(const Fault& fault) {
   return std::holds_alternative<Kill>(fault.action) || std::holds_alternative<Pause>(fault.action);
 }
 
-/// As a file has it: without the digits by which a product misses a decimal. Ticks are 2.5 ms.
+/// Time as a fault file has it: rounded to 0.1 ms, without the rounding errors of a product. A tick is 2.5 ms.
 double file_time_s(Tick tick) { return std::round(seconds(tick) * 1e4) / 1e4; }
 
-/// Of an InputError, without the file that nobody has seen.
+/// The reason in an InputError, without the name of the file and the key, which the viewer does not know.
 std::string reason_of(const InputError& error) {
   const std::string text = error.what();
   const std::string line = text.substr(0, text.find('\n'));
@@ -106,7 +107,7 @@ std::string HandFaults::contradiction(const Fault& fault) const {
   return {};
 }
 
-/// What the reader of a fault file says of them all.
+/// The error message of the reader of fault files for all faults by hand; empty: none.
 std::string HandFaults::unreadable() const try {
   read_faults_by_hand(file_text(), "by hand", scenario_);
   return {};

@@ -14,7 +14,7 @@ namespace skein::sim {
 
 /// A fault by hand.
 struct HandFault {
-  std::uint64_t number = 0;  ///< by which an order to end it names it
+  std::uint64_t number = 0;  ///< identifies the fault in an order to end it
   Fault fault;
 };
 
@@ -24,7 +24,7 @@ class HandFaults {
   HandFaults(const Scenario& scenario, const FaultPlan& own);
 
   /// @param next  tick of the exchange that begins next, with which the order takes effect.
-  /// @returns why the order is refused, for people; empty: it was obeyed.
+  /// @returns why the order is refused, for people; empty: it has been obeyed.
   std::string obey(const view::FaultOrder& order, Tick next);
 
   /// All faults by hand, in the order in which they began. `until_s` is empty while the end is not known.

@@ -41,7 +41,7 @@ void HandNode::begin_step() {
     flown->due = true;
     ++flown->commands;
     flown->rows << hand_file::line_of({simulation_.step(), simulation_.tick(), *news});
-    flown->rows.flush();  // a few a second: who is killed has kept what he flew
+    flown->rows.flush();  // only a few lines per second; so a killed server has saved them all
   }
 }
 

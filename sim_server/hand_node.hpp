@@ -18,7 +18,7 @@ namespace skein::sim {
 
 class HandNode {
  public:
-  /// @param uavs  those that somebody flies. @param folder  for their files. Scenario and simulation must outlive this.
+  /// @param uavs  UAVs that somebody flies. @param folder  for their files. Scenario and simulation must outlive this.
   HandNode(const Scenario& scenario, const Simulation& simulation, const std::vector<UavIndex>& uavs,
            const std::filesystem::path& folder);
 
@@ -53,7 +53,7 @@ class HandNode {
     bus::CountedWriter* writer = nullptr;
     HandCommand command;
     std::uint64_t commands = 0;
-    double held = 0.0;  ///< HeldBack, as its planner said last
+    double held = 0.0;  ///< HeldBack, as last reported by its planner
     bool due = false;   ///< `command` is yet to be published
   };
   Flown* find(UavIndex uav);

@@ -7,7 +7,7 @@
 namespace skein::sim {
 namespace {
 
-/// In a smaller fleet the matrix takes less time than it takes to share it.
+/// With fewer nodes, sharing the work takes more time than the work itself.
 constexpr std::size_t kSharedNodes = 16;
 
 }  // namespace
@@ -41,7 +41,7 @@ Links LinkTracer::trace(Tick tick, const RayScene& rays, const std::vector<Place
       links.at(source, target) = fails(tick, source, target, distance_m) ? 0 : unfailed;
     }
   };
-  // Row by row, each with the first row from the end, so that all pieces of work are of one size.
+  // A piece of work is a row and its counterpart from the end of the matrix, so that all pieces have the same size.
   const std::size_t nodes = links.nodes();
   const auto trace_rows = [&](std::size_t piece) {
     std::vector<UavIndex> about;

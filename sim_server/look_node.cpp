@@ -13,9 +13,9 @@ namespace {
 
 using std::chrono::milliseconds;
 
-/// Between two maps of a UAV; after a large one more, so that no UAV's take more than the budget has.
+/// Least time between two maps of a UAV. After a large map it is longer, so that the maps stay within the budget.
 constexpr milliseconds kShownMapPeriod{1000};
-/// After so long without a writer of its map, a UAV has none.
+/// If a UAV's map has no writer for this time, the page is told that there is no map.
 constexpr milliseconds kMapPatience{3000};
 constexpr const char* kFlightMap = "what it flies on";
 
@@ -113,7 +113,7 @@ void LookNode::tell_map(UavIndex uav, Map& map, Clock::time_point now) {
   }
 }
 
-/// @param payload  of a sample of its map.
+/// A UAV's map as text for the page. @param payload  of a sample of its map.
 std::string LookNode::shown(UavIndex uav, std::span<const std::uint8_t> payload) const {
   const std::string& name = scenario_.fleet[uav].name;
   msg::Octomap message;
@@ -128,7 +128,7 @@ std::string LookNode::shown(UavIndex uav, std::span<const std::uint8_t> payload)
              : view::no_map_text(name, time_s, "its program shows one that is damaged");
 }
 
-/// @returns how much was told [bytes].
+/// @returns the size of what was sent [bytes].
 std::size_t LookNode::write(const std::string& text) {
   msg::String message;
   message.data(text);

@@ -56,8 +56,8 @@ class LookNode {
     std::optional<std::vector<std::uint8_t>> payload;  ///< none: nothing new since the last one was taken
   };
   struct Map {
-    Clock::time_point until{}, since{}, due{};  ///< asked for until, and since; when the next one may be sent
-    bool told = false;                          ///< since then: a map, or that there is none
+    Clock::time_point until{}, since{}, due{};  ///< end and begin of the page's request; when the next map may be sent
+    bool told = false;                          ///< since `since`, a map or the message that there is none was sent
     std::shared_ptr<Arrived> arrived;
     std::unique_ptr<bus::Reader> reader;
   };

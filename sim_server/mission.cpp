@@ -37,11 +37,11 @@ void Mission::update_airborne(Tick tick, const std::vector<RigidBodyState>& stat
         start_tick_ = tick;
       }
     } else if (uav.airborne && !fast) {
-      // A UAV that fell may come to rest on a rotor, higher than it stands on its feet.
+      // A UAV that fell may come to rest on a rotor, higher than when it stands on its feet.
       const bool on_ground = std::any_of(contacts.begin(), contacts.end(), [i](const Contact& contact) {
         return contact.uav == i && contact.other.kind == BodyId::Kind::ground;
       });
-      if (!high || on_ground) uav.airborne = uav.falls;  // one that falls meets the ground flying
+      if (!high || on_ground) uav.airborne = uav.falls;  // a falling UAV stays airborne: its impact counts
     }
   }
 }

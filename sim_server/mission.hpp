@@ -1,4 +1,4 @@
-// The mission's clock, and which UAVs still take part: take-off, flight, landing, collision, end.
+// The mission's clock, and which UAVs still take part: takeoff, flight, landing, collision, end.
 // Units: SI, ticks; positions in W.  Rules: docs/rules.md.
 #pragma once
 
@@ -52,7 +52,7 @@ class Mission {
 
   Phase phase() const { return phase_; }
   MissionEnd end() const { return end_; }
-  /// First take-off; nullopt while waiting and after a run without one.
+  /// First takeoff; nullopt while waiting and after a run without one.
   std::optional<Tick> start_tick() const { return start_tick_; }
   /// When the mission ended.
   std::optional<Tick> end_tick() const { return end_tick_; }

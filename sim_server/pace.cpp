@@ -5,9 +5,9 @@
 namespace skein::sim {
 namespace {
 
-/// After an exchange that took too long the next ones catch up with so much at most.
+/// Maximum delay that the exchanges after a slow one catch up.
 constexpr std::chrono::milliseconds kCatchUp{250};
-/// While it is paused, until somebody looks again.
+/// While the run is paused: time until may_go_on() is worth asking again.
 constexpr std::chrono::milliseconds kLook{100};
 
 }  // namespace
@@ -18,7 +18,7 @@ void Pace::obey(const view::TimeOrder& order) {
     speed_ = order.speed;
     due_.reset();
   } else if (order.kind == Kind::step) {
-    steps_ = paused_ ? steps_ + 1 : 0;  // who asks for one step wants it to stand afterwards
+    steps_ = paused_ ? steps_ + 1 : 0;  // in a run that is not paused, the order `step` only pauses it
     paused_ = true;
   } else {
     paused_ = order.kind == Kind::pause;

@@ -7,7 +7,7 @@
 namespace skein::sim {
 namespace {
 
-/// @param more  by point; empty: nothing.
+/// Raises `best` to `more`, point by point. @param more  empty: all 0.
 void raise(std::vector<float>& best, const std::vector<float>& more) {
   if (best.size() < more.size()) best.resize(more.size(), 0.0F);
   for (std::size_t i = 0; i < more.size(); ++i) best[i] = std::max(best[i], more[i]);

@@ -1,4 +1,4 @@
-// What the cameras of a fleet have shown of each interest point so far. Pure.
+// The interest points that a fleet's cameras have seen so far, and the score lost to odometry errors and wind. Pure.
 #pragma once
 
 #include <vector>
@@ -9,11 +9,11 @@ namespace skein::sim {
 
 class Simulation;
 
-/// By interest point.
+/// All by interest point.
 struct PointsShown {
-  std::vector<bool> seen;  ///< it was ever in a picture and in sight, whatever its quality
-  /// The best score that pictures would have had if each UAV had been where it believed to be, and without wind, where
-  /// that is more than its best score; else 0. Empty: no camera has taken such a picture (Camera::best_if_exact).
+  std::vector<bool> seen;  ///< whether it was ever in a picture and in sight, whatever its quality
+  /// Best score that pictures would have had if each UAV had been where it believed to be (if_exact), or without wind
+  /// (if_calm), if that exceeds its best score; else 0. Empty: no camera has such a picture (Camera::best_if_exact()).
   std::vector<float> if_exact, if_calm;
 };
 

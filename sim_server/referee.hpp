@@ -1,6 +1,6 @@
-// Keeps the ledger: which captures were really taken, and which UAVs collided. Append-only, in the order of time.
-// Each capture gets a random token, without which no report of it counts, so nobody can claim what no camera saw
-// (docs/architecture.md, "Custody of the score").
+// Keeps the ledger of the captures that were really taken, and of the UAVs that collided. Append-only, in the order of
+// time. Each capture gets a random token, and reports without it do not count, so that no program can claim what no
+// camera saw (docs/architecture.md, "Custody of the score").
 #pragma once
 
 #include <cstdint>
@@ -30,7 +30,7 @@ class Referee {
   const std::vector<LedgerEntry>& ledger() const { return ledger_; }
   /// The reports of all captures of one UAV in the ledger, oldest first.
   std::vector<CaptureReport> reports(UavIndex uav) const;
-  /// The score as if every capture were delivered.
+  /// The score if every capture were delivered.
   const ScoreTable& earned() const { return earned_; }
 
  private:

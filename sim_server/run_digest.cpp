@@ -13,7 +13,7 @@ constexpr std::size_t kFieldsOfUav = 6;
 constexpr std::array<const char*, kFieldsOfUav> kUavFields = {"position",   "attitude", "velocity",
                                                               "body_rates", "gimbal",   "alive"};
 
-/// FNV-1a over whole words: tells two steps apart, proves nothing. The proof is the running SHA-256.
+/// FNV-1a over whole words: good enough to find the step at which runs differ. The proof of equality is the SHA-256.
 class ShortHash {
  public:
   ShortHash& add(std::uint64_t word) {
@@ -36,7 +36,7 @@ class ShortHash {
   std::uint64_t hash_ = 0xcbf29ce484222325ULL;
 };
 
-/// Feeds every value to the running hash and to the short one of the field at hand.
+/// Feeds every value to the running hash and to the short hash of the current field.
 class Feed {
  public:
   Feed(Sha256& running, StepDigest& step) : running_(running), step_(step) {}

@@ -48,7 +48,7 @@ std::vector<UavIndex> indices_of(const std::vector<std::string>& names, const Sc
   return uavs;
 }
 
-/// @throws InputError when one is not of the fleet
+/// @throws InputError if a name is not that of a UAV of the fleet.
 std::vector<std::string> uavs_named(const std::vector<std::string>& names, const Scenario& scenario) {
   indices_of(names, scenario);
   return names;
@@ -65,7 +65,8 @@ FlightReport flight_of(const ProgramOptions& options, const Scenario& scenario, 
           .dds = options.dds};
 }
 
-/// Without a launcher nobody has emptied the folder, and the books of a run with this number would be taken up again.
+/// @throws InputError if a run was flown in the folder. Without a launcher, nobody has emptied the folder, and the
+/// server would continue the records of a run with the same number.
 void refuse_used_folder(const ProgramOptions& options) {
   if (options.has_launcher() || !std::filesystem::exists(options.out / run_folder::kDigests)) return;
   const std::filesystem::path file = options.out / run_folder::report_file(programs::kSimServer);
@@ -94,7 +95,8 @@ class ServerMember final : public bus::FleetMember {
   }
 
   bool stops_at_once() const override { return false; }
-  // The launcher says so first if the run is to end in good order. Without one, the first signal does, the next aborts.
+  // For an orderly end the launcher sends its own order first, so a signal aborts the run. Without a launcher, the
+  // first signal ends the run in good order, and the next one aborts it.
   void on_stop() override {
     if (has_launcher_ || std::exchange(asked_to_end_, true)) return node_.abort();
     spdlog::info("asked to end: the run ends with its next step");
@@ -156,11 +158,11 @@ void ServerProgram::add_options(CLI::App& app) {
   tasks_.add_options(app);
 }
 
-// Each member adds participants whose discovery the others pay for: on two cores a hundred UAVs take half a minute.
+// Each member adds DDS participants, which all others must discover: on two cores, a hundred UAVs take half a minute.
 double ServerProgram::startup_timeout_s(const Scenario& scenario) const {
   if (startup_timeout_s_) return *startup_timeout_s_;
-  constexpr double kPerUav_s = 2.0, kLeast_s = 20.0;  // however quick the members' answers must be
-  if (agent_timeout_s_ <= 0.0) return 0.0;            // for ever
+  constexpr double kPerUav_s = 2.0, kLeast_s = 20.0;  // even if the timeout for answers is short
+  if (agent_timeout_s_ <= 0.0) return 0.0;            // no timeout
   return std::max(agent_timeout_s_, kLeast_s) + kPerUav_s * static_cast<double>(scenario.fleet.size());
 }
 
@@ -198,7 +200,7 @@ std::variant<int, std::unique_ptr<bus::FleetMember>> ServerProgram::prepare(cons
   auto bus = bus::make_bus(options, *scenario);
   if (options.check_only) {
     for (const std::string& warning : scene_warnings(scene)) spdlog::warn("{}", warning);
-    Simulation(*scenario, std::move(scene), options.seed);  // starts must be free
+    Simulation(*scenario, std::move(scene), options.seed);  // checks that the starts are free
     return kExitDone;
   }
   return std::make_unique<ServerMember>(std::move(scenario), std::move(scene), node_options, std::move(bus), status,

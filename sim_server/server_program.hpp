@@ -20,7 +20,7 @@ namespace skein::sim {
 
 class ServerProgram final : public bus::FleetProgram {
  public:
-  /// @param gate  with which this process steps the fleet; nullptr: the run advances by itself.
+  /// @param gate  lets this process step the fleet; nullptr: the run advances by itself.
   /// @param shelf  holds the scene of the scenario; nullptr, or empty: the server loads the scene.
   /// @param for_each  executes work of the simulation that can be shared among threads.
   explicit ServerProgram(std::shared_ptr<StepGate> gate = nullptr, std::shared_ptr<SceneShelf> shelf = nullptr,

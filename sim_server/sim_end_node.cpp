@@ -1,10 +1,10 @@
-// SimNode: how a run ends, and what it says of itself then.
+// SimNode: the end of a run, and its report.
 #include "process/host/thread_cpu.hpp"
 #include "sim_server/sim_node.hpp"
 
 namespace skein::sim {
 
-/// @param joined  there was a step. @returns that there is nothing more to do.
+/// @param joined  whether there was a step. @returns false: there is nothing more to do.
 bool SimNode::end_run(bool joined) {
   state_ = State::over;
   if (options_.gate) options_.gate->closed(simulation_, digest_);
@@ -20,7 +20,7 @@ bool SimNode::end_run(bool joined) {
   if (work_) summary_.work = work_->tracks();
   summary_.differences = recording_.differences();
   summary_.status = end_status();
-  // Where the wall clock had a say in what happened or when it ended, there is nothing to compare.
+  // If the wall clock has affected the run or its end, the digest cannot be compared with that of another run.
   if (options_.realtime_factor || summary_.status == RunStatus::interrupted || aborted_) summary_.deterministic = false;
   if (summary_.deterministic) summary_.digest = digest_.hex();
   summary_.hand = hand_.report();

@@ -1,4 +1,4 @@
-// SimNode: who of the fleet is lost, and who sends commands without being of it.
+// SimNode: members that are lost, and participants that send commands without being members.
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
@@ -16,13 +16,14 @@ void SimNode::take_losses() {
   }
 }
 
-// It hears them all while it takes part, and what waited for it before the first step.
+// Whether a stand-in relays the UAV's commands. It relays all of them while it is a member, and at its start also those
+// that were sent before the first step.
 bool SimNode::has_stand_in(const std::string& uav) const {
   const bool named = std::ranges::find(options_.stand_ins, uav) != options_.stand_ins.end();
   return named && (simulation_.step() == 0 || server_.is_member(uav));
 }
 
-// Commands from outside the lock-step have no effect. Their sender sees a matched subscriber, and must not wonder.
+// Warns of commands from outside the lock-step. They have no effect, although their sender sees a matched subscriber.
 void SimNode::tell_of_strangers(std::uint64_t patience) {
   const auto is_stranger = [this](bus::ParticipantId source) { return server_.is_stranger(source); };
   for (const bus::Strangers::Notice& notice : strangers_.take_notices(simulation_.step(), patience, is_stranger)) {

@@ -169,8 +169,7 @@ bool SimNode::tell_waiting() {
   });
 }
 
-/// Declares all programs lost for which the server waits now, and starts the timeout again for those that it waits for
-/// next.
+/// Declares all programs lost for which the server waits now, and restarts the timeout for those that are awaited next.
 void SimNode::give_up_awaited(const std::string& why) {
   for (const auto& awaited : server_.awaited()) {
     server_.lost(awaited.member, fmt::format("{} (waited for: {})", why, awaited.what));

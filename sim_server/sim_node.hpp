@@ -52,7 +52,7 @@ struct SimNodeOptions {
   std::vector<std::string> stand_ins = {};  ///< UAVs whose agent relays messages of programs outside the lock-step
   std::vector<UavIndex> by_hand = {};       ///< UAVs that a viewer flies (--by-hand)
   FaultPlan faults;
-  std::shared_ptr<StepGate> gate = nullptr;  ///< with which this process steps the fleet; null: none does
+  std::shared_ptr<StepGate> gate = nullptr;  ///< lets this process step the fleet; null: the run advances by itself
   ForEach for_each = one_after_another;      ///< executes work of the simulation that can be shared
 };
 
@@ -128,7 +128,7 @@ class SimNode final : public bus::LockstepNode {
   std::optional<WorkLog> work_;  ///< for the report alone; none where a gate steps the fleet
   ProgressTeller progress_;
   State state_ = State::joining;
-  std::optional<WaitTeller> wait_;  ///< reports whom this state waits for
+  std::optional<WaitTeller> wait_;  ///< reports the members for which this state waits
   double patience_s_ = 0.0;
   bus::Patience patience_{0.0}, until_asked_again_{0.0};
   Clock::time_point started_{};  ///< when the first step began

@@ -1,5 +1,5 @@
 // Everything in the simulation that belongs to one UAV.
-// Frames: W world, B body, L LiDAR, `told`: W as the UAV's odometry makes it appear.   Units: SI, ticks.
+// Frames: W world, B body, L LiDAR, `told`: W displaced by the error of the UAV's odometry.   Units: SI, ticks.
 #pragma once
 
 #include <optional>
@@ -25,19 +25,19 @@ struct SimulatedUav {
   KeyFrameSelector keyframes;
   UavView view;
   std::optional<GimbalCommand> gimbal_command;  ///< arrived since the last control step
-  VehicleCondition condition;                   ///< what faults do to it in this exchange
+  VehicleCondition condition;                   ///< effects of faults in this exchange
   bool manual_trigger = false, triggered = false;
   std::optional<Tick> shutter_at = {};  ///< when the picture that was triggered is taken
   bool scans_wanted = true;
   Tick last_raise = 0, idle_ticks = 0;  ///< last capture that raised a score, or mission start; time idle
 
-  /// Pose of the body as the UAV's odometry has it. @param truth  the true state.
+  /// Pose of the body according to the UAV's odometry. @param truth  the true state.
   Isometry3d X_told_B(const RigidBodyState& truth) const {
     const auto X_told_W = surroundings.X_told_W(truth);
     return X_told_W ? *X_told_W * truth.X_WB() : truth.X_WB();
   }
 
-  /// Sets what faults do to the UAV in the exchange that begins.
+  /// Applies the effects of faults in the exchange that begins.
   void suffer(const VehicleCondition& faulty) {
     condition = faulty;
     vehicle.damage_rotors(faulty.rotor_shares);

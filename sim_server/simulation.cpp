@@ -20,7 +20,7 @@ namespace {
 /// A UAV idles while it is slower than this and no capture has raised one of its scores for this long.
 constexpr double kIdleSpeed = 0.1;
 constexpr Tick kIdleAge = 5 * kTicksPerSecond;
-/// Forces on fewer, a microsecond each, are not worth a helper.
+/// UAVs whose forces one piece of work computes: for fewer, at a microsecond each, a helper thread does not pay.
 constexpr std::size_t kForcesAtOnce = 32;
 
 }  // namespace
@@ -287,7 +287,7 @@ void Simulation::Impl::trace_links() {
   open_links = tracer.open(tick, links);
 }
 
-/// What a UAV's software hears of its state.
+/// Sets what a UAV's software is told of its state.
 void Simulation::Impl::tell(UavIndex i, const VehicleCondition& condition) {
   const Surroundings& surroundings = uavs[i].surroundings;
   const ToldState told = uavs[i].surroundings.tell(tick, world.state(i));

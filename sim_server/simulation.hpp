@@ -52,7 +52,7 @@ struct ServoEvent {
 struct KeyFrameEvent {
   UavIndex uav = {};
   KeyFrame key_frame;
-  std::vector<UavIndex> neighbours;  ///< UAVs that hear it, in fleet order
+  std::vector<UavIndex> neighbours;  ///< UAVs that receive it, in fleet order
 };
 
 /// An exposure that saw at least one point.
@@ -60,7 +60,7 @@ struct CaptureEvent {
   UavIndex uav = {};
   Capture capture;
   std::optional<Isometry3d> X_told_W = {};  ///< from W to the frame `told` of the UAV's odometry; nullopt: W itself
-  std::optional<CaptureReport> report;      ///< as in the ledger: points whose quality it raised; nullopt: none
+  std::optional<CaptureReport> report;      ///< as in the ledger: the points whose quality rose; nullopt: none
 };
 
 /// A command that was ignored.
@@ -76,7 +76,7 @@ struct RejectionEvent {
 struct Stray {
   Tick tick = 0;
   UavIndex uav = {};
-  Vector3d p_W = Vector3d::Zero();  ///< where it last was
+  Vector3d p_W = Vector3d::Zero();  ///< its last position
 };
 
 /// What happened in the exchange that led to this step.
@@ -112,20 +112,20 @@ class Simulation {
   bool command_trajectory(UavIndex uav, const TrajectoryCommand& command);
   /// A gimbal command; refused only if a number is not finite.
   bool command_gimbal(UavIndex uav, const GimbalCommand& command);
-  /// Take a picture as soon as the trigger interval allows. From the first call on, this camera no longer triggers
-  /// by itself.
+  /// Takes a picture as soon as the trigger interval allows. From the first call on, this camera no longer triggers by
+  /// itself.
   void trigger_camera(UavIndex uav);
-  /// Cut the motors, for good: the UAV falls.
+  /// Cuts the motors for good: the UAV falls.
   void stop(UavIndex uav);
 
   /// A fault that waited for a condition begins with the exchange at this tick, which must be the next one.
   void set_off(std::size_t fault, Tick tick);
   /// Sets the faults that a viewer has added by hand; they follow those of the plan.
-  /// @param faults  all of them so far. What they meant for exchanges that are over must not change.
+  /// @param faults  all faults by hand so far. Their effect on exchanges that are over must not change.
   void set_faults_by_hand(const std::vector<Fault>& faults);
 
-  /// Tells whether anybody reads this UAV's scans; initially somebody does. A scan that nobody reads and that would not
-  /// become a key frame is not computed, because the LiDAR is the most expensive sensor. Only events().scans differs.
+  /// Sets whether anybody reads this UAV's scans (initially: yes). A scan that nobody reads and that would not become a
+  /// key frame is not computed, because the LiDAR is the most expensive sensor. Only events().scans depends on this.
   void want_scans(UavIndex uav, bool wanted);
   /// From now on `for_each` executes independent work: scans, exposures, links, and the forces of a large fleet.
   void share_work(ForEach for_each);
@@ -142,10 +142,11 @@ class Simulation {
   const UavView& uav(UavIndex i) const;
   std::span<const UavView> uavs() const;
   /// Links with line of sight and in range; dead UAVs have none. Symmetric unless the scenario or a fault limits the
-  /// range of links in one direction. The simulation judges range, because only the server has the true positions; the
-  /// router judges everything else that links do to messages.
+  /// range of links in one direction. The simulation checks the range, because only the server has the true positions;
+  /// the router applies all other effects of links on messages.
   const Links& links() const;
-  /// links() without those that blackouts, outages and partitions cut. Over them UAVs get odometry and key frames.
+  /// links() without those that blackouts, outages and partitions cut. UAVs get their neighbours' odometry and key
+  /// frames over open links.
   const Links& open_links() const;
   const StepEvents& events() const;
   const Referee& referee() const;
@@ -154,7 +155,7 @@ class Simulation {
   const RayScene& rays() const;  ///< of the scene
   /// Distance from a body's centre to the structure [m], kFarClearance_m at most.
   double clearance(UavIndex uav) const;
-  /// What links() would be if no fault limited their range.
+  /// links() as they would be if no fault limited their range.
   const Links& unfailed_links() const;
   /// The plan, with what set_off() and set_faults_by_hand() have changed; the faults by hand are at the end.
   const FaultPlan& faults() const;

@@ -10,7 +10,7 @@
 namespace skein::sim {
 namespace {
 
-// Building a large message only for nobody to read it would be the most expensive thing the server does.
+// Builds a message only if somebody reads it: large unread messages would be the server's greatest cost.
 template <class Make>
 void send(bus::CountedWriter& writer, Make&& make) {
   if (writer.is_wanted()) {

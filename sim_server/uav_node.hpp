@@ -17,7 +17,7 @@
 
 namespace skein::sim {
 
-/// The message nbr_odom_cloud: position (of UAVs: odometry) of each node that `node` hears at this step.
+/// The message nbr_odom_cloud: position (of UAVs: odometry) of each node with an open link to `node` at this step.
 msg::PointCloud2 neighbour_cloud(const Simulation& simulation, const Scenario& scenario, Node node);
 
 /// The key frames of a step as other UAVs receive them: each is encoded once, however many UAVs receive it.
@@ -38,8 +38,8 @@ class UavNode {
   UavNode(UavIndex uav, const Scenario& scenario, Simulation& simulation, HeardKeyFrames& heard,
           bus::LockstepServer& server, bus::LockstepServer::DomainIndex domain);
 
-  /// Has the simulation compute the next step's scan if somebody reads it. Call it when the members of that step are
-  /// known, and before it is simulated. So a program that has just joined gets its first scan, whether or not DDS still
+  /// Makes the simulation compute the next step's scan if somebody reads it. Call it when the members of that step are
+  /// known, and before it is simulated: so a program that has just joined gets its first scan, whether or not DDS still
   /// counts its dead predecessor as a reader. @param shown  a viewer wants to see the scan.
   void choose_scans(bool shown = false);
   /// Publishes the samples of the present step.
@@ -48,7 +48,8 @@ class UavNode {
   void reject_unheard(const std::string& topic) { unheard_.push_back(topic); }
   /// The agent is new: the next publish() repeats all reports that were never acknowledged, and all detected points.
   void resend_captures() { resend_ = true; }
-  /// A program says hello: reads its debug values and activity from now on. @param writes  topics that it will write.
+  /// A program has announced itself: reads its debug values and activity from now on. @param writes  topics that the
+  /// program will write.
   void read_debug(const std::vector<std::string>& writes);
   /// Debug values that the program has published since the last call: name, value.
   std::vector<std::pair<std::string, double>> take_debug() { return std::exchange(debug_, {}); }

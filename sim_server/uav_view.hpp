@@ -10,12 +10,12 @@
 
 namespace skein::sim {
 
-/// One UAV as it stands at the step boundary.
+/// State of one UAV at the step boundary.
 struct UavView {
   RigidBodyState state;
-  RigidBodyState told;          ///< as its software and neighbours hear it: with errors, latency and faults of odometry
-  Tick told_tick = 0;           ///< time stamp of `told`
-  PoseUncertainty uncertainty;  ///< of `told`
+  RigidBodyState told;  ///< as its software and its neighbours get it: with errors, latency and faults of odometry
+  Tick told_tick = 0;   ///< time stamp of `told`
+  PoseUncertainty uncertainty;           ///< of `told`
   std::optional<BatteryStatus> battery;  ///< nullopt: the scenario has no batteries
   BatteryUse battery_use;
   std::optional<Vector3d> wind_W;  ///< [m/s] as the UAV estimates it; nullopt: the scenario has no wind
@@ -29,7 +29,7 @@ struct UavView {
   std::uint64_t commands_rejected = 0;
   std::optional<Tick> first_rejected;         ///< when the first rejected command was given
   std::optional<TrajectoryCommand> setpoint;  ///< accepted for the exchange that ends here
-  int command_latency = 0;                    ///< exchanges by which commands that are given now are late
+  int command_latency = 0;                    ///< additional exchanges until a command that is given now takes effect
 };
 
 }  // namespace skein::sim

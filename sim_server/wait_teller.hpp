@@ -11,7 +11,7 @@ namespace skein::sim {
 
 struct AwaitedMember {
   std::string name;
-  std::string missing;  ///< what has not come from it yet: "rt/plan 3 of 4"
+  std::string missing;  ///< what it still has to send: "rt/plan 3 of 4"
 };
 
 class WaitTeller {

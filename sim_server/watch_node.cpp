@@ -13,15 +13,15 @@
 namespace skein::sim {
 namespace {
 
-/// Between two states: as many pictures as a page shows.
+/// Between two state messages: the page shows no more pictures per second.
 constexpr std::chrono::milliseconds kStatePeriod{80};
-/// That are kept until the next boundary: no hand is quicker.
+/// Maximum number of orders about faults that are kept until the next boundary; no person is faster.
 constexpr std::size_t kMostFaultOrders = 64;
 const Tick kPosePeriod = ticks(view::kTrailPeriod_s);
-/// Between two tellings of the radio links: a large fleet's change in nearly every step.
+/// Between two messages about the radio links, because those of a large fleet change in nearly every step.
 const Tick kLinksPeriod = ticks(0.25);
 
-/// As far as it is known while the run goes on: a scene with points of which nobody has seen anything.
+/// The scene as of the start of a run, when no point has been seen.
 results::RunData scene_of(const Scenario& scenario, const Scene& scene) {
   results::RunData run;
   for (const UavConfig& uav : scenario.fleet) {
@@ -190,7 +190,7 @@ void WatchNode::end_wait(Clock::time_point now) {
   tell_state(now);
 }
 
-/// Empty: for nobody.
+/// The members for which the server waits; empty: none.
 std::string WatchNode::waits_json() const {
   if (awaited_.empty()) return "";
   return ",\"waits\":" +
@@ -207,7 +207,7 @@ std::string WatchNode::activities_json() const {
   return view::numbers_json(numbers);
 }
 
-/// The faults by hand that somebody may end, and which order was refused last.
+/// The faults by hand that a viewer may end, and why the last refused order was refused.
 std::string WatchNode::faults_json() const {
   Json open = Json::array();
   for (const HandFault& one : faults_.open_by_hand()) {

@@ -42,9 +42,9 @@ class WatchNode {
 
   /// Call it in each step, before it is published. @param faults  a line for each fault that begins or ends with it
   void begin_step(const std::vector<std::string>& faults);
-  /// What a UAV's program says that it does. @param news  whether that has changed, beyond its numbers.
+  /// Takes the activity that a UAV's program reports. @param news  whether it has changed (ActivityLog::add()).
   void add_activity(UavIndex uav, const Activity& activity, bool news);
-  /// Call it often while the server waits for members: the page shows for whom, until the wait is over.
+  /// Call it often while the server waits for members: the page shows their names until the wait is over.
   /// @param what  the members are to do: "to answer"
   void wait_for(const std::vector<AwaitedMember>& awaited, const std::string& what);
   /// Whether the next scan of this UAV is to be shown, if there is one.

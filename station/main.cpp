@@ -1,4 +1,4 @@
-// station: the ground station, which tallies what reaches it.
+// station: the ground station, which tallies the captures that are delivered to it.
 #include "process/host/environment.hpp"
 #include "station/station_program.hpp"
 

@@ -96,7 +96,7 @@ void Scoreboard::stand(std::uint64_t upto, Tick tick, StepOutcome& outcome, Befo
       continue;
     }
     earned_.collide(entry.uav);
-    if (collided_[entry.uav]) continue;  // the journal told us before the ledger did
+    if (collided_[entry.uav]) continue;  // known from the journal already
     outcome.records.push_back({tick, entry});
     apply(outcome.records.back(), before);
   }
@@ -143,7 +143,7 @@ Scoreboard::Verdict Scoreboard::judge(const Held& held) const {
   const Key key{report.uav, report.capture};
   const auto by_token = by_token_.find(report.token);
   if (by_token == by_token_.end()) {
-    // A token that nobody knows may still be on its way from the referee, but not for long.
+    // The referee's entry for an unknown token may still be on its way, but not for long.
     return {held.steps < kPatience ? Kind::wait : Kind::refused, Refusal::unknown, nullptr};
   }
   const LedgerEntry& entry = ledger_[by_token->second];

@@ -103,7 +103,7 @@ class Scoreboard {
   struct Held {
     std::size_t source;
     CaptureReport report;
-    int steps = 0;  ///< how many it has waited
+    int steps = 0;  ///< number of steps that it has waited
   };
   struct Verdict {
     enum class Kind { accepted, duplicate, refused, wait } kind;

@@ -26,7 +26,7 @@ void settle(const std::filesystem::path& folder, const Scenario& scenario, RunId
   for (const TallyRecord& record : journal.replayed()) {
     scoreboard.restore(record);
     LedgerEntry entry = record.entry;
-    entry.index = index++;  // the ledger without what never arrived
+    entry.index = index++;  // this ledger has no entries that never arrived, so its indices are new
     scoreboard.add_entry(entry);
   }
   write_station_report(folder, scoreboard, uavs, status);

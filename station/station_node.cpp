@@ -96,7 +96,7 @@ void StationNode::think() {
   const msg::Step& step = client_.step();
   const std::uint64_t stood = scoreboard_->standing();
   const StepOutcome outcome = scoreboard_->end_step(step.tick(), step.ledger_upto());
-  // Should we be killed for good, the last that we told stands for what was earned.
+  // If the station is killed for good, the last tally that it reported tells the score earned.
   const bool news = outcome.score_changed || scoreboard_->standing() != stood;
   if (std::string trouble = journal_.append(outcome.records); !trouble.empty()) {
     spdlog::warn("{}; a station that is killed will not remember what it acknowledges from here on", trouble);
@@ -139,7 +139,7 @@ void StationNode::record_tally(Tick tick) {
   recorder_->add("/skein/tally", tally);
 }
 
-// The whole list, each time that it changes, to whoever looks. Nobody in the fleet waits for it: it is in no count.
+// Sends the whole list each time that it changes, if there are readers. No member waits for it: it is not counted.
 void StationNode::show_score(Tick tick) {
   if (!score_.is_wanted() && !score_eval_.is_wanted()) return;
   if (recorder_ != nullptr) recorder_->set_time(tick);
@@ -155,8 +155,8 @@ void StationNode::show_score(Tick tick) {
   }
 }
 
-// Only we know what was delivered, and we are in the world's domain for the ledger already: who looks on there finds it
-// beside what the server shows. Latched, so that it need not be told again.
+// Only the station knows what was delivered. It sends this in the world domain, where it reads the ledger anyway, so
+// viewers find it beside what the server shows. The topic is latched: later readers get the last sample.
 void StationNode::show_to_viewers(Tick tick) {
   if (!viz_stale_ || tick < viz_due_ || !viz_scored_->has_readers()) return;
   viz_due_ = tick + kVizPeriod;

@@ -28,7 +28,7 @@ class StationNode final : public bus::ClientNode {
   /// @param out  folder of the journal; if it has records of this run, a restarted station continues from them.
   /// @param recorder  records the tally, and the score topics; must outlive this. nullptr: nothing is recorded.
   /// @param view  the page to serve to browsers; nullptr: none.
-  /// @param score  gets a pointer to the tally, for others in this process; nullptr: nobody needs it.
+  /// @param score  gets a pointer to the tally, for other code in this process; nullptr: none needs it.
   StationNode(const Scenario& scenario, int base_domain, bus::Bus& bus, const std::filesystem::path& out,
               StatusPipe& status, recording::Recorder* recorder = nullptr, const ReadyView* view = nullptr,
               std::shared_ptr<ScoreView> score = nullptr);
@@ -40,7 +40,7 @@ class StationNode final : public bus::ClientNode {
   /// When the station's part in the run is over: writes its result files (station_report.hpp), unless it never received
   /// the number of points. @param dds  DDS vendor
   void write_report(const std::string& dds = {});
-  /// Ends the page at once, as if the process were killed: browsers are told nothing more.
+  /// Ends the page at once, as if the process were killed: browsers get nothing more.
   void stop_serving();
 
  private:
@@ -66,8 +66,8 @@ class StationNode final : public bus::ClientNode {
   Journal journal_;
   std::vector<std::string> unwritten_;  ///< what the disk refused, one sentence each
   const std::shared_ptr<ScoreView> score_view_;
-  std::optional<Scoreboard> scoreboard_;  ///< once the ledger told the number of points
-  std::vector<InterestPoint> points_;     ///< once the ledger told where they are
+  std::optional<Scoreboard> scoreboard_;  ///< from the first message of the ledger on: it has the number of points
+  std::vector<InterestPoint> points_;     ///< from the ledger; empty: not received yet
   PointNames names_;
   bus::Inbox inbox_;
   std::unique_ptr<bus::Participant> world_, gcs_;
@@ -77,7 +77,7 @@ class StationNode final : public bus::ClientNode {
   bool viz_stale_ = true;  ///< the tally has changed since viewers were last shown it
   Tick viz_due_ = 0;
   bus::LockstepClient client_;
-  std::unique_ptr<ViewNode> view_;  ///< none: nobody watches
+  std::unique_ptr<ViewNode> view_;  ///< null: there is no page
   bool last_step_answered_ = false;
   std::chrono::steady_clock::time_point told_{};
 };

@@ -34,7 +34,7 @@ class StationMember final : public bus::FleetMember {
     FleetMember::vanish();
   }
 
-  // Once more after a fault that stopped us: the journal is our memory.
+  // Starts a new node after a fault that stopped the station: it continues from the journal.
   std::optional<int> ended(bus::NodeEnd end) override {
     if (end == bus::NodeEnd::resumed) {
       make_node();

@@ -12,7 +12,7 @@ namespace skein::station {
 
 class StationProgram final : public bus::FleetProgram {
  public:
-  /// @param score  gets a pointer to the tally, for others in this process; nullptr: nobody needs it.
+  /// @param score  gets a pointer to the tally, for other code in this process; nullptr: none needs it.
   explicit StationProgram(std::shared_ptr<ScoreView> score = nullptr) : score_(std::move(score)) {}
   const char* name() const override { return programs::kStation; }
   void add_options(CLI::App& app) override;

@@ -40,7 +40,7 @@ std::string captures_csv(const Scoreboard& scoreboard, const std::vector<std::st
     if (entry.collision) continue;
     const Audit audit = scoreboard.audit(entry);
     for (const CapturePoint& point : entry.capture.points) {
-      // Nine digits tell any two floats apart.
+      // Nine digits distinguish any two floats.
       text += fmt::format(
           "{},{},{},{:.9g},{},1,{:.9g},{:.9g},{:.9g},{:.9g},{},{}\n", uav_names[entry.uav], entry.capture.capture,
           entry.tick, seconds(entry.tick), point.index, point.q_blur, point.q_res, point.q_distance, point.q,

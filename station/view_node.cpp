@@ -16,7 +16,7 @@ msg::String message_with(const std::string& text) {
   return message;
 }
 
-/// Hands a text on from whatever thread the bus has.
+/// Passes each text on to `use`, in the thread in which the bus delivers it.
 template <class Use>
 bus::OnSample each_text(const Use& use) {
   return [use](bus::Sample&& sample) {
@@ -25,7 +25,7 @@ bus::OnSample each_text(const Use& use) {
   };
 }
 
-/// What only the launcher knows goes in front: sim_server's scene is an object.
+/// Adds the title, which only the launcher knows, to sim_server's scene, which is a JSON object.
 std::string with_title(const std::string& scene, const std::string& title) {
   return "{\"title\":" + Json(title).dump(-1, ' ', false, Json::error_handler_t::replace) + "," + scene.substr(1);
 }

@@ -3,7 +3,7 @@
 // browsers' orders to sim_server.
 //
 // The bus's own threads forward what comes from sim_server and do not wake the station's thread: the station's part in
-// the lock-step takes the same turns whether or not somebody watches.
+// the lock-step takes the same turns whether or not browsers watch.
 // Threads: one, except for callbacks from threads of the bus and of view::Server.
 #pragma once
 

@@ -13,23 +13,23 @@
 namespace skein::view {
 namespace {
 
-/// What is larger is no leaf of a map that somebody has flown.
+/// Edge of the largest leaf that an octree may have, in its smallest cells: no map of a flight has a larger one.
 constexpr int kLargestLeaf = 256;
 constexpr std::size_t kMostRows = 1'000'000;
 
 auto row_of(const CubeRun& run) { return std::tuple(run.z, run.y); }
 
-/// A number that rises as (z, y, x) does, since a tree has 2^16 cells in each direction: numbers are sorted quickly.
+/// A sort key in the order of (z, y, x): one number compares faster than three. An octree has 2^16 cells on each axis.
 constexpr auto place_in_order = [](const CubeRun& run) {
   constexpr int kBits = 21, kMiddle = 1 << (kBits - 1);
   return static_cast<std::uint64_t>(run.z + kMiddle) << 2 * kBits |
          static_cast<std::uint64_t>(run.y + kMiddle) << kBits | static_cast<std::uint64_t>(run.x + kMiddle);
 };
 
-/// Of cubes twice as large.
+/// Index on the grid of cubes twice as large.
 int halved(int cube) { return cube >> 1; }
 
-/// Rows of a tree's leaves.
+/// Collects the runs of an octree's leaves.
 class LeafRows {
  public:
   LeafRows(double cell_m, int slice) : cell_m_(cell_m), slice_(slice) {}
@@ -63,7 +63,7 @@ class Bytes {
     for (; value >= 128; value >>= 7) bytes_.push_back(static_cast<std::uint8_t>(value | 128U));
     bytes_.push_back(static_cast<std::uint8_t>(value));
   }
-  /// 0, -1, 1, -2, ... are 0, 1, 2, 3, ...
+  /// Zigzag encoding: 0, -1, 1, -2, ... become 0, 1, 2, 3, ...
   void add_signed(int value) { add(static_cast<unsigned>(value) << 1 ^ static_cast<unsigned>(value >> 31)); }
   std::string text() const { return base64(bytes_); }
 

@@ -1,6 +1,6 @@
-// A UAV's map as a page is told it: rows of occupied cubes, and of free ones in one level slice. Rows run along x.
-// Frame W.   Units: metres, cubes.   Pure; any thread.
-// Bounded: whatever the tree says, a map has no more than kMostRuns rows of either kind.
+// A UAV's map for the page: runs of occupied cubes, and runs of free cubes in one horizontal slice. A run is a row of
+// adjacent cubes along x. Frame W.   Units: metres, cubes.   Pure; any thread.
+// Bounded: a map has at most kMostRuns runs of either kind, for any octree.
 #pragma once
 
 #include <optional>
@@ -15,7 +15,7 @@ namespace skein::view {
 
 inline constexpr std::size_t kMostRuns = 10'000;
 
-/// Cubes x to x + length - 1 of a row.
+/// The cubes x to x + length - 1 of the row (y, z).
 struct CubeRun {
   int x = 0, y = 0, z = 0;
   int length = 1;
@@ -23,29 +23,30 @@ struct CubeRun {
 };
 
 struct ShownMap {
-  double cell_m = 0.5;  ///< edge of an occupied cube: that of the tree, or twice, four times ... as large
+  double cell_m = 0.5;  ///< edge of an occupied cube: that of the octree's smallest cells, or 2, 4, ... times as large
   std::vector<CubeRun> occupied = {};
-  double slice_cell_m = 0.5, slice_m = 0.0;  ///< edge of a free cube, and the height at which they were asked for
-  std::vector<CubeRun> free = {};            ///< that hold this height
+  double slice_cell_m = 0.5, slice_m = 0.0;  ///< edge of a free cube, and height of the slice
+  std::vector<CubeRun> free = {};            ///< the free cubes that contain this height
 };
 
-/// In the order of their rows (z, y, x), and as few as can be.
+/// Merges runs that touch or overlap. @returns the fewest runs with the same cubes, ordered by (z, y, x).
 std::vector<CubeRun> joined_runs(std::vector<CubeRun> runs);
-/// Cubes twice as large, wherever there is one of these; joined.
+/// The cubes twice as large that contain any of these cubes, as joined runs.
 std::vector<CubeRun> coarser_runs(const std::vector<CubeRun>& runs);
 
-/// @param octree  as OctoMap serialises it. @param cell_m  edge of its smallest cells.
-/// @param slice_m  at this height free space is wanted. @param most_runs  larger cubes where there would be more.
-/// @returns nullopt when it is no whole tree, or tells of more than any UAV can have seen.
+/// @param octree  in OctoMap's binary serialisation. @param cell_m  edge of its smallest cells.
+/// @param slice_m  height of the slice of free cubes.
+/// @param most_runs  of either kind; with more, the cubes of that kind are made larger.
+/// @returns nullopt when the octree is damaged, or describes more space than a UAV can have seen.
 std::optional<ShownMap> shown_map(std::string_view octree, double cell_m, double slice_m,
                                   std::size_t most_runs = kMostRuns);
 
-/// @param runs  joined. @returns base64: a row takes two bytes or so. web/src/packed.js reads it.
+/// @param runs  joined. @returns base64; a run takes about two bytes. web/src/packed.js decodes it.
 std::string packed(std::span<const CubeRun> runs);
 
-/// What a browser is told (Feed::set_cloud()). @param kind  which of a UAV's maps it is, for people.
+/// The text of a map for Feed::set_cloud(). @param kind  for people: which of the UAV's maps it is.
 std::string map_text(const std::string& uav, double time_s, const ShownMap& map, const std::string& kind);
-/// In its place where there is no map. @param why  for people
+/// The text to send if there is no map. @param why  for people
 std::string no_map_text(const std::string& uav, double time_s, const std::string& why);
 
 }  // namespace skein::view

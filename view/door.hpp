@@ -20,7 +20,7 @@ class Door {
 
   /// Whether the name in a Host header is an accepted one; ignores the port.
   bool knows_host(std::string_view host) const;
-  /// Whether the Origin header is that of our own page. @param host  Host header that knows_host() accepts
+  /// Whether the Origin header is that of this server's own page. @param host  Host header that knows_host() accepts
   bool is_own_origin(std::string_view origin, std::string_view host) const;
   /// Whether the Cookie header holds the key. @param host  as above
   bool opens(std::string_view cookie, std::string_view host) const;

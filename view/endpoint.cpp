@@ -26,16 +26,16 @@ std::optional<std::uint16_t> read_port(std::string_view text) {
   return port;
 }
 
-/// As inet_ntop() writes an address, and browsers do; empty: it is none of this family.
+/// The address in the form in which inet_ntop() and browsers write it; empty: it is no address of this family.
 std::string canonical(int family, const std::string& address) {
   std::array<char, INET6_ADDRSTRLEN> text{};
-  in6_addr bytes{};  // the larger one
+  in6_addr bytes{};  // large enough for IPv4, too
   if (::inet_pton(family, address.c_str(), &bytes) != 1) return {};
   ::inet_ntop(family, &bytes, text.data(), text.size());
   return text.data();
 }
 
-/// Address and port, parted at the last colon: brackets are those of IPv6. An empty address: it is none.
+/// Splits a text at its last colon into address and port; IPv6 addresses have brackets. Empty address: it is invalid.
 std::pair<std::string, std::string_view> parted(std::string_view text) {
   const std::size_t colon = text.rfind(':');
   const std::string name(text.substr(0, colon));
@@ -71,7 +71,7 @@ std::vector<std::string> interface_addresses() {
     const socklen_t size = family == AF_INET ? sizeof(sockaddr_in) : sizeof(sockaddr_in6);
     if (::getnameinfo(one->ifa_addr, size, text.data(), text.size(), nullptr, 0, NI_NUMERICHOST) != 0) continue;
     const std::string address = text.data();
-    if (address.find('%') == std::string::npos) addresses.push_back(address);  // no browser takes a scope
+    if (address.find('%') == std::string::npos) addresses.push_back(address);  // browsers accept no scope
   }
   ::freeifaddrs(all);
   return addresses;

@@ -12,7 +12,8 @@ constexpr std::size_t kLongestFaultOrder = 400, kLongestName = 100;
 constexpr double kShortest_s = 0.05, kLongest_s = 36000.0;
 constexpr double kNoRange_m = 0.001;
 
-/// Takes the keys of an order one by one: what is missing, of another kind, out of bounds or left over makes it none.
+/// Takes the keys of an order one by one. A key that is missing, of another type, out of bounds or left over makes the
+/// order invalid.
 class Keys {
  public:
   explicit Keys(Json json) : json_(std::move(json)) {}
@@ -39,7 +40,7 @@ class Keys {
     return least;
   }
   bool has(const char* key) const { return json_.contains(key); }
-  /// Whether all of it has been taken, and was as it should be.
+  /// Whether all keys have been taken, and all were valid.
   bool sound() const { return sound_ && json_.empty(); }
 
  private:

@@ -47,7 +47,7 @@ void Feed::set_cloud(const std::string& name, std::string cloud) {
   tell();
 }
 
-/// The oldest news first, so that each cloud has its turn. @returns a list; empty: there is no news, or no room.
+/// Takes the clouds with the oldest changes first, so that each gets its turn. @returns a JSON list; empty: no news.
 std::string Feed::next_clouds(FeedPlace& place, std::size_t most_bytes) const {
   std::vector<std::pair<const Cloud*, std::uint64_t*>> news;
   for (auto& [name, number] : place.clouds) {

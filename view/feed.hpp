@@ -1,8 +1,8 @@
-// What browsers are told of a flight: its scene, lines in their order (story.hpp), the newest state, and clouds (points
-// and maps) for those who ask for them. It is filled by one side and read by another: a reader keeps its place in the
-// lines and comes for more when it has sent what it has.
-// So a slow browser holds nothing up and nothing piles up for it: of states and of each cloud it gets the newest, of
-// lines all.
+// The data that browsers get about a flight: its scene, all lines in their order (story.hpp), the newest state, and
+// clouds (LiDAR points and maps) for those browsers that request them. One side fills the feed; the page's server reads
+// it. For each browser, the server keeps a place in the feed, and asks for more once the last message is sent.
+// So a slow browser blocks nothing, and no data queues up for it: it gets all lines, but only the newest state and the
+// newest version of each cloud.
 // Threads: any.
 #pragma once
 
@@ -16,37 +16,37 @@
 
 namespace skein::view {
 
-/// How far a browser has been told.
+/// What a browser has got so far.
 struct FeedPlace {
   bool scene = false;
   std::size_t lines = 0;
   std::uint64_t state = 0;
-  bool more = false;                                 ///< lines were left
-  std::map<std::string, std::uint64_t> clouds = {};  ///< that it asks for, by name
+  bool more = false;                                 ///< whether the last message left lines for the next one
+  std::map<std::string, std::uint64_t> clouds = {};  ///< requested clouds by name: the version that it has
 
-  /// Asks for these clouds and no others; one that it asked for before is not told again until there is news.
+  /// Requests these clouds and no others. A cloud that was requested before is not sent again until it changes.
   void look_at(const std::vector<std::string>& names);
 };
 
 class Feed {
  public:
-  /// Texts are JSON objects. Nobody is told anything before there is a scene; what comes before it is kept.
+  /// All texts are JSON objects. Before there is a scene, browsers get nothing; what is added earlier is kept for them.
   void set_scene(std::string scene);
   void add_line(std::string line);
   void set_state(std::string state);
-  /// @param name  who asks for it is told the newest of this name, which is kept.
+  /// Replaces the cloud of this name. Browsers that request it get the newest one.
   void set_cloud(const std::string& name, std::string cloud);
 
-  /// Of all clouds that there are.
+  /// The names of all clouds in the feed.
   std::vector<std::string> cloud_names() const;
 
-  /// The next message for who stands at `place`, which moves on: {"scene": ..., "lines": [...], "state": ...,
-  /// "clouds": [...]}, each only if it is news; "more" is true while lines are left. About `most_bytes`, but at least a
-  /// line, and a cloud where that is all.
+  /// The next message for a browser at `place`, which moves on: {"scene": ..., "lines": [...], "more": true, "state":
+  /// ..., "clouds": [...]}, with only the keys that have news. "more" means that lines are left. `most_bytes` is a
+  /// rough limit: the first line, and the first cloud if there is room left for it to begin, are sent whole.
   /// @returns an empty text when there is nothing new.
   std::string next(FeedPlace& place, std::size_t most_bytes) const;
-  /// Who is told, from the filling thread, that there is something new; replaces the one before. After it has returned
-  /// no call of the former runs.
+  /// Sets the function that is called, in the thread that fills the feed, when there is something new. It replaces the
+  /// former function; once on_news() has returned, no call of the former one is running.
   void on_news(std::function<void()> tell);
 
  private:
@@ -61,7 +61,7 @@ class Feed {
     std::uint64_t number = 0;
     std::string text;
   };
-  std::map<std::string, Cloud> clouds_;  ///< the newest by name
+  std::map<std::string, Cloud> clouds_;  ///< by name: the newest
   std::uint64_t cloud_number_ = 0;
   mutable std::mutex tell_mutex_;
   std::function<void()> tell_;

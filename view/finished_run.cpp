@@ -24,7 +24,7 @@ using results::CaptureCells;
 using results::PoseCells;
 using results::RunData;
 
-/// Rows of a table as far as they make sense: read_run_data() has told of the rest.
+/// Reads the rows of a table up to the first one that is damaged; read_run_data() has reported the damage.
 template <class Row, class OnRow>
 void rows_of(const fs::path& dir, const OnRow& on_row) {
   try {
@@ -42,7 +42,7 @@ ShownUav pose_of(const PoseCells& row) {
   return uav;
 }
 
-/// Lines that come table by table, and are told by their times.
+/// Collects lines table by table, and returns them in order of time.
 class Story {
  public:
   void add(double time_s, std::string line) { lines_.emplace_back(time_s, std::move(line)); }
@@ -57,7 +57,8 @@ class Story {
   std::vector<std::pair<double, std::string>> lines_;
 };
 
-/// The table has the fleet's poses of each time in a row. @param heights  is filled. @returns those of the end.
+/// Adds the fleet's poses; in the table, those of one time follow each other. @param heights  is filled. @returns the
+/// last poses.
 std::vector<ShownUav> tell_poses(const fs::path& dir, const RunData& run, Story& story, Heights& heights) {
   heights.resize(run.uavs.size());
   std::vector<ShownUav> fleet(run.uavs.size());
@@ -81,7 +82,7 @@ std::vector<ShownUav> tell_poses(const fs::path& dir, const RunData& run, Story&
   return fleet;
 }
 
-/// All that is no capture: these come from captures.csv, which has more of them.
+/// Adds all events but captures, which come from captures.csv: that table has more details.
 void tell_events(const RunData& run, Story& story) {
   static const std::array kToldOtherwise = {run_tables::kLinkUp, run_tables::kLinkDown, run_tables::kCaptured,
                                             run_tables::kReleased};
@@ -92,7 +93,7 @@ void tell_events(const RunData& run, Story& story) {
   for (const auto& [time_s, links] : report::recorded_links(run)) story.add(time_s, links_line(time_s, links));
 }
 
-/// What UAVs did, as their programs said.
+/// Adds the activities that the UAVs' programs reported.
 void tell_activities(const fs::path& dir, const RunData& run, Story& story) {
   rows_of<ActivityCells>(dir, [&](const ActivityCells& row) {
     const auto uav = run.uav_of(row.uav());
@@ -103,7 +104,7 @@ void tell_activities(const fs::path& dir, const RunData& run, Story& story) {
   });
 }
 
-/// Whether a collision took the score of what this UAV had photographed.
+/// Whether a collision voided this UAV's captures.
 bool is_void(const RunData& run, std::size_t uav) {
   return std::ranges::any_of(
       run.captures, [uav](const results::RunCapture& capture) { return capture.uav == uav && capture.voided; });
@@ -124,7 +125,7 @@ void tell_incidents(const RunData& run, Story& story) {
   }
 }
 
-/// What could be had, where it is known. Points of which it was lost that no UAV fits there are told as such.
+/// Adds the attainable quality, if it is known. Points with the cause "out_of_reach" are marked as not flyable.
 void tell_estimate(const RunData& run, Story& story) {
   if (!run.causes_known) return;
   constexpr std::size_t kOutOfReach = *results::cause_of("out_of_reach");
@@ -163,7 +164,7 @@ void tell_captures(const fs::path& dir, const RunData& run, Story& story) {
   for (const auto& [time_s, those] : deliveries) story.add(time_s, delivered_line(time_s, those));
 }
 
-/// The last is the result's own, with all its digits.
+/// The last line has the score of the result, with all its digits.
 void tell_scores(const RunData& run, Story& story) {
   for (const results::RunScore& score : run.scores) {
     story.add(score.time_s, score_line(score.time_s, static_cast<std::size_t>(score.points), score.score));

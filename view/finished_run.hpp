@@ -1,4 +1,4 @@
-// A run that is over, told from its results folder as it was told while it flew.   Any thread.
+// Fills a feed with a finished run, from its results folder, in the same form as during the flight.   Any thread.
 #pragma once
 
 #include <filesystem>
@@ -12,22 +12,22 @@
 
 namespace skein::view {
 
-/// What is told of a run.
+/// A finished run as the feed needs it.
 struct ToldRun {
   Json scene;
-  std::vector<std::string> lines;  ///< by their times
-  std::vector<ShownUav> last;      ///< the fleet at its end
+  std::vector<std::string> lines;  ///< in order of time
+  std::vector<ShownUav> last;      ///< the fleet at the end of the run
   Heights heights;
 };
 
-/// @param run  what the folder `dir` holds. What it lacks is named in the scene's "missing".
+/// @param run  the contents of the folder `dir`. The scene's "missing" names what the folder lacks.
 ToldRun told_run(const std::filesystem::path& dir, const results::RunData& run);
 
-/// Fills a feed with the run of a results folder. What the folder lacks is named in the scene's "missing".
-/// @throws InputError when there is no result in it.
+/// Fills a feed with the run of a results folder. The scene's "missing" names what the folder lacks.
+/// @throws InputError when the folder has no result.
 void tell_finished_run(const std::filesystem::path& dir, Feed& feed);
 
-/// "towers by kios", of a results folder. @throws InputError when there is no result in it.
+/// Title of the run of a results folder: "towers by kios". @throws InputError when the folder has no result.
 std::string title_of_run(const std::filesystem::path& dir);
 
 }  // namespace skein::view

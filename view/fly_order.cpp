@@ -11,7 +11,7 @@ constexpr std::size_t kLongestFlyOrder = 500, kLongestUavName = 100;
 constexpr const char *kFlyDo = "do", *kFlyWord = "fly", *kFlyUav = "uav", *kFlyVelocity = "velocity",
                      *kFlyYawRate = "yaw_rate", *kFlyGimbal = "gimbal";
 
-/// @returns whether it is a number within the bounds; `number` is it then.
+/// @returns whether `value` is a number within the bounds; if so, `number` gets it.
 bool take_bounded(const Json& value, double most, double& number) {
   if (!value.is_number()) return false;
   number = value.get<double>();

@@ -1,4 +1,4 @@
-// What a browser wants of a UAV that somebody flies by hand there, until it says something else.   Pure; any thread.
+// Order by which a browser flies a UAV by hand: a command that holds until the next one.   Pure; any thread.
 #pragma once
 
 #include <optional>
@@ -9,7 +9,8 @@
 
 namespace skein::view {
 
-/// No faster than that: no UAV of ours is. Each part of a velocity; rates of body and camera.
+/// Bounds of an order: each component of the velocity [m/s]; yaw rate of the body and rates of the gimbal [rad/s]. No
+/// UAV of Skein is faster.
 inline constexpr double kMostHandMps = 20.0, kMostHandRate = 4.0;
 
 struct FlyOrder {
@@ -20,8 +21,8 @@ struct FlyOrder {
 
 /// {"do": "fly", "uav": "jurong", "velocity": [ahead, left, up], "yaw_rate": 0.5, "gimbal": [pitch_rate, yaw_rate]}.
 std::string text_of(const FlyOrder& order);
-/// @returns nullopt when the text is none of these, word for word in its keys; all numbers must be finite and within
-/// the bounds.
+/// @returns nullopt unless the text is exactly such an order: all keys and no others, all numbers finite and within the
+/// bounds.
 std::optional<FlyOrder> read_fly_order(std::string_view text);
 
 }  // namespace skein::view

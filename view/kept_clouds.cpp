@@ -27,11 +27,11 @@ double height_at(const std::map<double, double>& heights, double time_s) {
   return after == heights.begin() ? 0.0 : std::prev(after)->second;
 }
 
-/// The recorded topic of a UAV's scans: its name on the wire less "rt".
+/// The recorded topic of a UAV's scans: its wire name without "rt".
 std::string scans_of(const std::string& uav) { return topics::cloud(uav).name.substr(2); }
 
 bool has_any(const mcap::Reader& reader, const std::map<std::string, std::size_t>& wanted) {
-  bool any = !reader.complete();  // cut off: nothing tells what is in it
+  bool any = !reader.complete();  // cut off: there is no summary
   reader.summary([&](const mcap::RawRecord& record) {
     if (record.opcode != mcap::Opcode::channel) return;
     const auto channel = mcap::parse_channel(record.content);
@@ -40,7 +40,7 @@ bool has_any(const mcap::Reader& reader, const std::map<std::string, std::size_t
   return any;
 }
 
-/// The points of one UAV, as its scans come.
+/// Collects the points of one UAV, scan by scan, in steps of kPointsStep_s.
 class Gathered {
  public:
   void add(double time_s, const std::vector<ScanPoint>& scan) {
@@ -76,7 +76,7 @@ KeptClouds::KeptClouds(const std::filesystem::path& dir, const results::RunData&
   try {
     read_recording(dir / run_folder::kRecording);
   } catch (const InputError&) {
-    points_.assign(run.uavs.size(), {});  // there is none, or it is damaged
+    points_.assign(run.uavs.size(), {});  // no recording, or a damaged one
   }
   for (std::size_t i = 0; i < run.uavs.size(); ++i) {
     if (!points_[i].empty()) lidar.push_back(run.uavs[i]);

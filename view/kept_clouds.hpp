@@ -1,6 +1,6 @@
-// Points and maps of a run that is over, as far as its results folder has them: each UAV's map in time (map_files.hpp),
-// else the one that it left behind, and LiDAR points where the recording has clouds (--record=clouds).
-// Frame W.   Threads: one.   Bounded: kMostPointsKept points a UAV.
+// LiDAR points and maps of a finished run, as far as its results folder has them: each UAV's map over time
+// (map_files.hpp), else the map at its end; and LiDAR points if the recording has clouds (--record=clouds).
+// Frame W.   Threads: one.   Bounded: kMostPointsKept points per UAV.
 #pragma once
 
 #include <filesystem>
@@ -18,23 +18,24 @@
 
 namespace skein::view {
 
-/// By UAV: its height by time.
+/// By UAV: its height [m] by time [s].
 using Heights = std::vector<std::map<double, double>>;
 
 class KeptClouds {
  public:
   static constexpr std::size_t kMostPointsKept = 30'000;
 
-  /// Reads what there is; what is damaged counts as missing. @param run  of this folder; must outlive this.
-  /// @param heights  of the whole run: free space in time is shown there.
+  /// Reads the folder; damaged files count as missing. @param run  of this folder; must outlive this.
+  /// @param heights  of the whole run: the levels at which free space of the maps over time is shown.
   KeptClouds(const std::filesystem::path& dir, const results::RunData& run, const Heights& heights = {});
 
-  /// Tells all of it. @param last  the fleet at its end: free space is shown at its heights.
+  /// Adds all points and maps to the feed. @param last  the fleet at the end of the run: its heights are the levels at
+  /// which free space of maps without time is shown.
   void tell(std::span<const ShownUav> last, Feed& feed) const;
 
-  std::vector<std::string> lidar = {};  ///< UAVs of which there are points
-  std::vector<std::string> maps = {};   ///< UAVs of which there is a map
-  std::string missing = {};             ///< what there is not, and how a run gets it, for people; empty: nothing
+  std::vector<std::string> lidar = {};  ///< names of UAVs with LiDAR points
+  std::vector<std::string> maps = {};   ///< names of UAVs with a map
+  std::string missing = {};             ///< for people: what is missing, and how to get it; empty: nothing
 
  private:
   void read_recording(const std::filesystem::path& file);

@@ -1,4 +1,4 @@
-// What a page that holds its flight itself is told: all that a server would tell it, in one text.   Any thread.
+// The flight inside a self-contained page (pages.hpp): all that a server would send, in one text.   Any thread.
 #pragma once
 
 #include <cstddef>
@@ -8,8 +8,9 @@
 
 namespace skein::view {
 
-/// @param most_bytes  maps and LiDAR points are in it as long as it is not larger. Points go first, then maps, and what
-/// is left is named: {"kept": {"lidar": true, "maps": false}, ...}. 0: neither is in it, and nothing is named.
+/// @param most_bytes  greatest size of a text with maps and LiDAR points. If it would be larger, the points are left
+/// out, then also the maps; the key "kept" says what the text has: {"kept": {"lidar": false, "maps": true}, ...}. 0: it
+/// has neither, and no key "kept".
 /// @returns packed (packed.hpp); web/src/kept.js reads it.
 std::string kept_flight(const Feed& flight, std::size_t most_bytes);
 

@@ -49,7 +49,7 @@ Key Key::read_from(const std::filesystem::path& file) {
 
 bool Key::opens(std::string_view given) const {
   if (given.size() != text_.size()) return false;
-  volatile unsigned char differences = 0;  // read and written each time, so that no compiler leaves the loop early
+  volatile unsigned char differences = 0;  // volatile: no compiler may leave the loop early
   for (std::size_t i = 0; i < text_.size(); ++i) {
     differences = static_cast<unsigned char>(differences | (given[i] ^ text_[i]));
   }

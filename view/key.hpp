@@ -1,5 +1,5 @@
-// The key of a run's page. Who has it may look and give orders: it is drawn for each run, is handed over in a file that
-// only its owner may read, and never stands on a command line or in an environment.   Any thread.
+// The key of a run's page: whoever has it may watch the run and give orders. Each run gets a new random key. Programs
+// pass it on in a file that only its owner may read, never on a command line or in the environment.   Any thread.
 #pragma once
 
 #include <filesystem>
@@ -10,13 +10,13 @@ namespace skein::view {
 
 class Key {
  public:
-  /// 256 random bits. @throws std::runtime_error when the system has none.
+  /// A new key of 256 random bits. @throws std::runtime_error when the system provides none.
   static Key draw();
-  /// Of a file as write_to() makes it. @throws InputError when it is none, or others may read it.
+  /// Reads a key from a file. @throws InputError when the file has no key, or when other users may access it.
   static Key read_from(const std::filesystem::path& file);
 
   const std::string& text() const { return text_; }
-  /// Takes the same time whatever is given.
+  /// Whether this key was given. For texts of a key's length, the comparison takes constant time.
   bool opens(std::string_view given) const;
 
  private:
@@ -25,7 +25,7 @@ class Key {
   std::string text_;  ///< 64 hexadecimal digits
 };
 
-/// Makes a new file of mode 0600; what was there under this name goes, and a link is not followed.
+/// Creates a file of mode 0600. Removes a former file of this name first, and follows no link.
 /// @throws std::runtime_error with the system's reason.
 void write_private_file(const std::filesystem::path& file, std::string_view text);
 

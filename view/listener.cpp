@@ -17,7 +17,7 @@ namespace {
 
 constexpr int kWaiting = 128;
 
-/// An endpoint as the system has it.
+/// An endpoint as the operating system represents it.
 struct SocketAddress {
   sockaddr_storage storage{};
   socklen_t size = sizeof storage;
@@ -55,7 +55,7 @@ Endpoint endpoint_of(SocketAddress& address) {
 Listener::Listener(const Endpoint& endpoint) {
   SocketAddress address = address_of(endpoint);
   fd_ = ::socket(address.storage.ss_family, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
-  const int yes = 1;  // connections of a page that was there before may linger
+  const int yes = 1;  // connections of a former page on this port may linger
   ::setsockopt(fd_, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
   if (::bind(fd_, address.get(), address.size) == 0 && ::listen(fd_, kWaiting) == 0) return;
   const int reason = errno;

@@ -29,7 +29,7 @@ class Listener {
   int fd_ = -1;
 };
 
-/// Endpoint of a listening TCP socket. @throws InputError when `fd` is none.
+/// Endpoint of a listening TCP socket. @throws InputError when `fd` is not one.
 Endpoint endpoint_of(int fd);
 
 /// Resolves NAME:PORT, where NAME is one of this host's own names: in a container the name selects one of its networks.

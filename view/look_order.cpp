@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::size_t kLongestLook = 1000, kLongestSeen = 64, kMostNames = 32;
 
-/// @returns whether it is a UAV's name.
+/// @returns whether `value` may be a UAV's name; if so, `name` gets it.
 bool take_name(const Json& value, std::string& name) {
   if (!value.is_string()) return false;
   name = value.get<std::string>();
@@ -27,7 +27,7 @@ bool take_names(const Json& value, std::vector<std::string>& names) {
 }  // namespace
 
 LookBudget look_budget(std::size_t uavs) {
-  constexpr std::size_t kPoints = 2'500, kMapBytes_per_s = 80'000;  // with 8 bytes a point 180 kB/s in all
+  constexpr std::size_t kPoints = 2'500, kMapBytes_per_s = 80'000;  // 180 kB/s in all, with 8 bytes per point
   constexpr std::size_t kSmallFleet = 5;
   const std::size_t size = std::max(uavs, kSmallFleet);
   return {kPoints * kSmallFleet / size, kMapBytes_per_s * kSmallFleet / size};

@@ -1,6 +1,6 @@
-// What a browser wants to see of what is too much for everybody: LiDAR points of some UAVs, and one UAV's map.
-// It is a lease: the page says it again every few seconds, and what nobody has asked for of late is sent no more.
-// Nothing of it reaches the run.   Pure; any thread.
+// Order by which a browser requests data that is too much to send to all browsers: LiDAR points of some UAVs, and one
+// UAV's map. A request is a lease: the page renews it every few seconds; when it expires, the data is no longer sent.
+// It has no effect on the run.   Pure; any thread.
 #pragma once
 
 #include <chrono>
@@ -12,34 +12,34 @@
 
 namespace skein::view {
 
-/// After so long without asking again, of wall time, nobody looks any more. Pages ask three times as often.
+/// A request expires after this wall time unless it is renewed. Pages renew it three times as often.
 inline constexpr std::chrono::seconds kLookLease{6};
 
-/// How much of it is told a second at most, beside what everybody is told: together less than 300 kB for up to 20 UAVs.
+/// Limits of the requested data. Together with what every browser gets, it is less than 300 kB/s for up to 20 UAVs.
 struct LookBudget {
-  static constexpr std::chrono::milliseconds kPointsPeriod{200};  ///< between two sets of points
-  std::size_t points = 0;                                         ///< of all UAVs in one of these
-  std::size_t map_bytes_per_s = 0;                                ///< of a UAV's maps
+  static constexpr std::chrono::milliseconds kPointsPeriod{200};  ///< from one set of points to the next
+  std::size_t points = 0;                                         ///< in one set, of all UAVs together
+  std::size_t map_bytes_per_s = 0;                                ///< for the maps of a UAV
 };
-/// What everybody is told grows with the fleet, so that large ones have less of this.
+/// The data that every browser gets grows with the fleet, so larger fleets have a smaller budget for requested data.
 LookBudget look_budget(std::size_t uavs);
 
 struct LookOrder {
-  std::vector<std::string> lidar = {};  ///< UAVs
-  std::string map = {};                 ///< a UAV; empty: none
+  std::vector<std::string> lidar = {};  ///< names of UAVs
+  std::string map = {};                 ///< name of a UAV; empty: none
   bool operator==(const LookOrder&) const = default;
 };
 
-/// {"do": "look", "lidar": ["jurong"], "map": "jurong"}; what is not wanted has no key.
+/// {"do": "look", "lidar": ["jurong"], "map": "jurong"}; without the key of what is not requested.
 std::string text_of(const LookOrder& order);
-/// @returns nullopt when the text is none of these, word for word in its keys; for too many names, or longer ones than
-/// a UAV can have.
+/// @returns nullopt unless the text is exactly such an order: known keys only, not too many names, and none longer than
+/// a UAV's name may be.
 std::optional<LookOrder> read_look_order(std::string_view text);
 
-/// Under these names it is told (Feed::set_cloud()).
+/// Names under which the data is in the feed (Feed::set_cloud()).
 std::string lidar_cloud(const std::string& uav);
 std::string map_cloud(const std::string& uav);
-/// All that an order asks for.
+/// The names of everything that an order requests.
 std::vector<std::string> clouds_of(const LookOrder& order);
 
 }  // namespace skein::view

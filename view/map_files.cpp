@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Of one UAV, in the order of its lives.
+/// The map files of one UAV, in the order in which its program was started.
 std::vector<fs::path> files_of(const fs::path& dir, const std::string& uav) {
   std::vector<fs::path> files;
   for (int life = 0; fs::exists(dir / run_folder::maps_file(uav, life)); ++life) {
@@ -25,7 +25,7 @@ std::vector<fs::path> files_of(const fs::path& dir, const std::string& uav) {
   return files;
 }
 
-/// @returns nullopt when one is none of the kind, or damaged.
+/// @returns nullopt when one of the files is damaged, or is no map file.
 std::optional<std::vector<mcap::Reader>> open_all(const std::vector<fs::path>& files) try {
   std::vector<mcap::Reader> readers;
   for (const fs::path& file : files) {
@@ -39,7 +39,7 @@ std::optional<std::vector<mcap::Reader>> open_all(const std::vector<fs::path>& f
 
 using OnMap = std::function<void(const mcap::Message&)>;
 void each_map(std::vector<mcap::Reader>& readers, const std::string& uav, const OnMap& on_map) {
-  const std::string topic = topics::flight_map(uav).name.substr(2);  // on the wire it begins with "rt"
+  const std::string topic = topics::flight_map(uav).name.substr(2);  // without the "rt" of its wire name
   for (mcap::Reader& reader : readers) {
     reader.messages([&](const mcap::Channel& channel, const mcap::Message& message) {
       if (channel.topic == topic) on_map(message);
@@ -47,7 +47,7 @@ void each_map(std::vector<mcap::Reader>& readers, const std::string& uav, const 
   }
 }
 
-/// The snapshots of one UAV, as they come.
+/// Collects the snapshots of one UAV.
 class Snapshots {
  public:
   explicit Snapshots(const std::function<double(double)>& height_m) : height_m_(height_m) {}
@@ -60,7 +60,7 @@ class Snapshots {
     if (!fits) return fail();
     cell_m = octomap.resolution();
     const std::string_view tree(reinterpret_cast<const char*>(octomap.data().data()), octomap.data().size());
-    ShownMap map;  // of an empty tree nothing is known
+    ShownMap map;  // stays empty for an empty octree: nothing is known
     if (!tree.empty()) {
       auto shown = shown_map(tree, cell_m, height_m_(time_s), std::numeric_limits<std::size_t>::max());
       if (!shown) return fail();
@@ -93,7 +93,7 @@ std::optional<MapInTime> read_maps(const fs::path& dir, const std::string& uav,
   Snapshots snapshots(height_m);
   each_map(*readers, uav, [&](const mcap::Message& message) {
     ++at;
-    if (snapshots.sound && (count - at) % stride == 0) snapshots.add(message);  // the last one always
+    if (snapshots.sound && (count - at) % stride == 0) snapshots.add(message);  // always takes the last one
   });
   if (!snapshots.sound) return std::nullopt;
   return map_in_time(std::move(snapshots.occupied), std::move(snapshots.free), snapshots.cell_m);

@@ -1,5 +1,5 @@
-// Maps in time of a run that is over: what its agents kept in maps-<uav>.mcap (docs/results.md).
-// Frame W.   Threads: one.   Bounded: kMostMapsRead snapshots a UAV; of more, some in between are left out.
+// Reads the maps over time of a finished run: the snapshots that its agents wrote to maps-<uav>.mcap (docs/results.md).
+// Frame W.   Threads: one.   Bounded: at most kMostMapsRead snapshots per UAV, evenly picked, always with the last one.
 #pragma once
 
 #include <filesystem>
@@ -15,14 +15,14 @@ namespace skein::view {
 
 inline constexpr std::size_t kMostMapsRead = 240;
 
-/// One UAV's, of all files that its program left: one for each time that it was started. What a file that is cut off
-/// lacks is missing.
-/// @param height_m  of the UAV at a time: free space is shown there.
-/// @returns nullopt when there are none, or a file is damaged.
+/// Reads all map files of one UAV: its program writes a new file at each start. A file that is cut off counts as far as
+/// it goes.
+/// @param height_m  height of the UAV at a time: the level at which free space is shown.
+/// @returns nullopt when there are no snapshots, or when a file is damaged.
 std::optional<MapInTime> read_maps(const std::filesystem::path& dir, const std::string& uav,
                                    const std::function<double(double time_s)>& height_m);
 
-/// Whether UAVs of a run have files with maps in time, all of them sound.
+/// Whether any of these UAVs has map files, and no map file of any of them is damaged.
 bool has_maps_in_time(const std::filesystem::path& dir, std::span<const std::string> uavs);
 
 }  // namespace skein::view

@@ -12,7 +12,7 @@
 namespace skein::view {
 namespace {
 
-/// Cubes that are there, and since when.
+/// Cubes that are present in the newest snapshot, and the time since when they are.
 struct Living {
   CubeRun run;
   double since_s = 0.0;
@@ -20,9 +20,9 @@ struct Living {
 
 auto place_of(const CubeRun& run) { return std::tuple(run.z, run.y, run.x); }
 
-/// Cuts a row where those of others begin and end.
-/// @param others  in the order of their rows, none over another. @param at  the first that may touch this row or one
-/// behind it; moves on. @param use  is told each piece, and whether another row covers it.
+/// Cuts a run into pieces where other runs begin or end.
+/// @param others  in order, without overlaps. @param at  index of the first one that may touch this run or a later one;
+/// is moved on. @param use  called with each piece, and with whether one of the others covers it.
 template <class Use>
 void cut(const CubeRun& run, std::span<const CubeRun> others, std::size_t& at, const Use& use) {
   const auto is_before = [&](const CubeRun& other) {
@@ -43,7 +43,7 @@ void cut(const CubeRun& run, std::span<const CubeRun> others, std::size_t& at, c
   if (x < end) use(CubeRun{x, run.y, run.z, end - x}, false);
 }
 
-/// The cubes of one snapshot after the other.
+/// Follows cubes from snapshot to snapshot.
 class Lives {
  public:
   void add(const RunsAt& now) {
@@ -85,7 +85,7 @@ class Lives {
  private:
   static constexpr double kForever = std::numeric_limits<double>::infinity();
 
-  std::vector<Living> living_;  ///< in the order of their rows
+  std::vector<Living> living_;  ///< in the order of (z, y, x)
   std::map<std::pair<double, double>, std::vector<CubeRun>> ended_;
 };
 
@@ -95,14 +95,14 @@ std::size_t rows_of(const std::vector<RunsStep>& steps) {
   return rows;
 }
 
-/// @param cell_m  becomes that of the larger cubes.
+/// The lifetimes of cubes that are made larger until there are few enough runs. @param cell_m  is raised accordingly.
 std::vector<RunsStep> bounded_lifetimes(std::vector<RunsAt> snapshots, double& cell_m, std::size_t most_runs,
                                         std::size_t most_in_time) {
   const auto enlarge = [&] {
     for (RunsAt& snapshot : snapshots) snapshot.runs = coarser_runs(snapshot.runs);
     cell_m *= 2.0;
   };
-  // Eight cubes about the origin are eight, however large they are.
+  // Eight cubes around the origin stay eight, however large they become: that is the least number of runs.
   constexpr std::size_t kLeast = 8;
   const auto too_long = [&](const RunsAt& snapshot) { return snapshot.runs.size() > std::max(most_runs, kLeast); };
   while (std::ranges::any_of(snapshots, too_long)) enlarge();

@@ -1,6 +1,6 @@
-// All that a browser may ask of a run. The same text goes from the page to the station and on to the server, and each
-// reads it with the same suspicion. A new kind of order is a struct with text_of() and a reader of its own, and an
-// alternative here.   Pure; any thread.
+// All orders that a browser may give to a run. The text goes unchanged from the page to the station and on to
+// sim_server; station and server both validate it. A new kind of order needs a struct with its own text_of() and
+// reader, and an alternative in the variant below.   Pure; any thread.
 #pragma once
 
 #include <optional>
@@ -19,7 +19,7 @@ using Order = std::variant<TimeOrder, FaultOrder, FlyOrder, LookOrder>;
 
 /// A JSON object; its key "do" names the order.
 std::string text_of(const Order& order);
-/// @returns nullopt when the text is no order, word for word in its keys, or longer than any order is.
+/// @returns nullopt unless the text is exactly an order: known keys only, and no longer than an order may be.
 std::optional<Order> read_order(std::string_view text);
 
 }  // namespace skein::view

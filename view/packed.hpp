@@ -1,4 +1,4 @@
-// A flight for a page that holds it itself: compressed, as text.   Pure; any thread.
+// Compresses the flight of a self-contained page (pages.hpp), as text.   Pure; any thread.
 #pragma once
 
 #include <string>
@@ -6,7 +6,7 @@
 
 namespace skein::view {
 
-/// A zlib stream (RFC 1950) in base64; web/src/kept.js reads it.
+/// @returns a zlib stream (RFC 1950) in base64; web/src/kept.js reads it. @throws std::bad_alloc
 std::string packed(std::string_view text);
 
 }  // namespace skein::view

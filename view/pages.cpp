@@ -25,7 +25,7 @@ std::string style_element(std::string_view more = {}) {
   return "<style>\n" + std::string(report::base_style()) + std::string(more) + "</style>\n";
 }
 
-/// Of a page that shows a flight.
+/// Style of a page that shows a flight.
 std::string run_style_element() {
   return style_element(std::string(report::drawing_style()) + std::string(report::run_style()));
 }
@@ -86,7 +86,7 @@ std::string entered_page() {
 
 std::string key_file_page(const std::string& host, const Key& key, bool waits) {
   const std::string enter = "document.getElementById('enter').submit()";
-  // Of the answer this file may read nothing, but it learns that there is one.
+  // The file may not read the server's answer, but it learns that the server answers.
   const std::string when_served = "function knock() { fetch('http://" + host + "/', {mode: 'no-cors'}).then(() => " +
                                   enter + ", () => setTimeout(knock, 500)); }\nknock();";
   return document("Skein", style_element(),

@@ -1,5 +1,5 @@
-// LiDAR points of one UAV as a page is told them: what its scans have met since it was told last, thinned out.
-// Frame W.   Units: metres.   Not thread-safe.   Bounded: so many points as its maker says.
+// LiDAR points of one UAV for the page: the hits of its scans since the page was last sent some, thinned out.
+// Frame W.   Units: metres.   Not thread-safe.   Bounded: `most_kept` points.
 #pragma once
 
 #include <cstdint>
@@ -15,9 +15,9 @@ namespace skein::view {
 
 class ScanPoints {
  public:
-  /// Points of the ground are left out: it is level and known, and would be most of what is told.
+  /// Points below this height are left out: the ground is level and known, and would be most of the points.
   static constexpr double kGround_m = 0.3;
-  /// One point in each cube of this edge.
+  /// At most one point is kept in each cube of this edge.
   static constexpr double kCell_m = 0.5;
   static constexpr std::size_t kMostKept = 8'000;
 
@@ -25,9 +25,9 @@ class ScanPoints {
 
   void add(std::span<const Eigen::Vector3f> points_W);
   bool empty() const { return points_W_.empty(); }
-  /// @param most  of what there is, evenly chosen. It is forgotten then.
+  /// Returns at most `most` of the points, evenly picked, and clears all: later points in the same cubes count again.
   std::vector<Eigen::Vector3f> take(std::size_t most);
-  /// All that there is. What lies in the same cubes comes no more.
+  /// Returns and removes all points. Their cubes stay taken: later points in them are dropped.
   std::vector<Eigen::Vector3f> take_for_good() { return std::exchange(points_W_, {}); }
 
  private:
@@ -36,16 +36,16 @@ class ScanPoints {
   std::unordered_set<std::uint64_t> cells_;
 };
 
-/// Three whole numbers of 16 bits a point, in dm, as base64; what lies farther away than these reach is left out.
-/// web/src/packed.js reads it.
+/// Encodes each point as three 16-bit integers [dm], all in base64. Points outside their range (3.2 km) are left out.
+/// web/src/packed.js decodes the text.
 std::string packed_points(std::span<const Eigen::Vector3f> points_W);
 
 struct PointsStep {
-  double time_s = 0.0;  ///< of the newest
+  double time_s = 0.0;  ///< time of the newest scan
   std::vector<Eigen::Vector3f> points_W = {};
 };
 
-/// What a browser is told (Feed::set_cloud()). @param steps  by time.
+/// The text of the points for Feed::set_cloud(). @param steps  in order of time.
 std::string lidar_text(const std::string& uav, std::span<const PointsStep> steps);
 
 }  // namespace skein::view

@@ -33,15 +33,15 @@ using namespace std::chrono_literals;
 
 constexpr std::size_t kMostHeader = 8 << 10, kMostBody = 1 << 10, kMostMessage = 1 << 10;
 constexpr std::size_t kBatch = 128 << 10;
-/// What the system keeps for a browser that does not read: states in there are old.
+/// The operating system's send buffer for a browser; it is small, because states that wait in it become outdated.
 constexpr int kSendBuffer = 128 << 10;
-/// Between two messages to a browser: ten pictures a second are as many as it can show.
+/// Pause between two messages to a browser, which shows about ten frames per second.
 constexpr auto kPause = 80ms;
 constexpr auto kGoodbye = 1s;
 
 std::string_view view_of(beast::string_view text) { return {text.data(), text.size()}; }
 
-/// Somebody who asks for something.
+/// A connection with an HTTP request.
 struct Visitor {
   explicit Visitor(tcp::socket&& socket) : stream(std::move(socket)) {}
 
@@ -49,7 +49,7 @@ struct Visitor {
   bool has_key = false;
 };
 
-/// A browser that follows the flight.
+/// A browser that follows the flight over a WebSocket.
 struct Follower {
   explicit Follower(beast::tcp_stream&& stream)
       : socket(std::move(stream)), news(socket.get_executor()), pause(socket.get_executor()) {
@@ -57,10 +57,10 @@ struct Follower {
   }
 
   WebSocket socket;
-  asio::steady_timer news;   ///< cancelled when there are any
+  asio::steady_timer news;   ///< cancelled when there is news
   asio::steady_timer pause;  ///< between two messages
   FeedPlace place;
-  std::chrono::steady_clock::time_point looks_until{};  ///< then it has not asked again for clouds
+  std::chrono::steady_clock::time_point looks_until{};  ///< when its request for clouds expires
   bool closing = false;
 };
 
@@ -78,7 +78,7 @@ struct Server::Impl {
     if (own < 0) throw std::system_error(errno, std::generic_category(), "the socket of the page");
     acceptor.assign(endpoint_of(listener).address.find(':') == std::string::npos ? tcp::v4() : tcp::v6(), own);
     asio::co_spawn(io, accept(), asio::detached);
-    // Signals are for the thread that flies or waits.
+    // The server's thread blocks all signals: the main thread handles them.
     sigset_t all, former;
     sigfillset(&all);
     ::pthread_sigmask(SIG_SETMASK, &all, &former);
@@ -97,7 +97,7 @@ struct Server::Impl {
     return names;
   }
 
-  /// @param patience  for browsers that are still told something.
+  /// @param patience  how long browsers may take to receive the rest of the feed.
   void end(std::chrono::milliseconds patience) {
     feed.on_news({});
     if (!thread.joinable()) return;
@@ -106,7 +106,7 @@ struct Server::Impl {
   }
 
   void run() {
-    // One request that goes wrong in an unforeseen way is not to end the run that it looks at.
+    // A request that fails in an unforeseen way must not end the run.
     while (true) {
       try {
         io.run();
@@ -117,7 +117,7 @@ struct Server::Impl {
     }
   }
 
-  /// Tells what is left to be told, and no more.
+  /// Lets the follower get the rest of the feed, and then close.
   static void leave(Follower& follower) {
     follower.closing = true;
     follower.news.cancel();
@@ -130,7 +130,7 @@ struct Server::Impl {
   }
 
   void say_goodbye(std::chrono::milliseconds patience) {
-    // Released, not closed: the duplicate must leave the poll set while the launcher keeps the socket open.
+    // release(), not close(): the duplicate must leave the poll set while the launcher keeps the socket open.
     boost::system::error_code ignored;
     if (acceptor.is_open()) ::close(acceptor.release(ignored));
     closing = true;
@@ -145,19 +145,20 @@ struct Server::Impl {
       boost::system::error_code error;
       tcp::socket socket = co_await acceptor.async_accept(asio::redirect_error(use_awaitable, error));
       if (closing || error == asio::error::operation_aborted) co_return;
-      if (error) {  // no descriptor is left, say: others may be freed
+      if (error) {  // for example, no descriptor is left: one may become free
         asio::steady_timer later(io, 100ms);
         co_await later.async_wait(use_awaitable);
         continue;
       }
-      if (visitors.size() >= limits.visitors && !make_room()) continue;  // closes it
+      if (visitors.size() >= limits.visitors && !make_room()) continue;  // closes the new socket
       const auto visitor = std::make_shared<Visitor>(std::move(socket));
       visitors.push_back(visitor);
       spawn(serve(visitor), [this, visitor] { std::erase(visitors, visitor); });
     }
   }
 
-  /// Anybody on the host may connect and say nothing: the one of them who has been here longest goes.
+  /// Any program that reaches the port may connect and send nothing: closes the oldest connection without the key.
+  /// @returns false when there is none.
   bool make_room() {
     const auto stranger = std::ranges::find(visitors, false, [](const auto& visitor) { return visitor->has_key; });
     if (stranger == visitors.end()) return false;
@@ -166,7 +167,7 @@ struct Server::Impl {
     return true;
   }
 
-  /// @param last  is called when it is over, however that comes.
+  /// Starts a coroutine. @param last  called when the coroutine ends, also by an exception.
   template <class Last>
   void spawn(asio::awaitable<void> work, const Last& last) {
     ++at_work;
@@ -211,7 +212,7 @@ struct Server::Impl {
   bool has_key(const Request& request) const {
     return door.opens(view_of(request[http::field::cookie]), view_of(request[http::field::host]));
   }
-  /// Whether a page of elsewhere sends it. Who is no browser says nothing of its origin.
+  /// Whether a page of another site made the browser send the request. Clients other than browsers send no Origin.
   bool is_foreign(const Request& request) const {
     const auto origin = request.find(http::field::origin);
     return origin != request.end() &&
@@ -238,20 +239,21 @@ struct Server::Impl {
     return made(request, http::status::ok, "text/javascript; charset=utf-8", site.script);
   }
 
-  /// The door holds no secret: the file with the key, which is a page of elsewhere, may see that there is one.
+  /// The login page has no secret, so pages of other origins may load it: the file with the key (key_file_page()) thus
+  /// learns that the server answers.
   static Response knocked(const Request& request) {
     Response response = made(request, http::status::ok, kHtml, door_page());
     response.set("Cross-Origin-Resource-Policy", "cross-origin");
     return response;
   }
 
-  /// The key comes from the file that the browser opened, or from the door's form: it speaks for itself, whatever page
-  /// sends it.
+  /// The key comes from the file that the user opened, or from the form of the login page. The right key suffices, so
+  /// the Origin header is not checked.
   Response enter(const Request& request) const {
     if (request.method() != http::verb::post || !door.key().opens(form_field(request.body(), "key"))) {
       return made(request, http::status::forbidden, kHtml, door_page(true));
     }
-    // No redirection: the browser would not send a strict cookie where a page of elsewhere set off the request.
+    // No redirection: a browser does not send a SameSite=Strict cookie if a page of another site began the request.
     Response response = made(request, http::status::ok, kHtml, entered_page());
     response.set(http::field::set_cookie, door.cookie(view_of(request[http::field::host])));
     return response;
@@ -279,7 +281,7 @@ struct Server::Impl {
     WebSocket& socket = follower->socket;
     boost::system::error_code error;
     beast::get_lowest_layer(socket).socket().set_option(tcp::socket::send_buffer_size(kSendBuffer), error);
-    beast::get_lowest_layer(socket).expires_never();  // the WebSocket has limits of its own
+    beast::get_lowest_layer(socket).expires_never();  // the WebSocket has its own timeouts
     socket.set_option(websocket::stream_base::timeout{limits.request, limits.silence, true});
     socket.read_message_max(kMostMessage);
     socket.text(true);
@@ -333,7 +335,7 @@ struct Server::Impl {
       if (const auto* look = std::get_if<LookOrder>(&*order)) {
         follower->place.look_at(clouds_of(*look));
         follower->looks_until = std::chrono::steady_clock::now() + kLookLease;
-        follower->news.cancel();  // what is there already
+        follower->news.cancel();  // wakes tell(): clouds may be there already
       }
       if (obey) obey(*order);
     }
@@ -347,11 +349,11 @@ struct Server::Impl {
   asio::io_context io{1};
   tcp::acceptor acceptor;
   asio::steady_timer last_call{io};
-  std::vector<std::shared_ptr<Visitor>> visitors;  ///< in the order in which they came
+  std::vector<std::shared_ptr<Visitor>> visitors;  ///< in the order in which they connected
   std::vector<std::shared_ptr<Follower>> followers;
-  std::size_t at_work = 0;  ///< coroutines
+  std::size_t at_work = 0;  ///< running coroutines
   bool closing = false;
-  std::atomic<bool> told = false;  ///< news are on their way to the thread
+  std::atomic<bool> told = false;  ///< tell_news() is already posted
   std::thread thread;
 };
 
@@ -362,7 +364,7 @@ Server::~Server() = default;
 
 void Server::stop() {
   if (impl_) impl_->end(std::chrono::milliseconds(0));
-  impl_.reset();  // and with it all connections
+  impl_.reset();  // closes all connections
 }
 
 }  // namespace skein::view

@@ -1,16 +1,15 @@
-// Serves the page of a run to browsers: HTTP for the page, its script and the key's door, a WebSocket for what there is
-// to be told (feed.hpp) and for what is asked of the run. What a browser wants to look at (look_order.hpp) is for its
-// own connection, too.
+// Serves the page of a run to browsers: HTTP for the page, its script and the login page; a WebSocket for the feed
+// (feed.hpp) and for the browser's orders. A LookOrder (look_order.hpp) also sets which clouds its connection gets.
 //
-// It has a thread of its own, so that nothing of the run ever waits for a browser. A connection is allowed little:
-// short requests in short time, few connections at once, no file of the disk under any name. Who has not shown the key
-// keeps nobody else out: when there are too many, the first of them go. A frame that is malformed or no order of ours
-// ends its connection, and so does a silence: a browser that is there answers.
-//   GET  /         the page, or the door for who has not shown the key
-//   POST /enter    key=...: gives the cookie
-//   GET  /live.js  the page's script    } with the cookie
-//   GET  /flight   the WebSocket        } and from a page of ours
-// Threads: constructor, stop() and destructor from one; `obey` is called from the server's own.
+// The server has its own thread, so the run never waits for a browser. It limits each connection: the size and duration
+// of a request, and the number of connections at once; it serves no files from disk. Visitors without the key cannot
+// lock out others: when there are too many, the server drops the one of them that came first. It closes a connection
+// that sends a malformed frame or anything but an order, and one that is silent: a live browser answers its pings.
+//   GET  /         the page, or the login page for a browser that has not presented the key
+//   POST /enter    key=...: sets the cookie
+//   GET  /live.js  the page's script    } only with the cookie,
+//   GET  /flight   the WebSocket        } and from this server's own page
+// Threads: constructor, stop() and destructor from one; `obey` is called in the server's own thread.
 #pragma once
 
 #include <chrono>
@@ -25,35 +24,37 @@
 
 namespace skein::view {
 
-/// What is served under fixed names.
+/// What the server serves.
 struct Site {
   std::string page;    ///< HTML
   std::string script;  ///< JavaScript
-  /// By which browsers may ask for it, beside those of the listener's address (names_of()).
+  /// Host names that browsers may use, besides those of the listener's address (names_of()).
   std::vector<std::string> names = {};
 };
 
-/// What browsers are allowed; tests allow less.
+/// Limits for browsers; tests use smaller ones.
 struct ServerLimits {
-  std::size_t visitors = 64;                  ///< requests at once
-  std::size_t followers = 256;                ///< browsers that follow at once
-  std::chrono::milliseconds request{10'000};  ///< in which a request must be there
-  std::chrono::milliseconds silence{60'000};  ///< of a browser that takes nothing, or does not answer
+  std::size_t visitors = 64;                  ///< HTTP requests at once
+  std::size_t followers = 256;                ///< WebSocket connections at once
+  std::chrono::milliseconds request{10'000};  ///< timeout for the arrival of a complete request
+  std::chrono::milliseconds silence{60'000};  ///< timeout for a browser that reads nothing, or does not answer pings
 };
 
 class Server {
  public:
   using Obey = std::function<void(const Order&)>;
 
-  /// @param listener  a listening socket, of which it takes a duplicate. @param feed  must outlive this.
-  /// @throws std::system_error when the system has no thread or descriptor left.
+  /// @param listener  descriptor of a listening socket; the server uses a duplicate. @param feed  must outlive this.
+  /// @param obey  called with each order of a browser.
+  /// @throws InputError when `listener` is not such a socket; std::system_error when the operating system has no thread
+  /// or descriptor left.
   Server(int listener, Key key, Site site, Feed& feed, Obey obey = {}, const ServerLimits& limits = {});
-  /// Tells browsers what is left to be told, for a second at most, and says goodbye.
+  /// Sends the browsers the rest of the feed, for a second at most, and closes their connections properly.
   ~Server();
   Server(const Server&) = delete;
   Server& operator=(const Server&) = delete;
 
-  /// Ends at once, as a process does that is killed: nothing more is told.
+  /// Closes all connections at once, as if the process were killed: sends nothing more.
   void stop();
 
  private:

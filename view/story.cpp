@@ -13,7 +13,7 @@
 namespace skein::view {
 namespace {
 
-/// Beyond all bounds of a scene: a body whose motion no number describes is drawn there.
+/// Beyond the bounds of any scene: coordinates are clamped to it.
 constexpr double kFarthest_m = 1e6;
 constexpr double kQualityUnits = 1e6, kPartUnits = 1000.0;
 
@@ -21,7 +21,7 @@ long whole(double value, double by) {
   return std::isfinite(value) ? std::lround(by * std::clamp(value, -kFarthest_m, kFarthest_m)) : 0;
 }
 
-/// What is below the least quality that counts stays below it.
+/// Rounds a quality, but never up to kDetectedQuality: below it, a point does not count.
 long quality(float q) {
   const long rounded = whole(q, kQualityUnits);
   const long least = std::lround(kDetectedQuality * kQualityUnits);

@@ -20,7 +20,7 @@ constexpr std::array<std::pair<const char*, TimeOrder::Kind>, 4> kKinds = {{{"pa
 
 bool is_speed(double speed) { return speed >= kLeastSpeed && speed <= kMostSpeed; }
 
-/// @returns whether it is one; `order` has it then.
+/// @returns whether `value` is a speed; if so, `order` gets it.
 bool take_speed(const Json& value, TimeOrder& order) {
   if (value.is_string()) return value.get<std::string>() == kMax;
   if (!value.is_number() || !is_speed(value.get<double>())) return false;

@@ -12,7 +12,7 @@ namespace {
 namespace fs = std::filesystem;
 using results::RunData;
 
-/// Of tables with a millimetre.
+/// Points that are nearer to each other than this are the same; tables are rounded to millimetres.
 constexpr double kSamePlace_m = 0.002;
 
 bool same_scene(const RunData& a, const RunData& b) {

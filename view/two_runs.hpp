@@ -1,5 +1,5 @@
-// Two finished runs on one page and one clock. The second is told within the first: its scene under "other", its lines
-// as {"k": "other", "line": ...} (web/src/flights.js).   Any thread.
+// Two finished runs on one page, with a common clock. The feed has the second run inside the first: its scene under the
+// key "other", its lines as {"k": "other", "line": ...} (web/src/flights.js).   Any thread.
 #pragma once
 
 #include <filesystem>
@@ -11,15 +11,15 @@
 
 namespace skein::view {
 
-/// Where two runs part.
+/// Where two runs begin to differ.
 struct Parting {
-  std::optional<double> time_s;     ///< none: nowhere, or not known
-  std::vector<std::string> fields;  ///< "changi position"
-  std::string unknown;              ///< why it is not known; empty: it is
+  std::optional<double> time_s;     ///< none: they do not differ, or it is not known
+  std::vector<std::string> fields;  ///< what differs first: "changi position"
+  std::string unknown;              ///< why it is not known; empty: it is known
 };
 
-/// Fills a feed with both.
-/// @throws InputError when a folder holds no result, or their scenes differ: then they have no points in common.
+/// Fills a feed with both runs.
+/// @throws InputError when a folder has no result, or when the scenes differ, so that points cannot be compared.
 void tell_two_runs(const std::filesystem::path& a, const std::filesystem::path& b, const Parting& parting, Feed& feed);
 
 }  // namespace skein::view

@@ -11,7 +11,7 @@
 namespace skein::mcap {
 namespace {
 
-/// A chunk of a part, with the indexes that follow it.
+/// A chunk of a part, with the message indexes that follow it.
 struct Packed {
   Chunk chunk;
   ByteView content;
@@ -38,7 +38,7 @@ void learn_name(const RawRecord& record, Summary& summary) {
   }
 }
 
-/// Schemas and channels: of a part that is cut off they stand in the chunks, where they are first used.
+/// Adds the part's schemas and channels to the summary. A truncated part has no summary, but its chunks contain them.
 void learn_names(const Reader& part, Summary& summary) {
   if (part.complete()) return part.summary([&](const RawRecord& record) { learn_name(record, summary); });
   for (const Packed& packed : packed_of(part)) {

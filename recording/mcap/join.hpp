@@ -1,5 +1,5 @@
-// Several files, written at the same time by several programs, become one: their chunks are copied as they are, in the
-// order of time, and get one summary. A part that is cut off counts as far as it goes.
+// Joins files that several programs have written at the same time: copies their chunks unchanged, in order of time, and
+// writes one summary. Of a truncated part, all complete chunks are used.
 #pragma once
 
 #include <filesystem>
@@ -10,11 +10,11 @@
 
 namespace skein::mcap {
 
-/// @param parts  their schemas and channels have different ids (WriterOptions::first_id).
-/// @param metadata  of the whole.
-/// @returns what went wrong, for people; empty: `file` is whole. A part that is no MCAP file is left out and reported,
-/// and so is what is damaged of a part (Reader::damage): `file` is then no recording to go by.
-/// @throws std::system_error when `file` cannot be opened.
+/// @param parts  ids of schemas and channels must be unique over all parts (WriterOptions::first_id).
+/// @param metadata  of the joined file.
+/// @returns what went wrong, for people; empty: `file` is complete. A part that is not an MCAP file is left out and
+///   reported. Damage of a part (Reader::damage()) is reported, too; `file` is then not reliable.
+/// @throws std::system_error if `file` cannot be opened.
 std::string join(const std::vector<std::filesystem::path>& parts, const std::filesystem::path& file,
                  const std::vector<Metadata>& metadata);
 

@@ -1,5 +1,5 @@
-// A file that grows record by record. A disk that refuses (it is full, a quota, a limit) ends the file and not the
-// program: the file then ends with its last whole record, and trouble() says why. Not thread-safe.
+// A file that grows record by record. A write error (a full disk, a quota, a limit) ends the file, not the program: the
+// file then ends with its last complete record, and trouble() says why. Not thread-safe.
 #pragma once
 
 #include <filesystem>
@@ -11,19 +11,20 @@ namespace skein::mcap {
 
 class Output {
  public:
-  /// An empty file of this name. @throws std::system_error, with the file's name, when it cannot be opened.
+  /// Creates or empties the file. @throws std::system_error, with the file's name, if it cannot be opened.
   explicit Output(const std::filesystem::path& file);
   ~Output();
   Output(const Output&) = delete;
   Output& operator=(const Output&) = delete;
 
-  /// Whole records; they are in the file when this returns, all or none.
+  /// Appends complete records. When this returns, either all of them are in the file or none. Does nothing after an
+  /// error.
   void write(ByteView records);
-  /// Bytes so far.
+  /// Bytes in the file so far.
   std::uint64_t size() const { return size_; }
-  /// Of all bytes since the magic (`crc_of`).
+  /// Checksum (`crc_of`) of all bytes so far, including the magic.
   std::uint32_t crc() const { return crc_; }
-  /// What went wrong, with the file's name, for people; empty as long as nothing did.
+  /// Description of the error, with the file's name, for people; empty if there was none.
   const std::string& trouble() const { return trouble_; }
 
  private:

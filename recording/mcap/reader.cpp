@@ -20,13 +20,13 @@ std::uint32_t word_at(ByteView bytes) {
   return word;
 }
 
-/// What the messages of a chunk say about its header and about the indexes that follow it.
+/// The values that the header of a chunk and the indexes after it must have, computed from the chunk's messages.
 struct ChunkFacts {
   std::uint64_t start_time = 0, end_time = 0;
   std::map<std::uint16_t, std::vector<std::pair<std::uint64_t, std::uint64_t>>> index;
 };
 
-/// @returns nullopt when the chunk or a record in it is damaged.
+/// @returns nullopt if the chunk or a record in it is damaged, or the times in its header are wrong.
 std::optional<ChunkFacts> facts_of(const std::optional<Chunk>& chunk) {
   const auto records = chunk ? unpack(*chunk) : std::nullopt;
   if (!records) return std::nullopt;
@@ -51,7 +51,7 @@ std::optional<ChunkFacts> facts_of(const std::optional<Chunk>& chunk) {
 
 std::string time_text(std::uint64_t time_ns) { return fixed(1e-9 * static_cast<double>(time_ns), 2) + " s"; }
 
-/// Walks the records of a data section and notes what does not hold.
+/// Collects the damage of a data section, record by record.
 class DamageSearch {
  public:
   void look_at(const RawRecord& record, std::uint64_t offset) {
@@ -63,7 +63,7 @@ class DamageSearch {
     damage_.push_back("the index of chunk " + std::to_string(number_) + ", at byte " + std::to_string(offset) +
                       ", is damaged; the chunk's messages are all there");
   }
-  /// Up to when all chunks are sound, for people.
+  /// The time from which on messages may be missing: after the last undamaged chunk. For people.
   std::string sound_until() const { return last_sound_ ? "after " + time_text(*last_sound_) : "from the start on"; }
   std::vector<std::string> damage() && { return std::move(damage_); }
 
@@ -84,7 +84,7 @@ class DamageSearch {
   }
 
   int number_ = 0;
-  std::optional<ChunkFacts> chunk_;  ///< the last one, if it is sound
+  std::optional<ChunkFacts> chunk_;  ///< the latest chunk; nullopt if it is damaged
   std::optional<std::uint64_t> last_sound_;
   std::vector<std::string> damage_;
 };
@@ -98,7 +98,7 @@ std::optional<Bytes> unpack(const Chunk& chunk) {
   if (chunk.compression.empty()) {
     records.assign(chunk.records.begin(), chunk.records.end());
   } else if (chunk.compression == "zstd" && chunk.uncompressed_size <= kLargestChunk) {
-    // Before room is made for it: a damaged size may be any.
+    // Checked before memory is allocated: a damaged size may have any value.
     const auto told = ZSTD_getFrameContentSize(chunk.records.data(), chunk.records.size());
     if (told != ZSTD_CONTENTSIZE_UNKNOWN && told != chunk.uncompressed_size) return std::nullopt;
     records.resize(chunk.uncompressed_size);
@@ -164,7 +164,8 @@ std::vector<std::string> Reader::damage() const {
   return damage;
 }
 
-/// @param end  of the data section: where its DataEnd record begins.
+/// Whether the checksum over the data section is right, and the summary begins after the DataEnd record.
+/// @param end  offset of the end of the data section, where its DataEnd record begins [bytes].
 bool Reader::data_is_sound(std::uint64_t end) const {
   const ByteView all = view(bytes_);
   ByteView rest = all.subspan(end);

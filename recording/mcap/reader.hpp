@@ -1,5 +1,5 @@
-// Reads an MCAP file from its beginning, whole or cut off: as far as its records are whole, and no further than to a
-// chunk whose checksum is wrong. Needs no summary. damage() finds what a checksum can tell. Not thread-safe.
+// Reads an MCAP file, complete or truncated, from its beginning up to the first incomplete record; messages() also
+// stops at the first damaged chunk. Needs no summary. damage() finds all damage that checksums reveal. Not thread-safe.
 #pragma once
 
 #include <filesystem>
@@ -13,35 +13,36 @@
 
 namespace skein::mcap {
 
-/// Largest chunk that is read, uncompressed: more is taken for damage.
+/// Largest uncompressed size of a chunk [bytes]; a larger one counts as damaged.
 inline constexpr std::uint64_t kLargestChunk = 1ULL << 30;
 
-/// The records of a chunk. @returns nullopt when it is damaged or compressed in another way than by zstd.
+/// The uncompressed records of a chunk. @returns nullopt if the chunk is damaged, or its compression is not zstd.
 std::optional<Bytes> unpack(const Chunk& chunk);
 
 class Reader {
  public:
-  /// @throws InputError when it cannot be read or is no MCAP file.
+  /// Reads the whole file into memory. @throws InputError if it cannot be read or is not an MCAP file.
   explicit Reader(const std::filesystem::path& file);
-  /// @throws InputError when it is cut off or damaged, too.
+  /// Opens a file that must be complete and undamaged. @throws InputError also if it is truncated or damaged.
   static Reader whole(const std::filesystem::path& file);
 
-  /// What is damaged, a sentence each: which chunk, where it begins, and the times whose messages are missing.
-  /// Empty: nothing. A file that is cut off is not damaged. Unpacks every chunk.
+  /// One sentence for each damage: which chunk, where it begins, and the times whose messages are missing.
+  /// Empty: the file is undamaged. A truncated file does not count as damaged. Uncompresses every chunk.
   std::vector<std::string> damage() const;
 
-  /// Calls `on_record` for each record of the data section, in order, chunks packed as they are.
-  /// @param on_record  gets the record and where it stands in the file.
+  /// Calls `on_record` for each record of the data section, in order; chunks stay compressed.
+  /// @param on_record  receives the record and its offset in the file [bytes].
   void records(const std::function<void(const RawRecord&, std::uint64_t offset)>& on_record) const;
-  /// The same for the summary, of which files that are cut off have none.
+  /// The same for the summary. A truncated file has none.
   void summary(const std::function<void(const RawRecord&)>& on_record) const;
-  /// Calls `on_message` for each message, in the order of the file. The channel is valid as long as this.
+  /// Calls `on_message` for each message, in the order of the file. The channel is valid as long as this reader, the
+  /// message only during the call.
   void messages(const std::function<void(const Channel&, const Message&)>& on_message);
-  /// Known after messages().
+  /// The following are known after messages().
   const std::map<std::uint16_t, Schema>& schemas() const { return schemas_; }
   const std::map<std::uint16_t, Channel>& channels() const { return channels_; }
   const std::map<std::string, StringMap>& metadata() const { return metadata_; }
-  /// Whether the file ends as it should: with a footer.
+  /// Whether the file is complete: it ends with a footer.
   bool complete() const { return footer().has_value(); }
 
  private:

@@ -24,7 +24,7 @@ void set(Bytes& out, std::size_t at, std::uint64_t value, std::size_t bytes) {
   for (std::size_t i = 0; i < bytes; ++i) out[at + i] = static_cast<std::uint8_t>(value >> (8 * i));
 }
 
-/// Writes what `body` appends, and its length before it.
+/// Appends a length field, and then the bytes that `body` appends.
 template <class Length, class Body>
 void put_sized(Bytes& out, Body body) {
   const std::size_t at = out.size();
@@ -57,7 +57,7 @@ void put(Bytes& out, const std::map<std::uint16_t, std::uint64_t>& map) {
   });
 }
 
-/// Takes values off the front; after the first that is not there, nothing is any more.
+/// Reads values from the front of the bytes. After an incomplete value, good() is false and all values are empty.
 class Parser {
  public:
   explicit Parser(ByteView bytes) : left_(bytes) {}

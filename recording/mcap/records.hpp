@@ -1,7 +1,7 @@
 // The records of an MCAP file (https://mcap.dev/spec), version 0: a container of timestamped messages which Foxglove's
-// family of viewers and ROS 2 tools open. Numbers little-endian, strings and maps with their length in bytes before
-// them. Times in nanoseconds; here: of simulated time.
-// All functions are pure. Parsing trusts nothing: what is too short or contradicts itself is no record.
+// family of viewers and ROS 2 tools open. Numbers are little-endian; strings and maps follow their length in bytes.
+// Times are in nanoseconds; here: of simulated time.
+// All functions are pure. Parsing trusts no input: it rejects data that are too short or inconsistent.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ using Bytes = std::vector<std::uint8_t>;
 using ByteView = std::span<const std::uint8_t>;
 using StringMap = std::map<std::string, std::string>;
 
-/// At both ends of a file.
+/// First and last bytes of a file.
 inline constexpr std::uint8_t kMagic[8] = {0x89, 'M', 'C', 'A', 'P', '0', '\r', '\n'};
 
 enum class Opcode : std::uint8_t {
@@ -37,16 +37,16 @@ enum class Opcode : std::uint8_t {
   data_end = 0x0F,
 };
 
-/// Opcode and length of the content, before each record.
+/// Bytes before the content of each record: the opcode and the content's length.
 inline constexpr std::size_t kRecordHead = 9;
 
 struct Header {
   std::string profile, library;
 };
 
-/// Where the summary begins; it ends the file but for the magic. 0: there is none.
+/// The last record of a file; only the magic follows.
 struct Footer {
-  std::uint64_t summary_start = 0, summary_offset_start = 0;
+  std::uint64_t summary_start = 0, summary_offset_start = 0;  ///< offsets in the file [bytes]; 0: there is no summary
   std::uint32_t summary_crc = 0;  ///< over the summary and this record up to here; 0: not computed
 };
 
@@ -70,7 +70,7 @@ struct Message {
   std::uint16_t channel_id = 0;
   std::uint32_t sequence = 0;
   std::uint64_t log_time = 0, publish_time = 0;
-  ByteView data;  ///< of the record that it was read from
+  ByteView data;  ///< a view of the record from which it was read
 };
 
 struct Chunk {
@@ -78,10 +78,10 @@ struct Chunk {
   std::uint64_t uncompressed_size = 0;
   std::uint32_t uncompressed_crc = 0;  ///< 0: not computed
   std::string compression;             ///< "zstd", or "" for none
-  ByteView records;                    ///< of the record that it was read from
+  ByteView records;                    ///< compressed; a view of the record from which it was read
 };
 
-/// Where a channel's messages are in the chunk before it: time and offset in the uncompressed records.
+/// Where a channel's messages are in the chunk before this record: time, and offset in the uncompressed records.
 struct MessageIndex {
   std::uint16_t channel_id = 0;
   std::vector<std::pair<std::uint64_t, std::uint64_t>> entries;
@@ -90,10 +90,10 @@ struct MessageIndex {
 struct ChunkIndex {
   std::uint64_t start_time = 0, end_time = 0;
   std::uint64_t offset = 0, length = 0;                    ///< of the chunk's record in the file
-  std::map<std::uint16_t, std::uint64_t> message_indexes;  ///< by channel: where its MessageIndex is
-  std::uint64_t message_indexes_length = 0;                ///< in bytes, of all of them
+  std::map<std::uint16_t, std::uint64_t> message_indexes;  ///< by channel: offset of its MessageIndex in the file
+  std::uint64_t message_indexes_length = 0;                ///< of all MessageIndex records together [bytes]
   std::string compression;
-  std::uint64_t compressed_size = 0, uncompressed_size = 0;  ///< of its records
+  std::uint64_t compressed_size = 0, uncompressed_size = 0;  ///< of the chunk's records [bytes]
 };
 
 struct Statistics {
@@ -119,7 +119,7 @@ struct SummaryOffset {
   std::uint64_t start = 0, length = 0;
 };
 
-/// Each appends one whole record to `out`.
+/// Each append() appends one complete record to `out`.
 void append(Bytes& out, const Header& record);
 void append(Bytes& out, const Footer& record);
 void append(Bytes& out, const Schema& record);
@@ -134,16 +134,16 @@ void append(Bytes& out, const MetadataIndex& record);
 void append(Bytes& out, const SummaryOffset& record);
 void append_data_end(Bytes& out, std::uint32_t data_section_crc);
 
-/// A record as it stands in a file; its content is not looked into.
+/// A record with unparsed content.
 struct RawRecord {
   Opcode opcode = Opcode::header;
   ByteView content;
 };
 
-/// Takes the first record off `bytes`. @returns nullopt when no whole record is there; `bytes` is then as before.
+/// Removes the first record from `bytes`. @returns nullopt if there is no complete record; `bytes` is then unchanged.
 std::optional<RawRecord> take_record(ByteView& bytes);
 
-/// nullopt: the content is not that of such a record.
+/// Each parse function returns nullopt if the content is not that of such a record.
 std::optional<Footer> parse_footer(ByteView content);
 std::optional<Schema> parse_schema(ByteView content);
 std::optional<Channel> parse_channel(ByteView content);
@@ -152,7 +152,7 @@ std::optional<Chunk> parse_chunk(ByteView content);
 std::optional<MessageIndex> parse_message_index(ByteView content);
 std::optional<Metadata> parse_metadata(ByteView content);
 
-/// Of the bytes so far and those that follow (CRC-32 as in zlib); 0 to begin with.
+/// CRC-32 (as in zlib) of the earlier bytes and `bytes`. @param so_far  CRC-32 of the earlier bytes; 0: there are none.
 std::uint32_t crc_of(ByteView bytes, std::uint32_t so_far = 0);
 
 }  // namespace skein::mcap

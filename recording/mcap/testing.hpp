@@ -53,7 +53,7 @@ inline std::vector<Said> read_all(const std::filesystem::path& file) {
   return messages;
 }
 
-/// A folder of its own, gone with the test.
+/// Provides a temporary folder, which is removed after the test.
 class McapFiles : public testing::Test {
  protected:
   McapFiles() {

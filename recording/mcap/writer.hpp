@@ -1,6 +1,6 @@
-// Writes an MCAP file: messages in compressed chunks with an index and checksums, a summary at the end. A file that is
-// cut off has all chunks that it holds whole; flush() ends one early. Of the same calls come the same bytes.
-// Not thread-safe. A disk that refuses ends the file, never the program (output.hpp).
+// Writes an MCAP file: messages in compressed chunks, with message indexes and checksums, and a summary at the end. All
+// complete chunks of a truncated file can be read; flush() ends a chunk early. The same calls give the same bytes.
+// Not thread-safe. A write error ends the file, never the program (output.hpp).
 #pragma once
 
 #include <filesystem>
@@ -13,24 +13,24 @@
 namespace skein::mcap {
 
 struct WriterOptions {
-  std::size_t chunk_bytes = 1 << 20;        ///< before compression, at least; a single message may be larger
-  std::uint64_t chunk_ns = 10'000'000'000;  ///< no chunk has messages of two such windows of time
+  std::size_t chunk_bytes = 1 << 20;        ///< uncompressed size from which on a chunk ends
+  std::uint64_t chunk_ns = 10'000'000'000;  ///< length of time windows; all messages of a chunk are in one window
   int zstd_level = 1;                       ///< [1, 19]
-  std::uint16_t first_id = 1;               ///< of schemas and of channels: parts that are joined have different ones
+  std::uint16_t first_id = 1;               ///< of schemas and of channels; parts to be joined need different ids
   std::uint16_t last_id = 65'535;
 };
 
-/// What the data section of a file says about itself, for its summary.
+/// Collects what the summary of a file contains about its data section.
 class Summary {
  public:
   void add(const Schema& schema) { schemas_.emplace(schema.id, schema); }
   void add(const Channel& channel) { channels_.emplace(channel.id, channel); }
-  /// A chunk that stands at `index.offset`, with the indexes of its messages.
+  /// Adds a chunk. @param index  with the chunk's offset in the file. @param messages  its message indexes.
   void add(ChunkIndex index, const std::vector<MessageIndex>& messages);
   void add(const MetadataIndex& metadata) { metadata_.push_back(metadata); }
   const std::map<std::uint16_t, Schema>& schemas() const { return schemas_; }
   const std::map<std::uint16_t, Channel>& channels() const { return channels_; }
-  /// All that follows the data section: DataEnd, the summary, the footer and the magic.
+  /// Writes everything after the data section: DataEnd, the summary, the footer and the magic.
   void write(Output& out) const;
 
  private:
@@ -41,29 +41,30 @@ class Summary {
   Statistics statistics_;
 };
 
-/// The magic and the header of a file of Skein's: profile "ros2".
+/// Writes the magic and Skein's header, with the profile "ros2".
 void write_head(Output& out);
-/// A Metadata record, and its entry in the summary.
+/// Writes a Metadata record, and adds it to the summary.
 void write_metadata(Output& out, Summary& summary, const Metadata& metadata);
 
 class Writer {
  public:
-  /// @throws std::system_error, with the file's name, when it cannot be opened.
+  /// @throws std::system_error, with the file's name, if it cannot be opened.
   explicit Writer(const std::filesystem::path& file, const WriterOptions& options = {});
   ~Writer() { close(); }
   Writer(const Writer&) = delete;
   Writer& operator=(const Writer&) = delete;
 
-  /// @returns the channel of this topic: a new one for each call. @throws std::length_error when all ids are used up.
-  /// @param schema_name  empty: nobody knows what its messages are. @param metadata  of the channel, for other tools.
+  /// Adds a channel for a topic; each call adds another one. @returns its id.
+  /// @param schema_name  message type; empty: unknown. @param metadata  of the channel, for other tools.
+  /// @throws std::length_error if all ids are used up.
   std::uint16_t add_channel(const std::string& topic, const std::string& schema_name, const std::string& definition,
                             const StringMap& metadata = {});
-  /// @param time  of the message [ns]. Times need not rise. @param sequence  its number at its source.
+  /// Adds a message. @param time  of the message [ns]; need not be ascending. @param sequence  number at its source.
   void write(std::uint16_t channel, std::uint64_t time, ByteView data, std::uint32_t sequence = 0);
   void write_metadata(const Metadata& metadata);
-  /// Ends the chunk: what has been written is safe from the death of this process.
+  /// Ends the chunk: all messages so far survive a crash of this process.
   void flush();
-  /// Writes the summary; nothing may follow. The destructor does it, too.
+  /// Writes the summary; no other call may follow. The destructor does it, too.
   void close();
   const std::string& trouble() const { return out_.trouble(); }
 
@@ -72,8 +73,8 @@ class Writer {
   Output out_;
   Summary summary_;
   std::map<std::string, std::uint16_t> schema_ids_;       ///< by name
-  std::set<std::uint16_t> told_schemas_, told_channels_;  ///< whose records stand in the file
-  Bytes chunk_;                                           ///< records, not compressed yet
+  std::set<std::uint16_t> told_schemas_, told_channels_;  ///< ids whose records are in the file or in `chunk_`
+  Bytes chunk_;                                           ///< uncompressed records of the chunk
   std::map<std::uint16_t, MessageIndex> chunk_messages_;
   std::uint64_t start_time_ = 0, end_time_ = 0;  ///< of the chunk's messages
   bool closed_ = false;

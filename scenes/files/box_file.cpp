@@ -13,16 +13,16 @@
 namespace skein::sim {
 namespace {
 
-/// How far the columns may be from orthonormal: files carry float precision.
+/// Greatest accepted deviation of the columns from orthonormal: files have single precision.
 constexpr double kOrthogonalWithin = 1e-3;
-/// Up to here the difference is rounding, and there is nothing to mend.
+/// Up to this deviation the columns are orthonormal except for rounding errors, and are not changed.
 constexpr double kRounding = 1e-14;
 
 double distance_from_orthonormal(const Matrix3d& R) {
   return (R.transpose() * R - Matrix3d::Identity()).cwiseAbs().maxCoeff();
 }
 
-/// What is wrong with a matrix that should be a rotation; empty when it is one.
+/// Why a matrix is not a rotation; empty if it is one.
 std::string rotation_complaint(const Matrix3d& R) {
   if (distance_from_orthonormal(R) > kOrthogonalWithin) {
     return fmt::format(

@@ -1,4 +1,4 @@
-// What a scene may have at most. Files with more are refused before memory is taken for it.
+// Upper limits for scenes. Files that exceed them are refused before memory is allocated.
 #pragma once
 
 #include <cstddef>
@@ -10,14 +10,15 @@
 
 namespace skein::sim {
 
-/// Of all meshes together. Bullet's search tree numbers triangles with 21 bits; this is 30 times the benchmark's
-/// largest scene. docs/scenarios.md says what such a scene costs.
+/// For all meshes together. Bullet's search tree has 21 bits for the index of a triangle; the limit is 30 times the
+/// benchmark's largest scene. For the cost of such a scene see docs/scenarios.md.
 inline constexpr std::size_t kMostTriangles = 2'000'000;
 inline constexpr std::uintmax_t kMostBytes = 512u << 20;  ///< of one file; ASCII triangles have 268 each
 inline constexpr std::size_t kMostPoints = 5'000'000;     ///< of one file
-/// Of a vertex, point or box, in x, y and z [m]: there, single precision still resolves 8 mm.
+/// Greatest magnitude of a coordinate of a vertex, point or box [m]: single precision still resolves 8 mm there.
 inline constexpr float kFarthest = 1e5F;
 
+/// @throws InputError with the file's name and the reason.
 [[noreturn]] inline void refuse(const std::filesystem::path& file, const std::string& why) {
   throw InputError(file.string() + ": " + why);
 }

@@ -1,6 +1,6 @@
-// Assimp reads the triangles, but takes an ASCII file as it comes, with commas and numbers that overflow, and looks for
-// byte order marks and colours in the head of a binary one. So the form of a file is checked here, and Assimp sees one
-// of the plainest form.
+// Assimp reads the triangles. But it accepts malformed ASCII files, for example with commas and numbers that overflow,
+// and looks for byte order marks and colours in the header of binary files. So this file checks the format first, and
+// gives Assimp a file in the simplest form.
 #include "scenes/files/mesh_file.hpp"
 
 #include <assimp/scene.h>
@@ -24,14 +24,14 @@ namespace {
 
 constexpr std::size_t kBinaryHead = 84;      ///< 80 bytes of text, the number of triangles
 constexpr std::size_t kBinaryTriangle = 50;  ///< normal, three vertices, two bytes of attributes
-constexpr std::size_t kAttributes = 48;      ///< bytes before them in a triangle
+constexpr std::size_t kAttributes = 48;      ///< offset of the attributes in a triangle
 
 [[noreturn]] void refuse_count(const std::filesystem::path& file, const std::string& triangles) {
   refuse(file, "has " + triangles + " than the " + std::to_string(kMostTriangles) +
                    " triangles that are accepted; simplify the mesh");
 }
 
-/// Triangles that the head of a binary STL promises.
+/// Number of triangles according to the header of a binary STL.
 std::size_t promised_triangles(std::string_view bytes) {
   std::uint32_t count = 0;
   std::memcpy(&count, bytes.data() + kBinaryHead - sizeof count, sizeof count);
@@ -40,7 +40,7 @@ std::size_t promised_triangles(std::string_view bytes) {
 
 std::size_t binary_size(std::size_t triangles) { return kBinaryHead + kBinaryTriangle * triangles; }
 
-/// A file far beyond the limit is refused by its head, before it is read.
+/// Refuses a file with too many triangles after reading its header only.
 void refuse_huge_binary(const std::filesystem::path& file) {
   std::error_code ignored;
   std::array<char, kBinaryHead> head{};
@@ -65,13 +65,13 @@ void check_vertex(const std::filesystem::path& file, std::size_t triangle, const
   }
 }
 
-/// A file in the form that Assimp reads without surprises.
+/// A file in the simplest form, which Assimp reads reliably.
 struct PlainStl {
   std::string bytes;
   std::size_t triangles = 0;
 };
 
-/// Blank head, no attributes.
+/// The binary file with a blank header and without attributes.
 PlainStl plain_binary(const std::filesystem::path& file, std::string bytes) {
   const std::size_t count = promised_triangles(bytes);
   check_count(file, count);
@@ -84,12 +84,14 @@ PlainStl plain_binary(const std::filesystem::path& file, std::string bytes) {
 
 bool is_space(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 
-/// An ASCII STL, word by word. Keywords in any case; what follows "solid" and "endsolid" on their line is a name.
+/// Parses an ASCII STL word by word. Keywords may have any case; the rest of a line after "solid" or "endsolid" is a
+/// name, and is ignored.
 class AsciiStl {
  public:
   AsciiStl(const std::filesystem::path& file, std::string_view text) : file_(file), text_(text) {}
 
-  /// One solid without a name, without normals, lower case; numbers as short as they can be without an exponent.
+  /// The file as one solid without a name, in lower case, with zero normals, and with the shortest numbers without an
+  /// exponent.
   PlainStl plain() {
     PlainStl stl{"solid\n", 0};
     bool inside = false;
@@ -117,7 +119,7 @@ class AsciiStl {
   void read_facet(PlainStl& stl) {
     expect("normal");
     for (int axis = 0; axis < 3; ++axis) {
-      if (next().empty()) wrong("a number", {});  // its value does not matter, nor whether it is "nan"
+      if (next().empty()) wrong("a number", {});  // any word is accepted, even "nan": normals are ignored
     }
     expect("outer");
     expect("loop");
@@ -138,7 +140,7 @@ class AsciiStl {
   }
 
   static void append(std::string& text, float number) {
-    std::array<char, 80> digits{};  // the smallest number has 46 characters
+    std::array<char, 80> digits{};  // the longest number has fewer characters
     const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), number, std::chars_format::fixed);
     text.append(" ").append(digits.data(), end.ptr);
   }
@@ -171,7 +173,7 @@ class AsciiStl {
     const char* const end = digits.data() + digits.size();
     float value = 0.0F;
     auto result = std::from_chars(digits.data(), end, value);
-    if (result.ec == std::errc::result_out_of_range) {  // too small for a float is 0, too large is not finite
+    if (result.ec == std::errc::result_out_of_range) {  // a number too small for a float becomes 0, too large: infinity
       double wide = 0.0;
       result = std::from_chars(digits.data(), end, wide);
       value = static_cast<float>(wide);
@@ -208,7 +210,7 @@ PlainStl read_plain(const std::filesystem::path& file) {
   refuse_huge_binary(file);
   std::string bytes = read_file_bytes(file, kMostBytes);
   if (bytes.empty()) refuse(file, "empty; an STL file is needed");
-  // Binary files may begin with "solid" too: the length tells.
+  // Binary files may begin with "solid", too: the size of the file decides.
   if (bytes.size() >= kBinaryHead && bytes.size() == binary_size(promised_triangles(bytes))) {
     return plain_binary(file, std::move(bytes));
   }

@@ -8,12 +8,12 @@
 
 namespace skein::sim {
 
-/// @param file STL, binary or ASCII, by content. Normals are ignored (the benchmark's are zero). ASCII numbers are
-///   read to one unit in the last place.
-/// @returns all triangles in the file's order, three vertices each, not shared. Triangles without area stay, so that
-///   the others keep their numbers: no ray meets them, but a body may touch their edges.
-/// @throws InputError naming the file and what is wrong: missing, no STL, truncated, no triangles, more than
-///   kMostTriangles, or a vertex that is not finite or farther than kFarthest.
+/// @param file STL, binary or ASCII, detected by its content. Normals are ignored (the benchmark's are zero). ASCII
+///   numbers are exact to one unit in the last place.
+/// @returns all triangles in the file's order, with three vertices each, which are not shared. Triangles without area
+///   stay, so that the indices of the others do not change: no ray hits them, but a body may touch their edges.
+/// @throws InputError with the file and the error: missing, not STL, truncated, no triangles, more than kMostTriangles,
+///   or a vertex that is not finite or has a coordinate beyond kFarthest.
 TriangleMesh read_mesh(const std::filesystem::path& file);
 
 /// The mesh as a binary STL: read_mesh() gives the same triangles, bit for bit and in the same order.

@@ -29,7 +29,7 @@ struct PcdHeader {
   std::size_t bytes_per_point() const;
 };
 
-/// @param file   for messages.   @param bytes  the whole file, or at least its header.
+/// @param file   for error messages.   @param bytes  the whole file, or at least its header.
 /// @throws InputError with file, line and key: no PCD header; a line unknown, repeated or missing; inconsistent
 ///   numbers; no points, or more than kMostPoints. No memory is allocated according to numbers in the header.
 PcdHeader parse_pcd_header(const std::filesystem::path& file, std::string_view bytes);

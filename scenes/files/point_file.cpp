@@ -1,5 +1,5 @@
-// Read here and not by PCL, whose pcl_io brings VTK and 250 MB of packages to every program that links it. A test holds
-// the two against each other (docs/decisions/0015-point-files-and-packages.md).
+// A PCD reader without PCL: pcl_io would bring VTK and 250 MB of packages to every program that links it. A test
+// compares the two (docs/decisions/0015-point-files-and-packages.md).
 #include "scenes/files/point_file.hpp"
 
 #include <lzf.h>
@@ -21,16 +21,16 @@ namespace skein::sim {
 namespace {
 
 constexpr std::array<const char*, 6> kNumbers = {"x", "y", "z", "normal_x", "normal_y", "normal_z"};
-/// The most that LZF can pack into one byte: a reference of three bytes stands for 264.
+/// Greatest compression ratio of LZF: a reference of three bytes stands for up to 264 bytes.
 constexpr std::size_t kLzfBestRatio = 88;
 
 using Numbers = std::array<float, kNumbers.size()>;  ///< of one point, in the order of kNumbers
 
-/// Where a point's data have one of its numbers.
+/// Position of one of the numbers in the data of a point.
 struct Place {
-  std::size_t element = 0;  ///< of an ASCII line
-  std::size_t byte = 0;
-  std::size_t size = 0;  ///< bytes: a float or a double
+  std::size_t element = 0;  ///< index in an ASCII line
+  std::size_t byte = 0;     ///< offset in binary data
+  std::size_t size = 0;     ///< bytes: 4 (float) or 8 (double)
 };
 using Places = std::array<Place, kNumbers.size()>;
 
@@ -55,7 +55,7 @@ void check_binary(const std::filesystem::path& file, const PcdHeader& header, st
   }
 }
 
-/// @param header  loses its padding when the data have none.
+/// @param header  its padding fields are removed if the data contain no padding.
 void check_packed(const std::filesystem::path& file, PcdHeader& header, std::string_view data) {
   std::array<std::uint32_t, 2> sizes{};  // packed, unpacked
   if (data.size() < sizeof sizes) refuse(file, "truncated: the sizes of the compressed data are missing");
@@ -64,7 +64,7 @@ void check_packed(const std::filesystem::path& file, PcdHeader& header, std::str
     refuse(file, "truncated: " + std::to_string(sizes[0]) + " bytes of compressed data are needed, " +
                      std::to_string(data.size() - sizeof sizes) + " are there");
   }
-  // PCL's writer names padding in the header and leaves it out of the data; others may not.
+  // PCL's writer lists padding in the header but leaves it out of the data; other writers may include it.
   const std::size_t with_padding = header.points * header.bytes_per_point();
   if (sizes[1] != with_padding) std::erase_if(header.fields, [](const PcdField& field) { return field.name == "_"; });
   if (sizes[1] != header.points * header.bytes_per_point()) {
@@ -74,7 +74,7 @@ void check_packed(const std::filesystem::path& file, PcdHeader& header, std::str
   if (sizes[1] > kLzfBestRatio * sizes[0]) refuse(file, "malformed: the data do not unpack");
 }
 
-/// @param header  that check_fields() has seen.
+/// @param header  checked by check_fields().
 Places places_of(const PcdHeader& header) {
   Places places;
   std::size_t element = 0, byte = 0;
@@ -87,7 +87,8 @@ Places places_of(const PcdHeader& header) {
   return places;
 }
 
-/// ASCII: one line a point, nothing but numbers; lines may be blank. Numbers become floats by way of double, as in PCL.
+/// Reads ASCII data: one line per point, with numbers only; lines may be blank. Numbers are parsed as double and then
+/// rounded to float, as in PCL.
 class AsciiPoints {
  public:
   AsciiPoints(const std::filesystem::path& file, const PcdHeader& header)
@@ -113,7 +114,7 @@ class AsciiPoints {
   }
 
  private:
-  /// @returns whether there is a point on it.
+  /// @returns whether the line has a point (false: it is blank).
   bool read_line(std::string_view line, Numbers& numbers) const {
     static constexpr std::string_view kSpace = " \t\r";
     std::size_t words = 0;
@@ -147,12 +148,12 @@ class AsciiPoints {
   }
 
   const std::filesystem::path& file_;
-  const std::size_t expected_;                      // points
-  std::vector<std::optional<std::size_t>> wanted_;  // which of kNumbers an element of a line is
+  const std::size_t expected_;                      // number of points
+  std::vector<std::optional<std::size_t>> wanted_;  // by element of a line: its index in kNumbers
   int line_;
 };
 
-/// @param data  that check_packed() has seen.
+/// @param data  checked by check_packed().
 std::string unpack(const std::filesystem::path& file, std::string_view data) {
   std::array<std::uint32_t, 2> sizes{};
   std::memcpy(sizes.data(), data.data(), sizeof sizes);
@@ -174,8 +175,8 @@ float number_at(const char* bytes, std::size_t size) {
   return static_cast<float>(wide);
 }
 
-/// @param data  of the size that the header says.   @param by_field  a field of all points and then the next field, as
-///   packed data are; else a point and then the next point.
+/// @param data  with the size that the header demands.   @param by_field  true: the data are ordered by field and then
+///   by point (binary_compressed); false: by point and then by field.
 std::vector<Numbers> read_binary(const PcdHeader& header, std::string_view data, bool by_field) {
   const Places places = places_of(header);
   std::vector<Numbers> points(header.points);
@@ -188,7 +189,7 @@ std::vector<Numbers> read_binary(const PcdHeader& header, std::string_view data,
   return points;
 }
 
-/// @param data  what follows the header.
+/// @param data  the part of the file after the header.
 std::vector<Numbers> read_data(const std::filesystem::path& file, PcdHeader header, std::string_view data) {
   check_fields(file, header);
   if (header.data == "ascii") return AsciiPoints(file, header).read(data);

@@ -1,4 +1,4 @@
-// For the tests of the file readers: a folder that goes away again. Not part of any program.
+// A temporary folder for the tests of the file readers. Not part of any program.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ class ScratchFiles : public ::testing::Test {
     return folder_ / name;
   }
 
-  /// What `read` has against the file; "accepted" when nothing.
+  /// The message of the InputError with which `read` refuses the file; "accepted" if there is none.
   static std::string complaint(const std::function<void(const std::filesystem::path&)>& read,
                                const std::filesystem::path& file) {
     try {

@@ -1,5 +1,5 @@
-// Whether a drawn world can be flown at all: every start has a way out for its vehicle, and a good part of the points
-// can be reached, seen and delivered in the time there is, by straight lines with an allowance.
+// Whether a mission is possible in a drawn world: every start has a way out, and UAVs can reach and photograph a
+// sufficient share of the points and deliver the pictures in time, estimated with straight lines and an allowance.
 // Frame W.   Units: m, s.   Depends on nothing but its arguments.
 #pragma once
 
@@ -8,10 +8,11 @@
 
 namespace skein::sim::wild {
 
-/// By the oracle's free space (open_space.hpp) with a berth in which every vehicle fits: each start hangs together with
-/// the open sky, the station can be seen from there, and of some 160 points at least a third have a place there from
-/// which the first UAV's camera at 0.85 d* or nearer sees them, so near to any UAV's start and to a place that sees the
-/// station that 1.5 times the straight lines take less than half of the mission. docs/wild.md says what it leaves out.
+/// Uses the oracle's open space (open_space.hpp) with a clearance with which every vehicle fits. Each start must be
+/// connected to it. At least five places in it must have line of sight to the station, which must not be enclosed. Of
+/// some 160 points or more, a third must have a viewpoint in it with line of sight, at 0.85 d* (of the first UAV's
+/// camera) or nearer. From a start to the viewpoint and on to a place with line of sight to the station, 1.5 times the
+/// straight lines at 4 m/s plus 25 s must take less than half of the mission. Not considered: see docs/wild.md.
 bool is_flyable(const Scenario& scenario, const Scene& scene);
 
 }  // namespace skein::sim::wild

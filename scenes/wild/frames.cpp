@@ -8,7 +8,7 @@
 namespace skein::sim::wild {
 namespace {
 
-constexpr double kThinnest = 0.05;  ///< members and cables
+constexpr double kThinnest = 0.05;  ///< least thickness of members and cables
 
 /// Columns and beams on a grid, with some floors and some diagonals.
 void add_frame(MeshBuilder& builder, const Isometry3d& X_WS, const Vector3d& size, RandomStream& random) {
@@ -126,7 +126,7 @@ void add_ship(MeshBuilder& builder, const Isometry3d& X_WS, const Vector3d& size
               {0.12, kThinnest, false});
 }
 
-/// A deck on piers; stays of 5 cm and more from pylons, or an arch below.
+/// A deck on piers, sometimes with stays from pylons.
 void add_bridge(MeshBuilder& builder, const Isometry3d& X_WS, const Vector3d& size, RandomStream& random) {
   const double deck = random.uniform(0.35, 0.6) * size.z(), thick = random.uniform(0.5, 1.2);
   const bool stayed = random.uniform() < 0.6;

@@ -1,6 +1,6 @@
-// What stands in wild scenes: structures of ten kinds, and clutter. Each is drawn anew, from its own stream.
-// Frames: W world; S of a structure, its origin on the ground in the middle of its footprint, z up, x along it.
-// Units: m.   Pure but for the stream.
+// The objects of wild scenes: structures of eleven kinds, and clutter. All shapes are random.
+// Frames: W world; S of a structure: origin on the ground in the middle of its footprint, z up, x along it.
+// Units: m.   Pure except for the stream.
 #pragma once
 
 #include <span>
@@ -10,28 +10,28 @@
 
 namespace skein::sim::wild {
 
-/// @param size  that the structure is to have along the axes of S; some parts reach a little beyond.
+/// Appends a structure. @param size  along the axes of S; some parts may reach a little beyond.
 using AddStructure = void (*)(MeshBuilder& builder, const Isometry3d& X_WS, const Vector3d& size, RandomStream& random);
 
 struct Kind {
   const char* name;
   AddStructure add;
-  Vector3d least, most;  ///< of its proportions, length : width : height
+  Vector3d least, most;  ///< limits of its proportions, length : width : height
 };
 
-/// Slabs with slots and arches, towers, stepped and leaning blocks, shells, tanks with pipes.
+/// Slabs with slots and windows, towers, stepped and leaning blocks, shells, tanks with pipes.
 std::span<const Kind> solid_kinds();
 /// Frames, lattices, roofs on columns, ships, bridges.
 std::span<const Kind> open_kinds();
 
 void add_tree(MeshBuilder& builder, const Vector2d& p_W, double height, RandomStream& random);
-/// Two poles with one to three cables between them, which sag.
+/// Two poles with one to three sagging cables between them.
 void add_cables(MeshBuilder& builder, const Vector2d& from_W, const Vector2d& to_W, double height,
                 RandomStream& random);
-/// A plate on four posts, open to all sides.
+/// A plate on four posts, open on all sides.
 void add_canopy(MeshBuilder& builder, const Isometry3d& X_WS, const Vector3d& size, RandomStream& random);
 
-/// A whole number from `least` to `most`.
+/// A random integer from `least` to `most`, both included.
 inline int draw_count(RandomStream& random, int least, int most) {
   return least + static_cast<int>(random.uniform() * (most - least + 1));
 }

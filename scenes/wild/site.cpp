@@ -11,17 +11,17 @@
 namespace skein::sim::wild {
 namespace {
 
-constexpr double kAreaRate = 0.35;  ///< of surface [m2] that a UAV does in a second, by metre of d*
+constexpr double kAreaRate = 0.35;  ///< surface [m2] that a UAV inspects per second, and per metre of d*
 constexpr double kLeastArea = 300.0, kMostArea = 14000.0;
-constexpr double kLeastPart = 120.0;  ///< of one structure
-constexpr double kOpenness = 1.6;     ///< a frame of some size has less surface than a block
+constexpr double kLeastPart = 120.0;  ///< mean area per structure, at least
+constexpr double kOpenness = 1.6;  ///< factor for open structures, which have less surface than a block of their size
 constexpr double kShortest = 2.0, kLongest = 90.0, kHighest = 80.0;
 constexpr std::size_t kMostBoxes = 15;
 
 Vector2d heading_vector(double heading) { return {std::cos(heading), std::sin(heading)}; }
 double draw_heading(RandomStream& random) { return random.uniform(-std::numbers::pi, std::numbers::pi); }
 
-/// The size of a structure of a kind that has about this surface.
+/// Size of a structure of this kind with about this surface area.
 Vector3d draw_size(const Kind& kind, double area, RandomStream& random) {
   Vector3d size;
   for (int axis = 0; axis < 3; ++axis) size[axis] = random.uniform(kind.least[axis], kind.most[axis]);
@@ -30,7 +30,7 @@ Vector3d draw_size(const Kind& kind, double area, RandomStream& random) {
   return size.cwiseMax(kShortest).cwiseMin(Vector3d(kLongest, kLongest, kHighest));
 }
 
-/// Beside what stands already, at a gap that may be none.
+/// A place beside an existing structure; the gap may be negative, so that the two overlap.
 Vector2d draw_place(const std::vector<Standing>& others, double radius, RandomStream& random) {
   if (others.empty()) return {random.uniform(-30.0, 40.0), random.uniform(-30.0, 40.0)};
   const Standing& near = others[static_cast<std::size_t>(random.uniform() * static_cast<double>(others.size()))];
@@ -43,7 +43,7 @@ Vector2d draw_place(const std::vector<Standing>& others, double radius, RandomSt
   return place;
 }
 
-/// Two of one, across its longest edge, which may overlap.
+/// Splits a box across its longest edge into two boxes, which may overlap.
 std::vector<OrientedBox> split(const OrientedBox& box, RandomStream& random) {
   Eigen::Index axis = 0;
   const double length = box.size.maxCoeff(&axis), share = random.uniform(0.3, 0.7);
@@ -70,7 +70,7 @@ std::vector<OrientedBox> boxes_of(const Standing& structure, RandomStream& rando
     return {box};
   }
   if (kind < 0.85) return split(box, random);
-  const double cut = random.uniform(0.2, 0.5) * box.size.z();  // its upper part alone
+  const double cut = random.uniform(0.2, 0.5) * box.size.z();  // only the upper part of the box remains
   box.center += 0.5 * cut * box.R_WO.col(2);
   box.size.z() -= cut;
   return {box};
@@ -82,7 +82,7 @@ TriangleMesh joined_mesh(const std::vector<Standing>& structures) {
   return all;
 }
 
-/// A box that hangs over all starts and reaches to the highest structure, from some metres above the ground.
+/// A box above all starts and around the upper part of the highest structure; it begins some metres above the ground.
 OrientedBox hanging_box(const std::vector<Standing>& structures, const std::vector<Vector2d>& starts,
                         RandomStream& random) {
   const Standing& high = *std::ranges::max_element(structures, {}, &Standing::height);
@@ -118,7 +118,7 @@ Task draw_task(const Dice& dice, bool blind) {
   const bool any = random.uniform() < 0.15;
   const int explorers = draw_count(random, 1, any ? uavs : (uavs + 1) / 2);
   for (int i = 0; i < uavs; ++i) task.fleet.push_back(!blind && i < explorers ? Role::explorer : Role::photographer);
-  if (random.uniform() < 0.3) {  // whoever comes first
+  if (random.uniform() < 0.3) {  // shuffle the fleet
     for (std::size_t i = task.fleet.size(); i > 1; --i) {
       std::swap(task.fleet[i - 1], task.fleet[static_cast<std::size_t>(random.uniform() * static_cast<double>(i))]);
     }

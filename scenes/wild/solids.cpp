@@ -14,7 +14,7 @@ void add_block(MeshBuilder& builder, const Isometry3d& X_WS, const Vector3d& low
   builder.add_box(X_WS * Eigen::Translation3d(0.5 * (low + high)), high - low);
 }
 
-/// A wall of piers; between two of them a slot, a window or an arch, and sometimes a deck that hangs over.
+/// A wall of piers, with slots or windows between them, and sometimes an overhanging deck.
 void add_slab(MeshBuilder& builder, const Isometry3d& X_WS, const Vector3d& size, RandomStream& random) {
   const int bays = std::max(2, static_cast<int>(size.x() / random.uniform(4.0, 9.0)));
   const double bay = size.x() / bays, pier = bay * random.uniform(0.3, 0.65), half = 0.5 * size.y();
@@ -35,7 +35,7 @@ void add_slab(MeshBuilder& builder, const Isometry3d& X_WS, const Vector3d& size
   }
 }
 
-/// Tapered and twisted, with belts, and a head that is wider than its neck.
+/// A tapered and twisted tower with belts, and sometimes a head that is wider than its neck.
 void add_tower(MeshBuilder& builder, const Isometry3d& X_WS, const Vector3d& size, RandomStream& random) {
   const int corners = draw_count(random, 4, 9), rings = 7;
   const double taper = random.uniform(0.45, 1.0), twist = random.uniform(-0.6, 0.6);
@@ -61,7 +61,7 @@ void add_tower(MeshBuilder& builder, const Isometry3d& X_WS, const Vector3d& siz
   }
 }
 
-/// Tiers, each moved aside and turned a little against the one below; upper ones may be larger.
+/// Tiers, each shifted and turned a little against the one below; upper tiers may be larger.
 void add_stepped(MeshBuilder& builder, const Isometry3d& X_WS, const Vector3d& size, RandomStream& random) {
   const int tiers = draw_count(random, 2, 5);
   const bool upside_down = random.uniform() < 0.25;
@@ -79,7 +79,7 @@ void add_stepped(MeshBuilder& builder, const Isometry3d& X_WS, const Vector3d& s
   }
 }
 
-/// A block whose top stands aside of its foot by up to a third of its height.
+/// A leaning block with belts: its top is shifted against its foot by up to a third of its height.
 void add_leaning(MeshBuilder& builder, const Isometry3d& X_WS, const Vector3d& size, RandomStream& random) {
   const double lean = random.uniform(0.1, 0.33) * size.z(), taper = random.uniform(0.5, 1.0);
   const double heading = random.uniform(-std::numbers::pi, std::numbers::pi);
@@ -104,7 +104,7 @@ void add_leaning(MeshBuilder& builder, const Isometry3d& X_WS, const Vector3d& s
   }
 }
 
-/// A vault that is open at both ends, sometimes with ribs.
+/// A vault that is open at both ends, sometimes with a partial wall across one end.
 void add_shell(MeshBuilder& builder, const Isometry3d& X_WS, const Vector3d& size, RandomStream& random) {
   constexpr int kRows = 15, kColumns = 9;
   const double thick = random.uniform(0.15, 0.5), sag = random.uniform(-0.25, 0.25);
@@ -123,7 +123,7 @@ void add_shell(MeshBuilder& builder, const Isometry3d& X_WS, const Vector3d& siz
     return rows;
   };
   builder.add_sheet(sheet(0.0), sheet(thick));
-  if (random.uniform() < 0.5) {  // a wall across one end, with a gate
+  if (random.uniform() < 0.5) {  // a wall across one end, with a gate in the middle
     const double gate = 0.2 * size.y();
     for (const double side : {-1.0, 1.0}) {
       const double a = side * gate, b = side * 0.42 * size.y();
@@ -133,7 +133,7 @@ void add_shell(MeshBuilder& builder, const Isometry3d& X_WS, const Vector3d& siz
   }
 }
 
-/// Tanks in a row or two, with pipes between them and along the ground.
+/// Tanks in a row, with pipes beside and between them, and a rack of pipes along one side.
 void add_tanks(MeshBuilder& builder, const Isometry3d& X_WS, const Vector3d& size, RandomStream& random) {
   const int count = std::clamp(static_cast<int>(size.x() / size.y()), 1, 4);
   const double room = size.x() / count;
@@ -160,7 +160,7 @@ void add_tanks(MeshBuilder& builder, const Isometry3d& X_WS, const Vector3d& siz
     }
   }
   const int rack = draw_count(random, 1, 4);
-  for (int p = 0; p < rack; ++p) {  // along one side, on the level
+  for (int p = 0; p < rack; ++p) {  // horizontal, along one side
     const double z = random.uniform(0.6, 4.0), radius = random.uniform(0.05, 0.3), y = 0.5 * size.y() + 0.5 + 0.7 * p;
     builder.add_cylinder(X_WS * Vector3d(-0.5 * size.x(), y, z), X_WS * Vector3d(0.5 * size.x(), y, z), radius, 8);
   }

@@ -8,9 +8,9 @@
 namespace skein::sim::wild {
 namespace {
 
-constexpr double kRoom = 0.35;     ///< around a body that stands at its start
-constexpr double kHeadroom = 4.5;  ///< above it
-constexpr int kTries = 300;        ///< for one place
+constexpr double kRoom = 0.35;     ///< clearance around a body at its start
+constexpr double kHeadroom = 4.5;  ///< free height above a start
+constexpr int kTries = 300;        ///< for each place
 constexpr double kStationRoom = 0.5;
 
 double rounded_cm(double value) { return std::round(100.0 * value) / 100.0; }
@@ -22,7 +22,7 @@ const Standing& any_of(const std::vector<Standing>& structures, RandomStream& ra
   return structures[static_cast<std::size_t>(random.uniform() * static_cast<double>(structures.size()))];
 }
 
-/// Whether a body has room where it stands, and above.
+/// Whether a body has room around and above a start.
 bool has_room(const RayScene& world, const Vector2d& p_W, double radius) {
   const Vector3d foot(p_W.x(), p_W.y(), 0.3);
   for (const double z : {0.3, 0.9, 1.5}) {
@@ -31,7 +31,7 @@ bool has_room(const RayScene& world, const Vector2d& p_W, double radius) {
   return !world.first_hit(foot, Vector3d::UnitZ(), kHeadroom, {.ground = false, .uavs = false});
 }
 
-/// How a fleet stands.
+/// How the starts of a fleet are arranged.
 enum class Manner { open, apart, wall, canopy, below };
 
 Manner draw_manner(RandomStream& random, bool blind) {
@@ -43,7 +43,7 @@ Manner draw_manner(RandomStream& random, bool blind) {
   return share < 0.85 ? Manner::canopy : Manner::below;
 }
 
-/// Places one after the other, each as far from the others as it must be, and some more.
+/// Draws starts one by one. Each keeps the least distance from all earlier starts plus a random gap.
 class Ground {
  public:
   Ground(const std::vector<VehicleConfig>& fleet, const std::vector<Standing>& structures, const TriangleMesh& mesh,
@@ -54,7 +54,7 @@ class Ground {
 
   const RayScene& world() const { return world_; }
 
-  /// A place about which a fleet may stand.
+  /// A place around which the fleet's starts may be.
   Vector2d base(Manner manner) {
     for (int i = 0; i < kTries; ++i) {
       const Standing& near = any_of(structures_, random_);
@@ -69,7 +69,7 @@ class Ground {
     return structures_.front().p_W + Vector2d(structures_.front().radius + 10.0, 0.0);
   }
 
-  /// @returns whether everybody has a place.
+  /// @returns whether all UAVs have a start.
   bool place_all(Manner manner, const Vector2d& base, Starts& starts) {
     for (std::size_t i = 0; i < fleet_.size(); ++i) {
       double reach = 0.5;
@@ -102,7 +102,7 @@ class Ground {
   double gap_ = 0.0;
 };
 
-/// In sight of the first start, behind a structure, or on a roof.
+/// The station: near the first start, behind a structure, or on a roof.
 Vector3d draw_station(const RayScene& world, const std::vector<Standing>& structures, const Starts& starts,
                       RandomStream& random) {
   const double kind = random.uniform();

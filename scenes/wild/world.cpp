@@ -20,7 +20,7 @@ constexpr double kAreaPerPoint = 3.0;  ///< [m2]
 constexpr std::size_t kFewestPoints = 100, kMostPoints = 2500;
 const char* const kNames[] = {"jurong", "raffles", "sentosa", "changi", "nanyang", "punggol", "katong", "bedok"};
 
-/// Of all that lies in boxes.
+/// Area of the triangles whose centres lie in boxes [m2].
 double area_in_boxes(const TriangleMesh& mesh, const std::vector<OrientedBox>& boxes) {
   double area = 0.0;
   for (const auto& t : mesh.triangles) {
@@ -32,7 +32,7 @@ double area_in_boxes(const TriangleMesh& mesh, const std::vector<OrientedBox>& b
   return area;
 }
 
-/// What of a world one attempt drew; nullopt where it did not come together.
+/// One attempt to draw a world; nullopt if it fails, for example because there is no room for the starts.
 std::optional<World> attempt(const std::string& family, const wild::Dice& dice, bool blind,
                              const VehicleConfig& explorer, const VehicleConfig& photographer) {
   World world;

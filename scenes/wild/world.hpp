@@ -1,6 +1,6 @@
-// Wild scenes: worlds that nobody has seen, drawn whole from one number: structures, clutter, boxes, points, station,
-// fleet, starts, resolution and time (docs/wild.md). Not a building with variations but a grammar of them.
-// Frame W.   Units: m, s.   Deterministic: the same number gives the same bytes, on every machine.
+// Wild scenes: worlds of which everything is random, from one number: structures, clutter, boxes, points, station,
+// fleet, starts, resolution and time (docs/wild.md). Not one building with variations, but a grammar of buildings.
+// Frame W.   Units: m, s.   Deterministic: the same number gives the same bytes on every machine.
 #pragma once
 
 #include <cstdint>
@@ -12,14 +12,14 @@
 namespace skein::sim {
 
 struct World {
-  Scenario scenario;  ///< its scene still names the family and its seed, and no files
+  Scenario scenario;  ///< its scene has the family and the seed, but no files
   Scene scene;
-  int attempt = 0;  ///< of the draw that could be flown; those before could not
+  int attempt = 0;  ///< number of the first attempt that could be flown, from 0
 };
 
-/// Draws until a world can be flown (flyable.hpp).
-/// @param family  of core/scenario/drawn_worlds.hpp.   @param config_dir  with the vehicles; empty: the usual one.
-/// @throws InputError for a family that there is not.
+/// Draws worlds until one can be flown (flyable.hpp).
+/// @param family  of core/scenario/drawn_worlds.hpp.   @param config_dir  folder of the vehicles; empty: the default.
+/// @throws InputError if the family is unknown; std::runtime_error if no world of 200 attempts can be flown.
 World draw_world(const std::string& family, std::uint64_t scene_seed, const std::filesystem::path& config_dir = {});
 
 }  // namespace skein::sim

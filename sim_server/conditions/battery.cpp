@@ -9,7 +9,7 @@
 namespace skein::sim {
 namespace {
 
-// A lithium polymer cell without load, taken to be linear between full and empty.
+// Open-circuit voltage of a lithium polymer cell, taken to be linear in the charge.
 constexpr double kFullCell_v = 4.2, kEmptyCell_v = 3.5;
 constexpr double kMeanCell_v = 0.5 * (kFullCell_v + kEmptyCell_v);
 constexpr double kSecondsPerHour = 3600.0;
@@ -32,7 +32,7 @@ void Battery::draw(double power_w, double time_s) {
     return;
   }
   const double open_v = open_voltage_v();
-  // Of the two currents the smaller; beyond the greatest power there is none, and that power's is drawn.
+  // The smaller root of the quadratic. Above the battery's maximum power there is no root; then it gives that maximum.
   const double root2 = open_v * open_v - 4.0 * resistance_ohm_ * power_w;
   const double wanted_a =
       resistance_ohm_ > 0.0 ? (open_v - std::sqrt(std::max(0.0, root2))) / (2.0 * resistance_ohm_) : power_w / open_v;

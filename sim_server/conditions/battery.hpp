@@ -15,27 +15,29 @@ namespace skein::sim {
 
 class Battery {
  public:
-  /// A full one, of a size that lets the vehicle hover in still air for `endurance_missions` missions.
+  /// A full battery, with the capacity to hover in still air for `endurance_missions` missions.
+  /// @param mission_s  duration of a mission [s].
   Battery(const BatteryConditions& config, const VehicleConfig& vehicle, double mission_s);
 
-  /// Power at its terminals for some time. What an empty battery cannot give, it does not.
+  /// Draws power at the terminals for some time. An empty battery gives nothing.
   void draw(double power_w, double time_s);
 
-  /// Loses the charge above a share of the capacity, if it has more.
+  /// Limits the charge to a share of the capacity; the charge above it is lost.
   void limit(double charge) { left_as_ = std::min(left_as_, charge * capacity_as_); }
 
   bool empty() const { return left_as_ <= 0.0; }
+  /// Share of the capacity that is left, [0, 1].
   double charge() const { return left_as_ / capacity_as_; }
   BatteryStatus status() const;
-  /// Of the cells without load, at the present charge [V].
+  /// Open-circuit voltage of all cells at the present charge [V].
   double open_voltage_v() const;
 
   double capacity_wh() const;
-  /// Given at the terminals so far, turned into heat inside, and left in the cells [J].
+  /// Energy delivered at the terminals so far, energy turned into heat inside, and energy left in the cells [J].
   double given_j() const { return given_j_; }
   double heat_j() const { return heat_j_; }
   double left_j() const;
-  double time_s() const { return time_s_; }  ///< for which it was drawn from
+  double time_s() const { return time_s_; }  ///< total time for which power was drawn
 
  private:
   double energy_j(double left_as) const;
@@ -46,8 +48,8 @@ class Battery {
   double current_a_ = 0.0, given_j_ = 0.0, heat_j_ = 0.0, time_s_ = 0.0;
 };
 
-/// What a vehicle's rotors and electronics need [W]: ideal power by momentum theory, over the efficiency.
-/// @param thrusts_n  of the rotors.  @param v_A_B  of the body through the air, in its own axes.
+/// Electric power of a vehicle [W]: the rotors' ideal power by momentum theory, over the efficiency, plus electronics.
+/// @param thrusts_n  of the rotors.  @param v_A_B  velocity of the body through the air, in B [m/s].
 double electric_power(const BatteryConditions& config, const VehicleConfig& vehicle,
                       const std::array<double, kRotors>& thrusts_n, const Vector3d& v_A_B);
 

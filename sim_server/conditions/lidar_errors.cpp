@@ -14,7 +14,7 @@ double LidarErrors::cos_incidence(std::span<const double> ranges, std::size_t be
   const std::size_t ring = beam / columns * columns, column = beam % columns;
   const double before = ranges[ring + (column + columns - 1) % columns], after = ranges[ring + (column + 1) % columns];
   const double range = ranges[beam], step = 2.0 * std::numbers::pi / static_cast<double>(columns);
-  // Of the two sides the less slanted one: beyond an edge another surface begins.
+  // Uses the side with the smaller slope: at an edge, the other side's beam hits another surface.
   double slope = std::numeric_limits<double>::infinity();
   for (const double beside : {before, after}) {
     if (std::isfinite(beside)) slope = std::min(slope, std::abs(beside - range) / (range * step));
@@ -29,7 +29,7 @@ const std::vector<double>& LidarErrors::measure(std::uint64_t scan, std::span<co
   for (std::size_t i = 0; i < ranges.size(); ++i) {
     const double drop = draw.uniform();
     if (drop < conditions_.clutter_p) {
-      // The same number says how far: below the probability it is uniform again.
+      // The same draw gives the distance: given that it is less than `clutter_p`, it is uniform in [0, clutter_p).
       const double to_drop_m =
           lidar_.range_min_m - conditions_.clutter_mean_m * portable_log(1.0 - drop / conditions_.clutter_p);
       if (to_drop_m < std::min(ranges[i], lidar_.range_max_m)) {

@@ -4,8 +4,8 @@
 //   Weak returns: the returned power is proportional to reflectivity times cos(incidence) over the square of the range,
 //     and the LiDAR just sees a perpendicular white surface at `full_range_m`. So it sees a surface up to
 //     full_range_m sqrt(reflectivity cos(incidence)), and loses dark, wet and slanted surfaces, and the edges of thin
-//     members, first. The incidence angle follows from the ranges of the two adjacent beams of the scan.
-//   Rain and dust: a beam may hit a drop before it hits anything else.
+//     members, first. The incidence angle is estimated from the ranges of the two adjacent beams of the scan.
+//   Rain and dust: a drop or a dust particle may return a beam before the beam reaches a surface.
 // Units: SI.  Pure; threads: one.  The same seed and scan give the same numbers.
 #pragma once
 
@@ -27,7 +27,7 @@ class LidarErrors {
   void change(const LidarConditions& conditions) { conditions_ = conditions; }
   bool any() const { return conditions_.on(); }
   /// @param ranges  true ranges of all beams, ring by ring; infinite: the beam hits nothing.
-  /// @returns the measured ranges of the same beams; infinite: no return.
+  /// @returns the measured ranges of the same beams, valid until the next call; infinite: no return.
   const std::vector<double>& measure(std::uint64_t scan, std::span<const double> ranges);
   /// Cosine of the angle between a beam and the normal of the surface that it hits, in the plane of its ring; 1 if both
   /// adjacent beams hit nothing.

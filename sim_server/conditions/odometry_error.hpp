@@ -1,11 +1,11 @@
-// How far one UAV's idea of where it is lies off the truth.
+// The error of one UAV's odometry.
 //
-// Position and yaw: first-order Gauss-Markov processes, and a constant offset. Before takeoff, the place where a UAV
-// stands is known (`known_start`): the position's process begins at 0 when the UAV takes off.
-// While the fix is lost, the position walks off at random from where it was, and the yaw goes on as before; afterwards
-// the error jumps back to what it would have been.
-// The flight controller flies by this, the LiDAR's clouds and what the camera finds are placed by it: all that a UAV is
-// told agrees. The messages have white noise on top, the same in all samples of an exchange.
+// The errors of position and yaw are first-order Gauss-Markov processes; the position has a constant offset, too. With
+// `known_start`, the position's process stays at 0 until the UAV takes off, because its start is known.
+// While the position fix is lost, the position error is a random walk from its last value, and the yaw error continues
+// as before. When the fix returns, the position error jumps to the value of its own process.
+// The flight controller, the LiDAR's clouds and the camera's detections all use the erroneous pose, so all data that a
+// UAV gets are consistent. Messages have white noise in addition, the same in all samples of an exchange.
 // Frames: W world, B body.  Units: SI, radians.  Threads: one.  The same seed gives the same bits.
 #pragma once
 
@@ -21,12 +21,12 @@ class GaussMarkov {
  public:
   /// Begins at 0.
   GaussMarkov() = default;
-  /// Begins as if it had gone on for ever.
+  /// Begins in the stationary state.
   explicit GaussMarkov(RandomStream& draw) : value_(draw.normal()), variance_(1.0) {}
   /// @param keeps  exp(-step / tau).
   void step(double keeps, RandomStream& draw);
   double value() const { return value_; }
-  /// Of value(), over all draws: 1 - exp(-2 t / tau) after t from 0.
+  /// Variance of value() over all draws. If the process began at 0, it is 1 - exp(-2 t / tau) after the time t.
   double variance() const { return variance_; }
 
  private:
@@ -37,30 +37,31 @@ class OdometryError {
  public:
   OdometryError(const OdometryConditions& config, std::uint64_t seed, UavIndex uav);
 
-  /// The UAV takes off: where it is, is known no more.
+  /// The UAV takes off: from now on its position is no longer known (`known_start`).
   void leave_start() { at_start_ = false; }
   /// @param config  for the steps that follow. The constant offset stays, and so does the time of the next loss or
   ///   return of the fix.
   void change(const OdometryConditions& config);
-  /// @param jammed  true: there is no fix from now on. false: if there was none for that reason, it is back.
+  /// Jams the position fix, or ends the jamming. @param jammed  true: there is no fix from now on. false: if the fix
+  ///   was jammed, it is back.
   void jam(bool jammed);
-  /// A time step later.
+  /// Advances the error by one time step.
   void step(double step_s);
-  /// Another exchange begins: its noise.
+  /// Draws the noise of the messages of an exchange. Call it when the exchange begins.
   void draw_noise();
 
-  /// Where the UAV's flight controller takes the UAV to be.
+  /// The state that the flight controller uses: the true one with the odometry's error.
   RigidBodyState believed(const RigidBodyState& truth) const;
-  /// The same with the noise of the messages of this exchange.
+  /// The state in the messages of this exchange: believed(), with their noise.
   RigidBodyState told(const RigidBodyState& truth) const;
-  /// Takes what is in W to where the UAV that is truly at X_WB takes it to be.
+  /// Transform from W to the frame `told`: maps a true place to where the UAV's odometry makes it appear.
   Isometry3d X_told_W(const RigidBodyState& truth) const { return told(truth).X_WB() * truth.X_WB().inverse(); }
-  /// Of told().
+  /// Standard deviations of the error of told().
   PoseUncertainty uncertainty() const;
 
   bool has_fix() const { return !lost_; }
-  Vector3d position_error_m() const;
-  double yaw_error() const;
+  Vector3d position_error_m() const;  ///< in W
+  double yaw_error() const;           ///< [rad]
 
  private:
   GaussMarkov first_error() { return config_.known_start ? GaussMarkov() : GaussMarkov(draw_); }
@@ -72,12 +73,12 @@ class OdometryError {
   RandomStream draw_, noise_draw_;
   Vector3d bias_m_;
   GaussMarkov x_, y_, z_, yaw_;
-  bool at_start_;  ///< whose place is known
+  bool at_start_;  ///< not yet taken off from a known start
   bool lost_ = false, jammed_ = false;
-  double until_change_s_ = 0.0;  ///< of the fix
+  double until_change_s_ = 0.0;  ///< time until the fix is lost or returns
   double lost_s_ = 0.0, variance_when_lost_ = 0.0;
   double horizontal_sigma_when_lost_m_ = 0.0, vertical_sigma_when_lost_m_ = 0.0;
-  double walked_before_m2_ = 0.0;         ///< variance of the walk before `lost_s_`, at other values of `config_`
+  double walked_before_m2_ = 0.0;         ///< variance of the walk before `lost_s_`, with earlier `config_`
   Vector3d walked_m_ = Vector3d::Zero();  ///< the error while the fix is lost
   Vector3d noise_m_ = Vector3d::Zero(), velocity_noise_mps_ = Vector3d::Zero();
 };

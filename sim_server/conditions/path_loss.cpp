@@ -10,12 +10,12 @@
 namespace skein::sim {
 namespace {
 
-constexpr double kNearest_m = 1.0;  ///< the law does not hold below
+constexpr double kNearest_m = 1.0;  ///< the path-loss law does not hold at shorter distances
 
 }  // namespace
 
-// The spectrum of exp(-r / D) in three dimensions is a Cauchy distribution of wave vectors: three normal numbers over
-// one more, divided by D.
+// The spectrum of exp(-r / D) in three dimensions is a Cauchy distribution of wave vectors. To draw from it, divide a
+// vector of three standard normal numbers by a fourth one, and by D.
 ShadowField::ShadowField(double decorrelation_m, std::uint64_t seed) {
   RandomStream draw(seed, "radio_shadowing", 0);
   for (Wave& wave : waves_) {

@@ -37,7 +37,7 @@ class PathLoss {
   /// @param radio  must have path loss: radio.on(). @param seed  draws the shadowing.
   PathLoss(const RadioConditions& radio, std::uint64_t seed) : radio_(radio), field_(radio.decorrelation_m, seed) {}
 
-  /// @param radio  as for the constructor; the shadowing's field stays.
+  /// @param radio  as for the constructor. The shadowing field does not change.
   void change(const RadioConditions& radio) { radio_ = radio; }
 
   /// Received power [dBm] between antennas at p_W and q_W. Ignores obstacles: LinkTracer checks the line of sight.

@@ -5,8 +5,8 @@
 namespace skein::sim {
 namespace {
 
-constexpr Tick kErrorTicks = kControlTicks;  ///< between two steps of the odometry's error: as the controller's
-constexpr Tick kPowerTicks = 4;              ///< between two looks at the power
+constexpr Tick kErrorTicks = kControlTicks;  ///< between two steps of the odometry's error, as of the controller
+constexpr Tick kPowerTicks = 4;              ///< between two draws of power from the battery
 
 }  // namespace
 
@@ -47,7 +47,7 @@ Wrench Surroundings::fly(Vehicle& vehicle, const RigidBodyState& state) {
   if (odometry_ && vehicle.mode() != ControlMode::idle) odometry_->leave_start();
   vehicle.control_attitude(believed(state));
   Wrench wrench = vehicle.fly(state, v_WA_);
-  // A UAV that has not begun to fly stands firm; without wind the reference has no drag of the body.
+  // No body drag on a UAV that has not begun to fly, so that it stays in place; nor in still air, as in the reference.
   if (v_WA_.isZero(0.0) || vehicle.mode() == ControlMode::idle) return wrench;
   const Vector3d body_W = body_drag(conditions_.wind.body_drag_area_m2, state.v_WB - v_WA_);
   wrench.force_B += state.q_WB.conjugate() * body_W;

@@ -1,5 +1,5 @@
-// What the scenario's conditions do to one UAV: the air about it, what it believes of its own state, its battery.
-// With all conditions off every function gives back what it was given, bit for bit.
+// The effects of the scenario's conditions on one UAV: the wind around it, the error of its odometry, its battery.
+// With all conditions off, every function returns its input unchanged, bit for bit.
 // Frames: W world, B body.  Units: SI.  Threads: one.
 #pragma once
 
@@ -17,16 +17,16 @@
 
 namespace skein::sim {
 
-/// A state as a UAV is told it, and when that was so.
+/// A state as reported to a UAV.
 struct ToldState {
-  Tick tick = 0;
+  Tick tick = 0;  ///< time to which the state belongs; earlier than the report by the latency
   RigidBodyState state;
 };
 
-/// What a battery has given.
+/// Energy that a battery has delivered.
 struct BatteryUse {
   double capacity_wh = 0.0, given_wh = 0.0, mean_power_w = 0.0;
-  std::optional<Tick> empty;             ///< since when
+  std::optional<Tick> empty;             ///< when it became empty; nullopt: it is not empty
   std::optional<double> last_in_flight;  ///< share of the charge when the UAV was last airborne; nullopt: never
 };
 
@@ -35,30 +35,31 @@ class Surroundings {
   /// @param scenario  must outlive this.
   Surroundings(const Scenario& scenario, std::uint64_t seed, UavIndex uav);
 
-  /// @param conditions  as the constructor's but for what faults change: for the ticks that follow.
+  /// Conditions for the ticks that follow. @param conditions  the scenario's, except for values that faults change.
   void change(const ConditionsConfig& conditions);
-  /// Before the first tick of an exchange.
+  /// Call it before the first tick of an exchange.
   void begin_exchange();
-  /// What faults do in an exchange. @param fix_lost  the UAV has no position fix. @param most_charge  share of the
-  /// capacity that the battery can have.
+  /// Applies the faults of an exchange. @param fix_lost  the UAV has no position fix. @param most_charge  upper limit
+  /// of the battery's charge, as a share of its capacity.
   void suffer(bool fix_lost, double most_charge);
-  /// Before each tick. @param gust_W  by which a fault makes the air faster.
+  /// Call it before each tick. @param gust_W  velocity that a fault adds to the wind [m/s].
   void begin_tick(Tick tick, const RigidBodyState& state, const Vector3d& gust_W);
-  /// The wrench of a vehicle in this air, which is told what it believes.
+  /// Steps the attitude loop, with the believed state, and the motors. @param state  the true one.
+  /// @returns the wrench on the vehicle in the present wind, in B.
   Wrench fly(Vehicle& vehicle, const RigidBodyState& state);
-  /// What the vehicle takes out of its battery: after each tick.
-  /// @returns true once: now it is empty.
+  /// Draws the vehicle's power from the battery. Call it after fly() in each tick.
+  /// @returns true once, when the battery becomes empty.
   bool spend(Tick tick, const Vehicle& vehicle, const RigidBodyState& state);
 
-  /// At the end of an exchange: the UAV is in the air.
+  /// Call it at the end of each exchange in which the UAV is airborne.
   void note_flight();
-  /// What the UAV's flight controller takes for true.
+  /// The state that the UAV's flight controller uses.
   RigidBodyState believed(const RigidBodyState& truth) const;
-  /// Where a UAV would be that knows its position, and one without wind.
+  /// The states that the UAV would have if it knew its position exactly, and if there were no wind.
   OtherStates other_states(const RigidBodyState& truth) const;
-  /// Takes what is in W to where the UAV sees it; nullopt: where it is.
+  /// Transform from W to the frame `told` of the UAV's odometry; nullopt: W itself.
   std::optional<Isometry3d> X_told_W(const RigidBodyState& truth) const;
-  /// What its software is told at the end of an exchange, and how sure that is.
+  /// The state that the UAV's software gets at the end of an exchange. Call it once per exchange.
   ToldState tell(Tick tick, const RigidBodyState& truth);
   PoseUncertainty uncertainty() const { return odometry_ ? odometry_->uncertainty() : PoseUncertainty{}; }
   std::optional<BatteryStatus> battery() const { return battery_ ? std::optional(battery_->status()) : std::nullopt; }
@@ -74,9 +75,9 @@ class Surroundings {
   std::optional<Battery> battery_;
   std::optional<Tick> empty_;
   std::optional<double> last_in_flight_;  ///< BatteryUse::last_in_flight
-  Vector3d v_WA_ = Vector3d::Zero();      ///< of the air
+  Vector3d v_WA_ = Vector3d::Zero();      ///< velocity of the air
   std::size_t latency_;                   ///< exchanges
-  std::deque<ToldState> told_;            ///< that has yet to arrive, and the last that has
+  std::deque<ToldState> told_;            ///< the last state that arrived, and those that are still on their way
 };
 
 }  // namespace skein::sim

@@ -14,10 +14,10 @@ namespace {
 constexpr double kReferenceHeight_m = 10.0;  ///< of WindConditions::mean_mps
 constexpr double kFoot_m = 0.3048;
 constexpr double kTwentyFeet_m = 20.0 * kFoot_m;
-/// A UAV that drifts with the wind still meets new air, as eddies turn.
+/// Lower limit of the airspeed: even a UAV that drifts with the wind meets new air, because eddies change.
 constexpr double kLeastAirspeed_mps = 1.0;
 
-/// Drawn once for a run, whoever asks.
+/// Direction from which the wind blows [rad]: the same for all UAVs of a run.
 double direction_from(const WindConditions& wind, std::uint64_t seed) {
   if (wind.from_deg) return *wind.from_deg * kRadPerDeg;
   return RandomStream(seed, "wind_direction", 0).uniform(0.0, 2.0 * std::numbers::pi);
@@ -45,8 +45,8 @@ double LongitudinalGust::step(double way, RandomStream& draw) {
   return state_;
 }
 
-// Over distance in lengths L: dx1 = -x1 ds + dW, dx2 = (x1 - x2) ds, and the gust is sqrt(3) x1 + (1 - sqrt(3)) x2,
-// whose transfer function is (1 + sqrt(3) s) / (1 + s)^2. Stationary: var x1 = 1/2, cov = var x2 = 1/4.
+// With the distance s in lengths L: dx1 = -x1 ds + dW, dx2 = (x1 - x2) ds. The gust is sqrt(3) x1 + (1 - sqrt(3)) x2;
+// its transfer function is (1 + sqrt(3) s) / (1 + s)^2. Stationary state: var x1 = 1/2, cov = var x2 = 1/4.
 TransverseGust::TransverseGust(RandomStream& draw) : first_(std::sqrt(0.5) * draw.normal()), second_(0.0) {
   second_ = 0.5 * first_ + std::sqrt(0.125) * draw.normal();
 }

@@ -5,7 +5,8 @@
 
 namespace skein::sim {
 
-// The controller demands -omega^2 p - 2 zeta omega v - ki s of an offset p, where s grows by p in each of its steps.
+// For an offset p with the velocity v, the controller demands the acceleration -omega^2 p - 2 zeta omega v - ki s. In
+// each of its steps, s grows by p.
 WindPush::WindPush(const VehicleConfig& vehicle) : mass_kg_(mass_properties(vehicle).mass_kg) {
   const PositionControlConfig& control = vehicle.position_control;
   const Vector3d omega(control.omega_xy, control.omega_xy, control.omega_z);

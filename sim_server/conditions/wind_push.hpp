@@ -1,7 +1,7 @@
-// How far the wind alone pushes a UAV away, and how fast: the answer of its position controller, taken as linear, to
-// the force that the wind adds. Only the explanation of losses uses it (docs/results.md): a UAV without wind would have
-// been at p_WB - offset_W() with the velocity v_WB - velocity_W(). The attitude loop, with 14 rad/s far above the
-// position loop's 2, is taken as immediate, and the torque of the wind as balanced.
+// Estimates the displacement and the velocity of a UAV that are due to the wind: the response of its position
+// controller, taken as linear, to the force that the wind adds. Only the explanation of losses uses it
+// (docs/results.md): without wind, the UAV would be at p_WB - offset_W() with the velocity v_WB - velocity_W(). The
+// model takes the attitude loop (14 rad/s; position loop: 2 rad/s) as immediate, and the wind's torque as balanced.
 // Frame: W world.  Units: SI.  Pure; threads: one.
 #pragma once
 
@@ -14,7 +14,7 @@ class WindPush {
  public:
   explicit WindPush(const VehicleConfig& vehicle);
 
-  /// A time step later. @param force_W  by which the force on the UAV exceeds that in still air.
+  /// Advances the estimate by one time step. @param force_W  force on the UAV, less the force in still air [N].
   void step(const Vector3d& force_W, double step_s);
 
   const Vector3d& offset_W() const { return p_W_; }
@@ -24,7 +24,7 @@ class WindPush {
   double mass_kg_;
   Vector3d stiffness_, damping_, integral_gain_;
   Vector3d p_W_ = Vector3d::Zero(), v_W_ = Vector3d::Zero();
-  Vector3d error_sum_ = Vector3d::Zero();  ///< the controller's: it grows by the error at each of its steps [m]
+  Vector3d error_sum_ = Vector3d::Zero();  ///< the controller's sum of the position error over its steps [m]
 };
 
 }  // namespace skein::sim

@@ -11,7 +11,7 @@ namespace {
 constexpr double kTiltGain = 200.0;
 constexpr double kIntegralGain = 2.0;
 constexpr double kIntegralLimit = 0.6;
-/// cos 30 degrees, as coarse as the reference has it.
+/// cos 30 degrees, with the digits of the reference.
 constexpr double kC = 0.866025;
 
 double integrated(double sum, double error) { return std::clamp(sum + error, -kIntegralLimit, kIntegralLimit); }

@@ -21,8 +21,9 @@ class AttitudeController {
     double roll = 0.0, pitch = 0.0;  ///< sums of the errors of all ticks [rad], limited to +-0.6
   };
 
-  /// @param vehicle  uses arm, rotor constants and attitude_control. The law's inertia is attitude_control.inertia,
-  ///   since the benchmark's law uses the body without rotors and LiDAR; where that key is missing, vehicle.inertia.
+  /// @param vehicle  the controller uses arm, rotor constants and attitude_control. Its inertia is
+  ///   attitude_control.inertia, because the benchmark's control law uses the body without rotors and LiDAR; if that
+  ///   key is missing, vehicle.inertia.
   explicit AttitudeController(const VehicleConfig& vehicle);
 
   /// Rotor speeds for the demand, and one step of the integrators. Speeds have no upper limit here (the motors have

@@ -9,9 +9,10 @@
 namespace skein::sim {
 namespace {
 
-// How far around a body the nearest triangle is looked for. Finding none, it may fly so far untested.
+// Distance beyond a body's reach within which the nearest triangle is searched. If there is none, the body may fly this
+// far without a test.
 constexpr double kLookAround = 1.5;
-// With less room than this, looking for the nearest triangle at every tick would cost more than the test.
+// With less clearance than this, a search in nearly every tick would cost more than the test.
 constexpr double kLeastRoom = 0.02;
 
 double squared_distance_to_edge(const Vector3d& p, const Vector3d& from, const Vector3d& to) {
@@ -21,7 +22,7 @@ double squared_distance_to_edge(const Vector3d& p, const Vector3d& from, const V
   return (p - from - share * edge).squaredNorm();
 }
 
-/// Walks through the triangles near a point.
+/// Finds the nearest of the triangles around a point.
 struct Nearest final : btTriangleCallback {
   explicit Nearest(const Vector3d& the_p_W, double distance_max) : p_W(the_p_W), distance(distance_max) {}
 
@@ -41,7 +42,7 @@ Vector3d to_eigen(const btVector3& v) { return {v.x(), v.y(), v.z()}; }
 
 double distance_to_triangle(const Vector3d& p, const Vector3d& a, const Vector3d& b, const Vector3d& c) {
   const Vector3d n = (b - a).cross(c - a);
-  // Over the face if it lies on the inner side of all edges.
+  // The projection of p is inside the triangle if p is on the inner side of all edges.
   const auto inside = [&](const Vector3d& from, const Vector3d& to) { return n.cross(to - from).dot(p - from) >= 0.0; };
   const double n2 = n.squaredNorm();
   if (n2 > 0.0 && inside(a, b) && inside(b, c) && inside(c, a)) return std::abs(n.dot(p - a)) / std::sqrt(n2);
@@ -61,7 +62,7 @@ bool ClearanceMemory::may_touch(const btBvhTriangleMeshShape& mesh, const Vector
   clear_at_W_.reset();
   room_ = clearance(mesh, p_W, reach + kLookAround) - reach;
   if (room_ > kLeastRoom) clear_at_W_ = p_W;
-  // One test more where there is room again, so that Bullet drops what it remembers.
+  // Tests once more after the body has left the mesh, so that Bullet drops its old contact points.
   return std::exchange(tested_, !clear_at_W_) || tested_;
 }
 

@@ -1,5 +1,5 @@
-// How far a point is from the triangles of a Bullet mesh: what a body cannot reach need not be tested for contacts.
-// For physics_world.cpp; the header leaves Bullet's own out.
+// Distance of a point from the triangles of a Bullet mesh: a body that cannot reach the mesh need not be tested for
+// contacts. For physics_world.cpp; does not include Bullet's headers.   Frame: W.   Units: m.
 #pragma once
 
 #include <optional>
@@ -14,26 +14,26 @@ namespace skein::sim {
 btVector3 to_bullet(const Vector3d& v);
 Vector3d to_eigen(const btVector3& v);
 
-/// Distance of the closest point of a triangle [m], in any position and also of a triangle without area. Pure.
+/// Distance of a point from a triangle [m]; also from a triangle without area. Pure.
 double distance_to_triangle(const Vector3d& p, const Vector3d& a, const Vector3d& b, const Vector3d& c);
 
-/// Distance of the closest point of a mesh, or `distance_max` when it is farther [m]. Pure.
+/// Distance of a point from a mesh [m]; `distance_max` if it is greater. Pure.
 double clearance(const btBvhTriangleMeshShape& mesh, const Vector3d& p_W, double distance_max);
 
-/// Says of one body, again and again as it moves, whether it has to be tested for contacts with a mesh. It remembers
-/// how much room there was, and looks at the triangles anew only when that is used up.   Threads: one.
+/// Decides in each tick whether a moving body must be tested for contacts with a mesh. It remembers the body's last
+/// clearance, and searches the triangles again only after the body has moved that far.   Threads: one.
 class ClearanceMemory {
  public:
-  /// @param reach  of the body's contacts around `p_W`.
-  /// @returns false if it touches nothing, and nothing is left in Bullet's memory of when it might have.
+  /// @param p_W  the body's centre. @param reach  greatest distance from `p_W` at which the body can have contacts.
+  /// @returns false if the body cannot touch the mesh and Bullet keeps no old contact points of the pair.
   bool may_touch(const btBvhTriangleMeshShape& mesh, const Vector3d& p_W, double reach);
-  /// The body is somewhere else now.
+  /// Forgets the clearance. Call it when the body has been put elsewhere.
   void forget() { clear_at_W_.reset(); }
 
  private:
-  std::optional<Vector3d> clear_at_W_;  ///< around here it cannot touch the mesh ...
-  double room_ = 0.0;                   ///< ... as long as it is no farther away than this
-  bool tested_ = false;                 ///< when last asked
+  std::optional<Vector3d> clear_at_W_;  ///< the body cannot touch the mesh while its centre ...
+  double room_ = 0.0;                   ///< ... is within this distance of clear_at_W_ [m]
+  bool tested_ = false;                 ///< whether the last search found that the body might touch the mesh
 };
 
 }  // namespace skein::sim

@@ -13,8 +13,8 @@ namespace {
 constexpr double kStepS = 0.05;        ///< of the control law
 constexpr double kRounding = 1e-6;     ///< a command may exceed a limit by this share
 constexpr double kGiven = 0.01;        ///< shorter vectors mean "none" to the control law
-constexpr double kBrakingShare = 0.8;  ///< of the acceleration; the law's integral pushes on for a while
-constexpr double kTiny = 1e-9;         ///< not zero
+constexpr double kBrakingShare = 0.8;  ///< of the maximum acceleration; the rest is for the law's integral term
+constexpr double kTiny = 1e-9;         ///< avoids divisions by zero
 
 std::string beyond(const char* what, double value, double limit, const char* unit) {
   return std::string(what) + " of " + significant(value, 4) + " " + unit + " is beyond the vehicle's limit of " +
@@ -23,7 +23,7 @@ std::string beyond(const char* what, double value, double limit, const char* uni
 
 bool given(const Vector3d& v) { return v.norm() >= kGiven; }
 
-/// The same direction, no longer than `length`.
+/// A vector of the same direction, no longer than `length`.
 Vector3d shortened(const Vector3d& v, double length) {
   const double norm = v.norm();
   return norm > length ? Vector3d(v * (length / norm)) : v;
@@ -92,28 +92,28 @@ TrajectoryCommand CommandGuard::lead(const TrajectoryCommand& command, const Rig
   return led;
 }
 
-/// What the law makes of the UAV's own velocity while none is commanded.
+/// The law's acceleration due to the UAV's own velocity if no velocity is commanded; else 0.
 Vector3d CommandGuard::damping(const TrajectoryCommand& command, const RigidBodyState& state) const {
   return given(command.v_WB) ? Vector3d::Zero().eval() : Vector3d(-damping_.cwiseProduct(state.v_WB));
 }
 
-/// The acceleration that the law makes of a position.
+/// The law's acceleration for a commanded position.
 Vector3d CommandGuard::demand(const Vector3d& p_W, const TrajectoryCommand& command,
                               const RigidBodyState& state) const {
   return stiffness_.cwiseProduct(p_W - state.p_WB) + damping(command, state);
 }
 
 bool CommandGuard::within_limits(const TrajectoryCommand& command, const RigidBodyState& state) const {
-  // The speed at which the law would keep up a constant distance to a moving position.
+  // Difference of velocities at which the UAV would keep its present distance from a moving position.
   const Vector3d closing = stiffness_.cwiseQuotient(damping_).cwiseProduct(command.p_WB - state.p_WB);
   return demand(command.p_WB, command, state).norm() <= max_acceleration_ &&
          (command.v_WB + closing).norm() <= max_speed_;
 }
 
 CommandGuard::Carrot CommandGuard::launch(const TrajectoryCommand& command, const RigidBodyState& state) const {
-  // Where and as fast as it would be if the UAV had been following it all along, at the acceleration that the law
-  // wants now as far as that is permitted: so that a UAV under way neither jerks nor flies on.
-  const Vector3d lag = damping_.cwiseQuotient(stiffness_);  // of a UAV behind what it follows [s]
+  // The carrot begins with the position and velocity that it would have if the UAV had been following it all the time,
+  // with the acceleration that the law demands now (within the limit): so a UAV under way neither jerks nor flies on.
+  const Vector3d lag = damping_.cwiseQuotient(stiffness_);  // by which a UAV lags behind what it follows [s]
   Vector3d a = shortened(demand(command.p_WB, command, state), max_acceleration_);
   const Vector3d v = shortened(state.v_WB + lag.cwiseProduct(a), max_speed_);
   a = shortened((v - state.v_WB).cwiseQuotient(lag), max_acceleration_);
@@ -134,14 +134,14 @@ void CommandGuard::move_carrot(const TrajectoryCommand& command) {
   carrot_->p_W += carrot_->v_W * kStepS;
 }
 
-/// A UAV that lags behind would be pulled harder than it may be.
+/// Pulls the carrot back towards a UAV that lags behind, so that the law does not exceed the permitted acceleration.
 void CommandGuard::hold_carrot_back(const TrajectoryCommand& command, const RigidBodyState& state) {
   const Vector3d a = demand(carrot_->p_W, command, state);
   if (a.norm() <= max_acceleration_) return;
   carrot_->p_W = state.p_WB + (shortened(a, max_acceleration_) - damping(command, state)).cwiseQuotient(stiffness_);
 }
 
-/// The speed from which it can still stop within a distance, one step from now on.
+/// The speed from which the carrot can still stop within a distance if it begins to brake one step from now.
 double CommandGuard::stopping_speed(double distance) const {
   const double braking = kBrakingShare * max_acceleration_;
   const double half_step = 0.5 * braking * kStepS;

@@ -1,8 +1,8 @@
-// Keeps a UAV within its vehicle's limits, outside the control law: refuses set-points beyond them, and leads
-// the UAV to a far position so that it goes no faster than it may. Frame: W.  Units: SI.
-// The contest says that a command beyond the kinematic limits is ignored, and its code has neither a check nor a limit
-// of speed. Two switches of the rules turn the two halves off: `reject_commands_beyond_limits`,
-// `guard_position_commands`. With both off the control law gets each command as it came.
+// Keeps a UAV within its vehicle's limits, outside the control law: refuses set-points beyond the limits, and limits
+// the speed of flights to far positions. Frame: W.  Units: SI.
+// The contest's rules say that commands beyond the kinematic limits are ignored, but its code neither checks commands
+// nor limits speed. The rules' switches `reject_commands_beyond_limits` and `guard_position_commands` turn the two
+// functions off. With both off, the control law gets each command unchanged.
 #pragma once
 
 #include <optional>
@@ -18,27 +18,28 @@ class CommandGuard {
  public:
   CommandGuard(const VehicleConfig& vehicle, const RulesConfig& rules);
 
-  /// Why a command must be ignored, as a sentence for the user; nullopt if it need not be. Refused are a velocity,
-  /// acceleration or yaw rate beyond the vehicle's, and a bare acceleration that would push a UAV at its speed limit
-  /// beyond it; numbers that are not finite, whatever the rules. A position or a yaw is never too far. Pure.
+  /// Reason why a command must be ignored, as a sentence for the user; nullopt: it is accepted. The guard refuses a
+  /// velocity, acceleration or yaw rate beyond the vehicle's limit, and an acceleration without position and velocity
+  /// that would lead beyond the speed limit; under all rules, numbers that are not finite. It never refuses a position
+  /// or a yaw for its distance. Pure.
   std::optional<std::string> refuse(const TrajectoryCommand& command, const RigidBodyState& state) const;
 
   /// The command with a position that the control law can follow within the limits. Call it once per control step
   /// (1/20 s), with the command in effect.
   ///
-  /// A position passes as it is when the law goes there with no more than the permitted acceleration and speed.
-  /// Otherwise a point runs ahead of the UAV to that position, within the vehicle's speed and acceleration, and
-  /// stands in for it. The law follows a moving point like a critically damped filter: its output is never steeper
-  /// than its input. The point comes no farther from the UAV than the permitted acceleration pulls. What a velocity
-  /// that is given beside the position demands is the pilot's business, and not limited here.
+  /// A position remains unchanged if the law reaches it within the permitted acceleration and speed. Otherwise a point
+  /// (the carrot) replaces it, which moves ahead of the UAV to that position within the vehicle's speed and
+  /// acceleration. The law follows a moving point like a critically damped filter, so the UAV gets no faster than the
+  /// point. The distance of the point from the UAV is limited so that the law does not exceed the permitted
+  /// acceleration. The guard does not limit the acceleration that results from a velocity given with the position.
   TrajectoryCommand lead(const TrajectoryCommand& command, const RigidBodyState& state);
 
-  /// The yaw rate that the law demands, within the vehicle's limit [rad/s].
+  /// Limits the yaw rate that the law demands to the vehicle's limit [rad/s].
   double limit_yaw_rate(double demanded) const;
 
-  /// Whether a point stands in for the commanded position at present.
+  /// Whether the carrot replaces the commanded position at present.
   bool leading() const { return carrot_.has_value(); }
-  /// Forget the point on its way, as there is no command in effect.
+  /// Forgets the carrot, because no command is in effect.
   void reset() { carrot_.reset(); }
 
  private:
@@ -55,8 +56,8 @@ class CommandGuard {
 
   bool reject_, guard_;
   double max_speed_, max_acceleration_, max_yaw_rate_;
-  Vector3d stiffness_;  ///< of the law: acceleration per error [1/s^2]
-  Vector3d damping_;    ///< acceleration per speed [1/s]
+  Vector3d stiffness_;  ///< of the law: acceleration per position error [1/s^2]
+  Vector3d damping_;    ///< of the law: acceleration per velocity error [1/s]
   std::optional<Carrot> carrot_;
 };
 

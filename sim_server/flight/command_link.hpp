@@ -1,5 +1,5 @@
-// Commands on their way to a vehicle: some vehicles hear them one exchange late, a fault may delay them further, and
-// motors take their time to start.
+// Delays of the commands to a vehicle: some vehicles get them one exchange late, a fault may add exchanges, and the
+// motors start with a delay.   Units: ticks, exchanges.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@
 
 namespace skein::sim {
 
-/// What a vehicle was told; in each slot the newest.
+/// Commands to a vehicle: the newest one of each kind.
 struct Commands {
   std::optional<TrajectoryCommand> trajectory;
   std::optional<GimbalCommand> gimbal;
@@ -25,16 +25,18 @@ class CommandLink {
  public:
   explicit CommandLink(const UavStart& start) : motor_delay_(start.motor_delay), late_(start.late_commands) {}
 
-  /// Exchanges after the next one until what is sent now takes effect. @param delay  as for exchange().
+  /// Additional exchanges, after the next one, until a command that is sent now takes effect. @param delay  as for
+  /// exchange().
   int latency(int delay = 0) const { return delay + (late_ ? 1 : 0); }
 
-  /// Where commands are put at a step boundary.
+  /// Put commands in here at a step boundary.
   Commands& outbox() { return sent_; }
 
-  /// A new exchange begins at `tick`. Commands arrive once they are as old as the delay that is in force then, so that
-  /// none overtakes another when it changes.
-  /// @param delay  exchanges, on top of the vehicle's own latency.
-  /// @returns what arrives with it, the newest of each kind; its trajectory is for take_trajectory() alone.
+  /// Begins a new exchange at `tick`. A command arrives when its age reaches the delay in force at that time. So no
+  /// command overtakes another when the delay changes.
+  /// @param delay  exchanges, in addition to the vehicle's own latency.
+  /// @returns the commands that arrive with this exchange, the newest of each kind. Do not apply its trajectory: get
+  ///   that from take_trajectory().
   Commands exchange(Tick tick, int delay = 0) {
     in_flight_.push_back(std::exchange(sent_, {}));
     const auto age = static_cast<std::size_t>(latency(delay));
@@ -53,7 +55,7 @@ class CommandLink {
     return arrived;
   }
 
-  /// The set-point that arrived since the last call, if any did and the motors may run.
+  /// The set-point that arrived since the last call; nullopt: none, or the motors have not started yet.
   std::optional<TrajectoryCommand> take_trajectory(Tick tick) {
     if (!motors_start_ || tick < *motors_start_) return std::nullopt;
     return std::exchange(waiting_, std::nullopt);
@@ -63,7 +65,7 @@ class CommandLink {
   Tick motor_delay_;
   bool late_;
   Commands sent_;
-  std::deque<Commands> in_flight_;  ///< one an exchange, oldest first
+  std::deque<Commands> in_flight_;  ///< one entry per exchange, oldest first
   std::optional<TrajectoryCommand> waiting_;
   std::optional<Tick> motors_start_;
 };

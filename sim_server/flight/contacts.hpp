@@ -1,4 +1,4 @@
-// Who touches what, and how the many points of a physics engine become one contact for each pair.
+// Contacts between bodies. Merges a physics engine's contact points into one contact for each pair of bodies.
 // Frame W.   Units: SI.   Pure; safe from any thread.
 #pragma once
 
@@ -17,22 +17,22 @@ struct BodyId {
   bool operator==(const BodyId&) const = default;
 };
 
-/// One UAV touches something; two UAVs that touch appear once, the lower number in `uav`.
+/// A UAV touches something. A contact of two UAVs appears once, with the lower index in `uav`.
 struct Contact {
   UavIndex uav = {};
   BodyId other;
   Vector3d p_W = Vector3d::Zero();
 };
-/// At least one of the bodies is a UAV.
+/// Contact of two bodies, of which at least one must be a UAV.
 Contact contact_between(const BodyId& a, const BodyId& b, const Vector3d& p_W);
 
 /// One of the points at which a pair touches.
 struct ContactPoint {
   Contact contact;
-  double distance = 0.0;  ///< of the two bodies there [m]; negative: they overlap
+  double distance = 0.0;  ///< between the two bodies at this point [m]; negative: they overlap
 };
-/// Sorted by UAV, then ground, structure and other UAVs; of each pair the point of least distance, of equal ones the
-/// first.
+/// One contact for each pair: at its point of least distance, and of equal ones the first. Sorted by UAV, then by
+/// ground, structure and other UAVs.
 std::vector<Contact> one_for_each_pair(std::vector<ContactPoint> points);
 
 }  // namespace skein::sim

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kMaxOffset = 0.2;
 constexpr double kMaxDelayS = 1.0;
-constexpr int kAttempts = 100;  ///< then a UAV stays where the scenario has it
+constexpr int kAttempts = 100;  ///< after so many draws the UAV keeps the scenario's start
 
 Isometry3d start_pose(const UavConfig& uav, const Vector2d& offset) {
   const Vector3d p_WB(uav.start.x() + offset.x(), uav.start.y() + offset.y(), rest_height(uav.vehicle));
@@ -29,7 +29,8 @@ Vector2d draw_in_disc(RandomStream& stream, double radius) {
   return offset;
 }
 
-/// Those before it stand where they were drawn, those after it where the scenario has them.
+/// Whether a start is clear of the other UAVs: of the drawn starts of UAVs before it, and of the scenario's starts of
+/// those after it.
 bool clear_of_others(const Scenario& scenario, const std::vector<UavStart>& drawn, const Isometry3d& X_WB) {
   const UavIndex self(drawn.size());
   for (const UavIndex i : scenario.uavs()) {
@@ -60,7 +61,7 @@ Isometry3d draw_pose(const Scenario& scenario, const std::vector<UavStart>& draw
 }  // namespace
 
 void check_station(const Scenario& scenario, const IsEnclosed& enclosed) {
-  constexpr double kAboveGround = 0.01;  // from a place in the ground plane the ground cannot be seen
+  constexpr double kAboveGround = 0.01;  // a ray that starts in the ground plane does not hit the ground
   const Vector3d& p_W = scenario.station_position;
   if (!enclosed({p_W.x(), p_W.y(), std::max(p_W.z(), kAboveGround)})) return;
   throw InputError(fmt::format(

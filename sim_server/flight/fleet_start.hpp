@@ -1,12 +1,12 @@
-// Random start conditions of each UAV, drawn by the run's seed. Seed 0, the nominal run, draws none.
+// Random start conditions of each UAV, drawn from the run's seed. With seed 0, the nominal run, none are drawn.
 // Frame: W.  Units: m, ticks.
 //
 // Drawn per UAV, from streams keyed by (seed, purpose, UAV):
 //   "start_offset"     horizontal offset of the start, uniform in a disc of radius 0.2 m, such that all UAVs stay
-//                      least_start_distance() apart and clear of structure; none when 100 draws fail;
-//   "start_delay"      time from its first trajectory command until its motors start, uniform in 0 to 1 s; until then
-//                      its commands wait, and a newer one replaces an older one;
-//   "command_latency"  whether its commands take effect at once or one exchange later, with equal probability.
+//                      least_start_distance() apart and clear of structure; no offset if 100 draws fail;
+//   "start_delay"      time from the first trajectory command until the motors start, uniform in 0 to 1 s; until then
+//                      commands wait, and a newer one replaces an older one;
+//   "command_latency"  whether commands take effect at once or one exchange later, with equal probability.
 #pragma once
 
 #include <cstdint>
@@ -27,13 +27,13 @@ struct UavStart {
 /// Whether a vehicle at this pose would touch the structure.
 using TouchesStructure = std::function<bool(const VehicleConfig&, const Isometry3d& X_WB)>;
 
-/// Whether the structure encloses this place, so that no line of sight leads out: see enclosure.hpp.
+/// Whether the structure encloses a place, so that no line of sight leads out (enclosure.hpp).
 using IsEnclosed = std::function<bool(const Vector3d& p_WB)>;
 
 /// @throws InputError if the ground station stands in the structure or is enclosed by it.
 void check_station(const Scenario& scenario, const IsEnclosed& enclosed);
 
-/// One start per UAV, in fleet order. Pure.
+/// Draws one start per UAV, in fleet order. Pure.
 /// @throws InputError if a start in the scenario touches the structure or is enclosed by it; the message names the UAV.
 std::vector<UavStart> draw_fleet_start(const Scenario& scenario, std::uint64_t seed, const TouchesStructure& touches,
                                        const IsEnclosed& enclosed);

@@ -7,10 +7,10 @@
 namespace skein::sim {
 namespace {
 
-/// The reference's degree, truncated. An exact one would move the stops by a nanoradian, and a rate near them by 20
-/// times as much: more than the reference vectors allow.
+/// The reference's truncated value of a degree [rad]. The exact value would move the angle limits by a nanoradian, and
+/// rates near them by 20 times as much, which is more than the tolerance of the reference vectors.
 constexpr double kDegree = 0.01745329251;
-/// A rate command is obeyed in this many further steps without a new one, if one could come every step.
+/// Steps for which a rate command is obeyed without a new one, if a command can arrive in every step.
 constexpr int kRateCommandSteps = 2;
 
 struct Axis {

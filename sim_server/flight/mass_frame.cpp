@@ -7,9 +7,9 @@
 namespace skein::sim {
 namespace {
 
-constexpr double kNoProduct = 1e-12;  ///< of inertia, as a share of the moments: but rounding
+constexpr double kNoProduct = 1e-12;  ///< products of inertia below this share of the moments are rounding errors
 
-/// From Bo to the centre of mass.
+/// Vector from Bo to the centre of mass, in W.
 Vector3d arm_W(const MassFrame& frame, const Quaterniond& q_WB) { return q_WB * frame.X_BP.translation(); }
 
 Quaterniond q_BP(const MassFrame& frame) { return Quaterniond(Matrix3d(frame.X_BP.linear())); }
@@ -20,7 +20,7 @@ MassFrame mass_frame(const VehicleConfig& vehicle) {
   const MassProperties whole = mass_properties(vehicle);
   MassFrame frame{whole.mass_kg, Isometry3d(Eigen::Translation3d(whole.p_BBcm)), whole.I_BBcm_B.diagonal()};
   const Matrix3d products = whole.I_BBcm_B - Matrix3d(frame.inertia.asDiagonal());
-  // Rounding must not turn the axes of a symmetric vehicle about.
+  // Rounding errors must not permute or flip the axes of a symmetric vehicle.
   if (products.norm() < kNoProduct * whole.I_BBcm_B.norm()) return frame;
   const Eigen::SelfAdjointEigenSolver<Matrix3d> principal(whole.I_BBcm_B);
   Matrix3d R_BP = principal.eigenvectors();

@@ -1,6 +1,6 @@
-// Where a vehicle's mass is, and its motion as a physics engine has it: about the centre of mass, along the principal
-// axes of inertia. Frames: W world (ENU); B body (FLU), whose origin Bo odometry speaks of; P, whose origin is the
-// centre of mass Bcm and whose axes are the principal axes.  Units: SI.   Pure; safe from any thread.
+// Mass properties of a vehicle, and conversion of its motion to the frame of a physics engine: the centre of mass and
+// the principal axes of inertia. Frames: W world (ENU); B body (FLU), whose origin Bo is the reference of odometry; P,
+// with the centre of mass Bcm as origin and the principal axes as axes.  Units: SI.   Pure; safe from any thread.
 #pragma once
 
 #include "core/scenario.hpp"
@@ -13,7 +13,7 @@ struct MassFrame {
   Isometry3d X_BP = Isometry3d::Identity();
   Vector3d inertia = Vector3d::Zero();  ///< about the axes of P [kg m^2]
 };
-/// P has the axes of B where the vehicle has no products of inertia.
+/// If the vehicle has no products of inertia, P has the axes of B.
 MassFrame mass_frame(const VehicleConfig& vehicle);
 
 /// The motion of P.
@@ -26,7 +26,7 @@ struct MassState {
 MassState mass_state(const MassFrame& frame, const RigidBodyState& state);
 RigidBodyState body_state(const MassFrame& frame, const MassState& state);
 
-/// The torque about Bcm of a force at Bo and a torque; all expressed in W.
+/// Torque about Bcm of a force that acts at Bo and a torque; all expressed in W [N m].
 Vector3d torque_about_mass(const MassFrame& frame, const Quaterniond& q_WB, const Vector3d& force_W,
                            const Vector3d& torque_W);
 

@@ -18,20 +18,20 @@
 namespace skein::sim {
 namespace {
 
-// Bullet keeps contact points up to 2 cm apart, and pushes apart what comes nearer than the margins. Small margins
-// keep the thin members of a crane as thin as they are.
+// Bullet keeps contact points of surfaces up to 2 cm apart, and pushes bodies apart that are nearer than their margins.
+// Small margins keep thin members, as of a crane, nearly as thin as they are.
 constexpr double kMargin = 0.001;
-// A rotor sweeps a disc. As thick as the travel of one tick at 10 m/s, so that no sheet of the structure passes
+// Thickness of the disc that a rotor sweeps: the travel in one tick at 10 m/s, so that no sheet of the structure passes
 // through it between two ticks.
 constexpr double kRotorDiscThickness = 0.025;
-// A UAV is tested for contacts when its sphere comes nearer than this: far beyond the distance at which Bullet keeps
-// contact points, and more than the travel of a tick.
+// A UAV is tested for contacts if its sphere is nearer than this to an obstacle: far more than the distance at which
+// Bullet keeps contact points, and more than the travel in a tick.
 constexpr double kContactReach = 0.15;
-// Triangles that lie in the ground plane are ground: the floor slab of a building is no obstacle to who lands there.
+// Triangles in the ground plane count as ground, so that UAVs can land on the floor slab of a building.
 constexpr float kGroundSlab = 0.01F;
 constexpr int kSolverIterations = 20;
-// A UAV without thrust that has been this slow for this long lies still and costs nothing more. Bullet has a rule of
-// its own for that; this one does not depend on a body's neighbours.
+// A UAV without thrust that has been this slow for this long falls asleep, and then costs no computing time. Bullet has
+// its own rule for sleep; this one does not depend on a body's neighbours.
 constexpr double kStillSpeed = 0.02;  // [m/s], and [rad/s]
 constexpr int kStillTicks = 200;
 constexpr double kNoWrench = 1e-6;  // [N], [N m]
@@ -48,7 +48,7 @@ bool in_ground_plane(const TriangleMesh& mesh, const std::array<std::uint32_t, 3
 /// Boxes and six rotor discs; owns its children.
 class VehicleShape {
  public:
-  /// @param X_BP  the frame in which Bullet is to see the shape.
+  /// @param X_BP  pose in B of the frame P that is the shape's frame in Bullet.
   explicit VehicleShape(const VehicleConfig& vehicle, const Isometry3d& X_BP = Isometry3d::Identity())
       : disc_(btVector3(vehicle.rotor_radius_m, vehicle.rotor_radius_m, 0.5 * kRotorDiscThickness)) {
     const Isometry3d X_PB = X_BP.inverse();
@@ -76,7 +76,7 @@ class VehicleShape {
   btCompoundShape compound_;
 };
 
-/// Radius of the sphere about Bo that holds boxes and rotors.
+/// Radius of the sphere about Bo that contains boxes and rotors.
 double bounding_radius(const VehicleConfig& vehicle) {
   const double rotor =
       std::hypot(vehicle.arm_m + vehicle.rotor_radius_m, std::abs(vehicle.rotor_height_m) + 0.5 * kRotorDiscThickness);
@@ -87,11 +87,11 @@ struct UavBody {
   MassFrame frame;
   std::unique_ptr<VehicleShape> shape;
   std::unique_ptr<btRigidBody> body;  ///< its frame is P
-  double radius = 0.0;                ///< of a sphere about the centre of mass that holds everything
+  double radius = 0.0;                ///< of a sphere about the centre of mass that contains the body
   bool pushed = false;                ///< a wrench acts during the coming tick
   int still_ticks = 0;
-  bool out = false;                      ///< of the world, for good
-  ClearanceMemory clearance;             ///< of the structure
+  bool out = false;                      ///< removed from the world
+  ClearanceMemory clearance;             ///< from the structure
   std::optional<MomentumKeeper> keeper;  ///< while a step is under way
 
   UavBody(const VehicleConfig& vehicle, const Isometry3d& X_WB)
@@ -100,8 +100,8 @@ struct UavBody {
         radius(bounding_radius(vehicle) + frame.X_BP.translation().norm()) {
     body = std::make_unique<btRigidBody>(
         btRigidBody::btRigidBodyConstructionInfo(frame.mass_kg, nullptr, &shape->compound(), to_bullet(frame.inertia)));
-    body->setActivationState(DISABLE_DEACTIVATION);  // fall_asleep_if_still() sees to it
-    body->setFlags(0);                               // no gyroscopic terms: MomentumKeeper's business
+    body->setActivationState(DISABLE_DEACTIVATION);  // fall_asleep_if_still() does it
+    body->setFlags(0);                               // no gyroscopic terms: MomentumKeeper has them
     set_state({.p_WB = X_WB.translation(), .q_WB = Quaterniond(Matrix3d(X_WB.linear()))});
   }
 
@@ -170,7 +170,7 @@ struct PhysicsWorld::Impl {
   std::vector<Contact> read_contacts();
   void wake_who_was_hit(const std::vector<Contact>& contacts);
 
-  // User indices of bodies: UAVs have their number.
+  // User indices of bodies; that of a UAV is its fleet index.
   static constexpr int kGroundIndex = -2, kStructureIndex = -3;
 
   btDefaultCollisionConfiguration configuration;
@@ -195,7 +195,7 @@ PhysicsWorld::Impl::Impl(const TriangleMesh& mesh, double the_step_s) : step_s(t
   world.getDispatchInfo().m_deterministicOverlappingPairs = true;
   world.getSolverInfo().m_numIterations = kSolverIterations;
   solver.setRandSeed(0);
-  // Bullet hands its callbacks no context but the shapes and bodies; the bodies' user pointers lead back here.
+  // Bullet's callbacks get no context but the bodies, so the bodies' user pointers point to this object.
   dispatcher.setNearCallback(&Impl::near_callback);
 
   add_static(ground_shape, ground, kGroundIndex);
@@ -233,8 +233,8 @@ void PhysicsWorld::Impl::add_static(btCollisionShape& shape, std::unique_ptr<btR
 }
 
 bool PhysicsWorld::Impl::worth_testing(UavBody& uav, const btCollisionObject& other) {
-  // Bullet refreshes a pair's contact points only when it tests the pair. Skipping is safe as the distances at which
-  // it begins are far beyond those at which points are kept.
+  // Bullet updates a pair's contact points only when it tests the pair. Skipping the test is safe, because it begins at
+  // distances far beyond those at which Bullet keeps points.
   const btVector3& centre = uav.body->getWorldTransform().getOrigin();
   const double reach = uav.radius + kContactReach;
   if (other.getUserIndex() == kGroundIndex) return centre.z() < reach;
@@ -275,7 +275,7 @@ std::vector<Contact> PhysicsWorld::Impl::read_contacts() {
     const BodyId a = identify(*manifold.getBody0()), b = identify(*manifold.getBody1());
     for (int i = 0; i < manifold.getNumContacts(); ++i) {
       const btManifoldPoint& point = manifold.getContactPoint(i);
-      // Bullet also keeps points that are merely near. Two bodies touch when they overlap or push each other.
+      // Bullet also keeps points of bodies that are only near. Two bodies touch if they overlap or push each other.
       if (point.getDistance() > 0.0 && point.getAppliedImpulse() <= 0.0) continue;
       const btVector3 middle = 0.5 * (point.getPositionWorldOnA() + point.getPositionWorldOnB());
       points.push_back({contact_between(a, b, to_eigen(middle)), point.getDistance()});
@@ -336,7 +336,7 @@ void PhysicsWorld::apply_wrench(UavIndex uav, const Vector3d& force_W, const Vec
 bool PhysicsWorld::sane(const RigidBodyState& state) const {
   const bool finite =
       state.p_WB.allFinite() && state.q_WB.coeffs().allFinite() && state.v_WB.allFinite() && state.w_WB_B.allFinite();
-  // The squares of what comes next must be finite, too.
+  // The limit of the velocities ensures that the squares in later computations are finite.
   constexpr double kFastest = 1e6;
   return finite && state.p_WB.norm() <= reach_m_ && state.v_WB.norm() < kFastest && state.w_WB_B.norm() < kFastest;
 }

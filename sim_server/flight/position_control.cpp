@@ -9,7 +9,7 @@ namespace skein::sim {
 namespace {
 
 constexpr double kGravity = 9.781;
-constexpr double kHoverFactor = 0.19;    ///< thrust scale * this = thrust at hover
+constexpr double kHoverFactor = 0.19;    ///< thrust at hover / thrust scale
 constexpr double kNone = 0.01;           ///< a shorter vector means "not given"
 constexpr double kAtTarget = 0.05;       ///< a target nearer than this does not make the UAV move [m]
 constexpr double kMaxHorizontal = 10.0;  ///< [m/s^2]
@@ -26,7 +26,7 @@ struct Tilt {
   double roll = 0.0, pitch = 0.0;
 };
 
-/// Roll and pitch that point body z along an acceleration while the yaw stays what it is.
+/// Roll and pitch that point body z along an acceleration at the present yaw.
 Tilt tilt_towards(const Vector3d& acceleration, double yaw) {
   const Vector3d bz = acceleration.normalized();
   const Vector3d yc(-std::sin(yaw), std::cos(yaw), 0.0);
@@ -45,7 +45,7 @@ ControlDemand PositionController::step(const RigidBodyState& state, const std::o
   if (new_command) memory_.command = *new_command;
   if (memory_.mode == ControlMode::idle) {
     if (!new_command) return {};
-    memory_.mode = ControlMode::hold;  // the first command is judged by the same rules as one that ends a hold
+    memory_.mode = ControlMode::hold;  // the same rules apply as to a command that ends a hold
   }
   update_mode(state, command_age);
 
@@ -58,7 +58,7 @@ ControlDemand PositionController::step(const RigidBodyState& state, const std::o
   const Tilt tilt = tilt_towards(target_acceleration_, yaw);
   const double max_tilt = config_.max_tilt_deg * kRadPerDeg;
 
-  // The sum takes the error as it is, the proportional term the short way round.
+  // The sum uses the error without wrapping, the proportional term with it.
   const double yaw_error = wrap_angle(command.yaw) - yaw;
   memory_.yaw_error_sum = std::clamp(memory_.yaw_error_sum + yaw_error, -kYawSumLimit, kYawSumLimit);
   const double yaw_rate = kYawGain * wrap_angle(yaw_error) + kYawIntegralGain * memory_.yaw_error_sum;

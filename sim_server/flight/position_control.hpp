@@ -1,7 +1,7 @@
-// Trajectory controller of a multirotor, 20 Hz: set-point to tilt, yaw rate and thrust.
+// Trajectory controller of a multirotor, 20 Hz: computes tilt, yaw rate and thrust from a set-point.
 // Frames: W world (ENU), B body (FLU).  Units: SI, radians; age in physics ticks.
-// Source: golden vectors `position_control`. Its odd habits (an integral without a time step, a target near the
-// world's origin that means "none") are the reference's; docs/rules.md lists them.
+// Source: golden vectors `position_control`. The reference has quirks (an integral without a time step; a target near
+// the world's origin means "none"), which this controller reproduces; docs/rules.md lists them.
 #pragma once
 
 #include <array>
@@ -12,17 +12,17 @@
 
 namespace skein::sim {
 
-/// What the attitude controller is asked for.
+/// Demand to the attitude controller.
 struct ControlDemand {
   double roll = 0.0, pitch = 0.0;  ///< [rad]
   double yaw_rate = 0.0;           ///< [rad/s]
-  double thrust_N = 0.0;           ///< may be negative; rotors then stand still
+  double thrust_N = 0.0;           ///< may be negative; the rotors then stop
 };
 
 enum class ControlMode {
   idle,      ///< no command yet: no thrust
-  hold,      ///< the command is too old: stay where it lapsed
-  yaw_only,  ///< an all-zero command: stay, turn
+  hold,      ///< the command has lapsed: stay at the position of that time
+  yaw_only,  ///< the command is all zero but for the yaw: stay and turn
   moving,
   stopped,  ///< no thrust, for good
 };
@@ -37,11 +37,11 @@ constexpr std::array<EnumName<ControlMode>, 5> enum_names(ControlMode) {
 /// One UAV's controller. Not thread-safe.
 class PositionController {
  public:
-  /// A command older than this is dropped for holding; exactly this old, nothing changes.
+  /// A command older than this lapses, and the UAV holds its position. At exactly this age the mode does not change.
   static constexpr Tick kMaxAge = 40;
-  static constexpr double kPositionSumLimit = 10.0;  ///< of the sum of errors, per axis [m]
+  static constexpr double kPositionSumLimit = 10.0;  ///< limit of the sum of position errors, per axis [m]
 
-  /// All that it remembers from step to step.
+  /// The controller's state from step to step.
   struct Memory {
     ControlMode mode = ControlMode::idle;
     TrajectoryCommand command;                       ///< in effect, after the rules on modes
@@ -52,18 +52,18 @@ class PositionController {
   explicit PositionController(const PositionControlConfig& config) : config_(config) {}
 
   /// One step of 1/20 s.
-  /// @param new_command  arrived since the last step, if any; it replaces the one in effect.
-  /// @param command_age  time since the last command arrived, less what a pilot at a slower pace than 20 Hz may take
-  ///                     longer for the next; ignored while there was none.
+  /// @param new_command  arrived since the last step; it replaces the one in effect. nullopt: none arrived.
+  /// @param command_age  time since the last command arrived, less the grace for pilots that send at less than 20 Hz;
+  ///                     ignored before the first command.
   ControlDemand step(const RigidBodyState& state, const std::optional<TrajectoryCommand>& new_command,
                      Tick command_age);
 
-  /// Cut the thrust from now on: the UAV falls.
+  /// Cuts the thrust for good: the UAV falls.
   void stop() { memory_.mode = ControlMode::stopped; }
 
   const Memory& memory() const { return memory_; }
   void set_memory(const Memory& memory) { memory_ = memory; }
-  /// Acceleration asked for in the last step, after limits; z includes gravity [m/s^2].
+  /// Demanded acceleration of the last step, after limits; z includes gravity [m/s^2].
   const Vector3d& target_acceleration() const { return target_acceleration_; }
 
  private:

@@ -55,7 +55,7 @@ Vector3d Rotors::pushed_B(const Vector3d& v_A_B) const {
 
 namespace {
 
-/// Control steps from one command to the next, when they come every `command_ticks`.
+/// Control steps from one command to the next if commands come every `command_ticks`.
 int control_steps(Tick command_ticks) {
   return static_cast<int>(std::max<Tick>(1, (command_ticks + kControlTicks - 1) / kControlTicks));
 }
@@ -78,7 +78,7 @@ void Vehicle::control(Tick tick, const RigidBodyState& state, const std::optiona
     command_tick_ = tick;
   }
   const Tick age = std::max<Tick>(0, tick - command_tick_ - grace_);
-  // The controller keeps the last command by itself; it needs a new one while the guard moves the position.
+  // The controller keeps the last command by itself; it needs new ones only while the guard moves the position.
   std::optional<TrajectoryCommand> new_command;
   if (command_ && age <= PositionController::kMaxAge) {
     const bool was_leading = guard_.leading();

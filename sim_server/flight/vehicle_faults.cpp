@@ -6,7 +6,7 @@
 namespace skein::sim {
 namespace {
 
-/// Applies what is a vehicle's own fault, and passes by all others.
+/// Applies the faults of vehicles, and ignores all others.
 class Applier {
  public:
   Applier(const std::vector<std::string>& uavs, std::vector<VehicleCondition>& conditions)

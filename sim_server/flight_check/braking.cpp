@@ -29,7 +29,7 @@ Vector3d Braking::at(double t_s) const {
 
 double distance_of_segments(const Vector3d& from_a, const Vector3d& to_a, const Vector3d& from_b,
                             const Vector3d& to_b) {
-  // Either an end of one is nearest, or both have a point inside where the line between them stands upon both.
+  // Either an end of a segment is nearest, or two inner points whose connecting line is perpendicular to both segments.
   double least = std::min({distance_to_segment(from_a, from_b, to_b), distance_to_segment(to_a, from_b, to_b),
                            distance_to_segment(from_b, from_a, to_a), distance_to_segment(to_b, from_a, to_a)});
   const Vector3d a = to_a - from_a, b = to_b - from_b, n = a.cross(b), between = from_b - from_a;

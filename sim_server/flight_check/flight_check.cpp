@@ -9,7 +9,7 @@ namespace skein::sim {
 namespace {
 
 constexpr double kNoPosition = 0.01;  ///< a set-point this near to the origin means "no position": docs/rules.md
-constexpr double kLookBeyondM = 2.0;  ///< farther than asked, so that the next exchanges need not ask again
+constexpr double kLookBeyondM = 2.0;  ///< extra search distance, so that the next exchanges need no search
 
 }  // namespace
 
@@ -52,7 +52,7 @@ void FlightCheck::check_structure(Tick tick, const RayScene& rays, UavIndex uav,
   Body& body = bodies_[uav];
   const Braking braking = braking_of(uav, state);
   const double way = braking.way_m();
-  // Nothing is to be told of distances beyond the least ones so far, but for whether the body touches.
+  // Only distances below the least ones so far matter, and whether the body touches the structure.
   const double most_now = findings_.least_clearance_m + body.radius_m;
   const double most = std::max(findings_.least_braking_clearance_m, 0.0) + body.radius_m;
   const double reach = std::max(most_now, most + way);

@@ -12,7 +12,7 @@ struct Least {
   double at = 0.0;  ///< argument at which f has this value
 };
 
-/// Piyavskii-Shubert algorithm: evaluates next where the Lipschitz bound of an interval is least, depth first.
+/// Piyavskii-Shubert algorithm, depth first: evaluates f where the Lipschitz bound of an interval has its minimum.
 /// @param f  on [0, length]; |f(x) - f(y)| <= slope |x - y|.   @param slope  above 0.
 /// @param most  values above it are ignored.   @param tolerance  above 0.
 /// @returns a value of f within `tolerance` of the minimum, and its argument; {most, 0} when no value below `most` was

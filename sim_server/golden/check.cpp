@@ -15,7 +15,7 @@
 namespace skein::sim {
 namespace {
 
-/// The reference's two vehicles, as far as its controllers know them.
+/// The reference's two vehicles, with the values that its controllers use.
 VehicleConfig reference_vehicle(const GoldenTable& table, std::size_t row) {
   const std::string& role = table.text(row, "role");
   VehicleConfig vehicle;
@@ -75,7 +75,7 @@ GoldenReport check_scoring(const GoldenTable& table) {
     compare.number("q_res", quality.q_res, kQuality);
     compare.number("score", quality.score, kQuality);
 
-    // What counts is asked of the path that the simulator takes.
+    // The flag `counted` checks the functions with which the simulator scores.
     const auto p_C = exposure.view(p_W);
     const auto score = p_C ? exposure.score(*p_C, n_W) : std::nullopt;
     compare.flag("counted", score && score->score() >= kCountsFrom);
@@ -83,7 +83,7 @@ GoldenReport check_scoring(const GoldenTable& table) {
   return compare.report();
 }
 
-/// The flags that name the reference's quirks, either axis.
+/// The flags for the reference's quirks; each is set if the quirk shows on either axis.
 struct GimbalQuirks {
   bool saturated = false, partial = false, stale = false;
 
@@ -134,7 +134,7 @@ GoldenReport check_gimbal(const GoldenTable& table) {
     }
     gimbal.step(command);
     const GimbalState& state = gimbal.state();
-    const double mode = number("effective_mode");  // any number of the same kind
+    const double mode = number("effective_mode");  // any number that means the same mode passes
     compare.number("effective_mode", gimbal_mode(mode) == gimbal.mode() ? mode : number_of(gimbal.mode()), {});
     compare.number("pitch", state.pitch, kTolerance);
     compare.number("yaw", state.yaw, kTolerance);
@@ -158,7 +158,7 @@ ControlMode control_mode(const GoldenTable& table, std::size_t row) {
   throw InputError(table.place(row) + ": column 'state_before': '" + name + "'; hold, yaw_only or moving is expected");
 }
 
-/// An age in ticks that falls on the same side of the limit: younger, just as old, older.
+/// Converts an age to ticks such that rounding does not move it across the limit: it stays below, at, or above it.
 Tick age_of(double age_s) {
   constexpr Tick kLimit = PositionController::kMaxAge;
   if (age_s == seconds(kLimit)) return kLimit;
@@ -226,7 +226,7 @@ GoldenReport check_attitude_control(const GoldenTable& table) {
 struct Boxes {
   std::vector<Eigen::AlignedBox3d> boxes;
 
-  /// Nearest entry on the segment, by slabs.
+  /// Distance of the first box on the segment [m], by the slab method.
   std::optional<double> operator()(const Vector3d& from, const Vector3d& to) const {
     std::optional<double> nearest;
     for (const auto& box : boxes) {
@@ -238,7 +238,7 @@ struct Boxes {
   }
 
  private:
-  /// Share of the way at which the segment enters the box.
+  /// Where the segment enters the box, as a share of its length.
   static std::optional<double> entry_share(const Eigen::AlignedBox3d& box, const Vector3d& from, const Vector3d& way) {
     double enter = 0.0, leave = 1.0;
     for (int axis = 0; axis < 3; ++axis) {

@@ -1,4 +1,4 @@
-// Reference vectors run through the production code. The table is recognised by its header row.
+// Runs reference vectors through the production code. The header row tells which table it is.
 #pragma once
 
 #include <filesystem>
@@ -12,11 +12,11 @@ struct GoldenReport {
   std::size_t rows = 0;
   std::size_t failures = 0;           ///< rows in which a value is beyond its tolerance, or a flag differs
   double worst = 0.0;                 ///< greatest difference, as a share of its tolerance (<= 1 passes)
-  std::string worst_column;           ///< where it is
+  std::string worst_column;           ///< column of that difference
   std::vector<std::string> messages;  ///< the first few failures: line, column, expected, computed
 };
 
-/// Check every row of a table.
+/// Checks every row of a table.
 /// @throws InputError if the file cannot be read, is malformed, or its columns belong to no known table.
 GoldenReport check_golden(const std::filesystem::path& file);
 

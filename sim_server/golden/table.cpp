@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kMaxMessages = 10;
 
-/// Without the blanks around it, and without a pair of quotes.
+/// The cell without surrounding blanks, and without a pair of quotes.
 std::string trimmed(const std::string& cell) {
   constexpr const char* kBlanks = " \t\r";
   const std::size_t begin = cell.find_first_not_of(kBlanks);
@@ -29,13 +29,13 @@ std::vector<std::string> cells_of(const std::string& line) {
   return cells;
 }
 
-/// Empty lines and comments are no rows.
+/// Whether a line is empty or a comment: such lines are no rows.
 bool says_nothing(const std::string& line) {
   const std::string text = trimmed(line);
   return text.empty() || text.front() == '#';
 }
 
-/// As spreadsheets and scripts write numbers: also "+1", "nan", "-inf", and what is too small to tell from 0.
+/// Parses numbers as spreadsheets and scripts write them: also "+1", "nan", "-inf", and values that underflow to 0.
 std::optional<double> parsed(const std::string& text) {
   const char* begin = text.data() + (text.size() > 1 && text[0] == '+' && text[1] != '-' ? 1 : 0);
   const char* const end = text.data() + text.size();
@@ -45,7 +45,7 @@ std::optional<double> parsed(const std::string& text) {
   return error == std::errc::result_out_of_range ? std::strtod(begin, nullptr) : value;
 }
 
-/// 1 and 0, however written; nullopt for anything else.
+/// Parses true, false, 1 and 0 in several spellings; nullopt for anything else.
 std::optional<bool> as_flag(const std::string& text) {
   if (text == "true" || text == "True" || text == "TRUE") return true;
   if (text == "false" || text == "False" || text == "FALSE") return false;
@@ -61,7 +61,7 @@ GoldenTable::GoldenTable(const std::filesystem::path& file) : file_(file) {
   if (!in) throw InputError(file.string() + ": cannot be read; a CSV table with a header row is expected");
   std::size_t width = 0, number = 0;
   for (std::string line; next_line(in, line, file);) {
-    if (++number == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);  // an editor's mark of UTF-8
+    if (++number == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);  // UTF-8 byte order mark
     if (says_nothing(line)) continue;
     auto cells = cells_of(line);
     const std::string here = file.string() + ":" + std::to_string(number);
@@ -130,7 +130,7 @@ void GoldenComparison::number(const std::string& column, const std::optional<dou
   }
   const double allowed = tolerance.absolute + tolerance.relative * std::abs(*expected);
   const double difference = std::abs(*computed - *expected);
-  // An infinite value, or the exact one, differs by nothing even where the tolerance is not a number.
+  // Equal values, infinite ones included, have no difference, even if the tolerance is not a number.
   const bool same = *computed == *expected || (std::isnan(*computed) && std::isnan(*expected));
   const double share = same ? 0.0 : difference / allowed;
   note_difference(column, share);

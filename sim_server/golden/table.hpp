@@ -1,4 +1,4 @@
-// A CSV table of reference vectors, and the book-keeping of comparing it with computed values.
+// A CSV table of reference vectors, and its comparison with computed values.
 #pragma once
 
 #include <filesystem>
@@ -12,8 +12,8 @@
 
 namespace skein::sim {
 
-/// A table in memory: a header row, then rows of as many cells, in any order of columns. Empty lines and lines that
-/// begin with # are passed over, as are blanks and quotes around a cell, carriage returns and a mark of UTF-8.
+/// A table in memory: a header row, then rows with the same number of cells; columns may be in any order. Ignores empty
+/// lines, lines that begin with #, blanks and quotes around a cell, carriage returns and a UTF-8 byte order mark.
 class GoldenTable {
  public:
   /// @throws InputError if the file cannot be read, has no rows, names a column twice, or a row's length differs from
@@ -22,7 +22,7 @@ class GoldenTable {
 
   std::size_t rows() const { return rows_.size(); }
   bool has(const std::string& column) const { return columns_.count(column) > 0; }
-  /// Line in the file of a row, counted from 1.
+  /// Line number of a row in the file, counted from 1.
   std::size_t line(std::size_t row) const { return lines_[row]; }
   /// "file:line" of a row, for messages.
   std::string place(std::size_t row) const { return file_.string() + ":" + std::to_string(line(row)); }
@@ -40,9 +40,9 @@ class GoldenTable {
 
  private:
   std::filesystem::path file_;
-  std::unordered_map<std::string, std::size_t> columns_;  // looked up only, never walked through
+  std::unordered_map<std::string, std::size_t> columns_;  // never iterated: its order is arbitrary
   std::vector<std::vector<std::string>> rows_;
-  std::vector<std::size_t> lines_;  ///< of the rows in the file
+  std::vector<std::size_t> lines_;  ///< line number of each row in the file
 };
 
 struct Tolerance {
@@ -50,18 +50,18 @@ struct Tolerance {
   double relative = 0.0;  ///< of the expected value
 };
 
-/// Compares computed values with one row after the other.
+/// Compares computed values with a table, one row after the other.
 class GoldenComparison {
  public:
   GoldenComparison(const GoldenTable& table, std::string name);
 
-  /// All that follows is about this row.
+  /// The comparisons that follow are with this row.
   void begin_row(std::size_t row);
   void number(const std::string& column, const std::optional<double>& computed, const Tolerance& tolerance);
   void vector(const std::string& prefix, const Vector3d& computed, const Tolerance& tolerance);
-  /// Angles that differ by whole turns are the same.
+  /// Compares angles modulo 2 pi [rad].
   void angle(const std::string& column, double computed, const Tolerance& tolerance);
-  /// 0 or 1.
+  /// The cell must hold a boolean: 0, 1, true or false.
   void flag(const std::string& column, bool computed);
   void count(const std::string& column, int computed);
   void text(const std::string& column, const std::string& computed);

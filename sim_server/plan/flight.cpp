@@ -10,12 +10,12 @@
 namespace skein::sim {
 namespace {
 
-constexpr double kFlownLonger_s = 5.0;  ///< than the mission's time: the clock starts a moment after the first command
-/// Exchanges for which a link must stand until a report is taken as delivered: there, judged, and back.
+constexpr double kFlownLonger_s = 5.0;  ///< than the mission's time, because the clock starts after the first command
+/// Exchanges for which a link must last until a report counts as delivered: report, judgement, and acknowledgement.
 constexpr int kLinkedSteps = 4;
-constexpr double kBodyTurn = 30.0 * kRadPerDeg;  ///< of a body, beside its gimbal [rad/s]
+constexpr double kBodyTurn = 30.0 * kRadPerDeg;  ///< yaw rate of the body; the gimbal turns in addition [rad/s]
 
-/// Reports on their way to the station.
+/// Models the delivery of capture reports to the station.
 class Uplinks {
  public:
   Uplinks(const Scenario& scenario, std::size_t points)
@@ -49,7 +49,8 @@ class Uplinks {
   std::size_t collisions_ = 0;
 };
 
-/// Follows the moves of one UAV. The camera has the plan's heading: the gimbal turns what the body has not yet turned.
+/// Commands one UAV along its moves. The gimbal compensates for the yaw that the body still lacks, so that the camera
+/// has the planned heading.
 class Pilot {
  public:
   explicit Pilot(double start_yaw) : yaw_(start_yaw) {}

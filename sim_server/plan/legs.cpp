@@ -10,7 +10,7 @@
 namespace skein::sim {
 namespace {
 
-constexpr double kAround = 12.0;  ///< that ways go around the structure [m]
+constexpr double kAround = 12.0;  ///< margin around the structure in which paths may go [m]
 constexpr double kTurnSettleS = 0.1;
 
 Eigen::AlignedBox3d space_of_ways(const Scenario& scenario, const Eigen::AlignedBox3d& structure) {
@@ -22,7 +22,7 @@ Eigen::AlignedBox3d space_of_ways(const Scenario& scenario, const Eigen::Aligned
   return space;
 }
 
-/// Whether the scenario's links let the two be so far apart, in this direction.
+/// Whether a distance is within the range that the scenario sets for this direction of the link.
 bool in_range(const Scenario& scenario, const std::string& from, const std::string& to, double distance) {
   return std::ranges::none_of(scenario.links, [&](const LinkEffect& effect) {
     return effect.range_m && distance > *effect.range_m && names_node(effect.from, from) && names_node(effect.to, to);
@@ -77,7 +77,7 @@ double Legs::flight_s(std::size_t kind, const Vector3d& from_W, const std::vecto
 }
 
 double Legs::turn_s(std::size_t from, std::size_t to) const {
-  if (from >= views_.size()) return 0.0;  // after the take-off it may look wherever it will
+  if (from >= views_.size()) return 0.0;  // the camera turns during the takeoff
   const double turn = std::max(std::abs(wrap_angle(views_[from].yaw - views_[to].yaw)),
                                std::abs(views_[from].pitch - views_[to].pitch));
   return turn / (team_.kinds[kinds_[to]].vehicle.gimbal.rate_limit_deg_s * kRadPerDeg) + kTurnSettleS;
@@ -99,7 +99,7 @@ double Legs::leg_s(std::size_t from, std::size_t to) {
 }
 
 std::vector<Vector3d> Legs::way(std::size_t from, std::size_t to) {
-  // Always found from the lower number, so that it is the same way there and back.
+  // The search always begins at the lower number, so that the path is the same in both directions.
   const std::size_t a = std::min(from, to), b = std::max(from, to);
   Ways& ways = ways_[kinds_[to]];
   if (ways.clear(places_[a], places_[b])) return {places_[to]};
@@ -117,7 +117,7 @@ bool Legs::linked(std::size_t kind, const Vector3d& p_WB) const {
   const LinkResult link = trace_link(
       station, antenna, [&](const Vector3d& a, const Vector3d& b) { return world_.first_hit_distance(a, b); });
   if (!link.linked) return false;
-  // Kinds do not tell names of nodes apart, so what limits one UAV's range limits all of its kind.
+  // A kind stands for several UAVs, so a range limit of one of them applies to all of its kind.
   for (const UavIndex uav : scenario_.uavs()) {
     if (team_.kind_of[static_cast<std::size_t>(uav)] != kind) continue;
     const std::string& name = scenario_.fleet[uav].name;

@@ -1,5 +1,5 @@
-// How long a UAV takes from place to place: starts, views, and from views to where its pictures reach the station.
-// Units: SI.
+// Flight times of a UAV between places: from starts to views, between views, and from views to places where its
+// pictures reach the station.   Frame: W.   Units: SI.
 #pragma once
 
 #include <cstddef>
@@ -18,8 +18,8 @@ namespace skein::sim {
 
 inline constexpr double kNever = std::numeric_limits<double>::infinity();
 
-/// Places are numbered: first all views, then the end of each UAV's take-off. All ways are by the true scene; the radio
-/// is, too, without UAVs in the way. Remembers what it was asked; not thread-safe.
+/// Places are numbered: first all views, then the end of each UAV's takeoff. Paths and radio links are computed in the
+/// true scene; UAVs do not block links. Caches its results; not thread-safe.
 class Legs {
  public:
   /// All must outlive this.
@@ -27,25 +27,26 @@ class Legs {
        const std::vector<View>& views, const PlanConfig& config);
 
   std::size_t start_of(UavIndex uav) const { return views_.size() + static_cast<std::size_t>(uav); }
-  /// From the first command to the end of the take-off; kNever where the scene leaves no room for one [s].
+  /// Time from the first command to the end of the takeoff [s]; kNever if the structure is in the way.
   double takeoff_s(UavIndex uav) const { return takeoff_s_[uav]; }
 
-  /// From rest at a place to the picture at a view, the turn of the camera and the picture included; kNever where there
-  /// is no way [s].
+  /// Time from rest at a place until the picture at a view is taken, the turn of the camera included [s]; kNever if
+  /// there is no path.
   double leg_s(std::size_t from, std::size_t to);
-  /// The same if nothing were in the way: never more than leg_s(). Cheap.
+  /// Lower bound of leg_s(), for a straight line without obstacles. Cheap.
   double least_leg_s(std::size_t from, std::size_t to) const;
-  /// From a view to where a UAV is linked to the station; 0 where it is at the view, kNever where it cannot get to [s].
+  /// Time from a view to a place with a link to the station [s]; 0 if the view has a link, kNever if none is reachable.
   double tail_s(std::size_t view);
 
-  /// Corners of the way, the last one being the view; empty where there is none.
+  /// Corners of the path, without `from`; the last one is `to`. Empty if there is no path.
   std::vector<Vector3d> way(std::size_t from, std::size_t to);
-  /// Corners of the way to where it is linked; empty where it is or where there is none.
+  /// Corners of the path from a view to a place with a link to the station. Empty if the view has a link, or if there
+  /// is no path.
   std::vector<Vector3d> tail(std::size_t view);
-  /// How long the camera takes to turn [s].
+  /// Time that the camera takes to turn from one view's direction to the other's [s].
   double turn_s(std::size_t from, std::size_t to) const;
 
-  /// Whether a UAV of a kind is linked to the station from a place: sight of the antennas, and range.
+  /// Whether a UAV of a kind has a link to the station at a place: line of sight between antennas, and range.
   bool linked(std::size_t kind, const Vector3d& p_WB) const;
   const Vector3d& place(std::size_t i) const { return places_[i]; }
   std::size_t kind(std::size_t place) const { return kinds_[place]; }
@@ -60,15 +61,15 @@ class Legs {
   const RayScene& world_;
   const Team& team_;
   const std::vector<View>& views_;
-  double picture_s_;  ///< at each view
+  double picture_s_;  ///< time at rest at each view
   std::vector<Vector3d> places_;
   std::vector<std::size_t> kinds_;  ///< by place
   std::vector<double> takeoff_s_;   ///< by UAV
   std::vector<Ways> ways_;          ///< by kind
   std::vector<std::vector<std::uint8_t>> linked_nodes_;
   std::vector<std::optional<std::vector<std::size_t>>> anchors_;  ///< by place
-  std::unordered_map<std::uint64_t, double> flights_;             ///< by pair of places; only ever looked up
-  std::vector<double> tails_;                                     ///< by view; negative: not asked yet
+  std::unordered_map<std::uint64_t, double> flights_;             ///< by pair of places; never iterated
+  std::vector<double> tails_;                                     ///< by view; negative: not yet computed
 };
 
 }  // namespace skein::sim

@@ -9,7 +9,7 @@
 namespace skein::sim {
 namespace {
 
-/// Of the mission's time that routes leave to waits and to the radio.
+/// Part of the mission's time that the routes leave free for waits and for the delivery by radio.
 constexpr double kReserveShare = 0.01;
 constexpr double kReserveS = 1.5;
 

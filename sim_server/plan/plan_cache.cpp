@@ -11,7 +11,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Goes up whenever the same question may get another plan, or a plan another flight.
+/// Must be incremented whenever the same inputs may lead to another plan, or the same plan to another flight.
 constexpr int kPlanVersion = 1;
 
 Json numbers(const Vector3d& p) { return {p.x(), p.y(), p.z()}; }
@@ -54,7 +54,7 @@ void add_numbers(Sha256& hash, std::initializer_list<double> values) {
   for (const double value : values) hash.add(value);
 }
 
-/// What the oracle's key leaves out of a vehicle: how it flies.
+/// Adds what the oracle's key leaves out of a vehicle: its flight properties.
 void add_vehicle(Sha256& hash, const VehicleConfig& vehicle) {
   const PositionControlConfig& law = vehicle.position_control;
   const AttitudeControlConfig& attitude = vehicle.attitude_control;
@@ -126,7 +126,7 @@ std::string plan_key(const Scenario& scenario, const Scene& scene, const PlanCon
     add_vehicle(hash, uav.vehicle);
   }
   for (const LinkEffect& effect : scenario.links) {
-    if (!effect.range_m) continue;  // others delay or lose messages, which a plan leaves out
+    if (!effect.range_m) continue;  // the others delay or lose messages; a plan does not model that
     hash.add(*effect.range_m).add(effect.from.size());
     for (const std::string& node : effect.from) hash.add(node);
     for (const std::string& node : effect.to) hash.add(node);

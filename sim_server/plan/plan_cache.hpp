@@ -1,5 +1,5 @@
-// Plans, kept like the oracle's answers (oracle/cache.hpp): a file each, named by a hash of all that the plan depends
-// on.
+// A cache of plans, like that of the oracle's answers (oracle/cache.hpp): one file per plan, named by a hash of all
+// inputs of the plan.
 #pragma once
 
 #include <filesystem>
@@ -12,9 +12,9 @@
 
 namespace skein::sim {
 
-/// Keys: docs/oracle.md. Doubles come back to the last bit.
+/// Keys: docs/oracle.md. plan_from_json() restores doubles to the last bit.
 nlohmann::ordered_json to_json(const Plan& plan);
-/// @throws nlohmann::json::exception where something is missing or of the wrong type.
+/// @throws nlohmann::json::exception if a key is missing or its value has the wrong type.
 Plan plan_from_json(const nlohmann::ordered_json& json);
 
 /// 64 hexadecimal digits that change with anything that a plan or its flight depends on. Pure.
@@ -22,8 +22,8 @@ std::string plan_key(const Scenario& scenario, const Scene& scene, const PlanCon
 
 struct PlanRequest {
   PlanConfig config;
-  bool search = true;                          ///< false: only what is in the cache
-  std::optional<std::filesystem::path> cache;  ///< nullopt: none is used
+  bool search = true;                          ///< false: only look into the cache
+  std::optional<std::filesystem::path> cache;  ///< folder; nullopt: no cache is used
 };
 
 struct PlanReply {
@@ -31,7 +31,8 @@ struct PlanReply {
   std::vector<std::string> warnings;
 };
 
-/// Looks into the cache; where there is nothing whole, and it is asked to, it searches, flies, and keeps the plan.
+/// Returns the plan from the cache. If the cache has no valid one, and if `search` is set, makes a plan, flies it, and
+/// stores it in the cache. Errors of the cache become warnings.
 PlanReply ask_plan(const Scenario& scenario, const Scene& scene, const PlanRequest& request);
 
 }  // namespace skein::sim

@@ -1,4 +1,4 @@
-// Shorter routes through the same views: parts turned round (2-opt), and few stops moved elsewhere (or-opt).
+// Shortens routes without changing their views: reverses parts (2-opt), and moves a few stops elsewhere (or-opt).
 #include <algorithm>
 
 #include "sim_server/plan/routes.hpp"
@@ -7,8 +7,8 @@ namespace skein::sim {
 namespace {
 
 constexpr double kLeastSaved_s = 1e-6;
-constexpr std::size_t kLongestMoved = 3;  ///< stops that are moved together
-constexpr int kMostMoves = 200;           ///< on one route, each time
+constexpr std::size_t kLongestMoved = 3;  ///< maximum number of stops that are moved together
+constexpr int kMostMoves = 200;           ///< maximum number of changes of one route in one call
 
 }  // namespace
 
@@ -20,7 +20,8 @@ void RouteSearch::shorten(std::size_t uav) {
   time_again(uav);
 }
 
-/// Turns stops i to j round. Ways and turns take as long there as back, so only the edges about the part change.
+/// Reverses the order of stops i to j. Legs take the same time in both directions, so only the edges at the ends of the
+/// part change. @returns whether the route has become shorter.
 bool RouteSearch::reverse_once(std::size_t uav) {
   std::vector<std::size_t>& stops = routes_[uav].stops;
   for (std::size_t i = 0; i + 1 < stops.size(); ++i) {
@@ -39,7 +40,7 @@ bool RouteSearch::reverse_once(std::size_t uav) {
   return false;
 }
 
-/// Moves up to three stops that follow each other to another place of the route, turned round or not.
+/// Moves up to three successive stops to another position of the route, reversed or not. @returns as reverse_once().
 bool RouteSearch::move_once(std::size_t uav) {
   std::vector<std::size_t>& stops = routes_[uav].stops;
   const auto at = [&](const std::vector<std::size_t>& list, std::size_t i) {

@@ -10,14 +10,14 @@
 namespace skein::sim {
 namespace {
 
-constexpr double kLeastGain = 0.02;     ///< less is not worth a stop
-constexpr double kLeastAdded_s = 0.05;  ///< of time, so that a gain a second is a number
-constexpr double kNearStop = 6.0;       ///< of a new stop: views whose detours it may have shortened [m]
-constexpr std::size_t kEdgesTried = 2;  ///< of a route, by exact times
+constexpr double kLeastGain = 0.02;     ///< views with a smaller gain get no stop
+constexpr double kLeastAdded_s = 0.05;  ///< lower limit of an added time, so that the gain per second is finite
+constexpr double kNearStop = 6.0;       ///< a new stop may shorten the detours to views within this distance [m]
+constexpr std::size_t kEdgesTried = 2;  ///< insertion positions of a route that are checked with exact times
 
 }  // namespace
 
-/// Where a view is best put, and what that takes and brings.
+/// The best position to insert a view, with its cost in time and its gain.
 struct RouteSearch::Insertion {
   std::size_t uav = 0, position = 0;
   double added_s = kNever;
@@ -25,7 +25,7 @@ struct RouteSearch::Insertion {
   double rate() const { return added_s < kNever ? gain / std::max(added_s, kLeastAdded_s) : 0.0; }
 };
 
-/// A view that waits for its turn in a heap, by what was known of it when it came in.
+/// An entry of the heap of candidate views: the view with its gain per second at the time when it was pushed.
 struct RouteSearch::Later {
   double rate;
   std::size_t view;
@@ -44,7 +44,8 @@ RouteSearch::RouteSearch(Legs& legs, const Scenario& scenario, const Team& team,
   for (const UavIndex uav : scenario.uavs()) takeoff_s_.push_back(legs.takeoff_s(uav));
 }
 
-/// From one stop to the next. @param to  the number of views or more: to where the pictures are delivered.
+/// Time from one stop to the next. @param to  if no view has this number: to where the pictures are delivered.
+/// @param exact  false: a cheap lower bound.
 double RouteSearch::edge_s(std::size_t uav, std::size_t from, std::size_t to, bool exact) {
   const std::size_t start = legs_.start_of(UavIndex{uav});
   if (to >= views_.size()) return from == start ? 0.0 : legs_.tail_s(from);
@@ -58,7 +59,7 @@ double RouteSearch::added_s(std::size_t uav, std::size_t position, std::size_t v
   return edge_s(uav, before, view, exact) + edge_s(uav, view, after, exact) - routes_[uav].edges_s[position];
 }
 
-/// The best places by times that leave out what is in the way are tried by exact ones.
+/// Finds the best positions by the lower bounds of times, and checks only these with exact times.
 void RouteSearch::offer_places(std::size_t uav, std::size_t view, Insertion& best) {
   std::array<std::pair<double, std::size_t>, kEdgesTried> hopeful;
   hopeful.fill({kNever, 0});
@@ -106,7 +107,8 @@ void RouteSearch::push_near(std::size_t view, std::vector<Later>& heap) {
   }
 }
 
-/// Lazily: what a view brings only falls while others are taken, so who is first in the heap and remains it is best.
+/// Lazy greedy: inserting views only lowers the gains of others. So a view that is still first in the heap after its
+/// entry has been updated is the best one.
 void RouteSearch::fill() {
   std::vector<Later> heap;
   for (std::size_t view = 0; view < views_.size(); ++view) {
@@ -169,7 +171,7 @@ void RouteSearch::drop(const std::vector<std::uint8_t>& dropped) {
   count_again();
 }
 
-/// By view: what would be lost without it alone.
+/// By view: the loss of score if this view alone were removed.
 std::vector<double> RouteSearch::losses() const {
   std::vector<float> second(best_.size(), 0.0F);
   std::vector<std::size_t> owner(best_.size(), views_.size());
@@ -191,7 +193,7 @@ std::vector<double> RouteSearch::losses() const {
   return losses;
 }
 
-/// Those that bring the least a second.
+/// Removes the stops with the least score per second. @param share  of all stops, [0, 1].
 void RouteSearch::drop_cheap(double share) {
   const std::vector<double> lost = losses();
   std::vector<std::pair<double, std::size_t>> rates;

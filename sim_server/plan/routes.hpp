@@ -1,5 +1,5 @@
-// Which UAV takes which views in which order: team orienteering with a score that saturates. A search, so its answer
-// is a lower bound of what could be had.
+// Assigns views to UAVs, and sets their order: a team orienteering problem with a score that saturates. The solver is a
+// local search, so its score is a lower bound of the optimum.
 // Units: SI.
 #pragma once
 
@@ -10,22 +10,22 @@
 
 namespace skein::sim {
 
-/// Of one UAV: views in the order in which it takes them, and when it has delivered them [s].
+/// Route of one UAV.
 struct Route {
-  std::vector<std::size_t> stops;
-  std::vector<double> edges_s;  ///< to each stop, and from the last one to where its pictures are delivered
-  double time_s = 0.0;
+  std::vector<std::size_t> stops;  ///< views, in the order in which the UAV takes them
+  std::vector<double> edges_s;     ///< times to each stop, and from the last one to where the pictures are delivered
+  double time_s = 0.0;             ///< when the last picture has been delivered
 };
 
 /// Not thread-safe.
 class RouteSearch {
  public:
-  /// @param points  of the scene.   @param time_s  until which the last picture must be delivered.
+  /// @param points  number of points in the scene.   @param time_s  deadline for the delivery of the last picture.
   RouteSearch(Legs& legs, const Scenario& scenario, const Team& team, const std::vector<View>& views,
               std::size_t points, double time_s);
 
-  /// Fills routes by gain a second, then takes parts of them apart and fills them again, `rounds` times, and keeps what
-  /// is better. @returns a route for each UAV, in fleet order.
+  /// Fills the routes greedily, by gain per second. Then, `rounds` times, removes a part of the stops, fills the routes
+  /// again, and keeps the result if it is better. @returns a route for each UAV, in fleet order.
   std::vector<Route> search(const PlanConfig& config);
 
  private:
@@ -57,7 +57,7 @@ class RouteSearch {
   double time_s_;
   std::vector<Route> routes_;
   std::vector<std::uint8_t> used_;  ///< by view
-  std::vector<float> best_;         ///< by point: of the views that are used
+  std::vector<float> best_;         ///< by point: best quality in the views that are used
   std::vector<double> takeoff_s_;   ///< by UAV
 };
 

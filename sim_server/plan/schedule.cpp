@@ -10,16 +10,16 @@ namespace skein::sim {
 namespace {
 
 constexpr double kPlanWaitStepS = 0.5;
-constexpr int kMostWaits = 30;      ///< before one leg
-constexpr int kMostSkipped = 3;     ///< views left out one after the other, before the UAV gives up the one before
-constexpr double kLookStepS = 0.1;  ///< in which UAVs are looked at
-constexpr double kKeepApart = 0.8;  ///< beyond the bodies [m]
-/// Radio reports need some exchanges to arrive.
+constexpr int kMostWaits = 30;      ///< maximum number of wait steps before one leg
+constexpr int kMostSkipped = 3;     ///< after more successive skipped views, the UAV gives up the view before them
+constexpr double kLookStepS = 0.1;  ///< time step of the check of distances between UAVs
+constexpr double kKeepApart = 0.8;  ///< between the surfaces of two bodies [m]
+/// Time for the delivery of a report by radio, which takes some exchanges.
 constexpr double kDeliveryS = 1.0;
 
 }  // namespace
 
-/// From one stop to the next: the moves, and when the picture there has been taken.
+/// A flight from one stop to the next: its moves, and when the picture at the end has been taken.
 struct Schedule::Trip {
   std::size_t view = 0;
   std::vector<PlanMove> moves;
@@ -59,8 +59,8 @@ PlanMove Schedule::takeoff(std::size_t uav) const {
   return {kSpinUpS, kSpinUpS + climb_s, grounds_[uav], up, scenario_.fleet[UavIndex{uav}].start_yaw, 0.0, false};
 }
 
-/// Whether a UAV keeps its distance from those that were added before, and from those that stand on the ground yet.
-/// UAVs that start close to each other need no more than their starts have.
+/// Whether a UAV keeps its distance from the UAVs that were added before, and from those still on the ground. UAVs that
+/// start close to each other need only 95 % of the distance of their starts.
 bool Schedule::apart(std::size_t uav, const std::vector<PlanMove>& moves, double from_s, double until_s) const {
   for (double t = from_s;; t = std::min(until_s, t + kLookStepS)) {
     const Vector3d p_W = plan_state(kind_of(uav), moves, t).p_WB;
@@ -93,12 +93,12 @@ Schedule::Trip Schedule::trip(const Trip& before, std::size_t from, std::size_t 
   return next;
 }
 
-/// Delays a trip until the way is free, and the place at its end for a while.
+/// Delays a trip until its path is free, and its end is free for `stay_s`. @returns false if that fails.
 bool Schedule::leave(std::size_t uav, Trip& trip, double stay_s) const {
   const double ready_s = trip.moves.front().from_s;
   for (int i = 0; i <= kMostWaits; ++i) {
     if (apart(uav, trip.moves, ready_s, trip.done_s + stay_s)) return true;
-    // Where it waits: as long as it is in nobody's way there.
+    // The UAV can wait only while it is not in another UAV's way.
     const std::vector<PlanMove> waits = {trip.moves.front()};
     if (!apart(uav, waits, ready_s, trip.moves.front().from_s)) return false;
     for (PlanMove& move : trip.moves) {
@@ -110,7 +110,8 @@ bool Schedule::leave(std::size_t uav, Trip& trip, double stay_s) const {
   return false;
 }
 
-/// From the last view to where its pictures are delivered, and there until the end; nullopt where that is too late.
+/// The moves from the last view to a place where its pictures are delivered; the UAV stays there until the end. nullopt
+/// if there is no such place, if it is not free, or if the UAV would be too late.
 std::optional<std::vector<PlanMove>> Schedule::home(std::size_t uav, const Trip& last, std::size_t view) {
   Trip way{view, {}, last.done_s};
   Vector3d at = legs_.place(view);
@@ -144,7 +145,7 @@ Timetable Schedule::add(const Route& route) {
       skipped = 0;
     } else if (++skipped > kMostSkipped && trips.size() > 1) {
       trips.pop_back();
-      i -= static_cast<std::size_t>(kMostSkipped) + 1;  // what was left out may be reached from there
+      i -= static_cast<std::size_t>(kMostSkipped) + 1;  // the skipped views may be reachable from there
       skipped = 0;
     }
   }

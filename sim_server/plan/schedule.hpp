@@ -1,4 +1,4 @@
-// When each UAV of a plan is where: its moves one after the other, with waits where another UAV would come too near.
+// Timetables of the UAVs of a plan: their moves one after the other, with waits where two UAVs would come too near.
 // Frame: W.   Units: SI.
 #pragma once
 
@@ -11,33 +11,34 @@
 
 namespace skein::sim {
 
-/// Where a UAV should be, and how it moves.
+/// Planned state of a UAV.
 struct PlanState {
   Vector3d p_WB = Vector3d::Zero(), v_WB = Vector3d::Zero(), a_WB = Vector3d::Zero();
   double yaw = 0.0, pitch = 0.0;
 };
-/// @param moves  not empty. Before the first it is where that begins, after the last where that ends. Pure.
+/// @param moves  not empty. Before the first move the UAV is at that move's beginning, after the last at its end. Pure.
 PlanState plan_state(const TeamKind& kind, const std::vector<PlanMove>& moves, double t);
 
-/// A UAV's moves, and the views that are among them.
+/// A UAV's moves, and the views that they include.
 struct Timetable {
   std::vector<PlanMove> moves;
   std::vector<std::size_t> views;
   double time_s = 0.0;  ///< when the last picture has been delivered
 };
 
-/// Earlier UAVs of the fleet have the right of way; later ones wait, or leave out a view where waiting does not help.
+/// Deconflicts the routes by priority: earlier UAVs of the fleet have the right of way. Later ones wait, or skip a view
+/// if waiting does not help.
 /// Not thread-safe.
 class Schedule {
  public:
-  /// All must outlive this.  @param end_s  until which pictures are delivered.
+  /// All must outlive this.  @param settle_s  rest before a picture.  @param end_s  deadline for deliveries.
   Schedule(Legs& legs, const Scenario& scenario, const Team& team, const std::vector<View>& views, double settle_s,
            double end_s);
 
   /// Adds the next UAV of the fleet.
   Timetable add(const Route& route);
 
-  /// How near two bodies' centres may come to each other [m].
+  /// Least permitted distance between the centres of two bodies [m].
   static double least_distance(const TeamKind& a, const TeamKind& b);
 
  private:
@@ -54,8 +55,8 @@ class Schedule {
   const Team& team_;
   const std::vector<View>& views_;
   double settle_s_, end_s_;
-  std::vector<std::vector<PlanMove>> earlier_;  ///< of UAVs that were added
-  std::vector<Vector3d> grounds_;               ///< where they stand that have no moves
+  std::vector<std::vector<PlanMove>> earlier_;  ///< moves of the UAVs that were added
+  std::vector<Vector3d> grounds_;               ///< by UAV: where it stands on the ground without moves
 };
 
 }  // namespace skein::sim

@@ -8,7 +8,7 @@
 namespace skein::sim {
 namespace {
 
-constexpr double kMostDownwards = 1.5;  ///< of the acceleration [m/s^2]
+constexpr double kMostDownwards = 1.5;  ///< limit of the vertical acceleration [m/s^2]
 
 bool alike(const TeamKind& a, const TeamKind& b) {
   return a.camera.essence() == b.camera.essence() && a.speed == b.speed && a.acceleration == b.acceleration &&
@@ -24,7 +24,7 @@ double TeamKind::acceleration_along(const Vector3d& way) const {
 }
 
 double TeamKind::travel_s(const Vector3d& way) const {
-  const double distance = way.norm(), a = acceleration_along(way), ramps = speed * speed / a;  // up and down
+  const double distance = way.norm(), a = acceleration_along(way), ramps = speed * speed / a;  // both ramps
   return distance >= ramps ? distance / speed + speed / a : 2.0 * std::sqrt(distance / a);
 }
 

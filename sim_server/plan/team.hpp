@@ -1,4 +1,4 @@
-// The fleet as the plan with full knowledge sees it: kinds of UAVs, how they move, and what the plan is asked for.
+// The planner's model of the fleet: kinds of UAVs and their motion; and the planner's parameters.
 // Frames: W world, ground z = 0; B body.   Units: SI, radians.
 #pragma once
 
@@ -12,21 +12,21 @@
 
 namespace skein::sim {
 
-/// Effort is bounded by counts; equal numbers give equal plans, whatever `threads` is.
+/// Parameters of the planner. Counts bound its effort, so the plan does not depend on the machine or on `threads`.
 struct PlanConfig {
-  double margin_m = 0.5;            ///< between the structure and a sphere about the body, at views and on the way
-  double speed_share = 0.75;        ///< of the greatest speed that a vehicle may be commanded
-  double acceleration_share = 0.5;  ///< likewise of its acceleration
-  double settle_s = 0.1;            ///< at rest before a picture
-  std::size_t most_seeds = 900;     ///< places on the structure that views are made for
-  std::size_t most_views = 6000;    ///< that are kept, by kind of UAV
-  std::size_t most_nodes = 1500;    ///< of the graph of ways around the structure
-  std::size_t rounds = 60;          ///< of taking a part of the routes apart and filling them again
-  std::uint64_t seed = 1;           ///< of the search; 0 is a seed like the others
+  double margin_m = 0.5;            ///< clearance between the structure and the sphere about the body
+  double speed_share = 0.75;        ///< of the vehicle's maximum speed
+  double acceleration_share = 0.5;  ///< of the vehicle's maximum acceleration
+  double settle_s = 0.1;            ///< rest before a picture
+  std::size_t most_seeds = 900;     ///< maximum number of places on the structure for which views are made
+  std::size_t most_views = 6000;    ///< maximum number of views that are kept for each kind of UAV
+  std::size_t most_nodes = 1500;    ///< maximum number of nodes of the graph of paths around the structure
+  std::size_t rounds = 60;          ///< rounds of removing a part of the stops and filling the routes again
+  std::uint64_t seed = 1;           ///< of the search; 0 has no special meaning
   unsigned threads = 1;
 };
 
-/// UAVs that move, see and send alike.
+/// UAVs with the same motion, camera and radio.
 struct TeamKind {
   VehicleConfig vehicle;
   CameraKind camera;
@@ -34,10 +34,10 @@ struct TeamKind {
   double clearance = 0.0;  ///< of the body's centre from the structure [m]
   double speed = 0.0, acceleration = 0.0;
 
-  /// From rest to rest along a straight line [s]. Up and down takes longer: a UAV whose rotors hardly pull has little
-  /// hold on its attitude. Pure.
+  /// Time from rest to rest along a straight line [s]. Vertical acceleration is limited further, because a UAV with low
+  /// thrust has little control of its attitude. Pure. @param way  from beginning to end [m].
   double travel_s(const Vector3d& way) const;
-  /// Where a UAV is a time after it left on such a line: distance, speed, and acceleration along it. Pure.
+  /// Distance, speed and acceleration along such a line, a time `t` after the beginning [s]. Pure.
   struct Motion {
     double distance = 0.0, speed = 0.0, acceleration = 0.0;
   };
@@ -45,7 +45,7 @@ struct TeamKind {
   double acceleration_along(const Vector3d& way) const;
 };
 
-/// Kinds, and whose kind is which, in fleet order. Pure.
+/// The kinds of UAVs in a fleet, and the kind of each UAV. Pure.
 struct Team {
   std::vector<TeamKind> kinds;
   std::vector<std::size_t> kind_of;  ///< by UAV
@@ -53,13 +53,13 @@ struct Team {
   Team(const Scenario& scenario, const PlanConfig& config);
 };
 
-/// Where a UAV ends its take-off: above its start [m].
+/// Height above the ground of the body's centre at the end of a takeoff [m].
 inline constexpr double kTakeoffHeight = 2.0;
-/// The lowest place of a body's centre that is used on the way and at views [m].
+/// Least height of the body's centre on paths and at views [m].
 inline constexpr double kLeastHeight = 1.2;
-/// From the first command until a UAV climbs [s].
+/// Time from the first command until a UAV climbs [s].
 inline constexpr double kSpinUpS = 0.5;
-/// From rest in place until a camera that triggers itself has surely taken a picture [s].
+/// Time at rest after which a camera that triggers by itself has certainly taken a picture [s].
 inline constexpr double kPictureS = 0.15;
 
 }  // namespace skein::sim

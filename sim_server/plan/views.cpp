@@ -15,15 +15,15 @@
 namespace skein::sim {
 namespace {
 
-/// Of the distance with full resolution; times the cosine of the tilt.
+/// Distances of the camera, as shares of the distance with full resolution times the cosine of the tilt.
 constexpr std::array<double, 6> kDistances = {2.0, 1.55, 1.25, 0.97, 0.7, 0.45};
 constexpr std::array<double, 2> kTilts = {30.0 * kRadPerDeg, 55.0 * kRadPerDeg};
 constexpr int kAzimuths = 4;
-constexpr double kFinestSpacing = 0.5, kCoarser = 1.2;  ///< of places that views are made for [m]
+constexpr double kFinestSpacing = 0.5, kCoarser = 1.2;  ///< spacing of places for views [m]; factor between spacings
 constexpr double kLeastWorth = 0.2;
-constexpr float kEnoughShown = 2.0F;  ///< sum of qualities from which on a point counts half when views are kept
+constexpr float kEnoughShown = 2.0F;  ///< sum of qualities in kept views at which a point counts half
 
-/// Cell of the grid, and which way the surface faces, without its sign.
+/// Cell of the grid, and the axis that is closest to the surface normal, regardless of sign.
 using Patch = std::tuple<long, long, long, int>;
 
 Patch patch_of(const InterestPoint& point, double spacing) {
@@ -33,7 +33,7 @@ Patch patch_of(const InterestPoint& point, double spacing) {
   return {std::lround(cell.x()), std::lround(cell.y()), std::lround(cell.z()), axis};
 }
 
-/// One point of each patch of the surface, as fine as the number allows.
+/// One point of each patch of the surface. Uses the finest spacing that gives no more than `most` patches.
 std::vector<std::size_t> seeds_of(const std::vector<InterestPoint>& points, std::size_t most) {
   for (double spacing = kFinestSpacing;; spacing *= kCoarser) {
     std::vector<std::pair<Patch, std::size_t>> patches;
@@ -50,7 +50,7 @@ std::vector<std::size_t> seeds_of(const std::vector<InterestPoint>& points, std:
 
 struct Way {
   Vector3d direction;  ///< from the point to the camera
-  double stretch;      ///< of the distances
+  double stretch;      ///< factor on the distances
 };
 
 std::vector<Way> ways_from(const Vector3d& n_W) {
@@ -94,7 +94,7 @@ class Photographer {
   }
 
  private:
-  /// @returns false where the UAV cannot be, or does not see the point.
+  /// Sets the pose of a view. @returns false if the UAV cannot be there, or does not see the point.
   bool place(const Vector3d& p_W, const Vector3d& direction, double distance, View& view) const {
     const Vector3d p_WC = p_W + distance * direction;
     view.pitch = std::asin(std::clamp(direction.z(), -1.0, 1.0));
@@ -124,14 +124,15 @@ class Photographer {
   double full_distance_;
 };
 
-/// What a view adds to those that were kept: a point counts the less the more of them show it.
+/// Value of a view in addition to the kept ones: a point counts less the more kept views show it.
 double worth_of(const View& view, const std::vector<float>& shown) {
   double worth = 0.0;
   for (const Sight& sight : view.sights) worth += sight.q * sight.q / (kEnoughShown + shown[sight.point]);
   return worth;
 }
 
-/// Keeps those that show much or what few others show, lazily one after the other: worths only fall.
+/// Keeps the views that show many points, or points that few others show. Lazy greedy selection, because the value of a
+/// view never rises while others are kept.
 std::vector<View> worthiest(std::vector<View> views, std::size_t points, std::size_t most) {
   if (views.size() <= most) return views;
   std::vector<float> shown(points, 0.0F);

@@ -13,10 +13,10 @@
 namespace skein::sim {
 namespace {
 
-constexpr double kFinestLattice = 2.0, kCoarserLattice = 1.15;  ///< of the lattice
-constexpr double kNearStructure = 2.5;                          ///< spacings; nodes farther away lead nowhere
+constexpr double kFinestLattice = 2.0, kCoarserLattice = 1.15;  ///< spacing of the lattice [m]; factor between spacings
+constexpr double kNearStructure = 2.5;  ///< in spacings: nodes farther from the structure are not needed
 constexpr std::size_t kMostAnchors = 4, kMostAsked = 24;
-constexpr float kHop = 2.0F;  ///< [m] that a corner costs: the UAV stops there
+constexpr float kHop = 2.0F;  ///< cost of a corner, because the UAV stops there [m]
 constexpr float kNoWay = std::numeric_limits<float>::infinity();
 
 }  // namespace
@@ -26,7 +26,7 @@ Ways::Ways(const RayScene& world, const Eigen::AlignedBox3d& space, double clear
   std::vector<Eigen::Vector3i> cells;
   for (spacing_ = kFinestLattice;; spacing_ *= kCoarserLattice) {
     const Eigen::Vector3i count = (space.sizes() / spacing_).array().ceil().cast<int>() + 1;
-    // Too many to look at each; of those about half are kept.
+    // Too many nodes to check all of them.
     if (static_cast<double>(count.x()) * count.y() * count.z() > 40.0 * static_cast<double>(most_nodes)) continue;
     nodes_.clear();
     cells.clear();

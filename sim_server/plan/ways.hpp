@@ -1,4 +1,5 @@
-// Ways of one kind of UAV through the true scene: straight lines that keep its clearance, and around what is between.
+// Paths of one kind of UAV through the true scene: straight lines that keep its clearance, with detours around the
+// structure.
 // Frame: W, ground z = 0.   Units: m.
 #pragma once
 
@@ -12,27 +13,28 @@
 
 namespace skein::sim {
 
-/// A lattice of free places about the structure, joined where the straight line is clear. Not thread-safe.
+/// A graph of free places on a lattice around the structure. Edges are straight lines that keep the clearance. Not
+/// thread-safe.
 class Ways {
  public:
   /// Lines may come this much nearer to the structure than the clearance [m].
   static constexpr double kSlack = 0.05;
 
-  /// @param world  without UAVs; must outlive this.   @param space  where the lattice is.
+  /// @param world  without UAVs; must outlive this.   @param space  bounds of the lattice.
   Ways(const RayScene& world, const Eigen::AlignedBox3d& space, double clearance, std::size_t most_nodes);
 
-  /// Whether a straight line keeps the clearance less kSlack.
+  /// Whether a straight line keeps the clearance, except for kSlack.
   bool clear(const Vector3d& a_W, const Vector3d& b_W) const;
 
-  /// Nodes that can be reached in a straight line: some of the nearest.
+  /// Some of the nearest nodes that can be reached from a place on a straight line.
   std::vector<std::size_t> anchors(const Vector3d& p_W) const;
 
-  /// Corners of a way from a to b, b among them and a not. Empty where none was found.
+  /// Corners of a path from a to b, without a and with b. Empty if there is no path.
   /// @param from, to  anchors() of the two.
   std::vector<Vector3d> way(const Vector3d& a_W, std::span<const std::size_t> from, const Vector3d& b_W,
                             std::span<const std::size_t> to);
 
-  /// The nodes, and lengths of the ways to all of them from one; infinite where there is none.
+  /// The nodes; and the lengths of the shortest paths from one node to all others, infinite if there is no path.
   const std::vector<Vector3d>& nodes() const { return nodes_; }
   const std::vector<float>& lengths_from(std::size_t node) { return tree(node).length; }
 
@@ -54,7 +56,7 @@ class Ways {
   double spacing_ = 0.0;
   std::vector<Vector3d> nodes_;
   std::vector<std::vector<Edge>> edges_;
-  std::map<std::size_t, Tree> trees_;  ///< by root, as they are asked for
+  std::map<std::size_t, Tree> trees_;  ///< by root, computed on demand
 };
 
 }  // namespace skein::sim

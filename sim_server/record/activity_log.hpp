@@ -1,7 +1,7 @@
-// activity.csv: what each UAV did and why, as its program said (topic /{id}/activity). One line when what it does, its
-// goal, whom it waits for, or why it finds no way has changed, and one a UAV in a step at most; in the order of steps.
-// Numbers are left out, so that a run that is flown again leaves the same file.
-// Times in simulated seconds, places in W [m].   Not thread-safe.
+// Writes activity.csv: what each UAV did and why, as its program reported (topic /{id}/activity). The file has a line
+// when a UAV's mode, its goal, the UAV that it waits for, or the reason why it finds no path has changed; at most one
+// line per UAV and step, in the order of steps. Other values (speed, CPU time) are left out, so that a run that is
+// flown again leaves the same file.   Times in simulated seconds, positions in W [m].   Not thread-safe.
 #pragma once
 
 #include <filesystem>
@@ -20,7 +20,7 @@ class ActivityLog {
   /// @throws std::runtime_error when the file cannot be written.
   ActivityLog(const std::filesystem::path& folder, const Scenario& scenario);
 
-  /// @returns whether it is news: numbers alone are none.
+  /// @returns whether the activity has changed; changes of speed, CPU time and undelivered captures do not count.
   bool add(const Simulation& simulation, UavIndex uav, const Activity& activity);
   StreamFile& file() { return out_; }
 

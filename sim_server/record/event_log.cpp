@@ -13,7 +13,7 @@ EventLog::EventLog(const std::filesystem::path& folder, const Scenario& scenario
   present_.resize(members_.size());
   links_ = Links(scenario.fleet.size() + 1);
   out_ << "step,time_s,event,subject,object\n";
-  out_.flush();  // whoever is killed leaves a table without rows, and no file without a table
+  out_.flush();  // so that a server that is killed leaves a table without rows, not an empty file
 }
 
 void EventLog::add_step(const Simulation& simulation, const std::function<bool(const std::string&)>& is_member) {

@@ -35,7 +35,7 @@ std::vector<std::string> FaultTimeline::enter_step(std::uint64_t step, Tick tick
 std::vector<FaultReport> FaultTimeline::report() const {
   std::vector<FaultReport> report;
   for (std::size_t i = 0; i < faults_.size(); ++i) {
-    const Entry entry = i < entries_.size() ? entries_[i] : Entry{};  // added since: it has not begun
+    const Entry entry = i < entries_.size() ? entries_[i] : Entry{};  // added since the last step: it has not begun
     report.push_back({.kind = fault_kind(faults_[i]),
                       .target = fault_target(faults_[i]),
                       .at_s = faults_[i].waits ? std::nullopt : std::optional(faults_[i].at_s),

@@ -1,4 +1,4 @@
-// When each fault of a plan began and ended in a run: for the log and for result.json. Pure.
+// Tracks when each fault of a plan begins and ends in a run, for the log and for result.json. Pure.
 #pragma once
 
 #include <optional>
@@ -39,7 +39,7 @@ class FaultTimeline {
   };
 
   const std::vector<Fault>& faults_;
-  std::vector<Entry> entries_;  ///< by fault of the plan, as it was in the last step
+  std::vector<Entry> entries_;  ///< by fault of the plan as of the last step
   std::vector<Change> changes_;
 };
 

@@ -3,7 +3,7 @@
 namespace skein::sim {
 namespace {
 
-constexpr int kSpeeds = 8;  // from 0, 1, ... 7 m/s on
+constexpr int kSpeeds = 8;  // intervals that begin at 0, 1, ... 7 m/s
 constexpr double kSpeedStepMps = 1.0;
 
 TrackingReport report_of(const results::TrackingTable::Quantiles& quantiles) {

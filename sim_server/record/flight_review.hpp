@@ -1,4 +1,4 @@
-// The flight check of a run: what it is shown of the simulation, and what the report says of it. Threads: one.
+// Feeds the flight check of a run from the simulation, and makes its part of the report. Threads: one.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@
 
 namespace skein::sim {
 
-/// The fleet as it stands at a step boundary.
+/// The fleet's state at a step boundary. @param exchange_period_s  [s].
 std::vector<CheckedUav> checked_uavs(const Simulation& simulation, double exchange_period_s);
 
 class FlightReview {
@@ -19,7 +19,7 @@ class FlightReview {
   /// @param scenario  must outlive this.
   explicit FlightReview(const Scenario& scenario) : scenario_(scenario), check_(scenario) {}
 
-  /// One exchange; those without a mission under way do not count.
+  /// Adds one exchange. Exchanges before and after the mission do not count.
   void add_step(const Simulation& simulation);
   FlightCheckReport report() const;
   std::string tracking_csv() const { return check_.findings().tracking.csv(); }

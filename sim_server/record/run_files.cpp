@@ -17,14 +17,14 @@ namespace {
 
 constexpr Tick kTrajectoryPeriod = 40;  // 100 ms
 
-/// None: an ideal world.
+/// Summary of the scenario's conditions; none in an ideal world.
 Text conditions_of(const Scenario& scenario) {
   const std::string text = conditions_text(scenario.conditions);
   return text == "none" ? Text() : Text(text);
 }
 
-/// Whether a UAV was on the ground at the end because of its battery: what was left when it landed was its reserve and
-/// little more, as after a way home in time. One that landed with more could have flown on.
+/// Whether a UAV was on the ground at the end because of its battery: it landed with little more than its reserve, as
+/// after a timely return. A UAV that landed with more could have flown on.
 bool is_grounded(const BatteryConditions& battery, const UavView& uav) {
   constexpr double kLittleMore = 0.1;
   const std::optional<double>& left = uav.battery_use.last_in_flight;

@@ -1,6 +1,6 @@
-// What the server leaves behind: trajectories.csv, tracking.csv, digests.csv, events.csv, activity.csv,
-// scene.json and sim_server.report.json, from which the launcher makes its part of result.json. Times in seconds of
-// simulated time, lengths in metres.
+// The server's output files: trajectories.csv, tracking.csv, digests.csv, events.csv, activity.csv, scene.json and
+// sim_server.report.json, from which the launcher makes the server's part of result.json. Times in seconds of simulated
+// time, lengths in metres.
 #pragma once
 
 #include <filesystem>
@@ -30,7 +30,7 @@ struct LostProcess {
   std::optional<Tick> back = {};  ///< when it took part again
 };
 
-/// How a run went, beyond what the simulation itself knows.
+/// Results of a run that the simulation itself does not know.
 struct RunSummary {
   RunStatus status = RunStatus::completed;
   bool deterministic = true;
@@ -39,35 +39,36 @@ struct RunSummary {
   std::vector<Collision> collisions;
   std::vector<LostProcess> lost;
   std::vector<std::string> warnings;
-  std::vector<std::uint64_t> commands_unheard;  ///< by UAV: from outside the lock-step
-  std::uint64_t malformed = 0;                  ///< samples received that were no message of their topic's type
+  std::vector<std::uint64_t> commands_unheard;  ///< by UAV: commands from outside the lock-step
+  std::uint64_t malformed = 0;                  ///< received samples that could not be decoded as their topic's type
   std::uint64_t unsent = 0;                     ///< samples that could not be sent
   TimingReport timing;
   std::vector<FaultReport> faults;
-  std::optional<std::vector<HandReport>> hand;          ///< only where somebody flew
+  std::optional<std::vector<HandReport>> hand;          ///< nullopt: nobody flew by hand
   std::vector<WorkTrack> work;                          ///< by UAV
-  std::optional<std::vector<std::string>> differences;  ///< from a run that is flown again
+  std::optional<std::vector<std::string>> differences;  ///< from the recorded run; nullopt: no run is flown again
 };
 
 /// "ground", "structure" or the name of a UAV.
 std::string collided_with(const Collision& collision, const Scenario& scenario);
-/// Who, with what, when and where: a line for the log.
+/// A line for the log: the UAV, what it collided with, time and place.
 std::string describe(const Collision& collision, const Scenario& scenario);
+/// A line for the log: the UAV, time and place.
 std::string describe(const Stray& stray, const Scenario& scenario);
 
 class RunFiles {
  public:
-  /// @throws std::runtime_error when the folder cannot be written. A disk that is full later on ends files, never the
-  /// run; the report names them.
+  /// @throws std::runtime_error if the folder cannot be written. If the disk becomes full later, files end early, but
+  /// the run goes on; the report names these files.
   RunFiles(const std::filesystem::path& folder, const Scenario& scenario, const RunDigest& digest,
            FlightReport flight = {});
 
   void write_scene(const Scene& scene);
   EventLog& events() { return events_; }
   ActivityLog& activities() { return activities_; }
-  /// One exchange: a line of digests.csv, every 100 ms a line per UAV of trajectories.csv, and the flight check.
+  /// Records one exchange: a line in digests.csv, every 100 ms a line per UAV in trajectories.csv, the flight check.
   void add_step(const Simulation& simulation, const StepDigest& digest);
-  /// Another file that the disk refused, a sentence.
+  /// Notes another file that could not be written. @param trouble  a sentence; empty: nothing to note.
   void note_unwritten(std::string trouble);
   void write_report(const Simulation& simulation, const RunSummary& summary, StatusPipe& status);
 
@@ -82,7 +83,7 @@ class RunFiles {
   EventLog events_;
   ActivityLog activities_;
   FlightReview review_;
-  std::vector<std::string> unwritten_;  ///< files that the disk refused as a whole, one sentence each
+  std::vector<std::string> unwritten_;  ///< a sentence for each file that could not be written completely
 };
 
 }  // namespace skein::sim

@@ -1,8 +1,8 @@
 // Radio line of sight between two nodes with six antennas each.
 // Frame: W.  Units: m.  Source: golden vectors `los_antenna`.
-// The antennas stand at +-offset along the world's axes and do not turn with the body; the lower one is never
+// The antennas are at +-offset along the world's axes and do not turn with the body; the lower one is never
 // below z = 0.1. Two nodes are linked if any of the 36 sight lines is free, or is hit no more than 0.1 m before its
-// end. Because of those 0.1 m the answer may depend on the order of the nodes: trace from the node that stands first.
+// end. Because of those 0.1 m the result may depend on the order of the nodes: trace from the lower index.
 #pragma once
 
 #include <array>
@@ -29,23 +29,23 @@ struct SightLineCounts {
   int within_tolerance = 0;  ///< hit, but no more than 0.1 m before the end
 };
 
-/// Distance from the first point to the nearest obstacle on the way to the second; nullopt if the way is free.
+/// Distance from the first point to the nearest obstacle on the segment to the second [m]; nullopt: there is none.
 template <class F>
 concept FirstHit = requires(F f, const Vector3d& p) {
   { f(p, p) } -> std::convertible_to<std::optional<double>>;
 };
 
 inline constexpr std::size_t kAntennas = 6;
-/// A sight line that is hit no farther than this before its end is free.
+/// A sight line counts as free if the obstacle is no farther than this from its end [m].
 inline constexpr double kEndTolerance = 0.1;
 
 /// Antenna positions in W. Pure.
 std::array<Vector3d, kAntennas> antennas(const AntennaNode& node);
 
-/// Distance of the farthest antenna from the node's centre, or a little more. Pure.
+/// Upper bound of the distance of the node's antennas from its centre [m]. Pure.
 double antenna_reach(const AntennaNode& node);
 
-/// What one sight line amounts to. Pure.
+/// Classifies one sight line. @param length  of it [m]. @param hit  distance of the first obstacle. Pure.
 enum class SightLine { clear, within_tolerance, blocked };
 SightLine judge_sight_line(double length, const std::optional<double>& hit);
 
@@ -66,7 +66,7 @@ LinkResult trace_link(const AntennaNode& from, const AntennaNode& to, F&& first_
   return result;
 }
 
-/// All 36 sight lines, counted; for audits and reference vectors.
+/// Counts all 36 sight lines; for audits and reference vectors.
 template <FirstHit F>
 SightLineCounts count_sight_lines(const AntennaNode& from, const AntennaNode& to, F&& first_hit) {
   SightLineCounts counts;

@@ -14,16 +14,17 @@
 namespace skein::sim {
 namespace {
 
-constexpr double kMostCells = 1e9;  ///< PCL counts them by int
+constexpr double kMostCells = 1e9;  ///< PCL counts cells with an int
 
 using Points = std::span<const Eigen::Vector3f>;
 
-/// Tells by PCL's filter which of some points are left out: what it keeps comes in the order of a hash table.
+/// Marks those of the points `some` that PCL's filter removes. Its output is not used, because that is in the order of
+/// a hash table.
 void leave_out(Points points_W, const std::vector<std::size_t>& some, double cell_m, std::vector<bool>& left_out) {
   auto cloud = std::make_shared<pcl::PointCloud<pcl::PointXYZ>>();
   cloud->reserve(some.size());
   for (const std::size_t i : some) cloud->push_back({points_W[i].x(), points_W[i].y(), points_W[i].z()});
-  pcl::UniformSampling<pcl::PointXYZ> sampling(true);  // tells them
+  pcl::UniformSampling<pcl::PointXYZ> sampling(true);  // true: report removed points
   sampling.setInputCloud(cloud);
   sampling.setRadiusSearch(cell_m);
   pcl::PointCloud<pcl::PointXYZ> sampled;
@@ -31,7 +32,7 @@ void leave_out(Points points_W, const std::vector<std::size_t>& some, double cel
   for (const int i : *sampling.getRemovedIndices()) left_out[some[static_cast<std::size_t>(i)]] = true;
 }
 
-/// The same of points that may lie so far apart that cells between them are too many: they are parted first.
+/// The same for points whose extent may have more cells than PCL can count: halves such an extent first.
 void leave_out_piecewise(Points points_W, std::vector<std::size_t> some, double cell_m, std::vector<bool>& left_out) {
   if (some.size() < 2) return;
   const auto cell = [&](std::size_t i) { return Vector3d((points_W[i].cast<double>() / cell_m).array().floor()); };

@@ -1,4 +1,4 @@
-// Key frames: the few scans that an explorer publishes as its map, one cloud each, thinned out.
+// Key frames: the few scans that an explorer publishes as its map, each as one downsampled cloud.
 // Rules: the first scan; then a scan more than 1 s after the last key frame when the nearest key frame is more than 2 m
 // away, or when all of the five nearest differ by at least 10 degrees in yaw.
 // Frames: W world, B body.   Units: SI, radians.
@@ -17,21 +17,21 @@ struct KeyFrame {
   std::uint64_t number = 0;  ///< 0, 1, ... for this UAV
   Tick tick = 0;
   Isometry3d X_WB = Isometry3d::Identity();
-  std::vector<Eigen::Vector3f> points_W;  ///< thinned out
+  std::vector<Eigen::Vector3f> points_W;  ///< downsampled [m]
 };
 
-/// Thins a cloud out: of the points in each cell of a grid aligned with W, keeps the one nearest to the cell's centre
-/// (the earlier one in a tie).   @param cell_m  edge of a cell, > 0.   @returns them in the cloud's order.
+/// Downsamples a cloud: of the points in each cell of a grid aligned with W, keeps the one nearest to the cell's centre
+/// (the earlier one in a tie).   @param cell_m  edge of a cell, > 0.   @returns the kept points, in the cloud's order.
 std::vector<Eigen::Vector3f> sample_uniformly(std::span<const Eigen::Vector3f> points_W, double cell_m);
 
-/// Decides for one UAV. Not thread-safe.
+/// Selects the key frames of one UAV. Not thread-safe.
 class KeyFrameSelector {
  public:
-  static constexpr Tick kMinAge = kTicksPerSecond;        ///< strictly more than this since the last one
-  static constexpr double kMinDistance = 2.0;             ///< strictly more than this to the nearest one [m]
+  static constexpr Tick kMinAge = kTicksPerSecond;        ///< time since the last key frame must exceed this
+  static constexpr double kMinDistance = 2.0;             ///< distance to the nearest key frame must exceed this [m]
   static constexpr double kMinYaw = 0.17453292519943295;  ///< 10 degrees
-  static constexpr std::size_t kNeighbours = 5;
-  static constexpr double kCell = 0.5;  ///< [m]
+  static constexpr std::size_t kNeighbours = 5;           ///< nearest key frames whose yaw counts
+  static constexpr double kCell = 0.5;                    ///< edge of a cell for downsampling [m]
 
   /// Whether a scan from this pose would become a key frame.
   bool wants(Tick tick, const Isometry3d& X_WB) const { return wanted(pose_of(tick, X_WB)); }

@@ -52,7 +52,7 @@ Isometry3d Lidar::pose(Tick tick, const Isometry3d& X_WB) const {
   return lidar_pose(X_WB, servo_angle(config_, seconds(tick + phase_)));
 }
 
-/// Fires some neighbouring columns from one pose.
+/// Traces the beams of some adjacent columns from one pose.
 void Lidar::trace(const Isometry3d& X_WL, int first_column, int columns, const RayScene& world) {
   const Eigen::Matrix3f R_WL = X_WL.linear().cast<float>();
   const auto beams = static_cast<std::size_t>(config_.rings * columns);

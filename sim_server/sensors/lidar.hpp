@@ -19,41 +19,42 @@ struct LidarScan {
   std::uint64_t number = 0;  ///< 0, 1, ... for this LiDAR
   double servo_angle = 0.0;  ///< [rad]
   Isometry3d X_WL = Isometry3d::Identity();
-  std::vector<Eigen::Vector3f> points_W;  ///< ring by ring upwards, in each by azimuth from -pi; no return, no point
+  std::vector<Eigen::Vector3f> points_W;  ///< ring by ring upwards, then by azimuth from -pi; only beams that return
 };
 
 class Lidar {
  public:
-  /// @param uav   fleet index: its own body is invisible to it, and it keys the noise.
+  /// @param uav   fleet index: keys the draws. The LiDAR does not see this UAV's own body.
   /// @param seed  0: no range noise, no lost returns, and the servo starts at 0. Otherwise the servo's phase and the
   ///              noise are drawn from streams keyed by (seed, "lidar_phase", uav) and (seed, "lidar_noise", uav, scan
-  ///              number). A beam whose return is lost draws its noise, too: that of the others does not change.
-  /// @param conditions  what it measures worse than its vehicle's file says; drawn with seed 0, too.
+  ///              number). A beam whose return is lost draws noise, too, so that the noise of other beams does not
+  ///              depend on it.
+  /// @param conditions  errors beyond those in the vehicle's file; drawn with seed 0, too.
   Lidar(const LidarConfig& config, UavIndex uav, std::uint64_t seed, const LidarConditions& conditions = {});
 
   /// @param conditions  for the scans that follow.
   void change_conditions(const LidarConditions& conditions) { errors_.change(conditions); }
 
-  /// Whether a scan falls on this tick: tick 0 and every period after it.
+  /// Whether a scan is due at this tick: at tick 0, and then once per period.
   bool due(Tick tick) const { return tick % period_ == 0; }
 
-  /// Where the servo stands at a tick >= 0.
+  /// Angle and rate of the servo at a tick >= 0.
   LidarServo servo(Tick tick) const;
 
-  /// Tells where the body was at a tick, before scan() of that tick. Needed with `motion_distortion` only, at every
-  /// tick; without it this does nothing.
+  /// Stores the pose of the body at a tick. With `motion_distortion`, call it at every tick, before that tick's scan();
+  /// without it, this does nothing.
   void move(Tick tick, const Isometry3d& X_WB);
 
-  /// One whole scan. Its number counts periods, whether they were scanned or not.
+  /// One whole scan. Its number counts all periods, including those without a computed scan.
   ///
-  /// Usually of one instant. With `motion_distortion` it took the period up to this tick: column c of n was fired when
-  /// c / n of the period had passed, from where body and servo were then, to the tick. Its points are placed from
-  /// X_WL of the end, as a driver does that knows nothing of the motion: they are not corrected for it. The other UAVs
-  /// stand where they are at the end.
+  /// Usually all beams are of one instant. With `motion_distortion` the scan takes the period up to this tick: column c
+  /// of n is fired when c / n of the period has passed, from the poses of body and servo at that tick. All points are
+  /// placed with X_WL of the scan's end, as by a driver that does not correct for motion. The other UAVs do not move
+  /// during the scan: they are at their poses of the scan's end.
   /// @param world  with the poses of all UAVs at this tick.
   LidarScan scan(Tick tick, const Isometry3d& X_WB, const RayScene& world);
-  /// What the beams of the last scan met, without noise, however near, and whether or not their
-  /// returns were lost; ring by ring; infinite: nothing.
+  /// True ranges of the beams of the last scan, ring by ring [m]: without noise and minimum range, and also of beams
+  /// whose returns were lost; infinite: the beam hits nothing.
   std::span<const double> ranges() const { return ranges_; }
 
  private:
@@ -66,7 +67,7 @@ class Lidar {
   Tick period_;
   LostReturns lost_;
   LidarErrors errors_;
-  Tick phase_ = 0;                 ///< how long the servo has been running at tick 0
+  Tick phase_ = 0;                 ///< time for which the servo has been running at tick 0
   Eigen::Matrix3Xf directions_L_;  ///< of all beams, in the order of the cloud
   std::vector<Isometry3d> past_;   ///< X_WB by tick modulo the period
   std::vector<Eigen::Vector3f> directions_W_;

@@ -11,8 +11,9 @@ namespace skein::sim {
 LostReturns::LostReturns(const LidarConfig& config, UavIndex uav, std::uint64_t seed)
     : config_(config), uav_(uav), seed_(seed), dropped_(static_cast<std::size_t>(config.columns)) {}
 
-/// The number of sectors is drawn of the two whole numbers about what the share asks for, so that the mean is exact.
-/// Sectors and the columns between them stand in a drawn order, from a drawn column on: each column is blind as often.
+/// The share implies a fractional number of sectors. It is rounded up or down at random, so that the mean is exact.
+/// The order of the sectors and of the columns between them, and the first column, are random, so that all columns are
+/// dropped equally often.
 void LostReturns::draw_sectors(std::uint64_t hold) {
   RandomStream random(seed_, "lidar_dropped_sectors", uav_, hold);
   const int width = std::clamp(
@@ -22,7 +23,7 @@ void LostReturns::draw_sectors(std::uint64_t hold) {
   if (random.uniform() < mean - sectors) ++sectors;
   int column = static_cast<int>(random.uniform() * config_.columns);
   dropped_.assign(dropped_.size(), false);
-  for (int left = config_.columns - sectors * (width - 1); left > 0; --left) {  // of sectors and columns between them
+  for (int left = config_.columns - sectors * (width - 1); left > 0; --left) {  // sectors, and columns between them
     const bool sector = random.uniform() * left < sectors;
     if (sector) --sectors;
     for (int i = 0; i < (sector ? width : 1); ++i, ++column) {

@@ -1,5 +1,5 @@
-// Beams of a LiDAR that return nothing, whatever they meet: each beam for itself with `no_return_p`, and all beams of
-// the columns of `dropped_sectors`.
+// LiDAR beams whose return is lost, whatever they hit: each beam independently with the probability `no_return_p`, and
+// all beams in the columns of `dropped_sectors`.
 // Units: SI, degrees where a name says so.   Threads: one.
 #pragma once
 
@@ -15,16 +15,16 @@ class LostReturns {
  public:
   /// @param uav   fleet index: it keys the draws.
   /// @param seed  0: no return is lost. Otherwise they are drawn from streams keyed by (seed, "lidar_no_return", uav,
-  ///              scan number), with a draw for each beam of the scan, whether or not it meets something, and by (seed,
-  ///              "lidar_dropped_sectors", uav, hold number).
+  ///              scan number), with one draw for each beam, whether or not it hits something, and by (seed,
+  ///              "lidar_dropped_sectors", uav, hold number). A hold is the time `hold_s` in which the sectors stay.
   LostReturns(const LidarConfig& config, UavIndex uav, std::uint64_t seed);
 
   /// Whether any beam of any scan may lose its return.
   bool any() const { return seed_ != 0 && (config_.no_return_p > 0.0 || config_.dropped_sectors.has_value()); }
 
-  /// Which beams of the scan at a tick lose their returns, ring by ring. A scan that is longer than `hold_s` has the
-  /// sectors of its tick.
-  /// @param tick  >= 0.   @returns  good until the next call.
+  /// Which beams of the scan at a tick lose their returns, ring by ring. All columns of a scan have the sectors of the
+  /// scan's tick, even if the scan takes longer than `hold_s`.
+  /// @param tick  >= 0.   @returns a flag per beam, valid until the next call.
   const std::vector<bool>& of(Tick tick);
 
  private:
@@ -33,7 +33,7 @@ class LostReturns {
   LidarConfig config_;
   UavIndex uav_;
   std::uint64_t seed_;
-  std::optional<std::uint64_t> hold_;  ///< of dropped_
+  std::optional<std::uint64_t> hold_;  ///< the hold for which dropped_ was drawn
   std::vector<bool> dropped_;          ///< by column
   std::vector<bool> lost_;             ///< by beam
 };

@@ -1,6 +1,6 @@
-// Sight lines between two radio nodes through the world, for trace_link(): remembers what blocked each of them last
-// time. What hid one antenna from another mostly still does a moment later, and to see that costs far less than a ray.
-// Frame W.   Units: m.
+// Speeds up trace_link() between two radio nodes: remembers which triangle blocked each sight line last time. Mostly
+// the same triangle still blocks it a moment later, and to test one triangle costs far less than to trace a ray.
+// Frame W.   Units: m.   Threads: one.
 #pragma once
 
 #include <array>
@@ -10,13 +10,13 @@
 
 namespace skein::sim {
 
-/// One for each pair of nodes. Its answers are those of rays alone: only their price depends on what was asked before.
+/// The memory of one pair of nodes. It affects only the computing time: the results are the same as without it.
 class SightMemory {
  public:
   SightMemory() { blockers_.fill(kNoTriangle); }
 
-  /// As trace_link() with a ray for each sight line.
-  /// @param filter  `among` may be those about the two nodes, within the antennas' reach.
+  /// Whether the two nodes are linked: same result as trace_link() with a ray for each sight line.
+  /// @param filter  `among` must have all UAVs that can block a sight line, as BodySpheres::about() returns them.
   bool linked(const AntennaNode& from, const AntennaNode& to, const RayScene& world, const RayFilter& filter) {
     std::size_t line = 0;
     return trace_link(
@@ -26,7 +26,7 @@ class SightMemory {
   }
 
  private:
-  /// @returns 0, too, where something surely blocks.
+  /// @returns distance of an obstacle from `a`. If a remembered triangle surely blocks the line, this is 0.
   std::optional<double> first_hit(std::uint32_t& blocker, const Vector3d& a, const Vector3d& b, const RayScene& world,
                                   const RayFilter& filter) {
     const double length = (b - a).norm();
@@ -40,7 +40,7 @@ class SightMemory {
   }
 
   std::array<std::uint32_t, kAntennas * kAntennas> blockers_;
-  std::uint32_t last_ = kNoTriangle;  ///< of any of the lines
+  std::uint32_t last_ = kNoTriangle;  ///< the last blocker of any of the sight lines
 };
 
 }  // namespace skein::sim

@@ -37,7 +37,7 @@ struct PlanSite {
   }
 
  private:
-  /// Points every two metres on all faces but the lowest.
+  /// Points every two metres on all faces but the bottom.
   void add_block(const Vector3d& centre, const Vector3d& size) {
     add_box(scene.mesh, centre, size);
     for (int axis = 0; axis < 3; ++axis) {

@@ -16,7 +16,7 @@ namespace skein::sim::test {
 
 inline VehicleConfig vehicle_named(const std::string& name) { return load_vehicle(name, source_path("config")); }
 
-/// Neither refused nor led: commands reach the control law as they are.
+/// Rules with which the CommandGuard does nothing: commands reach the control law as they are.
 inline RulesConfig no_limits() {
   RulesConfig rules;
   rules.reject_commands_beyond_limits = rules.guard_position_commands = false;
@@ -33,7 +33,7 @@ class Flight {
 
   using Pilot = std::function<std::optional<TrajectoryCommand>(double t)>;
   using Watch = std::function<void()>;
-  /// Flies on for a time; `pilot` is asked at every control step, `watch` looks on after every step of the physics.
+  /// Flies on for a time. Calls `pilot` at every control step, and `watch` after every step of the physics.
   void fly(
       double duration_s, const Pilot& pilot, const Watch& watch = [] {}) {
     for (const Tick end = tick_ + ticks(duration_s); tick_ < end; ++tick_) {
@@ -50,7 +50,7 @@ class Flight {
   }
 
   const RigidBodyState& state() const { return world_.state(UavIndex{0}); }
-  /// Of the step that was last flown: the state that it began with, and the wrench of the rotors on it.
+  /// State at the beginning of the last step, and the rotors' wrench on the body in that step.
   const RigidBodyState& before() const { return before_; }
   const Wrench& wrench() const { return wrench_; }
   double step_s() const { return kTickS / steps_; }

@@ -1,10 +1,10 @@
 // The frames of a run for ROS 2's tf: world -> <uav>/base_link -> <uav>/gimbal -> <uav>/camera, and world -> gcs.
-// base_link is the body (FLU); gimbal and camera hang at the camera's place and look along their x axis, y left, z up
-// (core/camera_quality.hpp). Pure.
+// base_link is the body (FLU). The frames gimbal and camera have their origin at the camera; x is the direction of
+// view, y points left, z up (core/camera_quality.hpp). Pure.
 //
-// And those of one UAV for its own domain, from what it is told and no more: world -> <uav>/odom -> <uav>/base_link ->
-// <uav>/gimbal -> <uav>/camera, and <uav>/base_link -> <uav>/lidar. These are the names of ROS's REP 105, where `world`
-// has the place of `map`. odom stands still in world: a UAV knows no better than its odometry.
+// In its own domain a UAV has frames that contain only what it is told: world -> <uav>/odom -> <uav>/base_link ->
+// <uav>/gimbal -> <uav>/camera, and <uav>/base_link -> <uav>/lidar. The names are those of ROS's REP 105, with `world`
+// instead of `map`. odom coincides with world, because a UAV knows its position only by its odometry.
 #pragma once
 
 #include <span>
@@ -15,16 +15,16 @@
 
 namespace skein::sim::viz {
 
-/// Those that move: base_link in world, gimbal in base_link.
+/// Frames that move: base_link in world, gimbal in base_link.
 msg::TFMessage moving_frames(Tick tick, const Scenario& scenario, std::span<const UavView> uavs);
-/// Those that do not: gcs in world, camera in gimbal.
+/// Fixed frames: gcs in world, camera in gimbal.
 msg::TFMessage fixed_frames(const Scenario& scenario);
 
-/// base_link in odom at the time of which the odometry tells; gimbal in base_link.
+/// A UAV's own frames that move: base_link in odom, stamped with the odometry's time; gimbal in base_link.
 msg::TFMessage own_moving_frames(Tick tick, const UavConfig& uav, const UavView& view);
-/// lidar in base_link: the optical centre of the LiDAR, whose servo stands so.
+/// lidar in base_link: the optical centre of the LiDAR at this servo angle.
 msg::TFMessage own_lidar_frame(const UavConfig& uav, const LidarServo& servo);
-/// odom in world, camera in gimbal.
+/// A UAV's own fixed frames: odom in world, camera in gimbal.
 msg::TFMessage own_fixed_frames(const UavConfig& uav);
 
 }  // namespace skein::sim::viz

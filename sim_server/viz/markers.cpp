@@ -43,7 +43,7 @@ msg::Marker make_marker(Tick tick, const std::string& space, std::size_t id, Sha
   return marker;
 }
 
-/// RViz complains of lines that have no points: they go.
+/// Turns a marker without points into the removal of that marker, because RViz complains about lines without points.
 msg::Marker shown(msg::Marker marker) {
   if (marker.points().empty()) marker.action(static_cast<std::int32_t>(Action::remove));
   return marker;

@@ -3,7 +3,7 @@
 namespace skein::sim::viz {
 namespace {
 
-/// std::floor is a call into libm on a plain x86-64, and this is asked of every point of every key frame.
+/// Avoids std::floor, which is a call into libm on baseline x86-64: this is called for every point of every key frame.
 std::int32_t floor_of(double x) {
   const auto whole = static_cast<std::int32_t>(x);
   return x < whole ? whole - 1 : whole;

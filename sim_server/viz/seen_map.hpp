@@ -1,5 +1,5 @@
-// What all key frames have shown so far, thinned out: in each cell of a grid aligned with W, the first point that was
-// seen there. Frame W [m]. Not thread-safe.
+// A downsampled map of all key frames so far: for each cell of a grid aligned with W, the first point seen in it.
+// Frame W [m]. Not thread-safe.
 #pragma once
 
 #include <array>
@@ -19,15 +19,15 @@ class SeenMap {
 
   /// @param points_W  less than 2^23 cells from the origin. @returns whether the map has grown.
   bool add(std::span<const Eigen::Vector3f> points_W);
-  /// In the order in which they came.
+  /// Points in the order of their arrival.
   const std::vector<Eigen::Vector3f>& points() const { return points_; }
 
  private:
-  /// Which cells of a block of 8 x 8 x 8 have a point: a word for each z, a bit for each x and y.
+  /// The cells with a point in a block of 8 x 8 x 8 cells: a word for each z, a bit for each x and y.
   using Block = std::array<std::uint64_t, 8>;
 
   double cells_per_m_;
-  std::unordered_map<std::uint64_t, Block> blocks_;  ///< points come in rows: one look-up does for several
+  std::unordered_map<std::uint64_t, Block> blocks_;  ///< successive points are often in the same block: one look-up
   std::vector<Eigen::Vector3f> points_;
 };
 

@@ -1,4 +1,4 @@
-// Where each UAV has been of late. Frame W [m]. Not thread-safe.
+// Positions of each UAV in the last 60 s. Frame W [m]. Not thread-safe.
 #pragma once
 
 #include <deque>
@@ -13,12 +13,12 @@ namespace skein::sim::viz {
 class Trails {
  public:
   static constexpr Tick kSpan = 60 * kTicksPerSecond;
-  static constexpr Tick kPeriod = kTicksPerSecond / 2;  ///< from one place to the next
+  static constexpr Tick kPeriod = kTicksPerSecond / 2;  ///< between two positions
 
   explicit Trails(std::size_t uavs) : places_(uavs) {}
 
-  /// @param tick  later than in the call before; places in between two periods are passed over.
-  /// @returns whether there is something new.
+  /// Call it with increasing ticks; positions before the next one is due are ignored.
+  /// @returns whether positions were added.
   bool add(Tick tick, std::span<const UavView> uavs) {
     if (tick < due_) return false;
     due_ = tick + kPeriod;
@@ -30,12 +30,12 @@ class Trails {
     return true;
   }
 
-  /// The oldest first.
+  /// Positions of a UAV, oldest first.
   const std::deque<Vector3d>& of(UavIndex uav) const { return places_.at(uav); }
 
  private:
   Tick due_ = 0;
-  std::deque<Tick> ticks_;  ///< when the places were taken
+  std::deque<Tick> ticks_;  ///< times of the positions
   std::vector<std::deque<Vector3d>> places_;
 };
 

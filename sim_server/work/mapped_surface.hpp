@@ -1,4 +1,4 @@
-// Which interest points stand for surface that a key frame shows: those that one of its hits is near to.
+// Finds the interest points on surface that a key frame shows: those with one of its hits nearby.
 // Frame W.   Units: m.
 #pragma once
 
@@ -14,7 +14,8 @@ namespace skein::sim {
 /// Immutable; safe from any thread.
 class MappedSurface {
  public:
-  /// Key frames keep a hit for each cell of 0.5 m: surface that is shown at all has one nearer than that.
+  /// Greatest distance between a hit and a point [m]. Key frames keep one hit for each cell of 0.5 m, so any surface
+  /// that is shown has a hit within this distance.
   static constexpr float kNear = 0.75F;
 
   /// @param points  must outlive this.
@@ -27,7 +28,7 @@ class MappedSurface {
   static std::uint64_t cell_of(const Eigen::Vector3i& cell);
 
   const std::vector<InterestPoint>& points_;
-  /// By cell of kNear: points that are within kNear of it. Only ever looked up.
+  /// By cell (edge kNear): the points in this cell and its 26 neighbours. Never iterated.
   std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> near_;
 };
 

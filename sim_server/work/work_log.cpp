@@ -9,15 +9,15 @@
 namespace skein::sim {
 namespace {
 
-constexpr double kWaySpeed = 4.0, kWayDetour = 1.5;  ///< [m/s]; of straight lines
+constexpr double kWaySpeed = 4.0, kWayDetour = 1.5;  ///< speed [m/s]; length of paths / straight lines
 constexpr double kSpare_s = 10.0, kBegin_s = 15.0;
-constexpr double kPoor = 0.5;        ///< of what it could be: a picture that is worse leaves a point open
-constexpr double kLeastShare = 0.1;  ///< of what would have to be done in a minute
+constexpr double kPoor = 0.5;        ///< share of the possible score: a worse picture leaves a point open
+constexpr double kLeastShare = 0.1;  ///< least amount / share of the open work per minute
 constexpr double kMinute_s = 60.0;
-constexpr double kCorners = 0.02;  ///< of all: left over
-constexpr double kFewest = 2.0;    ///< least amounts
+constexpr double kCorners = 0.02;  ///< share of all work that always remains
+constexpr double kFewest = 2.0;    ///< in kLeastScore or kLeastMapped: less open work does not count
 
-/// At which a UAV could fly its ways [m/s].
+/// Assumed speed of a UAV on its paths [m/s].
 double way_speed(const VehicleConfig& vehicle) { return std::min(kWaySpeed, vehicle.max_speed_mps); }
 
 }  // namespace

@@ -16,9 +16,9 @@ namespace skein::sim {
 namespace {
 
 constexpr double kNear = 0.85, kLowestPlace = 1.5, kLean = 0.6, kOffSurface = 0.02;
-constexpr double kBerthSlack = 0.1;  ///< of the berth
+constexpr double kBerthSlack = 0.1;  ///< tolerance of the clearance along a line [m]
 constexpr int kWaysAside = 8;
-constexpr double kAscent = 0.5;  ///< of ways out aside: so much up for each metre
+constexpr double kAscent = 0.5;  ///< slope of the sideways lines out of the structure
 
 class Search {
  public:
@@ -60,7 +60,7 @@ class Search {
     return std::ranges::any_of(ways_out_, leads);
   }
 
-  /// Where a way out has left all structure behind.
+  /// Where a line leaves the bounding box of the structure.
   Vector3d end_of(const Vector3d& place, const Vector3d& direction) const {
     double length = 1e9;
     for (int axis = 0; axis < 3; ++axis) {

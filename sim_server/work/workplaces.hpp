@@ -1,5 +1,5 @@
-// Where each interest point may be photographed from, by the true scene: what the referee takes to be within a UAV's
-// reach. It leaves out much that a UAV could do.
+// For each interest point, a place from which it can be photographed in the true scene: the referee's conservative
+// estimate of what UAVs can reach.
 // Frame W.   Units: m.
 #pragma once
 
@@ -12,29 +12,29 @@
 
 namespace skein::sim {
 
-/// Of one point and one kind of camera.
+/// Workplace for one point and one kind of camera.
 struct Workplace {
   Vector3d p_W = Vector3d::Zero();
-  double home_m = 0.0;  ///< from there to where the station is in sight, by a straight line: 0, or to the station
-  double q = 0.0;       ///< of a picture from there, taken at rest; 0: there is no such place
+  double home_m = 0.0;  ///< 0 if the station is in sight from here, else the straight distance to the station
+  double q = 0.0;       ///< quality of a picture from here, taken at rest; 0: there is no such place
 };
 
-/// A place is one of ten in front of each side of the surface, as in is_flyable(): at 0.85 of the distance with full
-/// resolution and at 0.7 of that, straight or up to 31 degrees aside. From there the point is in sight, and a straight
-/// line leads past all structures, up or aside, 1.4 m from everything. Deterministic; immutable.
+/// There are ten candidates on each side of the surface, as in is_flyable(): at 0.85 of the distance with full
+/// resolution and at 0.7 of that, perpendicular to the surface or 31 degrees off. A workplace has a line of sight to
+/// the point, and a straight way out of the structure, up or sideways, with 1.4 m clearance. Deterministic; immutable.
 class Workplaces {
  public:
-  static constexpr double kBerth = 1.4;   ///< as worlds are proved to be flyable: every vehicle fits
-  static constexpr double kLeastQ = 0.3;  ///< what can only be seen worse is not held against anybody
+  static constexpr double kBerth = 1.4;   ///< clearance of the proof that a world is flyable [m]: every vehicle fits
+  static constexpr double kLeastQ = 0.3;  ///< places from which the quality is lower are no workplaces
 
   Workplaces(const Scenario& scenario, const Scene& scene);
 
-  /// By interest point: the first place of the ten that will do.
+  /// By interest point: the first suitable candidate.
   std::span<const Workplace> of(UavIndex uav) const { return by_kind_.at(kind_of_.at(uav)); }
 
  private:
   std::vector<std::size_t> kind_of_;             ///< by UAV
-  std::vector<std::vector<Workplace>> by_kind_;  ///< of camera
+  std::vector<std::vector<Workplace>> by_kind_;  ///< by kind of camera and point
 };
 
 }  // namespace skein::sim

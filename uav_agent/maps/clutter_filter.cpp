@@ -3,7 +3,7 @@
 namespace skein::agent {
 namespace {
 
-/// Returns that drops hardly give a cube at a distance.
+/// Number of returns in a cube at this distance from the LiDAR that drops are very unlikely to cause.
 int needed(double range_m) {
   if (range_m >= 6.0) return 2;
   return range_m >= 3.0 ? 3 : range_m >= 1.5 ? 5 : 8;

@@ -9,16 +9,17 @@
 namespace skein::agent {
 namespace {
 
-constexpr int kSide = 3 * DistanceField::kBlock;  ///< of a block and those about it
+constexpr int kSide = 3 * DistanceField::kBlock;  ///< cells along an edge of a block with its 26 neighbours
 using Row = std::array<std::uint16_t, DistanceField::kBlock>;
 
-/// Of the cells between two along an axis.
+/// Squared number of cells between two cells along an axis.
 int gap_squared(int from, int to) {
   const int gap = std::max(0, std::abs(to - from) - 1);
   return gap * gap;
 }
 
-/// Of each cell of the block in the middle to the nearest one of a row of them: one bit each.
+/// Squared gap from each cell of the middle block's row to the nearest occupied cell of a row. @param occupied  one bit
+/// for each of the kSide cells. @param far  the result if there is none.
 Row squares_in_row(std::uint32_t occupied, std::uint16_t far) {
   Row squares;
   for (int x = 0; x < DistanceField::kBlock; ++x) {
@@ -51,14 +52,14 @@ DistanceField::DistanceField(double cell_m, double reach_m) : cell_m_(cell_m), r
   }
 }
 
-/// All that is within reach lies in the blocks about it.
+/// Looks only at the block and its 26 neighbours: occupied cells beyond them are out of reach.
 void DistanceField::make(const Cell& at, const OccupiedIn& occupied_in, Block& block) {
   occupied_.clear();
   for_each_about(at, [&](const Cell& near) {
     if (changed_.find(grid_key(near)) != nullptr) occupied_in(near, occupied_);
   });
   block.made_at = changes_;
-  // Axis by axis: squares along x for each row of cells, then the least of them along y, then along z.
+  // Axis by axis: squared gaps along x for each row of cells, then the minimum over y, then over z.
   std::array<std::array<std::uint32_t, kSide>, kSide> rows = {};  // [z][y]
   const Cell low = (at - Cell::Ones()) * kBlock;
   for (const Cell& cell : occupied_) {
@@ -96,7 +97,7 @@ void DistanceField::make(const Cell& at, const OccupiedIn& occupied_in, Block& b
   }
 }
 
-/// Many cells of a block are asked for between two changes.
+/// Cached, because many cells of a block are queried between two changes.
 std::uint64_t DistanceField::newest_change(const Cell& at) {
   Newest& newest = newest_[grid_key(at)];
   if (newest.changes == changes_) return newest.at;

@@ -8,15 +8,15 @@
 namespace skein::agent {
 namespace {
 
-/// A convex function that falls at last as its argument to the power of -Power or faster: between places of the table
-/// its chord lies above it, and beyond the table the power does.
+/// Upper approximation of a convex function f(k) that finally falls like k^-Power or faster: linear interpolation
+/// within the table (a chord of a convex function is above it), and the power law beyond the table.
 template <int Power>
 class Table {
  public:
-  /// @param integrand  of k and x in [0, 1].
+  /// @param integrand  g(k, x): f(k) is its integral over x in [0, 1].
   template <class Integrand>
   explicit Table(const Integrand& integrand) {
-    constexpr int kParts = 1024;  // Simpson's rule: its error is far below what lies between function and chord
+    constexpr int kParts = 1024;  // Simpson's rule: its error is far less than the chord's distance from f
     for (std::size_t place = 0; place < values_.size(); ++place) {
       for (int part = 0; part <= kParts; ++part) {
         const double weight = part == 0 || part == kParts ? 1.0 : (part % 2 == 1 ? 4.0 : 2.0);
@@ -64,7 +64,7 @@ double BeamEvidence::unseen_probability(const FreeCriterion& criterion) const {
   const double k_of_one = criterion.k_of_one_per_m2() / kUnit;
   const double k = k_of_one * (sums_[0] + sums_[1] + sums_[2]);
   const double by_number = unseen_along_one_direction(k);
-  if (by_number <= criterion.unseen_p || std::exp(-k) > criterion.unseen_p) return by_number;  // most are clear
+  if (by_number <= criterion.unseen_p || std::exp(-k) > criterion.unseen_p) return by_number;  // decides most cases
   Matrix3d m;
   m << sums_[0], sums_[3], sums_[4],  //
       sums_[3], sums_[1], sums_[5],   //
@@ -75,7 +75,7 @@ double BeamEvidence::unseen_probability(const FreeCriterion& criterion) const {
   return std::min(by_number, std::exp(-a) * unseen_about_an_axis(b - a));
 }
 
-/// Where a decreasing function falls to `value`, from below.
+/// The argument at which a decreasing function falls to `value`, approached from below.
 template <class Function>
 double falls_to(const Function& function, double value, double low, double high) {
   for (int step = 0; step < 60; ++step) {
@@ -85,9 +85,9 @@ double falls_to(const Function& function, double value, double low, double high)
   return low;
 }
 
-// Of a <= b <= c, the eigenvalues of K I - M, a + b + c = 2 K and c <= K, so b <= K - a / 2, and the second bound is
-// at least exp(-a) D(K - 3 a / 2). That falls as a grows, up to a = 2 K / 3, where all are alike. The largest
-// eigenvalue of M is at least |M|^2 / K, with the sum of its squared elements, so a <= K - |M|^2 / K.
+// Let a <= b <= c be the eigenvalues of K I - M. Since a + b + c = 2 K, c >= b gives b <= K - a / 2, so the second
+// bound is at least exp(-a) D(K - 3 a / 2). This falls as a grows, up to a = 2 K / 3, where all three are equal. The
+// largest eigenvalue of M is at least |M|^2 / K (|M|^2: the sum of its squared elements), so a <= K - |M|^2 / K.
 FreeJudge::FreeJudge(const FreeCriterion& criterion)
     : criterion_(criterion),
       k_of_one_(criterion.k_of_one_per_m2() / BeamEvidence::kUnit),
@@ -96,7 +96,7 @@ FreeJudge::FreeJudge(const FreeCriterion& criterion)
       fewest_per_m2_(least_k_ / (k_of_one_ * BeamEvidence::kUnit) / std::sqrt(3.0)) {
   for (std::size_t i = 0; i < least_a_.size(); ++i) {
     const double part = static_cast<double>(i + 1) / static_cast<double>(least_a_.size());
-    const double k = least_k_ + part * (enough_k_ - least_k_);  // the next one's: with more beams a lesser a is enough
+    const double k = least_k_ + part * (enough_k_ - least_k_);  // the interval's end: a larger K needs a smaller a
     const auto unseen = [&](double a) { return std::exp(-a) * unseen_about_an_axis(std::max(0.0, k - 1.5 * a)); };
     least_a_[i] = falls_to(unseen, criterion.unseen_p, 0.0, k) * (1.0 - 1e-9);
   }

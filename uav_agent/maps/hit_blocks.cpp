@@ -7,7 +7,7 @@ namespace {
 
 constexpr int kHitBlockEdge = 4;
 
-/// What a block is to its cells, a region is to its blocks.
+/// Key of the region that contains a block.
 std::uint64_t region_key(const Eigen::Vector3i& block) {
   constexpr std::uint64_t kMask = (1U << 21) - 1;
   const Eigen::Vector3i region = HitBlocks::block_of(block);
@@ -15,7 +15,7 @@ std::uint64_t region_key(const Eigen::Vector3i& block) {
          (static_cast<std::uint64_t>(region.z()) & kMask) << 42;
 }
 
-/// Calls `use` with each first place from lo to hi of a region along one axis, and with the last one of that region.
+/// Divides the blocks lo to hi along one axis by regions: calls `use` with the first and the last block in each region.
 template <class Use>
 void each_region(int lo, int hi, const Use& use) {
   for (int from = lo; from <= hi; from = (from | (kHitBlockEdge - 1)) + 1) {

@@ -38,7 +38,7 @@ class HitBlocks {
  private:
   using Region = std::array<std::uint64_t, 64>;
 
-  /// Rounds down without floor(): on our target processors that is a function call, and most of a query's time.
+  /// Rounds down without floor(), which is a function call on the target processors, and took most of a query's time.
   Eigen::Vector3i cell(const Vector3d& p_W) const {
     const auto down = [](double along) {
       const int whole = static_cast<int>(along);

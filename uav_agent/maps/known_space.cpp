@@ -12,8 +12,8 @@
 namespace skein::agent {
 namespace {
 
-constexpr float kRayLogOdds = -0.125F;  ///< of a cell being occupied, for each ray that passed it; sums are exact
-constexpr int kKeyOfOrigin = 1 << 15;   ///< OctoMap's number of the cell that begins at 0
+constexpr float kRayLogOdds = -0.125F;  ///< added to a cell's log-odds for each ray that passed it; sums are exact
+constexpr int kKeyOfOrigin = 1 << 15;   ///< OctoMap's key of the cell whose lowest corner is the origin
 constexpr unsigned kChildren = 8;
 constexpr unsigned kBlockLevels = 2;  ///< from a block of 4 x 4 x 4 cells down to a cell
 
@@ -25,7 +25,7 @@ int rays_of(const octomap::OcTreeNode& free_cell) {
   return static_cast<int>(std::lround(free_cell.getLogOdds() / kRayLogOdds));
 }
 
-/// From a node of one depth to that of another on the way to a cell, made if it is not there.
+/// Descends from a node at depth `from` towards a cell, and creates missing nodes. @returns the node at depth `to`.
 octomap::OcTreeNode* grown(octomap::OcTree& tree, octomap::OcTreeNode* node, const octomap::OcTreeKey& key,
                            unsigned from, unsigned to) {
   for (unsigned depth = from; depth < to; ++depth) {
@@ -35,7 +35,7 @@ octomap::OcTreeNode* grown(octomap::OcTree& tree, octomap::OcTreeNode* node, con
   return node;
 }
 
-/// Of the block that a cell is in: the way there is long, and frames bring many cells of a block.
+/// The node of the block that contains a cell. Callers reuse it for the block's other cells, since the descent is long.
 octomap::OcTreeNode* block_node(octomap::OcTree& tree, const octomap::OcTreeKey& key) {
   if (tree.getRoot() == nullptr) tree.setNodeValue(key, 0.0F, true);
   return grown(tree, tree.getRoot(), key, 0, tree.getTreeDepth() - kBlockLevels);
@@ -45,7 +45,7 @@ octomap::OcTreeNode* cell_node(octomap::OcTree& tree, octomap::OcTreeNode* block
   return grown(tree, block, key, tree.getTreeDepth() - kBlockLevels, tree.getTreeDepth());
 }
 
-/// Calls `use` with the middle of each cell of this size in a cube; of a cube that is smaller, with its own.
+/// Calls `use` with the centre of each cell of this size in a cube; if the cube is smaller, with the cube's centre.
 template <class Use>
 void each_cell(const KnownCube& cube, double cell_m, const Use& use) {
   const long count = std::max(1L, std::lround(cube.edge_m / cell_m));
@@ -66,16 +66,16 @@ octomap::OcTreeKey key_of(const Eigen::Vector3i& cell) {
   return {along(0), along(1), along(2)};
 }
 
-/// Visits cells in the order of OctoMap's leaf_bbx_iterator, in less time.
+/// Visits cells in the order of OctoMap's leaf_bbx_iterator, but faster.
 template <class Visit>
 class LeavesInBox {
  public:
-  /// @param lowest, highest  cells at two corners, themselves included.
+  /// @param lowest, highest  cells at two corners of the box, inclusive.
   LeavesInBox(const octomap::OcTree& tree, const octomap::OcTreeKey& lowest, const octomap::OcTreeKey& highest,
               const Visit& visit)
       : tree_(tree), lowest_(lowest), highest_(highest), visit_(visit) {}
 
-  /// @param first  cell of the node, the lowest on each axis.
+  /// Visits the cells below a node. @param first  the node's lowest cell on each axis.
   void below(const octomap::OcTreeNode* node, const octomap::OcTreeKey& first, unsigned depth) const {
     if (depth == tree_.getTreeDepth()) return visit_(first);
     const unsigned half = 1U << (tree_.getTreeDepth() - depth - 1);
@@ -97,11 +97,11 @@ class LeavesInBox {
   const Visit& visit_;
 };
 
-/// Hits and free space in one tree, as small as it gets, in OctoMap's binary serialisation: of each inner node two
-/// bytes, two bits a child, before those of its children.
+/// Merges hits and free space into one pruned tree, in OctoMap's binary serialisation: each inner node has two bytes,
+/// two bits for each child; the nodes of its children follow.
 class JoinedTree {
  public:
-  /// @param rays  that a coarse cell must have to be free.
+  /// @param rays  number of rays that must have passed a coarse cell for it to be free.
   JoinedTree(const octomap::OcTree& hits, const octomap::OcTree& free, int rays)
       : hits_(hits),
         free_(free),
@@ -122,14 +122,15 @@ class JoinedTree {
     return node != nullptr && tree.nodeChildExists(node, i) ? tree.getNodeChild(node, i) : nullptr;
   }
 
-  /// Both trees begin in the middle: a free cell of the same depth is larger, so its tree reaches farther.
+  /// The node of `free_` with the same cube as octant i of `hits_`. Both trees are centred at the origin and have the
+  /// same depth, but free cells are larger, so `free_` extends farther.
   const Node* free_octant(unsigned i) const {
     const Node* node = child(free_, free_.getRoot(), i);
     for (unsigned level = 0; level < levels_; ++level) node = child(free_, node, kChildren - 1 - i);
     return node;
   }
 
-  /// @param hit, free  of the same cube, where there are such.   @param in_free  a larger one around it is free.
+  /// @param hit, free  nodes of the same cube; null: none.   @param in_free  whether a larger cube around it is free.
   Kind write(const Node* hit, const Node* free, bool in_free) {
     if (hit != nullptr && !hits_.nodeHasChildren(hit)) return kOccupied;
     if (free != nullptr && !free_.nodeHasChildren(free)) {
@@ -140,7 +141,8 @@ class JoinedTree {
     return inner([&](unsigned i) { return write(child(hits_, hit, i), child(free_, free, i), in_free); });
   }
 
-  /// @param kind_of  writes a child, and says what it is. Children that are all the same are not written.
+  /// Writes an inner node, unless all its children are leaves of the same kind.
+  /// @param kind_of  writes the i-th child and returns its kind.
   template <class KindOf>
   Kind inner(const KindOf& kind_of) {
     const std::size_t begin = bytes_.size();
@@ -161,14 +163,14 @@ class JoinedTree {
   const octomap::OcTree& hits_;
   const octomap::OcTree& free_;
   const int rays_;
-  const unsigned levels_;  ///< between cells of the one tree and of the other
+  const unsigned levels_;  ///< number of tree levels between a free cell and a hit cell
   std::string bytes_;
   std::size_t nodes_ = 0;
 };
 
 }  // namespace
 
-/// Never pruned: each known cell is a leaf of the finest depth. Values of inner nodes are not kept up.
+/// The trees are never pruned: each known cell is a leaf at the finest depth. Values of inner nodes are not updated.
 struct KnownSpace::Trees {
   Trees(double cell_m, double free_cell_m) : hits(cell_m), free(free_cell_m) {
     free.setClampingThresMin(octomap::probability(kCountedRays * kRayLogOdds));
@@ -183,7 +185,7 @@ KnownSpace::~KnownSpace() = default;
 
 HitCells KnownSpace::cells_of_hits(const std::vector<Eigen::Vector3f>& hits_W, double ground_m) const {
   HitCells hits;
-  BlockTable<std::size_t> places;  // in `hits`, by block; from 1 on
+  BlockTable<std::size_t> places;  // by block: index in hits.blocks, plus 1; 0: none
   for (const Eigen::Vector3f& hit_W : hits_W) {
     octomap::OcTreeKey key;
     if (hit_W.cast<double>().z() < ground_m) continue;
@@ -225,9 +227,9 @@ bool KnownSpace::add_hit(const Vector3d& p_W) {
 }
 
 PassedCells KnownSpace::passed_by_rays(const Vector3d& from_W, const std::vector<Vector3d>& to_W) const {
-  thread_local octomap::KeyRay ray;  // it is large, and agents share what traces rays (onboard/ready_frames.hpp)
+  thread_local octomap::KeyRay ray;  // large; per thread: agents share what traces rays (onboard/ready_frames.hpp)
   PassedCells passed;
-  BlockTable<std::size_t> places;  // in `passed`, by block; from 1 on
+  BlockTable<std::size_t> places;  // by block: index in passed.blocks, plus 1; 0: none
   for (const Vector3d& to : to_W) {
     if (!trees_->free.computeRayKeys(octomap_point(from_W), octomap_point(to), ray)) continue;
     PassedCells::Block* block = nullptr;

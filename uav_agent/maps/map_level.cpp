@@ -6,9 +6,9 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kAskAgain = 0.15;  ///< with so many more beams, as a share of those before
+constexpr double kAskAgain = 0.15;  ///< relative growth of the beam count after which a cell is judged again
 
-/// Rounded down by hand: floor() is a call on the processors that we build for.
+/// Rounds down without floor(), which is a function call on the target processors.
 int down(double value) {
   const int whole = static_cast<int>(value);
   return whole - static_cast<int>(whole > value);
@@ -121,7 +121,7 @@ void MapLevel::change(Block& block, std::size_t place, Space space, Teller telle
   changes_.push_back(cell_at(block, place));
 }
 
-/// There is no doubt any more, and nothing to be proved.
+/// Ends a doubt, and stops judging the cell's evidence.
 void MapLevel::settle(Block& block, std::size_t place) {
   if (doubted(block, place)) --doubts_;
   if (block.evidence) (*block.evidence)[place].never_remind();
@@ -201,16 +201,16 @@ void MapLevel::ask_within(const Cell& coarser_cell, const BeamEvidence& beyond) 
   }
 }
 
-/// A beam on its way through cells: it crosses a layer of them after the other, across the axis that it is nearest
-/// to, and is told by where it passes the middle of each. Cells are counted from a corner that lies below all of its
-/// way, so that what it has in them is never negative.
+/// Follows a beam through the cells, layer by layer. Layers are normal to the axis that the beam is closest to; in
+/// each, the beam is in the cell where it passes the layer's middle. Coordinates are relative to a corner below the
+/// beam's whole path, so they are never negative.
 struct MapLevel::Walk {
   int axis = 0, u = 1, v = 2;
-  int sense = 1;                         ///< up or down the axis
-  int layer = 0, left = 0;               ///< the layer that it is in, and how many there are from there on
-  float at_u = 0.0F, at_v = 0.0F;        ///< in the middle of that layer
-  float slope_u = 0.0F, slope_v = 0.0F;  ///< cells a layer
-  Cell corner = Cell::Zero();            ///< of a block
+  int sense = 1;                         ///< 1: up the axis, -1: down
+  int layer = 0, left = 0;               ///< the current layer, and the number of layers left, this one included
+  float at_u = 0.0F, at_v = 0.0F;        ///< where the beam passes the middle of the layer [cells]
+  float slope_u = 0.0F, slope_v = 0.0F;  ///< cells per layer
+  Cell corner = Cell::Zero();            ///< that corner, a corner of a block
 
   Walk(const BeamBundle& bundle, double cell_m, double from_m, double to_m) {
     bundle.direction_W.cwiseAbs().maxCoeff(&axis);
@@ -222,14 +222,14 @@ struct MapLevel::Walk {
     slope_v = bundle.direction_W[v] / steep;
     sense = along > 0.0F ? 1 : -1;
     const Vector3d from = bundle.from_W / cell_m;
-    // The first layer whose middle lies ahead, then the first beyond from_m, and how many there are up to the end.
+    // First the layer whose middle is next ahead, then the first one beyond from_m, then the number of layers to to_m.
     layer = sense > 0 ? down(from[axis] + 0.5) : -down(0.5 - from[axis]) - 1;
     double first_layers = (layer + 0.5 - from[axis]) * sense;
     const int before = std::max(0, -down(first_layers - from_m / layer_m));
     layer += sense * before;
     first_layers += before;
     left = -down(first_layers - to_m / layer_m);
-    // There a float is exact to a hundredth of a millimetre.
+    // Relative to this corner, a float is exact to a hundredth of a millimetre.
     for (int i = 0; i < 3; ++i) corner[i] = (down(from[i]) & ~(kBlock - 1)) - kMostCells;
     layer -= corner[axis];
     at_u = static_cast<float>(from[u] - corner[u] + first_layers * slope_u);
@@ -249,7 +249,7 @@ struct MapLevel::Walk {
     at_u += slope_u * static_cast<float>(layers);
     at_v += slope_v * static_cast<float>(layers);
   }
-  /// How many layers there are up to the end of its block, or one less where rounding says so; at least one.
+  /// Number of layers up to the end of the current block, or one less because of rounding; at least one.
   int layers_in_block() const {
     const auto within = [](float at, float slope) {
       const int low = static_cast<int>(at) & ~(kBlock - 1);
@@ -269,7 +269,7 @@ void MapLevel::pass(const BeamBundle& bundle, double from_m, double to_m) {
   const int bits_u = kBlockBits * walk.u, bits_v = kBlockBits * walk.v, bits_layer = kBlockBits * walk.axis;
   while (walk.left > 0) {
     Block* const here = block(walk.block());
-    if (here == nullptr || here->free == kCells) {  // all of this block is free: on to the next
+    if (here == nullptr || here->free == kCells) {  // the whole block is free: skips it
       walk.advance(walk.layers_in_block());
       continue;
     }
@@ -281,7 +281,7 @@ void MapLevel::pass(const BeamBundle& bundle, double from_m, double to_m) {
     do {
       const auto place =
           static_cast<std::size_t>((u & kIn) << bits_u | (v & kIn) << bits_v | (walk.layer & kIn) << bits_layer);
-      // Of free cells, only finer ones would ever ask for it; so most of a block's evidence stays out of the cache.
+      // Only finer cells use the evidence of free cells. Without finer cells it is not read, which saves cache misses.
       if (finer_ != nullptr || here->space[place] != Space::free) {
         gathered[place].add(evidence);
         if (gathered[place].due()) ask(*here, place);
@@ -319,7 +319,7 @@ void MapLevel::tidy(const Vector3d& p_W, double forget_m) {
     Slot& slot = slots_[grid_key(block.at)];
     if (slot.number != kFirst + i) continue;
     const Vector3d centre_W = (block.at.cast<double>() + Vector3d::Constant(0.5)) * block_m;
-    // A block that several have told of stays: who told what would be lost.
+    // A free block with several tellers is kept: otherwise it would be lost which cell has which teller.
     const bool all_free = block.free == kCells && std::ranges::all_of(block.teller, [&](Teller teller) {
                             return teller == block.teller.front();
                           });

@@ -7,9 +7,9 @@ namespace skein::agent {
 namespace {
 
 constexpr double kMostGoingM = 32'767.0;
-constexpr std::uint32_t kWindow = 32;          // messages that a receipt tells of besides the last
-constexpr std::size_t kBytesAboveChunk = 4;    // of nodes above it, when neighbours are told with it
-constexpr std::size_t kBytesAboveChunks = 48;  // of those up to the root
+constexpr std::uint32_t kWindow = 32;          // messages that a receipt covers besides the last one
+constexpr std::size_t kBytesAboveChunk = 4;    // estimate: bytes of the nodes above a chunk, shared with its neighbours
+constexpr std::size_t kBytesAboveChunks = 48;  // estimate: bytes of the nodes up to the root
 
 std::uint16_t millimetres(double cell_m) { return static_cast<std::uint16_t>(std::lround(1000.0 * cell_m)); }
 
@@ -87,7 +87,8 @@ bool MapNews::listens_only(Tick now) const {
   return just_started || (written_ && now - *written_ < ticks(config_.period_s));
 }
 
-/// What may be sent now: no more than is left of the second, nor than has come together since the last message.
+/// Bytes that may be sent now: at most what is left of the last second's limit, and what has accrued since the last
+/// message.
 std::size_t MapNews::allowance(Tick now, std::size_t room) const {
   double left = config_.bytes_per_s;
   for (const auto& [tick, bytes] : sent_) {
@@ -172,7 +173,7 @@ bool MapNews::write(const WorldMap& map, const Peers& peers, const std::optional
   return true;
 }
 
-/// The sender's messages, and what it says of those of others.
+/// Notes which message of the sender has arrived, and evaluates the sender's receipts.
 void MapNews::receive(std::size_t sender, const Message& message, Tick now) {
   Other& other = others_[sender];
   if (other.incarnation != message.incarnation) {
@@ -202,7 +203,7 @@ void MapNews::receive(std::size_t sender, const Message& message, Tick now) {
     if (ahead <= kWindow && other.latest > 0) other.before |= std::uint32_t{1} << (ahead - 1);
     other.latest = message.number;
   } else if (const std::uint32_t behind = other.latest - message.number; behind > kWindow) {
-    other.latest = message.number;  // so far behind is none: the last number was damaged
+    other.latest = message.number;  // no message is that late: the former number was damaged
     other.before = 0;
   } else if (behind > 0) {
     other.before |= std::uint32_t{1} << (behind - 1);

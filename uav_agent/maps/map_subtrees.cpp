@@ -19,7 +19,8 @@ using Kind = Subtree::Kind;
 static_assert(static_cast<int>(Space::unknown) == Subtree::nothing && static_cast<int>(Space::free) == Subtree::free &&
               static_cast<int>(Space::occupied) == Subtree::occupied);
 
-/// Where the children of children of children of a chunk stand in a Chunk: OctoMap numbers a child x + 2 y + 4 z.
+/// Indices in a Chunk of a chunk's cubes in the order of the octree, three levels down. OctoMap numbers a child
+/// x + 2 y + 4 z.
 constexpr std::array<std::uint16_t, MapLevel::kCells> kPlaces = [] {
   std::array<std::uint16_t, MapLevel::kCells> places = {};
   for (unsigned child = 0; child < places.size(); ++child) {
@@ -33,7 +34,7 @@ constexpr std::array<std::uint16_t, MapLevel::kCells> kPlaces = [] {
   return places;
 }();
 
-/// Of a node with these children.
+/// Kind of a node with these children, pruned if they are leaves of the same kind.
 Kind joined(const Kind* children) {
   const bool alike = children[0] != Kind::inner &&
                      std::all_of(children + 1, children + kOctants, [&](Kind kind) { return kind == children[0]; });
@@ -51,7 +52,7 @@ void append_node(const Kind* children, std::vector<std::uint8_t>& bytes) {
   bytes.insert(bytes.end(), node.begin(), node.end());
 }
 
-/// Place of a chunk among all of a tree, in the tree's order: three bits a depth.
+/// Position of a chunk in the tree's order (Morton code): three bits for each depth.
 std::uint64_t order_of(const Eigen::Vector3i& chunk) {
   std::uint64_t order = 0;
   for (int axis = 0; axis < 3; ++axis) {
@@ -61,7 +62,7 @@ std::uint64_t order_of(const Eigen::Vector3i& chunk) {
   return order;
 }
 
-/// The nodes above the chunks.
+/// Writes the nodes above the chunks, and the chunks' subtrees below them.
 class Joining {
  public:
   struct Leaf {
@@ -69,14 +70,14 @@ class Joining {
     const Subtree* subtree = nullptr;
   };
 
-  /// @param leaves  in their order.
+  /// @param leaves  sorted by `order`.
   explicit Joining(std::span<const Leaf> leaves) : leaves_(leaves) {
     if (!leaves.empty()) write(0);
   }
   std::vector<std::uint8_t> take() { return std::move(bytes_); }
 
  private:
-  /// Writes the node at this depth in which the next leaf lies.
+  /// Writes the node at this depth that contains the next leaf.
   Kind write(int depth) {
     const Leaf& leaf = leaves_[next_];
     if (depth == kChunkDepth) {
@@ -144,12 +145,12 @@ std::vector<std::uint8_t> join_subtrees(std::span<const Subtree> subtrees) {
 std::optional<std::vector<HeardCube>> read_subtrees(std::span<const std::uint8_t> bytes, int levels) {
   std::vector<HeardCube> cubes;
   bool sound = true;
-  const auto take = [&](const KnownCube& leaf) {  // its edges are whole numbers of cubes
+  const auto take = [&](const KnownCube& leaf) {  // lengths are in cubes
     const auto edge = static_cast<int>(leaf.edge_m);
     const int largest = leaf.occupied ? WorldMap::kChunk : WorldMap::kChunk << (kChunkDepth - kLargestFreeDepth);
     int level = 0;
     while (!leaf.occupied && level + 1 < levels && 2 << level <= edge) ++level;
-    const int count = std::min(edge, largest) >> level;  // along each edge
+    const int count = std::min(edge, largest) >> level;  // cubes along each edge
     const auto all = static_cast<std::size_t>(count) * static_cast<std::size_t>(count * count);
     sound = sound && edge <= largest && cubes.size() + all <= kMostHeardCubes;
     if (!sound) return;

@@ -11,7 +11,7 @@
 namespace skein::agent {
 namespace {
 
-constexpr int kFineSteps = 8;            ///< of cast(), for each coarse one; even
+constexpr int kFineSteps = 8;            ///< fine samples of cast() for each coarse one; even
 constexpr double kMostHeardCells = 1e6;  ///< eight million cubic metres of free space
 
 }  // namespace
@@ -38,7 +38,7 @@ FrameCells OccupancyMap::trace(const std::vector<Eigen::Vector3f>& hits_W, const
   const std::size_t stride = std::max<std::size_t>(1, hits_W.size() / std::max(1, config.max_free_rays));
   for (std::size_t i = 0; i < hits_W.size(); i += stride) {
     const Vector3d to_hit = hits_W[i].cast<double>() - *p_WS;
-    // The cell of the hit itself is not free, and one cell short of it the ray only grazes what it will hit.
+    // The hit's own cell is not free: the ray ends one cell's edge before the hit, where it at most grazes that cell.
     const double length = std::min(to_hit.norm() - config.free_resolution_m, config.free_range_m);
     if (length <= 0.0) continue;
     ends_W.push_back(*p_WS + to_hit.normalized() * length);
@@ -87,8 +87,8 @@ bool OccupancyMap::segment_clear(const Vector3d& a_W, const Vector3d& b_W, doubl
 
 std::optional<double> OccupancyMap::cast(const Vector3d& from_W, const Vector3d& direction, double max_distance,
                                          double radius) const {
-  // A ball around each of samples h apart covers a tube of `radius` where ball^2 = radius^2 + (h/2)^2. Coarse balls
-  // find out fast that nothing is near; fine ones say where, a few per cent on the safe side.
+  // Balls around samples that are h apart cover a tube of `radius` if ball^2 = radius^2 + (h/2)^2. Coarse balls quickly
+  // exclude stretches without obstacles; fine ones find the distance, a few per cent on the safe side.
   const double h = std::max(2.0 * radius, impl_->config.resolution_m);
   const double fine_h = h / kFineSteps;
   const double ball = std::hypot(radius, 0.5 * h), fine_ball = std::hypot(radius, 0.5 * fine_h);

@@ -12,7 +12,8 @@ namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-/// Where runs of `size` begin, `shift` on from the first, and where the last one ends.
+/// Divides `count` indices into runs of `size`, of which the first has only `shift` (0: also `size`).
+/// @returns where each run begins, and where the last one ends.
 std::vector<int> edges(int count, int size, int shift) {
   std::vector<int> edges = {0};
   for (int edge = shift > 0 ? shift : size; edge < count; edge += size) edges.push_back(edge);
@@ -101,8 +102,8 @@ void ScanBundler::find_free(const BeamScan& scan, const Grid& grid, const TubeFr
   }
 }
 
-/// The least of the bundles about each: along the rings, which go round, and then up, where beyond the last there is
-/// nothing to be seen, nor to be contradicted.
+/// Sets around_m_ to the minimum of free_m_ over each bundle and its neighbours: first along the rings, which are
+/// closed, then across the rings. Beyond the outermost rings there are no beams that could contradict.
 void ScanBundler::look_around(const Grid& grid) {
   const int across = grid.across(), up = grid.up();
   for (int level = 0; level < up; ++level) {

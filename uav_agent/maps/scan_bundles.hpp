@@ -53,10 +53,10 @@ class ScanBundler {
   double half_rad() const { return half_rad_; }
 
  private:
-  /// Which beams make a bundle: rectangles of columns and rings. Those at the edges may be smaller.
+  /// Division of the beams into bundles: rectangles of columns and rings. Those at the edges may be smaller.
   struct Grid {
-    std::vector<int> column_edges, ring_edges;  ///< where each begins, and where the last one ends
-    std::vector<Vector3d> middles_L;            ///< level by level
+    std::vector<int> column_edges, ring_edges;  ///< first column (ring) of each rectangle; then the end of the last
+    std::vector<Vector3d> middles_L;            ///< unit vectors, level by level
 
     Grid(const LidarConfig& lidar, int columns, int rings, int column_shift, int ring_shift);
     int across() const { return static_cast<int>(column_edges.size()) - 1; }
@@ -64,8 +64,8 @@ class ScanBundler {
     std::size_t number(int level, int side) const { return static_cast<std::size_t>(level * across() + side); }
   };
 
-  /// Each scan has another grid. With the same grid, the middles of a LiDAR's bundles would lie on the same lines in
-  /// every scan, and through some windows fewer bundles would always pass than through others.
+  /// The grid changes from scan to scan. With a fixed grid, the middles of the bundles would lie on the same lines
+  /// in every scan, so that fewer bundles would always pass through some windows than through others.
   const Grid& grid_of(Tick tick) const;
   void find_free(const BeamScan& scan, const Grid& grid, const TubeFree& near_free, const ClearWay& clear_way);
   void look_around(const Grid& grid);

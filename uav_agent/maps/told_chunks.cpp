@@ -9,8 +9,8 @@
 namespace skein::agent {
 namespace {
 
-constexpr int kRegionCubeBits = 5;  // of smallest cubes
-constexpr double kDetour = 0.1;     // of two places on a listener's way, the one that it comes to first
+constexpr int kRegionCubeBits = 5;  // a region's edge is 2^5 smallest cubes
+constexpr double kDetour = 0.1;     // weight of the distance from the listener: nearer places on its way come first
 
 double distance_to_segment(const Vector3d& a_W, const Vector3d& b_W, const Vector3d& p_W) {
   const Vector3d ab = b_W - a_W;
@@ -64,7 +64,7 @@ void ToldChunks::take_changes(const WorldMap& map, Region& region, std::optional
 }
 
 void ToldChunks::hear(WorldMap& map, std::span<const HeardCube> cubes, Teller teller) {
-  std::vector<Eigen::Vector3i> heard;  // regions
+  std::vector<Eigen::Vector3i> heard;  // regions of the cubes
   for (const HeardCube& cube : cubes) {
     const Eigen::Vector3i region = shifted(cube.cube, kRegionCubeBits - cube.level);
     if (heard.empty() || heard.back() != region) heard.push_back(region);
@@ -81,7 +81,7 @@ void ToldChunks::hear(WorldMap& map, std::span<const HeardCube> cubes, Teller te
   take_all(teller);
 }
 
-/// What others told may be left to them no longer.
+/// If the listener's informed tellers have changed, it may lack chunks that it was to get from them: checks all again.
 void ToldChunks::note_informed(const Listener& listener) {
   Account& account = accounts_[listener.uav];
   if (account.informed == listener.informed) return;

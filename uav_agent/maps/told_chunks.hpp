@@ -71,7 +71,7 @@ class ToldChunks {
     Eigen::Vector3i at = Eigen::Vector3i::Zero();
     std::uint64_t revision = 0;       ///< WorldMap::changed_at()
     std::uint64_t sent_revision = 0;  ///< revision in the last message that had it
-    std::uint64_t read_revision = 0;  ///< revision of which `tellers` is
+    std::uint64_t read_revision = 0;  ///< revision to which `tellers` belongs
     Tellers tellers = 0;              ///< tellers of its known cubes
     std::uint32_t sent_in = 0;        ///< number of the last message that had it; 0: none
   };
@@ -79,7 +79,7 @@ class ToldChunks {
     Eigen::Vector3i at = Eigen::Vector3i::Zero();
     std::uint64_t revision = 0;
     std::array<std::int32_t, WorldMap::kRegionChunks> chunks;  ///< index in chunks_; -1: nothing is known
-    std::vector<std::uint64_t> settled;                        ///< by UAV: the last revision of which it lacks nothing
+    std::vector<std::uint64_t> settled;                        ///< by UAV: the last revision that it knows in full
   };
   struct Message {
     Tick tick = 0;

@@ -17,7 +17,7 @@
 // To be safe, these traces stay in the map: that of a UAV that is never heard again; one that touches structure or the
 // ground; one that another UAV's map message reports at once, if it is larger than a body; and one of a UAV
 // that the reporting UAV did not hear, but this one heard all the time.
-// Frame W.   Units: metres, ticks.   Threads: one.   Deterministic.   Source: our own rule.
+// Frame W.   Units: metres, ticks.   Threads: one.   Deterministic.   Source: none; a rule of Skein.
 // Bounded: Config::most_cubes; doubt() keeps the newest quarter of so many. All other cubes stay structure for good.
 #pragma once
 

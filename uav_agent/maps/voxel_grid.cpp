@@ -10,9 +10,9 @@ namespace skein::agent {
 namespace {
 
 constexpr double kMaxVoxels = 16e6;
-constexpr std::uint8_t kPlain = 0, kRuns = 1;  ///< how a chunk is written
+constexpr std::uint8_t kPlain = 0, kRuns = 1;  ///< encoding of a chunk
 constexpr std::size_t kLongestRun = 255;
-/// The states of two maps join to the greater one: the bits are those of the numbers 0, 1, 2.
+/// Greatest valid value of the state bits, which are the numbers of VoxelState: two states merge to the greater one.
 constexpr std::uint8_t kHighestState = 2;
 
 }  // namespace
@@ -50,7 +50,7 @@ std::optional<VoxelGrid::Id> VoxelGrid::at(const Cell& cell) const {
 
 std::optional<VoxelGrid::Id> VoxelGrid::at(const Vector3d& p_W) const {
   const Vector3d p_G = X_GW_ * p_W / voxel_m_;
-  // Before the conversion: what is kilometres away has no number.
+  // Checked before the conversion to integers, which far points would overflow.
   if (!(p_G.array() >= 0.0).all() || !(p_G.array() < dims_.cast<double>().array()).all()) return std::nullopt;
   return at(Cell(p_G.cast<int>()));
 }
@@ -109,7 +109,7 @@ std::vector<VoxelGrid::Id> VoxelGrid::take_changed() { return std::exchange(chan
 
 void VoxelGrid::along(const Vector3d& a_W, const Vector3d& b_W, const std::function<bool(Id)>& visit) const {
   const Vector3d a = X_GW_ * a_W / voxel_m_, b = X_GW_ * b_W / voxel_m_, d = b - a;
-  // Clips to the grid first, so that a far end costs nothing.
+  // Clips the segment to the grid first, so that parts far outside cost no time.
   double enter = 0.0, leave = 1.0;
   for (int i = 0; i < 3; ++i) {
     if (d[i] == 0.0) {

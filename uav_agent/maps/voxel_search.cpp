@@ -14,11 +14,11 @@ using Id = VoxelGrid::Id;
 using Cell = VoxelGrid::Cell;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// To one of the 26 cubes around.
+/// A step to one of the 26 cubes around a cube.
 struct Step {
   Cell cells;
-  double length = 0.0;  ///< in cubes
-  /// Cubes that the step touches beside the one that it leaves, in the order of asking.
+  double length = 0.0;  ///< in cube edges
+  /// Cubes that the step touches, without the one that it leaves, in the order in which they are checked.
   std::array<Cell, 7> parts;
   int part_count = 0;
 };
@@ -46,7 +46,7 @@ const std::array<Step, 26>& all_steps() {
   return steps;
 }
 
-/// The steps from the cubes of a grid that touch passable ones alone. No cube is asked about twice.
+/// The steps that touch only passable cubes. Calls `passable` at most once for each cube.
 class Steps {
  public:
   Steps(const VoxelGrid& grid, Id from, const Passable& passable)
@@ -66,8 +66,8 @@ class Steps {
     return known_[id] == kYes;
   }
 
-  /// Calls `take` with the cubes around and the length of the way there [m].
-  /// @param wanted  whether a cube is of interest; else nothing is asked about the way there.
+  /// Calls `take` with each cube that one step leads to, and with the length of the step [m].
+  /// @param wanted  whether a cube is of interest; if not, its step is not checked.
   template <class Wanted, class Take>
   void from(Id id, const Wanted& wanted, const Take& take) {
     const Cell c = grid_.cell(id);
@@ -82,7 +82,7 @@ class Steps {
 
  private:
   enum Known : std::uint8_t { kUnasked, kYes, kNo };
-  /// A step in numbers of cubes, which wrap around: those of a step back are near 2^32.
+  /// A step as differences of cube numbers, modulo 2^32: those of a step back are near 2^32.
   struct Move {
     Id by = 0;
     double cost = 0.0;
@@ -93,7 +93,7 @@ class Steps {
     return static_cast<Id>((cells.z() * dims.y() + cells.y()) * dims.x() + cells.x());
   }
 
-  /// All cubes of the block that a step spans, so that it touches nothing else.
+  /// Whether all cubes of the block that the step spans are passable: it touches no others.
   bool may_step(Id from, const Move& move, int parts) {
     return std::all_of(move.parts.begin(), move.parts.begin() + parts, [&](Id part) { return passable(from + part); });
   }
@@ -104,7 +104,7 @@ class Steps {
   std::vector<Known> known_;
 };
 
-/// Best first search from one cube.
+/// Best-first search from one cube.
 class Search {
  public:
   Search(const VoxelGrid& grid, Id from, const Passable& passable)
@@ -121,7 +121,7 @@ class Search {
     queue_.emplace(cost + to_go(id), sequence_++, id);
   }
 
-  /// The next cube in order; nullopt when there is none.
+  /// Closes and returns the open cube with the least estimated total cost; nullopt if there is none.
   std::optional<Id> next() {
     while (!queue_.empty()) {
       const Id id = std::get<2>(queue_.top());
@@ -154,7 +154,7 @@ class Search {
     Id parent = 0;
     bool closed = false;
   };
-  // Ties go to the entry that was made first: the order is the same on every machine.
+  // Ties go to the entry that was inserted first, so the order is the same on every machine.
   using Entry = std::tuple<double, std::uint64_t, Id>;
 
   const Id from_;
@@ -172,7 +172,7 @@ std::optional<std::vector<Id>> find_voxel_path(const VoxelGrid& grid, Id from, I
   Search search(grid, from, passable);
   if (!search.passable(to)) return std::nullopt;
   const Cell goal = grid.cell(to);
-  // The length of the way if nothing were in it: diagonal steps as long as they bring all axes nearer.
+  // Length of the path if all cubes were passable: diagonal steps first, as long as they help on all axes.
   const auto to_go = [&](Id id) {
     Cell d = (grid.cell(id) - goal).cwiseAbs();
     std::sort(d.data(), d.data() + 3);

@@ -9,13 +9,15 @@ namespace skein::agent {
 namespace {
 
 constexpr std::uint64_t kTidyEach = 20;        // scans
-constexpr std::size_t kTidyAfterBlocks = 256;  // more than after the last time, where it was told of
-constexpr int kRegionBits = 2;                 // of chunks
-/// From this level on, windows are so large that beams of a LiDAR that creeps are not spread evenly in them.
+constexpr std::size_t kTidyAfterBlocks = 256;  // least growth since the last tidying that makes hear() tidy again
+constexpr int kRegionBits = 2;                 // a region's edge is 2^2 chunks
+/// From this level on, windows are so large that the beams of a slowly moving LiDAR are not spread evenly over them.
+/// The accepted probability is halved there.
 constexpr std::size_t kUneven = 2;
-constexpr std::uint8_t kRowFree = 0xFF;  ///< all cubes of a row of a chunk
+constexpr std::uint8_t kRowFree = 0xFF;  ///< a row of a chunk with all cubes free
 
-/// In a cube of a chunk.   @param lowest  of its smallest ones.   @param edge  in smallest ones.
+/// Sets the unknown cubes within a larger cube of a chunk.   @param lowest  the lowest smallest cube in it.
+/// @param edge  in smallest cubes.
 void fill_unknown(WorldMap::Chunk& known, const Eigen::Vector3i& lowest, int edge, const MapLevel::Known& about) {
   for (int z = 0; z < edge; ++z) {
     for (int y = 0; y < edge; ++y) {
@@ -71,12 +73,12 @@ void WorldMap::insert(std::span<const BeamBundle> bundles, std::span<const Eigen
   }
   note_changes();
   if (++scans_ % kTidyEach != 0 || bundles.empty()) return;
-  // What is out of a level's reach, and a turn away: it comes back with what the coarser one knows.
+  // Frees blocks far out of a level's reach. If needed again, they are restored from what the coarser level knows.
   for (std::size_t i = 0; i < levels_.size(); ++i) levels_[i]->tidy(bundles.front().from_W, 2.0 * config_.to_m[i]);
 }
 
-/// At the nearest plane between two layers of the larger cubes, so that each layer of both is passed at one level
-/// alone.
+/// The beam changes levels at the nearest plane between two layers of the larger cubes, so that it passes each layer at
+/// one level only.
 double WorldMap::handed_over_m(const BeamBundle& bundle, std::size_t level) const {
   const double to_m = config_.to_m[level];
   if (level + 1 == levels_.size()) return to_m;
@@ -87,7 +89,7 @@ double WorldMap::handed_over_m(const BeamBundle& bundle, std::size_t level) cons
   return std::max(0.0, (plane - from) / along);
 }
 
-/// The largest cubes first: what is proved there may settle doubts in smaller ones.
+/// Starts with the largest cubes: if one is proved free, that may settle doubts in smaller cubes.
 void WorldMap::note_changes() {
   for (int i = levels() - 1; i >= 0; --i) {
     MapLevel& level = *levels_[static_cast<std::size_t>(i)];
@@ -164,8 +166,8 @@ void WorldMap::doubt(const Cube& cube) {
   note_changes();
 }
 
-/// The cubes about this one, the largest first, are known no more; what one of them proved of the smaller ones in it
-/// stays, but for the one that has the cube.
+/// Makes the larger cubes that contain this cube unknown, the largest first. If one of them was free, the smaller cubes
+/// in it stay free, except for the one that contains this cube.
 void WorldMap::unprove_around(const Cube& cube) {
   MapLevel::Known about;
   for (int i = levels() - 1; i > 0; --i) {
@@ -202,7 +204,7 @@ void WorldMap::hear(std::span<const HeardCube> cubes, Teller teller) {
   tidy_if_grown();
 }
 
-/// By so much at least that looking through all blocks costs no more than making them has.
+/// Tidies only after the map has grown so much that a pass over all blocks costs no more than creating them did.
 void WorldMap::tidy_if_grown() {
   const auto blocks = [&] {
     std::size_t count = 0;
@@ -224,8 +226,8 @@ void WorldMap::take(const HeardCube& heard, Teller teller) {
   levels_.at(static_cast<std::size_t>(heard.level))->set(heard.cube, Space::free, teller);
 }
 
-/// Doubts within a cube that is free now: own beams have proved it since, or whoever said that they were occupied says
-/// now that they are free.
+/// Settles the doubts within a cube that is free now: this UAV's beams have proved it, or the teller that reported the
+/// smaller cubes occupied now reports them free.
 void WorldMap::settle_free(const Cube& cube, int level, Teller teller) {
   const int edge = 1 << level;
   levels_.front()->settle_free(cube * edge, edge, teller);
@@ -239,7 +241,7 @@ MapLevel::Known WorldMap::known(const Cube& cube) const {
   return {};
 }
 
-/// Asked for many cubes near each other.
+/// Whether a smallest cube is free. Keeps the last chunk, because queries are for cubes near each other.
 class WorldMap::FreeCubes {
  public:
   explicit FreeCubes(const WorldMap& map) : map_(map) {}
@@ -254,11 +256,11 @@ class WorldMap::FreeCubes {
 
  private:
   const WorldMap& map_;
-  Cube chunk_ = Cube::Constant(std::numeric_limits<int>::max());  ///< that was asked for last; at first none
+  Cube chunk_ = Cube::Constant(std::numeric_limits<int>::max());  ///< of the last query; at first none
   const ChunkNote* note_ = nullptr;
 };
 
-/// Calls `test` with the chunks from that of a cube to that of another, until it returns false.
+/// Calls `test` with all chunks between those of two cubes, until it returns false.
 template <class Test>
 bool WorldMap::all_chunks(const Cube& lowest, const Cube& highest, const Test& test) const {
   const Cube low = MapLevel::block_of(lowest), high = MapLevel::block_of(highest);
@@ -274,7 +276,7 @@ bool WorldMap::all_chunks(const Cube& lowest, const Cube& highest, const Test& t
 
 bool WorldMap::tube_free(const Vector3d& a_W, const Vector3d& b_W, double radius_m) const {
   const Vector3d reach = Vector3d::Constant(radius_m);
-  // Most chunks are free all over, where a UAV flies.
+  // Where a UAV flies, all cubes of most chunks are free.
   const Cube low = cube_of(a_W.cwiseMin(b_W) - reach), high = cube_of(a_W.cwiseMax(b_W) + reach);
   const bool chunks_free = all_chunks(low, high, [&](const Cube& chunk) {
     const ChunkNote* const note = free_rows(chunk);
@@ -301,14 +303,14 @@ const WorldMap::ChunkNote* WorldMap::free_rows(const Cube& chunk) const {
   return note;
 }
 
-/// Row by row: those of its cubes that the ball touches lie beside each other. What is free all over is not measured.
+/// Checks the chunk row by row, with one bit for each cube of a row. Rows with all cubes free are skipped.
 bool WorldMap::ball_free_in(const Cube& chunk, const Ball& ball) const {
   const ChunkNote* const note = free_rows(chunk);
   if (note != nullptr && note->all_free) return true;
   const double cell_m = config_.cell_m;
   const Cube first = chunk * kChunk;
   std::array<int, 3> begin = {}, end = {};
-  std::array<std::array<double, kChunk>, 3> gap2;  // along each axis, from the place to the cubes
+  std::array<std::array<double, kChunk>, 3> gap2;  // by axis: squared distance from the ball's centre to the cubes
   for (int axis = 0; axis < 3; ++axis) {
     const auto along = static_cast<std::size_t>(axis);
     begin[along] = std::max(0, ball.low[axis] - first[axis]);
@@ -340,7 +342,7 @@ bool WorldMap::ball_free_in(const Cube& chunk, const Ball& ball) const {
 bool WorldMap::ball_free(const Vector3d& p_W, double radius_m, double lowest_m) const {
   const Vector3d reach = Vector3d::Constant(radius_m);
   const Cube low = cube_of(p_W - reach), high = cube_of(p_W + reach);
-  // One more on each side: where a cube begins just at the radius, the sum and the gap may be rounded apart.
+  // One cube more on each side: for a cube that begins exactly at the radius, rounding may differ from ball_free_in().
   const Ball ball = {p_W, radius_m, lowest_m, low - Cube::Ones(), high + Cube::Ones()};
   return all_chunks(low, high, [&](const Cube& chunk) { return ball_free_in(chunk, ball); });
 }
@@ -371,8 +373,8 @@ void WorldMap::read(const Cube& chunk, Chunk& known) const {
     if (std::ranges::all_of(known, [](const auto& cube) { return cube.space != Space::unknown; })) return;
     const Cube block = shifted(chunk, i);
     levels_[static_cast<std::size_t>(i)]->read(block, larger);
-    const int count = kChunk >> i;                           // of its cells along an edge of the chunk
-    const Cube corner = (chunk - block * (1 << i)) * count;  // of the chunk in that block, in its cells
+    const int count = kChunk >> i;                           // cells of this level along an edge of the chunk
+    const Cube corner = (chunk - block * (1 << i)) * count;  // lowest cell of the chunk, within the block
     for (int at = 0; at < count * count * count; ++at) {
       const Cube cell(at % count, at / count % count, at / (count * count));
       const MapLevel::Known& about = larger[MapLevel::place_of(corner + cell)];

@@ -1,5 +1,5 @@
-// The world map: which cubes of space are free, occupied or unknown, by all beams of this UAV's LiDAR and by what other
-// UAVs have told.
+// The world map: which cubes of space are free, occupied or unknown, according to all beams of this UAV's LiDAR and to
+// the reports of other UAVs.
 //
 // A cube becomes occupied when a beam ends in it, and stays so: later beams that pass a thin member must not erase it.
 // Only a cube that may have been a UAV can be taken back, by doubt() or vacate().
@@ -24,7 +24,7 @@
 
 namespace skein::agent {
 
-/// What a UAV tells of one cube, whose edge is 2^level smallest cubes.
+/// A UAV's report of one cube, whose edge is 2^level smallest cubes.
 struct HeardCube {
   Eigen::Vector3i cube = Eigen::Vector3i::Zero();  ///< index, in cubes of its level
   int level = 0;                                   ///< 0 to WorldMap::levels() - 1
@@ -148,7 +148,7 @@ class WorldMap {
   /// What the map keeps for a chunk: changed_at(), and a cache of which smallest cubes are free, updated on demand.
   struct ChunkNote {
     std::uint64_t changed_at = 0, structure_changed_at = 0;
-    mutable std::uint64_t read_at = 0;                                ///< changed_at of which free_rows is
+    mutable std::uint64_t read_at = 0;                                ///< changed_at to which free_rows belongs
     mutable std::array<std::uint8_t, kChunk* kChunk> free_rows = {};  ///< by z and y, y first: one bit for each x
     mutable bool all_free = false;                                    ///< whether all bits of free_rows are set
   };

@@ -5,7 +5,7 @@
 namespace skein::agent {
 namespace {
 
-/// With the share of returns that this LiDAR loses.
+/// The config with the share of returns that this LiDAR loses.
 WorldMap::Config with_losses(WorldMap::Config config, const LidarConfig& lidar) {
   const double share = lidar.dropped_sectors ? lidar.dropped_sectors->share : 0.0;
   config.criterion.no_return_p = 1.0 - (1.0 - lidar.no_return_p) * (1.0 - share);

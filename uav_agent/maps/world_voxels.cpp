@@ -36,7 +36,7 @@ void WorldVoxels::note(const WorldMap& map, const WorldMap::Cube& chunk, const V
   }
 }
 
-/// Reads the chunk only if a cube may have become occupied, or is in doubt no longer.
+/// Reads the chunk only if a cube of it may have become occupied, or if a doubt may have ended.
 void WorldVoxels::count(const WorldMap& map, const WorldMap::Cube& chunk, std::uint64_t changed_at, VoxelGrid& grid) {
   if (changed_at == 0) return;
   Counted& counted = chunks_[grid_key(chunk)];

@@ -1,15 +1,15 @@
-// Parameters of a strategy with two values of their own accord: ours, or after the paper, and those of `faithful=true`,
-// after the public code or what the sources leave out. What is given by its own name stays as it is given.
+// Parameters of a strategy that have two defaults: one of our choice or from the paper, and one for `faithful=true`,
+// which follows the public code or leaves out what the sources do not mention. A given parameter keeps its value.
 #pragma once
 
 #include <optional>
 
 namespace skein::agent {
 
-/// A limit of time that no mission reaches.
+/// A time limit that no mission reaches.
 constexpr double kNeverS = 1e6;
 
-/// Fills in what was not given.
+/// Sets a parameter that was not given to one of its two defaults.
 template <class T, class Value>
 void fill(std::optional<T>& parameter, bool faithful, const Value& ours, const Value& faithful_value) {
   if (!parameter) parameter = faithful ? faithful_value : ours;

@@ -26,7 +26,7 @@ GimbalCommand aim_at(const Vector3d& p_W, const RigidBodyState& state, const Veh
 }
 
 std::optional<double> yaw_facing(const Vector3d& out_W) {
-  constexpr double kUpright = 0.5;  // a normal as steep as that
+  constexpr double kUpright = 0.5;  // |n_z| from which on a face counts as top or bottom
   return std::abs(out_W.z()) < kUpright ? std::optional(std::atan2(-out_W.y(), -out_W.x())) : std::nullopt;
 }
 

@@ -10,17 +10,17 @@
 namespace skein::agent {
 namespace {
 
-constexpr std::size_t kFewCells = 4;  ///< a block with fewer is empty
-constexpr double kThinnestM = 2.0;    ///< of a tight box around a thin member
-constexpr double kCellM = 0.5;        ///< added to the extent of cells' centres
-constexpr double kGapM = 2.0;         ///< a face this near to the next block's structure is inside
-constexpr double kSharedFace = 0.5;   ///< if so much of it is covered
-constexpr int kTurns = 12;            ///< of a tight box that are tried, within a right angle
-constexpr double kTurnGain = 0.8;     ///< a turned box must be this much smaller than one that is aligned with the site
-constexpr double kOthersS = 25.0, kFlownS = 90.0, kFailedS = 30.0;  ///< what makes a strip less attractive
-constexpr double kRetryS = 30.0;                                    ///< after a failure, and longer after the next
+constexpr std::size_t kFewCells = 4;  ///< a block with fewer occupied cells counts as empty
+constexpr double kThinnestM = 2.0;    ///< least thickness of a tight box around a thin member
+constexpr double kCellM = 0.5;        ///< added to the extent of the cells' centres
+constexpr double kGapM = 2.0;         ///< a face is inside the structure if the next block's is nearer than this
+constexpr double kSharedFace = 0.5;   ///< and covers more than this share of the face
+constexpr int kTurns = 12;            ///< number of yaw angles tried for a tight box, within a right angle
+constexpr double kTurnGain = 0.8;     ///< a turned box must have less than this share of the aligned box's area
+constexpr double kOthersS = 25.0, kFlownS = 90.0, kFailedS = 30.0;  ///< cost: of another UAV's block, flown, failed
+constexpr double kRetryS = 30.0;  ///< wait after a failure; twice as long after the second one, and so on
 
-/// Blocks along an axis are counted from the box's lower end.
+/// The block that contains a point. Blocks along an axis are counted from the box's lower end.
 Eigen::Vector3i block_of(const Vector3d& p_O, const Vector3d& size, const Eigen::Vector3i& count) {
   const Vector3d share = (p_O + 0.5 * size).cwiseQuotient(size).cwiseProduct(count.cast<double>());
   return share.array().floor().matrix().cast<int>().cwiseMax(0).cwiseMin(count - Eigen::Vector3i::Ones());
@@ -30,7 +30,8 @@ std::size_t index_of(const Eigen::Vector3i& block, const Eigen::Vector3i& count)
   return static_cast<std::size_t>(block.x() + count.x() * (block.y() + count.y() * block.z()));
 }
 
-/// A thin member is looked at from all sides; the narrow side of a wall is not worth a flight.
+/// Widens the box of a thin member, so that it gets strips on all sides. The box of a wall stays as it is: its narrow
+/// side is not worth a flight.
 Eigen::AlignedBox3d not_too_thin(const Eigen::AlignedBox3d& extent) {
   Vector3d half = 0.5 * (extent.sizes() + Vector3d::Constant(kCellM));
   Vector3d sorted = half;
@@ -46,7 +47,8 @@ Eigen::AlignedBox3d extent_of(const std::vector<Vector3d>& cells_O, double turn)
   return not_too_thin(extent);
 }
 
-/// The smallest box around the cells of a block, turned about the vertical: members run in any direction.
+/// The box around the cells of a block with the smallest base, turned about the vertical: members may run in any
+/// direction.
 OrientedBox tight_box(const OrientedBox& site, const std::vector<Vector3d>& cells_O) {
   double best_turn = 0.0, best_area = std::numeric_limits<double>::infinity();
   for (int i = 0; i < kTurns; ++i) {
@@ -65,7 +67,7 @@ OrientedBox tight_box(const OrientedBox& site, const std::vector<Vector3d>& cell
   return box;
 }
 
-/// Whether most of a face looks straight onto the neighbour's structure.
+/// Whether the structure of the neighbouring block covers most of a face.
 bool covered(const Eigen::AlignedBox3d& own, const Eigen::AlignedBox3d& other, int axis, bool upper) {
   if (other.isEmpty()) return false;
   const double gap = upper ? other.min()[axis] - own.max()[axis] : own.min()[axis] - other.max()[axis];

@@ -1,7 +1,8 @@
-// Strips for roomy boxes (flight/site.hpp): one box around a whole site, most of it empty. The box is cut into blocks.
-// The occupied cells of a block get a tight box, whose faces are flown as strips. So the strips follow the structure as
-// far as it is known, and their number rises as the map grows. Each block belongs to one UAV by its number: all UAVs
-// agree on the owners, however much their maps differ. A UAV prefers its own blocks, and then helps with the others.
+// Strips for site boxes (is_roomy() in flight/site.hpp): one box around a whole site, most of it empty. The box is cut
+// into blocks. The occupied cells of a block get a tight box, whose faces are flown as strips. So the strips follow the
+// structure as far as it is known, and their number rises as the map grows. A block's number determines which UAV owns
+// it: all UAVs agree on the owners, however much their maps differ. A UAV prefers its own blocks, and then helps with
+// the others.
 // Frame W.   Units: SI.   Threads: one.   Effort: one pass over all occupied cells at most every look_again_s.
 #pragma once
 
@@ -29,7 +30,7 @@ class BlockWork {
     double transit_mps = 4.5;   ///< speed between strips, for costs
     double look_again_s = 8.0;  ///< least time between two looks at the map
   };
-  /// Identifies a strip: roomy box, block, direction of the face along the box's axes (0 to 5), number on that face.
+  /// Identifies a strip: site box, block, direction of the face along the box's axes (0 to 5), number on that face.
   using Key = std::tuple<std::size_t, std::size_t, int, int>;
   struct Task {
     Key key;
@@ -38,13 +39,13 @@ class BlockWork {
     int flown = 0;  ///< how often this UAV has flown it
   };
 
-  /// @param boxes  only the roomy ones are used.   @param agent, reach  must outlive this.
+  /// @param boxes  only site boxes are used.   @param agent, reach  must outlive this.
   BlockWork(const Config& config, const AgentConfig& agent, const CameraReach& reach,
             const std::vector<OrientedBox>& boxes);
 
-  bool any() const { return !sites_.empty(); }  ///< whether there is a roomy box
-  /// The strip to fly next: of least cost by distance, others' ownership, and earlier flights and failures. nullopt:
-  /// the map shows no structure in the boxes, or all strips failed recently.
+  bool any() const { return !sites_.empty(); }  ///< whether there is a site box
+  /// The strip to fly next: the one with the least cost, which is the transit time plus penalties for another UAV's
+  /// block, earlier flights and failures. nullopt: the map shows no structure there, or all strips failed recently.
   std::optional<Task> next(Tick now, const Vector3d& p_WB, const OccupancyMap& map);
   void flown(const Task& task) { ++records_[task.key].flown; }
   /// The task could not be flown: it is not offered again for 30 s, longer after each further failure.

@@ -38,7 +38,7 @@ class Solver {
   double service(std::size_t node) const {
     return problem_.service.empty() ? 0.0 : problem_.service[node - problem_.agents];
   }
-  /// The node before a position of a tour; the agent itself before the first.
+  /// The node before a position of a tour; before the first task, the agent's own place.
   std::size_t before(std::size_t agent, std::size_t position) const {
     return position == 0 ? agent : tours_[agent][position - 1];
   }
@@ -57,7 +57,7 @@ class Solver {
     }
     return best;
   }
-  /// What a tour becomes cheaper by without one of its nodes.
+  /// By how much a tour becomes cheaper without one of its nodes.
   double removal(std::size_t agent, std::size_t position) const {
     const std::size_t from = before(agent, position), node = tours_[agent][position];
     const double skip = position + 1 < tours_[agent].size() ? problem_.costs(from, tours_[agent][position + 1]) : 0.0;
@@ -91,8 +91,8 @@ class Solver {
     }
   }
 
-  /// For the longest tour: who has least to do. For the sum of all: who takes a task at least cost, those first who
-  /// have none.
+  /// The agent that takes the next task. For the longest tour: the one with the least load. For the sum: the one with
+  /// the cheapest insertion; as long as some agents have no task, one of them.
   std::size_t next_to_take(const std::vector<std::size_t>& open, const std::vector<std::vector<Place>>& places) const {
     if (!for_total()) return static_cast<std::size_t>(std::ranges::min_element(load_) - load_.begin());
     const bool all_have_one = std::ranges::none_of(tours_, [](const Tour& tour) { return tour.empty(); });
@@ -109,8 +109,8 @@ class Solver {
     return taker;
   }
 
-  /// After something was inserted at a position: only the two new ways there are cheaper than before, and only who
-  /// wanted that very place must look for another.
+  /// Updates a node's best place after an insertion at `position`: only the two new gaps can be cheaper than before,
+  /// and a full search is needed only if the best place was that very position.
   void update(Place& place, std::size_t node, std::size_t agent, std::size_t position) const {
     if (place.position == position) {
       place = best_place(node, agent);
@@ -123,7 +123,7 @@ class Solver {
     }
   }
 
-  /// Each tour on its own; keeps load_ in step.
+  /// Shortens one tour on its own, and updates load_.
   void shorten(std::size_t agent) {
     Tour& tour = tours_[agent];
     if (tour.size() < 2) return;
@@ -144,14 +144,15 @@ class Solver {
 
   bool for_total() const { return config_.objective == FleetTourObjective::total; }
 
-  /// Whether two tours are better with these loads. For the longest tour the greater one counts, their sum a little.
+  /// Whether new loads of two agents are better. For the longest tour, the greater load counts, plus total_weight times
+  /// the sum.
   bool better(std::size_t a, std::size_t b, double load_a, double load_b) const {
     if (for_total()) return load_a + load_b < load_[a] + load_[b] - kTourGain;
     const double now = std::max(load_[a], load_[b]) + config_.total_weight * (load_[a] + load_[b]);
     return std::max(load_a, load_b) + config_.total_weight * (load_a + load_b) < now - kTourGain;
   }
 
-  /// Agents by what they have to do, most first.
+  /// Agents in descending order of load.
   std::vector<std::size_t> by_load() const {
     std::vector<std::size_t> agents(tours_.size());
     for (std::size_t i = 0; i < agents.size(); ++i) agents[i] = i;
@@ -161,7 +162,7 @@ class Solver {
 
   bool relocate() {
     for (const std::size_t from : by_load()) {
-      if (for_total() && tours_[from].size() < 2) continue;  // it keeps one task
+      if (for_total() && tours_[from].size() < 2) continue;  // keeps its only task
       for (std::size_t position = 0; position < tours_[from].size(); ++position) {
         const std::size_t node = tours_[from][position];
         const double gain = removal(from, position);
@@ -182,7 +183,7 @@ class Solver {
     return false;
   }
 
-  /// A task of the longest tour, or of any if their sum counts, for one of another.
+  /// Exchanges a task of the longest tour (for the sum: of any tour) with a task of another tour.
   bool swap() {
     for (const std::size_t from : by_load()) {
       if (swap_of(from)) return true;

@@ -9,24 +9,24 @@ namespace {
 
 constexpr double kOutsideM = 4.0;                          ///< casts begin this far outside the face
 constexpr double kCastRadiusM = 0.8;                       ///< wide enough not to slip between the hits of a sparse map
-constexpr double kSearchStepM = 0.5;                       ///< between stand-offs that are tried
-constexpr double kSearchInM = 4.0, kSearchOutM = 7.0;      ///< around the one wished for
-constexpr double kAsideM[] = {0.0, -1.5, 1.5, -3.0, 3.0};  ///< to the side of the strip, where it is blocked
-constexpr double kAsideCost = 3.0;                         ///< a metre
-constexpr double kTooNearCost = 2.0;    ///< a metre too near costs as two too far: the image gets smaller
-constexpr double kBendCost = 0.5;       ///< a metre of difference to the sample before
+constexpr double kSearchStepM = 0.5;                       ///< from one tried stand-off to the next
+constexpr double kSearchInM = 4.0, kSearchOutM = 7.0;      ///< range of tried stand-offs around the desired one
+constexpr double kAsideM[] = {0.0, -1.5, 1.5, -3.0, 3.0};  ///< tried offsets across the strip
+constexpr double kAsideCost = 3.0;                         ///< per metre of offset
+constexpr double kTooNearCost = 2.0;    ///< per metre too near (too far: 1): the image covers less of the surface
+constexpr double kBendCost = 0.5;       ///< per metre of difference to the sample before
 constexpr double kSteepest = 1.2;       ///< change of stand-off per metre along the strip
-constexpr double kUnknownDepthM = 3.0;  ///< for the speed only, where the map knows no surface
+constexpr double kUnknownDepthM = 3.0;  ///< assumed for the speed only, where the map knows no surface
 
-/// What is wanted at one point of the strip.
+/// What is desired at one point of the strip.
 struct Sample {
-  double s = 0.0;  ///< along the direction of flight
+  double s = 0.0;  ///< distance along the strip in the direction of flight [m]
   Vector3d face_W;
-  double depth = 0.0;  ///< of the surface behind the face, or a guess
-  double wish = 0.0;   ///< distance from the face, outwards
+  double depth = 0.0;  ///< of the surface behind the face, or kUnknownDepthM [m]
+  double wish = 0.0;   ///< desired distance from the face, outwards [m]
 };
 
-/// A place for the UAV: so far off the face, so far to the side of the strip.
+/// A place for the UAV: `standoff` metres outside the face, `aside` metres across the strip.
 struct Place {
   double standoff = 0.0, aside = 0.0;
   Vector3d p_W = Vector3d::Zero();
@@ -42,7 +42,7 @@ Sample sample_at(const Strip& strip, bool reversed, double s, const FreeSpace& s
   return sample;
 }
 
-/// The free place that is nearest to the wish and can be reached from the one before.
+/// The cheapest free place, by its deviation from the desired one, that can be reached from the place before.
 std::optional<Place> choose(const Sample& sample, const Strip& strip, const Place* before, const FreeSpace& space,
                             double step_m) {
   std::optional<Place> best;
@@ -104,7 +104,7 @@ std::vector<Run> fit_strip(const Strip& strip, bool reversed, double from_s, con
     }
     before = place;
   }
-  // A single point is not worth the way.
+  // A single waypoint is not worth the flight to it.
   std::erase_if(runs, [](const Run& run) { return run.waypoints.size() < 2; });
   return runs;
 }

@@ -8,9 +8,9 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kTurnS = 3.0;       ///< what a change of strip costs at least
-constexpr double kFlatFace = 0.7;    ///< |n_z| above: top or bottom
-constexpr double kMinBottomM = 3.0;  ///< a bottom face lower than this above the stand-off cannot be looked at
+constexpr double kTurnS = 3.0;       ///< least time for the change from one strip to another
+constexpr double kFlatFace = 0.7;    ///< a face with a greater |n_z| is a top or a bottom
+constexpr double kMinBottomM = 3.0;  ///< least height above lowest_m of the UAV below a bottom face
 constexpr int kTwoOptPasses = 20;
 
 struct Face {
@@ -36,7 +36,7 @@ Face face_of(const OrientedBox& box, std::size_t index, int axis, double sign) {
   return face;
 }
 
-/// The strips of a face if they run along u: how many, and how far the camera sees to either side of them.
+/// The strips of a face if they run along one of its axes: their number, and the time that it takes to fly them.
 struct Cut {
   int count = 1;
   double seconds = 0.0;
@@ -81,7 +81,7 @@ std::vector<Strip> cut_into_strips(const std::vector<OrientedBox>& boxes, const 
     };
     double swath = width;
     if (face.kind == FaceKind::side) {
-      // u upwards: then strips along u are seen in the image's full width, strips along w in its height.
+      // Makes u the vertical axis: strips along u are then as wide as the image's width, strips along w as its height.
       if (std::abs(face.w_W.z()) > std::abs(face.u_W.z())) swap_axes();
       const Cut upright = cut_along(face.u_m, face.w_m, width, speed);
       const Cut level = cut_along(face.w_m, face.u_m, height, speed);
@@ -94,7 +94,7 @@ std::vector<Strip> cut_into_strips(const std::vector<OrientedBox>& boxes, const 
       swap_axes();
     }
     const int count = cut_along(face.u_m, face.w_m, swath, speed).count;
-    // The camera sees beyond the end of its strip: no need to fly all the way.
+    // The camera sees beyond the strip's end, so the UAV need not fly to the face's edge.
     const double inset = std::min(0.25 * face.u_m, 0.25 * swath);
     const double reach_m = face.u_m - 2.0 * inset;
     const int pieces = std::max(1, static_cast<int>(std::ceil(reach_m / config.max_length_m)));

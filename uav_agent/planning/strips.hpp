@@ -24,7 +24,7 @@ CameraReach camera_reach(const CameraConfig& camera, double desired_mm_per_pixel
 
 enum class FaceKind { side, top, bottom };
 
-/// A line on the face of a box along which the camera looks inwards.
+/// A line on the face of a box. A UAV flies along it with the camera directed inwards.
 struct Strip {
   std::size_t box = 0;
   FaceKind kind = FaceKind::side;

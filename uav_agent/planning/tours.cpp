@@ -6,8 +6,8 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kGain = 1e-9;         ///< less is rounding, not a gain
-constexpr std::size_t kOrLongest = 3;  ///< nodes that Or-opt moves together
+constexpr double kGain = 1e-9;         ///< a smaller gain is a rounding error
+constexpr std::size_t kOrLongest = 3;  ///< most nodes that Or-opt moves together
 
 /// The moves on one tour. Positions begin at 1: node 0 stays in front.
 class Improver {
@@ -57,7 +57,7 @@ class Improver {
     return true;
   }
   Tour::iterator at(std::size_t position) { return tour_.begin() + static_cast<std::ptrdiff_t>(position); }
-  /// From a node to whatever stands at a position; behind the end that is node 0 or nothing.
+  /// Cost from a node to the node at a position; behind the end, to node 0 if the tour is closed, else 0.
   double to_next(std::size_t node, std::size_t position) const {
     if (position < tour_.size()) return costs_(node, tour_[position]);
     return closed_ ? costs_(node, tour_.front()) : 0.0;
@@ -70,7 +70,7 @@ class Improver {
   Tour& tour_;
 };
 
-/// Three cuts, and the two middle parts exchanged: what no 2-opt move undoes.
+/// Double bridge: cuts the tour at three random places and exchanges the two middle parts. No 2-opt move undoes it.
 void kick(std::uint64_t& random, Tour& tour) {
   const auto draw = [&random](std::size_t below) {
     random = random * 6364136223846793005ULL + 1442695040888963407ULL;
@@ -121,7 +121,7 @@ Tour nearest_neighbour_tour(const CostMatrix& costs) {
 
 void improve_tour(const CostMatrix& costs, bool symmetric, bool closed, std::size_t& evaluations, Tour& tour) {
   Improver improver(costs, closed, evaluations, tour);
-  // Cheap moves as long as they help, the dear ones when they no longer do.
+  // Tries the cheap moves first, and the expensive ones only when no cheap move helps.
   while ((symmetric && improver.two_opt()) || improver.exchange(kOrLongest) ||
          (!symmetric && improver.exchange(tour.size()))) {
   }

@@ -1,7 +1,7 @@
-// Heuristics for the travelling salesman problem. The tour begins at node 0 and visits all other nodes once. It begins
-// with the nearest-neighbour tour. Then moves improve it: 2-opt and Or-opt if costs are symmetric; else moves that do
-// not reverse a segment (Or-opt, and the exchange of adjacent segments, a 3-opt move). Then come a limited number of
-// random double-bridge kicks, each followed by the same improvement; a better tour replaces the best one so far.
+// Heuristics for the travelling salesman problem. The tour starts at node 0 and visits all other nodes once. The first
+// solution is the nearest-neighbour tour. Then moves improve it: 2-opt and Or-opt if costs are symmetric; else moves
+// that do not reverse a segment (Or-opt, and the exchange of adjacent segments, a 3-opt move). Then come a limited
+// number of random double-bridge kicks, each followed by the same improvement; the best tour of all is the result.
 // Pure and deterministic: kicks are drawn from a fixed stream, and effort is bounded by a count of evaluated moves.
 // Source: Croes 1958 (2-opt), Or 1976, Lin 1965 (3-opt), Martin, Otto, Felten 1991 (kicks). KIOS (mTSP), STAR (ATSP).
 #pragma once

@@ -6,7 +6,7 @@
 namespace skein::agent {
 namespace {
 
-/// Time to fly a strip as far as the boxes alone let it be flown.
+/// Time to fly the parts of a strip that can be flown if only the boxes are obstacles.
 double work_seconds(const Strip& strip, const FreeSpace& by_boxes, const CameraReach& reach,
                     const StandoffConfig& standoff) {
   double length = 0.0;
@@ -18,10 +18,10 @@ double work_seconds(const Strip& strip, const FreeSpace& by_boxes, const CameraR
 
 struct AllStrips {
   std::vector<Strip> strips;
-  std::vector<double> work_s;  ///< of each
+  std::vector<double> work_s;  ///< time for each strip
 };
 
-/// Those that can be flown as far as the boxes tell.
+/// The strips of which at least a part can be flown if only the boxes are obstacles.
 AllStrips all_strips(const std::vector<OrientedBox>& boxes, const CameraReach& reach, const WorkShareConfig& config) {
   const OccupancyMap nothing;
   const FreeSpace by_boxes({.use_map = false}, boxes, nothing);
@@ -35,8 +35,8 @@ AllStrips all_strips(const std::vector<OrientedBox>& boxes, const CameraReach& r
   return all;
 }
 
-/// Each explorer and the photographers that start near it, as evenly as their number allows; without both, each UAV
-/// alone.
+/// Teams: each explorer and the photographers that start near it, as equal in size as possible. If the fleet does not
+/// have both roles, each UAV is a team.
 std::vector<std::vector<UavIndex>> teams_of(const std::vector<FleetMember>& fleet) {
   const auto has = [&](Role role) {
     return std::ranges::any_of(fleet, [&](const FleetMember& member) { return member.role == role; });
@@ -80,7 +80,7 @@ WorkShare team_share(const AgentConfig& agent, const std::vector<OrientedBox>& b
   }
   const std::vector<Visit> tour = share_strips(all.strips, all.work_s, starts, config.transit_mps, hands)[own];
   WorkShare share{.strips = std::move(all.strips), .tour = {}};
-  // The explorer, who is the first of its team, has the second strip of each n: of three, the one in the middle.
+  // The explorer, which is the first of its team, gets the second strip of each n: of three, the middle one.
   const std::size_t size = teams[own].size();
   for (std::size_t i = 0; i < tour.size(); ++i) {
     if ((i + size - 1) % size == rank) share.tour.push_back(tour[i]);

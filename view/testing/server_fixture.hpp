@@ -1,4 +1,4 @@
-// A page's server, and who asks it by hand-made requests.
+// For tests: a page's server, and hand-made requests to it.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ class ServerTest : public testing::Test {
     serve({});
   }
 
-  /// Anew, with these limits.
+  /// Replaces the server by a new one with these limits.
   void serve(const ServerLimits& limits) {
     server_.reset();
     server_ = std::make_unique<Server>(
@@ -40,7 +40,7 @@ class ServerTest : public testing::Test {
     const std::string text = Door({}, key_).cookie(name);
     return "Cookie: " + text.substr(0, text.find(';')) + "\r\n";
   }
-  /// @param headers  each with its line's end
+  /// @param headers  each with the end of its line
   std::string get(const std::string& target, const std::string& headers) const {
     return ask("GET " + target + " HTTP/1.1\r\n" + headers + "\r\n");
   }
@@ -52,11 +52,11 @@ class ServerTest : public testing::Test {
   std::string own_host() const { return "Host: " + host() + "\r\n"; }
   static std::string upgrade() { return test::kUpgrade; }
   std::string own_origin() const { return "Origin: http://" + host() + "\r\n"; }
-  /// What asks for all that there is to be told.
+  /// The request that opens the WebSocket.
   std::string follow() const {
     return "GET /flight HTTP/1.1\r\n" + own_host() + own_origin() + cookie() + upgrade() + "\r\n";
   }
-  /// A browser that follows, and has been told the scene.
+  /// A browser with an open WebSocket that has got the scene.
   std::unique_ptr<Wire> follower() const {
     auto wire = std::make_unique<Wire>(listener_.port());
     wire->send(follow());

@@ -1,4 +1,4 @@
-// For tests: what a page makes of packed points and rows, as web/src/packed.js does.
+// For tests: decodes packed points and runs of cubes as web/src/packed.js does.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Takes off to a height and stays there: the smallest planner, and a measure of what a run costs without planning.
+// Takes off to a height and hovers there: the smallest planner, and a measure of what a run costs without planning.
 #include "uav_agent/api/planner.hpp"
 
 namespace skein::agent {

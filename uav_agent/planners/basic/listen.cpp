@@ -1,5 +1,5 @@
-// A program at the ground station that says nothing: it logs who comes into and goes out of line of sight, and what
-// text the radio brings. `--planner patrol,gcs=listen`.
+// A program at the ground station that sends nothing: it logs which UAVs enter and leave the line of sight, and the
+// radio messages that it receives. `--planner patrol,gcs=listen`.
 #include <spdlog/spdlog.h>
 
 #include <set>
@@ -16,7 +16,7 @@ class Listen final : public GroundProgram {
 
     template <class R>
     void describe(R& r) {
-      r.field("longest_text", longest_text, within(0, 10000));  // characters of a message that are logged
+      r.field("longest_text", longest_text, within(0, 10000));  // most characters of a message in the log
     }
   };
 

@@ -8,21 +8,21 @@
 namespace skein::agent {
 
 struct FlockConfig {
-  double voxel_m = 0.0;      ///< edge of a cube of the map; 0: 0.2 d*, but 1 to 2 m
+  double voxel_m = 0.0;      ///< edge of a cube of the map; 0: 0.2 d*, limited to 1 to 2 m
   int max_voxels = 250'000;  ///< the cubes grow until the site has no more
-  double density = 0.125;    ///< interest points expected on a square metre of surface, before any was seen
-  double wide_ratio = 1.5;   ///< distance from which more is in the picture, though coarser, in units of d*
-  double far_ratio = 0.92;   ///< distance from which surface is looked at, in units of d*, ...
-  double near_ratio = 0.55;  ///< ... and the nearer one, where that brings more
+  double density = 0.125;    ///< interest points expected per square metre of surface, before any was seen
+  double wide_ratio = 1.5;   ///< distances of views, in units of d*: wide, for more in a coarser picture, ...
+  double far_ratio = 0.92;   ///< ... far, ...
+  double near_ratio = 0.55;  ///< ... and near
   double looked_q = 0.4;     ///< a surface seen with this quality shows all its interest points
-  double good_q = 0.9;       ///< a point that was photographed with this quality is left alone
-  double inspect_mps = 4.0;  ///< between views that are near each other
-  int max_views = 160;       ///< views judged in one decision
-  int depth = 4;             ///< views looked ahead
-  double replan_s = 1.5;     ///< between two decisions
-  double share_s = 0.5;      ///< between two messages
-  double claim_s = 4.0;      ///< another UAV's announced view that was heard longer ago is free again
-  double prove_gain = 0.3;   ///< what an explorer adds to the worth of a view from where space is not proved yet
+  double good_q = 0.9;       ///< a point that was photographed with this quality is left out
+  double inspect_mps = 4.0;  ///< speed between views that are near each other
+  int max_views = 160;       ///< most views evaluated in one decision
+  int depth = 4;             ///< number of views planned ahead
+  double replan_s = 1.5;     ///< time between two decisions
+  double share_s = 0.5;      ///< time between two messages
+  double claim_s = 4.0;      ///< age at which another UAV's claim of a view expires
+  double prove_gain = 0.3;   ///< what an explorer adds to the gain of a view from space not proved free, as a share
   double survey_m = 30.0;    ///< a LiDAR finds all structure within this distance
   FlightConfig flight = {};
 

@@ -1,13 +1,13 @@
-// flock: each UAV does what raises the fleet's score most for the time that it takes. All follow the same rule.
+// flock: all UAVs follow the same rule: each one does what raises the fleet's score most for the time that it takes.
 //
-// 1. Work is quality that can still be gained (surfaces.hpp): interest points expected on surface that no camera has
-//    looked at, and known points, by what their best picture lacks. A detection tells where a point is and how good its
-//    picture was. UAVs that hear each other share points and the surface that was looked at.
+// 1. Work is quality that can still be gained (surfaces.hpp): by interest points expected on surface that no camera
+//    has looked at, and by known points whose best picture is not perfect. A detection tells where a point is and how
+//    good its picture was. UAVs that hear each other share points and the surface that was looked at.
 // 2. The targets propose views (views.hpp), and the formulas of the score judge them.
-// 3. Each UAV takes the views that gain most per second (route.hpp), less what others have announced (talk.hpp).
-//    There are no teams and no fixed shares: when a UAV is lost its claims lapse, and others take its work.
-// 4. Explorers do the same work. Beyond that they fly where free space is not proved yet, which opens it to the
-//    photographers, and where no LiDAR has looked for structure (survey.hpp).
+// 3. Each UAV takes the views that gain most per second (route.hpp), without what others have announced (talk.hpp).
+//    There are no teams and no fixed shares: when a UAV is lost, its claims expire, and others take its work.
+// 4. Explorers do the same work. In addition, they fly through space that is not proved free yet, which opens it to the
+//    photographers, and to where no LiDAR has looked for structure (survey.hpp).
 // The flight core does the flying (flight_core/flight_core.hpp); docs/flock.md tells how well it works.
 #include <algorithm>
 #include <cmath>
@@ -30,24 +30,24 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kLookAtMapS = 1.0;        ///< between two looks at the map
-constexpr std::uint64_t kCameraSteps = 3;  ///< exchanges between two looks at what the camera saw
-constexpr double kReachedM = 0.6;          ///< a view is taken this near to it ...
-constexpr double kAimed = 0.12;            ///< ... with the camera so near to its direction [rad]
-constexpr double kPictureS = 0.15;         ///< the camera takes one within
-constexpr double kPatienceS = 2.5;         ///< at a view, for the camera to turn
-constexpr double kRestS = 0.5;             ///< between two decisions while there is nothing to photograph
-constexpr double kClaimedShare = 0.9;      ///< of the quality that another UAV's announced view promises
+constexpr double kLookAtMapS = 1.0;        ///< time between two looks at the map
+constexpr std::uint64_t kCameraSteps = 3;  ///< exchanges between two updates from the camera's view
+constexpr double kReachedM = 0.6;          ///< a view is taken from within this distance ...
+constexpr double kAimed = 0.12;            ///< ... with the camera this near to its direction [rad]
+constexpr double kPictureS = 0.15;         ///< the camera takes a picture within this time
+constexpr double kPatienceS = 2.5;         ///< longest stay at a view, for the camera to turn
+constexpr double kRestS = 0.5;             ///< time between two decisions while there is nothing to photograph
+constexpr double kClaimedShare = 0.9;      ///< share of an announced view's quality that counts as photographed
 constexpr std::size_t kMostLegs = 3;
-constexpr int kTries = 4;                        ///< routes in a decision, until there is a way to the first view
-constexpr double kGlanceS = 0.45;                ///< the camera follows a place on the way for so long
-constexpr double kAimAheadS = 0.9;               ///< before a view, the camera turns there
-constexpr double kLeastGlance = 0.3;             ///< points
-constexpr double kFollowM = 6.0, kTrailM = 2.0;  ///< behind an explorer; between two places of its way
+constexpr int kTries = 4;             ///< most routes tried in a decision, if there is no way to the first view
+constexpr double kGlanceS = 0.45;     ///< duration of a glance: the camera follows a place on the way
+constexpr double kAimAheadS = 0.9;    ///< so long before a view, the camera turns to it
+constexpr double kLeastGlance = 0.3;  ///< glances with less gain are left out [points]
+constexpr double kFollowM = 6.0, kTrailM = 2.0;  ///< distance behind an explorer; between two places of its trail
 constexpr std::size_t kMostTrail = 60;
-constexpr double kPointsPerS = 1.2;  ///< that a UAV photographs where there are enough
-constexpr double kGoodRate = 3.0;    ///< that a route promises where there are enough [points/s]
-constexpr double kRateShare = 0.15;  ///< of a new decision, in the mean of late
+constexpr double kPointsPerS = 1.2;  ///< points that a UAV photographs where there are enough
+constexpr double kGoodRate = 3.0;    ///< gain that a route promises where there are enough points [points/s]
+constexpr double kRateShare = 0.15;  ///< weight of a new decision in the moving average
 
 }  // namespace
 
@@ -89,15 +89,15 @@ class FlockPlanner final : public Planner {
   FlockViews views_;
   FlockTalk talk_;
   FlockReach reach_;
-  std::optional<FlockSurfaces> surfaces_;  ///< once the boxes have come
+  std::optional<FlockSurfaces> surfaces_;  ///< set when the boxes have arrived
   std::optional<FlockTargets> targets_;    ///< as of the last decision
 
-  std::vector<FlockView> route_;  ///< the first is flown to
-  std::int64_t id_ = 0;           ///< of the goal that it is
+  std::vector<FlockView> route_;  ///< the UAV flies to the first view
+  std::int64_t id_ = 0;           ///< id of the route's goal
   bool rests_ = false;
   std::optional<Tick> there_since_, aimed_since_;
   Tick planned_at_ = 0, glance_until_ = 0;
-  double rate_ = 0.0, best_rate_ = kGoodRate;  ///< that its routes promise, of late and at best [points/s]
+  double rate_ = 0.0, best_rate_ = kGoodRate;  ///< gain that its routes promise: average, and best average [points/s]
   bool glances_ = false;                       ///< the camera looks elsewhere than the route's first view
   std::deque<Vector3d> trail_W_;               ///< of explorers that it has seen, oldest first
   Vector3d rest_W_ = Vector3d::Zero();
@@ -143,7 +143,7 @@ void FlockPlanner::take_note(const Outcome& outcome, const PlannerInput& in) {
   route_.clear();
 }
 
-/// The first view of the route has been taken, or cannot be.
+/// Whether the first view of the route has been taken, or the camera has not reached its direction in time.
 bool FlockPlanner::view_taken(const PlannerInput& in) {
   const FlockView& view = route_.front();
   if ((in.state.p_WB - view.p_WB).norm() > kReachedM) {
@@ -183,8 +183,8 @@ void FlockPlanner::note_picture(const FlockView::Sight& sight) {
   target.have = std::max(target.have, double{sight.q});
 }
 
-/// On the way to a view, the camera follows what gains most there, for a moment each. While it follows a place,
-/// pictures of it are sharp however fast the UAV flies.
+/// On the way to a view, turns the camera to other targets (glances), each time to those that gain most. While the
+/// camera follows a place, its pictures are sharp however fast the UAV flies.
 void FlockPlanner::glance(const PlannerInput& in, PlannerOutput& out) {
   if (in.tick < glance_until_ || !targets_) return;
   const FlockView& next = route_.front();
@@ -217,7 +217,7 @@ void FlockPlanner::glance(const PlannerInput& in, PlannerOutput& out) {
   out.gimbal = best.aim_W;
 }
 
-/// What other UAVs are about to photograph counts as photographed.
+/// Counts targets that other UAVs have announced to photograph as photographed with kClaimedShare of the quality.
 void FlockPlanner::count_claims(const PlannerInput& in, FlockTargets& targets) const {
   for (const auto& [uav, claims] : talk_.claims(in.tick)) {
     for (const FlockClaim& claim : claims) {
@@ -232,8 +232,9 @@ void FlockPlanner::count_claims(const PlannerInput& in, FlockTargets& targets) c
   }
 }
 
-/// How much it is worth an explorer's time to find more, from 0 to 1: the share of what the fleet can photograph in the
-/// time left that has not been found yet; or how far what is left pays less than what there was at best.
+/// How short work is, from 0 to 1, which decides what surveying is worth to an explorer. The greater of two numbers:
+/// the share of what the fleet can photograph in the remaining time that is not found yet; and the relative loss of the
+/// gain per second that routes promise, compared with the best so far.
 double FlockPlanner::lack_of_work(const PlannerInput& in, const FlockTargets& targets) const {
   const std::vector<double> rates = talk_.rates(in.tick);
   const double others = std::accumulate(rates.begin(), rates.end(), 0.0);
@@ -255,7 +256,7 @@ void FlockPlanner::decide(const PlannerInput& in, PlannerOutput& out) {
   const auto unreachable = [&](const FlockView& view) { return reach_.out_of_reach(view.p_WB, in); };
   std::erase_if(views, unreachable);
   std::optional<std::size_t> current;
-  double survey = 0.0;  ///< of the current view
+  double survey = 0.0;  ///< FlockView::survey of the current view
   if (!route_.empty()) {
     FlockView view = route_.front();
     survey = std::exchange(view.survey, 0.0);
@@ -306,15 +307,15 @@ void FlockPlanner::decide(const PlannerInput& in, PlannerOutput& out) {
   offer(in, way, out);
 }
 
-/// Corners on a free way from here, up to that place; nullopt if none is found with little effort.
+/// Corners of a free path from here to a place, the place included; nullopt if a search in the cubes finds none.
 std::optional<std::vector<Vector3d>> FlockPlanner::way_W(const PlannerInput& in, const Vector3d& to_W) const {
   const Vector3d here_W = in.tracking.setpoint.p_WB;
   if (in.space->segment_free(here_W, to_W)) return std::vector<Vector3d>{to_W};
   return find_voxel_route(surfaces_->grid(), *in.space, here_W, to_W);
 }
 
-/// Through the views without a stop, as far as the ways between them are free.
-/// @param way  to the first one. Where none is found here, the flight core looks for one.
+/// Offers the flight core a goal through the route's views, without a stop, as far as the way between them is free.
+/// @param way  path to the first view; nullopt: the flight core searches one.
 void FlockPlanner::offer(const PlannerInput& in, const std::optional<std::vector<Vector3d>>& way, PlannerOutput& out) {
   const Vector3d here_W = in.tracking.setpoint.p_WB;
   Goal goal;
@@ -342,7 +343,7 @@ void FlockPlanner::offer(const PlannerInput& in, const std::optional<std::vector
   out.goals = {std::move(goal)};
 }
 
-/// A place on an explorer's trail. Space is proved there, and the explorer opens new work near it.
+/// The newest free place on an explorer's trail. It is proved free, and the explorer opens new work near it.
 std::optional<Vector3d> FlockPlanner::behind_explorer_W(const PlannerInput& in) const {
   for (auto p_W = trail_W_.rbegin(); p_W != trail_W_.rend(); ++p_W) {
     const bool taken = std::ranges::any_of(
@@ -352,7 +353,8 @@ std::optional<Vector3d> FlockPlanner::behind_explorer_W(const PlannerInput& in) 
   return std::nullopt;
 }
 
-/// Nothing is worth a picture now: the UAV follows an explorer, or holds. A goal keeps the flight core from recovery.
+/// For a UAV without any view worth a picture: it follows an explorer, or hovers. With a goal, the flight core begins
+/// no recovery behaviour.
 void FlockPlanner::rest(const PlannerInput& in, PlannerOutput& out) {
   route_.clear();
   const std::optional<Vector3d> behind_W = behind_explorer_W(in);

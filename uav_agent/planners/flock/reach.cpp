@@ -7,12 +7,12 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kRefusedS = 15.0, kRefusedM = 2.0;  ///< a view that could not be reached, and those about it
-constexpr double kShutOffS = 5.0;                    ///< a view to which no cubes of the map lead
-constexpr double kApartM = 4.5;                      ///< a view is so far from other UAVs, and from their next views
-constexpr double kGainM = 0.5, kStallS = 2.5;        ///< a UAV that gains no way for so long is held up...
-constexpr double kStalledS = 6.0;                    ///< ...and leaves that view for so long
-constexpr double kInTheWayM = 9.0;  ///< another UAV so near holds this one up; it flies away from there
+constexpr double kRefusedS = 15.0, kRefusedM = 2.0;  ///< unreachable views, and those this near to one
+constexpr double kShutOffS = 5.0;                    ///< views to which no free cubes of the map lead
+constexpr double kApartM = 4.5;                ///< least distance of a view to other UAVs, and to their next views
+constexpr double kGainM = 0.5, kStallS = 2.5;  ///< a UAV that moves no farther in this time is held up ...
+constexpr double kStalledS = 6.0;              ///< ... and leaves its view out for so long
+constexpr double kInTheWayM = 9.0;             ///< the nearest UAV within this holds this one up, and is avoided
 constexpr double kAwayCosine = 0.2;
 
 }  // namespace
@@ -44,7 +44,7 @@ bool FlockReach::out_of_reach(const Vector3d& p_WB, const PlannerInput& in) cons
   for (const Peer& peer : in.peers.all()) {
     if (!peer.visible) continue;
     if (near(peer.p_W, kApartM)) return true;
-    // Away from a UAV that held this one up, or two block each other for ever.
+    // This UAV avoids the direction of one that held it up. Otherwise the two could block each other for ever.
     const bool gives_way = in_the_way_ == std::size_t{peer.uav} && in.tick < gives_way_until_;
     const Vector3d way = p_WB - in.tracking.setpoint.p_WB, to_peer = peer.p_W - in.tracking.setpoint.p_WB;
     if (gives_way && way.dot(to_peer) > kAwayCosine * way.norm() * to_peer.norm()) return true;

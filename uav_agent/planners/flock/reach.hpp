@@ -1,5 +1,6 @@
-// Views that a UAV leaves for later: near one that it could not reach a moment ago or was held up on the way to, near a
-// UAV in sight or the next view of one with a lower index, or in the direction of a UAV that held this one up lately.
+// Views that a UAV leaves out for a while: near a view that it recently could not reach, or was held up on the way to;
+// near a UAV in line of sight, or near the next view of a UAV with a lower index; or in the direction of a UAV that
+// recently held this one up.
 // Frame W.   Units: SI.   Threads: one.   Deterministic.
 #pragma once
 
@@ -39,7 +40,7 @@ class FlockReach {
   std::vector<Refused> refused_;
   Vector3d gained_p_W_ = Vector3d::Zero();  ///< the place from which it has hardly moved since gained_at_
   Tick gained_at_ = 0;
-  std::optional<std::size_t> in_the_way_;  ///< the UAV that last held this one up
+  std::optional<std::size_t> in_the_way_;  ///< index of the UAV that last held this one up
   Tick gives_way_until_ = 0;
 };
 

@@ -6,13 +6,13 @@
 namespace skein::agent {
 namespace {
 
-constexpr std::size_t kMostFirst = 5;             ///< views that a route may begin with
-constexpr double kFarM = 10.0;                    ///< from there on, a way is flown fast
-constexpr double kDetour = 1.5, kDetourM = 6.0;   ///< a way around something, times and metres longer
-constexpr double kProveMps = 1.8, kProveS = 3.0;  ///< through space that is not proved yet
-constexpr double kKeep = 1.2;                     ///< the present view counts that much more
-constexpr double kAgain = 0.3;                    ///< of what a second view surveys, the first one has not
-constexpr double kLeast = 0.02;                   ///< points
+constexpr std::size_t kMostFirst = 5;             ///< most views tried as the beginning of a route
+constexpr double kFarM = 10.0;                    ///< longer ways are flown fast
+constexpr double kDetour = 1.5, kDetourM = 6.0;   ///< a way around structure: factor and metres in addition
+constexpr double kProveMps = 1.8, kProveS = 3.0;  ///< speed through space not proved free, and time in addition
+constexpr double kKeep = 1.2;                     ///< factor for routes that begin with the present view
+constexpr double kAgain = 0.3;   ///< share of a second survey view that counts: the first one shows the rest
+constexpr double kLeast = 0.02;  ///< views with less gain are left out [points]
 
 double gain_of(const FlockView& view, const FlockTargets& targets, const std::vector<float>& have, double prove_gain,
                bool surveyed = false) {
@@ -28,7 +28,7 @@ double gain_of(const FlockView& view, const FlockTargets& targets, const std::ve
 
 namespace {
 
-/// @param straight  nothing is in the way.
+/// @param straight  the view is in line of sight: no detour is needed.
 double way_s(const Vector3d& from_W, const Vector3d& direction_W, const FlockView& to, const FlockPace& pace,
              bool straight) {
   double way_m = (to.p_WB - from_W).norm();
@@ -76,7 +76,7 @@ FlockRoute find_route(const std::vector<FlockView>& views, const FlockTargets& t
       const FlockView& view = views[next];
       route.views.push_back(next);
       used[next] = 1;
-      // What comes later is less sure.
+      // Later views are less certain.
       const double sure = 1.0 / (1.0 + 0.25 * step);
       route.gain += sure * gain_of(view, targets, have, prove_gain, surveyed);
       surveyed |= view.survey > 0.0;
@@ -88,7 +88,7 @@ FlockRoute find_route(const std::vector<FlockView>& views, const FlockTargets& t
       for (std::size_t i = 0; i < views.size(); ++i) {
         if (used[i] != 0) continue;
         const double gain = gain_of(views[i], targets, have, prove_gain, surveyed);
-        // Most views are out of question even if the way to them is straight: no look at the map for those.
+        // Most views cannot be the best one even if the way there is straight: no search in the map for those.
         if (gain <= kLeast || gain <= most * way_s(at_W, looks_W, views[i], pace, true)) continue;
         const double per_s = gain / way_s(grid, at_W, looks_W, views[i], pace);
         if (per_s <= most) continue;

@@ -1,5 +1,5 @@
-// Which views to take next: some of them one after the other, so that what is gained a second is most. What one view
-// of the route shows counts no more for those after it, and neither does what other UAVs have announced.
+// Chooses the next views: a short route that gains most per second. Targets that one view of the route shows count no
+// more for the views after it, and neither do those that other UAVs have announced.
 // Frame W.   Units: SI.   Pure and deterministic.   Effort: kMostFirst * depth * views.
 #pragma once
 
@@ -9,7 +9,7 @@
 
 namespace skein::agent {
 
-/// How long it takes from view to view.
+/// Assumed motion between views.
 struct FlockPace {
   double near_mps = 2.5, far_mps = 5.0;
   double gimbal_radps = 1.0;
@@ -18,18 +18,20 @@ struct FlockPace {
 };
 
 struct FlockRoute {
-  std::vector<std::size_t> views;  ///< indices, in the order of visit
-  double gain = 0.0, time_s = 0.0;
+  std::vector<std::size_t> views;   ///< indices of views, in the order of visit
+  double gain = 0.0, time_s = 0.0;  ///< gain in points; later views weigh less in both
+  /// [points/s]
   double rate() const { return time_s > 0.0 ? gain / time_s : 0.0; }
 };
 
-/// @param p_W, aim_W  where the UAV begins, and looks.
-/// @param current  index of the view that it flies to already, which is kept unless another is clearly better.
+/// @param p_W, direction_W  where the UAV begins, and the unit direction in which its camera looks.
+/// @param current  index of the view that it flies to already; another one must be clearly better to replace it.
+/// @returns no views if none has a gain worth the flight.
 FlockRoute find_route(const std::vector<FlockView>& views, const FlockTargets& targets, const VoxelGrid& grid,
                       const Vector3d& p_W, const Vector3d& direction_W, const FlockPace& pace, double prove_gain,
                       int depth, std::optional<std::size_t> current);
 
-/// From one place and direction to a view [s].
+/// Time from a place and a camera direction to a view, picture included [s].
 double way_s(const VoxelGrid& grid, const Vector3d& from_W, const Vector3d& direction_W, const FlockView& to,
              const FlockPace& pace);
 

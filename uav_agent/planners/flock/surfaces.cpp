@@ -8,16 +8,16 @@ namespace skein::agent {
 namespace {
 
 constexpr double kAutoVoxelRatio = 0.2, kSmallestVoxelM = 1.0, kLargestVoxelM = 2.0;
-constexpr double kGrowth = 1.1;        ///< of the cubes while there are too many
-constexpr double kGridAroundM = 12.0;  ///< of the grid, around the boxes
-constexpr double kBoxMarginM = 1.0;    ///< structure so far outside a box belongs to it
-constexpr double kFreeAroundM = 0.5;   ///< about the middle of a cube that is free
-constexpr double kLowestM = 0.3;       ///< surface below is not looked at
-constexpr double kEndM = 1.2;       ///< of a line of sight, in cubes: what is so near to its end belongs to the surface
-constexpr double kPriorM2 = 200.0;  ///< of surface, that count with the expected density
-constexpr double kClearlyBetter = 0.1;  ///< in quality
-constexpr double kFacing = 0.17;        ///< cosine of the flattest look at a face
-constexpr double kRangeRatio = 1.6;     ///< of d*: pictures from farther away show nothing well
+constexpr double kGrowth = 1.1;         ///< factor by which cubes grow while there are too many
+constexpr double kGridAroundM = 12.0;   ///< margin of the grid around the boxes
+constexpr double kBoxMarginM = 1.0;     ///< structure this far outside a box still belongs to it
+constexpr double kFreeAroundM = 0.5;    ///< radius around a cube's middle that must be free
+constexpr double kLowestM = 0.3;        ///< surface below this height does not count
+constexpr double kEndM = 1.2;           ///< last part of a line of sight, in cubes, that belongs to the surface
+constexpr double kPriorM2 = 200.0;      ///< surface with the expected density that the estimate begins with
+constexpr double kClearlyBetter = 0.1;  ///< least improvement of quality that counts
+constexpr double kFacing = 0.17;        ///< least cosine between line of sight and a face's normal
+constexpr double kRangeRatio = 1.6;     ///< most distance of a face, in units of d*: farther ones are not sharp
 
 VoxelGrid site_grid(const std::vector<OrientedBox>& boxes, const FlockConfig& config, double sharp_m) {
   double voxel_m = config.voxel_m;

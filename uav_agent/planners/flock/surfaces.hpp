@@ -1,9 +1,10 @@
-// What there is to photograph, as far as this UAV knows: surface that no camera has looked at yet, on which interest
-// points are expected, and known points, by how much better they can still be photographed.
+// The targets to photograph, as far as this UAV knows: surface that no camera has looked at yet, on which interest
+// points are expected, and known points, whose quality can still be improved.
 //
-// Surface is the exposed faces of occupied cubes in or about the boxes. A face that was in a picture with some quality
-// is marked in the grid: its points are known from then on, and an empty one is done. Marks travel with the map.
-// Frames: W world, C camera.   Units: SI and radians.   Threads: one.   Effort: cubes that are occupied.
+// Surface consists of the exposed faces of occupied cubes in and near the boxes. A face that was in a picture with
+// enough quality is marked in the grid: from then on, its points are known, and a face without points is done. Marks
+// are sent with the map.
+// Frames: W world, C camera.   Units: SI and radians.   Threads: one.   Effort: by the number of occupied cubes.
 #pragma once
 
 #include <vector>
@@ -19,9 +20,10 @@ namespace skein::agent {
 /// Something to photograph.
 struct FlockTarget {
   Vector3d p_W = Vector3d::Zero(), n_W = Vector3d::UnitX();
-  double points = 1.0;  ///< how many interest points that is, or is expected to be
-  double have = 0.0;    ///< the quality with which it was photographed
-  bool known = false;   ///< a point that was found; else surface
+  double points = 1.0;  ///< known or expected number of interest points
+  double have = 0.0;    ///< quality of the best picture so far, 0 to 1
+  bool known = false;   ///< a detected point; otherwise surface
+  /// Score that can still be gained [points].
   double open() const { return points * (1.0 - have); }
 };
 
@@ -38,20 +40,22 @@ class FlockSurfaces {
   FlockPoints& points() { return points_; }
   const FlockPoints& points() const { return points_; }
 
+  /// Takes over what changed on the map.   @param map  the same at each call.
   void look_at_map(const WorldMap& map);
-  /// Takes in what the camera should see now.
+  /// Notes the faces and points that the camera should see now.
   void look_at_picture(const Exposure& exposure, Tick now);
-  /// What the camera really saw. Only then this UAV tells others which surface it looked at: a camera may have failed.
+  /// Adds the camera's detections. Only a detection marks the faces that the camera looked at for the other UAVs:
+  /// without one, the camera may have failed.   @param p_WC  position of the camera.
   void detect(std::span<const DetectedPoint> detected, const Vector3d& p_WC);
 
-  /// All that is worth another picture.
+  /// All targets that are worth another picture.
   std::vector<FlockTarget> targets(Tick now) const;
 
-  /// Whether nothing known hides a point from a camera.
+  /// Whether nothing on the map hides a point from a camera.
   bool sees(const Vector3d& p_WC, const Vector3d& p_W) const;
-  /// Interest points on a square metre, by what was found on surface that was looked at.
+  /// Interest points per square metre, estimated from `density` and what was found on surface that was looked at.
   double density() const;
-  /// Exposed surface that is known of [m^2].
+  /// Known exposed surface [m^2].
   double surface_m2() const { return voxel_area() * static_cast<double>(faces_); }
 
  private:
@@ -69,12 +73,12 @@ class FlockSurfaces {
   WorldVoxels voxels_;
   FlockSurvey survey_;
   FlockPoints points_;
-  std::vector<Id> occupied_;                  ///< cubes in or about the boxes, in the order in which they became so
-  std::vector<std::uint8_t> listed_;          ///< by cube: it is among them
-  std::vector<std::uint8_t> in_site_;         ///< by cube: it is in or about a box
+  std::vector<Id> occupied_;                  ///< occupied cubes in or near the boxes, in the order of discovery
+  std::vector<std::uint8_t> listed_;          ///< by cube: it is in occupied_
+  std::vector<std::uint8_t> in_site_;         ///< by cube: it is in or near a box
   std::vector<std::uint8_t> looked_here_;     ///< by cube: a bit for each face that this UAV has looked at
-  std::vector<std::pair<Id, int>> not_told_;  ///< of those, since it last detected anything
-  std::size_t faces_ = 0, looked_ = 0;
+  std::vector<std::pair<Id, int>> not_told_;  ///< faces looked at since the last detection
+  std::size_t faces_ = 0, looked_ = 0;        ///< number of exposed faces; of those that a camera looked at
 };
 
 }  // namespace skein::agent

@@ -8,9 +8,9 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kCellsAroundM = 12.0;  ///< of the cells, around the boxes
-constexpr double kMarginM = 1.0;        ///< around a box, what is surveyed with it
-constexpr int kEnoughLooks = 3;         ///< of a second each; the LiDAR looks everywhere within four
+constexpr double kCellsAroundM = 12.0;  ///< margin of the cells around the boxes
+constexpr double kMarginM = 1.0;        ///< margin around a box that is surveyed with it
+constexpr int kEnoughLooks = 3;         ///< of a second each; the LiDAR covers all directions within four
 constexpr int kMostVisits = 2;
 constexpr int kGroup = 3;  ///< cells along an edge of a group
 

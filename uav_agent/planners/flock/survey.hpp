@@ -1,6 +1,6 @@
-// Which parts of the site an explorer has had in sight, near enough for its LiDAR to find all structure. A part that
-// has not been in sight is worth a flight there; places that never are lie inside structure.
-// Each UAV keeps count for itself, of its own LiDAR and of those of the explorers that it sees.
+// Which parts of the site explorers have surveyed: had in line of sight, near enough for their LiDARs to find all
+// structure. Other parts are worth a flight. Parts that no place has in sight lie inside structure.
+// Each UAV keeps its own record, of its own LiDAR and of those of the explorers in line of sight.
 // Frame W.   Units: metres.   Threads: one.   Effort of look(): cells within survey_m.
 #pragma once
 
@@ -10,32 +10,32 @@
 
 namespace skein::agent {
 
-/// A part of the site that has not been in sight long enough.
+/// A group of neighbouring cells that have not been in sight long enough.
 struct FlockGap {
   Vector3d middle_W = Vector3d::Zero();
-  int cells = 0;
+  int cells = 0;  ///< number of cells in the group
 };
 
 class FlockSurvey {
  public:
-  static constexpr double kCellM = 4.0;
+  static constexpr double kCellM = 4.0;  ///< edge of a cell
 
   FlockSurvey(const std::vector<OrientedBox>& boxes, double survey_m);
 
-  /// An explorer has been about here for a second.
-  /// @param grid  what hides other things.
+  /// Counts a look of an explorer at p_W; call it once per second.
+  /// @param grid  map of the structure that hides cells.
   void look(const VoxelGrid& grid, const Vector3d& p_W);
 
-  /// This UAV has been at a place from which it meant to survey what is within `radius_m`. What stays out of sight
-  /// after two such visits is given up: a corner of a cell may be in sight where its middle is not.
+  /// Call it when this UAV was at a place chosen to survey everything within `radius_m`. Cells that are still out of
+  /// sight after two such visits are given up: a corner of a cell may be in sight although its middle is not.
   void visited(const Vector3d& p_W, double radius_m);
 
-  /// Whether an explorer ever had the place in sight.
+  /// Whether an explorer ever had the place in sight; true outside the survey's cells.
   bool seen(const Vector3d& p_W) const;
-  /// Cells in boxes and about them that were not in sight long enough, in groups.
+  /// Cells in and near boxes that were not in sight long enough and are not given up, in groups.
   std::vector<FlockGap> gaps() const;
-  std::size_t surveyed() const { return surveyed_; }
-  std::size_t to_survey() const { return to_survey_; }
+  std::size_t surveyed() const { return surveyed_; }    ///< number of surveyed cells in and near boxes
+  std::size_t to_survey() const { return to_survey_; }  ///< number of all cells in and near boxes
 
  private:
   double survey_m_;

@@ -1,6 +1,6 @@
-// What the UAVs of a flock tell each other on /plan: the views that each is about to take and how much they promise,
+// The messages of a flock's UAVs on /plan: the views that the sender is about to take and the gain that they promise,
 // the points that the fleet has found (points.hpp), and the map with the surface that was looked at (map_exchange).
-// Frame W.   Units: SI.   Threads: one.   Bounded: one message now and then, see uav_agent/api/payload.hpp.
+// Frame W.   Units: SI.   Threads: one.   Bounded: one message per share_s, size in uav_agent/api/payload.hpp.
 #pragma once
 
 #include <map>
@@ -17,10 +17,10 @@ struct FlockClaim {
   Vector3d p_WB = Vector3d::Zero(), aim_W = Vector3d::Zero();
 };
 
-/// What a UAV says of itself.
+/// A UAV's announcement.
 struct FlockWord {
   std::vector<FlockClaim> claims = {};
-  double rate = 0.0;  ///< that its routes promise [points/s], to 0.1
+  double rate = 0.0;  ///< gain that its routes promise [points/s], rounded to 0.1
 };
 
 class FlockTalk {
@@ -28,22 +28,22 @@ class FlockTalk {
   static constexpr std::size_t kMostClaims = 3;
 
   struct Config {
-    double share_s = 0.5;  ///< between two messages
-    double claim_s = 4.0;  ///< an older claim does not count
+    double share_s = 0.5;  ///< time between two messages
+    double claim_s = 4.0;  ///< age at which a claim expires
   };
 
   /// @param agent  must outlive this.
   FlockTalk(const Config& config, const AgentConfig& agent);
 
-  /// Takes what arrived: the others' maps into `grid`, points into `points`.
+  /// Reads the received messages, and merges the other UAVs' maps into `grid` and their points into `points`.
   void listen(const PlannerInput& in, VoxelGrid& grid, FlockPoints& points);
-  /// When it is time, tells a word, points and map.
+  /// Sends `word`, points and map, if a message is due.
   void speak(const PlannerInput& in, const VoxelGrid& grid, const FlockPoints& points, const FlockWord& word,
              PlannerOutput& out);
 
-  /// By UAV, what it claims now.
+  /// The present claims, by UAV.
   std::vector<std::pair<std::size_t, std::vector<FlockClaim>>> claims(Tick now) const;
-  /// What the routes of the others that were heard of late promise.
+  /// The promised gains of the other UAVs heard in the last 20 s [points/s].
   std::vector<double> rates(Tick now) const;
 
  private:
@@ -55,7 +55,7 @@ class FlockTalk {
   const Config config_;
   const AgentConfig& agent_;
   MapExchange exchange_;
-  std::map<std::size_t, Heard> words_;  ///< the last one, by UAV
+  std::map<std::size_t, Heard> words_;  ///< the last one of each UAV
 };
 
 }  // namespace skein::agent

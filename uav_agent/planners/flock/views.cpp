@@ -12,22 +12,22 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kTargetRange = 2.1;  ///< of d*: farther targets are not worth a picture
-constexpr double kTilt = 0.6;         ///< of views from aside [rad]
-constexpr double kPlaceM = 2.0;       ///< votes for places nearer to each other than that add up
-constexpr double kPieceM = 4.0;       ///< of surface that votes as one
-constexpr int kDirections = 3;        ///< along each axis
-constexpr double kNearAxis = 1.3;     ///< a component of at least 0.5 of this counts as along its axis
-constexpr double kLeastOpen = 0.04;   ///< points: less is not voted for
-constexpr double kWayM = 20.0;        ///< of way that count like a vote's half
+constexpr double kTargetRange = 2.1;  ///< in units of d*: farther targets are not worth a picture
+constexpr double kTilt = 0.6;         ///< angle of tilted views to the target's normal [rad]
+constexpr double kPlaceM = 2.0;       ///< edge of the cells in which votes for places add up
+constexpr double kPieceM = 4.0;       ///< edge of the pieces of surface that vote as one
+constexpr int kDirections = 3;        ///< cells of directions along each axis
+constexpr double kNearAxis = 1.3;     ///< a component of at least 0.5 / 1.3 counts as along its axis
+constexpr double kLeastOpen = 0.04;   ///< targets with less to gain do not vote [points]
+constexpr double kWayM = 20.0;        ///< a view's votes are divided by its distance plus this
 constexpr double kLeastGain = 0.05, kLeastQuality = 0.2;
-constexpr double kGlanceTurn = 0.8, kGlanceFacing = 0.35;  ///< how far, and at what, the camera turns on its way
+constexpr double kGlanceTurn = 0.8, kGlanceFacing = 0.35;  ///< glances: most turn [rad]; least cosine to the normal
 constexpr std::size_t kMostAims = 5;
 constexpr std::size_t kMostGaps = 40;
 constexpr double kSurveyShare = 0.7;
-constexpr double kGapM = 10.0;  ///< from a gap, to where it is looked at from
+constexpr double kGapM = 10.0;  ///< distance from a gap to the places proposed for it
 constexpr int kGapSides = 8;
-constexpr double kGapArea = 16.0;  ///< of surface in a cell, before any was found [m^2]
+constexpr double kGapArea = 16.0;  ///< expected surface in a survey cell, before any was found [m^2]
 constexpr double kPriorCells = 20.0;
 
 struct Direction {
@@ -38,7 +38,7 @@ Direction direction_of(const Vector3d& way) {
   return {std::atan2(way.y(), way.x()), std::atan2(-way.z(), way.head<2>().norm())};
 }
 
-/// Which of 26 directions a unit vector has, as a cell of 3^3.
+/// Rounds a unit vector to one of 26 directions, as a cell of 3 x 3 x 3.
 Eigen::Vector3i direction_cell(const Vector3d& direction_W) {
   return (kNearAxis * direction_W).array().round().cast<int>() + 1;
 }
@@ -82,10 +82,10 @@ double FlockViews::range_m() const { return kTargetRange * sharp_m_; }
 
 double FlockViews::surveyed_m() const { return kSurveyShare * config_.survey_m; }
 
-/// Surface that nobody has looked at, in pieces that vote as one; and points, each for itself.
+/// The voters: surface that no camera has looked at, in pieces, and single points.
 std::vector<FlockTarget> FlockViews::voters(const FlockTargets& targets) const {
   std::vector<FlockTarget> voters;
-  BlockTable<std::uint32_t> piece_of;  // by place and direction: its number + 1
+  BlockTable<std::uint32_t> piece_of;  // by place and direction: index of the piece + 1
   for (const FlockTarget& target : targets.all()) {
     if (target.open() < kLeastOpen) continue;
     if (target.known) {
@@ -108,7 +108,7 @@ std::vector<FlockTarget> FlockViews::voters(const FlockTargets& targets) const {
 std::vector<FlockViews::Vote> FlockViews::votes(const FlockTargets& targets) const {
   const double steepest = std::sin(agent_.vehicle.gimbal.pitch_limit_deg * kRadPerDeg);
   std::vector<Vote> votes;
-  BlockTable<std::uint32_t> number_of;  // by place and direction, + 1
+  BlockTable<std::uint32_t> number_of;  // by place and direction: index of the vote + 1
   const auto vote = [&](const FlockTarget& target, const Vector3d& out_W, double distance_m, double worth) {
     const Vector3d p_W = target.p_W + distance_m * out_W;
     if (p_W.z() < config_.flight.floor_m || std::abs(out_W.z()) > steepest) return;
@@ -145,7 +145,7 @@ std::vector<FlockView> FlockViews::find(const FlockSurfaces& surfaces, const Flo
     const double way_m = (places[i].p_sum_W / places[i].weight - p_W).norm();
     promising.emplace_back(-places[i].weight / (kWayM + way_m), i);
   }
-  std::ranges::make_heap(promising, std::greater<>());  // only the first of thousands are needed in order
+  std::ranges::make_heap(promising, std::greater<>());  // only the best of thousands are needed, in order
   std::vector<FlockView> views;
   const std::size_t most = static_cast<std::size_t>(config_.max_views);
   std::size_t unproved = 0;

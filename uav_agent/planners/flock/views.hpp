@@ -1,9 +1,8 @@
-// Places to photograph from: proposed by what is to be photographed, and judged by how much better that would be known
-// afterwards.
+// Views: places and directions to photograph from. The targets propose them, and the formulas of the score judge them.
 //
-// Each target votes for places straight before it and aside, at two distances; votes of targets that could be seen from
-// one place in one direction add up, and the places with most of them for the way there are judged: which targets are
-// in the picture, not hidden, and how well, by the formulas of the score.
+// Each target votes for places straight before it and to its sides, at three distances. Votes for the same place and
+// direction add up. The places with most votes for the distance to fly are judged: which targets are in the picture and
+// not hidden, and with what quality.
 // Frames: W world, B body, C camera.   Units: SI and radians.   Pure and deterministic.   Effort: bounded by counts.
 #pragma once
 
@@ -18,25 +17,25 @@ namespace skein::agent {
 /// A place and a direction, and what they show.
 struct FlockView {
   struct Sight {
-    std::uint32_t target = 0;
-    float q = 0.0F;
+    std::uint32_t target = 0;  ///< index into FlockTargets::all()
+    float q = 0.0F;            ///< quality of its picture, without motion blur
   };
   Vector3d p_WB = Vector3d::Zero();
   Vector3d aim_W = Vector3d::Zero();  ///< where the camera looks
-  std::vector<Sight> sights = {};     ///< of targets
-  double survey = 0.0;                ///< points expected in what an explorer would find from there
-  bool proved = true;                 ///< that a body may be there
+  std::vector<Sight> sights = {};     ///< the targets that it shows
+  double survey = 0.0;                ///< points expected on the structure that an explorer would find from there
+  bool proved = true;                 ///< the place is proved free
 };
 
-/// What can be photographed, by place.
+/// The targets, indexed by place.
 class FlockTargets {
  public:
-  /// @param range_m  of pictures.
+  /// @param range_m  greatest distance of a picture; edge of the index's cells.
   FlockTargets(std::vector<FlockTarget> targets, double range_m);
 
   const std::vector<FlockTarget>& all() const { return targets_; }
   std::vector<FlockTarget>& all() { return targets_; }
-  /// Calls `visit` with the index of each target in the cells about a place; some are farther off than range_m.
+  /// Calls `visit` with the index of each target in the cells around a place: of all within range_m, and some farther.
   template <class Visit>
   void near(const Vector3d& p_W, Visit&& visit) const;
 
@@ -45,31 +44,31 @@ class FlockTargets {
   double cell_m_;
   Vector3d low_W_ = Vector3d::Zero();
   Eigen::Vector3i dims_ = Eigen::Vector3i::Ones();
-  std::vector<std::uint32_t> begins_;  ///< by cell, into order_
-  std::vector<std::uint32_t> order_;
+  std::vector<std::uint32_t> begins_;  ///< by cell: its first place in order_
+  std::vector<std::uint32_t> order_;   ///< indices of targets, sorted by cell
 };
 
 class FlockViews {
  public:
-  /// All must outlive this.  @param sharp_m  d*.
+  /// @param config, agent  must outlive this.   @param sharp_m  d*.
   FlockViews(const FlockConfig& config, const AgentConfig& agent, double sharp_m)
       : config_(config), agent_(agent), sharp_m_(sharp_m) {}
 
-  double range_m() const;
-  /// Within this distance of a place that find() proposes for a survey, all should come into sight.
+  double range_m() const;  ///< targets farther than this are not worth a picture
+  /// From a place that find_gaps() proposes, all cells within this distance should come into sight.
   double surveyed_m() const;
-  /// The views that promise most for the way to them, judged.
-  /// @param explores  whether this UAV may go where nothing is proved, and finds structure.
+  /// The views with most votes for the distance to fly, judged.
+  /// @param explores  this UAV may fly to places that are seen but not proved free.
   std::vector<FlockView> find(const FlockSurfaces& surfaces, const FlockTargets& targets, const FreeSpace& space,
                               const Vector3d& p_W, bool explores) const;
-  /// Adds places from which an explorer sees what has not been surveyed yet.
-  /// @param lack  of work, 0 to 1: what it is worth to find more.
+  /// Adds places from which an explorer surveys gaps.
+  /// @param lack  lack of work, 0 to 1: factor on the points expected there; 0: adds none.
   void find_gaps(const FlockSurfaces& surfaces, const FreeSpace& space, const Vector3d& p_W, double lack,
                  std::vector<FlockView>& views) const;
-  /// Places to which the camera can turn within a moment, with most to photograph around them.
+  /// Points on which the camera can be turned quickly, with most left to photograph around them, best first.
   std::vector<Vector3d> aims(const FlockTargets& targets, const Vector3d& p_WB, const RigidBodyState& state,
                              const GimbalState& gimbal) const;
-  /// What a view shows.
+  /// Computes what a view shows (FlockView::sights).
   void judge(const FlockSurfaces& surfaces, const FlockTargets& targets, FlockView& view) const;
 
  private:
@@ -82,7 +81,7 @@ class FlockViews {
   double sharp_m_;
 };
 
-/// The exposure of a camera at rest.
+/// The exposure at a view, with the camera at rest.
 Exposure exposure_of(const FlockView& view, const AgentConfig& agent);
 
 template <class Visit>

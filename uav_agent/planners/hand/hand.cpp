@@ -1,8 +1,8 @@
-// Does what somebody wants who flies this UAV by hand, on the page of a run that is watched (docs/view.md), or what
-// somebody wanted then, from the file that such a run leaves. It takes no picture by itself: the camera goes on as the
-// scenario has it, and the on-board software brings the captures home when the station is in sight.
+// Manual flight: carries out the commands of a user on the web page of a watched run (docs/view.md), or replays the
+// commands in the file that such a run leaves. The planner triggers no pictures: the camera works as the scenario
+// configures it, and the on-board software delivers the captures when the station is in line of sight.
 //
-// The same commands at the same ticks fly the same: nothing else of who wants them is known here.
+// The same commands at the same ticks give the same flight: the planner knows nothing else about the user.
 #include <optional>
 #include <utility>
 #include <vector>
@@ -37,8 +37,8 @@ class HandPlanner final : public Planner {
   std::vector<std::string> debug_names() const override { return {kHeldSignal}; }
 
  private:
-  /// A program that was started again, or stopped for a while, is told what is wanted by then, and so is one that has a
-  /// file: the newest counts.
+  /// Takes the newest command, from the user or from the file. So a program that was restarted or suspended goes on
+  /// with the command in force by then.
   void listen(const PlannerInput& in) {
     if (!rows_) {
       if (in.hand) wanted_ = *in.hand;
@@ -50,7 +50,7 @@ class HandPlanner final : public Planner {
   const Config config_;
   const AgentConfig agent_;
   HandFlight flight_{config_, agent_};
-  std::optional<std::vector<HandRow>> rows_;  ///< of a file, if there is one
+  std::optional<std::vector<HandRow>> rows_;  ///< recorded commands, if the user gave a file
   std::size_t next_ = 0;
   HandCommand wanted_;
   std::optional<HeldBack> told_;

@@ -9,12 +9,12 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kAirborneM = 2.0;   ///< a UAV that begins at such a height was restarted in flight
-constexpr double kRestsMps = 0.01;   ///< less is nothing
-constexpr double kAheadS = 2.0;      ///< the path is longer than what this takes,
-constexpr double kBrakesMps2 = 1.0;  ///< and than what it takes to brake so softly
+constexpr double kAirborneM = 2.0;   ///< a UAV that begins above this height was restarted in flight
+constexpr double kRestsMps = 0.01;   ///< slower counts as no motion
+constexpr double kAheadS = 2.0;      ///< the path is as long as the way flown in this time,
+constexpr double kBrakesMps2 = 1.0;  ///< plus the braking distance at this gentle deceleration
 constexpr double kCreepMps = 0.5, kProvedStepM = 1.0;
-constexpr double kObeysShare = 0.5;  ///< who flies at so much of what is wanted is not held back
+constexpr double kObeysShare = 0.5;  ///< a UAV faster than this share of the commanded speed is not held back
 
 }  // namespace
 
@@ -26,7 +26,8 @@ HandFlight::HandFlight(const HandConfig& config, const AgentConfig& agent)
       sight_(agent),
       told_(config.flight, agent) {}
 
-/// In safe flight it climbs from its start before anything else, and stays above the floor.
+/// The commanded velocity within its limits. With the safety filter, the UAV climbs to the floor first, and stays there
+/// or above.
 Vector3d HandFlight::wanted_velocity_W(const HandCommand& wanted, const PlannerInput& in) {
   const TrackingState tracking = tracker_.tracking();
   const double yaw = tracking.airborne ? tracking.setpoint.yaw : roll_pitch_yaw(in.state.q_WB.toRotationMatrix()).yaw;
@@ -45,8 +46,8 @@ Vector3d HandFlight::wanted_velocity_W(const HandCommand& wanted, const PlannerI
   return allowed_W;
 }
 
-/// What lies ahead is to be proved by the time that it gets there: a LiDAR sees all directions in sweep_s. Straight up
-/// and down the filter alone says how fast, as at takeoff.
+/// Highest speed at which the LiDAR, which covers all directions in sweep_s, proves the space ahead before the UAV gets
+/// there. In vertical flight only the safety filter limits the speed, as at takeoff.
 double HandFlight::pace_mps(const Vector3d& v_W, const PlannerInput& in) const {
   if (filter_.assumes_boxes()) return config_.flight.alone_mps;
   const double speed_mps = v_W.norm();
@@ -68,7 +69,7 @@ HeldBack HandFlight::why_slower(double wanted_mps, double pace_mps) const {
   if (wanted_mps <= kRestsMps || speed_mps > kObeysShare * wanted_mps) return HeldBack::no;
   switch (filter_.held().by) {
     case Held::By::nothing:
-      return pace_mps < wanted_mps ? HeldBack::unproved : HeldBack::no;  // else it gets faster
+      return pace_mps < wanted_mps ? HeldBack::unproved : HeldBack::no;  // else the UAV is still accelerating
     case Held::By::unproved:
       return HeldBack::unproved;
     case Held::By::structure:

@@ -1,9 +1,9 @@
-// Flies one UAV as a hand wants it: a velocity along and across its heading, a turn, until something else is wanted.
+// Flies one UAV by manual commands: a velocity relative to its heading and a yaw rate, in force until the next command.
 //
-// The velocity becomes a path straight ahead that is laid out anew in each exchange, longer than the UAV needs to
-// brake. The tracker follows it within the vehicle's limits, and the flight core's safety filter lets it go only so far
-// as it may come to rest: in front of an obstacle it stops, and stays there. An explorer flies no faster than its LiDAR
-// proves what lies ahead. Without the filter only the vehicle's limits count.
+// In each exchange the velocity becomes a new straight path, longer than the UAV's braking distance. The tracker
+// follows the path within the vehicle's limits, and the flight core's safety filter lets the UAV fly only as far as it
+// may come to rest: in front of an obstacle it stops and stays there. An explorer flies no faster than its LiDAR proves
+// the space ahead. Without the safety filter only the vehicle's limits count.
 // Frames: W world (ENU), B body.   Units: SI and radians.   Threads: one.   Deterministic.
 #pragma once
 
@@ -24,11 +24,11 @@ class HandFlight {
   HandFlight(const HandFlight&) = delete;  // parts refer to each other
   HandFlight& operator=(const HandFlight&) = delete;
 
-  /// One exchange. @returns nullopt as long as nobody has wanted it to fly.
+  /// Call it once per exchange. @returns nullopt before the first command that makes the UAV fly.
   std::optional<TrajectoryCommand> fly(const HandCommand& wanted, const PlannerInput& in);
-  /// Why it is slower than it was wanted in the last exchange, by half at least.
+  /// Why the UAV flew at no more than half the commanded speed in the last exchange.
   HeldBack held_back() const { return held_back_; }
-  /// Where it is about to fly; nullopt: it stays.
+  /// End of the present path; nullopt: the UAV stays where it is.
   const std::optional<Vector3d>& going_to_W() const { return going_to_W_; }
 
  private:
@@ -45,7 +45,7 @@ class HandFlight {
   std::optional<Vector3d> going_to_W_;
   HeldBack held_back_ = HeldBack::no;
   bool began_ = false;
-  bool low_ = false;  ///< part of what is wanted is left out, for it is too low
+  bool low_ = false;  ///< part of the command was ignored because the UAV is too low
 };
 
 }  // namespace skein::agent

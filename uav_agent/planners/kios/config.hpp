@@ -1,5 +1,5 @@
-// Parameters of the KIOS planner (kios.cpp): --planner kios:voxel_m=4,lanes=3. The sources give no number for any of
-// them: all defaults are our choice.
+// Parameters of the KIOS planner (kios.cpp): --planner kios:voxel_m=4,lanes=3. The sources give no values: all defaults
+// are our choice.
 // Units: SI unless the name says otherwise.
 #pragma once
 
@@ -9,28 +9,28 @@
 
 namespace skein::agent {
 
-/// Parameters without a value of their own have one by `faithful`, told behind them: resolved() fills them in.
+/// An optional parameter has two defaults, named in its comment: for faithful=false, true. resolved() fills them in.
 struct KiosConfig {
-  double voxel_m = 0.0;          ///< edge of a cube; 0: 0.9 d*, but 2.5 to 6 m
-  int lanes = 1;                 ///< of the mapping stage, in all; at least one for each explorer
+  double voxel_m = 0.0;          ///< edge of a cube; 0: 0.9 d*, limited to 2.5 to 6 m
+  int lanes = 1;                 ///< of the mapping stage, for the whole fleet; at least one per explorer
   int min_hits = 4;              ///< mapped cells (0.5 m) that make a cube occupied
   double map_mps = 3.0;          ///< along the lanes
-  double standoff_ratio = 0.92;  ///< most distance to the surface, in units of d*
-  double nearest_ratio = 0.6;    ///< least distance to it where there is room, in units of d*
-  double settle_mps = 0.3;       ///< slower than this, ...
-  double aim_deg = 5.0;          ///< ... with the camera this near to its direction, ...
-  double dwell_s = 0.25;         ///< ... it stays so long: two pictures
-  double stop_s = 2.0;           ///< what a stop costs in the planned tours
-  int max_tasks = 150;           ///< waypoints that are shared out in one go
-  int effort = 60'000;           ///< moves evaluated for it
-  int reserve = 2;               ///< cubes ahead that are claimed beside the one it is in
-  double share_s = 0.5;          ///< between two messages
-  double claim_s = 3.0;          ///< after which a claim is void
-  /// 45, never: photographers wait no longer for the explorers' map, from when they could work.
+  double standoff_ratio = 0.92;  ///< greatest distance to the surface, in units of d*
+  double nearest_ratio = 0.6;    ///< least distance to the surface where there is room, in units of d*
+  double settle_mps = 0.3;       ///< a UAV slower than this is steady, ...
+  double aim_deg = 5.0;          ///< ... a camera this near to its direction is aimed, ...
+  double dwell_s = 0.25;         ///< ... and the UAV stays so long, steady and aimed: two pictures
+  double stop_s = 2.0;           ///< assumed duration of a stop in the planned tours
+  int max_tasks = 150;           ///< most waypoints that are assigned at once
+  int effort = 60'000;           ///< most moves that the tour search evaluates
+  int reserve = 2;               ///< cubes ahead that a UAV claims besides the one it is in
+  double share_s = 0.5;          ///< time between two messages
+  double claim_s = 3.0;          ///< after which a claim expires
+  /// 45, never: longest time that a photographer waits for the explorers' map, from when it could work.
   std::optional<double> wait_s = {};
-  std::optional<double> silence_s = {};  ///< 45, never: nor for longer after they saw an explorer fly
-  std::optional<bool> maps_anew = {};    ///< false, true: an explorer that restarts takes as long to map as it takes
-  bool faithful = false;                 ///< photographers wait for an explorer's word without end
+  std::optional<double> silence_s = {};  ///< 45, never: nor longer after it saw an explorer fly
+  std::optional<bool> maps_anew = {};    ///< false, true: a restarted explorer reports `mapping` to its last lane
+  bool faithful = false;                 ///< photographers wait for an explorer's report for ever
   FlightConfig flight = {};
 
   KiosConfig resolved() const;

@@ -1,17 +1,17 @@
 // KIOS: the strategy of the team that won the first contest, rebuilt from its published description.
 //
 // 1. The operational volume is the smallest cuboid that holds all boxes and all starts; it is cut into cubes, which are
-//    the places of a graph. 2. Mapping: explorers fly straight along its longest axis; photographers wait in the air.
-// 3. Inspection: around the occupied cubes there is one waypoint for each exposed face, and all UAVs share them out:
-//    each solves a multiple travelling salesmen problem for those in line of sight and flies the first leg of its own
-//    tour; at every waypoint it stops, turns the camera to the surface, photographs, and solves again. Maps and what
-//    was photographed are exchanged all the time with whoever is in line of sight. No two UAVs enter one cube.
+//    the nodes of a graph. 2. Mapping: explorers fly straight along its longest axis; photographers wait in the air.
+// 3. Inspection: each exposed face of an occupied cube has one waypoint, and the UAVs divide the waypoints: each UAV
+//    solves a multiple travelling salesmen problem for all UAVs in line of sight, and flies the first leg of its own
+//    tour. At the waypoint it stops, turns the camera to the surface, photographs, and solves again. UAVs in line of
+//    sight of each other continually exchange maps and photographed faces. No two UAVs enter one cube.
 //
 // Its weaknesses are the published ones: photographers idle while the explorers map; one quick pass on coarse cubes
-// misses thin members; without anybody in line of sight a UAV plans for itself alone and does others' work again.
-// Not published, and so our choice: every number below, where in a free cube it stops (stops.hpp), the lanes
-// (lanes.hpp), the messages (talk.hpp), and that waypoints around the boxes do where nobody has a LiDAR. The flight
-// core does the flying (flight_core/flight_core.hpp).
+// misses thin members; a UAV without another one in line of sight plans for itself alone and repeats others' work.
+// Not published, and so our choice: every number below, where in a free cube a UAV stops (stops.hpp), the lanes
+// (lanes.hpp), the messages (talk.hpp), and that a fleet without LiDAR takes the boxes for solid. The flight core does
+// the flying (flight_core/flight_core.hpp).
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -35,15 +35,15 @@ namespace skein::agent {
 namespace {
 
 constexpr double kAutoVoxelRatio = 0.9, kSmallestVoxelM = 2.5, kLargestVoxelM = 6.0;  ///< of d*
-constexpr double kLaneHeight = 0.25, kLaneUpM = 2.0;   ///< of the site's: lanes lie higher than that, by so much
-constexpr double kLookAtMapS = 1.0;                    ///< between two looks at the map
-constexpr double kRestS = 1.0;                         ///< when there is nothing to do
-constexpr double kStayS = 2.0;                         ///< who waits says again and again that it wants to stay
-constexpr double kAimPatienceS = 3.0;                  ///< at a waypoint; some directions are out of the gimbal's reach
-constexpr std::size_t kCandidates = 5;                 ///< stops tried in one decision
-constexpr int kMostMoreLanes = 3;                      ///< times, for explorers that have found nothing
-constexpr double kStandsMps = 1.0;                     ///< a way may begin where a UAV that is so slow is
-constexpr double kBoxesComeS = 5.0, kLiftOffS = 20.0;  ///< to, and of, whoever is there from the beginning
+constexpr double kLaneHeight = 0.25, kLaneUpM = 2.0;  ///< lanes lie at least 2 m above a quarter of the site's height
+constexpr double kLookAtMapS = 1.0;                   ///< time between two looks at the map
+constexpr double kRestS = 1.0;                        ///< wait when no stop can be reached
+constexpr double kStayS = 2.0;          ///< a waiting UAV renews its goal, the place where it is, so often
+constexpr double kAimPatienceS = 3.0;   ///< longest stay at a stop: the gimbal cannot reach some directions
+constexpr std::size_t kCandidates = 5;  ///< most stops proposed to the flight core at once
+constexpr int kMostMoreLanes = 3;       ///< how often an explorer without stops may fly more lanes
+constexpr double kStandsMps = 1.0;      ///< the way of a UAV slower than this begins where it is
+constexpr double kBoxesComeS = 5.0, kLiftOffS = 20.0;  ///< boxes come by then, unless restarted; time to take off
 
 }  // namespace
 
@@ -66,11 +66,11 @@ class KiosPlanner final : public Planner {
  private:
   enum class Phase { map, wait, decide, fly, look };
   using Id = VoxelGrid::Id;
-  /// A waypoint that it has asked the flight core to fly to.
+  /// A stop that is proposed to the flight core.
   struct Candidate {
     std::int64_t goal = 0;
     KiosStop stop;
-    std::vector<Vector3d> corners = {};  ///< on the way to it; empty: the flight core finds one
+    std::vector<Vector3d> corners = {};  ///< of the path to it; empty: the flight core searches a path
   };
 
   KiosStops::Config stops_config() const;
@@ -102,15 +102,15 @@ class KiosPlanner final : public Planner {
   KiosMapping mapping_;
 
   Phase phase_ = Phase::map;
-  Tick not_before_ = 0;                                ///< of what comes next in this phase
-  std::int64_t id_ = 0;                                ///< of the last goal
-  std::optional<VoxelGrid> grid_;                      ///< once the boxes have come
-  Tick mapped_at_ = std::numeric_limits<Tick>::max();  ///< even if its program was away: the others have the map
-  std::vector<Candidate> candidates_;                  ///< what it likes best first
-  std::optional<KiosStop> stop_;                       ///< that it flies to, or looks from
-  std::vector<Waypoint> way_;                          ///< to it
-  std::optional<Tick> looking_since_;                  ///< steady, aimed
-  int more_lanes_ = 0;                                 ///< times that it has flown some more
+  Tick not_before_ = 0;                                ///< of the next action in this phase
+  std::int64_t id_ = 0;                                ///< id of the last goal
+  std::optional<VoxelGrid> grid_;                      ///< set when the boxes have arrived
+  Tick mapped_at_ = std::numeric_limits<Tick>::max();  ///< restarted: reports `mapping` no longer from then on
+  std::vector<Candidate> candidates_;                  ///< best first
+  std::optional<KiosStop> stop_;                       ///< the stop that it flies to or photographs from
+  std::vector<Waypoint> way_;                          ///< to this stop
+  std::optional<Tick> looking_since_;                  ///< since when the UAV is steady and its camera aimed
+  int more_lanes_ = 0;                                 ///< how often this explorer has flown more lanes
 };
 
 PlannerOutput KiosPlanner::plan(const PlannerInput& in) {
@@ -122,7 +122,7 @@ PlannerOutput KiosPlanner::plan(const PlannerInput& in) {
   if (in.flight.working) {
     carry_on(in, out);
   } else if (phase_ == Phase::look) {
-    rest(in.tick, out);  // away from its waypoint
+    rest(in.tick, out);  // the flight core has taken the UAV away from its stop
   }
   talk_.speak(in, *grid_, own_word(in), out);
   return out;
@@ -141,13 +141,13 @@ KiosStops::Config KiosPlanner::stops_config() const {
   return config;
 }
 
-/// The operational volume and all that follows from the boxes.
+/// Sets up the operational volume and everything else that depends on the boxes.
 void KiosPlanner::survey_site(const PlannerInput& in) {
   std::vector<Vector3d> starts;
   for (const FleetMember& member : agent_.fleet) starts.push_back(member.p_WB_start);
   const double by_camera = std::clamp(kAutoVoxelRatio * reach_.sharp_distance_m, kSmallestVoxelM, kLargestVoxelM);
   const double voxel = config_.voxel_m > 0.0 ? config_.voxel_m : by_camera;
-  // One cube of free space around everything, to look at the outermost faces from.
+  // One more cube of free space on all sides, for the stops in front of the outermost faces.
   grid_.emplace(operational_volume(in.boxes, starts, voxel, 0.0, voxel));
   const bool came_back = seconds(in.tick) > kBoxesComeS;
   if (came_back) patience_.came_back();
@@ -193,7 +193,7 @@ void KiosPlanner::rest(Tick until, PlannerOutput& out) {
   out.goals.emplace();
 }
 
-/// After the last lane, or without any, to work.
+/// Flies the lanes. After the last one, or without lanes, an explorer begins its inspection; a photographer waits.
 void KiosPlanner::map(const PlannerInput& in, PlannerOutput& out) {
   mapping_.step(in, id_, out);
   if (!mapping_.done()) return;
@@ -202,7 +202,7 @@ void KiosPlanner::map(const PlannerInput& in, PlannerOutput& out) {
   not_before_ = in.tick;
 }
 
-/// For the explorers' map, where it is.
+/// Waits for the explorers' map, in the place where the UAV is.
 void KiosPlanner::wait(const PlannerInput& in, PlannerOutput& out) {
   if (patience_.is_over(in, config_)) return rest(in.tick, out);
   out.waits_for = agent_.first_explorer();
@@ -237,7 +237,7 @@ std::vector<KiosAgent> KiosPlanner::fleet_in_sight(const PlannerInput& in, bool 
   return agents;
 }
 
-/// Shares out what is left among those in sight, and sets out for the first of its own that can be reached.
+/// Divides the open stops among the UAVs in line of sight, and proposes the first ones of its own tour.
 void KiosPlanner::decide(const PlannerInput& in, PlannerOutput& out) {
   auto [open, out_of_reach] = stops_.open_stops(*grid_, voxels_, *in.space, in.boxes, in.tick);
   const std::set<std::uint32_t> taken = talk_.taken(in.tick);
@@ -260,15 +260,15 @@ void KiosPlanner::nothing_to_reach(const PlannerInput& in, bool stops_left, Plan
   if (!stops_left) fly_more_lanes(in);
 }
 
-/// An explorer for which nobody has found anything to look at: its lanes were too far from what there is.
+/// For an explorer without any open stop: its lanes may have been too far from the structure.
 void KiosPlanner::fly_more_lanes(const PlannerInput& in) {
   if (agent_.me().role != Role::explorer || more_lanes_ >= kMostMoreLanes) return;
   lay_lanes(in, config_.lanes + 2 * ++more_lanes_);
   phase_ = Phase::map;
 }
 
-/// The first of them to which there is a way through the graph; where cubes are too coarse to find any, the flight
-/// core looks for one.
+/// Proposes the stops to the flight core, beginning with the first one to which the graph has a path. For the others,
+/// and where the cubes are too coarse for any path, the flight core searches.
 void KiosPlanner::propose(const std::vector<KiosStop>& stops, const PlannerInput& in, PlannerOutput& out) {
   const std::set<Id> claimed = talk_.claimed(in.tick);
   candidates_.clear();
@@ -298,14 +298,14 @@ Goal KiosPlanner::goal_of(const Candidate& candidate, const PlannerInput& in) co
     goal.way = {{candidate.stop.p_WB, speed_mps}};
     return goal;
   }
-  // From where it is, so that it does not stop at the first corner.
+  // The way begins where the UAV is, so that the UAV does not stop at the first corner.
   if (in.state.v_WB.norm() < kStandsMps) goal.way.push_back({in.tracking.setpoint.p_WB, speed_mps});
   for (const Vector3d& corner_W : candidate.corners) goal.way.push_back({corner_W, speed_mps});
-  if (agent_.me().role == Role::explorer) goal.yaw.reset();  // its LiDAR proves most ahead
+  if (agent_.me().role == Role::explorer) goal.yaw.reset();  // it faces ahead, where its LiDAR proves most space
   return goal;
 }
 
-/// Until one of its waypoints is reached, none can be, or somebody else was there.
+/// Flies until one of the stops is reached, none can be, or another UAV has photographed the face.
 void KiosPlanner::fly(const PlannerInput& in, PlannerOutput& out) {
   for (const Outcome& outcome : in.flight.outcomes) {
     const auto found =
@@ -317,7 +317,7 @@ void KiosPlanner::fly(const PlannerInput& in, PlannerOutput& out) {
       phase_ = Phase::look;
       not_before_ = in.tick + ticks(kAimPatienceS);
       looking_since_.reset();
-      out.goals.emplace();  // not on to the next one
+      out.goals.emplace();  // so that the core does not go on to the next stop
       return look(in, out);
     }
     stops_.failed(stop.id, in.tick);
@@ -338,7 +338,7 @@ void KiosPlanner::fly(const PlannerInput& in, PlannerOutput& out) {
 
 bool KiosPlanner::marked(const KiosStop& stop) const { return grid_->marked(stop.cube(), stop.face()); }
 
-/// At a waypoint: once it is steady and aimed, for as long as pictures take; then the face is done.
+/// At a stop: marks the face when the UAV was steady and its camera aimed for dwell_s, or when patience is at its end.
 void KiosPlanner::look(const PlannerInput& in, PlannerOutput& out) {
   const bool steady = in.state.v_WB.norm() < config_.settle_mps;
   const bool aimed = aim_error(stop_->surface_W, in.state, in.gimbal, agent_.vehicle) < config_.aim_deg * kRadPerDeg;
@@ -355,7 +355,7 @@ void KiosPlanner::look(const PlannerInput& in, PlannerOutput& out) {
   decide(in, out);
 }
 
-/// Claims the cube that it is in and the next ones on its way.
+/// Claims the cube that the UAV is in and the next ones on its way.
 KiosTalk::Word KiosPlanner::own_word(const PlannerInput& in) const {
   KiosTalk::Word word;
   const bool maps = phase_ == Phase::map || !mapping_.done();

@@ -7,15 +7,15 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kInsetM = 15.0;  ///< lanes end so far before the boxes do: LiDARs see farther than that
-constexpr double kHeight = 0.3;   ///< of a level's, above its lower end: UAVs come from below
+constexpr double kInsetM = 15.0;  ///< lanes end so far inside the boxes' extent: LiDARs reach farther
+constexpr double kHeight = 0.3;   ///< of a lane in its level, as a share of the level: UAVs come from below
 
 /// Ends of one lane.
 struct Lane {
   Vector3d a_W, b_W;
 };
 
-/// The lane through a row of cubes, from the first to the last of these, lifted to the least height.
+/// The lane through a row of cubes, from cube ends.first to ends.second of the row, raised to the least height.
 Lane lane_at(const VoxelGrid& volume, VoxelGrid::Cell cell, int along, std::pair<int, int> ends, double lowest_m) {
   Lane lane;
   cell[along] = ends.first;
@@ -27,7 +27,7 @@ Lane lane_at(const VoxelGrid& volume, VoxelGrid::Cell cell, int along, std::pair
   return lane;
 }
 
-/// Whether a lane keeps one cube away from all boxes.
+/// Whether a lane keeps a distance of one cube from all boxes.
 bool leaves_boxes_alone(const Lane& lane, const VoxelGrid& volume, const std::vector<OrientedBox>& boxes) {
   const double step = 0.5 * volume.voxel_m();
   const int steps = static_cast<int>((lane.b_W - lane.a_W).norm() / step);
@@ -40,7 +40,7 @@ bool leaves_boxes_alone(const Lane& lane, const VoxelGrid& volume, const std::ve
   return true;
 }
 
-/// Where the boxes are along an axis: least and greatest row that holds any.
+/// Extent of the boxes along an axis: the first and the last row of cubes that they reach.
 std::pair<int, int> rows_of(const VoxelGrid& volume, const std::vector<OrientedBox>& boxes, int axis) {
   const double first = volume.centre_W(0)[axis];
   if (boxes.empty()) return {0, volume.dims()[axis] - 1};
@@ -73,7 +73,7 @@ std::vector<Lane> all_lanes(const VoxelGrid& volume, const std::vector<OrientedB
     VoxelGrid::Cell cell;
     cell[along] = 0;
     cell[other] = static_cast<int>(dims[other] * (i / 2 + (other == 2 ? kHeight : 0.5)) / levels);
-    // From halfway between the middle and the rim outwards where nothing stands at that height; else beside it.
+    // Begins halfway between middle and rim of the boxes, and moves outwards until the lane keeps clear of them.
     const int first = static_cast<int>(std::lround(0.5 * (low_row + high_row) + side * 0.25 * (high_row - low_row)));
     for (cell[across] = first; cell[across] > 0 && cell[across] + 1 < dims[across]; cell[across] += side) {
       if (leaves_boxes_alone(lane_at(volume, cell, along, ends, lowest_m), volume, boxes)) break;
@@ -96,7 +96,7 @@ std::vector<Vector3d> mapping_lanes(const AgentConfig& agent, const VoxelGrid& v
   std::vector<Vector3d> at;
   for (const std::size_t uav : explorers) at.push_back(agent.fleet[uav].p_WB_start);
   std::vector<Vector3d> own;
-  // Everybody computes the same: in turn, each takes the lane whose nearer end is nearest.
+  // All explorers compute the same assignment: in turn, each takes the lane that has the nearest end.
   for (std::size_t turn = 0; !left.empty(); turn = (turn + 1) % explorers.size()) {
     std::size_t nearest = 0;
     bool reversed = false;

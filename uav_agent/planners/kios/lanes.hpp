@@ -1,5 +1,5 @@
-// The first stage of KIOS: paths straight along the longest axis of the operational volume, known before take-off, from
-// which the explorers map everything in one quick pass.
+// The first stage of KIOS: lanes, which are straight paths along the longest axis of the operational volume. They are
+// known before takeoff, and the explorers map everything from them in one quick pass.
 // Frame W.   Units: metres.   Pure.   Source: paper, "Environmental Mapping"; that two explorers fly on opposite sides,
 // and how high, is our choice.
 #pragma once
@@ -11,10 +11,10 @@
 
 namespace skein::agent {
 
-/// Lanes run on either side in turn, as near to the middle of the structure as the boxes leave room at that height, so
-/// that the LiDAR reaches it. This is the UAV's own lane, or lanes one after the other, as corners in the order of
-/// flight; empty for a UAV without LiDAR.
-/// @param lowest_m  no lane is lower, unless the volume is.   @param lanes  in all; at least one each explorer.
+/// This UAV's lanes as corners in the order of flight, two for each lane; empty for a UAV without LiDAR. Lanes lie on
+/// either side of the structure in turn, as near to its middle as the boxes leave room at that height, so that the
+/// LiDAR reaches it.
+/// @param lowest_m  least height of a lane.   @param lanes  of the whole fleet; raised to at least one per explorer.
 std::vector<Vector3d> mapping_lanes(const AgentConfig& agent, const VoxelGrid& volume,
                                     const std::vector<OrientedBox>& boxes, double lowest_m, int lanes);
 

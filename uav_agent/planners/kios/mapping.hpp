@@ -1,5 +1,5 @@
-// An explorer's way along its lanes in the first stage of KIOS: straight from one end of a lane to the other; and on to
-// where it can get, where something stands in the way.
+// Flies an explorer along its lanes in the first stage of KIOS, straight from one end of a lane to the other. A corner
+// that the explorer cannot reach is tried again, and then skipped.
 // Frame W.   Units: SI.   Threads: one.
 #pragma once
 
@@ -19,18 +19,18 @@ class KiosMapping {
   bool done() const { return left_W_.empty(); }
   const std::deque<Vector3d>& left_W() const { return left_W_; }
 
-  /// Once per exchange in which the UAV works.
-  /// @param id  of the last goal; becomes that of a new one.
+  /// Call it once per exchange in which FlightState::working.
+  /// @param id  of the last goal; raised by one for a new goal.
   void step(const PlannerInput& in, std::int64_t& id, PlannerOutput& out);
 
  private:
   void take_note(const Outcome& outcome, Tick now);
 
   double speed_mps_;
-  std::deque<Vector3d> left_W_;  ///< corners
-  std::size_t asked_ = 0;        ///< of them, that it flies to
+  std::deque<Vector3d> left_W_;  ///< corners that are left, in order
+  std::size_t asked_ = 0;        ///< number of corners in the current goal; 0: no goal
   std::int64_t goal_ = 0;
-  int failures_ = 0;  ///< of the next corner
+  int failures_ = 0;  ///< failures at the next corner
   Tick not_before_ = 0;
 };
 

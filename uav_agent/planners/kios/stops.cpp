@@ -7,14 +7,14 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kSpareM = 0.3;       ///< beside the clearance
-constexpr double kAsideRatio = 0.35;  ///< of a cube's edge: so far beside the middle of the free cube...
-constexpr int kShifts = 5;            ///< ...or not, and to the four sides
+constexpr double kSpareM = 0.3;       ///< in addition to the clearance
+constexpr double kAsideRatio = 0.35;  ///< a stop may lie so far beside the middle of the free cube, in cube edges
+constexpr int kShifts = 5;            ///< in the middle, and to each of the four sides
 constexpr double kBoxMarginM = 0.5;   ///< surface this far outside a box still belongs to it
-constexpr double kTurnM = 4.0;        ///< another direction of the face costs this much way more: round a corner
-constexpr double kAroundM = 12.0;     ///< as does structure in between
+constexpr double kTurnM = 4.0;        ///< extra path per 1 - cosine between two faces' normals: around a corner
+constexpr double kAroundM = 12.0;     ///< extra path if structure is in between
 
-/// Inside of structure nothing is known.
+/// Whether the map knows the place to be free; the inside of structure stays unknown.
 bool seen_free(const Vector3d& p_W, const FreeSpace& space) {
   return !space.config().world || space.config().blind_fleet || space.config().world->at(p_W) == Space::free;
 }
@@ -25,7 +25,7 @@ KiosStops::Open KiosStops::open_stops(const VoxelGrid& grid, const WorldVoxels& 
                                       const std::vector<OrientedBox>& boxes, Tick now) const {
   Open open;
   const auto occupied = [&](VoxelGrid::Id id) {
-    const int hits = voxels.hits(id);  // none: others told of it
+    const int hits = voxels.hits(id);  // none: other UAVs reported the cube as occupied
     return grid.state(id) == VoxelState::occupied && (hits == 0 || hits >= config_.min_hits);
   };
   for (VoxelGrid::Id id = 0; id < grid.count(); ++id) {
@@ -47,9 +47,9 @@ KiosStops::Open KiosStops::open_stops(const VoxelGrid& grid, const WorldVoxels& 
   return open;
 }
 
-/// The middle of the free cube, unless that is too near to the surface to see much or too far to see it sharply; nearer
-/// only where there is no room, and beside the middle where there is none there. A place that is proved to be free is
-/// liked better.
+/// The middle of the free cube, unless it is too near to the surface to see much of it or too far to see it sharply. If
+/// there is no room, tries the greatest and the least distance, then places beside the middle. Prefers a place that is
+/// proved free.
 std::optional<KiosStop> KiosStops::stop_at(std::uint32_t id, const VoxelGrid& grid, const Vector3d& surface_W,
                                            const FreeSpace& space) const {
   const int face = static_cast<int>(id % VoxelGrid::kFaces);

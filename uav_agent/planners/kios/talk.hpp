@@ -1,5 +1,5 @@
-// What KIOS's UAVs tell each other on /plan: what they are about, which cubes they claim, and the map (map_exchange).
-// Frame W.   Units: SI.   Threads: one.   Bounded: one message now and then, see uav_agent/api/payload.hpp.
+// The messages of KIOS's UAVs on /plan: the sender's stage, stop and claimed cubes, and its map (map_exchange).
+// Frame W.   Units: SI.   Threads: one.   Bounded: one message per share_s, size in uav_agent/api/payload.hpp.
 // Source: paper ("exchanging data whenever LoS is available"; no two UAVs in one voxel); the format is our own.
 #pragma once
 
@@ -19,33 +19,33 @@ class KiosTalk {
   static constexpr std::uint32_t kNoStop = 0xFFFFFFFF;
 
   struct Config {
-    double share_s = 0.5;        ///< between two messages
-    double claim_s = 3.0;        ///< what was claimed longer ago is free again
-    std::size_t max_claims = 8;  ///< in a message
+    double share_s = 0.5;        ///< time between two messages
+    double claim_s = 3.0;        ///< age at which a claim expires
+    std::size_t max_claims = 8;  ///< most claims in a message
   };
 
-  /// What one UAV said last.
+  /// Content of a UAV's message.
   struct Word {
-    bool mapping = false;          ///< has not flown its lanes yet
-    std::uint32_t stop = kNoStop;  ///< that it flies to, see stops.hpp
-    Vector3d goal_W = Vector3d::Zero();
-    std::vector<Id> claims = {};  ///< where it is, and where it goes next
-    Tick heard = 0;
+    bool mapping = false;                ///< it has not flown its lanes yet
+    std::uint32_t stop = kNoStop;        ///< id of the stop that it flies to or photographs from (stops.hpp)
+    Vector3d goal_W = Vector3d::Zero();  ///< position of this stop
+    std::vector<Id> claims = {};         ///< the cube that it is in, and the next ones on its way
+    Tick heard = 0;                      ///< when it was received
   };
 
   /// @param agent  must outlive this.
   KiosTalk(const Config& config, const AgentConfig& agent) : config_(config), agent_(agent) {}
 
-  /// Takes what arrived, the others' maps into `grid`.
+  /// Reads the received messages, and merges the other UAVs' maps into `grid`.
   void listen(const PlannerInput& in, VoxelGrid& grid);
-  /// When it is time, says `own` and the map.
+  /// Sends `own` and the map, if a message is due.
   void speak(const PlannerInput& in, const VoxelGrid& grid, const Word& own, PlannerOutput& out);
 
-  /// nullopt: never heard.
+  /// The last message of a UAV; nullopt: none was received.
   std::optional<Word> word(std::size_t uav) const;
-  /// Cubes that others claim now.
+  /// Cubes that other UAVs claim now.
   std::set<Id> claimed(Tick now) const;
-  /// Stops that others fly to now.
+  /// Stops that other UAVs fly to or photograph from now.
   std::set<std::uint32_t> taken(Tick now) const;
 
  private:

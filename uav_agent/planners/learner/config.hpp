@@ -10,7 +10,7 @@
 
 namespace skein::agent {
 
-/// What a learner is told.
+/// Kind of motion that the orders contain.
 enum class Flies { velocity, way };
 constexpr std::array<EnumName<Flies>, 2> enum_names(Flies) {
   return {{{"velocity", Flies::velocity}, {"way", Flies::way}}};
@@ -18,13 +18,13 @@ constexpr std::array<EnumName<Flies>, 2> enum_names(Flies) {
 
 struct LearnerConfig {
   Flies flies = Flies::velocity;
-  bool safe = true;            ///< the safety filter has the last word
-  int detections = 256;        ///< the newest that it shows
-  int map_x = 16, map_y = 16;  ///< cells of the window of its map; 0: none
+  bool safe = true;            ///< the safety filter may override the orders
+  int detections = 256;        ///< most detections in an observation: the newest
+  int map_x = 16, map_y = 16;  ///< cells of the map window in the observation; 0: no map
   int map_z = 8;
   double map_cell_m = 1.0;
-  bool scans = false;        ///< it shows the latest scan of its own LiDAR
-  FlightConfig flight = {};  ///< approach_mps and climb_mps bound what is asked for
+  bool scans = false;        ///< the observation has the latest scan of the UAV's own LiDAR
+  FlightConfig flight = {};  ///< approach_mps and climb_mps limit an ordered velocity
 
   HandConfig by_velocity() const { return {.file = {}, .safe = safe, .flight = flight}; }
 

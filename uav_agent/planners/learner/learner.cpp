@@ -1,6 +1,6 @@
-// Does in each step what a program outside says, as skein.Fleet does in Python (docs/how-to-python.md): it shows what
-// it knows, waits for its order, and flies it. A velocity is flown as the planner `hand` flies one; a way is a goal of
-// the flight core, or without the safety filter a path for the tracker.
+// Flies by the orders of an external program, such as Python code with skein.Fleet (docs/how-to-python.md): writes an
+// observation, waits for the orders of the step, and carries them out. An ordered velocity is flown as by the planner
+// `hand`; an ordered way becomes a goal of the flight core or, without the safety filter, a path for the tracker.
 #include <cstddef>
 #include <optional>
 #include <vector>
@@ -67,7 +67,7 @@ class LearnerPlanner final : public Planner, public Learner {
     return out;
   }
 
-  /// Only an order that is new is a new goal.
+  /// A new order becomes a new goal; without one, the last goal stays.
   PlannerOutput by_way(bool news) {
     PlannerOutput out;
     if (!news) return out;
@@ -90,9 +90,9 @@ class LearnerPlanner final : public Planner, public Learner {
   HandFlight flight_{hand_, agent_};
   Observation observation_{config_, agent_};
   Orders orders_;
-  std::vector<std::byte> own_;          ///< the block as long as nobody shares one
-  std::int64_t serial_ = 0;             ///< of the last order
-  std::optional<std::uint64_t> noted_;  ///< the last exchange
+  std::vector<std::byte> own_;          ///< the block until use() is called with a shared one
+  std::int64_t serial_ = 0;             ///< serial number of the last order
+  std::optional<std::uint64_t> noted_;  ///< number of the last exchange that was noted
 };
 
 SKEIN_REGISTER_PLANNER("learner", LearnerPlanner);

@@ -9,10 +9,10 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kAirborneM = 0.5;                              ///< above its place in the beginning
-constexpr std::int8_t kUnknown = -1, kFree = 0, kOccupied = 1;  // of a cell
+constexpr double kAirborneM = 0.5;  ///< height above the start from which a UAV counts as airborne
+constexpr std::int8_t kUnknown = -1, kFree = 0, kOccupied = 1;  // values of a map cell
 constexpr std::int8_t kNoGoal = 0, kFlying = 1, kReached = 2, kNoWay = 3, kBlocked = 4;
-constexpr double kNever = -1.0;  ///< age of what never was
+constexpr double kNever = -1.0;  ///< age of something that has not happened yet
 
 template <class Vector>
 void put(std::span<double> to, const Vector& from) {
@@ -109,7 +109,7 @@ void Observation::write_peers(const PlannerInput& in) {
 }
 
 void Observation::write_boxes(const PlannerInput& in) {
-  if (in.boxes.size() == boxes_written_) return;  // they are told once
+  if (in.boxes.size() == boxes_written_) return;  // all boxes arrive at once
   boxes_written_ = in.boxes.size();
   const std::size_t count = std::min(in.boxes.size(), kMostBoxes);
   box_count_.in(block_)[0] = static_cast<std::int64_t>(count);
@@ -123,7 +123,7 @@ void Observation::write_boxes(const PlannerInput& in) {
   }
 }
 
-/// The newest last; rows beyond them are zero.
+/// The newest detection comes last; unused rows are zero.
 void Observation::write_detections() {
   const auto rows = detections_.in(block_);
   std::size_t at = 0;
@@ -154,7 +154,7 @@ std::size_t Observation::map_index(const Eigen::Vector3i& cell) const {
   return static_cast<std::size_t>((cell.x() * config_.map_y + cell.y()) * config_.map_z + cell.z());
 }
 
-/// Changes whenever the map does there.
+/// A number that changes whenever the map changes in the window whose lowest cell is `from`.
 std::uint64_t Observation::state_of_map(const PlannerInput& in, const Eigen::Vector3i& from) const {
   if (in.world_map == nullptr) return in.map.key_frames();
   const double region_m = in.world_map->config().cell_m * WorldMap::kChunk * WorldMap::kRegion;
@@ -173,7 +173,7 @@ std::uint64_t Observation::state_of_map(const PlannerInput& in, const Eigen::Vec
   return newest;
 }
 
-/// Its cells are those of a grid that stays where it is; the UAV is in the middle one.
+/// The window consists of cells of a grid that is fixed in W; the UAV is in the middle cell.
 void Observation::write_map(const PlannerInput& in) {
   if (map_.size == 0) return;
   const Eigen::Vector3i at((in.state.p_WB / config_.map_cell_m).array().floor().cast<int>());
@@ -185,7 +185,7 @@ void Observation::write_map(const PlannerInput& in) {
   in.world_map != nullptr ? write_cells(*in.world_map, from) : write_cells(in.map, from);
 }
 
-/// A cell is occupied where any of the map's cubes in it is, and free where all are.
+/// A cell is occupied if any of the map's cubes in it is occupied, and free if all of them are free.
 void Observation::write_cells(const WorldMap& map, const Eigen::Vector3i& from) {
   const auto cells = map_.in(block_);
   const int cubes = std::max(1, static_cast<int>(std::lround(config_.map_cell_m / map.config().cell_m)));

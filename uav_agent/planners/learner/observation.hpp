@@ -28,7 +28,7 @@ class Observation {
 
   /// Adds this learner's arrays to the block's layout. Call it first. @param prefix  of their names
   void lay_out(BlockLayout& layout, const std::string& prefix);
-  void use(std::byte* block);  ///< From now on writes to this block; it must be laid out so.
+  void use(std::byte* block);  ///< From now on, writes to this block, which must have that layout.
   /// Keeps detections, the last outcome and the latest scan until the next write(). Call it at every exchange.
   void note(const PlannerInput& in);
   void write(const PlannerInput& in);  ///< Writes the observation of this exchange into the block.

@@ -8,11 +8,11 @@
 namespace skein::agent {
 
 struct PatrolConfig {
-  bool top = true, bottom = true;  ///< look at these faces, too
+  bool top = true, bottom = true;  ///< also photograph the boxes' top and bottom faces
   double standoff_ratio = 0.92;    ///< distance to the surface in units of d*
   double blind_ratio = 0.55;       ///< distance to a box's face where no surface is mapped
-  double overlap = 0.2;
-  double speed_gain = 1.0;  ///< 1: no blur
+  double overlap = 0.2;            ///< of neighbouring strips, as a share of their width
+  double speed_gain = 1.0;         ///< in units of the greatest speed without blur
   FlightConfig flight = {};
 
   template <class R>

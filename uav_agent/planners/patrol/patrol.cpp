@@ -1,11 +1,11 @@
-// Flies along every face of every box in strips, at the distance where the camera is sharp. It knows the boxes and its
-// own map, talks to nobody, and is meant as an honest baseline: simple, safe, the same on every UAV.
+// Flies along every face of every box in strips, at the distance where the camera is sharp. The planner uses only the
+// boxes and the map, sends no messages, and is meant as an honest baseline: simple, safe, the same on every UAV.
 //
-// Each UAV flies its share of the strips (strips.hpp), closing in on the real surface as the map fills (standoff.hpp),
-// and looks at it again with the camera turned a little. Explorers and photographers share a part of the site
-// (work_share.hpp): what the one photographs, it proves to be free for the others. In a box that is too large to say
-// where the structure is, the strips come from the map (block_work.hpp). The flight core does the flying
-// (flight_core/flight_core.hpp).
+// Each UAV flies its share of the strips (strips.hpp), closer to the real surface as the map grows (standoff.hpp), and
+// then again with the camera turned to the side. Explorers and photographers share a part of the site
+// (work_share.hpp): where an explorer has photographed, it has proved free space for the photographers. In a loose box,
+// which does not tell where the structure is, the strips come from the map (block_work.hpp). The flight core does the
+// flying (flight_core/flight_core.hpp).
 #include <algorithm>
 #include <cmath>
 
@@ -22,12 +22,12 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kRefitS = 2.0;                      ///< between two looks at the map while on a strip
-constexpr double kRestS = 3.0;                       ///< when there is no strip that can be flown
-constexpr double kViewTurns[] = {0.0, 0.45, -0.45};  ///< of the camera to the side, look by look [rad]
-constexpr int kMaxFailures = 3;                      ///< of a strip, in a look
-constexpr double kStartHeight = 0.25;                ///< of the site's: where tours are taken to begin
-constexpr int kMostTries = 3;                        ///< strips that are fitted in an exchange
+constexpr double kRefitS = 2.0;                      ///< between two refits of the strip that is being flown
+constexpr double kRestS = 3.0;                       ///< wait when no strip can be flown
+constexpr double kViewTurns[] = {0.0, 0.45, -0.45};  ///< yaw of the gimbal, by number of the look [rad]
+constexpr int kMaxFailures = 3;                      ///< of a strip in one look; after one more it is given up
+constexpr double kStartHeight = 0.25;                ///< assumed height at which tours begin, as a share of the site's
+constexpr int kMostTries = 3;                        ///< most strips that are fitted in one exchange
 
 }  // namespace
 
@@ -52,27 +52,27 @@ class PatrolPlanner final : public Planner {
   void strip_is_flown();
   void face_strip(Goal& goal) const;
   void give_strip_up(const PlannerInput& in);
-  /// Where on the strip the waypoint `leg` of the present run is.
+  /// Distance along the strip of the waypoint `leg` of the current run.
   double run_s(std::size_t leg) const { return strip_s_ + standoff_config().step_m * static_cast<double>(leg); }
 
   const Config config_;
   const AgentConfig agent_;
   const CameraReach reach_;
 
-  bool shared_ = false;  ///< the boxes have come
+  bool shared_ = false;  ///< the boxes have arrived, and the work is shared
   OwnStrips strips_;
   std::optional<BlockWork> blocks_;
-  std::optional<std::size_t> own_;       ///< the current strip's number in strips_...
-  std::optional<BlockWork::Task> task_;  ///< ...or else what it is of blocks_
-  int looks_ = 0;                        ///< that this UAV has had at the current strip before
-  bool flown_ = false;                   ///< some of it, this time
-  std::optional<Strip> strip_;           ///< the current one
-  bool reversed_ = false;                ///< its direction
-  double strip_s_ = 0.0;                 ///< where on the strip the present run begins
-  std::size_t run_length_ = 0;           ///< waypoints of it
-  int failures_ = 0;                     ///< of this strip
-  std::int64_t id_ = 0;                  ///< of the current goal
-  bool flying_ = false;                  ///< to it, or along it
+  std::optional<std::size_t> own_;       ///< number of the current strip, if it is one of strips_...
+  std::optional<BlockWork::Task> task_;  ///< ...or its task, if it is one of blocks_
+  int looks_ = 0;                        ///< how often this UAV has flown the current strip before
+  bool flown_ = false;                   ///< part of the current strip was flown in this look
+  std::optional<Strip> strip_;           ///< the current strip
+  bool reversed_ = false;                ///< the strip is flown from its end to its beginning
+  double strip_s_ = 0.0;                 ///< where on the strip the current run begins [m]
+  std::size_t run_length_ = 0;           ///< waypoints of the current run
+  int failures_ = 0;                     ///< of the current strip, in this look
+  std::int64_t id_ = 0;                  ///< id of the current goal
+  bool flying_ = false;                  ///< the UAV flies to the strip or along it
   Tick refit_at_ = 0, rest_until_ = 0;
 };
 
@@ -96,7 +96,7 @@ PlannerOutput PatrolPlanner::plan(const PlannerInput& in) {
   return out;
 }
 
-/// The map may have grown: fits what is left of the strip again. Empty: as it was.
+/// Fits the rest of the strip again, because the map may have grown. Empty: the current goal stays.
 std::vector<Goal> PatrolPlanner::refitted(const PlannerInput& in) {
   const double s = run_s(in.flight.leg), before_s = strip_s_;
   const std::size_t before_length = run_length_;
@@ -152,7 +152,7 @@ void PatrolPlanner::take_note(const Outcome& outcome, const PlannerInput& in) {
   if (outcome.kind == Outcome::Kind::no_way || ++failures_ > kMaxFailures) give_strip_up(in);
 }
 
-/// Nothing more of it for now.
+/// Leaves the current strip; if none of it was flown, it counts as failed.
 void PatrolPlanner::give_strip_up(const PlannerInput& in) {
   if (!flown_ && task_) blocks_->failed(*task_, in.tick);
   if (!flown_ && own_) strips_.failed(*own_, in.tick);
@@ -160,7 +160,7 @@ void PatrolPlanner::give_strip_up(const PlannerInput& in) {
   failures_ = 0;
 }
 
-/// At most one.
+/// A goal for the next stretch of a strip; empty: none was found in this exchange.
 std::vector<Goal> PatrolPlanner::next_goals(const PlannerInput& in) {
   for (int tries = 0; tries < kMostTries; ++tries) {
     if (!strip_ && !take_strip(in)) {
@@ -173,7 +173,7 @@ std::vector<Goal> PatrolPlanner::next_goals(const PlannerInput& in) {
   return {};
 }
 
-/// Takes up the strip that this UAV has looked at least often. @returns whether there is one.
+/// Makes the strip that this UAV has flown least often the current one. @returns whether there is one.
 bool PatrolPlanner::take_strip(const PlannerInput& in) {
   const Vector3d here_W = in.tracking.setpoint.p_WB;
   task_ = blocks_->any() ? blocks_->next(in.tick, here_W, in.map) : std::nullopt;
@@ -189,7 +189,7 @@ bool PatrolPlanner::take_strip(const PlannerInput& in) {
   return true;
 }
 
-/// The first stretch of what is left of the current strip, from strip_s_ on: a goal, or none.
+/// A goal for the first stretch of the current strip that can be flown from strip_s_ on; empty: there is none.
 std::vector<Goal> PatrolPlanner::strip_goals(const PlannerInput& in, const std::optional<Vector3d>& p_W_now) {
   std::vector<Goal> goals;
   if (strip_s_ >= strip_->length()) return goals;
@@ -211,8 +211,8 @@ void PatrolPlanner::face_strip(Goal& goal) const {
     goal.gimbal = GimbalCommand{GimbalMode::angle, 0.0, turn};
     return;
   }
-  // Along the strip and always the same way, so that the image's full width lies across it and nothing turns
-  // in between.
+  // Top and bottom: the body faces along the strip, in the same direction both ways. So the image's full width lies
+  // across the strip, and the UAV does not turn in between.
   const Vector3d along = strip_->end_W - strip_->begin_W;
   goal.yaw = std::atan2(along.y(), along.x());
   goal.gimbal = GimbalCommand{GimbalMode::angle, strip_->kind == FaceKind::top ? pitch_limit : -pitch_limit, 0.0};

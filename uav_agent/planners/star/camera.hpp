@@ -1,9 +1,9 @@
-// Where STAR's camera looks: body and gimbal turn all the way from one viewpoint to the next, so that the camera looks
-// at a viewpoint's surface just when the UAV passes it, and never rests.
+// Aims STAR's camera: body and gimbal turn continuously on the way from one viewpoint to the next, so that the camera
+// looks at a viewpoint's surface just when the UAV passes the viewpoint, and never rests.
 // Frame W.   Units: SI and radians.   Threads: one.
-// Source: paper ("continuous camera movement", "continuous yawing motion"); that yaw is the body's and pitch the
-// gimbal's, and that both follow the way flown, is our choice. A UAV with a LiDAR flies with its body ahead
-// (flight_core/navigator.hpp): there, the gimbal does all.
+// Source: paper ("continuous camera movement", "continuous yawing motion"); that the body turns in yaw and
+// the gimbal in pitch, both in proportion to the distance flown, is our choice. A UAV with a LiDAR flies with its body
+// along its path (flight_core/navigator.hpp): there, the gimbal alone turns.
 #pragma once
 
 #include <optional>
@@ -14,14 +14,14 @@ namespace skein::agent {
 
 class StarCamera {
  public:
-  /// @param turns_body  else the gimbal alone turns.
+  /// @param turns_body  whether the body turns in yaw; otherwise the gimbal alone turns.
   StarCamera(const VehicleConfig& vehicle, bool turns_body);
 
-  /// Turns towards what is to be seen from the viewpoint that comes next.
-  /// @param p_view_W  where that is.   @param surface_W  what is to be seen from there.
+  /// Turns the camera towards the surface of the next viewpoint.
+  /// @param p_view_W  the viewpoint.   @param surface_W  the surface to be seen from there.
   void sweep(const RigidBodyState& state, const GimbalState& gimbal, const Vector3d& p_view_W,
              const Vector3d& surface_W, PlannerOutput& out);
-  /// Looks at a point.
+  /// Points the camera at p_W.
   void look_at(const RigidBodyState& state, const Vector3d& p_W, PlannerOutput& out);
 
  private:
@@ -29,8 +29,8 @@ class StarCamera {
 
   struct Sweep {
     Vector3d p_view_W = Vector3d::Zero();
-    double yaw = 0.0, pitch = 0.0;  ///< where the camera looked when it began
-    double distance = 0.0;          ///< to the viewpoint then
+    double yaw = 0.0, pitch = 0.0;  ///< direction of the camera when the sweep began
+    double distance = 0.0;          ///< distance to the viewpoint then
   };
 
   double yaw_limit_;

@@ -11,19 +11,19 @@ namespace {
 
 using Id = VoxelGrid::Id;
 
-constexpr std::size_t kMaxClusters = 24;  ///< looked at in one plan, the nearest
-constexpr std::size_t kMaxTargets = 14;   ///< cubes of a cluster whose visibility is checked
+constexpr std::size_t kMaxClusters = 24;  ///< most clusters in one plan: the nearest
+constexpr std::size_t kMaxTargets = 14;   ///< most cubes of a cluster whose visibility is checked
 constexpr int kRings = 2, kDirections = 10;
-constexpr double kHeightM = 3.0;        ///< of viewpoints above and below the cluster's middle
-constexpr double kGoodShare = 0.8;      ///< of the best coverage: good enough for the refinement
-constexpr std::size_t kMaxOptions = 5;  ///< of those
+constexpr double kHeightM = 3.0;        ///< viewpoints lie at the cluster's height, and so much above and below
+constexpr double kGoodShare = 0.8;      ///< share of the best coverage that suffices for the refinement
+constexpr std::size_t kMaxOptions = 5;  ///< most viewpoints of a cluster in the refinement
 constexpr double kViewRangeM = 20.0;
-constexpr double kLowM = 2.0;         ///< unknown cubes below are the ground
-constexpr double kLookMarginM = 1.0;  ///< beyond the outer ring, within which a look counts
+constexpr double kLowM = 2.0;         ///< unknown cubes below this height count as ground
+constexpr double kLookMarginM = 1.0;  ///< a look counts up to this distance beyond the outer ring
 
 }  // namespace
 
-/// One cluster's viewpoints, the best first.
+/// Viewpoints of one cluster, best first.
 struct StarExplorer::Options {
   std::size_t cluster = 0;
   std::vector<Vector3d> places_W;
@@ -74,7 +74,7 @@ StarExplorer::Options StarExplorer::options_for(const VoxelGrid& grid, const Fre
   const RingConfig ring{config_.ring_inner_m, config_.ring_outer_m, kRings, kDirections, {0.0, kHeightM, -kHeightM}};
   std::vector<std::pair<std::size_t, Vector3d>> found;
   for (const Vector3d& p : ring_around(cluster.middle_W, ring)) {
-    if (!space.free(p) || space.cost(p) > 1.0) continue;  // in known space, as FUEL's
+    if (!space.free(p) || space.cost(p) > 1.0) continue;  // only in space that is proved free, as in FUEL
     const std::size_t seen = visible_targets(grid, p, 0.0, 0.0, targets, {.range_m = kViewRangeM}).size();
     if (seen > 0) found.emplace_back(seen, p);
   }

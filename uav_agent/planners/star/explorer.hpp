@@ -1,9 +1,10 @@
-// How STAR's explorers go about a box: frontiers, one best viewpoint for each cluster of them, and the order of visit.
-// Frontiers in the empty volume of a box count like those at structure: that this takes time is the published weakness.
+// How STAR's explorers explore a box: frontiers in clusters, the best viewpoint for each cluster, the order of visit.
+// Frontiers in the empty volume of a box count like those at structure: the time that this takes is the published
+// weakness.
 // Frame W.   Units: SI.   Threads: one.   Effort: bounded by counts.
 // Source: paper ("Explorer Strategy"), FUEL (frontier information structure, cylindrical sampling, ATSP, refinement).
-// Our choice: unknown cubes behind known surface and at the ground are no frontier, as cubes here are as large as a
-// wall is thick; a frontier that stays one while the LiDAR is near is given up (FUEL's dormant clusters).
+// Our choice: unknown cubes behind known surface or at the ground make no frontier, because cubes here are as large as
+// walls are thick; a cube that is still frontier after the LiDAR was near is given up (FUEL's dormant clusters).
 #pragma once
 
 #include <vector>
@@ -13,49 +14,49 @@
 
 namespace skein::agent {
 
-/// A place to explore from.
+/// A viewpoint of an explorer.
 struct StarGoal {
   Vector3d p_WB = Vector3d::Zero();
-  Vector3d middle_W = Vector3d::Zero();   ///< of the frontier
-  std::vector<VoxelGrid::Id> cubes = {};  ///< of it
+  Vector3d middle_W = Vector3d::Zero();   ///< middle of the frontier cluster
+  std::vector<VoxelGrid::Id> cubes = {};  ///< frontier cubes of the cluster
 };
 
-/// What makes one place better to begin with than another.
+/// What the cost of the first viewpoint depends on.
 struct StarStart {
   Vector3d p_WB = Vector3d::Zero(), v_WB = Vector3d::Zero();
-  std::vector<Vector3d> mates_W = {};  ///< where others are about to work
+  std::vector<Vector3d> mates_W = {};  ///< where other UAVs are about to work
 };
 
 class StarExplorer {
  public:
   struct Config {
     double speed_mps = 2.5;
-    double turn_s = 1.5;  ///< cost of a change of direction, a radian
-    double mate_s = 8.0;  ///< cost of beginning near where another is about to work
+    double turn_s = 1.5;  ///< cost of a change of direction, per radian
+    double mate_s = 8.0;  ///< cost of beginning near where another UAV is about to work
     double cluster_m = 8.0;
     std::size_t min_cluster = 3;
     double ring_inner_m = 5.0, ring_outer_m = 11.0;
-    double margin_m = 3.0;  ///< around a box
+    double margin_m = 3.0;  ///< width of the space around a box that is explored with it
     int refine = 5;
-    int looks = 6;          ///< of look(), near by, after which a frontier is given up
-    double retry_s = 15.0;  ///< before one that could not be reached is tried again
+    int looks = 6;          ///< calls of look() with the cube near by, after which it is given up
+    double retry_s = 15.0;  ///< wait before an unreachable frontier is tried again
     std::size_t effort = 30'000;
   };
 
-  /// @param grid  for its size.
+  /// @param grid  only its size is used.
   StarExplorer(const Config& config, const VoxelGrid& grid)
       : config_(config), looks_(grid.count(), 0), not_before_(grid.count(), 0) {}
 
-  /// Takes note of what changed on the map, and of which frontiers lie in view of the LiDAR at p_W.
+  /// Updates the frontiers from the cubes that changed, and counts a look for those in view of the LiDAR at p_W.
   void look(const VoxelGrid& grid, const std::vector<VoxelGrid::Id>& changed, const Vector3d& p_W);
 
-  /// Viewpoints for all frontiers of one box, in the order of visit. Empty: nothing is left that can be explored now.
+  /// Viewpoints for the nearest frontier clusters of a box, in the order of visit. Empty: nothing can be explored now.
   std::vector<StarGoal> tour(const VoxelGrid& grid, const FreeSpace& space, const OrientedBox& box,
                              const StarStart& start, Tick now) const;
 
-  /// Whether more than half of the goal's frontier is still one.
+  /// Whether more than half of the goal's cubes are still frontier.
   bool open(const StarGoal& goal) const;
-  /// It could not be reached: something else first.
+  /// The goal could not be reached: tour() leaves its cubes out for a while (Config::retry_s).
   void failed(const StarGoal& goal, Tick now);
 
  private:

@@ -5,9 +5,9 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kFreeAroundM = 0.5;             ///< about the middle of a cube that is free
-constexpr std::size_t kExplorersLooks = 20'000;  ///< at unknown cubes, in one look at the map
-constexpr std::size_t kOthersLooks = 4'000;      ///< who explores nothing has time to find out what is free
+constexpr double kFreeAroundM = 0.5;             ///< radius around a cube's middle that must be free
+constexpr std::size_t kExplorersLooks = 20'000;  ///< most unknown cubes examined in one look at the map
+constexpr std::size_t kOthersLooks = 4'000;      ///< a UAV that does not explore can learn later what is free
 
 VoxelGrid first_grid(const StarConfig& config, const AgentConfig& agent, const std::vector<OrientedBox>& boxes,
                      double sharp_m) {

@@ -1,5 +1,5 @@
-// What one UAV of STAR knows of the structure: the cubes of the site, from its own map and from what the others told,
-// and what follows from them: which surfaces are left to inspect, and which frontiers to explore.
+// What one UAV of STAR knows about the structure: the cubes of the site, from its own map and the other UAVs' messages,
+// and what follows from them: the surfaces left to inspect and the frontiers left to explore.
 // Frame W.   Units: SI.   Threads: one.
 #pragma once
 
@@ -13,12 +13,12 @@ namespace skein::agent {
 
 class StarKnowledge {
  public:
-  /// Nothing but the boxes, which a fleet without a LiDAR takes for solid.
-  /// @param own_boxes  the team's.   @param agent  must outlive this.
+  /// Begins with nothing but the boxes, which a fleet without a LiDAR takes for solid.
+  /// @param own_boxes  the team's, as indices into `boxes`.   @param agent  must outlive this.
   StarKnowledge(const StarConfig& config, const AgentConfig& agent, const std::vector<OrientedBox>& boxes,
                 const std::vector<std::size_t>& own_boxes);
 
-  /// Another team's boxes, too.
+  /// From now on, `own_boxes` are the boxes to work on.
   void work_on(const std::vector<OrientedBox>& boxes, const std::vector<std::size_t>& own_boxes) {
     cubes_ = cubes_of_boxes(grid_, boxes, own_boxes);
   }
@@ -28,14 +28,14 @@ class StarKnowledge {
   StarSurfaces& surfaces() { return surfaces_; }
   StarExplorer& explorer() { return explorer_; }
 
-  /// Takes in what beams have proved; an explorer also what lies in view of its own.
+  /// Takes over what changed on the world map. On an explorer, also updates the frontiers and counts looks at them.
   void look_at_map(const WorldMap& map, const Vector3d& p_WB);
-  /// Takes in what the camera sees now.
+  /// Marks the surface that the camera sees now.
   void look_at_picture(const RigidBodyState& state, const GimbalState& gimbal);
 
-  /// Viewpoints of surface in the team's boxes that is left, near `p_W`.
+  /// Viewpoints for the surface left in the team's boxes, nearest to `p_W` first.
   std::vector<StarView> views(const FreeSpace& space, const Vector3d& p_W, Tick now);
-  /// The middle of the nearest surface in sight that was not inspected; nullopt: none within range.
+  /// The nearest surface in sight that was not inspected yet; nullopt: none within the range of inspection.
   std::optional<Vector3d> nearest_open_W(const Vector3d& p_W) const;
 
  private:

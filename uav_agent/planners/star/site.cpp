@@ -10,9 +10,9 @@ namespace skein::agent {
 namespace {
 
 constexpr double kAutoVoxelRatio = 0.35, kSmallestVoxelM = 2.0, kLargestVoxelM = 3.0;
-constexpr double kGrowth = 1.1;    ///< of the cubes while there are too many
-constexpr double kAroundM = 12.0;  ///< of the grid, around the boxes
-constexpr double kBesideM = 6.0;   ///< from the box
+constexpr double kGrowth = 1.1;    ///< factor by which cubes grow while there are too many
+constexpr double kAroundM = 12.0;  ///< margin of the grid around the boxes
+constexpr double kBesideM = 6.0;   ///< distance of a place beside a box from the box's circumscribed circle
 constexpr int kWallDirections = 12;
 constexpr double kAboveFloorM = 2.0;
 

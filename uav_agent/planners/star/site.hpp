@@ -1,5 +1,5 @@
-// What STAR knows of the site before it has seen anything: its cubes, whose they are, and places beside the boxes; and
-// what its parameters come to for its parts.
+// What STAR derives from the boxes alone: the grid of the site, the cubes of each team, and places beside the boxes;
+// and the configurations of its parts, from its parameters.
 // Frame W.   Units: metres.   Pure.
 #pragma once
 
@@ -12,15 +12,17 @@
 
 namespace skein::agent {
 
-/// A grid over all boxes with room around them to look at their faces from, with cubes as small as the parameters say.
+/// A grid over all boxes and the space around them from which their faces are photographed. Cubes have the size in
+/// `config`, or larger if there were more than max_voxels.
 /// @param sharp_m  d*.
 VoxelGrid star_grid(const std::vector<OrientedBox>& boxes, const StarConfig& config, double sharp_m);
 
-/// The cubes of a team, by the box that they are in (the first that holds their middle).
+/// The cubes whose box is one of `own_boxes`. The box of a cube is the first one that its middle is in, or within half
+/// a cube of.
 std::vector<VoxelGrid::Id> cubes_of_boxes(const VoxelGrid& grid, const std::vector<OrientedBox>& boxes,
                                           const std::vector<std::size_t>& own_boxes);
 
-/// Places to look at a box from, beside it at half its height, the one nearest to `p_W` first.
+/// Free places beside a box, in a circle around it at half its height, the one nearest to `p_W` first.
 std::vector<Vector3d> places_beside(const OrientedBox& box, const FreeSpace& space, const Vector3d& p_W);
 
 /// @param sharp_m  d*.

@@ -1,22 +1,22 @@
 // STAR: the strategy of the team that came third in the first contest, rebuilt from its published description.
 //
-// 1. Balanced teams of one explorer and its photographers; boxes go to teams by a multiple travelling salesmen problem
-//    over way and volume (teams.hpp), once and for all. 2. Explorers go through their team's boxes by frontiers:
-//    one viewpoint for each cluster, an ATSP over them (explorer.hpp). 3. What they find reaches the others in
-//    chunks (talk.hpp). 4. Photographers begin at once: viewpoints before known surface that nobody has inspected
-//    (surfaces.hpp), in clusters, by a hierarchical ATSP (tour.hpp); without any they hover. Explorers explore: their
-//    cameras look at what they explore, unless `explorers_inspect`, or a team has no photographer. 5. Everybody
-//    flies on through its viewpoints without a stop, turning and tilting the camera all the time, and plans anew every
-//    1.5 s; so pictures are blurred and oblique.
+// 1. Balanced teams consist of one explorer and its photographers; a multiple travelling salesmen problem over path
+//    length and volume assigns the boxes to the teams (teams.hpp), once and for all. 2. Explorers explore their team's
+//    boxes by frontiers: one viewpoint for each cluster, an ATSP over them (explorer.hpp). 3. UAVs send each other
+//    their maps in chunks (talk.hpp). 4. Photographers begin at once: viewpoints before known surface that nobody has
+//    inspected (surfaces.hpp), in clusters, by a hierarchical ATSP (tour.hpp); without viewpoints they hover. Explorers
+//    only explore, with the camera towards their frontiers, unless `explorers_inspect`, or the team has no
+//    photographer. 5. All UAVs fly through their viewpoints without a stop, turning and tilting the camera all the
+//    time, and plan again every 1.5 s; so pictures are blurred and oblique.
 //
-// Its weaknesses are the published ones: boxes are shared out by way and never again, empty volume is explored like any
-// other, photographers begin late, and pictures are taken in motion. That a team with nothing left to do goes on to the
-// boxes of others (`helps`) is ours. `faithful` brings back what else the sources tell or leave out: photographers
-// without surface hover for ever where they are, out of sight as they may be; an explorer that has seen everything is
-// done (`explorers_inspect` wins over that), and a team without a box has nothing to do; UAVs of one team plan without
-// regard to where the others are about to work. Collisions at the start, which are published, are not brought back.
-// Not published for this contest, and so our choice: all numbers (config.hpp), the messages, and how it is flown: by
-// the flight core (flight_core/flight_core.hpp).
+// Its weaknesses are the published ones: boxes are assigned once, by path length; empty volume is explored like any
+// other; photographers begin late; and pictures are taken in motion. Our addition: a team without work helps with the
+// boxes of others (`helps`). `faithful` switches our additions off: photographers without surface to inspect hover
+// where they are for ever, even out of line of sight; an explorer that has explored its boxes is done (unless
+// `explorers_inspect`), and a team without a box has nothing to do; UAVs plan without regard to where the others are
+// about to work. The published collisions at the start are not reproduced.
+// Not published for this contest, and so our choice: all numbers (config.hpp), the messages, and that the flight core
+// does the flying (flight_core/flight_core.hpp).
 #include <algorithm>
 
 #include "uav_agent/api/planner.hpp"
@@ -30,13 +30,13 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kLookAtMapS = 1.0;        ///< between two looks at the map
-constexpr std::uint64_t kCameraSteps = 4;  ///< exchanges between two looks at what the camera saw
-constexpr double kReachedM = 1.0;          ///< a place is reached this near to it
-constexpr std::size_t kCandidates = 3;     ///< first places offered in one plan
-constexpr int kMaxApproaches = 4;          ///< to a box
-constexpr std::size_t kSidesApart = 3;     ///< between two of them, of twelve
-constexpr double kCarefulS = 10.0;         ///< after something was in the way, the flight core finds all ways
+constexpr double kLookAtMapS = 1.0;        ///< time between two looks at the map
+constexpr std::uint64_t kCameraSteps = 4;  ///< exchanges between two updates from the camera's view
+constexpr double kReachedM = 1.0;          ///< a place nearer than this counts as reached
+constexpr std::size_t kCandidates = 3;     ///< routes offered in one plan, each with another first place
+constexpr int kMaxApproaches = 4;          ///< approaches to a box in which no frontier was found
+constexpr std::size_t kSidesApart = 3;     ///< sides between two approaches, of twelve sides
+constexpr double kCarefulS = 10.0;         ///< after a blocked route, the flight core searches all paths for so long
 
 }  // namespace
 
@@ -54,7 +54,7 @@ class StarPlanner final : public Planner {
   PlannerOutput plan(const PlannerInput& in) override;
 
  private:
-  /// What it offers to fly to, one after the other: views, or goals, or a place beside a box.
+  /// A sequence of places offered to the flight core: of views, or of goals, or one place beside a box.
   struct Route {
     std::int64_t id = 0;
     std::vector<StarView> views = {};
@@ -93,20 +93,20 @@ class StarPlanner final : public Planner {
   StarTalk talk_;
   StarCamera camera_;
 
-  std::optional<StarKnowledge> known_;  ///< once the boxes have come, as all that follows
-  std::vector<std::size_t> team_;       ///< its explorer first
+  std::optional<StarKnowledge> known_;  ///< set when the boxes have arrived, like all that follows
+  std::vector<std::size_t> team_;       ///< indices in the fleet, the explorer first
   std::vector<std::size_t> boxes_;      ///< of the team, in the order of visit
 
-  std::size_t at_box_ = 0;  ///< index into boxes_; the end: explored
-  int approaches_ = 0;      ///< to this box
-  bool been_there_ = false;
+  std::size_t at_box_ = 0;   ///< index into boxes_; boxes_.size(): all are explored
+  int approaches_ = 0;       ///< approaches to this box so far
+  bool been_there_ = false;  ///< this box has or had frontiers, or its approaches are used up
   bool helps_others_ = false;
-  std::vector<Route> routes_;  ///< offered to the flight core, which flies the first
-  std::int64_t id_ = 0;        ///< of the last one that was offered
+  std::vector<Route> routes_;  ///< offered to the flight core, which flies the first that it can reach
+  std::int64_t id_ = 0;        ///< id of the last route that was offered
   std::optional<Vector3d> last_cluster_W_;
   Tick planned_at_ = 0, careful_until_ = 0;
   std::optional<Tick> idle_since_;
-  std::size_t rounds_ = 0;  ///< after times without anything to do
+  std::size_t rounds_ = 0;  ///< how often the UAV looked elsewhere for work after a wait
 };
 
 std::vector<Vector3d> StarPlanner::Route::places_W() const {
@@ -144,7 +144,7 @@ StarTourConfig StarPlanner::tour_config() const {
           .effort = static_cast<std::size_t>(config_.effort)};
 }
 
-/// The teams, and all that follows from the boxes.
+/// Sets up the teams and everything else that depends on the boxes.
 void StarPlanner::survey_site(const PlannerInput& in) {
   const StarShare share{.volume_weight = config_.volume_weight, .objective = config_.share};
   const StarTeam team = own_team(agent_.fleet, agent_.self, in.boxes, share, *config_.helps);
@@ -159,7 +159,7 @@ void StarPlanner::look_around(const PlannerInput& in) {
   if (agent_.due(in.k, kLookAtMapS, agent_.self)) known_->look_at_map(*in.world_map, in.state.p_WB);
 }
 
-/// A route that came to nothing is put off, and so are those before it, which were tried first.
+/// A failed route is put off, and removed together with those before it, which the flight core has tried before.
 void StarPlanner::take_note(const Outcome& outcome, const PlannerInput& in) {
   const auto ended = std::ranges::find(routes_, outcome.id, &Route::id);
   if (ended == routes_.end()) return;
@@ -174,8 +174,8 @@ void StarPlanner::put_off(const Route& route, const PlannerInput& in) {
   if (!route.goals.empty()) known_->explorer().failed(route.goals.front(), in.tick);
 }
 
-/// Whether the first of what it flies to has been seen to, by whomever, or reached. What could not be seen to from
-/// there is put off: it does not stop for it.
+/// Whether the first target of the route is done, by any UAV, or its place is reached. A target that is reached but not
+/// done is put off: the UAV does not stop for it.
 bool StarPlanner::target_done(const PlannerInput& in) {
   Route& route = routes_.front();
   if (route.beside_W) return false;
@@ -189,7 +189,7 @@ bool StarPlanner::target_done(const PlannerInput& in) {
   return true;
 }
 
-/// Plans anew now and then, or when something is done; the way goes on without a stop.
+/// Plans again every replan_s, or sooner when the target is done; the flight goes on without a stop.
 void StarPlanner::carry_on(const PlannerInput& in, PlannerOutput& out) {
   const double since = seconds(in.tick - planned_at_);
   const bool done = routes_.empty() || target_done(in);
@@ -207,7 +207,7 @@ void StarPlanner::decide(const PlannerInput& in, PlannerOutput& out) {
   }
 }
 
-/// On through the frontiers of this box; when there is none left, on to the next box.
+/// Offers routes through the frontiers of the current box; if none is left, goes on to the next box.
 void StarPlanner::explore(const PlannerInput& in, PlannerOutput& out) {
   StarStart start{in.tracking.setpoint.p_WB, in.tracking.setpoint.v_WB, {}};
   start.mates_W = talk_.goals_W(in.tick);
@@ -226,7 +226,7 @@ void StarPlanner::explore(const PlannerInput& in, PlannerOutput& out) {
   offer(std::move(routes), config_.explore_mps, in, out);
 }
 
-/// On through the viewpoints of surface that is left. @returns false if there is none.
+/// Offers routes through the viewpoints of surface left to inspect. @returns false if there is none.
 bool StarPlanner::inspect(const PlannerInput& in, PlannerOutput& out) {
   const Vector3d here = in.tracking.setpoint.p_WB;
   const std::vector<StarView> views = known_->views(*in.space, here, in.tick);
@@ -246,14 +246,14 @@ bool StarPlanner::inspect(const PlannerInput& in, PlannerOutput& out) {
   return true;
 }
 
-/// To a place beside a box of which nothing is known yet.
+/// Offers places beside a box of which the map shows no frontier that can be explored.
 void StarPlanner::approach(const PlannerInput& in, std::size_t box, PlannerOutput& out) {
   if (++approaches_ > kMaxApproaches) {
     been_there_ = true;
     return;
   }
   const auto places = places_beside(in.boxes[box], *in.space, in.tracking.setpoint.p_WB);
-  // From another side each time.
+  // Each approach comes from another side.
   const std::size_t first_side = kSidesApart * static_cast<std::size_t>(approaches_ - 1) + rounds_;
   std::vector<Route> routes;
   for (std::size_t i = 0; i < std::min(places.size(), kCandidates); ++i) {
@@ -262,8 +262,8 @@ void StarPlanner::approach(const PlannerInput& in, std::size_t box, PlannerOutpu
   offer(std::move(routes), config_.flight.approach_mps, in, out);
 }
 
-/// Hovers until new surface comes. Where none comes for a while, photographers go where their explorer is, and
-/// explorers look at their boxes from other sides.
+/// Hovers until there is new surface to inspect. If there is none for follow_s, a photographer flies to its explorer's
+/// box or one of the team's, in turn, and an explorer begins one of its boxes again.
 void StarPlanner::idle(const PlannerInput& in, PlannerOutput& out) {
   if (!routes_.empty() && routes_.front().beside_W) return;
   if (!idle_since_) idle_since_ = in.tick;
@@ -284,13 +284,13 @@ void StarPlanner::idle(const PlannerInput& in, PlannerOutput& out) {
   approach(in, box, out);
 }
 
-/// Its explorer has seen everything in its boxes, or is at another team's already.
+/// Whether the team's explorer has explored all its boxes, or works on another team's already.
 bool StarPlanner::team_is_done() const {
   const auto word = talk_.word(team_.front());
   return has_lidar() || (word && (word->explored || std::ranges::count(boxes_, word->box) == 0));
 }
 
-/// On to the boxes of the others, the nearest first.
+/// Adds the other teams' boxes to the team's, nearest first; an explorer begins the first of them.
 void StarPlanner::help_others(const PlannerInput& in) {
   helps_others_ = true;
   const auto is_own = [&](std::size_t box) { return std::ranges::count(boxes_, box) > 0; };
@@ -306,7 +306,7 @@ void StarPlanner::help_others(const PlannerInput& in) {
   begin_box(has_lidar() ? own : boxes_.size());
 }
 
-/// Photographers wait for what their explorer finds, and it for the first of them to be done.
+/// The team member that this UAV waits for: a photographer for its explorer, an explorer for its first photographer.
 std::optional<std::size_t> StarPlanner::awaited() const {
   if (team_.size() < 2) return std::nullopt;
   return team_[has_lidar() ? 1 : 0];
@@ -319,13 +319,13 @@ void StarPlanner::begin_box(std::size_t box) {
   routes_.clear();
 }
 
-/// It is here that it wants to be: without any goal, the flight core would look for a way out.
+/// Makes the present place the goal: without any goal, the flight core would begin a recovery behaviour.
 void StarPlanner::hover(const PlannerInput& in, PlannerOutput& out) {
   routes_.clear();
   out.goals = std::vector<Goal>{{.id = ++id_, .way = {{in.tracking.setpoint.p_WB, config_.inspect_mps}}}};
 }
 
-/// Hands routes over to the flight core, what it likes best first.
+/// Offers routes to the flight core as goals, best first.
 void StarPlanner::offer(std::vector<Route> routes, double speed_mps, const PlannerInput& in, PlannerOutput& out) {
   std::vector<Goal> goals;
   for (Route& route : routes) goals.push_back(goal_of(route, goals.empty(), speed_mps, in));
@@ -333,7 +333,8 @@ void StarPlanner::offer(std::vector<Route> routes, double speed_mps, const Plann
   out.goals = std::move(goals);
 }
 
-/// Straight through its places, as far as that goes; where it does not, the flight core finds a way to the first.
+/// A goal that leads straight through the route's places, as far as possible. If the first place cannot be reached
+/// straight, the flight core searches a path to it.
 Goal StarPlanner::goal_of(Route& route, bool is_first, double speed_mps, const PlannerInput& in) {
   const StarWayConfig config{.round_m = config_.round_m,
                              .horizon_m = config_.horizon_m,
@@ -348,15 +349,15 @@ Goal StarPlanner::goal_of(Route& route, bool is_first, double speed_mps, const P
     goal.way = star_way(*in.space, places.front(), {places.begin() + 1, places.end()}, config);
     goal.way.insert(goal.way.begin(), {places.front(), config_.flight.approach_mps});
   }
-  // The flight core goes on along a way that it flies already, without a stop, and begins any other one here.
+  // A goal with the id of the current one continues its flight without a stop; any other goal begins here.
   const bool goes_on = is_first && in.flight.goal && (is_straight || !in.flight.on_way);
   if (is_straight && !(goes_on && in.flight.on_way)) goal.way.insert(goal.way.begin(), {here, speed_mps});
   goal.id = route.id = goes_on ? *in.flight.goal : ++id_;
   return goal;
 }
 
-/// Photographers look at what they fly to, explorers at what they explore, or, if they inspect, at surface that they
-/// pass.
+/// Points the camera: on the way to a view at its surface; otherwise, if the UAV inspects, at surface that it passes,
+/// or else at the frontier that it explores.
 void StarPlanner::point_camera(const PlannerInput& in, PlannerOutput& out) {
   if (!in.tracking.airborne) return;
   if (!routes_.empty() && !routes_.front().views.empty()) {

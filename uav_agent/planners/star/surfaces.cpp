@@ -12,15 +12,15 @@ namespace {
 
 using Id = VoxelGrid::Id;
 
-constexpr double kTilt = 0.8;          ///< slope by which a candidate leaves the face's normal
-constexpr double kEnoughShare = 0.85;  ///< of a patch in sight: no better viewpoint is looked for
-constexpr double kImageShare = 0.95;   ///< of the image's half angles that counts
-constexpr double kNearShare = 0.75;    ///< of the stand-off: the other distance that is tried
-constexpr double kSpareM = 0.3;        ///< beside the clearance, from a viewpoint to its surface
-constexpr std::size_t kMostTried = 4;  ///< patches, for each viewpoint that a plan may have
+constexpr double kTilt = 0.8;          ///< slope of a tilted viewpoint's direction against the face's normal
+constexpr double kEnoughShare = 0.85;  ///< share of a patch in sight that suffices: the search ends there
+constexpr double kImageShare = 0.95;   ///< share of the image's half angles in which surface counts as seen
+constexpr double kNearShare = 0.75;    ///< second distance that is tried, as a share of the stand-off
+constexpr double kSpareM = 0.3;        ///< distance from a viewpoint to its surface, beyond the clearance
+constexpr std::size_t kMostTried = 4;  ///< most patches tried, per viewpoint that a plan may have
 constexpr int kMostFailures = 12;
 
-/// Its outer side is not covered by known surface.
+/// Whether no occupied cube covers the face; false at the grid's boundary.
 bool exposed(const VoxelGrid& grid, Id id, int face) {
   const auto outside = grid.neighbour(id, face);
   return outside && grid.state(*outside) != VoxelState::occupied;

@@ -1,11 +1,11 @@
-// Surface that is known and not inspected yet, as STAR's photographers see it: marks what was in the picture, cuts what
-// is left into patches, and finds for each the viewpoint from which most of it is seen. A mark is a face of an occupied
-// cube (voxel_grid.hpp) and travels with the map.
+// Surface that STAR's photographers have to inspect: marks the surface that was in the picture, divides the rest into
+// patches, and finds for each patch the viewpoint from which most of it is seen. Marks belong to the faces of occupied
+// cubes (voxel_grid.hpp) and are sent with the map.
 // Frames: W world, C camera.   Units: SI and radians.   Threads: one.   Effort: bounded by counts.
 // Source: paper ("surfaces are detected and clustered", "viewpoints are generated and selected accordingly");
-// viewpoints before a face at five tilts are our choice. What was in the picture counts from near enough and not too
-// obliquely (`seen_ratio`, `oblique_deg`), however blurred: nothing is known of any care for quality, and the published
-// quality is low.
+// viewpoints before a face at five tilts are our choice. Surface in the picture counts as inspected if it was near
+// enough and not too oblique (`seen_ratio`, `oblique_deg`), however blurred: the sources mention no check of quality,
+// and the published quality is low.
 #pragma once
 
 #include <vector>
@@ -16,45 +16,45 @@
 
 namespace skein::agent {
 
-/// A place to look at a patch of surface from.
+/// A viewpoint of a patch of surface.
 struct StarView {
   Vector3d p_WB = Vector3d::Zero();
   Vector3d surface_W = Vector3d::Zero();  ///< middle of the patch
-  std::vector<std::uint32_t> faces = {};  ///< of the patch: 6 * cube + face
+  std::vector<std::uint32_t> faces = {};  ///< faces of the patch, as 6 * cube + face
 };
 
 class StarSurfaces {
  public:
   struct Config {
     double sharp_m = 7.36;        ///< d*
-    double standoff_ratio = 0.7;  ///< in units of d*
-    double seen_ratio = 1.0;      ///< seen from so near, in units of d*, ...
-    double oblique = 1.2;         ///< ... and no flatter than this, it is inspected
-    double patch_m = 6.0;
+    double standoff_ratio = 0.7;  ///< distance of a viewpoint to the surface, in units of d*
+    double seen_ratio = 1.0;      ///< a surface seen from within this, in units of d*, ...
+    double oblique = 1.2;         ///< ... and within this angle of its normal, is inspected
+    double patch_m = 6.0;         ///< largest extent of a patch
     std::size_t max_views = 150;
-    double retry_s = 10.0;   ///< before a face whose viewpoint was out of reach is tried again
-    double no_view_s = 3.0;  ///< the same without a viewpoint: more space may have been proved
+    double retry_s = 10.0;   ///< wait before a face is tried again, times failures to reach its viewpoint
+    double no_view_s = 3.0;  ///< wait for a face without a viewpoint: more space may be proved free by then
   };
 
-  /// @param grid  for its size.
+  /// @param grid  only its size is used.
   StarSurfaces(const Config& config, const VehicleConfig& vehicle, const VoxelGrid& grid)
       : config_(config), vehicle_(vehicle), failures_(VoxelGrid::kFaces * std::size_t{grid.count()}) {}
 
-  /// Marks what the camera sees now.
+  /// Marks the surface that the camera sees now.
   void mark_seen(const RigidBodyState& state, const GimbalState& gimbal, const WorldVoxels& voxels,
                  VoxelGrid& grid) const;
 
-  /// Viewpoints of what is left, of the patches nearest to `p_W`.
-  /// @param cubes  that are somebody's business here.
+  /// Viewpoints for the surface left to inspect, for the patches nearest to `p_W`.
+  /// @param cubes  the cubes that this UAV's team works on.
   std::vector<StarView> views(const VoxelGrid& grid, const std::vector<VoxelGrid::Id>& cubes, const WorldVoxels& voxels,
                               const FreeSpace& space, const Vector3d& p_W, Tick now);
 
   /// Whether more than half of a patch is still to be inspected.
   static bool open(const VoxelGrid& grid, const StarView& view);
-  /// The middle of the nearest surface in sight that was not inspected; nullopt: none within range.
+  /// The nearest surface in sight that was not inspected yet; nullopt: none within the range of inspection.
   std::optional<Vector3d> nearest_open_W(const VoxelGrid& grid, const WorldVoxels& voxels, const Vector3d& p_W) const;
 
-  /// It could not be reached: something else first.
+  /// The view could not be reached: views() leaves its faces out for a while (Config::retry_s).
   void failed(const StarView& view, Tick now);
 
  private:

@@ -1,8 +1,8 @@
-// What STAR's UAVs tell each other on /plan: how far they are, where they go, and the map with the surface that was
-// inspected (map_exchange).
-// Frame W.   Units: SI.   Threads: one.   Bounded: one message now and then, see uav_agent/api/payload.hpp.
+// The messages of STAR's UAVs on /plan: the sender's progress and goal, and its map with the marks of inspected surface
+// (map_exchange).
+// Frame W.   Units: SI.   Threads: one.   Bounded: one message per share_s, size in uav_agent/api/payload.hpp.
 // Source: paper (map chunks as in RACER; inspected surfaces shared among photographers); the format, and that all UAVs
-// hear it and not just the team, is our choice.
+// use the messages and not just the team, is our choice.
 #pragma once
 
 #include <map>
@@ -16,29 +16,29 @@ namespace skein::agent {
 class StarTalk {
  public:
   struct Config {
-    double share_s = 0.5;   ///< between two messages
-    double forget_s = 5.0;  ///< a goal that was told longer ago is no goal
+    double share_s = 0.5;   ///< time between two messages
+    double forget_s = 5.0;  ///< age at which another UAV's goal no longer counts
   };
 
-  /// What one UAV said last.
+  /// Content of a UAV's message.
   struct Word {
-    bool explored = false;           ///< it sees no frontier any more, or has nothing to explore with
-    std::size_t box = 0;             ///< that it is at
+    bool explored = false;           ///< it has explored all its boxes, or has no LiDAR
+    std::size_t box = 0;             ///< index of the box where it works
     std::optional<Vector3d> goal_W;  ///< where it is about to work
-    Tick heard = 0;
+    Tick heard = 0;                  ///< when it was received
   };
 
   /// @param agent  must outlive this.
   StarTalk(const Config& config, const AgentConfig& agent);
 
-  /// Takes what arrived, the others' maps into `grid`.
+  /// Reads the received messages, and merges the other UAVs' maps into `grid`.
   void listen(const PlannerInput& in, VoxelGrid& grid);
-  /// When it is time, says `own` and the map.
+  /// Sends `own` and the map, if a message is due.
   void speak(const PlannerInput& in, const VoxelGrid& grid, const Word& own, PlannerOutput& out);
 
-  /// nullopt: never heard.
+  /// The last message of a UAV; nullopt: none was received.
   std::optional<Word> word(std::size_t uav) const;
-  /// Where others are about to work.
+  /// Where other UAVs are about to work.
   std::vector<Vector3d> goals_W(Tick now) const;
 
  private:

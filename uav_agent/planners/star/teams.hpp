@@ -1,9 +1,9 @@
-// Who works with whom, and where: STAR's balanced teams and its assignment of boxes to teams. Everybody computes the
-// same from the fleet and the boxes; no message is needed, and nothing is ever shared out anew, however unequal the
-// work turns out to be (the published weakness).
+// STAR's balanced teams and its assignment of boxes to teams. Every UAV computes the same result from the fleet and the
+// boxes; no message is needed. The assignment never changes, however unequal the work turns out to be (the published
+// weakness).
 // Frame W.   Units: metres.   Pure and deterministic.
 // Source: paper, "Team Formation" and "Task Assignment" ("minimize the overall travel distance"); the weight of volume
-// against way is our choice.
+// against path length is our choice.
 #pragma once
 
 #include <vector>
@@ -18,24 +18,25 @@ struct StarTeam {
   std::vector<std::size_t> boxes;  ///< in the order of visit
 };
 
-/// Photographers join the nearest explorer that has room, nearest pair first; a team has room for
-/// ceil(photographers / explorers). A fleet without explorers makes a team of each UAV.
+/// Photographers join the nearest explorer whose team is not full, nearest pair first; a team is full with
+/// ceil(photographers / explorers) photographers. In a fleet without explorers, each UAV is a team.
 std::vector<StarTeam> star_teams(const std::vector<FleetMember>& fleet);
 
-/// How boxes are shared out.
+/// How boxes are assigned to teams.
 struct StarShare {
-  double volume_weight = 0.005;  ///< metres of way that a cubic metre of box counts for
+  double volume_weight = 0.005;  ///< cost of a box: metres of path per cubic metre
   FleetTourObjective objective = FleetTourObjective::total;
 };
 
-/// Shares the boxes out: a multiple travelling salesmen problem of the teams' first UAVs over the boxes' centres, in
-/// which a box costs its volume times `volume_weight` beside the way to it. Where there are as many boxes as teams,
-/// each team has one (with `longest`: mostly). The sum of all tours has all volumes in it, whoever gets which.
+/// Assigns the boxes to the teams: a multiple travelling salesmen problem of the teams' first UAVs over the boxes'
+/// centres, in which a box costs its volume times `volume_weight` in addition to the path to it. If there are at least
+/// as many boxes as teams, each team gets one (with `longest`: mostly). With `total`, the volumes do not influence the
+/// assignment: the sum of all tours always contains all of them.
 void share_boxes(const std::vector<FleetMember>& fleet, const std::vector<OrientedBox>& boxes, const StarShare& share,
                  std::vector<StarTeam>& teams);
 
 /// The team of one UAV, with its boxes.
-/// @param helps  a team that got no box works on everybody's.
+/// @param helps  a team that got no box works on all boxes.
 StarTeam own_team(const std::vector<FleetMember>& fleet, std::size_t self, const std::vector<OrientedBox>& boxes,
                   const StarShare& share, bool helps);
 

@@ -9,7 +9,7 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kMovingMps = 0.3;  ///< slower than this, there is no direction to keep
+constexpr double kMovingMps = 0.3;  ///< a slower UAV has no direction to keep
 
 double turn_between(const Vector3d& v_W, const Vector3d& way_W) {
   if (v_W.norm() < kMovingMps || way_W.norm() < 1e-6) return 0.0;

@@ -8,7 +8,7 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kFarM = 15.0;  ///< a longer way to the first place is flown fast
+constexpr double kFarM = 15.0;  ///< a first place farther away is approached with transit_mps
 
 }  // namespace
 

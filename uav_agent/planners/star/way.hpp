@@ -1,8 +1,8 @@
-// Ways through STAR's viewpoints: straight from one to the next without a stop, corners rounded. Ways around anything
-// are the flight core's business.
+// Paths through STAR's viewpoints: straight from one to the next without a stop, with rounded corners. Paths around
+// obstacles are left to the flight core.
 // Frame W.   Units: SI.   Pure and deterministic.   Effort: bounded by counts.
 // Source: Fast-Planner's trajectories are a search and a B-spline; here the flight core searches, and rounding.hpp and
-// the tracker make it smooth. All numbers are our choice.
+// the tracker make the path smooth. All numbers are our choice.
 #pragma once
 
 #include <vector>
@@ -13,14 +13,14 @@
 namespace skein::agent {
 
 struct StarWayConfig {
-  double round_m = 2.0;     ///< how far from a corner it may be cut off
-  double horizon_m = 20.0;  ///< beyond, nothing is laid out
+  double round_m = 2.0;     ///< how far from a corner the path may leave it to round it
+  double horizon_m = 20.0;  ///< the path ends at the first place beyond this length
   double speed_mps = 2.0;
-  double transit_mps = 5.0;  ///< on a long way to the first place
+  double transit_mps = 5.0;  ///< speed to a first place that is far away
 };
 
-/// From `from_W` through the places, as many as can be flown to straight, one after the other. Empty: not even the
-/// first.
+/// A path from `from_W` through the first places, as many as can be reached in straight free segments, up to the
+/// horizon. Empty: not even the first one can.
 std::vector<Waypoint> star_way(const FreeSpace& space, const Vector3d& from_W, const std::vector<Vector3d>& places_W,
                                const StarWayConfig& config);
 

@@ -1,5 +1,5 @@
 // Parameters of the XXH planner (xxh.cpp) and of its program at the ground station: --planner xxh:voxel_m=3,rim_m=5.
-// Where the sources give a number, it is the default; the table in docs/strategies.md tells which those are.
+// The table in docs/strategies.md gives the source of each default: paper, public code or our choice.
 // Units: SI unless the name says otherwise.
 #pragma once
 
@@ -12,9 +12,9 @@
 
 namespace skein::agent {
 
-/// In which order the cells of a layer are visited.
+/// Order in which the cells of a layer are visited.
 enum class XxhOrder {
-  spiral,   ///< once around the region, as the explorer flies; the paper
+  spiral,   ///< once around the region, in the explorer's direction; the paper
   nearest,  ///< the nearest one first; the public code
 };
 
@@ -22,9 +22,9 @@ constexpr std::array<EnumName<XxhOrder>, 2> enum_names(XxhOrder) {
   return {{{"spiral", XxhOrder::spiral}, {"nearest", XxhOrder::nearest}}};
 }
 
-/// At which end of its longest edge an upright region is begun.
+/// End of the longest edge at which a team begins an upright region.
 enum class XxhBegin {
-  base,  ///< at its foot, unless no place there is proved to be free: then at its top; the paper
+  base,  ///< at its foot; at its top if no place at the foot is proved free; the paper
   path,  ///< where the path along all boxes enters it; the public code
 };
 
@@ -32,9 +32,9 @@ constexpr std::array<EnumName<XxhBegin>, 2> enum_names(XxhBegin) {
   return {{{"base", XxhBegin::base}, {"path", XxhBegin::path}}};
 }
 
-/// Where a team waits beside its region's entry.
+/// Where a UAV waits beside its region's entry.
 enum class XxhWaitAt {
-  sight,  ///< at the height from which most of the explorer's way is in sight; the paper
+  sight,  ///< at the height from which it sees most of the explorer's path; the paper
   entry,  ///< as low as it can; the public code
 };
 
@@ -42,50 +42,50 @@ constexpr std::array<EnumName<XxhWaitAt>, 2> enum_names(XxhWaitAt) {
   return {{{"sight", XxhWaitAt::sight}, {"entry", XxhWaitAt::entry}}};
 }
 
-/// Parameters without a value of their own have one by `faithful`, told behind them: resolved() fills them in.
+/// An optional parameter has two defaults, named in its comment: for faithful=false, true. resolved() fills them in.
 struct XxhConfig {
   // The assignment at the ground station.
-  double freeze_s = 10.0;  ///< without a new reporter, after which the list of UAVs is closed
+  double freeze_s = 10.0;  ///< time without a new report after which the list of UAVs is closed
   std::optional<bool> reported_only =
-      {};                           ///< false, true: it stays open for so long, and who did not report is left out
-  double assign_every_s = 0.5;      ///< between two publications, as long as somebody lacks the assignment
-  double assignment_wait_s = 15.0;  ///< after which a UAV makes the assignment itself
-  double split_tolerance = 0.05;    ///< of the whole volume: how far a team's share may be off before a box is cut
-  std::optional<int> rounds = {};   ///< 8, 1: through all regions, since early ones may have found no way
+      {};                           ///< false, true: waits so long even if all have reported, and leaves out the others
+  double assign_every_s = 0.5;      ///< between two publications, as long as a UAV lacks the assignment
+  double assignment_wait_s = 15.0;  ///< after which a UAV computes the assignment itself
+  double split_tolerance = 0.05;    ///< allowed error of a team's share, in shares of all volume; else a box is cut
+  std::optional<int> rounds = {};   ///< 8, 1: rounds through all regions: an early one may find places unreachable
 
   // The voxel map of a region.
-  double voxel_m = 2.5, margin_m = 6.0;  ///< edge of a cell; around the region
+  double voxel_m = 2.5, margin_m = 6.0;  ///< edge of a cell; margin around the region
 
   // Exploring.
-  double rim_m = 4.0;                     ///< from the box to the spiral around it
-  int spiral_step = 6;                    ///< layers between two turns of it
+  double rim_m = 4.0;                     ///< distance from the box to the spiral around it
+  int spiral_step = 6;                    ///< layers between two turns of the spiral
   std::optional<XxhBegin> begin = {};     ///< base, path
-  std::optional<bool> first_turn = {};    ///< false, true: of each section the first turn of the spiral alone
-  std::optional<double> retry_s = {};     ///< 30, 0: to come to some place of a section
-  std::optional<double> time_share = {};  ///< 0.4, 0: of the time left, for all sections together; 0: no limit
+  std::optional<bool> first_turn = {};    ///< false, true: only the first turn of the spiral in each section
+  std::optional<double> retry_s = {};     ///< 30, 0: for this long tries again, if no place of a section was reached
+  std::optional<double> time_share = {};  ///< 0.4, 0: of the remaining time, for all sections together; 0: no limit
   double explore_mps = 4.0;
   std::optional<XxhWaitAt> wait_at = {};  ///< sight, entry
 
   // Inspecting.
-  std::optional<int> layer_step = {};       ///< 1, 3: every so many layers one is inspected
+  std::optional<int> layer_step = {};       ///< 1, 3: number of layers of which one is inspected
   std::optional<XxhOrder> order = {};       ///< spiral, nearest
-  double standoff_ratio = 0.6;              ///< distance to the surface, in units of d*, if clearance and cell allow it
-  double aim_rad = 0.3;                     ///< a target is reached when the camera is this near to its direction
-  double settle_mps = 0.4;                  ///< and the UAV slower than this
-  double dwell_s = 0.3;                     ///< pictures of a target once it is reached
-  double cell_s = 3.0;                      ///< at one cell, at most
-  std::optional<double> leader_share = {};  ///< 0.5, 1: of the layers, in units of each follower's: it begins last
+  double standoff_ratio = 0.6;              ///< distance to the surface, in units of d*, where there is room
+  double aim_rad = 0.3;                     ///< a target is reached if the camera is this near to its direction ...
+  double settle_mps = 0.4;                  ///< ... and the UAV slower than this
+  double dwell_s = 0.3;                     ///< time for the pictures of a target once it is reached
+  double cell_s = 3.0;                      ///< longest time at one cell
+  std::optional<double> leader_share = {};  ///< 0.5, 1: of the layers, in units of a follower's; it begins last
 
   // The team.
-  double share_s = 0.5;                     ///< between two messages
-  std::optional<double> claim_s = {};       ///< 3, never: age at which a shared trajectory no longer counts
-  std::optional<bool> all_give_way = {};    ///< false, true: to what is announced, also by those who come later
-  std::optional<double> silence_s = {};     ///< 45, never: nothing heard of somebody for so long: it is not waited for
-  std::optional<double> gather_s = {};      ///< 60, never: the leader waits for the last ones of its team
-  std::optional<double> hand_over_s = {};   ///< 25, never: it looks for those who have not heard their order
-  std::optional<double> look_again_s = {};  ///< 10, never: between two times that who waits goes over its section again
+  double share_s = 0.5;                     ///< time between two messages
+  std::optional<double> claim_s = {};       ///< 3, never: age at which an announced trajectory expires
+  std::optional<bool> all_give_way = {};    ///< false, true: UAVs with priority avoid announced trajectories, too
+  std::optional<double> silence_s = {};     ///< 45, never: silence of a UAV after which others do not wait for it
+  std::optional<double> gather_s = {};      ///< 60, never: longest wait of the leader for the last of its team
+  std::optional<double> hand_over_s = {};   ///< 25, never: the same for members that have not received their order
+  std::optional<double> look_again_s = {};  ///< 10, never: between two more passes of a waiting UAV over its section
 
-  bool faithful = false;  ///< as the public code, with its known defects
+  bool faithful = false;  ///< like the public code, with its known defects
   FlightConfig flight = {};
 
   XxhConfig resolved() const;

@@ -9,7 +9,7 @@ namespace skein::agent {
 void XxhErrand::listen(const PlannerInput& in) {
   missed_.clear();
   ended_.reset();
-  // A UAV that the core has called away, to bring captures home perhaps, chooses anew afterwards.
+  // When the flight core does something else, such as a return-to-link, the UAV chooses again afterwards.
   if (!in.flight.working) drop();
   for (const Outcome& outcome : in.flight.outcomes) {
     const auto i = index(outcome.id);

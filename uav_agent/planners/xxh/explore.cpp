@@ -5,14 +5,14 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kPassedM = 3.0;     ///< so near, a place counts as passed
-constexpr std::size_t kChain = 12;   ///< places that are flown in one go
-constexpr std::size_t kChoices = 3;  ///< places from which on a way may begin
-constexpr int kShifts = 2;           ///< of a place, outwards
+constexpr double kPassedM = 3.0;     ///< a place nearer than this counts as passed
+constexpr std::size_t kChain = 12;   ///< most places in one goal
+constexpr std::size_t kChoices = 3;  ///< most goals offered, each beginning at another place
+constexpr int kShifts = 2;           ///< most shifts of a place outwards
 constexpr double kShiftM = 4.0;
-constexpr double kInwardsShare = 0.6;  ///< of the box: what the camera looks at
+constexpr double kInwardsShare = 0.6;  ///< size of the part of the box that the camera looks at
 
-/// The nearest place in a box, made smaller about its middle.
+/// The nearest point of a box that is scaled by `share` about its middle.
 Vector3d nearest_in_box(const OrientedBox& box, const Vector3d& p_W, double share) {
   const Vector3d inside = 0.5 * share * box.size;
   const Vector3d p_O = (box.R_WO.transpose() * (p_W - box.center)).cwiseMax(-inside).cwiseMin(inside);

@@ -1,8 +1,8 @@
-// The exploration of XXH: an explorer's way along the spiral around a section of a region, the camera inwards.
+// The exploration of XXH: flies an explorer along the spiral around a section of a region, with the camera inwards.
 // Frame W.   Units: SI.   Threads: one.
-// Source: paper, "Exploration Strategy" of Team XXH. Our choice: places in other boxes or in structure are brought
-// farther out or left out; what cannot be reached is tried once more at the end; a section that is seen to hold nothing
-// is not flown around.
+// Source: paper, "Exploration Strategy" of Team XXH. Our choice: places in other boxes or in structure are moved
+// outwards or left out; a place that cannot be reached is tried once more at the end; a section that the map shows to
+// be empty is left out.
 #pragma once
 
 #include <deque>
@@ -16,23 +16,23 @@ namespace skein::agent {
 
 class XxhExplorer {
  public:
-  /// Must outlive this.
+  /// @param config  must outlive this.
   explicit XxhExplorer(const XxhConfig& config) : config_(config) {}
 
-  /// @param at_most_s  to be spent on this section.
+  /// Begins a section.   @param at_most_s  time limit for the section.
   void begin(const XxhRegionMap& region, const XxhRegionMap::Section& section, double at_most_s,
              const PlannerInput& in);
   void stop();
-  /// No time is left for this section.
+  /// Whether the time limit of the section has passed.
   bool late(const PlannerInput& in) const { return *config_.time_share > 0.0 && in.tick > until_; }
-  /// Been everywhere, or no time is left. Who came to no place at all begins again for a while.
+  /// Whether the section is done, or its time has passed. If no place was reached, begins again, for up to retry_s.
   bool finished(const XxhRegionMap& region, const PlannerInput& in);
 
-  /// Once per exchange: turns the camera inwards, and takes note of what was passed.
+  /// Turns the camera inwards, and removes places that were passed. Call it once per exchange.
   void look_inwards(const XxhRegionMap& region, const PlannerInput& in, PlannerOutput& out);
-  /// Likewise: hears what became of the choices that it gave.
+  /// Reads the outcomes of the choices that it gave. Call it once per exchange.
   void hear(const XxhErrand& errand);
-  /// Ways along the places that are left: the first one from the next place on, the others from those after it.
+  /// Goals along the places that are left: the first one begins at the next place, the others at the places after it.
   std::vector<Goal> choices(const FreeSpace& space);
 
  private:
@@ -40,13 +40,13 @@ class XxhExplorer {
   void put_off(const Vector3d& place_W);
 
   const XxhConfig& config_;
-  std::deque<Vector3d> places_;   ///< what is left of the spiral
-  std::deque<Vector3d> put_off_;  ///< could not be reached yet
-  bool again_ = false;            ///< has begun with those
-  bool got_nowhere_ = false;      ///< there were places, and it came to none of them
-  bool passed_ = false;           ///< some place, since it set out
+  std::deque<Vector3d> places_;   ///< places of the spiral that are left
+  std::deque<Vector3d> put_off_;  ///< places that could not be reached yet
+  bool again_ = false;            ///< places_ are those that were put off before
+  bool got_nowhere_ = false;      ///< there were places, and none was reached
+  bool passed_ = false;           ///< a place was passed since the last choices()
   XxhRegionMap::Section section_ = {};
-  Tick since_ = 0, until_ = 0;  ///< in this section
+  Tick since_ = 0, until_ = 0;  ///< begin and time limit of this section
 };
 
 }  // namespace skein::agent

@@ -1,7 +1,7 @@
 // XXH's program at the ground station: collects the UAVs' starts, closes the list, assigns teams and regions
-// (plan.hpp), and says so until everybody has heard it. `--planner xxh` starts it beside the UAVs.
-// Source: paper, "Task Assignment" of Team XXH. Our choice: a complete list is closed at once, since nobody is left to
-// be waited for; and who could not report is taken to stand where it should, since it will assume the same.
+// (plan.hpp), and sends the assignment until all UAVs have it. `--planner xxh` starts it beside the UAVs.
+// Source: paper, "Task Assignment" of Team XXH. Our choice: a complete list is closed at once, since no report is
+// missing; and a UAV that could not report counts as standing at its nominal start, because it assumes the same.
 #include <map>
 
 #include "uav_agent/api/ground_program.hpp"
@@ -59,7 +59,7 @@ class XxhGround final : public GroundProgram {
   std::map<std::size_t, Vector3d> reports_;  ///< starts, by UAV
   Tick last_new_ = 0;
   std::optional<XxhPlan> plan_;
-  bool lacking_ = false;  ///< somebody said so since the last publication
+  bool lacking_ = false;  ///< a UAV has reported since the last publication that it lacks the assignment
 };
 
 SKEIN_REGISTER_GROUND_PROGRAM("xxh", XxhGround);

@@ -80,7 +80,7 @@ void XxhInspector::look(const PlannerInput& in, VoxelGrid& grid) {
   at_cell_since_.reset();
 }
 
-/// The first target is done with; so is the cell when it was the last.
+/// Marks the first target and goes on to the next one; ends the visit after the last one.
 void XxhInspector::next_target(VoxelGrid& grid) {
   grid.mark(target().cube, target().face);
   reached_since_.reset();

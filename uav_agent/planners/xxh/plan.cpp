@@ -39,7 +39,7 @@ std::vector<XxhTeam> make_teams(const std::vector<XxhStart>& starts) {
   return teams;
 }
 
-/// All boxes, each entered at the end that is nearest to where the last one was left.
+/// All boxes in order: the next one is always the one with the end nearest to where the last one was left.
 std::vector<XxhRegion> best_first_path(const Vector3d& start_W, const std::vector<OrientedBox>& boxes) {
   std::vector<XxhRegion> path;
   std::vector<std::size_t> left(boxes.size());
@@ -149,7 +149,7 @@ XxhPlan assign(std::vector<XxhStart> starts, const std::vector<OrientedBox>& box
   std::vector<XxhRegion> path = best_first_path(leader->p_WB, boxes);
   double total = 0.0;
   for (const OrientedBox& box : boxes) total += volume_of(box);
-  // Shares count from the beginning of the path, so that what one team got too much the next one does not miss alone.
+  // Shares count from the beginning of the path, so that not the next team alone bears the error of a team's share.
   std::size_t placed = 0;
   double given = 0.0;
   for (std::size_t i = 0; i + 1 < plan.teams.size(); ++i) {

@@ -5,12 +5,12 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kPostsApartM = 4.0;  ///< between the posts of those who wait
+constexpr double kPostsApartM = 4.0;  ///< between the posts of two waiting UAVs
 constexpr int kHeights = 6;
-constexpr double kStaysS = 2.0;        ///< then it says again that it is to stay: who wants nothing is taken elsewhere
-constexpr double kTriesAgainS = 5.0;   ///< to the flight core, which gets a UAV on that finds no way
-constexpr std::size_t kMostPosts = 3;  ///< for which a way is looked for
-constexpr double kRayM = 0.25;         ///< about a line of sight, to mapped cells
+constexpr double kStaysS = 2.0;        ///< time between two renewals of the goal: without one, a recovery begins
+constexpr double kTriesAgainS = 5.0;   ///< pause without a path: the flight core may begin a recovery behaviour
+constexpr std::size_t kMostPosts = 3;  ///< most posts offered to the flight core at once
+constexpr double kRayM = 0.25;         ///< least distance of a line of sight to mapped cells
 
 }  // namespace
 

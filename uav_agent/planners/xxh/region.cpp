@@ -10,11 +10,11 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kPlacesM = 6.0;         ///< between two places on the spiral
+constexpr double kPlacesM = 6.0;         ///< distance between two places on the spiral
 constexpr double kSameM = 1.0;           ///< places nearer than this to the last one are left out
 constexpr double kBoxMarginM = 0.5;      ///< surface this far outside the box still belongs to it
-constexpr double kUnknownShare = 0.1;    ///< of a section's cells that may be unknown when it is said to be empty
-constexpr double kTilt = 0.8;            ///< of another place to look from: from above, below and aside
+constexpr double kUnknownShare = 0.1;    ///< of its cells, most that may be unknown in an empty section
+constexpr double kTilt = 0.8;            ///< slope of stops above, below and beside the targets
 constexpr std::size_t kMostTries = 120;  ///< cells whose stops are tried in one search
 
 Isometry3d grid_pose(const OrientedBox& box, int axis, bool from_high_end, double margin_m, Vector3d& size_G) {
@@ -73,7 +73,7 @@ XxhRegionMap::Section XxhRegionMap::section(std::size_t index, std::size_t count
   return {index == 0 ? 0 : part(index), index + 1 == count ? grid_.dims().z() : part(index + 1)};
 }
 
-/// Layers of the spiral's turns, in the middle of what each is there for; at least one.
+/// Layers of the spiral's turns, each in the middle of the layers that it covers; at least one.
 std::vector<int> XxhRegionMap::turns() const {
   const int layers = core_last() - core_first();
   const int count = std::max(1, (layers + config_.spiral_step / 2) / config_.spiral_step);
@@ -85,7 +85,7 @@ std::vector<int> XxhRegionMap::turns() const {
 std::vector<Vector3d> XxhRegionMap::spiral(const Section& section, const Vector3d& from_W, bool bottom_only) const {
   const int first = std::max(section.first, core_first()), last = std::min(section.last, core_last());
   if (first >= last) return {};
-  // Around the box itself, as a list of places in the layer's plane.
+  // Corners of the turn, in the layer's plane, about the middle of the region.
   const double a = 0.5 * size_G_.x() - config_.margin_m + config_.rim_m;
   const double b = 0.5 * size_G_.y() - config_.margin_m + config_.rim_m;
   const std::array<Vector2d, 4> corners = {Vector2d(-a, -b), Vector2d(a, -b), Vector2d(a, b), Vector2d(-a, b)};
@@ -138,7 +138,7 @@ std::optional<Vector3d> XxhRegionMap::stop_at(VoxelGrid::Id cell, const std::vec
     out += target.out_W;
     depth = std::min(depth, (centre - target.surface_W).dot(target.out_W));
   }
-  // Between walls that face each other there is nowhere to go but where the cell is.
+  // Between walls that face each other, the cell's centre is the only place.
   if (out.norm() < 0.5) return space.free(centre) ? std::optional(centre) : std::nullopt;
   out.normalize();
   const double far = std::max(config_.farthest_m, config_.nearest_m), near = config_.nearest_m;
@@ -161,7 +161,7 @@ VoxelGrid::Id XxhRegionMap::cell_at(const Vector3d& p_W) const {
   return *grid_.at(cell);
 }
 
-/// By steps.
+/// The cells of a layer that can be reached, by number of steps from cell to cell.
 std::vector<VoxelGrid::Id> XxhRegionMap::reachable(VoxelGrid::Id from, int layer) const {
   std::vector<VoxelGrid::Id> cells;
   std::vector<bool> met(grid_.count());
@@ -181,7 +181,7 @@ std::vector<VoxelGrid::Id> XxhRegionMap::reachable(VoxelGrid::Id from, int layer
   return cells;
 }
 
-/// From a cell on, once around the axis, in sectors as wide as a cell at the rim.
+/// Sorts cells once around the axis, beginning at a cell, in sectors as wide as a cell at the rim.
 void XxhRegionMap::sort_around(VoxelGrid::Id from, std::vector<VoxelGrid::Id>& cells) const {
   const Vector2d middle = 0.5 * (grid_.dims().head<2>().cast<double>() - Vector2d::Ones());
   const auto off_axis = [&](VoxelGrid::Id id) { return Vector2d(grid_.cell(id).head<2>().cast<double>() - middle); };

@@ -1,11 +1,11 @@
-// The voxel map of one region of XXH, cut into layers across the region's longest edge, and what follows from it: the
-// spiral around the region, the sections of its layers that the members of a team take, and the cells to be visited.
+// The voxel map of one region of XXH, divided into layers across the region's longest edge, and what follows from it:
+// the spiral around the region, the sections of layers for the members of a team, and the cells to visit.
 // Frames: W world, G grid: z along the longest edge, away from the end at which the region is entered.   Units: metres.
 // Threads: one.   Deterministic.   Effort: in proportion to the cells of the region.
 // Source: paper, "Exploration Strategy" and "Inspection Strategy" of Team XXH; its public code for cells of 2.5 m, the
-// margin of 6 m and one gimbal target for each occupied face neighbour. How far the spiral is from the box, the
-// distance between its turns, what a spiral is among the cells of a layer, and where exactly in front of a cell's
-// targets a UAV stops are our choice.
+// margin of 6 m and one gimbal target for each occupied face neighbour. Our choice: the distance of the spiral
+// from the box and between its turns, the spiral order of the cells in a layer, and where exactly in front of a cell's
+// targets a UAV stops.
 #pragma once
 
 #include <map>
@@ -18,7 +18,7 @@
 
 namespace skein::agent {
 
-/// One look from a cell: at the face of an occupied cell beside it.
+/// What to look at from a cell: the face of an occupied cube beside it.
 struct XxhTarget {
   VoxelGrid::Id cube = 0;
   int face = 0;                           ///< of the cube, towards the cell
@@ -30,25 +30,26 @@ struct XxhTarget {
 struct XxhVisit {
   VoxelGrid::Id cell = 0;
   Vector3d p_WB = Vector3d::Zero();  ///< where the UAV stops
-  std::vector<XxhTarget> targets;    ///< not looked at yet
+  std::vector<XxhTarget> targets;    ///< targets that no UAV has looked at yet
 };
 
 class XxhRegionMap {
  public:
   struct Config {
-    double voxel_m = 2.5, margin_m = 6.0;
-    double rim_m = 4.0;
-    int spiral_step = 6;
-    double lowest_m = 2.5;                     ///< of places on the spiral, and of stops
-    double nearest_m = 2.1, farthest_m = 3.7;  ///< stops from the surface; as far as there is room
-    double limit_m = 6.0;                      ///< or, if there is none, so far
+    double voxel_m = 2.5, margin_m = 6.0;      ///< edge of a cell; margin around the region
+    double rim_m = 4.0;                        ///< distance from the box to the spiral
+    int spiral_step = 6;                       ///< layers between two turns of the spiral
+    double lowest_m = 2.5;                     ///< least height of places on the spiral, and of stops
+    double nearest_m = 2.1, farthest_m = 3.7;  ///< distances of a stop to the surface; the farthest is tried first
+    double limit_m = 6.0;                      ///< distance that is tried if there is no room at the others
   };
   /// Layers [first, last).
   struct Section {
     int first = 0, last = 0;
   };
 
-  /// @param box  of the region.   @param axis  across the layers.   @param from_high_end  of that axis it is entered.
+  /// @param box  of the region.   @param axis  box axis across the layers.
+  /// @param from_high_end  the region is entered at the high end of this axis.
   XxhRegionMap(const Config& config, const OrientedBox& box, int axis, bool from_high_end);
 
   VoxelGrid& grid() { return grid_; }
@@ -56,31 +57,31 @@ class XxhRegionMap {
   const OrientedBox& box() const { return box_; }
   int layer(VoxelGrid::Id id) const { return grid_.cell(id).z(); }
 
-  /// What this UAV's map shows, into the grid.   @param map  the same at each call.
+  /// Takes over what this UAV's map shows.   @param map  the same at each call.
   void update(const WorldMap& map) { voxels_.update(map, grid_); }
-  /// Takes the box for solid: all that somebody can go by who has nobody with a LiDAR.
+  /// Takes the box for solid, for UAVs that have no LiDAR and receive no map.
   void assume_solid();
-  bool anything_known() const;
-  /// All of a section's cells in the box that matter are known, and nothing is there.
+  bool anything_known() const;  ///< whether a cell in the box is occupied
+  /// Whether no cell of the section in the box is occupied, and at most a tenth of them is unknown.
   bool is_empty(const Section& section) const;
 
-  /// Part `index` of `count`; the margin belongs to the first and the last.
-  /// @param last_share  size of the last one, in units of each other.
+  /// Section `index` of `count`; the margins belong to the first and the last section.
+  /// @param last_share  size of the last section, in units of any other one.
   Section section(std::size_t index, std::size_t count, double last_share) const;
 
-  /// Places of the spiral's turns that are in a section, each once around the region, beginning at the corner nearest
-  /// to `from_W`. A thin section may have none: it is seen from the turns beside it.
-  /// @param bottom_only  just one turn, at the section's first layer.
+  /// Places along the spiral's turns in a section. Each turn goes once around the region and begins at the corner
+  /// nearest to `from_W`. A thin section may have no turn: it is seen from the turns beside it.
+  /// @param bottom_only  only one turn, at the section's first layer.
   std::vector<Vector3d> spiral(const Section& section, const Vector3d& from_W, bool bottom_only = false) const;
 
-  /// The cells of a layer that have targets and can be reached from `from_W` through cells that are not occupied, at
-  /// most `most` of those that have a free place to stop at.
-  /// @param from_W  is brought into the grid.   @param order  nearest: by the number of steps. spiral: the next one
-  /// around the region first, in the sense in which the explorer flies; of those in one direction the outermost.
-  /// @param skip  cells that are left out.
+  /// Up to `most` cells of a layer that have targets and a free place to stop at, and that can be reached from `from_W`
+  /// through cells that are not occupied.
+  /// @param from_W  is moved to the nearest cell of the grid.   @param order  nearest: by the number of steps from cell
+  /// to cell. spiral: around the region in the explorer's direction; of cells in one direction the outermost first.
+  /// @param skip  cells to leave out.
   std::vector<XxhVisit> visits(const Vector3d& from_W, int layer, XxhOrder order, const FreeSpace& space,
                                const std::map<VoxelGrid::Id, int>& skip, std::size_t most) const;
-  /// Without places to stop at; empty if the cell is no place to look from.
+  /// Targets of a cell, whether or not it has a place to stop at; empty if the cell is occupied.
   std::vector<XxhTarget> targets(VoxelGrid::Id cell) const;
 
  private:

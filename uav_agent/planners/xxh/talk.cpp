@@ -7,9 +7,9 @@ namespace skein::agent {
 namespace {
 
 constexpr std::string_view kWordName = "xxh/1", kPlanName = "xxh-gcs/1";
-constexpr double kApartM = 2.2;         ///< between two bodies, one of them on its planned way
-constexpr double kWayStepM = 2.0;       ///< between two places of a trajectory that are kept clear of
-constexpr std::size_t kMostPlaces = 8;  ///< of one trajectory: what is farther ahead will have changed
+constexpr double kApartM = 2.2;         ///< least distance between a UAV and another one's announced trajectory
+constexpr double kWayStepM = 2.0;       ///< distance between two spheres of a trajectory
+constexpr std::size_t kMostPlaces = 8;  ///< most spheres of a trajectory: what is farther ahead will change
 
 }  // namespace
 
@@ -96,7 +96,7 @@ double XxhTalk::silent_s(std::size_t uav, Tick now) const {
   return seconds(now - (last ? last->heard : Tick{0}));
 }
 
-/// By role, then by place in the fleet.
+/// Whether a UAV has priority over this one: explorers first, then by index in the fleet.
 bool XxhTalk::goes_first(std::size_t uav) const {
   const bool explores = agent_.fleet[uav].role == Role::explorer;
   const bool i_explore = agent_.me().role == Role::explorer;
@@ -112,7 +112,7 @@ std::vector<Sphere> XxhTalk::trajectories(const PlannerInput& in) const {
     const double radius = agent_.me().body_radius_m + agent_.fleet[uav].body_radius_m + kApartM;
     std::size_t places = 0;
     const auto add = [&](const Vector3d& p) {
-      // Who is on somebody's way already has to leave it: nothing begins in what is not free.
+      // A sphere around this UAV's own place is left out: a path cannot begin in space that is not free.
       if (++places <= kMostPlaces && (p - here).norm() > radius) spheres.push_back({p, radius});
     };
     add(word.way_W.front());

@@ -5,10 +5,10 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kSpareM = 0.4;  ///< of stops, beside the clearance
-constexpr double kRoomM = 1.0;   ///< near to surfaces, little is proved: stops are this much farther, if that is sharp
-constexpr double kLimitRatio = 1.1;  ///< of stops where there is nothing better, in units of d*
-constexpr double kLowestM = 2.5;     ///< of places on the spiral and of stops
+constexpr double kSpareM = 0.4;      ///< distance of stops to structure, beyond the clearance
+constexpr double kRoomM = 1.0;       ///< stops lie so much farther out, where more is proved, if pictures are sharp
+constexpr double kLimitRatio = 1.1;  ///< greatest distance of stops, in units of d*, if there is no better place
+constexpr double kLowestM = 2.5;     ///< least height of places on the spiral and of stops
 
 XxhRegionMap::Config map_config(const XxhConfig& config, const CameraReach& reach, double clearance_m) {
   XxhRegionMap::Config map;

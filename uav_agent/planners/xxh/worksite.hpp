@@ -1,8 +1,7 @@
-// The region that a UAV of XXH is at: its map, the end at which it is begun, and where the team waits beside it.
+// The region that a UAV of XXH works on: its map, the end at which the team begins, and its entry.
 // Frame W.   Units: metres.   Threads: one.   Deterministic.
-// Source: paper, "Exploration Strategy" of Team XXH: the explorer begins at the base layer. What the base of a region
-// that lies is, and that an upright one is begun at its top where nothing is proved to be free about its foot, is our
-// choice.
+// Source: paper, "Exploration Strategy" of Team XXH: the explorer begins at the base layer. Our choice: which end is
+// the base of a lying region; and a team begins an upright region at its top if no place at its foot is proved free.
 #pragma once
 
 #include <optional>
@@ -20,33 +19,33 @@ class XxhWorksite {
   /// @param config  must outlive this.
   XxhWorksite(const XxhConfig& config, const AgentConfig& agent);
 
-  /// Comes to a region, for now at the end where it would be begun.
-  /// @param box  which the region is part of.   @param clearance_m  of UAVs from structure.
+  /// Makes `region` the present one, with the end at which it should be begun; decided() tells if that is final.
+  /// @param box  the box that contains the region.   @param clearance_m  least distance of UAVs to structure.
   void enter(const XxhRegion& region, const OrientedBox& box, const Vector3d& came_from_W, double clearance_m);
   void leave() { map_.reset(); }
   explicit operator bool() const { return map_.has_value(); }
 
-  /// Whether it is known at which end the region is begun, which its team's leader decides for all.
+  /// Whether the end at which the region is begun is final. The leader decides it for its team.
   bool decided() const { return decided_; }
-  /// Whether some place of the spiral's first turn is proved to be free.
-  /// @param proved  asks for proof.
+  /// Whether some place of the spiral in a section is proved free.
+  /// @param first  the first section.   @param proved  space in which only proved places are free.
   bool begins_in_the_open(const XxhRegionMap::Section& first, const FreeSpace& proved, const Vector3d& here_W) const;
-  /// @returns whether that is another end than before: then the map begins anew, too.
+  /// Makes an end final. @returns whether it is another one than before: then the map is empty again.
   bool decide(bool from_high_end);
   bool from_high_end() const { return region_.from_high_end; }
-  /// Where one comes from who goes on from here to the next region.
+  /// Where the team leaves this region for the next one.
   Vector3d far_end_W() const { return far_end(region_, box_); }
 
   XxhRegionMap& map() { return *map_; }
   const XxhRegionMap& map() const { return *map_; }
-  /// The first place of the spiral around it.
+  /// The first place of the spiral around the region.
   const Vector3d& entry_W() const { return entry_W_; }
 
-  /// Without anybody's map there is only the box to go by, taken to be solid, and an upright one is begun at its top,
-  /// since nothing is proved about its foot. That is not shared: it is no knowledge.
+  /// For a UAV without any map: takes the box for solid, and begins an upright region at its top, because no space is
+  /// proved free at its foot. This map is an assumption, so it is not shared.
   void go_by_the_box();
   bool is_solid() const { return solid_; }
-  /// What is shared with the team; nullptr: nothing.
+  /// The map that is shared with the team; nullptr: none.
   VoxelGrid* shared_grid() { return map_ && !solid_ ? &map_->grid() : nullptr; }
 
  private:

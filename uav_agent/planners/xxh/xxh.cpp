@@ -1,22 +1,21 @@
 // XXH: the strategy of the second team of the first contest, rebuilt from its published description.
 //
 // 1. The ground station (ground.cpp) forms a team around each explorer and gives it boxes, in the order of a best-
-// first path (plan.hpp). 2. Region by region, the explorer flies a spiral around the box, layer by layer, and maps
-// it in cells (region.hpp); its photographers wait at the region's entry. 3. The layers are shared out: as soon as
-// a section is explored, the explorer orders its photographer to begin; the last one it inspects itself
-// (inspect.hpp). 4. When all are done, the team goes on to the next region. Trajectories and maps are shared
-// (talk.hpp); who has less priority, by role and name, chooses no place on what others are about to fly. The flight
-// core does the flying (flight_core/flight_core.hpp).
+// first path (plan.hpp). 2. Region by region, the explorer flies a spiral around the box, layer by layer, and maps it
+// in cells (region.hpp); its photographers wait at the region's entry. 3. Each member has a section of the layers: as
+// soon as a section is explored, the explorer orders its photographer to begin. It inspects the last section itself
+// (inspect.hpp). 4. When all are done, the team goes on to the next region. UAVs share trajectories and maps
+// (talk.hpp); a UAV chooses no stop on the announced trajectory of a UAV with priority, by role and then by index in
+// the fleet. The flight core does the flying (flight_core/flight_core.hpp).
 //
 // Its weaknesses are the published ones: the exploration is slow, and photographers are idle meanwhile; a share by
-// volume says little about the work; nobody helps another team. What the sources leave open and we had to invent: the
-// numbers that config.hpp does not give a source for, that an assignment that never comes is made by the UAV
-// itself, that silent leaders and followers are not waited for, that the leader's part of the layers is smaller (it
-// begins last).
-// `faithful` brings back defects of the public code: only the first turn of the spiral in each section, what others
-// said they would fly is kept clear of for ever, waiting without end. Not modelled: its searches of 1,000 cells, its
-// commands at the edge of the controller's time-out (here they go out once an exchange), and the name that its code
-// does not know.
+// volume says little about the work; no UAV helps another team. Our choice, where the sources are silent: all numbers
+// without a source (docs/strategies.md); a UAV that receives no assignment computes it itself; nobody waits for silent
+// leaders and followers; the leader's section is smaller, because it begins last.
+// `faithful` brings back defects of the public code: only the first turn of the spiral in each section is flown,
+// announced trajectories never expire, and waits have no end. Not modelled: its searches that end after 1,000 cells,
+// its commands at the edge of the controller's timeout (here they go out once per exchange), and a UAV name that its
+// code does not know.
 #include <algorithm>
 
 #include "uav_agent/api/planner.hpp"
@@ -32,12 +31,12 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kAirborneM = 2.0;   ///< a UAV that begins at such a height was restarted in flight
-constexpr double kLookAtMapS = 1.0;  ///< between two looks at what the LiDARs saw
-constexpr int kFruitless = 8;        ///< choices in a row to which there was no way: then the flight core...
-constexpr double kGivesWayS = 5.0;   ///< ...has so much time to get the UAV on
-constexpr double kSeekFootS = 40.0;  ///< of an upright region, for proof that it is open there
-constexpr double kFreshS = 10.0;     ///< after a start in flight: others may know how far the team is
+constexpr double kAirborneM = 2.0;   ///< a UAV that begins above this height was restarted in flight
+constexpr double kLookAtMapS = 1.0;  ///< time between two looks at the map
+constexpr int kFruitless = 8;        ///< after so many unreachable choices in a row, the flight core ...
+constexpr double kGivesWayS = 5.0;   ///< ... has so much time to take the UAV elsewhere
+constexpr double kSeekFootS = 40.0;  ///< longest time to prove free space at the foot of an upright region
+constexpr double kFreshS = 10.0;     ///< after a restart in flight: the others' reports may tell the team's region
 
 }  // namespace
 
@@ -59,8 +58,8 @@ class XxhPlanner final : public Planner {
   PlannerOutput plan(const PlannerInput& in) override;
 
  private:
-  /// explore: leads, maps. hand_over: leads, finds those who have not heard their order. wait: for that order. inspect:
-  /// its section. regroup: done, waits for the team. finished: no region is left.
+  /// explore: the leader maps. hand_over: the leader waits until all members have their orders. wait: a follower waits
+  /// for its order. inspect: inspects its section. regroup: done, waits for the team. finished: no region is left.
   enum class Stage { none, explore, hand_over, wait, inspect, regroup, finished };
 
   void prepare(const PlannerInput& in);
@@ -98,20 +97,20 @@ class XxhPlanner final : public Planner {
   XxhInspector inspector_;
   XxhPost post_;
 
-  std::optional<Vector3d> start_W_;  ///< where it stood when its program began
+  std::optional<Vector3d> start_W_;  ///< the UAV's start; the nominal one after a restart in flight
   Tick assigned_at_ = 0;
-  bool restarted_ = false;  ///< in flight
+  bool restarted_ = false;  ///< the program was restarted in flight
   Stage stage_ = Stage::none;
   Tick stage_since_ = 0, not_before_ = 0;
-  int fruitless_ = 0;               ///< choices in a row to which there was no way
+  int fruitless_ = 0;               ///< choices in a row that could not be reached
   std::size_t region_index_ = 0;    ///< counts on through the rounds
-  std::vector<Vector3d> posts_W_;   ///< beside its entry, what is liked best first; empty: to be chosen
-  std::size_t explored_ = 0;        ///< sections
-  bool exploring_ = false;          ///< the next one
+  std::vector<Vector3d> posts_W_;   ///< beside the region's entry, best first; empty: not computed yet
+  std::size_t explored_ = 0;        ///< number of sections that are explored
+  bool exploring_ = false;          ///< explores section explored_
   std::vector<std::size_t> begun_;  ///< sections that this UAV inspects or has inspected
   bool looks_again_ = false;        ///< goes over its section again while it waits for the others
-  Tick look_again_at_ = 0;          ///< or will do so
-  bool ordered_ = false;            ///< knows that its section is explored
+  Tick look_again_at_ = 0;          ///< when it will do so next
+  bool ordered_ = false;            ///< the UAV knows that its section is explored
 };
 
 PlannerOutput XxhPlanner::plan(const PlannerInput& in) {
@@ -130,7 +129,7 @@ PlannerOutput XxhPlanner::plan(const PlannerInput& in) {
   return out;
 }
 
-/// What is known of the team and the map.
+/// Updates what the UAV knows of team and map.
 void XxhPlanner::prepare(const PlannerInput& in) {
   if (!start_W_) {
     restarted_ = in.state.p_WB.z() > kAirborneM;
@@ -163,7 +162,7 @@ void XxhPlanner::enter_region(std::size_t index, const PlannerInput& in) {
   begin_section(crew_.rank(), in);
 }
 
-/// Where the team comes from to a region: the far end of the one before, or its leader's start.
+/// Where the team comes from when it enters a region: the far end of the last region, or its leader's start.
 Vector3d XxhPlanner::end_before(std::size_t index, const PlannerInput& in) const {
   if (index == 0 || crew_.regions().empty()) return agent_.fleet[crew_.leader()].p_WB_start;
   if (site_ && index == region_index_ + 1) return site_.far_end_W();
@@ -171,8 +170,8 @@ Vector3d XxhPlanner::end_before(std::size_t index, const PlannerInput& in) const
   return far_end(last, in.boxes[last.box]);
 }
 
-/// An upright region is begun at its foot if it is open there. Its leader goes to the entry to see, and if it is not,
-/// begins at the top. Its team hears so of it.
+/// The leader decides at which end to begin an upright region: at its foot if some place there is proved free, which
+/// the leader finds out at the entry; otherwise at its top. The team learns the decision from its messages.
 void XxhPlanner::decide_end(const PlannerInput& in, PlannerOutput& out) {
   const bool open = site_.begins_in_the_open(section_layers(0), space_for_stops(in), in.tracking.setpoint.p_WB);
   const bool closed = post_.reached() || errand_.came_to_nothing() || seconds(in.tick - stage_since_) > kSeekFootS;
@@ -182,7 +181,7 @@ void XxhPlanner::decide_end(const PlannerInput& in, PlannerOutput& out) {
   errand_.drop();
 }
 
-/// What its leader has decided holds for its team.
+/// Takes over the end that the team's leader has decided.
 void XxhPlanner::heed_leader(const PlannerInput& in) {
   const XxhWord* leader = site_ && crew_.led() && !crew_.leads() ? talk_.word(crew_.leader()) : nullptr;
   if (!leader || !leader->decided || leader->region != region_index_) return;
@@ -237,8 +236,8 @@ void XxhPlanner::work(const PlannerInput& in, PlannerOutput& out) {
   }
 }
 
-/// Whether the next choices may be made. When many came to nothing, the flight core is left to itself for a while: it
-/// looks around, and gets the UAV to where there are other ways.
+/// Whether the UAV may make new choices. After many unreachable ones it makes none for a while, so that the flight core
+/// begins a recovery behaviour: it looks around, and takes the UAV to where there are other paths.
 bool XxhPlanner::may_set_out(const PlannerInput& in) {
   if (errand_.under_way()) return false;
   if (fruitless_ >= kFruitless) {
@@ -248,7 +247,7 @@ bool XxhPlanner::may_set_out(const PlannerInput& in) {
   return in.tick >= not_before_;
 }
 
-/// Around the section, turn by turn.
+/// Flies around the section, turn by turn.
 void XxhPlanner::explore(const PlannerInput& in, PlannerOutput& out) {
   if (!site_.decided()) return decide_end(in, out);
   explorer_.look_inwards(site_.map(), in, out);
@@ -260,7 +259,7 @@ void XxhPlanner::explore(const PlannerInput& in, PlannerOutput& out) {
   if (auto choices = explorer_.choices(*in.space); !choices.empty()) errand_.set_out(std::move(choices), out);
 }
 
-/// The section that was explored may be inspected from now on; on to the next one.
+/// Releases the explored section for inspection, and begins the next one.
 void XxhPlanner::next_section(const PlannerInput& in) {
   if (exploring_) ++explored_;
   exploring_ = explored_ < crew_.size();
@@ -270,7 +269,7 @@ void XxhPlanner::next_section(const PlannerInput& in) {
   explorer_.begin(site_.map(), section_layers(explored_), at_most_s, in);
 }
 
-/// Everybody has to hear its order: back to the entry, where they wait.
+/// Returns to the entry, where the members wait, until all of them have received their orders.
 void XxhPlanner::hand_over(const PlannerInput& in, PlannerOutput& out) {
   const bool gone_on =
       crew_.all_ordered(region_index_, in.tick) || seconds(in.tick - stage_since_) > *config_.hand_over_s;
@@ -289,7 +288,7 @@ void XxhPlanner::inspect(const PlannerInput& in, PlannerOutput& out) {
   if (visit_cells(in, out)) section_done(in);
 }
 
-/// @returns whether there is none left.
+/// Visits the section's cells one after the other. @returns whether none is left.
 bool XxhPlanner::visit_cells(const PlannerInput& in, PlannerOutput& out) {
   inspector_.hear(errand_);
   if (inspector_.visit()) inspector_.look(in, site_.map().grid());
@@ -311,14 +310,14 @@ void XxhPlanner::choose_cell(const PlannerInput& in, PlannerOutput& out) {
   if (!choices.empty()) errand_.set_out(std::move(choices), out);
 }
 
-/// Stops are where all is proved to be free, and off what others are about to fly.
+/// Space for stops: proved free, and clear of the announced trajectories of UAVs with priority.
 FreeSpace XxhPlanner::space_for_stops(const PlannerInput& in) const {
   FreeSpace::Config config = in.space->config();
   config.proved_only = !config.blind_fleet;
   return {config, in.boxes, in.map, talk_.trajectories(in)};
 }
 
-/// Its own section is; but those of members that are no longer heard of may not be.
+/// After its own section, the UAV inspects sections of silent members that it has not begun yet; then it regroups.
 void XxhPlanner::section_done(const PlannerInput& in) {
   for (std::size_t rank = 0; rank < crew_.size(); ++rank) {
     const std::size_t section = crew_.section_of(rank);
@@ -328,7 +327,7 @@ void XxhPlanner::section_done(const PlannerInput& in) {
   change(Stage::regroup, in);
 }
 
-/// A UAV that has to wait goes over its layers now and then: what it could not reach may have been proved to be free.
+/// Waits for the team. Meanwhile the UAV goes over its layers again from time to time: more may be proved free.
 void XxhPlanner::regroup(const PlannerInput& in, PlannerOutput& out) {
   const bool decides = crew_.leads() || !crew_.led() || crew_.silent(crew_.leader(), in.tick);
   const bool impatient = seconds(in.tick - stage_since_) > *config_.gather_s;
@@ -360,7 +359,7 @@ void XxhPlanner::stay_at_post(const PlannerInput& in, PlannerOutput& out) {
   post_.stay(posts_W_, config_.flight.approach_mps, errand_, in, out);
 }
 
-/// Its own posts beside the region's entry, the lowest first.
+/// This UAV's posts beside the region's entry, the lowest first.
 std::vector<Vector3d> XxhPlanner::posts_W(const PlannerInput& in) const {
   return post_.beside(site_.entry_W(), site_.map().box().center, crew_.rank(), top_of(in.boxes));
 }
