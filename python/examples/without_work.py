@@ -2,7 +2,7 @@
 
     python3 python/examples/without_work.py studies/wild
 
-Shares of all such seconds of a planner; the last row has their number for each flight.
+Shares of all such seconds of a planner, from 0.5 % on; the last row has their number for each flight.
 """
 
 import sys
@@ -55,7 +55,7 @@ print("| |", " | ".join(by_planner), "|")
 print("|---|" + "---|" * len(by_planner))
 for name in dict.fromkeys([*GROUPS, *(name for seconds in by_planner.values() for name in seconds)]):
     shares = [100.0 * seconds[name] / max(1, seconds.total()) for seconds in by_planner.values()]
-    if any(shares):
+    if max(shares) >= 0.5:
         print(f"| {name} |", " | ".join(f"{share:.0f} %" for share in shares), "|")
 print("| seconds of a flight, all UAVs |",
       " | ".join(f"{seconds.total() / flights[planner]:.0f}" for planner, seconds in by_planner.items()), "|")

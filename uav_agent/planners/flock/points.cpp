@@ -8,8 +8,8 @@ namespace skein::agent {
 namespace {
 
 constexpr double kRegionM = 16.0, kCm = 0.01;
-constexpr double kQualitySteps = 50.0;  ///< a smaller difference is not told
-constexpr double kForgetS = 10.0;       ///< an account that was heard longer ago does not count
+constexpr double kQualitySteps = 50.0;  ///< smaller differences in quality are not sent
+constexpr double kForgetS = 10.0;       ///< age at which another UAV's hashes expire
 constexpr std::size_t kPointBytes = 10;
 constexpr int kMostVain = 10;
 constexpr double kVainS = 120.0;
@@ -125,7 +125,7 @@ void FlockPoints::write_region(const Cell& cell, const Region& region, std::size
     const auto& [place, index] = *next;
     for (const std::uint16_t cm : place) writer.u16(cm);
     const FlockPoint& point = points_[index];
-    for (int i = 0; i < 3; ++i) writer.u8(component(point.n_W[i]));
+    for (const double along : point.n_W) writer.u8(component(along));
     writer.u8(quality_step(point.q));
   }
 }
@@ -153,7 +153,7 @@ bool FlockPoints::read_region(PayloadReader& reader) {
   const std::size_t points = reader.u16();
   for (std::size_t i = 0; i < points && reader.ok(); ++i) {
     Vector3d p_W, n_W;
-    // In the middle of its centimetre, so that it falls into the same again.
+    // In the middle of its centimetre, so that rounding gives the same place again.
     for (int k = 0; k < 3; ++k) p_W[k] = corner_W[k] + kCm * (reader.u16() + 0.5);
     for (int k = 0; k < 3; ++k) n_W[k] = (reader.u8() - 128) / 127.0;
     const double q = reader.u8() / kQualitySteps;
