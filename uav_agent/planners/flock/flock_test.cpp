@@ -1,4 +1,4 @@
-// The parts of the planner flock: points and their exchange, survey, surfaces, views, routes, messages.
+// The parts of the planner flock: survey, surfaces, views, routes, messages. Its points: points_test.cpp.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,147 +13,12 @@
 #include "uav_agent/planners/flock/views.hpp"
 #include "uav_agent/testing/flown_uav.hpp"
 #include "uav_agent/testing/test_world.hpp"
+#include "uav_agent/testing/three_uavs.hpp"
 
 namespace skein::agent {
 namespace {
 
 constexpr double kSharpM = 7.36;
-
-AgentConfig three_uavs(std::size_t self) {
-  AgentConfig agent;
-  agent.self = UavIndex(self);
-  for (int i = 0; i < 3; ++i) {
-    agent.fleet.push_back({.name = "uav" + std::to_string(i),
-                           .role = i == 0 ? Role::explorer : Role::photographer,
-                           .p_WB_start = {5.0 * i, -20.0, 0.0}});
-  }
-  agent.vehicle.camera = VehicleConfig().camera;
-  return agent;
-}
-
-/// All others in line of sight.
-Peers all_in_sight(const AgentConfig& agent) {
-  Peers peers(agent);
-  std::vector<Neighbour> neighbours;
-  for (std::size_t uav = 0; uav < agent.fleet.size(); ++uav) {
-    if (uav != agent.self) neighbours.push_back({.node = node_of_uav(UavIndex(uav)), .p_W = {1.0, 2.0, 3.0}});
-  }
-  peers.update(1, neighbours);
-  return peers;
-}
-
-std::vector<DetectedPoint> drawn_points(RandomStream& random, int count, double reach_m = 60.0) {
-  std::vector<DetectedPoint> points;
-  for (int i = 0; i < count; ++i) {
-    const auto along = [&] { return static_cast<float>(random.uniform(-reach_m, reach_m)); };
-    Eigen::Vector3f normal(along(), along(), along());
-    points.push_back(
-        {{along(), along(), along()}, random.uniform(0.2, 1.0), static_cast<std::uint32_t>(i), normal.normalized()});
-  }
-  return points;
-}
-
-/// Best quality by place, to the step in which it is told.
-std::map<std::array<long, 3>, long> qualities(const FlockPoints& points) {
-  std::map<std::array<long, 3>, long> all;
-  for (const FlockPoint& point : points.all()) {
-    const Eigen::Vector3d cm = (100.0 * point.p_W).array().floor();
-    all[{std::lround(cm.x()), std::lround(cm.y()), std::lround(cm.z())}] = std::lround(50.0 * point.q);
-  }
-  return all;
-}
-
-/// Three UAVs that each found points of their own, some of them the same, and lose half of all messages: in the end all
-/// know the best of each. One of them then begins anew, and gets everything back.
-TEST(FlockPoints, AllEndUpWithTheBestOfAllWhateverIsLost) {
-  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
-    RandomStream random(seed, "points", 0);
-    std::vector<FlockPoints> uavs(3);
-    std::map<std::array<long, 3>, long> best;
-    const std::vector<DetectedPoint> scene = drawn_points(random, 200);
-    for (FlockPoints& points : uavs) {
-      std::vector<DetectedPoint> own;
-      for (DetectedPoint point : scene) {
-        point.score = random.uniform(0.2, 1.0);
-        if (random.bits() % 2 == 0) own.push_back(point);
-      }
-      points.detect(own, Vector3d::Zero());
-      for (const auto& [place, q] : qualities(points)) best[place] = std::max(best[place], q);
-    }
-    Tick now = 0;
-    const auto talk = [&](int rounds) {
-      for (int round = 0; round < rounds; ++round, now += 200) {
-        for (std::size_t from = 0; from < uavs.size(); ++from) {
-          PayloadWriter writer;
-          uavs[from].write(all_in_sight(three_uavs(from)), now, 1500, writer);
-          ASSERT_LE(writer.size(), kMaxPayloadBytes);
-          for (std::size_t to = 0; to < uavs.size(); ++to) {
-            PayloadReader reader(writer.data());
-            if (to == from || random.bits() % 2 == 0) continue;
-            EXPECT_TRUE(uavs[to].read(from, now, reader));
-          }
-        }
-      }
-    };
-    talk(80);
-    for (const FlockPoints& points : uavs) EXPECT_EQ(qualities(points), best) << "seed " << seed;
-    uavs[1] = FlockPoints();
-    talk(80);
-    EXPECT_EQ(qualities(uavs[1]), best) << "seed " << seed;
-  }
-}
-
-/// A dense region has more points than a message has room for.
-TEST(FlockPoints, DenseRegionsGoOutInSlices) {
-  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
-    RandomStream random(seed, "points", 1);
-    std::vector<FlockPoints> uavs(3);
-    uavs[0].detect(drawn_points(random, 1500, 8.0), Vector3d::Zero());
-    uavs[1].detect(drawn_points(random, 60), Vector3d::Zero());
-    Tick now = 0;
-    for (int round = 0; round < 120; ++round, now += 200) {
-      for (std::size_t from = 0; from < uavs.size(); ++from) {
-        PayloadWriter writer;
-        uavs[from].write(all_in_sight(three_uavs(from)), now, 1500, writer);
-        ASSERT_LE(writer.size(), kMaxPayloadBytes);
-        for (std::size_t to = 0; to < uavs.size(); ++to) {
-          PayloadReader reader(writer.data());
-          if (to == from || random.bits() % 4 == 0) continue;
-          EXPECT_TRUE(uavs[to].read(from, now, reader));
-        }
-      }
-    }
-    EXPECT_GT(uavs[2].all().size(), 1000U) << "seed " << seed;
-    for (const FlockPoints& points : uavs) EXPECT_EQ(qualities(points), qualities(uavs[2])) << "seed " << seed;
-  }
-}
-
-/// Whatever arrives, nothing but points comes of it.
-TEST(FlockPoints, DamagedMessagesDoNoHarm) {
-  RandomStream random(11, "damage", 0);
-  FlockPoints sender;
-  sender.detect(drawn_points(random, 60), Vector3d::Zero());
-  PayloadWriter writer;
-  FlockPoints hungry;
-  PayloadWriter request;
-  hungry.write(all_in_sight(three_uavs(1)), 0, 1000, request);
-  PayloadReader asked(request.data());
-  ASSERT_TRUE(sender.read(1, 0, asked));
-  sender.write(all_in_sight(three_uavs(0)), 0, 4000, writer);
-  for (int i = 0; i < 300; ++i) {
-    std::vector<std::uint8_t> bytes = writer.data();
-    bytes.resize(1 + random.bits() % bytes.size());
-    for (int flips = 0; flips < 4; ++flips) bytes[random.bits() % bytes.size()] ^= 1U << random.bits() % 8;
-    FlockPoints points;
-    PayloadReader reader(bytes);
-    points.read(0, 0, reader);
-    for (const FlockPoint& point : points.all()) {
-      EXPECT_TRUE(point.p_W.allFinite());
-      EXPECT_NEAR(point.n_W.norm(), 1.0, 1e-9);
-      EXPECT_GE(point.q, 0.0);
-    }
-  }
-}
 
 /// What stands behind a wall stays to be surveyed until somebody looks from the other side.
 TEST(FlockSurvey, WallsHideWhatIsBehindThem) {

@@ -1,0 +1,122 @@
+// The points of the planner flock, and their exchange by radio.
+#include "uav_agent/planners/flock/points.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+#include "core/random_stream.hpp"
+#include "uav_agent/testing/three_uavs.hpp"
+
+namespace skein::agent {
+namespace {
+
+std::vector<DetectedPoint> drawn_points(RandomStream& random, int count, double reach_m = 60.0) {
+  std::vector<DetectedPoint> points;
+  for (int i = 0; i < count; ++i) {
+    const auto along = [&] { return static_cast<float>(random.uniform(-reach_m, reach_m)); };
+    Eigen::Vector3f normal(along(), along(), along());
+    points.push_back(
+        {{along(), along(), along()}, random.uniform(0.2, 1.0), static_cast<std::uint32_t>(i), normal.normalized()});
+  }
+  return points;
+}
+
+/// Best quality by place, to the step in which it is told.
+std::map<std::array<long, 3>, long> qualities(const FlockPoints& points) {
+  std::map<std::array<long, 3>, long> all;
+  for (const FlockPoint& point : points.all()) {
+    const Eigen::Vector3d cm = (100.0 * point.p_W).array().floor();
+    all[{std::lround(cm.x()), std::lround(cm.y()), std::lround(cm.z())}] = std::lround(50.0 * point.q);
+  }
+  return all;
+}
+
+/// All UAVs of a fleet of three send their points, again and again, and lose half of all messages.
+void talk(std::vector<FlockPoints>& uavs, RandomStream& random, int rounds, Tick& now) {
+  for (int round = 0; round < rounds; ++round, now += 200) {
+    for (std::size_t from = 0; from < uavs.size(); ++from) {
+      PayloadWriter writer;
+      uavs[from].write(all_in_sight(three_uavs(from)), now, 1500, writer);
+      ASSERT_LE(writer.size(), kMaxPayloadBytes);
+      for (std::size_t to = 0; to < uavs.size(); ++to) {
+        PayloadReader reader(writer.data());
+        if (to == from || random.bits() % 2 == 0) continue;
+        EXPECT_TRUE(uavs[to].read(from, now, reader));
+      }
+    }
+  }
+}
+
+/// Three UAVs that each found points of their own, some of them the same: in the end all know the best of each. One of
+/// them then begins anew, and gets everything back.
+TEST(FlockPoints, AllEndUpWithTheBestOfAllWhateverIsLost) {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    RandomStream random(seed, "points", 0);
+    std::vector<FlockPoints> uavs(3);
+    std::map<std::array<long, 3>, long> best;
+    const std::vector<DetectedPoint> scene = drawn_points(random, 200);
+    for (FlockPoints& points : uavs) {
+      std::vector<DetectedPoint> own;
+      for (DetectedPoint point : scene) {
+        point.score = random.uniform(0.2, 1.0);
+        if (random.bits() % 2 == 0) own.push_back(point);
+      }
+      points.detect(own, Vector3d::Zero());
+      for (const auto& [place, q] : qualities(points)) best[place] = std::max(best[place], q);
+    }
+    Tick now = 0;
+    talk(uavs, random, 80, now);
+    for (const FlockPoints& points : uavs) EXPECT_EQ(qualities(points), best) << "seed " << seed;
+    uavs[1] = FlockPoints();
+    talk(uavs, random, 80, now);
+    EXPECT_EQ(qualities(uavs[1]), best) << "seed " << seed;
+  }
+}
+
+/// A dense region has more points than a message has room for.
+TEST(FlockPoints, DenseRegionsGoOutInSlices) {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    RandomStream random(seed, "points", 1);
+    std::vector<FlockPoints> uavs(3);
+    uavs[0].detect(drawn_points(random, 1500, 8.0), Vector3d::Zero());
+    uavs[1].detect(drawn_points(random, 60), Vector3d::Zero());
+    Tick now = 0;
+    talk(uavs, random, 160, now);
+    EXPECT_GT(uavs[2].all().size(), 1000U) << "seed " << seed;
+    for (const FlockPoints& points : uavs) EXPECT_EQ(qualities(points), qualities(uavs[2])) << "seed " << seed;
+  }
+}
+
+/// Whatever arrives, nothing but points comes of it.
+TEST(FlockPoints, DamagedMessagesDoNoHarm) {
+  RandomStream random(11, "damage", 0);
+  FlockPoints sender;
+  sender.detect(drawn_points(random, 60), Vector3d::Zero());
+  PayloadWriter writer;
+  FlockPoints hungry;
+  PayloadWriter request;
+  hungry.write(all_in_sight(three_uavs(1)), 0, 1000, request);
+  PayloadReader asked(request.data());
+  ASSERT_TRUE(sender.read(1, 0, asked));
+  sender.write(all_in_sight(three_uavs(0)), 0, 4000, writer);
+  for (int i = 0; i < 300; ++i) {
+    std::vector<std::uint8_t> bytes = writer.data();
+    bytes.resize(1 + random.bits() % bytes.size());
+    for (int flips = 0; flips < 4; ++flips) bytes[random.bits() % bytes.size()] ^= 1U << random.bits() % 8;
+    FlockPoints points;
+    PayloadReader reader(bytes);
+    points.read(0, 0, reader);
+    for (const FlockPoint& point : points.all()) {
+      EXPECT_TRUE(point.p_W.allFinite());
+      EXPECT_NEAR(point.n_W.norm(), 1.0, 1e-9);
+      EXPECT_GE(point.q, 0.0);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace skein::agent
