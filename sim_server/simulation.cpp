@@ -48,9 +48,9 @@ struct Simulation::Impl {
   const Scenario scenario;
   const Scene scene;
   FaultPlan faults;
-  ConditionsConfig conditions;  ///< the scenario's, as faults have changed them
-  bool conditions_changed = false;
-  const std::size_t planned_faults;  ///< without those by hand
+  ConditionsConfig conditions;                  ///< the scenario's, as faults have changed them
+  std::vector<std::size_t> conditions_changes;  ///< the faults that have changed them
+  const std::size_t planned_faults;             ///< without those by hand
   PhysicsWorld world;
   RayScene rays;
   Mission mission;
@@ -117,10 +117,10 @@ void Simulation::Impl::meet_faults() {
 }
 
 void Simulation::Impl::meet_conditions() {
-  const auto changed = changed_conditions(faults, scenario, tick);
-  if (!changed && !conditions_changed) return;
-  conditions = changed.value_or(scenario.conditions);
-  conditions_changed = changed.has_value();
+  std::vector<std::size_t> now = active_changes(faults, tick);
+  if (now == conditions_changes) return;
+  conditions_changes = std::move(now);
+  conditions = changed_conditions(faults, scenario, conditions_changes);
   for (SimulatedUav& uav : uavs) uav.change_conditions(conditions);
   tracer.change(conditions.radio);
 }
@@ -287,7 +287,7 @@ void Simulation::Impl::trace_links() {
   open_links = tracer.open(tick, links);
 }
 
-/// Sets what a UAV's software is told of its state.
+/// Updates the state that the UAV's on-board software receives, with its uncertainty, the battery and the wind.
 void Simulation::Impl::tell(UavIndex i, const VehicleCondition& condition) {
   const Surroundings& surroundings = uavs[i].surroundings;
   const ToldState told = uavs[i].surroundings.tell(tick, world.state(i));

@@ -51,13 +51,21 @@ ConditionsConfig with_change(const ConditionsConfig& before, const ConfigNode& v
 
 }  // namespace
 
-std::optional<ConditionsConfig> changed_conditions(const FaultPlan& plan, const Scenario& scenario, Tick tick) {
-  std::optional<ConditionsConfig> now;
-  for (const Fault& fault : plan.faults) {
-    const auto* change = std::get_if<ConditionsChange>(&fault.action);
-    if (change == nullptr || !fault.active(tick)) continue;
-    now = with_change(now.value_or(scenario.conditions), change->values, fixed_values(scenario.conditions));
+std::vector<std::size_t> active_changes(const FaultPlan& plan, Tick tick) {
+  std::vector<std::size_t> faults;
+  for (std::size_t i = 0; i < plan.faults.size(); ++i) {
+    const Fault& fault = plan.faults[i];
+    if (std::holds_alternative<ConditionsChange>(fault.action) && fault.active(tick)) faults.push_back(i);
   }
+  return faults;
+}
+
+ConditionsConfig changed_conditions(const FaultPlan& plan, const Scenario& scenario,
+                                    const std::vector<std::size_t>& faults) {
+  ConditionsConfig now = scenario.conditions;
+  const ConfigNode fixed = fixed_values(scenario.conditions);
+  for (const std::size_t i : faults)
+    now = with_change(now, std::get<ConditionsChange>(plan.faults[i].action).values, fixed);
   return now;
 }
 

@@ -30,7 +30,7 @@ class ConditionsChanges : public testing::Test {
     return plan_;
   }
   ConditionsConfig at(double time_s) const {
-    return changed_conditions(plan_, scenario_, ticks(time_s)).value_or(scenario_.conditions);
+    return changed_conditions(plan_, scenario_, active_changes(plan_, ticks(time_s)));
   }
   void refused(const std::string& fault, const std::string& words) {
     try {
@@ -50,7 +50,7 @@ class ConditionsChanges : public testing::Test {
 TEST_F(ConditionsChanges, HoldFromTheirBeginToTheirEnd) {
   load("  - {at_s: 10, until_s: 20, conditions: {wind: {mean_mps: 12}, lidar: {clutter_p: 0.001}}}\n");
   for (const double before_or_after_s : {0.0, 9.9, 20.0, 300.0}) {
-    EXPECT_FALSE(changed_conditions(plan_, scenario_, ticks(before_or_after_s))) << before_or_after_s;
+    EXPECT_TRUE(active_changes(plan_, ticks(before_or_after_s)).empty()) << before_or_after_s;
   }
   const ConditionsConfig now = at(15.0);
   EXPECT_EQ(now.wind.mean_mps, 12.0);

@@ -10,6 +10,8 @@ constexpr double kSampleM = 0.3;       ///< between two places of a way that are
 constexpr double kNearerM = 1e-6;      ///< rounding, where nothing may come nearer
 constexpr double kHeightSigmas = 2.0;  ///< so much a standing UAV may be told to be above the ground
 constexpr double kNoiseSigmas = 4.0;   ///< so many of the odometry's noise are no motion
+/// A climb is commanded from a place that the noise has shifted: each step is to the side by a share of this.
+constexpr double kCommandNoise = 0.1;  ///< standard deviations of the noise
 constexpr double kPeerDelayS = 0.1;    ///< a UAV may fly on so long before it brakes: one exchange and a late command
 constexpr double kPeerBrakesMps2 = 2.0;
 /// Commands are means over so long (tracker.hpp): braking begins that much softer.
@@ -98,7 +100,7 @@ std::optional<TrajectoryCommand> SafetyFilter::step(Tracker& tracker, const Fact
   held_ = {};
   const bool flies = tracker.moves() && tracker.tracking().airborne;
   now_W_ = flies ? tracker.commanded().p_WB : facts.state.p_WB;
-  nearer_m_ = std::max(kNearerM, (flies ? 0.1 : kNoiseSigmas) * agent_.odometry.noise_sigma_m);
+  nearer_m_ = std::max(kNearerM, (flies ? kCommandNoise : kNoiseSigmas) * agent_.odometry.noise_sigma_m);
   const double dt_s = agent_.exchange_period_s;
   if (!tracker.moves()) return tracker.step(facts.state, dt_s);
   ++counts_.exchanges;

@@ -95,7 +95,10 @@ void FlockPoints::write(const Peers& peers, Tick now, std::size_t room, PayloadW
     const auto& [cell, region] = *lacking[(next_ + i) % lacking.size()];
     const std::size_t most = (room - std::min(room, chosen.size())) / kPointBytes;
     if (region.points.size() > most) {
-      if (count == 0) count += write_slice(cell, region, most, chosen);
+      if (count == 0) {
+        write_slice(cell, region, most, chosen);
+        ++count;
+      }
       break;
     }
     write_region(cell, region, 0, region.points.size(), chosen);
@@ -107,13 +110,11 @@ void FlockPoints::write(const Peers& peers, Tick now, std::size_t room, PayloadW
 }
 
 /// The next `most` points of a region that has more than fit in one message.
-std::uint16_t FlockPoints::write_slice(const Cell& cell, const Region& region, std::size_t most,
-                                       PayloadWriter& writer) const {
+void FlockPoints::write_slice(const Cell& cell, const Region& region, std::size_t most, PayloadWriter& writer) const {
   if (slice_ >= region.points.size()) slice_ = 0;  // it was that of another region
   const std::size_t count = std::min(most, region.points.size() - slice_);
   write_region(cell, region, slice_, count, writer);
   slice_ = slice_ + count < region.points.size() ? slice_ + count : 0;
-  return 1;
 }
 
 void FlockPoints::write_region(const Cell& cell, const Region& region, std::size_t first, std::size_t count,

@@ -62,7 +62,7 @@ class FlockPoints {
 
   void take(const Vector3d& p_W, const Vector3d& n_W, double q, const Vector3d* p_WC);
   std::uint16_t hash_of(const Region& region) const;
-  std::uint16_t write_slice(const Cell& cell, const Region& region, std::size_t most, PayloadWriter& writer) const;
+  void write_slice(const Cell& cell, const Region& region, std::size_t most, PayloadWriter& writer) const;
   void write_region(const Cell& cell, const Region& region, std::size_t first, std::size_t count,
                     PayloadWriter& writer) const;
   bool read_region(PayloadReader& reader);
