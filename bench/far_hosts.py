@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 """What a network between hosts costs a fleet: `skein run --place` over links of known delay, beside one host.
 
-Two hosts are network namespaces. With a round trip of 0 a veth pair connects them; else each has a TAP device, and a
-process carries the frames between these and holds each for half of the round trip. Flights on one host and over both
-are in turn, since the machine's speed drifts; each pair must have one digest. Needs to be root, sshd, and no other
-program on the machine for figures that mean something.
+The two hosts are network namespaces. For a round trip of 0, a veth pair connects them. Otherwise each has a TAP device,
+and a process forwards the frames between these and delays each by half of the round trip. Flights on one host and on
+both alternate, because the machine's speed drifts; both flights of a pair must have the same digest. Needs root and
+sshd. For meaningful results, no other program may run on the machine.
 
   bench/far_hosts.py build/release/bin/skein --round-trips 0,1,10 --pairs 3 --flight "towers --planner patrol"
 """
@@ -37,7 +37,7 @@ def run(*words, **more):
 
 @contextlib.contextmanager
 def inside(space):
-    """What this process opens meanwhile is of that namespace."""
+    """Within this context, sockets and devices that the process opens belong to the network namespace `space`."""
     libc = ctypes.CDLL(None, use_errno=True)
     with open("/proc/self/ns/net") as home, open(f"/run/netns/{space}") as there:
         if libc.setns(there.fileno(), CLONE_NEWNET) != 0:
@@ -49,7 +49,7 @@ def inside(space):
 
 
 def tap(space):
-    """A TAP device `eth0`, as a file of this process."""
+    """Creates a TAP device `eth0` in a namespace. Returns its file descriptor."""
     with inside(space):
         device = os.open("/dev/net/tun", os.O_RDWR | os.O_NONBLOCK)
         fcntl.ioctl(device, TUNSETIFF, struct.pack("16sH", b"eth0", IFF_TAP | IFF_NO_PI))
@@ -57,7 +57,7 @@ def tap(space):
 
 
 def carry(a, b, delay_s):
-    """Frames from each to the other, `delay_s` later. Without end."""
+    """Forwards frames between two TAP devices, each `delay_s` after its arrival. Never returns."""
     held = []
     while True:
         timeout = max(0.0, held[0][0] - time.monotonic()) if held else None
@@ -68,13 +68,13 @@ def carry(a, b, delay_s):
                     heapq.heappush(held, (time.monotonic() + delay_s, len(held), b if source == a else a, frame))
         while held and held[0][0] <= time.monotonic():
             _, _, target, frame = heapq.heappop(held)
-            with contextlib.suppress(OSError):  # as a link that is full
+            with contextlib.suppress(OSError):  # the frame is lost, as on a full link
                 os.write(target, frame)
 
 
 @contextlib.contextmanager
 def hosts(round_trip_s):
-    """The names of two namespaces, 10.250.0.1 and 10.250.0.2."""
+    """Creates two connected namespaces, 10.250.0.1 and 10.250.0.2. Yields their names."""
     names = [f"far{os.getpid()}{host}" for host in "ab"]
     carrier = None
     try:
@@ -106,7 +106,7 @@ def hosts(round_trip_s):
 
 @contextlib.contextmanager
 def login(names, folder):
-    """ssh's configuration for logging in on the second host as `b`."""
+    """Runs sshd on the second host. Yields the ssh configuration file with which the host `b` is reached."""
     for key in ("host_key", "user_key"):
         if not (folder / key).exists():
             run("ssh-keygen", "-q", "-t", "ed25519", "-N", "", "-f", folder / key)
@@ -132,7 +132,7 @@ def login(names, folder):
 
 
 def round_trip_ms(space):
-    """Of connections to sshd, which are there after one round trip."""
+    """Median time to open a TCP connection to sshd, which takes one round trip [ms]."""
     times = []
     for _ in range(30):
         with inside(space):

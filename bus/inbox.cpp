@@ -19,14 +19,14 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// One subscription; what has arrived for it is dropped once its reader is gone.
+/// One subscription. Once its reader is destroyed, waiting samples for it are dropped.
 struct Subscription {
   Inbox::Handler handler;
   Bell bell = Bell::rings;
   std::atomic<bool> alive = true;
 };
 
-/// Something that has arrived: a sample for a subscription, or posted work.
+/// A sample that has arrived for a subscription, or posted work.
 struct Arrival {
   std::shared_ptr<Subscription> subscription;
   Sample sample;
@@ -42,7 +42,7 @@ struct Arrival {
   }
 };
 
-/// Whose order is kept: one writer's samples at one reader; posted work is one stream.
+/// Arrivals whose order is kept: one participant's samples for one subscription. Posted work is one stream.
 using Stream = std::pair<const Subscription*, ParticipantId>;
 
 unsigned chaos_of_environment() {
@@ -50,8 +50,8 @@ unsigned chaos_of_environment() {
   return value == nullptr ? 0 : static_cast<unsigned>(std::strtoul(value, nullptr, 10));
 }
 
-/// How long chaos holds an arrival back: half of them not at all, most for less than what a step takes, a few for
-/// longer. SplitMix64 (Steele, Lea and Flood 2014).
+/// Random delay of an arrival under chaos: half of the delays are 0, most others are shorter than a step takes (below
+/// 0.3 ms), few are longer (below 3 ms). SplitMix64 (Steele, Lea and Flood 2014).
 class ChaosDelay {
  public:
   explicit ChaosDelay(unsigned seed) : state_((std::uint64_t{seed} << 32) ^ static_cast<std::uint64_t>(getpid())) {}
@@ -76,7 +76,7 @@ class ChaosDelay {
 
 }  // namespace
 
-/// Arrivals wait in `ready_`; under chaos they first wait in `held_` until they are due.
+/// Arrivals wait in `ready`; under chaos they first wait in `held` until they are due.
 struct Inbox::Impl {
   explicit Impl(unsigned chaos_seed) : chaos(chaos_seed != 0), delay(chaos_seed) {}
 
@@ -88,9 +88,9 @@ struct Inbox::Impl {
         hold(std::move(arrival));
       else
         add(std::move(arrival));
-      // Under chaos the waiting thread must look again when the first of those held back is due.
+      // Under chaos, wake the waiting thread in any case: the first held arrival may now be due earlier.
       if (!waiting || !(chaos || enough(wanted_rings))) return;
-      waiting = false;  // it is told once
+      waiting = false;  // one notification is enough
     }
     changed.notify_one();
   }
@@ -103,14 +103,14 @@ struct Inbox::Impl {
 
   bool enough(std::size_t wanted) const { return posted || woken || (wanted == 0 ? !ready.empty() : rings >= wanted); }
 
-  /// Takes all that is ready.
+  /// Takes all arrivals from `ready`.
   std::vector<Arrival> take() {
     rings = 0;
     posted = false;
     return std::exchange(ready, {});
   }
 
-  /// Never before what came earlier in the same stream: equal times keep their order in a multimap.
+  /// Delays an arrival. It is never due before an earlier one of its stream; a multimap keeps the order of equal times.
   void hold(Arrival&& arrival) {
     const Stream stream{arrival.subscription.get(), arrival.sample.source};
     Clock::time_point& last = last_due[stream];
@@ -118,14 +118,14 @@ struct Inbox::Impl {
     held.emplace(last, std::move(arrival));
   }
 
-  /// Moves what is due from `held` to `ready`.
+  /// Moves due arrivals from `held` to `ready`.
   void release() {
     const auto end = held.upper_bound(Clock::now());
     for (auto it = held.begin(); it != end; ++it) add(std::move(it->second));
     held.erase(held.begin(), end);
   }
 
-  /// Waits until enough is ready, someone woke us, or the time is over.
+  /// Waits until enough arrivals are ready, wake() was called, or the deadline has passed.
   void wait(std::unique_lock<std::mutex>& lock, Clock::time_point deadline, std::size_t wanted) {
     wanted_rings = wanted;
     for (;;) {
@@ -141,9 +141,9 @@ struct Inbox::Impl {
   std::mutex mutex;
   std::condition_variable changed;
   std::vector<Arrival> ready;
-  std::size_t rings = 0;  ///< of those in `ready`
-  bool posted = false;    ///< work is among them
-  bool waiting = false;   ///< and nobody has notified it yet
+  std::size_t rings = 0;  ///< ringing arrivals in `ready`
+  bool posted = false;    ///< `ready` contains posted work
+  bool waiting = false;   ///< a thread waits and has not been notified yet
   std::size_t wanted_rings = 0;
   bool woken = false;
   bool deaf = false;
@@ -199,7 +199,7 @@ bool Inbox::dispatch(std::chrono::milliseconds timeout, std::size_t rings) {
   try {
     while (done < batch.size()) batch[done++].run();
   } catch (...) {
-    // A handler may throw to its program; the samples behind it are not lost by that.
+    // A handler may throw an exception to its program. The samples after it stay in the inbox.
     const std::scoped_lock lock(impl_->mutex);
     std::vector<Arrival> later = impl_->take();
     for (; done < batch.size(); ++done) impl_->add(std::move(batch[done]));

@@ -37,7 +37,7 @@ bool multicast_on_loopback() {
   const int fd = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
   if (fd < 0) return false;
   ip_mreq group{};
-  group.imr_multiaddr.s_addr = ::inet_addr("239.255.0.1");  // the one that RTPS discovers by
+  group.imr_multiaddr.s_addr = ::inet_addr("239.255.0.1");  // RTPS's group for discovery
   group.imr_interface.s_addr = htonl(INADDR_LOOPBACK);
   const bool joined = ::setsockopt(fd, IPPROTO_IP, IP_ADD_MEMBERSHIP, &group, sizeof group) == 0 &&
                       ::setsockopt(fd, IPPROTO_IP, IP_MULTICAST_IF, &group.imr_interface, sizeof(in_addr)) == 0;

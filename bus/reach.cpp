@@ -45,7 +45,7 @@ std::optional<in_addr> address_in(const std::string& text) {
   return address;
 }
 
-/// Whether an interface is the one that a text means: its name, its address, or the subnet in which that is.
+/// Whether a text denotes this interface: by its name, its address, or a subnet that contains its address.
 bool is_meant(const OwnInterface& own, const std::string& text) {
   const std::size_t slash = text.find('/');
   if (slash == std::string::npos) return own.name == text || text_of(own.address) == text;
@@ -84,11 +84,11 @@ std::size_t mtu_of(const std::string& address) {
   return known ? static_cast<std::size_t>(request.ifr_mtu) : kEthernet;
 }
 
-/// What the peers' names tell now.
+/// Result of a look-up of all peers.
 struct Known {
-  std::vector<std::string> peers;  ///< addresses
-  std::vector<std::string> unknown;
-  std::string own;  ///< where packets to another of them leave; else what a name of ours among them stands for
+  std::vector<std::string> peers;    ///< addresses
+  std::vector<std::string> unknown;  ///< names without a known address
+  std::string own;  ///< own address: source of packets to a peer; else address of an own name in the list; may be empty
 };
 
 Known addresses_of(const std::vector<std::string>& hosts, const Addresses& addresses) {
@@ -111,8 +111,8 @@ Known addresses_of(const std::vector<std::string>& hosts, const Addresses& addre
   return known;
 }
 
-/// Asks until the own address is known, if it takes peers to know it. Who cannot be found yet comes later, and finds
-/// us.
+/// Looks up the peers; repeatedly, until the own address is known, if only a peer can determine it. Peers that are not
+/// found yet will contact this host when they start. @throws std::runtime_error after `patience`.
 Known find_peers(const DomainNetwork& network, const std::string& domain, std::chrono::milliseconds patience,
                  const std::optional<Addresses>& asked) {
   const bool by_route = !network.names_interface();
@@ -124,7 +124,7 @@ Known find_peers(const DomainNetwork& network, const std::string& domain, std::c
                                ") has an address that this host knows a way to; do they run, and in a common " +
                                "network? `interface:` would tell the own one without them");
     }
-    ::poll(nullptr, 0, static_cast<int>(kAskAgain.count()));  // nobody tells when a name is given
+    ::poll(nullptr, 0, static_cast<int>(kAskAgain.count()));  // no event reports that a name has become known
     known = addresses_of(network.peers, look_up_all(network.peers));
   }
   if (!known.unknown.empty()) {
@@ -187,7 +187,7 @@ Reach find_reach(const DomainNetwork& network, const std::string& domain, std::c
   Known known = find_peers(network, domain, patience, asked);
   reach.address = network.names_interface() ? text_of(interface_of(network.interface, domain).address) : known.own;
   reach.peers = std::move(known.peers);
-  // None is known yet: still no multicast.
+  // No peer's address is known yet. An entry keeps Reach::by_peers() true, and so multicast off.
   if (!network.peers.empty() && reach.peers.empty()) {
     reach.peers.push_back(reach.address.empty() ? "127.0.0.1" : reach.address);
   }

@@ -15,15 +15,16 @@ namespace skein::bus {
 /// Listens to one topic in one domain.
 struct Ear {
   std::function<void(std::span<const std::uint8_t> payload)> hear{};  ///< empty: nothing listens to the topic
-  bool also_unread = false;  ///< the writer builds samples for it that no program reads
+  bool also_unread = false;  ///< the writer builds samples for it even if no program reads them
 };
 
 class Tap {
  public:
   virtual ~Tap() = default;
-  /// @param node  of the domain: a UAV's name, "gcs", or "" for the world's. @returns an ear; must not outlive this.
+  /// @param node  the domain's node: a UAV's name, "gcs", or "" for the world. @returns an ear; must not outlive this.
   virtual Ear ear(const std::string& node, const TopicSpec& topic) = 0;
-  /// Takes the place of `handler` for samples that members send; by default, the ear receives each sample first.
+  /// @returns a replacement of `handler` for samples that members send; by default, it passes each sample to the ear
+  /// first.
   virtual OnSample taken(const std::string& node, const TopicSpec& topic, OnSample handler) {
     auto hear = ear(node, topic).hear;
     if (!hear) return handler;

@@ -15,7 +15,7 @@ class Unsent {
   /// Counts a sample; logs a warning for the first one on each topic.
   /// @param why  reason for the log: "its readers are too slow"
   void note(const std::string& topic, std::string_view why);
-  /// So far, on all topics.
+  /// Number of unsent samples so far, on all topics.
   std::uint64_t count() const { return count_; }
 
  private:

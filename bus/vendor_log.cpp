@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t kMostTexts = 48;
 
-/// Vendors log from all of their threads, and for the whole process: hence static.
+/// Texts logged so far. Static, because vendors log for the whole process, from all of their threads.
 struct Heard {
   std::mutex mutex;
   std::set<std::string, std::less<>> texts;

@@ -30,7 +30,7 @@ pid_t chosen_process(const RunningFleet& fleet, const std::string& member) {
   throw InputError("attach: no program of " + member + " runs there; " + suggestion(member, known));
 }
 
-/// How long the fleet waits for who stands in a debugger.
+/// Says how long the fleet waits for a program that a debugger has stopped.
 std::string patience_text(const RunningFleet& fleet, const std::string& member) {
   const bool server = member == programs::kSimServer;
   const bool timed = fleet.agent_timeout_s > 0.0 && !server;
@@ -40,7 +40,7 @@ std::string patience_text(const RunningFleet& fleet, const std::string& member) 
                      timed ? "--agent-timeout 3600" : "--debug");
 }
 
-/// What to do where a debugger stops: hardly ever in code of the user's.
+/// Says what to do at the debugger's first stop, which is hardly ever in the user's own code.
 std::string first_steps_text(const std::string& member) {
   const std::string where = member + " stops in a system call, where it waits for the next exchange";
   const bool has_planner =
@@ -49,7 +49,7 @@ std::string first_steps_text(const std::string& member) {
                               : ": set a breakpoint, then `continue`");
 }
 
-/// The tool's command line, the process at its end.
+/// The tool's command line, with the process id at its end.
 std::vector<std::string> tool_words(const std::string& how, pid_t pid, const std::string& why) {
   const std::string process = std::to_string(pid);
   std::vector<std::string> words;

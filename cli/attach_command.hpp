@@ -9,7 +9,7 @@ namespace skein::cli {
 /// A table of the user's running fleets. @returns kExitDone
 int list_fleets(const Console& console);
 
-/// Becomes the tool, attached to the process of a program: does not return unless that fails.
+/// Replaces this process by the debugging tool, attached to one program of a flying fleet; returns only on failure.
 /// @throws InputError when there is no such fleet or program, more than one, or no such tool
 int attach_to(const AttachOptions& options, const Console& console);
 

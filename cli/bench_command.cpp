@@ -34,20 +34,20 @@
 namespace skein::cli {
 namespace {
 
-constexpr std::size_t kFleetSize = 5, kLargeFleet = 21;  ///< from where on shorter runs must do
-constexpr std::size_t kTalkers = 20;  ///< of the radio load, unless only smaller fleets are asked for
+constexpr std::size_t kFleetSize = 5, kLargeFleet = 21;  ///< fleets of kLargeFleet UAVs or more get shorter runs
+constexpr std::size_t kTalkers = 20;  ///< UAVs that load the radio, unless only smaller fleets are asked for
 constexpr double kExchangeS = 0.05, kOneTickS = 0.0025;
 constexpr double kShortS = 600.0, kHourS = 3600.0;
 
 /// How much is measured.
 struct Effort {
   int repeats = 3;
-  std::optional<double> mission_s;  ///< of the speed runs; none: the scenario's own
+  std::optional<double> mission_s;  ///< mission time of the speed runs; none: the scenario's own
   double scale_mission_s = 60.0, scale_mission_of_large_s = 60.0;
   int rounds = 2000, rounds_of_large = 400;
   std::vector<std::size_t> sizes = {1, 5, 10, 20, 50, 100};
-  int relayed = 4000;    ///< messages through router and relay
-  double load_s = 30.0;  ///< of talking in real time
+  int relayed = 4000;    ///< messages sent through the router, and through the bare relay
+  double load_s = 30.0;  ///< duration of the radio load in real time
 };
 
 Effort effort_of(const BenchOptions& options) {
@@ -114,7 +114,7 @@ class Bench {
     }
   }
 
-  /// The sizes with the chosen vendor, and the fleet of five with the other one too.
+  /// Measures all fleet sizes with the chosen DDS vendor, and the fleet of five with the other vendor too.
   void measure_rounds() {
     report_["rounds"] = Json::array();
     for (const std::size_t uavs : effort_.sizes) measure_rounds_of(options_.dds, uavs);
@@ -123,7 +123,7 @@ class Bench {
 
   void measure_rounds_of(const std::string& vendor, std::size_t uavs) {
     const int rounds = uavs >= kLargeFleet ? effort_.rounds_of_large : effort_.rounds;
-    // Who hovers flies for ever: the run is ended by the number of rounds.
+    // A hovering UAV never finishes: the number of rounds ends the run.
     RunOptions run = fleet_run(write_scenario({uavs, 600.0, kOneTickS}, "rounds"), "hover");
     run.dds = vendor;
     run.stop_at_s = rounds * kOneTickS;
@@ -146,7 +146,8 @@ class Bench {
     }
   }
 
-  /// Latency against a bare relay, and twenty UAVs that talk to everybody in real time.
+  /// Measures the router's latency against a bare relay's, and a radio load: twenty UAVs that all send to all others in
+  /// real time.
   void measure_radio() {
     const std::string one = write_scenario({1, 600.0, kExchangeS}, "relay");
     report_["relay"] = Json::array();
@@ -186,7 +187,7 @@ class Bench {
     run.dds = options_.dds;
     run.out = scratch_.path() / "run";
     run.force = true;
-    run.attainable = run.report = false;  // no part of a run
+    run.attainable = run.report = false;  // not part of the flight that is measured
     return run;
   }
 
@@ -201,8 +202,8 @@ class Bench {
     std::map<int, std::vector<Json>> by_threads;  ///< in one process
   };
 
-  /// Over DDS, and in one process with one thread and with all cores, by turns, so that what else the machine does
-  /// disturbs all of them.
+  /// Flies over DDS, in one process with one thread, and in one process with all cores, in turn, so that other load on
+  /// the machine disturbs all three alike.
   Flights fly_all_ways(RunOptions run, std::size_t uavs, const std::string& what) {
     std::set<int> ways = {1, std::min(usable_cores(), static_cast<int>(uavs))};
     Flights flights;
@@ -230,7 +231,7 @@ class Bench {
     return std::move(flown.result);
   }
 
-  /// The production LiDAR at all poses of the run that was just flown.
+  /// Computes the production LiDAR's scans at all poses of the run that was just flown.
   Json every_scan(const RunOptions& run) {
     std::vector<std::string> argv = {program_dir() / "bench_lidar", "--scenario", run.scenario, "--trajectories",
                                      *run.out / run_folder::kTrajectories};

@@ -1,5 +1,5 @@
-// `skein bench`: how fast, how large, and where the time goes. Everything is measured in this one call, with the
-// programs of a user's run; the figures' arithmetic is in bench/report.hpp, what they mean in docs/performance.md.
+// `skein bench`: measures speed, memory, and where the time goes. One call measures everything, with the same programs
+// that a user's run starts. bench/report.hpp computes the figures, docs/performance.md explains them.
 #pragma once
 
 #include "cli/console.hpp"
@@ -8,7 +8,7 @@
 namespace skein::cli {
 
 /// Flies and measures, prints the tables, writes --json. Takes minutes, with --quick well below one.
-/// @returns kExitDone when every run went to its end, whatever the targets say; kExitProcessFailed otherwise;
+/// @returns kExitDone when every run reached its end, whether or not it meets the targets; else kExitProcessFailed, or
 ///   kExitInterrupted. @throws InputError before anything has started.
 int run_bench(const BenchOptions& options, const Console& console);
 

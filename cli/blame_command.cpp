@@ -23,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What is looked into: a run with its faults, and what failed in it, if it is a capsule.
+/// The run to examine, with its faults; and, if it comes from a capsule, the property that failed in it.
 struct Subject {
   RunOptions run;
   std::vector<Fault> faults;
@@ -68,14 +68,14 @@ HuntPlan plan_of(const BlameOptions& options, const Subject& subject) {
   return plan;
 }
 
-/// One flight without something.
+/// One flight from which one cause is removed.
 struct Without {
-  std::string what;  ///< that was taken away, for people
+  std::string what;  ///< what was removed, as text for the user
   Trial trial;
   TrialOutcome outcome = {};
-  double points = 0.0;                 ///< that it cost, of the score
-  std::optional<double> seconds = {};  ///< how much sooner the score of the end was there without it
-  std::string parts = {};              ///< where the runs part; empty: nowhere
+  double points = 0.0;                 ///< what the cause cost, in points of the score
+  std::optional<double> seconds = {};  ///< how much sooner the lower of the two final scores was reached without it
+  std::string parts = {};              ///< where the two runs first differ; empty: nowhere
 };
 
 void check_window(const std::vector<double>& window_s, double duration_s) {
@@ -84,7 +84,7 @@ void check_window(const std::vector<double>& window_s, double duration_s) {
                    ": FROM must be before UNTIL, and within the mission of " + number_text(duration_s) + " s");
 }
 
-/// From and to whom something was sent in this time that arrived.
+/// Links (source, target) on which a message sent within this time window arrived.
 std::set<std::pair<std::string, std::string>> links_used(const fs::path& dir, const Scenario& scenario,
                                                          const std::vector<double>& window_s) {
   std::set<std::pair<std::string, std::string>> links;
@@ -95,7 +95,7 @@ std::set<std::pair<std::string, std::string>> links_used(const fs::path& dir, co
   return links;
 }
 
-/// @param as_it_was  folder of the flight with everything in it.
+/// @param as_it_was  results folder of the flight from which nothing is removed.
 std::vector<Without> flights_without(const HuntPlan& plan, const Subject& subject, const BlameOptions& options,
                                      const fs::path& as_it_was) {
   std::vector<Without> all;
@@ -122,7 +122,7 @@ std::vector<Without> flights_without(const HuntPlan& plan, const Subject& subjec
   return all;
 }
 
-/// When a run had a score; nullopt: never.
+/// The time at which a run reached a score [s]; nullopt: it never did.
 std::optional<double> time_of_score(const results::RunRecord& run, double score) {
   constexpr double kRounding = 1e-6;
   for (const results::ScoreRow& row : run.scores) {
@@ -131,7 +131,7 @@ std::optional<double> time_of_score(const results::RunRecord& run, double score)
   return std::nullopt;
 }
 
-/// Both ways: what is taken away may have cost something, or brought it.
+/// Compares in both directions: the removed cause may have lowered the score or raised it.
 void compare(Without& without, const fs::path& there, const fs::path& here, double score) {
   without.points = without.outcome.score - score;
   const results::RunRecord with = results::read_run(there), less = results::read_run(here);

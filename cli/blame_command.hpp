@@ -1,5 +1,5 @@
-// skein blame: takes each fault of a run away, and each link's messages if that is wanted, flies again, and ranks them
-// by what they cost.
+// `skein blame`: flies a run again without one of its faults at a time, and on request without one link's messages at
+// a time, and ranks them by what they cost.
 #pragma once
 
 #include "cli/command.hpp"
@@ -7,7 +7,8 @@
 
 namespace skein::cli {
 
-/// @throws InputError when there is nothing to blame, or the run cannot be repeated; Interrupted.
+/// @returns the exit code. @throws InputError when there is nothing to blame, or the run cannot be repeated;
+///   Interrupted.
 int blame(const BlameOptions& options, const Console& console);
 
 }  // namespace skein::cli

@@ -36,7 +36,7 @@ FileKind kind_of(const std::string& file) {
                    "of properties 'properties'");
 }
 
-/// What the programs themselves say to a plan. Warnings are passed on.
+/// Lets the programs themselves check a plan, and prints their warnings.
 void check_with_programs(const FleetPlan& plan, const Console& console) {
   const ScratchDir scratch;
   for (const std::string& warning : run_checks(check_programs(plan, scratch.path()))) {
@@ -95,7 +95,7 @@ std::string check_file(const CheckOptions& options, const std::string& file, con
   return {};
 }
 
-/// Reference vectors go to the program that holds the production code; its words and its exit code are ours.
+/// Hands reference vectors to sim_server, which holds the production code, with its output and its exit code.
 int check_golden(const std::string& file) {
   return hand_over({programs::kSimServer,
                     {program_dir() / programs::kSimServer, "--golden", std::filesystem::absolute(file)},

@@ -29,27 +29,27 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Surroundings in which a mission is flown again.
+/// Process surroundings in which a mission is flown again.
 struct Surroundings {
-  std::string name, what;  ///< for people
-  std::string causes;      ///< what it usually is if the run is another one there
+  std::string name, what;  ///< as text for the user
+  std::string causes;      ///< the usual causes if the run differs in these surroundings
   std::map<std::string, std::string> variables = {};
-  std::optional<std::string> dds = {};  ///< processes over this vendor; none: as the first run
-  bool busy = false;                    ///< others want the processors, too
+  std::optional<std::string> dds = {};  ///< fly in processes over this vendor's DDS; none: as in the first run
+  bool busy = false;                    ///< other processes keep all processors busy
 };
 
-/// Three hundred days ago: whoever waits for a time of the wall clock need not wait then.
+/// Shift of the wall clock [s]: three hundred days back, so that a planner's wait until some wall time ends at once.
 constexpr const char* kOtherTime = "-25920000";
 
 constexpr std::size_t kMissions = 2;  ///< one without faults, one with a restart
 
-/// Beside the programs, or where it is installed.
+/// The library that shifts the clock: beside the programs, or where it is installed.
 fs::path other_clock(const fs::path& bin_dir) {
   const fs::path beside = bin_dir / kOtherClockLibrary;
   return fs::exists(beside) ? beside : bin_dir.parent_path() / "lib" / "skein" / kOtherClockLibrary;
 }
 
-/// @param python  whether a planner of the fleet is written in it.
+/// @param python  whether a planner of the fleet is written in Python.
 std::vector<Surroundings> all_surroundings(const fs::path& bin_dir, bool python) {
   const std::string order = "the order in which messages arrive, timers, or threads";
   std::vector<Surroundings> all = {
@@ -81,7 +81,7 @@ std::vector<Surroundings> all_surroundings(const fs::path& bin_dir, bool python)
   return all;
 }
 
-/// Sets variables of this process, and so of all that it starts, while it lives.
+/// While it lives, sets environment variables of this process, which all programs that it starts inherit.
 class Variables {
  public:
   explicit Variables(const std::map<std::string, std::string>& variables) {
@@ -153,7 +153,7 @@ class PlannerCheck {
   }
 
  private:
-  /// A program that is killed and comes back shows what it does not forget.
+  /// A fault file that kills and restarts an agent: the restart reveals state that outlives the process.
   fs::path restart_file() const {
     const fs::path file = out_ / "restart.yaml";
     std::ofstream(file) << "faults:\n  - {at_s: " << shortest(std::floor(duration_s_ / 3.0))
@@ -178,7 +178,7 @@ class PlannerCheck {
     for (const Surroundings& surroundings : surroundings_) compare(run, digest, folder, surroundings);
   }
 
-  /// Whether all are flown like this.
+  /// Whether the first run is flown in these surroundings already.
   bool is_as_first(const Surroundings& one) const {
     return one.dds && !base_.one_process && one.dds == base_.dds && one.variables.empty();
   }
@@ -202,7 +202,7 @@ class PlannerCheck {
     tell(run, first, surroundings);
   }
 
-  /// Who says something else first, hearing what was heard in the first run.
+  /// Prints where the runs differ, and which programs send something else when they get the first run's recording.
   void tell(RunOptions run, const fs::path& first, const Surroundings& surroundings) {
     if (fs::exists(*run.out / run_folder::kDigests)) {
       if (const auto difference = results::first_difference(first, *run.out)) {
@@ -228,7 +228,7 @@ class PlannerCheck {
     return read_json(*run.out / run_folder::kResult);
   }
 
-  /// Which flight begins, of how many, and how long all of them take at the pace so far.
+  /// Prints which flight begins, of how many, and how long the rest will take at the pace so far.
   void tell_progress() const {
     const double wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count();
     console_.err << "flight " << begun_ + 1 << " of " << planned_;
@@ -253,7 +253,7 @@ class PlannerCheck {
   fs::path out_;
   int differences_ = 0;
   std::vector<Surroundings> surroundings_;  ///< in which each mission is flown again
-  std::size_t planned_ = 0, begun_ = 0;     ///< flights
+  std::size_t planned_ = 0, begun_ = 0;     ///< numbers of flights
   const std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
 };
 

@@ -1,5 +1,5 @@
-// skein check-planner: flies the same missions in other surroundings, which must not make a difference, and says where
-// they do.
+// `skein check-planner`: flies the same missions in changed process surroundings (memory layout, clock, load, ...),
+// which must not change the result, and reports those that do.
 #pragma once
 
 #include "cli/command.hpp"
@@ -7,7 +7,7 @@
 
 namespace skein::cli {
 
-/// @returns 0 when all runs are the same, 1 when one is not. @throws InputError, Interrupted.
+/// @returns kExitDone when all runs are the same, kExitCheckFailed when one differs. @throws InputError, Interrupted.
 int check_planner(const CheckPlannerOptions& options, const Console& console);
 
 }  // namespace skein::cli

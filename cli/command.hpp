@@ -18,16 +18,16 @@ struct FilmOptions {
   int fps = 25;
   std::optional<double> seconds;  ///< length of the film
   std::optional<double> speed;    ///< or: simulated seconds per second of the film
-  std::string address;            ///< what the page shows: its address behind the #, where t is the film's begin
+  std::string address;            ///< what the page shows: the fragment (after #) of its URL; t is the film's start
   int width = 1280, height = 720;
 };
 
 /// A recorded run that is flown again (recording/replay.hpp).
 struct ReplayOf {
   std::filesystem::path recording;
-  std::optional<double> until_s;   ///< from this time on the programs' own messages count, no longer the recorded ones
+  std::optional<double> until_s;   ///< from this time on, the programs' own messages count instead of the recorded ones
   std::vector<std::string> only;   ///< UAVs whose programs run, or "gcs"; empty: all
-  std::vector<std::string> other;  ///< UAVs that run other software than was recorded: their messages are not compared
+  std::vector<std::string> other;  ///< UAVs whose software differs from the recorded one: messages not compared
 };
 
 /// The longest lease that DDS accepts: Cyclone DDS's limit [s].
@@ -69,13 +69,13 @@ struct RunOptions {
   std::optional<std::filesystem::path> agent;       ///< program that flies in the place of uav_agent
   std::vector<std::string> debug;                   ///< UAV[=TOOL], see cli/debug/debuggee.hpp
   std::optional<double> break_at_s;                 ///< debugged programs stop before that simulated time
-  std::optional<std::string> break_on;              ///< the same, before this event first befalls the first of them
-  std::optional<std::filesystem::path> break_from;  ///< results of the same flight: they tell the event's time
+  std::optional<std::string> break_on;              ///< they stop before the first of them first meets this event
+  std::optional<std::filesystem::path> break_from;  ///< results of the same flight, which give the event's time
   std::vector<std::string> log;                     ///< UAV=LEVEL
-  bool cores = false;                               ///< programs that crash leave a core
+  bool cores = false;                               ///< programs that crash leave a core dump
   bool one_process = false;                         ///< all programs in one process, without DDS
   std::optional<int> threads;                       ///< number of threads of that process
-  bool stepped = false;                             ///< with one_process: a program steps it and commands learners
+  bool stepped = false;  ///< with one_process: another program steps the fleet and commands the learners
   bool native = false;
   bool secure = false;  ///< DDS Security, agents under user ids of their own where possible
   std::optional<int> domain;
@@ -91,8 +91,8 @@ struct RunOptions {
   std::optional<double> keep_maps_s;  ///< period of snapshots of UAVs' maps, in simulated seconds; none: no snapshots
   std::optional<ReplayOf> replay;
   ViewOptions view;
-  bool check = true;       ///< ask the programs first whether they can fly this
-  bool attainable = true;  ///< ask the oracle after the run
+  bool check = true;       ///< first ask the programs whether they can fly this
+  bool attainable = true;  ///< after the run, ask the oracle for the attainable score
   bool report = true;      ///< make report.html of the run
   double patience = 1.0;   ///< for tests: scales how long the launcher waits for programs to leave
   std::string command;     ///< command line as the user typed it; empty: there was none
@@ -156,10 +156,10 @@ struct HuntOptions {
   std::optional<int> jobs;
   std::uint64_t seed = 1;   ///< seed of the search
   bool first = false;       ///< end the search with the first find
-  std::size_t shrink = 40;  ///< most flights spent on minimising a find
+  std::size_t shrink = 40;  ///< maximum number of flights spent on minimising a find
   std::optional<std::filesystem::path> out, junit;
-  bool force = false;      ///< begin anew in the folder of another hunt
-  std::size_t round = 16;  ///< cases that are fixed before the outcome of the first of them is evaluated
+  bool force = false;      ///< start over in the folder of another hunt
+  std::size_t round = 16;  ///< number of cases that are drawn before the outcome of the first of them is evaluated
   SweepOptions sweep;
 };
 
@@ -185,7 +185,7 @@ struct CheckOptions {
   std::optional<std::filesystem::path> assets;
   std::optional<std::filesystem::path> agent = {};  ///< as in RunOptions
   std::string scenario = "towers";                  ///< for fault files that name no scenario themselves
-  std::optional<std::string> conditions = {};       ///< that such files are for, instead of the scenario's
+  std::optional<std::string> conditions = {};       ///< conditions for such files, instead of the scenario's
 };
 
 struct SceneOptions {
@@ -208,8 +208,8 @@ struct BenchOptions {
   std::optional<double> duration_s;  ///< mission time of the speed runs, or of the runs of `tracking`
   std::optional<std::filesystem::path> json;
   bool planners = false;                         ///< measure the scores of all planners, not the machine
-  bool sensing = false;                          ///< measure only what an explorer knows of space
-  bool tracking = false;                         ///< measure only how far UAVs are from their setpoints
+  bool sensing = false;                          ///< measure only what an explorer's map knows of space
+  bool tracking = false;                         ///< measure only how far UAVs are from their set-points
   bool view = false;                             ///< measure only the cost of a page that follows a run
   bool python = false;                           ///< measure only the cost of planners in Python
   bool profile = false;                          ///< the cost of each stage and planner, by the size of the fleet
@@ -223,14 +223,14 @@ struct OracleOptions {
   std::optional<std::filesystem::path> assets;
   std::optional<std::string> rules;  ///< a preset, instead of the scenario's
   std::vector<double> clearances_m;  ///< instead of the oracle's default
-  bool vehicle = false;              ///< a sphere about body and rotors keeps the clearance, not the camera
+  bool vehicle = false;              ///< measure clearance from a sphere about body and rotors, not from the camera
   bool outside_only = false;
-  bool plan = false;  ///< also: the score that full knowledge reaches in the mission's time
+  bool plan = false;  ///< also compute the score that a plan with full knowledge reaches in the mission time
   bool json = false;
 };
 
 struct DoctorOptions {
-  bool net = false;  ///< test which hosts hear each other, instead of this machine's settings
+  bool net = false;  ///< test which hosts receive each other's messages, instead of this machine's settings
   std::string scenario = "towers";
   std::optional<std::filesystem::path> assets;
   std::string dds = "cyclonedds";  ///< a vendor or "mixed"
@@ -240,7 +240,7 @@ struct DoctorOptions {
   bool json = false;
   std::optional<std::string> name;  ///< name of this host
   std::vector<std::string> only;    ///< domains to test; empty: all that reach other hosts
-  std::optional<double> seconds;    ///< how long to speak and listen
+  std::optional<double> seconds;    ///< how long to send and listen [s]
 };
 
 struct DiffOptions {
@@ -269,7 +269,7 @@ struct Reflight {
   std::optional<std::string> dds;              ///< a vendor or "mixed"; none: in one process where possible
   std::vector<std::string> debug;              ///< as in RunOptions
   std::optional<std::filesystem::path> out;    ///< none: a new folder in `run`
-  bool force = false;
+  bool force = false;                          ///< overwrite an existing result
 };
 
 struct RerunOptions {

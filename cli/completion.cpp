@@ -14,7 +14,7 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-/// What an option's value may be: the set that it is checked against ("TEXT:{a,b}"), or names of a kind.
+/// The possible values of an option: the set that CLI11 checks it against ("TEXT:{a,b}"), or known names of its kind.
 Names values_of(const CLI::Option& option, const KnownNames& known) {
   const std::string type = option.get_type_name(), name = option.get_name();
   if (const std::size_t open = type.find('{'); open != std::string::npos) {
@@ -41,13 +41,13 @@ Names option_names(const CLI::App& app) {
   return names;
 }
 
-/// The option of this name that wants a value.
+/// The option of this name if it takes a value; else null.
 const CLI::Option* valued_option(const CLI::App& app, const std::string& name) {
   const CLI::Option* option = name.starts_with("-") ? app.get_option_no_throw(name) : nullptr;
   return option != nullptr && option->get_type_size() != 0 ? option : nullptr;
 }
 
-/// What a planner's file in Python may be, as typed so far: "py:dir/pl" -> "py:dir/plan.py", "py:dir/plans/".
+/// Candidates for a planner's Python file in the folder typed so far: "py:dir/pl" -> "py:dir/plan.py", "py:dir/plans/".
 Names python_files(const std::string& typed) {
   namespace fs = std::filesystem;
   constexpr std::string_view kPrefix = "py:";
@@ -65,7 +65,7 @@ Names python_files(const std::string& typed) {
   return names;
 }
 
-/// Of a list ("kios,hov") and of what is said of a UAV ("jurong=hov") the last name is completed.
+/// Completes the last name in a list ("kios,hov") or after a UAV's name ("jurong=hov").
 Names fitting(const Names& names, const std::string& typed) {
   const std::size_t cut = typed.find_last_of(",=");
   const std::string before = cut == std::string::npos ? "" : typed.substr(0, cut + 1);

@@ -26,9 +26,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Where a fleet of a file shows its page, unless the file's maker says otherwise.
+/// Port of the page of a fleet that is started from a written file, unless --view names another.
 constexpr std::uint16_t kPortOfAFile = 8080;
-/// Whose containers' programs are when the launcher is root.
+/// The user under whom the containers' programs run when the launcher is root.
 constexpr UserId kOrdinaryUser{1000, 1000};
 
 ComposeLayout layout_of(const ComposeOptions& options) {
@@ -71,7 +71,7 @@ std::string variable_or(const char* name, const char* otherwise) {
   return value != nullptr && *value != '\0' ? value : otherwise;
 }
 
-/// What the programs in containers write to, and as whom.
+/// The folders that the programs in containers write to, and the user under whom they write.
 class ContainerFolders {
  public:
   explicit ContainerFolders(const fs::path& out)
@@ -101,7 +101,7 @@ class ContainerFolders {
   const UserId user_;
 };
 
-/// A folder of keys for each program.
+/// Writes one folder of keys for each program. @param give  passes a path on to the user of the containers.
 void write_keys(const FleetPlan& plan, int base_domain, const fs::path& folder,
                 const std::function<void(const fs::path&)>& give) {
   for (const auto& [program, files] : security_of(plan, base_domain)) {
@@ -126,7 +126,7 @@ void check_before_flight(FleetPlan plan, const ComposeLayout& layout, const Cons
     check_gdb(own != layout.images.end() ? own->second : layout.chosen.at(image_of(plan, one.program).variable),
               one.member);
   }
-  // Of a user's image nothing is known here.
+  // The programs in a user's own image cannot be checked here.
   std::erase_if(plan.planners, [&](const UavPlanner& planner) { return layout.images.contains(planner.uav); });
   if (plan.ground && layout.images.contains("gcs")) plan.ground.reset();
   const ScratchDir scratch;
@@ -134,7 +134,7 @@ void check_before_flight(FleetPlan plan, const ComposeLayout& layout, const Cons
              [&](const std::string& waiting) { console.err << waiting << std::endl; });
 }
 
-/// Whom a debugger is to be attached to, and how.
+/// Tells the user which programs wait for a debugger, and how to attach one.
 void tell_who_waits(const FleetPlan& plan, const std::map<std::string, std::string>& containers, const fs::path& out,
                     ProgressView& view) {
   for (const Debuggee& one : plan.debug) {
@@ -152,7 +152,7 @@ int fly(const ComposeOptions& options, const FleetPlan& plan, ComposeLayout layo
     const auto [image, variable] = image_of(plan, program);
     if (!layout.images.contains(programs::member_name(program))) layout.chosen[variable] = variable_or(variable, image);
   }
-  compose_file(plan, layout);  // whether it can be
+  compose_file(plan, layout);  // throws if the file cannot be made
   ResultsDir::check(dir, options.run.force);
   check_before_flight(plan, layout, console);
   std::optional<LivePage> page;
@@ -205,7 +205,7 @@ int fly(const ComposeOptions& options, const FleetPlan& plan, ComposeLayout layo
   return exit_code_of(run, *result);
 }
 
-/// Beside a file for docker-compose: what the page of its fleet needs, and what opens it.
+/// The folder beside a docker-compose file with the key of the fleet's page, and with the file that opens the page.
 fs::path view_folder_of(const fs::path& file) { return fs::path(file).replace_extension(".view"); }
 
 void write_view_folder(const fs::path& folder, const view::Endpoint& published) {
@@ -215,8 +215,8 @@ void write_view_folder(const fs::path& folder, const view::Endpoint& published) 
   ContainerFolders(folder).give_all(folder);
 }
 
-/// Takes =gdb off the one value of --debug that has it, or may have it: who has a terminal debugs there.
-/// @returns the UAV or server; empty: none
+/// Sets all values of --debug to =wait. At most one may be =gdb; with a terminal, the first one without a tool counts
+/// as =gdb. @returns the UAV or server of that one, for gdb in this terminal; empty: none
 std::string take_gdb(std::vector<std::string>& values, bool has_terminal) {
   std::string member;
   for (std::string& value : values) {
@@ -243,7 +243,7 @@ FleetPlan plan_in_containers(const ComposeOptions& compose, const Console& conso
   }
   if (!options.assets) options.assets = variable_or("SKEIN_ASSETS", "");
   FleetPlan plan = plan_fleet(options, program_dir());
-  if (options.view.at) plan.watched.emplace();  // by whom and where is told by the layout
+  if (options.view.at) plan.watched.emplace();  // the layout holds the page's endpoint and key
   if (!plan.scenario.scene.family.empty() || plan.options.assets->empty()) plan.options.assets.reset();
   for (Debuggee& one : plan.debug) {
     if (one.member != in_gdb) continue;

@@ -5,12 +5,11 @@
 
 namespace skein::cli {
 
-/// `terminal`: `err` is a terminal, whose last line can be rewritten. `keyboard`: and this process gets its input.
 struct Console {
-  std::ostream& out;  ///< results
-  std::ostream& err;  ///< progress, warnings and errors
-  bool terminal = false;
-  bool keyboard = false;
+  std::ostream& out;      ///< results
+  std::ostream& err;      ///< progress, warnings and errors
+  bool terminal = false;  ///< `err` is a terminal, whose last line can be rewritten
+  bool keyboard = false;  ///< and this process gets the terminal's input
 };
 
 }  // namespace skein::cli

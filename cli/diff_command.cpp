@@ -19,8 +19,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Of a result, what is the same in runs with the same digest: no measured time, nothing of the machine, the DDS, or
-/// of how it was started.
+/// The keys of result.json that are the same in all runs with the same digest: no measured time, and nothing that
+/// depends on the machine, the DDS vendor or the way the run was started.
 constexpr std::array kSettled = {
     "seed",          "scene_seed",   "exchange_period_s", "rules",        "conditions",     "status",
     "deterministic", "digest",       "sim_time_s",        "points_total", "mission_time_s", "points_detected",
@@ -41,7 +41,7 @@ void compare(const Json& a, const Json& b, const char* key, const std::string& o
   if (one != other) found.push_back("result.json: " + of + key + " " + shown(one) + ", and " + shown(other));
 }
 
-/// nullopt: the run has none, its launcher was killed.
+/// The run's result.json; nullopt when the run has none because its launcher was killed.
 std::optional<Json> result_of(const fs::path& run) {
   if (!fs::exists(run / run_folder::kResult)) return std::nullopt;
   return results::read_result_file(run);
@@ -70,7 +70,7 @@ void compare_results(const DiffOptions& options, std::vector<std::string>& found
 /// The first line in which a table of two runs differs.
 void compare_tables(const DiffOptions& options, const char* table, std::vector<std::string>& found) {
   std::ifstream a = open_text(options.run_a / table), b = open_text(options.run_b / table);
-  if (!a || !b) return;  // what a program that died left out
+  if (!a || !b) return;  // a program that died did not write its table
   std::string one, other;
   for (int line = 1;; ++line) {
     const bool more_a = static_cast<bool>(next_line(a, one, options.run_a / table));
@@ -87,7 +87,7 @@ void compare_tables(const DiffOptions& options, const char* table, std::vector<s
 /// Messages by time, then topic.
 using Messages = std::map<std::uint64_t, std::map<std::string, std::vector<mcap::Bytes>>>;
 
-/// What programs said in a run: commands and messages by radio. Skein's own views of it are left out.
+/// The commands and radio messages that programs sent in a run. Topics that Skein itself derives are left out.
 std::optional<Messages> messages_of(const fs::path& run) {
   const fs::path file = run / run_folder::kRecording;
   if (!fs::exists(file)) return std::nullopt;
@@ -102,7 +102,7 @@ std::optional<Messages> messages_of(const fs::path& run) {
 
 std::string number_of(std::size_t count) { return std::to_string(count) + (count == 1 ? " message" : " messages"); }
 
-/// Of the first time at which they differ.
+/// Reports the differences of the recordings at the first time at which they differ.
 void compare_recordings(const DiffOptions& options, std::vector<std::string>& found) {
   const auto a = messages_of(options.run_a), b = messages_of(options.run_b);
   if (!a || !b) return;
@@ -139,7 +139,7 @@ int diff_runs(const DiffOptions& options, const Console& console) {
     console.out << "first difference at step " << difference->step << " (" << difference->time_s << " s):\n";
     for (const std::string& field : difference->fields) console.out << "  " << field << '\n';
   }
-  // Options decide how much is recorded, so that recordings of the same run may differ.
+  // Options decide how much is recorded, so recordings of two identical runs may differ.
   std::vector<std::string> said;
   compare_recordings(options, said);
   if (difference) found.insert(found.begin(), said.begin(), said.end());

@@ -1,4 +1,4 @@
-// `skein diff`: where two runs part, and in what.
+// `skein diff`: when two runs start to differ, and in what.
 #pragma once
 
 #include "cli/command.hpp"
@@ -6,10 +6,10 @@
 
 namespace skein::cli {
 
-/// Compares digests step by step, what was said by radio and as commands (of runs with recordings), the results, and
+/// Compares the digests step by step, the radio messages and commands (if both runs have recordings), the results, and
 /// the tables of captures, events, scores and flights.
-/// @returns the exit code: 0 the same, 1 different. @throws InputError when a folder holds no run, or a file of it is
-///   damaged.
+/// @returns the exit code: 0 the same, 1 different. @throws InputError when a folder holds no run, or one of its files
+///   is damaged.
 int diff_runs(const DiffOptions& options, const Console& console);
 
 }  // namespace skein::cli

@@ -28,7 +28,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t kTailLines = 5;
 
-/// What the programs themselves say to what the tests fly. @throws InputError.
+/// Lets the programs themselves check what the tests fly. @throws InputError.
 void check_with_programs(const std::vector<FaultTest>& tests) {
   std::set<std::string> checked;
   for (const FaultTest& test : tests) {
@@ -42,7 +42,7 @@ void check_with_programs(const std::vector<FaultTest>& tests) {
   }
 }
 
-/// All tests of the files. @throws InputError with what is wrong in any of them.
+/// Loads the tests of all files. @throws InputError that lists the errors of all files.
 std::vector<FaultTest> load_all(const TestOptions& options) {
   std::vector<FaultTest> tests;
   std::string wrong;
@@ -58,7 +58,7 @@ std::vector<FaultTest> load_all(const TestOptions& options) {
   return tests;
 }
 
-/// Each test with each of these seeds, one file after the other.
+/// Each test with each of these seeds: all seeds of the first test, then those of the next.
 std::vector<FaultTest> with_seeds(const std::vector<FaultTest>& tests, const std::vector<std::uint64_t>& seeds) {
   std::vector<FaultTest> all;
   for (const FaultTest& test : tests) {
@@ -101,7 +101,7 @@ class FaultTestRun {
   }
 
  private:
-  /// How a flight ended, once it has.
+  /// How a flight ended; `exit` is set once it has.
   struct Flown {
     Clock::time_point began{};
     double wall_s = 0.0;
@@ -128,7 +128,7 @@ class FaultTestRun {
     for (; told_ < tests_.size() && is_over(flights_.tests[told_]); ++told_) tell(told_);
   }
 
-  /// Its flights, without those that it shares with others.
+  /// A test's flights, without the fault-free one that it may share with other tests.
   static std::vector<std::size_t> own_flights(const FlightsOfTest& flights) {
     std::vector<std::size_t> all = {flights.own};
     for (const auto& [how, index] : flights.repeats) all.push_back(index);
@@ -141,7 +141,7 @@ class FaultTestRun {
     return std::all_of(all.begin(), all.end(), [this](std::size_t index) { return flown_[index].exit.has_value(); });
   }
 
-  /// Tests are told in their order, whichever was over first.
+  /// Prints a test's verdict. Tests are reported in their order, whichever ended first.
   void tell(std::size_t index) {
     FaultVerdict& verdict = verdicts_[index];
     for (const std::size_t flight : own_flights(flights_.tests[index])) verdict.wall_s += flown_[flight].wall_s;
@@ -190,7 +190,7 @@ class FaultTestRun {
     }
   }
 
-  /// @throws std::runtime_error, with the end of its log, when it left no result.
+  /// @throws std::runtime_error, with the end of the flight's log, when the flight left no result.
   results::RunRecord record_of(std::size_t index) const {
     const fs::path dir = *flights_.flights[index].options.out;
     if (fs::exists(dir / run_folder::kResult)) return results::read_run(dir);
@@ -214,11 +214,11 @@ class FaultTestRun {
   const FaultFlights flights_;
   std::vector<Flown> flown_;            ///< by flight
   std::vector<FaultVerdict> verdicts_;  ///< by test
-  std::size_t told_ = 0;                ///< tests
+  std::size_t told_ = 0;                ///< number of tests reported so far
   TestCounts counts_;
 };
 
-/// @throws InputError for what would not be noticed before all has flown.
+/// @throws InputError for unusable output paths, which would otherwise be noticed only after the flights.
 void check_places(const TestOptions& options) {
   std::error_code error;
   fs::create_directories(options.out, error);

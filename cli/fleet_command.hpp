@@ -1,5 +1,5 @@
-// skein fleet: a fleet that a program steps, as skein.Fleet does in Python. The launcher finds out what is to fly and
-// whether it can, and becomes the process in which it does (one_process/session.hpp).
+// `skein fleet`: a fleet that another program steps, as skein.Fleet does in Python. The launcher plans and checks the
+// flight, then replaces itself by the process that simulates the whole fleet (one_process/session.hpp).
 #pragma once
 
 #include "cli/command.hpp"
@@ -7,7 +7,7 @@
 
 namespace skein::cli {
 
-/// Does not return if the fleet can be stepped. @throws InputError, Interrupted.
+/// Replaces this process; returns only when that fails. @throws InputError, Interrupted.
 int step_fleet(const FleetOptions& options, const Console& console);
 
 }  // namespace skein::cli

@@ -1,4 +1,4 @@
-// The command line of skein fleet.
+// The command line of `skein fleet`.
 #include <CLI/CLI.hpp>
 
 #include "cli/option_checks.hpp"

@@ -9,10 +9,10 @@
 
 namespace skein::cli {
 
-/// Their names, in the order of the planners.
+/// The names of those UAVs, in the order of the planners.
 std::vector<std::string> uavs_of_free_nodes(const std::vector<UavPlanner>& planners);
 
-/// @param clock  as --clock takes it. @throws InputError when there are such UAVs, and the clock is not real time.
+/// @param clock  value of --clock. @throws InputError when there are such UAVs but the clock is not real time.
 void check_free_nodes(const std::vector<UavPlanner>& planners, const std::string& clock);
 
 }  // namespace skein::cli

@@ -11,7 +11,7 @@
 namespace skein::cli {
 namespace {
 
-/// The planner that does what such a program says (uav_agent/planners/learner/learner.cpp).
+/// The planner that executes the commands of the program that steps the fleet (uav_agent/planners/learner/learner.cpp).
 constexpr const char* kLearner = "learner";
 
 UavPlanner hand_repeated(const UavPlanner& planner, const std::filesystem::path& file) {

@@ -53,7 +53,7 @@ class Hunt {
         finds_.go_into(failure, trial(failure.index), *log_.outcomes()[failure.index]);
       }
     } catch (const Interrupted&) {
-      interrupted = true;  // what was flown is in the log, and each capsule where it belongs
+      interrupted = true;  // the flights so far are in the log, and the capsules are written
     }
     tell_end();
     if (interrupted) throw Interrupted{};
@@ -110,7 +110,7 @@ class Hunt {
     plan_.options.sweep.executor ? flights_.fly_in_rounds(numbers, make, over) : flights_.fly(numbers, make, over);
   }
 
-  /// Whether all is known that the case is made of.
+  /// Whether the outcomes that this case is drawn from are all known.
   bool can_make(std::size_t index) {
     while (search_.cases().size() <= index) {
       if (!search_.may_go_on(log_.outcomes())) return false;
@@ -119,7 +119,7 @@ class Hunt {
     return true;
   }
 
-  /// Whether a case need not be flown any more. Those before the first that fails may be one that fails, too.
+  /// Whether a case need not be flown any more. Cases before the first known failure are flown: they may fail too.
   bool is_enough(std::size_t index) const {
     if (plan_.options.minutes && seconds_since(began_) > 60.0 * *plan_.options.minutes) return true;
     if (!plan_.options.first) return false;
@@ -127,7 +127,7 @@ class Hunt {
     return !failures.empty() && failures.front().index < index;
   }
 
-  /// How many cases count: those without a gap before them, and none behind the first find where that ends the search.
+  /// How many cases count: those before the first gap and, where the first find ends the search, up to that find.
   std::size_t flown() const {
     const auto& outcomes = log_.outcomes();
     const auto gap = std::ranges::find_if(outcomes, [](const auto& outcome) { return !outcome.has_value(); });
@@ -137,7 +137,7 @@ class Hunt {
     return failures.empty() ? count : failures.front().index + 1;
   }
 
-  /// Of the first `count`: those that `skein run` would not fly.
+  /// How many of the first `count` cases `skein run` refused to fly.
   std::size_t not_flown(std::size_t count) const {
     const auto& outcomes = log_.outcomes();
     return static_cast<std::size_t>(std::count_if(outcomes.begin(),
@@ -220,7 +220,7 @@ class Hunt {
   std::size_t flown_now_ = 0;
 };
 
-/// What the programs themselves say; then nobody asks them again.
+/// Lets the programs themselves check the plan, once for all flights of the hunt.
 void check_once(const HuntPlan& plan) {
   const ScratchDir scratch;
   run_checks(check_programs(plan.fleet, scratch.path()));

@@ -1,4 +1,4 @@
-// skein hunt: searches for faults that break a property, and makes a capsule of each find.
+// `skein hunt`: searches for faults that break a property, and writes a capsule for each find.
 #pragma once
 
 #include "cli/command.hpp"
@@ -6,7 +6,7 @@
 
 namespace skein::cli {
 
-/// @returns 0 when nothing was found, 1 with finds. @throws InputError, Interrupted.
+/// @returns kExitDone when nothing was found, kExitCheckFailed with finds. @throws InputError, Interrupted.
 int run_hunt(const HuntOptions& options, const Console& console);
 
 }  // namespace skein::cli

@@ -1,4 +1,4 @@
-// The command lines of those that search for faults.
+// The command lines of the commands that search for faults.
 #include <CLI/CLI.hpp>
 
 #include "cli/option_checks.hpp"

@@ -1,15 +1,15 @@
-// The machine that this runs on, for reports.   Threads: any.
+// Facts about the machine that this process runs on, for reports.   Threads: any.
 #pragma once
 
 #include <string>
 
 namespace skein::cli {
 
-/// Of the first processor, as /proc/cpuinfo has it; empty where that does not tell.
+/// Model name of the first processor, from /proc/cpuinfo; empty if there is none.
 std::string cpu_model();
-/// Processors that this process may use.
+/// Number of processors that this process may use.
 int usable_cores();
-/// Of the whole machine; 0 where nobody tells.
+/// Memory of the whole machine [GB, 1e9 bytes]; 0 if it is unknown.
 double memory_gb();
 
 }  // namespace skein::cli

@@ -17,8 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// In the run's folder, so that maps are moved and not copied. It goes last: while it is there, nobody knows whether
-/// all maps have been moved.
+/// Folder of the replay. It lies in the run's folder, so that maps are moved and not copied. It is removed last: while
+/// it exists, some maps may not have been moved yet.
 constexpr const char* kReflight = "replay-maps";
 
 void move_maps(const std::vector<std::string>& uavs, const fs::path& from, const fs::path& to) {
@@ -39,7 +39,7 @@ int add_maps_in_time(const fs::path& run, const Console& console) try {
   const std::vector<std::string> uavs = fleet_of(results::read_result_file(run));
   if (!fs::exists(reflight) && view::has_maps_in_time(run, uavs)) return kExitDone;
   console.err << "computing the UAVs' maps: the run is flown again from its recording" << std::endl;
-  std::ostringstream unseen;  // its score is known
+  std::ostringstream unseen;  // the summary is of no interest: the score is known
   const ThoughtAgain again =
       think_again_with_maps(run, reflight, {unseen, console.err, console.terminal, console.keyboard});
   if (again.code == kExitDone && again.different.empty()) move_maps(uavs, reflight, run);

@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What was flown, as the server says; what it does not say is as usual.
+/// The options of the flight, from the server's report; defaults where the report says nothing.
 RunOptions options_of(const FlightReport& flight, const MergeOptions& options,
                       const std::optional<std::string>& rules) {
   RunOptions run;
@@ -48,7 +48,7 @@ Scenario scenario_of(const RunOptions& run) {
   }
 }
 
-/// A program that died left books of what it did: it makes its report of them.
+/// If a program died before it wrote its report, starts it again to write the report from its journal (`books`).
 void settle(const char* program, const char* books, const RunOptions& run, const FlightReport& flight,
             const fs::path& dir) {
   if (fs::exists(dir / run_folder::report_file(program)) || !fs::exists(dir / books)) return;
@@ -79,8 +79,8 @@ std::string no_server(const MergeOptions& options) {
          " in it: the run is not over, or its server died";
 }
 
-/// Of a run whose server left no report there is no result, but what its programs recorded can be had together.
-/// @throws InputError when there is nothing of it.
+/// A run whose server left no report has no result, but the parts that its programs recorded can still be joined.
+/// @throws InputError when there is no part.
 int merge_without_server(const MergeOptions& options, const fs::path& dir, const Console& console) {
   const std::vector<fs::path> parts = recording_parts(dir);
   if (parts.empty()) throw InputError(no_server(options));
@@ -124,7 +124,7 @@ int merge_reports(const MergeOptions& options, const Console& console) {
   const RunResults results{
       run,     facts, scenario,
       reports, dir,   [&](const std::string& text) { return write_if_possible(dir / run_folder::kResult, text); }};
-  // What a recording lacks is no fault of the result's, but it must not go unnoticed.
+  // Damage of the recording does not affect the result, but it must not go unnoticed.
   const std::vector<std::string> damage = recording_damage(dir);
   const auto result = write_results(
       results, options.dir, [&] { return fs::exists(dir / run_folder::kRecording) ? damage : Texts(); }, console);

@@ -58,7 +58,7 @@ void add_mission(CLI::App& command, RunOptions& run, const std::string& faults_b
 
 namespace {
 
-/// What is flown, and how; of run, compose and keys.
+/// The options of run, compose and keys that say what is flown, and how.
 void add_flight_options(CLI::App* command, RunOptions& run) {
   command->add_option("SCENARIO", run.scenario, "A name under config/scenarios/ or a YAML file")->capture_default_str();
   command
@@ -89,7 +89,7 @@ void add_flight_options(CLI::App* command, RunOptions& run) {
   command->add_option("--stop-at", run.stop_at_s, "End the run at this simulated time [s]")->check(seconds);
 }
 
-/// What becomes of its results; of run and compose.
+/// The options of run and compose for the results.
 void add_result_options(CLI::App* command, RunOptions& run) {
   command->add_option("--out", run.out,
                       "Results folder (default runs/<scenario>-<planner>-<seed>, or with -2, -3... if that is taken)");
@@ -127,7 +127,7 @@ void add_run(CLI::App& app, RunOptions& run) {
                    "or =CMD before its command line (default: gdb; without a terminal a command for you to start)")
       ->type_name("UAV[=TOOL]")
       ->allow_extra_args(false)
-      ->excludes("--agent-timeout");  // it waits until Ctrl-C, or until the debugged program ends
+      ->excludes("--agent-timeout");  // with --debug the fleet waits until Ctrl-C, or until the debugged program ends
   command
       ->add_option("--break-at", run.break_at_s,
                    "Stop the debugged programs in their debugger, in the exchange before this simulated time [s]")
@@ -218,7 +218,7 @@ void add_keys(CLI::App& app, KeysOptions& keys) {
   command->footer("Example:\n  skein keys towers --out keys");
 }
 
-/// What cannot be had without processes.
+/// Refuses the options that need separate processes. @throws InputError
 void check_one_process(const RunOptions& run) {
   if (!run.one_process) return;
   const auto refuse = [](bool given, const std::string& option, const std::string& why) {
@@ -242,7 +242,7 @@ void add_diff(CLI::App& app, DiffOptions& diff) {
   command->footer("Example:\n  skein diff runs/towers-kios-0 runs/again");
 }
 
-/// What a command's options become, once they are read. @param arguments  of the whole command line
+/// Checks and completes a command's options once they are parsed. @param arguments  the whole command line
 template <class Options>
 Command finished(Options& options, const std::vector<std::string>& /*arguments*/) {
   return options;
@@ -282,7 +282,7 @@ Command finished(CheckOptions& check, const std::vector<std::string>& /*argument
   return check;
 }
 
-/// All commands by task, as `skein --help` lists them, and what CLI11 fills. A new command has its line here.
+/// All commands by task, as `skein --help` lists them, and the structs that CLI11 fills. New commands get a line here.
 class OptionParser {
  public:
   OptionParser()
@@ -322,7 +322,7 @@ class OptionParser {
     list(task, add_pack);
   }
 
-  /// Of the command that was parsed.
+  /// The options of the command that was parsed.
   Command take(const std::vector<std::string>& arguments) {
     for (const auto& [command, its_options] : commands_) {
       if (command->parsed()) return its_options(arguments);
@@ -351,7 +351,7 @@ void with_command_line(const std::function<void(const CLI::App&)>& use) { use(Op
 
 Command parse_command_line(const std::vector<std::string>& arguments) {
   OptionParser parser;
-  // Not for people: what the manual page is made of, and what a shell asks.
+  // Not for users: --manual is the source of the manual page, and a shell calls --complete.
   if (arguments == std::vector<std::string>{"--manual"}) return HelpText{manual_of(parser.app, "skein")};
   if (!arguments.empty() && arguments[0] == "--complete") {
     return CompletionOptions{{arguments.begin() + 1, arguments.end()}};
@@ -363,7 +363,7 @@ Command parse_command_line(const std::vector<std::string>& arguments) {
   try {
     parser.app.parse(std::move(reversed));
   } catch (const CLI::CallForHelp&) {
-    // Of the command that was named, if any.
+    // The help of the command that was named, or else the general help.
     return HelpText{parser.app.help(), is("run") || is("compose") || is("contest") || is("compare")};
   } catch (const CLI::CallForVersion& version) {
     return HelpText{std::string(version.what()) + "\n"};

@@ -16,10 +16,10 @@ namespace skein::cli {
 /// @param arguments without the program's name. @throws InputError for anything that does not fit.
 Command parse_command_line(const std::vector<std::string>& arguments);
 
-/// All commands with their options, for who tells about them, before anything is parsed.
+/// Calls `use` with all commands and their options, before anything is parsed: for help texts and completion.
 void with_command_line(const std::function<void(const CLI::App&)>& use);
 
-/// The other way: what `skein` must be given for this run.
+/// The inverse of parse_command_line(): the arguments that `skein` needs for this run.
 std::vector<std::string> arguments_of(const RunOptions& run);
 
 }  // namespace skein::cli

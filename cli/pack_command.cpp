@@ -27,7 +27,8 @@ using report::find_web_bundle;
 
 constexpr std::size_t kLastLines = 3;
 
-/// Finds its libraries beside itself, the system's own among them: another libm would fly another flight.
+/// The script that starts the packed skein. It uses the libraries beside it, including the system's own: another libm
+/// would give another flight.
 constexpr const char* kLauncher = R"sh(#!/bin/sh
 # Skein with its libraries: from wherever this folder is, and whatever is installed there.
 here=$(cd "$(dirname "$(readlink -f "$0")")" && pwd)
@@ -46,7 +47,7 @@ std::string output_of(const std::vector<std::string>& argv) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-/// Libraries of a program by the names under which it asks for them, and the loader among them.
+/// Adds a program's libraries by the names under which it asks for them, including the loader.
 void add_libraries(const fs::path& program, std::map<std::string, fs::path>& libraries, std::string& loader) {
   std::istringstream lines(output_of({"/usr/bin/env", "ldd", program}));
   for (std::string line; std::getline(lines, line);) {
@@ -63,7 +64,7 @@ void add_libraries(const fs::path& program, std::map<std::string, fs::path>& lib
   }
 }
 
-/// What flies planners and programs in Python; none where Skein was built or installed without.
+/// The modules that run planners and programs in Python; empty if Skein was built or installed without Python.
 std::vector<fs::path> python_modules() {
   std::vector<fs::path> modules;
   for (const char* name : {"libskein_python.so", "_skein_client.so"}) {
@@ -85,13 +86,13 @@ std::optional<fs::path> python_package() {
   return std::nullopt;
 }
 
-/// With who may read and run it.
+/// Copies a file or folder with its permissions.
 void copy_all(const fs::path& from, const fs::path& to) {
   fs::create_directories(to.parent_path());
   fs::copy(from, to, fs::copy_options::recursive);
 }
 
-/// Sources alone: what an interpreter has made of them here is for this one.
+/// Copies the sources only: .pyc files are for this machine's interpreter.
 void copy_package(const fs::path& from, const fs::path& to) {
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(from)) {
     if (!entry.is_regular_file() || entry.path().extension() == ".pyc") continue;

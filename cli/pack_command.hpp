@@ -1,4 +1,4 @@
-// `skein pack`: the programs with all libraries that they need, in one archive that flies wherever it is unpacked.
+// `skein pack`: the programs with all libraries that they need, in one archive that runs wherever it is unpacked.
 #pragma once
 
 #include "cli/command.hpp"
@@ -6,7 +6,7 @@
 
 namespace skein::cli {
 
-/// @returns the exit code. @throws InputError for an agent that is no program, or an archive that cannot be written.
+/// @returns the exit code. @throws InputError for an agent or library that is not there, or when tar fails.
 int pack_programs(const PackOptions& options, const Console& console);
 
 }  // namespace skein::cli

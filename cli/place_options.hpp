@@ -1,4 +1,4 @@
-// The options of `skein run` for programs on other hosts.
+// The options of `skein run` that place programs on other hosts.
 #pragma once
 
 #include "cli/command.hpp"
@@ -9,7 +9,7 @@ class App;
 
 namespace skein::cli {
 
-/// --place, --ssh, --skein-path, --print.
+/// Adds --place, --ssh, --skein-path and --print.
 void add_place_options(CLI::App& command, PlaceOptions& place);
 
 }  // namespace skein::cli

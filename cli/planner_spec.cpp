@@ -18,7 +18,7 @@ constexpr std::string_view kGround = "gcs";
 constexpr char kAt = '@';
 constexpr std::size_t kLongestLabel = 100;
 
-/// Whether what follows a comma may still belong to this planner.
+/// Whether the item after a comma may still belong to this planner.
 bool goes_on(const std::string& spec, bool item_has_key) {
   return is_command(spec) || (item_has_key && has_parameters(spec));
 }
@@ -35,7 +35,7 @@ void check_spec(const std::string& text, const std::string& spec) {
   }
 }
 
-/// @param spec  whole: with all its parameters, and the agent's path if any.
+/// @param spec  the complete text of the planner: with all parameters, and the agent's path if any.
 UavPlanner read_planner(const std::string& text, const std::string& node, const std::string& spec) {
   const std::size_t at = exec_command(spec) ? std::string::npos : spec.rfind(kAt);
   if (at == std::string::npos) return {node, spec};
@@ -111,7 +111,7 @@ std::string planners_rewritten(const std::string& text, const std::vector<std::s
 }
 
 bool has_parameters(const std::string& spec) {
-  // The colons of py:FILE:CLASS are not theirs.
+  // The colons of py:FILE:CLASS do not start parameters.
   if (const auto python = python_spec(spec.substr(0, spec.rfind(kAt)))) return !python->parameters.empty();
   const std::size_t end_of_name = spec.find_first_of(":@");
   return end_of_name != std::string::npos && spec[end_of_name] == ':';

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 constexpr std::size_t kMostSources = 100;
 constexpr std::uintmax_t kLargestSource = 1'000'000;
 
-/// Modules of a folder, and of those of its folders that are packages. @returns false when there are too many.
+/// Adds the modules in a folder and in its subfolders that are packages. @returns false when there are too many.
 bool add_sources(const fs::path& folder, std::vector<fs::path>& sources) {
   std::vector<fs::path> entries;
   std::error_code none;
@@ -102,7 +102,7 @@ Json keep_python_files(const std::vector<UavPlanner>& planners, const fs::path& 
 std::string with_python_files_of(const std::string& text, const std::vector<std::string>& fleet, const fs::path& run,
                                  const Json& result, const std::function<void(const std::string&)>& tell) {
   const Json flown = value_or(result, "planner", Json::object());
-  std::map<std::string, std::string> files;  // to fly, by what flew
+  std::map<std::string, std::string> files;  // key: the file that flew; value: the file to fly now
   for (const Json& one : value_or(result, "planner_files", Json::array())) {
     const std::string file = value_or(one, "file", "").get<std::string>();
     const fs::path copy = run / value_or(one, "kept", "").get<std::string>();

@@ -1,5 +1,5 @@
-// Planners in Python as the launcher sees them: files of the user's, which are found before anything flies, and kept
-// with the run, so that it can be flown again when they have changed.   Threads: any.
+// Planners in Python, as the launcher sees them: the user's files, which it finds before the flight and copies into the
+// run's folder, so that the run can be repeated after they have changed.   Threads: any.
 #pragma once
 
 #include <filesystem>
@@ -12,25 +12,26 @@
 
 namespace skein::cli {
 
-/// Makes the files of all planners in Python absolute: agents of other users, and in other folders, find them.
+/// Makes the paths of all planners in Python absolute, so that agents under other users or in other folders find them.
 /// @throws InputError for a file that is not there, and for Python at the ground station.
 void find_python_files(Planners& planners);
 
-/// The planner's file and what it may import from beside it, in a fixed order: modules and packages of its folder.
-/// Not more than a hundred files; of a folder with more, the planner's file alone.
+/// The planner's file, then the modules and packages in its folder that it may import, in a fixed order. At most a
+/// hundred files: of a folder with more, the planner's file only.
 std::vector<std::filesystem::path> python_sources(const std::filesystem::path& file);
 
-/// SHA-256 over names and contents.
+/// SHA-256 over the names and contents of python_sources(), in hexadecimal.
 std::string python_digest(const std::filesystem::path& file);
 
-/// Copies them into the folder of a run. @returns for result.json: by planner's file `file`, its copy `kept` below the
-/// run's folder and the `sha256` of all; empty: nobody flies Python.
-/// @param warnings  hear of what could not be copied: a run is not worth less without.
+/// Copies the sources of all planners in Python into the folder of a run.
+/// @returns for result.json, an array with one entry per planner's file: the path `file`, its copy `kept` relative to
+///   the run's folder, and the `sha256` of all its sources; empty if no planner is in Python, or copying fails.
+/// @param warnings  gets a line when copying fails: the run is valid without the copies.
 Json keep_python_files(const std::vector<UavPlanner>& planners, const std::filesystem::path& run,
                        std::vector<std::string>& warnings);
 
-/// --planner of a run that is flown again: its files as they were, those that the run kept where they have changed
-/// since. @param text, fleet  as for parse_planners(). @param tell  what flies in the place of a file
+/// The value of --planner that repeats a run with its Python files as they were: the run's copy replaces each file that
+/// has changed since. @param text, fleet  as for parse_planners(). @param tell  is told of each file that is replaced
 std::string with_python_files_of(const std::string& text, const std::vector<std::string>& fleet,
                                  const std::filesystem::path& run, const Json& result,
                                  const std::function<void(const std::string&)>& tell);

@@ -19,14 +19,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Of a page in a file that has maps or LiDAR points, to be sent to somebody.
+/// Size limit of an exported page with maps or LiDAR points [bytes], so that it can be sent to somebody.
 constexpr std::size_t kMostBytes = 4'000'000;
 
 view::Parting parting_of(const fs::path& a, const fs::path& b) {
   try {
     if (const auto difference = results::first_difference(a, b)) return {difference->time_s, difference->fields, {}};
     return {};
-  } catch (const InputError& error) {  // a run may be shown without its digests
+  } catch (const InputError& error) {  // a run without digests is shown all the same
     return {{}, {}, error.what()};
   }
 }
@@ -37,7 +37,7 @@ std::string said_of(const view::Parting& parting) {
   return fmt::format("first difference at {:.2f} s: {}", *parting.time_s, joined(parting.fields, ", "));
 }
 
-/// What is shown, and what is said of it.
+/// The content of the page, and its title.
 struct Shown {
   view::Feed feed;
   std::string title;

@@ -1,4 +1,5 @@
-// skein replay: a finished run on the page that follows a run that flies, or two on one clock; served, or as a file.
+// `skein replay`: shows a finished run, or two runs on one clock, on the same page that follows a live run. The page is
+// served, or written to a file.
 #pragma once
 
 #include "cli/command.hpp"
@@ -6,9 +7,9 @@
 
 namespace skein::cli {
 
-/// Serves the page until the user interrupts, or writes the file.
+/// Serves the page until the user interrupts, or writes the file. @returns the exit code.
 /// @throws InputError when a folder holds no result, two runs have no scene in common, no page can be served, or the
-///   file cannot be written as it was asked for; Interrupted while a film is made.
+///   requested file cannot be written; Interrupted while a film is made.
 int replay_run(const ReplayOptions& options, const Console& console);
 
 }  // namespace skein::cli

@@ -6,6 +6,7 @@
 
 namespace skein::cli {
 
+/// @returns the exit code: kExitCheckFailed when a recording is damaged.
 /// @throws InputError at the first folder without a result; the pages of the folders before it are written by then.
 int make_reports(const ReportOptions& options, const Console& console);
 

@@ -1,5 +1,5 @@
-// skein rerun: one UAV's software thinks again what it thought in a recorded run, without the fleet.
-// skein fork: a recorded run goes on differently from some time on.
+// `skein rerun`: replays a recorded run to one UAV's software, without the rest of the fleet's software.
+// `skein fork`: replays a recorded run up to some time, then lets it continue differently.
 #pragma once
 
 #include "cli/command.hpp"
@@ -8,29 +8,30 @@
 
 namespace skein::cli {
 
-/// The UAVs of a result.json, by name.
+/// The names of the UAVs in a result.json, in its order.
 std::vector<std::string> fleet_of(const Json& result);
 
-/// What was flown in a results folder, as the user gave it then, less what belonged to that run alone.
-/// @throws InputError when the folder does not tell.
+/// The options of the run in a results folder, as the user gave them then, without those that only that run needed
+/// (output, debugging, view, security). @throws InputError when the folder does not record them.
 RunOptions options_of_run(const std::filesystem::path& run);
 
-/// What came of flying a run again with all software of its UAVs.
+/// Outcome of replaying a run to the software of its UAVs.
 struct ThoughtAgain {
-  int code = 0;                        ///< exit code of the flight; the rest is there when it is 0
-  std::vector<std::string> different;  ///< what the software says otherwise than then, or the world; empty: nothing
+  int code = 0;                        ///< exit code of the flight; `different` is valid when it is 0
+  std::vector<std::string> different;  ///< differences of messages or world from the recorded run; empty: none
 };
 
-/// The UAVs' software thinks again what it thought, and keeps its maps in time in `out`, a folder that is overwritten.
-/// @throws InputError when the run has no whole recording, cannot be repeated, or no UAV of it keeps maps.
+/// Replays the run to the UAVs' agents, which write snapshots of their maps to `out`, a folder that is overwritten.
+/// @throws InputError when the run has no whole recording, cannot be repeated, or none of its UAVs keeps maps.
 ThoughtAgain think_again_with_maps(const std::filesystem::path& run, const std::filesystem::path& out,
                                    const Console& console);
 
-/// @returns the exit code: 0 when the software says what it said then, 1 when it does not.
-/// @throws InputError when the run has no whole recording, or cannot be repeated.
+/// @returns the exit code: 0 when the software sends the same messages as then and the digest is the same, 1 when not;
+///   else that of the flight. @throws InputError when the run has no whole recording, or cannot be repeated.
 int rerun(const RerunOptions& options, const Console& console);
 
-/// @returns the exit code of the run.
+/// @returns the exit code of the flight.
+/// @throws InputError as rerun(), and when the recorded run ended before options.at_s.
 int fork_run(const ForkOptions& options, const Console& console);
 
 }  // namespace skein::cli

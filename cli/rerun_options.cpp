@@ -1,4 +1,4 @@
-// The command lines of what flies a recorded run again.
+// The command lines of the commands that fly a recorded run again.
 #include <CLI/CLI.hpp>
 
 #include "cli/option_checks.hpp"

@@ -71,7 +71,7 @@ fs::path find_executable(const std::string& spec, const std::string& package, co
                    suggestion(package, {packages.begin(), packages.end()}));
 }
 
-/// Where the package skein_ros is.
+/// Install prefix of the package skein_ros. @throws InputError when AMENT_PREFIX_PATH has none
 fs::path find_skein_ros(const std::string& spec) {
   for (const fs::path& prefix : prefixes(spec)) {
     if (fs::exists(prefix / kStepLibrary)) return prefix;

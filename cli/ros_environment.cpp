@@ -36,7 +36,7 @@ Fleet flying_fleet(const RunOptions& options) {
   return {load_scenario(fleet.scenario, load), fleet.base_domain, fleet.network, fleet.keys};
 }
 
-/// Cyclone DDS gives up by itself where ten participants of a domain are on this host; a fleet has three of them.
+/// Raises Cyclone DDS's limit of about ten participants per domain and host; the fleet itself has three of them.
 std::string cyclonedds_discovery(const std::vector<std::string>& peers) {
   std::string text = "<ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>31</MaxAutoParticipantIndex>";
   if (!peers.empty()) {

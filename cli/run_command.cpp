@@ -32,7 +32,7 @@ void check_before_flight(const FleetPlan& plan, const Console& console) {
              [&](const std::string& waiting) { console.err << waiting << std::endl; });
 }
 
-/// @param domains  null: all in one process.
+/// @param domains  null: all programs in one process, without DDS.
 std::string start_line(const FleetPlan& plan, const DomainBlock* domains, const std::filesystem::path& out) {
   const std::string place =
       domains != nullptr ? "DDS domains " + std::to_string(domains->base()) + ".." + std::to_string(domains->last())
@@ -42,7 +42,7 @@ std::string start_line(const FleetPlan& plan, const DomainBlock* domains, const 
          out.string();
 }
 
-/// What the user should know of his surroundings before the run.
+/// Warns the user of settings of the environment that may affect the run.
 void warn_of_surroundings(const DomainBlock* domains, FleetRun& run) {
   for (const std::string& warning : environment_warnings()) {
     run.view().message("warning: " + warning);
@@ -54,7 +54,7 @@ void warn_of_surroundings(const DomainBlock* domains, FleetRun& run) {
   }
 }
 
-/// Of what agents could read of a secured fleet all the same.
+/// Warns of files that agents of a secured fleet can read although they should not.
 void warn_of_exposure(const FleetPlan& plan, const PlacedFleet* placed, FleetRun& run) {
   std::vector<std::string> exposed = exposed_files(plan);
   if (placed != nullptr) std::ranges::copy(placed->security_warnings(), std::back_inserter(exposed));
@@ -74,7 +74,7 @@ std::unique_ptr<PlacedFleet> place_fleet(FleetPlan& plan, const Console& console
   return placed;
 }
 
-/// Who has a terminal debugs there, unless he says otherwise.
+/// With a terminal, --debug UAV means --debug UAV=gdb.
 RunOptions with_debugger(RunOptions options, const Console& console) {
   for (std::string& value : options.debug) {
     if (console.keyboard && !options.secure && value.find('=') == std::string::npos) value += "=gdb";
@@ -82,12 +82,12 @@ RunOptions with_debugger(RunOptions options, const Console& console) {
   return options;
 }
 
-/// The flight that is to be debugged, without its debugger: nothing of it is kept or shown.
+/// Flies the flight that is to be debugged without the debugger. Keeps and shows nothing. @returns its result.json.
 Json fly_quietly(RunOptions options) {
   options.debug.clear();
   options.log.clear();
   options.domain.reset();
-  options.one_process = options.break_on != "lost";  // who crashes takes the process along
+  options.one_process = options.break_on != "lost";  // a program that crashes would end the whole process
   options.break_on.reset();
   options.view = {};
   options.cores = false;
@@ -100,7 +100,7 @@ Json fly_quietly(RunOptions options) {
   return read_json(*options.out / run_folder::kResult);
 }
 
-/// --break-on, as --break-at.
+/// Turns --break-on into --break-at: finds the time of the event.
 void find_break(RunOptions& options, const Console& console) {
   if (!options.break_on) return;
   const FleetPlan plan = plan_fleet(options, program_dir());
@@ -139,7 +139,7 @@ int run_fleet(const RunOptions& given, const Console& console) {
     domains = &own_domains.emplace(options.domain, domain_count(plan));
   }
   const int base_domain = domains != nullptr ? domains->base() : kFirstDomain;
-  const auto dir = results_dir_of(options, plan.scenario.name);  // another run may have taken one meanwhile
+  const auto dir = results_dir_of(options, plan.scenario.name);  // again: another run may have taken the name meanwhile
   check_outlasts(options.faults, dir);
   const ResultsDir out(dir, options.force);
 
@@ -163,14 +163,14 @@ int run_fleet(const RunOptions& given, const Console& console) {
   const auto collect = [&] {
     std::vector<std::string> warnings;
     if (secure) warnings = secure->collect();
-    secure.reset();  // the keys go before what else takes its time
+    secure.reset();  // deletes the keys before the slower steps
     return warnings;
   };
   const RunResults results{options, run.facts(), plan.scenario,
                            reports, out.path(),  [&](const std::string& text) { return out.write_result(text); }};
   const auto result = write_results(results, dir, collect, console);
   if (!result) return kExitProcessFailed;
-  // Who has interrupted the run has seen enough.
+  // A user who has interrupted the run does not want to see its replay.
   if (page && !run.facts().interrupted) page->stay_as_replay(out.path(), options.view, console);
   return exit_code_of(run, *result);
 }

@@ -8,8 +8,8 @@
 namespace skein::cli {
 
 /// Validates the options, starts the fleet, monitors it until it ends, and writes the result.
-/// @returns the exit code (process/program.hpp). @throws InputError when the input is wrong, before any program has
-/// started.
+/// @returns the exit code (process/program.hpp). @throws InputError for invalid input, before the fleet's programs have
+///   started; Interrupted before the flight.
 int run_fleet(const RunOptions& options, const Console& console);
 
 }  // namespace skein::cli

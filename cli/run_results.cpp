@@ -17,7 +17,7 @@
 namespace skein::cli {
 namespace {
 
-/// What became of the points; a run is not worth less because of an odd file.
+/// Writes losses.csv: the causes for which score was lost. An error becomes a warning: the run is valid all the same.
 Json losses_of(const std::filesystem::path& dir, const Json& answer, const results::Reports& reports,
                Json& warnings) try {
   return results::write_losses(dir, answer, reports);
@@ -26,7 +26,7 @@ Json losses_of(const std::filesystem::path& dir, const Json& answer, const resul
   return nullptr;
 }
 
-/// @returns false when the disk refuses; then the result is printed, so that it is not lost.
+/// @returns false when the result cannot be written; then it is printed, so that it is not lost.
 bool write_result(const RunResults& run, const Json& result, std::ostream& err) {
   const std::string trouble = run.write(results::result_text(result));
   if (!trouble.empty())
@@ -34,7 +34,7 @@ bool write_result(const RunResults& run, const Json& result, std::ostream& err) 
   return trouble.empty();
 }
 
-/// What the result can do without: score.csv, work.csv, and how the score compares with what could be had.
+/// Adds the optional parts: score.csv, work.csv, the attainable score and the losses. Errors become warnings.
 void add_tables(const RunOptions& options, const std::filesystem::path& dir, const Scenario& scenario,
                 const results::Reports& reports, Json& result) {
   Json& warnings = result["warnings"];
@@ -56,7 +56,7 @@ void add_tables(const RunOptions& options, const std::filesystem::path& dir, con
   result["losses"] = losses_of(dir, answer.by_point, reports, warnings);
 }
 
-/// How the same is flown without hands, from what was kept of them.
+/// Adds the command that repeats a flight flown by hand, from the recorded commands.
 void tell_how_to_repeat(const RunResults& run, const std::filesystem::path& shown, Json& result) {
   if (run.facts.command.empty()) return;
   Repeated by;
@@ -68,7 +68,7 @@ void tell_how_to_repeat(const RunResults& run, const std::filesystem::path& show
   if (by.planners || by.faults) result["repeat_command"] = command_repeated(run.facts.command, by);
 }
 
-/// A page for people; a run is not worth less without.
+/// Writes report.html. An error becomes a warning: the run is valid without it.
 bool make_report(const std::filesystem::path& dir, Json& warnings) try {
   report::write_run_report(dir);
   return true;
@@ -83,7 +83,7 @@ std::optional<Json> write_results(const RunResults& run, const std::filesystem::
                                   const std::function<std::vector<std::string>()>& collect, const Console& console) {
   Json result = results::merge_result(run.facts, run.scenario, run.reports);
   tell_how_to_repeat(run, shown, result);
-  // Before all that may still go wrong, or takes room.
+  // First of all: the next steps may fail, or fill the disk.
   const bool written = write_result(run, result, console.err);
   const std::size_t warnings_written = result["warnings"].size();
   for (std::string& warning : collect()) result["warnings"].push_back(std::move(warning));
@@ -92,7 +92,7 @@ std::optional<Json> write_results(const RunResults& run, const std::filesystem::
   if (!trouble.empty()) result["warnings"].push_back(trouble);
   const bool news = !result["losses"].is_null() || result["attainable"]["score"].is_number() ||
                     result["warnings"].size() > warnings_written;
-  if (written && news) run.write(results::result_text(result));  // the one before stands if the disk is full by now
+  if (written && news) run.write(results::result_text(result));  // if the disk is full by now, the first one remains
   if (written && run.options.report && !make_report(run.dir, result["warnings"]))
     run.write(results::result_text(result));
   print_summary(console.out, result, shown);
@@ -101,7 +101,7 @@ std::optional<Json> write_results(const RunResults& run, const std::filesystem::
 
 int exit_code_of(FleetRun& run, const Json& result) {
   if (run.facts().interrupted) return kExitInterrupted;
-  // A run that nothing is known to have ended is no good one, either.
+  // A run that ended for no known reason counts as failed, too.
   const bool aborted = result["status"] == name_of(RunStatus::aborted);
   return run.anything_failed() || aborted || results::anyone_lost(result) ? kExitProcessFailed : kExitDone;
 }

@@ -1,4 +1,4 @@
-// What is made of a run when it is over: result.json, score.csv, work.csv, losses.csv and the summary.
+// Writes the results of a run that has ended: result.json, score.csv, work.csv, losses.csv and the summary.
 #pragma once
 
 #include <filesystem>
@@ -14,23 +14,23 @@
 
 namespace skein::cli {
 
-/// What is known of it. All are referred to.
+/// What the results are made of. Holds references: all must outlive this.
 struct RunResults {
   const RunOptions& options;
   const results::RunFacts& facts;
   const Scenario& scenario;
   const results::Reports& reports;
-  std::filesystem::path dir;                                  ///< where it left its files
-  std::function<std::string(const std::string& text)> write;  ///< result.json; returns what went wrong, for people
+  std::filesystem::path dir;                                  ///< folder with the files of the run
+  std::function<std::string(const std::string& text)> write;  ///< writes result.json; returns the error, or nothing
 };
 
-/// @param shown  the folder as the user named it. @param collect  called once result.json is written: fetches what lies
-///   elsewhere, and returns warnings.
-/// @returns result.json; nullopt when the disk refused it: then it was printed.
+/// @param shown  the folder as the user named it. @param collect  called once result.json is written: fetches files
+///   from other places, and returns warnings.
+/// @returns result.json; nullopt when it could not be written: then it was printed.
 std::optional<Json> write_results(const RunResults& run, const std::filesystem::path& shown,
                                   const std::function<std::vector<std::string>()>& collect, const Console& console);
 
-/// Of the launcher after a run.
+/// Exit code of the launcher after a run.
 int exit_code_of(FleetRun& run, const Json& result);
 
 }  // namespace skein::cli

@@ -17,7 +17,7 @@ int export_scene(const SceneOptions& options) {
   if (options.scene_seed) argv.insert(argv.end(), {"--scene-seed", std::to_string(*options.scene_seed)});
   if (options.assets) argv.insert(argv.end(), {"--assets", *options.assets});
   if (options.force) argv.push_back("--overwrite-export");
-  // As in a run: the same libm makes the same scene.
+  // With a run's environment, hence the same libm and the same scene.
   return hand_over({programs::kSimServer, argv, fleet_environment(false), {}});
 }
 

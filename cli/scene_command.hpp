@@ -5,8 +5,8 @@
 
 namespace skein::cli {
 
-/// sim_server, which builds the scene, writes the files and says which.
-/// @returns its exit code: kExitDone, or kExitBadInput after it has said what is wrong.
+/// Runs sim_server, which builds the scene, writes the files and prints their names.
+/// @returns its exit code: kExitDone, or kExitBadInput after it has printed what is wrong.
 int export_scene(const SceneOptions& options);
 
 }  // namespace skein::cli

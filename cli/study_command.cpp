@@ -36,12 +36,12 @@ namespace fs = std::filesystem;
 using report::shortened;
 
 constexpr const char* kSettings = "study.json";
-constexpr std::size_t kLongestName = 40;   ///< of a planner on the terminal
-constexpr std::size_t kMostPictured = 20;  ///< scenes
-/// Flights whose scores over time and deliveries are read for the page: beyond that it would take minutes.
+constexpr std::size_t kLongestName = 40;   ///< longest name of a planner on the terminal, in characters
+constexpr std::size_t kMostPictured = 20;  ///< a study of more scenes gets no pictures
+/// Scores over time and deliveries are read for the page only in studies of at most so many flights: more take minutes.
 constexpr std::size_t kMostWithTables = 5000;
 
-/// @throws InputError when the folder is of a study with other settings, unless that is wanted.
+/// @throws InputError when the folder holds a study with other settings, unless --force is given.
 void check_settings(const StudyPlan& plan) {
   const Json then = read_json(plan.out / kSettings);
   if (then.is_null() || plan.options.force) return;
@@ -52,7 +52,7 @@ void check_settings(const StudyPlan& plan) {
   throw InputError(text + "\nChoose another --out, or go on there with --force: flights that fit are kept.");
 }
 
-/// None of a study over so many scenes that nobody would look at them all.
+/// A picture of the best flight of each scene and planner; none in a study of too many scenes to look at.
 StudyPictures pictures_of(const Study& study) {
   StudyPictures pictures;
   if (study.scenarios.size() > kMostPictured) return pictures;
@@ -65,7 +65,7 @@ StudyPictures pictures_of(const Study& study) {
   return pictures;
 }
 
-/// Those of a former study in this folder would be taken for this one's.
+/// Removes the figures of an earlier study in this folder, which would be mistaken for this one's, and writes the new.
 void write_figures(const StudyReport& report, const fs::path& dir) {
   fs::create_directories(dir);
   for (const fs::directory_entry& entry : fs::directory_iterator(dir)) {
@@ -171,7 +171,7 @@ void print_study(std::ostream& out, const Study& study) {
 
 namespace {
 
-/// Writes and prints what there is. @returns the exit code.
+/// Writes and prints the report of the flights so far. @returns the exit code.
 int merge(const StudyPlan& plan, StudyOutcomes outcomes, const Console& console) {
   std::vector<Requirement> requirements;
   for (const std::string& text : plan.options.requirements) requirements.push_back(parse_requirement(text));
@@ -190,7 +190,8 @@ int merge(const StudyPlan& plan, StudyOutcomes outcomes, const Console& console)
   return kept ? kExitDone : kExitCheckFailed;
 }
 
-/// None when this is the job at the end of a study that somebody follows.
+/// Locks the results folder. @returns null if this is the merge job at the end of a detached study, and another program
+/// that follows the study holds the folder.
 std::unique_ptr<ResultsDir> results_dir(const fs::path& dir) try {
   return std::make_unique<ResultsDir>(dir, false);
 } catch (const InputError&) {
@@ -198,7 +199,7 @@ std::unique_ptr<ResultsDir> results_dir(const fs::path& dir) try {
   return nullptr;
 }
 
-/// `--status`: says how far it is, and merges what is there.
+/// `--status`: prints the progress of a study, and merges the flights so far.
 int tell_status(const fs::path& folder, const Console& console) {
   const Command command = parse_command_line(enter_sweep(folder));
   const auto* options = std::get_if<StudyOptions>(&command);

@@ -7,17 +7,17 @@
 
 namespace skein::cli {
 
-/// Flies what has not been flown yet, then writes report.html, flights.csv, summary.csv, pairs.csv, table.tex,
-/// figures/*.svg and, of a contest, totals.csv; also after Ctrl-C and with flights that failed.
-/// @returns the exit code: kExitProcessFailed when a flight failed, kExitCheckFailed when one does not keep a
-///   requirement. @throws InputError before anything flies;
-///   Interrupted while the input is checked.
+/// Flies the flights that are still missing, then writes report.html, flights.csv, summary.csv, pairs.csv, table.tex,
+/// figures/*.svg and, for a contest, totals.csv; also after Ctrl-C and when flights have failed.
+/// @returns the exit code: kExitProcessFailed when a flight failed, kExitCheckFailed when one does not meet a
+///   requirement, kExitInterrupted after Ctrl-C. @throws InputError before anything flies; Interrupted while the input
+///   is checked.
 int run_study(const StudyOptions& options, const Console& console);
 
-/// The figures of what was flown.
+/// Gathers the figures of all flights, for the report.
 Study study_of(const StudyPlan& plan, StudyOutcomes outcomes);
 
-/// The ranking of a contest, then median scores by scene and planner.
+/// Prints the ranking of a contest, then median scores by scene and planner.
 void print_study(std::ostream& out, const Study& study);
 
 }  // namespace skein::cli

@@ -1,4 +1,4 @@
-// The command lines of those that fly many: studies, and what flies them beyond one process.
+// The command lines of studies, and the options for flying them beyond one process.
 #include <CLI/CLI.hpp>
 
 #include "cli/option_checks.hpp"
@@ -53,7 +53,7 @@ void add_pack(CLI::App& app, PackOptions& pack) {
 
 namespace {
 
-/// What `skein contest` and `skein compare` have in common.
+/// Adds the options that `skein contest` and `skein compare` have in common.
 void add_study_options(CLI::App& command, StudyOptions& study) {
   const CLI::Validator seconds(check_seconds, "");
   command.add_option("--planners", study.planner_lists, "A,B,... with parameters if any: kios,xxh:faithful=true,star")

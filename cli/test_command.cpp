@@ -21,7 +21,7 @@ int run_tests(const TestOptions& options, const Console& console) {
         "test: there are no tests beside this skein; ./skein test in the source tree builds and runs them");
   }
   const std::filesystem::path junit = scratch.path() / "ctest.xml", reports = scratch.path() / "gtest";
-  // One more than there are cores: many a test waits for its processes.
+  // One job more than there are cores, since tests often wait for their processes.
   std::vector<std::string> words = {
       "/usr/bin/env",        "ctest",
       "--test-dir",          build_dir,

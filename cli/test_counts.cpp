@@ -13,7 +13,7 @@
 namespace skein::cli {
 namespace {
 
-/// Counts of a GoogleTest program's own report.
+/// Counts the tests in a GoogleTest program's report.
 TestCounts count_cases(const Json& report) {
   TestCounts counts;
   for (const Json& suite : value_or(report, "testsuites", Json::array())) {

@@ -10,14 +10,14 @@ namespace skein::cli {
 
 inline constexpr int kMostThreads = static_cast<int>(TurnPage::kSeats);
 
-/// Tells the flights that a study or a hunt starts how many threads each may have.
+/// Environment variable by which a study or a hunt tells each of its flights how many threads it may use.
 inline constexpr const char* kThreadsVariable = "SKEIN_THREADS";
 
-/// @param asked  --threads; else SKEIN_THREADS counts, else the cores that this process may use: more threads than UAVs
-///               have nothing to do. @throws InputError for a variable that is no number of threads.
+/// @param asked  --threads; if it is not given, SKEIN_THREADS counts; else the number of cores that this process may
+///               use, but not more than UAVs. @throws InputError when the variable is not a valid number of threads.
 int threads_of(const std::optional<int>& asked, std::size_t uavs);
 
-/// For each of so many flights that are in the air at once: the cores, dealt out. @param flights  at least 1
+/// Threads for each of `flights` simultaneous flights: the usable cores, divided among them; at least 1.
 int threads_beside(std::size_t flights);
 
 }  // namespace skein::cli

@@ -8,7 +8,7 @@
 namespace skein::cli {
 namespace {
 
-/// Unlike CLI::Range this refuses "nan" too.
+/// A clearance within [0, 100] m. Unlike CLI::Range it refuses "nan" too.
 std::string check_clearance(const std::string& text) {
   char* end = nullptr;
   const double clearance = std::strtod(text.c_str(), &end);
@@ -16,7 +16,7 @@ std::string check_clearance(const std::string& text) {
   return fits ? "" : "must be a number within [0, 100], not '" + text + "'";
 }
 
-/// What only `skein doctor net` has a use for.
+/// Refuses the options that only `skein doctor net` uses. @throws InputError
 void check_doctor(const DoctorOptions& doctor) {
   if (doctor.net) return;
   const auto refuse = [](bool given, const std::string& option) {

@@ -1,4 +1,4 @@
-// The command lines of what is no flight: tests, checks, scenes, measurements.
+// Functions that add commands to the command line, and the options that several commands share.
 #pragma once
 
 #include "cli/command.hpp"
@@ -9,21 +9,21 @@ class App;
 
 namespace skein::cli {
 
-/// What changes a scenario's mission, of run, compose, keys and fleet: scene seed, UAVs, assets, duration, rules,
-/// conditions, faults.  @param faults_but  what a fault file may not have, for the help
+/// Adds the options of run, compose, keys and fleet that change a scenario's mission: scene seed, UAVs, assets,
+/// duration, rules, conditions, faults.  @param faults_but  for the help: the faults that a fault file may not have
 void add_mission(CLI::App& command, RunOptions& run, const std::string& faults_but = "");
-/// --record, of run, compose and those that fly many.
+/// Adds --record, of run, compose and the commands that fly many runs.
 void add_record(CLI::App& command, std::string& record);
-/// What flies a study or a hunt beyond one process.
+/// Adds the options for flying a study or a hunt beyond one process.
 void add_sweep(CLI::App& command, SweepOptions& sweep);
 /// @throws InputError for options that need another --executor.
 void check_sweep(const SweepOptions& sweep);
-/// Of `skein --unit STUDY N`, which is not for people. @throws InputError.
+/// Parses `skein --unit STUDY N`, which engines call, not users. @throws InputError
 UnitOptions unit_options(const std::vector<std::string>& words);
-/// --network, of all that may let other hosts take part.
+/// Adds --network, of all commands that may let other hosts take part.
 void add_network(CLI::App& command, std::optional<std::string>& network);
 
-// Each adds a sub-command, whose options are read into the second argument.
+// Each of these adds a sub-command, whose options CLI11 parses into the second argument.
 void add_test(CLI::App& app, TestOptions& test);
 void add_check(CLI::App& app, CheckOptions& check);
 void add_scene(CLI::App& app, SceneOptions& scene);

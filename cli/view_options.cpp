@@ -9,7 +9,7 @@
 namespace skein::cli {
 namespace {
 
-/// What is wrong with a text that is to say where the page is served; empty: nothing.
+/// Validator of the endpoint at which the page is served: returns what is wrong with the text, or nothing.
 std::string check_endpoint(const std::string& text) {
   try {
     view::read_endpoint(text);

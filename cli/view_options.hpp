@@ -1,4 +1,4 @@
-// The options of what a browser is served: of `skein run`, and of `skein replay`.
+// The options of `skein run` and `skein replay` for the page that is served to a browser.
 #pragma once
 
 #include "cli/command.hpp"
@@ -9,11 +9,11 @@ class App;
 
 namespace skein::cli {
 
-/// --view, --speed, --pause-at, --view-close, --no-browser; of run and compose.
+/// Adds --view, --speed, --pause-at, --view-close and --no-browser, of run and compose.
 void add_view_options(CLI::App& command, ViewOptions& view);
-/// The command `replay`.
+/// Adds the command `replay`.
 void add_replay(CLI::App& app, ReplayOptions& replay);
-/// What does not go together. @throws InputError for it.
+/// @throws InputError for an invalid --speed, and for --speed or --pause-at without --clock lockstep.
 void check_view(const RunOptions& run);
 
 }  // namespace skein::cli

@@ -1,4 +1,4 @@
-// `skein doctor`: what of this machine is in a fleet's way, and how to mend it.
+// `skein doctor`: finds what prevents a fleet from running on this machine, and how to fix it.
 #pragma once
 
 #include <filesystem>
@@ -9,15 +9,17 @@
 
 namespace skein::doctor {
 
+/// The fleet for which the machine is checked.
 struct Visit {
   std::size_t uavs = 0;
-  std::vector<std::string> domains{};  ///< their names, in their order
+  std::vector<std::string> domains{};  ///< names, in the order of the domains' numbers
   NetworkConfig network{};
-  std::optional<int> base{};  ///< --domain
+  std::optional<int> base{};  ///< --domain; nullopt: the launcher chooses
   std::filesystem::path results = "runs";
 };
 
-/// Looks at all. Names of peers are asked for once. @throws nothing that a machine could be the reason of
+/// Runs all checks. Does not retry the look-up of a peer's name. A fault of the machine becomes a finding, not an
+/// exception.
 Findings examine(const Visit& visit);
 
 }  // namespace skein::doctor

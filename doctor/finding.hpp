@@ -1,4 +1,4 @@
-// What `skein doctor` says of one thing that it looked at.   Pure; safe from any thread.
+// Result of one check of `skein doctor`.   Pure; safe from any thread.
 #pragma once
 
 #include <iosfwd>
@@ -15,9 +15,9 @@ const char* word_of(Verdict verdict);
 
 struct Finding {
   Verdict verdict = Verdict::ok;
-  std::string what;   ///< was looked at: "open files"
-  std::string found;  ///< one line
-  std::string mend;   ///< how; empty when all is well
+  std::string what;   ///< what was checked: "open files"
+  std::string found;  ///< what was found, in one line
+  std::string mend;   ///< how to fix it; empty if all is well
 };
 using Findings = std::vector<Finding>;
 
@@ -28,7 +28,7 @@ Finding failure(std::string what, std::string found, std::string mend);
 /// kExitDone when nothing fails, else kExitCheckFailed.
 int exit_code(const Findings& findings);
 
-/// One line each.
+/// Prints one line per finding.
 void print(std::ostream& out, const Findings& findings);
 Json as_json(const Findings& findings);
 

@@ -1,5 +1,5 @@
-// What a fleet asks of its machine, about: measured with fleets of 5 (files, threads) and of 1 to 100 UAVs (memory,
-// docs/performance.md) over both vendors, rounded up.   Pure.
+// Resources that a fleet needs from its machine. Estimates, rounded up, from measurements with both DDS vendors: files
+// and threads with fleets of 5 UAVs, memory with fleets of 1 to 100 UAVs (docs/performance.md).   Pure.
 #pragma once
 
 #include <cstddef>
@@ -10,17 +10,18 @@ namespace skein::doctor {
 struct FleetNeeds {
   std::size_t uavs = 0;
 
-  /// World, ground station, and one a UAV.
+  /// Number of DDS domains: the world's, the ground station's, and one per UAV.
   std::uint64_t domains() const { return uavs + 2; }
   /// Open files of the server, which joins all domains; no program has more.
   std::uint64_t open_files() const { return 16 + 9 * domains(); }
-  /// Of all programs, each of which counts as a process to the kernel: server and router have six a domain.
+  /// Threads of all programs; the kernel's limits count each thread as a process. The server and the router have six
+  /// threads each per domain.
   std::uint64_t threads() const { return 32 + 12 * domains() + 9 * uavs; }
   std::uint64_t memory_bytes() const { return (90 + 9 * uavs) * 1'000'000; }
 };
 
-inline constexpr std::uint64_t kSocketBuffer = 4 * 1024 * 1024;  ///< that both vendors ask for
-inline constexpr std::uint64_t kLeastDisk = 20'000'000;          ///< less than a run of ten minutes writes
-inline constexpr std::uint64_t kAmpleDisk = 500'000'000;
+inline constexpr std::uint64_t kSocketBuffer = 4 * 1024 * 1024;  ///< size that both vendors request [bytes]
+inline constexpr std::uint64_t kLeastDisk = 20'000'000;          ///< less than a run of ten minutes writes [bytes]
+inline constexpr std::uint64_t kAmpleDisk = 500'000'000;         ///< with less, the doctor warns [bytes]
 
 }  // namespace skein::doctor

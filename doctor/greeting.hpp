@@ -1,4 +1,5 @@
-// What the doctors of several hosts send each other, as datagrams of their own and as DDS samples: who they are.
+// The message by which doctors (`skein doctor net`) on several hosts introduce themselves to each other. They send it
+// as plain UDP datagrams and as DDS samples.
 // Pure; safe from any thread.
 #pragma once
 
@@ -10,26 +11,26 @@
 
 namespace skein::doctor {
 
-/// UDP, at all hosts alike; below the ports of all DDS domains.
+/// UDP port for greetings, the same on all hosts; below the ports of all DDS domains.
 inline constexpr int kGreetingPort = 7390;
 
 struct Greeting {
-  std::uint32_t id = 0;                    ///< of the doctor that sent it, drawn when it starts
-  std::string name{};                      ///< of its host, as its user calls it
-  std::string domain{};                    ///< by name: numbers may differ
-  int base = 0;                            ///< of its fleet's domains
-  std::string address{};                   ///< its own one in that domain's network
-  std::vector<std::string> vendors{};      ///< that it uses
-  std::string by{};                        ///< of a sample: the vendor that it was written by
-  std::size_t size = 0;                    ///< that it was sent with [bytes]
-  double sent_s = 0.0;                     ///< its time of day
-  std::vector<std::uint32_t> heard_udp{};  ///< whom it has heard in that domain so far
-  std::vector<std::uint32_t> heard_dds{};
+  std::uint32_t id = 0;                    ///< sender's random id, drawn at its start; never 0
+  std::string name{};                      ///< name of the sender's host (--as; default: its host name)
+  std::string domain{};                    ///< domain's name: the hosts may number it differently
+  int base = 0;                            ///< first domain of the sender's fleet (--domain)
+  std::string address{};                   ///< sender's address in that domain's network
+  std::vector<std::string> vendors{};      ///< DDS vendors that the sender uses in that domain
+  std::string by{};                        ///< sample: the vendor that wrote it; empty: a datagram
+  std::size_t size = 0;                    ///< requested size of a large datagram [bytes]; else 0
+  double sent_s = 0.0;                     ///< sender's time of day, since 1970 [s]
+  std::vector<std::uint32_t> heard_udp{};  ///< ids of the doctors heard in that domain by UDP
+  std::vector<std::uint32_t> heard_dds{};  ///< the same by DDS
 };
 
-/// @param size  bytes of the result at least; it is filled up with blanks.
+/// @param size  minimum size of the result [bytes]; shorter text is padded with blanks.
 std::vector<std::uint8_t> bytes_of(Greeting greeting, std::size_t size = 0);
-/// @returns nullopt for what is none.
+/// @returns nullopt if the bytes are no greeting.
 std::optional<Greeting> read_greeting(std::span<const std::uint8_t> bytes);
 
 }  // namespace skein::doctor

@@ -52,7 +52,7 @@ struct Message {
   Message(const Message&) = delete;
   Message& operator=(const Message&) = delete;
 
-  /// Its ancillary data of a kind.
+  /// Gets the ancillary data of one type. @returns false if there is none.
   template <class Data>
   bool find(int type, Data& data) {
     for (cmsghdr* part_of = CMSG_FIRSTHDR(&header); part_of != nullptr; part_of = CMSG_NXTHDR(&header, part_of)) {
@@ -79,7 +79,7 @@ GreetingSocket::GreetingSocket()
   }
   set(fd_, IP_PKTINFO, 1);
   set(fd_, IP_RECVERR, 1);
-  set(fd_, IP_MTU_DISCOVER, IP_PMTUDISC_PROBE);  // in one packet, whatever is known of the way
+  set(fd_, IP_MTU_DISCOVER, IP_PMTUDISC_PROBE);  // never fragment, whatever the known path MTU
   set(fd_, IP_MULTICAST_ALL, 0);
 }
 
@@ -89,7 +89,7 @@ void GreetingSocket::join_group(const std::string& address) {
   ip_mreq group{};
   group.imr_multiaddr = address_of(kGroup);
   group.imr_interface = address_of(address);
-  ::setsockopt(fd_, IPPROTO_IP, IP_ADD_MEMBERSHIP, &group, sizeof group);  // else nothing arrives by it
+  ::setsockopt(fd_, IPPROTO_IP, IP_ADD_MEMBERSHIP, &group, sizeof group);  // on failure, no multicast arrives
 }
 
 std::string GreetingSocket::send(const std::string& from, const std::string& to, std::span<const std::uint8_t> bytes) {
@@ -107,7 +107,7 @@ std::string GreetingSocket::send(const std::string& from, const std::string& to,
   in_pktinfo source{};
   source.ipi_spec_dst = own;
   std::memcpy(CMSG_DATA(info), &source, sizeof source);
-  // The first call may return what became of an earlier datagram.
+  // The first call may report an error of an earlier datagram instead of sending.
   if (::sendmsg(fd_, &message.header, 0) >= 0 || ::sendmsg(fd_, &message.header, 0) >= 0) return {};
   return std::strerror(errno);
 }

@@ -1,5 +1,5 @@
-// The UDP socket for greetings. It tells to which address a datagram came, and which errors the kernel has received for
-// datagrams that did not arrive.   Linux. One thread.
+// The UDP socket for greetings. For each received datagram it gives the own address at which it arrived; for datagrams
+// that did not arrive, the errors that the kernel has received.   Linux. One thread.
 #pragma once
 
 #include <cstddef>
@@ -30,7 +30,7 @@ class GreetingSocket {
   using OnDatagram =
       std::function<void(std::span<const std::uint8_t> bytes, const std::string& from, const std::string& at)>;
   using OnRefused = std::function<void(const std::string& to, const std::string& why)>;
-  /// Hands out all datagrams that have arrived, and all errors of datagrams that did not.
+  /// Passes on all datagrams that have arrived, and all errors of datagrams that did not arrive. Never waits.
   void take(const OnDatagram& on_datagram, const OnRefused& on_refused);
 
  private:

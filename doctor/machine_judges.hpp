@@ -1,4 +1,4 @@
-// What facts of the machine (doctor/machine_facts.hpp) mean for a fleet.   Pure; safe from any thread.
+// Judges the facts of the machine (doctor/machine_facts.hpp) for a fleet.   Pure; safe from any thread.
 #pragma once
 
 #include "doctor/finding.hpp"
@@ -14,7 +14,7 @@ Finding judge_buffers(const MachineFacts& machine);
 Finding judge_memory(const MachineFacts& machine, const FleetNeeds& needs);
 Finding judge_cpus(const MachineFacts& machine);
 Finding judge_disk(const DiskFacts& disk);
-/// One for what a run waits by, one for what it dates by.
+/// Two findings: the monotonic clock, by which a run waits, and the time of day.
 Findings judge_clocks(const ClockFacts& clocks);
 
 }  // namespace skein::doctor

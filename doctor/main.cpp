@@ -1,4 +1,5 @@
-// skein_doctor: what is in a fleet's way on this machine, and between hosts. `skein doctor` hands over to it.
+// skein_doctor: finds what prevents a fleet from running on this machine or, with --net, on several hosts. `skein
+// doctor` hands over to this program.
 #include <spdlog/spdlog.h>
 
 #include <CLI/CLI.hpp>
@@ -46,7 +47,7 @@ int say(const auto& result, bool json) {
 }
 
 int run(const ProgramOptions& program, const Options& options, StopSignal& stop) {
-  // What the bus warns of is said here, with more words.
+  // The findings contain what the bus would warn of, in more detail.
   if (program.log_level.empty() && std::getenv("SKEIN_LOG") == nullptr) spdlog::set_level(spdlog::level::err);
   const Scenario scenario = load_scenario(program.scenario, program.load_options_without_scene());
   const std::vector<std::string> domains = domain_names(scenario);
@@ -76,7 +77,8 @@ int run(const ProgramOptions& program, const Options& options, StopSignal& stop)
 
 int main(int argc, char** argv) {
   using namespace skein;
-  // The machine is judged as its user has it; who joins domains does so as programs of a fleet do.
+  // The machine is checked in the user's own environment. With --net, the doctor joins domains, so it uses the
+  // environment of a fleet's programs.
   const bool net =
       std::any_of(argv, argv + argc, [](const char* word) { return std::string_view(word) == doctor::kNet; });
   if (net) take_fleet_environment(argv);

@@ -16,7 +16,7 @@ constexpr const char* kStartThere = "start `skein doctor net` there too, at the 
 
 bool contains(const auto& list, const auto& value) { return std::ranges::find(list, value) != list.end(); }
 
-/// The doctor at a named peer: by its address, or by its name where datagrams do not arrive.
+/// The doctor on a listed peer, identified by its address or by its name; nullptr if it was not heard.
 const Acquaintance* find(const Meeting& meeting, const PeerFacts& peer) {
   const auto fits = [&](const auto& entry) {
     const Acquaintance& other = entry.second;
@@ -27,7 +27,7 @@ const Acquaintance* find(const Meeting& meeting, const PeerFacts& peer) {
   return found == meeting.heard.end() ? nullptr : &found->second;
 }
 
-/// Why nothing at all is heard of a named peer.
+/// Hint why nothing at all was received from a listed peer.
 std::string silence_hint(const Meetings& all, const Meeting& meeting, const PeerFacts& peer) {
   if (!peer.address) return "no address is known of it: start it, or write its address instead of its name";
   if (!peer.source) return "there is no way to its address: join its network";
@@ -49,7 +49,7 @@ std::string silence_hint(const Meetings& all, const Meeting& meeting, const Peer
                      kStartThere, kGreetingPort);
 }
 
-/// Why datagrams of a peer arrive and its DDS does not.
+/// Hint why no DDS samples of a peer arrive, although its datagrams do.
 std::string no_dds_hint(const Meeting& meeting, const Acquaintance& other) {
   if (other.last.base != meeting.base) {
     return fmt::format("its fleet's first domain is {}, ours {}: the same --domain for both", other.last.base,
@@ -177,8 +177,7 @@ std::vector<PeerState> judge_meeting(const Meetings& all, const Meeting& meeting
   for (const auto& [id, other] : meeting.heard) {
     if (named.contains(id)) continue;
     states.push_back(state_of(all, meeting, other));
-    if (states.back().verdict == Verdict::fail)
-      states.back().verdict = Verdict::warn;  // nobody said it should be heard
+    if (states.back().verdict == Verdict::fail) states.back().verdict = Verdict::warn;  // the network does not list it
   }
   return states;
 }

@@ -1,5 +1,6 @@
-// Whom a doctor heard, domain by domain, and what that means. Programs of a fleet hear each other by DDS; plain
-// datagrams beside it tell a network that carries nothing from one that does not carry DDS.   Pure; one thread.
+// Which other doctors (`skein doctor net` on other hosts) a doctor has heard in each domain, and what that means for a
+// fleet. A fleet's programs communicate by DDS. Doctors also send plain datagrams, to distinguish a network that
+// carries nothing from one that only does not carry DDS.   Pure; one thread.
 #pragma once
 
 #include <cstdint>
@@ -16,63 +17,64 @@
 
 namespace skein::doctor {
 
-/// Another doctor, in one domain.
+/// Another doctor that was heard in one domain.
 struct Acquaintance {
-  Greeting last{};             ///< of its greetings, the latest
-  std::string from{};          ///< its address, as datagrams have it; as it says itself where none arrived
-  std::set<std::string> at{};  ///< own addresses at which they arrived
-  bool small = false, large = false;
-  std::set<std::string> dds{};  ///< vendors by which it was heard
-  double clock_ahead_s = 0.0;   ///< its time of day less ours
+  Greeting last{};             ///< its latest greeting
+  std::string from{};          ///< source address of its datagrams; without datagrams, the address in its greeting
+  std::set<std::string> at{};  ///< own addresses at which its datagrams arrived
+  bool small = false, large = false;  ///< whether small datagrams, and datagrams of Meeting::largest, arrived
+  std::set<std::string> dds{};        ///< vendors by which its samples arrived
+  double clock_ahead_s = 0.0;         ///< its time of day minus this host's
 };
 
-/// One domain here.
+/// One domain in which this host takes part.
 struct Meeting {
   std::string domain{};
   int number = 0, base = 0;
-  std::string address{};                         ///< own one; empty: whichever the vendor chooses
-  std::size_t largest = 0;                       ///< datagram that its network carries [bytes]
-  std::vector<std::string> vendors{};            ///< by which it was joined
-  std::string trouble{};                         ///< why it could not be joined as it should; empty: it was
-  std::vector<PeerFacts> peers{};                ///< named ones
-  std::map<std::string, std::string> refused{};  ///< what the kernel says of datagrams to an address
-  std::map<std::uint32_t, Acquaintance> heard{};
+  std::string address{};                          ///< own address; empty: the vendor chooses
+  std::size_t largest = 0;                        ///< largest datagram that fits into one packet [bytes]; 0: unknown
+  std::vector<std::string> vendors{};             ///< vendors by which it was joined
+  std::string trouble{};                          ///< why joining it failed, wholly or in part; empty: no failure
+  std::vector<PeerFacts> peers{};                 ///< peers that the network lists
+  std::map<std::string, std::string> refused{};   ///< by destination address: error of datagrams to it
+  std::map<std::uint32_t, Acquaintance> heard{};  ///< by id
 };
 
 /// All domains in which this host takes part.
 struct Meetings {
-  std::uint32_t id = 0;  ///< our own
+  std::uint32_t id = 0;  ///< this doctor's own
   std::string name{};
   std::vector<Meeting> domains{};
-  std::map<std::string, std::set<std::string>> elsewhere{};  ///< by sender's address: domains that are none of ours
+  std::map<std::string, std::set<std::string>> elsewhere{};  ///< by sender's address: domains not in `domains`
 
-  /// A datagram of `size` bytes arrived from one address at another. Our own ones count for nothing.
+  /// Records a datagram of `size` bytes that arrived from one address at another. Ignores this doctor's own.
+  /// @param now_s  time of day, since 1970 [s]
   void note_datagram(const Greeting& greeting, const std::string& from, const std::string& at, std::size_t size,
                      double now_s);
-  /// A sample arrived in a domain.
+  /// Records a sample that arrived in a domain. Ignores this doctor's own.
   void note_sample(Meeting& meeting, const Greeting& greeting);
-  /// What we would say in a domain now.
+  /// The greeting to send in a domain now; the caller adds `by` and `sent_s`.
   Greeting greeting(const Meeting& meeting) const;
 };
 
-/// What is to be said of one peer in one domain.
+/// Judgement of one peer in one domain.
 struct PeerState {
   Verdict verdict = Verdict::ok;
-  std::string peer{};  ///< as the network's text names it, else as it calls itself
+  std::string peer{};  ///< name in the network's configuration; if not listed: `name`
   std::string address{};
-  std::string name{};  ///< as it calls itself; empty: not heard
+  std::string name{};  ///< its own name for itself; empty: not heard
   bool small = false, large = false;
   std::vector<std::string> dds{};  ///< vendors heard
-  std::optional<bool> hears_us{};  ///< by DDS; nullopt: it has not said
-  std::string hint{};              ///< empty: all is well
+  std::optional<bool> hears_us{};  ///< by DDS; nullopt: unknown, because the peer was not heard
+  std::string hint{};              ///< probable cause and remedy; empty: all is well
 };
 
-/// The named peers in their order, then who else was heard. This host itself is left out.
+/// First the listed peers, in their order, then other doctors that were heard. Without this host itself.
 std::vector<PeerState> judge_meeting(const Meetings& all, const Meeting& meeting);
 
-/// Whether nothing is left to be waited for: all named peers are heard, and all say that they hear this host.
+/// Whether nothing is left to wait for: exit_code() is kExitDone, and all peers report that they hear this host.
 bool all_hear_each_other(const Meetings& all);
-/// kExitCheckFailed when a named peer was not heard as it should, or a domain could not be joined.
+/// kExitCheckFailed if a listed peer was not fully heard, or a domain could not be joined; else kExitDone.
 int exit_code(const Meetings& all);
 void print(std::ostream& out, const Meetings& all);
 Json as_json(const Meetings& all);

@@ -1,4 +1,4 @@
-// What was found of meetings, for people and for programs.
+// The results of `skein doctor net` as text and as JSON.
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>

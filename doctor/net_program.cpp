@@ -25,13 +25,13 @@ namespace {
 using SteadyClock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds kGreetAgain{250}, kLookAgain{20}, kAskAgain{200}, kLeaving{2000};
-/// Greetings of a host that ends once all is well: they tell the others so.
+/// Number of greetings that a host still sends, with --until-heard, once all hear each other: they inform the others.
 constexpr int kFarewells = 4;
 constexpr std::array<std::uint8_t, 4> kEncapsulation = {0, 1, 0, 0};  // CDR_LE
 
 bus::TopicSpec greeting_topic() { return {"rt/skein/doctor", "skein_doctor::msg::dds_::Greeting_", {}}; }
 
-/// This host's part of one domain, by one vendor.
+/// This host's participant in one domain, with one vendor.
 struct Voice {
   std::size_t meeting = 0;
   std::string vendor;
@@ -54,7 +54,7 @@ std::uint32_t drawn_id() {
   return std::uniform_int_distribution<std::uint32_t>(1)(source);
 }
 
-/// In which to take part.
+/// The domains in which to take part. @throws InputError if there are none, or --only lists an unknown one.
 std::vector<std::string> chosen(const NetVisit& visit) {
   for (const std::string& name : visit.only) {
     if (std::ranges::find(visit.domains, name) != visit.domains.end()) continue;
@@ -104,7 +104,7 @@ class Host {
  private:
   const DomainNetwork& network_of(const Meeting& meeting) const { return visit_.network.of(meeting.domain); }
 
-  /// @returns whether all are known.
+  /// Looks up each peer once. @returns whether all addresses are known.
   static bool look_up_peers(const DomainNetwork& network, Meeting& meeting) {
     meeting.peers.clear();
     bool all = true;
@@ -124,7 +124,7 @@ class Host {
       bool all = true;
       for (Meeting& meeting : all_.domains) all = look_up_peers(network_of(meeting), meeting) && all;
       if (all || SteadyClock::now() >= deadline) return;
-      inbox_.dispatch(kAskAgain);  // nobody tells when a name is given
+      inbox_.dispatch(kAskAgain);  // no event reports that a name has become known
     }
   }
 
@@ -145,7 +145,7 @@ class Host {
     buses_.push_back(bus::make_bus(config));
     for (std::size_t i = 0; i < all_.domains.size(); ++i) {
       Meeting& meeting = all_.domains[i];
-      if (meeting.largest == 0) continue;  // there is no way
+      if (meeting.largest == 0) continue;  // find_way() failed
       try {
         voices_.push_back(make_voice(*buses_.back(), vendor, i));
         meeting.vendors.push_back(vendor);
@@ -182,7 +182,7 @@ class Host {
       std::vector<std::uint8_t> payload(kEncapsulation.begin(), kEncapsulation.end());
       const std::vector<std::uint8_t> bytes = bytes_of(greeting);
       payload.insert(payload.end(), bytes.begin(), bytes.end());
-      payload.resize((payload.size() + 3) / 4 * 4, ' ');  // else it would be filled up with zeros
+      payload.resize((payload.size() + 3) / 4 * 4, ' ');  // else the bus would pad it with zeros
       voice.writer->write(payload);
     }
   }
@@ -220,7 +220,8 @@ class Host {
 int meet(const NetVisit& visit, StopSignal& stop, const std::function<int(const Meetings&)>& tell) {
   auto host = std::make_unique<Host>(visit, stop);
   const int code = tell(host->run());
-  // Cyclone DDS wakes its own threads by a datagram to itself, which a firewall may drop: it would wait for ever.
+  // To leave a domain, Cyclone DDS wakes its own threads by a datagram to itself. If a firewall drops this datagram,
+  // Cyclone waits for ever.
   std::promise<void> left;
   std::thread watch([code, done = left.get_future()] {
     if (done.wait_for(kLeaving) == std::future_status::timeout) std::_Exit(code);

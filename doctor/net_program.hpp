@@ -1,4 +1,5 @@
-// `skein doctor net`: who hears whom, by plain datagrams and by DDS, among hosts on which it runs at the same time.
+// `skein doctor net`, which runs on several hosts at the same time: finds which of them receive messages from which
+// others, by plain datagrams and by DDS.
 #pragma once
 
 #include <chrono>
@@ -14,21 +15,21 @@ namespace skein::doctor {
 
 struct NetVisit {
   NetworkConfig network{};
-  std::vector<std::string> domains{};  ///< all of the fleet, by name, in their order
-  std::vector<std::string> only{};     ///< in which to take part; empty: all that leave the host
+  std::vector<std::string> domains{};  ///< names of all the fleet's domains, in the order of their numbers
+  std::vector<std::string> only{};     ///< domains in which to take part; empty: all that leave the host
   std::vector<std::string> vendors{};
-  int base = kFirstDomain;
-  std::string name{};  ///< of this host; empty: its own
-  std::chrono::milliseconds time{5000};
-  bool until_heard = false;  ///< ends sooner, once all named peers are heard, hear this host, and know that
+  int base = kFirstDomain;               ///< number of the fleet's first domain
+  std::string name{};                    ///< name of this host; empty: its host name
+  std::chrono::milliseconds time{5000};  ///< limit of the name look-up, and then of the meeting
+  bool until_heard = false;              ///< end early, once all peers are heard and report that they hear this host
 };
 
-/// Names of peers are asked for until all are known, at most for `time`; then it speaks and listens for as long, or
-/// until it is stopped, and has `tell` say what came of it.
-/// @param tell  returns an exit code, and what it prints is flushed: where a vendor does not come back from leaving its
-///              domains, the process ends with that.
-/// @returns that code. @throws InputError for a domain, a vendor or an interface that is not there, and when there is
-/// nothing to try.
+/// Looks up the peers' names until all are known, at most for `visit.time`. Then sends and receives greetings for the
+/// same time, or until stopped, and calls `tell` with the result. Blocks.
+/// @param tell  prints the result, flushes its output and returns an exit code. If a vendor then hangs while it leaves
+///              its domains, the process exits with that code.
+/// @returns that code. @throws InputError for an unknown domain, vendor or interface, if the UDP port for greetings is
+/// in use, and if no chosen domain leaves the host.
 int meet(const NetVisit& visit, StopSignal& stop, const std::function<int(const Meetings&)>& tell);
 
 }  // namespace skein::doctor

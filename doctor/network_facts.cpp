@@ -16,7 +16,7 @@
 namespace skein::doctor {
 namespace {
 
-/// From lines such as " 12: 0100007F:1CE8 00000000:0000 07 ...": the second word is address and port, in hex.
+/// Reads lines such as " 12: 0100007F:1CE8 00000000:0000 07 ...": the second word is address and port, in hexadecimal.
 std::set<int> bound_ports() {
   std::set<int> ports;
   for (const char* table : {"/proc/net/udp", "/proc/net/udp6"}) {
@@ -37,7 +37,8 @@ std::set<int> bound_ports() {
   return ports;
 }
 
-/// Names of abstract sockets, which /proc shows with an '@'. Taking the locks instead would be in a fleet's way.
+/// Names of abstract sockets, which /proc marks with an '@'. A held lock shows up here; trying to take the locks could
+/// make a fleet fail that starts at that moment.
 std::set<std::string> abstract_sockets() {
   std::set<std::string> names;
   std::ifstream in("/proc/net/unix");

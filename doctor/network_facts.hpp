@@ -1,5 +1,5 @@
-// The network as it is here, for a fleet's domains. Reads from /proc what has no need of the bus; what has, its program
-// adds (doctor/checks_program.cpp).
+// The network of this host, as a fleet's domains use it. The functions below read facts from /proc and from the kernel,
+// without the bus. doctor/checks_program.cpp adds the facts that need the bus.
 #pragma once
 
 #include <sys/types.h>
@@ -15,40 +15,40 @@
 
 namespace skein::doctor {
 
-/// With an IPv4 address.
+/// A network interface with an IPv4 address.
 struct InterfaceFacts {
   std::string name{}, address{};
   std::size_t mtu = 0;
-  bool up = false;  ///< and its cable, or what it has for one, plugged in
+  bool up = false;  ///< enabled, and its link is up (IFF_UP, IFF_RUNNING)
 };
 
 struct PeerFacts {
-  std::string name{};                    ///< as the network's text has it
-  std::optional<std::string> address{};  ///< nullopt: not known
-  std::optional<std::string> source{};   ///< own address from which packets to it leave; nullopt: there is no way
+  std::string name{};                    ///< name in the network's configuration
+  std::optional<std::string> address{};  ///< nullopt: the look-up failed
+  std::optional<std::string> source{};   ///< own address from which packets to it leave; nullopt: no route
   bool ourselves() const { return address && source == address; }
 };
 
-/// Of all domains that have the same network.
+/// All domains with the same network.
 struct DomainNetworkFacts {
   std::vector<std::string> domains{};
   DomainNetwork network{};
-  std::string no_interface{};  ///< what is wrong with the interface that it names; empty: nothing
-  std::string address{};       ///< own one in it; empty: the vendor chooses, or there is none
+  std::string no_interface{};  ///< why the configured interface is wrong; empty: it is not
+  std::string address{};       ///< own address in it; empty: the vendor chooses, or it is unknown
   std::vector<PeerFacts> peers{};
 };
 
 struct PortFacts {
-  std::set<int> taken{};                       ///< UDP ports that somebody here is bound to
-  int first_ephemeral = 32768;                 ///< first of those that the kernel gives to clients
-  std::map<int, std::optional<pid_t>> held{};  ///< domains that fleets of this host hold, and by which process
+  std::set<int> taken{};                       ///< UDP ports to which sockets of this host are bound
+  int first_ephemeral = 32768;                 ///< first port that the kernel assigns to clients
+  std::map<int, std::optional<pid_t>> held{};  ///< domains that fleets of this host hold; the process, if visible
 };
 
-/// Fills in `mtu` and `up`.
+/// Sets `mtu` and `up` of the interface with this name.
 void look_at(InterfaceFacts& interface);
 PortFacts read_ports();
 
-/// UDP ports of one domain by RTPS's rule: groups, and the unicast ports of so many participants.
+/// UDP ports of one domain by RTPS's rule: multicast ports, and the unicast ports of this number of participants.
 struct DomainPorts {
   int first = 0, last = 0;
 };

@@ -46,7 +46,7 @@ Finding judge_peer(const DomainNetworkFacts& network, const PeerFacts& peer) {
       "write the peer's address in the network of " + network.address + ", or `interface: " + *peer.source + "`");
 }
 
-/// "; other fleets have 8..14 (process 4711)": what each process holds in a row; empty when nobody has any.
+/// "; other fleets have 8..14 (process 4711)": ranges of successive domains that one process holds; empty if none.
 std::string held_text(const PortFacts& ports) {
   std::vector<std::string> blocks;
   for (auto first = ports.held.begin(); first != ports.held.end();) {
@@ -69,7 +69,7 @@ Finding judge_block(const PortFacts& ports, const BlockWish& wish, int base) {
                  "another --domain, or none, for the first block that is free");
 }
 
-/// The first block without a domain that a fleet holds, as the launcher looks for it.
+/// The first block of domains of which no fleet holds any. The launcher searches in the same way.
 std::optional<int> free_block(const PortFacts& ports, int size) {
   for (int base = kFirstDomain; base + size - 1 <= kLastDomain; ++base) {
     const auto held = ports.held.lower_bound(base);
@@ -78,7 +78,7 @@ std::optional<int> free_block(const PortFacts& ports, int size) {
   return std::nullopt;
 }
 
-/// "3 (7 ports), 5 (2 ports)": domains of the block in which somebody is who is of no fleet.
+/// "3 (7 ports), 5 (2 ports)": domains of the block whose ports are in use, although no fleet holds them.
 std::vector<std::string> visited(const PortFacts& ports, const BlockWish& wish, int base) {
   std::vector<std::string> domains;
   for (int domain = base; domain < base + wish.size; ++domain) {
@@ -101,7 +101,8 @@ Findings judge_interfaces(const std::vector<InterfaceFacts>& interfaces, bool mu
   findings.push_back(loopback ? fine("interfaces", there)
                               : failure("interfaces", there + "; there is no loopback interface that is up",
                                         "as root: ip link set lo up"));
-  // All finds itself without; only ROS 2 nodes with default settings then have to use certain ports.
+  // A fleet's programs find each other without multicast. Only ROS 2 nodes with default settings must then use certain
+  // ports to be found.
   findings.push_back(multicast
                          ? fine("loopback multicast", "groups can be joined")
                          : warning("loopback multicast",

@@ -1,4 +1,4 @@
-// What facts of the network (doctor/network_facts.hpp) mean for a fleet.   Pure; safe from any thread.
+// Judges the facts of the network (doctor/network_facts.hpp) for a fleet.   Pure; safe from any thread.
 #pragma once
 
 #include <optional>
@@ -8,19 +8,20 @@
 
 namespace skein::doctor {
 
-/// @param multicast  whether groups can be joined on the loopback interface.
+/// @param multicast  whether multicast groups can be joined on the loopback interface.
 Findings judge_interfaces(const std::vector<InterfaceFacts>& interfaces, bool multicast);
 
-/// The interface that carries some domains, and one of each of their peers that there is something to say of.
+/// One finding about the interface that carries these domains, and one about each of their peers.
 Findings judge_network(const DomainNetworkFacts& network, const std::vector<InterfaceFacts>& interfaces);
 
-/// Which domains a fleet would have.
+/// The block of domains that a fleet would use.
 struct BlockWish {
-  std::optional<int> base{};  ///< --domain; without, the launcher takes the first block that is free
-  int size = 0;
-  int participants = 32;  ///< of a domain that are announced to, and so many ports
+  std::optional<int> base{};  ///< --domain; nullopt: the launcher takes the first free block
+  int size = 0;               ///< number of domains
+  int participants = 32;      ///< participants per domain and host to which others announce themselves
 };
-/// One of the block, one of who else uses its ports, one of ports that the kernel gives to clients.
+/// Findings about the block, about other programs on its ports, and about the ports that the kernel assigns to clients;
+/// only the first if no block is free.
 Findings judge_ports(const PortFacts& ports, const BlockWish& wish);
 
 }  // namespace skein::doctor

@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Files of /dev/shm that a process has mapped, added to `names`.
+/// Adds the names of the files in /dev/shm that a process has mapped.
 void add_mapped(const fs::path& maps, std::set<std::string>& names) {
   constexpr std::string_view kFolder = "/dev/shm/";
   std::ifstream in(maps);
@@ -30,7 +30,7 @@ void add_mapped(const fs::path& maps, std::set<std::string>& names) {
   }
 }
 
-/// Those that a process has open; its lock files are not mapped.
+/// Adds the names of the files in /dev/shm that a process has open: Fast DDS does not map its lock files.
 void add_open(const fs::path& descriptors, std::set<std::string>& names) {
   std::error_code error;
   for (fs::directory_iterator entry(descriptors, error), end; !error && entry != end; entry.increment(error)) {
@@ -40,7 +40,7 @@ void add_open(const fs::path& descriptors, std::set<std::string>& names) {
   }
 }
 
-/// Of all processes that can be seen.
+/// Names of the files in /dev/shm that any visible process uses.
 std::set<std::string> used_names(const fs::path& proc) {
   std::set<std::string> names;
   std::error_code error;
@@ -52,7 +52,7 @@ std::set<std::string> used_names(const fs::path& proc) {
   return names;
 }
 
-/// The vendors' libraries that this process has, and with it all programs of a fleet.
+/// Libraries of DDS vendors that this process has loaded; a fleet's programs load the same.
 std::set<fs::path> loaded_dds_libraries() {
   std::set<fs::path> libraries;
   std::ifstream in("/proc/self/maps");
@@ -67,7 +67,7 @@ std::set<fs::path> loaded_dds_libraries() {
   return libraries;
 }
 
-/// What a command says, and whether it ended well. A client whose engine hangs is given up.
+/// Whether a command succeeded, and the first line of its output. Stops it after 5 s: clients hang with their engine.
 std::pair<bool, std::string> answer_of(const std::string& command) {
   const std::string limited = "timeout 5 " + command + " 2>&1 </dev/null";
   FILE* const pipe = ::popen(limited.c_str(), "re");

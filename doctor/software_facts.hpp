@@ -1,5 +1,5 @@
-// What other software has to do with a fleet here: variables, libraries, Docker, and what Fast DDS programs left
-// behind. Only reads; asks Docker by its client.
+// Other software on this machine that can affect a fleet: environment variables, libraries, Docker, and files that Fast
+// DDS programs have left behind. Only reads; queries Docker with its client program.
 #pragma once
 
 #include <cstdint>
@@ -11,33 +11,32 @@
 
 namespace skein::doctor {
 
-/// Shared memory of Fast DDS, which ROS 2 nodes use and a fleet does not.
+/// Shared memory of Fast DDS. ROS 2 nodes use it, a fleet does not.
 struct SharedMemoryFacts {
   bool there = false, writable = false;  ///< /dev/shm
   std::uint64_t free = 0;                ///< [bytes]
-  std::size_t segments = 0;              ///< files fastrtps_* and fast_datasharing_*
-  std::size_t unused = 0;                ///< of these: no process that can be seen has them open
+  std::size_t segments = 0;              ///< files fastrtps_*, sem.fastrtps_*, fast_datasharing_*
+  std::size_t unused = 0;                ///< of these: not in use by any visible process
   std::uint64_t unused_bytes = 0;
 };
 
 struct VariableFacts {
-  std::vector<std::string> ignored{};  ///< set, and not passed on to a fleet's programs
-  std::vector<std::filesystem::path>
-      vendor;  ///< libraries of DDS vendors that LD_LIBRARY_PATH put in the place of Debian's
+  std::vector<std::string> ignored{};         ///< set, but not passed on to a fleet's programs
+  std::vector<std::filesystem::path> vendor;  ///< loaded DDS libraries from folders in LD_LIBRARY_PATH
 };
 
 struct DockerFacts {
-  bool client = false;
+  bool client = false;                   ///< whether the client program is installed
   std::string host{};                    ///< DOCKER_HOST
-  std::optional<std::string> engine{};   ///< its version, when it answers
-  std::string trouble{};                 ///< what the client says otherwise
-  std::optional<std::string> compose{};  ///< its version
+  std::optional<std::string> engine{};   ///< version of the engine; nullopt: no answer
+  std::string trouble{};                 ///< the client's error message without an answer
+  std::optional<std::string> compose{};  ///< command and version of Compose; nullopt: none
 };
 
-/// @param root  for tests: where dev/shm and proc/ are.
+/// @param root  folder that contains dev/shm and proc/; for tests.
 SharedMemoryFacts read_shared_memory(const std::filesystem::path& root = "/");
 VariableFacts read_variables();
-/// Takes some seconds at most.
+/// Blocks for up to 5 s per query if the engine hangs.
 DockerFacts ask_docker();
 
 }  // namespace skein::doctor

@@ -1,4 +1,4 @@
-// What facts about other software (doctor/software_facts.hpp) mean for a fleet.   Pure; safe from any thread.
+// Judges the facts about other software (doctor/software_facts.hpp) for a fleet.   Pure; safe from any thread.
 #pragma once
 
 #include "doctor/finding.hpp"
@@ -7,7 +7,7 @@
 namespace skein::doctor {
 
 Finding judge_shared_memory(const SharedMemoryFacts& memory);
-/// One of what is ignored, one of libraries.
+/// Two findings: variables that a fleet ignores, and DDS libraries.
 Findings judge_variables(const VariableFacts& variables);
 Finding judge_docker(const DockerFacts& docker);
 

@@ -20,6 +20,7 @@ class SessionSocket {
 
   int descriptor() const { return descriptor_; }
   /// Waits for a message of up to 4 kB and four descriptors. @returns nullopt when the other end is closed.
+  /// @throws std::length_error when a message has more; its descriptors are closed.
   std::optional<SessionMessage> receive() const;
   /// Sends a message; does nothing if the other end is closed.
   void send(std::string_view text) const;

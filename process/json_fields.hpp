@@ -138,7 +138,7 @@ Json write(const T& value) {
     return list;
   } else {
     Writer writer;
-    T copy = value;  // describe() serves reading too and so takes no const
+    T copy = value;  // describe() also serves reading, so it takes no const
     describe(writer, copy);
     return writer.take();
   }
@@ -231,7 +231,7 @@ std::optional<T> read(const Json& json) {
 
 }  // namespace json_detail
 
-/// The value as JSON: a struct as an object, a vector of them as an array.
+/// The value as JSON: a struct becomes an object, a vector of structs an array.
 template <class T>
 Json json_of(const T& value) {
   return json_detail::write(value);

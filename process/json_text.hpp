@@ -16,7 +16,7 @@ using Json = nlohmann::ordered_json;
 /// value of any kind is returned. Never throws.
 Json value_or(const Json& object, const char* key, Json fallback);
 
-/// The number or text under `key` of any JSON; without one: 0, nullopt, or an empty text.
+/// The number or text under `key` of any JSON. If there is none: 0, nullopt, or an empty text.
 double number_in(const Json& object, const char* key);
 std::optional<double> number_if_any(const Json& object, const char* key);
 std::string text_in(const Json& object, const char* key);

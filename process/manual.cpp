@@ -7,7 +7,7 @@
 namespace skein {
 namespace {
 
-/// As text of roff. What it would take for a hyphen or a typographer's quote stays as it is typed.
+/// Escapes text for roff, so that hyphens, quotes and accents appear as they were typed.
 std::string roff(const std::string& text) {
   std::string result;
   bool line_begins = true;

@@ -9,8 +9,8 @@ class App;
 
 namespace skein {
 
-/// @param app   with all its options and commands; its description may begin with "NAME: ".
-/// @param name  of the program.
+/// @param app   the program's options and commands; its description may begin with "NAME: ".
+/// @param name  name of the program.
 /// @returns source text of its manual page in section 1, for man(1).
 std::string manual_of(const CLI::App& app, const std::string& name);
 

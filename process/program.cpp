@@ -51,7 +51,7 @@ class SignalThread {
     ::sigaction(SIGINT, &action, &old_interrupt_);
     ::sigaction(SIGTERM, &action, &old_terminate_);
     std::signal(SIGPIPE, SIG_IGN);
-    std::signal(SIGXFSZ, SIG_IGN);  // a limit on a file's size is like a full disk: the call says so
+    std::signal(SIGXFSZ, SIG_IGN);  // exceeding a file-size limit is like a full disk: write() reports it
   }
   ~SignalThread() {
     ::sigaction(SIGINT, &old_interrupt_, nullptr);

@@ -12,7 +12,7 @@ namespace {
 using Outcome = Verdict::Outcome;
 using Kind = Property::Kind;
 
-/// The signals of a property side by side, exchange by exchange.
+/// The values of a property's signals: one row per exchange, one column per slot.
 class Rows {
  public:
   Rows(const Property& property, RunSignals& run) : width_(property.signals.size()), size_(run.exchanges()), run_(run) {
@@ -27,7 +27,8 @@ class Rows {
   std::span<const double> row(std::size_t k) const { return std::span(values_).subspan(k * width_, width_); }
   Instant at(std::size_t k, std::size_t anchor) const { return {row(k), row(k == 0 ? 0 : k - 1), row(anchor)}; }
 
-  /// Whether any of the signals that can move did so from `first` to `last`; true when none of them can.
+  /// Whether any signal but `time` and `result` changed between the exchanges `first` and `last`; true if there is no
+  /// other signal.
   bool any_moved(const Property& property, std::size_t first, std::size_t last) const {
     bool can_move = false;
     for (std::size_t slot = 0; slot < width_; ++slot) {
@@ -43,7 +44,7 @@ class Rows {
   }
 
  private:
-  /// `alive` moves in a collision only: a UAV that flies exercises it as well as one that collides.
+  /// Whether a UAV flew. `alive` changes only in a collision, but a UAV that flies exercises it, too.
   bool flew(const std::string& uav, std::size_t first, std::size_t last) const {
     const auto& table = signal_table();
     const auto distance = std::ranges::find(table, std::string_view("distance"), &SignalInfo::name);
@@ -56,10 +57,10 @@ class Rows {
   std::vector<double> values_;
 };
 
-/// Exchanges [first, last] in which a property is looked at.
+/// Exchanges [first, last] in which a property is evaluated.
 struct Stretch {
   std::size_t first = 0, last = 0;
-  bool is_whole = true;  ///< the run did not end before
+  bool is_whole = true;  ///< false: the run ended, or `unless` came, before the window's end
 };
 
 /// A margin and the exchange that decided it.
@@ -127,7 +128,7 @@ class Evaluation {
     return 0.0;
   }
 
-  /// @returns nullopt when it begins after the run's end.
+  /// The exchanges of the window that begins at `from_s`. @returns nullopt if it begins after the run's end.
   std::optional<Stretch> stretch(double from_s) const {
     const std::size_t first = exchange_at(from_s);
     if (first >= rows_.size()) return std::nullopt;
@@ -147,7 +148,7 @@ class Evaluation {
     return {start, std::min(last, rows_.size() - 1), last < rows_.size()};
   }
 
-  /// When `whenever` becomes true.
+  /// Exchanges in which `whenever` becomes true.
   std::vector<std::size_t> triggers(const Stretch& whole) {
     std::vector<std::size_t> starts;
     bool before = false;
@@ -161,10 +162,10 @@ class Evaluation {
     return starts;
   }
 
-  /// That it is undefined in this exchange, where nothing else decides it.
+  /// Records that the property is undefined in exchange k, and nothing else decides it.
   void note_unclear(std::size_t k) { unclear_s_ = std::min(unclear_s_.value_or(time_of(k)), time_of(k)); }
 
-  /// The first exchange in which what stands behind `unless` is true.
+  /// The first exchange in which the condition of `unless` is true; nullopt: none.
   std::optional<std::size_t> excuse(const Stretch& part) const {
     if (!property_.unless) return std::nullopt;
     for (std::size_t k = part.first; k <= part.last; ++k) {
@@ -173,7 +174,7 @@ class Evaluation {
     return std::nullopt;
   }
 
-  /// @returns nullopt when the run ended, or `unless` came, before it was decided, or it is undefined.
+  /// @returns nullopt if the property is undefined, or the run ended or `unless` came before it was decided.
   std::optional<Verdict> judge(Stretch part) {
     if (const std::optional<std::size_t> at = excuse(part)) {
       excused_ = true;
@@ -244,8 +245,8 @@ class Evaluation {
     return property_.kind == Kind::never ? opposite(margin) : margin;
   }
 
-  /// What does not hold is worse than what does, whatever a margin of 0 says. What is undefined is between the two, so
-  /// that it decides only where nothing else does.
+  /// A false condition is worse than a true one, even if the margins of both are 0. An undefined one ranks between
+  /// them, so that it decides only if nothing else does.
   static bool worse(const Margin& a, const Margin& b) {
     const auto rank = [](const Margin& margin) { return !margin.is_defined ? 1 : margin.holds ? 2 : 0; };
     return rank(a) != rank(b) ? rank(a) < rank(b) : a.margin < b.margin;
@@ -263,8 +264,8 @@ class Evaluation {
   RunSignals& run_;
   const Rows rows_;
   const double period_s_;
-  std::optional<double> unclear_s_;  ///< the first time at which nothing decided, since something was undefined
-  bool excused_ = false;             ///< by `unless`, at least once
+  std::optional<double> unclear_s_;  ///< first time at which the property was undefined, undecided by anything else
+  bool excused_ = false;             ///< `unless` came at least once
 };
 
 }  // namespace
@@ -280,7 +281,7 @@ Verdict worst_of(const std::vector<Verdict>& verdicts) {
     return std::pair(kind, verdict.margin);
   };
   Verdict worst = *std::ranges::min_element(verdicts, {}, rank);
-  if (worst.outcome == Outcome::vacuous && !worst.is_unclear && verdicts.size() > 1) worst.bound.clear();  // so are all
+  if (worst.outcome == Outcome::vacuous && !worst.is_unclear && verdicts.size() > 1) worst.bound.clear();  // all are
   return worst;
 }
 

@@ -1,4 +1,4 @@
-// What became of a property in a run: whether it held, and by how much.  Pure: signals in, verdicts out.
+// Evaluates properties in a run: whether a property held, and with what margin.  Pure: signals in, verdicts out.
 #pragma once
 
 #include <optional>
@@ -9,16 +9,16 @@
 
 namespace skein::properties {
 
-/// The signals of one run. They are step functions: a value for each exchange, the first of which is at time 0.
+/// The signals of one run. They are step functions with one value per exchange; the first exchange is at time 0.
 class RunSignals {
  public:
   virtual ~RunSignals() = default;
-  /// Values of a signal, one for each exchange. Valid as long as this.
-  /// @throws InputError when the run lacks what it takes to know.
+  /// Values of a signal, one per exchange. The reference is valid as long as this object.
+  /// @throws InputError if the run lacks the data for this signal.
   virtual const std::vector<double>& values(const SignalUse& signal) = 0;
   virtual std::size_t exchanges() const = 0;
   virtual double period_s() const = 0;
-  /// When the last fault was over: 0 without faults; nullopt when one lasted to the end.
+  /// Time at which the last fault ended [s]: 0 without faults; nullopt if one lasted to the end of the run.
   virtual std::optional<double> healed_s() const = 0;
 };
 
@@ -26,26 +26,27 @@ struct Verdict {
   enum class Outcome {
     holds,
     fails,
-    vacuous  ///< the run says nothing of it; `reason` tells why
+    vacuous  ///< the run does not decide the property; see `reason`
   };
 
   Outcome outcome = Outcome::vacuous;
-  std::string bound = {};  ///< of which binding this is
-  double margin = 0.0;     ///< how far from the opposite; infinite where truth has no measure. Of a vacuous one: 0
-  Unit unit = {};          ///< of the margin
-  double at_s = 0.0;  ///< when it was decided: where an `always` came nearest to failing, an `eventually` to holding
-  std::string reason = {};  ///< why it is vacuous, or how it failed, for people
-  bool is_unclear = false;  ///< vacuous, since what it compares is undefined (core/expressions/expression.hpp)
+  std::string bound = {};   ///< binding of the property's variables: "u = changi"
+  double margin = 0.0;      ///< distance from the opposite outcome, at most 0 if it fails; may be infinite; vacuous: 0
+  Unit unit = {};           ///< unit of the margin
+  double at_s = 0.0;        ///< time that decided the margin: `always` was nearest to failing, `eventually` to holding
+  std::string reason = {};  ///< why it is vacuous, or how it failed; for people
+  bool is_unclear = false;  ///< vacuous, because a comparison is undefined (core/expressions/expression.hpp)
 };
 
+/// @throws InputError if the run lacks the data for a signal of the property.
 Verdict evaluate(const Property& property, RunSignals& run);
 
-/// The one that counts of several: those of one property for each of its bindings. The first that fails by most; where
-/// none does, one that cannot be judged, since what it compares is undefined; else the one that came nearest to it;
-/// where none decided, the first.
+/// The verdict that counts for a property with several bindings, in this order of precedence: the failure with the
+/// least margin; a verdict that is unclear; the one that holds with the least margin; a vacuous one, then without
+/// `bound` if there are several. Of equals, the first. @param verdicts  one per binding; not empty.
 Verdict worst_of(const std::vector<Verdict>& verdicts);
 
-/// The margin of the property's condition in each exchange, for drawings.
+/// The margin of the property's condition in each exchange, for plots. @throws InputError as evaluate() does.
 std::vector<double> margins_over_time(const Property& property, RunSignals& run);
 
 }  // namespace skein::properties

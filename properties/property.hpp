@@ -1,7 +1,8 @@
 // A property of a run: a condition over its signals, and when it must hold. Temporal operators and their margins are
-// those of signal temporal logic on the run's exchanges (Donze and Maler 2010, see core/expressions/expression.hpp): of
-// `always` the least margin in its window, of `eventually` the greatest, of `a until b` the greatest over all instants
-// of the lesser of b then and a before.  docs/properties.md is for users; property_parser.hpp reads texts.
+// those of signal temporal logic on the run's exchanges (Donze and Maler 2010, see core/expressions/expression.hpp).
+// The margin of `always` is the least in its window, that of `eventually` the greatest. That of `a until b` is the
+// greatest, over all instants t, of min(b at t, least a before t).  docs/properties.md is for users;
+// property_parser.hpp reads texts.
 // Pure.   Times: simulated seconds.
 #pragma once
 
@@ -15,29 +16,29 @@
 
 namespace skein::properties {
 
-/// From when to when a property is looked at.
+/// The part of a run in which a property is evaluated.
 struct Window {
-  enum class From { start, heal, time };  ///< the run's start; when the last fault is over; `from_s`
+  enum class From { start, heal, time };  ///< the run's start; the end of the last fault; `from_s`
 
   From from = From::start;
   double from_s = 0.0;
   std::optional<double> until_s;   ///< none: to the end of the run
-  std::optional<double> within_s;  ///< so long from its beginning, or from what `whenever` says
+  std::optional<double> within_s;  ///< length, from its beginning or, with `whenever`, from each trigger
 };
 
 struct Property {
   enum class Kind { always, never, sometimes, eventually, until };
 
   std::string name;
-  std::string bound;  ///< what its variables stand for: "u = changi"; empty: it has none
+  std::string bound;  ///< binding of its variables: "u = changi"; empty: it has none
   Kind kind = Kind::always;
-  std::optional<Expression> whenever = {};  ///< each time that this becomes true, the rest must hold from then on
+  std::optional<Expression> whenever = {};  ///< trigger: each time it becomes true, the rest must hold from then on
   Expression condition = {};
-  Expression goal = {};                   ///< of `until`
-  std::optional<Expression> unless = {};  ///< from where this is true on, nothing is asked until the window's end
+  Expression goal = {};                   ///< right-hand side of `until`
+  std::optional<Expression> unless = {};  ///< once it is true, nothing more is required in this window
   Window window = {};
-  std::vector<SignalUse> signals = {};  ///< by slot
-  std::size_t window_at = 0;            ///< where its window stands in its text
+  std::vector<SignalUse> signals = {};  ///< by slot in the expressions
+  std::size_t window_at = 0;            ///< index in its text at which the window begins
 };
 
 }  // namespace skein::properties

@@ -9,7 +9,7 @@
 namespace skein::properties {
 namespace {
 
-/// What stands in the place of a text for a ready property with its usual parameters.
+/// Entry, instead of a text, that selects a ready property with its default parameters.
 constexpr std::string_view kReady = "ready";
 
 std::filesystem::path ready_dir() { return default_config_dir() / "properties"; }
@@ -43,7 +43,7 @@ struct PropertyFile {
   }
 };
 
-/// "20 s". @throws ExpressionError.
+/// Parses a quantity such as "20 s". @throws ExpressionError.
 Quantity quantity_of(const std::string& text) {
   ExpressionText letters(text);
   const bool negative = letters.accept_mark("-");
@@ -58,7 +58,7 @@ std::string unit_name(const Unit& unit) {
   return unit == kPlainNumber ? "a plain number" : "a number of " + unit_text(unit);
 }
 
-/// Reads one property; what is wrong in it is told at `key` of the document that `errors` is about.
+/// Parses one property; reports an error at `key` in the document of `errors`.
 void parse_text(NamedProperty& property, const std::map<std::string, Quantity>& parameters, const Scenario& scenario,
                 const std::string& key, ConfigErrors& errors) {
   try {
@@ -68,7 +68,7 @@ void parse_text(NamedProperty& property, const std::map<std::string, Quantity>& 
   }
 }
 
-/// A ready property: what is wrong with its own file is no matter of who asks for it.
+/// Reads a ready property. Errors in its own file are thrown, not reported in the document that uses it.
 class ReadyReader {
  public:
   ReadyReader(const std::string& name, const Scenario& scenario)
@@ -76,7 +76,7 @@ class ReadyReader {
     for (const auto& [parameter, value] : ready_.parameters) parameters_[parameter] = quantity_of(value);
   }
 
-  /// @param key  of the parameters in the document that `errors` is about.
+  /// Sets parameters. @param key  key of the parameters in the document of `errors`.
   void set(const skein::Named<std::string>& given, const std::string& key, ConfigErrors& errors) {
     for (const auto& [parameter, text] : given) {
       const std::string path = key + "." + parameter;

@@ -12,40 +12,41 @@
 
 namespace skein::properties {
 
-/// What a file has under a property's name.
-using PropertyEntry = std::variant<std::string, skein::Named<std::string>>;  ///< a text, or parameters of a ready one
+/// The value under a property's name in a file: a text, or the parameters of a ready property.
+using PropertyEntry = std::variant<std::string, skein::Named<std::string>>;
 using PropertyEntries = skein::Named<PropertyEntry>;
 
 /// A property of a file, ready to be evaluated.
 struct NamedProperty {
   std::string name;
-  std::string text;                        ///< as it was written
-  std::vector<std::string> not_with = {};  ///< of a ready one, see ReadyProperty
-  std::vector<Property> cases = {};        ///< for each of those that its variables stand for
+  std::string text;                        ///< as written in the file
+  std::vector<std::string> not_with = {};  ///< see ReadyProperty; empty for other properties
+  std::vector<Property> cases = {};        ///< one per binding of its variables
 };
 using PropertySet = std::vector<NamedProperty>;
 
-/// @param key      under which the entries stand in the document: "properties".
-/// @param errors   gets what is wrong, with line and column: texts that do not parse, ready ones and parameters that do
-///   not exist.
+/// @param key      key of the entries in the document: "properties".
+/// @param errors   receives all errors, with line and column: texts that do not parse, and unknown ready properties or
+///   parameters.
+/// @throws InputError if the file of a ready property is wrong.
 PropertySet parse_properties(const PropertyEntries& entries, const std::string& key, const Scenario& scenario,
                              ConfigErrors& errors);
 
-/// What a file of its own has under `properties`. @throws InputError.
+/// The entries of a property file, unparsed. @throws InputError if the file is wrong.
 PropertyEntries load_property_entries(const std::filesystem::path& file);
-/// The same, ready to be evaluated. @throws InputError.
+/// The same, ready to be evaluated. @throws InputError if the file or a property is wrong.
 PropertySet load_properties(const std::filesystem::path& file, const Scenario& scenario);
 
-/// One of config/properties/.
+/// A ready property: one of config/properties/.
 struct ReadyProperty {
   std::string name, description, text;
-  bool in_hunts = true;  ///< asked in hunts unless somebody says what is
-  /// Kinds of faults, and effects of links ("duplication"), with which it says nothing of a program: a hunt does not
-  /// ask it of runs with one of them.
+  bool in_hunts = true;  ///< `skein hunt` checks it unless the user selects properties
+  /// Kinds of faults, and effects of links ("duplication"), with which the property says nothing about a program: a
+  /// hunt does not check it in runs with one of them.
   std::vector<std::string> not_with;
-  std::map<std::string, std::string> parameters;  ///< with what they are unless somebody says otherwise: "20 s"
+  std::map<std::string, std::string> parameters;  ///< by name: the default value, "20 s"
 };
-/// @throws InputError when there is none of this name, or its file is wrong.
+/// @throws InputError if there is none of this name, or its file is wrong.
 ReadyProperty load_ready_property(const std::string& name);
 /// In alphabetical order.
 std::vector<std::string> ready_property_names();

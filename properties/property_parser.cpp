@@ -10,7 +10,7 @@
 namespace skein::properties {
 namespace {
 
-/// A variable and what it stands for.
+/// A variable and the UAV to which it is bound.
 using Binding = std::pair<std::string, std::string>;
 
 const std::vector<std::string> kSets = {"uavs", "explorers", "photographers"};
@@ -29,13 +29,13 @@ bool is_name_of_something(const std::string& word, const SignalNames& names) {
   return among(names.programs) || std::ranges::any_of(kUnitNames, [&](const UnitName& u) { return u.name == word; });
 }
 
-/// Reads one text with its variables bound in one way.
+/// Parses one text with one binding of its variables.
 class Reader {
  public:
   Reader(const std::string& text, const Scenario& scenario, const ExpressionScope& scope, Property& property)
       : scenario_(scenario), property_(property), parser_(text, scope, property.signals) {}
 
-  /// The variables of a text, each with what it may stand for.
+  /// Parses the variables of a text; each with the UAVs to which it may be bound.
   std::vector<std::pair<std::string, std::vector<std::string>>> variables(const SignalNames& names) {
     std::vector<std::pair<std::string, std::vector<std::string>>> all;
     while (parser_.accept("for")) {
@@ -57,7 +57,7 @@ class Reader {
     return all;
   }
 
-  /// What stands behind them.
+  /// Parses the text after the variables.
   void read() {
     if (parser_.accept("whenever")) {
       property_.whenever = parser_.condition();
@@ -162,7 +162,7 @@ class Reader {
   ExpressionParser parser_;
 };
 
-/// All ways to choose one of each, none twice.
+/// All bindings of the variables in which no UAV occurs twice.
 std::vector<std::vector<Binding>> bindings(
     const std::vector<std::pair<std::string, std::vector<std::string>>>& variables) {
   std::vector<std::vector<Binding>> all = {{}};

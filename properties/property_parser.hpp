@@ -1,7 +1,7 @@
-// Reads a property as people write it:
+// Parses the text of a property:
 //   [for u in uavs,] [whenever CONDITION,] always CONDITION     or never, sometimes, eventually
 //   [for u in uavs,] CONDITION until CONDITION
-// and behind it, each at most once: `within 20 s`, `after heal` or `after 20 s`, `from 10 s to 20 s`.
+// then, all optional: `unless CONDITION`; `within 20 s`; one of `after heal`, `after 20 s`, `from 10 s to 20 s`.
 // Conditions: core/expressions/expression_parser.hpp.  Pure.
 #pragma once
 
@@ -15,10 +15,11 @@
 
 namespace skein::properties {
 
-/// The property for each of those that its variables may stand for, in fleet order; variables of one property are
-/// never the same UAV.
-/// @param scenario  whose UAVs may be named, and whose mission's end no time may exceed.
-/// @throws ExpressionError.
+/// @returns one property per binding of the text's variables, in fleet order; two variables are never bound to the same
+/// UAV.
+/// @param scenario  has the UAVs that the text may name; times must be below its duration.
+/// @param parameters  values of the names that the text uses as parameters.
+/// @throws ExpressionError if the text is wrong, or the fleet permits no binding.
 std::vector<Property> parse_property(const std::string& name, const std::string& text, const Scenario& scenario,
                                      const std::map<std::string, Quantity>& parameters = {});
 

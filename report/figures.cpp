@@ -10,7 +10,7 @@
 namespace skein::report {
 namespace {
 
-constexpr double kStillMps = 0.1, kIdleAfterS = 5.0;  // as the server's idle_s
+constexpr double kStillMps = 0.1, kIdleAfterS = 5.0;  // as for sim_server's idle_s
 constexpr const char* kStationNode = "gcs";
 
 void add_point(const results::RunPoint& point, BoxFigures& box) {
@@ -22,7 +22,7 @@ void add_point(const results::RunPoint& point, BoxFigures& box) {
   if (point.cause) box.losses[*point.cause] += point.loss;
 }
 
-/// Appends, or lengthens the last where they touch.
+/// Appends a span, or extends the last one if both touch. An empty span is ignored.
 void add_span(Spans& spans, double from_s, double until_s) {
   if (!(until_s > from_s)) return;
   if (!spans.empty() && spans.back().until_s >= from_s) {
@@ -32,7 +32,7 @@ void add_span(Spans& spans, double from_s, double until_s) {
   }
 }
 
-/// Which links there are at a time, and what that means for each UAV.
+/// The open links at one time, and which UAVs reach the station over them.
 class Mesh {
  public:
   explicit Mesh(const results::RunData& run) : uavs_(run.uavs.size()), run_(run) {
@@ -43,7 +43,7 @@ class Mesh {
     const auto from = node_of(event.subject), to = node_of(event.object);
     if (from && to) hears_[*to][*from] = event.event == run_tables::kLinkUp;
   }
-  /// The time since the last call was as it is now.
+  /// Adds a span to the lane of each UAV that reaches the station over the present links.
   void account(double from_s, double until_s, std::vector<Lane>& lanes) const {
     std::vector<bool> reached(uavs_ + 1, false);
     std::vector<std::size_t> open = {uavs_};
@@ -88,7 +88,7 @@ void add_links(const results::RunData& run, std::vector<Lane>& lanes) {
   if (!run.events.empty()) mesh.account(since_s, run.end_s, lanes);
 }
 
-/// Joining and leaving, pictures handed out and acknowledged.
+/// Adds to the lanes when programs joined and left, and the number of captures that wait for acknowledgement.
 void add_members(const results::RunData& run, std::vector<Lane>& lanes) {
   std::vector<std::optional<double>> joined(run.uavs.size());
   std::vector<int> waiting(run.uavs.size(), 0);
@@ -117,7 +117,7 @@ void add_members(const results::RunData& run, std::vector<Lane>& lanes) {
   }
 }
 
-/// Each capture once: its time and when it was delivered.
+/// One entry per capture, with its time and its delivery, by UAV and number of the capture.
 std::map<std::pair<std::size_t, std::uint64_t>, results::RunCapture> whole_captures(const results::RunData& run) {
   std::map<std::pair<std::size_t, std::uint64_t>, results::RunCapture> captures;
   for (const results::RunCapture& line : run.captures) {

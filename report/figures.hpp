@@ -1,4 +1,4 @@
-// The arithmetic of a run's report: from its tables to what the page states. All of it from full data.
+// Computes the figures of a run's report from the run's full data, which is never thinned. Simulated seconds.
 // Pure; any thread.
 #pragma once
 
@@ -13,22 +13,22 @@
 
 namespace skein::report {
 
-/// What became of the points of one box, or of those outside of all boxes.
+/// Result of the interest points in one box, outside all boxes, or in total.
 struct BoxFigures {
   std::string name;
   std::size_t points = 0, attainable = 0, scored = 0;
   double estimate = 0.0, score = 0.0;
   std::array<double, results::kCauses.size()> losses{};  ///< by cause
 
-  /// Of the points that scored.
+  /// Mean quality of the points that scored; 0 if none did.
   double mean_q() const { return scored > 0 ? score / static_cast<double>(scored) : 0.0; }
 };
 
-/// In the order of scene.json; a point in several counts in the first. Last, if there are any, those outside; then the
-/// sum over all.
+/// One entry per box, in the order of scene.json; a point in several boxes counts in the first. Then an entry for the
+/// points outside all boxes, if there are any. The last entry is the total.
 std::vector<BoxFigures> box_figures(const results::RunData& run);
 
-/// The score of what had been photographed, delivered or not, whenever it rose; without UAVs that collided.
+/// The earned score at each time when it rose: of all captures, delivered or not, except of UAVs that collided.
 std::vector<results::RunScore> earned_over_time(const results::RunData& run);
 
 struct Span {
@@ -37,51 +37,52 @@ struct Span {
 using Spans = std::vector<Span>;
 double length_of(const Spans& spans);
 
-/// How many of its captures the station had not acknowledged, from `time_s` on.
+/// Number of a UAV's captures that the station had not acknowledged, from `time_s` until the next entry.
 struct Waiting {
   double time_s = 0.0;
   int captures = 0;
 };
 
-/// One UAV's time.
+/// What one UAV did over time.
 struct Lane {
-  Spans taking_part;               ///< of its program
-  Spans still;                     ///< below 0.1 m/s, and no capture of the last 5 s that counted for something
-  Spans direct, relayed;           ///< with a link to the station; by way of others only
-  std::vector<double> captures_s;  ///< that counted for something
+  Spans taking_part;               ///< its program took part in the run
+  Spans still;                     ///< slower than 0.1 m/s, and no capture in the last 5 s that improved a point
+  Spans direct, relayed;           ///< linked to the station directly; only through other UAVs
+  std::vector<double> captures_s;  ///< times of captures that improved a point, ascending
   std::vector<Waiting> undelivered;
   std::optional<double> collided_s;
 };
-/// By UAV.
+/// In fleet order.
 std::vector<Lane> lanes_of(const results::RunData& run);
 
-/// Share of the time in which a directed link was there, by sender and receiver.
+/// Share of the run's time in which a directed link was open, by names of sender and receiver.
 using LinkShares = std::map<std::pair<std::string, std::string>, double>;
 LinkShares link_shares(const results::RunData& run);
 
-/// From a picture to its being counted, of each capture that counted for something.
+/// Delay between exposure and delivery, over all captures that improved a point.
 struct Latency {
-  std::vector<double> delays_s;  ///< ascending
-  std::size_t never = 0;         ///< were not delivered
+  std::vector<double> delays_s;  ///< of delivered captures, ascending
+  std::size_t never = 0;         ///< number of captures that were not delivered
 
-  /// The least that `share` of the delivered do not exceed; 0 of none.
+  /// The smallest delay that at least `share` of the delivered captures do not exceed [s]; 0 if none was delivered.
   double quantile(double share) const;
 };
 Latency latency_of(const results::RunData& run);
-/// The same of each UAV.
+/// The same for each UAV, in fleet order.
 std::vector<Latency> latency_by_uav(const results::RunData& run);
-/// Of all captures of several of them.
+/// The captures of all parts together.
 Latency merged(const std::vector<Latency>& parts);
 
-/// What one UAV knew at its end.
+/// The final map of one UAV, in figures.
 struct MapFigures {
   double occupied_m3 = 0.0, free_m3 = 0.0;
-  std::optional<double> known_share;  ///< of the boxes' volume, counted in cubes of 2 m at most; none without boxes
+  /// Known share of the boxes' volume, counted in cubes of at most 2 m (more if boxes are huge); nullopt without boxes.
+  std::optional<double> known_share;
 };
-/// By UAV; nullopt: it left no map.
+/// In fleet order; nullopt: the UAV left no map.
 std::vector<std::optional<MapFigures>> map_figures(const results::RunData& run);
 
-/// How many processors the programs kept busy on average; none where nobody measured them.
+/// Mean number of processors that the programs kept busy; nullopt if the result has no CPU or wall time.
 std::optional<double> processors_of(const Json& result);
 
 }  // namespace skein::report

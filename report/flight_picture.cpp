@@ -10,7 +10,7 @@
 namespace skein::report {
 namespace {
 
-/// Throws a Json exception for what is no vector.
+/// @throws Json::exception if `numbers` is not an array of at least three numbers.
 Vector3d json_vector(const Json& numbers) {
   return {numbers.at(0).get<double>(), numbers.at(1).get<double>(), numbers.at(2).get<double>()};
 }
@@ -35,7 +35,8 @@ void read_tracks(const std::filesystem::path& dir, FlightPicture& picture) {
   });
 }
 
-/// What came before the damage stays: an aborted flight's last line may be cut short.
+/// Calls `read` and ignores damage. What it has read before the damage stays: if a flight was aborted, the last line of
+/// a table may be incomplete.
 template <class Read>
 void read_what_is_there(const Read& read) try {
   read();

@@ -1,5 +1,5 @@
-// What a flight looked like: boxes, interest points and paths, read from its results folder, and its drawing.
-// Frame W (ENU); metres.
+// Reads boxes, interest points and tracks of a flight from its results folder, and draws them as SVG.
+// Frame W (ENU); metres.   Pure, except for read_picture(); any thread.
 #pragma once
 
 #include <array>
@@ -14,14 +14,14 @@ namespace skein::report {
 
 struct PicturePoint {
   Vector3d p_W = Vector3d::Zero();
-  double score = 0.0;                     ///< delivered; below 0.2: not detected
-  std::optional<std::size_t> cause = {};  ///< of its loss, of kCauses
+  double score = 0.0;                     ///< delivered score; below kDetected: not detected
+  std::optional<std::size_t> cause = {};  ///< cause of its loss: index in kCauses
 };
 
 struct PictureTrack {
   std::string uav;
   bool explorer = false;
-  std::vector<Vector3d> p_WB;  ///< in time
+  std::vector<Vector3d> p_WB;  ///< positions, in order of time
 };
 
 struct FlightPicture {
@@ -32,24 +32,26 @@ struct FlightPicture {
   std::vector<Vector3d> collisions = {};
 };
 
-/// Of a box; bit 0 of the index: its x, bit 1: y, bit 2: z.
+/// Corners of a box in W. Bits of the index: 0 the box's x axis, 1 y, 2 z. @param size  full edge lengths.
 std::array<Vector3d, 8> corners_of(const Vector3d& center, const Vector3d& size, const Eigen::Matrix3d& R_WB);
 
-/// Reads result.json, scene.json, score.csv and trajectories.csv; a file that is missing or damaged gives nothing.
+/// Reads result.json, scene.json, score.csv and trajectories.csv. A missing file contributes nothing; of a damaged
+/// table, the rows before the damage count. Reads neither causes of losses, nor the station, nor collisions.
 FlightPicture read_picture(const std::filesystem::path& dir);
 
 /// Below this score a point is not detected.
 inline constexpr double kDetected = 0.2;
-/// Detected points have one of so many colours, by score; tracks one of these, then they repeat, dashed.
+/// Number of colours of detected points (by score) and of tracks. More tracks reuse the colours with dashed lines.
 inline constexpr std::size_t kScoreColours = 4, kTrackColours = 6;
 
-/// Whence one looks, parallel lines staying parallel.
+/// Direction of view of a parallel projection. aside: oblique, from the south-south-east.
 enum class Look { aside, above, from_south, from_east };
 
-/// Which part of the world drawings of one scene show, all at the same scale.
+/// Projection and extent of the drawings of one scene, so that all have the same scale.
 class PictureView {
  public:
-  /// Takes in all that stands and flies in these pictures. @param width  of the drawing.
+  /// Chooses the extent that contains everything in these pictures except collisions.
+  /// @param width  of the drawing, in its own units.
   explicit PictureView(const std::vector<const FlightPicture*>& pictures, Look look = Look::aside,
                        double width = 360.0);
 
@@ -59,9 +61,9 @@ class PictureView {
   double height() const { return height_; }
   /// Where a point is drawn, in the drawing's units.
   Eigen::Vector2d at(const Vector3d& p_W) const;
-  const Vector3d& low() const { return low_; }  ///< of the shown part; the ground is at its z
+  const Vector3d& low() const { return low_; }  ///< lowest corner of the extent; the drawing has the ground at its z
   const Vector3d& high() const { return high_; }
-  double grid_m() const { return grid_m_; }  ///< distance of the lines on the ground
+  double grid_m() const { return grid_m_; }  ///< spacing of the grid lines
 
  private:
   Look look_;
@@ -70,22 +72,23 @@ class PictureView {
   Eigen::Vector2d offset_ = Eigen::Vector2d::Zero();
 };
 
-/// What a drawing shows beside structure and boxes.
+/// Options of a drawing.
 struct PictureStyle {
   bool by_cause = false;                       ///< points in the colours of their causes, not of their scores
-  std::optional<std::size_t> only_cause = {};  ///< other points stay pale
+  std::optional<std::size_t> only_cause = {};  ///< colours only the points with this cause; other points stay pale
   bool tracks = true;
-  std::string ground = {};  ///< SVG, below all that stands and flies
+  std::string ground = {};  ///< SVG that is drawn first, under everything else
 };
 
-/// @param title  for those who hear the page.
+/// @returns an <svg> element. @param title  label for screen readers, as plain text.
 std::string picture_svg(const FlightPicture& picture, const PictureView& view, const std::string& title,
                         const PictureStyle& style = {});
 
-/// Colours of its drawings, as an HTML list.
+/// Legend of a picture's drawings: the colours of its tracks and of scores, as an HTML list.
 std::string picture_legend(const FlightPicture& picture);
 
-/// Leaves out what is no farther than `tolerance` from the rest (Douglas and Peucker 1973); the ends stay.
+/// Leaves out points of a polyline, so that none of them is farther than `tolerance` from the result (Douglas and
+/// Peucker 1973). The ends stay.
 std::vector<Eigen::Vector2d> simplified(const std::vector<Eigen::Vector2d>& line, double tolerance);
 
 }  // namespace skein::report

@@ -10,34 +10,35 @@
 
 namespace skein::report {
 
-/// Text made fit for elements and attributes in quotes: & < > " '. Control characters that XML forbids become '?'.
+/// Escapes text for elements and quoted attributes: & < > " '. Control characters that XML forbids become '?'.
 std::string escaped(std::string_view text);
 
 using skein::fixed;
-/// The same, or a dash.
+/// The same; a dash if there is no value.
 std::string fixed(const std::optional<double>& value, int digits);
 
-/// A coordinate in a drawing: at most one digit behind the point, "3" and not "3.0".
+/// A coordinate in a drawing, with at most one digit after the point: "3", not "3.0".
 std::string coordinate(double value);
 
-/// At most this many characters, the last of them an ellipsis where something was cut off. UTF-8 stays whole.
+/// Shortens text to at most `most` characters of UTF-8. If it cuts something off, the last character is an ellipsis.
 std::string shortened(const std::string& text, std::size_t most);
 
-/// A drawing with a caption; `small`, which may be empty, is below it. Only these two are escaped.
+/// A <figure> with a caption and, if not empty, a smaller line below the caption. Escapes these two, but not `svg`.
 std::string figure(const std::string& caption, const std::string& small, const std::string& svg);
 
-/// A range with round ends that holds all it was made for, divided by round ticks.
+/// An axis with round ends and round ticks.
 struct Axis {
   double low = 0.0, high = 1.0, step = 1.0;
 
-  /// @returns 0 at low, 1 at high.
+  /// Position of a value on the axis: 0 at `low`, 1 at `high`.
   double share(double value) const { return (value - low) / (high - low); }
   std::vector<double> ticks() const;
-  /// A tick's text with as many digits as the step needs.
+  /// Text of a tick, with as many digits after the point as the step needs.
   std::string label(double tick) const;
 };
 
-/// @param about how many steps. The axis begins at 0 where that costs at most half of it; an empty range is widened.
+/// The axis for values from `low` to `high`. It begins (or ends) at 0 if that makes the range at most twice as long. An
+/// empty range is widened. @param about  approximate number of steps.
 Axis nice_axis(double low, double high, int about = 5);
 
 }  // namespace skein::report

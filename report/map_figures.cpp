@@ -7,9 +7,9 @@
 namespace skein::report {
 namespace {
 
-constexpr double kMostCubes = 1e6;  ///< in all boxes
+constexpr double kMostCubes = 1e6;  ///< in the axis-aligned bounding box of all boxes
 
-/// The cubes that have their middle in a box, by volume.
+/// Computes which volume of cubes lies in the boxes. A cube counts entirely if its middle is in a box.
 class BoxVolume {
  public:
   explicit BoxVolume(const std::vector<results::RunBox>& boxes) : boxes_(boxes) {
@@ -34,7 +34,7 @@ class BoxVolume {
     return sum;
   }
 
-  /// Of all space.
+  /// Volume of all boxes, counted in cubes of edge_m_ [m^3].
   double total() const {
     if (all_.isEmpty()) return 0.0;
     double sum = 0.0;
@@ -58,7 +58,7 @@ class BoxVolume {
   const std::vector<results::RunBox>& boxes_;
   std::vector<Eigen::AlignedBox3d> extents_;
   Eigen::AlignedBox3d all_;
-  double edge_m_ = 2.0;  ///< larger cubes are counted in pieces
+  double edge_m_ = 2.0;  ///< larger cubes are divided before they are counted
 };
 
 }  // namespace

@@ -9,10 +9,10 @@
 namespace skein::report {
 namespace {
 
-constexpr double kEachS = 0.5;                ///< between two positions of a track
-constexpr std::size_t kMostPoses = 120'000;   ///< of all tracks; more, and they are thinned further
-constexpr std::size_t kMostChanges = 6000;    ///< of a curve
-constexpr std::size_t kMostWaiting = 40'000;  ///< changes of all UAVs' captures not acknowledged
+constexpr double kEachS = 0.5;                ///< time between two positions of a track
+constexpr std::size_t kMostPoses = 120'000;   ///< in all tracks together; beyond it, tracks are thinned further
+constexpr std::size_t kMostChanges = 6000;    ///< in a curve
+constexpr std::size_t kMostWaiting = 40'000;  ///< changes of the numbers of undelivered captures, of all UAVs together
 
 long centimetres(double metres) { return std::lround(100.0 * metres); }
 double rounded(double value, double by) { return std::round(value / by) * by; }
@@ -23,8 +23,8 @@ Json in_cm(const Vector3d& p_W) {
 
 long milliradians(double angle) { return std::isfinite(angle) ? std::lround(1e3 * angle) : 0; }
 
-/// Times in hundredths of a second, positions in cm and the camera's angles in mrad, each as the difference to the one
-/// before: short numbers.
+/// Times in hundredths of a second, positions in cm, camera angles in mrad. Each number is the difference from the
+/// previous one, which keeps the text short.
 Json track_json(const std::vector<results::RunPose>& track, double each_s) {
   static constexpr std::array kColumns = {"t", "x", "y", "z", "yaw", "pitch"};
   std::array<Json, kColumns.size()> columns;
@@ -68,7 +68,8 @@ Json spans_json(const Spans& spans) {
   return flat;
 }
 
-/// x, y, z in cm, normal in hundredths, score and estimate in thousandths, cause (-1: none), one after the other.
+/// A flat array with nine numbers per point: x, y, z in cm, the normal's x, y, z in hundredths, score and estimate in
+/// thousandths, cause (-1: none).
 Json points_json(const results::RunData& run) {
   Json flat = Json::array();
   for (const results::RunPoint& point : run.points) {
@@ -82,7 +83,8 @@ Json points_json(const results::RunData& run) {
   return flat;
 }
 
-/// Who took the picture that made each point's score, and when: of those delivered the best, the first of equals.
+/// A flat array with two numbers per point: the UAV whose capture determines the score (-1: none), and the capture's
+/// time in ms. It is the best delivered capture; of equally good ones the earliest.
 Json best_json(const results::RunData& run) {
   std::vector<const results::RunCapture*> best(run.points.size(), nullptr);
   for (const results::RunCapture& capture : run.captures) {
@@ -98,7 +100,7 @@ Json best_json(const results::RunData& run) {
   return flat;
 }
 
-/// Times in ms; of several changes that have to be one, the greatest number.
+/// Times in ms. If there are more than `most` changes, successive ones are merged, with their greatest number.
 Json waiting_json(const std::vector<Waiting>& changes, std::size_t most) {
   Json t = Json::array(), v = Json::array();
   const std::size_t step = changes.size() / most + 1;
@@ -113,7 +115,8 @@ Json waiting_json(const std::vector<Waiting>& changes, std::size_t most) {
   return {{"t", std::move(t)}, {"v", std::move(v)}};
 }
 
-/// From each time on [ms]: digits of LinkState. Of a fleet so large that they would be most of the page: none.
+/// `l`: the states of all links as digits of LinkState, valid from the times `t` [ms] on. Null for a large fleet, where
+/// they would be most of the page.
 Json links_json(const results::RunData& run) {
   constexpr std::size_t kMostDigits = 600'000;
   Json t = Json::array(), l = Json::array();
@@ -127,13 +130,13 @@ Json links_json(const results::RunData& run) {
   return {{"t", std::move(t)}, {"l", std::move(l)}};
 }
 
-/// What each camera sees sharp enough; null where the recording does not tell.
+/// Field of view [deg] and useful range [m] of a camera; null if the run's files do not contain them.
 Json camera_json(const std::optional<results::RunCamera>& camera) {
   if (!camera) return nullptr;
   return {{"hfov", camera->hfov_deg}, {"vfov", camera->vfov_deg}, {"range", camera->range_m}};
 }
 
-/// Captures of each second: how many improved a point.
+/// Number of `times_s` in each second of the run.
 Json each_second(const std::vector<double>& times_s, double end_s) {
   std::vector<int> counts(static_cast<std::size_t>(std::min(std::max(end_s, 0.0), 1e5)) + 1, 0);
   for (const double time_s : times_s) {

@@ -1,14 +1,14 @@
-// What the interactive part of a page draws, as JSON. Tracks are thinned to two positions a second and rounded to
-// centimetres; what the page states in words and tables does not come from here. Pure; any thread.
+// Data for the script of an interactive page, as JSON. Tracks are thinned to at most two positions per second and
+// rounded to centimetres; the page's text and tables use the full data instead. Pure; any thread.
 #pragma once
 
 #include "report/page_parts.hpp"
 
 namespace skein::report {
 
-/// Keys: web/src/report.js reads them.
+/// All data of a run's page. web/src/report.js reads its keys.
 Json page_data(const RunPage& page);
-/// Of these the part that has no time: points, boxes, station, collisions, causes, faults.
+/// The part without time series: points, boxes, station, collisions, causes, faults.
 Json scene_data(const results::RunData& run);
 
 }  // namespace skein::report

@@ -12,7 +12,7 @@
 namespace skein::report {
 namespace {
 
-constexpr std::size_t kMostNodesInWords = 12;  ///< more, and cells of the link matrix hold their colour only
+constexpr std::size_t kMostNodesInWords = 12;  ///< with more nodes, cells of the link matrix have a colour, but no text
 
 std::string share_text(const Spans& spans, double end_s) {
   return end_s > 0.0 ? fixed(100.0 * length_of(spans) / end_s, 1) : "–";
@@ -54,7 +54,7 @@ std::vector<std::string> nodes_of(const RunPage& page) {
   return nodes;
 }
 
-/// Senders down, receivers across.
+/// A table with a row for each sender and a column for each receiver.
 std::string link_matrix(const RunPage& page) {
   const std::vector<std::string> nodes = nodes_of(page);
   const bool words = nodes.size() <= kMostNodesInWords;
@@ -98,7 +98,7 @@ std::string key_figures(const std::vector<std::pair<std::string, std::string>>& 
   return html + "</tbody></table></div>\n";
 }
 
-/// What sim_server's main thread was busy with.
+/// How the CPU time of sim_server's main thread was spent; empty if it was not measured.
 std::string simulation_table(const Json& timing) {
   const double cpu_s = number_in(timing, "cpu_s");
   if (!(cpu_s > 0.0)) return "";

@@ -1,4 +1,4 @@
-// The top of the page, and the pieces that all sections are made of.
+// The top of the page, and functions that all sections share.
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
@@ -27,7 +27,7 @@ FlightPicture picture_of(const results::RunData& run) {
   return picture;
 }
 
-/// What --planner takes for this fleet: one name, or a name by UAV.
+/// The value of --planner for this fleet: one name for all UAVs, or a name for each UAV.
 std::string planner_option(const Json& planners) {
   std::set<std::string> names;
   std::vector<std::string> by_uav;
@@ -47,7 +47,7 @@ std::string card(const std::string& name, const std::string& value, const std::s
 
 std::string percent_of(double part, double whole) { return whole > 0.0 ? fixed(100.0 * part / whole, 1) + " %" : "–"; }
 
-/// The figures that count.
+/// The main figures of the run.
 std::string cards(const RunPage& page) {
   const Json& result = page.run.result;
   const Json attainable = value_or(result, "attainable", Json::object());
@@ -175,7 +175,7 @@ std::string command_of(const Json& result) {
   if (text_in(result, "status") == "completed")
     command += " --duration " + number_text(number_in(result, "mission_time_s"));
   const Json rules = value_or(result, "rules", nullptr);
-  // A preset on the command line would take the place of the scenario's switches.
+  // A preset on the command line would replace the scenario's own switches.
   const bool has_switches = !value_or(result, "rule_switches", Json::object()).empty();
   if (rules.is_string() && !has_switches) command += " --rules " + shell_word(rules.get<std::string>());
   const Json dds = value_or(result, "dds", Json::object());

@@ -1,4 +1,5 @@
-// The sections of a run's report, as HTML. Each says what it misses where a table is not there. Pure; any thread.
+// The sections of a run's report, as HTML. A section without data says what is missing, or is left out (losses by
+// place, maps). Pure; any thread.
 #pragma once
 
 #include <optional>
@@ -10,7 +11,7 @@
 
 namespace skein::report {
 
-/// What all sections are made of.
+/// A run with all figures that the sections use.
 struct RunPage {
   explicit RunPage(results::RunData data);
 
@@ -20,42 +21,42 @@ struct RunPage {
   std::vector<results::RunScore> earned;
   LinkShares links;
   Latency latency;
-  std::vector<std::optional<MapFigures>> maps;  ///< by UAV
+  std::vector<std::optional<MapFigures>> maps;  ///< in fleet order
   FlightPicture picture;
 };
 
-/// What was flown, how it ended, the figures that count, and what to be warned of.
+/// Scenario, planners and status of the run, its main figures, and warnings.
 std::string head_section(const RunPage& page);
-/// From what could be had to what was had.
+/// A waterfall chart from the attainable to the delivered score, by cause of loss.
 std::string losses_section(const RunPage& page);
 std::string timeline_section(const RunPage& page);
 std::string boxes_section(const RunPage& page);
-/// Structure and tracks from all sides.
+/// Structure and tracks: oblique view, plan view and two elevations.
 std::string views_section(const RunPage& page);
-/// Where points were lost: a map for each cause.
+/// Plan views of the points that lost score, one for each cause. Empty if no causes are known.
 std::string places_section(const RunPage& page);
-/// What each UAV knew at its end: its map in plan.
+/// The final map of each UAV, in plan view. Empty if no UAV left a map.
 std::string maps_section(const RunPage& page);
 std::string fleet_section(const RunPage& page);
 std::string radio_section(const RunPage& page);
 std::string machine_section(const RunPage& page);
 
-/// The command that repeats the run: as it was given, or built from the result.
+/// The command that repeats the run: `repeat_command` or `command` of the result, or else composed from its other keys.
 std::string command_of(const Json& result);
-/// Of the result's planners, each once: "kios", "patrol · hover".
+/// The planners of the result's UAVs, each once: "kios", "patrol · hover".
 std::string planners_of(const Json& result);
 
-/// A table's pieces. `cells` are HTML; the first column is a row's name.
+/// Header and row of a table. Names and cells are HTML; the first cell names the row. @param style  its CSS class.
 std::string table_head(const std::vector<std::string>& names);
 std::string table_row(const std::vector<std::string>& cells, const std::string& style = "");
-/// A number of a JSON object, or a dash.
+/// A number of a JSON object as text; a dash if there is none.
 std::string cell_of(const Json& object, const char* key, int digits);
-/// A drawing twice, for wide and for narrow windows.
+/// The drawing in two widths, of which CSS shows one: for wide and for narrow windows.
 template <class Draw>
 std::string two_widths(const Draw& draw, double wide) {
   return "<div class=\"broad\">" + draw(wide) + "</div><div class=\"narrow\">" + draw(380.0) + "</div>\n";
 }
-/// For what a section cannot show.
+/// A paragraph that says what a section cannot show. `why` is HTML.
 std::string absent(const std::string& why);
 
 }  // namespace skein::report

@@ -11,7 +11,7 @@
 namespace skein::report {
 namespace {
 
-/// A bar of the waterfall, from one score to another.
+/// A bar of the waterfall chart between two scores. @param most  score at the right end of the chart.
 std::string bar_cell(double from, double until, double most, const std::string& style) {
   const double low = 100.0 * std::min(from, until) / most,
                width = std::max(0.25, 100.0 * std::abs(until - from) / most);
@@ -25,7 +25,7 @@ std::string swatch(std::size_t cause) {
   return fmt::format("<span class=\"swatch\" style=\"background:var(--k{})\"></span>", cause);
 }
 
-/// A cell of the heat map. @param share  of what could be had there.
+/// A cell of the heat map. @param share  of the attainable value there; it determines how strong the colour is.
 std::string heat(const std::string& text, double share, const std::string& colour) {
   return fmt::format("<td class=\"heat\" style=\"--v:{}%;--h:var(--{})\">{}</td>",
                      fixed(std::clamp(60.0 * share, 0.0, 60.0), 0), colour, text);
@@ -106,7 +106,7 @@ std::string timeline_section(const RunPage& page) {
 std::string boxes_section(const RunPage& page) {
   std::string html = "<section id=\"boxes\"><h2>Quality by box</h2>\n";
   if (page.run.points.empty()) return html + absent("No interest points are known.") + "</section>\n";
-  std::vector<std::size_t> causes;  // that took something
+  std::vector<std::size_t> causes;  // with a loss
   const BoxFigures& all = page.boxes.back();
   for (std::size_t i = 0; i < results::kCauses.size(); ++i) {
     if (all.losses[i] != 0.0) causes.push_back(i);

@@ -42,7 +42,7 @@ std::string places_section(const RunPage& page) {
   const BoxFigures& all = page.boxes.back();
   std::string panels;
   FlightPicture picture = page.picture;
-  picture.tracks.clear();  // who has lost points by which cause is a matter of the structure
+  picture.tracks.clear();  // these drawings are about the structure only
   const PictureView view({&picture}, Look::above, kPlaceWidth);
   PictureStyle style{true, {}, false};
   panels += figure("All causes", "plan", picture_svg(picture, view, "Losses by cause, in plan", style));

@@ -15,16 +15,16 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr double kPi = 3.14159265358979323846;
-/// Whence one looks: from the south-south-east, down at 25 degrees.
+/// Direction of the oblique view: from the south-south-east, 25 degrees downwards.
 constexpr double kAzimuth = -60.0 * kPi / 180.0, kElevation = 25.0 * kPi / 180.0;
-constexpr double kMostHeight = 400.0 / 360.0;  ///< of the world's part, by the drawing's width
-constexpr double kMostFlatHeight = 0.72;       ///< the same of maps and elevations, which stand side by side
+constexpr double kMostHeight = 400.0 / 360.0;  ///< greatest height of the oblique view, in widths of the drawing
+constexpr double kMostFlatHeight = 0.72;       ///< the same for plans and elevations, which are shown side by side
 constexpr double kMarginLeft = 28.0, kMarginRight = 28.0, kMarginTop = 8.0, kMarginBottom = 20.0;
-constexpr int kGridLines = 9;  ///< about so many on the longer side
+constexpr int kGridLines = 9;  ///< approximate number along the longest side
 constexpr double kTrackTolerance = 0.35;
-constexpr std::size_t kMostCells = 4000;  ///< of points, in a drawing
+constexpr std::size_t kMostCells = 4000;  ///< most cells with points in a drawing
 
-/// Parallel projection: x to the right, y downwards as in SVG.
+/// Parallel projection [m]: x to the right, y downwards as in SVG.
 Vector2d projected(Look look, const Vector3d& p_W) {
   if (look == Look::above) return {p_W.x(), -p_W.y()};
   if (look == Look::from_south) return {p_W.x(), -p_W.z()};
@@ -59,7 +59,7 @@ std::string text(const Vector2d& at, const std::string& anchor, const std::strin
                      coordinate(at.y()), words);
 }
 
-/// Calls `use` for all that stands or flies.
+/// Calls `use` with each station, corner of a box, interest point and position of a track.
 template <class Use>
 void each_point(const std::vector<const FlightPicture*>& pictures, const Use& use) {
   for (const FlightPicture* picture : pictures) {
@@ -77,7 +77,7 @@ std::vector<double> multiples(double low, double high, double step) {
   return values;
 }
 
-/// Numbers along the edges; one that would stand on another is left out.
+/// Texts along the axes; a text that would overlap an earlier one is left out.
 class Labels {
  public:
   void add(const Vector2d& at, const std::string& anchor, const std::string& words) {
@@ -95,7 +95,7 @@ class Labels {
   std::string svg_;
 };
 
-/// A map's or an elevation's lines and numbers.
+/// Grid lines and numbers of a plan or an elevation.
 std::string flat_grid_svg(const PictureView& view) {
   const int across = view.look() == Look::from_east ? 1 : 0, upwards = view.look() == Look::above ? 1 : 2;
   const Vector3d &low = view.low(), &high = view.high();
@@ -122,7 +122,7 @@ std::string flat_grid_svg(const PictureView& view) {
   return path("grid", lines) + labels.svg();
 }
 
-/// Ground, heights and their numbers.
+/// Grid lines and numbers: in the oblique view, on the ground and along the axis of heights.
 std::string grid_svg(const PictureView& view) {
   if (view.look() != Look::aside) return flat_grid_svg(view);
   const Vector3d &low = view.low(), &high = view.high(), middle = 0.5 * (low + high);
@@ -144,7 +144,7 @@ std::string grid_svg(const PictureView& view) {
     labels.add(view.at({high.x(), tick, low.z()}) + Vector2d(4.0, 7.0), "", numbers.label(tick));
   }
   std::string height = path_data({view.at(low), view.at({low.x(), low.y(), high.z()})});
-  for (const double tick : multiples(low.z() + 0.5 * step, high.z(), step)) {  // the ground speaks for itself
+  for (const double tick : multiples(low.z() + 0.5 * step, high.z(), step)) {  // not at the ground
     const Vector2d at = view.at({low.x(), low.y(), tick});
     height += path_data({at, at + Vector2d(-4.0, 0.0)});
     labels.add(at + Vector2d(-6.0, 3.0), "end", numbers.label(tick));
@@ -164,15 +164,15 @@ std::string boxes_svg(const FlightPicture& picture, const PictureView& view) {
   return path("bounds", data);
 }
 
-/// 0 for a point that was not detected, else 1 to kScoreColours.
+/// Colour by score: 0 if the point was not detected, otherwise 1 to kScoreColours.
 std::size_t colour_of(double score) {
   if (score < kDetected) return 0;
   const double share = (score - kDetected) / (1.0 - kDetected);
   return 1 + std::min(static_cast<std::size_t>(share * kScoreColours), kScoreColours - 1);
 }
 
-/// Colours of points: 0 to kScoreColours by score, then one for each cause. Of points that fall together the greatest
-/// is drawn.
+/// Colours of points: 0 to kScoreColours by score, then one for each cause. If several points are in one cell of the
+/// drawing, the one with the greatest number is drawn.
 constexpr std::size_t kPointColours = kScoreColours + 1 + results::kCauses.size();
 
 std::size_t colour_of(const PicturePoint& point, const PictureStyle& style) {
@@ -198,7 +198,7 @@ std::string points_svg(const FlightPicture& picture, const PictureView& view, co
   while (cells.size() > kMostCells) cells = cells_of(picture, view, style, cell *= 1.3);
   std::array<std::string, kPointColours> data;
   std::array<std::pair<int, int>, kPointColours> last{};
-  for (const auto& [at, colour] : cells) {  // in whole cells from the one before: the shortest text
+  for (const auto& [at, colour] : cells) {  // relative to the last cell of this colour, which keeps the text short
     const auto [y, x] = at;
     data[colour] += fmt::format("m{} {}h0", x - last[colour].second, y - last[colour].first);
     last[colour] = at;
@@ -229,7 +229,7 @@ std::string tracks_svg(const FlightPicture& picture, const PictureView& view) {
   return svg;
 }
 
-/// Where the station is, and where UAVs collided.
+/// Marks of the station and of collisions.
 std::string marks_svg(const FlightPicture& picture, const PictureView& view) {
   std::string svg;
   if (picture.station) {
@@ -273,7 +273,7 @@ PictureView::PictureView(const std::vector<const FlightPicture*>& pictures, Look
   for (const double x : {low_.x(), high_.x()}) {
     for (const double y : {low_.y(), high_.y()}) make_room({x, y, low_.z()});
   }
-  make_room({low_.x(), low_.y(), high_.z()});  // the scale of heights
+  make_room({low_.x(), low_.y(), high_.z()});  // the axis of heights
   const Vector2d size = most - least;
   scale_ = std::min((width - kMarginLeft - kMarginRight) / size.x(),
                     (look == Look::aside ? kMostHeight : kMostFlatHeight) * width / size.y());

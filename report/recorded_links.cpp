@@ -14,13 +14,13 @@ bool cuts(const results::RunFault& fault) {
   return fault.kind == "blackout" || fault.kind == "station_outage" || fault.kind == "partition";
 }
 
-/// Of radio nodes by number: the station is 0, and all that is no UAV.
+/// Number of a radio node: 1, 2, ... for UAVs in fleet order; 0 for the station and any other name.
 std::size_t node_of(const results::RunData& run, const std::string& name) {
   const auto uav = run.uav_of(name);
   return uav ? *uav + 1 : 0;
 }
 
-/// Which group a node is in; who is in none is in one of its own. "gcs jurong | raffles".
+/// Number of each node's group in a partition like "gcs jurong | raffles". A node that is in no group forms its own.
 std::vector<std::size_t> groups_of(const results::RunData& run, const std::string& partition) {
   std::vector<std::size_t> groups(run.uavs.size() + 1);
   for (std::size_t node = 0; node < groups.size(); ++node) groups[node] = node;
@@ -34,7 +34,7 @@ std::vector<std::size_t> groups_of(const results::RunData& run, const std::strin
   return groups;
 }
 
-/// Whether a fault that cuts keeps two nodes apart.
+/// A fault that cuts links, and which pairs of nodes it separates.
 class Cut {
  public:
   Cut(const results::RunData& run, const results::RunFault& fault)
@@ -77,7 +77,7 @@ class Links {
     return links;
   }
 
-  /// When links change beside their events.
+  /// Times at which links change without an event: begin and end of faults, and collisions [s].
   std::vector<double> turns() const {
     std::vector<double> turns;
     for (const Cut& cut : cuts_) turns.insert(turns.end(), {cut.fault().from_s, cut.fault().until_s});
@@ -97,7 +97,7 @@ class Links {
 
   const std::size_t nodes_;
   std::vector<bool> up_;
-  std::vector<double> dead_s_;  ///< by node: when its UAV collided
+  std::vector<double> dead_s_;  ///< by node: time of its UAV's first collision [s]; 1e12: none
   std::vector<Cut> cuts_;
 };
 

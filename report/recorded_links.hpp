@@ -1,6 +1,6 @@
-// The radio links of a finished run, as its page shows them: from events.csv, which has links that work, and from the
-// faults of its result. What a recording does not tell is whether a link that a fault covers would have been there
-// otherwise: it counts as cut.   Pure; any thread.
+// Reconstructs the radio links of a finished run for its page, from the open links in events.csv and the faults and
+// collisions in result.json. These files do not say whether a link under a fault would be open without the fault: it
+// counts as cut.   Pure; any thread.
 #pragma once
 
 #include <cstdint>
@@ -12,18 +12,19 @@
 
 namespace skein::report {
 
+/// cut: by a fault; dead: one of its UAVs has collided; blocked: not open for any other reason.
 enum class LinkState : std::uint8_t { blocked, linked, cut, dead };
 
-/// Row by sender, node 0 (the station) first.
+/// A row-major square matrix: a row for each sender, a column for each receiver; node 0, the station, comes first.
 using LinkStates = std::vector<LinkState>;
 
-/// A digit for each.
+/// The states as a string of digits, in the same order.
 std::string digits_of(const LinkStates& row_major);
 
-/// From each of these times on [s], ascending; empty where the recording has no links.
+/// The states of all links, each valid from its time on [s], ascending; empty if the run has no events about links.
 std::vector<std::pair<double, LinkStates>> recorded_links(const results::RunData& run);
 
-/// Whether a fault of this run cut links, so that they are told apart by guess.
+/// Whether a fault of this run cut links, so that the difference between `cut` and `blocked` is a guess.
 bool has_cuts(const results::RunData& run);
 
 }  // namespace skein::report

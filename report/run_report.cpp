@@ -11,7 +11,7 @@
 namespace skein::report {
 namespace {
 
-/// Nothing may be fetched, and no script runs but ours.
+/// Content-Security-Policy of the page: it loads nothing, and runs no script except the bundle.
 std::string policy(const std::optional<std::string>& bundle) {
   return "default-src 'none'; style-src 'unsafe-inline'; img-src data: blob:; base-uri 'none'; form-action 'none'" +
          (bundle ? "; script-src '" + script_hash(*bundle) + "'" : std::string());

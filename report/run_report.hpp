@@ -1,5 +1,5 @@
-// report.html: what happened in a run, and why it scored what it did. One file that asks for nothing from elsewhere;
-// docs/report.md explains its parts. The same folder gives the same page. Any thread.
+// Makes report.html: what happened in a run, and why it scored what it did. The page is one file that loads nothing
+// from elsewhere; docs/report.md explains its parts. The same folder always gives the same page. Any thread.
 #pragma once
 
 #include <filesystem>
@@ -10,7 +10,7 @@
 
 namespace skein::report {
 
-/// @param bundle  the script that makes it interactive; without it the page's drawings stand still.
+/// The page's HTML. @param bundle  the script that makes it interactive; nullopt: a page with static drawings.
 std::string run_page(results::RunData run, const std::optional<std::string>& bundle);
 
 /// Writes report.html into the results folder `dir`.

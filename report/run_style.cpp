@@ -2,7 +2,7 @@
 
 namespace skein::report {
 
-// Causes (k) are Tol's muted colours, which people with any colour vision can tell apart.
+// The colours of causes (k) are Tol's muted colours, which people with any colour vision can tell apart.
 std::string_view run_style() {
   return R"css(:root {
   --k0: #8a8f98; --k1: #332288; --k2: #cc6677; --k3: #882255; --k4: #c98a00; --k5: #3a9fcf; --k6: #2f9585; --k7: #8f8f2a; --k8: #aa4499; --k9: #5b7fa6; --k10: #a5501e; --k11: #117733;

@@ -2,9 +2,9 @@
 
 namespace skein::report {
 
-// Colours of planners (c) and tracks (t) are Okabe and Ito's, which people with any colour vision can tell apart,
-// darker or lighter where the background asks for it. Qualities (q) are steps of one hue, so that no track looks like
-// one.
+// The colours of planners (c) and tracks (t) are Okabe and Ito's, which people with any colour vision can tell apart,
+// made darker or lighter where the background requires it. Qualities (q) are steps of a single hue, so that they do not
+// look like tracks.
 std::string_view base_style() {
   return R"css(:root {
   color-scheme: light dark;

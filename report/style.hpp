@@ -1,16 +1,16 @@
-// How reports look: one style sheet for tables and drawings, on screens (light and dark) and on paper.
+// Style sheets (CSS) of reports: tables and drawings, on screens (light and dark) and on paper.
 #pragma once
 
 #include <string_view>
 
 namespace skein::report {
 
-/// Of all pages: colours, text, tables.
+/// For all pages: colours, text, tables.
 std::string_view base_style();
-/// Of what is drawn, on pages and on its own. Its colours and `--font` are variables, which base_style() and
-/// run_style() set; nothing else in it needs a page.
+/// For drawings, on a page or in a file of their own. It needs the variables for colours and `--font`, which
+/// base_style() and run_style() set, and nothing else of a page.
 std::string_view drawing_style();
-/// What the page of a run has besides.
+/// In addition, for the page of a run.
 std::string_view run_style();
 
 }  // namespace skein::report

@@ -15,7 +15,7 @@ constexpr double kChartRight = 12.0, kChartTop = 8.0, kCurves = 210.0, kRug = 11
 constexpr std::size_t kMostRugs = 12;
 constexpr int kNameLetters = 11;
 
-/// The time, from left to right.
+/// The time axis: maps simulated time [s] to x.
 class TimeScale {
  public:
   TimeScale(double end_s, double left, double width)
@@ -24,7 +24,7 @@ class TimeScale {
   double left() const { return left_; }
   double right() const { return right_; }
   double at(double time_s) const { return left_ + (right_ - left_) * std::clamp(time_s, 0.0, end_s_) / end_s_; }
-  /// Lines, numbers and the unit.
+  /// Grid lines, their numbers and the axis title.
   std::string grid(double top, double bottom) const {
     const double step = nice_axis(0.0, end_s_, steps_).step;
     const Axis axis{0.0, end_s_, step};
@@ -53,7 +53,7 @@ std::string open_svg(const std::string& title, double width, double height) {
 /// Bars of some spans of time, in one path.
 std::string spans_svg(const Spans& spans, const TimeScale& time, double top, double height, const std::string& style) {
   std::string data;
-  double drawn = -1.0;  // what would be hidden by the bar before is left out
+  double drawn = -1.0;  // right end of the last bar; a span that this bar would hide is left out
   for (const Span& span : spans) {
     const double from = std::max(time.at(span.from_s), drawn), until = std::max(time.at(span.until_s), from + 0.4);
     if (until <= drawn) continue;
@@ -64,7 +64,7 @@ std::string spans_svg(const Spans& spans, const TimeScale& time, double top, dou
   return data.empty() ? "" : fmt::format("<path class=\"{}\" d=\"{}\"/>\n", style, data);
 }
 
-/// Ticks of some moments; those of one place are drawn once.
+/// A tick at each time. Of ticks less than half a unit apart, only the first is drawn.
 std::string rug_svg(const std::vector<double>& times_s, const TimeScale& time, double top, double height,
                     const std::string& style) {
   std::string data;
@@ -78,7 +78,7 @@ std::string rug_svg(const std::vector<double>& times_s, const TimeScale& time, d
   return data.empty() ? "" : fmt::format("<path class=\"{}\" d=\"{}\"/>\n", style, data);
 }
 
-/// A staircase; of several steps within half a unit only the last.
+/// Path data of a step curve. Of several steps at nearly the same x (within 0.6 units), only the last is drawn.
 std::string staircase(const std::vector<std::pair<double, double>>& changes, const TimeScale& time, double end_s,
                       const auto& y_of) {
   std::string data;
@@ -119,7 +119,7 @@ Axis value_axis(const std::vector<TimeCurve>& curves) {
 
 std::string uav_style(std::size_t uav) { return fmt::format("t{}", uav % kTrackColours); }
 
-/// One UAV's strips. @param strip  height of each.
+/// The four strips of one UAV. @param strip  height of each. @param most  undelivered captures at the full height.
 std::string lane_svg(const Lane& lane, const TimeScale& time, double end_s, double top, double strip, int most) {
   const double gap = strip + kGap;
   const double gone_s = lane.collided_s.value_or(end_s);
@@ -220,7 +220,7 @@ std::string lanes_svg(const std::string& title, const results::RunData& run, con
 
 std::string latency_svg(const std::string& title, const Latency& latency) {
   static constexpr double kLimits[] = {0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1e300};
-  constexpr std::size_t kBins = std::size(kLimits) + 1;  // and those that never came
+  constexpr std::size_t kBins = std::size(kLimits) + 1;  // the last bin: never delivered
   std::size_t counts[kBins] = {};
   for (const double delay_s : latency.delays_s) {
     ++counts[static_cast<std::size_t>(std::lower_bound(std::begin(kLimits), std::end(kLimits), delay_s - 1e-6) -

@@ -1,5 +1,5 @@
-// Drawings over the time of a run, as SVG: curves, bars of faults, and a lane for each UAV. Colours are CSS classes of
-// style.hpp. Pure; any thread.
+// Charts over the time of a run, as SVG: curves, bars for faults, and a lane for each UAV. The style sheets in
+// style.hpp define the colours. Pure; any thread.
 #pragma once
 
 #include <string>
@@ -12,23 +12,23 @@ namespace skein::report {
 
 /// A quantity that keeps its value until it changes.
 struct TimeCurve {
-  std::string name, style;  ///< style: a CSS class
-  std::vector<std::pair<double, double>> changes;
+  std::string name, style;                         ///< style: a CSS class
+  std::vector<std::pair<double, double>> changes;  ///< time [s] and new value, ascending
 };
 
-/// Curves over the time, the faults behind them, and below them the captures of each UAV.
-/// @param width  of the drawing, in whose units letters have always the same size.
+/// Curves over time, with faults behind them and, below, the captures of each UAV.
+/// @param width  of the drawing, in its own units; letters always have the same size in these units.
 std::string time_chart_svg(const std::string& title, const std::vector<TimeCurve>& curves, const results::RunData& run,
                            const std::vector<Lane>& lanes, double width);
 
-/// What each UAV did when.
+/// A lane for each UAV: when it flew or stood still, its links to the station, its captures, and undelivered captures.
 std::string lanes_svg(const std::string& title, const results::RunData& run, const std::vector<Lane>& lanes,
                       double width);
 
-/// How many captures took how long: one bar for each range.
+/// Histogram of delivery delays: a bar for each range of delays, and one for captures that were never delivered.
 std::string latency_svg(const std::string& title, const Latency& latency);
 
-/// Which UAV a fault is about: its program, or a link that it has a part in.
+/// Whether the target of a fault names this UAV, as its program or as one end of a link.
 bool concerns(const results::RunFault& fault, const std::string& uav);
 
 }  // namespace skein::report

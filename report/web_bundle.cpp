@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 constexpr std::uintmax_t kLargest = 3 << 20;
 
-/// Whether a <script> element that holds this text ends where it should.
+/// Whether the text contains nothing that would end a <script> element, or start a comment in it.
 bool fits_in_script(const std::string& script) {
   std::string lower = script;
   std::transform(lower.begin(), lower.end(), lower.begin(), [](unsigned char c) { return std::tolower(c); });

@@ -1,4 +1,5 @@
-// The script that makes pages interactive: built from web/ apart from the programs, and not always there.
+// The scripts that make pages interactive. They are built from web/ separately from the programs, and may be missing.
+// Any thread, as long as no thread changes the environment.
 #pragma once
 
 #include <filesystem>
@@ -8,20 +9,21 @@
 
 namespace skein::report {
 
-/// Of report.html, and of the page that follows a run (view/).
+/// Scripts of report.html, and of the live page of a run (view/).
 inline constexpr std::string_view kReportScript = "report.js", kLiveScript = "live.js";
 
-/// The file of a script: $SKEIN_WEB for the report's and beside it for others, or below build/web/ of the tree that
-/// this was built in, or what is installed beside this program.
+/// The file of a script. If $SKEIN_WEB is set, it names the report's script, and other scripts lie beside it.
+/// Otherwise: in build/web/ of the source tree, else in share/skein/web/ of the installation. nullopt: not found.
 std::optional<std::filesystem::path> find_web_bundle(std::string_view name = kReportScript);
 
-/// Its text, fit for a <script> element; nullopt where there is none, or it cannot stand in one.
+/// The text of a script, for a <script> element. nullopt if there is no script, it is larger than 3 MiB, or it contains
+/// text that would end the element.
 std::optional<std::string> web_bundle(std::string_view name = kReportScript);
 
-/// How a page's Content-Security-Policy names this script, and no other: "sha256-...".
+/// The hash by which a page's Content-Security-Policy allows this script and no other: "sha256-...".
 std::string script_hash(std::string_view script);
 
-/// JSON made fit for a <script type="application/json">: no text in it ends the element or begins another.
+/// Escapes JSON for a <script type="application/json">, so that no text in it ends the element or begins another.
 std::string script_json(std::string json);
 
 }  // namespace skein::report

@@ -15,7 +15,7 @@ enum class LossCause {
   none,              ///< nothing is lost
   out_of_reach,      ///< a camera could photograph it, but no UAV fits there
   never_in_picture,  ///< no camera ever had it both in its picture and in sight
-  below_threshold,   ///< a camera had, but always with too low a quality to count
+  below_threshold,   ///< cameras had it in picture and in sight, but always with too low a quality to count
   voided,            ///< its best picture is void, because the UAV collided
   not_delivered,     ///< its best picture did not reach the station
   distance,          ///< its best picture counts; the worst part of its quality is the distance

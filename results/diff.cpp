@@ -12,7 +12,7 @@
 namespace skein::results {
 namespace {
 
-/// digests.csv, one row at a time.
+/// Reads digests.csv row by row.
 class DigestFile {
  public:
   explicit DigestFile(const std::filesystem::path& run) : file_(run / run_folder::kDigests), in_(open_text(file_)) {
@@ -54,12 +54,12 @@ class DigestFile {
   int line_ = 1;
 };
 
-/// The exchange period that a run's result names; the default where the result is missing (a killed launcher).
+/// The exchange period in the run's result [s]; the default if there is no result, because the launcher was killed.
 double exchange_period_s(const std::filesystem::path& run) {
   return value_or(read_json(run / run_folder::kResult), "exchange_period_s", Scenario{}.exchange_period_s);
 }
 
-/// "jurong.position" as "jurong position": the entity, then the field.
+/// Turns "jurong.position" into "jurong position": the entity, then the field.
 std::string readable(std::string column) {
   const std::size_t dot = column.rfind('.');
   if (dot != std::string::npos) column[dot] = ' ';

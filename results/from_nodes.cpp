@@ -7,7 +7,7 @@
 namespace skein::results {
 namespace {
 
-constexpr const char* kFromNodes = "from_nodes";  // absent: an agent or a command flies the UAV
+constexpr const char* kFromNodes = "from_nodes";  // key of a UAV that ROS 2 nodes fly; other UAVs lack it
 
 std::uint64_t count(const Json& topic, const char* key) { return value_or(topic, key, Json(0)).get<std::uint64_t>(); }
 

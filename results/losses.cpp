@@ -10,12 +10,12 @@
 namespace skein::results {
 namespace {
 
-/// @returns 0 where a table has no entry.
+/// @returns 0 if the table is missing or has no entry for the point.
 float score_of(const std::optional<std::vector<Amount>>& table, std::size_t point) {
   return table && point < table->size() ? static_cast<float>((*table)[point]) : 0.0F;
 }
 
-/// What is known of each point of the scene; nullopt where something is missing.
+/// The record of each point of the scene; nullopt if an input is missing or does not fit the scene.
 std::optional<std::vector<PointRecord>> point_records(const std::filesystem::path& dir, const Json& answer,
                                                       const Reports& reports, std::size_t count) {
   if (!reports.sim_server || !reports.station || !reports.station->points) return std::nullopt;
@@ -60,7 +60,7 @@ BatteryEffects battery_effects(const SimServerReport& report) {
   return effects;
 }
 
-/// A number that reads back as the same.
+/// The number as text that reads back as the same value.
 std::string text(double value) { return Json(value).dump(); }
 
 std::string csv_line(std::size_t index, const Json& place, const PointRecord& point, const PointLoss& loss) {

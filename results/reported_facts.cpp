@@ -5,7 +5,7 @@
 namespace skein::results {
 namespace {
 
-/// A fault without an end keeps a program out.
+/// Programs that a fault kept out at the end: it killed or paused them, and did not end.
 std::set<std::string> out_by_fault(const SimServerReport& sim) {
   std::set<std::string> out;
   for (const FaultReport& fault : sim.faults) {
@@ -27,7 +27,7 @@ RunFacts reported_facts(const std::filesystem::path& dir, const Scenario& scenar
   set_vendor(programs::kSimServer, reports.sim_server->flight.dds);
   if (reports.station) {
     set_vendor(programs::kStation, reports.station->dds);
-    // Books without the ledger: what was delivered has been earned, and more is not known.
+    // The ledger is not available here. What was delivered has been earned; how much more was earned is unknown.
     facts.score_earned = reports.station->score.value_or(0.0);
   }
   if (reports.comm_router) set_vendor(programs::kCommRouter, reports.comm_router->dds);

@@ -18,7 +18,7 @@ namespace skein::results {
 namespace {
 
 RunStatus status_of(const RunFacts& facts, const SimServerReport& sim) {
-  if (facts.interrupted && sim.status == RunStatus::aborted) return RunStatus::interrupted;  // as the user asked
+  if (facts.interrupted && sim.status == RunStatus::aborted) return RunStatus::interrupted;  // the user asked for it
   return sim.status.value_or(facts.interrupted ? RunStatus::interrupted : RunStatus::aborted);
 }
 
@@ -27,7 +27,7 @@ Json or_null(const std::optional<T>& value) {
   return value ? Json(*value) : Json();
 }
 
-/// One entry a UAV, in fleet order, whatever the reports hold.
+/// One entry per UAV, in fleet order, even if reports are missing.
 Json uav_entries(const Scenario& scenario, const SimServerReport& sim, const Reports& reports) {
   Json entries = Json::array();
   const std::vector<std::optional<WorkTime>> works = work_times(scenario, reports);
@@ -68,7 +68,7 @@ Json uav_entries(const Scenario& scenario, const SimServerReport& sim, const Rep
   return entries;
 }
 
-/// Of all UAVs that anything is known of.
+/// Sum over all UAVs for which it is known; null if it is known for none.
 Json frozen_in_all(const Json& uavs) {
   Json sum;
   for (const Json& uav : uavs) {
@@ -99,7 +99,7 @@ void add_processes(const RunFacts& facts, Json& result) {
   result["processes"] = std::move(processes);
 }
 
-/// Calls `look` with each report that there is.
+/// Calls `look` with each report that is not missing.
 template <class Look>
 void for_each_report(const Reports& reports, const Look& look) {
   if (reports.sim_server) look(*reports.sim_server);
@@ -110,10 +110,10 @@ void for_each_report(const Reports& reports, const Look& look) {
   }
 }
 
-/// On all topics of all programs.
+/// Numbers of samples, over all topics of all programs.
 struct SampleCounts {
-  std::uint64_t malformed = 0;  ///< received, and no messages of their topics' types
-  std::uint64_t unsent = 0;     ///< that could not be sent
+  std::uint64_t malformed = 0;  ///< received, but not a valid message of the topic's type
+  std::uint64_t unsent = 0;     ///< could not be sent
 };
 
 SampleCounts sample_counts(const Reports& reports) {
@@ -140,7 +140,7 @@ Json radio_counts(const RouterReport& router) {
           {"per_link", json_of(router.per_link)}};
 }
 
-/// What somebody who watched did to the run, in the order of steps.
+/// Begin and end of each fault that a viewer added by hand, in order of steps.
 Json interventions(const std::vector<FaultReport>& faults, double period_s) {
   std::vector<Json> all;
   const auto add = [&](const FaultReport& fault, const Count& step, const char* what) {
@@ -159,10 +159,10 @@ Json interventions(const std::vector<FaultReport>& faults, double period_s) {
   return all;
 }
 
-/// Who left no report, and what that means.
+/// Warns of each program that left no report, and says what is therefore unknown.
 void warn_of_missing(const RunFacts& facts, const Reports& reports, Texts& warnings) {
   const auto missing = [&](const auto& report, const std::string& program, const std::string& consequence) {
-    const bool expected = facts.out_by_fault.contains(program);  // and told by `faults`
+    const bool expected = facts.out_by_fault.contains(program);  // `faults` already explains it
     if (!report && !expected) warnings.push_back(program + " left no report: " + consequence);
   };
   missing(reports.sim_server, programs::kSimServer, "times are the last that it told");
@@ -176,7 +176,7 @@ void warn_of_missing(const RunFacts& facts, const Reports& reports, Texts& warni
   }
 }
 
-/// The files that the disk refused, in a sentence; empty: none.
+/// The programs' sentences about files that they could not write, joined by "; "; empty: none.
 std::string unwritten_files(const Reports& reports) {
   std::string files;
   for_each_report(reports, [&](const auto& report) {
@@ -205,7 +205,7 @@ Texts warnings_of(const RunFacts& facts, const SimServerReport& sim, const Route
   return warnings;
 }
 
-/// What was flown, and with what.
+/// The part of the result that describes the run's setup: scenario, planners, vendors, clock.
 Json description(const RunFacts& facts, const Scenario& scenario) {
   Json result;
   result["skein_version"] = SKEIN_VERSION;
@@ -225,7 +225,7 @@ Json description(const RunFacts& facts, const Scenario& scenario) {
   return result;
 }
 
-/// How long it took, and what of the machine.
+/// Adds simulated and wall time, and the processes' use of CPU and memory.
 void add_times(const RunFacts& facts, const SimServerReport& sim, Json& result) {
   const double sim_time_s = sim.sim_time_s.value_or(facts.sim_time_s);
   const double wall_time_s = sim.wall_time_s.value_or(facts.wall_time_s);
@@ -280,7 +280,7 @@ Json merge_result(const RunFacts& facts, const Scenario& scenario, const Reports
   result["points_detected"] = station.points_detected.value_or(facts.points_detected);
   result["score"] = station.score.value_or(facts.score);
   result["score_earned"] = station.score_earned.value_or(facts.score_earned);
-  // The oracle is asked afterwards.
+  // The caller fills these two in after it has run the oracle.
   result["attainable"] = {{"points", nullptr}, {"score", nullptr}};
   result["losses"] = nullptr;
   result["score_by_uav"] = score_by_uav(scenario, station);
@@ -293,7 +293,8 @@ Json merge_result(const RunFacts& facts, const Scenario& scenario, const Reports
   result["radio"]["malformed"] = samples.malformed;
   result["radio"]["unsent"] = samples.unsent;
   result["faults"] = json_of(sim.faults);
-  for (Json& fault : result["faults"]) fault.erase("by_hand");  // the same when a file repeats it
+  for (Json& fault : result["faults"])
+    fault.erase("by_hand");  // a rerun takes them from a file, and has the same entries
   result["interventions"] = interventions(sim.faults, scenario.exchange_period_s);
   if (sim.hand) result["hand"] = json_of(*sim.hand);
   if (!facts.planner_files.empty()) result["planner_files"] = facts.planner_files;

@@ -25,7 +25,7 @@ struct ProcessUse {
 
 /// What the launcher itself knows of a run.
 struct RunFacts {
-  std::string command = {};  ///< as the user typed it; empty: no user did
+  std::string command = {};  ///< as the user typed it; empty: not started by a user's command
   std::string scenario;      ///< as the user named it
   std::uint64_t seed = 0;
   std::vector<UavPlanner> planners;  ///< fleet order

@@ -17,7 +17,7 @@ std::string checksum_of(const Json& result) { return Sha256().add(text_of(result
 
 std::string result_text(Json result) {
   result.erase(kResultChecksum);
-  // What a reader gets: text that was no UTF-8 has been replaced, numbers that were none are null.
+  // The checksum must cover the values that a reader gets: invalid UTF-8 is replaced, numbers like NaN become null.
   result = parse_json(text_of(result, -1));
   result[kResultChecksum] = checksum_of(result);
   return text_of(result, 2) + "\n";

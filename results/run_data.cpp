@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Beyond this no run goes, in metres and seconds; a drawing of such a number would have no end.
+/// Bound of plausible values [m, s, ...]: no run exceeds it, and a drawing of a larger number would be endless.
 constexpr double kFarthest = 1e7;
 constexpr std::uintmax_t kMostOfAMap = 64 << 20;
 
@@ -28,7 +28,7 @@ double sensible(double value) {
 
 Vector3d sensible(const Vector3d& value) { return {sensible(value.x()), sensible(value.y()), sensible(value.z())}; }
 
-/// Throws for what is no vector.
+/// @throws if `numbers` is not an array of at least three plausible numbers.
 Vector3d vector_in(const Json& numbers) {
   return {sensible(numbers.at(0).get<double>()), sensible(numbers.at(1).get<double>()),
           sensible(numbers.at(2).get<double>())};
@@ -88,7 +88,7 @@ void read_points(const fs::path& dir, RunData& data) {
   });
 }
 
-/// Level where the table does not tell.
+/// Yaw 0 and pitch 0 if the row has no valid angles.
 ViewAngles view_of(const PoseCells& row) try {
   const GimbalState gimbal = row.gimbal();
   const Quaterniond q_WB = row.q_WB();
@@ -130,7 +130,7 @@ void read_scores(const fs::path& dir, RunData& data) {
   });
 }
 
-/// As result.json has it; a damaged entry is left out.
+/// Calls `entry` with each element of an array in result.json; leaves out elements for which it throws.
 template <class Entry>
 void read_entries(const RunData& data, const char* key, const Entry& entry) {
   for (const Json& json : value_or(data.result, key, Json::array())) {
@@ -141,7 +141,7 @@ void read_entries(const RunData& data, const char* key, const Entry& entry) {
   }
 }
 
-/// A UAV that somebody else's program flies leaves none.
+/// A UAV that a user's own program flies leaves no map.
 void read_maps(const fs::path& dir, RunData& data) {
   for (const std::string& uav : data.uavs) {
     std::string& map = data.maps.emplace_back();
@@ -170,7 +170,7 @@ void read_incidents(RunData& data) {
     data.faults.push_back({text_in(json, "kind"), text_in(json, "target"), sensible(*began * step_s),
                            ended ? sensible(*ended * step_s) : data.end_s, ended.has_value()});
   });
-  // Those by hand stand behind those of the file.
+  // Faults that a viewer added by hand come after those of the fault file.
   std::size_t by_hand = 0;
   read_entries(data, "interventions", [&](const Json& json) { by_hand += text_in(json, "what") == "begin" ? 1 : 0; });
   for (std::size_t i = data.faults.size() - std::min(by_hand, data.faults.size()); i < data.faults.size(); ++i) {
@@ -178,7 +178,7 @@ void read_incidents(RunData& data) {
   }
   try {
     data.station = vector_in(data.result.at("station").at("position"));
-  } catch (const std::exception&) {  // a result of an earlier version does not tell
+  } catch (const std::exception&) {  // earlier versions did not write it
   }
 }
 
@@ -207,7 +207,7 @@ std::optional<std::size_t> RunData::uav_of(const std::string& name) const {
 ViewAngles view_angles(const Quaterniond& q_WB, const GimbalState& gimbal) {
   RigidBodyState body;
   body.q_WB = q_WB;
-  // The camera looks along its x. Where it sits and what it sees do not matter for that.
+  // The camera looks along its x axis. Its mounting position and its optics do not affect the direction.
   const Vector3d axis = camera_state(body, gimbal, CameraConfig{}).X_WC.linear() * Vector3d::UnitX();
   return {std::atan2(axis.y(), axis.x()), std::asin(std::clamp(-axis.z(), -1.0, 1.0))};
 }

@@ -97,7 +97,7 @@ struct RunData {
   std::vector<RunScore> scores;
   std::vector<std::string> maps;  ///< by UAV: bytes of its map (octree_file.hpp); empty: none, or damaged
   std::vector<RunCollision> collisions;
-  std::vector<RunFault> faults;  ///< those that happened
+  std::vector<RunFault> faults;  ///< faults that began in the run
   std::optional<Vector3d> station;
   double end_s = 0.0;                ///< end of the run [simulated s]
   std::vector<std::string> missing;  ///< sentences about missing and damaged files

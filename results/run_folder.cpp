@@ -50,17 +50,18 @@ bool is_maps_file(const std::string& name, const std::string& uav) {
 }
 
 bool is_of_a_run(const std::string& name) {
-  // metadata.yaml: of recording/bag.hpp.
+  // recording/bag.hpp writes metadata.yaml.
   constexpr std::array<std::string_view, 20> kTables = {
       "metadata.yaml",  kFleetLog,        kResult,       kScore,         kCaptures, kDigests,     kLosses,
       kEvents,          kCaptureMessages, kTrajectories, kScoreTimeline, kScene,    kPage,        kRecording,
       kRecordingLayout, kTracking,        kWork,         kActivity,      kByHand,   kPlannerFiles};
-  // Reports, logs and books: a book of another run would be taken up as if this run's program had been killed.
+  // Reports, logs, the station's journal and the router's counts. If a journal or counts of another run stayed, the
+  // program would continue from them, as after a crash.
   const bool of_a_program = programs::is_agent(name) ||
                             std::any_of(programs::kServers.begin(), programs::kServers.end(), [&](const char* program) {
                               return name.starts_with(std::string(program) + ".");
                             });
-  // What was being written when its program was killed: see atomic_file.hpp.
+  // Without the suffix of a temporary file, which stays if the writing program is killed (atomic_file.hpp).
   const std::string whole = name.substr(0, name.rfind(".tmp"));
   const bool is_map =
       (whole.starts_with("map-") && whole.ends_with(".bt")) || (whole.starts_with("maps-") && whole.ends_with(".mcap"));

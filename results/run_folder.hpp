@@ -26,7 +26,7 @@ std::string agent_program(const std::string& member);
 bool is_agent(const std::string& program);
 /// The lock-step's name for a program: the UAV's name, "gcs", "comm_router" or "station".
 std::string member_name(const std::string& program);
-/// The inverse for members, of which sim_server is none.
+/// The inverse of member_name(). sim_server is not a member.
 std::string program_of(const std::string& member);
 
 }  // namespace programs
@@ -80,7 +80,7 @@ bool is_maps_file(const std::string& name, const std::string& uav);
 /// @param life  number of restarts before: 0, 1, ...
 std::string recording_part(const std::string& program, int life);
 
-/// Whether a run writes a file of this name, or a study its page; also for the temporary name of such a file.
+/// Whether a run writes a file of this name, or a study its page. True also for the temporary name of such a file.
 bool is_of_a_run(const std::string& name);
 
 }  // namespace run_folder

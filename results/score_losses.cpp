@@ -5,7 +5,7 @@
 namespace skein::results {
 namespace {
 
-/// The best of those captures that `counts`; of equal ones the first.
+/// The best of the captures for which `counts` returns true; of equally good ones the first.
 template <class Counts>
 std::optional<CaptureRow> best_of(const std::vector<CaptureRow>& captures, const Counts& counts) {
   const CaptureRow* best = nullptr;
@@ -15,8 +15,8 @@ std::optional<CaptureRow> best_of(const std::vector<CaptureRow>& captures, const
   return best == nullptr ? std::nullopt : std::optional(*best);
 }
 
-/// Whether a picture was better, and that it does not count costs at least as much as what it lacked itself. Of a point
-/// that scored nothing it always does.
+/// Whether a lost picture is the cause of the point's loss: it was better than the score, and would have made up for at
+/// least half of the loss. The second condition applies only if the point scored.
 bool is_to_blame(float lost_q, const PointRecord& point) {
   const double q = lost_q, score = point.score;
   return q > score && (score == 0.0 || q - score >= point.estimate - q);
@@ -25,14 +25,14 @@ bool is_to_blame(const std::optional<CaptureRow>& lost, const PointRecord& point
   return lost && is_to_blame(static_cast<float>(lost->q), point);
 }
 
-/// Of a point without a picture that counts.
+/// The cause for a point without a picture that counts.
 LossCause why_not_taken(const PointRecord& point, const BatteryEffects& batteries) {
   if (!point.flyable) return LossCause::out_of_reach;
   if (batteries.nobody_could_fly) return LossCause::energy;
   return point.seen ? LossCause::below_threshold : LossCause::never_in_picture;
 }
 
-/// What is worst about a picture.
+/// The factor with the lowest value in a picture's quality.
 LossCause worst_part(const CaptureRow& capture) {
   const double tilt = tilt_quality(capture);
   if (capture.q_distance <= tilt && capture.q_distance <= capture.q_blur) return LossCause::distance;

@@ -12,7 +12,7 @@
 namespace skein::results {
 namespace {
 
-/// A whole number of steps; sums of steps that end a little below an edge count as having reached it.
+/// Index of the bin that contains `value`. A value that rounding errors put just below an edge counts as on the edge.
 int steps(double value, double step, double most) {
   return static_cast<int>(std::floor((value < most ? value : most) / step + 1e-9));
 }
@@ -38,7 +38,7 @@ TrackingTable::Quantiles TrackingTable::quantiles(const std::function<bool(const
     std::uint64_t sum = 0;
     for (const auto& [error, count] : by_error) {
       sum += count;
-      if (sum >= enough) return (error + 1) / kErrorsPerM;  // 0.07 and not 0.07 and a bit
+      if (sum >= enough) return (error + 1) / kErrorsPerM;  // 0.07, not 0.07000000000000001
     }
     return 0.0;
   };

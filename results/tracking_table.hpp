@@ -21,7 +21,7 @@ class TrackingTable {
   /// A bin of the histogram; each number is its lower edge, in steps of the constants above.
   struct Bin {
     int speed = 0, acceleration = 0, error = 0;
-    std::string vehicle = {};  ///< last, since comparing numbers is faster
+    std::string vehicle = {};  ///< last, because comparing numbers first is faster
     auto operator<=>(const Bin&) const = default;
 
     double speed_mps() const { return speed * kSpeedStepMps; }

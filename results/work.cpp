@@ -11,7 +11,7 @@
 namespace skein::results {
 namespace {
 
-/// Empty where nothing is known.
+/// In fleet order; an empty track for a UAV whose work sim_server did not record.
 std::vector<WorkTrack> tracks_of(const Scenario& scenario, const Reports& reports) {
   std::vector<WorkTrack> tracks(scenario.fleet.size());
   if (!reports.sim_server) return tracks;

@@ -7,7 +7,8 @@
 namespace skein::sim {
 
 /// Whether the clearance along a segment is at least `clearance` - `tolerance`. The tolerance lets a line begin and end
-/// where a body just fits.   @param tolerance  > 0; also the least step between two samples of the clearance.
+/// where a body just fits.   @param tolerance  > 0; also the least step between two samples of the clearance. Between
+/// them, the line may pass an edge more closely by tolerance^2 / (8 (clearance - tolerance)): 1 mm for 1.4 m and 0.1 m.
 bool is_clear_line(const RayScene& world, const Vector3d& a_W, const Vector3d& b_W, double clearance, double tolerance);
 
 }  // namespace skein::sim

@@ -1,4 +1,4 @@
-// Domain ids for tests, so that test programs that run at the same time never meet.
+// DDS domain ids for tests, so that test programs that run at the same time never share a domain.
 #pragma once
 
 #include <unistd.h>
@@ -13,15 +13,15 @@
 
 namespace skein::test {
 
-/// Reserves consecutive domain ids for its lifetime, by the locks of the launcher (cli/host/domain_block.hpp), so that
-/// no fleet comes in between. They go with the process, however it ends. Domains below kFirst are left to users.
+/// Reserves consecutive domain ids for its lifetime, by the launcher's locks (cli/host/domain_block.hpp), so that no
+/// fleet takes them. The locks end with the process, however it ends. Domains below kFirst are left to users.
 class FreeDomains {
  public:
   static constexpr int kFirst = 10;
 
   /// @throws std::runtime_error when no `count` consecutive ids are free
   explicit FreeDomains(int count) {
-    // Neighbouring processes begin in different places. Only where ports stay below the ephemeral range, if possible.
+    // Processes with neighbouring ids begin at different domains; first at those with ports below the ephemeral range.
     const int choices = bus::kMaxDomain - count + 1 - kFirst + 1;
     const int low_choices = count < 80 ? 100 - count - kFirst : choices;
     const int start = static_cast<int>(getpid() * 7L % low_choices);

@@ -1,4 +1,4 @@
-// A TCP port of 127.0.0.1 for a test, so that test programs that run at the same time never take the same.
+// A TCP port of 127.0.0.1 for a test, so that test programs that run at the same time never take the same one.
 #pragma once
 
 #include <arpa/inet.h>
@@ -14,11 +14,11 @@
 
 namespace skein::test {
 
-/// No program listens on the port when it is made, and no other test takes the port as long as it lives.
+/// A port on which no program listens at construction, and which no other test takes while this lives.
 class FreePort {
  public:
   FreePort() {
-    constexpr int kFirst = 20'000, kCount = 10'000;  // below those that the system gives to clients
+    constexpr int kFirst = 20'000, kCount = 10'000;  // below the ephemeral ports
     for (int i = 0; i < kCount; ++i) {
       number_ = kFirst + static_cast<int>((::getpid() * 7L + i) % kCount);
       lock_ = HostLock::try_take("skein-test-port-" + std::to_string(number_));

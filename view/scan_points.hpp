@@ -23,6 +23,7 @@ class ScanPoints {
 
   explicit ScanPoints(std::size_t most_kept = kMostKept) : most_kept_(most_kept) {}
 
+  /// Points that packed_points() would leave out are left out here, too: they must not take the place of others.
   void add(std::span<const Eigen::Vector3f> points_W);
   bool empty() const { return points_W_.empty(); }
   /// Returns at most `most` of the points, evenly picked, and clears all: later points in the same cubes count again.
@@ -36,7 +37,8 @@ class ScanPoints {
   std::unordered_set<std::uint64_t> cells_;
 };
 
-/// Encodes each point as three 16-bit integers [dm], all in base64. Points outside their range (3.2 km) are left out.
+/// Encodes each point as three 16-bit integers [dm], all in base64. Points outside their range (3.2 km), or without a
+/// finite place, are left out.
 /// web/src/packed.js decodes the text.
 std::string packed_points(std::span<const Eigen::Vector3f> points_W);
 

@@ -1,9 +1,9 @@
-// bench_chatter: software of a UAV that does nothing but talk, for `skein bench` and for tests. It registers one
-// unicast radio topic to every other node, of a type that exists nowhere else, listens to what the others send it, and
-// sends on each topic in every step.
+// bench_chatter: a UAV's program that only exchanges radio messages, for `skein bench` and for tests. It registers one
+// unicast radio topic to every other node, with a type that exists nowhere else, receives the messages of the others,
+// and sends on each topic in every step.
 //   skein run FILE --planner exec:bench_chatter        (the launcher sets SKEIN_DOMAIN, SKEIN_UAV, SKEIN_DDS, ...)
-// Each message says which one it is; one that comes twice, out of order or damaged ends the program with exit code 1.
-// Its last line on stdout is JSON: messages heard.
+// Each message contains its number. A message that arrives twice, out of order or damaged ends the program with exit
+// code 3; otherwise its last line on stdout is JSON: the number of messages received.
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
@@ -28,7 +28,7 @@ std::string variable(const char* name) {
   return value;
 }
 
-/// Message number n: encapsulation header, the number, and what follows from it.
+/// Message number n: encapsulation header, the number, and bytes that are computed from it.
 Bytes message(std::uint64_t n, std::size_t size) {
   Bytes bytes(kHeader + size);
   bytes[1] = 1;

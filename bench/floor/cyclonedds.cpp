@@ -1,4 +1,4 @@
-// The floor on Eclipse Cyclone DDS's C API, with its own serialiser for a type that is one sequence of octets.
+// The floor on Eclipse Cyclone DDS's C API, with Cyclone's serialiser for a type that is one sequence of octets.
 #include <dds/dds.h>
 
 #include <array>
@@ -21,7 +21,7 @@ using bus::cyclonedds::Domain;
 struct Octets {
   dds_sequence_t data;
 };
-/// Before the octets: encapsulation header and the sequence's length.
+/// Bytes before the octets: encapsulation header and the sequence's length.
 constexpr std::size_t kOverhead = 8;
 
 constexpr std::array<std::uint32_t, 3> kOctetsOps = {

@@ -1,5 +1,5 @@
-// The floor under the lock-step: the same processes, exchanging the same messages in the same order over a vendor's
-// own API, with nothing in between: no counting, no inbox, no codec, no physics, no planner.
+// The floor: the lower bound of what lock-step rounds cost over a DDS vendor. The same processes exchange the same
+// messages in the same order over the vendor's own API, without counting, inbox, codec, physics or planner.
 #pragma once
 
 #include <cstdint>
@@ -16,13 +16,14 @@ struct FloorOptions {
 
 struct FloorResult {
   std::uint64_t rounds = 0;
-  double wall_s = 0.0;                    ///< of all rounds, from the server's first write to its last arrival
+  double wall_s = 0.0;                    ///< of all rounds, from the server's first write to its last received sample
   double cpu_s = 0.0;                     ///< of all processes in that time
   double server_cpu_s = 0.0;              ///< of the server alone
   std::uint64_t messages = 0, bytes = 0;  ///< delivered per round (payloads)
 };
 
-/// Forks a process for each seat but the server's, which this one takes. Call it before any other thread exists.
+/// Forks a process for each seat except the server's, which the calling process takes. Call it before any other thread
+/// exists. Blocks until all rounds are done.
 /// @throws std::runtime_error when a process fails or a round takes longer than a minute.
 FloorResult run_floor(const FloorOptions& options);
 

@@ -1,4 +1,4 @@
-// bench_floor_<vendor>: lock-step rounds a second over the vendor's own API; one line of JSON on stdout.
+// bench_floor_<vendor>: measures lock-step rounds over the vendor's own API; prints one line of JSON on stdout.
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 

@@ -1,5 +1,5 @@
-// One lock-step round as a list of messages: who writes what to whom in which DDS domain, as a hovering fleet does it
-// twenty times a simulated second. Topics, types, QoS and sizes are those of the product; nothing else of it is here.
+// One lock-step round as a list of messages: writer, readers, topic and DDS domain of each, as in a hovering fleet,
+// which has twenty rounds per simulated second. Topics, types, QoS and sizes are those of the product.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,7 @@ enum class Role { server, router, station, agent };
 /// A process of the fleet.
 struct Seat {
   Role role = Role::server;
-  std::size_t uav = 0;  ///< of an agent
+  std::size_t uav = 0;  ///< index of an agent's UAV
   bool operator==(const Seat&) const = default;
 };
 
@@ -33,9 +33,10 @@ struct Flow {
   bool goes_to(const Seat& seat) const;
 };
 
-/// In each round the server writes its flows and everybody answers once it has received all that is meant for it.
-/// Agents get state, neighbours and the step, and send a trajectory, a gimbal command and `done`; the router gets the
-/// links and every `done` and sends `routed`. Left out is what nobody reads and what does not come in every round.
+/// In each round, the server writes its flows, and each other process writes its own once it has received all of its
+/// messages. Agents receive state, neighbours and the step, and send a trajectory, a gimbal command and `done`. The
+/// router receives the links and every `done`, and sends `routed`. Messages without a reader, and messages that are not
+/// part of every round, are left out.
 std::vector<Flow> round_flows(std::size_t uavs, int base_domain);
 
 }  // namespace skein::bench

@@ -1,5 +1,5 @@
-// What the floor asks of a DDS vendor: endpoints that carry bytes. Each vendor's file implements it straight on the
-// vendor's own API, with listeners, and with nothing of Skein's but its settings (QoS, loopback, leases).
+// Interface of a DDS vendor for the floor: endpoints that transport bytes. Each vendor's file implements it directly on
+// the vendor's own API, with listeners; from Skein it uses only the settings (QoS, loopback, leases).
 #pragma once
 
 #include <chrono>
@@ -12,11 +12,11 @@
 
 namespace skein::bench {
 
-/// Counts what arrives on the vendor's threads, for the one thread that waits for it.
+/// Counts samples and bytes that arrive on the vendor's threads. One thread may wait for them.
 class Arrivals {
  public:
   void add(std::uint64_t samples, std::uint64_t bytes);
-  /// @returns false when `samples` in all have not arrived within `limit`.
+  /// Waits until `samples` have arrived in total. @returns false if they have not within `limit`.
   bool wait_for(std::uint64_t samples, std::chrono::milliseconds limit);
   std::uint64_t bytes() const;
 
@@ -29,13 +29,13 @@ class Arrivals {
 class Endpoint {
  public:
   virtual ~Endpoint() = default;
-  /// Endpoints at the other side that have been found.
+  /// Number of remote endpoints that this endpoint has matched.
   virtual std::size_t matched() const = 0;
   /// Writers only: sends the flow's payload.
   virtual void write() {}
 };
 
-/// One process's share of a vendor; joins a domain with its first endpoint there.
+/// One process's entities of a vendor. Joins a domain when the first endpoint in it is opened.
 class Vendor {
  public:
   virtual ~Vendor() = default;
@@ -43,7 +43,7 @@ class Vendor {
   virtual std::unique_ptr<Endpoint> open_reader(const Flow& flow, Arrivals& arrivals) = 0;
 };
 
-/// Implemented once in each program, by the vendor that it is linked with.
+/// Each program is linked with one vendor's implementation.
 std::unique_ptr<Vendor> make_vendor();
 
 }  // namespace skein::bench

@@ -1,6 +1,6 @@
-// bench_lidar: what a scan costs along flown paths. Takes the poses of a run's trajectories.csv (ten a simulated
-// second, as many as a LiDAR has scans) and runs the production LiDAR at every one of them, whether the run's own
-// planner read that scan or not. One line of JSON on stdout.
+// bench_lidar: measures the CPU time of a LiDAR scan along flown paths. Takes the poses of a run's trajectories.csv
+// (ten per simulated second, as many as a LiDAR has scans) and runs the production LiDAR at each of them, whether or
+// not the run's own planner read that scan. Prints one line of JSON on stdout.
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
@@ -28,7 +28,7 @@ using skein::Isometry3d;
 using skein::Scenario;
 using skein::Tick;
 
-/// Poses of the fleet at one instant; who is missing (a line cut short) keeps the pose before.
+/// Poses X_WB of the fleet at one instant, by fleet index. A UAV that is missing (truncated line) is not moved.
 using Poses = std::map<std::size_t, Isometry3d>;
 
 /// @returns X_WB by tick and fleet index. Columns: time_s, uav, x, y, z, qw, qx, qy, qz, ...

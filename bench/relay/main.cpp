@@ -1,7 +1,7 @@
-// bench_relay: how long a radio message takes through comm_router, against a process that does nothing but relay it
-// between the same two domains over the same vendor. Both are measured in turn, message by message, in one run; one
-// line of JSON on stdout. The clock starts before the last of what the router waits for is written (the sender's Done;
-// at the bare relay: the message) and stops in the callback of a reader in the target's domain.
+// bench_relay: measures the time of a radio message through comm_router, and through a bare relay: a process that only
+// copies messages from one domain to another, over the same vendor. Measures both in turn, message by message, in one
+// run; prints one line of JSON on stdout. The clock starts before the last sample is written for which the router waits
+// (the sender's Done; for the bare relay: the message) and stops in the callback of a reader in the target's domain.
 #include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -41,7 +41,7 @@ struct Options {
   std::size_t bytes = 200;
 };
 
-/// A child process; it does not outlive this one.
+/// A child process. It dies with this process at the latest.
 class Child {
  public:
   template <class Work>
@@ -63,7 +63,7 @@ class Child {
   const pid_t pid_;
 };
 
-/// The bare relay: what it reads in one domain it writes in the next, in the vendor's own thread.
+/// The bare relay: writes each sample that it reads in one domain in the next domain, on the vendor's own thread.
 void relay(const Options& options) {
   const auto bus = skein::bus::make_bus({.vendor = options.dds});
   const auto from = bus->join(options.domain + 3), to = bus->join(options.domain + 4);
@@ -78,7 +78,7 @@ void exec_router(const Options& options) {
           domain.c_str(), "--dds", options.dds.c_str(), "--out", options.out.c_str(), nullptr);
 }
 
-/// Where a message arrives; notes when.
+/// A reader that records when the last message arrived.
 class Ear {
  public:
   Ear(skein::bus::Participant& participant, const skein::bus::TopicSpec& topic)
@@ -132,7 +132,7 @@ class Fleet {
     station_.start();
   }
 
-  /// The ear is a stranger, for whom nobody waits: messages until the router's writer has found it.
+  /// Sends messages until the router's writer has matched the ear: the lock-step does not wait for a non-member.
   void find_ear() {
     wait_until("the ear", [&] {
       const std::uint64_t before = ear_.count();
@@ -143,7 +143,7 @@ class Fleet {
     });
   }
 
-  /// One step with one message. @returns its time through the router.
+  /// One step with one message. @returns the message's time through the router [us].
   double step(bool last) {
     const std::uint64_t before = ear_.count();
     const Clock::time_point written = exchange(last);
@@ -152,7 +152,7 @@ class Fleet {
   }
 
  private:
-  /// @returns when the message was written.
+  /// @returns the time just before the sender's Done was written.
   Clock::time_point exchange(bool last) {
     wait_until("the fleet", [&] {
       inbox_.dispatch(0ms);
@@ -215,7 +215,7 @@ class Bare {
         ear_(*there_, kBare) {
     message_[1] = 1;
     wait_until("the relay's endpoints", [&] { return ear_.matched() && !writer_->matched().empty(); });
-    // The relay finds its side of the matches in its own time: ask until an answer comes, then let the rest arrive.
+    // The relay discovers its side of the matches later: send until a message arrives, then wait for the rest.
     std::uint64_t asked = 0;
     wait_until("the relay", [&] {
       writer_->write(message_);
@@ -228,6 +228,7 @@ class Bare {
     while (Clock::now() < quiet && ear_.count() < asked) std::this_thread::yield();
   }
 
+  /// @returns the message's time through the bare relay [us].
   double message() {
     const std::uint64_t before = ear_.count();
     const Clock::time_point written = Clock::now();
@@ -263,7 +264,7 @@ int run(const Options& options) {
   std::vector<double> through_router, through_relay;
   for (int i = 0; i < options.messages; ++i) {
     const double router_us = fleet.step(i + 1 == options.messages), relay_us = bare.message();
-    if (i < options.messages / 10) continue;  // warming up
+    if (i < options.messages / 10) continue;  // warm-up
     through_router.push_back(router_us);
     through_relay.push_back(relay_us);
   }

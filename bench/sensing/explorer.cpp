@@ -7,7 +7,7 @@ namespace skein::bench {
 namespace {
 
 constexpr UavIndex kSelf{0};
-constexpr double kFarM = 1000.0;  // farther than anybody flies here
+constexpr double kFarM = 1000.0;  // farther than any flight of this benchmark
 
 }  // namespace
 

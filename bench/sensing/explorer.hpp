@@ -1,5 +1,5 @@
-// One explorer in a world of its own: the simulation and the on-board software of a run, without a bus between them.
-// What the software hears is what it would hear in a fleet: odometry, boxes, key frames, scans, angles of the servo.
+// One explorer alone in a world: the simulation and the on-board software of a run, without a bus between them. The
+// software gets the same inputs as in a fleet: odometry, boxes, key frames, scans, angles of the servo.
 // Frame W.   Units: SI.   Threads: one.   Deterministic.
 #pragma once
 
@@ -11,19 +11,19 @@
 
 namespace skein::bench {
 
-/// The shipped explorer alone in a scenario of its own; `start` is where it is put down.
+/// The scenario `cranes` with an explorer as the only UAV. @param start  its start position (x, y) in W [m]; heading 0.
 Scenario lone_explorer(const Vector2d& start);
 
 class Explorer {
  public:
-  /// @param scenario  with a fleet of one.   @param seed  0: no noise, and the servo starts at angle 0.
+  /// @param scenario  with a fleet of one UAV.   @param seed  0: no noise, and the servo starts at angle 0.
   Explorer(const Scenario& scenario, Scene scene, std::uint64_t seed, std::unique_ptr<agent::Planner> planner);
 
-  /// One exchange.
+  /// Simulates one exchange.
   void step();
   bool alive() const { return simulation_.uav(UavIndex{0}).alive; }
   const agent::OccupancyMap& map() const { return agent_.map(); }
-  /// Of the exchange that was flown last.
+  /// Events of the last exchange.
   const sim::StepEvents& events() const { return simulation_.events(); }
   const Scene& scene() const { return simulation_.scene(); }
 
@@ -33,20 +33,20 @@ class Explorer {
   bool boxes_told_ = false;
 };
 
-/// Takes off, hovers, and flies along a line; all beams of its LiDAR go to whom they are for.
+/// Takes off, hovers, then flies along a line. Passes all beams of its LiDAR to a callback.
 class RoutePlanner final : public agent::Planner {
  public:
   struct Config {
-    double height_m = 5.0;  ///< above the start
+    double height_m = 5.0;  ///< height of the hover above the start
     double climb_mps = 2.0;
     double hover_s = 8.0;
-    Vector3d along_W = Vector3d::UnitX();  ///< unit vector, of the flight after that
+    Vector3d along_W = Vector3d::UnitX();  ///< unit vector: direction of the flight after the hover
     double speed_mps = 1.0;
   };
-  /// What there is to see of an exchange.
+  /// Data of one exchange for the callback.
   struct Seen {
     Tick tick = 0;
-    std::optional<double> hovering_s;  ///< since it began to hover; none: it climbs
+    std::optional<double> hovering_s;  ///< time since the start of the hover; nullopt: before it
     RigidBodyState state;
     std::span<const agent::BeamScan> beam_scans;
   };

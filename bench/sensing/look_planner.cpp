@@ -1,4 +1,4 @@
-// Takes off and hovers, and looks at the beams of its LiDAR or does not: what it costs a fleet to have them.
+// A planner that takes off and hovers, with or without the beams of its LiDAR, to measure what beams cost a fleet.
 #include "uav_agent/api/planner.hpp"
 
 namespace skein::agent {

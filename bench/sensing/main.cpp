@@ -1,6 +1,6 @@
-// bench_sensing: what an explorer knows of the space around it, by the map of key frames and by the world map:
-// pictures and tables of docs/sensing.md. Prints the tables. With --write, pictures go into a folder `images` in the
-// folder that is named, and a page sensing.md that is there gets the new tables.
+// bench_sensing: compares what an explorer knows of the space around it with the map of key frames and with the world
+// map. Creates the pictures and tables of docs/sensing.md. Prints the tables. With --write FOLDER, writes the pictures
+// into FOLDER/images, and the tables into FOLDER/sensing.md if that page exists.
 #include <CLI/CLI.hpp>
 
 #include <filesystem>

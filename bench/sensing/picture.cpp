@@ -16,8 +16,8 @@ using report::coordinate;
 
 constexpr double kWidth = 800.0, kMargin = 16.0, kGap = 16.0, kPanel = 0.5 * (kWidth - 2.0 * kMargin - kGap);
 constexpr double kTop = 82.0, kLabel = 32.0, kBottom = 34.0;
-constexpr double kCutStep = 0.7;    // units: shorter pieces of the structure's cut fall together
-constexpr double kRouteStep = 0.5;  // units
+constexpr double kCutStep = 0.7;    // [units]; grid to which the ends of the structure's lines are rounded
+constexpr double kRouteStep = 0.5;  // [units]; shortest step of the drawn route
 constexpr double kScaleBarM = 10.0;
 
 constexpr const char* kStyle = R"(<style>
@@ -35,10 +35,10 @@ struct Block {
   int column = 0, columns = 0, row = 0, rows = 0;
 };
 
-/// Squares of one kind in few rectangles: runs along rows, and equal runs of rows above each other as one.
+/// Covers the squares of one kind with few rectangles: runs along rows; equal runs in successive rows are merged.
 std::vector<Block> blocks_of(const Squares& squares, Space space) {
   std::vector<Block> blocks;
-  std::vector<std::size_t> below, here;  // in blocks, whose last row is the one below
+  std::vector<std::size_t> below, here;  // indices of blocks that end in the row below, or in this row
   for (int row = 0; row < squares.rows; ++row, std::swap(below, here)) {
     here.clear();
     for (int column = 0; column < squares.columns;) {
@@ -61,7 +61,7 @@ std::vector<Block> blocks_of(const Squares& squares, Space space) {
 
 class Panel {
  public:
-  /// @param left, top  of its corner in the drawing.   @param scale  units a metre.
+  /// @param left, top  the panel's upper left corner in the drawing [units].   @param scale  units per metre.
   Panel(double left, double top, double scale, double width_m, double height_m)
       : left_(left), top_(top), scale_(scale), width_m_(width_m), height_m_(height_m) {}
 
@@ -91,7 +91,7 @@ class Panel {
     return data.empty() ? "" : fmt::format("<path class=\"{}\" d=\"{}\"/>\n", style, data);
   }
 
-  /// Pieces that round to the same are drawn once; a dot is a line of no length.
+  /// Draws lines that are equal after rounding only once. A line may have the length 0: a dot.
   std::string cut(const std::vector<Line>& lines) const {
     std::set<std::array<long, 4>> pieces;
     for (const auto& [from, to] : lines) {
@@ -132,7 +132,7 @@ std::string text(double x, double y, const char* style, const std::string& words
                      report::escaped(words));
 }
 
-/// Below the title, in one line.
+/// The legend: one line below the title.
 std::string legend() {
   std::string svg;
   double x = kMargin;

@@ -1,4 +1,4 @@
-// What two maps know of a plane, drawn side by side, a row for each time.
+// Draws the knowledge of two maps in a plane side by side, one row per time.
 // Units: metres.   Pure; any thread.
 #pragma once
 
@@ -11,18 +11,18 @@ namespace skein::bench {
 
 struct PictureRow {
   std::string label;            ///< "after 4 s, 5.2 m above the ground"
-  Squares today, world;         ///< of OccupancyMap and of WorldMap
-  std::vector<Line> cut;        ///< of what stands there, in the plane
-  std::vector<Vector2d> route;  ///< so far, in the plane; the UAV is at its end
+  Squares today, world;         ///< knowledge of OccupancyMap, and of WorldMap
+  std::vector<Line> cut;        ///< intersection of the structure with the plane, in plane coordinates
+  std::vector<Vector2d> route;  ///< route so far, in plane coordinates; ends at the UAV
 };
 
 struct Picture {
   std::string title;
-  double width_m = 1.0, height_m = 1.0;  ///< of the plane
+  double width_m = 1.0, height_m = 1.0;  ///< size of the plane
   std::vector<PictureRow> rows;
 };
 
-/// An SVG file on a white ground, 800 units wide.
+/// The content of an SVG file with a white background, 800 units wide.
 std::string picture_svg(const Picture& picture);
 
 }  // namespace skein::bench

@@ -12,12 +12,12 @@
 namespace skein::bench {
 namespace {
 
-constexpr double kHighM = 60.0;  // the ground is out of the LiDAR's reach
+constexpr double kHighM = 60.0;  // so high that the ground is out of the LiDAR's range
 constexpr double kClimbMps = 4.0;
 constexpr int kDirections = 72;
 constexpr double kStepM = 0.25, kFarthestM = 40.0;
 constexpr double kOneSweepS = 8.0, kThreeSweepsS = 24.0;
-constexpr double kSettledS = 10.0, kAheadS = 20.0, kAskEachS = 0.5;  // of the flight after that
+constexpr double kSettledS = 10.0, kAheadS = 20.0, kAskEachS = 0.5;  // of the straight flight after the hover
 
 double free_way_m(const agent::WorldMap& map, const Vector3d& from_W, const Vector3d& along_W, double radius_m) {
   double way_m = 0.0;
@@ -32,7 +32,7 @@ double median(std::vector<double> values) {
   return values.empty() ? 0.0 : values[values.size() / 2];
 }
 
-/// Maps of one flight that differ in what they must not miss.
+/// One flight with several maps, one for each width of the thinnest member that must not be missed.
 class ReachFlight {
  public:
   ReachFlight(const std::vector<double>& member_widths_m, std::uint64_t seed)
@@ -66,7 +66,7 @@ class ReachFlight {
 
  private:
   void look(const RoutePlanner::Seen& seen) {
-    if (!seen.hovering_s) return;  // its climb proves nothing here: how it has come differs from flight to flight
+    if (!seen.hovering_s) return;  // no beams of the climb: it differs from flight to flight
     for (agent::WorldMapper& mapper : mappers_) {
       for (const agent::BeamScan& scan : seen.beam_scans) mapper.insert(scan);
     }
@@ -104,7 +104,7 @@ class ReachFlight {
   Explorer explorer_;
 };
 
-/// Flies to and fro, each time a little faster, and stops in between.
+/// Flies back and forth, each time a little faster, and stops in between.
 class StopPlanner final : public agent::Planner {
  public:
   StopPlanner(double most_mps, std::vector<Stop>& stops) : most_mps_(most_mps), stops_(stops) {}

@@ -11,9 +11,9 @@ namespace skein::bench {
 namespace {
 
 constexpr double kMastM = 150.0, kMastRadiusM = 0.4, kGuyM = 0.05;
-constexpr double kBesideM = 9.0;  // the UAV, from the mast
+constexpr double kBesideM = 9.0;  // distance of the UAV from the mast
 
-/// Three directions, so that the longest lies along the box's long edge; from three heights to one anchor each.
+/// Adds guys in three directions, from three heights to one anchor each. The longest lie along the box's long edge.
 void add_guys(sim::MeshBuilder& builder, const Vector3d& foot_W) {
   for (const double bearing : {0.5, 7.0 / 6.0, 11.0 / 6.0}) {
     const double angle = bearing * std::numbers::pi, reach = bearing == 0.5 ? 70.0 : 45.0;
@@ -55,7 +55,7 @@ Site loose_box() {
   return site;
 }
 
-/// Under the girder, from one side to the other.
+/// The UAV flies under the girder, from one side to the other.
 Site lattice() {
   Site site{.name = "lattice",
             .stem = "lattice",
@@ -64,7 +64,7 @@ Site lattice() {
             .scene = {}};
   site.scene = sim::sampled(sim::make_cranes(0));
   const OrientedBox girder = box_named(site.scene, "gantry_girder");
-  const Vector3d along_G = Vector3d(9.0, 20.0, 0.0).normalized();  // the girder's x is along it, y along the rails
+  const Vector3d along_G = Vector3d(9.0, 20.0, 0.0).normalized();  // girder's frame: x along it, y along the rails
   site.along_W = (girder.R_WO * along_G).normalized();
   site.along_W.z() = 0.0;
   site.middle_W = {girder.center.x(), girder.center.y(), 0.0};

@@ -1,5 +1,4 @@
-// Where the explorer is shown: beside a mast in a box that is far too large for it, and between the legs of a gantry
-// crane.
+// The sites of the study: beside a mast in a box that is much too large for it, and between the legs of a gantry crane.
 // Frame W.   Units: metres.
 #pragma once
 
@@ -11,20 +10,20 @@ namespace skein::bench {
 
 struct Site {
   std::string name;          ///< "loose box"
-  std::string stem;          ///< of its files' names: "loose-box"
-  std::string title, route;  ///< in words, for a caption
+  std::string stem;          ///< part of file names: "loose-box"
+  std::string title, route;  ///< for captions
   Scene scene;
-  Vector2d start = Vector2d::Zero();      ///< of the UAV, on the ground
-  Vector3d along_W = Vector3d::UnitZ();   ///< unit vector: where it flies after it has hovered
-  Vector3d across_W = Vector3d::UnitX();  ///< unit vector, horizontal: to the right in the vertical slice
-  Vector3d middle_W = Vector3d::Zero();   ///< of the slices; both pass through the route
-  double width_m = 72.0, depth_m = 60.0;  ///< of the horizontal slice, along x and y
-  double top_m = 60.0;                    ///< of the vertical slice, which begins at the ground
+  Vector2d start = Vector2d::Zero();      ///< start of the UAV, on the ground
+  Vector3d along_W = Vector3d::UnitZ();   ///< unit vector: direction of the flight after the hover
+  Vector3d across_W = Vector3d::UnitX();  ///< unit vector, horizontal: points right in the vertical slice
+  Vector3d middle_W = Vector3d::Zero();   ///< centre of the slices; both pass through the route
+  double width_m = 72.0, depth_m = 60.0;  ///< size of the horizontal slice along x and y
+  double top_m = 60.0;                    ///< height of the vertical slice above the ground
 };
 
 /// A mast of 150 m, 0.8 m thick, with guys of 5 cm, in one box of 85 m by 150 m by 153 m.
 Site loose_box();
-/// The scene `cranes`: lattice with members of 5 to 22 cm.
+/// The scene `cranes`: lattice with members of 5 to 22 cm. @throws std::runtime_error if it has no girder.
 Site lattice();
 
 }  // namespace skein::bench

@@ -21,11 +21,11 @@ namespace {
 
 using agent::Space;
 
-constexpr int kRoomyRays = 16;          // where a box holds so much that it says little
-constexpr double kEdgeM = 0.5;          // of a picture's squares
-constexpr double kOffM = 0.5;           // truly free is what is so far off
-constexpr std::size_t kDraws = 60'000;  // of places, all bands together
-constexpr std::size_t kSurface = 3000;  // places on surfaces
+constexpr int kRoomyRays = 16;          // in a box that holds a whole site (agent::is_roomy())
+constexpr double kEdgeM = 0.5;          // edge of a picture's squares
+constexpr double kOffM = 0.5;           // minimum clearance of space that counts as truly free
+constexpr std::size_t kDraws = 60'000;  // sample points in space, all bands together
+constexpr std::size_t kSurface = 3000;  // sample points on surfaces
 constexpr double kSurfaceReachM = 20.0;
 
 class Study {
@@ -84,6 +84,7 @@ class Study {
     }
   }
 
+  /// What the map of key frames knows of a point.
   Space today(const Vector3d& p_W) const {
     if (explorer_.map().occupied(p_W)) return Space::occupied;
     return explorer_.map().known_free(p_W, result_.rays) ? Space::free : Space::unknown;
@@ -132,7 +133,7 @@ class Study {
 
   double distance_to_route_m(const Vector3d& p_W) const {
     double nearest = std::numeric_limits<double>::max();
-    constexpr std::size_t kStride = 5;  // half a metre at most
+    constexpr std::size_t kStride = 5;  // at most 0.5 m of flight
     for (std::size_t i = 0; i < route_W_.size(); i += kStride) {
       nearest = std::min(nearest, (route_W_[i] - p_W).squaredNorm());
     }

@@ -1,4 +1,4 @@
-// The figures of docs/sensing.md as tables in Markdown, and their places in that page.
+// The tables of docs/sensing.md in Markdown, and their insertion into that page.
 // Pure; any thread.
 #pragma once
 
@@ -12,24 +12,23 @@
 
 namespace skein::bench {
 
-/// A block of the page.
+/// A table of the page.
 struct Table {
-  std::string name;  ///< of its place
+  std::string name;  ///< name in the page's markers
   std::string markdown;
 };
 
 Table space_table(std::span<const SiteStudy> studies);
 Table surface_table(std::span<const SiteStudy> studies);
 Table reach_table(std::span<const Reach> reaches, std::span<const Stop> stops);
-/// CPU time and memory: the only one that differs from call to call.
+/// CPU time and memory. The only table that differs between two calls.
 Table cost_table(std::span<const SiteStudy> studies);
 Table message_table(std::span<const SiteStudy> studies);
-/// @param vendors  a list of {vendor, plain, beams}, each with round_ms (wall) and cpu_ms, a step.
+/// @param vendors  a list of {vendor, plain, beams}; `plain` and `beams` have round_ms (wall time) and cpu_ms per step.
 Table vendor_table(const nlohmann::json& vendors);
 
-/// The page with another text between the lines `[//]: # (table: NAME)` and `[//]: # (end of table)`, which readers do
-/// not see.
-/// @throws InputError when it has no such place.
+/// The page with the table between its markers, the lines `[//]: # (table: NAME)` and `[//]: # (end of table)`, which
+/// Markdown does not show. @throws InputError if the page has no such markers.
 std::string with_table(const std::string& page, const Table& table);
 
 }  // namespace skein::bench

@@ -1,6 +1,6 @@
 #include "bus/cyclonedds/cyclonedds_bus.hpp"
 
-// Before all other headers of Cyclone, see there.
+// Before all other headers of Cyclone: see raw_sertype.hpp.
 #include "bus/cyclonedds/raw_sertype.hpp"
 
 #include <algorithm>
@@ -20,7 +20,7 @@ namespace skein::bus {
 namespace cyclonedds {
 namespace {
 
-constexpr std::size_t kMaxPacked = 14'000;  // bytes of a datagram that samples share, however much UDP would take
+constexpr std::size_t kMaxPacked = 14'000;  // largest datagram that samples share [bytes]; UDP permits more
 
 /// dds_guid_t holds the bytes as they are on the wire.
 ParticipantId id_of(const dds_guid_t& guid) { return participant_id(std::span<const std::uint8_t, 12>(guid.v, 12)); }
@@ -30,10 +30,10 @@ struct DeleteQos {
 };
 using QosPtr = std::unique_ptr<dds_qos_t, DeleteQos>;
 
-/// What both ends of a topic have in common.
+/// The QoS that writers and readers of a topic have in common.
 QosPtr common_qos(const Qos& qos) {
   QosPtr dds(dds_create_qos());
-  // The blocking time counts only above the high watermark, which is out of reach (domain.cpp).
+  // A writer blocks only above the high watermark, which is set out of reach (domain.cpp).
   dds_qset_reliability(dds.get(), qos.reliable ? DDS_RELIABILITY_RELIABLE : DDS_RELIABILITY_BEST_EFFORT, DDS_MSECS(10));
   dds_qset_durability(dds.get(), qos.latched ? DDS_DURABILITY_TRANSIENT_LOCAL : DDS_DURABILITY_VOLATILE);
   dds_qset_ignorelocal(dds.get(), DDS_IGNORELOCAL_PARTICIPANT);
@@ -45,7 +45,7 @@ QosPtr common_qos(const Qos& qos) {
 QosPtr writer_qos(const Qos& qos) {
   QosPtr dds = common_qos(qos);
   dds_qset_history(dds.get(), DDS_HISTORY_KEEP_LAST, qos.depth);
-  // What a late joiner gets is governed by this, not by the history; the default is one sample.
+  // This setting, not the history, determines how many samples a late joiner gets; the default is one.
   dds_qset_durability_service(dds.get(), 0, DDS_HISTORY_KEEP_LAST, qos.depth, DDS_LENGTH_UNLIMITED,
                               DDS_LENGTH_UNLIMITED, DDS_LENGTH_UNLIMITED);
   return dds;
@@ -53,13 +53,13 @@ QosPtr writer_qos(const Qos& qos) {
 
 QosPtr reader_qos(const Qos& qos) {
   QosPtr dds = common_qos(qos);
-  // The listener takes each sample as it comes, so nothing gathers here; but with KEEP_LAST two writers at once could
-  // push each other's samples out before it is called.
+  // The listener takes each sample as it arrives, so the history stays short. With KEEP_LAST, two simultaneous writers
+  // could evict each other's samples before the listener is called.
   dds_qset_history(dds.get(), DDS_HISTORY_KEEP_ALL, 0);
   return dds;
 }
 
-/// A topic of a raw type, for the time that it takes to create an endpoint, which then keeps it alive.
+/// A topic of a raw type. Needed only until an endpoint is created, which then keeps Cyclone's topic alive.
 class RawTopic {
  public:
   RawTopic(dds_entity_t participant, const TopicSpec& topic) : type_(make_raw_sertype(topic.type)) {
@@ -72,7 +72,7 @@ class RawTopic {
   RawTopic& operator=(const RawTopic&) = delete;
 
   dds_entity_t entity() const { return entity_; }
-  /// The registered type, which may be an older one than the one that was given.
+  /// The registered type: the given one, or an equal one that was registered before.
   const ddsi_sertype* type() const { return type_; }
 
  private:
@@ -80,7 +80,7 @@ class RawTopic {
   dds_entity_t entity_;
 };
 
-/// Participants of the matched endpoints, by Cyclone's two functions for either kind of endpoint.
+/// Participants of the matched endpoints. @param list, describe  Cyclone's functions for the kind of endpoint.
 template <class List, class Describe>
 std::vector<ParticipantId> matched_participants(dds_entity_t entity, List list, Describe describe) {
   std::vector<dds_instance_handle_t> handles;
@@ -95,7 +95,7 @@ std::vector<ParticipantId> matched_participants(dds_entity_t entity, List list, 
   std::vector<ParticipantId> ids;
   for (const dds_instance_handle_t handle : handles) {
     dds_builtintopic_endpoint_t* endpoint = describe(entity, handle);
-    if (endpoint == nullptr) continue;  // left in the meantime
+    if (endpoint == nullptr) continue;  // it has left meanwhile
     ids.push_back(id_of(endpoint->participant_key));
     dds_builtintopic_free_endpoint(endpoint);
   }
@@ -147,7 +147,7 @@ class CycloneReader : public Reader {
     dds_listener_t* listener = dds_create_listener(this);
     dds_lset_data_available(listener,
                             [](dds_entity_t reader, void* self) { static_cast<CycloneReader*>(self)->take(reader); });
-    // Noted at the match, since a writer that leaves right after its last sample can no longer be looked up.
+    // Looks up the source at the match: a writer may leave right after its last sample, and then it is too late.
     dds_lset_subscription_matched(
         listener, [](dds_entity_t reader, const dds_subscription_matched_status_t status, void* self) {
           if (status.current_count_change > 0)
@@ -157,7 +157,7 @@ class CycloneReader : public Reader {
     dds_delete_listener(listener);
     check(entity_, "cannot create a reader on " + topic.name);
   }
-  /// Returns after the last callback has.
+  /// Returns after the last callback has returned.
   ~CycloneReader() override { dds_delete(entity_); }
 
   std::vector<ParticipantId> matched() const override {
@@ -165,8 +165,8 @@ class CycloneReader : public Reader {
   }
 
  private:
-  /// Hands on all that waits. Cyclone calls a listener one at a time. Takes the handle from the callback, which may
-  /// come before dds_create_reader has returned it.
+  /// Passes on all waiting samples. Cyclone makes one call of a listener at a time. @param reader  handle from the
+  /// callback: the first call may come before dds_create_reader() has returned the handle.
   void take(dds_entity_t reader) {
     std::array<ddsi_serdata*, 16> samples{};
     std::array<dds_sample_info_t, 16> infos;
@@ -174,7 +174,7 @@ class CycloneReader : public Reader {
       const dds_return_t count = dds_takecdr(reader, samples.data(), samples.size(), infos.data(), DDS_ANY_STATE);
       if (count <= 0) return;
       for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
-        // Samples without data tell that a writer has left; they have no type either.
+        // A sample without data reports that a writer has left; it has no type, either.
         if (infos[i].valid_data) {
           const auto payload = payload_of(samples[i]);
           on_sample_({{payload.begin(), payload.end()}, source_of(reader, infos[i].publication_handle)});
@@ -184,7 +184,7 @@ class CycloneReader : public Reader {
     }
   }
 
-  /// Participant of a writer; sources are kept for good, since samples may come after their writer has left.
+  /// Participant of a writer; 0: unknown. Known sources are never removed: samples may arrive after a writer has left.
   ParticipantId source_of(dds_entity_t reader, dds_instance_handle_t writer) {
     const std::scoped_lock lock(mutex_);
     const auto known = sources_.find(writer);

@@ -14,10 +14,10 @@ namespace skein::bus::cyclonedds {
 
 namespace {
 
-constexpr std::size_t kFragmentHeaders = 128;  // RTPS message, timestamp, destination and fragment, with room
+constexpr std::size_t kFragmentHeaders = 128;  // of RTPS message, timestamp, destination and fragment, with reserve
 
-/// Cyclone keeps its domains for the whole process and refuses to create one twice: hence the static register. Its
-/// lock is held while a domain is taken down, so that nobody joins the remains.
+/// The domains of this process. Static, because a domain of Cyclone belongs to the whole process and cannot be created
+/// twice. The lock is held while a domain is deleted, so that no thread joins it meanwhile.
 struct Register {
   struct Entry {
     dds_entity_t entity = 0;
@@ -32,10 +32,10 @@ Register& domain_register() {
   return domains;
 }
 
-/// Loopback: no need of multicast, since participants take fixed ports and announce themselves to all of these; but
-/// nodes with default settings are found by it. Datagrams as large as UDP has them; fragments fill one, or else a 4 MB
-/// sample is thousands of them.
-/// Elsewhere datagrams fit a packet: when IP cuts them to pieces, one lost piece loses all.
+/// On loopback, multicast serves only to discover nodes with default settings: Skein's own participants use fixed ports
+/// and announce themselves to all of these. Datagrams have UDP's largest size, and a fragment fills one: otherwise, a
+/// 4 MB sample would consist of thousands of datagrams.
+/// Elsewhere, a datagram fits into a packet: if IP fragmented it, the loss of one fragment would lose it all.
 void add_network(pugi::xml_node domain, const Reach& reach, bool with_default_nodes) {
   pugi::xml_node general = domain.append_child("General");
   pugi::xml_node interface;
@@ -74,10 +74,11 @@ void add_discovery(pugi::xml_node domain, const BusConfig& config, const Reach& 
   add_element(discovery, "LeaseDuration", std::to_string(config.lease_s) + "s");
 }
 
-/// Watermarks: a writer waits once its unacknowledged bytes exceed WhcHigh. History is KEEP_LAST and bounds them
-/// already, so the mark is put out of reach and a stopped reader holds nobody up.
-/// Heartbeats: each asks all readers for an answer. On one host a datagram is lost only where a buffer overflows, and
-/// in a large fleet, whose rounds take as long as the period, the answers would be a tenth of all work.
+/// Watermarks: a writer blocks while its unacknowledged bytes exceed WhcHigh. The KEEP_LAST history bounds these bytes
+/// already, so WhcHigh is set out of reach, and a stopped reader blocks no writer.
+/// Heartbeats: each requests an answer from all readers. On one host a datagram is lost only when a buffer overflows,
+/// so the period is longer: in a large fleet, whose rounds take about as long as the shorter period, the answers would
+/// be a tenth of all work.
 void add_internals(pugi::xml_node domain, bool one_host) {
   pugi::xml_node internal = domain.append_child("Internal");
   pugi::xml_node watermarks = internal.append_child("Watermarks");

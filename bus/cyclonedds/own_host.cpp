@@ -1,6 +1,6 @@
 #include "bus/cyclonedds/own_host.hpp"
 
-// Before all other headers of Cyclone, see there.
+// Before all other headers of Cyclone: see raw_sertype.hpp.
 #include "bus/cyclonedds/raw_sertype.hpp"
 
 #include <arpa/inet.h>
@@ -16,9 +16,9 @@ namespace skein::bus::cyclonedds {
 
 namespace {
 
-constexpr std::size_t kIpv4At = 12;  // in a locator's 16 bytes
+constexpr std::size_t kIpv4At = 12;  // offset in a locator's 16 bytes
 
-/// In the place of Cyclone's own judgement, which goes by the masks of its interfaces: here that is one, the loopback.
+/// Replaces Cyclone's own decision, which uses the netmasks of the domain's interfaces: here only the loopback's.
 ddsi_nearby_address_result is_nearby(const ddsi_locator_t* locator, std::size_t, const nn_interface*,
                                      std::size_t* interface) {
   if (locator->kind != NN_LOCATOR_KIND_UDPv4 ||
@@ -28,7 +28,7 @@ ddsi_nearby_address_result is_nearby(const ddsi_locator_t* locator, std::size_t,
   return DNAR_LOCAL;
 }
 
-/// Only a type that is in use leads to the inside of its domain.
+/// Cyclone's internal object of a domain; can be reached only through a type that is registered in the domain.
 ddsi_domaingv* inside_of(dds_entity_t participant) {
   ddsi_sertype* type = make_raw_sertype("skein");
   const dds_entity_t topic = dds_create_topic_sertype(participant, "skein", &type, nullptr, nullptr, nullptr);

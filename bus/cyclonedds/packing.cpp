@@ -11,10 +11,10 @@ namespace skein::bus::cyclonedds {
 
 namespace {
 
-/// What Cyclone had in our place; one function for all sockets.
+/// Cyclone's write function, which Packing::write() replaces; the same for all sockets.
 std::atomic<ddsi_tran_write_fn_t> socket_write = nullptr;
 
-/// Participants of this thread that hold back.
+/// The objects whose messages this thread holds back: between hold() and release().
 thread_local std::vector<Packing*> holding;
 
 }  // namespace

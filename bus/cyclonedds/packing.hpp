@@ -4,7 +4,7 @@
 // All vendors can read the combined messages.
 #pragma once
 
-// Before all other headers of Cyclone; raw_sertype.hpp says why.
+// Before all other headers of Cyclone: see raw_sertype.hpp.
 #include "bus/cyclonedds/raw_sertype.hpp"
 
 #include <dds/ddsi/ddsi_locator.h>

@@ -14,7 +14,7 @@ namespace skein::bus::cyclonedds {
 namespace {
 
 struct RawSample : ddsi_serdata {
-  std::vector<std::uint8_t> bytes;  // a multiple of four of them, since Cyclone sends as many
+  std::vector<std::uint8_t> bytes;  // their number is a multiple of four, because Cyclone sends that many
 };
 
 struct RawType : ddsi_sertype {};
@@ -36,7 +36,7 @@ bool same_key(const ddsi_serdata*, const ddsi_serdata*) { return true; }
 
 std::uint32_t size_of(const ddsi_serdata* sample) { return static_cast<std::uint32_t>(raw(sample)->bytes.size()); }
 
-/// From fragments off the wire, which may overlap; the first ones contain the lowest offsets.
+/// Builds a sample from received fragments. They may overlap; they are in ascending order of their offsets.
 ddsi_serdata* from_fragments(const ddsi_sertype* type, ddsi_serdata_kind kind, const nn_rdata* fragment,
                              std::size_t size) {
   RawSample* sample = make_sample(type, kind, size);
@@ -133,7 +133,7 @@ void resize_structs(void** pointers, const ddsi_sertype*, void*, std::size_t, st
 
 void free_structs(const ddsi_sertype*, void**, std::size_t, dds_free_op_t) {}
 
-// Cyclone has compared names and operations already; there is nothing more to a raw type.
+// Cyclone has already compared names and operations; a raw type has nothing else.
 bool same_type(const ddsi_sertype*, const ddsi_sertype*) { return true; }
 
 std::uint32_t type_hash(const ddsi_sertype*) { return 0; }

@@ -24,7 +24,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Cyclone loads its plugins by path. Debian keeps them in a folder beside the library, others beside it.
+/// Path of a plugin, for Cyclone to load it. Debian installs plugins in a subfolder of the library's folder, other
+/// systems in that folder itself. @throws InputError if it is in neither.
 fs::path plugin(const std::string& name) {
   Dl_info library{};
   if (::dladdr(reinterpret_cast<const void*>(&dds_create_domain), &library) == 0 || library.dli_fname == nullptr) {
@@ -39,20 +40,20 @@ fs::path plugin(const std::string& name) {
                    "; on Debian it is in the package libddsc0debian");
 }
 
-/// Domains in which this process has a participant. Cyclone's log is one for the whole process: hence static.
+/// Whether this process has a participant in a domain. Static, because Cyclone has one log for the whole process.
 std::atomic<bool>& has_participant(std::uint32_t domain) {
   static std::array<std::atomic<bool>, kMaxDomain + 1> domains{};
   static std::atomic<bool> none = true;
   return domain < domains.size() ? domains[domain] : none;
 }
 
-/// Between the creation of a domain and that of its participant Cyclone hears the others already and refuses them, for
-/// want of somebody to speak with; they come again.
+/// Whether a message only reports that Cyclone refused a remote participant because this process's own participant did
+/// not exist yet, although its domain did. The remote participant will try again.
 bool is_premature(std::string_view text, std::uint32_t domain) {
   return text.starts_with("Remote secure participant ") && !has_participant(domain);
 }
 
-/// The first bit of a GUID tells whether it is bound to a certificate (DDS Security 1.1, 9.3.3).
+/// Whether a GUID is bound to a certificate: its first bit (DDS Security 1.1, 9.3.3).
 bool is_bound(const dds_guid_t& guid) { return (guid.v[0] & 0x80) != 0; }
 
 std::string text_of(const dds_guid_t& guid) {
@@ -61,7 +62,7 @@ std::string text_of(const dds_guid_t& guid) {
   return text;
 }
 
-/// Cyclone calls it with each participant that comes or goes.
+/// Cyclone calls this listener whenever a participant appears or disappears.
 void look_at_newcomers(dds_entity_t reader, void*) {
   std::array<void*, 8> samples{};
   std::array<dds_sample_info_t, 8> infos;
@@ -78,7 +79,7 @@ void look_at_newcomers(dds_entity_t reader, void*) {
   }
 }
 
-/// An element of what a plugin is told: the plugin, then its files.
+/// Adds the configuration element of a plugin: its path, then its files.
 void add_plugin(pugi::xml_node security, const char* element, const std::string& library,
                 const std::vector<std::pair<const char*, fs::path>>& files) {
   pugi::xml_node settings = security.append_child(element);

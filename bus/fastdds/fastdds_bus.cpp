@@ -40,7 +40,7 @@ Entity* created(Entity* entity, const std::string& what) {
   return entity;
 }
 
-/// Fast DDS tells a listener that an endpoint of the other side has been matched, or no longer is.
+/// Records what Fast DDS has reported to a listener: a remote endpoint has been matched, or is no longer matched.
 template <class Status>
 void update(Matches& matches, const dds::InstanceHandle_t& handle, const Status& status) {
   const GUID_t endpoint = eprosima::fastrtps::rtps::iHandle2GUID(handle);
@@ -60,17 +60,17 @@ class FastWriter : public Writer, private dds::DataWriterListener {
                         "a writer on " + topic.get_name())) {}
   ~FastWriter() override {
     writer_->set_listener(nullptr);
-    // Fast DDS 2.9 gives the samples of a writer that goes back to their pool while its heartbeat may still look at
-    // them; where a dead reader had left some unacknowledged it then counted gaps for ever. Without samples it is safe.
+    // While Fast DDS 2.9 deletes a writer, its heartbeat may still read samples that are already back in their pool. If
+    // a dead reader had left samples unacknowledged, it then counted gaps for ever. An empty history is safe.
     std::size_t removed = 0;
     writer_->clear_history(&removed);
     publisher_.delete_datawriter(writer_);
   }
 
   void write(std::span<const std::uint8_t> payload) override {
-    // Cyclone 0.10 takes the first heartbeat of a writer for the point from which on samples are reliable, and drops
-    // what it has of older ones; the one that Fast DDS sends at the match comes too early as often as not. So a
-    // heartbeat goes ahead of each sample: this is how Fast DDS asserts liveliness.
+    // For Cyclone 0.10, reliable delivery begins at a writer's first heartbeat: it drops older samples that it has
+    // received. The heartbeat that Fast DDS sends at the match often comes too early. So a heartbeat precedes each
+    // sample: Fast DDS sends one to assert liveliness.
     if (reliable_ && matches_.any_cyclone()) writer_->assert_liveliness();
     RawSample sample = padded(payload);
     if (writer_->write(&sample)) return;
@@ -105,7 +105,7 @@ class FastReader : public Reader, private dds::DataReaderListener {
             subscriber.create_datareader(&topic, fastdds::reader_qos(qos), this,
                                          dds::StatusMask::data_available() << dds::StatusMask::subscription_matched()),
             "a reader on " + topic.get_name())) {}
-  /// Returns after the last callback has.
+  /// Returns after the last callback has returned.
   ~FastReader() override {
     reader_->set_listener(nullptr);
     subscriber_.delete_datareader(reader_);
@@ -126,9 +126,9 @@ class FastReader : public Reader, private dds::DataReaderListener {
     }
   }
 
-  // What was written before a volatile reader was made is none of its business, but Cyclone 0.10 repeats for whoever
-  // asks what it still keeps for another reader, such as one that was killed; and Fast DDS asks. Times tell: both
-  // ends run on one machine, or on machines whose clocks agree. Once a writer's samples are new, all that follow are.
+  // A volatile reader must not get samples that were written before its creation. But Cyclone 0.10 resends, on request,
+  // samples that it still keeps for another reader, such as a killed one, and Fast DDS requests them. Timestamps show
+  // which are old: both ends run on one machine, or their clocks agree. After a writer's first new sample, all are new.
   bool is_for_us(const dds::SampleInfo& info) {
     const GUID_t& writer = info.sample_identity.writer_guid();
     if (latched_ || !is_cyclone(writer.guidPrefix) || up_to_date_.contains(writer)) return true;
@@ -145,7 +145,7 @@ class FastReader : public Reader, private dds::DataReaderListener {
   const bool latched_;
   const std::int64_t created_ns_ =
       std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::system_clock::now().time_since_epoch()).count();
-  std::set<GUID_t> up_to_date_;  ///< writers
+  std::set<GUID_t> up_to_date_;  ///< writers of which a new sample has arrived
   GuidPrefix_t own_;
   OnSample on_sample_;
   std::mutex taking_;
@@ -181,7 +181,8 @@ class FastParticipant : public Participant {
   }
 
  private:
-  /// Fast DDS has each topic once in a participant; it stays until the participant leaves.
+  /// The topic, created at the first call: Fast DDS permits one per name in a participant. It exists as long as the
+  /// participant. @throws std::runtime_error if it exists with another type.
   dds::Topic& open(const TopicSpec& spec) {
     const std::scoped_lock lock(mutex_);
     const auto known = topics_.find(spec.name);

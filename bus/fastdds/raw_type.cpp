@@ -13,7 +13,7 @@ const RawSample& raw(void* sample) { return *static_cast<RawSample*>(sample); }
 
 RawType::RawType(const std::string& name) {
   setName(name.c_str());
-  // Only where memory allocation starts: histories grow with their samples.
+  // Only the initial allocation: histories grow with their samples.
   m_typeSize = 256;
   m_isGetKeyDefined = false;
   auto_fill_type_object(false);

@@ -10,7 +10,7 @@
 
 namespace skein::bus::fastdds {
 
-/// One serialised sample, encapsulation header included. It is what `void* sample` points to below.
+/// One serialised sample, including the encapsulation header. `void* sample` below points to such an object.
 using RawSample = std::vector<std::uint8_t>;
 
 class RawType : public eprosima::fastdds::dds::TopicDataType {

@@ -21,7 +21,7 @@ class RefusalLog : public eprosima::fastdds::dds::LogConsumer {
  public:
   void Consume(const Log::Entry& entry) override {
     const std::string_view category = entry.context.category != nullptr ? entry.context.category : "";
-    // What comes before its key is lost and sent again: no refusal. Nor are warnings of other things.
+    // A message that arrives before its key is dropped and sent again: no refusal. Nor are other categories' warnings.
     const bool is_noise = entry.kind != Log::Error && category.find("SECURITY") == std::string_view::npos;
     if (is_noise || entry.message.starts_with("No key material yet")) return;
     log_refusal("fastdds", entry.message);

@@ -34,17 +34,18 @@ Locator_t locator_of(const std::string& ipv4, std::uint32_t port) {
 
 Duration_t milliseconds(std::uint32_t ms) { return {static_cast<std::int32_t>(ms / 1000), ms % 1000 * 1'000'000}; }
 
-/// Where a participant listens, and to whom it announces itself, without groups.
-/// Ports are given, since Fast DDS would derive them from the number of participants that this process has ever had, in
-/// whatever domain, and soon be out of the range that is announced to. From these first ports on it takes the next
-/// ones that are free. A unicast locator also keeps discovery off multicast, unless that is asked for.
+/// Sets the ports on which a participant listens and the peers to which it announces itself, without multicast.
+/// The ports are explicit, because Fast DDS would derive them from the number of participants that this process has
+/// ever had, in any domain; they would soon leave the range to which peers announce themselves. From these first ports
+/// on, Fast DDS takes the next free ones. Without a multicast locator, a unicast locator keeps discovery off multicast.
+/// @param most  number of participants per host that can be discovered.
 void discover_without_groups(DomainParticipantQos& qos, int domain, const std::string& own_address,
                              const std::vector<std::string>& peers, int most) {
   auto& wire = qos.wire_protocol();
   const auto domain_id = static_cast<std::uint32_t>(domain);
   const std::uint32_t first_port = wire.port.getUnicastPort(domain_id, 0);
   for (const std::string& peer : peers) {
-    wire.builtin.initialPeersList.push_back(locator_of(peer, 0));  // 0: the ports that RTPS has for this domain
+    wire.builtin.initialPeersList.push_back(locator_of(peer, 0));  // 0: RTPS's ports for this domain
   }
   wire.builtin.metatrafficUnicastLocatorList.push_back(locator_of(own_address, first_port));
   wire.default_unicast_locator_list.push_back(
@@ -83,14 +84,15 @@ DomainParticipantQos participant_qos(int domain, const BusConfig& config, const 
   } else if (reach.host_only) {
     transports.push_back(udp);
   } else {
-    // Fast DDS sends each message of a handshake, certificate and permissions and all, in one datagram or not at all.
+    // With security, datagrams may exceed a packet: Fast DDS does not fragment the messages of a handshake, which
+    // contain certificate and permissions.
     transports.push_back(config.security.empty() ? packet_transport(udp, reach.largest_datagram) : udp);
   }
 
   auto& discovery = qos.wire_protocol().builtin.discovery_config;
   discovery.leaseDuration = {config.lease_s, 0};
   discovery.leaseDuration_announcementperiod = {announce_period_s(config.lease_s), 0};
-  // The first announcements come fast, since others may just be starting as well.
+  // The first announcements follow each other quickly, because other programs may be starting at the same time.
   discovery.initial_announcements.count = 10;
   discovery.initial_announcements.period = milliseconds(20);
   if (!config.security.empty()) {
@@ -113,12 +115,12 @@ DataWriterQos writer_qos(const Qos& qos, bool one_host) {
   dds.endpoint().history_memory_policy = eprosima::fastrtps::rtps::DYNAMIC_REUSABLE_MEMORY_MODE;
   dds.data_sharing().off();
   dds.publish_mode().kind = SYNCHRONOUS_PUBLISH_MODE;
-  // What got lost is noticed by the next heartbeat; the default of 3 s would stall a lock-step round for as long. On
-  // one host nothing is lost but where a buffer overflows, and a heartbeat and its answer cost two datagrams. What is
-  // latched reaches a late joiner by it.
+  // A reader detects a lost sample by the next heartbeat; the default period of 3 s would stall a lock-step round for
+  // that time. On one host, samples are lost only when a buffer overflows, and a heartbeat with its answer costs two
+  // datagrams: hence the longer period. Latched samples reach a late joiner by a heartbeat: hence the shorter one.
   dds.reliable_writer_qos().times.heartbeatPeriod = milliseconds(one_host && !qos.latched ? 200 : 20);
   dds.reliable_writer_qos().times.nackResponseDelay = milliseconds(1);
-  // Nobody watches it, but it lets FastWriter send heartbeats (fastdds_bus.cpp).
+  // No reader monitors liveliness; this kind lets FastWriter send heartbeats (fastdds_bus.cpp).
   dds.liveliness().kind = MANUAL_BY_TOPIC_LIVELINESS_QOS;
   return dds;
 }
@@ -127,8 +129,8 @@ DataReaderQos reader_qos(const Qos& qos) {
   DataReaderQos dds = DATAREADER_QOS_DEFAULT;
   dds.reliability().kind = qos.reliable ? RELIABLE_RELIABILITY_QOS : BEST_EFFORT_RELIABILITY_QOS;
   dds.durability().kind = qos.latched ? TRANSIENT_LOCAL_DURABILITY_QOS : VOLATILE_DURABILITY_QOS;
-  // The listener takes each sample as it comes, so only those gather here that wait for a lost one before them. Were
-  // they limited to `depth` for all writers together, they would push out what one writer may well have sent.
+  // The listener takes each sample as it arrives, so the history contains only samples that wait for an earlier, lost
+  // one. If it were limited to `depth` for all writers together, samples of one writer could evict those of another.
   dds.history().kind = KEEP_ALL_HISTORY_QOS;
   dds.resource_limits().max_instances = 1;
   dds.resource_limits().max_samples = dds.resource_limits().max_samples_per_instance = LENGTH_UNLIMITED;

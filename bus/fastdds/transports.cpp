@@ -15,9 +15,9 @@ using namespace eprosima::fastdds::rtps;
 using eprosima::fastrtps::rtps::IPLocator;
 using eprosima::fastrtps::rtps::LocatorsIterator;
 
-constexpr std::size_t kIpv4At = 12;  // in a locator's 16 bytes
+constexpr std::size_t kIpv4At = 12;  // offset in a locator's 16 bytes
 
-/// Leaves everything to the transport below, its channels too: nothing passes through here.
+/// Forwards all calls to the lower transport, including the creation of channels: no data passes through this object.
 class OpenTransport : public ChainingTransport {
  public:
   using ChainingTransport::ChainingTransport;
@@ -33,13 +33,13 @@ class OpenTransport : public ChainingTransport {
  private:
   bool send(eprosima::fastrtps::rtps::SenderResource*, const eprosima::fastrtps::rtps::octet*, std::uint32_t,
             LocatorsIterator*, LocatorsIterator*, const std::chrono::steady_clock::time_point&) override {
-    return false;  // only asked of channels that were opened here
+    return false;  // called only for channels that this object opened: none
   }
   void receive(TransportReceiverInterface*, const eprosima::fastrtps::rtps::octet*, std::uint32_t, const Locator&,
                const Locator&) override {}
 };
 
-/// All but addresses is left to the one below.
+/// Changes addresses (own_host_transport()); leaves all else to the lower transport.
 class OwnHostTransport : public OpenTransport {
  public:
   using OpenTransport::OpenTransport;
@@ -59,7 +59,7 @@ struct OwnHostDescriptor : ChainingTransportDescriptor {
   TransportInterface* create_transport() const override { return new OwnHostTransport(*this); }
 };
 
-/// What is sent is limited here; what is received, below.
+/// Limits the size of sent datagrams; the lower transport limits that of received ones.
 struct PacketDescriptor : ChainingTransportDescriptor {
   PacketDescriptor(std::shared_ptr<TransportDescriptorInterface> udp, std::uint32_t largest)
       : ChainingTransportDescriptor(std::move(udp)), largest_(largest) {}

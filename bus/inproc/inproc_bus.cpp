@@ -26,7 +26,7 @@ struct Endpoint {
 
 struct ReaderEnd : Endpoint {
   OnSample on_sample;
-  bool alive = true;  // a callback may destroy readers while a sample is on its way to them
+  bool alive = true;  // false: destroyed, perhaps by a callback during a delivery to it
 };
 
 struct WriterEnd : Endpoint {
@@ -36,9 +36,9 @@ struct WriterEnd : Endpoint {
 template <class End>
 using Ends = std::vector<std::shared_ptr<End>>;
 
-/// All ends of one topic in one domain. Lists are replaced, not changed: who walks through one keeps it.
+/// All endpoints of one topic in one domain. Lists are replaced, never modified, so a loop over one stays valid.
 struct Channel {
-  std::recursive_mutex* mutex = nullptr;  ///< of the domain
+  std::recursive_mutex* mutex = nullptr;  ///< the domain's
   std::shared_ptr<const Ends<WriterEnd>> writers = std::make_shared<Ends<WriterEnd>>();
   std::shared_ptr<const Ends<ReaderEnd>> readers = std::make_shared<Ends<ReaderEnd>>();
 };
@@ -50,7 +50,7 @@ void add_to(std::shared_ptr<const Ends<End>>& ends, const std::shared_ptr<End>& 
   ends = std::move(more);
 }
 
-/// @returns those that are out.
+/// Removes the endpoints that meet a condition. @returns these.
 template <class End, class Condition>
 Ends<End> remove_from(std::shared_ptr<const Ends<End>>& ends, Condition condition) {
   Ends<End> out;
@@ -60,17 +60,18 @@ Ends<End> remove_from(std::shared_ptr<const Ends<End>>& ends, Condition conditio
   return out;
 }
 
-/// What DDS asks for: same topic and type, and the writer offers at least what the reader requests.
+/// Whether two endpoints on one topic match, by DDS's rules: same type, and the writer offers at least the QoS that the
+/// reader requests. Endpoints of one participant do not match.
 bool match(const WriterEnd& writer, const ReaderEnd& reader) {
   return writer.participant != reader.participant && writer.topic.type == reader.topic.type &&
          writer.topic.qos.reliable >= reader.topic.qos.reliable && writer.topic.qos.latched >= reader.topic.qos.latched;
 }
 
-/// All endpoints of this process. A lock for each domain, so that agents on different threads do not wait for each
-/// other; recursive, since callbacks write and subscribe, in their own domain. None is held while another is taken.
+/// All endpoints of this process. Each domain has its own lock, so that agents on different threads do not wait for
+/// each other; it is recursive, because callbacks write and subscribe in their own domain. No thread holds two of them.
 class Exchange {
  public:
-  /// Buses that know nothing of each other must meet, as they do over a network: hence one for the process.
+  /// One object for the whole process: separate buses must find each other, as over a network.
   static Exchange& instance() {
     static Exchange exchange;
     return exchange;
@@ -118,7 +119,7 @@ class Exchange {
     reader.alive = false;
   }
 
-  /// All ends of these participants.
+  /// Removes all endpoints of these participants.
   void remove(const std::set<ParticipantId>& participants) {
     const auto theirs = [&](const Endpoint& end) { return participants.contains(end.participant); };
     for (Channel* channel : channels()) {
@@ -169,11 +170,11 @@ class Exchange {
     if (reader.alive) reader.on_sample({payload, writer.participant});
   }
 
-  /// Made when it is first asked for; stays.
+  /// The channel of a topic; created at the first call, never removed.
   Channel& channel_of(int domain, const std::string& topic) {
     const std::scoped_lock lock(mutex_);
     const auto [at, is_new] = channels_.try_emplace({domain, topic});
-    if (is_new) at->second.mutex = &domains_[domain];  // others on it are at work in this domain
+    if (is_new) at->second.mutex = &domains_[domain];  // shared by all channels of the domain
     return at->second;
   }
 
@@ -185,7 +186,7 @@ class Exchange {
   }
 
   std::atomic<std::uint64_t> participants_ = 0;
-  std::mutex mutex_;                                         ///< of the two below; nothing is called under it
+  std::mutex mutex_;  ///< guards the two maps below; never held during a callback
   std::map<std::pair<int, std::string>, Channel> channels_;  ///< by domain and topic
   std::map<int, std::recursive_mutex> domains_;
 };

@@ -11,7 +11,7 @@ namespace {
 
 struct BreakPoint {
   std::optional<double> seconds;
-  std::optional<Tick> before;  ///< the step before: how long they are is the scenario's choice
+  std::optional<Tick> before;  ///< tick of the previous step: the scenario determines the length of a step
 };
 
 BreakPoint& the_one() {

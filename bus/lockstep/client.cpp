@@ -58,8 +58,8 @@ void LockstepClient::on_resync(const msg::Resync& resync, ParticipantId source) 
   phase_ = Phase::matching;
 }
 
-// Data endpoints are made only now: the server stands still until we are a member, so nothing is in flight on them
-// and the bases it told us are exact.
+// Data endpoints are created only now: the server pauses until this program is a member, so no samples are in flight on
+// them, and the base counts in the invitation are exact.
 void LockstepClient::create_endpoints() {
   for (Reading& reading : readings_) open_reader(reading);
   for (Writing& writing : writings_) writing.writer = std::make_unique<CountedWriter>(participant_, writing.topic);
@@ -67,7 +67,7 @@ void LockstepClient::create_endpoints() {
     const auto reading =
         std::find_if(readings_.begin(), readings_.end(), [&](const Reading& r) { return r.topic.name == base.topic; });
     if (reading == readings_.end()) continue;
-    // What is latched is received again as far as its history goes back, so that much counts again.
+    // The reader will receive latched samples again, up to the history depth, so the base excludes these.
     const auto depth = static_cast<std::uint64_t>(reading->topic.qos.depth);
     const std::uint64_t repeated = reading->topic.qos.latched ? std::min(base.count, depth) : 0;
     queues_.set_base(base.topic, base.source, base.count - repeated);
@@ -76,10 +76,10 @@ void LockstepClient::create_endpoints() {
 
 void LockstepClient::open_reader(Reading& reading) {
   const auto queue = [this, name = reading.topic.name, counterpart = reading.counterpart](Sample&& s) {
-    // The router delivers only after we answered a step that names it, so it is known by now.
+    // The router delivers only after this program has answered a step that names the router, so router_ is known.
     if (s.source == (counterpart == Counterpart::server ? server_ : router_)) queues_.arrive(name, std::move(s));
   };
-  // Of no use before the step that counts them; once that is here, rings() waits for any sample.
+  // Silent: samples are of no use before the step that announces them. After that step, rings() is 0: any sample wakes.
   reading.reader = inbox_.subscribe(participant_, reading.topic, queue, Bell::silent);
 }
 
@@ -94,7 +94,8 @@ void LockstepClient::open_radio_writer(const std::string& topic) {
   matched_router_ = 0;
 }
 
-// Made only now, since all deliveries that the present step counts are over: a volatile reader gets none of them.
+// Creates the reader only now, when all deliveries that the current step announces are over: a volatile reader gets
+// none of them.
 void LockstepClient::open_radio_reader(const TopicSpec& topic, CountedQueues::Handler handler) {
   queues_.add_topic(topic.name, std::move(handler));
   queues_.set_base(topic.name, router_, delivered_[topic.name]);
@@ -103,7 +104,7 @@ void LockstepClient::open_radio_reader(const TopicSpec& topic, CountedQueues::Ha
   matched_router_ = 0;
 }
 
-// A new router knows nothing of what was registered with another.
+// Forgets the radio topics that were registered with the previous router: a new one does not know them.
 void LockstepClient::change_router(ParticipantId router) {
   queues_.discard(router_);
   delivered_.clear();
@@ -131,7 +132,7 @@ void LockstepClient::say_ready(std::uint32_t revision) {
 
 void LockstepClient::on_step(msg::Step& step, ParticipantId source) {
   if ((phase_ != Phase::declared && phase_ != Phase::member) || source != server_) return;
-  if (step_ && step.k() == step_->k() && !handed_out_) {  // amended or told again, but we have answered it already
+  if (step_ && step.k() == step_->k() && !handed_out_) {  // amended or repeated, but answered already
     answer_again_();
     return;
   }
@@ -154,7 +155,7 @@ void LockstepClient::on_step(msg::Step& step, ParticipantId source) {
     if (m.name() == kRouterName) router = m.source();
   }
   if (router != router_) change_router(router);
-  if (handed_out_) return;  // amended, since the router died: nothing of it is to be waited for any more
+  if (handed_out_) return;  // amended because the router died: there is nothing more to wait for
   std::vector<CountedQueues::Expected> expected;
   for (const auto& e : step.expected()) {
     expected.push_back({e.topic(), e.source(), e.count()});
@@ -174,8 +175,8 @@ bool LockstepClient::matched(Counterpart counterpart, ParticipantId who) const {
 }
 
 bool LockstepClient::router_matched() {
-  if (router_ == 0 || router_ == matched_router_) return true;  // nobody asks the vendor in each step
-  // That it hears our Done we know from nobody but our writer: by Attached it says only that it has found it.
+  if (router_ == 0 || router_ == matched_router_) return true;  // avoids asking the vendor in each step
+  // Only the own writer knows whether Done reaches the router: Attached only says that the router found the writer.
   const bool heard = router_ == participant_.id() || done_->matches(router_);
   if (heard && matched(Counterpart::router, router_)) matched_router_ = router_;
   return router_ == matched_router_;
@@ -186,10 +187,10 @@ LockstepClient::Event LockstepClient::poll() {
   if (phase_ == Phase::ordered) {
     phase_ = Phase::stopped;
     if (before_obeying_) before_obeying_();
-    obey_(order_);  // may throw to whoever gives us turns: then it is over when the next turn comes
+    obey_(order_);  // may throw to the caller that gives turns: then the fault is over at the next turn
   }
   if (phase_ == Phase::stopped) {
-    phase_ = Phase::dropped;  // the fleet went on, and nobody kept for us what we missed
+    phase_ = Phase::dropped;  // the fleet has continued, and the missed samples are lost
     return Event::resumed;
   }
   if (phase_ == Phase::matching && matched(Counterpart::server, server_) && done_->matches(server_) &&
@@ -198,7 +199,7 @@ LockstepClient::Event LockstepClient::poll() {
     phase_ = Phase::declared;
   }
   if (!pending_ && !handed_out_) return Event::none;
-  // A router that (re)joined delivers nothing before this step's answer, so its match can be awaited here.
+  // A router that has (re)joined delivers nothing before this step is answered, so there is time for its match.
   if (!router_matched()) return Event::none;
   if (!handed_out_) {
     if (!queues_.complete() || (think_condition_ && !think_condition_(*pending_))) return Event::none;

@@ -56,8 +56,8 @@ class LockstepClient {
   /// The step that poll() announced.
   const Step& step() const { return *step_; }
 
-  /// Sends on a declared topic. @returns false, without sending, when this step has used up the topic's history depth,
-  /// or when the router of a radio topic is away. @throws std::logic_error for a topic that was not declared.
+  /// Sends on a declared topic. @returns false, without sending, if this step has used up the topic's history depth, or
+  /// if the topic is the router's and no router is a member. @throws std::logic_error for an undeclared topic.
   bool write(const std::string& topic, std::span<const std::uint8_t> payload);
   template <WireMessage Message>
   bool write(const std::string& topic, const Message& message) {
@@ -97,7 +97,7 @@ class LockstepClient {
   /// Sets the reaction when the server repeats a step that was answered already (the answer may be lost). Default: send
   /// Done again.
   void answer_again_with(std::function<void()> answer) { answer_again_ = std::move(answer); }
-  /// What the client waits for, for people.
+  /// Describes, for people, what the client waits for.
   std::string waiting_for() const;
 
  private:

@@ -11,7 +11,7 @@ using std::chrono::milliseconds;
 
 constexpr milliseconds kMatchPoll{2};
 constexpr milliseconds kIdlePoll{200};
-constexpr double kLinger_s = 5.0;  // as long as the answer to the last step may be on its way
+constexpr double kLinger_s = 5.0;  // limit of the time in which the last answer may be in transit
 
 }  // namespace
 
@@ -31,7 +31,7 @@ LockstepNode::Rest ClientNode::rest() {
 
 void ClientNode::turn(bool arrived) {
   if (end_) return;
-  // Leaving at once could take the last answer away with us before it has arrived.
+  // If the node left at once, its last answer could be lost in transit.
   if (leaving_) {
     if (!client().server_present() || leaving_->over()) end_ = NodeEnd::finished;
     return;
@@ -65,9 +65,9 @@ void ClientNode::turn(bool arrived) {
   }
 }
 
-// Also while a match is awaited: a program that was stopped may find nobody left to match. Who had no idle turn in the
-// whole run looks for the first time when the server has gone, but has matched it. An invitation alone says nothing:
-// it may be here before the match is.
+// Also called while the node waits for a match: after a stop, the server may be gone. A node without an idle turn in
+// the whole run looks for the first time when the server has left; has_declared() shows that it had matched the server.
+// An invitation alone does not show that: it may arrive before the match.
 void ClientNode::look_for_server() {
   const bool present = client().server_present();
   met_server_ = met_server_ || present || client().has_declared();

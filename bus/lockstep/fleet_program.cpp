@@ -12,11 +12,11 @@
 namespace skein::bus {
 namespace {
 
-/// A fault that stops a program without a launcher only takes it out of the run: nobody would continue the process. It
-/// asks to be let back at once, and waits for that as long as the fault lasts.
+/// Without a launcher, no other process could continue a stopped program. So a fault that stops the program only
+/// removes it from the run: it asks to join again at once, and waits until the fault is over.
 void stand_aside() { spdlog::info("there is no launcher that would continue it: it waits to be let back"); }
 
-/// Who is started again in the middle of a run finds a server soon, or the run is over.
+/// How long to look for the server [s]. A program that is restarted during a run finds it soon, or the run is over.
 double patience_with_server_s(const ProgramOptions& options) {
   constexpr double kInLaterLives_s = 8.0;
   if (options.lives <= 1) return options.server_timeout_s;

@@ -32,7 +32,7 @@ class LockstepNode {
   virtual void give_up_after(double /*seconds*/) {}
   /// Starts to look for the other programs. Call it once, before any turn.
   virtual void start() = 0;
-  /// One turn after Inbox::dispatch(): does all that is possible with what has arrived, and never waits.
+  /// One turn after Inbox::dispatch(): does all that the arrived samples permit, and never waits.
   /// @param arrived  what dispatch() returned.
   virtual void turn(bool arrived) = 0;
   /// How the node ended; nullopt while it runs.
@@ -44,7 +44,7 @@ class LockstepNode {
     std::chrono::milliseconds longest{0};
     std::size_t rings = 0;  ///< for Inbox::dispatch()
     bool until_rung =
-        true;  ///< true: it can do nothing before these rings; false: it waits for an event without a sample (a match)
+        true;  ///< true: the node can do nothing before these rings; false: it waits for an event without a sample
   };
   virtual Rest rest() = 0;
 

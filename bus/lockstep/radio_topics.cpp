@@ -51,7 +51,7 @@ void RadioTopics::listen(const std::string& topic, const std::string& type, Coun
   ask(entry->second.request);
 }
 
-// While the router is away nothing goes out; begin_step() asks the next one.
+// While the router is away, this sends nothing; begin_step() will send the request to the next router.
 void RadioTopics::ask(msg::RadioRequest& request) {
   request.id(++last_id_);
   client_.write(topics::radio_request().name, request);
@@ -71,7 +71,7 @@ void RadioTopics::begin_step() {
 }
 
 void RadioTopics::on_reply(const msg::RadioReply& reply) {
-  if (reply.asker() != self_) return;  // of another program at our node
+  if (reply.asker() != self_) return;  // reply to another program at this node
   const Status status{reply.open(), reply.reason(), reply.unheard()};
   for (auto& [topic, sending] : sendings_) {
     if (sending.request.id() != reply.id()) continue;

@@ -65,7 +65,7 @@ class RadioTopics {
   const std::string node_;
   const ParticipantId self_;
   ParticipantId router_ = 0;                 ///< the router that has our requests
-  std::uint32_t last_id_ = 0;                ///< of a request
+  std::uint32_t last_id_ = 0;                ///< id of the last request
   std::map<std::string, Sending> sendings_;  ///< by ROS topic
   std::map<std::string, Listening> listenings_;
 };

@@ -9,7 +9,7 @@
 namespace skein::bus {
 namespace {
 
-/// Only a user's own command has it (cli/run/exec_variables.cpp).
+/// Environment variable that only a user's own command has (cli/run/exec_variables.cpp).
 constexpr const char* kExecVariable = "SKEIN_UAV";
 
 SelfSignals& instead() {
@@ -29,7 +29,7 @@ void kill_ourselves() {
 
 void stop_ourselves() {
   if (instead().stop) return instead().stop();
-  if (std::getenv(kExecVariable) != nullptr) return;  // the launcher stops us, too, and may have gone on with us before
+  if (std::getenv(kExecVariable) != nullptr) return;  // the launcher stops it, and may have continued it already
   std::raise(SIGSTOP);
 }
 

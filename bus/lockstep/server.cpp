@@ -16,8 +16,8 @@ std::string describe(const CountedQueues::Surplus& surplus, bool was_cut_off) {
   return "sent more than it announced: " + counts + " (docs/lockstep.md, \"Rules for a client\")";
 }
 
-/// DDS takes who comes back for somebody new: it hears nothing of what was said meanwhile, and is heard again with all
-/// that its writers keep.
+/// A participant whose lease expired and that comes back is a new one for DDS: it misses the samples that were sent
+/// meanwhile, and the samples that its writers keep are delivered again.
 constexpr const char* kCutOff =
     "; the network was cut for longer than its lease, and it is back since (docs/lockstep.md, \"Waiting\")";
 
@@ -85,7 +85,7 @@ void LockstepServer::read(DomainIndex domain, const TopicSpec& topic, CountedQue
   if (tap_) handler = tap_->taken(d.node, topic, std::move(handler));
   d.commands.add_topic(topic.name, std::move(handler));
   const auto queue = [this, domain, &d, name = topic.name](Sample&& s) {
-    // Strangers may write into this domain; only who knocked can become a member, so the rest is not even kept.
+    // Any program may write in this domain. Only a program that has said hello can become a member: ignore all others.
     const bool known =
         std::any_of(places_.begin(), places_.end(), [&](const Place& p) { return p.source == s.source; });
     if (known)
@@ -93,7 +93,7 @@ void LockstepServer::read(DomainIndex domain, const TopicSpec& topic, CountedQue
     else if (on_stranger_)
       on_stranger_(domain, name, s.source);
   };
-  // Of no use before the Done that counts them; once all of those are here, rings() waits for any sample.
+  // Silent: samples are of no use before the Done that announces them. After all Dones, rings() is 0: any sample wakes.
   d.readers.emplace_back(topic.name, inbox_.subscribe(*d.participant, topic, queue, Bell::silent));
 }
 
@@ -136,7 +136,7 @@ std::vector<msg::TopicCount> LockstepServer::take_new_counts(Domain& domain) {
   std::vector<msg::TopicCount> result;
   for (std::size_t i = 0; i < domain.writers.size(); ++i) {
     const CountedWriter& writer = *domain.writers[i];
-    // What is latched was sent to a newcomer again: it waits for it only if it is told to.
+    // DDS sends latched samples to a newcomer again, which waits for them only if the step announces them.
     const bool repeated = domain.newcomer && writer.latched() && writer.count() > 0;
     if (writer.count() == domain.announced[i] && !repeated) continue;
     domain.announced[i] = writer.count();
@@ -149,7 +149,7 @@ std::vector<msg::TopicCount> LockstepServer::take_new_counts(Domain& domain) {
   return result;
 }
 
-// A member as its peers in a domain see it: the router has a participant of its own in each.
+// Participant of a member as its peers in a domain see it: the router has a participant of its own in each domain.
 ParticipantId LockstepServer::source_in(DomainIndex domain, const Place& member) const {
   if (domain == 0 || member.name != kRouterName) return member.source;
   for (const Place& peer : places_) {
@@ -185,7 +185,7 @@ void LockstepServer::publish(const StepInfo& info, const WriteSamples& write_sam
     step.orders().clear();
     for (Place& place : places_) {
       place.answered = false;
-      // In each step, since the history of this topic may be over before a slow victim has read the first.
+      // In each step: a slow member may miss the first step with the order, when the topic's history has moved on.
       if (place.order && place.domain == i) step.orders().push_back(*place.order);
       if (!place.member || (i != 0 && place.domain != i && place.name != kRouterName)) continue;
       msg::Member member;
@@ -204,7 +204,7 @@ void LockstepServer::publish(const StepInfo& info, const WriteSamples& write_sam
   }
 }
 
-// The router died within a step: what it still owed will never come, and who has not answered must not wait for it.
+// The router died within a step: its outstanding deliveries will never come, so members must not wait for them.
 void LockstepServer::amend_step() {
   for (std::size_t i = 1; i < domains_.size(); ++i) {
     Domain& domain = *domains_[i];
@@ -244,7 +244,7 @@ void LockstepServer::on_routed(const msg::Routed& routed, ParticipantId source) 
 }
 
 void LockstepServer::on_awaits(msg::Awaits& awaits, ParticipantId source) {
-  const Place* place = find(kRouterName);  // it may tell before it is a member
+  const Place* place = find(kRouterName);  // it may report before it is a member
   if (place != nullptr && place->source == source) awaits_ = std::move(awaits);
 }
 
@@ -326,7 +326,7 @@ void LockstepServer::leave(Place& place, const std::string& reason) {
   }
 }
 
-// Its last deliveries are lost with it: nobody could repeat them to whom they have not reached.
+// The router's last deliveries are lost with it: no program could repeat those that have not arrived.
 void LockstepServer::forget_deliveries() {
   delivered_.clear();
   newly_delivered_.clear();

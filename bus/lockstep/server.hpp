@@ -15,7 +15,7 @@ namespace skein::bus {
 
 class LockstepServer {
  public:
-  /// Index of a domain that the server joined. Index 0 is the world domain, in which the router is a member.
+  /// Index of a domain that the server has joined. Index 0 is the world domain, in which the router is a member.
   using DomainIndex = std::size_t;
 
   struct StepInfo {
@@ -34,7 +34,7 @@ class LockstepServer {
   };
   struct Awaited {
     std::string member;
-    std::string what;  ///< for people: "done of step 7", "rt/plan 3 of 4"
+    std::string what;  ///< what is missing, for people: "done of step 7", "rt/plan 3 of 4"
   };
 
   /// @param tap  listens to the samples of writer() and of read(); it must outlive this.

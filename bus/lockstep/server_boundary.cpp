@@ -1,4 +1,5 @@
-// LockstepServer at a boundary between two steps: who knocks is let in; and whom it waits for, there and within a step.
+// LockstepServer: lets programs join at a boundary between two steps; lists the programs for which it waits, there and
+// within a step.
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
@@ -41,7 +42,7 @@ void LockstepServer::invite(Place& place) {
   resync.epoch(epoch_);
   resync.base(all_counts(domain));
   if (place.name == kRouterName) {
-    // What the members have sent so far is past: the new router counts from there.
+    // The new router does not need what the members have sent so far: it counts from there.
     for (const Place& other : places_) {
       for (const auto& sent : other.sent) resync.base().push_back(topic_count(sent.topic, sent.source, sent.count));
     }
@@ -78,7 +79,7 @@ bool LockstepServer::router_attached_all() const {
 }
 
 bool LockstepServer::at_boundary() {
-  // The router first: who joins beside it is then asked to be attached by it.
+  // The router first: programs that join at the same boundary must then be attached by it.
   std::vector<Place*> order;
   for (Place& place : places_) {
     order.insert(place.name == kRouterName ? order.begin() : order.end(), &place);
@@ -86,7 +87,7 @@ bool LockstepServer::at_boundary() {
   bool closed = true;
   for (Place* place : order) {
     if (place->member) continue;
-    // Who died before it was a member may never be reported to us: its hello outlived it.
+    // The death of a program that was no member yet may never be reported, although its hello has arrived.
     if (place->source != 0 && !contains(door_of(*place).ready->matched(), place->source)) vacate(*place);
     if (place->source == 0 && place->next) {
       const auto [source, ready] = *place->next;
@@ -119,7 +120,7 @@ std::vector<LockstepServer::Awaited> LockstepServer::awaited() const {
   return in_step_ ? awaited_in_step() : awaited_at_boundary();
 }
 
-/// What the router says that it waits for from this participant, now; empty when it says nothing of it.
+/// What the router currently waits for from this participant, according to its report; empty: nothing reported.
 std::string LockstepServer::awaited_by_router(const Place& place) const {
   const auto& members = awaits_.members();
   const auto told = std::find_if(members.begin(), members.end(), [&](const msg::Await& await) {
@@ -132,7 +133,7 @@ std::vector<LockstepServer::Awaited> LockstepServer::awaited_in_step() const {
   std::vector<Awaited> result;
   for (const Place& place : places_) {
     if (!place.member || place.name == kRouterName) continue;
-    // Who announced commands that never came has not answered either.
+    // A member whose announced commands have not arrived has not answered, either.
     const std::vector<std::string> missing = domains_[place.domain]->commands.missing(place.source);
     if (!place.answered) {
       result.push_back({place.name, fmt::format("done of step {}", k_)});
@@ -142,7 +143,7 @@ std::vector<LockstepServer::Awaited> LockstepServer::awaited_in_step() const {
       result.push_back({place.name, what});
     }
   }
-  // The router cannot answer before all others have: it is to blame only when nobody else is.
+  // The router cannot answer before all others have: the server waits for it only if it waits for no other member.
   if (const Place* r = router(); r != nullptr && !r->answered && result.empty()) {
     result.push_back({r->name, fmt::format("deliveries of step {}", k_)});
   }
@@ -152,7 +153,7 @@ std::vector<LockstepServer::Awaited> LockstepServer::awaited_in_step() const {
 std::vector<LockstepServer::Awaited> LockstepServer::awaited_at_boundary() const {
   std::vector<Awaited> result;
   const Place* r = router();
-  std::string unattached;  // by a router that does not say why
+  std::string unattached;  // members that the router has not attached, without a reported reason
   for (const Place& place : places_) {
     const bool at_the_door = !place.member && !place.order && (place.awaited || place.source != 0);
     if (!place.member && !at_the_door) continue;

@@ -4,7 +4,7 @@ namespace skein::bus {
 
 namespace {
 
-/// Of one program; a flood of participants must not fill the memory.
+/// Limit of one program: very many participants must not fill the memory.
 constexpr std::size_t kMaxWriters = 256;
 
 /// "/x" of "rt/x".

@@ -25,7 +25,7 @@ class Strangers {
     std::string topic;          ///< DDS name
     std::uint64_t samples = 0;  ///< so far
   };
-  /// Whether a participant is still a stranger. One that joins a little later, or has just left, is none.
+  /// Whether a participant is still a stranger. A program that joined a little later, or has just left, is none.
   using IsStranger = std::function<bool(ParticipantId)>;
 
   /// Counts a sample that arrived in `step`. Beyond 256 writers, further writers' samples are counted without notices.

@@ -1,4 +1,4 @@
-// One flight of a benchmark, as `skein run` flies it, without a word of its own on the console.
+// Flies one flight of a benchmark as `skein run` does, but prints nothing on the console.
 #pragma once
 
 #include <string>
@@ -10,11 +10,11 @@ namespace skein::cli {
 
 struct Flown {
   Json result;       ///< its result.json
-  bool well = true;  ///< it went to its end with everybody on board
+  bool well = true;  ///< it flew to its end and lost no program
   std::string said;  ///< its messages
 };
 
-/// @param run  with the folder of its results.
+/// @param run  must name the results folder.
 /// @throws Interrupted after Ctrl-C, std::runtime_error if it left no result.
 Flown fly(const RunOptions& run);
 

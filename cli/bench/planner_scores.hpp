@@ -1,5 +1,5 @@
-// Scores of all planners in a fixed set of scenes, and how they moved since a table of them was written. What a change
-// of the flights does to each planner is told in figures (docs/performance.md).   Pure; any thread.
+// Scores of all planners in a fixed set of scenes, and how they have changed since a table of them was written: the
+// effect of a code change on each planner, in figures (docs/performance.md).   Pure, except for reading; any thread.
 #pragma once
 
 #include <ostream>
@@ -17,15 +17,16 @@ struct PlannerScore {
   int points = 0, collisions = 0, frozen_uavs = 0;
 };
 
-/// Of the flights of a study that count, in their order.
+/// Scores of the flights of a study that have figures, in the order of the flights.
 std::vector<PlannerScore> planner_scores(const Study& study);
 
-/// scene,planner,score,points,collisions,frozen_uavs
+/// A table with the header scene,planner,score,points,collisions,frozen_uavs.
 std::string planner_scores_csv(const std::vector<PlannerScore>& scores);
-/// @throws InputError that names the file and the line which is no such row.
+/// Reads such a table. @throws InputError that names the file, and the line of an invalid row.
 std::vector<PlannerScore> read_planner_scores(const std::filesystem::path& file);
 
-/// A line a planner and kind of scene (all worlds of a family are one kind): sums over the scenes of both tables.
+/// Prints a line for each planner and kind of scene (all worlds of a family are one kind): sums over the scenes that
+/// are in both tables, and the number of those that only one table has.
 void print_planner_scores(std::ostream& out, const std::vector<PlannerScore>& before,
                           const std::vector<PlannerScore>& now);
 

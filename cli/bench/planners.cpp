@@ -14,12 +14,12 @@ constexpr const char* kWorlds = "0-19";
 constexpr const char* kFewWorlds = "0-4";
 constexpr const char* kOut = "runs/bench-planners";
 
-/// The families as they are nominally, and worlds in which no planner was tuned.
+/// The families in their nominal form, and worlds in which no planner was tuned.
 std::vector<StudyOptions> studies(const BenchOptions& options) {
   StudyOptions families;
   families.planner_lists = {kPlanners};
   families.seeds = "0";
-  families.force = true;  // after a change: what fits is kept
+  families.force = true;  // after a change; flights that still fit are kept
   StudyOptions worlds = families;
   families.scenarios = options.quick ? std::vector<std::string>{"towers"}
                                      : std::vector<std::string>{"towers", "hangar", "cranes", "spire", "sail"};

@@ -6,8 +6,8 @@
 
 namespace skein::cli {
 
-/// Flies what has not been flown yet with these programs, in runs/bench-planners, prints the comparison, and writes
-/// --write. Takes some ten minutes, with --quick one. @returns kExitDone; kExitProcessFailed when a flight failed;
+/// Flies, in runs/bench-planners, what these programs have not flown yet; prints the comparison, and writes the table
+/// to --write. Takes about ten minutes, with --quick one. @returns kExitDone; kExitProcessFailed when a flight failed;
 /// kExitInterrupted. @throws InputError when the table cannot be read.
 int bench_planners(const BenchOptions& options, const Console& console);
 

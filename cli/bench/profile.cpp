@@ -22,11 +22,11 @@ namespace {
 const std::vector<std::string> kProfiledPlanners = {"patrol", "kios", "xxh", "star", "flock"};
 const std::vector<std::size_t> kSizes = {1, 2, 5, 10, 20, 50}, kQuickSizes = {1, 5, 20};
 constexpr double kMission_s = 30.0, kQuickMission_s = 10.0, kExchange_s = 0.05;
-constexpr double kFar = 1000.0;  ///< UAVs, for which the growth is told
+constexpr double kFar = 1000.0;  ///< UAVs, to which the growth is extrapolated
 
 double steps_of(const Json& result) { return number_in(value_or(result, "timing", Json::object()), "steps"); }
 
-/// The median over results of something per exchange.
+/// The median over results of a measured quantity per exchange.
 template <class Measure>
 double per_exchange(const std::vector<Json>& results, Measure measure) {
   std::vector<double> values;

@@ -47,7 +47,7 @@ PythonEffort python_effort(const BenchOptions& options) {
   return effort;
 }
 
-/// What is measured with.
+/// The programs and files that the benchmark needs.
 struct PythonTools {
   fs::path python, package, planner, stepping;
 };
@@ -84,7 +84,7 @@ class PythonBench {
   }
 
  private:
-  /// By turns, so that what else the machine does disturbs both.
+  /// C++ and Python by turns, so that other load of the machine affects both alike.
   Json fly_pairs(bool one_process) {
     std::vector<LanguagePair> pairs;
     for (int i = 0; i < effort_.pairs; ++i) {
@@ -158,7 +158,7 @@ class PythonBench {
 };
 
 struct Row {
-  const char* key;  ///< of stepping.py
+  const char* key;  ///< in the output of stepping.py
   const char* name;
   std::optional<double> target;
   bool at_least;

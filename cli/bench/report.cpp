@@ -71,21 +71,21 @@ double planner_cpu_s(const Json& result) {
   return cpu_s;
 }
 
-/// The launcher looks at the processes' times when it hears that the fleet flies, by when a fleet that flies for some
-/// milliseconds has done much of its work: then the parts that were counted by themselves are more.
+/// CPU time of all processes [s]. The launcher begins to measure it when it hears of the first step. A fleet that flies
+/// for some milliseconds has done much of its work by then; the parts that programs measured then add up to more.
 double all_cpu_s(const Json& result) {
   const double counted_s = number_in(value_or(result, "timing", Json::object()), "cpu_s") + planner_cpu_s(result);
   return std::max(counted_s, fleet_cpu_s(result));
 }
 
-/// What the simulation itself took of the server, in seconds.
+/// CPU time of the simulation itself in the server [s].
 double simulation_cpu_s(const Json& result) {
   const Json timing = value_or(result, "timing", Json::object());
   return number_in(timing, "physics_s") + number_in(timing, "lidar_s") + number_in(timing, "camera_s") +
          number_in(timing, "links_s");
 }
 
-/// The result whose real-time factor is the median's nearest: breakdowns are of one run, so that they sum up.
+/// The result whose real-time factor is nearest to the median. Breakdowns are taken from one run, so that they add up.
 const Json& typical(const std::vector<Json>& results) {
   std::vector<double> factors;
   for (const Json& result : results) factors.push_back(real_time_factor(result));
@@ -110,7 +110,7 @@ const Json* find(const Json& report, const char* part, const std::function<bool(
 /// How a fleet flew.
 struct Way {
   enum Kind { over_dds, one_thread, all_cores } kind = over_dds;
-  std::string text;  ///< behind the name of what was flown
+  std::string text;  ///< appended to the name of what was flown
 };
 
 Way way_of(const Json& entry) {
@@ -119,14 +119,14 @@ Way way_of(const Json& entry) {
   return {threads == 1 ? Way::one_thread : Way::all_cores, ", " + text_of_threads(threads)};
 }
 
-/// Real-time factor asked for and aimed at, and the most memory [MB] of five UAVs.
+/// For five UAVs: the required and the desired real-time factor, and the largest memory [MB].
 struct SpeedTarget {
   double factor, aim, most_mb;
 };
 const std::map<Way::Kind, SpeedTarget> kSpeedTargets = {{Way::over_dds, {50.0, 60.0, 250.0}},
                                                         {Way::one_thread, {80.0, 100.0, 100.0}},
                                                         {Way::all_cores, {130.0, 170.0, 100.0}}};
-/// Real-time factor, by UAVs and how they fly; on two cores.
+/// Required real-time factor on two cores, by number of UAVs and way of flying.
 const std::map<std::pair<double, Way::Kind>, double> kScaleTargets = {{{20.0, Way::over_dds}, 15.0},
                                                                       {{100.0, Way::over_dds}, 2.0},
                                                                       {{20.0, Way::all_cores}, 25.0},

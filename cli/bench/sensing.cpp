@@ -42,7 +42,7 @@ class SensingBench {
   }
 
  private:
-  /// Without beams and with them by turns, so that what else the machine does disturbs both.
+  /// Without and with beams by turns, so that other load of the machine affects both alike.
   Json fly_over_vendors() {
     const std::filesystem::path scenario = scratch_.path() / "one.yaml";
     write_file_atomically(scenario, bench_scenario({.uavs = 1, .duration_s = 600.0}));

@@ -1,5 +1,5 @@
-// `skein bench --sensing`: what an explorer knows of the space around it, and what it costs to have all beams: the
-// tables and pictures of docs/sensing.md.
+// `skein bench --sensing`: what an explorer knows of the space around it, and the cost of delivering all LiDAR
+// beams: the tables and pictures of docs/sensing.md.
 #pragma once
 
 #include "cli/console.hpp"
@@ -7,9 +7,10 @@
 
 namespace skein::cli {
 
-/// Flies one explorer over each vendor, with beams and without, then bench_sensing, and prints its tables. With --write
-/// pictures and tables go into that folder (bench/sensing/main.cpp). Takes some minutes, with --quick below one.
-/// @returns kExitDone; kExitProcessFailed when a flight failed; kExitInterrupted. @throws InputError before it begins.
+/// Flies one explorer over each DDS vendor, with and without beams, then runs bench_sensing and prints its tables.
+/// --write names a folder for its pictures and tables (bench/sensing/main.cpp). Takes minutes, --quick less than one.
+/// @returns kExitDone; kExitProcessFailed when a flight failed.
+/// @throws InputError if a program is not built, before anything flies; Interrupted.
 int bench_sensing(const BenchOptions& options, const Console& console);
 
 }  // namespace skein::cli

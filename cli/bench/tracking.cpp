@@ -16,11 +16,11 @@
 namespace skein::cli {
 namespace {
 
-constexpr double kShare = 0.9999;  ///< of the samples, that the bound is asked to hold for
+constexpr double kShare = 0.9999;  ///< of the samples, for which the bound must hold
 constexpr double kQuickMissionS = 120.0;
 constexpr int kSpeeds = 8, kAccelerations = 5;  ///< rows and columns of the table, 1 m/s and 1 m/s^2 wide
 
-/// What is at most so much of the vehicle's samples' errors.
+/// The samples of one bin: at least this speed and acceleration of the set-point, at most this error.
 struct Sample {
   double speed_mps, acceleration_mps2, error_m;
   double count;
@@ -35,9 +35,9 @@ std::vector<Sample> samples_of(const results::TrackingTable& table, const std::s
   return samples;
 }
 
-/// The least bound of these slopes that holds for a share of the samples.
+/// The smallest bound with these slopes that holds for a share of the samples.
 TrackingBound bound_of(const std::vector<Sample>& samples, double c1_s, double c2_s2, double share) {
-  std::vector<std::pair<double, double>> above;  // what the slopes leave, and of how many samples
+  std::vector<std::pair<double, double>> above;  // error beyond the slopes, number of samples
   double all = 0.0;
   TrackingBound bound{.c1_s = c1_s, .c2_s2 = c2_s2};
   for (const Sample& sample : samples) {
@@ -93,7 +93,7 @@ StudyOptions flights(const BenchOptions& options) {
   study.duration_s = options.duration_s;
   if (options.quick && !study.duration_s) study.duration_s = kQuickMissionS;
   study.out = "runs/bench-tracking";
-  study.force = true;  // after a change: what fits is kept
+  study.force = true;  // after a change; flights that still fit are kept
   return study;
 }
 

@@ -1,5 +1,5 @@
-// `skein bench --tracking`: how far bundled vehicles are from their set-points, and a bound of it by speed and
-// acceleration. docs/flight-safety.md has the table.
+// `skein bench --tracking`: the distance of the bundled vehicles from their set-points, and a bound on it by speed and
+// acceleration of the set-point. docs/flight-safety.md has the table.
 #pragma once
 
 #include <filesystem>
@@ -15,25 +15,25 @@ namespace skein::cli {
 /// |error| <= c0 + c1 |v| + c2 |a|, with v and a of the set-point [m, m/s, m/s^2].
 struct TrackingBound {
   double c0_m = 0.0, c1_s = 0.0, c2_s2 = 0.0;
-  double covered = 0.0;   ///< share of all samples that keep it
-  double mean_m = 0.0;    ///< of the bound, over the samples
-  double beyond_m = 0.0;  ///< by how much a sample is above it at most
+  double covered = 0.0;   ///< share of all samples that keep the bound
+  double mean_m = 0.0;    ///< mean of the bound over the samples
+  double beyond_m = 0.0;  ///< how far a sample is above the bound at most
 
   double at(double speed_mps, double acceleration_mps2) const {
     return c0_m + c1_s * speed_mps + c2_s2 * acceleration_mps2;
   }
 };
 
-/// The bound that is smallest on average, of those that hold for `share` of a vehicle's samples. Samples count as if
-/// they had the least speed and acceleration and the greatest error of their bin.
+/// The bound with the smallest mean among those that hold for `share` of a vehicle's samples. Each sample counts with
+/// the least speed and acceleration, and the greatest error, of its bin.
 /// @param share  in (0, 1].
 TrackingBound fit_bound(const results::TrackingTable& table, const std::string& vehicle, double share);
 
-/// Quantiles by speed and acceleration, and the bounds, of each vehicle.
+/// Prints quantiles of the distance by speed and acceleration, and the bounds, for each vehicle.
 void print_tracking(std::ostream& out, const results::TrackingTable& table);
 
-/// Flies all planners in the scenes of the families, in runs/bench-tracking, without faults; what these programs have
-/// flown is not flown again. Takes some ten minutes, with --quick one. @returns as bench_planners().
+/// Flies all planners in the scenes of the families, in runs/bench-tracking, without faults; keeps flights that these
+/// programs have already flown. Takes about ten minutes, with --quick one. @returns as bench_planners().
 int bench_tracking(const BenchOptions& options, const Console& console);
 
 }  // namespace skein::cli

@@ -25,7 +25,7 @@ constexpr const char* kWatchedPlanner = "kios";  // takes and delivers pictures 
 constexpr double kWatchedS = 120.0, kQuickWatchedS = 40.0;
 constexpr int kPairs = 5, kQuickPairs = 1;
 
-/// What drives the browser.
+/// The programs and files that drive the browser.
 struct Tools {
   fs::path node, chromium, web, script;
 };

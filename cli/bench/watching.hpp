@@ -1,5 +1,5 @@
-// `skein bench --view`: what a page costs that follows a run, and what it takes itself. docs/performance.md has the
-// table.
+// `skein bench --view`: what it costs a run that a page follows it, and what the page itself costs. docs/performance.md
+// has the table.
 #pragma once
 
 #include <ostream>
@@ -11,22 +11,22 @@
 
 namespace skein::cli {
 
-/// The same flight twice, served both times.
+/// The same flight twice; the page is served both times.
 struct WatchedPair {
-  Json unseen;   ///< result.json; nobody looked
+  Json unseen;   ///< result.json; no browser showed the page
   Json watched;  ///< result.json; a browser showed the page
-  Json page;     ///< what the page took (bench/view/watched_run.mjs)
+  Json page;     ///< costs of the page (bench/view/watched_run.mjs)
 };
 
 /// {"pairs", "cpu_ratio", "first_picture_ms", "script_ms", "thread_ms", "draw_calls", "pictures"}: figures over the
-/// pairs (report.hpp); what no pair has is null. `cpu_ratio` is that of the fleets' CPU time from first step to last.
+/// pairs (report.hpp); null: no pair has such a value. `cpu_ratio` is of the fleets' CPU time, from first step to last.
 Json watching_entry(const std::vector<WatchedPair>& pairs);
 
-/// The figures beside their targets.
+/// Prints the figures beside their targets.
 void print_watching(std::ostream& out, const Json& entry);
 
 /// Flies pairs at the usual speed of a watched run. Needs the source tree with web/node_modules, Node.js and Chromium.
-/// @returns as bench_sensing(). @throws InputError when something of that is missing, before it begins.
+/// @returns as bench_sensing(). @throws InputError if any of these is missing, before anything flies; Interrupted.
 int bench_watching(const BenchOptions& options, const Console& console);
 
 }  // namespace skein::cli

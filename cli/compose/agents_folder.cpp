@@ -12,7 +12,7 @@ namespace fs = std::filesystem;
 void gather_agents(const fs::path& out) {
   const fs::path agents = out / kAgentsFolder;
   if (!fs::is_directory(fs::symlink_status(agents))) return;
-  std::vector<fs::path> files;  // moved once nothing iterates
+  std::vector<fs::path> files;  // moved after the iteration
   for (const auto& folder : fs::directory_iterator(agents)) {
     if (!fs::is_directory(folder.symlink_status())) continue;
     const std::string member = folder.path().filename(), program = programs::agent_program(member);

@@ -15,7 +15,8 @@
 namespace skein::cli {
 namespace {
 
-/// A domain is named for each network, and what runs there for each alias; DNS knows no case.
+/// Networks and aliases are named after UAVs, and DNS ignores case: so names must differ in more than case, also from
+/// the fixed networks' names.
 void check_names(const Scenario& scenario, bool watched) {
   const auto small = [](std::string name) {
     std::ranges::transform(name, name.begin(), [](unsigned char c) { return std::tolower(c); });
@@ -31,7 +32,7 @@ void check_names(const Scenario& scenario, bool watched) {
   }
 }
 
-/// @param option  that names the image, or the variable
+/// @param option  the option or variable that names the image
 void check_image(const std::string& option, const std::string& image) {
   const std::string_view marks = "._-/:@";
   const auto may_be = [&](unsigned char c) { return std::isalnum(c) != 0 || marks.find(char(c)) != marks.npos; };

@@ -1,16 +1,17 @@
-// What a fleet must be to fly in containers.   Pure; any thread.
+// Checks whether a fleet can fly in containers.   Pure; any thread.
 #pragma once
 
 #include "cli/compose/compose_file.hpp"
 
 namespace skein::cli {
 
-/// Of each network of a subnet: room for its members (at most four), the engine's own address, the first and the last.
+/// Prefix length of each network of a subnet: 16 addresses, for at most four programs, the engine, and the first and
+/// the last address, which no program can have.
 inline constexpr int kNetworkPrefix = 28;
-/// By which browsers come to the page; nobody but the station is in it.
+/// The network through which browsers reach the page; only the station is in it.
 inline constexpr const char* kViewNetwork = "view";
 
-/// @throws InputError for what cannot fly in containers, and for a subnet with too little room.
+/// @throws InputError if the fleet cannot fly in containers, a name is not valid there, or the subnet is too small.
 void check_layout(const FleetPlan& plan, const ComposeLayout& layout);
 
 }  // namespace skein::cli

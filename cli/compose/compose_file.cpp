@@ -33,20 +33,20 @@ constexpr const char* kHealthFile = "/tmp/alive";  ///< in a container
 constexpr const char* kKeysInContainer = "/keys";
 constexpr const char* kBuildInContainer = "/opt/skein";
 constexpr const char* kParametersInContainer = "/planner.yaml";
-/// Of the page: a folder, what the station is called in its network, and a port there.
+/// For the page: a folder in the station's container, and the station's name and port in the page's network.
 constexpr const char* kViewInContainer = "/view";
 constexpr const char* kViewAlias = "page.view";
 constexpr int kViewPort = 8080;
-constexpr int kLease_s = 10;  ///< of silence: without a launcher this tells which program died
-/// A container that the engine has started again once the run was over ends after so long.
+constexpr int kLease_s = 10;  ///< without a launcher, only leases tell which program died
+/// How long a container waits for the server before it ends, if the engine has restarted it after the run's end.
 constexpr int kServerTimeout_s = 60;
 constexpr int kMostRestarts = 5;
 
-/// What docker-compose fills in when the file is read.
+/// Variables that docker-compose substitutes when it reads the file.
 constexpr const char* kRunVariable = "${SKEIN_RUN:-1}";
 constexpr const char* kUserVariable = "${SKEIN_USER:-1000:1000}";
 
-/// Written as itself, or as the variable that docker-compose fills in.
+/// Writes a text or, if there is none, a variable that docker-compose substitutes.
 void add(ComposeYaml& yaml, const std::optional<std::string>& text, const std::string& variable) {
   if (text) {
     yaml.literal(*text);
@@ -55,13 +55,13 @@ void add(ComposeYaml& yaml, const std::optional<std::string>& text, const std::s
   }
 }
 
-/// The long form of a mount, whose paths may hold colons.
+/// Writes a mount in the long form, in which paths may contain colons.
 void add_mount(ComposeYaml& yaml, const fs::path& here, const fs::path& in_container, bool read_only = true) {
   yaml.begin_map().key("type").own("bind").key("source").literal(here.string());
   yaml.key("target").literal(in_container.string()).key("read_only").flag(read_only).end_map();
 }
 
-/// What a program is called in the networks that it is in: "uav.jurong".
+/// The first part of a program's name in its networks: "uav" in "uav.jurong".
 std::string role_of(const std::string& program) {
   if (program == programs::kSimServer) return "sim";
   if (program == programs::kCommRouter) return "router";
@@ -69,7 +69,7 @@ std::string role_of(const std::string& program) {
   return program == programs::kGroundAgent ? "program" : "uav";
 }
 
-/// Of each domain, by name: who is in it.
+/// The network of each DDS domain, and the programs in it.
 class Networks {
  public:
   explicit Networks(const FleetPlan& plan) : names_(domain_names(plan.scenario)) {
@@ -90,7 +90,7 @@ class Networks {
     });
     return networks;
   }
-  /// As --network takes it.
+  /// A value of --network.
   std::string text_for(const std::string& program) const {
     std::string text;
     for (const std::string& name : of(program)) {
@@ -106,7 +106,7 @@ class Networks {
   std::map<std::string, std::vector<std::string>> members_;
 };
 
-/// Where the image has a file that is shipped; nullopt: it is none.
+/// Path in the images of a file that Skein ships; nullopt: Skein does not ship it.
 std::optional<fs::path> in_image(const fs::path& file) {
   const fs::path config = fs::weakly_canonical(default_config_dir());
   const fs::path below = fs::weakly_canonical(file).lexically_relative(config);
@@ -114,7 +114,7 @@ std::optional<fs::path> in_image(const fs::path& file) {
   return kConfigInImage / below;
 }
 
-/// A path of this host as containers see it: what is not in the image is mounted where it is.
+/// Path of a file in containers. A file that is not in the image is mounted at the path that it has on this host.
 fs::path in_container(const fs::path& file) { return in_image(file).value_or(fs::absolute(file).lexically_normal()); }
 
 /// Files of this host that a program reads, by their paths in its container.
@@ -154,7 +154,7 @@ class ComposeText {
   }
 
  private:
-  /// What stays the same for all programs. The health check asks whether the program still takes its turns.
+  /// Settings that all programs share. The health check tests whether the program still takes its turns.
   void add_common() {
     if (layout_.stack) yaml_.key("version").own("3.9");
     yaml_.key("x-program").anchor("program").begin_map();
@@ -173,7 +173,7 @@ class ComposeText {
     yaml_.end_map();
   }
 
-  /// Not in a swarm, which tells nobody the name of a service that is not healthy yet: each program would wait for all.
+  /// Not in a swarm: its DNS does not resolve a service that is not healthy yet, so all programs would wait in vain.
   void add_health_check() {
     yaml_.key("healthcheck").begin_map();
     yaml_.key("test").own(Texts{"CMD-SHELL", fmt::format("find {} -newermt '-20 seconds' | grep -q .", kHealthFile)});
@@ -181,7 +181,8 @@ class ComposeText {
     yaml_.key("retries").number(3).key("start_period").own("30s").end_map();
   }
 
-  /// A program that is dropped, or crashes, comes back; a run without its server cannot.
+  /// Limits, node and restarts of a program. Programs are restarted after a crash or a drop, but not sim_server, with
+  /// which the run ends.
   void add_care(const std::string& program) {
     const bool agent = programs::is_agent(program), server = program == programs::kSimServer;
     const char* const memory = server ? "4g" : "1g";
@@ -285,7 +286,7 @@ class ComposeText {
     return texts;
   }
 
-  /// For a client that is no agent of ours, such as a ROS 2 node.
+  /// Environment of a client that is not Skein's own agent, such as a ROS 2 node.
   void add_variables(const std::string& program) {
     const std::string domain = std::to_string(agent_domain(plan_, program, kComposeBaseDomain));
     for (const auto& [name, value] : {std::pair<std::string, std::string>{"SKEIN_DOMAIN", domain},
@@ -316,7 +317,7 @@ class ComposeText {
       add_mount(yaml_, default_config_dir(), fs::path(kBuildInContainer) / "config");
     }
   }
-  /// Of a stack, agents' files go with them to their nodes; the managers have the scene's.
+  /// In a stack, agents' files are sent to their nodes; the other programs run on a manager, which has the files.
   bool travels(const std::string& program) const { return layout_.stack && programs::is_agent(program); }
   void add_sent_files(const std::string& program) {
     if (travels(program)) sent_.add_configs(yaml_, files_of(plan_, program));
@@ -334,7 +335,7 @@ class ComposeText {
   void add_networks() {
     yaml_.key("networks").begin_map();
     for (const std::string& name : networks_.names()) {
-      // Without an address on the bridge, the host is no neighbour of the containers.
+      // The bridge has no address, so that containers cannot reach the host by it.
       yaml_.key(name).begin_map().key("internal").flag(true);
       if (layout_.stack) {
         yaml_.key("driver").own("overlay");
@@ -344,7 +345,7 @@ class ComposeText {
       add_next_subnet();
       yaml_.end_map();
     }
-    if (layout_.view) {  // browsers come in by it; the station does not get out
+    if (layout_.view) {  // browsers reach the station by it; the station cannot get out
       yaml_.key(kViewNetwork).begin_map();
       add_driver_option("com.docker.network.bridge.enable_ip_masquerade", "false");
       add_next_subnet();
@@ -382,7 +383,7 @@ class ComposeText {
   const Networks networks_;
   ComposeYaml yaml_;
   SentFiles sent_;             ///< of a stack
-  std::uint32_t subnets_ = 0;  ///< that networks have got
+  std::uint32_t subnets_ = 0;  ///< assigned so far
 };
 
 }  // namespace

@@ -1,5 +1,6 @@
-// A fleet as a file for docker-compose: a container a program, and for each DDS domain a network of its own, so that a
-// UAV's container reaches the server and the router, and nobody else. docs/containers.md tells why each part is there.
+// Writes a fleet as a file for docker-compose: one container for each program, and one network for each DDS domain, so
+// that a UAV's container reaches only the server and the router. docs/containers.md explains each part.
+// Threads: any.
 #pragma once
 
 #include <filesystem>
@@ -18,40 +19,42 @@ struct Subnet {
   std::uint32_t address = 0;  ///< host byte order
   int prefix = 0;
 };
-/// @throws InputError for a text that is none.
+/// @throws InputError for any other text, and for a prefix that is not within 8 to 28.
 Subnet parse_subnet(const std::string& text);
 
-/// The page of a run that is watched, which the station serves in its container.
+/// The web page of a watched run, which the station serves in its container.
 struct ComposeView {
-  view::Endpoint published;        ///< of this host
-  std::vector<std::string> names;  ///< by which browsers may ask for it, beside the loopback's
-  std::string folder = "./view";   ///< of this host: key and script (write_for_station())
+  view::Endpoint published;        ///< endpoint on this host
+  std::vector<std::string> names;  ///< of hosts in browsers' requests, besides the loopback's
+  std::string folder = "./view";   ///< on this host: key and script (write_for_station())
 };
 
-/// What containers need to know beside the plan. What is not set here is a variable that docker-compose fills in.
+/// What a file needs in addition to the plan. For a text that is not set, the file has a variable, which docker-compose
+/// substitutes.
 struct ComposeLayout {
-  std::string command;                           ///< that made the file, for its first line
-  std::map<std::string, std::string> chosen;     ///< images, by the variables that would name them
-  std::map<std::string, std::string> images;     ///< of users, in the place of an agent's: by UAV, or "gcs"
-  std::optional<std::string> run;                ///< the run's number
+  std::string command;                           ///< the command that made the file, for its first line
+  std::map<std::string, std::string> chosen;     ///< Skein's images, by the variables that would name them
+  std::map<std::string, std::string> images;     ///< users' images in place of an agent's, by UAV or "gcs"
+  std::optional<std::string> run;                ///< the run's id
   std::optional<std::string> user;               ///< UID:GID of all programs
-  std::optional<std::filesystem::path> results;  ///< folder of this host; else volumes keep the results
-  std::string keys = "./keys";                   ///< of a secured fleet: a folder a program
-  std::optional<Subnet> subnet;                  ///< whose parts the networks get; else the engine chooses
-  std::optional<std::filesystem::path> build;    ///< folder whose bin/ flies instead of the images' programs
-  std::optional<ComposeView> view;               ///< none: nobody watches
-  bool stack = false;                            ///< for `docker stack`: several engines, one swarm
-  std::map<std::string, std::string> nodes;      ///< of a stack, by program: on which it runs; else where there is room
-  bool status_lines = false;                     ///< programs tell on stdout how the run goes (status_lines.hpp)
+  std::optional<std::filesystem::path> results;  ///< folder on this host; nullopt: volumes keep the results
+  std::string keys = "./keys";                   ///< of a secured fleet: has a folder for each program
+  std::optional<Subnet> subnet;                  ///< divided among the networks; nullopt: the engine chooses
+  std::optional<std::filesystem::path> build;    ///< folder whose bin/ replaces the images' programs
+  std::optional<ComposeView> view;               ///< nullopt: the run has no page
+  bool stack = false;                            ///< for `docker stack`: several engines in one swarm
+  std::map<std::string, std::string> nodes;      ///< of a stack: node, by program; none: any with room
+  bool status_lines = false;                     ///< programs write status lines to stdout (status_lines.hpp)
 };
 
-/// The base of the fleet's DDS domains: containers share them with nobody.
+/// The fleet's first DDS domain, always the same: no other fleet is in the containers' networks.
 inline constexpr int kComposeBaseDomain = 1;
 
-/// Where a program's container has its results on this host, below `results`: agents see nobody else's.
+/// Folder on this host for the results of a program's container: `results`, but for each agent a folder of its own
+/// below it, so that an agent does not see the results of others.
 std::filesystem::path results_of(const std::string& program, const std::filesystem::path& results);
 
-/// @throws InputError for what cannot fly in containers, and for a subnet with too little room.
+/// @returns the text of the file. @throws InputError as check_layout().
 std::string compose_file(const FleetPlan& plan, const ComposeLayout& layout);
 
 }  // namespace skein::cli

@@ -14,7 +14,7 @@
 namespace skein::cli {
 namespace {
 
-/// The first character of a text in UTF-8 from `at` on, which moves behind it; -1 for what is none.
+/// The code point at `at` in a UTF-8 text; moves `at` behind it. -1: this is no valid character.
 std::int64_t next_character(const std::string& text, std::size_t& at) {
   const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u; };
   const unsigned first = byte(at);
@@ -37,7 +37,7 @@ bool yaml_holds(const std::string& text) {
   for (std::size_t at = 0; at < text.size();) {
     const std::int64_t character = next_character(text, at);
     if (character <= 0 || character == 0x7f || character == 0x2028 || character == 0x2029) return false;
-    if ((character & 0xfffe) == 0xfffe) return false;  // no characters
+    if ((character & 0xfffe) == 0xfffe) return false;  // noncharacters
   }
   return true;
 }
@@ -55,7 +55,7 @@ std::string in_comment(const std::string& text) {
 
 ComposeYaml& ComposeYaml::key(const std::string& name) {
   const auto plain = [](unsigned char c) { return c == '_' || std::islower(c) != 0; };
-  // YAML takes some words for truth values; all that contain a '_' are ours.
+  // YAML takes some words without quotes for truth values; those with a '_' are Skein's own.
   const bool is_word = name == "<<" || (name.size() > 3 && name != "true" && name != "null" && name != "false" &&
                                         std::ranges::all_of(name, plain));
   put(YAML::Key);

@@ -1,6 +1,6 @@
-// The YAML of a file for docker-compose, written by the YAML library. docker-compose fills in variables (`${X}`) when
-// it reads the file, so what a user named is told from what is ours: a user's text is read back as it was given,
-// whatever is in it.   Pure; an object belongs to one thread.
+// Writes the YAML of a file for docker-compose with the YAML library. docker-compose substitutes variables (`${X}`)
+// when it reads the file. So Skein's own texts and users' texts are written by different functions: a user's text is
+// read back exactly as it was given.   Pure; an object belongs to one thread.
 #pragma once
 
 #include <yaml-cpp/emitter.h>
@@ -10,8 +10,8 @@
 
 namespace skein::cli {
 
-/// A text on one line of a file's comment, that nothing can end before the line does: other characters than printable
-/// ASCII are written as bash takes them within single quotes, 'a'$'\x0a''b'.
+/// A text for one line of a comment, which it cannot end: bytes other than printable ASCII are written as bash reads
+/// them within single quotes, 'a'$'\x0a''b'.
 std::string in_comment(const std::string& text);
 
 class ComposeYaml {
@@ -26,17 +26,17 @@ class ComposeYaml {
   ComposeYaml& anchor(const char* name) { return put(YAML::Anchor(name)); }
   ComposeYaml& alias(const char* name) { return put(YAML::Alias(name)); }
 
-  /// The key of what comes next. @param name  a word of ours, or the name of a member
+  /// The key of the next value. @param name  a word of Skein's own, or the name of a member
   ComposeYaml& key(const std::string& name);
-  /// What is ours: docker-compose fills in its variables.
+  /// A text of Skein's own: docker-compose substitutes its variables.
   ComposeYaml& own(const std::string& text);
   ComposeYaml& flag(bool truth) { return put(truth); }
   ComposeYaml& number(int number) { return put(number); }
   ComposeYaml& own(const std::vector<std::string>& texts);
-  /// What a user may have named: docker-compose reads exactly this. @throws InputError for what YAML cannot hold
+  /// A text that a user may have chosen: docker-compose reads exactly this. @throws InputError if YAML cannot hold it
   ComposeYaml& literal(const std::string& text);
 
-  /// @throws std::logic_error when something was begun and not ended
+  /// The whole file. @throws std::logic_error when a map or list was begun and not ended
   std::string text() const;
 
  private:

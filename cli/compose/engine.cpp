@@ -19,14 +19,15 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kLastLines = 5;
 
-/// Runs a shell's command. @returns its exit code. @param log  empty: what it says goes nowhere.
+/// Runs a shell command. @param log  receives its output; empty: that is discarded. @returns its exit code; 128 + N if
+/// signal N ended it.
 int shell(const std::string& command, const fs::path& log = {}) {
   const ExitStatus exit = run_to_end(
       {"docker", {"/bin/sh", "-c", log.empty() ? command + " >/dev/null 2>&1" : command}, environment_with({}), log});
   return exit.signal != 0 ? 128 + exit.signal : exit.code;
 }
 
-/// Version 2 is a part of the client, version 1 a program of its own.
+/// The command of docker-compose: version 2 is part of Docker's client, version 1 a program of its own.
 std::string compose_program() {
   if (shell("docker compose version") == 0) return "docker compose";
   if (shell("docker-compose version") == 0) return "docker-compose";
@@ -59,14 +60,14 @@ ComposeProject::ComposeProject(fs::path file, std::string name, fs::path log, st
     : program_(compose_program()), file_(std::move(file)), name_(std::move(name)), log_(std::move(log)), err_(err) {}
 
 ComposeProject::~ComposeProject() {
-  constexpr int kAttempts = 3;  // the user may press Ctrl-C meanwhile, and wants it gone all the more
+  constexpr int kAttempts = 3;  // continues even if the user presses Ctrl-C meanwhile
   const std::string down = command("down --volumes --remove-orphans --timeout 2");
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
     try {
       if (shell(down, log_) == 0) return;
       break;
     } catch (const Interrupted&) {
-    } catch (const std::exception&) {  // no shell
+    } catch (const std::exception&) {  // the shell cannot be started
       break;
     }
   }

@@ -1,4 +1,4 @@
-// Docker, as its command line offers it: an engine that answers, and one fleet's containers and networks.
+// Runs Docker by its command line: checks the engine, and holds the containers and networks of one fleet.
 // Threads: one, which must live as long as the containers.
 #pragma once
 
@@ -10,31 +10,31 @@
 
 namespace skein::cli {
 
-/// @throws InputError when no engine answers, when there is no docker-compose, or an image is missing; it says what
-///   helps.
+/// @throws InputError, with a remedy, when no engine answers, there is no docker-compose, or an image is missing.
 void check_engine(const std::vector<std::string>& images);
 
-/// @param member  whose program --debug wants to look into. @throws InputError when the image has no gdb
+/// @param member  the member that --debug names. @throws InputError when the image has no gdb
 void check_gdb(const std::string& image, const std::string& member);
 
-/// While it lives, the containers of a file exist, under a project's name that nobody else has.
+/// Holds the containers of a compose file, from up() on, under a unique project name. The destructor removes them.
 class ComposeProject {
  public:
-  /// @param file  for docker-compose. @param log  file for what it says. @param err  for people; must outlive this.
+  /// @param file  for docker-compose. @param log  receives docker-compose's output. @param err  receives messages for
+  ///   the user; must outlive this.
   /// @throws InputError when there is no docker-compose
   ComposeProject(std::filesystem::path file, std::string name, std::filesystem::path log, std::ostream& err);
-  /// Ends the containers and removes them, their networks and volumes; when it cannot, it says how to do that.
+  /// Ends and removes the containers, their networks and volumes. If that fails, prints the command for it.
   ~ComposeProject();
   ComposeProject(const ComposeProject&) = delete;
   ComposeProject& operator=(const ComposeProject&) = delete;
 
-  /// Makes networks and containers, and starts them. @throws std::runtime_error with the reason.
+  /// Creates networks and containers, and starts the containers. @throws std::runtime_error with the reason.
   void up();
-  /// Containers by service.
+  /// Container ids, by service.
   std::map<std::string, std::string> containers() const;
 
  private:
-  /// A command of docker-compose on it.
+  /// The command line of a docker-compose command for this project.
   std::string command(const std::string& what) const;
 
   const std::string program_;

@@ -15,7 +15,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// gdb in a container, once its program has written to its log that it stands; none for one that has ended.
+/// Script that starts gdb in a container once the log says that the program waits for a debugger; does nothing if the
+/// container has ended.
 std::string gdb_inside(const std::string& container, const fs::path& log) {
   return fmt::format(R"sh(while [ "$(docker inspect --format '{{{{.State.Running}}}}' {0} 2>&1)" = true ]; do
   process=$(sed -n 's/.*process \([0-9]*\) stands until a debugger.*/\1/p' {1} 2>/dev/null | tail -n 1)
@@ -28,8 +29,9 @@ done
                      container, shell_word(log));
 }
 
-/// Passes a SIGTERM on and ends as the container does, or by kEngineLost. The signal is for the whole group, so what
-/// listens is in another one. @param streams  where the container's go. @param meanwhile  what is done while it runs
+/// Script of a follower: passes SIGTERM on to the container, and ends with its exit code, or by kEngineLost. SIGTERM
+/// goes to the whole process group, so `docker logs` runs in another one (setsid).
+/// @param streams  redirection of the container's output. @param meanwhile  commands to run while the container does
 std::string follower(const std::string& container, const std::string& streams, const std::string& meanwhile) {
   return "trap 'docker kill --signal=TERM " + container + " >/dev/null 2>&1' TERM\n" + "setsid docker logs --follow " +
          container + streams + " &\n" + meanwhile + "wait $!\nwait\ncode=$(docker wait " + container +
@@ -48,14 +50,14 @@ std::vector<ProgramSpec> followers(const std::map<std::string, std::string>& con
     const auto debuggee = std::ranges::find(plan.debug, name, &Debuggee::program);
     program.here = debuggee != plan.debug.end() && debuggee->here;
     std::string streams = ours ? " >&3" : " >&2", meanwhile;
-    if (program.here) {  // its own standard error is the terminal, and gdb's
+    if (program.here) {  // the follower's stderr is the terminal, which gdb uses
       streams.insert(0, " 2>" + shell_word(program.log));
       meanwhile = gdb_inside(id, program.log);
     }
     program.argv = {"/bin/sh", "-c", follower(id, streams, meanwhile)};
     programs.push_back(std::move(program));
   }
-  // As under the launcher: those that every fleet has one of come first.
+  // In the order of the launcher: the servers come first.
   const auto rank = [](const ProgramSpec& program) { return std::ranges::find(programs::kServers, program.name); };
   std::ranges::stable_sort(programs, {}, rank);
   return programs;

@@ -1,5 +1,5 @@
-// What follows the containers of a fleet here: for each of them a program that hears its status lines, keeps its log
-// and ends as it does. So the launcher looks after containers as it does after processes.   Threads: any.
+// Followers of a fleet's containers: for each container a process on this host that passes on its status lines, keeps
+// its log, and ends as the container does. So the launcher supervises containers as it does processes.   Threads: any.
 #pragma once
 
 #include <filesystem>
@@ -13,9 +13,9 @@
 
 namespace skein::cli {
 
-/// Programs that follow them, the servers' first. The one of a program that is debugged `inside` its container has gdb
-/// in this terminal as soon as that program stands there.
-/// @param containers  of the engine, by program. @param out  folder of the logs
+/// The followers, those of the servers first. If a program is debugged `inside` its container, its follower starts gdb
+/// in this terminal as soon as the program waits for a debugger.
+/// @param containers  container ids, by program. @param out  folder of the logs
 std::vector<ProgramSpec> followers(const std::map<std::string, std::string>& containers, const FleetPlan& plan,
                                    const ComposeLayout& layout, const std::filesystem::path& out);
 

@@ -1,4 +1,4 @@
-// Of what image a program's container is made.   Pure; any thread.
+// From which image a program's container is made.   Pure; any thread.
 #pragma once
 
 #include <string>
@@ -7,11 +7,11 @@
 
 namespace skein::cli {
 
-/// An image of docker/Dockerfile, and the variable by which a user names another one in its place.
+/// An image of docker/Dockerfile, and the variable with which a user names another one instead.
 struct ProgramImage {
   const char *usual, *variable;
 };
-/// Images of users (`--image`) apart.
+/// Does not consider users' images (`--image`).
 ProgramImage image_of(const FleetPlan& plan, const std::string& program);
 
 }  // namespace skein::cli

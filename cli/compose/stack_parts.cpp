@@ -14,7 +14,7 @@ std::string stack_user() { return std::string(kUid) + ":" + kGid; }
 
 void add_deployment(ComposeYaml& yaml, const Deployment& deployment) {
   yaml.key("deploy").begin_map();
-  // A name stands for the container itself: behind the address of a service, DDS would find nobody.
+  // A service's name resolves to its container's own address: DDS does not work behind a virtual address.
   yaml.key("endpoint_mode").own("dnsrr");
   if (!deployment.node.empty() || deployment.manager) {
     yaml.key("placement").begin_map().key("constraints").begin_list();

@@ -1,5 +1,5 @@
-// What a file for `docker stack` has in other words than one for docker-compose: where a service runs and what it may
-// take, and files that go with it to its node.   Pure; an object belongs to one thread.
+// The parts in which a file for `docker stack` differs from one for docker-compose: node and resource limits of a
+// service, and the files that are sent to its node.   Pure; an object belongs to one thread.
 #pragma once
 
 #include <filesystem>
@@ -10,23 +10,23 @@
 
 namespace skein::cli {
 
-inline constexpr int kMostProcesses = 256;  ///< in a container, threads included
+inline constexpr int kMostProcesses = 256;  ///< limit in a container, threads included
 
-/// As whom all programs run: two variables, because files are given to a user and a group each.
+/// The user and group of all programs, as two variables: files that are sent name the two separately.
 std::string stack_user();
 
 struct Deployment {
-  std::string node;      ///< its host name; empty: where there is room
-  bool manager = false;  ///< on a manager of the swarm, where no node is named
+  std::string node;      ///< host name of the node; empty: any with room
+  bool manager = false;  ///< if no node is named: on a manager of the swarm
   std::string memory;
-  std::string cpus;  ///< at most; empty: all
+  std::string cpus;  ///< limit; empty: none
   int restarts = 0;
 };
 
 /// The key `deploy` of a service.
 void add_deployment(ComposeYaml& yaml, const Deployment& deployment);
 
-/// Files of the manager that services get: open ones (configs) and keys (secrets).
+/// Files on the manager that are sent to services: readable for all (configs), or keys (secrets).
 class SentFiles {
  public:
   using Files = std::map<std::filesystem::path, std::filesystem::path>;  ///< on the manager, by path in the container
@@ -34,7 +34,7 @@ class SentFiles {
   void add_configs(ComposeYaml& yaml, const Files& files) { add(yaml, "configs", configs_, files, 0444); }
   /// Only the containers' user can read them.
   void add_secrets(ComposeYaml& yaml, const Files& files) { add(yaml, "secrets", secrets_, files, 0400); }
-  /// Where all of them come from: keys of the whole file.
+  /// The top-level keys `configs` and `secrets`, with the paths of all added files on the manager.
   void add_sources(ComposeYaml& yaml) const;
 
  private:

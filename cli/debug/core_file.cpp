@@ -22,10 +22,10 @@ std::string setting(const char* name) {
   return line;
 }
 
-/// What is older is of another run.
+/// Older cores are from another run.
 fs::file_time_type allowed_since = fs::file_time_type::min();
 
-/// The newest of a name with '*' in its last part.
+/// The newest core whose name matches; `name` may have '*' in its last part.
 std::optional<fs::path> newest(const fs::path& name) {
   std::optional<fs::path> found;
   fs::file_time_type when;
@@ -74,11 +74,11 @@ std::string keep_core(pid_t pid, const fs::path& file) {
   const std::string pattern = setting("core_pattern");
   const auto name = core_name(pattern, setting("core_uses_pid") == "1", pid);
   if (!name) return "its core went to " + pattern.substr(1);
-  const auto core = newest(file.parent_path() / *name);  // programs die in their results folder
+  const auto core = newest(file.parent_path() / *name);  // a crashing program changes to its results folder
   if (!core) return {};
   std::error_code error;
   fs::rename(*core, file, error);
-  if (error) {  // another disk
+  if (error) {  // on another file system
     fs::copy_file(*core, file, fs::copy_options::overwrite_existing, error);
     if (error) return "core in " + core->string();
     fs::remove(*core, error);

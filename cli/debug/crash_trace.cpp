@@ -34,7 +34,7 @@ Lines::const_iterator last_with(const Lines& lines, std::string_view begin) {
   return found == lines.rend() ? lines.end() : std::prev(found.base());
 }
 
-/// Those below the last head.
+/// The frames of the last crash in a log.
 std::vector<Frame> frames_in(const Lines& lines) {
   std::vector<Frame> frames;
   auto line = last_with(lines, crash_notes::kHead);
@@ -47,8 +47,8 @@ std::vector<Frame> frames_in(const Lines& lines) {
   return frames;
 }
 
-/// What addr2line says of frames of one file, a text each: "NAME at FILE:LINE", and what was inlined there in lines of
-/// its own. Empty: it does not know.
+/// addr2line's text for each of these frames of one file: "NAME at FILE:LINE", with one more line for each function
+/// inlined there. Empty: addr2line does not know the frame.
 Lines names_of(const std::string& file, const std::vector<std::string>& offsets) {
   Lines names;
   const std::string command = "addr2line -Capfie " + shell_word(file) + " " + shell_line(offsets) + " 2>/dev/null";
@@ -58,7 +58,7 @@ Lines names_of(const std::string& file, const std::vector<std::string>& offsets)
   while (pipe && std::fgets(part, sizeof part, pipe.get()) != nullptr) said += part;
   static const std::regex kDiscriminator(" \\(discriminator [0-9]+\\)");
   for (const std::string& line : split(std::regex_replace(said, kDiscriminator, ""), '\n')) {
-    const std::size_t name = line.find(": ");  // behind the address; what is inlined has none
+    const std::size_t name = line.find(": ");  // after the address, which lines of inlined functions lack
     if (line.starts_with("0x") && name != std::string::npos) {
       names.push_back(line.compare(name + 2, 2, "??") == 0 ? "" : line.substr(name + 2) + "\n");
     } else if (!line.empty() && !names.empty() && !names.back().empty()) {
@@ -69,7 +69,8 @@ Lines names_of(const std::string& file, const std::vector<std::string>& offsets)
   return names;
 }
 
-/// As it was where nobody knows. A file's symbols are read once for all of its frames: they are what takes time.
+/// The text of each frame: names, or file and offset if these are unknown. Calls addr2line once for each file, since
+/// reading the symbols takes most of the time.
 Lines named(const std::vector<Frame>& frames) {
   std::map<std::string, std::vector<std::size_t>> by_file;
   for (std::size_t i = 0; i < frames.size(); ++i) by_file[frames[i].file].push_back(i);

@@ -1,4 +1,4 @@
-// A crashed program's last notes, with names: what process/health/crash_notes.hpp wrote as addresses.   Threads: any.
+// Adds names to the addresses that a crashed program left in its log (process/health/crash_notes.hpp). Threads: any.
 #pragma once
 
 #include <cstddef>
@@ -13,12 +13,12 @@ namespace skein::cli {
 /// debug information know them. @returns whether there were such notes.
 bool explain_crash(const std::filesystem::path& log);
 
-/// What a crashed program left for whoever wants to know: explain_crash()'s backtrace, and its core beside the log.
-/// @returns "backtrace in uav_agent-jurong.log, core in uav_agent-jurong.core"; empty: nothing
+/// Calls explain_crash(), and moves the core beside the log (`with_core`). Says where backtrace and core are:
+/// @returns "backtrace in uav_agent-jurong.log, core in uav_agent-jurong.core"; empty: there is neither.
 std::string crash_evidence(const ExitStatus& exit, const std::filesystem::path& log, bool with_core);
 
-/// The end of a log as a message quotes it: its last lines, each below the one before; where a crash ends it,
-/// the lines before that, and where the crash was.
+/// The end of a log, to be quoted in a message: its last `lines` lines, each on a line of its own. If the log ends with
+/// the notes of a crash: the lines before these, then the innermost frames of the backtrace.
 std::string end_of_log(const std::filesystem::path& log, std::size_t lines);
 
 }  // namespace skein::cli

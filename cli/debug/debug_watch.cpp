@@ -11,7 +11,7 @@
 #include "cli/host/proc_table.hpp"
 #include "results/run_folder.hpp"
 
-extern "C" {  // glibc 2.36's header forgets it
+extern "C" {  // missing in glibc 2.36's header
 #include <sys/pidfd.h>
 }
 
@@ -27,7 +27,7 @@ bool holds(const std::vector<std::string>& words, const std::string& word) {
   return std::find(words.begin(), words.end(), word) != words.end();
 }
 
-/// Has the command's environment too, since it hands that on.
+/// A debugger has the command's environment, too, since it passes that on.
 bool is_debugger(pid_t pid) {
   const std::string name = process_name(pid);
   for (const char* known : {"gdb", "gdbserver", "lldb", "lldb-server", "rr", "strace"}) {
@@ -69,7 +69,7 @@ void DebugWatch::look() {
     if (!is_debugged(pid) || is_debugged(parent_of(pid))) continue;
     const int fd = ::pidfd_open(pid, 0);
     if (fd < 0) continue;
-    if (!is_debugged(pid)) {  // gone meanwhile; another one may have its number
+    if (!is_debugged(pid)) {  // it has ended, and another process may have its id
       ::close(fd);
       continue;
     }
@@ -80,7 +80,7 @@ void DebugWatch::look() {
   }
 }
 
-// A debugger has the same words behind its own.
+// The first word must be the program's file: a debugger's command line contains the same words after its own.
 bool DebugWatch::is_agent_process(pid_t pid) const {
   const std::vector<std::string> words = words_of(pid, "cmdline");
   const bool ours = !words.empty() && std::filesystem::path(words[0]).filename() == file_;

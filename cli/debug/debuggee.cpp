@@ -19,7 +19,7 @@ using Words = std::vector<std::string>;
 
 constexpr int kHighestPort = 65535;
 
-/// Debian's package of a tool, where that is called otherwise.
+/// The Debian package of a tool; most have the tool's name.
 std::string package_of(const std::string& tool) {
   static const std::map<std::string, std::string> others = {{"perf", "linux-perf"}};
   const auto found = others.find(tool);
@@ -31,8 +31,8 @@ void set_variable(Words& environment, const std::string& name, const std::string
   environment.push_back(name + "=" + value);
 }
 
-/// gdb hands the arguments to a shell, so the program writes to its log as it always does, and gdb to the terminal. The
-/// exit code is the program's, and none when gdb is left before the program has ended.
+/// gdb passes the arguments to a shell, so the program writes to its log as always, and gdb to the terminal. gdb's exit
+/// code is the program's, unless the user leaves gdb before the program has ended.
 void put_under_gdb(ProgramSpec& program, const Words& tool) {
   const std::string arguments =
       shell_line(Words(program.argv.begin() + 1, program.argv.end())) + " >>" + shell_word(program.log) + " 2>&1";
@@ -63,7 +63,7 @@ std::vector<Debuggee> parse_debug(const Words& values,
     const std::string why = "--debug " + value, how = cut == std::string::npos ? "" : value.substr(cut + 1);
     if (!seen.insert(one.program).second) throw InputError(why + ": " + one.member + " is named twice");
     if (cut == std::string::npos) {
-      const bool flies = one.program != one.member;  // an agent; how a server goes on is told through its pipes
+      const bool flies = one.program != one.member;  // an agent; only the launcher can start a server
       one.how = flies ? How::by_hand : How::wait;
     } else if (how == "gdb") {
       one.how = How::gdb;

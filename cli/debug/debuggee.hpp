@@ -52,7 +52,7 @@ std::string tool_file(const std::string& tool, const std::string& why);
 /// The port in `gdbserver:PORT`; nullopt: `value` is something else. @throws InputError for an invalid or missing port
 std::optional<int> gdbserver_port(const std::string& value);
 
-/// gdb's command line, which ends with `more`; loads the printers for Skein's and Eigen's types if they are installed.
+/// gdb's command line, with `more` at its end; loads the printers for Skein's and Eigen's types if they are installed.
 std::vector<std::string> gdb_words(const std::vector<std::string>& more);
 
 }  // namespace skein::cli

@@ -12,11 +12,11 @@
 namespace skein::cli {
 namespace {
 
-/// Software draws alike on all machines, and with one font and one colour profile.
+/// With options that make pictures alike on all machines: software rendering, one colour profile, no hinting of fonts.
 ProgramSpec chromium_spec(const std::filesystem::path& chromium, const std::filesystem::path& scratch) {
   ProgramSpec spec;
   spec.name = "chromium";
-  // It reads from descriptor 3 and writes to 4: the other way round than our own programs.
+  // Chromium reads from descriptor 3 and writes to 4, opposite to Skein's own programs.
   spec.argv = {"/bin/sh",
                "-c",
                "exec \"$@\" 5<&4 4>&3 3<&5 5<&-",
@@ -37,8 +37,8 @@ ProgramSpec chromium_spec(const std::filesystem::path& chromium, const std::file
                "--force-color-profile=srgb",
                "--font-render-hinting=none",
                "--hide-scrollbars"};
-  if (::geteuid() == 0) spec.argv.emplace_back("--no-sandbox");  // it has none for root
-  spec.env = environment_with({{"TMPDIR", scratch.string()}});   // who is killed leaves what he had there
+  if (::geteuid() == 0) spec.argv.emplace_back("--no-sandbox");  // root cannot use the sandbox
+  spec.env = environment_with({{"TMPDIR", scratch.string()}});   // a killed Chromium leaves files there
   spec.log = scratch / "chromium.log";
   spec.minded = true;
   return spec;

@@ -1,5 +1,5 @@
-// Chromium without a window, told over its DevTools pipe what to load and asked for pictures. A pipe and not a port: a
-// port would be open to everybody on this host.   Threads: one.
+// Controls Chromium without a window over its DevTools pipe: loads a page, and takes pictures of it. It uses a pipe,
+// since a port would be open to every user of this host.   Threads: one.
 #pragma once
 
 #include <cstdint>
@@ -12,37 +12,38 @@
 
 namespace skein::cli {
 
+/// [pixels]
 struct PictureSize {
   int width = 1280, height = 720;
 };
 
 class Browser {
  public:
-  /// @param chromium  the program. @param scratch  a folder for its profile and its log.
-  /// @throws std::system_error, std::runtime_error when it does not start; Interrupted, as all that follows.
+  /// @param chromium  its executable. @param scratch  folder for its profile and log. @param signals  outlives this.
+  /// @throws std::system_error, std::runtime_error when it does not start; Interrupted, like all functions below.
   Browser(const std::filesystem::path& chromium, const std::filesystem::path& scratch, const HeldSignals& signals);
 
   /// Loads a page. @throws std::runtime_error with Chromium's reason.
   void open(const std::filesystem::path& file, PictureSize size);
-  /// What a script comes to, when its promise is kept. @throws std::runtime_error with what it threw.
+  /// Runs a script, waits for its promise, and returns its value. @throws std::runtime_error with what it threw.
   Json evaluate(const std::string& script);
-  /// What is to be seen, as PNG.
+  /// The page as it is shown, as PNG.
   std::vector<std::uint8_t> picture();
-  /// Ends it.
+  /// Ends Chromium, and waits for its end.
   void close();
 
  private:
-  /// @returns "result" of the answer.
+  /// Calls a DevTools method, and waits for the answer. @returns its "result".
   Json call(const std::string& method, Json parameters);
   std::string next_message();
 
   PipedProgram program_;
   std::string received_;
-  std::string session_;  ///< of the page; empty: of the browser
+  std::string session_;  ///< DevTools session of the page; empty: calls go to the browser
   int last_call_ = 0;
 };
 
-/// As an address: what means something in one is written by its number.
+/// The file:// URL of a file, with special characters percent-encoded.
 std::string file_url(const std::filesystem::path& file);
 
 }  // namespace skein::cli

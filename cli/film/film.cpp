@@ -26,7 +26,7 @@ fs::path needed(const char* command, const char* what) {
   return file;
 }
 
-/// Of the same pictures it makes the same file: what it writes does not depend on the number of processors.
+/// The same pictures make the same file, on any number of processors: the number of threads is fixed.
 ProgramSpec ffmpeg_spec(const fs::path& ffmpeg, int fps, const fs::path& file, const fs::path& scratch) {
   ProgramSpec spec;
   spec.name = "ffmpeg";
@@ -68,7 +68,7 @@ ProgramSpec ffmpeg_spec(const fs::path& ffmpeg, int fps, const fs::path& file, c
   return spec;
 }
 
-/// A file that goes unless it is kept.
+/// A temporary file beside `file`: keep() renames it to `file`, otherwise the destructor deletes it.
 class Draft {
  public:
   explicit Draft(const fs::path& file) : file_(file), draft_(file.string() + ".part") {}
@@ -85,7 +85,7 @@ class Draft {
   const fs::path file_, draft_;
 };
 
-/// Waits for the page: its script unpacks the flight first.
+/// Waits until the page is ready, since its script first unpacks the flight. The value is true if it draws in 3D.
 constexpr const char* kFilmable = R"js(new Promise((done, failed) => {
   let tries = 0;
   const look = () => {

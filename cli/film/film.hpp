@@ -1,5 +1,5 @@
-// A film of a page that holds its flight (view::kept_page): pictures at times of the simulation, whatever the machine
-// takes to draw them, so that the same command makes the same film.   Threads: one.
+// Makes a film of a page that contains its flight (view::kept_page): pictures at given simulated times, however long
+// the machine takes to draw them, so that the same command makes the same film.   Threads: one.
 #pragma once
 
 #include <filesystem>
@@ -11,16 +11,17 @@
 
 namespace skein::cli {
 
+/// Default length of a film.
 inline constexpr double kUsualFilm_s = 30.0;
 
-/// Which moments are pictures.
+/// The simulated times of the pictures [s].
 class FilmTimes {
  public:
-  /// @throws InputError when there is nothing to be filmed, or far too much.
+  /// @throws InputError when the flight ends before `from_s`, or there would be too many pictures.
   FilmTimes(const FilmOptions& options, double from_s, double end_s);
 
   std::size_t size() const { return size_; }
-  /// The last is the end of the flight.
+  /// The last one is the end of the flight.
   double operator[](std::size_t picture) const;
 
  private:
@@ -34,7 +35,7 @@ struct FilmPrograms {
   std::filesystem::path chromium, ffmpeg;
 };
 
-/// Writes an MP4 file (H.264), whole or not at all.
+/// Writes an MP4 file (H.264), completely or not at all. @param page  HTML of the page.
 /// @throws Interrupted; std::runtime_error with what the browser or the encoder said.
 void write_film(const FilmPrograms& programs, const std::string& page, const FilmOptions& options,
                 const std::filesystem::path& file, const Console& console);

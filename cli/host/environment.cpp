@@ -16,13 +16,13 @@
 namespace skein::cli {
 namespace {
 
-/// For the user to set. The last six are the test suite's, and ours.
+/// Variables that may be set; some of them only by Skein's tests and programs.
 const std::vector<std::string> kUserNames = {
     "SKEIN_AGENT",    "SKEIN_ASSETS",  "SKEIN_BIN_DIR",   "SKEIN_CHAOS",        "SKEIN_CONFIG_DIR", kDurationVariable,
     "SKEIN_LOG",      "SKEIN_NETWORK", "SKEIN_WEB",       "SKEIN_GOLDEN",       "SKEIN_ROS2",       "SKEIN_LONG",
     "SKEIN_SANITIZE", "SKEIN_TURN",    "SKEIN_HASH_SEED", "SKEIN_DEBUG_VALUES", kPinnedVariable};
 
-/// What flies missions of which the length may be chosen, and need not be.
+/// Commands that fly missions with an optional --duration.
 const std::set<std::string> kFlyingCommands = {"run", "compose", "compare", "contest"};
 
 }  // namespace
@@ -71,7 +71,7 @@ std::string fleet_environment_prefix(bool native) {
 }
 
 void settle_process() {
-  // A descriptor that a shell closed would go to a pipe or a lock, and what we print with it.
+  // If the shell closed a standard descriptor, a pipe or a lock would get its number, and then the output meant for it.
   for (int fd = ::open("/dev/null", O_RDWR); fd >= 0; fd = ::open("/dev/null", O_RDWR)) {
     if (fd <= STDERR_FILENO) continue;
     ::close(fd);

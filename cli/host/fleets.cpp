@@ -31,7 +31,7 @@ std::string variable(const Words& environment, const std::string& name) {
 
 double number_or(const std::string& text, double otherwise) { return parse_number(text).value_or(otherwise); }
 
-/// What a process is to its fleet; empty: nothing. A debugger's own words come before those of its program.
+/// The fleet's program that runs with this command line; empty: none. A debugger's own words come before the program's.
 std::string program_in(const Words& words) {
   if (words.size() < 2 || words[1] != "--scenario" || value_after(words, "--out").empty()) return {};
   const std::string uav = value_after(words, "--uav");
@@ -98,7 +98,7 @@ RunningFleet chosen_fleet(const std::optional<std::filesystem::path>& dir, const
     }
   }
   if (fleets.empty()) throw InputError(command + ": no fleet of yours is flying");
-  // Those of other networks only when they are asked for, or alone.
+  // Fleets of other network namespaces count only if there is none in this one.
   const auto elsewhere = [](const RunningFleet& fleet) { return fleet.elsewhere; };
   if (!std::ranges::all_of(fleets, elsewhere)) std::erase_if(fleets, elsewhere);
   std::vector<std::string> names;

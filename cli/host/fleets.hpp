@@ -1,5 +1,5 @@
 // Finds the fleets that fly on this host: reads command lines and environments of processes from /proc, and recognises
-// those that a launcher has set. Does not find fleets in one process or in containers.   Threads: any.
+// those of a fleet's programs. Does not find fleets in one process or in containers.   Threads: any.
 #pragma once
 
 #include <sys/types.h>

@@ -12,10 +12,10 @@
 namespace skein::cli {
 namespace {
 
-/// What the kernel tells us with when the launcher dies.
+/// The signal that the kernel sends to the minder when the launcher dies.
 constexpr int kLauncherDied = SIGUSR1;
 
-/// @returns whether there was anybody whom we may end.
+/// @returns whether it killed any; false: there is no child, or none that the minder may kill.
 bool kill_children() {
   bool any = false;
   for (const pid_t pid : all_processes()) {
@@ -24,7 +24,7 @@ bool kill_children() {
   return any;
 }
 
-/// A child that dies leaves us its own.
+/// Kills in rounds, since the children of a dead child become children of the minder.
 void end_children() {
   while (kill_children() && ::waitpid(-1, nullptr, 0) > 0) {
   }
@@ -49,11 +49,11 @@ void end_children() {
 bool become_minder(pid_t launcher) {
   sigset_t all;
   sigfillset(&all);
-  ::sigprocmask(SIG_SETMASK, &all, nullptr);  // they are fetched one by one in mind()
+  ::sigprocmask(SIG_SETMASK, &all, nullptr);  // mind() receives them one by one
   ::prctl(PR_SET_NAME, "skein-minder");
   ::prctl(PR_SET_CHILD_SUBREAPER, 1);
   ::prctl(PR_SET_PDEATHSIG, kLauncherDied);
-  return ::getppid() == launcher;  // else it died before prctl could tell
+  return ::getppid() == launcher;  // else the launcher died before prctl()
 }
 
 void mind(pid_t program, pid_t launcher) {

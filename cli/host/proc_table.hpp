@@ -1,4 +1,5 @@
-// Reads the processes of this host from /proc. What is gone or not readable yields empty, 0 or false.   Threads: any.
+// Reads the processes of this host from /proc. For a process that is gone or not readable, functions return an empty
+// value, 0 or false.   Threads: any.
 #pragma once
 
 #include <sys/types.h>

@@ -29,9 +29,9 @@ struct ProgramSpec {
   std::string name;                            ///< unique; the log file is named after it, too
   std::vector<std::string> argv;               ///< argv[0] is the path of the binary
   std::vector<std::string> env;                ///< the whole environment, NAME=VALUE
-  std::filesystem::path log;                   ///< of stdout and stderr; empty: they go to the launcher's
+  std::filesystem::path log;                   ///< for stdout and stderr; empty: the launcher's
   bool append_log = false;                     ///< false: the log is overwritten
-  std::uint64_t most_status_bytes = 64 << 20;  ///< in all; on more, the launcher closes the status pipe
+  std::uint64_t most_status_bytes = 64 << 20;  ///< in all; beyond it, the launcher closes the status pipe
   std::uint64_t most_log_bytes = 64 << 20;     ///< beyond it, only its first half and newest lines stay
   std::optional<UserId> user{};                ///< user to run as, without other groups; needs root
   bool here = false;                           ///< it has the launcher's stdin, stdout and stderr

@@ -16,7 +16,7 @@
 #include "cli/host/minder.hpp"
 #include "process/files/closed_to_agents.hpp"
 
-extern "C" {  // glibc 2.36's header forgets it
+extern "C" {  // missing in glibc 2.36's header
 #include <sys/pidfd.h>
 }
 
@@ -52,15 +52,15 @@ std::vector<char*> pointers(const std::vector<std::string>& strings) {
   return result;
 }
 
-/// What the child does between fork and exec: only calls that are safe there. Writes its process id to `news`, then,
-/// when it cannot go on, errno.
+/// What the child does between fork and exec, with async-signal-safe calls only. Writes its process id to the pipe
+/// `news`, then errno if it cannot start the program.
 struct ChildSetup {
   pid_t parent;                                 ///< the launcher, or the program's minder
   int input, log, status, control, view, news;  ///< input, log: -1 keeps the launcher's; view: -1 is none
   char* const* argv;
   char* const* env;
   const UserId* user;  ///< null: the launcher's
-  bool foreground;     ///< the terminal is to be its
+  bool foreground;     ///< the program gets the terminal
 
   [[noreturn]] void exec() const {
     ::setpgid(0, 0);
@@ -69,11 +69,11 @@ struct ChildSetup {
     bool ready =
         user == nullptr || (::setgroups(1, &kAgentsGroup) == 0 && ::setgid(user->gid) == 0 && ::setuid(user->uid) == 0);
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);       // after setuid, which would undo it
-    if (::getppid() != parent) ::_exit(127);  // it died before prctl could tell
+    if (::getppid() != parent) ::_exit(127);  // the parent died before prctl()
     sigset_t none;
     sigemptyset(&none);
     ::sigprocmask(SIG_SETMASK, &none, nullptr);
-    for (int signal = 1; signal < SIGRTMIN; ++signal) ::signal(signal, SIG_DFL);  // what our shell ignored, too
+    for (int signal = 1; signal < SIGRTMIN; ++signal) ::signal(signal, SIG_DFL);  // also those that the shell ignored
     const std::array<std::pair<int, int>, 6> files = {
         {{input, 0}, {log, 1}, {log, 2}, {status, kStatusFd}, {control, kControlFd}, {view, kViewFd}}};
     for (const auto& [from, to] : files) ready = ready && (from < 0 || ::dup2(from, to) >= 0);
@@ -85,7 +85,7 @@ struct ChildSetup {
   void tell(int number) const { [[maybe_unused]] const ssize_t written = ::write(news, &number, sizeof number); }
 };
 
-/// The same with a minder in between.
+/// The same, with a minder as the program's parent.
 [[noreturn]] void exec_minded(ChildSetup setup) {
   ::setpgid(0, 0);
   const pid_t launcher = std::exchange(setup.parent, ::getpid());
@@ -93,12 +93,13 @@ struct ChildSetup {
   const pid_t program = ::fork();
   if (program == 0) setup.exec();
   if (program > 0) mind(program, launcher);
-  setup.tell(0);  // no process, and why
+  setup.tell(0);  // in place of a process id; then the reason
   setup.tell(errno);
   ::_exit(127);
 }
 
-/// Of a pack, which brings its own loader and libraries (cli/pack_command.cpp), a program is started by that loader.
+/// The command line that starts a program. The programs of a pack, which contains its own loader and libraries
+/// (cli/pack_command.cpp), are started by that loader.
 std::vector<std::string> loaded(const std::vector<std::string>& argv) {
   const char* loader = std::getenv("SKEIN_LOADER");
   const std::filesystem::path libraries = std::filesystem::path(loader == nullptr ? "" : loader).parent_path();
@@ -109,7 +110,7 @@ std::vector<std::string> loaded(const std::vector<std::string>& argv) {
   return words;
 }
 
-/// What a child told; nullopt when it said no more.
+/// The next number that a child wrote to its pipe `news`; nullopt: there is none.
 std::optional<int> next_news(const Fd& from) {
   int number = 0;
   ssize_t size = 0;
@@ -119,7 +120,7 @@ std::optional<int> next_news(const Fd& from) {
   return size == sizeof number ? std::optional(number) : std::nullopt;
 }
 
-/// The descriptor by which we hear of a child's end. A program that cannot be watched is ended.
+/// Opens the pidfd that signals a child's end. @throws std::system_error if that fails; the program is killed then.
 Fd watch(pid_t pid, pid_t program) {
   Fd pidfd(::pidfd_open(pid, 0));
   if (pidfd.get() >= 0) return pidfd;
@@ -136,7 +137,7 @@ bool owns_terminal() { return ::isatty(STDIN_FILENO) == 1 && ::tcgetpgrp(STDIN_F
 void give_terminal_to(pid_t group) {
   sigset_t output, former;
   sigemptyset(&output);
-  sigaddset(&output, SIGTTOU);  // who is not in the foreground would be stopped here
+  sigaddset(&output, SIGTTOU);  // else tcsetpgrp() stops a process in the background
   ::sigprocmask(SIG_BLOCK, &output, &former);
   ::tcsetpgrp(STDIN_FILENO, group);
   ::sigprocmask(SIG_SETMASK, &former, nullptr);

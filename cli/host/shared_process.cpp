@@ -17,9 +17,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// How often the launcher looks whose turn it is.
+/// How often the launcher checks whose turn it is.
 constexpr std::chrono::milliseconds kLook{200};
-/// The process watches over turns itself, and knows more of them: it is given so much more time.
+/// Factor on the patience, since the process watches its turns itself and knows more of them: it must notice first.
 constexpr double kTimesPatience = 1.5;
 
 }  // namespace
@@ -64,7 +64,7 @@ void SharedProcess::look_after_turns() {
   page_.give_reason(fmt::format("this program did not end its turn for {} s, and its process {}", patience_.count(),
                                 cli::has_stopped(page_.process()) ? "is stopped (SIGSTOP)" : "does not say why"));
   supervisor_.signal(process_.name, SIGKILL);
-  supervisor_.signal(process_.name, SIGCONT);  // a minder has stopped with it, and has to see its end
+  supervisor_.signal(process_.name, SIGCONT);  // its minder has stopped with it, and must notice its end
 }
 
 void SharedProcess::send(const std::string& program, const std::string& line) {
@@ -79,7 +79,7 @@ std::vector<Event> SharedProcess::end_all(std::chrono::milliseconds grace) {
   std::vector<Event> all;
   const auto add = [&all](std::vector<Event> events) { std::ranges::move(events, std::back_inserter(all)); };
   supervisor_.hang_up(process_.name);
-  // Without programs it ends by itself.
+  // Without programs the process ends by itself.
   for (const auto deadline = Clock::now() + grace; running_.empty() && supervisor_.running(process_.name);) {
     const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline - Clock::now());
     if (left.count() <= 0) break;
@@ -123,7 +123,7 @@ std::string SharedProcess::blame(const ExitStatus& exit) {
   std::erase_if(holders, [this](const std::string& holder) { return !running(holder); });
   if (holders.empty()) return {};
   std::string reason = page_.reason();
-  // These come from outside: from a user, the system that is out of memory, or the launcher at the end of a run.
+  // These signals come from outside: from a user, a system out of memory, or the launcher at the end of a run.
   if (reason.empty() && (exit.signal == SIGKILL || exit.signal == SIGTERM || exit.signal == SIGINT)) return {};
   if (reason.empty()) {
     reason = exit.signal != 0 ? "the process ended in this program's turn: " + exit.text()
@@ -140,7 +140,7 @@ std::string SharedProcess::blame(const ExitStatus& exit) {
   return holders.front();
 }
 
-/// All that still ran has ended with the process.
+/// All programs that still ran have ended with the process.
 void SharedProcess::on_death(const Event& event, std::vector<Event>& events) {
   const std::string guilty = explained_ ? std::string() : blame(event.exit);
   ExitStatus with_it = event.exit;

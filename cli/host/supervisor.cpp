@@ -23,17 +23,17 @@
 namespace skein::cli {
 namespace {
 
-/// Read from one program before the others have their turn.
+/// Bytes to read from one program before the others have their turn.
 constexpr std::size_t kStatusLook = 64 << 10;
-/// A report with the points of the largest scenes is shorter.
+/// [bytes]. A report with the points of the largest scenes is shorter.
 constexpr std::size_t kLongestStatusLine = 16 << 20;
-/// A program that does not read what it is told is not told it.
+/// A line is dropped if the program does not read its control pipe for this long.
 constexpr int kSendPatience_ms = 2000;
-/// Between two looks at the sizes of logs.
+/// How often the sizes of logs are checked.
 constexpr std::chrono::milliseconds kLogLook{200};
 constexpr std::size_t kLogTail = 64 << 10, kLongestLogLine = 1000;
 
-/// Whoever starts us with nohup wants us to live on without the terminal.
+/// SIGHUP is ignored under nohup: the launcher is to survive the loss of the terminal.
 bool is_ignored(int signal) {
   struct sigaction action {};
   return ::sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
@@ -65,8 +65,8 @@ struct Supervisor::Child : StartedProgram {
   std::uint64_t status_bytes = 0;
   std::string partial_line;
 
-  /// A program that writes without end must not fill the disk: of its log stay the first half and the newest lines. It
-  /// appends, so it goes on where we have cut; what it writes meanwhile may be lost.
+  /// A program that writes without end must not fill the disk: of its log, the first half of the limit and the newest
+  /// lines stay. The program appends, so it continues after the cut; what it writes during the cut may be lost.
   void trim_log() const {
     struct stat file {};
     if (log.get() < 0 || ::fstat(log.get(), &file) != 0 || static_cast<std::uint64_t>(file.st_size) <= most_log_bytes) {
@@ -83,7 +83,7 @@ struct Supervisor::Child : StartedProgram {
     }
   }
 
-  /// Takes in what the program wrote; closes the pipe when it was too much.
+  /// Takes in what the program wrote to its status pipe; closes the pipe if that was too much.
   void hear(std::string_view text, std::vector<Event>& events) {
     status_bytes += text.size();
     for (std::size_t end; (end = text.find('\n')) != std::string_view::npos; text.remove_prefix(end + 1)) {
@@ -146,7 +146,7 @@ std::vector<Event> Supervisor::wait(std::chrono::milliseconds limit) {
   const auto ended = [&](std::size_t i) { return polled[2 + 2 * i].revents != 0; };
   bool any_ended = false;
   for (std::size_t i = 0; i < order.size(); ++i) any_ended = any_ended || ended(i);
-  // Of all programs when one has ended: another one may have said why after it was polled.
+  // If one program has ended, reads from all: another one may have written the reason after poll() looked at it.
   for (std::size_t i = 0; i < order.size(); ++i) {
     if (any_ended || polled[1 + 2 * i].revents != 0) read_status(*order[i], kStatusLook, events);
   }
@@ -179,10 +179,10 @@ void Supervisor::read_status(Child& child, std::size_t most, std::vector<Event>&
 }
 
 void Supervisor::reap(Child& child, std::vector<Event>& events) {
-  // Its own children first: as long as the zombie is not reaped, its group's number cannot belong to anyone else. A
-  // minder has ended all that was below it.
+  // First kills the rest of its process group: until the zombie is reaped, no other group can have this number. A
+  // minder has already killed its descendants.
   ::kill(-child.pid, SIGKILL);
-  // All that it can have left: a process that got away from the group may still write.
+  // Reads no more than the pipe can hold: a process that has left the group may still write.
   const int left = child.status.get() < 0 ? 0 : ::fcntl(child.status.get(), F_GETPIPE_SZ);
   read_status(child, static_cast<std::size_t>(std::max(left, 0)), events);
   child.trim_log();
@@ -312,7 +312,7 @@ std::vector<std::string> last_lines(const std::filesystem::path& file, std::size
                        skipped = std::max<std::streamoff>(size - static_cast<std::streamoff>(kLogTail), 0);
   in.seekg(skipped);
   std::deque<std::string> tail;
-  bool cut = skipped > 0;  // the first line is the end of one
+  bool cut = skipped > 0;  // the beginning of the first line is missing
   for (std::string line; std::getline(in, line); cut = false) {
     if (cut && !in.eof()) continue;
     if (line.size() > kLongestLogLine) line = line.substr(0, kLongestLogLine) + " ...";

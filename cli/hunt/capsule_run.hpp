@@ -1,4 +1,4 @@
-// skein run CAPSULE: flies what a hunt found (capsule_text() in plan.hpp), and says whether it is still so.
+// `skein run CAPSULE`: flies a find of a hunt again (capsule_text() in plan.hpp), and evaluates its property.
 #pragma once
 
 #include "cli/command.hpp"
@@ -7,15 +7,16 @@
 
 namespace skein::cli {
 
-/// Whether `skein run` was given a capsule in the place of a scenario.
+/// Whether the scenario that `skein run` was given is a capsule. Reads the file. @throws InputError if it is not YAML.
 bool is_capsule(const RunOptions& options);
 
-/// Whether a run is the one that a capsule was made of, for people: it says so only of the digest that was found.
+/// Text for people: whether a run is bit for bit the one that a capsule was made of. Compares the digests.
 /// @param digest  of the run; empty: it has none.
 std::string comparison_text(const CapsuleMark& mark, const std::string& digest);
 
-/// Of the options, those are taken that do not say what is flown: agent, DDS or one process, folder, recording, report.
-/// @returns 0 when what failed then holds, 1 when it fails. @throws InputError, also for other options; Interrupted.
+/// Accepts only options that do not change what is flown, such as agent, DDS or one process, folder, recording, report.
+/// @returns 0 if the property that failed in the hunt holds now, 1 if it fails.
+/// @throws InputError, also for other options; Interrupted.
 int run_capsule(const RunOptions& options, const Console& console);
 
 }  // namespace skein::cli

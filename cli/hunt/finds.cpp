@@ -25,8 +25,8 @@ std::multiset<std::string> kinds_in(const std::vector<Fault>& faults) {
   return kinds;
 }
 
-/// How long a mission has to go on after the last fault for this property, if that matters: a collision is one whenever
-/// it happens, and what must follow on a fault needs its time.
+/// How long a mission must go on after its last fault, so that this property can be evaluated [s]. nullopt: it does not
+/// matter, as for a collision, which counts whenever it happens; a property with a deadline needs the time.
 std::optional<double> after_s(const std::string& property, const HuntPlan& plan) {
   using When = properties::Property::Kind;
   const properties::PropertySet set = properties_of(plan.entries, plan.fleet.scenario);
@@ -39,7 +39,7 @@ std::optional<double> after_s(const std::string& property, const HuntPlan& plan)
   return plan.fleet.scenario.duration_s - plan.space.heal_by_s;
 }
 
-/// Beside a capsule: what else is known of a find.
+/// The file beside a capsule that has the other figures of the find.
 fs::path notes_of(const Find& find) {
   fs::path file = find.capsule;
   return file.replace_extension(".json");
@@ -115,8 +115,9 @@ void Finds::make_small(Find& find, const Trial& trial, const TrialOutcome& outco
   find.wall_s = std::chrono::duration<double>(Clock::now() - began).count();
 }
 
-/// A find of the same failure that this hunt has made small already, before it was stopped. One that somebody has
-/// changed or taken away is made anew.
+/// The find of the same failure that an earlier, interrupted call of this hunt has written. nullopt: there is none, or
+/// its files are missing or damaged.
+/// @param of  identifies the trial, its outcome and the options of minimising
 std::optional<Find> Finds::made_before(const Find& find, const std::string& of) const try {
   const Json notes = read_json(notes_of(find));
   if (value_or(notes, "of", nullptr) != of || !fs::exists(find.capsule)) return std::nullopt;
@@ -138,7 +139,7 @@ std::optional<Find> Finds::made_before(const Find& find, const std::string& of) 
   return std::nullopt;
 }
 
-/// What is found in one process must be so over DDS.
+/// Flies a find from a run in one process again over DDS. If the runs differ, the find becomes one of kSameDigest.
 void Finds::confirm(Find& find, const TrialOutcome& outcome) {
   if (!plan_.one_process) return;
   Trial trial = find.trial;
@@ -151,7 +152,7 @@ void Finds::confirm(Find& find, const TrialOutcome& outcome) {
               outcome.digest + "; in one process " + find.told;
 }
 
-/// The notes last: without them a find is not there.
+/// Writes the notes last, because made_before() takes a find without notes as missing.
 void Finds::write(const Find& find, const std::string& of) const {
   const CapsuleMark mark{find.property, find.digest, SKEIN_VERSION, build_of(plan_), plan_.options.run.command};
   fs::create_directories(find.capsule.parent_path());

@@ -1,5 +1,5 @@
-// What a hunt found: which failures it goes into, each made small and flown over DDS, with its capsule.
-// Threads: one.
+// Turns failures of a hunt into finds: minimises them, confirms them over DDS, and writes their capsules.
+// Threads: one, that of the flights.
 #pragma once
 
 #include <filesystem>
@@ -13,20 +13,20 @@
 namespace skein::cli {
 
 struct Find {
-  std::string name;       ///< "separation-17": property and case
+  std::string name;       ///< property and case: "separation-17"
   std::string broke;      ///< the property that failed in the search
-  std::string property;   ///< the same; kSameDigest where the run over DDS was another one
-  std::size_t index = 0;  ///< of the case
-  Trial trial;            ///< made small
-  std::string told;       ///< what was seen, for people
+  std::string property;   ///< as `broke`; kSameDigest if the run over DDS differs
+  std::size_t index = 0;  ///< number of the case
+  Trial trial;            ///< after minimising
+  std::string told;       ///< what failed, for people
   std::string digest;
   std::filesystem::path capsule;
-  std::filesystem::path run;  ///< its results folder
-  std::size_t flights = 0;    ///< that it took to make it small
-  double wall_s = 0.0;
-  bool over_dds = false;  ///< it was flown over DDS, too, and was the same
+  std::filesystem::path run;  ///< results folder of the minimised trial
+  std::size_t flights = 0;    ///< flights that minimising took
+  double wall_s = 0.0;        ///< wall time of minimising and confirming [s]
+  bool over_dds = false;      ///< the run in one process has been repeated over DDS, with the same digest and failure
 
-  /// All but the trial, which the capsule has.
+  /// The figures of the find. Its trial is in the capsule.
   Json to_json() const;
 };
 
@@ -36,23 +36,25 @@ struct Failure {
   std::string property;
 };
 
-/// Those among the first `count` cases, by case. A run that does not come to its end is one failure.
+/// The failures in the first `count` cases, in the order of the cases. For a run that does not go to its end, this is
+/// only the failure of kCompletes.
 std::vector<Failure> failures_of(const std::vector<std::optional<TrialOutcome>>& outcomes, std::size_t count);
 
 class Finds {
  public:
-  /// Of one property, at most so many are gone into.
+  /// Largest number of finds of one property; further failures of it are only counted.
   static constexpr std::size_t kMostOfAProperty = 3;
 
   Finds(const HuntPlan& plan, TrialFlights& flights, const Console& console)
       : plan_(plan), flights_(flights), console_(console) {}
 
-  /// Makes a find of a failure, unless it has all faults of a find of the same property: then it is taken for the same.
-  /// What was made small before, of the same case with the same options, is not flown again.
+  /// Makes a find of a failure, unless its faults include all kinds of faults of a known find of the same property:
+  /// then both count as the same. Reuses a find that an interrupted call of the same hunt has written.
+  /// @throws Interrupted
   void go_into(const Failure& failure, const Trial& trial, const TrialOutcome& outcome);
 
   const std::vector<Find>& all() const { return finds_; }
-  /// Failures by property, gone into or not.
+  /// Number of failures by property, with or without a find.
   const std::map<std::string, std::size_t>& counts() const { return counts_; }
 
  private:

@@ -24,15 +24,15 @@ class TrialFlights {
   /// @param plan, console  must outlive this.
   TrialFlights(const HuntPlan& plan, const Console& console) : plan_(plan), console_(console) {}
 
-  /// From now on evaluates only this property; "": all properties of the hunt. This saves time, and those runs without
-  /// faults that only other properties compare with.
+  /// From now on evaluates only this property; "": all properties of the hunt. This saves time, and the runs without
+  /// faults with which only other properties compare.
   void ask(const std::string& property) { asked_ = property; }
   /// Flies the runs without faults with which properties compare these trials, each once. @throws Interrupted.
   void fly_undisturbed(const std::vector<Trial>& trials);
   /// Flies the trials with these numbers in this order, several at once. A trial that `skein run` refuses as bad input
   /// has an outcome without findings. Call fly_undisturbed() for these trials before. @throws Interrupted.
   void fly(const std::vector<std::size_t>& numbers, const Make& make, const Over& over);
-  std::vector<TrialOutcome> fly(const std::vector<Trial>& trials);  ///< fly_undisturbed() included
+  std::vector<TrialOutcome> fly(const std::vector<Trial>& trials);  ///< calls fly_undisturbed() itself
   /// The same with the engine that the hunt's options name, in rounds of at most `round` trials: no outcome is read
   /// before a whole round has flown. @throws Interrupted; InputError when the engine fails to fly a unit of a round.
   void fly_in_rounds(const std::vector<std::size_t>& numbers, const Make& make, const Over& over);

@@ -24,7 +24,7 @@ std::string differing_keys(const Json& then, const Json& now) {
   return keys;
 }
 
-/// Where what an earlier hunt left is kept: the first number that is free.
+/// A new folder in kEarlier for the finds of an earlier hunt: the first free number.
 fs::path kept_folder(const fs::path& dir) {
   const fs::path all = dir / HuntLog::kEarlier;
   for (std::size_t number = 1;; ++number) {
@@ -98,7 +98,7 @@ void HuntLog::read_lines() {
     keep(index.get<std::size_t>(), flown.get<std::string>(), std::move(*outcome));
   }
   in.close();
-  // The end of what was being written when the launcher was killed.
+  // Removes an incomplete last line, which the launcher was writing when it was killed.
   std::error_code error;
   if (fs::exists(file_, error) && fs::file_size(file_, error) > whole) fs::resize_file(file_, whole, error);
 }

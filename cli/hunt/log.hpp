@@ -1,4 +1,4 @@
-// What a hunt has flown, line by line, so that it can go on where it was stopped. One thread.
+// The log of a hunt: the outcome of each case as a line, so that an interrupted hunt can continue. One thread.
 #pragma once
 
 #include <filesystem>
@@ -13,21 +13,21 @@ namespace skein::cli {
 
 class HuntLog {
  public:
-  /// Goes on in a folder where the same search has been, else begins there.
-  /// Within the folder of a hunt: what hunts before it found there, numbered.
+  /// Subfolder of a hunt's folder that keeps the finds and logs of earlier hunts there, in numbered folders.
   static constexpr const char* kEarlier = "earlier";
 
-  /// @param settings  what the search depends on. @param force  begins anew. The finds of the earlier hunt are never
-  ///   deleted: they move into kEarlier, with its log.
-  /// @throws InputError when the folder is of another search, or a line of its log is damaged. One that was cut off at
-  ///   the end, as by a kill, goes.
+  /// Continues the hunt in `dir` if it has the same settings; begins one if the folder holds none.
+  /// @param settings  everything on which the search depends. @param force  begins anew. The finds of the earlier hunt
+  ///   are never deleted: they move into kEarlier, with its log.
+  /// @throws InputError if the folder holds another hunt or cannot be written, or a line of the log is damaged. An
+  ///   incomplete last line, as after a kill, is removed.
   HuntLog(const std::filesystem::path& dir, const Json& settings, bool force);
 
-  /// Capsules of an earlier hunt that moved into kEarlier, by name.
+  /// Capsules of an earlier hunt that the constructor has moved into kEarlier, sorted by name.
   const std::vector<std::filesystem::path>& kept() const { return kept_; }
-  /// What came of the cases that were flown, by number.
+  /// Outcomes by number of the case; nullopt: not flown.
   const std::vector<std::optional<TrialOutcome>>& outcomes() const { return outcomes_; }
-  /// @throws InputError when what was flown under this number was something else.
+  /// @param flown  text of the case. @throws InputError if the log has another case with this number.
   void check(std::size_t index, const std::string& flown) const;
   void add(std::size_t index, const std::string& flown, TrialOutcome outcome);
 

@@ -64,7 +64,7 @@ std::string coverage_section(const HuntSummary& summary) {
          ".</p></section>\n";
 }
 
-/// The margin of what failed, over the run's time.
+/// Margin over time of the property that failed; empty if that property compares with a run without faults.
 report::TimeCurve margin_curve(const HuntSummary& summary, const Find& find) {
   report::TimeCurve curve{"margin of " + find.broke, "delivered", {}};
   const Scenario scenario = load_scenario(find.trial.run.scenario, load_options(find.trial.run));
@@ -94,7 +94,7 @@ std::string chart(const HuntSummary& summary, const Find& find) try {
          report::time_chart_svg("Margin of " + find.broke + " over time", {margin_curve(summary, find)}, run, {},
                                 kChartWidth) +
          "<figcaption>margin over time, with the faults behind it</figcaption></figure>\n";
-} catch (const std::exception& error) {  // a page for people; a find is not worth less without
+} catch (const std::exception& error) {  // the find is valid without its chart
   return report::absent(error.what());
 }
 

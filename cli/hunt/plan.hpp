@@ -1,5 +1,5 @@
-// What a hunt flies and asks, decided before anything flies; and the capsules that come of it, which are fault tests
-// with the mark of what failed. Reads and writes files.
+// The plan of a hunt, made before the first flight: what it flies and which properties it evaluates. Also the text of a
+// capsule, a fault test that names the property that failed. Reads files.
 #pragma once
 
 #include <filesystem>
@@ -18,30 +18,31 @@ namespace skein::cli {
 struct HuntPlan {
   HuntOptions options;
   FleetPlan fleet;
-  properties::PropertyEntries entries;  ///< what is asked, as files spell it
+  properties::PropertyEntries entries;  ///< properties to evaluate, as files spell them
   FaultSpace space;
-  bool one_process = false;  ///< else over DDS
+  bool one_process = false;  ///< false: over DDS
   std::filesystem::path out = {};
-  Json settings = {};  ///< what the search depends on
+  Json settings = {};  ///< everything on which the search depends
 };
 
-/// @throws InputError for whatever is wrong in what the user gave.
+/// @throws InputError for any invalid option or file.
 HuntPlan plan_hunt(const HuntOptions& options);
 
-/// Digest of all programs that fly: other programs are another search.
+/// Digest of all programs that fly. A hunt cannot be continued with other programs.
 std::string programs_digest(const FleetPlan& fleet);
 
-/// Its first letters, as capsules name the build that they were found with.
+/// The first letters of that digest, by which capsules name the build that flew them.
 std::string build_of(const HuntPlan& plan);
 
-/// What is asked of a fleet.
+/// The properties for the fleet of a scenario. @throws InputError if one does not fit the scenario.
 properties::PropertySet properties_of(const properties::PropertyEntries& entries, const Scenario& scenario);
 
-/// So much of a mission stays for what must hold after the last fault.
+/// The longest deadline of a property that must hold after the last fault [simulated s]; 0: none has one. A mission
+/// must go on for at least that long after its last fault.
 double longest_deadline_s(const properties::PropertySet& set);
 
-/// A fault test (docs/how-to-test-faults.md) that fails as the find did.
-/// @param told  what was seen, in a line
+/// The text of a capsule: a fault test (docs/how-to-test-faults.md) that repeats a find.
+/// @param told  what failed, in a line
 std::string capsule_text(const std::string& name, const Trial& trial, const CapsuleMark& mark, const std::string& told,
                          const properties::PropertyEntries& entries);
 

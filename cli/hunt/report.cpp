@@ -31,7 +31,7 @@ std::vector<FaultVerdict> verdicts_of(const HuntSummary& summary) {
     for (const Find& find : summary.finds) {
       if (find.broke == record.name) verdict.broken.push_back(find.capsule.string() + ": " + find.told);
     }
-    if (record.failed > 0 && verdict.broken.empty()) {  // the hunt was stopped before it went into it
+    if (record.failed > 0 && verdict.broken.empty()) {  // the hunt was stopped before it made a find of the failure
       verdict.broken.push_back(record_text(record));
     }
     (record.held == 0 && record.failed == 0 ? verdict.vacuous : verdict.held).push_back(record_text(record));

@@ -31,8 +31,8 @@ struct PropertyRecord {
 /// One record per property: kCompletes first, then in the order of the plan.
 std::vector<PropertyRecord> property_records(const HuntSummary& summary);
 
-/// The page as HTML, in the style of a run's: properties with their margins, finds with their faults on the time axis
-/// of the margin, and how many of the fleet's states were met.
+/// The page as HTML, in the style of a run's report: properties with their least margins, finds with a chart of the
+/// margin and the faults over time, and the number of states of the fleet that the hunt met.
 std::string hunt_page(const HuntSummary& summary);
 
 /// Writes report.html, and with --junit a test case per property. @throws std::runtime_error when the page cannot be

@@ -1,5 +1,5 @@
-// Rounds of a hunt, each a sweep (cli/sweep/): its cases are fixed before the first of them flies, so that the search
-// does not depend on who flies them, or where.
+// Rounds of a hunt, each a sweep (cli/sweep/): the cases of a round are fixed before the first of them flies, so that
+// the search does not depend on which node flies which case.
 #include <fstream>
 
 #include "cli/hunt/flights.hpp"
@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kReferenceMission_s = 20.0;  ///< at most
+constexpr double kReferenceMission_s = 20.0;  ///< longest mission of the reference flight
 
 ExitStatus exit_in(const fs::path& dir) {
   const Json exit = value_or(read_json(dir / kFlightMark), "exit", Json::object());
@@ -29,7 +29,7 @@ ExitStatus exit_in(const fs::path& dir) {
   return status;
 }
 
-/// The hunt's flight without faults, cut short.
+/// The reference flight of all rounds: the hunt's flight without faults, cut short.
 SweepFlight reference(const HuntPlan& plan, const SweepFolder& folder, MadeUnder& made_under) {
   RunOptions run = plan.fleet.options;
   run.duration_s = std::min(plan.fleet.scenario.duration_s, kReferenceMission_s);
@@ -60,7 +60,7 @@ void TrialFlights::fly_round(const std::vector<std::size_t>& numbers, const std:
   SweepFolder folder(fs::absolute(plan_.out));
   MadeUnder made_under;
   std::vector<SweepFlight> flights;
-  std::map<std::size_t, std::size_t> refused;  // by number: `skein run` would not fly them
+  std::map<std::size_t, std::size_t> refused;  // cases that are invalid input; value: index in `trials`
   fs::create_directories(folder.dir() / "cases");
   for (std::size_t i = 0; i < trials.size(); ++i) {
     const std::string name = name_of_trial(numbers[i]);

@@ -1,5 +1,5 @@
-// Makes a find small: what can be taken away of it while the same property fails goes. The order of what is tried, and
-// so the result, does not depend on how many flights are flown at once. Pure, but for the flights.
+// Minimises a find: simplifies its trial as long as the same property fails. The order of the attempts, and so the
+// result, does not depend on how many trials fly at once. Pure, except for the flights.
 #pragma once
 
 #include <functional>
@@ -12,38 +12,38 @@
 
 namespace skein::cli {
 
-/// Flies these, in any order, and tells what came of each.
+/// Flies these trials, in any order. @returns their outcomes, in the order of the trials.
 using FlyTrials = std::function<std::vector<TrialOutcome>(const std::vector<Trial>&)>;
 
 struct Shrunk {
   Trial trial;
   TrialOutcome outcome;
-  std::size_t flights = 0;  ///< that it took
+  std::size_t flights = 0;  ///< flights that minimising took
 };
 
-/// Something simpler than a trial.
+/// A simpler version of a trial.
 struct Proposal {
-  std::string
-      what;  ///< was done to it: one that is refused is not tried again as long as faults and fleet are the same
+  /// Name of the simplification. If the property does not fail then, shrink() does not try the simplification again
+  /// until the number of faults or UAVs changes.
+  std::string what;
   Trial trial;
 };
 
-/// What is tried of a find, what saves most first: a shorter mission, which makes all that follows cheaper; faults
-/// fewer, by halves before one by one; fewer UAVs, no draws of the seed, a planner without parameters, a simpler scene;
-/// faults shorter, weaker, at rounder times.
-/// @param after_s  that the mission lasts beyond the last fault: else what must hold then would fail of itself. None:
-///   it may end when the failure was seen.
+/// The simplifications of a trial, most effective first: a shorter mission, which makes all further flights cheaper;
+/// fewer faults, by halves before one by one; fewer UAVs, no draws from the seed, fewer conditions, a simpler scene, a
+/// planner without parameters; faults that do not wait, are shorter, weaker, or have rounder times.
+/// @param after_s  time that the mission needs after its last fault [s]: without it, a property that must hold then
+///   would always fail. nullopt: the mission may end once the failure has been seen.
 std::vector<Proposal> simpler(const Trial& trial, const TrialOutcome& outcome, const std::string& property,
                               const Scenario& scenario, std::optional<double> after_s);
 
 struct ShrinkOptions {
   std::optional<double> after_s = 0.0;  ///< see simpler()
-  std::size_t at_once = 1;              ///< trials that `fly` gets in one call
-  std::size_t most = 60;                ///< flights that count
+  std::size_t at_once = 1;              ///< number of trials in one call of `fly`
+  std::size_t most = 60;                ///< flights; in a batch, only those up to the first success count
 };
 
-/// @param outcome   of the trial, in which `property` fails.
-/// @param scenario  of the trial, with its whole fleet.
+/// Minimises a trial. @param outcome  of the trial, in which `property` fails. @param scenario  with its whole fleet.
 Shrunk shrink(const Trial& trial, const TrialOutcome& outcome, const std::string& property, const Scenario& scenario,
               const ShrinkOptions& options, const FlyTrials& fly);
 

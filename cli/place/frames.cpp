@@ -6,7 +6,7 @@
 namespace skein::cli {
 namespace {
 
-constexpr std::size_t kLongestHead = 32 << 20;  // a report is in one
+constexpr std::size_t kLongestHead = 32 << 20;  // [bytes]; a program's report is part of one
 constexpr std::size_t kLongestBody = 1 << 30;
 constexpr std::size_t kKeptBefore = 4096;
 
@@ -15,7 +15,7 @@ constexpr std::size_t kKeptBefore = 4096;
 std::string bytes_of(const Json& head, std::string_view body) {
   Json with_size = head;
   if (!body.empty()) with_size["bytes"] = body.size();
-  // What a program wrote need not be UTF-8.
+  // Text that a program wrote need not be valid UTF-8.
   std::string bytes = with_size.dump(-1, ' ', true, Json::error_handler_t::replace) + "\n";
   if (!body.empty()) bytes.append(body).append("\n");
   return bytes;

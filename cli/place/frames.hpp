@@ -1,7 +1,7 @@
-// What a launcher and the processes that start programs for it on other hosts say to each other, over whatever carries
-// a stream of bytes each way (ssh, srun). A frame is a line of JSON, then as many bytes as its "bytes" says, then an
-// end of line. A host begins with a line of its own: what a login shell prints before that is skipped.
-// Pure; one thread each.
+// The protocol between the launcher and the processes that start programs for it on other hosts, over any pair of byte
+// streams (ssh, srun). A frame is a line of JSON; if that has a positive "bytes", as many bytes and an end of line
+// follow. A host begins with the line kHostGreeting: what a login shell prints before it is skipped.
+// Pure; an object belongs to one thread.
 #pragma once
 
 #include <chrono>
@@ -14,11 +14,11 @@
 
 namespace skein::cli {
 
-/// The first line of a host.
+/// The first line that a host sends.
 inline constexpr std::string_view kHostGreeting = "skein-host 1";
-/// Of silence at the other end, after which it counts as gone. Each end says something every kSpeak.
+/// An end that has been silent for kSilence counts as gone. Each end sends something every kSpeak.
 inline constexpr std::chrono::milliseconds kSilence{10000}, kSpeak{1000};
-/// One that is sent, or read for a digest [bytes].
+/// Largest file that is sent, or read for a digest [bytes].
 inline constexpr std::uintmax_t kLargestPlacedFile = 1'000'000'000;
 
 struct Frame {
@@ -28,18 +28,19 @@ struct Frame {
   std::string text(const char* key) const { return value_or(head, key, "").get<std::string>(); }
 };
 
+/// A frame as bytes; sets "bytes". Invalid UTF-8 in `head` is replaced.
 std::string bytes_of(const Json& head, std::string_view body = {});
 
-/// Puts a stream together again.
+/// Splits a received stream into frames.
 class FrameReader {
  public:
-  /// @param greeted  the stream begins with frames; else all before kHostGreeting is skipped.
+  /// @param greeted  true: the stream begins with frames; false: everything up to kHostGreeting is skipped.
   explicit FrameReader(bool greeted) : greeted_(greeted) {}
 
   void add(std::string_view bytes) { bytes_ += bytes; }
-  /// The next whole frame; nullopt: it is not here yet. @throws std::runtime_error for what is no frame.
+  /// The next frame; nullopt: it has not arrived completely. @throws std::runtime_error for bytes that are no frame.
   std::optional<Frame> next();
-  /// What came before the greeting, its end if it is long.
+  /// What came before the greeting: its last 4096 bytes at most.
   const std::string& before_greeting() const { return before_; }
 
  private:

@@ -39,16 +39,16 @@ using Clock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
 
 constexpr milliseconds kTick{50}, kGrace{1000};
-/// A launcher with many hosts speaks to each once all have been reached.
+/// Timeout for the launcher's first frame. A launcher with many hosts first connects to all of them.
 constexpr milliseconds kFirstWord{60000};
-constexpr std::size_t kMostOfALog = 256 << 10;  // in one frame
+constexpr std::size_t kMostOfALog = 256 << 10;  // bytes in one frame
 
 std::string user_name() {
   const passwd* user = ::getpwuid(::geteuid());
   return user == nullptr ? "uid " + std::to_string(::geteuid()) : user->pw_name;
 }
 
-/// The launcher's address and ours, as ssh or Slurm tell them: empty where nobody does.
+/// The addresses of the launcher and of this host, as ssh or Slurm report them; empty: unknown.
 std::pair<std::string, std::string> addresses() {
   if (const char* connection = std::getenv("SSH_CONNECTION")) {
     const std::vector<std::string> words = split(connection, ' ');
@@ -66,7 +66,7 @@ class HostService {
     }
     supervisor_.watch_too({STDIN_FILENO});
     fs::create_directories(out());
-    // Agents under user ids of their own pass through.
+    // Agents with user ids of their own pass through this folder to theirs.
     fs::permissions(scratch_.path(), fs::perms::others_exec | fs::perms::group_exec, fs::perm_options::add);
   }
 
@@ -102,7 +102,7 @@ class HostService {
          {"address", own}});
   }
 
-  // ---- what the launcher says ----------------------------------------------------------------------------------
+  // ---- frames from the launcher --------------------------------------------------------------------------------
 
   void listen() {
     std::array<char, 65536> buffer;
@@ -144,7 +144,7 @@ class HostService {
     say({{"say", "domains"}, {"taken", taken}});
   }
 
-  /// A path of the launcher's choice, below our folder.
+  /// A path that the launcher chose. @throws std::runtime_error if it is not below this process's folder.
   fs::path below_root(const std::string& text) const {
     const fs::path path = fs::path(text).lexically_normal();
     const fs::path below = path.lexically_relative(scratch_.path());
@@ -184,7 +184,7 @@ class HostService {
     }
   }
 
-  /// Of an agent in a secured run: it reads its keys and writes to its folder, and nobody else does.
+  /// The user id of an agent in a secured run. Only this user can read the agent's keys and write to its folder.
   UserId own_user(const std::string& program, const fs::path& keys) {
     auto& user = users_[program];
     if (!user) user = std::make_unique<UserIds>(1);
@@ -205,7 +205,7 @@ class HostService {
     for (const Event& event : supervisor_.end_all(grace)) tell(event);
   }
 
-  /// Plain files that programs wrote to their folders, by programs.
+  /// Sends the regular files that programs wrote to their folders, one frame for each.
   void collect() {
     tell_news();
     for (const auto& folder : fs::directory_iterator(out())) {
@@ -226,7 +226,7 @@ class HostService {
     say({{"say", "collected"}});
   }
 
-  // ---- what we say ---------------------------------------------------------------------------------------------
+  // ---- frames to the launcher ----------------------------------------------------------------------------------
 
   void say(const Json& head, std::string_view body = {}) { unsent_ += bytes_of(head, body); }
 
@@ -261,7 +261,7 @@ class HostService {
     say({{"say", use.empty() ? "alive" : "use"}, {"programs", use}});
   }
 
-  /// What is new in it. One that was cut in its middle goes on at its end.
+  /// Sends what a program has appended to its log. After the log was trimmed, continues at its new end.
   void ship_log(const std::string& program) {
     const auto log = logs_.find(program);
     if (log == logs_.end()) return;
@@ -278,7 +278,7 @@ class HostService {
     }
   }
 
-  /// A launcher that is cut off does not read: what it is not told within the time, it never is.
+  /// Sends frames. Stops when the launcher has not read for `patience`; the rest is sent later.
   void flush(milliseconds patience) {
     std::size_t sent = 0;
     while (sent < unsent_.size()) {
@@ -294,13 +294,13 @@ class HostService {
   }
 
   ScratchDir scratch_;
-  std::map<std::string, std::unique_ptr<UserIds>> users_;  ///< of secured agents, where we may choose
+  std::map<std::string, std::unique_ptr<UserIds>> users_;  ///< of agents in a secured run, if this process is root
   Supervisor supervisor_;
   std::optional<DomainBlock> domains_;
   FrameReader reader_{true};
   std::string unsent_;
   std::map<std::string, fs::path> logs_;
-  std::map<std::string, std::uintmax_t> shipped_;  ///< bytes of each log
+  std::map<std::string, std::uintmax_t> shipped_;  ///< bytes sent of each log
   Clock::time_point heard_ = Clock::now(), told_use_ = Clock::now();
   bool spoken_to_ = false, over_ = false;
 };

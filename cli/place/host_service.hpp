@@ -1,7 +1,7 @@
-// `skein --host`: this process starts, watches and ends programs of a fleet for a launcher on another host, which talks
-// to it over its standard streams (frames.hpp). It is those programs' minder: when the launcher ends, is cut off or
-// falls silent, it ends them all, removes what it wrote, and goes. Nobody types this; `skein run --place` does.
-// Linux. One thread.
+// `skein --host`: starts, watches and ends programs of a fleet on this host for a launcher on another one; they
+// exchange frames over its standard streams (frames.hpp). When the launcher ends, is cut off or falls silent, this
+// process ends all its programs, removes its files, and exits. `skein run --place` starts it, not the user.
+// Linux. Threads: one.
 #pragma once
 
 #include <filesystem>
@@ -12,10 +12,10 @@ namespace skein::cli {
 /// Serves a launcher on descriptors 0 and 1. @returns the exit code.
 int serve_host();
 
-/// What must be the same on all hosts of a fleet: SHA-256 of the launcher and of the agent program.
+/// A digest that must be the same on all hosts of a fleet: SHA-256 of the binaries of the launcher and of uav_agent.
 std::string build_digest(const std::filesystem::path& bin_dir);
 
-/// Another one for each machine, each of its starts and each network namespace.
+/// A text that differs between machines, between boots of a machine, and between network namespaces.
 std::string machine_identity();
 
 }  // namespace skein::cli

@@ -15,7 +15,7 @@
 namespace skein::cli {
 namespace {
 
-constexpr int kLease_s = 10;  ///< of silence: without a launcher this tells which program died
+constexpr int kLease_s = 10;  ///< without a launcher, only leases tell which program died
 constexpr int kServerTimeout_s = 60;
 
 std::string own_name() {
@@ -23,7 +23,7 @@ std::string own_name() {
   return ::gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "localhost";
 }
 
-/// Of each placed program's domain: both hosts, by their names.
+/// The value of --network: the user's; else the domain of each placed program has its host and this one as peers.
 std::string network_text(const FleetPlan& plan, const std::vector<PlacedHost>& hosts, const std::string& own) {
   if (plan.options.network) return *plan.options.network;
   std::string text;

@@ -1,4 +1,5 @@
-// `skein run --place ... --print`: what to type on each host where nothing starts the programs for one.   Pure.
+// `skein run --place ... --print`: commands to type on each host, if the launcher cannot start programs there. Reads
+// this host's name, and draws a run id.   Threads: any.
 #pragma once
 
 #include <string>
@@ -8,8 +9,8 @@
 
 namespace skein::cli {
 
-/// A shell script in parts, one a host. The programs need no launcher: each keeps itself alive, and the server finds
-/// out which of them died.
+/// A shell script with a part for each host. The programs need no launcher: each restarts itself (--keep), and the
+/// server detects by their leases which of them have died.
 std::string place_commands(const FleetPlan& plan, const std::vector<PlacedHost>& hosts);
 
 }  // namespace skein::cli

@@ -14,12 +14,12 @@ namespace fs = std::filesystem;
 
 fs::path plain(const fs::path& file) { return fs::absolute(file).lexically_normal(); }
 
-/// Beside each other as here, so that files which name others find them.
+/// A file's path on the other host. Files keep their places relative to each other, so references between them hold.
 fs::path there_of(const fs::path& file, const HostFolders& there) {
   return there.root / "files" / plain(file).relative_path();
 }
 
-/// A planner as the agent takes it, with its files as they are there.
+/// A planner's spec, with the paths that its files have on the other host.
 std::string spec_there(const UavPlanner& planner, const HostFolders& there) {
   std::string spec = planner.spec;
   const fs::path parameters = parameter_file(planner);
@@ -33,7 +33,7 @@ std::string spec_there(const UavPlanner& planner, const HostFolders& there) {
   return spec;
 }
 
-/// What is set on top of the environment that any program of the fleet gets.
+/// The variables of a program beyond those that every program of the fleet gets.
 std::map<std::string, std::string> own_variables(const ProgramSpec& spec, bool native) {
   const std::vector<std::string> usual = fleet_environment(native);
   std::map<std::string, std::string> own;

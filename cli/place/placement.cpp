@@ -30,7 +30,7 @@ Words ssh_words(const PlaceOptions& place, const std::string& host) {
   Words words = shell_words(place.ssh);
   if (words.empty()) throw InputError("--ssh: must be a command");
   if (words.front().find('/') == std::string::npos) words.insert(words.begin(), "/usr/bin/env");
-  // The launcher's own words for silence are sooner than ssh's.
+  // No keep-alive by ssh: the launcher detects a silent host sooner (kSilence).
   words.insert(words.end(), {"-T", "-o", "BatchMode=yes", "-o", "ConnectTimeout=10", "--", host,
                              "exec " + shell_word(skein_there(place)) + " --host"});
   return words;
@@ -41,7 +41,7 @@ Words srun_words(const PlaceOptions& place, const std::string& node) {
           "--nodelist=" + node, "--quiet", skein_there(place), "--host"};
 }
 
-/// Of the allocation that this process is in, without the node that it runs on.
+/// The nodes of the Slurm allocation in which this process runs, without its own. @throws InputError for none.
 Words other_nodes() {
   const char* list = ::getenv("SLURM_JOB_NODELIST");
   if (list == nullptr || *list == '\0') {
@@ -64,7 +64,7 @@ Words other_nodes() {
   return nodes;
 }
 
-/// UAV by UAV.
+/// Members and their hosts. With Slurm, the UAVs take the nodes of the allocation in turn.
 std::vector<std::pair<std::string, std::string>> pairs_of(const FleetPlan& plan) {
   std::vector<std::pair<std::string, std::string>> pairs;
   if (*plan.options.place.at == kSlurm) {

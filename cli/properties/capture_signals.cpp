@@ -1,4 +1,4 @@
-// Signals of captures: what was taken, delivered, acknowledged, and whose work it was.
+// Signals of captures: which were taken, delivered and acknowledged, and whose work they were.
 #include <algorithm>
 #include <map>
 #include <optional>
@@ -11,13 +11,14 @@
 namespace skein::cli {
 namespace {
 
-/// From where a UAV is when its program comes back to where it began, and from there to another place than at first.
+/// Allowance for the flight of a UAV whose program comes back: from its position then to its start, and from there to
+/// another place than at first.
 constexpr double kWayToWork_s = 40.0;
 
-/// A capture that its UAV was told is with the station.
+/// A capture whose acknowledgement by the station has reached its UAV.
 struct Acknowledged {
   CaptureKey capture;
-  std::size_t taken = 0, told = 0;  ///< exchanges
+  std::size_t taken = 0, told = 0;  ///< exchanges: of the capture, and of the acknowledgement
 };
 
 std::vector<Acknowledged> acknowledged_captures(const results::RunRecord& run, const std::string& uav) {
@@ -36,7 +37,8 @@ std::vector<Acknowledged> acknowledged_captures(const results::RunRecord& run, c
   return all;
 }
 
-/// The sum over all points of the best capture so far, by time; of captures that count.
+/// The sum over all points of the best score so far, whenever it rises: time [s] and sum. Only captures that count.
+/// @param time_of  the time of a capture [s]; nullopt: leave it out
 template <class TimeOf>
 std::vector<std::pair<double, double>> score_steps(const results::RunRecord& run, const Scenario& scenario,
                                                    const TimeOf& time_of) {
@@ -63,7 +65,7 @@ std::vector<std::pair<double, double>> earned_steps(const results::RunRecord& ru
   return score_steps(run, scenario, [](const results::CaptureRow& row) { return std::optional(row.time_s); });
 }
 
-/// Points that this UAV photographs from `from_s` on, and nobody else ever, nor itself before.
+/// Points that this UAV photographs from `from_s` on, but not before, and that no other UAV ever photographs.
 std::set<int> work_before(const results::RunRecord& run, const std::string& uav, double from_s) {
   std::set<int> own, others;
   for (const results::CaptureRow& row : run.captures) {
@@ -73,7 +75,8 @@ std::set<int> work_before(const results::RunRecord& run, const std::string& uav,
   return own;
 }
 
-/// When this UAV first photographs each point, of captures that count, that nobody photographs in `run`.
+/// Times at which this UAV, in the run `without` faults, first photographs each point that nobody photographs in `run`
+/// [s], ascending. Only captures that count.
 std::vector<double> left_undone_s(const results::RunRecord& without, const std::string& uav, const Scenario& scenario,
                                   const results::RunRecord& run) {
   std::map<int, double> first_s;
@@ -200,8 +203,8 @@ FolderSignals::Values FolderSignals::of_work(const SignalUse& signal) {
   return counted(exchanges);
 }
 
-/// A restarted program has lost what it knew, and begins anew. So the same UAV's run without faults, from its start on,
-/// says how long it may take until it photographs again.
+/// A restarted program has lost its knowledge, and begins anew. So the same UAV's flight in the run without faults,
+/// from its start on, tells by when the UAV should photograph again.
 FolderSignals::Values FolderSignals::missed(const std::string& uav, const results::RunRecord& without) {
   Values values = constant(0.0);
   const std::optional<double> healed = healed_s();

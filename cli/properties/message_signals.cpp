@@ -9,7 +9,7 @@
 namespace skein::cli {
 namespace {
 
-/// Nodes to which each stream goes: as the scenario says, or where messages arrived.
+/// Target nodes of each stream: those of the scenario's routes, and those at which messages arrived.
 std::map<RadioStream, std::set<std::string>> targets_of(const RadioLog& radio, const Scenario& scenario) {
   std::map<RadioStream, std::set<std::string>> targets;
   for (const RadioRoute& route : radio_routes(scenario)) {

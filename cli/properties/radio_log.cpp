@@ -17,7 +17,8 @@ namespace {
 
 constexpr const char* kArrivals = "/skein/arrivals";
 
-/// Reads a serialised message (CDR, little-endian) field by field. What is too short yields nothing, and is noted.
+/// Reads a serialised message (CDR, little-endian) field by field. A field that is cut off yields 0 or an empty text,
+/// and whole() becomes false.
 class Cdr {
  public:
   explicit Cdr(mcap::ByteView bytes) : bytes_(bytes.size() < kHead ? mcap::ByteView() : bytes.subspan(kHead)) {}
@@ -47,7 +48,7 @@ class Cdr {
   bool whole() const { return whole_; }
 
  private:
-  static constexpr std::size_t kHead = 4;  ///< says how it is encoded
+  static constexpr std::size_t kHead = 4;  ///< bytes that describe the encoding
   static_assert(std::endian::native == std::endian::little);
 
   mcap::ByteView bytes_;
@@ -55,7 +56,7 @@ class Cdr {
   bool whole_ = true;
 };
 
-/// A message as the router numbers it, where it arrives.
+/// The arrival of a message at a node, with the router's number of the message.
 struct Arrived {
   std::string source, target, topic;
   std::uint64_t number = 0, step = 0;
@@ -77,7 +78,7 @@ void read_arrivals(mcap::ByteView data, std::vector<Arrived>& arrived) {
   }
 }
 
-/// What a channel of the recording carries: a node's messages or debug values on a ROS topic of its domain.
+/// The node and ROS topic of a channel of the recording; nullopt: the channel belongs to no node.
 std::optional<RadioStream> stream_of(const std::string& channel, const std::vector<std::string>& nodes) {
   for (const std::string& node : nodes) {
     if (channel.starts_with("/" + node + "/")) return RadioStream{node, channel.substr(node.size() + 1)};
@@ -110,7 +111,7 @@ class LogReader {
   }
 
  private:
-  /// By the name that it has in a recording: what begins with its node's name keeps it.
+  /// Adds a stream under its channel in the recording: the topic, with the node's name in front if it lacks that.
   void add_stream(const RadioStream& stream) {
     const std::string prefix = "/" + stream.source;
     streams_.emplace(stream.topic.starts_with(prefix + "/") ? stream.topic : prefix + stream.topic, stream);
@@ -134,7 +135,7 @@ class LogReader {
     }
   }
 
-  /// Numbers begin again with each life of a program, so the message is the last of its number that was sent by then.
+  /// Numbers start anew when a program restarts, so the message is the last one with its number that was sent by then.
   void add_arrival(const Arrived& one) {
     const RadioStream stream{one.source, one.topic};
     const auto found = numbered_.find({stream, one.number});

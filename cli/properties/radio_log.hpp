@@ -1,5 +1,5 @@
-// The radio of a run, message by message, from its recording: when each was sent, and when it arrived at whom.
-// Pure, but for the file.
+// The radio messages of a run, from its recording: when each was sent, and when and at which node it arrived.
+// Pure, except for reading the file.
 #pragma once
 
 #include <cstdint>
@@ -23,19 +23,19 @@ struct RadioStream {
 struct RadioArrival {
   RadioStream stream;
   std::string target;
-  std::uint64_t sent = 0, arrives = 0;  ///< steps; what is sent in one arrives in the next at the earliest
-  bool again = false;                   ///< the same message has arrived there before
+  std::uint64_t sent = 0, arrives = 0;  ///< steps; a message arrives one step after it was sent, or later
+  bool again = false;                   ///< a duplicate: the same message has arrived at `target` before
 };
 
-/// A value that a program published.
+/// A debug value that a program published.
 struct DebugValue {
   std::uint64_t step = 0;
   double value = 0.0;
 };
 
 struct RadioLog {
-  std::map<RadioStream, std::vector<std::uint64_t>> sent;                        ///< steps, in their order
-  std::vector<RadioArrival> arrivals;                                            ///< by step of arrival
+  std::map<RadioStream, std::vector<std::uint64_t>> sent;                        ///< steps, ascending
+  std::vector<RadioArrival> arrivals;                                            ///< ordered by step of arrival
   std::map<std::pair<std::string, std::string>, std::vector<DebugValue>> debug;  ///< by UAV and name
 };
 

@@ -1,4 +1,4 @@
-// What tests of signals share: a run of 2 s of the UAVs `a` and `b`, put together by hand.
+// Fixture for tests of signals: a run of 2 s of the UAVs `a` and `b`, made by hand.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -45,7 +45,7 @@ class RunSignalsTest : public testing::Test {
     FolderSignals all(run_, scenario_, undisturbed);
     return all.values(signals.at(0));
   }
-  /// 0, then these from these exchanges on.
+  /// Values that are 0 at first, then each of these from its exchange on.
   static std::vector<double> steps(const std::vector<std::pair<std::size_t, double>>& changes) {
     std::vector<double> values(kExchanges, 0.0);
     for (const auto& [exchange, value] : changes) {
@@ -58,7 +58,7 @@ class RunSignalsTest : public testing::Test {
   results::RunRecord run_;
 };
 
-/// With a table of captures whose points have the number of their capture.
+/// A row of the table of captures.
 inline results::CaptureRow capture(const std::string& uav, std::uint64_t number, double time_s,
                                    std::optional<double> delivered_at_s, int point = 0, double q = 0.5) {
   return {uav, number, time_s, point, q, delivered_at_s, "", 1.0, q, q};

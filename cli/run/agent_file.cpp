@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::size_t kTailLines = 5;
 
-/// Has an agent program list its strategies. @param said  file for what it prints. @returns nullopt if that is no list.
+/// Has an agent program list its strategies. @param said  file for its output. @returns nullopt if that is no list.
 std::optional<StrategyList> strategies_of(const std::filesystem::path& agent, const std::filesystem::path& said) {
   if (!std::filesystem::exists(agent)) return std::nullopt;
   run_to_end({programs::kAgent, {agent, "--list-planners"}, fleet_environment(false), said});
@@ -35,7 +35,8 @@ StrategyList strategies_of(const std::filesystem::path& agent) {
 
 std::filesystem::path stock_agent() { return program_dir() / programs::kAgent; }
 
-/// @param option  that named it. @param hint  where there is no such file. @returns its absolute path.
+/// @param option  the option that named the file. @param hint  ends the error message if there is no such file.
+/// @returns its absolute path.
 std::filesystem::path checked_agent(const std::filesystem::path& named, const std::string& option,
                                     const std::string& hint = "") {
   const std::filesystem::path agent = std::filesystem::absolute(named).lexically_normal();
@@ -50,14 +51,14 @@ std::filesystem::path checked_agent(const std::filesystem::path& named, const st
                    last_lines_below(scratch.path() / "said", kTailLines));
 }
 
-/// A '@' may have been meant for a parameter.
+/// Ends the error message about a missing agent program: the last '@' may have been meant as part of a parameter.
 std::string hint_for(const UavPlanner& planner) {
   if (!has_parameters(planner.spec)) return "";
   return "; what follows the last '@' is an agent program, without commas: where a '@' belongs to a parameter, write " +
          written(planner) + "@" + stock_agent().string();
 }
 
-/// The agent itself would say so, but not which of them it is.
+/// @throws InputError if an agent program has no such planner. (The agent's own message would not name the program.)
 void require_known(const UavPlanner& planner, const std::vector<std::string>& known) {
   if (python_spec(planner.spec)) return;  // every agent can load Python
   const std::string name = planner.spec.substr(0, planner.spec.find(':'));
@@ -84,7 +85,7 @@ void find_agents(Planners& planners, const std::optional<std::filesystem::path>&
     const auto [program, is_new] = found.try_emplace(*planner.agent);
     if (is_new) program->second = checked_agent(*planner.agent, "--planner " + written(planner), hint_for(planner));
     planner.agent = program->second;
-    const bool needs_none = planner.spec.find('@') == std::string::npos;  // for its text to read back
+    const bool needs_none = planner.spec.find('@') == std::string::npos;  // else its text would not parse back
     if (!own && planner.agent == stock_agent() && needs_none) planner.agent.reset();
   };
   const auto find_for_uav = [&](UavPlanner& planner) {

@@ -11,8 +11,8 @@
 namespace skein::cli {
 
 /// When `what` (of kBreakEvents) first happened to `member`, for --break-at, which stops in the last exchange before
-/// that simulated time [s]. For "lost" and "rejected", adds half an exchange, since the exchange of their time decides
-/// them. @param result  result.json. @returns nullopt: it never happened.
+/// that simulated time [s]. For "lost" and "rejected", adds half an exchange period: the exchange at their time decides
+/// them, so it must come before the break. @param result  result.json. @returns nullopt: it never happened.
 std::optional<double> event_time_s(const Json& result, const std::string& member, const std::string& what);
 
 /// The result of an earlier run. @throws InputError if there is none, or it has another scenario, seed or planner

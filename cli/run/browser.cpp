@@ -12,7 +12,7 @@
 namespace skein::cli {
 namespace {
 
-/// One entry of $BROWSER, with the file in the place of %s, or behind it; empty: there is no such command.
+/// The command line of one entry of $BROWSER: the file replaces %s, or is appended. Empty: there is no such command.
 std::vector<std::string> filled_in(const std::string& entry, const std::string& file) {
   std::istringstream in(entry);
   std::vector<std::string> words;

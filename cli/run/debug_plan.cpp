@@ -10,7 +10,7 @@
 namespace skein::cli {
 namespace {
 
-/// Of a name as a user gives it under --debug: a UAV's, "gcs", or a server's.
+/// The program for a name that the user gives with --debug or --log: of a UAV, "gcs", or a server.
 std::string debugged_program(const FleetPlan& plan, const std::string& name) {
   const auto& servers = programs::kServers;
   if (std::find(servers.begin(), servers.end(), name) != servers.end()) return name;

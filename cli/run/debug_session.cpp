@@ -56,7 +56,7 @@ std::string DebugSession::introduction(const FleetPlan& plan, const Debuggee& de
              " is in gdb here, in its container; `continue` starts it, and the fleet waits for it; the fleet's " +
              "progress goes to " + log_file_.string();
     case How::wait:
-      break;  // it has no process yet that one could name
+      break;  // its process id is not known yet: take_ended() prints the message
   }
   return {};
 }
@@ -75,7 +75,7 @@ std::vector<const DebugWatch*> DebugSession::take_ended() {
 
 void DebugSession::await_reports(std::chrono::milliseconds timeout) const {
   for (const auto& watch : watches_) {
-    if (!is_exec(plan_, watch->debuggee().program)) watch->await_end(timeout);  // a user's command leaves none
+    if (!is_exec(plan_, watch->debuggee().program)) watch->await_end(timeout);  // a user's command writes no report
   }
 }
 

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Its folder tells the grammar, so that a world of an older one is not taken for this one's.
+/// The cache folder of a world. Its path contains the number of the grammar, so that no world of an older one is used.
 fs::path folder_of(const std::string& world) {
   const auto cache = user_cache_folder();
   if (!cache) {
@@ -33,10 +33,11 @@ std::string scenario_source(const std::string& scenario, const std::optional<std
   if (!is_drawn_world(scenario)) return scenario;
   const std::string seed = std::to_string(scene_seed.value_or(0)), world = scenario + "_" + seed;
   const fs::path folder = folder_of(world), file = folder / (world + ".yaml");
-  if (fs::is_regular_file(file)) return file;  // it is written last
+  if (fs::is_regular_file(file)) return file;  // written last: the folder is complete
   const ScratchDir scratch;
   const fs::path log = scratch.path() / "draw.log";
-  // As in a run: the same libm draws the same world. Who draws it at the same time writes the same bytes.
+  // With the environment of a run: the same libm generates the same world, so a concurrent process writes the same
+  // bytes.
   const ExitStatus exit = run_to_end({programs::kSimServer,
                                       {program_dir() / programs::kSimServer, "--draw-world", scenario, "--scene-seed",
                                        seed, "--export-scene", folder, "--overwrite-export"},

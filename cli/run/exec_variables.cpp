@@ -17,8 +17,8 @@
 namespace skein::cli {
 namespace {
 
-/// The radio topics of a node, by their ROS names with spaces between them: those that it may send on, and those that
-/// arrive. Not those of captures, which go without saying.
+/// ROS names of a node's radio topics, separated by spaces: those on which it may send, and those that arrive at it.
+/// Leaves out the topics of capture reports and their acknowledgements, which need no mention.
 std::pair<std::string, std::string> radio_topics_of(const Scenario& scenario, Node node) {
   std::vector<std::string> sends, hears;
   for (const RadioRoute& route : radio_routes(scenario)) {
@@ -52,18 +52,18 @@ std::map<std::string, std::string> exec_variables(const FleetPlan& plan, const s
   const std::string domain = std::to_string(agent_domain(plan, program, base_domain));
   std::map<std::string, std::string> variables = {
       {"SKEIN_DOMAIN", domain},
-      {"ROS_DOMAIN_ID", domain},  // a ROS 2 node needs no more: its default settings hear us on this host
+      {"ROS_DOMAIN_ID", domain},  // all that a ROS 2 node needs to discover the fleet on this host
       {"SKEIN_UAV", member},
       {"SKEIN_RUN", std::to_string(plan.run)},
       {"SKEIN_DDS", dds_vendors(plan).at(program)},
       {"SKEIN_SCENARIO", std::filesystem::absolute(plan.scenario.file)},
       {"SKEIN_OUT", std::filesystem::absolute(secure.out.empty() ? out : secure.out)},
       {"SKEIN_CONFIG_DIR", std::filesystem::absolute(default_config_dir())},
-      {"SKEIN_BIN_DIR", std::filesystem::absolute(plan.bin_dir)}};  // skein.client does not lie beside the command
+      {"SKEIN_BIN_DIR", std::filesystem::absolute(plan.bin_dir)}};  // for skein.client, which is not beside them
   variables.merge(part_variables(plan, program));
   if (plan.options.network) variables["SKEIN_NETWORK"] = *plan.options.network;
   if (!secure.keys.empty()) variables["SKEIN_SECURITY"] = secure.keys;
-  if (secure.user) variables["HOME"] = secure.out;  // the launcher's is closed to it
+  if (secure.user) variables["HOME"] = secure.out;  // this user cannot read the launcher's
   return variables;
 }
 

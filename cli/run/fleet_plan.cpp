@@ -39,8 +39,9 @@ void append(Arguments& arguments, const Arguments& more) {
   arguments.insert(arguments.end(), more.begin(), more.end());
 }
 
-/// A program that is stopped for a while and comes back must not find that the others took it for dead: who it is that
-/// died, the launcher sees for itself. So leases outlast the time for which anybody is waited for, at a start too.
+/// The lease after which DDS considers a silent program gone [s]. It is longer than the timeout for a silent program,
+/// also at startup: a program that is stopped for a while must not count as dead when it continues. The launcher
+/// detects dead programs without leases.
 int lease_s(const FleetPlan& plan) {
   if (plan.options.lease_s) return *plan.options.lease_s;
   if (!plan.debug.empty()) return kLongestLease_s;
@@ -49,7 +50,7 @@ int lease_s(const FleetPlan& plan) {
   return static_cast<int>(std::min(kTimes * timeout_s, static_cast<double>(kLongestLease_s)));
 }
 
-/// What every program must know to read the same scenario.
+/// Arguments with which all programs read the same scenario.
 Arguments scenario_arguments(const FleetPlan& plan) {
   const RunOptions& options = plan.options;
   Arguments arguments = {"--scenario", std::filesystem::absolute(plan.scenario.file), "--seed",
@@ -75,12 +76,13 @@ std::filesystem::path fleets_agent(const FleetPlan& plan) {
   return plan.agent.value_or(plan.bin_dir / programs::kAgent);
 }
 
-/// Whether it is an agent, and not our uav_agent.
+/// Whether a program is an agent other than Skein's own uav_agent.
 bool is_foreign(const FleetPlan& plan, const std::string& program) {
   return programs::is_agent(program) && agent_file(plan, program) != plan.bin_dir / programs::kAgent;
 }
 
-/// An agent from elsewhere does not find beside it what it reads and loads, nor does a command (skein.client).
+/// Variables for agents from elsewhere and users' commands (skein.client): beside their own binaries, these do not find
+/// Skein's configuration and programs.
 std::map<std::string, std::string> config_variable(const FleetPlan& plan, const std::string& program) {
   if (!is_foreign(plan, program) && !is_exec(plan, program)) return {};
   return {{"SKEIN_CONFIG_DIR", std::filesystem::absolute(default_config_dir())},
@@ -97,7 +99,7 @@ Arguments replay_arguments(const ReplayOf& replay) {
   return arguments;
 }
 
-/// Whose software an agent is.
+/// Arguments for an agent's UAV (or the ground station) and planner.
 Arguments role_arguments(const FleetPlan& plan, const std::string& program) {
   const auto& maps_s = plan.options.keep_maps_s;
   Arguments arguments = {"--uav", programs::member_name(program)};
@@ -107,7 +109,7 @@ Arguments role_arguments(const FleetPlan& plan, const std::string& program) {
   return arguments;
 }
 
-/// @param program  of a server or an agent
+/// @param program  name of a server or an agent
 Arguments run_arguments(const FleetPlan& plan, const std::string& program, int base_domain,
                         const std::filesystem::path& out, const SecureFolder& secure) {
   Arguments arguments = {program_file(plan, program)};
@@ -319,11 +321,11 @@ std::vector<ProgramSpec> fleet_programs(const FleetPlan& plan, int base_domain, 
     }
   }
   for (ProgramSpec& program : programs) {
-    // Ours that tell how the run goes on write as long as it does.
+    // The servers are Skein's own, and write status lines as long as the run lasts.
     if (!programs::is_agent(program.name)) program.most_status_bytes = std::numeric_limits<std::uint64_t>::max();
     if (plan.watched && program.name == programs::kStation) program.listener = plan.watched->listener;
     program.user = secure_folder(secure, program.name).user;
-    program.minded = is_foreign(plan, program.name) || is_exec(plan, program.name);  // not ours
+    program.minded = is_foreign(plan, program.name) || is_exec(plan, program.name);  // not Skein's own
     for (const Debuggee& debuggee : plan.debug) {
       if (debuggee.program == program.name) put_under_tool(program, debuggee);
     }
@@ -332,7 +334,7 @@ std::vector<ProgramSpec> fleet_programs(const FleetPlan& plan, int base_domain, 
 }
 
 ProgramSpec shared_process(const FleetPlan& plan, const std::filesystem::path& out) {
-  const std::string agent = programs::agent_program(plan.scenario.fleet.front().name);  // as all others
+  const std::string agent = programs::agent_program(plan.scenario.fleet.front().name);  // all agents use this program
   ProgramSpec process{
       programs::kOneProcess,
       {fleet_file(plan), "--status-fd", std::to_string(kStatusFd), "--control-fd", std::to_string(kControlFd)},

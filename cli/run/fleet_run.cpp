@@ -25,8 +25,8 @@ constexpr milliseconds kLeaveTime{10000};
 constexpr milliseconds kExecLeaveTime{2000};
 /// From SIGTERM to SIGKILL.
 constexpr milliseconds kGrace{3000};
-constexpr double kUsualPatience_s = 60.0;  // of the programs, for one turn
-/// After Ctrl-C: for sim_server to end the run, and for the programs to leave when it could not end its last step.
+constexpr double kUsualPatience_s = 60.0;  // for one turn of a program
+/// After Ctrl-C: time for sim_server to end the run, and for the programs to leave if the last step never ended.
 constexpr milliseconds kStopTime{8000};
 constexpr milliseconds kStalledLeaveTime{1000};
 constexpr std::size_t kLogLines = 10;
@@ -41,7 +41,7 @@ FleetRun::FleetRun(const FleetPlan& plan, std::ostream& out, bool terminal)
     : plan_(plan), console_(out), terminal_(terminal), view_(out, terminal) {
   plan_.run = draw_run_id();
   facts_.command = plan.options.command;
-  // SKEIN_AGENT named it: the command must repeat the run where that is not set.
+  // SKEIN_AGENT named the agent: the command must repeat the run where this variable is not set.
   if (!facts_.command.empty() && plan.agent && !plan.options.agent) {
     facts_.command += " --agent " + shell_word(plan.agent->string());
   }
@@ -94,7 +94,7 @@ void FleetRun::start(const std::vector<ProgramSpec>& programs) {
 void FleetRun::finish(const std::filesystem::path& out) {
   watch();
   if (debug_ && server_done_) debug_->await_reports(leave_time());
-  // What is still to be done for them is done here, and without a debugger.
+  // From here on programs start on this host and without a debugger: see settle().
   if (in_containers_ || (debug_ && !plan_.options.secure)) {
     plan_.debug.clear();
     for (ProgramSpec& program : fleet_programs(plan_, kFirstDomain, out)) {
@@ -106,7 +106,7 @@ void FleetRun::finish(const std::filesystem::path& out) {
     const bool reported = reports_.contains(program) || std::filesystem::exists(out / run_folder::report_file(program));
     if (!reported && std::filesystem::exists(out / books)) settle(program);
   }
-  handle_all(host_->end_all(scaled(kGrace)));  // the process of them all
+  handle_all(host_->end_all(scaled(kGrace)));  // under --one-process, the shared process still runs
   for (std::string& warning : host_->collect(out)) facts_.warnings.push_back(std::move(warning));
   view_.finish();
 }
@@ -122,7 +122,7 @@ void FleetRun::watch() {
       continue;
     }
     limit = orders_->limit(until_notice(limit));
-    // Before the news: they may end because the run has.
+    // Looks before wait(): if they ended because the run has, wait() returns the news of that before they are reported.
     const auto debugged_ended = debug_ ? debug_->take_ended() : std::vector<const DebugWatch*>{};
     handle_all(host_->wait(limit));
     for (const DebugWatch* watch : debugged_ended) on_debugged_end(*watch);
@@ -133,7 +133,7 @@ void FleetRun::watch() {
   }
 }
 
-/// How long to wait for events at most, so that a word of whom we wait for comes when it is due.
+/// Longest wait for events, so that tell_waiting() prints its notice in time, and debugged programs are looked for.
 milliseconds FleetRun::until_notice(milliseconds limit) const {
   milliseconds left = silence_.left(Clock::now());
   if (debug_) left = std::min(left, DebugWatch::kPeriod);
@@ -161,7 +161,7 @@ void FleetRun::on_status(const Event& event) {
   std::visit([this](const auto& news) { hear(news); }, *line);
 }
 
-/// A program that writes without end is no longer listened to; it flies on.
+/// The status pipe of a program that writes too much is closed; the program flies on.
 void FleetRun::on_cut_off(const Event& event) {
   facts_.warnings.push_back(event.program + " is not listened to any more: " + event.line);
   view_.message(facts_.warnings.back());
@@ -174,11 +174,11 @@ void FleetRun::on_exit(Event event) {
   const DebugWatch* debugged = debug_ ? debug_->find(event.program) : nullptr;
   if (debugged != nullptr) {
     debug_->on_exit(event.program);
-    if (leave_by_.is_set() && !facts_.interrupted) leave_by_.set(leave_time());  // others waited for it
-    // A tool does not die of its program's signal.
+    if (leave_by_.is_set() && !facts_.interrupted) leave_by_.set(leave_time());  // the others waited for it
+    // A tool does not end by the signal that killed its program: count the fault's SIGKILL as the tool's.
     if (orders_->out().contains(event.program) && debugged_lost_.erase(event.program) > 0) event.exit.signal = SIGKILL;
   }
-  if (orders_->on_exit(event.program, event.exit)) return;  // as it should
+  if (orders_->on_exit(event.program, event.exit)) return;  // as a fault ordered
   if (debugged != nullptr && debugged->debuggee().here && !event.exit.ok()) return on_debugged_end(*debugged);
   if (debugged_lost_.contains(event.program)) return;
   if (!event.exit.ok() && !event.exit.dragged && !ending_ && !left_as_asked(event.exit)) {
@@ -189,7 +189,7 @@ void FleetRun::on_exit(Event event) {
     orders_->end();
   }
   if (of_server && !event.exit.ok()) {
-    end_all();  // nobody is left to tell the others how the run goes on
+    end_all();  // the other programs would wait for it in vain
   } else if (of_server) {
     server_done_ = true;
     leave_by_.set(leave_time());
@@ -199,7 +199,7 @@ void FleetRun::on_exit(Event event) {
   if (server_done_ && only_commands_run()) leave_by_.bring_forward(scaled(kExecLeaveTime));
 }
 
-/// Without it nothing is known of any container, nor can anything be done about one.
+/// Without the Docker engine, the launcher neither knows the state of the containers nor can end them.
 void FleetRun::on_engine_lost() {
   if (anything_failed() && ending_) return;  // all followers notice, one after the other
   failed_ = true;
@@ -208,8 +208,8 @@ void FleetRun::on_engine_lost() {
   end_all();
 }
 
-/// First Ctrl-C: the server ends the run at its next step, or in a step that does not end, and all write their reports.
-/// Second: at once.
+/// First Ctrl-C: sim_server ends the run at its next step, also if the present step never ends, and all programs write
+/// their reports. Second Ctrl-C: the launcher ends all programs at once.
 void FleetRun::on_interrupt() {
   if (ending_) return;
   if (facts_.interrupted) return end_all();
@@ -223,7 +223,7 @@ void FleetRun::on_interrupt() {
   if (!leave_by_.is_set()) leave_by_.set(scaled(kStopTime));
 }
 
-/// The program that the user debugs is lost like any other one, and he may have left its debugger or not.
+/// A debugged program that ends is lost like any other program, whether or not the user has left the debugger.
 void FleetRun::on_debugged_end(const DebugWatch& watch) {
   const auto& [member, program, how, port, tool, here] = watch.debuggee();
   if (server_done_ || ending_ || !debugged_lost_.insert(program).second) return;
@@ -238,13 +238,13 @@ void FleetRun::on_debugged_end(const DebugWatch& watch) {
   end_all();
 }
 
-/// Who debugs a program takes his time at its end, too.
+/// Whether a debugged program runs, and Ctrl-C was not pressed: then programs have no deadline for leaving.
 bool FleetRun::being_debugged() const {
   return !facts_.interrupted && std::any_of(plan_.debug.begin(), plan_.debug.end(),
                                             [&](const Debuggee& debuggee) { return host_->running(debuggee.program); });
 }
 
-/// sim_server says whom the fleet waits for. We do where it says nothing: while it starts, while others leave.
+/// Prints what the launcher waits for while sim_server reports nothing: while it starts, and while programs leave.
 void FleetRun::tell_waiting() {
   const auto waited_s = silence_.due(Clock::now());
   if (!waited_s || host_->running().empty()) return;
@@ -304,7 +304,7 @@ void FleetRun::hear(const status::Ended& ended) {
 
 // ---- what the launcher does about it ----------------------------------------------------------------------------
 
-/// What was killed starts again, what was stopped goes on.
+/// Restarts a killed program; continues a stopped one.
 void FleetRun::bring_back(const std::string& program) {
   const auto spec = programs_.find(program);
   if (host_->running(program) || spec == programs_.end()) return host_->signal(program, SIGCONT);
@@ -320,7 +320,7 @@ void FleetRun::bring_back(const std::string& program) {
   }
 }
 
-/// A program that died left books of what it did: it makes its report of them.
+/// The station or comm_router died but left its books: runs it once more, only to write its report from them.
 void FleetRun::settle(const std::string& program) {
   ProgramSpec spec = programs_.at(program);
   spec.argv.push_back("--settle");
@@ -357,7 +357,7 @@ void FleetRun::end_all() {
   handle_all(host_->end_all(scaled(kGrace)));
 }
 
-/// After a deadly signal: where more of it is.
+/// After a fatal signal: where the program's backtrace and core are; empty: nowhere. Also adds this to the facts.
 std::string FleetRun::crash_text(const std::string& program, const ExitStatus& exit) {
   const std::string where = crash_evidence(exit, programs_.at(program).log, plan_.options.cores);
   if (where.empty()) return {};
@@ -373,16 +373,16 @@ void FleetRun::complain(const std::string& program, const std::string& how) {
   view_.message(facts_.warnings.back() + "; the end of " + log.string() + ":" + end_of_log(log, kLogLines));
 }
 
-/// The UAV under --debug has no program of ours: then it is the member.
+/// The program of a member. If the launcher did not start it (a UAV under --debug): the member's name.
 std::string FleetRun::program_of(const std::string& member) const {
   const std::string program = programs::program_of(member);
   return programs_.contains(program) ? program : member;
 }
 
-/// Who was told that the user ends the run need not find an orderly end to it. A crash is one all the same.
+/// After Ctrl-C the run may not end in good order: then an exit with an error code is no failure, but a crash is.
 bool FleetRun::left_as_asked(const ExitStatus& exit) const { return facts_.interrupted && exit.signal == 0; }
 
-/// For the programs, once sim_server is done. Who never took part in a step does not hear of the end.
+/// Time for programs to leave after the run. After Ctrl-C before the first step: none, as they are not told of its end.
 milliseconds FleetRun::leave_time() const {
   if (facts_.interrupted && !first_progress_) return milliseconds(0);
   return scaled(facts_.interrupted && stalled_ ? kStalledLeaveTime : kLeaveTime);

@@ -35,7 +35,7 @@ class FleetRun {
   FleetRun(const FleetPlan& plan, std::ostream& out, bool terminal);
 
   /// Starts all programs and returns when all have ended. Call it once.
-  /// @param elsewhere  runs them, on other hosts say; null: they are children of this process.
+  /// @param elsewhere  runs the programs, for example on other hosts; null: they are children of this process.
   void fly(int base_domain, const std::filesystem::path& out, const SecureFolders& secure,
            std::unique_ptr<ProgramHost> elsewhere = nullptr);
 

@@ -1,4 +1,4 @@
-// What the programs of a fleet take of the machine between the first step and the last.
+// Measures CPU time and memory of the programs of a fleet between the first step and the last.
 #include <algorithm>
 #include <utility>
 
@@ -6,7 +6,7 @@
 
 namespace skein::cli {
 
-/// What the programs did before is start-up.
+/// CPU time before the first step belongs to startup, and is subtracted later.
 void FleetRun::on_first_step() {
   first_progress_ = Clock::now();
   facts_.startup_s = std::chrono::duration<double>(*first_progress_ - started_).count();
@@ -14,7 +14,7 @@ void FleetRun::on_first_step() {
   for (const std::string& process : host_->processes()) cpu_before_s_[process] = host_->cpu_s(process);
 }
 
-/// What the programs do from here on is leaving.
+/// After the last step; what the programs do while they leave does not count.
 void FleetRun::note_use() {
   over_ = true;
   if (in_containers_) return;

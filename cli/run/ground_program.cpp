@@ -11,7 +11,7 @@ std::optional<UavPlanner> ground_program(const Planners& planners, const std::fi
   const UavPlanner& planner = planners.fallback;
   if (exec_command(planner.spec)) return std::nullopt;
   const std::string name = planner.spec.substr(0, planner.spec.find(':'));
-  // An agent that is missing is complained about where it is needed.
+  // A missing agent program lists nothing; the error is reported where the program is needed.
   const auto listed = ground_programs_of(planner.agent.value_or(agent));
   const bool has_one = std::find(listed.begin(), listed.end(), name) != listed.end();
   return has_one ? std::optional(planner) : std::nullopt;

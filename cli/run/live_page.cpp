@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Waits for a signal that ends a command. One that came while the results were written counts.
+/// Waits for a signal that ends a command. A signal that came while the results were written counts, too.
 void wait_for_interrupt() {
   const sigset_t signals = interrupt_signals();
   sigset_t former;
@@ -78,7 +78,7 @@ void LivePage::stay_as_replay(const std::filesystem::path& run, const ViewOption
   console.err << "the page shows the replay now; Ctrl-C ends it" << std::endl;
   try {
     replay(run);
-  } catch (const InputError& error) {  // an engine has let go of the port, say, and somebody has taken it
+  } catch (const InputError& error) {  // e.g. another program took the port that the Docker engine released
     console.err << error.what() << std::endl;
   }
 }

@@ -51,11 +51,11 @@ std::map<std::string, ExitStatus> run_all(const std::vector<ProgramSpec>& progra
   return exits;
 }
 
-/// Of the folders of this class, for a check to recognise them by.
+/// Beginning of the names of ScratchDir's folders, by which remove_orphans() recognises them.
 constexpr const char* kScratch = "skein-scratch-";
 
-/// Locks a folder of ours while the descriptor that it returns is open; -1 when it is not ours, held by another process
-/// (with LOCK_NB) or gone by then.
+/// Locks a scratch folder for as long as the returned descriptor is open. @returns -1 if the folder belongs to another
+/// user, if another process holds the lock (with LOCK_NB), or if the folder is gone meanwhile.
 int lock_folder(const std::filesystem::path& folder, int how) {
   const int fd = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
   struct stat locked {
@@ -68,7 +68,7 @@ int lock_folder(const std::filesystem::path& folder, int how) {
   return -1;
 }
 
-/// A process that was killed left its folder, and nobody holds that.
+/// Deletes the folders that killed processes left: nobody holds their locks.
 void remove_orphans(const std::filesystem::path& where) {
   std::error_code error;
   for (std::filesystem::directory_iterator entry(where, error), end; !error && entry != end; entry.increment(error)) {
@@ -119,7 +119,7 @@ ScratchDir::ScratchDir() {
                        ": must be a folder in which files can be made");
     }
     path_ = name;
-    lock_ = lock_folder(path_, LOCK_EX);  // none: before we had it, somebody took it for an orphan's
+    lock_ = lock_folder(path_, LOCK_EX);  // -1: another process took the folder for an orphan
   }
 }
 

@@ -12,7 +12,7 @@
 namespace skein::cli {
 namespace {
 
-/// A measured number, or "-" where nobody reported one.
+/// A measured number, or "-" if there is none.
 std::string cell(const Json& object, const char* key, int digits) {
   const auto found = object.find(key);
   return found != object.end() && found->is_number() ? fixed(found->get<double>(), digits) : "-";
@@ -25,7 +25,7 @@ std::string uav_state(const Json& uav) {
   return value_or(uav, "program_lost", false).get<bool>() ? "lost" : "alive";
 }
 
-/// Where the rest of what could be had was lost: a row for each cause that took something.
+/// Prints the losses of attainable score: a row for each cause that has any.
 void print_losses(std::ostream& out, const Json& losses) {
   const char* head = "lost      ";
   for (const auto& [cause, text] : results::kCauses) {
@@ -45,7 +45,7 @@ void ProgressView::progress(const status::Progress& progress, double wall_s) {
     first_wall_s_ = wall_s;
   }
   const double speed = wall_s > first_wall_s_ ? (progress.time_s - first_sim_s_) / (wall_s - first_wall_s_) : 0.0;
-  // The body of a UAV whose program is lost still hovers in sight of the station; nobody is in contact with it.
+  // A UAV whose program is lost still hovers, perhaps in line of sight of the station, but is not in contact.
   std::vector<std::string> in_contact = progress.in_contact;
   std::erase_if(in_contact, [&](const std::string& uav) {
     return std::find(progress.lost.begin(), progress.lost.end(), uav) != progress.lost.end();
@@ -112,7 +112,7 @@ void print_summary(std::ostream& out, const Json& result, const std::filesystem:
       << "speed     x" << cell(result, "real_time_factor", 1) << " (" << cell(result, "sim_time_s", 1)
       << " s simulated in " << cell(result, "wall_time_s", 1) << " s), "
       << (number_in(result, "memory_mb") > 0.0 ? "memory " + cell(result, "memory_mb", 0) + " MB, "
-                                               : "")  // by the launcher
+                                               : "")  // measured by the launcher
       << "LiDAR " << cell(result.contains("timing") ? result["timing"] : result, "lidar_ms_per_scan", 2)
       << " ms a scan\n"
       << "digest    " << (result["digest"].is_string() ? result["digest"].get<std::string>() : "none") << "\n\n";

@@ -12,15 +12,15 @@ namespace skein::cli {
 
 class ProgressView {
  public:
-  /// @param terminal whether `out` can rewrite its last line.
+  /// @param terminal  whether `out` can rewrite its last line.
   ProgressView(std::ostream& out, bool terminal) : out_(&out), terminal_(terminal) {}
 
   /// Writes to `out` from now on. @param out  must outlive this.
   void write_to(std::ostream& out, bool terminal);
 
-  /// @param wall_s time since the programs started; gives the speed.
+  /// @param wall_s  wall time since the programs started [s], for the speed.
   void progress(const status::Progress& progress, double wall_s);
-  /// Shows whom the fleet waits for: on a terminal always, elsewhere only if `wait.due`.
+  /// Shows which programs the fleet waits for: on a terminal always, elsewhere only if `wait.due`.
   void waiting_for(const status::WaitingFor& wait);
   void tally(const status::Tally& tally) { tally_ = tally; }
   /// Prints a message on a line of its own, above the progress.

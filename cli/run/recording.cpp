@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What does not change when the same run is flown again, so that the recording does not either.
+/// Only entries that stay the same when the run is repeated, so that its recording stays the same, too.
 mcap::Metadata metadata_of(const Json& result) {
   mcap::Metadata metadata{"skein", {}};
   for (const char* key : {"skein_version", "scenario", "seed", "scene_seed", "planner", "clock", "rules", "digest"}) {
@@ -35,7 +35,7 @@ std::vector<fs::path> recording_parts(const fs::path& dir) {
     for (int life = 0;; ++life) {
       const fs::path part = dir / run_folder::recording_part(program, life);
       if (!fs::exists(part)) break;
-      if (!fs::is_empty(part)) parts.push_back(part);  // killed before its first word
+      if (!fs::is_empty(part)) parts.push_back(part);  // empty: killed before it wrote
     }
   }
   return parts;
@@ -48,7 +48,7 @@ std::vector<std::string> recording_damage(const fs::path& dir) {
   } catch (const InputError& error) {
     damage.push_back(error.what());
   }
-  for (const fs::path& part : recording_parts(dir)) {  // which may be cut off
+  for (const fs::path& part : recording_parts(dir)) {  // a part may be cut off
     try {
       for (const std::string& one : mcap::Reader(part).damage()) damage.push_back(part.string() + ": " + one);
     } catch (const InputError& error) {

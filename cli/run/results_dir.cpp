@@ -15,12 +15,13 @@
 namespace skein::cli {
 namespace {
 
-/// Of a large fleet with all its links.
+/// Disk space for the result of a large fleet with all its links [bytes].
 constexpr off_t kRoomForResult = 256 << 10;
-/// One of the names that a stale file has: see run_folder::is_of_a_run().
+/// The file that reserves this space. run_folder::is_of_a_run() accepts its name, so the next run deletes a stale one.
 const std::string kRoom = std::string(run_folder::kResult) + ".tmp-room";
 
-/// Only names go: what a link points to stays, and nothing is opened, which for a pipe would take for ever.
+/// Deletes an earlier run's files. Links are removed, not their targets, and no file is opened: opening a named pipe
+/// could block for ever.
 void remove_stale(const std::filesystem::path& dir) {
   for (const auto& entry : std::filesystem::directory_iterator(dir)) {
     if (!run_folder::is_of_a_run(entry.path().filename())) continue;
@@ -44,7 +45,7 @@ std::filesystem::path default_results_dir(const std::string& scenario, const std
 
 std::filesystem::path free_results_dir(const std::filesystem::path& base) {
   const auto is_free = [](const std::filesystem::path& dir) {
-    std::error_code error;  // of what cannot be looked at: ResultsDir will say so
+    std::error_code error;  // ignored: ResultsDir reports what cannot be read
     const auto kind = std::filesystem::symlink_status(dir, error).type();
     if (kind == std::filesystem::file_type::none || kind == std::filesystem::file_type::not_found) return true;
     return kind == std::filesystem::file_type::directory && std::filesystem::is_empty(dir, error) && !error;
@@ -61,7 +62,7 @@ std::filesystem::path results_dir_of(const RunOptions& run, const std::string& s
 }
 
 void ResultsDir::check(const std::filesystem::path& dir, bool force) {
-  std::error_code error;  // of a name that is too long, or of links in a circle
+  std::error_code error;  // e.g. the name is too long, or links form a circle
   const auto kind = std::filesystem::status(dir, error).type();
   if (kind == std::filesystem::file_type::none) {
     throw InputError("--out " + dir.string() + ": cannot be looked at (" + error.message() +
@@ -107,7 +108,7 @@ void ResultsDir::keep_room() const {
   const int file = ::open(room.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
   const int reason = file < 0 ? errno : ::posix_fallocate(file, 0, kRoomForResult);
   if (file >= 0) ::close(file);
-  if (reason != ENOSPC && reason != EDQUOT && reason != EFBIG) return;  // a file system may have no such call
+  if (reason != ENOSPC && reason != EDQUOT && reason != EFBIG) return;  // not every file system supports the call
   give_room();
   throw InputError("--out " + path_.string() + ": no room for a result there (" +
                    std::generic_category().message(reason) + "); choose another folder");

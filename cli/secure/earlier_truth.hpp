@@ -5,7 +5,7 @@
 
 namespace skein::cli {
 
-/// Closes to agents (process/files/closed_to_agents.hpp) the results folders beside `out`, whoever flew them, and in
+/// Closes to agents (process/files/closed_to_agents.hpp) the results folders beside `out`, of all users, and in
 /// the user's cache the scenes, their points, estimates and plans. A launcher that runs as root closes its own files as
 /// it writes them: this function is for files that an ordinary user or an older version wrote.
 void close_earlier_truth(const std::filesystem::path& out);

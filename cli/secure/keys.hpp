@@ -10,24 +10,25 @@ struct x509_st;
 
 namespace skein::cli {
 
-/// One participant's proof of who it is, as PEM texts.
+/// The identity of a DDS participant, as PEM texts.
 struct Identity {
-  std::string subject;  ///< as permissions name it (RFC 2253): "CN=station,O=Skein,C=NL"
+  std::string subject;  ///< as in its permissions (RFC 2253): "CN=station,O=Skein,C=NL"
   std::string certificate;
   std::string key;
 };
 
-/// A certificate authority with a key (EC, prime256v1) and a self-signed certificate of its own.
+/// A certificate authority with a key (EC, prime256v1) and a self-signed certificate of its own. All functions throw
+/// std::runtime_error when OpenSSL fails.
 class Authority {
  public:
-  /// @param name  its common name. @throws std::runtime_error when OpenSSL fails.
+  /// @param name  common name of the authority.
   explicit Authority(const std::string& name);
 
-  /// Its own certificate (PEM).
+  /// The authority's own certificate (PEM).
   std::string certificate() const;
-  /// A new key with a certificate that cannot vouch for others. @param name  the common name.
+  /// A new key, with a certificate that cannot sign other certificates. @param name  the common name.
   Identity issue(const std::string& name) const;
-  /// The text as a signed S/MIME message (PKCS #7), as governance and permissions have to be.
+  /// The text as a signed S/MIME message (PKCS #7), as DDS Security requires of governance and permissions.
   std::string sign(const std::string& text) const;
 
  private:

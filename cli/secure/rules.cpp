@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::string_view kSchema = "http://www.omg.org/spec/DDS-Security/20170801/";
 
-/// A document's root.
+/// Adds a document's root.
 pugi::xml_node add_root(pugi::xml_document& document, const std::string& schema) {
   pugi::xml_node root = document.append_child("dds");
   root.append_attribute("xmlns:xsi") = "http://www.w3.org/2001/XMLSchema-instance";
@@ -30,7 +30,7 @@ void add_domains(pugi::xml_node rule, int first, int last) {
   add_element(range, "max", std::to_string(last));
 }
 
-/// What a rule of the permissions says of some topics. @param what  publish, subscribe
+/// Adds topics to a rule of the permissions. @param what  "publish" or "subscribe"
 void add_topics(pugi::xml_node rule, const char* what, const std::vector<std::string>& topics) {
   pugi::xml_node list = rule.append_child(what).append_child("topics");
   for (const std::string& topic : topics) add_element(list, "topic", topic);
@@ -57,7 +57,7 @@ void add_wire_names(std::vector<std::string>& names, std::span<const topics::Top
   }
 }
 
-/// All that sim_server alone writes in the domains of these units.
+/// Wire names of the topics that only sim_server publishes, in the domains of these UAVs (and "gcs").
 std::vector<std::string> server_topics(const std::vector<std::string>& units) {
   std::vector<std::string> names;
   for (const auto& topic :
@@ -97,7 +97,7 @@ Rights rights_of(const FleetPlan& plan, const std::string& program, int base_dom
   if (is_station) return {world_domain(base_domain), gcs_domain(base_domain), std::move(names)};
   const int own = agent_domain(plan, program, base_domain);
   names.push_back(topics::score().name);
-  // A program at the ground station shares the station's domain, and neither its name nor its word.
+  // A program at the ground station is in the station's domain, but must not publish for the station.
   names.push_back(topics::station_ready().name);
   names.push_back(topics::station_done().name);
   for (const UavConfig& uav : plan.scenario.fleet) names.push_back(topics::captures_ack(uav.name).name);
@@ -118,8 +118,8 @@ std::string permissions(const std::string& subject, const Rights& rights) {
     add_domains(rule, rights.first_domain, rights.last_domain);
     return rule;
   };
-  // The first rule that fits decides. Cyclone DDS takes a topic that a rule refuses in one direction for refused as a
-  // whole, unless a rule before it allows the other direction.
+  // The first matching rule decides. Cyclone DDS takes a topic that a rule denies in one direction for denied in both,
+  // unless an earlier rule allows the other direction.
   if (!rights.not_read.empty()) {
     pugi::xml_node hidden = add_rule("deny_rule");
     add_topics(hidden, "publish", rights.not_read);
@@ -143,7 +143,7 @@ std::string governance(int first_domain, int last_domain) {
   add_element(domains, "discovery_protection_kind", "ENCRYPT");
   add_element(domains, "liveliness_protection_kind", "ENCRYPT");
   add_element(domains, "rtps_protection_kind", "NONE");
-  // Submessages are encrypted as a whole, so nobody without a certificate can slip in a heartbeat or a gap either.
+  // Whole submessages are encrypted, so that nobody without a certificate can inject a heartbeat or a gap either.
   pugi::xml_node topics = domains.append_child("topic_access_rules").append_child("topic_rule");
   add_element(topics, "topic_expression", "*");
   add_element(topics, "enable_discovery_protection", "true");

@@ -9,23 +9,24 @@
 
 namespace skein::cli {
 
-/// What one program may do. Within its domains it may read and publish everything but the topics named here.
+/// What one program may do. Within its domains it may read and publish all topics except those named here.
 struct Rights {
   int first_domain = 0, last_domain = 0;
-  std::vector<std::string> not_published;  ///< as on the wire
-  std::vector<std::string> not_read = {};  ///< these it may not publish either
+  std::vector<std::string> not_published;  ///< topic names on the wire
+  std::vector<std::string> not_read = {};  ///< it may not publish these either
 };
 
-/// Of a program of the fleet: the server may do everything; the router must not speak for the server nor for agents,
-/// nor the station for the server or the router; an agent is in its own domain and speaks for itself alone. One at the
-/// ground station does not read what tells points by their index (topics::kScoreEval).
+/// The rights of a program of the fleet. sim_server may do everything. comm_router must not publish topics of
+/// sim_server, agents or the station; the station must not publish those of sim_server or comm_router. An agent joins
+/// only its own domain, and publishes only its own topics. Agents, also at the ground station, cannot read
+/// topics::kScoreEval, which has the points' indices in the scene.
 Rights rights_of(const FleetPlan& plan, const std::string& program, int base_domain);
 
-/// XML of the permissions of a certificate's owner. @param subject  of its certificate (RFC 2253)
+/// XML of the permissions of a certificate's owner. @param subject  subject of the certificate (RFC 2253)
 std::string permissions(const std::string& subject, const Rights& rights);
 
-/// XML of the governance of these domains: only those whom the fleet's own authority vouches for take part; all that
-/// they say is encrypted, discovery included.
+/// XML of the governance of these domains: only participants with a certificate of the fleet's own authority can join;
+/// all that they send is encrypted, discovery included.
 std::string governance(int first_domain, int last_domain);
 
 }  // namespace skein::cli

@@ -1,6 +1,6 @@
-// What a secured run (`skein run --secure`) is given before it starts, and takes back at its end: keys and permissions
-// of each program in a folder that nobody else can read, and, when the launcher is root, a user id of its own for each
-// agent. What this protects, and what not: docs/security.md. From one thread.
+// Sets up a secured run (`skein run --secure`), and cleans up after it: each program gets keys and permissions in a
+// folder that nobody else can read and, if the launcher is root, each agent gets a user id of its own. docs/security.md
+// says what this protects, and what not.   Threads: one.
 #pragma once
 
 #include <filesystem>
@@ -19,38 +19,40 @@ namespace skein::cli {
 /// Texts of one program's security files (process/files/security_files.hpp), by their names.
 using SecurityFiles = std::map<std::string, std::string>;
 
-/// Of each program of a fleet: keys of its own, rules of the fleet's. New ones at each call.
+/// New security files for each program of a fleet, by program: keys and permissions of its own, and the fleet's
+/// governance. @throws std::runtime_error when OpenSSL fails.
 std::map<std::string, SecurityFiles> security_of(const FleetPlan& plan, int base_domain);
 
-/// A new file that only its owner can read. @throws std::system_error
+/// Creates a file that only its owner can read (mode 0400). @throws std::system_error, also if the file exists.
 void write_private_file(const std::filesystem::path& file, const std::string& text);
 
-/// Before anything starts: what can be wrong with a secured fleet's agents under user ids of their own.
-/// @returns one such id, for the agents' own checks; null when agents run as the launcher.
-/// @throws InputError when they cannot read the programs or the configuration; it names the path and what helps.
+/// Checks, before anything starts, that agents with user ids of their own can read what they need.
+/// @returns one such id, for the agents' own checks (--check); null: agents run as the launcher's user.
+/// @throws InputError when they cannot read a program, an input file or the configuration, with path and remedy.
 std::unique_ptr<UserIds> check_agents_access(const FleetPlan& plan);
 
-/// Files that hold the scenario's ground truth and that agents can read all the same, each as a warning.
+/// Warnings: a sentence for each file with the scenario's ground truth that agents can read. If the launcher is not
+/// root: one for all of the user's files.
 std::vector<std::string> exposed_files(const FleetPlan& plan);
 
-/// While it lives, the keys of a run exist.
+/// Holds the keys of a run: they exist as long as this object.
 class SecureRun {
  public:
-  /// @param out  the results folder, which holds ground truth too: closed to others until the run is over, if agents
-  ///   are such others.
-  /// @throws InputError when the agents cannot get at their keys; std::runtime_error when something fails.
+  /// @param out  the results folder, which contains ground truth, too. If agents have user ids of their own, the folder
+  ///   is closed to other users until the run is over.
+  /// @throws InputError when agents cannot read their keys or too few user ids are free; std::runtime_error otherwise.
   SecureRun(const FleetPlan& plan, int base_domain, std::filesystem::path out);
-  /// Removes all keys, and ends whatever still runs as an agent's user.
+  /// Removes all keys, and ends all processes that still run as an agent's user.
   ~SecureRun();
   SecureRun(const SecureRun&) = delete;
   SecureRun& operator=(const SecureRun&) = delete;
 
   const SecureFolders& folders() const { return folders_; }
 
-  /// Copies what agents under their own user ids wrote from their own folders to the results folder, once all programs
-  /// have ended (and what they left behind has been): plain files of theirs, under names that begin with the program's,
-  /// as many and as much of them as is sensible. @returns what was left behind or cut, a sentence for each agent that
-  /// it befell.
+  /// Copies files of agents with user ids of their own from their folders to the results folder: regular files that the
+  /// agent owns, at most 1000 files and 64 MiB of each agent. Names that are not the program's own get its name in
+  /// front. Call it after all programs have ended; it first kills processes that they left behind.
+  /// @returns a sentence for each agent of which files were cut or left out.
   std::vector<std::string> collect() const;
 
  private:
@@ -60,7 +62,7 @@ class SecureRun {
   std::filesystem::path out_;
   std::filesystem::perms out_perms_;
   SecureFolders folders_;
-  std::optional<UserIds> users_;  ///< one an agent, if the launcher may choose
+  std::optional<UserIds> users_;  ///< one for each agent; nullopt: the launcher is not root
 };
 
 }  // namespace skein::cli

@@ -15,14 +15,14 @@
 #include "cli/host/proc_table.hpp"
 #include "core/types.hpp"
 
-extern "C" {  // glibc 2.36's header forgets it
+extern "C" {  // missing in glibc 2.36's header
 #include <sys/pidfd.h>
 }
 
 namespace skein::cli {
 namespace {
 
-/// Of a process that has been killed.
+/// Longest wait for the end of a killed process.
 constexpr int kPatience_ms = 2000;
 constexpr int kRounds = 5;
 
@@ -40,13 +40,14 @@ std::set<uid_t> users_with_processes() {
   return users;
 }
 
-/// As that user, so that the kernel finds them all at once: one by one they could multiply before us.
+/// Kills all processes of the user in one system call, by a child with that user id: killed one by one, they could fork
+/// faster.
 void kill_all_of(uid_t user) {
   const pid_t killer = ::fork();
   if (killer == 0) {
     const bool changed = ::setgroups(0, nullptr) == 0 && ::setgid(user) == 0 && ::setuid(user) == 0 &&
                          ::getuid() == user && ::geteuid() == user && user != 0;
-    if (changed) ::kill(-1, SIGKILL);  // all that this user may, but for the caller
+    if (changed) ::kill(-1, SIGKILL);  // all that this user may signal, except the caller
     ::_exit(0);
   }
   if (killer > 0) ::waitpid(killer, nullptr, 0);
@@ -76,7 +77,7 @@ bool end_processes_of(uid_t user) {
 UserIds::UserIds(std::size_t count) {
   std::vector<uid_t> candidates;
   for (uid_t user = kFirstAgentUser; user <= kLastAgentUser; ++user) candidates.push_back(user);
-  // Chance makes no difference to the run. It keeps away from what an earlier run's agent may have left in /tmp.
+  // A random order, which does not affect the run: an agent should not own what an earlier agent left in /tmp.
   std::shuffle(candidates.begin(), candidates.end(), std::random_device());
   const std::set<uid_t> taken = users_with_processes();
   for (const uid_t user : candidates) {

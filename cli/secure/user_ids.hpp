@@ -1,5 +1,5 @@
-// User ids for programs that are not to be trusted (docs/security.md): drawn for each run from a range that nobody is
-// given ids of, free when they are taken, and free of processes again when they are given back.   Only for root.
+// User ids for untrusted programs (docs/security.md): drawn at random for each run from a range that no system assigns.
+// An id has no processes when it is taken; when it is released, its processes are killed.   Only for root.
 #pragma once
 
 #include <cstddef>
@@ -10,19 +10,20 @@
 
 namespace skein::cli {
 
-/// systemd's table of ids has none of these in use, nor has Debian's policy; they exist in a container with 65536 ids
-/// too. The id after them is the group of all agents (process/files/closed_to_agents.hpp).
+/// The range. Neither systemd's table of ids nor Debian's policy assigns these; they exist also in a container with
+/// 65536 ids. The next id is the group of all agents (process/files/closed_to_agents.hpp).
 inline constexpr uid_t kFirstAgentUser = 60706, kLastAgentUser = 61182;
 
-/// Ends all processes that run as this user, and those that they start meanwhile.
-/// @returns false when some are left: the kernel does not let go of them, or they are not ours to end.
+/// Kills all processes that run as this user, and those that they start meanwhile.
+/// @returns false if some are left, because the kernel does not release them; or if this process is not root, or `user`
+///   is not in the range.
 bool end_processes_of(uid_t user);
 
 class UserIds {
  public:
-  /// @param count  of ids. @throws InputError when so many are not free.
+  /// @param count  number of ids. @throws InputError when fewer are free.
   explicit UserIds(std::size_t count);
-  /// Ends the processes of all of them.
+  /// Kills the processes of all these users.
   ~UserIds();
   UserIds(const UserIds&) = delete;
   UserIds& operator=(const UserIds&) = delete;
@@ -32,7 +33,7 @@ class UserIds {
 
  private:
   std::vector<UserId> ids_;
-  std::vector<HostLock> locks_;  ///< against other runs that have not started anything yet
+  std::vector<HostLock> locks_;  ///< keep other runs from taking an id before it has processes
 };
 
 }  // namespace skein::cli

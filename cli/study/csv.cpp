@@ -15,10 +15,10 @@ std::string cell(const std::string& text) {
   return quoted + "\"";
 }
 
-/// In files: enough to tell any two flights apart.
+/// Decimal places in files: enough to distinguish any two flights.
 constexpr int kDigits = 4;
 
-/// Whole numbers stay whole.
+/// Whole numbers have no decimal places; empty if not known.
 std::string number(const std::optional<double>& value) { return value ? fixed_at_most(*value, kDigits) : ""; }
 
 std::string number_of_any(const std::vector<double>& values, double value) {

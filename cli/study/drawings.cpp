@@ -11,7 +11,7 @@ namespace {
 
 using namespace report;
 
-/// From 0, or below it, to round ends.
+/// An axis with round ends that contains 0 and all values.
 Axis axis_with_zero(const std::vector<double>& values) {
   double low = 0.0, high = 0.0;
   for (const double value : values) {
@@ -71,7 +71,7 @@ class StudyDrawing {
                        titles_[scenario],  "",       curve_plot_svg(plot)};
   }
 
-  /// nullopt: there is no pair with a difference. @param axis  of all scenes; totals have their own.
+  /// nullopt: no pair has a difference. @param axis  of single scenes; totals have their own axis.
   std::optional<StudyFigure> differences(const std::vector<PlannerPair>& pairs, std::optional<std::size_t> scenario,
                                          const Axis& axis) const {
     DotPlot plot{scenario ? "Differences in " + titles_[*scenario] : "Differences of totals",
@@ -139,11 +139,11 @@ class StudyDrawing {
 
   const Study& study_;
   const std::vector<std::string>& titles_;
-  std::vector<std::string> scenes_, planners_;  ///< in names of files
+  std::vector<std::string> scenes_, planners_;  ///< as parts of file names
   Axis score_axis_;
 };
 
-/// Of all scenes; of totals.
+/// Axes of differences: in single scenes; of totals.
 std::pair<Axis, Axis> difference_axes(const std::vector<PlannerPair>& pairs) {
   std::vector<double> scenes, totals;
   for (const PlannerPair& pair : pairs) {
@@ -153,7 +153,7 @@ std::pair<Axis, Axis> difference_axes(const std::vector<PlannerPair>& pairs) {
   return {axis_with_zero(scenes), axis_with_zero(totals)};
 }
 
-/// Two figures of one name would be one file.
+/// Appends numbers to names of files that would otherwise overwrite each other.
 void make_files_unique(std::vector<StudyFigure>& figures) {
   std::vector<std::string> taken;
   for (StudyFigure& figure : figures) {

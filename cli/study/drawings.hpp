@@ -27,7 +27,7 @@ struct StudyFigure {
   std::vector<LegendEntry> legend = {};  ///< for the file; the page has its own
 };
 
-/// All figures, in the order of the page. @param titles  of the scenes.
+/// All figures, in the order of the page. @param titles  titles of the scenes.
 std::vector<StudyFigure> study_figures(const Study& study, const StudyPictures& pictures,
                                        const std::vector<PlannerPair>& pairs, const std::vector<std::string>& titles);
 

@@ -12,7 +12,7 @@
 namespace skein::cli {
 namespace {
 
-/// What the variables of report/style.cpp are on paper.
+/// Values on paper of the CSS variables of report/style.cpp.
 const std::map<std::string, std::string>& paper_palette() {
   static const std::map<std::string, std::string> kPalette = {{"--font", "Helvetica, Arial, sans-serif"},
                                                               {"--ink", "#000000"},
@@ -47,7 +47,7 @@ constexpr const char* kPaperStyle =
 .mark.q0 { fill: #cfd4db; } .mark.q1 { fill: #a9cbe8; } .mark.q2 { fill: #6aa6d8; } .mark.q3 { fill: #2d7bbf; } .mark.q4 { fill: #0b4a86; }
 )css";
 
-/// "var(--ink)" everywhere replaced.
+/// A style sheet with "var(--ink)" and the like replaced by values on paper.
 std::string resolved(std::string_view style) {
   std::string out;
   for (std::size_t at = 0; at < style.size();) {
@@ -65,7 +65,7 @@ struct Size {
   double width = 0.0, height = 0.0;
 };
 
-/// Of a drawing of ours: `viewBox="0 0 360 120"`.
+/// Size of one of Skein's own drawings, from its `viewBox="0 0 360 120"`.
 Size view_box(const std::string& svg) {
   const std::string begin = "viewBox=\"0 0 ";
   const std::size_t from = svg.find(begin) + begin.size();

@@ -8,7 +8,7 @@
 namespace skein::cli {
 namespace {
 
-/// Collects what the UAVs report one by one.
+/// Mean of a figure over UAVs.
 struct Mean {
   double sum = 0.0;
   int count = 0;

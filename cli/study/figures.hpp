@@ -105,9 +105,9 @@ struct Study {
   FlightList flights;
   std::string command_line, version, programs, medium;
   int jobs = 1;
-  std::string conditions = {};                     ///< if not the scenarios': "missions of 120 s"; else empty
+  std::string conditions = {};                     ///< set by options: "missions of 120 s"; empty: none
   std::vector<std::string> scene_conditions = {};  ///< by scenario, from --conditions; empty: no such option
-  std::string machine = {};                        ///< that wrote this; empty: not recorded
+  std::string machine = {};                        ///< on which the report was written; empty: not recorded
 
   /// The flights of a planner in a scenario that have figures, in the order of the plan.
   std::vector<const FlightEntry*> cell(std::size_t planner, std::size_t scenario) const;

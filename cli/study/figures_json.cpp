@@ -3,7 +3,7 @@
 namespace skein::cli {
 namespace {
 
-/// The only list of them.
+/// Calls `each` with the key and the value of each figure, for both reading and writing.
 template <class Figures, class Each>
 void each_figure(Figures& f, const Each& each) {
   each("score", f.score);

@@ -111,7 +111,7 @@ class StudyRun {
   const Console& console_;
   StudyOutcomes outcomes_;
   std::size_t over_ = 0;
-  double flown_s_ = 0.0, left_s_ = 0.0;  ///< of mission time, in this call
+  double flown_s_ = 0.0, left_s_ = 0.0;  ///< mission time, in this call
   const Clock::time_point started_ = Clock::now();
 };
 

@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 constexpr std::uintmax_t kLargestFile = 2'000'000'000;
 
-/// Of the programs that fly with every planner; the launcher only watches.
+/// Digest of the programs that fly with every planner. The launcher is left out, because it only supervises.
 std::string digest_of_servers(const fs::path& bin_dir) {
   Sha256 hash;
   for (const char* name : programs::kServers) hash.add(read_file_bytes(bin_dir / name, kLargestFile));
@@ -36,7 +36,7 @@ std::optional<fs::path> parameter_file(const std::string& spec) {
   return fs::is_regular_file(file) ? std::optional(file) : std::nullopt;
 }
 
-/// Of the scenario with all its vehicles and files, of the planners' files, and of the faults.
+/// Digest of the scenario with all its vehicles and files, of the planners' files, and of the fault file.
 std::string input_digest(const FleetPlan& plan) {
   const SceneConfig& scene = plan.scenario.scene;
   Sha256 hash;
@@ -70,7 +70,7 @@ Json MadeUnder::of(const FleetPlan& fleet) {
           {"dds", medium_of(fleet)}};
 }
 
-/// Of all that fly a fleet; of one it is the program's own.
+/// Digest of all agent programs of a fleet. If there is only one, it is that program's own digest.
 std::string MadeUnder::agent_digest(const FleetPlan& fleet) {
   if (fleet.options.one_process) return digest(fleet_file(fleet));
   const std::vector<fs::path> agents = agent_files(fleet);

@@ -18,7 +18,7 @@ using namespace report;
 
 constexpr std::size_t kLongestTitle = 100;
 
-/// What the page of a study has besides.
+/// Additional styles of a study's page.
 constexpr const char* kStudyStyle = R"css(.study svg.plot { max-width: 560px; }
 .study .panels { grid-template-columns: repeat(auto-fit, minmax(min(320px, 100%), 1fr)); }
 .study .panels.large { grid-template-columns: repeat(auto-fit, minmax(min(400px, 100%), 1fr)); }
@@ -52,7 +52,7 @@ std::string study_card(const std::string& name, const std::string& value, const 
                      escaped(value), escaped(small));
 }
 
-/// Who is ahead: of a contest by its rule, else by the median of the totals.
+/// A card with the planner in first place: in a contest by its rule, else by the median of the totals.
 std::string leader_card(const Study& study) {
   if (study.contest) {
     const std::vector<Standing> all = standings(study);
@@ -160,7 +160,7 @@ std::string file_links(const StudyReport& report) {
   return html + "</ul></section>\n";
 }
 
-/// A median over the flights that count, of what they tell of this machine.
+/// Median of a figure over the flights that have it.
 std::optional<double> of_flights(const Study& study, std::optional<double> FlightFigures::*figure) {
   std::vector<double> values;
   for (const FlightEntry& flight : study.flights) {

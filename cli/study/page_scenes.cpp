@@ -13,13 +13,13 @@ namespace {
 
 using namespace report;
 
-constexpr std::size_t kMostOpenRows = 24;  ///< of a table of UAVs; longer ones are folded
+constexpr std::size_t kMostOpenRows = 24;  ///< longer tables of UAVs are folded
 
-/// Median with the range below where there is one.
+/// Median, and below it the range if there are several values.
 std::string value_cell(const StudyColumn& column, const std::vector<double>& values, bool is_best) {
   if (values.empty()) return "<td>–</td>";
   const Spread spread = spread_of(values);
-  // The median of an even number of whole numbers may lie between two.
+  // The median of an even number of whole numbers may end in .5.
   const int digits =
       column.digits == 0 && spread.median != static_cast<double>(static_cast<long>(spread.median)) && spread.max < 100.0
           ? 1
@@ -93,14 +93,14 @@ std::string flight_table(const Study& study, std::size_t scenario) {
   return html + "</tbody></table></div>\n";
 }
 
-/// One UAV over the flights of a cell.
+/// Figures of one UAV in all flights of a planner in a scene.
 struct UavRow {
   std::string role;
   std::vector<double> scores, distances_m, idle_s, captures, better;
-  std::size_t taken = 0, never = 0;  ///< of all flights, of captures that improved a point
+  std::size_t taken = 0, never = 0;  ///< captures that improved a point; those never delivered
 };
 
-/// By UAV, in fleet order.
+/// Rows by name of the UAV, in fleet order.
 std::vector<std::pair<std::string, UavRow>> uav_rows(const std::vector<const FlightEntry*>& flights) {
   std::vector<std::pair<std::string, UavRow>> rows;
   for (const FlightEntry* flight : flights) {

@@ -33,7 +33,7 @@ OverviewCell overview_of(const Study& study, std::size_t planner, std::optional<
     return cell;
   }
   for (const std::uint64_t seed : study.seeds) {
-    bool known = true;  // what could be had in each scene
+    bool known = true;  // whether the attainable score of each scene is known
     const auto total = [&](const std::function<double(const FlightFigures&)>& value) {
       return total_of(study, planner, seed, [&](const FlightEntry& flight) { return value(*flight.figures); });
     };

@@ -15,10 +15,10 @@ namespace {
 
 constexpr const char* kScore = "score";
 
-/// Of one flight.
+/// A figure of one flight; nullopt: not known.
 using Figure = std::function<std::optional<double>(const FlightEntry&)>;
 
-/// By seed: in a scene, or in all of them together.
+/// Values by seed: in one scene, or sums over all scenes.
 std::map<std::uint64_t, double> values_of(const Study& study, const Figure& figure, std::size_t planner,
                                           std::optional<std::size_t> scenario) {
   std::map<std::uint64_t, double> values;
@@ -55,7 +55,7 @@ PlannerPair pair_of(const Study& study, const std::string& name, const Figure& f
   return pair;
 }
 
-/// The scenes of two planners are one family, and so are the totals of all.
+/// Holm's correction. The tests of two planners in single scenes are one family; those over all scenes are another one.
 void correct(std::vector<PlannerPair>& pairs) {
   std::map<std::optional<std::pair<std::size_t, std::size_t>>, std::vector<PlannerPair*>> families;
   for (PlannerPair& pair : pairs) {
@@ -91,7 +91,7 @@ Figure of_column(const StudyColumn& column) {
   return [&column](const FlightEntry& flight) { return column.value(*flight.figures); };
 }
 
-/// @param study  must outlive it.
+/// The figure kDeviation. @param study  must outlive the result.
 Figure deviation(const Study& study) {
   using Medians = std::map<std::pair<std::size_t, std::size_t>, double>;  // by planner and scene
   const auto medians = std::make_shared<Medians>();

@@ -26,7 +26,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The scenes that need no files, then the contest's own.
+/// Scenarios of a contest: those that need no files, and those that need --assets.
 const std::vector<std::string> kProcedural = {"towers", "hangar", "cranes", "spire", "sail"};
 const std::vector<std::string> kWithAssets = {"mbs", "crane"};
 
@@ -62,7 +62,7 @@ std::vector<std::string> scenarios_of(const StudyOptions& options) {
   return scenarios;
 }
 
-/// Each scenario with each scene seed, under all conditions.
+/// Lists each scenario with each scene seed under each set of conditions.
 void list_scenes(const StudyOptions& options, StudyPlan& plan) {
   refuse_doubles("conditions", options.conditions);
   const auto list = [&](const std::string& name, const StudyScene& scene) {
@@ -105,8 +105,8 @@ RunOptions run_options(const StudyOptions& options, const StudyScene& scene, con
   return run;
 }
 
-/// Whether uav_agent itself has all planners of a fleet that name no agent: then it flies them, and what they did does
-/// not fall due again when the user's own agent is built anew.
+/// Whether all planners of a fleet that name no agent are built into uav_agent. Then uav_agent flies them, and their
+/// flights need not be repeated when the user's own agent is rebuilt.
 bool are_all_built_in(const FleetPlan& plan, const std::vector<std::string>& built_in) {
   const auto is_built_in = [&](const UavPlanner& planner) {
     const std::string& spec = planner.spec;
@@ -116,7 +116,7 @@ bool are_all_built_in(const FleetPlan& plan, const std::vector<std::string>& bui
   return std::ranges::all_of(plan.planners, is_built_in) && (!plan.ground || is_built_in(*plan.ground));
 }
 
-/// The programs' own checks; sim_server is asked once a scenario.
+/// Lets the programs check a plan. @param with_server  also sim_server, which needs to check each scenario only once
 void check_with_programs(const FleetPlan& plan, bool with_server) {
   const ScratchDir scratch;
   std::vector<ProgramSpec> programs = check_programs(plan, scratch.path());
@@ -129,7 +129,7 @@ void check_with_programs(const FleetPlan& plan, bool with_server) {
   }
 }
 
-/// How this very program is called: by the script of the source tree that it was built in, or as installed.
+/// How the user calls this program: with the script of the source tree in which it was built, or as installed.
 std::string own_command() {
   std::error_code error;
   const bool in_its_tree = fs::is_regular_file(program_dir() / "../../../skein", error);
@@ -166,7 +166,7 @@ std::string command_line(const StudyPlan& plan) {
   return line;
 }
 
-/// For a message: texts without quotes.
+/// A value for a message, with texts unquoted.
 std::string plain(const Json& value) {
   if (value.is_string()) return value.get<std::string>();
   if (!value.is_array()) return value.dump();
@@ -175,7 +175,7 @@ std::string plain(const Json& value) {
   return joined(items);
 }
 
-/// Of the scenes, for the names of their folders.
+/// Names of the scenes' folders, not unique yet.
 std::vector<std::string> stems_of(const StudyPlan& plan) {
   std::vector<std::string> stems;
   for (const StudyScene& scene : plan.scenes) {
@@ -186,7 +186,8 @@ std::vector<std::string> stems_of(const StudyPlan& plan) {
   return stems;
 }
 
-/// What a study goes on with, or not. @param agents, inputs  by planner; by scenario and planner
+/// Settings in which a study must agree with the one in its folder to continue it. @param agents  digests by planner.
+/// @param inputs  digests by scenario and planner
 Json settings_of(const StudyPlan& plan, const std::string& programs, const Json& agents, const Json& inputs) {
   const StudyOptions& options = plan.options;
   return {{"command", options.contest ? "contest" : "compare"},
@@ -243,7 +244,7 @@ StudyPlan plan_study(const StudyOptions& options, AskPrograms ask) {
       }
       fleet.options.one_process = !options.dds && !needs_processes(fleet);
       media.insert(medium_of(fleet));
-      // Scenes of one family differ in nothing that a program would refuse.
+      // Scenes that differ only in scene seed or conditions are equally valid for a program.
       const bool another_seed = s > 0 && (options.scene_seeds || plan.scenes[s].conditions) &&
                                 plan.scenes[s].scenario == plan.scenes[s - 1].scenario;
       if (!another_seed && ask == AskPrograms::yes) check_with_programs(fleet, p == 0);
@@ -289,7 +290,7 @@ std::vector<std::string> differing_settings(const Json& then, const Json& now) {
       differences.push_back(key + ": then " + plain(former) + ", now " + plain(value));
     }
   }
-  // Of flights that both know: a scenario, vehicle or parameter file has changed, or an option that has been told.
+  // For flights of both studies: a file has changed, unless an option that is listed above explains the difference.
   const Json former = value_or(then, "inputs", Json::object()), inputs = value_or(now, "inputs", Json::object());
   std::vector<std::string> changed;
   for (const auto& [flight, input] : inputs.items()) {

@@ -16,7 +16,7 @@ constexpr double kDotWidth = 360.0, kDotLeft = 14.0, kDotRight = 18.0, kDotTop =
 constexpr double kLabelAt = 14.0, kBoxAt = 30.0, kHalfBox = 8.0;  // within a row
 constexpr std::size_t kLabelLength = 48;
 constexpr double kCurveWidth = 440.0, kCurveLeft = 44.0, kCurveRight = 14.0, kCurveHeight = 210.0;
-constexpr double kLetter = 6.1, kLegendLine = 15.0, kLegendMark = 20.0, kLegendGap = 14.0;  ///< letter: about, at 11 px
+constexpr double kLetter = 6.1, kLegendLine = 15.0, kLegendMark = 20.0, kLegendGap = 14.0;  ///< letter: width at 11 px
 
 std::string line_svg(double x1, double y1, double x2, double y2, const std::string& style) {
   return fmt::format("<line class=\"{}\" x1=\"{}\" y1=\"{}\" x2=\"{}\" y2=\"{}\"/>\n", style, coordinate(x1),
@@ -35,7 +35,7 @@ std::string open_plot(const std::string& style, const std::string& title, double
       style, coordinate(width), coordinate(height), escaped(title));
 }
 
-/// One row below `top`.
+/// Draws one row, below `top`.
 class RowDrawing {
  public:
   RowDrawing(const DotPlot& plot, const PlotRow& row, double top) : plot_(plot), row_(row), y_(top + kBoxAt) {
@@ -77,7 +77,7 @@ class RowDrawing {
   std::string dots() const {
     std::string svg;
     for (std::size_t i = 0; i < row_.values.size(); ++i) {
-      const double beside = 4.0 * (static_cast<double>(i % 3) - 1.0);  // equal values stay apart
+      const double beside = 4.0 * (static_cast<double>(i % 3) - 1.0);  // separates equal values
       svg +=
           fmt::format("<circle class=\"{}\" cx=\"{}\" cy=\"{}\" r=\"2.6\"><title>{}</title></circle>\n", style("dot"),
                       coordinate(x(row_.values[i].value)), coordinate(y_ + beside), escaped(row_.values[i].name));
@@ -91,7 +91,7 @@ class RowDrawing {
   std::vector<double> values_;
 };
 
-/// Where times and scores are in a plot of curves whose panel begins at `top`.
+/// Positions of times and scores in a plot of curves whose panel begins at `top`.
 struct CurveFrame {
   double top, end_s;
   Axis axis;

@@ -13,7 +13,7 @@ namespace {
 
 using Relation = Requirement::Relation;
 
-/// Those of two characters first: "<" begins "<=".
+/// Relations of two characters come first, because "<" is the beginning of "<=".
 constexpr std::array<std::pair<const char*, Relation>, 6> kRelations = {{{"==", Relation::equal},
                                                                          {"!=", Relation::unequal},
                                                                          {"<=", Relation::at_most},

@@ -21,7 +21,7 @@ bool SideBySide::fly(std::deque<std::size_t> waiting, const Start& start, const 
       std::optional<ProgramSpec> program = start(waiting.front());
       if (!program) break;
       program->name = "flight " + std::to_string(waiting.front());
-      if (std::getenv(kThreadsVariable) == nullptr) {  // else it is theirs already
+      if (std::getenv(kThreadsVariable) == nullptr) {  // else the flights inherit it
         const std::size_t beside = std::min(at_once_, in_the_air_.size() + waiting.size());
         program->env.push_back(std::string(kThreadsVariable) + "=" + std::to_string(threads_beside(beside)));
       }

@@ -8,17 +8,17 @@ namespace skein::cli {
 namespace {
 
 constexpr std::size_t kMostExact = 100;
-constexpr double kTail = 0.025;   ///< of the medians, at either end of an interval
-constexpr double kReach = 3.0;    ///< ranks from the middle one, in roots of the sample size: 6 standard deviations
-constexpr double kLeast = 1e-12;  ///< a share below that counts for nothing
+constexpr double kTail = 0.025;   ///< share of the medians beyond either end of an interval
+constexpr double kReach = 3.0;    ///< greatest distance from the middle rank, times sqrt(n): 6 standard deviations
+constexpr double kLeast = 1e-12;  ///< lesser shares are neglected
 
-/// A value that the median of a sample may have, and of how many samples it is.
+/// A possible median, and the share of samples that have it.
 struct Median {
   double value = 0.0, share = 0.0;
 };
 
-/// Medians of all samples that can be drawn with replacement from n sorted values, by how likely they are. With n = 2 m
-/// the median lies between the sample's order statistics m and m + 1; with an odd n it is one of them.
+/// Distribution of the medians of all samples drawn with replacement from n sorted values. If n = 2 m, the median is
+/// the mean of the sample's order statistics m and m + 1; if n is odd, it is the middle order statistic.
 class MedianSamples {
  public:
   explicit MedianSamples(const std::vector<double>& sorted)
@@ -56,14 +56,14 @@ class MedianSamples {
     return sum;
   }
 
-  /// Of the share of draws of `middle_` values that are all among the first i, but not all among the first i - 1. The
-  /// same of the last ones, counted from the end.
+  /// Logarithm of the probability that `middle_` draws are all among the first i values, but not all among the first
+  /// i - 1. The same for the last i values, counted from the end.
   double log_just(std::size_t i) const {
     const auto m = static_cast<double>(middle_), at = static_cast<double>(i);
     return m * std::log(at / static_cast<double>(n_)) + std::log(-std::expm1(m * std::log1p(-1.0 / at)));
   }
 
-  /// Share of samples of which `middle_` draws or more are among the first i values: a binomial's upper tail.
+  /// Share of samples with at least `middle_` draws among the first i values: the upper tail of a binomial.
   double middle_or_more(std::size_t i) const {
     if (i == 0) return 0.0;
     if (i == n_) return 1.0;
@@ -79,12 +79,12 @@ class MedianSamples {
   }
 
   const std::vector<double>& values_;
-  std::size_t n_, middle_;    ///< middle_: of the lower middle order statistic, from 1
-  double log_ways_;           ///< to choose that many of n
-  std::size_t first_, last_;  ///< values, from 1, that have a share worth counting
+  std::size_t n_, middle_;    ///< middle_: rank of the lower middle order statistic, from 1
+  double log_ways_;           ///< log of the number of ways to choose middle_ of n
+  std::size_t first_, last_;  ///< values, from 1, whose share is not negligible
 };
 
-/// A difference without its sign, and twice its rank: equal ones share a mean, which may end in one half.
+/// Size and sign of a difference, and twice its rank: equal sizes share their mean rank, which may end in .5.
 struct Ranked {
   double size = 0.0;
   bool positive = false;
@@ -104,7 +104,8 @@ std::vector<Ranked> ranked(const std::vector<double>& differences) {
   return all;
 }
 
-/// The share of all ways to deal signs whose positive ranks sum to `least` or less, twice the ranks being counted.
+/// Share of all assignments of signs for which the sum of positive ranks is at most `least`. @param least, whole  twice
+/// the sums of ranks; whole: of all.
 double share_up_to(const std::vector<Ranked>& all, std::size_t least, std::size_t whole) {
   std::vector<double> shares(whole + 1, 0.0);
   shares[0] = 1.0;
@@ -120,9 +121,10 @@ double share_up_to(const std::vector<Ranked>& all, std::size_t least, std::size_
   return share;
 }
 
-/// With corrections for ties and continuity. @param positive, whole  twice the sums of ranks.
+/// Two-sided p of the normal approximation, corrected for ties and continuity.
+/// @param positive, whole  twice the sums of ranks
 double normal_p(const std::vector<Ranked>& all, std::size_t positive, std::size_t whole) {
-  double variance = 0.0;  // a quarter of the squares' sum, ties or not
+  double variance = 0.0;  // a quarter of the sum of squared ranks, also with ties
   for (const Ranked& one : all) variance += std::pow(0.5 * static_cast<double>(one.twice_rank), 2) / 4.0;
   const double off = std::abs(0.5 * static_cast<double>(positive) - 0.25 * static_cast<double>(whole));
   return std::min(1.0, std::erfc(std::max(0.0, off - 0.5) / std::sqrt(2.0 * variance)));
@@ -150,7 +152,7 @@ SignedRank signed_rank_test(const std::vector<double>& differences) {
     positive += one.positive ? one.twice_rank : 0;
   }
   if (all.size() > kMostExact) return {all.size(), normal_p(all, positive, whole), false};
-  // What one sign gets and what the other gets are as likely as each other.
+  // The distribution is symmetric in the two signs.
   const double share = share_up_to(all, std::min(positive, whole - positive), whole);
   return {all.size(), std::min(1.0, 2.0 * share), true};
 }

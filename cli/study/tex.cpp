@@ -34,10 +34,10 @@ std::string tex_character(char c) {
     case '{':
     case '}':
       return std::string("\\") + c;
-    case '[':  // behind the end of a row: an option of it
+    case '[':  // after the end of a row, LaTeX reads it as an option
     case ']':
     case '*':
-    case '-':  // these make one sign of two
+    case '-':  // LaTeX joins two of these into one character
     case '\'':
     case ',':
       return std::string("{") + c + "}";
@@ -49,7 +49,7 @@ std::string tex_character(char c) {
   }
 }
 
-/// How many bytes the character has that begins here; 0: none does.
+/// Bytes of the UTF-8 character that begins at `at`; 0: none begins there.
 std::size_t utf8_length(const std::string& text, std::size_t at) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const std::size_t length = byte(at) < 0x80   ? 1
@@ -65,7 +65,7 @@ std::size_t utf8_length(const std::string& text, std::size_t at) {
   return length;
 }
 
-/// A number with a minus, not a hyphen.
+/// A number, with a minus sign instead of a hyphen.
 std::string tex_number(double value, int digits) {
   const std::string text = fixed(value, digits);
   return text.starts_with("-") ? "$-$" + text.substr(1) : text;

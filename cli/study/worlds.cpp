@@ -17,14 +17,14 @@ constexpr std::size_t kWorst = 10;
 constexpr double kTenth = 0.1;
 constexpr std::size_t kLongestPlanner = 24;
 
-/// How bad a flight was: the greater, the worse.
+/// Key by which flights are sorted: the greater, the worse.
 std::tuple<bool, int, int, double> badness(const FlightEntry& flight) {
   if (!flight.figures) return {true, 0, 0, 0.0};
   return {false, flight.figures->collisions, flight.figures->frozen_uavs.value_or(0),
           -flight.figures->attainable_percent.value_or(0.0)};
 }
 
-/// Of a sorted sample, the value that a tenth of it do not exceed, interpolated as Spread's quartiles are.
+/// The tenth percentile, interpolated like the quartiles of Spread; 0 for an empty sample.
 double tenth_percentile(std::vector<double> values) {
   if (values.empty()) return 0.0;
   std::ranges::sort(values);

@@ -1,5 +1,5 @@
-// Summary of a study over many generated scenes: how planners perform in worlds that nobody has seen, and the worst
-// flights with the commands that repeat them. Pure.
+// Summary of a study over many generated scenes: how planners perform in unseen worlds, and the worst flights with the
+// commands that repeat them. Pure.
 #pragma once
 
 #include <iosfwd>

@@ -19,9 +19,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostTries = 3;        ///< of a unit that does not get on
-constexpr std::size_t kMostCheckRounds = 4;  ///< chance may give a flight to the node that has flown it
-constexpr std::size_t kMostChecksHere = 10;  ///< of those that are left then
+constexpr std::size_t kMostTries = 3;        ///< of a unit without progress
+constexpr std::size_t kMostCheckRounds = 4;  ///< the engine may give a check to the node that flew the flight
+constexpr std::size_t kMostChecksHere = 10;  ///< of the checks that are left then
 
 std::string digest_in(const SweepRow& row) { return value_or(row.figures, "digest", "").get<std::string>(); }
 
@@ -40,7 +40,7 @@ std::string new_token(const std::string& plan) {
 
 bool is_checked(std::size_t index, std::size_t flights) {
   if (flights < kCheckedShare) return index == flights / 2;
-  // Not every hundredth: a study's order may have a period of a hundred, too.
+  // A random flight of each hundred: the order of a study may have a period of a hundred.
   return RandomStream(1, "checked flight", index / kCheckedShare).bits() % kCheckedShare == index % kCheckedShare;
 }
 
@@ -71,7 +71,7 @@ void SweepController::begin(const SweepPlan& plan, const std::string& digest_of_
   settings_.command = plan.command;
   settings_.working_folder = plan.working_folder;
   const auto former = folder_.settings();
-  // As in a hunt's last round: what is known of nodes stays.
+  // As in the rounds of a hunt: with the same reference flight, the nodes need not fly it again.
   const bool proved = former && std::ranges::any_of(plan.references, [&](const SweepFlight& flight) {
                         return to_json(flight) == to_json(former->reference);
                       });
@@ -93,7 +93,7 @@ void SweepController::begin(const SweepPlan& plan, const std::string& digest_of_
   for (std::size_t number = 0; number < settings_.units(); ++number) close_what_is_flown(number);
 }
 
-/// A planner that always fails does not keep the others from the air.
+/// Tries the candidates in order, so that a planner that always fails does not prevent the sweep.
 void SweepController::fly_a_reference(const SweepPlan& plan) {
   for (const SweepFlight& flight : plan.references) {
     const auto began = std::chrono::steady_clock::now();
@@ -109,7 +109,7 @@ void SweepController::fly_a_reference(const SweepPlan& plan) {
   }
 }
 
-/// A study that was flown otherwise before, or in part.
+/// Marks a unit as over if all its flights have results already, from a study flown without a sweep or only in part.
 void SweepController::close_what_is_flown(std::size_t unit) const {
   std::vector<SweepRow> rows;
   for (const SweepFlight& flight : folder_.unit(unit).flights) {
@@ -120,7 +120,7 @@ void SweepController::close_what_is_flown(std::size_t unit) const {
   folder_.write_done(settings_.token, unit, rows);
 }
 
-/// What failed, and what somebody has removed.
+/// Reopens units with failed flights, or with flights whose results somebody has removed.
 void SweepController::reopen_what_must_fly(const SweepPlan& plan) const {
   for (const std::size_t unit : folder_.done(settings_.token)) {
     const auto rows = folder_.rows(settings_.token, unit);
@@ -152,7 +152,7 @@ bool SweepController::fly() {
     const auto more = [&] { return checks_follow ? checks_elsewhere() : EngineWork{}; };
     if (!engine_.fly(work, {[this] { tell_progress(); }, more})) return false;
     tell_progress();
-    // A node that fails at once may have taken all units: that says nothing about them.
+    // A node that fails at once may have taken many units, so these tries say nothing about the units.
     if (nodes_to_avoid() != before) folder_.write_tries({});
   }
   folder_.clear_air();
@@ -174,7 +174,8 @@ std::vector<std::size_t> SweepController::open_units() const {
   return open;
 }
 
-/// A unit that gets on has all its tries again: a limit of time may cut it in many pieces.
+/// The units that have tries left. A unit that has made progress gets all its tries again, because an engine's time
+/// limit may split it into many pieces.
 std::vector<std::size_t> SweepController::within_tries(const std::vector<std::size_t>& units) const {
   std::map<std::size_t, SweepFolder::Tries> tries = folder_.tries();
   std::vector<std::size_t> within;
@@ -198,7 +199,7 @@ SweepFlight SweepController::flight(std::size_t index) const {
   return folder_.unit(unit).flights.at(index - settings_.sizes.first(unit));
 }
 
-/// Those that are to be flown again elsewhere, and were not.
+/// The flights of the sample whose results have not been checked on a second node yet.
 std::vector<SweepFlight> SweepController::unchecked_flights() const {
   std::vector<SweepFlight> unchecked;
   const std::size_t flights = settings_.sizes.flights;
@@ -215,7 +216,7 @@ std::vector<SweepFlight> SweepController::unchecked_flights() const {
   return unchecked;
 }
 
-/// Whichever node gets one flies what others have flown.
+/// Writes units of unchecked flights. A node flies only those flights of such a unit that another node flew first.
 std::vector<std::size_t> SweepController::units_of_checks() const {
   if (!engine_.has_other_nodes() || engine_.lacks_nodes() || folder_.nodes().size() < 2) return {};
   const std::size_t first = settings_.units();
@@ -244,7 +245,7 @@ EngineWork SweepController::checks_elsewhere() {
   return work;
 }
 
-/// For checks: the node that flew all of them, if there is another one that may fly.
+/// The node that flew all flights of these units, and so cannot check any, if there is another node that may fly.
 std::set<std::string> SweepController::nodes_of_no_use(const std::vector<std::size_t>& checks,
                                                        const std::set<std::string>& avoided) const {
   std::set<std::string> flew, others;
@@ -260,7 +261,8 @@ std::set<std::string> SweepController::nodes_of_no_use(const std::vector<std::si
   return others.empty() ? std::set<std::string>{} : flew;
 }
 
-/// What chance has left over, or all where there is one node beside this one. @returns whether there was any.
+/// Checks on this machine what no other node has checked: a few flights, or the whole sample if only one node flies.
+/// @returns whether it has checked any.
 bool SweepController::check_here() {
   if (!engine_.has_other_nodes()) return false;
   bool any = false;
@@ -283,7 +285,8 @@ void SweepController::judge_checks() const {
   }
 }
 
-/// Two nodes differ: this one tells which is wrong, unless the flight is another one each time.
+/// Two nodes have different digests of a flight. This machine decides which node is wrong, unless the flight has
+/// another digest each time here, too.
 void SweepController::judge(const SweepCheck& check) const {
   const SweepFlight disputed = flight(check.index);
   const std::string here = digest_here(folder_, disputed, here_);
@@ -300,7 +303,7 @@ void SweepController::judge(const SweepCheck& check) const {
   folder_.forget_check(settings_.token, check.index);
 }
 
-/// Also of units that are not over: nobody may take these flights for good ones later.
+/// Sets aside the flights of quarantined nodes, also those of units that are not over, so that they never count.
 void SweepController::remove_quarantined() {
   const std::set<std::string> nodes = folder_.quarantined_nodes();
   if (nodes == removed_) return;

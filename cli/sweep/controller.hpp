@@ -1,5 +1,5 @@
 // The controller of a sweep decides which units the engine gets, until all flights have been flown and a sample of them
-// has been checked on a second node. All that matters is in the sweep's folder: if it is killed, another one continues.
+// has been checked on a second node. Its state is in the sweep's folder: if it is killed, another controller continues.
 // Reads and writes the sweep's folder. One thread.
 #pragma once
 
@@ -84,7 +84,7 @@ class SweepController {
   std::ostream& say_;
   SweepSettings settings_;
   std::set<std::string> removed_;  ///< quarantined nodes whose results have been set aside
-  std::size_t checked_here_ = 0;   ///< number of flights that this machine has checked
+  std::size_t checked_here_ = 0;   ///< number of checks that this machine has flown
   std::size_t told_ = 0;           ///< units that were over at the last report of progress
 };
 

@@ -49,7 +49,7 @@ class LocalEngine : public SweepEngine {
   const Console& console_;
 };
 
-/// GNU parallel deals the units out, here or over ssh.
+/// GNU parallel distributes the units, on this machine or over ssh.
 class ParallelEngine : public SweepEngine {
  public:
   ParallelEngine(std::vector<std::string> logins, std::optional<int> jobs, const SweepFolder& folder,
@@ -74,9 +74,9 @@ class ParallelEngine : public SweepEngine {
 
  private:
   ProgramSpec program(const fs::path& list) const {
-    // A unit that is told to end has some seconds for the step that it is in.
+    // --termseq: after SIGTERM, a unit has 5 s to finish its current step.
     std::vector<std::string> argv = {"/usr/bin/env"};
-    // What this launcher would give to one flight alone is not for each of its slots.
+    // SideBySide sets this variable to the threads of a single flight; parallel's slots must not inherit it.
     if (::getenv(kThreadsVariable) == nullptr) argv.insert(argv.end(), {"-u", kThreadsVariable});
     argv.insert(argv.end(), {"parallel", "--plain", "--termseq", "TERM,5000,KILL,25"});
     if (jobs_) argv.insert(argv.end(), {"--jobs", std::to_string(*jobs_)});
@@ -119,13 +119,13 @@ void write_fly_script(const SweepFolder& folder, const fs::path& study, const fs
   script += "cd " + shell_word(working_folder) + " || exit 3\n";
   for (const std::string& entry : environment_with({})) {
     const std::size_t equals = entry.find('=');
-    // What the launcher of a pack sets, it sets anew on each node.
+    // The launcher of a pack sets its variables itself on each node.
     if (!entry.starts_with("SKEIN_") || (::getenv("SKEIN_LAUNCHER") != nullptr && !entry.starts_with("SKEIN_AGENT")))
       continue;
     script += "export " + entry.substr(0, equals) + "=" + shell_word(entry.substr(equals + 1)) + "\n";
   }
-  // Other units fly on the same node. Slurm tells how many cores are this one's; else they are dealt out among the
-  // slots, of which GNU parallel has as many as cores unless it is told.
+  // Other units fly on the same node. Slurm tells how many cores belong to this unit; other engines divide the cores by
+  // the number of slots, which is that of the cores unless --jobs says otherwise.
   const std::string slots = jobs ? std::to_string(*jobs) : "$(nproc)";
   script += "threads=${SLURM_CPUS_ON_NODE:-$(($(nproc) / " + slots + "))}\n";
   script += "[ \"$threads\" -ge 1 ] || threads=1\n";

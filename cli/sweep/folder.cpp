@@ -19,9 +19,9 @@ namespace fs = std::filesystem;
 
 constexpr const char* kSettings = "sweep.json";
 constexpr const char* kTries = "tries.json";
-constexpr int kFormat = 1;  ///< of these files
+constexpr int kFormat = 1;  ///< version of the file format
 
-/// Sorts as the numbers do.
+/// A number with leading zeros, so that names sort by number.
 std::string numbered(std::size_t number) { return fmt::format("{:06}", number); }
 
 std::size_t number_in(const Json& json, const char* key) {
@@ -37,7 +37,7 @@ std::vector<std::string> texts_in(const Json& json, const char* key) {
   return texts;
 }
 
-/// Names of the JSON files of a folder, without their ending; none where there is no such folder.
+/// Names of the JSON files in a folder, without their extension; empty if there is no such folder.
 std::vector<std::string> names_in(const fs::path& folder) {
   std::vector<std::string> names;
   std::error_code none;
@@ -48,7 +48,7 @@ std::vector<std::string> names_in(const fs::path& folder) {
   return names;
 }
 
-/// Of files that are called by numbers.
+/// The numbers of the JSON files in a folder whose names are numbers.
 std::set<std::size_t> numbers_in(const fs::path& folder) {
   std::set<std::size_t> numbers;
   for (const std::string& name : names_in(folder)) {
@@ -59,7 +59,7 @@ std::set<std::size_t> numbers_in(const fs::path& folder) {
   return numbers;
 }
 
-/// Of a node, which may be called anything, as the name of a file.
+/// The name of a node, which may contain any character, as the name of a file.
 std::string file_name(const std::string& node) {
   std::string name;
   for (const char c : node) {
@@ -129,7 +129,7 @@ std::optional<SweepSettings> SweepFolder::settings() const {
 void SweepFolder::begin(const SweepSettings& settings, bool nodes_stay,
                         const std::function<SweepUnit(std::size_t number)>& unit) const {
   step();
-  fs::remove(dir_ / kSettings);  // from here on the former sweep's programs end with their next flight
+  fs::remove(dir_ / kSettings);  // without it, programs of the former sweep end with their present flight
   for (const char* folder : {"units", "done", "checks", "log", "lists"}) remove(dir_ / folder);
   if (!nodes_stay) {
     for (const char* folder : {"nodes", "quarantine"}) remove(dir_ / folder);
@@ -285,7 +285,7 @@ void SweepFolder::forget_check(const std::string& token, std::size_t index) cons
 }
 
 fs::path SweepFolder::place_in_the_air(const std::string& node) const {
-  // Process ids repeat on machines, and machines in containers share their names.
+  // Process ids repeat between machines, and containers may share a node's name.
   std::random_device chance;
   const std::string unique = fmt::format("{}-{}-{:08x}{:08x}", file_name(node), ::getpid(), chance(), chance());
   fs::path place = dir_ / "air" / unique;
@@ -309,7 +309,7 @@ bool SweepFolder::land(const fs::path& flown, const fs::path& dir,
       remove(flown);
       return false;
     }
-    // Between that look and this step another program may have put a good one there: it goes back.
+    // Since stays(dir) above, another program may have put a good folder there: then that one goes back.
     const fs::path aside = set_aside(dir);
     if (!aside.empty() && stays(aside)) fs::rename(aside, dir, error);
   }
@@ -322,7 +322,7 @@ fs::path SweepFolder::set_aside(const fs::path& dir) const {
   std::error_code error;
   fs::rename(dir, aside, error);
   if (!error) return aside;
-  if (error == std::errc::no_such_file_or_directory) return {};  // another program was sooner
+  if (error == std::errc::no_such_file_or_directory) return {};  // another program was faster
   throw fs::filesystem_error("cannot set a flight aside", dir, aside, error);
 }
 

@@ -95,8 +95,8 @@ class SweepFolder {
   /// @throws InputError when there is no such unit.
   SweepUnit unit(std::size_t number) const;
 
-  // Results are stored under the sweep's token: a program of an earlier sweep may still write its own before it ends.
-  /// Units that are over.
+  // Results are stored by the sweep's token, because a program of an earlier sweep may still write one before it ends.
+  /// Numbers of the units that are over.
   std::set<std::size_t> done(const std::string& token) const;
   bool is_done(const std::string& token, std::size_t unit) const;
   void write_done(const std::string& token, std::size_t unit, const std::vector<SweepRow>& rows) const;
@@ -135,14 +135,14 @@ class SweepFolder {
   /// Creates a folder in air/ for a flight of this program, with a unique name.
   std::filesystem::path place_in_the_air(const std::string& node) const;
   /// Moves a flown folder to `dir`. @param stays  whether a folder that is already there is good and stays.
-  /// @returns false when that one stays; then `flown` is deleted. @throws std::filesystem::filesystem_error
+  /// @returns false if that folder stays; then `flown` is deleted. @throws std::filesystem::filesystem_error
   bool land(const std::filesystem::path& flown, const std::filesystem::path& dir,
             const std::function<bool(const std::filesystem::path&)>& stays) const;
   /// Moves a flight's folder into aside/. @returns its new path; empty: there was no such folder.
   std::filesystem::path set_aside(const std::filesystem::path& dir) const;
   /// Deletes a folder with its contents, as far as possible: other programs may still write there. Never throws.
   static void remove(const std::filesystem::path& dir);
-  /// Deletes all folders in air/: what killed programs left there.
+  /// Deletes all folders in air/, which killed programs have left there.
   void clear_air() const;
 
   /// For tests: `step` is called before each operation whose effect other programs can see.

@@ -20,9 +20,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kReference_s = 20.0;    ///< of the mission, at most
-constexpr std::size_t kUsualSlots = 64;  ///< of a cluster that nobody has asked
-constexpr std::size_t kMostTold = 20;    ///< units, one by one
+constexpr double kReference_s = 20.0;    ///< longest mission of the reference flight
+constexpr std::size_t kUsualSlots = 64;  ///< assumed for a cluster, without --jobs
+constexpr std::size_t kMostTold = 20;    ///< failed units that are listed singly
 
 SweepFlight sweep_flight(const StudyPlan& plan, std::size_t index) {
   const StudyFlight& flight = plan.flights[index];
@@ -31,7 +31,7 @@ SweepFlight sweep_flight(const StudyPlan& plan, std::size_t index) {
 
 double reference_duration_s(const StudyPlan& plan) { return std::min(plan.flights.front().mission_s, kReference_s); }
 
-/// The first flight of each planner, cut short.
+/// Candidates for the reference flight: the first flight of each planner, cut short.
 std::vector<SweepFlight> references(const StudyPlan& plan, const SweepFolder& folder) {
   std::vector<SweepFlight> references;
   for (std::size_t i = 0; i < plan.flights.size() && references.size() < plan.planners.size(); ++i) {
@@ -83,7 +83,7 @@ std::string words_of(std::size_t unit, const std::string& last_words) {
   return fmt::format("unit {} was not flown to its end{}", unit, last_words.empty() ? "" : ": " + last_words);
 }
 
-/// All tries failed.
+/// Gives a problem to all flights without an outcome whose unit is not over.
 void note_missing(const SweepController& controller, StudyOutcomes& outcomes) {
   const std::map<std::size_t, std::string> failed = controller.failed();
   for (std::size_t i = 0; i < outcomes.flights.size(); ++i) {

@@ -27,7 +27,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Another one after each start of the machine, which may be another machine of the same name then.
+/// The id of the present boot. After another boot, a machine of the same name may be another one.
 std::string boot_id() {
   std::ifstream in("/proc/sys/kernel/random/boot_id");
   std::string id;
@@ -41,8 +41,8 @@ RunOptions run_of(const SweepFlight& flight) {
   throw InputError("no flight: skein " + shell_line(flight.arguments));
 }
 
-/// Whether programs and files are those that a sweep was planned with; asked once for flights that differ in their
-/// seeds alone.
+/// Compares programs and files with those with which a sweep was planned, only once for flights that differ in nothing
+/// but seed or case.
 class Likeness {
  public:
   std::string unlike(const SweepFlight& flight) {

@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What one program does for a unit.
+/// One call of fly_unit().
 class UnitRun {
  public:
   UnitRun(const SweepFolder& folder, std::size_t number, const SweepNode& node, std::ostream& say)
@@ -60,10 +60,11 @@ class UnitRun {
     if (text_in(known, "boot") != node_.boot || text_in(known, "reference") != reference_text()) prove_node();
   }
 
-  /// The reference flight, and what must come of it: rounds of a hunt have the same one.
+  /// The reference flight and its expected digest. The rounds of a hunt share them, so a node need not fly it for each.
   std::string reference_text() const { return to_json(settings_.reference).dump() + settings_.digest; }
 
-  /// By the reference flight.
+  /// Flies the reference flight, and records the node; quarantines it if the digest differs.
+  /// @throws NodeTrouble if the node may not fly
   void prove_node() const {
     const std::string digest = reference_digest();
     if (digest != settings_.digest) {
@@ -91,7 +92,7 @@ class UnitRun {
     const fs::path air = folder_.place_in_the_air(node_.name);
     try {
       return land(flight, air, node_.fly(flight, air));
-    } catch (const std::exception&) {  // a disk that is full has the room at least
+    } catch (const std::exception&) {  // frees the space, since the disk may be full
       SweepFolder::remove(air);
       throw;
     } catch (const Interrupted&) {
@@ -100,13 +101,13 @@ class UnitRun {
     }
   }
 
-  /// A flight that is over gets what tells under what it was flown, then goes where it belongs.
+  /// Writes the mark of a finished flight, then moves its folder to its place.
   SweepRow land(const SweepFlight& flight, const fs::path& air, const ExitStatus& exit) const {
     const Json result = read_json(air / run_folder::kResult);
     SweepRow row{flight.index, node_.name, "", nullptr};
     if (!exit.ok() || !went_to_its_end(result)) {
       row.problem = node_.reason(air, exit);
-      prove_node();  // else it is the node's problem
+      prove_node();  // throws if the node is the cause
     }
     if (went_to_its_end(result)) row.figures = node_.figures(result);
     const Json mark = {{"command", flight.made_under},
@@ -120,14 +121,14 @@ class UnitRun {
     return row;
   }
 
-  /// Two programs that flew the same must have the same.
+  /// If another program has put a good result there first, that one stays; if it is of another node, records a check.
   void put_in_place(const SweepFlight& flight, const fs::path& air, const std::string& digest, SweepRow& row) const {
     std::optional<SweepRow> sooner;
     const auto stays = [&](const fs::path& dir) {
       SweepFlight there = flight;
       there.dir = dir;
       sooner = row_in_place(folder_, there, node_);
-      if (!sooner) check_still_wanted();  // it may be of a sweep that was planned anew
+      if (!sooner) check_still_wanted();  // the result there may be of a newer sweep
       return sooner.has_value();
     };
     if (folder_.land(air, flight.dir, stays)) return;
@@ -159,7 +160,7 @@ class UnitRun {
   SweepUnit unit_;
 };
 
-/// Flies it, and takes a look before its folder goes.
+/// Flies a flight in air/, and deletes its folder. @returns what `look` returns for the folder.
 template <class Look>
 auto flown_aside(const SweepFolder& folder, const SweepFlight& flight, const SweepNode& node, const Look& look) {
   const fs::path air = folder.place_in_the_air(node.name);

@@ -21,8 +21,8 @@ struct SweepNode {
   std::string cpu;   ///< for people
   /// Flies a flight; its results go to `out`, a new folder that exists. @throws Interrupted.
   std::function<ExitStatus(const SweepFlight& flight, const std::filesystem::path& out)> fly;
-  /// In what this node's programs, or the files that a flight reads here, differ from those that the sweep was planned
-  /// with, for people; empty: they do not differ.
+  /// How this node's programs, or the files that a flight reads here, differ from those with which the sweep was
+  /// planned, for people; empty: they do not differ.
   std::function<std::string(const SweepFlight& flight)> unlike;
   /// The figures of a result that count in the sweep.
   std::function<Json(const Json& result)> figures;

@@ -5,8 +5,8 @@
 namespace skein::cli {
 namespace {
 
-constexpr std::size_t kUnitsPerSlot = 8;  ///< at least, where there are flights enough
-constexpr std::size_t kTailShare = 3;     ///< units of the tail are so many times smaller
+constexpr std::size_t kUnitsPerSlot = 8;  ///< least number, if there are enough flights
+constexpr std::size_t kTailShare = 3;     ///< units of the tail are smaller by this factor
 
 }  // namespace
 
@@ -26,7 +26,7 @@ UnitSizes unit_sizes(std::size_t flights, double flight_s, double unit_s, std::s
   UnitSizes sizes{.flights = flights};
   sizes.size = std::max<std::size_t>(1, std::min(static_cast<std::size_t>(std::min(by_time, 1e6)), by_slots));
   if (sizes.size == 1) return sizes;
-  // The last unit of each slot.
+  // The tail is about the last unit of each slot.
   const std::size_t head = (flights - slots * sizes.size) / sizes.size * sizes.size;
   sizes.tail = flights - head;
   sizes.tail_size = std::max<std::size_t>(1, sizes.size / kTailShare);

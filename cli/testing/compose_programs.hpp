@@ -1,4 +1,5 @@
-// Every docker-compose that is here: version 1, a program of its own, and version 2, a part of Docker's client.
+// For tests: the docker-compose programs on this machine: version 1, a program of its own, and version 2, a plug-in of
+// Docker's client.
 #pragma once
 
 #include <string>
@@ -9,7 +10,7 @@
 
 namespace skein::cli {
 
-/// The first words of its commands.
+/// The first words of the command line, for each docker-compose that works.
 inline std::vector<std::vector<std::string>> compose_programs() {
   std::vector<std::vector<std::string>> programs;
   for (const std::string program : {"docker-compose", "docker compose"}) {

@@ -1,4 +1,4 @@
-// A file for docker-compose, read as docker-compose does.
+// For tests: reads a docker-compose file as docker-compose does.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ namespace skein::cli {
 using Texts = std::vector<std::string>;
 using Names = std::set<std::string>;
 
-/// What docker-compose makes of a text without any variable set: "${X:-y}" is "y", "$$" is "$".
+/// Expands a text as docker-compose does when no variable is set: "${X:-y}" becomes "y", "$$" becomes "$".
 inline std::string filled_in(const std::string& text) {
   std::string filled;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -45,7 +45,7 @@ inline Names names_of(const YAML::Node& map) {
   return names;
 }
 
-/// A file that was made, read as docker-compose does.
+/// A docker-compose file.
 class Compose {
  public:
   explicit Compose(const std::string& text) : root_(YAML::Load(text)) {}
@@ -54,7 +54,7 @@ class Compose {
   Names networks() const { return names_of(root_["networks"]); }
   YAML::Node network(const std::string& name) const { return root_["networks"][name]; }
   Names volumes() const { return root_["volumes"] ? names_of(root_["volumes"]) : Names(); }
-  /// Its own word, or that of what all have in common.
+  /// The service's own value of a key, or that of the settings which all services have in common ("<<").
   YAML::Node of(const std::string& service, const std::string& key) const {
     const YAML::Node own = root_["services"][service];
     return own[key] ? own[key] : own["<<"][key];
@@ -73,7 +73,7 @@ class Compose {
   Texts aliases(const std::string& service, const std::string& network) const {
     return texts_of(of(service, "networks")[network]["aliases"]);
   }
-  /// What is mounted: here, by the path there.
+  /// The mounts of a service: key is the path in the container, value the path on the host.
   std::map<std::string, std::string> mounts(const std::string& service) const {
     std::map<std::string, std::string> mounts;
     for (const YAML::Node& volume : of(service, "volumes")) {
@@ -88,7 +88,7 @@ class Compose {
     }
     return mounts;
   }
-  /// The value of an option of its command.
+  /// The value of an option NAME=VALUE in the service's command; empty if it has none.
   std::string option(const std::string& service, const std::string& name) const {
     for (const std::string& argument : texts_of(of(service, "command"))) {
       if (argument.starts_with(name + "=")) return argument.substr(name.size() + 1);

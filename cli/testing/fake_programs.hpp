@@ -1,4 +1,4 @@
-// For tests: a folder with shell scripts in the place of Skein's programs, and a small scenario for them.
+// For tests: a folder with shell scripts that replace Skein's programs, and a small scenario for them.
 #pragma once
 
 #include <cstdlib>
@@ -38,7 +38,7 @@ done
 [ $check = no ] || exit 0
 )";
 
-/// Two UAVs at a procedural scene, all vehicles in place.
+/// Two UAVs at a procedural scene; the vehicles are defined in the scenario itself.
 inline constexpr const char* kSmallScenario = R"(
 name: small
 desired_mm_per_pixel: 2.0
@@ -48,7 +48,7 @@ fleet:
   - {name: beta, vehicle: {name: p, role: photographer}, start: [5, 0]}
 )";
 
-/// While it lives, `skein` finds its programs in a folder of its own; they all end well at once.
+/// While it lives, `skein` finds its programs in a scratch folder. By default each of them exits at once with code 0.
 class FakePrograms {
  public:
   FakePrograms() {

@@ -10,7 +10,7 @@
 
 namespace skein::cli {
 
-/// What breaks out of HTML, TeX, CSV or SVG that takes it as it is.
+/// Names that break HTML, TeX, CSV or SVG into which they are written unescaped.
 inline const std::vector<std::string> kOddNames = {"kios",
                                                    "exec:./a <b> && 'c' \"d\"",
                                                    "50%_{$x$}\\end{tabular}",

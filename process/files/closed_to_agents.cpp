@@ -22,8 +22,8 @@ bool close_to_agents(const std::filesystem::path& path) {
   const bool is_closed = others == 0 || (status.st_gid == kAgentsGroup && group == 0);
   if (is_ours && !is_closed) {
     const bool as_group = group == others && ::fchown(file, static_cast<uid_t>(-1), kAgentsGroup) == 0;
-    // A change of group takes special bits away, so the mode is set afterwards. A set-group bit would hand the group on
-    // to what is made in the folder.
+    // fchown() may clear special bits, so the mode is set afterwards. The set-group-ID bit is removed: with it, files
+    // that are created in the folder would inherit the group.
     const mode_t taken = as_group ? S_IRWXG | S_ISGID : S_IRWXO;
     closed = ::fchmod(file, status.st_mode & kAllBits & ~taken) == 0;
   }

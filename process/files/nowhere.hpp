@@ -1,5 +1,5 @@
-// The output folder /dev/null: a program with --out /dev/null writes no files. For fleets that a caller steps, many at
-// the same time, and whose files would have no reader.   Pure; any thread.
+// The output folder /dev/null: a program with --out /dev/null writes no files. For fleets whose files nothing reads,
+// such as many simultaneous fleets that a caller advances step by step.   Pure; any thread.
 #pragma once
 
 #include <filesystem>

@@ -37,7 +37,7 @@ void StreamFile::flush() {
   const std::size_t taken = put_out();
   if (taken < buffer_.size()) {
     trouble_ = "cannot write " + file_.string() + ": " + std::generic_category().message(errno);
-    // Half a line would pass for a whole one with a shorter last number.
+    // A truncated line could pass for a complete line with a shorter last number.
     const std::size_t line_end = taken == 0 ? std::string::npos : buffer_.rfind('\n', taken - 1);
     const std::size_t torn = taken - (line_end == std::string::npos ? 0 : line_end + 1);
     const off_t size = ::lseek(fd_, 0, SEEK_END);

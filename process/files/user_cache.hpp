@@ -6,7 +6,7 @@
 
 namespace skein {
 
-/// ${XDG_CACHE_HOME}/skein, else ~/.cache/skein; nullopt where the environment names neither.
+/// ${XDG_CACHE_HOME}/skein, else ~/.cache/skein; nullopt if the environment names neither, as an absolute path.
 std::optional<std::filesystem::path> user_cache_folder();
 
 }  // namespace skein

@@ -27,7 +27,7 @@ std::string& last_folder() {
 
 thread_local int notes_fd = STDERR_FILENO;
 
-// All below runs in a signal handler: no memory is taken, nothing but write(2) writes.
+// The functions below run in a signal handler: they allocate no memory and write only with write(2).
 void say(std::string_view text) {
   [[maybe_unused]] const ssize_t written = ::write(notes_fd, text.data(), text.size());
 }
@@ -42,7 +42,8 @@ void say_number(std::uintptr_t number, unsigned base) {
   say({&digits[at], digits.size() - at});
 }
 
-/// The call, not where it returns to, but for the frame that the signal hit.
+/// Writes one frame: the address of the call, one byte before the return address; for the frame in which the signal
+/// occurred, the address itself.
 void say_frame(void* address, bool hit) {
   Dl_info info{};
   if (::dladdr(address, &info) == 0) return;
@@ -64,7 +65,7 @@ extern "C" void on_crash(int signal, siginfo_t*, void* context) {
   say_number(static_cast<std::uintptr_t>(signal), 10);
   say("\n");
   const auto* const end = frames.data() + count;
-  const auto* const first = std::find(frames.data(), frames.data() + count, hit);  // the handler's own come before it
+  const auto* const first = std::find(frames.data(), frames.data() + count, hit);  // after the handler's own frames
   for (const auto* frame = first == end ? frames.data() : first; frame != end; ++frame)
     say_frame(*frame, *frame == hit);
   if (auto* const call = last_call.exchange(nullptr)) call(signal);
@@ -79,7 +80,7 @@ void note_crashes(const std::filesystem::path& folder) {
   last_folder() = std::filesystem::absolute(folder);
   std::array<void*, 1> any{};
   ::backtrace(any.data(), 1);                      // the first call loads a library
-  static std::vector<char> memory(kHandlerStack);  // who has overflowed the stack has none left
+  static std::vector<char> memory(kHandlerStack);  // after an overflow, the normal stack has no space left
   const stack_t stack{.ss_sp = memory.data(), .ss_flags = 0, .ss_size = memory.size()};
   struct sigaction action {
   }, former{};

@@ -21,8 +21,8 @@ void note_crashes(const std::filesystem::path& folder);
 /// Sets a function that the signal handler calls after writing the lines; it must be async-signal-safe. nullptr: none.
 void after_crash_notes(void (*call)(int signal));
 
-/// While an object of this class exists, signal handlers in its thread run on a stack of their own, also after a stack
-/// overflow. For all threads but the first, which has such a stack by note_crashes().
+/// While an object of this class exists, signal handlers in its thread run on a separate stack, so that they work after
+/// a stack overflow. For all threads but the first, which gets such a stack from note_crashes().
 class CrashStack {
  public:
   CrashStack();

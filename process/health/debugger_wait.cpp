@@ -18,28 +18,29 @@
 namespace skein {
 namespace {
 
-/// By which the signal's handler wakes the wait.
+/// The eventfd with which the SIGCONT handler ends the wait; -1: none.
 std::atomic<int> continued_fd = -1;
 
 extern "C" void on_continue(int) { ::eventfd_write(continued_fd, 1); }
 
-/// Whether a thread of ours sleeps in a system call.
+/// Whether a thread of this process sleeps in a system call.
 bool sleeps(pid_t thread) {
   std::ifstream in("/proc/self/task/" + std::to_string(thread) + "/stat");
   const std::string stat{std::istreambuf_iterator<char>(in), {}};
-  const std::size_t name_end = stat.rfind(')');  // the state follows the name, which may hold anything
+  const std::size_t name_end = stat.rfind(')');  // the state follows the name, which may contain anything
   return name_end != std::string::npos && stat.substr(name_end).starts_with(") S");
 }
 
-/// Notices a debugger that attaches and leaves again. It stops all threads, and epoll_wait, unlike poll, fails with
-/// EINTR when they go on. Who also looks at other things may be stopped outside of that call and miss it, so a thread
-/// sits in the call all the time, with all signals blocked. Linux keeps no record of a tracer that has gone.
+/// Detects a debugger even if it attaches and detaches again, of which Linux keeps no record. A debugger stops all
+/// threads; when they continue, epoll_wait(), unlike poll(), fails with EINTR. A thread that also does other things
+/// could be stopped outside that call and miss the debugger. So this thread stays in the call, all signals blocked.
 class AttachWatch {
  public:
-  /// Once this returns, no debugger is missed. \p noticed_fd: an eventfd, written to when one has come and gone on.
+  /// After this constructor returns, no debugger is missed. @param noticed_fd  an eventfd; gets 1 when a debugger has
+  /// stopped and continued this process.
   explicit AttachWatch(int noticed_fd) : noticed_fd_(noticed_fd), thread_([this] { watch(); }) {
     constexpr int kLook_ms = 1;
-    pollfd noticed{.fd = noticed_fd_, .events = POLLIN, .revents = 0};  // one that came at once has ended the thread
+    pollfd noticed{.fd = noticed_fd_, .events = POLLIN, .revents = 0};  // readable: a debugger came at once
     while ((thread_id_ == 0 || !sleeps(thread_id_)) && ::poll(&noticed, 1, kLook_ms) <= 0) {
     }
   }
@@ -60,7 +61,7 @@ class AttachWatch {
     epoll_event event{};
     event.events = EPOLLIN;
     ::epoll_ctl(waiting, EPOLL_CTL_ADD, end_fd_, &event);
-    thread_id_ = ::gettid();  // from here on it sleeps nowhere but in the wait
+    thread_id_ = ::gettid();  // from now on the thread sleeps only in epoll_wait()
     if (::epoll_wait(waiting, &event, 1, -1) < 0 && errno == EINTR) ::eventfd_write(noticed_fd_, 1);
     ::close(waiting);
   }
@@ -94,7 +95,7 @@ void wait_for_debugger(const std::function<bool()>& stop) {
     spdlog::info("process {} stands until a debugger is attached, or SIGCONT comes", ::getpid());
     constexpr int kLook_ms = 50;
     pollfd continued{.fd = continued_fd, .events = POLLIN, .revents = 0};
-    // A tracer of this thread alone (strace -p) is seen while it stays.
+    // A tracer that attaches to this thread only (strace -p) is detected only while it is attached.
     while (!stop() && !is_debugged() && ::poll(&continued, 1, kLook_ms) <= 0) {
     }
   }

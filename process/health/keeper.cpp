@@ -15,8 +15,8 @@ namespace {
 
 constexpr std::array kPassedOn = {SIGTERM, SIGINT, SIGHUP};
 
-/// Blocks what the keeper waits for while it lives. What is blocked waits, even for the first
-/// process of a PID namespace, which gets no signal that it does not handle.
+/// Blocks the signals for which the keeper waits, as long as this object exists. Blocked signals stay pending, even for
+/// the first process of a PID namespace, which otherwise gets no signal that it does not handle.
 class WaitedForSignals {
  public:
   WaitedForSignals() {
@@ -40,7 +40,8 @@ class WaitedForSignals {
   sigset_t all_{}, before_{};
 };
 
-/// How the worker ended; nullopt: it has not. Orphans that its death left to the first process of a container go, too.
+/// The worker's exit status; nullopt: it has not ended. Also reaps orphans, which the first process of a container
+/// inherits.
 std::optional<int> status_of(pid_t worker) {
   int status = 0;
   for (pid_t ended = 0; (ended = ::waitpid(-1, &status, WNOHANG)) > 0;) {
@@ -49,7 +50,7 @@ std::optional<int> status_of(pid_t worker) {
   return std::nullopt;
 }
 
-/// @returns how the worker ended. @param asked_to_end  becomes true when we are.
+/// Waits for the worker's end. @returns its exit status. @param asked_to_end  set if the keeper is asked to end.
 int watch(pid_t worker, const WaitedForSignals& signals, bool& asked_to_end) {
   while (true) {
     const siginfo_t info = signals.wait();
@@ -58,7 +59,7 @@ int watch(pid_t worker, const WaitedForSignals& signals, bool& asked_to_end) {
       continue;
     }
     asked_to_end = true;
-    if (info.si_code != SI_KERNEL) ::kill(worker, info.si_signo);  // a terminal's Ctrl-C is for both anyway
+    if (info.si_code != SI_KERNEL) ::kill(worker, info.si_signo);  // a terminal sends Ctrl-C to both itself
   }
 }
 
@@ -73,7 +74,7 @@ std::optional<int> keep_alive(int& lives) {
     if (worker < 0) throw std::system_error(errno, std::generic_category(), "no process for the program itself");
     if (worker == 0) {
       ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-      if (::getppid() != keeper) ::_exit(128 + SIGKILL);  // it died in between
+      if (::getppid() != keeper) ::_exit(128 + SIGKILL);  // the keeper died before prctl()
       return std::nullopt;
     }
     const int status = watch(worker, signals, asked_to_end);

@@ -20,7 +20,7 @@ struct Address {
   const sockaddr* get() const { return reinterpret_cast<const sockaddr*>(&name); }
 };
 
-/// A name that begins with a zero byte is no file.
+/// The address of an abstract socket: its name begins with a zero byte, and it is no file.
 Address abstract_address(const std::string& name) {
   Address address;
   address.name.sun_family = AF_UNIX;
@@ -45,7 +45,7 @@ std::optional<HostLock> HostLock::try_take(const std::string& name) {
     if (errno == EADDRINUSE) return std::nullopt;
     throw std::system_error(errno, std::generic_category(), "lock " + name);
   }
-  // Nobody ever accepts; that it listens lets others ask whose it is.
+  // No connection is ever accepted. The socket listens only so that holder() can connect and get the process id.
   if (::listen(lock.fd_, SOMAXCONN) != 0) throw std::system_error(errno, std::generic_category(), "lock " + name);
   return lock;
 }

@@ -16,7 +16,7 @@ std::time_t seconds_to_add() {
   return seconds;
 }
 
-/// The function of this name in the libraries behind this one.
+/// The function of this name in the libraries that the linker searches after this one.
 template <class Function>
 Function behind(const char* name) {
   return reinterpret_cast<Function>(::dlsym(RTLD_NEXT, name));

@@ -8,12 +8,12 @@
 namespace skein {
 namespace {
 
-/// Within run(), or a helper: what asks for help there has it done on its own thread.
+/// True within run() and in helpers: a nested run() executes its loop on the calling thread.
 thread_local bool at_work = false;
-thread_local int number_here = 0;
+thread_local int number_here = 0;  ///< see here()
 
-/// A step's pieces come tens of microseconds apart, as long as it takes to wake a thread: so long it looks around
-/// before it sleeps. Where there are fewer cores than threads it makes room for them.
+/// Number of polls before a thread sleeps. The jobs of a step follow each other within tens of microseconds, about the
+/// time that waking a thread takes. Each poll yields, so that other threads run if there are fewer cores than threads.
 constexpr int kLooks = 200;
 
 }  // namespace
@@ -52,7 +52,7 @@ void Workers::run(std::size_t count, const std::function<void(std::size_t)>& wor
   for (int look = 0; look < kLooks && busy_ > 0; ++look) std::this_thread::yield();
   {
     std::unique_lock lock(mutex_);
-    wanted_ = 0;  // who has not woken by now is too late
+    wanted_ = 0;  // helpers that have not woken yet are too late
     done_.wait(lock, [this] { return busy_ == 0; });
     job_ = nullptr;
   }

@@ -45,7 +45,7 @@ void describe(Fields& f, Signal& signal) {
 
 namespace {
 
-/// Each kind of line begins with a key of its own, which holds the program's name.
+/// Parses a line. The first key of each kind of line identifies the kind; its value is the program's name.
 template <class... Types>
 std::optional<std::variant<Types...>> read_shared(const std::string& text, const std::variant<Types...>*) {
   const Json json = parse_json(text);

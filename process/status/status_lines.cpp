@@ -65,7 +65,7 @@ namespace {
 
 constexpr const char* kTypeKey = "type";
 
-/// The line as one of these types, if it says that it is.
+/// The line as the one of these types that its "type" names; nullopt: none.
 template <class... Types>
 std::optional<Line> read_as(const Json& json, const std::variant<Types...>*) {
   std::optional<Line> line;

@@ -30,7 +30,7 @@ StatusPipe::StatusPipe(const StatusPipe& shared, std::string program)
     : pipe_(shared.pipe_), program_(std::move(program)) {}
 
 std::string StatusPipe::line_of(const nlohmann::json& message) const {
-  // A stray byte that is not UTF-8 must not end a run.
+  // Replaces invalid UTF-8: a stray byte must not end a run.
   return (program_.empty() ? message : shared_lines::said_by(program_, message))
              .dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) +
          '\n';
@@ -42,7 +42,7 @@ void StatusPipe::send(const nlohmann::json& message) {
   if (!pipe_->flush()) return;
   std::string& unsent = pipe_->unsent = line_of(message);
   const std::size_t size = unsent.size();
-  if (!pipe_->flush() && unsent.size() == size) unsent.clear();  // nothing of it has left: drop it whole
+  if (!pipe_->flush() && unsent.size() == size) unsent.clear();  // nothing was written: drop the whole line
 }
 
 void StatusPipe::send_surely(const nlohmann::json& message) {
@@ -63,7 +63,7 @@ bool StatusPipe::Pipe::flush() {
     } else if (errno == EAGAIN || errno == EWOULDBLOCK) {
       return false;
     } else if (errno != EINTR) {
-      unsent.clear();  // nobody listens any more
+      unsent.clear();  // the reader is gone
     }
   }
   return true;

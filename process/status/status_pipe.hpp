@@ -32,7 +32,7 @@ class StatusPipe {
 
  private:
   struct Pipe {
-    /// Writes what it can of `unsent`; true when nothing is left.
+    /// Writes as much of `unsent` as the pipe takes. @returns true if nothing is left.
     bool flush();
 
     const int fd;

@@ -1,8 +1,8 @@
-"""What it costs to step fleets: the half of `skein bench --python` that is written in Python.
+"""Measures the cost of stepping fleets: the part of `skein bench --python` that is written in Python.
 
-Says its progress on stderr, and all measured values by figure, an entry for each repeat, as JSON. Times are taken by
-the clock and as CPU time. The CPU time of a step is that of this program and of the fleet's process together, which
-take turns: what a step takes on a core that nobody else uses.
+Prints its progress on stderr. Its output is JSON: for each figure a list with a value for each repeat. It measures wall
+time and CPU time. The CPU time of a step is the sum for this program and the fleet's process, which take turns: the
+time of a step on an otherwise idle core.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ Figures = dict[str, list[float]]
 
 
 def cpu_s(pid: int) -> float:
-    """CPU time of another process."""
+    """CPU time of another process so far [s]."""
     return sum(int(file.read_text().split()[0]) for file in Path(f"/proc/{pid}/task").glob("*/schedstat")) * 1e-9
 
 
@@ -42,7 +42,8 @@ def pid_of(fleet: skein.Fleet) -> int:
 
 
 def stepping(seconds: float, safe: bool, figures: Figures, name: str) -> None:
-    """Simulated time over time, with five learners and a step of 0.05 s. Each UAV gets an action in each step."""
+    """Simulated time per CPU time and per wall time, with five learners and steps of 0.05 s. Each UAV gets an action in
+    each step."""
     with skein.Fleet("towers", learners=UAVS, safe=safe, step_s=0.05) as fleet:
         fleet.reset()
         up: Any = {uav: {"velocity": np.array([0.2, 0.1, 1.0]), "yaw_rate": 0.05, "gimbal_rate": np.zeros(2)}
@@ -63,7 +64,7 @@ def stepping(seconds: float, safe: bool, figures: Figures, name: str) -> None:
 
 
 def resets(count: int, figures: Figures) -> None:
-    """Resets to the first observation, and how memory grows over them: here, and in the process that is copied."""
+    """Resets per minute, and how the memory of this program and of the process that is copied grows over them."""
     with skein.Fleet("towers", learners=UAVS, safe=False) as fleet:
         root = fleet._families[None]._root.pid
         for seed in range(WARM_UP_RESETS):
@@ -81,7 +82,8 @@ def resets(count: int, figures: Figures) -> None:
 
 
 def copying(scenario: str, at_s: float, count: int, figures: Figures) -> None:
-    """Copies of a fleet that flies `patrol`, each ready to be stepped. CPU time: of all three processes."""
+    """Time to copy a fleet that flies `patrol`, until the copy is ready to be stepped. CPU time: of this program, the
+    original and the copy."""
     with skein.Fleet(scenario, planner="patrol", assets=os.environ.get("SKEIN_ASSETS")) as fleet:
         fleet.reset()
         fleet.step(step_s=at_s)
@@ -93,7 +95,7 @@ def copying(scenario: str, at_s: float, count: int, figures: Figures) -> None:
             used += time.process_time() + cpu_s(pid) + cpu_s(pid_of(copy))
             process = Path(f"/proc/{pid_of(copy)}")
             copy.close()
-            while process.exists():  # giving its memory back takes longer than the copy, and the same core
+            while process.exists():  # it frees its memory on the same core, which takes longer than the copy
                 time.sleep(0.001)
             figures[f"copy_{scenario}_clock_ms"].append(1e3 * clock)
             figures[f"copy_{scenario}_cpu_ms"].append(1e3 * used)

@@ -1,5 +1,5 @@
-"""Two flights side by side, from above, and where the points of each went: one in an ideal world, and one under
-conditions.
+"""Draws two flights side by side in plan view, one in an ideal world and one under conditions, and below them the
+causes of their losses.
 
     python3 python/examples/conditions_picture.py runs/ideal runs/harsh picture.svg
 """

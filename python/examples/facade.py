@@ -1,5 +1,5 @@
-"""Flies along a face of a box in lanes, one above the other, with the camera on the face. It knows no map and avoids
-nothing: what it costs to come too near, and what it gains, python/examples/learn.py finds out by flying.
+"""A planner that flies along a face of a box in lanes, one above the other, with the camera on the face. It uses no map
+and avoids no obstacles. python/examples/learn.py finds out by flying how near to the face it should fly.
 
     ./skein run towers --planner py:python/examples/facade.py:standoff_m=6,speed_mps=2
 """
@@ -15,12 +15,12 @@ from skein.planner import (AgentConfig, OrientedBox, Path, Planner, PlannerInput
                            parameter)
 
 LOWEST_M = 3.0  # no lane is lower
-RISE_MPS = 6.0  # on the way to the first lane
+RISE_MPS = 6.0  # speed on the way to the first lane
 
 
 class Face(NamedTuple):
     center: Vector
-    normal: Vector  #: outward, level
+    normal: Vector  #: outward and level
     width: float
     height: float
 
@@ -38,7 +38,7 @@ def upright_faces(box: OrientedBox) -> list[Face]:
 
 
 def is_over(box: OrientedBox, place: Vector) -> bool:
-    """The place is in the box, or above or below it."""
+    """Whether the place is in the box, or above or below it."""
     offset = (place - box.center) * [1.0, 1.0, 0.0]
     return bool(np.all(np.abs(offset @ box.R_WO) < 0.5 * box.size + 1.0))
 
@@ -55,7 +55,7 @@ class Facade(Planner):
     def __init__(self, config: Config, agent: AgentConfig) -> None:
         super().__init__(config, agent)
         self.face: Face | None = None
-        self.share = 0, 1  # which of so many parts of its width
+        self.share = 0, 1  # index of this UAV's part of the face's width, number of parts
 
     def plan(self, inputs: PlannerInput) -> PlannerOutput:
         here = inputs.state.p_WB
@@ -69,8 +69,9 @@ class Facade(Planner):
         return PlannerOutput(motion=Path(self.lanes(inputs.boxes, here)), yaw=float(np.arctan2(-normal[1], -normal[0])))
 
     def my_face(self, boxes: tuple[OrientedBox, ...], here: Vector) -> Face:
-        """The nearest face of a tower; the UAVs take the towers in turn. Faces with another box above or below their
-        lanes are left out. Where no box is higher than wide, all boxes are towers."""
+        """The nearest face of this UAV's tower; the UAVs take the towers in turn. A tower is a box that is higher than
+        wide; if there is none, all boxes are towers. Faces whose lanes would be above or below another box are left
+        out, unless no other is left."""
         towers = [box for box in boxes if box.size[2] > max(box.size[:2])] or list(boxes)
         mine = self.agent.index % len(towers)
         self.share = self.agent.index // len(towers), len(self.agent.fleet[mine::len(towers)])
@@ -80,7 +81,7 @@ class Facade(Planner):
         return (free or near)[0]
 
     def lanes(self, boxes: tuple[OrientedBox, ...], here: Vector) -> list[Waypoint]:
-        """Up, over all boxes, and down along the face. UAVs that share a face fly side by side."""
+        """The path: up, over all boxes, and down along the face in lanes. UAVs that share a face fly side by side."""
         assert self.face is not None
         center, normal, width, height = self.face
         config, (part, parts) = self.config, self.share
@@ -88,7 +89,7 @@ class Facade(Planner):
         left, right = (width * ((part + share) / parts - 0.5) for share in (0.15, 0.85))
         top, low = center[2] + 0.5 * height, max(LOWEST_M, center[2] - 0.5 * height)
         above = max(box.center[2] + 0.5 * float(np.abs(box.R_WO[2]) @ box.size) for box in boxes)
-        above += 5.0 + 3.0 * self.agent.index  # a level for each UAV
+        above += 5.0 + 3.0 * self.agent.index  # each UAV has a height of its own
         away = center + config.standoff_m * normal
 
         def place(sideways: float, z: float) -> Vector:

@@ -1,4 +1,4 @@
-"""The planner `hover` in Python: takes off to a height and stays there.
+"""The planner `hover` in Python: takes off to a height and hovers there.
 
     ./skein run towers --planner py:python/examples/hover.py:height_m=4
 """

@@ -1,11 +1,12 @@
-"""Learns the parameters of a planner by an evolution strategy: flights in some scenes, judged in scenes never seen.
+"""Learns the parameters of a planner by an evolution strategy: it trains in some scenes, and tests in other ones.
 
     python3 python/examples/learn.py            # a small one, below a minute
     python3 python/examples/learn.py --full     # 340 flights: six minutes of a core
 
-A generation draws parameters around the present ones, flies each in all scenes of learning, and moves towards those
-that scored more than others in the same scene. The scenes of judging have no say in it: the first parameters and those
-after each generation fly there. Their mean, and how much it grew, come with intervals by bootstrap over scenes.
+Each generation draws parameters around the present ones, flies them in all training scenes, and moves towards those
+that scored more than others in the same scene. The test scenes do not influence this: there it flies only the first
+parameters, and those after each generation. It states their mean score, and its gain, with intervals by bootstrap over
+scenes.
 """
 
 from __future__ import annotations
@@ -22,17 +23,17 @@ import numpy as np
 import skein
 
 SCENARIO, PLANNER = "towers", f"py:{Path(__file__).parent / 'facade.py'}"
-# Name, first guess, lowest, highest: the search goes by their logarithms.
+# Name, first guess, lowest, highest. The search works on the logarithms.
 PARAMETERS = (("standoff_m", 12.0, 3.0, 30.0), ("lane_m", 10.0, 1.0, 30.0), ("speed_mps", 1.0, 0.2, 8.0))
 Array = np.ndarray[Any, np.dtype[np.float64]]
 
 
 @dataclass
 class Size:
-    learning: range        #: scene seeds
-    judging: range
+    learning: range        #: scene seeds for training
+    judging: range         #: scene seeds for tests
     generations: int
-    population: int        #: parameters that a generation tries
+    population: int        #: number of parameter sets that a generation tries
     duration_s: float      #: mission time
 
 
@@ -50,7 +51,7 @@ def spec(values: Array) -> str:
 
 
 def scores(tried: list[Array], scenes: range, duration_s: float, jobs: int) -> Array:
-    """Of parameters (rows) in scenes (columns). So many fleets fly at once."""
+    """The scores of parameter sets (rows) in scenes (columns). `jobs` fleets fly in parallel."""
     flights = [(values, scene) for values in tried for scene in scenes]
     found = []
     for first in range(0, len(flights), jobs):
@@ -66,7 +67,7 @@ def scores(tried: list[Array], scenes: range, duration_s: float, jobs: int) -> A
 
 
 def interval(values: Array, random: np.random.Generator) -> tuple[float, float]:
-    """Of the mean: 95 % by bootstrap."""
+    """The 95 % interval of the mean, by bootstrap."""
     means = random.choice(values, (10_000, len(values))).mean(axis=1)
     low, high = np.quantile(means, [0.025, 0.975])
     return float(low), float(high)
@@ -81,7 +82,7 @@ def learn(size: Size, jobs: int, seed: int) -> dict[str, Any]:
         half = random.normal(size=(size.population // 2, len(mean)))
         drawn = mean + spread * np.concatenate([half, -half])  # in pairs, which cancels noise
         result = scores(list(drawn), size.learning, size.duration_s, jobs)
-        # Ranks in each scene: a scene with many points has no more say than another.
+        # Ranks within each scene, so that a scene with many points has no more influence than others.
         ranks = result.argsort(axis=0).argsort(axis=0).mean(axis=1)
         weights = np.maximum(ranks - np.median(ranks), 0.0)
         if weights.sum() > 0.0:

@@ -1,4 +1,4 @@
-"""Listens to a fleet that flies, and prints: how high a UAV is, and what counts.
+"""Listens to a flying fleet, and prints its points and its score.
 
     skein run towers --out runs/heard &
     python3 python/examples/listen.py runs/heard
@@ -7,7 +7,7 @@
 import sys
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).parents[1]))  # this checkout's package; installed, it is found by itself
+sys.path.insert(0, str(Path(__file__).parents[1]))  # the package of this checkout; not needed if it is installed
 
 from skein.client import Listener  # noqa: E402
 

@@ -1,4 +1,4 @@
-"""A UAV's software as a program of its own: flies over the tops of the boxes, photographs them, and comes back.
+"""A program that replaces a UAV's software: flies over the tops of the boxes, photographs them, and comes back.
 
     skein run towers --planner 'hover,jurong=exec:python3 python/examples/my_uav.py'
 """
@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).parents[1]))  # this checkout's package; installed, it is found by itself
+sys.path.insert(0, str(Path(__file__).parents[1]))  # the package of this checkout; not needed if it is installed
 
 from skein.client import Client  # noqa: E402
 
@@ -16,7 +16,7 @@ ABOVE_M = 3.0
 
 
 def tour(start, boxes):
-    """(place, what to look at): above all tops, round the edges of each of them, nearest box first."""
+    """Pairs of a place and a point to look at: above all boxes, around the edges of each, the nearest box first."""
     tops = [box.center[2] + 0.5 * np.abs(box.R_WO[2]) @ box.size for box in boxes]
     height = max(tops) + ABOVE_M
     yield np.array([*start[:2], height]), start

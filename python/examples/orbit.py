@@ -14,11 +14,11 @@ import numpy as np
 from skein.planner import (AgentConfig, FlightConfig, Goal, OrientedBox, Planner, PlannerInput, PlannerOutput,
                            RadioMessage, Vector, Waypoint, parameter)
 
-_TALK = "orbit "  # before the number of a corner
+_TALK = "orbit "  # prefix of a message; the number of a corner follows
 
 
 def corners_around(box: OrientedBox, standoff_m: float, ring_step_m: float) -> Iterator[tuple[Vector, Vector]]:
-    """Places, and where to look from there, ring by ring from the top down."""
+    """Pairs of a place and a point to look at from there, ring by ring from the top down."""
     half = 0.5 * box.size
     rings = max(1, int(box.size[2] / ring_step_m))
     for ring in range(rings):
@@ -63,7 +63,7 @@ class Orbit(Planner):
         return out
 
     def next_goals(self) -> list[Goal]:
-        """The next corners that nobody has reached; each UAV begins at another place in the list."""
+        """The next corner that no UAV has reached; each UAV begins at another place in the list."""
         count = len(self.corners)
         first = self.agent.index * count // len(self.agent.fleet)
         left = [(first + i) % count for i in range(count) if (first + i) % count not in self.done]

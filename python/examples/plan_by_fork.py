@@ -1,9 +1,10 @@
-"""A UAV that plans by simulation: before each decision it copies the fleet, tries what it might do, and does the best.
+"""Plans a UAV's flight by simulation: before each decision, tries actions in copies of the fleet, and takes the best.
 
     python3 python/examples/plan_by_fork.py [SCENARIO] [SECONDS]
 
-It looks into the very future that it will have, which no UAV could: what it scores is a bound for planners that search
-in models of their own. What it tries is scored by what the fleet earns, and by how near it comes to the structure.
+The copies show the true future, which no UAV could know: the score is a bound for planners that search in models of
+their own. The value of an action is the score that the fleet then has earned, minus a penalty for the UAV's distance
+from the structure beyond 8 m.
 """
 
 import sys
@@ -18,7 +19,7 @@ CHOICES = [np.array([2.5 * np.cos(a), 2.5 * np.sin(a), climb]) for a in HEADINGS
 
 
 def action(velocity: np.ndarray, fleet: skein.Fleet, structure: np.ndarray) -> dict:
-    """Flies there with the camera on the nearest part of the structure."""
+    """Flies with this velocity in W, with the camera on the nearest point of the structure."""
     here = fleet.truth.position[fleet.uavs.index(LEARNER)]
     yaw = yaw_of(fleet.truth.attitude[fleet.uavs.index(LEARNER)])
     nearest = structure[np.argmin(((structure - here) ** 2).sum(axis=1))]

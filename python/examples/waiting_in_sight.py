@@ -1,4 +1,4 @@
-"""For which share of the time that photographers wait for an explorer they have a link to it, for each run named.
+"""For each run: the share of the time in which photographers that wait for an explorer are linked to it.
 
     python3 python/examples/waiting_in_sight.py runs/towers-xxh-1 ...
 """
@@ -9,7 +9,7 @@ import skein
 
 
 def waits(run: skein.Run) -> list[tuple[str, str, float, float]]:
-    """Photographer, explorer, from, until: as activity.csv tells, from when it has risen."""
+    """Waits according to activity.csv, except on the ground and during takeoff: photographer, explorer, from, until."""
     roles = {uav["name"]: uav["role"] for uav in run.result["uavs"]}
     found = []
     for uav, role in roles.items():

@@ -1,8 +1,8 @@
-"""What UAVs did in the seconds that count as frozen (docs/results.md#work), for each planner of the studies named.
+"""What UAVs did in the seconds that count as frozen (docs/results.md#work), for each planner of some studies.
 
     python3 python/examples/without_work.py studies/wild
 
-Shares of all such seconds of a planner, from 0.5 % on; the last row has their number for each flight.
+The table has the shares of a planner's frozen seconds, from 0.5 % on; its last row has their number per flight.
 """
 
 import sys
@@ -11,7 +11,7 @@ from collections import Counter, defaultdict
 import numpy as np
 import skein
 
-# The activities of docs/view.md, by what they have in common.
+# Groups of the activities in docs/view.md, by the first words of the activities.
 GROUPS = {
     "waits on the ground until an explorer has proved its way up": ("waits to be shown", "is shown"),
     "is on the ground, or takes off": ("on the ground", "takes off"),
@@ -33,7 +33,7 @@ def group(mode: str) -> str:
 
 
 def frozen_seconds(run: skein.Run) -> Counter[str]:
-    """Seconds by group. An activity lasts until the UAV's next one; a second has the one in which it ended."""
+    """Frozen seconds by group. An activity lasts until the next one; a second counts for the activity at its end."""
     seconds: Counter[str] = Counter()
     for uav in run.uavs:
         told = run.activity[run.activity["uav"] == uav]

@@ -1,12 +1,12 @@
-"""Experiments with Skein from Python: flights, what they leave behind as arrays, plots of it for papers, and fleets
-that a program steps.
+"""Experiments with Skein from Python: fly fleets, read their results as arrays, plot them for papers, and step fleets
+from a program.
 
     import skein
 
     run = skein.run("towers", planner="kios", seed=3, one_process=True)
     run.score, run.captures["q_blur"], run.frame("losses")
 
-docs/how-to-python.md goes through it. Only NumPy is needed; `frame()` needs pandas, and `skein.plots` matplotlib.
+docs/how-to-python.md is the guide. The package needs only NumPy; `frame()` also needs pandas, `skein.plots` matplotlib.
 """
 
 from . import plots

@@ -1,7 +1,7 @@
-"""For agents alone: what of the life of a planner in Python is best said in Python (uav_agent/python has the rest).
+"""For agents only: the Python part of the support for planners in Python (the C++ part is in uav_agent/python).
 
-Each planner has a module object of its own, made of its file, and so have the modules beside it that it imports: the
-UAVs of one process share none of them.
+Each planner has its own module objects, of its file and of the modules that it imports from beside that file. UAVs in
+one process share none of them.
 """
 
 from __future__ import annotations
@@ -27,13 +27,14 @@ import numpy as np
 
 from .planner import FlightConfig, Planner
 
-#: Of the environment's packages: a folder below the planner's own may hold them.
+#: Folders of installed packages. A virtual environment below the planner's folder may contain them.
 _OTHERS = ("site-packages", "dist-packages")
 
 
 def _open_streams() -> None:
-    """Where the streams of C lead each thread to a log of its own they have no descriptors, and Python takes them for
-    closed. A planner in Python has its turns alone, and descriptors 1 and 2 lead to its log then."""
+    """Opens sys.stdout and sys.stderr if Python considers them closed. In one process, C's streams lead each thread to
+    its own log and have no descriptors. Planners in Python run one at a time; then descriptors 1 and 2 lead to the
+    planner's log."""
     for descriptor, name in ((1, "stdout"), (2, "stderr")):
         if getattr(sys, name) is not None:
             continue
@@ -47,14 +48,15 @@ _open_streams()
 
 
 class Wrong(Exception):
-    """The user's input is wrong; the text says what would be right."""
+    """The user's input is wrong. The text says what would be right."""
 
 
 # ---- loading -----------------------------------------------------------------------------------------------------
 
 
 def load(file: str, class_name: str) -> type[Planner]:
-    """The planner in a file; sys.path begins with the file's folder. Another exception than Wrong is the user's."""
+    """Loads the planner in a file. sys.path must begin with the file's folder. Exceptions other than Wrong come from
+    the user's code."""
     name = Path(file).stem
     if not name.isidentifier() or name in sys.modules:
         name = f"planner_{name}"
@@ -95,7 +97,7 @@ _KINDS: dict[Any, str] = {bool: "bool", int: "int", float: "float", str: "str"}
 
 
 def _kind_of(owner: str, name: str, declared: Any) -> tuple[str, bool]:
-    """What a parameter is, and whether it may be None."""
+    """Kind of a parameter, and whether it may be None."""
     arguments = typing.get_args(declared)
     if type(None) in arguments:
         others = [argument for argument in arguments if argument is not type(None)]
@@ -111,7 +113,8 @@ def _kind_of(owner: str, name: str, declared: Any) -> tuple[str, bool]:
 
 
 def parameters(planner: type[Planner]) -> list[tuple[str, str, bool, bool, float, float]]:
-    """Of its Config: name, kind ("flight" for a FlightConfig), may be None, required, least, greatest."""
+    """The fields of the planner's Config: name, kind ("flight": a FlightConfig), whether it may be None, whether it is
+    required, least and greatest value."""
     config = planner.Config
     owner = f"{planner.__name__}.Config"
     if not dataclasses.is_dataclass(config):
@@ -132,7 +135,7 @@ def parameters(planner: type[Planner]) -> list[tuple[str, str, bool, bool, float
 
 
 def construct(planner: type[Planner], values: dict[str, Any], agent: Any) -> Planner:
-    """The planner, with what its constructor takes of config and agent."""
+    """Constructs the planner. Its constructor may take nothing, (config), or (config, agent)."""
     config = planner.Config(**values)
     wanted = [parameter for parameter in inspect.signature(planner).parameters.values()
               if parameter.default is parameter.empty
@@ -147,7 +150,7 @@ def construct(planner: type[Planner], values: dict[str, Any], agent: Any) -> Pla
 
 
 def own_modules(folder: str) -> list[str]:
-    """Names of the modules that lie in a planner's folder."""
+    """Names of the loaded modules whose files are in a planner's folder, except installed packages."""
     found = []
     for name, module in list(sys.modules.items()):
         file = getattr(module, "__file__", None)
@@ -160,7 +163,7 @@ def own_modules(folder: str) -> list[str]:
 
 
 def seed(number: int, uav: str) -> None:
-    """Seeds the global generators, of `random` and of NumPy, by the run's seed and the UAV."""
+    """Seeds the global generators of `random` and NumPy from the run's seed and the UAV's name."""
     digest = hashlib.sha256(f"planner {number} {uav}".encode()).digest()
     random.seed(int.from_bytes(digest, "little"))
     np.random.seed(np.frombuffer(digest, dtype="<u4"))
@@ -170,7 +173,7 @@ def seed(number: int, uav: str) -> None:
 
 
 def explain(error: BaseException, frames: types.TracebackType | None) -> str:
-    """The traceback, from the user's first frame on."""
+    """The traceback as text, without this package's frames before the first frame of the user's code."""
     while frames is not None and _is_ours(frames.tb_frame.f_code.co_filename) and frames.tb_next is not None:
         frames = frames.tb_next
     linecache.checkcache()
@@ -192,7 +195,7 @@ def _audit(event: str, _: tuple[Any, ...]) -> None:
 
 
 def prepare() -> None:
-    """Once for each interpreter."""
+    """Prepares the interpreter for planners. Call it once."""
     sys.dont_write_bytecode = True
     sys.breakpointhook = _refuse_breakpoint
     sys.addaudithook(_audit)
@@ -200,7 +203,7 @@ def prepare() -> None:
 
 
 class Debugger:
-    """pdb in this terminal, for the calls of one planner."""
+    """Runs the calls of one planner under pdb, in this terminal. `from_s`: simulated time of the first stop [s]."""
 
     def __init__(self, from_s: float) -> None:
         import pdb
@@ -229,12 +232,12 @@ class Debugger:
 
 
 def generators() -> tuple[Any, Any]:
-    """The hidden objects of the global generators: that of `random`, and NumPy's legacy one."""
+    """The internal objects of the global generators: that of `random`, and NumPy's legacy generator."""
     return random._inst, np.random.mtrand._rand
 
 
 def names_of(values: Sequence[Any]) -> list[str]:
-    """For `debug_names()`: texts, or an error that says so."""
+    """Checks the result of `debug_names()`: a sequence of texts. Otherwise raises Wrong."""
     if isinstance(values, str) or not all(isinstance(value, str) for value in values):
         raise Wrong(f"debug_names() must return a sequence of texts, not {values!r}")
     return list(values)

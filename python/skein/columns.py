@@ -1,13 +1,13 @@
-"""The tables of a run and of a study: which file each is, and its columns.
+"""Files and columns of the tables of a run and of a study.
 
-docs/results.md and docs/how-to-compare-planners.md say what each column means. A test compares both with this file.
+docs/results.md and docs/how-to-compare-planners.md explain the columns. A test compares both pages with this file.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
-# Kinds of columns, and what they are in an array. Only those that say so may be empty in the file.
+# Kinds of columns, and their types in an array. A cell may be empty only where a comment says so.
 KINDS = {
     "number": "float64",
     "number?": "float64",  # empty: NaN
@@ -20,7 +20,7 @@ KINDS = {
 
 @dataclass(frozen=True)
 class Column:
-    """A column: its name, its kind (a key of KINDS), and its unit; "" where it has none."""
+    """A column: its name, its kind (a key of KINDS), and its unit ("" if it has none)."""
 
     name: str
     kind: str
@@ -29,7 +29,7 @@ class Column:
 
 @dataclass(frozen=True)
 class Table:
-    """A table: what it is called in Python, its file, its columns, and why the file may be missing."""
+    """A table: its name in Python, its file, its columns, and the reason why the file may be missing."""
 
     name: str
     file: str
@@ -89,7 +89,7 @@ ACTIVITY = Table("activity", "activity.csv", (
 CAPTURE_MESSAGES = Table("capture_messages", "capture_messages.csv", (
     Column("step", "count"), _UAV, Column("arrives", "number?")))
 
-# The fields of each UAV stand between the first two columns and the last three.
+# In the file, the columns of each UAV's fields are between the first two of these columns and the last three.
 DIGESTS = Table("digests", "digests.csv", (Column("k", "count"), *_columns("text", "", "digest ledger radio tally")))
 DIGESTS_OF_A_UAV = ("position", "attitude", "velocity", "body_rates", "gimbal", "alive")
 
@@ -98,7 +98,7 @@ HAND = Table("hand", "hand-{uav}.csv", (
     *_columns("number", "rad/s", "yaw_rate gimbal_pitch_rate gimbal_yaw_rate")),
     "nobody flew this UAV by hand (`planner=\"UAV=hand\"` with `view=True`)")
 
-# Made of events.csv.
+# Not a file: Run.links computes it from events.csv.
 LINKS = Table("links", "events.csv", (*_columns("text", "", "a b"), *_columns("number", "s", "from_s to_s")))
 
 RUN_TABLES = {table.name: table for table in (
@@ -123,7 +123,7 @@ PAIRS = Table("pairs", "pairs.csv", (
     *_columns("text", "", "figure scenario first second"), Column("pairs", "count"),
     *_columns("number?", "", "median low high p p_holm")), _STUDY)
 
-# A column test_N for each test stands after the first three.
+# In the file, a column test_N for each test follows the first three of these columns.
 TOTALS = Table("totals", "totals.csv", (
     Column("place", "count"), *_columns("text", "", "planner ranked_by"), *_columns("number?", "", "max median worst")),
     "only a contest has it (`skein.contest`)")

@@ -1,4 +1,4 @@
-"""What goes wrong, as exceptions. All of them are `skein.Error`."""
+"""The exceptions of this package. All of them derive from `skein.Error`."""
 
 from __future__ import annotations
 
@@ -12,8 +12,8 @@ if TYPE_CHECKING:
 class Error(Exception):
     """Base of all exceptions of this package.
 
-    `exit_code` is the launcher's, or None where no launcher was asked. `run` and `study` are what it left behind all
-    the same, or None.
+    `exit_code` is the launcher's exit code, or None if no launcher ran. `run` or `study` holds the results that the
+    launcher wrote despite the error, or None.
     """
 
     def __init__(self, message: str, exit_code: int | None = None) -> None:
@@ -24,33 +24,34 @@ class Error(Exception):
 
 
 class InputError(Error):
-    """The input is wrong (exit code 2); the message says where and what would be right. Nothing was flown."""
+    """The input is wrong (exit code 2). The message says where, and what would be right. Nothing was flown."""
 
 
 class CheckError(Error):
-    """A check did not hold (exit code 1), a requirement of `skein.compare(require=...)` say."""
+    """A check failed (exit code 1), for example a requirement of `skein.compare(require=...)`."""
 
 
 class ProcessError(Error):
-    """A process failed (exit code 3). The results are complete all the same, in `run` or `study`."""
+    """A process failed (exit code 3). The results are complete nevertheless, in `run` or `study`."""
 
 
 class Interrupted(Error):
-    """Somebody else than this program's user ended it (exit code 130). What was flown is in `run` or `study`."""
+    """Something other than Ctrl-C in this program ended the launcher (exit code 130). The results so far are in `run`
+    or `study`."""
 
 
 class MissingError(Error):
-    """A file is not there; the message says why, and what brings it."""
+    """A file is missing. The message says why, and what creates it."""
 
 
 class DamagedError(Error):
-    """A file does not hold what it must; the message names file and line."""
+    """A file or a message is damaged. Of a file, the text names file and line."""
 
 
 class DependencyError(Error, ImportError):
-    """A package is not installed; the message names Debian's."""
+    """A Python package is not installed. The message names the Debian package."""
 
 
 def missing_package(name: str) -> DependencyError:
-    """For `name`, which Debian has as python3-`name`."""
+    """The error for a missing package `name`, whose Debian package is python3-`name`."""
     return DependencyError(f"this needs {name}, which is not installed: apt-get install python3-{name}")

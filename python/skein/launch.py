@@ -1,7 +1,7 @@
-"""The launcher, `skein`, as a child of this program.
+"""Runs the launcher, `skein`, as a child process.
 
-Keyword options become its options one to one: `one_process=True` is `--one-process`, `duration=60` is
-`--duration=60`, a list of texts is the option repeated, and a list or range of whole numbers one value with commas.
+Keyword arguments become options of the command line: `one_process=True` is `--one-process`, `duration=60` is
+`--duration=60`, a list of texts repeats the option, and a list or range of whole numbers is one value with commas.
 """
 
 from __future__ import annotations
@@ -22,12 +22,13 @@ from .errors import CheckError, Error, InputError, Interrupted, ProcessError
 
 _Results = TypeVar("_Results")
 _EXIT_ERRORS: dict[int, type[Error]] = {1: CheckError, 2: InputError, 3: ProcessError, 130: Interrupted}
-_PATIENCE_S = 30.0  # for a launcher that was told to end
-_MOST_LINES = 25  # of what it said, in a message
+_PATIENCE_S = 30.0  # timeout for a launcher that was told to end
+_MOST_LINES = 25  # most lines of the launcher's output in a message
 
 
 def find_launcher(launcher: str | os.PathLike[str] | None = None) -> str:
-    """Where the launcher is: `launcher`, SKEIN in the environment, `./skein` of this checkout, or `skein` in PATH."""
+    """Path of the launcher: `launcher`, else the environment variable SKEIN, else this checkout's `./skein`, else
+    `skein` in PATH. Raises InputError if there is none."""
     named = os.fspath(launcher) if launcher is not None else os.environ.get("SKEIN")
     if named:
         found = shutil.which(named) if "\0" not in named else None
@@ -58,11 +59,11 @@ def _text(name: str, value: Any) -> str:
 
 
 def _is_flag(value: Any) -> bool:
-    return isinstance(value, bool) or type(value).__name__ in ("bool_", "bool")  # NumPy has its own
+    return isinstance(value, bool) or type(value).__name__ in ("bool_", "bool")  # NumPy has its own type
 
 
 def option_arguments(options: Mapping[str, Any]) -> list[str]:
-    """Keyword options as words of the command line. False and None leave an option out."""
+    """Keyword arguments as words of the command line. False and None leave an option out."""
     words: list[str] = []
     for name, value in options.items():
         option = "--" + name.rstrip("_").replace("_", "-")
@@ -84,7 +85,7 @@ def option_arguments(options: Mapping[str, Any]) -> list[str]:
 
 
 def positional(name: str, value: str | os.PathLike[str]) -> str:
-    """A word of the command line that is no option."""
+    """A positional argument as a word of the command line. Raises InputError if it would count as an option."""
     text = os.fspath(value)
     if not isinstance(text, str) or not text or text.startswith("-"):
         raise InputError(f"{name}: {value!r} is none; options are keywords of this function")
@@ -92,13 +93,13 @@ def positional(name: str, value: str | os.PathLike[str]) -> str:
 
 
 class Finished:
-    """What a launcher said and how it ended."""
+    """Output and exit code of a launcher that has ended."""
 
     def __init__(self, out: str, err: str, code: int) -> None:
         self.out, self.err, self.code = out, err, code
 
     def error(self) -> Error | None:
-        """What its exit code means; None: it is done."""
+        """The exception that the exit code stands for; None: success."""
         if self.code == 0:
             return None
         lines = [line for line in self.err.splitlines() if line and not line.startswith("simulated ")]
@@ -110,24 +111,24 @@ class Finished:
 
 def call(words: list[str], folder_of: Callable[[Finished], Path | None], *,
          launcher: str | os.PathLike[str] | None = None, verbose: bool = False) -> Finished:
-    """Runs the launcher to its end. `verbose`: what it says is written to sys.stdout and sys.stderr meanwhile.
-    `folder_of` finds the results folder in what it said.
+    """Runs the launcher to its end. `verbose`: its output goes to sys.stdout and sys.stderr during the run, too.
+    `folder_of` finds the results folder in its output.
 
-    Ctrl-C goes to the launcher, which ends the fleet at its next step and writes the result; only then
-    KeyboardInterrupt is raised here. A second one ends it at once. If this program dies, the launcher is told to end.
+    Ctrl-C goes to the launcher, which ends the fleet at its next step and writes the result; then KeyboardInterrupt is
+    raised here. A second Ctrl-C ends it at once, a third kills it. If this program dies, the launcher gets SIGTERM.
     """
     command = [find_launcher(launcher), *words]
-    # By the kernel's word, which reaches it even if this program is killed. A function that runs between fork and
-    # exec (preexec_fn) would not be safe beside other threads.
+    # The kernel sends this signal even if this program is killed. preexec_fn, which runs between fork and exec, could
+    # request the same, but is not safe if the program has other threads.
     if setpriv := shutil.which("setpriv"):
         command = [setpriv, "--pdeathsig", "TERM", "--", *command]
     with _passing_on_interrupts() as interrupts:
         try:
-            # A session of its own: a terminal's Ctrl-C reaches this program alone, which passes it on once, wherever it
-            # came from. In one group with it the launcher would get two from a terminal and one from a notebook.
+            # The launcher has a session of its own, so that a terminal's Ctrl-C reaches only this program, which passes
+            # it on. In one process group, the launcher would get two signals from a terminal, but one from a notebook.
             child = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
                                      start_new_session=True)
-        except (OSError, ValueError) as error:  # not to be executed; a word with a NUL
+        except (OSError, ValueError) as error:  # it cannot be executed; a word contains NUL
             raise InputError(f"the launcher cannot be started: {error}") from error
         interrupts.to(child)
         try:
@@ -170,7 +171,7 @@ def _signal_group(child: subprocess.Popen[bytes], number: int) -> None:
 
 
 class _Interrupts:
-    """Ctrl-C on its way to a child. What comes before the child has started waits for it."""
+    """Passes Ctrl-C on to a child process. A Ctrl-C from before the child's start is passed on after it."""
 
     def __init__(self) -> None:
         self.count = 0
@@ -189,7 +190,7 @@ class _Interrupts:
 
 @contextlib.contextmanager
 def _passing_on_interrupts() -> Iterator[_Interrupts]:
-    """While it lasts, Ctrl-C goes to the child. Where the user has a handler of their own, that stays."""
+    """A context in which Ctrl-C goes to the child. If the user has installed another handler, that one stays."""
     interrupts = _Interrupts()
     ours = (threading.current_thread() is threading.main_thread()
             and signal.getsignal(signal.SIGINT) is signal.default_int_handler)
@@ -203,7 +204,7 @@ def _passing_on_interrupts() -> Iterator[_Interrupts]:
 
 
 def _end(child: subprocess.Popen[bytes]) -> None:
-    """After an exception in this program: nothing of the fleet stays."""
+    """Closes the pipes. After an exception in this program it also ends the launcher, and so the fleet."""
     if child.poll() is None:
         _signal_group(child, signal.SIGINT)
         try:
@@ -218,14 +219,14 @@ def _end(child: subprocess.Popen[bytes]) -> None:
 
 def fly(words: list[str], folder_of: Callable[[Finished], Path | None], results: Callable[[Path], _Results], name: str,
         *, launcher: str | os.PathLike[str] | None = None, verbose: bool = False) -> _Results:
-    """Runs the launcher to its end, as `call` does, and returns what it left, by `results` of its folder. The error of
-    an exit code has that as its attribute `name`."""
+    """Runs the launcher to its end, as `call` does, and returns its results: `results(folder)`. If the exit code is an
+    error, the exception has the results as its attribute `name`."""
     finished = call(words, folder_of, launcher=launcher, verbose=verbose)
     folder, error = folder_of(finished), finished.error()
     left = results(folder) if folder is not None else None
     if error is not None:
         setattr(error, name, left)
         raise error
-    if left is None:  # it ended well: `help=True`, say
+    if left is None:  # success without a flight, for example `help=True`
         raise Error("the launcher named no results folder; it said:\n" + (finished.out + finished.err).strip(), 0)
     return left

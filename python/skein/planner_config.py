@@ -1,4 +1,7 @@
-"""What a planner in Python knows before it flies, and its parameters: `skein.planner` has all of it, too."""
+"""What a planner in Python knows before the flight, and its parameters. `skein.planner` exports all of these names.
+
+Frames: W world (east, north, up), B body (forward, left, up). SI units and radians unless a name says otherwise.
+"""
 
 from __future__ import annotations
 
@@ -12,7 +15,7 @@ import numpy as np
 import numpy.typing as npt
 
 Vector = npt.NDArray[np.float64]  #: three numbers
-#: What a planner may give where three numbers are wanted.
+#: What a planner may pass as a vector.
 VectorLike = Union[Vector, Sequence[float]]
 
 
@@ -20,7 +23,7 @@ VectorLike = Union[Vector, Sequence[float]]
 class FleetMember:
     name: str
     role: Literal["explorer", "photographer"]
-    p_WB_start: Vector  #: nominal place on the ground
+    p_WB_start: Vector  #: nominal start, on the ground
     body_radius_m: float
     max_speed_mps: float
 
@@ -33,18 +36,18 @@ class Camera:
     trigger_interval_s: float
     focal_length_m: float
     pixel_size_m: float
-    p_BC: Vector  #: in the body; tilts with it
+    p_BC: Vector  #: position in B, so it moves when the body tilts
 
 
 @dataclass(slots=True)
 class Vehicle:
-    """The own one."""
+    """The own vehicle."""
 
     name: str
     max_speed_mps: float
     max_acceleration_mps2: float
     max_yaw_rate: float  #: [rad/s]
-    lidar_range_m: tuple[float, float] | None  #: from, to; None: it has no LiDAR
+    lidar_range_m: tuple[float, float] | None  #: least and greatest range; None: no LiDAR
     camera: Camera
     gimbal_pitch_limit: float
     gimbal_yaw_limit: float
@@ -53,9 +56,9 @@ class Vehicle:
 
 @dataclass(slots=True)
 class AgentConfig:
-    """The rules of the game, the own vehicle, who else flies. Not the scene, and not the interest points."""
+    """The rules of the mission, the own vehicle and the fleet, but not the scene or the interest points."""
 
-    index: int  #: of the own UAV in `fleet`
+    index: int  #: index of the own UAV in `fleet`
     name: str
     fleet: tuple[FleetMember, ...]  #: the same on every UAV
     vehicle: Vehicle
@@ -69,15 +72,15 @@ class AgentConfig:
 
 
 def parameter(default: Any = dataclasses.MISSING, *, at_least: float = -math.inf, at_most: float = math.inf) -> Any:
-    """A parameter of a `Config` with its bounds: `standoff_m: float = parameter(4.0, at_least=3.0)`. Without a default
-    it must be given."""
+    """A parameter of a `Config` with its bounds: `standoff_m: float = parameter(4.0, at_least=3.0)`. The user must set
+    a parameter that has no default."""
     return dataclasses.field(default=default, metadata={"at_least": at_least, "at_most": at_most})
 
 
 @dataclass(slots=True)
 class FlightConfig:
-    """How a UAV flies, whatever its planner: docs and bounds are in uav_agent/flight_core/flight_config.hpp. As a field
-    of a planner's `Config` its keys are parameters beside the planner's own."""
+    """Parameters of the flight core; uav_agent/flight_core/flight_config.hpp has their meaning and bounds. If a
+    planner's `Config` has a field of this type, its keys are parameters, like the planner's own."""
 
     error_m: float = 0.33
     light_error_m: float = 0.23

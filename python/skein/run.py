@@ -1,4 +1,4 @@
-"""A run: flown by `skein.run()`, or read from its folder by `Run`."""
+"""Runs: `skein.run()` flies one, `Run` reads one from its folder."""
 
 from __future__ import annotations
 
@@ -29,31 +29,31 @@ def run(scenario: str | os.PathLike[str] = "towers", *, launcher: str | os.PathL
     """Flies a fleet, as `skein run SCENARIO` does, and returns the finished run.
 
     Every option of `skein run --help` is a keyword: `planner="kios"`, `seed=3`, `one_process=True`, `duration=60`,
-    `log=["jurong=debug", "raffles=debug"]`. Results go where the command line puts them: `out="..."` chooses a folder.
+    `log=["jurong=debug", "raffles=debug"]`. The results folder is as on the command line; `out="..."` names another.
 
-    `launcher` is the program; without it SKEIN in the environment, this checkout's `./skein`, or `skein` in PATH.
-    `verbose` shows what it says meanwhile.
+    `launcher` is the path of the program; default: SKEIN in the environment, else this checkout's `./skein`, else
+    `skein` in PATH. `verbose` shows the launcher's output during the flight.
 
-    Raises `InputError` where the input is wrong, `ProcessError` where a process failed (with the complete results in
-    its `run`), another `Error` for other exit codes, and KeyboardInterrupt, when the fleet has ended, after Ctrl-C.
+    Raises `InputError` if the input is wrong, `ProcessError` if a process failed (its `run` has the complete results),
+    another `Error` for other exit codes, and KeyboardInterrupt after Ctrl-C, when the fleet has ended.
     """
     words = ["run", positional("scenario", scenario), *option_arguments(options)]
     return fly(words, results_folder, Run, "run", launcher=launcher, verbose=verbose)
 
 
 def results_folder(finished: Finished) -> Path | None:
-    """As the launcher named it at the end, or else at the beginning."""
+    """The results folder, from the launcher's output at the end, or else at the beginning."""
     named = re.findall(r"^results   (.+)$", finished.out, re.MULTILINE)
     named = named or re.findall(r"^.*, results in (.+)$", finished.err, re.MULTILINE)
     return Path(named[-1]) if named else None
 
 
 class _AsWritten(str):
-    """A number of a JSON file, digit by digit."""
+    """A number as the text that is in the JSON file."""
 
 
 def _compact(value: Any) -> str:
-    """JSON as Skein writes it before it takes the checksum."""
+    """The compact JSON text over which Skein computes the checksum."""
     if isinstance(value, _AsWritten):
         return str(value)
     if isinstance(value, dict):
@@ -64,7 +64,8 @@ def _compact(value: Any) -> str:
 
 
 def read_json(file: Path, missing: str) -> dict[str, Any]:
-    """A JSON file that holds an object. Where it has a checksum, it must fit."""
+    """Reads a JSON file that holds an object, and verifies its checksum if it has one. `missing`: the likely reason if
+    the file is missing, for the message."""
     text = read_text(file, missing)
     try:
         value = json.loads(text)
@@ -72,9 +73,9 @@ def read_json(file: Path, missing: str) -> dict[str, Any]:
         if not isinstance(value, dict):
             raise ValueError("it is no JSON object")
         told = as_written.pop("checksum", None)
-        # surrogatepass: an escape in the file may be half of a character; then the checksum does not fit.
+        # surrogatepass: an escape in the file may be half of a surrogate pair; then the checksum does not match.
         held = _compact(as_written).encode(errors="surrogatepass") if told is not None else b""
-    except (ValueError, RecursionError) as error:  # the latter: too many brackets in each other
+    except (ValueError, RecursionError) as error:  # the latter: too deeply nested
         line = getattr(error, "lineno", 1)
         raise DamagedError(f"{file}:{line}: is damaged: {error}") from None
     if told is not None and hashlib.sha256(struct.pack("<Q", len(held)) + held).hexdigest() != told:
@@ -95,11 +96,11 @@ def existing_folder(path: str | os.PathLike[str]) -> Path:
 
 
 class Run:
-    """The results folder of a run. A file is read when it is asked for first.
+    """The results folder of a run. It reads a file when you first ask for its contents.
 
-    `result` is all of result.json; the tables are structured arrays of NumPy, read only, with the columns of
-    docs/results.md: `run.captures["q_blur"]`. `run.frame("captures")` is the same for pandas. Flags are bool, empty
-    cells NaN or "". A file that is not there is a `MissingError`, one that is damaged a `DamagedError`.
+    `result` is result.json. The tables are read-only structured arrays of NumPy, with the columns and units of
+    docs/results.md: `run.captures["q_blur"]`. `run.frame("captures")` returns the same table as a pandas frame. Flags
+    are bool; an empty cell is NaN or "". A missing file raises `MissingError`, a damaged one `DamagedError`.
     """
 
     def __init__(self, path: str | os.PathLike[str]) -> None:
@@ -139,7 +140,7 @@ class Run:
         return value
 
     def _number(self, key: str) -> float:
-        """NaN where nobody could tell: the process that knows had died."""
+        """A number of result.json; NaN if it is unknown because the process that knows it died."""
         value = self.result.get(key)
         return float(value) if isinstance(value, (int, float)) else math.nan
 
@@ -149,7 +150,7 @@ class Run:
 
     @property
     def planner(self) -> dict[str, str]:
-        """By UAV."""
+        """The planners, by name of the UAV."""
         return dict(self._told("planner", dict))
 
     @property
@@ -163,18 +164,18 @@ class Run:
 
     @property
     def score(self) -> float:
-        """The delivered score; NaN where nobody could tell."""
+        """The delivered score; NaN if it is unknown."""
         return self._number("score")
 
     @property
     def digest(self) -> str | None:
-        """None where the same command would not give the same one."""
+        """The digest; None if the run is not deterministic, so that a repetition would have another one."""
         value = self.result.get("digest")
         return value if isinstance(value, str) else None
 
     @property
     def uavs(self) -> list[str]:
-        """Their names, in fleet order."""
+        """The names of the UAVs, in fleet order."""
         try:
             return [str(uav["name"]) for uav in self._told("uavs", list)]
         except (KeyError, TypeError):
@@ -182,7 +183,7 @@ class Run:
 
     @property
     def sim_time_s(self) -> float:
-        """Simulated time; NaN where nobody could tell."""
+        """Simulated time of the run [s]; NaN if it is unknown."""
         return self._number("sim_time_s")
 
     # -- tables -------------------------------------------------------------------------------------------------------
@@ -208,7 +209,7 @@ class Run:
         return read_table(self.path, table)
 
     def frame(self, name: str) -> pandas.DataFrame:
-        """One of the tables below as a pandas frame of its own."""
+        """A copy of one of the tables below as a pandas frame."""
         return frame_of(self.table(name))
 
     @property
@@ -223,12 +224,12 @@ class Run:
 
     @property
     def losses(self) -> Array:
-        """losses.csv: a row for each attainable point: what it scored, what it could have, and why not."""
+        """losses.csv: a row for each attainable point: its score, its attainable score, and the cause of its loss."""
         return self.table("losses")
 
     @property
     def work(self) -> Array:
-        """work.csv: a row for each UAV and second: whether there was work for it, and what it did of it."""
+        """work.csv: a row for each UAV and second: whether there was work for it, and how much of it the UAV did."""
         return self.table("work")
 
     @property
@@ -243,22 +244,22 @@ class Run:
 
     @property
     def tracking(self) -> Array:
-        """tracking.csv: how far UAVs were from their set-points, as counts."""
+        """tracking.csv: histogram of the distances between UAVs and their setpoints."""
         return self.table("tracking")
 
     @property
     def events(self) -> Array:
-        """events.csv: who took part when, links, captures handed out and acknowledged."""
+        """events.csv: when programs joined and left, links opened and closed, captures were taken and acknowledged."""
         return self.table("events")
 
     @property
     def activity(self) -> Array:
-        """activity.csv: what each UAV did and why, as its program said."""
+        """activity.csv: what each UAV did and why, as its program reported."""
         return self.table("activity")
 
     @property
     def capture_messages(self) -> Array:
-        """capture_messages.csv: messages with captures that a link with faults lost or delayed; often none."""
+        """capture_messages.csv: messages with captures that links with faults lost or delayed. Often without rows."""
         return self.table("capture_messages")
 
     @property
@@ -268,11 +269,12 @@ class Run:
 
     @property
     def links(self) -> Array:
-        """Radio links as intervals: from `a` to `b`, from `from_s` until `to_s` (of those that stay, the run's end)."""
+        """Intervals in which a radio link was open: sender `a`, receiver `b`, from `from_s` to `to_s` [s]. An interval
+        whose link is still open ends with the run."""
         return self.table("links")
 
     def hand(self, uav: str) -> Array:
-        """hand-UAV.csv: what somebody who flew this UAV by hand wanted of it."""
+        """hand-UAV.csv: the commands of the pilot who flew this UAV by hand."""
         if uav not in self.uavs:
             raise KeyError(f"there is no UAV {uav!r}; there are {', '.join(self.uavs)}")
         return read_table(self.path, columns.HAND, columns.HAND.file.format(uav=uav))
@@ -301,7 +303,7 @@ class Run:
 
     @property
     def score_losses(self) -> dict[str, float]:
-        """By cause, the score that separates `score` from what was attainable. Docs: docs/results.md, Losses."""
+        """The lost score by cause. The sum is the attainable score minus `score` (docs/results.md, Losses)."""
         losses = self.result.get("losses")
         if not isinstance(losses, dict):
             raise MissingError(f"{self.path / 'result.json'} has no losses: {columns.LOSSES.missing}")
@@ -312,7 +314,8 @@ class Run:
                                f"{losses!r:.60}") from None
 
     def earned(self) -> Array:
-        """The score over time (`time_s`, `score`) of all captures, delivered or not, of UAVs that did not collide."""
+        """The earned score over time (columns `time_s` and `score`): of all captures, delivered or not, of UAVs that
+        did not collide."""
         captures = self.captures
         good = captures[(captures["q"] >= 0.2) & (captures["reason"] != "uav collided")]
         good = good[np.argsort(good["time_s"], kind="stable")]
@@ -330,7 +333,7 @@ class Run:
 
 
 def frame_of(table: Array) -> pandas.DataFrame:
-    """A structured array as a pandas frame; its texts are Python's."""
+    """A copy of a structured array as a pandas frame; texts become `str` objects."""
     try:
         import pandas
     except ImportError:

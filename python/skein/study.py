@@ -1,4 +1,4 @@
-"""Studies: planners side by side, flown by `skein.compare()` or `skein.contest()`, or read by `Study`."""
+"""Studies, which compare planners: `skein.compare()` and `skein.contest()` fly them, `Study` reads them."""
 
 from __future__ import annotations
 
@@ -19,19 +19,21 @@ if TYPE_CHECKING:
 
 def compare(planners: list[str] | str, *, launcher: str | os.PathLike[str] | None = None, verbose: bool = False,
             **options: Any) -> Study:
-    """Flies planners side by side, as `skein compare` does, and returns the study.
+    """Compares planners, as `skein compare` does, and returns the study.
 
     Every option of `skein compare --help` is a keyword: `scenarios=["towers", "sail"]`, `seeds="0-4"` or `range(5)`,
-    `duration=60`, `jobs=2`. A study that is there already goes on: what was flown is not flown again.
+    `duration=60`, `jobs=2`. If the study exists already, this continues it and repeats no flight.
 
-    Raises as `skein.run` does; `ProcessError` and `CheckError` (of `require=...`) have the study in their `study`.
+    Raises the same exceptions as `skein.run`; a `ProcessError` or `CheckError` (`require=...`) has the attribute
+    `study`.
     """
     return _fly("compare", planners, launcher, verbose, options)
 
 
 def contest(planners: list[str] | str, *, launcher: str | os.PathLike[str] | None = None, verbose: bool = False,
             **options: Any) -> Study:
-    """Flies the contest's protocol, as `skein contest` does: `tests=5`, `rank="median"`. See `compare`."""
+    """Flies planners by the protocol of the contest, as `skein contest` does: `tests=5`, `rank="median"`. Returns and
+    raises the same as `compare`."""
     return _fly("contest", planners, launcher, verbose, options)
 
 
@@ -42,17 +44,17 @@ def _fly(command: str, planners: list[str] | str, launcher: str | os.PathLike[st
 
 
 def study_folder(finished: Finished) -> Path | None:
-    """As the launcher named it."""
+    """The study's folder, from the launcher's output."""
     named = re.findall(r"^report: (.+)/report\.html$", finished.out, re.MULTILINE)
     named = named or re.findall(r"^[0-9]+ flights, results in (.+)$", finished.err, re.MULTILINE)
     return Path(named[-1]) if named else None
 
 
 class Study:
-    """The folder of a comparison or a contest. A file is read when it is asked for first.
+    """The folder of a comparison or a contest. It reads a file when you first ask for its contents.
 
-    The tables are structured arrays of NumPy, read only, with the columns of docs/how-to-compare-planners.md;
-    `study.frame("flights")` is the same for pandas.
+    The tables are read-only structured arrays of NumPy, with the columns of docs/how-to-compare-planners.md;
+    `study.frame("flights")` returns the same table as a pandas frame.
     """
 
     def __init__(self, path: str | os.PathLike[str]) -> None:
@@ -69,7 +71,7 @@ class Study:
 
     @property
     def settings(self) -> dict[str, Any]:
-        """study.json: all that the results of the study depend on."""
+        """study.json: all settings on which the results of the study depend."""
         if self._settings is None:
             self._settings = read_json(self.path / "study.json", "it is no folder of a study")
         return self._settings
@@ -85,7 +87,7 @@ class Study:
         return self._tables[name]
 
     def frame(self, name: str) -> pandas.DataFrame:
-        """One of the tables below as a pandas frame of its own."""
+        """A copy of one of the tables below as a pandas frame."""
         return frame_of(self.table(name))
 
     @property
@@ -95,35 +97,35 @@ class Study:
 
     @property
     def summary(self) -> Array:
-        """summary.csv: a row for each scene and planner: median, least and greatest over the seeds."""
+        """summary.csv: a row for each scene and planner, with median, least and greatest value over the seeds."""
         return self.table("summary")
 
     @property
     def pairs(self) -> Array:
-        """pairs.csv: differences of planners' scores and other figures with the same seed: median, interval and p."""
+        """pairs.csv: paired differences (same seed) of scores and other figures of planners: median, interval and p."""
         return self.table("pairs")
 
     @property
     def totals(self) -> Array:
-        """totals.csv, of a contest: a row for each planner in order of rank."""
+        """totals.csv, which only a contest has: a row for each planner, in order of rank."""
         return self.table("totals")
 
     @property
     def planners(self) -> list[str]:
-        """In the order in which they were named."""
+        """Names of the planners, in the order in which the study named them."""
         return list(dict.fromkeys(map(str, self.flights["planner"])))
 
     @property
     def scenarios(self) -> list[str]:
-        """Scenes, in the order in which they were named."""
+        """Names of the scenarios, in the order in which the study named them."""
         return list(dict.fromkeys(map(str, self.flights["scenario"])))
 
     def run(self, number: int) -> Run:
-        """The flight of a row of `flights`."""
+        """The run of row `number` of `flights`."""
         return Run(self.path / str(self.flights[number]["folder"]))
 
     def runs(self, **where: Any) -> list[Run]:
-        """The flights of all rows of `flights` whose columns have these values: `planner="kios"`, `seed=3`."""
+        """The runs of all rows of `flights` whose columns have these values: `planner="kios"`, `seed=3`."""
         flights = self.flights
         for name in where:
             if name not in columns.FLIGHTS.names:

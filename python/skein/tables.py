@@ -1,4 +1,4 @@
-"""CSV files read into structured arrays of NumPy: whole and right, or a `skein.Error` that names file and line."""
+"""Reads CSV files into structured arrays of NumPy: the complete file, or a `skein.Error` names file and line."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from .errors import DamagedError, Error, MissingError
 
 Array = NDArray[Any]
 
-_MOST_BYTES = 1 << 31  # of a column of texts
+_MOST_BYTES = 1 << 31  # largest array of a column of texts
 _NUMBER = frozenset("0123456789+-.eE")
 _WHOLE = {"count": frozenset("0123456789-"), "seed": frozenset("0123456789")}
 _UNPRINTABLE = frozenset(map(chr, [*range(32), 127]))
@@ -26,7 +26,7 @@ _FOUND_AS = {"number": "a number", "number?": "a number", "count": "a whole numb
 
 
 class _Rows:
-    """The cells of a file, column by column, with the lines on which the rows begin."""
+    """The cells of a file by column, and the number of the line on which each row begins."""
 
     def __init__(self, file: Path, header: list[str], columns: list[list[str]], lines: Sequence[int]) -> None:
         self.file, self.header, self.columns, self.lines = file, header, columns, lines
@@ -36,7 +36,7 @@ class _Rows:
 
 
 def read_text(file: Path, missing: str) -> str:
-    """A text file. `missing`: why it may not be there."""
+    """The contents of a text file. `missing`: the likely reason if the file is missing, for the message."""
     try:
         data = file.read_bytes()
     except FileNotFoundError:
@@ -60,7 +60,7 @@ def _whole_lines(file: Path, missing: str) -> str:
 
 
 def _plain_rows(file: Path, missing: str) -> _Rows:
-    """Of a file without quotes, as all tables of a run are."""
+    """The rows of a file without quoted cells. All tables of a run are such files."""
     first, *rows = _whole_lines(file, missing)[:-1].split("\n")
     header = first.split(",")
     commas = len(header) - 1
@@ -72,7 +72,7 @@ def _plain_rows(file: Path, missing: str) -> _Rows:
 
 
 def _quoted_rows(file: Path, missing: str) -> _Rows:
-    """Of a file as RFC 4180 has it, as the tables of a study are."""
+    """The rows of a file with quoted cells (RFC 4180). The tables of a study are such files."""
     reader = csv.reader(io.StringIO(_whole_lines(file, missing), newline=""), strict=True)
     rows: list[list[str]] = []
     lines: list[int] = []
@@ -155,7 +155,7 @@ def _array(rows: _Rows, columns: Sequence[Column], allowed: str) -> Array:
     arrays = []
     for column, cells in zip(columns, rows.columns):
         if column.kind in ("number", "number?"):
-            if column.kind == "number?" and "nan" in cells:  # in the file itself
+            if column.kind == "number?" and "nan" in cells:  # the file itself says nan
                 rows.fail(cells.index("nan"), f"{column.name} must be a number, or empty, not 'nan'")
             arrays.append(_numbers(rows, column, cells))
         elif column.kind in ("count", "seed"):
@@ -167,7 +167,7 @@ def _array(rows: _Rows, columns: Sequence[Column], allowed: str) -> Array:
     table = np.empty(len(rows.lines), [(c.name, a.dtype) for c, a in zip(columns, arrays)])
     for column, array in zip(columns, arrays):
         table[column.name] = array
-    table.flags.writeable = False  # it is kept, and given to whoever asks again
+    table.flags.writeable = False  # Run and Study keep it, and return the same array again
     return table
 
 
@@ -183,15 +183,15 @@ def _check_header(rows: _Rows, columns: Sequence[Column]) -> None:
 
 
 def read_table(folder: Path, table: Table, file: str | None = None) -> Array:
-    """A table of a run, in the file's order. Read only."""
+    """A table of a run, in the file's order, as a read-only array."""
     rows = _plain_rows(folder / (file or table.file), table.missing)
     _check_header(rows, table.columns)
     return _array(rows, table.columns, "")
 
 
 def read_wide_table(folder: Path, table: Table, before: int, extra: str) -> Array:
-    """One that has more columns behind the first `before`, those of which the whole name matches `extra`: texts in a
-    run's folder, numbers in a study's."""
+    """A table with additional columns after the first `before` ones, whose whole names match `extra`. They hold numbers
+    in totals.csv, and texts in a table of a run."""
     of_study = table.file == "totals.csv"
     rows = (_quoted_rows if of_study else _plain_rows)(folder / table.file, table.missing)
     after = len(table.columns) - before
@@ -206,7 +206,7 @@ def read_wide_table(folder: Path, table: Table, before: int, extra: str) -> Arra
 
 
 def read_study_table(folder: Path, table: Table) -> Array:
-    """A table of a study, in the file's order. Read only."""
+    """A table of a study, in the file's order, as a read-only array."""
     rows = _quoted_rows(folder / table.file, table.missing)
     _check_header(rows, table.columns)
     return _array(rows, table.columns, "\n\t\r")

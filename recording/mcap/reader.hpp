@@ -16,7 +16,9 @@ namespace skein::mcap {
 /// Largest uncompressed size of a chunk [bytes]; a larger one counts as damaged.
 inline constexpr std::uint64_t kLargestChunk = 1ULL << 30;
 
-/// The uncompressed records of a chunk. @returns nullopt if the chunk is damaged, or its compression is not zstd.
+/// The uncompressed records of a chunk. Memory grows with the records, whatever size the chunk states.
+/// @returns nullopt if the chunk is damaged or states another size than its records have, or if its compression is
+///   neither none nor zstd.
 std::optional<Bytes> unpack(const Chunk& chunk);
 
 class Reader {

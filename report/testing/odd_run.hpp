@@ -1,4 +1,4 @@
-// For tests: results folders drawn at random, as odd as a run may leave them.
+// For tests: results folders with random contents, also with missing, truncated and hostile data.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 
 namespace skein::report {
 
-/// What breaks out of HTML, JSON, CSS or a script that takes it as it is.
+/// Texts that break out of HTML, JSON, CSS or a script if they are not escaped.
 inline const std::vector<std::string> kNastyTexts = {"kios",
                                                      "</script><script>alert(1)</script>",
                                                      "<!--",

@@ -1,4 +1,4 @@
-// For tests: whether a text is well-formed XML of the kind that we write, and what is in it.
+// For tests: checks that a text is well-formed XML as Skein writes it, and lists its elements.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@ struct XmlElement {
   std::map<std::string, std::string> attributes;
 };
 
-/// @returns all elements in document order. @throws std::runtime_error where the text is not well-formed.
+/// @returns all elements in document order. @throws std::runtime_error if the text is not well-formed.
 inline std::vector<XmlElement> xml_elements(const std::string& text) {
   const auto check = [&](bool good, const std::string& what, std::ptrdiff_t at = 0) {
     if (!good) throw std::runtime_error(what + " near: " + text.substr(static_cast<std::size_t>(at), 120));
@@ -24,7 +24,7 @@ inline std::vector<XmlElement> xml_elements(const std::string& text) {
   pugi::xml_document document;
   const pugi::xml_parse_result result = document.load_buffer(text.data(), text.size());
   check(static_cast<bool>(result), result.description(), result.offset);
-  // What pugixml lets pass: a bare '&', control characters, two roots, an attribute twice.
+  // pugixml accepts these mistakes: a bare '&', control characters, two roots, an attribute twice.
   static const std::regex kBare("&(?!(amp|lt|gt|quot|#39|#10);)");
   std::smatch bare;
   if (std::regex_search(text, bare, kBare)) check(false, "a bare '&'", bare.position());

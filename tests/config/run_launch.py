@@ -1,5 +1,5 @@
-"""What a launch file would start, without ROS's launch: its modules are replaced by ones that write down how they are
-called. Prints one line of JSON.
+"""Prints what a launch file would start, without ROS's launch packages: stand-ins for their modules record each call.
+Prints one line of JSON.
 
     run_launch.py FILE      arguments of the launch file appear as {"argument": NAME}
 """
@@ -10,7 +10,7 @@ import types
 
 
 class Called:
-    """Any action or substitution: its name, and what it was given."""
+    """Stands in for any action or substitution: a call returns its name and its arguments."""
 
     def __init__(self, name):
         self.name = name

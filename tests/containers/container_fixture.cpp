@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What keeps fleets out of containers here; empty when nothing does.
+/// Why fleets cannot fly in containers on this machine; empty: they can.
 const std::string& obstacle() {
   static const std::string kObstacle = [] {
     if (shell("docker version").code != 0) return std::string("no Docker engine answers");
@@ -34,7 +34,7 @@ const std::string& obstacle() {
   return kObstacle;
 }
 
-/// What the linker called a program; empty for what is none.
+/// Build id that the linker gave a program; empty if the file is not a program.
 std::string build_id(const std::string& file) {
   return shell("readelf --notes " + file + " | sed -n 's/.*Build ID: //p'").text;
 }
@@ -44,8 +44,8 @@ bool is_set(const char* variable) {
   return value != nullptr && std::string(value) == "1";
 }
 
-/// Whether both images have the programs of this build: those of packages made of it. IMAGES_OF_THE_SOURCES=1 says
-/// that they were compiled of the same sources elsewhere, which is as good.
+/// Whether both images hold the programs of this build, installed from its packages. IMAGES_OF_THE_SOURCES=1 says that
+/// their programs were compiled from the same sources elsewhere, which is as good.
 bool images_are_of_this_build() {
   if (is_set("IMAGES_OF_THE_SOURCES")) return true;
   static const bool kAre = [] {
@@ -99,7 +99,7 @@ std::vector<std::string> words(const std::string& text) {
 }
 
 void Containers::SetUp() {
-  // Programs of a user of their own read the scenario and write beside it.
+  // The programs in the containers, under another user, read the scenario and write beside it.
   fs::permissions(folder(), fs::perms(0755));
   if (obstacle().empty()) return;
   const testing::TestInfo* test = testing::UnitTest::GetInstance()->current_test_info();
@@ -116,7 +116,7 @@ void Containers::TearDown() {
         EXPECT_EQ(left_of(name), "") << run->err();
         projects.push_back(name);
       }
-    } else {  // a test that failed half-way
+    } else {  // the test failed half-way
       run->skein().signal(SIGINT);
       run->skein().wait();
       projects.push_back(project(*run));

@@ -1,6 +1,7 @@
-// What the tests of fleets in containers share: a real engine and the images that are there. Their own programs fly
-// where they are those of this build (.ci/containers makes such images); else those of the build folder are mounted
-// over them. Without an engine a test is skipped and says what it has not tested; REQUIRE_ENGINE=1 makes it fail.
+// The fixture of the tests of fleets in containers, with a real Docker engine and the images on this machine. If the
+// images hold the programs of this build (.ci/containers makes such images), these fly; else the programs of the build
+// folder are mounted over them. Without an engine a test is skipped and says what it has not tested; with
+// REQUIRE_ENGINE=1 it fails.
 #pragma once
 
 #include <map>
@@ -11,23 +12,23 @@
 
 namespace skein::test {
 
-/// What a shell's command said, on both outputs, and how it ended.
+/// Output of a shell command (stdout and stderr) and its exit code; -1 if a signal ended it.
 struct Answer {
   int code = -1;
   std::string text;
 };
 Answer shell(const std::string& command);
 
-/// Whether what has not been tested is a failure.
+/// Whether a test that cannot run here fails instead of being skipped.
 bool engine_is_required();
 
 /// The parts of a text between white space.
 std::vector<std::string> words(const std::string& text);
 
-/// At the end of each test no container, network or volume of its fleets may be left.
+/// After each test it checks that no container, network or volume of the test's fleets is left, and removes any.
 class Containers : public FleetTest {
  protected:
-  /// What a fleet flies that is compared with another: digest and score.
+  /// The part of a result that must be the same in and out of containers: digest and score.
   struct Flight {
     std::string digest;
     Json score;
@@ -40,24 +41,24 @@ class Containers : public FleetTest {
 
   static Arguments arguments(const std::string& planner = "patrol", const std::string& duration_s = "60",
                              const Arguments& more = {});
-  /// What makes a fleet fly the programs of this build: nothing where the images have them.
+  /// Options that make a fleet fly the programs of this build; empty if the images hold these programs.
   static Arguments programs_of_this_build();
   /// `skein compose ... --up`, with the programs of this build.
   SkeinRun& start_up(const std::string& name, Arguments arguments, const Environment& environment = {});
-  /// The same to its end, which must be a good one.
+  /// start_up(), then waits for the end; the exit code must be 0.
   SkeinRun& up(const std::string& name, const Arguments& arguments);
-  /// What the same arguments give without containers.
+  /// The flight that the same arguments give without containers.
   Flight alone(const Arguments& arguments);
   static Flight flight_of(const SkeinRun& run);
   static void expect_whole(const SkeinRun& run);
 
-  /// The fleet's name in the engine; empty before there is a container.
+  /// Name of the fleet's Docker Compose project; empty while compose.log does not name it yet.
   static std::string project(const SkeinRun& run);
-  /// Waits until there is such a container. @returns its id
+  /// Waits until the container of `program` runs. @returns its id; empty after a timeout
   static std::string container(const SkeinRun& run, const std::string& program);
-  /// What lies about of a project: containers, networks and volumes.
+  /// Ids of the containers, networks and volumes that a project has left.
   static std::string left_of(const std::string& project);
-  /// A project that the test has made by itself, which is taken down at its end.
+  /// Registers a project that the test itself has created; TearDown() removes it.
   void adopt(const std::string& project) { adopted_.push_back(project); }
   /// Waits until the fleet has flown for some simulated seconds. @returns the container of `program`
   static std::string flying(SkeinRun& run, const std::string& program);

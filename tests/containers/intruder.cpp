@@ -1,8 +1,9 @@
-// A program in a UAV's container that joins DDS domains which are not its own, by all addresses that it knows:
+// A program in a UAV's container that joins DDS domains other than its own, by all addresses that it knows:
 //   container_intruder VENDOR RUN NETWORK OWN OTHERS...
-// OWN and OTHERS are numbers of domains; NETWORK has the network of its own domain by the name "own". Everywhere it
-// reads and, but in its own, writes what lets a fleet go on. Prints a line a domain: DOMAIN readers writers samples,
-// and the topics of the writers that it has found; those of its own domain tell that it can.
+// OWN and OTHERS are domain ids; NETWORK holds the network of its own domain under the name "own". It reads the
+// lock-step topics of all these domains, and writes on them in all but its own. Prints one line per domain: DOMAIN, the
+// numbers of readers and writers found and of samples received, and the topics of these writers. The line of its own
+// domain shows that the intruder works.
 #include <atomic>
 #include <chrono>
 #include <iostream>

@@ -1,4 +1,4 @@
-// What the bus contract tests share.
+// Helpers that the bus contract tests share.
 #pragma once
 
 #include <chrono>
@@ -18,12 +18,12 @@ namespace skein::test {
 
 using Bytes = std::vector<std::uint8_t>;
 
-/// A type that nobody has compiled: all that a backend knows of it is its name.
+/// A topic of a type that has no compiled support: a backend knows only its name.
 inline bus::TopicSpec topic(const std::string& name, const bus::Qos& qos = {}) {
   return {"rt/" + name, "nobody_knows::msg::dds_::Thing_", qos};
 }
 
-/// A payload that begins with a number and is `size` bytes long, not counting the encapsulation header.
+/// A payload that begins with a number and is `size` bytes long, without its encapsulation header of 4 bytes.
 inline Bytes numbered(std::uint64_t number, std::size_t size = 8) {
   Bytes payload(4 + size);
   payload[1] = 1;  // CDR_LE
@@ -38,7 +38,7 @@ inline std::uint64_t number_of(std::span<const std::uint8_t> payload) {
   return number;
 }
 
-/// Collects what a reader gets.
+/// Collects the samples of a reader.   Threads: any.
 class Collector {
  public:
   bus::OnSample callback() {
@@ -49,7 +49,7 @@ class Collector {
     };
   }
 
-  /// @returns all samples so far, once there are `count`, or when patience has ended
+  /// @returns all samples so far, once there are `count`, or after kPatience
   std::vector<bus::Sample> wait_for(std::size_t count) {
     std::unique_lock lock(mutex_);
     arrived_.wait_for(lock, kPatience, [&] { return samples_.size() >= count; });

@@ -1,6 +1,7 @@
-// The other process of the bus contract tests, to be stopped and killed. It speaks and hears until then:
+// The second process of the bus contract tests, which a test stops and kills:
 //   bus_contract_peer VENDOR DOMAIN
-// It reads the topic "to_peer", answers each of its samples on "from_peer", and tells its id on the latched "hello".
+// Until then it reads the topic "to_peer" and answers each sample on "from_peer". It publishes its id on the latched
+// topic "hello".
 #include <unistd.h>
 
 #include <cstdlib>

@@ -1,4 +1,4 @@
-// A planner of a test: hovers until a simulated time, when it crashes, flies faster than it may, or into a block.
+// A planner for tests: hovers until a simulated time, then crashes, asks for too high a speed, or flies into a block.
 #include <spdlog/spdlog.h>
 
 #include "uav_agent/api/planner.hpp"
@@ -9,8 +9,8 @@ class CrashPlanner final : public Planner {
  public:
   struct Config {
     double at_s = 2.0;
-    bool reckless = false;  ///< it does not crash: it asks for more speed than there is
-    bool rams = false;      ///< neither: it flies into the block of the small scene
+    bool reckless = false;  ///< instead of crashing, it asks for more speed than the UAV can fly
+    bool rams = false;      ///< instead of both, it flies into the block of the small scene
 
     template <class R>
     void describe(R& r) {

@@ -1,4 +1,4 @@
-// A fleet of two UAVs, of which a test debugs one as a user would.
+// Fixture for tests that debug one of two UAVs as a user would.
 #pragma once
 
 #include <signal.h>
@@ -10,7 +10,7 @@
 #include "fleet_fixture.hpp"
 #include "small_scene.hpp"
 
-/// For the first line of a test.
+/// First line of a test: skips it where gdb does not work.
 #define SKEIN_NEEDS_GDB() \
   if (!skein::test::gdb_works()) GTEST_SKIP() << "there is no gdb here, or it may not debug"
 
@@ -24,14 +24,14 @@ class DebugTest : public FleetTest {
  protected:
   DebugTest() : scenario_(write_small_scene(folder())) {}
 
-  /// `skein WORDS...` with these commands at its stdin, one a line.
+  /// Starts the command line `words`, in which "skein" stands for the built one, with `commands` as its stdin.
   ChildProcess& typed(const std::string& name, const Arguments& words, const std::string& commands) {
     const auto file = write(name + ".gdb", commands);
     std::string line = "exec";
     for (const std::string& word : words) line += " " + shell_word(word == "skein" ? program("skein") : word);
     return start_program(name, {"/bin/sh", "-c", line + " <" + shell_word(file)});
   }
-  /// A debugged flight of `duration` seconds. Its results are in `name`.dir.
+  /// Starts a debugged flight of `duration` seconds. Its results are in dir(name).
   ChildProcess& fly(const std::string& name, const Arguments& more, const std::string& commands = {},
                     const std::string& duration = "5") {
     const Arguments words = {"skein",      "run",    scenario_,     "--planner", "patrol",
@@ -40,7 +40,7 @@ class DebugTest : public FleetTest {
   }
   std::filesystem::path dir(const std::string& name) const { return folder() / (name + ".dir"); }
   Json result(const std::string& name) const { return Json::parse(text_of(dir(name) / "result.json")); }
-  /// Of the same flight, without a debugger.
+  /// Digest of the same flight without a debugger.
   std::string plain_digest() {
     return run("plain", {scenario_, "--planner", "patrol", "--duration", "5", "--no-oracle"}).digest();
   }

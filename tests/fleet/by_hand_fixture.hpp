@@ -1,5 +1,5 @@
-// A fleet whose programs are started one by one, without the launcher: as containers do, or who needs options that the
-// launcher does not have.
+// Fixture for fleets whose programs are started one by one, without the launcher: as in containers, or to use options
+// that the launcher does not have.
 #pragma once
 
 #include <algorithm>
@@ -16,13 +16,13 @@ class ByHand : public FleetTest {
  protected:
   struct Options {
     std::string scenario = "towers";
-    Arguments all = {}, server = {};  ///< beside those that every fleet needs
-    std::filesystem::path keys = {};  ///< as `skein keys` makes them; empty: an open fleet
+    Arguments all = {}, server = {};  ///< further options of all programs, and of the server
+    std::filesystem::path keys = {};  ///< folder that `skein keys` made; empty: the fleet is not secured
   };
 
   ByHand() { std::filesystem::create_directories(dir_); }
 
-  /// Starts all programs, UAVs with `patrol`. @param instead_of  agents, and the clients that fly in their place.
+  /// Starts all programs, the UAVs with `patrol`. @param instead_of  by agent, the command line that replaces it.
   void start_fleet(const Options& options, const std::map<std::string, Arguments>& instead_of = {}) {
     for (const std::string& name : kPrograms) {
       const auto found = instead_of.find(name);
@@ -50,7 +50,7 @@ class ByHand : public FleetTest {
     return argv;
   }
 
-  /// The run ends by itself without `victim`, which was dropped for `reason`, and all others end in good order.
+  /// Expects the run to complete without `victim`, which was dropped for `reason`, and all others to exit with code 0.
   void expect_run_without(const std::string& victim, const std::string& reason) {
     EXPECT_EQ(fleet_.at("sim_server")->wait().code, 0) << fleet_.at("sim_server")->err();
     const Json report = server_report();

@@ -54,7 +54,7 @@ ChildProcess::ChildProcess(const Arguments& argv, const Environment& environment
   const int out_fd = open_for_output(out_), err_fd = open_for_output(err_);
   const pid_t parent = ::getpid();
   pid_ = ::fork();
-  if (pid_ == 0) {  // from here to exec only calls that are safe between the two
+  if (pid_ == 0) {  // from here to exec only async-signal-safe calls
     ::setpgid(0, 0);
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (::getppid() == parent && ::dup2(out_fd, STDOUT_FILENO) >= 0 && ::dup2(err_fd, STDERR_FILENO) >= 0) {
@@ -65,7 +65,7 @@ ChildProcess::ChildProcess(const Arguments& argv, const Environment& environment
   ::close(out_fd);
   ::close(err_fd);
   if (pid_ < 0) throw std::runtime_error("cannot start " + argv[0]);
-  ::setpgid(pid_, pid_);  // both sides do it, so that it is done whichever runs first
+  ::setpgid(pid_, pid_);  // parent and child both do this, so that it is done whichever runs first
 }
 
 ChildProcess::~ChildProcess() {

@@ -20,7 +20,7 @@ inline Arguments joined(Arguments words, const Arguments& more) {
   words.insert(words.end(), more.begin(), more.end());
   return words;
 }
-/// Set on top of the test's own environment.
+/// Variables that are set on top of the test's own environment.
 using Environment = std::map<std::string, std::string>;
 
 std::string text_of(const std::filesystem::path& file);
@@ -30,12 +30,12 @@ struct ExitStatus {
   int signal = 0;  ///< 0 unless a signal ended it
 };
 
-/// For a script that looks at pages through a browser, which draws on the same cores: minutes, on a busy machine. The
-/// script says on stderr what it waits for.
+/// Timeout for scripts that examine pages in a browser, which renders on the same cores: this takes minutes on a busy
+/// machine. The script says on stderr what it waits for.
 inline constexpr std::chrono::seconds kBrowserPatience{600};
 
-/// Starts at construction, in a process group of its own; killed with its group at destruction, and by the kernel when
-/// the test dies. From one thread, which must live as long as it.
+/// Runs from construction on, in a process group of its own. Destruction kills the group; the kernel kills the process
+/// when the test dies.   Threads: one, which must outlive this.
 class ChildProcess {
  public:
   /// @param argv  argv[0] is the path of the binary. @throws std::runtime_error when it cannot be started.
@@ -47,11 +47,11 @@ class ChildProcess {
 
   pid_t pid() const { return pid_; }
   void signal(int signal) const;
-  /// @returns nullopt while it runs.
+  /// @returns nullopt while the process runs.
   std::optional<ExitStatus> ended();
-  /// @returns how it ended. @throws std::runtime_error when it has not by then.
+  /// @throws std::runtime_error when the process has not ended within `patience`.
   ExitStatus wait(std::chrono::seconds patience = kPatience);
-  /// What it wrote so far.
+  /// The output so far.
   std::string out() const { return text_of(out_); }
   std::string err() const { return text_of(err_); }
 

@@ -1,8 +1,8 @@
-// A stranger in a DDS domain that reads point clouds as any ROS 2 program would: by the names that the messages carry,
-// with nothing known beforehand of what Skein puts into them.
-//   cloud_listener VENDOR DOMAIN FILE TOPIC TYPE [TOPIC TYPE]...     of sensor_msgs PointCloud or PointCloud2
-// Appends a line to FILE for each sample: {"topic": ..., "points": {"x": [...], "intensity": [...], ...}}; and, once it
-// has found the writer of each topic, one that says {"listening": true}. Runs until it is killed.
+// A participant in a DDS domain, not part of the fleet, that reads point clouds as any ROS 2 program would: by the
+// field names in the messages, without knowing what Skein puts into them.
+//   cloud_listener VENDOR DOMAIN FILE TOPIC TYPE [TOPIC TYPE]...     types: sensor_msgs PointCloud or PointCloud2
+// Appends one line to FILE per sample: {"topic": ..., "points": {"x": [...], "intensity": [...], ...}}; and, once it
+// has found the writer of each topic, the line {"listening": true}. Runs until it is killed.
 #include <chrono>
 #include <cstring>
 #include <fstream>
@@ -79,6 +79,6 @@ int main(int argc, char** argv) {
     for (const auto& reader : readers) matched = matched && !reader->matched().empty();
     if (matched && !told) note({{"listening", true}});
     told = told || matched;
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));  // between two looks; nothing waits for it
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));  // polling period; nothing depends on it
   }
 }

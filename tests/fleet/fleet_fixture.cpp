@@ -35,7 +35,7 @@ std::string value_of(const std::vector<std::string>& words, const std::string& o
   return "";
 }
 
-/// What `name` is set to; empty when it is not.
+/// Value of the variable `name`; empty when it is not set.
 std::string variable(const std::vector<std::string>& variables, const std::string& name) {
   for (const std::string& entry : variables) {
     if (entry.starts_with(name + "=")) return entry.substr(name.size() + 1);
@@ -43,7 +43,7 @@ std::string variable(const std::vector<std::string>& variables, const std::strin
   return "";
 }
 
-/// The shipped configuration, wherever the build folder is, and no cache but the test's own.
+/// Adds the paths of the shipped configuration, wherever the build folder is, and of a cache that only the test uses.
 Environment with_config(Environment environment, const fs::path& folder) {
   environment.try_emplace("XDG_CACHE_HOME", folder / "cache");
   if (std::getenv("SKEIN_CONFIG_DIR") == nullptr) {
@@ -139,7 +139,7 @@ std::string SkeinRun::debug_command(const std::string& tool) const {
   std::string command = "exec env " + match.str(1);
   const std::size_t at = command.find(gdb);
   if (at != std::string::npos) return command.replace(at, gdb.size(), tool);
-  return command.insert(command.find("/bin/sh -c"), tool + " ");  // a user's command
+  return command.insert(command.find("/bin/sh -c"), tool + " ");  // the command of an exec: planner
 }
 
 Json SkeinRun::result() const {
@@ -212,7 +212,7 @@ ChildProcess& FleetTest::skein(const Arguments& arguments) {
 
 void FleetTest::expect_nothing_left() {
   for (const auto& run : runs_) {
-    if (!run->skein().ended()) continue;  // a test that failed half-way; its end comes with the fixture's
+    if (!run->skein().ended()) continue;  // the test failed half-way; the fixture's destructor ends the run
     std::map<std::string, pid_t> left;
     EXPECT_TRUE(eventually([&] { return (left = processes_of(run->dir())).empty(); }, std::chrono::seconds(20)))
         << left.begin()->first << " is still there";
@@ -240,7 +240,7 @@ void FleetTest::expect_complete_result(const SkeinRun& run) {
   if (!result["score"].is_null() && by_uav > 0.0) {
     EXPECT_NEAR(by_uav, result["score"].get<double>(), 1e-9);
   }
-  // What was lost is the difference to what could be had, to the last bit.
+  // The losses add up exactly to the attainable score minus the score.
   double lost = 0.0;
   for (const auto& [cause, sum] : result["losses"].items()) lost += sum["score"].get<double>();
   if (!result["losses"].is_null()) {

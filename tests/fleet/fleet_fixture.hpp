@@ -1,4 +1,4 @@
-// What the fleet tests share: the built `skein`, driven as a user would, and what is to be seen of a run from outside.
+// Fixture of the fleet tests: runs the built `skein` as a user would, and observes a run from outside.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -25,24 +25,24 @@ bool long_tests();
 /// Path of a built program.
 std::string program(const std::string& name);
 
-/// Of a file that somebody still writes, the last line may lack its end: it is left out.
+/// may_be_unfinished: a program still writes the file, so a last line without a line break is left out.
 enum class LastLine { whole, may_be_unfinished };
 
 /// Every row of a CSV file with a header, by column.
 std::vector<std::map<std::string, std::string>> read_csv(const std::filesystem::path& file,
                                                          LastLine last = LastLine::whole);
 
-/// Processes that were started with `--out dir`, or as a user's command with SKEIN_OUT=dir, by the names that Skein's
-/// messages give them.
+/// Processes that were started with `--out dir`, or as a user's command with SKEIN_OUT=dir, by the names that they have
+/// in Skein's messages.
 std::map<std::string, pid_t> processes_of(const std::filesystem::path& dir);
 
 /// True once the server has written some simulated seconds of trajectories: it writes them in blocks.
 bool is_flying(const std::filesystem::path& dir);
 
-/// A `skein run`, or `skein compose --up`, from its start on.
+/// A `skein run` or `skein compose --up` that has been started.
 class SkeinRun {
  public:
-  /// @param folder  of the test; the results go to `folder`/`name`. @param command  of `skein`: "run" or "compose"
+  /// @param folder  the test's folder; the results go to `folder`/`name`. @param command  "run" or "compose"
   SkeinRun(const std::filesystem::path& folder, const std::string& name, Arguments arguments,
            const Environment& environment = {}, const std::string& command = "run");
 
@@ -51,13 +51,13 @@ class SkeinRun {
   std::string err() const { return skein_->err(); }
   std::string out() const { return skein_->out(); }
   int exit_code() { return skein_->wait().code; }
-  /// Waits until the launcher's stderr holds `text` or the launcher has ended. @returns whether it does.
+  /// Waits until the launcher's stderr holds `text` or the launcher has ended. @returns whether stderr holds it.
   bool wait_for(const std::string& text);
-  /// Waits until the run has gone on for some simulated seconds. @returns false when it has ended before.
+  /// Waits until the run has flown for some simulated seconds. @returns false when the launcher has ended.
   bool wait_until_flying();
-  /// First and last DDS domain, as the launcher tells them.
+  /// First and last DDS domain, as the launcher prints them; -1 if it has not.
   std::pair<int, int> domains() const;
-  /// Of `--debug UAV`, for a shell: what the launcher tells its user to start. @param tool  in the place of gdb
+  /// With `--debug UAV`: the shell command that the launcher asks its user to start. @param tool  replaces `gdb --args`
   std::string debug_command(const std::string& tool = {}) const;
   Json result() const;
   std::string digest() const;
@@ -67,7 +67,8 @@ class SkeinRun {
   std::unique_ptr<ChildProcess> skein_;
 };
 
-/// A folder for each test, removed after a test that passed. At the end of each test nothing of it may be left.
+/// Gives each test a folder, which is removed if the test passes. After each test it checks that the test has left
+/// nothing else behind.
 class FleetTest : public testing::Test {
  protected:
   FleetTest();
@@ -82,22 +83,22 @@ class FleetTest : public testing::Test {
 
   SkeinRun& start(const std::string& name, const Arguments& arguments, const Environment& environment = {},
                   const std::string& command = "run");
-  /// Starts and waits; the launcher must end with `exit_code`.
+  /// Starts a run and waits for its end; the launcher must exit with `exit_code`.
   SkeinRun& run(const std::string& name, const Arguments& arguments, const Environment& environment = {},
                 int exit_code = 0);
   /// Starts any other program.
   ChildProcess& start_program(const std::string& name, const Arguments& argv, const Environment& environment = {});
-  /// The command line of an installed or packed program, in the test's folder: nothing leads it to this build.
-  /// @param words  variables first, if any: "PYTHONPATH=...".
+  /// The command line that runs an installed or packed program in the test's folder, without the variables that would
+  /// lead it to this build. @param words  the command line, after variables if any: "PYTHONPATH=...".
   Arguments installed(const Arguments& words) const;
-  /// `skein diff`, and similar: @returns the process after its end.
+  /// Runs `skein ARGUMENTS...` (`skein diff` for example). @returns the process after its end.
   ChildProcess& skein(const Arguments& arguments);
 
-  /// No process of a run of this test, no lock on a DDS domain, and no shared memory that nobody uses: what other tests
-  /// use meanwhile is theirs.
+  /// Expects that this test's runs have left no process, no lock on a DDS domain, and no unused shared memory. Shared
+  /// memory in use may belong to other tests.
   void expect_nothing_left();
 
-  /// Everything that docs/results.md promises of any run, also of one that failed.
+  /// Expects everything that docs/results.md promises for any run, also for a failed one.
   static void expect_complete_result(const SkeinRun& run);
 
  private:

@@ -1,5 +1,5 @@
-// A raw participant that gets past its own library's checks: it joins the domain that its certificate is for, but on
-// the ports, and under the number, of another domain. Whether it gets any further is up to those who are there.
+// A raw DDS participant that gets past the checks of its own library: it joins the domain that its certificate is for,
+// but on the ports, and with the id, of another domain. Only the participants of that domain can still reject it.
 //   impostor VENDOR OWN_DOMAIN OTHER_DOMAIN FILE SECURITY_DIR TOPIC TYPE
 // Keeps FILE up to date with TOPIC, the number of writers that its reader has matched, and 0. Runs until it is killed.
 #include "impostor.hpp"
@@ -20,6 +20,6 @@ int main(int argc, char** argv) {
     if (now != before) {
       skein::write_file_atomically(argv[4], disguise.topic + " " + std::to_string(before = now) + " 0\n");
     }
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));  // between two looks; nothing waits for it
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));  // polling period; nothing depends on it
   }
 }

@@ -1,4 +1,4 @@
-// Before all other headers of Cyclone, see there.
+// Must precede all other headers of Cyclone DDS; raw_sertype.hpp says why.
 #include "bus/cyclonedds/raw_sertype.hpp"
 
 #include <dds/dds.h>

@@ -11,7 +11,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// Readers of a published schema must bear keys of later versions; its own tests need not.
+/// Forbids unknown keys. Readers of a published schema must tolerate keys of later versions; its own tests need not.
 void close(Json& schema) {
   if (schema.contains("properties") && !schema.contains("additionalProperties")) schema["additionalProperties"] = false;
   for (Json& part : schema) {
@@ -25,7 +25,7 @@ std::vector<std::string> schema_errors(const Json& value, Json schema) {
   close(schema);
   valijson::Schema rules;
   valijson::SchemaParser().populateSchema(valijson::adapters::NlohmannJsonAdapter(schema), rules);
-  // Strong types: an integer is no text that reads like one.
+  // Strong types: a string that reads like an integer is not an integer.
   valijson::Validator validator(valijson::Validator::kStrongTypes);
   valijson::ValidationResults results;
   validator.validate(rules, valijson::adapters::NlohmannJsonAdapter(value), &results);

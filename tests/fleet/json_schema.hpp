@@ -1,4 +1,4 @@
-// Whether JSON is as a JSON Schema wants it, and has nothing besides.
+// Checks that JSON conforms to a JSON Schema and has no further keys.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -7,9 +7,8 @@
 
 namespace skein::test {
 
-/// @param schema  Its objects are taken to be closed: a key that it does not name is refused, unless it says itself
-///   what such keys may hold.
-/// @returns one line for each thing that does not fit; empty when `value` is as `schema` wants it.
+/// @param schema  Its objects count as closed: other keys than those it names are errors, unless it has
+///   "additionalProperties". @returns one line for each error; empty when `value` conforms.
 std::vector<std::string> schema_errors(const nlohmann::json& value, nlohmann::json schema);
 
 }  // namespace skein::test

@@ -2,9 +2,9 @@
 // code with Skein, only the messages and the bus. It flies its UAV 3 m up and stays there.
 //   skein run --planner hover,UAV=exec:minimal_client
 // The launcher sets SKEIN_RUN, SKEIN_DOMAIN, SKEIN_UAV and SKEIN_DDS. Exit code 0 after the last step, 3 when the
-// server dropped it. To see what becomes of a broken client: with an argument it lies from a certain step on; "hang"
-// answers no more; "boast" announces a command more than it sends, "smuggle" one less; "forge" tells the station of
-// captures that no camera took. "tell" is no lie: it says what it does.
+// server dropped it. An argument makes it misbehave from a certain step on, for tests of broken clients: "hang" stops
+// answering; "boast" announces one command more than it sends, "smuggle" one less; "forge" reports captures to the
+// station that no camera took. "tell" is correct behaviour: it publishes its activity.
 #include <algorithm>
 #include <condition_variable>
 #include <cstdlib>
@@ -38,7 +38,7 @@ skein::bus::TopicSpec topic(const std::string& name, const skein::bus::Qos& qos)
   return {"rt/" + name, skein::type_name<Message>(), qos};
 }
 
-/// Messages of one topic, from the vendor's threads to main().
+/// Passes the messages of one topic from the DDS library's threads to the main thread.
 template <class Message>
 class Queue {
  public:
@@ -51,7 +51,7 @@ class Queue {
           arrived_.notify_all();
         })) {}
 
-  /// The next message, or nullopt after a while without one.
+  /// The next message; nullopt after 50 ms without one.
   std::optional<std::pair<ParticipantId, Message>> take() {
     std::unique_lock lock(mutex_);
     const auto something = [this] { return !waiting_.empty(); };
@@ -72,10 +72,10 @@ class Queue {
   std::mutex mutex_;
   std::condition_variable arrived_;
   std::deque<std::pair<ParticipantId, Message>> waiting_;
-  std::unique_ptr<skein::bus::Reader> reader_;  // last: gone before what its callback uses
+  std::unique_ptr<skein::bus::Reader> reader_;  // last, so that it is destroyed before what its callback uses
 };
 
-/// What a list of counts says about one topic of one source; `otherwise` when it does not mention it.
+/// The count of one topic of one source in a list; `otherwise` if the list has none.
 std::uint64_t count_of(const std::vector<msg::TopicCount>& counts, const std::string& name, ParticipantId source,
                        std::uint64_t otherwise) {
   for (const auto& count : counts) {
@@ -109,12 +109,12 @@ class Client {
       }
       if (step->first != server_ || step->second.run() != run_) continue;
       if (step->second.k() == answered_) {
-        done_->write(skein::encode(last_done_));  // asked again: the answer may be lost
+        done_->write(skein::encode(last_done_));  // the server asks again: the answer may have been lost
         continue;
       }
       if (!lists_us(step->second)) {
         if (member) return 3;
-        continue;  // of the time before we were let in
+        continue;  // a step from before this client became a member
       }
       member = true;
       for (const auto& other : step->second.members()) {
@@ -126,7 +126,7 @@ class Client {
       if (!answer(step->second)) return 3;
       if (step->second.final_step()) break;
     }
-    while (steps_.matches(server_)) steps_.take();  // leaving at once could take the answer away with us
+    while (steps_.matches(server_)) steps_.take();  // leaving at once could lose the last answer
     return 0;
   }
 
@@ -240,7 +240,7 @@ class Client {
     ++commands_sent_;
   }
 
-  /// In each step, which is more often than it need be; the server tells of changes alone.
+  /// Writes its activity in each step, which is more often than necessary; the server passes on only changes.
   void write_activity() {
     msg::Activity activity;
     activity.mode("hovers, all by itself");
@@ -267,7 +267,7 @@ class Client {
     ++reports_sent_;
   }
 
-  /// What it says that it sent.
+  /// The number of commands that it claims to have sent.
   std::uint64_t told() const {
     if (lie_ == "boast") return commands_sent_ + 1;
     return lie_ == "smuggle" ? commands_sent_ - 1 : commands_sent_;

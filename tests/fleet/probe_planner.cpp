@@ -1,5 +1,5 @@
-// A planner of a test: climbs by bare velocities, then follows a path; it looks at every scan, key frame and detection,
-// and logs once a second what it has got so far, as JSON.
+// A planner for tests: climbs by bare velocity set-points, then follows a path. It examines every scan, key frame and
+// detection, and once a second logs as JSON what it has received so far.
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
@@ -12,8 +12,8 @@ namespace skein::agent {
 class ProbePlanner final : public Planner {
  public:
   struct Config {
-    double east_m = 0.0;  // how far the path leads that way
-    double up_m = 3.0;    // and up
+    double east_m = 0.0;  // length of the path to the east
+    double up_m = 3.0;    // length of the path upwards
 
     template <class R>
     void describe(R& r) {
@@ -60,8 +60,8 @@ class ProbePlanner final : public Planner {
   const Node own_node_;
   long scans_ = 0, late_ = 0, own_frames_ = 0, others_frames_ = 0;
   std::size_t points_ = 0;
-  long gaps_ = 0;            // numbers of points that came before those below them
-  std::uint32_t named_ = 0;  // points that it knows by number, from 0 on
+  long gaps_ = 0;            // number of points whose numbers arrived before lower ones
+  std::uint32_t named_ = 0;  // number of points known so far; they are numbered from 0
   std::optional<std::size_t> first_detected_;
 };
 

@@ -1,7 +1,7 @@
-// A stranger in a DDS domain: subscribes to topics, counts what it hears, and is no member of anything.
+// A participant in a DDS domain, not a member of the fleet, that subscribes to topics and counts their samples.
 //   radio_listener VENDOR DOMAIN FILE TOPIC TYPE [TOPIC TYPE]...
-// With SKEIN_SECURITY it shows the certificate in that folder, else none. Keeps FILE up to date with one line a topic:
-// TOPIC, the number of writers matched, the number of samples heard. Runs until it is killed.
+// With SKEIN_SECURITY it presents the certificate in that folder, else none. Keeps FILE up to date with one line per
+// topic: TOPIC, the number of writers matched, the number of samples received. Runs until it is killed.
 #include <atomic>
 #include <chrono>
 #include <cstdlib>
@@ -32,7 +32,7 @@ int main(int argc, char** argv) {
   for (int i = 4; i + 1 < argc; i += 2) {
     Heard& topic = heard.emplace_back();
     topic.topic = argv[i];
-    // Asks for no durability, so that it matches latched writers and others alike.
+    // Requests no durability, so that it matches latched and volatile writers alike.
     topic.reader = participant->create_reader({argv[i], argv[i + 1], {.reliable = true, .depth = 1000}},
                                               [&topic](skein::bus::Sample&&) { ++topic.count; });
   }
@@ -42,6 +42,6 @@ int main(int argc, char** argv) {
       now << topic.topic << ' ' << topic.reader->matched().size() << ' ' << topic.count << '\n';
     }
     if (now.str() != before) skein::write_file_atomically(argv[3], before = now.str());
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));  // between two looks; nothing waits for it
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));  // polling period; nothing depends on it
   }
 }

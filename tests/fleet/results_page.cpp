@@ -36,7 +36,7 @@ Names documented(const std::string& file) {
   return columns;
 }
 
-/// The header of a file; what it has for each UAV stands once, for "<uav>".
+/// The columns in a file's header; a column that each UAV has is listed once, as "<uav>".
 Names header(const fs::path& file, const Names& uavs) {
   std::ifstream in(file);
   std::string line;
@@ -67,7 +67,7 @@ void expect_documented_columns(const fs::path& dir) {
     for (const std::string& uav : uavs) {
       if (name == "hand-" + uav + ".csv") name = "hand-<uav>.csv";
     }
-    // A full disk may leave nothing of a table; the result says so then.
+    // On a full disk a table may be empty; then the result has a warning that names it.
     const bool told = result["warnings"].dump().find(name) != std::string::npos;
     if (told && fs::file_size(entry.path()) == 0) continue;
     EXPECT_EQ(header(entry.path(), uavs), documented(name)) << name << " is not what docs/results.md says";

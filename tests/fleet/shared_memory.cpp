@@ -9,7 +9,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The files that a process has mapped or open, by /proc; none of one that has ended meanwhile.
+/// The files that a process has mapped or open, from /proc; empty if it has ended meanwhile.
 std::set<fs::path> files_of(const fs::path& process) {
   std::set<fs::path> files;
   std::ifstream maps(process / "maps");

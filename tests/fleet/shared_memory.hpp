@@ -1,4 +1,5 @@
-// What lies in /dev/shm, and who uses it. Fast DDS of other programs (ROS 2 nodes) puts its segments there.
+// The shared memory in /dev/shm, and whether processes use it. Fast DDS in other programs (ROS 2 nodes) puts segments
+// there.
 #pragma once
 
 #include <filesystem>
@@ -12,8 +13,8 @@ inline const std::filesystem::path kSharedMemory = "/dev/shm";
 /// The names in `folder`.
 std::set<std::string> shared_memory(const std::filesystem::path& folder = kSharedMemory);
 
-/// Those of `names` that no process has open or mapped: whoever created them has ended without removing them, or is
-/// about to remove them. Processes of other users count as if they used none. @param folder  absolute, without links
+/// Those of `names` that no process has open or mapped: their creator has ended without removing them, or is about to
+/// remove them. Segments that only other users' processes use count as unused. @param folder  absolute, without links
 std::set<std::string> unused_shared_memory(std::set<std::string> names,
                                            const std::filesystem::path& folder = kSharedMemory);
 

@@ -1,4 +1,4 @@
-// For tests of full disks: a disk of a size of its own. Needs to be root.
+// For tests of full disks: a file system of a given size (tmpfs). Needs root.
 #pragma once
 
 #include <sys/mount.h>
@@ -8,7 +8,7 @@
 
 namespace skein::test {
 
-/// Mounted on a folder, as long as this lives.
+/// Is mounted on a folder while it lives.
 class SmallDisk {
  public:
   SmallDisk(std::filesystem::path folder, int kilobytes) : folder_(std::move(folder)) {
@@ -22,7 +22,7 @@ class SmallDisk {
   SmallDisk& operator=(const SmallDisk&) = delete;
 
   bool mounted() const { return mounted_; }
-  /// What is on it stays. @returns whether it could be done.
+  /// Changes the size; files stay. @returns whether that succeeded.
   bool grow(int kilobytes) const {
     return ::mount("none", folder_.c_str(), "tmpfs", MS_REMOUNT, size(kilobytes).c_str()) == 0;
   }

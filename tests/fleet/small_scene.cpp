@@ -22,7 +22,7 @@ std::string list_of(const Numbers& numbers) {
   return text.str();
 }
 
-/// Twelve triangles a block, ASCII.
+/// Writes an ASCII STL with twelve triangles per block.
 void write_mesh(std::ostream& out, const std::vector<Block>& blocks) {
   constexpr int kFaces[6][4] = {{0, 1, 3, 2}, {4, 6, 7, 5}, {0, 4, 5, 1}, {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 5, 7, 3}};
   constexpr int kTriangles[2][3] = {{0, 1, 2}, {0, 2, 3}};

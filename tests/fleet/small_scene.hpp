@@ -15,13 +15,13 @@ struct Block {
 
 struct SmallScene {
   std::vector<Block> blocks;                  ///< the mesh
-  std::vector<Block> boxes;                   ///< what the UAVs are told
-  std::vector<std::array<double, 6>> points;  ///< position and normal
+  std::vector<Block> boxes;                   ///< bounding boxes that the UAVs get
+  std::vector<std::array<double, 6>> points;  ///< interest points: position [m] and normal
   std::string fleet;                          ///< YAML list
   double duration_s = 60.0;
 };
 
-/// Two UAVs before one block.
+/// Two UAVs in front of one block.
 SmallScene default_scene();
 inline constexpr int kSmallScenePoints = 12;
 

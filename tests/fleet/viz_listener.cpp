@@ -1,7 +1,7 @@
-// A stranger in a run's world domain that reads what is there for viewers, as RViz 2 would.
+// A participant in a run's world domain, not part of the fleet, that reads the topics for viewers, as RViz 2 would.
 //   viz_listener VENDOR DOMAIN FILE
-// Appends a line of JSON to FILE for each sample, {"topic": "/viz/links", ...}, and, once it has found the writer of
-// each topic, one that says {"listening": true}. Runs until it is killed.
+// Appends one line of JSON to FILE per sample, {"topic": "/viz/links", ...}; and, once it has found the writer of each
+// topic, the line {"listening": true}. Runs until it is killed.
 #include <array>
 #include <chrono>
 #include <cstring>
@@ -58,7 +58,7 @@ Json json_of(const msg::TFMessage& message) {
   return {{"stamp", stamp}, {"frames", frames}};
 }
 
-/// Clouds of x, y, z, intensity.
+/// The points of a cloud whose fields are x, y, z and intensity.
 Json json_of(const msg::PointCloud2& cloud) {
   Json points = Json::array();
   for (std::size_t at = 0; at + cloud.point_step() <= cloud.data().size(); at += cloud.point_step()) {
@@ -113,6 +113,6 @@ int main(int argc, char** argv) {
     for (const auto& reader : readers) matched = matched && !reader->matched().empty();
     if (matched && !told) note({{"listening", true}});
     told = told || matched;
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));  // between two looks; nothing waits for it
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));  // polling period; nothing depends on it
   }
 }

@@ -13,10 +13,10 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::chrono::minutes kPagesPatience{10};
-/// Missions of flights that name no length.
+/// Mission time of flights whose command gives none [s].
 constexpr const char* kBriefly = "3";
 
-/// Processes that work in a folder, by what they are.
+/// Names of the processes whose working directory is in a folder.
 std::vector<std::string> processes_in(const fs::path& folder) {
   std::vector<std::string> found;
   std::error_code ignored;
@@ -27,7 +27,7 @@ std::vector<std::string> processes_in(const fs::path& folder) {
   return found;
 }
 
-/// Of a console: the commands with what the page shows of each.
+/// The commands of a console block, each with the output that the page shows.
 std::vector<std::pair<std::string, std::string>> commands_of(const PageBlock& console) {
   std::vector<std::pair<std::string, std::string>> commands;
   std::istringstream lines(console.text);
@@ -127,7 +127,7 @@ PageTest::PageTest() : checkout_(folder() / "checkout") {
 std::string PageTest::typed(const std::string& commands, int exit_code, const Environment& environment) {
   const std::string name = "typed-" + std::to_string(++commands_);
   const fs::path script = write(name + ".sh", commands + "\n");
-  // Neither where the programs nor where their configuration is may be told from outside.
+  // The test's environment must not tell the reader's commands where the programs or their configuration are.
   const std::string line =
       "unset SKEIN SKEIN_CONFIG_DIR SKEIN_BIN_DIR SKEIN_ASSETS SKEIN_GOLDEN SKEIN_CHAOS SKEIN_LOG SKEIN_NETWORK; "
       "cd '" +
@@ -137,7 +137,7 @@ std::string PageTest::typed(const std::string& commands, int exit_code, const En
   all.try_emplace("SKEIN_AGENT", "");
   all.try_emplace("XDG_CACHE_HOME", folder() / "cache");
   all.try_emplace("PATH", build_path("bin:") + (folder() / "bin").string() + ":" + std::getenv("PATH"));
-  all.try_emplace("PYTHONDONTWRITEBYTECODE", "1");  // into the source tree
+  all.try_emplace("PYTHONDONTWRITEBYTECODE", "1");  // or it would go into the source tree
   all.try_emplace("MPLBACKEND", "Agg");
   ChildProcess shell({"/bin/sh", "-c", line}, all, folder() / (name + ".out"), folder() / (name + ".err"));
   const bool over = eventually([&] { return shell.ended().has_value(); }, kPagesPatience);
@@ -159,7 +159,7 @@ void PageTest::give_agent(const fs::path& file) const {
   }
 }
 
-/// @returns false when there is something that this machine has not.
+/// Provides the files that the block's notes name. @returns false when this machine lacks one of them.
 bool PageTest::give(const PageBlock& block) {
   static const std::regex kGiven(R"((\S+) is (an agent|a program|the data files|the script))");
   for (const auto& [kind, text] : block.notes) {

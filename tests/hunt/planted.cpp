@@ -1,5 +1,6 @@
-// Defects for `skein hunt` to find: rounds about the structure, with some talk between UAVs that stands up to every
-// fault, and of which one part is wrong on request. The hunt knows none of them. No flight core keeps these UAVs safe.
+// A planner with planted defects, for `skein hunt` to find: it flies rounds about the structure and coordinates with
+// the other UAVs by radio, in a way that tolerates every fault. On request one part of it is wrong. The hunt does not
+// know the defects. No flight core keeps these UAVs safe.
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -17,14 +18,14 @@ namespace skein::agent {
 
 enum class Defect {
   none,
-  no_boxes_again,   ///< a program that comes back does not take in where the structure is
-  waits_for_dead,   ///< who flies beside a UAV whose program is dead waits for its word
-  endless_lease,    ///< a lease that nobody gives back never ends
-  mutual_wait,      ///< two wait for each other's word, which each says once
-  looks_away,       ///< a program that comes back flies on, and never looks at the structure again
-  flies_blind,      ///< without its LiDAR it flies straight to the middle of its work
-  undying_counter,  ///< it counts its own start in something that a restart does not wipe out
-  reads_calendar    ///< in which 300 days it flies decides when it lifts off
+  no_boxes_again,   ///< a restarted program ignores the bounding boxes of the structure
+  waits_for_dead,   ///< a UAV waits for ever for the message of a visible UAV whose program is dead
+  endless_lease,    ///< a lease that is not released never expires
+  mutual_wait,      ///< two UAVs wait for each other's message, which each sends only once
+  looks_away,       ///< a restarted program flies on, but never looks at the structure again
+  flies_blind,      ///< without its LiDAR it flies straight to the middle of the structure
+  undying_counter,  ///< it counts its own starts in a variable that outlives a restart
+  reads_calendar    ///< the parity of the calendar's 300-day period decides whether it waits before takeoff
 };
 constexpr std::array<EnumName<Defect>, 9> enum_names(Defect) {
   return {{{"none", Defect::none},
@@ -42,7 +43,7 @@ namespace {
 
 constexpr const char* kTopic = "/plan";
 constexpr Tick kWordPeriod = kTicksPerSecond;
-constexpr double kLate_s = 5.0;  ///< a program that begins after this was away
+constexpr double kLate_s = 5.0;  ///< a program that starts after this time has been restarted
 constexpr double kLeaseFrom_s = 12.0, kLeaseUntil_s = 22.0, kMeetAt_s = 28.0;
 constexpr double kQuiet_s = 2.0, kDead_s = 5.0, kLeaseAge_s = 3.0, kPatience_s = 4.0;
 constexpr double kLoiterHeight_m = 70.0, kLoiterWay_m = 10.0, kLoiterSpeed_mps = 4.0, kUp_rad = -1.3;
@@ -50,8 +51,8 @@ constexpr double kBlind_s = 8.0, kMoving_mps = 1.0, kBlindSpeed_mps = 4.0;
 
 constexpr double kOffM = 4.0, kLowestM = 10.0, kUpM = 4.0, kApartM = 2.0, kRoundMps = 3.0;
 
-/// Around all boxes, from below to the top and down again, every other UAV the other way round, with the camera on what
-/// is nearest of them.
+/// Flies rounds about all boxes, higher and higher, then again from the bottom; every other UAV in the opposite
+/// direction. The camera points at the nearest part of the boxes.
 class Rounds {
  public:
   explicit Rounds(std::size_t self) : self_(self) {}
@@ -137,7 +138,7 @@ class PlantedPlanner final : public Planner {
 
   void begin(double now_s) {
     began_s_ = now_s;
-    static std::map<std::size_t, int> starts;  // of a process, not of a program
+    static std::map<std::size_t, int> starts;  // outlives a restart of the program in the same process
     forgotten_ = defect_ == Defect::undying_counter && ++starts[self()] > 1;
   }
   bool was_away() const { return *began_s_ > kLate_s; }
@@ -163,7 +164,7 @@ class PlantedPlanner final : public Planner {
     return now / std::chrono::hours(24 * 300) % 2 == 0 && now_s < kLate_s;
   }
 
-  /// The next UAV is in sight and says nothing: it may be about to say something.
+  /// The next UAV is in sight and silent: waits, because a message may be about to come.
   bool waits_for_neighbour(const PlannerInput& in, double now_s) const {
     const std::size_t next = (self() + 1) % agent_.fleet.size();
     const auto silence = silence_s("beat " + std::to_string(next), now_s);
@@ -174,14 +175,14 @@ class PlantedPlanner final : public Planner {
     return visible && (defect_ == Defect::waits_for_dead || *silence < kDead_s);
   }
 
-  /// The first UAV has the site for itself for a while.
+  /// The first UAV holds a lease, which gives it the site for itself for a while.
   bool waits_for_lease(double now_s) const {
     const auto lease = silence_s("lease 0", now_s), release = silence_s("release 0", now_s);
     if (self() == 0 || !lease || (release && *release <= *lease)) return false;
     return defect_ == Defect::endless_lease || *lease < kLeaseAge_s;
   }
 
-  /// The first two say when they are ready, and go on together.
+  /// The first two UAVs report when they are ready, and continue together.
   bool waits_for_meeting(double now_s) const {
     if (self() > 1 || *began_s_ > kMeetAt_s || now_s < kMeetAt_s) return false;
     if (silence_s("ready " + std::to_string(1 - self()), now_s)) return false;
@@ -198,7 +199,7 @@ class PlantedPlanner final : public Planner {
            now_s - saw_s_.value_or(now_s) > kBlind_s;
   }
 
-  /// To and fro above everything, with the camera at the sky.
+  /// Flies to and fro above all structure, with the camera pointing up.
   static void loiter(const PlannerInput& in, PlannerOutput& out) {
     out.gimbal = GimbalCommand{GimbalMode::angle, kUp_rad, 0.0};
     if (!in.tracking.done) return;
@@ -250,9 +251,9 @@ class PlantedPlanner final : public Planner {
   Rounds inner_;
   std::map<std::string, double> heard_s_;  ///< when each word was last heard
   std::optional<double> began_s_, saw_s_;
-  /// What it flies, to be taken up again after standing still: else it believes that it has arrived.
+  /// The present path, which is resumed after a hold: else `inner_` would believe that the UAV has arrived.
   Path path_;
-  std::size_t leg_ = 0;  ///< of it, where the path begins that is being flown
+  std::size_t leg_ = 0;  ///< index in path_ of the first waypoint of the path that is being flown
   bool stood_ = false;
   bool forgotten_ = false, released_ = false, met_ = false;
 };

@@ -1,5 +1,5 @@
-// For the mutant of station_node.cpp: what each station still has to write down. A station that is killed in one
-// process is never destroyed, so that no other has its address.
+// For the mutant of station_node.cpp: the records that each station has yet to write, by the station's address. A
+// station that is killed in a one-process run is never destroyed, so no other station gets its address.
 #pragma once
 
 #include <map>

@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Folders with a layer of their own: those at the root, and the file format of recordings, which knows no message.
+/// The folder that has a layer: a folder at the root, or recording/mcap, the file format, which depends on no messages.
 std::string layer_folder(const std::string& path) {
   return path.starts_with("recording/mcap/") ? "recording/mcap" : path.substr(0, path.find('/'));
 }
@@ -25,7 +25,7 @@ const std::set<std::string>& applications() {
   return kNames;
 }
 
-/// Lower layers have lower numbers; applications share one, and a whole fleet in one process is made of them.
+/// Lower layers have lower numbers. All applications share one layer; one_process, which combines them, is above it.
 std::optional<int> layer_of(const std::string& folder) {
   static const std::map<std::string, int> kLayers = {
       {"core", 0},      {"process", 1},    {"idl", 1}, {"recording/mcap", 1}, {"properties", 1}, {"sight", 1},
@@ -44,13 +44,13 @@ bool starts_with_any(const std::string& text, const std::vector<std::string>& pr
   return std::ranges::any_of(prefixes, [&](const std::string& prefix) { return text.starts_with(prefix); });
 }
 
-/// main.cpp, sim_node.hpp, server_program.hpp, and their tests.
+/// Whether a file is main.cpp, *_node.* or *_program.*, or the test of one.
 bool may_use_bus(const std::string& path) {
   static const std::regex kName(R"((^|.*/)(main\.cpp|[^/]*_node(_test)?\.[ch]pp)|[^/]*/[^/]*_program(_test)?\.[ch]pp)");
   return std::regex_match(path, kName);
 }
 
-/// Lines of code, or of all text, that a pattern matches.
+/// Reports the lines, of code or of all text, that a pattern matches.
 enum class Look { code, text };
 void find_lines(const SourceFile& file, Look look, const std::regex& pattern, const std::string& what,
                 Violations& violations) {
@@ -82,8 +82,7 @@ Violations check_layers(const Tree& tree) {
 
 namespace {
 
-/// "sim_server/flight" of a file in that folder; "sim_server/mission" of a file beside the folders and of its test's
-/// header.
+/// "sim_server/flight" for a file in that folder; "sim_server/mission" for a header and source beside the folders.
 std::string room_of(const std::string& path) {
   const std::size_t application = path.find('/'), folder = path.find('/', application + 1);
   return folder != std::string::npos ? path.substr(0, folder) : path.substr(0, path.rfind('.'));
@@ -94,7 +93,7 @@ struct Door {
   std::string where;  ///< the first include of this kind
 };
 
-/// Rooms that `from` reaches.
+/// All rooms that `from` includes, directly or indirectly.
 std::set<std::string> reach(const std::string& from, const std::vector<Door>& doors) {
   std::set<std::string> reached;
   std::vector<std::string> next = {from};
@@ -151,7 +150,7 @@ Violations check_dds_headers(const Tree& tree) {
                                                  Vendor{"bus/cyclonedds/", {"dds/", "ddsc/", "dds.h"}}};
   Violations violations;
   for (const SourceFile& file : tree) {
-    if (file.folder() == "tests" || file.folder() == "bench") continue;  // what the bus is measured against
+    if (file.folder() == "tests" || file.folder() == "bench") continue;  // these compare the bus with raw DDS
     for (const Include& include : file.includes) {
       for (const auto& [folder, headers] : kVendors) {
         if (!starts_with_any(include.path, headers) || file.path.starts_with(folder)) continue;
@@ -190,7 +189,7 @@ Violations check_libraries(const Tree& tree, const std::vector<LibraryRule>& rul
       if (folder == rule.folders.end()) {
         violations.push_back(at(file, include->line, rule.name + " does not belong here"));
       } else if (file.is_header() && rule.own_folder) {
-        continue;  // seen by the files that are counted
+        continue;  // counts through the .cpp files that include it
       } else if (file.is_header()) {
         violations.push_back(at(file, include->line, rule.name + " must not be seen in a header"));
       } else if (++users[*folder] > rule.most_files) {
@@ -216,7 +215,7 @@ Violations check_headers(const Tree& tree) {
 }
 
 Violations check_printing(const Tree& tree) {
-  // What answers people on a terminal, and flies nothing: a program's options that list, check or write something.
+  // Code that answers a user on a terminal and does not fly: options of programs that list, check or write something.
   static const std::regex kAnswers(R"(.*_(program|tasks)\.cpp)");
   static const std::regex kPrinting(R"(\b(printf|fprintf|puts|fputs|putchar)\s*\(|\bstd\s*::\s*cout\b)");
   Violations violations;
@@ -239,8 +238,8 @@ Violations check_sleeping(const Tree& tree) {
 }
 
 Violations check_clocks(const Tree& tree) {
-  // The one place where tests wait, a test whose subject is the clock, a program that runs without Skein's code, one
-  // that tells a made-up flight at a pace, and planners with planted defects, one of which reads the calendar.
+  // The one place where tests wait, a test whose subject is the clock, a program in a container, one that plays a
+  // made-up flight at a given pace, and the planner with planted defects, one of which reads the calendar.
   static const std::set<std::string> kAllowed = {"tests/support/eventually.cpp", "process/health/heartbeat_test.cpp",
                                                  "tests/containers/intruder.cpp", "tests/hunt/planted.cpp",
                                                  "tests/view/feeder.cpp"};
@@ -286,7 +285,7 @@ Violations check_marks(const Tree& tree) {
   static const std::regex kMarks(
       "\\b(TO"
       "DO|FIX"
-      "ME)\\b");  // in two parts, so that they are no marks themselves
+      "ME)\\b");  // in two parts, so that this line has no marks itself
   Violations violations;
   for (const SourceFile& file : tree) find_lines(file, Look::text, kMarks, "marks unfinished work", violations);
   return violations;

@@ -1,5 +1,5 @@
-// What a source tree must not contain. Each rule returns its violations as "path:line: what is wrong", sorted by path;
-// an empty list is a pass. The architecture behind the rules: docs/architecture.md.
+// Rules for the source tree. Each rule returns its violations as "path:line: what is wrong", sorted by path; an empty
+// list is a pass. The architecture behind the rules: docs/architecture.md.
 #pragma once
 
 #include <cstddef>
@@ -20,25 +20,24 @@ using Violations = std::vector<std::string>;
 /// tests/ may include everything, and only test code may include tests/.
 Violations check_layers(const Tree& tree);
 
-/// Inside an application, and in scenes/, folders look one way: what a folder includes does not include it, neither
-/// directly nor by way of other folders and of the files beside them, each of which (header and source) counts by
-/// itself.
+/// Inside an application, and in scenes/, includes between folders form no cycle, neither directly nor through other
+/// folders. A file beside the folders (its header and source together) counts as a folder of its own.
 Violations check_circles(const Tree& tree);
 
-/// In an application only main.cpp, *_node.* and *_program.* include bus/, and nobody else includes their headers.
+/// In an application only main.cpp, *_node.* and *_program.* include bus/, and no other file includes their headers.
 Violations check_bus_users(const Tree& tree);
 
-/// A DDS vendor's headers are for bus/<vendor>/ alone; tests/ may talk raw DDS, to check us from outside.
+/// Only bus/<vendor>/ includes a DDS vendor's headers; tests/ may use raw DDS, to check Skein from outside.
 Violations check_dds_headers(const Tree& tree);
 
 /// Large libraries stay where they belong: in the folders named here, in few .cpp files, never in a header unless they
 /// have a folder of their own.
 struct LibraryRule {
   std::string name;
-  std::vector<std::string> prefixes;  ///< of what is included: "pcl/"
+  std::vector<std::string> prefixes;  ///< of the included paths: "pcl/"
   std::vector<std::string> folders;   ///< "uav_agent/", "scenes/files/"
   std::size_t most_files = 1;         ///< in each of these folders
-  bool own_folder = false;            ///< its headers may show it
+  bool own_folder = false;            ///< headers in `folders` may include the library
 };
 /// The rules of this project.
 const std::vector<LibraryRule>& library_rules();
@@ -50,13 +49,13 @@ Violations check_headers(const Tree& tree);
 /// No printf and no std::cout, except in cli/, main.cpp, *_program.cpp, *_tasks.cpp and tests.
 Violations check_printing(const Tree& tree);
 
-/// Nobody sleeps to wait for somebody else. Helpers under tests/ may poll other processes.
+/// No code sleeps in order to wait for other threads or processes. Helpers under tests/ may poll other processes.
 Violations check_sleeping(const Tree& tree);
 
-/// Tests do not read the clock: they wait for facts with tests/support/eventually.hpp.
+/// Tests do not read the clock: they wait for conditions with tests/support/eventually.hpp.
 Violations check_clocks(const Tree& tree);
 
-/// No file of C++ or Python beyond `most_lines`.
+/// No file of C++ or Python has more than `most_lines`.
 Violations check_length(const Tree& tree, std::size_t most_lines = 400);
 
 /// A function that may be longer than others.
@@ -66,23 +65,23 @@ struct LongFunction {
 };
 /// The list of this project.
 const std::vector<LongFunction>& long_functions();
-/// No function of C++ but these has more than `most_lines` between its braces, and each of these has. Tests may: they
-/// tell a story.
+/// No C++ function has more than `most_lines` between its braces, except those in `known`, each of which must have
+/// more, and those of tests.
 Violations check_functions(const Tree& tree, const std::vector<LongFunction>& known, std::size_t most_lines = 60);
 
-/// No line of C++, Python, CMake or shell beyond `most_columns`; lines that are nothing but the text of a literal may.
+/// No line of C++, Python, CMake or shell has more than `most_columns`, except lines inside a string literal.
 Violations check_columns(const Tree& tree, std::size_t most_columns = 120);
 
 /// No marks of unfinished work.
 Violations check_marks(const Tree& tree);
 
-/// No path of somebody's machine, in any text file. docker/ may name paths inside a container.
+/// No text file contains a path of a particular machine. docker/ may name paths inside a container.
 Violations check_machine_paths(const Tree& tree);
 
-/// Files that comments of C++ files, docs/, README.md and CONTRIBUTING.md name are there: those with a folder of the
-/// tree ("docs/lockstep.md"), C++ files in whatever folder ("flight/site.hpp"), and in comments also by their names
-/// alone ("tours.hpp"); ".*" means any ending. A page may name what it has its reader write: its code blocks with a
-/// name.
+/// Files that comments of C++ files, docs/, README.md and CONTRIBUTING.md name exist: those with a folder of the tree
+/// ("docs/lockstep.md"), C++ files in any folder ("flight/site.hpp"), and in comments also by their names alone
+/// ("tours.hpp"); ".*" means any ending. A page may also name the files that it tells its reader to write: its code
+/// blocks with a name.
 Violations check_references(const Tree& tree);
 
 /// No build products and no large files among `tracked` (paths below the root).

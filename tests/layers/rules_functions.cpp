@@ -1,4 +1,4 @@
-// The rule of how long functions are.
+// The rule for the length of functions.
 #include <algorithm>
 #include <cctype>
 #include <set>
@@ -16,7 +16,7 @@ struct Function {
 
 bool is_part_of_name(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
 
-/// The words of a declaration, up to where it says what it is.
+/// Whether the text before a brace declares something other than a function.
 bool declares_no_function(const std::string& head) {
   static const std::set<std::string> kOthers = {"namespace", "class", "struct", "enum", "union", "extern"};
   const auto begin = std::ranges::find_if(head, is_part_of_name);
@@ -32,12 +32,13 @@ std::string name_in(const std::string& head) {
 }
 
 struct Brace {
-  std::string function;  ///< whose body it opens; empty: of none
-  std::string head;      ///< goes on after it
+  std::string function;  ///< the function whose body it opens; empty: none
+  std::string head;      ///< the head that continues after the closing brace
   std::size_t line = 0;
 };
 
-/// By braces, in code that clang-format has seen. Lambdas and classes inside a function are part of it.
+/// Finds functions by their braces, in code that clang-format has formatted. Lambdas and classes inside a function
+/// count as part of it.
 std::vector<Function> functions_of(const SourceFile& file) {
   std::vector<Function> functions;
   std::vector<Brace> open;

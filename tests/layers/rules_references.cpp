@@ -1,4 +1,4 @@
-// What comments and documents say of files.
+// The rule for file names in comments and documents.
 #include <algorithm>
 #include <regex>
 #include <set>
@@ -8,7 +8,7 @@
 namespace skein::layers {
 namespace {
 
-/// All paths of the tree, and what they end with after a slash.
+/// All paths of the tree, and their endings after each slash.
 class Paths {
  public:
   explicit Paths(const Tree& tree) {
@@ -19,7 +19,7 @@ class Paths {
     }
   }
   bool has(const std::string& tail) const { return tails_.contains(tail); }
-  /// Of the tree's root.
+  /// Whether the root has a folder of this name.
   bool has_folder(const std::string& name) const { return folders_.contains(name); }
 
  private:
@@ -33,7 +33,7 @@ class Paths {
 
 std::string name_of(const std::string& path) { return path.substr(path.rfind('/') + 1); }
 
-/// "```cmake CMakeLists.txt": the names of a page's code blocks.
+/// The file names of a page's code blocks: "```cmake CMakeLists.txt".
 std::set<std::string> files_to_write(const SourceFile& page) {
   static const std::regex kBlock(R"(^```\w+ (\S+)$)");
   std::set<std::string> names;
@@ -49,7 +49,7 @@ bool is_page(const SourceFile& file) {
          (file.folder() == "docs" && file.path.ends_with(".md"));
 }
 
-/// Whether a path is about this tree at all: a user's files and those of a run have folders of their own.
+/// Whether a path refers to this tree at all, and not to a user's or a run's files, whose folders have other names.
 bool is_ours(const std::string& path, const Paths& paths, bool in_comment) {
   static const std::regex kCpp(R"(.*\.[ch]pp)");
   const std::size_t slash = path.find('/');

@@ -45,7 +45,7 @@ std::vector<Include> read_includes(const fs::path& root, const SourceFile& file)
   return includes;
 }
 
-/// Walks over C++ text and blanks what is no code; keeps the comments.
+/// Walks over C++ text and blanks everything but code; collects the comments.
 class Blanker {
  public:
   explicit Blanker(const std::string& text) : text_(text), comments_(text) {
@@ -75,7 +75,7 @@ class Blanker {
   }
 
   bool starts(const char* what) const { return text_.compare(at_, std::char_traits<char>::length(what), what) == 0; }
-  /// 1'000 is a number, and FOUR"x" is no raw string.
+  /// The ' in 1'000 opens no character, and FOUR"x" is no raw string.
   bool follows_word() const {
     return at_ > 0 && (std::isalnum(static_cast<unsigned char>(text_[at_ - 1])) || text_[at_ - 1] == '_');
   }

@@ -9,13 +9,13 @@ namespace skein::layers {
 
 struct Include {
   std::size_t line = 0;  ///< from 1
-  std::string path;      ///< as written; from the root where it was written relative to the file
+  std::string path;      ///< as written, but relative to the root if it was written relative to the file
 };
 
 struct SourceFile {
   std::string path;                   ///< below the root: "core/types.hpp"
   std::vector<std::string> lines;     ///< as they are
-  std::vector<std::string> code;      ///< C++ only: the same with blanks for comments, characters and strings
+  std::vector<std::string> code;      ///< C++ only: the lines with blanks for comments, characters and strings
   std::vector<std::string> comments;  ///< C++ only: blanks for all but comments
   std::vector<Include> includes;      ///< C++ only
 

@@ -14,7 +14,7 @@
 namespace skein::test {
 namespace {
 
-constexpr const char* kSwitch = "sw";  ///< the namespace that has the bridges
+constexpr const char* kSwitch = "sw";  ///< the namespace that contains the bridges
 
 bool succeeds(const std::string& command) { return std::system((command + " >/dev/null 2>&1").c_str()) == 0; }
 
@@ -38,7 +38,7 @@ std::vector<std::string> words(const std::string& line) {
   return all;
 }
 
-/// Whose files `ip netns exec` puts in the place of those in /etc.
+/// The folder whose files `ip netns exec` mounts over those in /etc.
 std::filesystem::path etc_of(const std::string& space) { return std::filesystem::path("/etc/netns") / space; }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// Hosts on which one can log in: network namespaces, each with a real sshd of its own on its address, throwaway keys,
-// and clocks that differ. The first is the launcher's and has none.
+// Hosts with login by ssh: network namespaces, each with a real sshd on its own address, throwaway keys, and a clock
+// that differs from the others'. The first host is the launcher's and has no sshd.
 #pragma once
 
 #include <filesystem>
@@ -18,22 +18,22 @@ class LoginHosts {
   /// @param names  the first is the launcher's
   explicit LoginHosts(const std::vector<std::string>& names) : names_(names), hosts_(names) {}
 
-  /// What is started on that host sees a time of day that is so far off: "+5h", "-30d" (Debian's libfaketime).
-  /// Before set_up(). @returns false without that library.
+  /// Shifts the time of day that programs on that host see, by "+5h" or "-30d" for example (Debian's libfaketime).
+  /// Call it before set_up(). @returns false without that library.
   bool set_time_of_day(const std::string& name, const std::string& off);
-  /// Starts what is needed. @returns why that cannot be here; empty: it stands.
+  /// Starts the hosts and waits until login works. @returns why it does not work here; empty: it works.
   std::string set_up(const std::filesystem::path& folder);
 
   const Hosts& hosts() const { return hosts_; }
-  /// What logs in on them, with its options, for --ssh.
+  /// The command that logs in on the hosts, with its options, for --ssh.
   std::string ssh() const { return "ssh -F " + (folder_ / "ssh_config").string(); }
   /// Where programs on that host put their temporary files.
   std::filesystem::path temporary(const std::string& name) const { return folder_ / (name + ".tmp"); }
-  /// Command lines of all processes that have to do with that host's temporary files.
+  /// Command lines of all processes, without sshd, that name that host's temporary folder in command line or TMPDIR.
   std::vector<std::string> processes_on(const std::string& name) const;
-  /// Neither processes nor files of a fleet are left there, after a while.
+  /// Waits until neither processes nor files of a fleet are left there. @returns false after a timeout.
   bool is_clean(const std::string& name) const;
-  /// Names of all files of a fleet there.
+  /// Names of all temporary files there.
   std::vector<std::string> files_on(const std::string& name) const;
   void cut(const std::string& name) const;
   void mend(const std::string& name) const;
@@ -45,7 +45,7 @@ class LoginHosts {
   const std::vector<std::string> names_;
   Hosts hosts_;
   std::filesystem::path folder_;
-  std::map<std::string, std::string> variables_;  ///< by host, of what is started there
+  std::map<std::string, std::string> variables_;  ///< by host: environment variables of programs that start there
   std::map<std::string, std::unique_ptr<ChildProcess>> daemons_;
 };
 

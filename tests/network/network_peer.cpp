@@ -1,7 +1,8 @@
-// One host's program in the tests of networks. In each of its domains it writes and reads the topic "talk":
+// The program on each host in the tests of networks. In each of its domains it writes and reads the topic "talk":
 //   network_peer VENDOR GO NETWORK ID SAMPLES SIZE DOMAIN=NAME:OTHERS...
-// It waits for so many OTHERS in each domain (0: for two seconds) and says "met". Once there is a file GO, it writes
-// SAMPLES of SIZE bytes, prints "NAME: " and whom it heard how often, and stays until it is killed.
+// It waits until it has matched OTHERS peers in each domain (0: for two seconds) and prints "met". Once the file GO
+// exists, it writes SAMPLES samples of SIZE bytes, prints "NAME:" and the number of samples from each peer, and stays
+// until it is killed.
 #include <unistd.h>
 
 #include <cstdlib>
@@ -27,7 +28,7 @@ struct Place {
   std::unique_ptr<Collector> heard = std::make_unique<Collector>();
 };
 
-constexpr std::uint64_t kOf = 1'000'000;  ///< numbers of one peer
+constexpr std::uint64_t kOf = 1'000'000;  ///< the numbers of peer ID's samples begin at ID * kOf
 
 void tell(Place& place, std::size_t samples) {
   std::map<std::uint64_t, std::size_t> counts;
@@ -69,7 +70,7 @@ int main(int argc, char** argv) {
     });
   }
   std::cout << "met" << std::endl;
-  eventually([&] { return std::filesystem::exists(argv[2]); });  // everybody has met everybody
+  eventually([&] { return std::filesystem::exists(argv[2]); });  // then all peers have matched
   for (std::size_t i = 0; i < samples; ++i) {
     for (auto& [domain, place] : places) place.writer->write(numbered(id * kOf + i, size));
   }

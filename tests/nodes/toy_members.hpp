@@ -1,5 +1,5 @@
-// The far side of a node under test, over a bus within this process: a server without a world, members without a mind.
-// Each works only when it gets its turn.
+// Counterparts of a node under test, over a bus within this process: a server without a simulated world, and members
+// without a planner. Each works only when it is polled.
 #pragma once
 
 #include <functional>
@@ -17,7 +17,7 @@
 
 namespace skein::test {
 
-/// "a", "b", ... in a row; they may all talk to all on /talk.
+/// UAVs "a", "b", ... in a row; all may send to all on /talk.
 inline Scenario toy_scenario(std::size_t uavs) {
   Scenario scenario;
   for (std::size_t i = 0; i < uavs; ++i) {
@@ -45,7 +45,7 @@ class ToyServer {
     }
   }
 
-  /// Somebody whom the first step waits for.
+  /// Adds a member that the first step waits for.
   void expect(std::string_view member, Domain domain) { lockstep_.add_place(std::string(member), domain, true); }
   void expect_router() { expect(bus::kRouterName, kWorld); }
   void expect_station() { expect(bus::kStationName, kGcs); }
@@ -54,7 +54,7 @@ class ToyServer {
   }
   static Domain domain_of(UavIndex uav) { return 2 + uav; }
 
-  /// All topics of a domain as the server has them: agents match them before they take part.
+  /// Opens the server's ends of all topics in a domain: agents match them before they take part.
   void open_topics(Domain domain, std::span<const topics::TopicInfo> table, const std::string& id) {
     for (const topics::TopicInfo& topic : table) {
       const bus::TopicSpec spec = bus::spec(topics::wire(topic, id));
@@ -74,7 +74,7 @@ class ToyServer {
   bus::CountedWriter& writer(Domain domain, const topics::WireTopic& topic) {
     return *writers_.at({domain, topic.name});
   }
-  /// What a member wrote on one of these.
+  /// Calls `handler` with each message that a member writes on one of these topics.
   template <class Message, class Handler>
   void on(Domain domain, const topics::WireTopic& topic, Handler handler) {
     on_sample_[{domain, topic.name}] = [handler](bus::Sample&& sample) {
@@ -125,7 +125,7 @@ class ToyServer {
   bool in_step_ = false;
 };
 
-/// Answers every step at once, after `on_step`.
+/// A member that answers every step at once, after `on_step`.
 class ToyMember final : public bus::ClientNode {
  public:
   ToyMember(bus::Bus& bus, int domain, std::string_view name)
@@ -149,7 +149,7 @@ class ToyMember final : public bus::ClientNode {
   bool answered_last_ = false;
 };
 
-/// Gives everybody a turn, again and again. @returns false when `done` does not come true.
+/// Calls all `turns` in order, round after round, until `done`. @returns false when it is not done after `rounds`.
 template <class Done>
 bool take_turns(const std::vector<std::function<void()>>& turns, const Done& done, int rounds = 20000) {
   for (int round = 0; round < rounds && !done(); ++round) {

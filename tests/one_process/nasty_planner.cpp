@@ -1,4 +1,4 @@
-// A planner that does at a given time what no planner should. For tests of what becomes of the others.
+// A planner that at a given time does something that no planner should do, for tests of the effect on other UAVs.
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
@@ -52,13 +52,13 @@ constexpr std::array<EnumName<Nastiness>, 15> enum_names(Nastiness) {
 
 namespace {
 
-/// Where it writes when it is destroyed.
+/// The file to which the planner's destructor writes.
 const char* last_will() {
   const char* file = std::getenv("NASTY_WILL");
   return file == nullptr ? "/dev/null" : file;
 }
 
-/// Deeper and deeper; what each call keeps is used, or the compiler would make a loop of it.
+/// Recurses without end. Each call's local data are used, or the compiler would turn the recursion into a loop.
 int sink(int depth) {
   static volatile int bottom = -1;  // is never reached
   volatile char room[4096] = {};
@@ -83,7 +83,7 @@ class NastyPlanner final : public Planner {
 
   NastyPlanner(const Config& config, const AgentConfig&) : config_(config) { std::printf("nasty begins\n"); }
 
-  /// What a process that is killed cannot do any more.
+  /// Leaves a trace: does not run when the process is killed.
   ~NastyPlanner() override { std::ofstream(last_will(), std::ios::app) << "I have lived\n"; }
 
   std::vector<std::string> debug_names() const override {

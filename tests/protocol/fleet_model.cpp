@@ -71,8 +71,8 @@ std::function<void(LockstepClient::Order)> FleetModel::obey(const std::string& n
   };
 }
 
-// Who has obeyed dies or stands still; the launcher starts it again, or continues it, when the server says so and it
-// has seen that it is dead or stopped.
+// A program that has obeyed an order dies or stops. The launcher restarts or continues it once the server says so and
+// the launcher has seen that the program is dead or stopped.
 void FleetModel::carry_out_faults() {
   for (const std::string& name : std::exchange(struck_, {})) {
     if (options_.fault.kill) {
@@ -89,7 +89,7 @@ void FleetModel::carry_out_faults() {
   if (called_back && stopped_.erase(victim) > 0) processes_.at(victim)->resume();
 }
 
-// Death, its discovery and the restart come in this order, with other events in between.
+// The death of the victim, its detection and the restart come in this order, with other events in between.
 void FleetModel::kill_and_notice() {
   if (options_.victim.empty() || events_ < options_.kill_after || random_.bits() % 8 != 0) return;
   auto& server = static_cast<ServerProcess&>(*processes_.at("server"));
@@ -108,7 +108,7 @@ void FleetModel::kill_and_notice() {
 }
 
 bool FleetModel::all_finished() const {
-  // Who starts again when the last step is over finds nobody to invite it.
+  // A program that restarts after the last step is never let in.
   const bool over = processes_.at("server")->finished();
   for (const auto& [name, process] : processes_) {
     if (stopped_.contains(name)) continue;
@@ -118,9 +118,9 @@ bool FleetModel::all_finished() const {
 }
 
 std::string FleetModel::run() {
-  constexpr std::size_t kQuiet = 200;   // polls of everybody without anything new: nobody will ever move again
-  constexpr std::size_t kRepeats = 20;  // of a step; for ever, and nobody would notice that all else stands still
-  constexpr std::size_t kStill = 10;    // the same, before what is held back happens
+  constexpr std::size_t kQuiet = 200;   // polls per process without an event, after which nothing will ever happen
+  constexpr std::size_t kRepeats = 20;  // repeated requests in all; endless ones would hide a deadlock
+  constexpr std::size_t kStill = 10;    // polls per process without an event, after which events held back may happen
   std::size_t quiet = 0, still = 0, repeats = 0;
   while (!all_finished()) {
     ++events_;
@@ -163,7 +163,7 @@ std::string FleetModel::describe_state() const {
   return text + network_.describe();
 }
 
-// One kind of event, of some topics: another one in every schedule.
+// Holds back one kind of event on some topics, which depend on options_.slow.
 bool FleetModel::held_back(const SimNetwork::Event& event) const {
   if (!options_.slow) return false;
   const std::uint64_t drawn = *options_.slow;

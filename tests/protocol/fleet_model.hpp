@@ -1,5 +1,5 @@
-// A small fleet on the simulated network: the production server, router and clients, with toy minds. What an agent
-// says depends on everything that it has heard, so that the slightest difference spreads.
+// A small fleet on the simulated network: the production server, router and clients, with toy planners. An agent's
+// messages depend on everything that it has received, so that the slightest difference spreads.
 #pragma once
 
 #include <functional>
@@ -16,11 +16,11 @@
 
 namespace skein::test {
 
-/// What one member did and heard in one step.
+/// The messages that one member received and sent in one step.
 struct StepLog {
   std::uint64_t k = 0;
   std::vector<std::string> heard, said, commanded;
-  bool listening = false;  ///< to the topic that is registered at run time
+  bool listening = false;  ///< its subscription to the topic that is registered at run time is open
 };
 
 /// The links of the model's world.
@@ -28,8 +28,8 @@ constexpr bool linked_in_model(std::size_t from, std::size_t to, std::uint64_t k
   return from != to && (from + to + k) % 4 != 0;
 }
 
-/// Steps in which the server writes on each UAV's latched topic, whose history holds two: some at the very start, as
-/// the boxes, and more than the history later.
+/// Steps in which the server writes on each UAV's latched topic: at the very start, as with the boxes, and then more
+/// samples than the topic's history holds, which is two.
 constexpr bool tells_site_in_model(std::uint64_t k) { return k == 0 || k == 2 || k == 4; }
 
 /// A program of the fleet; it acts only in poll().
@@ -39,16 +39,17 @@ class Process {
   virtual void poll() = 0;
   virtual bool finished() const = 0;
   virtual bool took_part() const { return true; }
-  /// Goes on after a fault has stopped it.
+  /// Continues after a fault has stopped the program.
   virtual void resume() {}
 };
 
 /// A fault of the server's plan: takes a program out at one step and lets it back at another.
 struct ProcessFault {
-  std::string victim = {};  ///< empty: none
-  bool kill = true;         ///< or stop
-  std::uint64_t begin = 0, end = 1000;
-  /// A killed program starts again as soon as it is dead, and waits at the door; else when the server lets it back.
+  std::string victim = {};              ///< program; empty: none
+  bool kill = true;                     ///< false: stop it
+  std::uint64_t begin = 0, end = 1000;  ///< steps
+  /// A killed program restarts as soon as it is dead, and waits to be let in; else it restarts when the server lets it
+  /// back in.
   bool returns_early = false;
 };
 
@@ -57,26 +58,26 @@ struct FleetOptions {
   std::uint64_t steps = 8;       ///< the last one is final
   std::string victim = {};       ///< program to kill once, or empty
   bool restart = false;          ///< and to start again
-  std::uint64_t kill_after = 0;  ///< events
+  std::uint64_t kill_after = 0;  ///< number of events before that
   ProcessFault fault = {};
-  /// Before everybody else comes somebody of another run in each member's name.
+  /// Before all other programs start, a member of another run joins under each member's name.
   bool leftovers = false;
-  /// In this step "a" destroys its writer on the radio, though it has declared it.
+  /// In this step "a" destroys its radio writer, although it has declared it.
   std::optional<std::uint64_t> closes_writer = {};
-  /// In this step "a" announces a radio message that nobody gets.
+  /// In this step "a" announces a radio message that reaches nobody.
   std::optional<std::uint64_t> announces_too_much = {};
-  /// In this step the next sample of a topic, in this domain, is lost on its way to everybody.
+  /// In this step the next sample of a topic in this domain is lost on the way to all its readers.
   struct Loss {
     std::uint64_t k = 0;
     int domain = 0;
     std::string topic;
   };
   std::optional<Loss> loses = {};
-  /// When nothing moves any more, the server asks again; else it does so at random, a few times.
+  /// true: the server repeats its requests once nothing happens any more; false: at random, a few times.
   bool asks_again = false;
-  /// When nothing moves any more, the server gives up whom it awaits (as after a time-out), and goes on.
+  /// Once nothing happens any more, the server gives up the members that it awaits (as after a timeout), and continues.
   bool gives_up = false;
-  /// Matches or samples of some topics, drawn with this number, come only when nothing else moves any more.
+  /// Matches or samples of some topics, drawn by this seed, come only once nothing else happens any more.
   std::optional<std::uint64_t> slow = {};
 };
 
@@ -89,14 +90,14 @@ class FleetModel {
   /// @returns an empty string, or what went wrong: a deadlock, with the state of things.
   std::string run();
 
-  /// Per life of an agent ("a", "a#2" after a restart): its steps.
+  /// The steps of each life of an agent ("a", then "a#2" after a restart).
   const std::map<std::string, std::vector<StepLog>>& agents() const { return agents_; }
-  /// Commands that the server took, per UAV and step.
+  /// Commands that the server accepted, per UAV and step.
   const std::map<std::string, std::map<std::uint64_t, std::vector<std::string>>>& taken() const { return taken_; }
-  /// Names that were told as lost, and as members again.
+  /// Names of members that the server reported as lost, and as rejoined.
   const std::vector<std::string>& lost() const { return lost_; }
   const std::vector<std::string>& rejoined() const { return rejoined_; }
-  /// Whom the server gave up, and what it was waiting for.
+  /// Members that the server gave up, each with what the server awaited from it.
   const std::vector<std::string>& given_up() const { return given_up_; }
 
  private:
@@ -124,7 +125,7 @@ class FleetModel {
   std::vector<std::string> lost_, rejoined_, given_up_;
   std::map<std::string, int> lives_;
   enum class Fate { alive, killed, noticed, restarted } fate_ = Fate::alive;
-  std::set<std::string> struck_;  ///< have obeyed, and are still there
+  std::set<std::string> struck_;  ///< programs that have obeyed a fault's order, which has yet to be carried out
   std::set<std::string> stopped_, dead_, called_back_;
   std::uint64_t events_ = 0;
 };

@@ -1,4 +1,4 @@
-// The programs of the model: the production server, router and clients, with toy minds. Of fleet_model.cpp alone.
+// The programs of the model: the production server, router and clients, with toy planners. Only for fleet_model.cpp.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -68,14 +68,14 @@ class ServerProcess final : public Process {
   }
 
   void poll() override {
-    // In a step it sleeps until it rings, as SimNode does.
+    // During a step it sleeps until its inbox rings, as SimNode does.
     if (in_step_ && !inbox_.ready(server_.rings())) return;
     inbox_.dispatch(kNow);
     for (const auto& lost : server_.take_lost()) model_.lost_.push_back(lost.name);
     if (finished_) return;
     const ProcessFault& fault = model_.options_.fault;
     if (!in_step_) {
-      // In the order in which SimNode does it.
+      // In the same order as SimNode.
       if (out_ && k_ == fault.end) {
         out_ = false;
         if (server_.let_back(fault.victim)) model_.called_back_.insert(fault.victim);
@@ -100,7 +100,7 @@ class ServerProcess final : public Process {
     for (const auto& one : server_.awaited()) text += " " + one.member + " (" + one.what + ")";
     return text;
   }
-  /// @returns false when it waits for nobody.
+  /// @returns false when the server awaits no member.
   bool give_up_awaited() {
     const auto awaited = server_.awaited();
     for (const auto& one : awaited) {
@@ -109,7 +109,7 @@ class ServerProcess final : public Process {
     }
     return !awaited.empty();
   }
-  /// Repeats are harmless at any time.
+  /// Repeated requests are harmless at any time.
   void ask_again() { server_.ask_again(); }
 
  private:
@@ -161,7 +161,7 @@ class AgentProcess final : public Process {
   }
 
   void poll() override {
-    // Asleep until it rings, as run_client() is: a fleet that needs a time-out to go on is found to be deadlocked.
+    // Sleeps until its inbox rings, as run_client() does, so a fleet that needs a timeout to continue is a deadlock.
     if (!client_->waits_for_matches() && !inbox_.ready(client_->rings())) return;
     inbox_.dispatch(kNow);
     if (client_->poll() != LockstepClient::Event::think) return;
@@ -184,7 +184,7 @@ class AgentProcess final : public Process {
     finished_ = client_->step().final_step();
     model_.agents_[life_].push_back(std::exchange(log_, {}));
   }
-  /// The same mind, as somebody new on the network.
+  /// Keeps its planner state, but joins the network as a new participant.
   void resume() override {
     radio_.reset();
     client_.reset();
@@ -222,7 +222,7 @@ class AgentProcess final : public Process {
     client_->write("rt/talk", text_message("lost"));
   }
 
-  /// What it says on a topic that is registered while the run lasts; how that stands is part of what it hears.
+  /// Sends on a topic that is registered at run time. The state of the registration counts as received input.
   void chat() {
     const std::string topic = "/chat", type = "std_msgs/msg/String";
     radio_->begin_step();
@@ -252,7 +252,7 @@ class AgentProcess final : public Process {
   const std::string life_;
   std::optional<LockstepClient> client_;
   std::optional<bus::RadioTopics> radio_;
-  int turn_ = 0;  ///< since it joined
+  int turn_ = 0;  ///< steps since it joined
   StepLog log_;
   std::uint64_t mind_ = 0xcbf29ce484222325;
   bool finished_ = false;

@@ -1,6 +1,6 @@
-// A network made of events, for exploring every order of them: discovery that reaches the two ends of a connection at
-// different times, samples that overtake those of other connections, processes that die with samples under way.
-// Harsher than DDS: what arrives before the reader has matched is lost. Single-threaded.
+// A network made of events, whose order a test chooses: discovery reaches the two ends of a connection at different
+// times, samples overtake those of other connections, processes die with samples in flight. Harsher than DDS: samples
+// that arrive before the reader has matched are lost. Single-threaded.
 #pragma once
 
 #include <deque>
@@ -17,7 +17,7 @@ namespace skein::test {
 
 class SimNetwork;
 
-/// One process's way into the network; killed as a whole.
+/// One process's access to the network; it is killed as a whole.
 class SimBus final : public bus::Bus {
  public:
   explicit SimBus(SimNetwork& network, RunId run = RunId::none) : Bus(run), network_(network) {}
@@ -37,13 +37,13 @@ class SimNetwork {
   std::vector<Event> events() const;
   void happen(const Event& event);
   const std::string& topic_of(const Event& event) const { return connections_[event.connection].writer->topic.name; }
-  /// Samples of the dead that are still under way: cuts a random tail off each of their connections.
+  /// Of the samples of dead processes that are still in flight, drops a random tail from each connection.
   void lose_tails_of_the_dead(RandomStream& random);
-  /// All writers of a topic in a domain are destroyed; what they write from now on goes nowhere.
+  /// Destroys all writers of a topic in a domain; what they write from now on is lost.
   void close_writers(int domain, const std::string& topic);
-  /// The next sample on a topic in a domain is lost on its way to everybody.
+  /// Loses the next sample on a topic in a domain, on its way to all readers.
   void lose_next(int domain, const std::string& topic) { to_lose_.emplace(domain, topic); }
-  /// What is not at rest, for a failing test.
+  /// The events that are still pending, for the message of a failing test.
   std::string describe() const;
 
  private:

@@ -1,4 +1,4 @@
-// npm's packages that read MCAP files, in a folder of the build: once for all tests.
+// Installs npm's packages that read MCAP files into a folder of the build, once for all tests.
 #pragma once
 
 #include <cstdlib>
@@ -10,7 +10,7 @@ namespace skein::test {
 
 inline std::string reader_folder() { return build_path("recording_check"); }
 
-/// Installs them, with these scripts beside them. @returns why that cannot be; empty: they are there.
+/// Installs the packages, with these scripts beside them. @returns why that fails; empty: they are installed.
 inline std::string install_reader(const std::string& scripts) {
   if (std::system("command -v node >/dev/null && command -v npm >/dev/null") != 0) {
     return "node or npm is missing: no independent reader";

@@ -1,7 +1,7 @@
-"""A ROS 2 node that sends a UAV commands and a radio message without taking part in the lock-step, until nobody is
-left to hear it.
+"""A ROS 2 node that sends commands to a UAV, and a radio message, without taking part in the lock-step, until it has no
+subscriber left.
 
-    commander.py UAV FILE     FILE.ready appears once somebody subscribes
+    commander.py UAV FILE     writes FILE.ready once both of its topics have a subscriber
 """
 import sys
 

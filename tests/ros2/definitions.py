@@ -1,6 +1,6 @@
-"""Message definitions: Skein's IDL in the words of ROS 2's .msg files, and those of an installed ROS 2.
+"""Message definitions: Skein's IDL, converted to the types of .msg files, and those of an installed ROS 2.
 
-    definitions.py IDL_FOLDER      compares; prints JSON: which types are "same", "different", and "missing" in ROS 2
+    definitions.py IDL_FOLDER      compares; prints JSON: the types that are "same", "different", "missing" in ROS 2
 """
 import json
 import os
@@ -43,7 +43,7 @@ def read_idl(folder):
 
 
 def read_msg(package, name):
-    """[(type, field)] as the installed ROS 2 has them; None when it has no such type."""
+    """[(type, field)] of a message in the installed ROS 2; None when it has no such message."""
     try:
         file = os.path.join(get_package_share_directory(package), "msg", name + ".msg")
     except PackageNotFoundError:

@@ -1,13 +1,13 @@
-"""A ROS 2 node that knows nothing of Skein and runs freely: it flies its UAV up, by as many commands as it is told to.
+"""A ROS 2 node that knows nothing of Skein and runs freely, outside the lock-step: it makes its UAV climb.
 
     free_node.py UAV FILE HEIGHT_M COMMANDS [stall|reject]
 
-HEIGHT_M is above where it found the UAV. It commands at each odometry until the UAV is there, and COMMANDS times at
-least; it says so on /plan at each tenth. FILE (JSON) says how often it published by topic, once that is done; then it
-stays, silent, until nobody hears it.
-Without an end (COMMANDS 0) FILE.ready appears after forty commands.
-  stall   after twenty commands it is silent for a simulated second; then ten come at once, with their old stamps
-  reject  five of its commands are no numbers
+HEIGHT_M counts from where the node found the UAV. The node sends a command for each odometry message until the UAV is
+there, but at least COMMANDS, and a message on /plan for every tenth command. Then it writes the number of messages that
+it published, by topic, to FILE (JSON), and stays silent until it has no subscriber left.
+With COMMANDS 0 it never ends. After forty commands it writes FILE.ready.
+  stall   after twenty commands the node is silent for a simulated second; then sends ten at once, with their old stamps
+  reject  five of its commands contain NaN
 """
 import json
 import math
@@ -48,7 +48,7 @@ class Free:
         if self.start is None:
             self.start = [position.x, position.y, position.z]
         if self.trajectories.get_subscription_count() < 2 or self.radio.get_subscription_count() < 2:
-            return  # those of the fleet's own programs; the stand-in's is the second
+            return  # waits for two subscribers: the fleet's own program and the stand-in
         goal_z = self.start[2] + self.height_m
         if self.done:
             return

@@ -1,6 +1,6 @@
-"""A ROS 2 node that listens to a UAV as any node would, and says afterwards what it heard.
+"""A ROS 2 node that subscribes to a UAV's topics as any node would, and reports afterwards what it received.
 
-    listener.py UAV FILE      FILE.ready appears once it has found the UAV's topics, FILE (JSON) at the end of the run
+    listener.py UAV FILE      writes FILE.ready once it has found the UAV's topics, FILE (JSON) at the end of the run
 """
 import json
 import os
@@ -20,7 +20,7 @@ class Listener(Node):
         super().__init__("listener")
         self.odometry, self.clouds, self.clocks = [], [], 0
         self.topics = [f"/{uav}/ground_truth/odometry", f"/{uav}/cloud_inW", "/clock"]
-        deep = QoSProfile(depth=5000)  # the fleet is faster than real time, and nothing is to be missed
+        deep = QoSProfile(depth=5000)  # the fleet is faster than real time, and no message may be missed
         self.create_subscription(Odometry, self.topics[0], self.on_odometry, deep)
         self.create_subscription(PointCloud2, self.topics[1], self.on_cloud, deep)
         self.create_subscription(Clock, self.topics[2], self.on_clock, deep)

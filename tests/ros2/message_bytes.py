@@ -1,7 +1,7 @@
-"""Random messages of all types of skein_msgs, as real ROS 2 serialises them.
+"""Random messages of all types in skein_msgs, as real ROS 2 serialises them.
 
-    message_bytes.py write FILE COUNT     one JSON line a message: type on the wire, bytes in hexadecimal
-    message_bytes.py read FILE COUNT      the same messages from bytes that another wrote: exit code 1 if one differs
+    message_bytes.py write FILE COUNT     writes one JSON line per message: type on the wire, bytes in hexadecimal
+    message_bytes.py read FILE COUNT      reads another program's bytes of the same messages: exit code 1 if one differs
 """
 import json
 import random

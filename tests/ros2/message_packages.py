@@ -1,9 +1,9 @@
-"""Builds ROS 2 packages of messages that an installed ROS 2 lacks, from Skein's own IDL.
+"""Builds ROS 2 message packages that an installed ROS 2 lacks, from Skein's own IDL.
 
     message_packages.py IDL_FOLDER PREFIX PACKAGE...    installs into PREFIX
 
-A type of another package that this ROS 2 has not got (sensor_msgs/CompressedImage) goes into the package that needs it:
-on the wire that is the same.
+A type of another package that this ROS 2 lacks too (sensor_msgs/CompressedImage) goes into the package that needs it:
+the bytes on the wire are the same.
 """
 import os
 import subprocess
@@ -58,7 +58,7 @@ class Package:
 
 
 def write(file, text):
-    """Leaves a file alone that says so already: what was built from it is good."""
+    """Writes a file unless it has this content already, so that what was built from it stays up to date."""
     if os.path.exists(file):
         with open(file, encoding="utf-8") as before:
             if before.read() == text:

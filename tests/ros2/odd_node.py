@@ -1,7 +1,7 @@
-"""A planner that does what a node in the lock-step must not, after two simulated seconds.
+"""A planner that after two simulated seconds does something that a node in the lock-step must not do.
 
     odd_node.py thread|throw|service|late|stall
-    odd_node.py nothing|hesitate   and what it may: hesitate computes for a second of wall time
+    odd_node.py nothing|hesitate   allowed behaviour: hesitate computes for a second of wall time
 """
 import sys
 import threading
@@ -33,7 +33,7 @@ class Odd(Planner):
         elif sys.argv[1] == "late":
             self.create_publisher(String, f"/{self.uav}/debug/late", 10)
         elif sys.argv[1] == "stall":
-            while True:  # a sleep would take simulated time alone
+            while True:  # a sleep would take only simulated time
                 pass
         elif sys.argv[1] == "hesitate" and inputs.time_s < 2.05:
             until = time.monotonic() + 1.0

@@ -1,4 +1,5 @@
-// Nodes that look on with message types that the tests' ROS 2 has not got: built once, from Skein's IDL.
+// Fixture for ROS 2 nodes that observe a fleet with message types that the tests' ROS 2 lacks. The types are built
+// once, from Skein's IDL.
 #pragma once
 
 #include "ros2_fixture.hpp"
@@ -20,7 +21,7 @@ class ExtraMessagesTest : public Ros2Test {
     is_built = true;
   }
 
-  /// The command, in a shell in which ROS 2 knows these types.
+  /// Starts the command in a shell in which ROS 2 knows these types.
   ChildProcess& start_looker(const std::string& middleware, int domain, const std::string& command) {
     return start_node(middleware, middleware, domain, "",
                       "env PYTHONPATH=$(echo " + packages_ + "/local/lib/python3*/dist-packages):$PYTHONPATH " +

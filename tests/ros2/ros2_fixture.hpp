@@ -1,4 +1,4 @@
-// Fleets with real ROS 2 nodes beside them; skipped where there is no ROS 2 (SKEIN_ROS2).
+// Fixture for fleets with real ROS 2 nodes beside them; skips a test if there is no ROS 2 (SKEIN_ROS2).
 #pragma once
 
 #include <cstdlib>
@@ -10,8 +10,8 @@
 
 namespace skein::test {
 
-/// Its fleets fly in DDS domains that belong to the test program. A node may outlive its fleet for a moment, and would
-/// meet the next one in a domain that any fleet may take.
+/// Its fleets fly in DDS domains that belong to this test program: a node may outlive its fleet for a moment, and in a
+/// domain that any fleet may take it would meet the next one.
 class Ros2Test : public FleetTest {
  protected:
   SkeinRun& start(const std::string& name, const Arguments& arguments, const Environment& environment = {}) {
@@ -36,7 +36,7 @@ class Ros2Test : public FleetTest {
     is_there = true;
   }
 
-  /// A shell in which ROS 2 runs, with default settings unless `localhost`.
+  /// Starts the command in a shell with ROS 2 set up. @param localhost  further argument of env.sh; empty: its defaults
   ChildProcess& start_node(const std::string& name, const std::string& middleware, int domain,
                            const std::string& localhost, const std::string& command) {
     const std::string shell = ". " + build_path("ros2") + "/env.sh " + middleware + " " + std::to_string(domain) + " " +
@@ -44,8 +44,8 @@ class Ros2Test : public FleetTest {
     return start_program(name, {"/bin/bash", "-c", shell}, {{"ROS_LOG_DIR", folder() / "ros"}});
   }
 
-  /// Of a block that no other test program has: far from the lowest free one, which a fleet takes by itself, and below
-  /// those whose ports the system gives to anybody (from 102 on).
+  /// First domain of a block that no other test program has: far from the lowest free domains, which fleets take by
+  /// default, and below those with ephemeral ports (from 102 on). @throws std::runtime_error after a timeout
   static std::string first_domain() {
     static std::optional<HostLock> block;
     static int first = 0;
@@ -62,7 +62,7 @@ class Ros2Test : public FleetTest {
   std::string file(const std::string& name) const { return folder() / (name + ".json"); }
   bool ready(const std::string& name) const { return std::filesystem::exists(file(name) + ".ready"); }
 
-  /// The agent for which the fleet has waited, by the command that the launcher printed.
+  /// Starts the agent that the fleet waits for, by the command that the launcher printed.
   ChildProcess& start_agent(const SkeinRun& run) {
     return start_program("agent", {"/bin/sh", "-c", run.debug_command()});
   }

@@ -1,4 +1,4 @@
-"""Fast DDS leaves the shared memory of a domain's ports behind, also when its node ends in good order."""
+"""Removes the shared memory of a domain's ports, which Fast DDS leaves behind even when its node ends in good order."""
 import glob
 import os
 

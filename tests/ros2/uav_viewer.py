@@ -1,7 +1,7 @@
-"""A ROS 2 node that looks on in a UAV's domain with the settings of an RViz configuration, and at its diagnostics; says
-afterwards what it saw.
+"""A ROS 2 node that subscribes in a UAV's domain with the settings of an RViz configuration, and to the diagnostics;
+reports afterwards what it received.
 
-    uav_viewer.py CONFIG UAV FILE    FILE.ready appears once it has found all topics, FILE (JSON) at the end of the run
+    uav_viewer.py CONFIG UAV FILE    writes FILE.ready once it has found all topics, FILE (JSON) at the end of the run
 """
 import json
 import os
@@ -32,7 +32,7 @@ def xyz(p):
 class Viewer(Node):
     def __init__(self, config, uav):
         super().__init__("uav_viewer")
-        self.shown = {}  # by topic: the type that its display takes, what the wire has, samples, frames
+        self.shown = {}  # by topic: the type that its display takes, the type on the wire, samples, frames
         self.frames, self.odometry, self.diagnostics = [], [], []
         for display in config["Visualization Manager"]["Displays"]:
             if "Topic" in display:

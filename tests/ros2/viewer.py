@@ -1,6 +1,7 @@
-"""A ROS 2 node that looks on in a run's world domain with the settings of RViz 2, and says afterwards what it saw.
+"""A ROS 2 node that subscribes in a run's world domain with the settings of RViz 2, and reports afterwards what it
+received.
 
-    viewer.py FILE      FILE.ready appears once it has found all topics, FILE (JSON) at the end of the run
+    viewer.py FILE      writes FILE.ready once it has found all topics, FILE (JSON) at the end of the run
 """
 import json
 import os
@@ -23,7 +24,7 @@ class Viewer(Node):
     def __init__(self):
         super().__init__("viewer")
         self.frames, self.fleet, self.markers, self.clouds = [], [], [], []
-        moving = QoSProfile(depth=5000)  # the fleet is faster than real time, and nothing is to be missed
+        moving = QoSProfile(depth=5000)  # the fleet is faster than real time, and no message may be missed
         static = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
         self.topics = []
         for kind, topic, heard, qos in [(TFMessage, "/tf", self.on_frames, moving),

@@ -1,4 +1,4 @@
-// The packages of ros2/, built once by colcon with the real ROS 2 of the tests, and fleets with their nodes.
+// Fixture for fleets with nodes of the packages in ros2/, which colcon builds once with the real ROS 2 of the tests.
 #pragma once
 
 #include <sstream>
@@ -7,8 +7,8 @@
 
 namespace skein::test {
 
-/// Arguments: the folder of ROS 2, the workspace, the source tree. Colcon takes a while to find that there is nothing
-/// to do, and with Make a minute: it is not asked where the sources are older than what they became.
+/// Script with the arguments: the folder of ROS 2, the workspace, the source tree. It does not call colcon if the build
+/// is newer than the sources, because colcon takes a while to find that there is nothing to do (with Make, a minute).
 constexpr const char* kBuild = R"(
 mkdir -p "$2"
 exec 9>"$2.lock"
@@ -45,10 +45,10 @@ class WorkspaceTest : public Ros2Test {
     is_built = true;
   }
 
-  /// Where colcon was called: with ros2/, build/, install/ and log/.
+  /// The folder in which colcon was called, with ros2/, build/, install/ and log/.
   std::string workspace() const { return build_path("colcon"); }
   std::string installed(const std::string& package) const { return workspace() + "/install/" + package; }
-  /// For a shell in which ROS 2 is set up.
+  /// The command with the workspace set up, for a shell in which ROS 2 is set up.
   std::string with_workspace(const std::string& command) const {
     return "bash -c '. " + workspace() + "/install/setup.sh; exec " + command + "'";
   }
@@ -66,7 +66,7 @@ class WorkspaceTest : public Ros2Test {
     return text_of(run.dir() / ("uav_agent-" + uav + ".log"));
   }
 
-  /// What a shell has after the setup files. @param setup  the workspace's; none: of ROS 2 alone
+  /// Variables of a shell after the setup files. @param setup  setup file of the workspace; empty: only that of ROS 2
   Environment ros_environment(const std::string& middleware, const std::string& setup = "setup.sh") {
     const std::string file = setup.empty() ? "/dev/null" : workspace() + "/install/" + setup;
     ChildProcess& shell = start_program(

@@ -1,4 +1,4 @@
-// Members that are drawn into tubes which a map calls free, and how many of them the LiDAR has not seen.
+// Counts how many structural members, drawn at random into tubes that a map calls free, the LiDAR has not seen.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +8,7 @@
 
 namespace skein::sensing {
 
-inline constexpr double kServoPhaseS = 3.0;  ///< on its way to the stop: a whole sweep begins within a second
+inline constexpr double kServoPhaseS = 3.0;  ///< the servo approaches its stop: a whole sweep begins within a second
 
 struct Tally {
   std::size_t drawn = 0, unseen = 0;
@@ -17,17 +17,17 @@ struct Tally {
     drawn += other.drawn;
     unseen += other.unseen;
   }
-  /// One-sided 95 % bounds of the share (Wilson and Hilferty's of the Poisson distribution).
+  /// One-sided 95 % bounds of the share unseen / drawn (Wilson and Hilferty's for the Poisson distribution).
   double upper_bound() const;
   double lower_bound() const;
 };
 
-/// By distance from the route, in steps of 2 m: so many members, twenty to a tube of 1 m, of tubes up to 30 m away.
-/// Fewer only where hardly a tube is free.
+/// Draws at least `draws` members, twenty for each free tube of 1 m length, in tubes up to 30 m from the LiDAR; fewer
+/// only if hardly any tube is free. @returns tallies by distance from the route, in bins of 2 m.
 std::vector<Tally> draw_members(const SensedSpace& space, RandomStream& random, std::size_t draws);
 
 Tally sum(const std::vector<Tally>& by_distance);
-/// What is too rare for a bound goes to the next nearer one.
+/// Moves the tally of each bin with too few members for a bound to the next nearer bin.
 std::vector<Tally> merged(std::vector<Tally> by_distance);
 
 }  // namespace skein::sensing

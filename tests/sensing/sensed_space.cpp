@@ -19,10 +19,10 @@ Isometry3d at(double x, double y, double z, double yaw = 0.0, double pitch = 0.0
          Eigen::AngleAxisd(pitch, Vector3d::UnitY());
 }
 
-/// A UAV looks around for a sweep of its servo before it leaves its start.
+/// Time since departure [s]: at first the UAV stays at its start for 8 s, for a sweep of its servo.
 double moving_s(double t) { return std::max(0.0, t - 8.0); }
 
-/// Of a segment and a point.
+/// Distance of the point p from the segment a b.
 double distance(const Vector3d& a, const Vector3d& b, const Vector3d& p) {
   const Vector3d ab = b - a;
   const double part = ab.squaredNorm() > 0.0 ? std::clamp((p - a).dot(ab) / ab.squaredNorm(), 0.0, 1.0) : 0.0;
@@ -95,7 +95,7 @@ double SensedSpace::distance_to_route_m(const Vector3d& p_W) const {
   return nearest;
 }
 
-/// Goes along the member in steps of a quarter of a beam's spacing, and asks the beams about it.
+/// Goes along the member in steps of a quarter of the beam spacing, and tests the beams near each step.
 bool SensedSpace::meets(std::size_t scan, const Vector3d& from_W, const Vector3d& to_W, double width_m) const {
   const Vector3d a = inverse_[scan] * from_W, b = inverse_[scan] * to_W;
   const double length = (b - a).norm();
@@ -104,7 +104,7 @@ bool SensedSpace::meets(std::size_t scan, const Vector3d& from_W, const Vector3d
   for (double s = 0.0; s <= length;) {
     const Vector3d p = a + s * u;
     const double r = p.norm(), elevation = std::asin(p.z() / r), above = std::abs(elevation) - half_fov;
-    if (above > width_m / r) {  // no ring comes here; none does for as long as this
+    if (above > width_m / r) {  // outside the vertical field of view: skips to where a ring may hit again
       s += std::max(0.01, 0.9 * r * above);
       continue;
     }
@@ -116,7 +116,7 @@ bool SensedSpace::meets(std::size_t scan, const Vector3d& from_W, const Vector3d
       const auto number = static_cast<std::size_t>(ring * lidar_.columns + column);
       if (lost_[scan][number]) continue;
       const Vector3d& beam = beams_L_[number];
-      // Where member and beam are nearest to each other.
+      // The points of member and beam that are nearest to each other.
       const double along = beam.dot(u), apart = 1.0 - along * along;
       const double on_member = apart < 1e-12 ? 0.0 : std::clamp((along * a.dot(beam) - a.dot(u)) / apart, 0.0, length);
       const Vector3d q = a + on_member * u;
@@ -139,7 +139,7 @@ bool SensedSpace::saw(const Member& member, const Vector3d& a_W, const Vector3d&
   }
   if (high <= low) return false;
   const Vector3d from_W = member.p_W + low * member.direction_W, to_W = member.p_W + high * member.direction_W;
-  // In an order in which one scan is far from the next: most members are seen by one of the first that are asked.
+  // In an order in which successive scans are far apart, so that one of the first already sees most members.
   const std::size_t count = scans_.size(), stride = 37;
   for (std::size_t i = 0, scan = 0; i < count; ++i, scan += stride) {
     const std::size_t one = count % stride == 0 ? i : scan % count;

@@ -7,7 +7,7 @@
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define SKEIN_SANITIZER_COUNTS 1
-// Of the sanitizers' allocator_interface.h, which Debian's GCC does without.
+// From the sanitizers' allocator_interface.h, which Debian's GCC lacks.
 extern "C" int __sanitizer_install_malloc_and_free_hooks(void (*after_new)(const volatile void*, std::size_t),
                                                          void (*before_delete)(const volatile void*));
 extern "C" std::size_t __sanitizer_get_allocated_size(const volatile void* block);
@@ -30,7 +30,7 @@ void count_new(std::size_t size) {
   }
 }
 
-/// What was there before the count began may be released during it, so the sum may be negative.
+/// Memory from before the count began may be released during it, so the sum may be negative.
 void count_delete(std::size_t size) {
   if (counting) bytes_in_use -= static_cast<std::ptrdiff_t>(size);
 }
@@ -51,7 +51,7 @@ void before_delete(const volatile void* block) {
 
 #else
 
-// Not inlined, or the compiler takes them for a mix of two families.
+// Not inlined, or the compiler warns that allocation and deallocation functions do not match.
 [[gnu::noinline]] void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
   void* block = std::malloc(size > 0 ? size : 1);
   if (block) count_new(malloc_usable_size(block));

@@ -1,14 +1,14 @@
-// Memory that a program asks for while a test counts it. Linking skein_counted_memory replaces operator new and delete
-// in the whole program, so its tests have a program of their own: skein_add_test(... ALONE ...). With AddressSanitizer
-// or ThreadSanitizer nothing is replaced: their own hooks count, and they still see every wrong release.
+// Counts the memory that a program allocates. Linking skein_counted_memory replaces operator new and delete in the
+// whole program, so tests that use it have a program of their own: skein_add_test(... ALONE ...). With AddressSanitizer
+// or ThreadSanitizer nothing is replaced: their own hooks count, and they still detect every wrong deallocation.
 #pragma once
 
 #include <cstddef>
 
 namespace skein::test {
 
-/// Counts what all threads allocate with operator new (with sanitizers: with any allocator) while it lives. One at a
-/// time.
+/// While it lives, counts what all threads allocate with operator new (with sanitizers: with any allocator). At most
+/// one instance at a time.
 class CountedMemory {
  public:
   CountedMemory();
@@ -18,7 +18,7 @@ class CountedMemory {
 
   /// Bytes allocated so far, whether released again or not.
   std::size_t allocated() const;
-  /// The most bytes in use at one time, above what was in use at the start.
+  /// Maximum number of bytes in use at one time, beyond those in use at the start.
   std::size_t peak() const;
 };
 

@@ -11,7 +11,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using Seconds = std::chrono::duration<double>;
 
-/// How many programs want a core now, this one included: the fourth field of /proc/loadavg, "3/512".
+/// Number of threads on this machine that want a core now, this one included: in /proc/loadavg's fourth field, "3/512".
 double programs_that_run() {
   std::ifstream file("/proc/loadavg");
   std::string averages, running;
@@ -19,7 +19,8 @@ double programs_that_run() {
   return std::max(1.0, std::strtod(running.c_str(), nullptr));
 }
 
-/// Time as far as the machine had it for us: beside ten busy programs on two cores a second counts as a fifth.
+/// Time that counts only as far as this process could get a core: with ten busy threads on two cores a second counts as
+/// a fifth.
 class FairTime {
  public:
   Seconds passed() {

@@ -1,5 +1,5 @@
-// Waiting for a fact. Tests that wait use this and no clock of their own (tests/layers holds them to it). A limit only
-// ends a test that has failed: it is far longer than anything takes, and where more programs want to run than there are
+// Waits for a condition. Tests that wait use this and no clock of their own (tests/layers checks that). The limit only
+// ends a test that has failed: it is far longer than anything takes, and if more programs want to run than there are
 // cores, it grows with their number.
 #pragma once
 
@@ -11,7 +11,7 @@ namespace skein {
 /// Longer than any single step takes on an idle machine.
 inline constexpr std::chrono::seconds kPatience{120};
 
-/// Polls: for what is not announced. @returns whether `condition` came true in time.
+/// Polls `condition`. @returns whether it became true in time.
 bool eventually(const std::function<bool()>& condition, std::chrono::milliseconds limit = kPatience);
 
 }  // namespace skein

@@ -1,4 +1,4 @@
-// For tests: a folder of their own, which is gone with all that is in it when its owner is.
+// For tests: a temporary folder, which is removed with its contents at destruction.
 #pragma once
 
 #include <cstdlib>

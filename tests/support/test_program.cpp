@@ -13,7 +13,7 @@
 namespace skein {
 namespace {
 
-/// Takes `option VALUE` out of the arguments, each time that it is there.
+/// Removes every `option VALUE` from the arguments. @returns the values
 std::vector<std::string> take(std::vector<std::string>& arguments, const std::string& option) {
   std::vector<std::string> values;
   for (auto at = arguments.begin(); (at = std::find(at, arguments.end(), option)) != arguments.end();) {
@@ -24,7 +24,7 @@ std::vector<std::string> take(std::vector<std::string>& arguments, const std::st
   return values;
 }
 
-/// The tests that stand in a file, in its order.
+/// The tests in a file, in its order.
 std::vector<std::string> tests_of(const std::string& file) {
   const ::testing::UnitTest& all = *::testing::UnitTest::GetInstance();
   std::vector<std::string> tests;
@@ -78,7 +78,7 @@ int run_test_program(int argc, char** argv) {
   const std::vector<std::string> entries = take(arguments, "--entry"), files = take(arguments, "--file"),
                                  turns = take(arguments, "--turns");
   const bool aligned = std::erase(arguments, "--aligned") > 0;
-  // GoogleTest names its report, by GTEST_OUTPUT a folder's, when it is initialised.
+  // GoogleTest takes the name of its report when it is initialised; GTEST_OUTPUT may name a folder.
   const std::string output = GTEST_FLAG_GET(output);
   if (!entries.empty() && output.ends_with("/")) GTEST_FLAG_SET(output, output + entries.front() + ".json");
   std::vector<char*> rest = {argv[0]};

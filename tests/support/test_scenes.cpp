@@ -110,7 +110,7 @@ BruteForceHit brute_force_distance(const TriangleMesh& mesh, const TestRay& ray,
     const auto [a, b, c] = corners(mesh, i);
     const Vector3d p = ray.direction.cross(c - a);
     const double det = p.dot(b - a);
-    const double slope = std::abs(det) / (b - a).cross(c - a).norm();  // of the ray against the triangle's plane
+    const double slope = std::abs(det) / (b - a).cross(c - a).norm();  // sine of the angle between ray and plane
     if (!(slope > 1e-9)) {
       continue;
     }
@@ -140,7 +140,7 @@ double brute_force_clearance(const TriangleMesh& mesh, const Vector3d& p) {
     const auto [a, b, c] = corners(mesh, i);
     nearest =
         std::min({nearest, distance_to_segment(p, a, b), distance_to_segment(p, b, c), distance_to_segment(p, c, a)});
-    // The foot of the perpendicular counts when it lies inside: solve for it in the triangle's own coordinates.
+    // The foot of the perpendicular counts if it lies inside the triangle: solves for it in the triangle's coordinates.
     Eigen::Matrix<double, 3, 2> basis;
     basis << b - a, c - a;
     const Vector2d uv = (basis.transpose() * basis).ldlt().solve(basis.transpose() * (p - a));

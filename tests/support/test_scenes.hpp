@@ -1,4 +1,4 @@
-// For the tests of the sensors: small meshes, random rays, and slow but obvious ways to intersect them.
+// For the tests of the sensors: small meshes, random rays, and slow but obvious reference algorithms to intersect them.
 // Frame W.   Units: m.
 #pragma once
 
@@ -18,13 +18,13 @@ struct TestRay {
 void add_box(TriangleMesh& mesh, const Vector3d& centre, const Vector3d& size,
              const Matrix3d& R_WO = Matrix3d::Identity());
 
-/// Loose triangles of 0.5 to 10 m edges within 20 m of the origin.
+/// Unconnected triangles with edges of 0.5 to 10 m, within 20 m of the origin.
 TriangleMesh random_triangles(std::size_t count, std::uint64_t key);
 
 /// Every n-th triangle of a mesh, beginning with the first.
 TriangleMesh every_nth_triangle(const TriangleMesh& mesh, std::size_t n);
 
-/// Structure or points of the official data; nullopt where SKEIN_ASSETS is not set.
+/// Structure or interest points of the official data; nullopt if SKEIN_ASSETS is not set.
 /// @param file  below the folder `models`, for example "mbs/mbs.stl".
 std::optional<TriangleMesh> official_mesh(const std::string& file);
 std::optional<std::vector<InterestPoint>> official_points(const std::string& file);
@@ -36,13 +36,13 @@ Vector3d random_in_box(RandomStream& random, const Vector3d& low, const Vector3d
 Vector3d random_unit(RandomStream& random);
 
 struct BruteForceHit {
-  double distance;         ///< infinity: nothing
-  double tolerance = 0.0;  ///< how far a single-precision ray may end from there
+  double distance;         ///< infinity: no hit
+  double tolerance = 0.0;  ///< permitted deviation of a single-precision ray's hit
   bool near_edge = false;  ///< a ray that close to an edge may pass on either side
 };
 
-/// First triangle on a ray, tried one by one in double precision (Moeller and Trumbore's formulas).
-/// @param edge  a crossing closer than this to an edge, seen along the ray, is uncertain.
+/// Distance to the first triangle on a ray: tests all triangles in double precision (Moeller and Trumbore's formulas).
+/// @param edge  an intersection closer than this to an edge, seen along the ray, is uncertain.
 BruteForceHit brute_force_distance(const TriangleMesh& mesh, const TestRay& ray, double distance_max, double edge);
 
 /// Distance to the nearest triangle, by minimising over each triangle's plane and edges.

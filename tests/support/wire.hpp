@@ -1,4 +1,4 @@
-// Bytes to and from a TCP server of this host, for tests of what is not done by a browser.
+// Raw bytes to and from a TCP server on this host, for tests of requests that a browser does not make.
 #pragma once
 
 #include <arpa/inet.h>
@@ -12,7 +12,7 @@
 
 namespace skein::test {
 
-/// One that could not be made is closed, and hears nothing.
+/// A TCP connection. If it cannot be established, it counts as closed and receives nothing.
 class Wire {
  public:
   explicit Wire(std::uint16_t port) : fd_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
@@ -28,11 +28,11 @@ class Wire {
 
   int fd() const { return fd_; }
   void send(const std::string& bytes) const { ::send(fd_, bytes.data(), bytes.size(), MSG_NOSIGNAL); }
-  /// Until the server closes the connection.
+  /// Reads until the server closes the connection. @returns all bytes received so far
   std::string all() {
     return until([](const std::string&) { return false; });
   }
-  /// Until it has said enough, or closes.
+  /// Reads until `enough` of all bytes received so far, or until the server closes. @returns these bytes
   template <class Enough>
   std::string until(const Enough& enough) {
     while (!enough(heard_) && read()) continue;
@@ -46,7 +46,7 @@ class Wire {
     if (size > 0) heard_.append(buffer, static_cast<std::size_t>(size));
     return size > 0;
   }
-  /// Whether the server has closed the connection; what it says is read.
+  /// Whether the server has closed the connection; reads the pending bytes without waiting.
   bool is_closed() {
     while (is_open_) {
       pollfd one{fd_, POLLIN, 0};
@@ -62,10 +62,10 @@ class Wire {
   std::string heard_;
 };
 
-/// What a WebSocket's server has said, without the frames that it comes in, one behind the other.
+/// Payloads of a WebSocket server's frames, concatenated.
 class Unframed {
  public:
-  /// @param heard  all that was heard since the begin, the answer to the request included
+  /// @param heard  all bytes received since the start, including the response to the request
   const std::string& after(const std::string& heard) {
     if (at_ == 0) {
       const std::size_t end = heard.find("\r\n\r\n");
@@ -90,7 +90,7 @@ class Unframed {
   std::size_t at_ = 0;
 };
 
-/// A masked frame of a WebSocket, as a browser sends it. @param first  its first byte: 0x81 is a text
+/// A masked WebSocket frame, as a browser sends it. @param first  its first byte: 0x81 is a text
 inline std::string frame(const std::string& payload, unsigned char first = 0x81) {
   std::string bytes{static_cast<char>(first)};
   if (payload.size() < 126) {
@@ -103,7 +103,7 @@ inline std::string frame(const std::string& payload, unsigned char first = 0x81)
   return bytes + std::string(4, '\0') + payload;
 }
 
-/// What asks a server for a WebSocket, beside the request's other lines.
+/// The header lines that ask a server for a WebSocket.
 inline const char* const kUpgrade =
     "Upgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
     "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n";

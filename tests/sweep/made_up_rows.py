@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Writes what nodes leave of a sweep of made-up flights: FOLDER PLANNERS SCENES SEEDS.
+"""Writes the files that nodes would leave after a sweep, for made-up flights: FOLDER PLANNERS SCENES SEEDS.
 
-The study is `skein compare --planners hover,patrol,...` over so many scenes of `towers` with so many seeds, as
-`--status FOLDER` reads it. Flights are made up: their scores are drawn, other figures are those of a typical one.
+The study is `skein compare --planners hover,patrol,...` over SCENES scenes of `towers` with SEEDS seeds each, in the
+form that `--status FOLDER` reads. Scores are drawn at random; other figures are drawn, or those of a typical flight.
 """
 import json
 import random

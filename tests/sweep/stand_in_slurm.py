@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Stands in for Slurm in tests: sbatch, squeue, scancel and scontrol, by the name under which it is called.
+"""Stands in for Slurm in tests: acts as sbatch, squeue, scancel or scontrol, by the name under which it is called.
 
-Obeys what Skein asks of the real ones: --array with %N, --dependency=afterany, --job-name, --output, --open-mode,
---requeue, --signal, --time, --exclude, --parsable. Jobs are in the folder STAND_IN_SLURM, which `nodes` (names, one a
-line) and `limits` belong to. A file `time is over` is the limit of time of the next task that has one. Each job has a
-process of its own that runs its tasks, one on each node at a time.
-Options that it does not know are errors, as with the real one.
+Supports the options that Skein uses: --array with %N, --dependency=afterany, --job-name, --output, --open-mode,
+--requeue, --signal, --time, --exclude, --parsable. Its state is in the folder STAND_IN_SLURM, with the files `nodes`
+(names, one per line) and `limits` (the greatest size of an array). A file `time is over` ends, as its time limit would,
+the next task that has one. Each job has a process of its own that runs its tasks, one on each node at a time.
+Unknown options are errors, as with the real Slurm.
 """
 import fcntl
 import json
@@ -23,7 +23,7 @@ KNOWN = {"parsable", "requeue", "signal", "array", "job-name", "output", "open-m
 
 
 class Locked:
-    """The state of all jobs, for as long as nobody else has it."""
+    """Exclusive access to the state of all jobs; it is written at the end."""
 
     def __enter__(self):
         self.file = open(STATE / "lock", "w")
@@ -93,7 +93,7 @@ def start_task(number, job, task, node):
 
 
 def serve(number):
-    """Runs the tasks of a job to their ends."""
+    """Runs the tasks of a job until all have ended."""
     running, over = {}, STATE / "time is over"
     while True:
         with Locked() as jobs:
@@ -104,12 +104,12 @@ def serve(number):
                 if job["cancelled"]:
                     os.killpg(process.pid, signal.SIGKILL)
                 if limit is not None and not told and (time.monotonic() - begun > limit or over.exists()):
-                    process.send_signal(signal.SIGTERM)  # B: the batch shell alone
+                    process.send_signal(signal.SIGTERM)  # only to the batch shell, as --signal=B asks
                     running[task] = (process, begun, True)
                     over.unlink(missing_ok=True)
                 if process.poll() is None:
                     continue
-                # A node that dies: its task is put back into the queue, as --requeue asks.
+                # SIGKILL means that the node died: its task goes back into the queue, as --requeue asks.
                 lost = process.returncode == -signal.SIGKILL and "requeue" in job["options"] and not job["cancelled"]
                 job["tasks"][task] = "PENDING" if lost else "DONE"
                 del running[task], job["pids"][str(task)]

@@ -1,4 +1,4 @@
-// What the tests of sweeps share: a short study, flown by engines, and the plain one that it is compared with.
+// Fixture of the tests of sweeps: a short study that engines fly, and the same study without an engine for comparison.
 #pragma once
 
 #include <unistd.h>
@@ -19,7 +19,7 @@ inline bool is_installed(const std::string& program) {
   return std::system(command.c_str()) == 0;
 }
 
-/// Columns that measure the machine.
+/// Whether a column depends on the machine.
 inline bool is_of_the_machine(const std::string& column) {
   return column.starts_with("planner_cpu_ms") || column.starts_with("real_time_factor");
 }
@@ -29,7 +29,7 @@ using Table = std::vector<std::map<std::string, std::string>>;
 class SweepTest : public FleetTest {
  protected:
   const std::string scene_ = write_small_scene(folder());
-  std::size_t tests_ = 6;  ///< of two flights each
+  std::size_t tests_ = 6;  ///< number of tests, of two flights each
 
   std::size_t flights() const { return 2 * tests_; }
   Arguments study(const std::string& out, const Arguments& how) const {
@@ -65,7 +65,7 @@ class SweepTest : public FleetTest {
     }
     return count;
   }
-  /// What units said while they flew.
+  /// Logs of all units.
   std::string logs(const std::string& out) const {
     std::string text;
     std::error_code none;

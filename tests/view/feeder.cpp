@@ -1,7 +1,7 @@
-// Serves the page of a flight that is made up (made_up_flight.hpp), to see what the page itself takes. It does what its
-// standard input says, line by line, and says when that is done:
+// Serves the page of a made-up flight (made_up_flight.hpp), to measure the cost of the page alone. It reads commands
+// from its standard input, one per line, and reports when each is done:
 //   to SECONDS         flies up to this simulated time as fast as it can
-//   fly SECONDS SPEED  flies up to it at so many simulated seconds a second
+//   fly SECONDS SPEED  flies up to it at SPEED simulated seconds per second
 // It ends with its input.
 // usage: view_feeder DOOR [UAVS [POINTS]]; DOOR is the file that opens the page
 #include <chrono>

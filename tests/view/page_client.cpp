@@ -33,7 +33,7 @@ void PageClient::close() {
   fd_ = -1;
 }
 
-/// While there is no station the connection waits to be taken.
+/// Connects and sends the request. While no station runs, the connection waits to be accepted.
 void PageClient::open() {
   close();
   heard_.clear();
@@ -67,7 +67,7 @@ bool PageClient::read_more() {
   return size > 0;
 }
 
-/// A frame, of which a message has one or several. @returns whether there was a whole one.
+/// Processes one frame; a message has one or several. @returns false when the bytes so far hold no whole frame.
 bool PageClient::take_frame() {
   const auto byte = [this](std::size_t at) {
     return static_cast<std::uint64_t>(static_cast<unsigned char>(heard_[at]));

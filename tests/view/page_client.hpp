@@ -1,4 +1,4 @@
-// The page's WebSocket without a browser: reads what a run tells, and asks for what a page may ask for.
+// The page's WebSocket without a browser: reads what a run sends, and sends requests as a page does.
 // Threads: one.
 #pragma once
 
@@ -15,17 +15,17 @@ class PageClient {
  public:
   using Json = nlohmann::json;
 
-  /// @param door  the file that opens the page. Connects at once, and again whenever the station goes.
+  /// @param door  the file that opens the page. Connects at once, and again whenever the station disconnects.
   explicit PageClient(const std::filesystem::path& door);
   ~PageClient();
   PageClient(const PageClient&) = delete;
   PageClient& operator=(const PageClient&) = delete;
 
   void ask(const Json& order);
-  /// Takes in what comes until a fact holds. @returns false when the run is over before, or nothing comes any more.
+  /// Processes messages until `holds()`. @returns false when the run is over before, or the station cannot be reached.
   bool wait(const std::function<bool()>& holds);
 
-  /// The newest, null before there is any; and all lines of the flight, from the last connection on.
+  /// The newest state, null before the first one; and all lines of the flight since the last connection.
   const Json& state() const { return state_; }
   const std::vector<Json>& lines() const { return lines_; }
   bool over() const { return over_; }
@@ -39,7 +39,7 @@ class PageClient {
   std::string key_;
   std::uint16_t port_ = 0;
   int fd_ = -1;
-  std::string heard_, message_;  ///< bytes not looked at; what its frames so far make of a message
+  std::string heard_, message_;  ///< bytes not yet processed; the message so far, from its frames
   Json state_;
   std::vector<Json> lines_;
   bool over_ = false;

@@ -1,4 +1,4 @@
-// A page that is served by `skein run --view` or `skein replay`.
+// Fixtures for tests of the page that `skein run --view` or `skein replay` serves.
 #pragma once
 
 #include <filesystem>
@@ -20,7 +20,7 @@ class ViewTest : public FleetTest {
     }
   }
 
-  /// What opens the page, of what skein said about it; empty: nothing yet.
+  /// The file that opens the page, from skein's output; empty: skein has not named it yet.
   static std::filesystem::path door_in(const std::string& said) {
     std::smatch found;
     return std::regex_search(said, found, std::regex("open (\\S+)")) ? found[1].str() : "";
@@ -30,7 +30,7 @@ class ViewTest : public FleetTest {
     return door_in(run.err());
   }
 
-  /// Why nothing can be looked at with a browser here; empty: it can.
+  /// Why pages cannot be examined with a browser here; empty: they can.
   static std::string no_browser() {
     for (const char* name : {"node", "chromium"}) {
       if (command_file(name).empty()) return std::string("there is no ") + name;
@@ -39,7 +39,8 @@ class ViewTest : public FleetTest {
     return "web/ is not built: ./skein test does that, or `npm ci && npm run build` there";
   }
 
-  /// What a script beside this finds wrong with a page. @param arguments  behind those that all scripts take
+  /// Runs a script of this folder in a browser, which must find nothing wrong with a page.
+  /// @param arguments  follow those that all scripts take
   void look_with_browser(const std::string& script, const Arguments& arguments) {
     ChildProcess& node =
         start_program(script, joined({command_file("node"), source_path("tests/view/" + script + ".mjs"),
@@ -50,7 +51,7 @@ class ViewTest : public FleetTest {
   }
 };
 
-/// What is looked at with a browser, by the scripts beside this.
+/// For tests that examine a page with a browser, by the scripts in this folder.
 class BrowserTest : public ViewTest {
  protected:
   void SetUp() override {
@@ -59,7 +60,7 @@ class BrowserTest : public ViewTest {
     if (const std::string why = no_browser(); !why.empty()) GTEST_SKIP() << why;
   }
 
-  /// What a script finds wrong with a page.
+  /// Runs a script, which must find nothing wrong with a page.
   void look(const std::string& script, const std::filesystem::path& door, const std::filesystem::path& run,
             const Arguments& more = {}) {
     look_with_browser(script, joined({door, run}, more));

@@ -20,9 +20,9 @@ std::optional<std::size_t> AgentConfig::first_explorer() const {
 
 namespace {
 
-/// A UAV knows the day: how noisy its LiDAR is at most, and that some returns are missing.
+/// A UAV knows the conditions of the scenario: the greatest noise of its LiDAR, and that some returns are lost.
 void know_conditions(const LidarConditions& conditions, LidarConfig& lidar) {
-  constexpr double kWeakReturns = 0.1;  ///< share that is taken to be lost where returns may be too weak
+  constexpr double kWeakReturns = 0.1;  ///< assumed share of lost returns where returns may be too weak
   lidar.sigma_m = std::hypot(lidar.sigma_m, conditions.sigma_per_m * lidar.range_max_m);
   if (conditions.reflectivity) lidar.no_return_p = std::max(lidar.no_return_p, kWeakReturns);
 }

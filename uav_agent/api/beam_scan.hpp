@@ -54,7 +54,7 @@ struct BeamScan {
   int columns = 0;                 ///< number of columns, i.e. beams per ring
   std::vector<Beam> beams = {};    ///< the lowest ring first; in a ring by azimuth in L, from -pi
   std::vector<Firing> fired = {};  ///< in order of columns; empty unless `doubt` is none
-  /// Number of returns. Each confirms the pose; a scan into empty sky has none, so nothing there checks the odometry.
+  /// Number of returns. Each confirms the pose; a scan into empty space has none, so nothing checks its pose.
   std::size_t points = 0;
 
   const Beam& beam(int ring, int column) const { return beams[static_cast<std::size_t>(ring * columns + column)]; }

@@ -25,7 +25,7 @@ struct Neighbour {
 struct KeyFrame {
   std::vector<Eigen::Vector3f> points_W = {};  ///< hits
   std::optional<Vector3d> p_WS = {};           ///< position of the sensor, if known; agent_node does not set it
-  std::optional<Node> source = {};             ///< node whose LiDAR made it, if the message tells
+  std::optional<Node> source = {};             ///< node whose LiDAR made it, if the message says so
 };
 
 /// An interest point in one of this UAV's captures.
@@ -42,7 +42,7 @@ struct Scan {
   std::vector<Eigen::Vector3f> points_W = {};  ///< hits
 };
 
-/// A message between planners. The radio does not identify the sender: a planner that must, names itself in the text.
+/// A message between planners. The radio does not identify the sender: a planner that needs that puts it in the text.
 struct RadioMessage {
   std::string topic;           ///< as declared in the scenario: "/broadcast"
   std::string text;            ///< content of a std_msgs/String; any bytes but NUL

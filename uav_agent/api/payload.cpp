@@ -11,10 +11,10 @@ namespace {
 
 constexpr double kPositionStepM = 0.01;
 
-// A text must not hold a NUL: 0 and 1 are written as 1 and one more byte.
+// A text must not contain NUL: each byte 0 or 1 is written as the byte 1 and a second one.
 constexpr char kEscape = 1, kEscapedZero = 1, kEscapedOne = 2;
 
-/// FNV-1a, folded: a damaged payload must not be taken for another one.
+/// FNV-1a hash, folded to 16 bits: detects damaged payloads.
 std::uint16_t check_sum(std::span<const std::uint8_t> bytes) {
   std::uint32_t hash = 2166136261U;
   for (const std::uint8_t byte : bytes) hash = (hash ^ byte) * 16777619U;

@@ -5,7 +5,7 @@
 namespace skein::agent {
 namespace {
 
-/// "hand:jurong.csv" is "hand:file=jurong.csv": a table is no list of parameters, but the value of one.
+/// "hand:jurong.csv" becomes "hand:file=jurong.csv": a table is the value of one parameter, not a file of parameters.
 std::string with_table_named(const std::string& spec) {
   const std::size_t colon = spec.find(':');
   if (colon == std::string::npos || spec.find('=', colon) != std::string::npos) return spec;

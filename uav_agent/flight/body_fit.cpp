@@ -6,7 +6,7 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kFreeForS = 4.0, kUnknownForS = 1.0;  ///< an answer is kept
+constexpr double kFreeForS = 4.0, kUnknownForS = 1.0;  ///< lifetime of an answer in the cache: everywhere, any other
 constexpr std::size_t kMostAnswers = 200'000;
 
 }  // namespace
@@ -46,7 +46,7 @@ bool BodyFit::fits(const Vector3d& p_W) const {
   return answer.fits == Fits::everywhere;
 }
 
-/// By two questions about the middle of a cube.
+/// Two checks at the middle of a cube bound the answer for all places in it.
 BodyFit::Fits BodyFit::fits_in(const WorldMap::Cube& cube) const {
   const double to_corner_m = 0.5 * std::sqrt(3.0) * map_->config().cell_m;
   const Vector3d middle_W = map_->middle_W(cube);

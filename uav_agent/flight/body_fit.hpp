@@ -16,15 +16,15 @@ class BodyFit {
   /// @param ground_m  cubes entirely below this height are ignored.
   BodyFit(double radius_m, double ground_m) : radius_m_(radius_m), ground_m_(ground_m) {}
 
-  /// Call it once per exchange. @param map  must outlive the calls of fits() that follow.
+  /// Call it once per exchange, and before the first fits(). @param map  must outlive the calls of fits() that follow.
   void update(const WorldMap& map, Tick now);
-  /// From now on, instead of those of the constructor. Forgets the answers if any of the two changes.
+  /// Replaces the parameters of the constructor. Clears the cached answers if either of the two changes.
   void set(double radius_m, double ground_m);
-  /// Whether the body fits with its centre at p, by the condition that the safety filter has for a UAV at rest.
+  /// Whether the body fits with its centre at p: the safety filter's condition for a UAV at rest.
   bool fits(const Vector3d& p_W) const;
 
  private:
-  /// At which places of a cube of the map the body's centre may be; somewhere: each place must be checked.
+  /// Where in one cube of the map the body's centre may be; somewhere: in part of it, so each place is checked.
   enum class Fits : std::uint8_t { unasked, nowhere, somewhere, everywhere };
   struct Answer {
     Tick at : 56 = 0;  ///< when it was determined
@@ -42,7 +42,7 @@ class BodyFit {
   const WorldMap* map_ = nullptr;
   Tick now_ = 0;
   mutable BlockTable<Answers> answers_;
-  mutable std::size_t asked_ = 0;  ///< cubes that have an answer
+  mutable std::size_t asked_ = 0;  ///< number of cubes that have an answer
 };
 
 }  // namespace skein::agent

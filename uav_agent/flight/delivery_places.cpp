@@ -7,12 +7,12 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kDetour = 1.5;
-constexpr double kFixedS = 6.0;         ///< to stop, turn and speed up
-constexpr double kLayerM = 3.0;         ///< between the heights of two UAVs
-constexpr double kSightRadiusM = 0.8;   ///< of the tube that must be clear of mapped cells
-constexpr double kStationM = 3.0;       ///< the station's own surroundings are mapped: they do not count
-constexpr double kAboveStationM = 3.0;  ///< what it stands on, a roof perhaps, hides it from below
+constexpr double kDetour = 1.5;         ///< length of the path, in straight distances
+constexpr double kFixedS = 6.0;         ///< to brake, turn and accelerate
+constexpr double kLayerM = 3.0;         ///< height difference between the places of two UAVs
+constexpr double kSightRadiusM = 0.8;   ///< radius about the line of sight that must be clear of occupied cells
+constexpr double kStationM = 3.0;       ///< occupied cells nearer to the station do not count: its own surroundings
+constexpr double kAboveStationM = 3.0;  ///< least height above the station: a roof under it may hide it from below
 constexpr int kDirections = 12;
 constexpr double kOutwards[] = {4.0, 8.0, 14.0, 22.0, 32.0};
 

@@ -14,7 +14,7 @@ namespace skein::agent {
 /// @param lowest_m  least height of the places.
 std::vector<Vector3d> delivery_places(const AgentConfig& agent, const FreeSpace& space, double lowest_m);
 
-/// Conservative estimate of the time to fly to a place [s]: it assumes that the path is not straight.
+/// Conservative estimate of the time to fly to a place [s]: it assumes a detour.
 double time_home_s(const Vector3d& from_W, const Vector3d& place_W, double speed_mps);
 
 }  // namespace skein::agent

@@ -6,9 +6,9 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kSampleM = 0.5;      ///< along a segment
-constexpr double kSeenAroundM = 1.0;  ///< how far around a place must be known to be free
-constexpr double kNearerM = 0.3;      ///< nearer to structure on a way out: the map's cubes are coarse
+constexpr double kSampleM = 0.5;      ///< between the samples of a segment
+constexpr double kSeenAroundM = 1.0;  ///< distance around a place at which space must be known to be free, too
+constexpr double kNearerM = 0.3;      ///< a way out may come so much nearer to structure: the map's cubes are coarse
 
 template <class Test>
 bool all_along(const Vector3d& a, const Vector3d& b, const Test& test) {
@@ -30,8 +30,8 @@ bool FreeSpace::allowed(const Vector3d& p_W) const {
   if (config_.world) return !config_.blind_fleet || !near_box(p_W);
   if (!near_box(p_W)) return true;
   if (!config_.use_map || !map_.known_free(p_W, kProofRays)) return false;
-  // A few rays through a coarse cell do not prove that all of it is free: what lies around must have been
-  // seen, too.
+  // A few rays through a coarse cell do not prove that all of it is free: the space around p must be known to be
+  // free, too.
   for (int i = 0; i < 6; ++i) {
     const Vector3d q = p_W + (i % 2 == 0 ? kSeenAroundM : -kSeenAroundM) * Vector3d::Unit(i / 2);
     if (near_box(q) && !map_.known_free(q, kProofRays)) return false;
@@ -71,7 +71,7 @@ double FreeSpace::structure_distance_m(const Vector3d& p_W) const {
 bool FreeSpace::leads_out(const Vector3d& a_W, const Vector3d& b_W) const {
   const double least_m = structure_distance_m(a_W) - kNearerM;
   return all_along(a_W, b_W, [&](const Vector3d& p_W) {
-    // Beside structure the distance is 0, as it is in it.
+    // The distance to structure is 0 in an occupied cube and beside it, so it cannot tell the two apart.
     const bool in_structure = config_.world ? config_.world->at(p_W) == Space::occupied : map_.occupied(p_W);
     return !in_structure && structure_distance_m(p_W) >= least_m;
   });

@@ -34,7 +34,7 @@ class FreeSpace {
     const BodyFit* fit = nullptr;  ///< where the body fits in proved space; must outlive this
     /// Excludes unproved space, for a UAV that cannot prove space itself. Needs `fit`.
     bool proved_only = false;
-    bool blind_fleet = false;  ///< no UAV has a LiDAR: with `world`, keeps clear of all boxes
+    bool blind_fleet = false;  ///< with `world`: keeps clear of all boxes, because no map proves space free
   };
 
   /// @param boxes, map  must outlive this.
@@ -47,8 +47,8 @@ class FreeSpace {
   bool segment_free(const Vector3d& a_W, const Vector3d& b_W) const;
   /// Cost of a metre of path at p, in metres of path through proved space.
   double cost(const Vector3d& p_W) const;
-  /// For a start a_W that is not free: whether the segment is a way out, which enters no structure and comes at most
-  /// 0.3 m nearer to structure than a_W is.
+  /// For a start a_W that is not free: whether the segment leads out of there. It must enter no structure, and come at
+  /// most 0.3 m nearer to structure than a_W is.
   bool leads_out(const Vector3d& a_W, const Vector3d& b_W) const;
   /// Line of sight as far as map and boxes tell: no occupied cell of the map of key frames within `radius` of the
   /// segment (with use_map), and all parts of it that lie in boxes are known to be free.

@@ -3,8 +3,8 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kLinkAgeS = 1.0;  ///< between two sightings: a link that lasts
-constexpr double kStuckS = 5.0;    ///< with a link, and nothing arrives: not from here
+constexpr double kLinkAgeS = 1.0;  ///< between two sightings; shorter links are not noted
+constexpr double kStuckS = 5.0;    ///< with a link but no arrival for so long, captures are not delivered from here
 
 }  // namespace
 
@@ -17,7 +17,7 @@ void LinkWatch::update(const PlannerInput& in) {
   note_link(in);
 }
 
-/// The place that is kept lies at least kLinkAgeS before the end of the link: not where it just broke.
+/// Keeps the place at which the UAV was at least kLinkAgeS before a link's end: at its last place, the link broke.
 void LinkWatch::note_link(const PlannerInput& in) {
   if (!in.station_linked) {
     sighting_.reset();

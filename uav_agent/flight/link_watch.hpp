@@ -19,7 +19,7 @@ class LinkWatch {
   bool delivers_here(const PlannerInput& in) const;
   /// Whether captures have been waiting without a break for longer than `time_s`. Only if begun().
   bool waits_for_longer_than(double time_s, const PlannerInput& in) const;
-  /// Setpoint of the UAV in the last link of at least 1 s, at least 1 s before the link's end or the present time.
+  /// Where the UAV last had a link that lasted 1 s: its setpoint at least 1 s before that link's end, or before now.
   const std::optional<Vector3d>& linked_at_W() const { return linked_at_W_; }
 
  private:
@@ -33,7 +33,7 @@ class LinkWatch {
   std::optional<Tick> arrived_at_;    ///< last tick at which a capture was delivered, or none was waiting
   std::optional<Tick> linked_at_;     ///< last tick with a link
   std::size_t undelivered_ = 0;       ///< in the last exchange
-  std::optional<Sighting> sighting_;  ///< in the present link, the last one that was noted
+  std::optional<Sighting> sighting_;  ///< the last one noted in the present link
   std::optional<Vector3d> linked_at_W_;
 };
 

@@ -13,7 +13,7 @@ namespace {
 
 using Cell = Eigen::Vector3i;
 
-constexpr int kEscapeCells = 3;  ///< how far to look for a free cell around a start that is not free
+constexpr int kEscapeCells = 3;  ///< the search may begin in a cell up to so many cells from the start, along each axis
 
 std::uint64_t key_of(const Cell& c) {
   constexpr std::uint64_t kMask = (1U << 21) - 1;
@@ -47,7 +47,7 @@ class Search {
   }
   bool gave_up() const { return gave_up_; }
 
-  /// To the cell nearest to the goal, if that is worth the way.
+  /// Path to the reachable cell nearest to the goal, if it is more than worth_m nearer to the goal than the start is.
   std::optional<std::vector<Vector3d>> run_near(double worth_m) {
     std::optional<Cell> nearest;
     double distance = (from_ - to_).norm() - worth_m;
@@ -68,7 +68,7 @@ class Search {
     Cell parent;
     bool closed = false;
   };
-  // Ties go to the entry that was made first: the order is the same on every machine.
+  // Entries of equal cost are expanded in the order of insertion, which is the same on every machine.
   using Entry = std::tuple<double, std::uint64_t, Cell>;
   struct Later {
     bool operator()(const Entry& a, const Entry& b) const {
@@ -76,7 +76,7 @@ class Search {
     }
   };
 
-  /// @returns the first cell that is the `last` one, of those that can be reached, in the order of A*.
+  /// Expands cells in the order of A*. @returns the first one for which `last` is true; nullopt if none was found.
   template <class Test>
   std::optional<Cell> search(const Test& last) {
     const auto start = start_cell();
@@ -101,8 +101,8 @@ class Search {
     return (p.array() >= lo_.array()).all() && (p.array() <= hi_.array()).all() && space_.free(p);
   }
 
-  /// The cell to begin with: the nearest one that can be reached on a straight line, for a start that is not
-  /// free itself one that is free.
+  /// Cell at which the search begins: the nearest free one to which a straight segment leads from the start. The
+  /// segment must be free, or a way out (FreeSpace::leads_out()) if the start is not free.
   std::optional<Cell> start_cell() const {
     const Cell own = (from_ / config_.cell_m).array().floor().matrix().cast<int>();
     const bool start_is_free = space_.free(from_);
@@ -170,7 +170,7 @@ class Search {
     std::vector<Vector3d> out;
     Vector3d at = from_;
     std::size_t next = 0;
-    if (!space_.free(from_)) {  // nothing is a free short cut from here
+    if (!space_.free(from_)) {  // no segment from here is free, so there is no short cut
       at = corners[0];
       out.push_back(at);
       next = 1;
@@ -189,7 +189,7 @@ class Search {
   const Vector3d from_, to_;
   const PathSearchConfig config_;
   Vector3d lo_, hi_;
-  std::unordered_map<std::uint64_t, Node> nodes_;  // looked up only, never walked through
+  std::unordered_map<std::uint64_t, Node> nodes_;  // only looked up, never iterated: its order is unspecified
   std::unordered_map<std::uint64_t, bool> passable_;
   std::priority_queue<Entry, std::vector<Entry>, Later> queue_;
   std::uint64_t sequence_ = 0;

@@ -14,7 +14,7 @@ struct PathSearchConfig {
   double cell_m = 2.0;  ///< spacing of the lattice
   int max_expansions = 6000;
   double heuristic = 1.2;  ///< weight of the heuristic: the cost may be this many times the least
-  double margin_m = 25.0;  ///< limits: the box around start, goal and structure, plus this
+  double margin_m = 25.0;  ///< the search stays in the bounding box of start, goal and structure, grown by this
 };
 
 /// If the start is not free (something new was seen near it), the path begins with a straight way out to the nearest
@@ -27,7 +27,7 @@ std::optional<std::vector<Vector3d>> find_path(const FreeSpace& space, const std
                                                const PathSearchConfig& config = {}, bool* gave_up = nullptr);
 
 /// For a goal that cannot be reached: a path to the reachable lattice point that is nearest to it.
-/// @param worth_m  least decrease of the distance to the goal.
+/// @param worth_m  least decrease of the distance to the goal that is worth a path.
 /// @returns corners as above; nullopt if no such point was found.
 std::optional<std::vector<Vector3d>> find_approach(const FreeSpace& space, const std::vector<OrientedBox>& structure,
                                                    const Vector3d& from_W, const Vector3d& to_W, double worth_m,

@@ -6,7 +6,7 @@ namespace skein::agent {
 namespace {
 
 constexpr int kPasses = 2;                ///< a turn of 90 degrees becomes four of 22.5
-constexpr double kStraightCosine = 0.95;  ///< gentler turns are left alone
+constexpr double kStraightCosine = 0.95;  ///< cosine of the least turn that is rounded
 constexpr double kMinLegM = 0.2;
 
 std::vector<Vector3d> cut_off(const Vector3d& from_W, const std::vector<Vector3d>& corners, double cut_m,

@@ -13,7 +13,7 @@ namespace skein::agent {
 
 using SegmentFree = std::function<bool(const Vector3d& a_W, const Vector3d& b_W)>;
 
-/// @param corners_W  of the path that begins at `from_W`; the last one stays.
+/// @param corners_W  corners of the path that begins at `from_W`; the last one stays.
 /// @param cut_m  greatest distance of a cut from its corner; it is also at most a third of the shorter leg.
 /// @param free  called for each cut; a corner whose cut is not free stays. So does a turn of less than 18 degrees.
 std::vector<Vector3d> rounded(const Vector3d& from_W, const std::vector<Vector3d>& corners_W, double cut_m,

@@ -5,7 +5,7 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kRoomyM = 45.0, kRoomyHeightM = 20.0;  ///< at least, of a box that says little
+constexpr double kRoomyM = 45.0, kRoomyHeightM = 20.0;  ///< least horizontal size and height
 
 }  // namespace
 

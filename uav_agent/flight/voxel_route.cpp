@@ -43,7 +43,8 @@ class Router {
     return through && space_.segment_free(a_W, b_W);
   }
 
-  /// The way along the centres, shortened; bans a cube and returns nullopt where it cannot be flown after all.
+  /// Corners of the path along the centres of cubes, with short cuts. If a leg is not free after all, bans the cube at
+  /// its end, and returns nullopt.
   std::optional<std::vector<Vector3d>> corners_of(const std::vector<Id>& ids) {
     std::vector<Vector3d> places, corners;
     for (const Id id : ids) places.push_back(grid_.centre_W(id));
@@ -53,7 +54,7 @@ class Router {
     for (std::size_t next = 0; next < places.size();) {
       std::size_t far = places.size() - 1;
       while (far > next && !leg_free(at, places[far])) far = next + (far - next) / 2;
-      const bool out_of_trouble = next == 0 && !space_.free(from_W_);  // what is not free has no free way out
+      const bool out_of_trouble = next == 0 && !space_.free(from_W_);  // from there, no leg is free
       if (!out_of_trouble && far == next && !leg_free(at, places[far])) {
         banned_.insert(ids[far]);
         return std::nullopt;

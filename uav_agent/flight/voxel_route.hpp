@@ -15,7 +15,7 @@ namespace skein::agent {
 
 struct VoxelRouteConfig {
   VoxelSearchConfig search;
-  int retries = 3;  ///< each excludes one more cube
+  int retries = 3;  ///< further searches, each of which excludes one more cube
 };
 
 /// The path enters no occupied cube, except the one that contains `to_W`.
@@ -26,8 +26,8 @@ std::optional<std::vector<Vector3d>> find_voxel_route(const VoxelGrid& grid, con
                                                       const std::set<VoxelGrid::Id>& claimed = {},
                                                       const VoxelRouteConfig& config = {});
 
-/// By cube: whether a path leads to its centre along free centres of cubes that are not occupied, with no cube claimed.
-/// find_voxel_route() may also reach places in adjacent cubes.
+/// For each cube, by VoxelGrid::Id: whether a path leads to its centre along free centres of cubes that are not
+/// occupied. Claims are ignored. find_voxel_route() may also reach places in cubes adjacent to these.
 /// @returns nullopt if `from_W` is outside the grid, or if there are too many such cubes.
 std::optional<std::vector<bool>> voxels_in_reach(const VoxelGrid& grid, const FreeSpace& space, const Vector3d& from_W);
 

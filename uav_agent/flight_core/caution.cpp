@@ -10,8 +10,8 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kMostErrorM = 1.0;  ///< beyond that, the UAV could go nowhere
-/// Errors are rounded up to steps: what is known of places lasts as long as the clearance is the same.
+constexpr double kMostErrorM = 1.0;  ///< greatest error: with a larger one, the UAV would fit nowhere
+/// Errors are rounded up to multiples of this, since a change of clearance discards the answers cached in BodyFit.
 constexpr double kErrorStepM = 0.05;
 constexpr double kMostGroundErrorM = 2.0, kMostPeerErrorM = 2.0;
 constexpr double kWindMemoryS = 20.0, kPowerMemoryS = 10.0;
@@ -36,16 +36,16 @@ void Caution::update(const PlannerInput& in) {
   watch_wind(in.wind_W);
   watch_battery(in);
   const double pushed_m = mean_wind_W_ ? config_.wind_error_s * mean_wind_W_->norm() : 0.0;
-  // A UAV that still knows where it stands will not for long: before it takes off, it looks for the room that it needs
-  // in flight.
+  // Before takeoff, the UAV still knows its position well. But it must look for the room that it needs in flight, so
+  // the deviation of flight counts from the beginning.
   PoseUncertainty own = in.uncertainty;
   if (!own.exact()) own.position_m = own.position_m.cwiseMax(deviation_in_flight_m(agent_.odometry));
-  // Of structure nobody knows in which direction it is: the deviation along one of chance.
+  // The direction to structure is unknown: the root mean square of the deviations along the axes.
   const double any_way_m = own.position_m.norm() / std::sqrt(3.0);
   const auto kept_off = [&](double deviation_m) {
     return std::min(kMostErrorM, in_steps_m(config_.drift_sigmas * deviation_m + pushed_m));
   };
-  // The ground was seen with the error of that time, by this UAV or another one; the wind does not lift it.
+  // The ground was seen with the error of that time, by this UAV or another one. Wind does not change its height.
   const double ground_m = in_steps_m(config_.drift_sigmas * std::sqrt(2.0) * own.position_m.z());
   errors_.seen_m = kept_off(drift_since_seen_m(any_way_m));
   errors_.told_m = kept_off(std::sqrt(2.0) * any_way_m);
@@ -53,7 +53,7 @@ void Caution::update(const PlannerInput& in) {
   watch_peers(own, in.peers, pushed_m);
 }
 
-/// The same wind pushes both UAVs the same way: what counts of it is once its effect, for gusts.
+/// The same wind pushes both UAVs the same way. Its effect counts only once, to allow for gusts.
 void Caution::watch_peers(const PoseUncertainty& own, const Peers& peers, double pushed_m) {
   errors_.peers_m.clear();
   if (own.exact() && pushed_m == 0.0) return;
@@ -67,9 +67,10 @@ void Caution::watch_peers(const PoseUncertainty& own, const Peers& peers, double
   }
 }
 
-/// Deviation of what a LiDAR has seen within the last period of its servo: of a Gauss-Markov error with time constant
-/// T, e(t + s) - e(t) has the variance 2 sigma^2 (1 - exp(-s/T)), and an offset that stays is none. While the fix is
-/// lost, and for so long after it, what the odometry tells beyond its usual deviation counts, too.
+/// Standard deviation of the drift since the LiDAR saw a place, at most one period of its servo ago (look_s). For a
+/// Gauss-Markov error with time constant T, e(t + s) - e(t) has the variance 2 sigma^2 (1 - exp(-s/T)); a constant
+/// offset cancels. The variance that the odometry reports beyond the usual one while the fix is lost counts, too;
+/// after that, it decays with the time constant look_s.
 double Caution::drift_since_seen_m(double told_m) {
   const OdometryConditions& odometry = agent_.odometry;
   const double told2 = square(told_m), noise2 = square(odometry.noise_sigma_m);
@@ -94,11 +95,11 @@ void Caution::watch_wind(const std::optional<Vector3d>& wind_W) {
 
 void Caution::watch_battery(const PlannerInput& in) {
   if (!in.battery) return;
-  const double dt_s = seconds(in.tick - last_tick_);  // more than an exchange, if the program stood still
+  const double dt_s = seconds(in.tick - last_tick_);  // longer than an exchange if the program was suspended
   const double spent = last_charge_ ? *last_charge_ - in.battery->charge : 0.0;
   last_charge_ = in.battery->charge;
   last_tick_ = in.tick;
-  if (spent <= 0.0 || dt_s <= 0.0) return;  // its motors stand still
+  if (spent <= 0.0 || dt_s <= 0.0) return;  // the motors are off
   charge_per_s_ += std::min(1.0, dt_s / kPowerMemoryS) * (spent / dt_s - charge_per_s_);
 }
 
@@ -106,10 +107,10 @@ double Caution::way_down_s(const Vector3d& p_WB, const std::optional<Vector3d>& 
   const Vector3d start_W = agent_.me().p_WB_start;
   const Vector3d way_W(start_W.x() - p_WB.x(), start_W.y() - p_WB.y(), 0.0);
   const double head_mps = wind_W && way_W.norm() > 1.0 ? std::max(0.0, -wind_W->dot(way_W.normalized())) : 0.0;
-  // A vehicle keeps its commanded speed over ground while it can lean into the wind; what that costs is in the power.
-  // The commanded speed is what is at risk: count with less of it against strong wind.
+  // A UAV keeps its commanded speed over ground as long as it can lean into the wind; charge_per_s_ contains the cost
+  // of that. Against strong wind, the UAV may not keep this speed, so the estimate assumes a lower one.
   const double ground_mps = std::max(kLeastGroundMps, std::min(config_.approach_mps, most_mps_) - 0.1 * head_mps);
-  // It loses its height on the way, and sinks slowly only above the place.
+  // The UAV descends on the way to the start, and sinks slowly only above it.
   const double down_s = Landing::descent_s(p_WB.z(), config_);
   if (way_W.norm() <= 1.0) return down_s;
   const Vector3d above_W(start_W.x(), start_W.y(), std::min(p_WB.z(), Landing::kFromM));

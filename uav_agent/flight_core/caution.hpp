@@ -3,7 +3,7 @@
 //   setpoint. Structure that the UAV's own LiDAR has seen is off by the drift of its odometry since then; structure on
 //   maps of other UAVs is off by the errors of both UAVs, and so are the other UAVs.
 //   Speed is lower in gusts.
-//   Landing: in time, by the charge that is left, the charge used per second so far, and the present wind.
+//   A UAV lands in time: it considers the remaining charge, the charge used per second so far, and the present wind.
 // In a scenario without these conditions, nothing changes.   Frame W.   Units: SI.   Threads: one.
 #pragma once
 
@@ -22,13 +22,13 @@ class Caution {
 
   /// Call it once per exchange, before the other functions.
   void update(const PlannerInput& in);
-  /// What the safety filter must add to its tracking errors.
+  /// Position errors that the safety filter must add to its tracking errors.
   const ExpectedErrors& errors() const { return errors_; }
   /// Maximum speed in these gusts [m/s]; infinite while they are below 1 m/s.
   double most_mps() const { return most_mps_; }
   /// Whether the charge is only just enough to fly to the start and land there with the reserve left.
   bool must_land(const PlannerInput& in) const;
-  /// Whether the charge is only just enough to land right here: nothing is left for a way.
+  /// Whether the charge is only just enough to land right here, and not to fly anywhere else.
   bool must_sink(const PlannerInput& in) const;
   /// Time to fly from p_WB to above the start against the wind, and down to the ground [s].
   double way_down_s(const Vector3d& p_WB, const std::optional<Vector3d>& wind_W) const;
@@ -43,7 +43,7 @@ class Caution {
   const AgentConfig& agent_;
   ExpectedErrors errors_;
   double most_mps_;
-  double lost2_ = 0.0;                   ///< position variance beyond the usual one: the fix is, or was, lost [m^2]
+  double lost2_ = 0.0;  ///< position variance beyond the usual one, while and after the fix is lost [m^2]
   std::optional<Vector3d> mean_wind_W_;  ///< over the last 20 s or so
   double gusts2_ = 0.0;                  ///< mean square deviation from mean_wind_W_ [m^2/s^2]
   double charge_per_s_;                  ///< share of the capacity used per second of flight [1/s]

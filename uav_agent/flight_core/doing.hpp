@@ -12,25 +12,25 @@ struct Doing {
   enum class What : std::uint8_t {
     ground,
     takeoff,
-    awaits_way_up,  ///< until an explorer has proved the space above it free
+    awaits_way_up,  ///< waits until an explorer has proved the space above this UAV free
     to_goal,
     along_goal,   ///< along the waypoints of a goal that has several
     seeks_way,    ///< there are goals, but no path to one yet
-    no_goal,      ///< no goal of the planner is left
-    shows_mate,   ///< it shows a mate the way up (showing.hpp)
-    looks_round,  ///< from here to `back`: recovery (recovery.hpp)
+    no_goal,      ///< all goals of the planner have ended, or it has set none
+    shows_mate,   ///< shows a photographer the way up (showing.hpp)
+    looks_round,  ///< this and the next four, up to `back`: recovery behaviours (recovery.hpp)
     approaches,
     elsewhere,
     climbs,
     back,
     homing,      ///< to a place in line of sight of the station
-    delivers,    ///< its captures arrive at the station
-    lands,       ///< at its start, or in need where it is: the battery is nearly empty
-    awaits_link  ///< at such a place, but without a link to the station
+    delivers,    ///< stays where its captures arrive at the station
+    lands,       ///< because the battery is nearly empty (landing.hpp)
+    awaits_link  ///< has reached such a place, but has no link to the station
   };
   What what = What::ground;
-  std::optional<Vector3d> goal_W = {};   ///< where it flies to; nullopt: nowhere
-  std::optional<std::size_t> mate = {};  ///< index in the fleet of the mate; only if shows_mate
+  std::optional<Vector3d> goal_W = {};   ///< where the UAV flies to; nullopt: nowhere
+  std::optional<std::size_t> mate = {};  ///< index in the fleet of that photographer; only if shows_mate
 };
 
 }  // namespace skein::agent

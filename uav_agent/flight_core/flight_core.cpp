@@ -8,21 +8,21 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kAirborneM = 2.0;       ///< a UAV that begins at such a height was restarted in flight
-constexpr double kLowestTopM = 4.0;      ///< of a climb
-constexpr double kClimbLayerM = 2.0;     ///< between the heights to which two UAVs climb
-constexpr double kCrowdM = 6.0;          ///< starts nearer than this wait for each other
-constexpr double kClearM = 3.0;          ///< the one before is this far up, or gone: the next may start
-constexpr double kStartPatienceS = 6.0;  ///< for each one before; after that it is taken to be broken
+constexpr double kAirborneM = 2.0;       ///< a UAV that begins above this height was restarted in flight
+constexpr double kLowestTopM = 4.0;      ///< least height of the climb at takeoff
+constexpr double kClimbLayerM = 2.0;     ///< difference between the heights to which two UAVs climb
+constexpr double kCrowdM = 6.0;          ///< UAVs whose starts are nearer than this lift off one after the other
+constexpr double kClearM = 3.0;          ///< once a UAV is this far from its start, the next one may lift off
+constexpr double kStartPatienceS = 6.0;  ///< longest wait for each UAV before; then it is taken to be broken
 constexpr double kRisenM = 1.2;          ///< so high above its start, a UAV may begin to work
 constexpr double kClimbGainM = 0.3;
 constexpr double kStepAsideM = 0.3;  ///< more than half a cube of the map
-constexpr double kLowAsideM = 0.3;   ///< height above the start at which it flies to where it climbs instead
-constexpr double kNoLinkS = 4.0;     ///< at a place from which the station should be seen
-constexpr double kIdleS = 4.0;       ///< without a goal that can be flown to
+constexpr double kLowAsideM = 0.3;   ///< least height above the start at which a UAV flies to another place to climb
+constexpr double kNoLinkS = 4.0;     ///< longest wait for a link at a place that should have one
+constexpr double kIdleS = 4.0;       ///< recovery begins after so long without a goal that can be reached
 constexpr std::int64_t kHome = -2;
 constexpr double kShowCheckS = 5.0;
-constexpr std::uint64_t kShowLook = 10;  ///< exchanges
+constexpr std::uint64_t kShowLook = 10;  ///< exchanges between two checks of whether a photographer was shown its way
 
 }  // namespace
 
@@ -85,12 +85,12 @@ Doing FlightCore::doing(const PlannerInput& in) const {
   return doing;
 }
 
-/// A goal that is a line.
+/// Whether the UAV flies along the waypoints of a goal that has several.
 bool FlightCore::flies_along() const {
   return navigator_.current() && navigator_.on_way() && navigator_.current()->way.size() > 1;
 }
 
-/// What it does about its captures.
+/// What the UAV does in mode `homing`.
 Doing::What FlightCore::doing_home(const PlannerInput& in) const {
   if (in.station_linked && homing_.delivers_here(in)) return Doing::What::delivers;
   if (navigator_.current()) return Doing::What::homing;
@@ -156,7 +156,7 @@ void FlightCore::leave_ground(const PlannerInput& in, Steering& steering) {
   const Vector3d p_W = in.state.p_WB;
   if (in.boxes.empty()) return;
   if (sinks_back_) {
-    sinks_back_ = in.tracking.setpoint.p_WB.z() > 0.0;  // below it stands firm
+    sinks_back_ = in.tracking.setpoint.p_WB.z() > 0.0;  // with a setpoint below the ground it stands firm
     if (!sinks_back_) filter_.set_trust(SafetyFilter::Trust::proved);
     return;
   }
@@ -178,7 +178,7 @@ void FlightCore::leave_ground(const PlannerInput& in, Steering& steering) {
   enter(Mode::takeoff, in);
 }
 
-/// Of higher number, that start near by: each climbs to a height of its own.
+/// Number of UAVs with a higher index that start near by, from which each UAV derives a height of its own to climb to.
 int FlightCore::neighbours_after() const {
   int count = 0;
   for (std::size_t uav = agent_.self + 1; uav < agent_.fleet.size(); ++uav) {
@@ -187,7 +187,8 @@ int FlightCore::neighbours_after() const {
   return count;
 }
 
-/// Explorers first, then by number.
+/// The order is: explorers first, then by index. @returns a UAV near by that comes before this one and is still at its
+/// start; nullopt if there is none, or this UAV has waited long enough.
 std::optional<std::size_t> FlightCore::lifts_off_after(const PlannerInput& in) {
   if (!ready_since_) ready_since_ = in.tick;
   const auto rank = [this](std::size_t uav) {
@@ -204,21 +205,21 @@ std::optional<std::size_t> FlightCore::lifts_off_after(const PlannerInput& in) {
   return seconds(in.tick - *ready_since_) > kStartPatienceS * before ? std::nullopt : stands;
 }
 
-/// A UAV knows where it stands, but not for long where it hovers. So it lifts off only when nothing holds it until it
-/// is well above those that stand beside it.
+/// A UAV knows its position well on the ground, but not for long in flight. So it lifts off only if the safety filter
+/// would not hold it before it is well above the UAVs that stand beside it.
 bool FlightCore::may_drift_into_neighbours(const PlannerInput& in) {
   if (!drifts(in)) return false;
   bool clear =
       filter_.clear_up_to(agent_.me().p_WB_start.z() + kClearM, {in.tick, in.state, *in.world_map, in.boxes, in.peers});
-  // A LiDAR on the ground does not see all that is above it.
+  // A LiDAR on the ground does not see all the space above it, so an explorer may lift off into unproved space.
   clear = clear || (navigator_.sees() && filter_.held().by == Held::By::unproved);
   if (!clear && filter_.held().by == Held::By::peer) waits_for_ = filter_.held().peer;
   if (!clear && !waits_for_ && !navigator_.sees()) waits_for_ = agent_.first_explorer();
   return !clear;
 }
 
-/// As high as is proved. A UAV that sees begins to work where the climb ends; one that does not waits on the ground. If
-/// positions drift, a UAV that is held beside others that stand sinks to the ground again.
+/// Climbs as high as space is proved free, and begins to work where the climb ends. A UAV without a LiDAR that cannot
+/// climb waits for an explorer. If positions drift, a UAV that is held before it has risen sinks to the ground again.
 void FlightCore::take_off(const PlannerInput& in, Steering& steering) {
   const double height_m = in.tracking.setpoint.p_WB.z();
   if (height_m > climbed_m_ + kClimbGainM) {
@@ -233,7 +234,7 @@ void FlightCore::take_off(const PlannerInput& in, Steering& steering) {
     climb_aside(in, steering);
     return;
   }
-  // With more clearance than usual, the cube that counts may be right above, where a LiDAR never sees.
+  // The clearance for drift may reach an unproved cube right above the UAV, which its LiDAR never sees: step aside.
   const bool looked = navigator_.sees() && seconds(in.tick - climbed_at_) > config_.look_s;
   if (drifts(in) && !risen && looked && !stepped_aside_ && filter_.held().by == Held::By::unproved) {
     stepped_aside_ = true;
@@ -257,7 +258,7 @@ void FlightCore::take_off(const PlannerInput& in, Steering& steering) {
   if (stalled && !navigator_.sees()) waits_for_ = agent_.first_explorer();
 }
 
-/// Beside its start, farther from the structure that holds it down.
+/// Climbs at a place beside, farther from the structure that holds the UAV down.
 void FlightCore::climb_aside(const PlannerInput& in, Steering& steering) {
   climbed_at_ = in.tick;
   const auto places_W = places_aside_W(in.state.p_WB, top_W_->z(), filter_.tube_m(0.0), *in.world_map);
@@ -267,14 +268,14 @@ void FlightCore::climb_aside(const PlannerInput& in, Steering& steering) {
   climb_from(place_W, in, steering);
 }
 
-/// Flies to a place beside, and climbs from there.
+/// Flies to a place, and climbs from there.
 void FlightCore::climb_from(const Vector3d& place_W, const PlannerInput& in, Steering& steering) {
   climbed_at_ = in.tick;
   top_W_ = Vector3d(place_W.x(), place_W.y(), top_W_->z());
   steering.motion = Path{{{place_W, config_.tight_mps}, {*top_W_, config_.climb_mps}}};
 }
 
-/// Horizontal unit vector, mostly away from the nearest of those that start near by.
+/// Horizontal unit vector away from the other UAVs near by; the nearest ones count most.
 Vector3d FlightCore::away_from_neighbours_W(const PlannerInput& in) const {
   Vector3d away_W = Vector3d::Zero();
   for (const Peer& peer : in.peers.all()) {
@@ -285,7 +286,7 @@ Vector3d FlightCore::away_from_neighbours_W(const PlannerInput& in) const {
   return away_W.norm() > 0.0 ? Vector3d(away_W.normalized()) : Vector3d::UnitX();
 }
 
-/// Of the navigator, since it was last asked.
+/// The navigator's outcomes since the last call. Notes in no_way_ why a goal was not reached.
 std::vector<Outcome> FlightCore::outcomes() {
   std::vector<Outcome> outcomes = navigator_.take_outcomes();
   for (const Outcome& outcome : outcomes) {
@@ -309,7 +310,7 @@ void FlightCore::work(const PlannerInput& in, Steering& steering) {
   }
 }
 
-/// @returns whether it sets out to show a mate its way up.
+/// @returns whether the UAV sets out to show a photographer the way up.
 bool FlightCore::begin_showing(const PlannerInput& in) {
   if (in.tick < show_at_ || navigator_.on_way() || !navigator_.sees()) return false;
   show_at_ = in.tick + ticks(kShowCheckS);
@@ -331,7 +332,7 @@ void FlightCore::show(const PlannerInput& in, Steering& steering) {
     return;
   }
   navigator_.stop(steering);
-  show_at_ = in.tick;  // the next one at once
+  show_at_ = in.tick;  // look for the next photographer at once
   navigator_.want(wanted_);
   enter(Mode::working, in);
 }

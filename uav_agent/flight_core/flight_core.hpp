@@ -36,12 +36,12 @@ class FlightCore {
     navigator_.update(in);
     recovery_.update(in);
   }
-  /// The state for PlannerInput. It has the outcomes since the last call in mode `working`: outcomes wait for that
-  /// mode, so that the planner receives them when its goals count.
+  /// The state for PlannerInput. Outcomes are handed out in mode `working` only, and kept until then, so that the
+  /// planner receives them when its goals count.
   FlightState state();
   /// Runs one exchange, after the planner has decided.   @param goals  see PlannerOutput::goals.
   Steering step(const PlannerInput& in, std::optional<std::vector<Goal>> goals);
-  /// Advances the tracker by one exchange, as fast as the safety filter allows.
+  /// Advances the tracker by one exchange, as fast as the safety filter allows. Call it after step().
   std::optional<TrajectoryCommand> move(Tracker& tracker, const SafetyFilter::Facts& facts) {
     const bool assumes = filter_.assumes_boxes() || filter_.trust() == SafetyFilter::Trust::unknown;
     const double most_mps = assumes ? config_.alone_mps : navigator_.pace_mps();
@@ -54,7 +54,7 @@ class FlightCore {
   const std::string& no_way() const { return no_way_; }
   /// What the core does in this exchange, for display.   @param in  the input of step().
   Doing doing(const PlannerInput& in) const;
-  /// Where the UAV is about to fly: the other UAVs send map updates about the way there first (map sharing).
+  /// Where the UAV is about to fly: the other UAVs send map updates about the way there first (maps/map_news.hpp).
   std::optional<Vector3d> going_to_W() const;
   /// PlannerInput::space: where the planner may choose to work.
   FreeSpace space(const PlannerInput& in) const { return navigator_.open_space(in); }
@@ -94,18 +94,18 @@ class FlightCore {
   Landing landing_;
   Mode mode_ = Mode::ground;
   Tick since_ = 0;                   ///< when this mode began, or a goal was last flown in it
-  std::optional<Tick> ready_since_;  ///< when it could first lift off
+  std::optional<Tick> ready_since_;  ///< when the UAV was first ready to lift off
   std::optional<Vector3d> top_W_;    ///< where the climb of the takeoff ends
-  bool sinks_back_ = false;          ///< it gave up a takeoff, and is not on the ground yet
+  bool sinks_back_ = false;          ///< the UAV gave up a takeoff, and is not on the ground yet
   std::size_t next_aside_ = 0;       ///< index of the place beside the start that the takeoff tries next
-  bool stepped_aside_ = false;       ///< in this climb
+  bool stepped_aside_ = false;       ///< whether the UAV stepped aside in this climb
   double climbed_m_ = 0.0;           ///< height reached in the climb, at climbed_at_
   Tick climbed_at_ = 0;
-  Tick show_at_ = 0;                    ///< earliest time of the next look for a mate to show its way
+  Tick show_at_ = 0;                    ///< earliest time to look for the next photographer to show the way up
   std::optional<Tick> at_place_since_;  ///< when homing reached its place, still without a link
   std::size_t next_place_ = 0;          ///< index of the place that homing tries first
-  bool lost_way_home_ = false;          ///< it recovers because homing could not reach its places
-  std::vector<Outcome> outcomes_;       ///< that the planner has not received yet
+  bool lost_way_home_ = false;          ///< the UAV recovers because homing could not reach its places
+  std::vector<Outcome> outcomes_;       ///< outcomes that the planner has not received yet
   std::vector<Goal> wanted_;            ///< the planner's last goals, for when `working` begins again
   std::optional<std::size_t> waits_for_;
   std::string no_way_;

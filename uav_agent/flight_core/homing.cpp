@@ -8,10 +8,10 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kNeverLinked = 1.7;  ///< times as long: it has yet to find from where the station is seen
-constexpr double kPlaceLayerM = 3.0;  ///< between the heights of two UAVs
+constexpr double kNeverLinked = 1.7;  ///< factor on the time to a link, which a UAV that never had one has yet to find
+constexpr double kPlaceLayerM = 3.0;  ///< height difference between the places of two UAVs above all boxes
 constexpr double kAboveAllM = 6.0;
-constexpr double kLowestM = 6.0;  ///< of a place
+constexpr double kLowestM = 6.0;  ///< least height of a delivery place
 constexpr std::size_t kMostPlaces = 8;
 
 }  // namespace

@@ -1,5 +1,5 @@
-// Return-to-link: when a UAV must fly to a place in direct line of sight of the station, to deliver its captures, and
-// to which place. The first choice is where it last had a link, because that is often the nearest such place.
+// Return-to-link: decides when a UAV must fly to a place in direct line of sight of the station to deliver captures,
+// and to which place. The first choice is where it last had a link, because that is often the nearest such place.
 // Frame W.   Units: SI.   Threads: one.
 #pragma once
 
@@ -20,15 +20,15 @@ class Homing {
 
   /// Notes the link to the station, and whether captures arrive. Call it once per exchange.
   void update(const PlannerInput& in) { link_.update(in); }
-  /// Whether the UAV must leave now: the remaining time is only just enough for the way and its captures do not arrive
-  /// from here, or captures have been undelivered for longer than deliver_every_s.
+  /// Whether the UAV must fly to a link now. Either the remaining time is only just enough for the flight, and captures
+  /// do not arrive from here; or captures have been undelivered for longer than deliver_every_s.
   bool due(const PlannerInput& in) const;
   /// Whether the UAV is linked, all its captures are delivered, and there is enough time to work on.
   bool done(const PlannerInput& in) const;
-  /// Whether captures arrive from where the UAV is, or none is left and it had a link within the last second.
+  /// Whether captures are delivered from where the UAV is (LinkWatch::delivers_here()).
   bool delivers_here(const PlannerInput& in) const { return link_.delivers_here(in); }
-  /// Places to try (p_WB), best first: the last one with a link, places that see the station as far as is known, and
-  /// one above the station and all boxes.
+  /// Places to try (p_WB), best first: where the UAV last had a link, places with a line of sight to the station as far
+  /// as is known, and one above the station and all boxes.
   std::vector<Vector3d> places(const PlannerInput& in, const FreeSpace& space) const;
 
  private:

@@ -9,9 +9,9 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kRoomM = 0.5;         ///< between landing places, beyond what the filter demands now
-constexpr double kBelowGroundM = 1.0;  ///< of the setpoint of a UAV that has landed: it stands firm
-constexpr double kAboveSiteM = 0.6;    ///< distance, across or down, at which a UAV is above a site
+constexpr double kRoomM = 0.5;  ///< between two landed UAVs, beyond the distance that the safety filter demands now
+constexpr double kBelowGroundM = 1.0;  ///< depth of the setpoint of a UAV that has landed, so that it stands firm
+constexpr double kAboveSiteM = 0.6;    ///< tolerance, across and down, within which a UAV is above a site
 constexpr double kRingsM[] = {4.0, 8.0, 12.0};
 constexpr int kRingHeadings = 8;
 constexpr double kSinksM = 0.3, kHeldS = 10.0, kOtherSiteM = 2.0;
@@ -117,7 +117,7 @@ void Landing::sink(const PlannerInput& in, bool must_sink, Steering& steering) {
     descends_at_W_.reset();
     return;
   }
-  // A UAV that has landed drifts in its own eyes: when the tracker then begins anew from there, it is sent down again.
+  // The odometry of a landed UAV drifts. If the tracker then restarts at the drifted position, send the UAV down again.
   if (in.tracking.done || (held && must_sink)) begin_descent(held ? setpoint_W : *descends_at_W_, in, steering);
 }
 

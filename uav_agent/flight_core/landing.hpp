@@ -1,6 +1,7 @@
-// Landing of a UAV whose battery is nearly empty: the way to a place to land, and the descent. It tries, in this order,
-// its landing place (landing_place.hpp), its start, and places about them. Where it finds no proved way, a UAV without
-// a LiDAR takes unknown space for free, since it falls otherwise. Without any way, it sinks where it is, in time.
+// Landing of a UAV whose battery is nearly empty: the flight to a place to land, and the descent. The UAV tries, in
+// this order, its landing place (landing_place.hpp), its start, and places around the landing place. If a UAV without a
+// LiDAR finds no path through proved space, it treats unknown space as free, since it would fall otherwise. If the
+// charge is only just enough to land right here, the UAV sinks where it is.
 // Frame W.   Units: SI.   Threads: one.   Deterministic.
 #pragma once
 
@@ -20,10 +21,11 @@ class Landing {
   Landing(const FlightConfig& config, const AgentConfig& agent, SafetyFilter& filter, Navigator& navigator)
       : config_(config), agent_(agent), filter_(filter), navigator_(navigator) {}
 
+  /// Stops the UAV, and computes its landing place. Call it once, before step().
   void begin(Steering& steering);
   /// Runs one exchange.   @param must_sink  the charge is only just enough to land right here.
   void step(const PlannerInput& in, bool must_sink, Steering& steering);
-  /// From where the UAV is to a place on the ground, straight down at last.
+  /// Path from the setpoint to a place on the ground; from above kFromM, its last kFromM lead straight down.
   Path down_at(const Vector3d& place_W, const PlannerInput& in) const;
 
  private:
@@ -39,9 +41,9 @@ class Landing {
   Navigator& navigator_;
   Vector3d place_W_ = Vector3d::Zero();  ///< its landing place, on the ground
   std::vector<Vector3d> sites_W_;        ///< on the ground; index is -1 - Goal::id
-  std::vector<Vector3d> held_above_W_;   ///< sites to which it could not sink
+  std::vector<Vector3d> held_above_W_;   ///< sites above which the safety filter held the UAV
   std::optional<Vector3d> descends_at_W_;
-  double lowest_m_ = 0.0;  ///< setpoint's height in the descent, reached at sank_at_
+  double lowest_m_ = 0.0;  ///< least height of the setpoint in this descent, reached at sank_at_
   Tick sank_at_ = 0;
 };
 

@@ -6,14 +6,14 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kSameM = 0.1;    ///< places closer than this cannot be told apart: no factor separates them
-constexpr double kRoundM = 1e-6;  ///< against rounding, so that a group is apart after one turn
+constexpr double kSameM = 0.1;    ///< smaller distances count as this: no factor separates equal places
+constexpr double kRoundM = 1e-6;  ///< added against rounding, so that one turn suffices to spread a group
 constexpr int kMostTurns = 10;
 
 using Places = std::vector<Vector3d>;
 using Group = std::vector<std::size_t>;
 
-/// Those that are linked with `first`, itself included, in ascending order.
+/// Indices of the places that are linked with `first`, including itself, in ascending order.
 Group group_of(std::size_t first, const Places& places_W, double apart_m) {
   Group group = {first};
   for (std::size_t next = 0; next < group.size(); ++next) {
@@ -46,7 +46,7 @@ Vector3d landing_place_W(const AgentConfig& agent, double apart_m) {
   for (const FleetMember& member : agent.fleet) {
     places_W.emplace_back(member.p_WB_start.x(), member.p_WB_start.y(), 0.0);
   }
-  // A group that has grown may have come close to another one.
+  // A group that was spread may have come close to another one.
   bool any_moved = true;
   for (int turn = 0; any_moved && turn < kMostTurns; ++turn) {
     any_moved = false;

@@ -9,23 +9,23 @@
 namespace skein::agent {
 namespace {
 
-constexpr std::int64_t kTrail = -3;      ///< the goal that is its own trail
-constexpr double kGainM = 0.5;           ///< less is no way
-constexpr int kSearchesPerExchange = 2;  ///< for goals
+constexpr std::int64_t kTrail = -3;      ///< id of the goal that is the UAV's own trail
+constexpr double kGainM = 0.5;           ///< a shorter move is not progress
+constexpr int kSearchesPerExchange = 2;  ///< number of goals that are tried
 constexpr int kMostExpansions = 4000;
-constexpr double kGreedyHeuristic = 3.0;  ///< of a second search: a long way is better than none
-constexpr double kFineCellM = 1.0;  ///< of another one, out of places that are too narrow for the first one's lattice
-constexpr double kSearchAgainS = 0.5;   ///< after one that came to nothing
-constexpr std::uint64_t kLookEach = 4;  ///< exchanges
+constexpr double kGreedyHeuristic = 3.0;  ///< of the second search: a long path is better than none
+constexpr double kFineCellM = 1.0;     ///< of the second search, if the first lattice has no path out of a narrow place
+constexpr double kSearchAgainS = 0.5;  ///< pause after a search that found no path
+constexpr std::uint64_t kLookEach = 4;  ///< exchanges between two checks of the path ahead
 constexpr double kLookAheadM = 15.0, kSlackM = 0.4;
 constexpr int kMostReplans = 3;
 constexpr double kRefusedM = 1.5;
 constexpr std::size_t kMostRefused = 64;
 constexpr double kPeersM = 15.0, kStandsMps = 0.3;
 constexpr double kTurn = 0.8, kTurnEveryS = 1.2;
-constexpr double kFaceM = 4.0;  ///< nearer than this to its goal, a UAV turns as the goal asks
+constexpr double kFaceM = 4.0;  ///< nearer than this to its goal, a UAV turns to the goal's yaw
 constexpr double kHereM = 0.3;
-constexpr double kFitMps = 1.0;  ///< ways are wide enough for that speed
+constexpr double kFitMps = 1.0;  ///< paths are wide enough for this speed
 constexpr double kCreepMps = 0.5, kProvedStepM = 1.0;
 
 }  // namespace
@@ -52,7 +52,7 @@ FreeSpace::Config Navigator::space_config(const PlannerInput& in) const {
   return config;
 }
 
-/// @param here_W  where a way begins: it is kept out of nothing that it stands in.
+/// @param here_W  start of the path. Spheres to keep out of shrink until here_W is outside.
 FreeSpace Navigator::space(const PlannerInput& in, const Vector3d& here_W) const {
   std::vector<Sphere> keep_out;
   for (const Peer& peer : in.peers.all()) {
@@ -69,7 +69,8 @@ FreeSpace Navigator::space(const PlannerInput& in, const Vector3d& here_W) const
   return {space_config(in), in.boxes, in.map, std::move(keep_out)};
 }
 
-/// Here; or a step back from a UAV that is so near that the safety filter lets nobody fly about it from here.
+/// Where a path begins: at the setpoint, or a step back from another UAV that is so near that the safety filter would
+/// not let this UAV fly around it.
 Vector3d Navigator::way_begins_W(const PlannerInput& in) const {
   const Vector3d here_W = in.tracking.setpoint.p_WB;
   Vector3d from_W = here_W;
@@ -175,7 +176,7 @@ void Navigator::choose(const PlannerInput& in, Steering& steering) {
   }
 }
 
-/// To the first waypoint of the current goal.
+/// Searches a path to the first waypoint of the current goal, and begins to fly along it.
 Navigator::Search Navigator::set_out(const PlannerInput& in, Steering& steering) {
   const Vector3d from_W = in.tracking.setpoint.p_WB, to_W = current_->way.front().p_WB;
   steering.gimbal = current_->gimbal;
@@ -226,7 +227,7 @@ void Navigator::end(Outcome::Kind kind, std::string reason, Steering& steering) 
   on_way_ = false;
 }
 
-/// Somewhat ahead of there: the place itself may be where it stands.
+/// Refuses a place somewhat ahead of p on the path: p itself may be where the UAV is.
 void Navigator::refuse(const Vector3d& p_W, const PlannerInput& in) {
   std::erase_if(refused_, [&](const Refused& refused) { return refused.until <= in.tick; });
   const Vector3d next_W = path_.empty() ? p_W : path_[std::min(in.tracking.leg, path_.size() - 1)].p_WB;
@@ -237,10 +238,10 @@ void Navigator::refuse(const Vector3d& p_W, const PlannerInput& in) {
   if (refused_.size() > kMostRefused) refused_.pop_front();
 }
 
-/// Structure that came to be known since the way was planned.
+/// Whether structure is in the way that was discovered after the path was planned.
 bool Navigator::blocked_ahead(const PlannerInput& in) const {
   Vector3d at_W = in.tracking.setpoint.p_WB;
-  // A UAV that is nearer to structure already may fly on, as long as its way comes no nearer.
+  // A UAV that is already nearer to structure may fly on, as long as its path comes no nearer.
   const double least_m = std::min(filter_.tube_m(0.0) - kSlackM, in.world_map->structure_distance_m(at_W));
   double length_m = 0.0;
   for (std::size_t i = in.tracking.leg; i < path_.size() && length_m < kLookAheadM; ++i) {
@@ -256,7 +257,7 @@ bool Navigator::blocked_ahead(const PlannerInput& in) const {
   return false;
 }
 
-/// Along the path, from where it is.
+/// Length of the path ahead that is proved free, at most most_m [m].
 double Navigator::proved_ahead_m(const PlannerInput& in, double most_m) const {
   Vector3d at_W = in.tracking.setpoint.p_WB;
   double length_m = 0.0;
@@ -273,7 +274,8 @@ double Navigator::proved_ahead_m(const PlannerInput& in, double most_m) const {
   return most_m;
 }
 
-/// Another way to the same place; along a goal's way there is none: its strategy decides.
+/// Searches another path to the goal's first waypoint. Along Goal::way there is no other path: the goal ends as
+/// blocked, and the planner decides.
 void Navigator::replan(const PlannerInput& in, const std::string& reason, Steering& steering) {
   if (on_way_) {
     end(Outcome::Kind::blocked, reason, steering);
@@ -305,7 +307,7 @@ void Navigator::look_around(const PlannerInput& in, Steering& steering) {
 void Navigator::stalled(const PlannerInput& in, const Held& held, Steering& steering) {
   const double since_s = seconds(in.tick - gained_at_);
   if (held.by == Held::By::peer) {
-    // The one of lower number goes first; the other one gets out of its way if that comes to nothing.
+    // The UAV with the lower index replans first. The other one waits, and replans if that does not help.
     if (*held.peer < agent_.self && since_s < config_.stall_s + config_.yield_s) return;
     gained_at_ = in.tick;
     replan(in, "another UAV stays in the way", steering);
@@ -320,7 +322,8 @@ void Navigator::stalled(const PlannerInput& in, const Held& held, Steering& stee
   replan(in, held.by == Held::By::structure ? "too near to structure" : "not proved to be free", steering);
 }
 
-/// A LiDAR proves most along the body's x axis, about which its servo turns.
+/// Turns the UAV to the goal's yaw near the goal, else along the path: a LiDAR proves most space along the body's x
+/// axis, about which its servo turns.
 void Navigator::face_ahead(const PlannerInput& in, Steering& steering) const {
   const Vector3d here_W = in.tracking.setpoint.p_WB;
   const bool near = (path_.back().p_WB - here_W).norm() < kFaceM;

@@ -1,7 +1,7 @@
 // Flies to goals: to the first of a ranked list to which it finds a path. Paths lead through free space and, at a cost,
 // through unknown space; the safety filter (safety_filter.hpp) lets the UAV fly only through space that is proved free.
-// If the UAV makes no progress on a path, the navigator gives the path up. Later paths avoid the place that could not
-// be proved free for some time.
+// If the UAV makes no progress on a path, the navigator gives the path up. For some time, later paths avoid the place
+// where the safety filter held the UAV.
 // Frame W.   Units: SI.   Threads: one.   Deterministic: effort is bounded by counts.
 #pragma once
 
@@ -33,12 +33,12 @@ class Navigator {
 
   /// Call it once per exchange, before the other functions.
   void update(const PlannerInput& in);
-  /// Whether this UAV has a working LiDAR. Then paths may lead through unknown space, which it proves on the way.
+  /// Whether this UAV has a working LiDAR. Then paths may lead through unknown space, which is proved on the way.
   bool sees() const { return sight_.sees(); }
   /// Replaces the goals. The goal being flown goes on if the first of `goals` has its id; its way may have changed.
   void want(std::vector<Goal> goals);
-  /// Flies back along the UAV's own trail, without a path search. Because its body has been there, the safety filter
-  /// asks for less free space around it. @param trail  in the order of flight, from the present position on.
+  /// Flies back along the UAV's own trail, without a path search. Because the UAV's body has been there, the safety
+  /// filter requires less free space around it. @param trail  in the order of flight, from the present position on.
   void retrace(std::vector<Waypoint> trail);
   bool retraces() const { return current_ && retraces_; }
   /// Brakes, and drops all goals.
@@ -51,23 +51,23 @@ class Navigator {
   void look_around(const PlannerInput& in, Steering& steering);
   /// Maximum speed at which the LiDAR proves the space ahead before the UAV gets there [m/s]; infinite without one.
   double pace_mps() const { return pace_mps_; }
-  /// No goal is being flown, and none is left to try.
+  /// Whether no goal is being flown, and none is left to try.
   bool idle() const { return !current_ && goals_.empty(); }
   const std::optional<Goal>& current() const { return current_; }
-  /// Whether it has reached the goal's first waypoint, and flies along its way.
+  /// Whether the UAV has reached the current goal's first waypoint, and flies along Goal::way.
   bool on_way() const { return on_way_; }
-  /// Index in Goal::way of the waypoint that it flies to; only if on_way().
+  /// Index in Goal::way of the waypoint that the UAV flies to; only if on_way().
   std::size_t leg() const { return leg_; }
   /// Outcomes since the last call.
   std::vector<Outcome> take_outcomes() { return std::exchange(outcomes_, {}); }
   /// First waypoint of the last goal that ended with no_way; nullopt once another goal is reached.
   const std::optional<Vector3d>& missed_W() const { return missed_W_; }
-  /// End of the present path; without a goal, missed_W().
+  /// Where the UAV flies to: the goal's first waypoint, or the last one if on_way(). Without a goal, missed_W().
   std::optional<Vector3d> going_to_W() const;
 
-  /// Space for path search as of now. Places near other UAVs, and refused places, are not free in it.
+  /// Space for path search as of now. Places near other UAVs, and places that could not be proved free, are excluded.
   FreeSpace space(const PlannerInput& in) const { return space(in, in.tracking.setpoint.p_WB); }
-  /// The same without these exceptions, for planners, which choose where to work.
+  /// The same without these exclusions, for planners, which choose where to work.
   FreeSpace open_space(const PlannerInput& in) const { return {space_config(in), in.boxes, in.map}; }
 
  private:
@@ -103,7 +103,7 @@ class Navigator {
   std::optional<Goal> current_;
   bool on_way_ = false;
   std::size_t leg_ = 0;
-  std::vector<Waypoint> path_;  ///< that it flies: to the goal's first waypoint, or along its way
+  std::vector<Waypoint> path_;  ///< being flown: to the goal's first waypoint, or along Goal::way
   bool new_way_ = false;        ///< want() has changed the way of the current goal
   bool retraces_ = false;       ///< the current goal is the UAV's own trail
   int replans_ = 0;             ///< number of new searches for the current goal
@@ -112,7 +112,7 @@ class Navigator {
   std::deque<Refused> refused_;
   std::vector<Outcome> outcomes_;
   std::optional<Vector3d> missed_W_;
-  Vector3d gained_p_W_ = Vector3d::Zero();  ///< where it last made progress, at gained_at_
+  Vector3d gained_p_W_ = Vector3d::Zero();  ///< where the UAV last made progress, at gained_at_
   Tick gained_at_ = 0, turn_at_ = 0;
 };
 

@@ -10,12 +10,12 @@ namespace skein::agent {
 namespace {
 
 constexpr std::int64_t kGoal = -1;
-constexpr double kWorthM = 3.0;  ///< nearer to what it missed: less is not worth the way
+constexpr double kWorthM = 3.0;  ///< least approach to the missed goal, or way back, that is worth the flight
 constexpr int kExpansions = 2000;
 constexpr double kClimbM = 5.0;
 constexpr double kElsewhereM[] = {8.0, 14.0};
 constexpr double kHeightsM[] = {3.0, 0.0, -3.0, 8.0};
-constexpr int kHeadings = 8, kHeadingStep = 3;  ///< of the first direction, from one try to the next
+constexpr int kHeadings = 8, kHeadingStep = 3;  ///< the first heading turns by kHeadingStep from one try to the next
 constexpr double kLongestS = 30.0;
 constexpr double kTrailStepM = 1.0, kBackM = 8.0;
 constexpr std::size_t kLongestTrail = 192;
@@ -47,7 +47,7 @@ void Recovery::begin(const PlannerInput& in) {
   for (int i = 0; i < kBehaviours; ++i) {
     behaviour_ = kOrder[tries_++ % kBehaviours];
     if (behaviour_ == Behaviour::look_around) {
-      // Without a LiDAR it gives those that have one the time to look.
+      // A UAV without a LiDAR waits, which gives UAVs with one the time to look.
       until_ = in.tick + ticks(navigator_.sees() ? config_.look_s : 0.5 * config_.look_s);
       return;
     }
@@ -59,7 +59,7 @@ void Recovery::begin(const PlannerInput& in) {
   until_ = in.tick + ticks(config_.stall_s);
 }
 
-/// @returns whether there is somewhere to go.
+/// Sets the behaviour's goal. @returns whether there is one.
 bool Recovery::set_out(const PlannerInput& in) {
   const Vector3d here_W = in.tracking.setpoint.p_WB;
   const FreeSpace space = navigator_.space(in);
@@ -94,8 +94,8 @@ bool Recovery::set_out(const PlannerInput& in) {
   return false;
 }
 
-/// Along its own trail, since a search on a lattice may find no way out of a place that is just wide enough. Farther
-/// each time.
+/// Flies back along the UAV's own trail, since a search on a lattice may find no path out of a place that is only just
+/// wide enough. Each time since progress(), the UAV flies back farther. @returns whether the trail is long enough.
 bool Recovery::go_back(const Vector3d& here_W) {
   const double least_m = kBackM * (1 + backs_++);
   const auto far = [&](const Vector3d& p_W) { return (p_W - here_W).norm() >= least_m; };

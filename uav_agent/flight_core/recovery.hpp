@@ -21,11 +21,11 @@ class Recovery {
 
   /// Adds the UAV's position to its trail. Call it once per exchange, before the other functions.
   void update(const PlannerInput& in);
-  /// The UAV reached a goal: the next recovery starts with the first behaviour.
+  /// Call it when the UAV has reached a goal: the next recovery starts with the first behaviour.
   void progress() { tries_ = backs_ = 0; }
   /// Starts the next behaviour that is possible here.
   void begin(const PlannerInput& in);
-  /// One exchange of the behaviour. @returns whether it has ended, so that the planner's goals count again.
+  /// Runs one exchange. @returns whether the behaviour has ended, so that the planner's goals count again.
   bool step(const PlannerInput& in, const Held& held, Steering& steering);
   /// The present behaviour, for display.
   Doing::What doing() const;
@@ -43,7 +43,7 @@ class Recovery {
   const FlightConfig& config_;
   Navigator& navigator_;
   int tries_ = 0;  ///< behaviours tried since progress()
-  int backs_ = 0;  ///< flights back along the trail tried since then
+  int backs_ = 0;  ///< flights back along the trail since progress()
   Behaviour behaviour_ = kOrder[0];
   Tick until_ = 0;                ///< when the behaviour ends at the latest
   std::deque<Vector3d> trail_W_;  ///< where the UAV came from, oldest first, without loops

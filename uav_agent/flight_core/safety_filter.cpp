@@ -6,27 +6,28 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kSampleM = 0.3;       ///< between two places of a way that are looked at
-constexpr double kNearerM = 1e-6;      ///< rounding, where nothing may come nearer
-constexpr double kHeightSigmas = 2.0;  ///< so much a standing UAV may be told to be above the ground
-constexpr double kNoiseSigmas = 4.0;   ///< so many of the odometry's noise are no motion
-/// A climb is commanded from a place that the noise has shifted: each step is to the side by a share of this.
-constexpr double kCommandNoise = 0.1;  ///< standard deviations of the noise
-constexpr double kPeerDelayS = 0.1;    ///< a UAV may fly on so long before it brakes: one exchange and a late command
+constexpr double kSampleM = 0.3;       ///< between two checked places of a trajectory
+constexpr double kNearerM = 1e-6;      ///< allows for rounding in comparisons of distances
+constexpr double kHeightSigmas = 2.0;  ///< a UAV on the ground may be reported above it by so many deviations
+constexpr double kNoiseSigmas = 4.0;   ///< changes within so many standard deviations of noise are not motion
+/// A climb is commanded from a place that noise has shifted, so each step leads a little to the side: by a share of the
+/// shift, within this.
+constexpr double kCommandNoise = 0.1;  ///< [standard deviations of the noise]
+constexpr double kPeerDelayS = 0.1;    ///< time in which a peer flies on before it brakes: an exchange, a late command
 constexpr double kPeerBrakesMps2 = 2.0;
-/// Commands are means over so long (tracker.hpp): braking begins that much softer.
+/// Commanded setpoints are means over this time (tracker.hpp), so braking sets in gradually.
 constexpr double kPeerSmoothS = 0.4;
-/// So long a UAV goes on to get faster when it is told to brake: what it is commanded lags, and it lags behind that.
+/// For so long, a UAV that is told to brake may still accelerate: commands lag, and the UAV lags behind its commands.
 constexpr double kPeerLagS = kPeerDelayS + 0.5 * kPeerSmoothS;
 constexpr double kRestsMps = 0.2;
 constexpr double kFarM = 40.0;
-constexpr double kClimbsMps = 1.0;  ///< at least, in a climb that nothing holds
-/// One that went out of sight in a turn, or while it set out, comes to rest beside what its last word foretold: the
-/// velocity that it tells lags behind by half of kPeerSmoothS. Measured over drawn flights: 0.48 m at most.
+constexpr double kClimbsMps = 1.0;  ///< speed for which clear_up_to() checks a climb
+/// A UAV that went out of sight while it turned or accelerated comes to rest beside the place predicted from its last
+/// known state, because its reported velocity lags by half of kPeerSmoothS. Measured over random flights: up to 0.48 m.
 constexpr double kUnheardM = 0.5;
 constexpr double kAboveStartM = 30.0, kStartM = 1.0;
 
-/// To p from the nearest place of a segment.
+/// Vector to p from the nearest point of a segment.
 Vector3d from_segment(const Vector3d& p_W, const Vector3d& a_W, const Vector3d& b_W) {
   const Vector3d ab = b_W - a_W;
   const double length2 = ab.squaredNorm();
@@ -34,17 +35,17 @@ Vector3d from_segment(const Vector3d& p_W, const Vector3d& a_W, const Vector3d& 
   return p_W - (a_W + part * ab);
 }
 
-/// Of an error with these bounds along the axes, in a direction.
+/// Bound of an error in a direction, from its bounds along the axes [m].
 double along_m(const Vector3d& error_m, const Vector3d& direction_W) {
   return error_m.cwiseProduct(direction_W.normalized()).norm();
 }
 
-/// How far a place lies off a box: what has to be added to its sides to hold it.
+/// Distance by which the sides of a box would have to move outwards for it to contain p [m]; negative inside.
 double off_box_m(const OrientedBox& box, const Vector3d& p_W) {
   return ((box.R_WO.transpose() * (p_W - box.center)).cwiseAbs() - 0.5 * box.size).maxCoeff();
 }
 
-/// From v to rest [m].
+/// Stopping distance of a peer at a speed [m].
 double stopping_m(double v_mps) {
   return v_mps * (kPeerDelayS + 0.5 * kPeerSmoothS) + v_mps * v_mps / (2.0 * kPeerBrakesMps2);
 }
@@ -106,7 +107,7 @@ std::optional<TrajectoryCommand> SafetyFilter::step(Tracker& tracker, const Fact
   ++counts_.exchanges;
   const bool room = has_room(facts);
   if (!room) ++counts_.broken;
-  // The space in which it was put down is free, but for what stands close beside it: that is no room to climb from.
+  // A UAV is put down in free space, though perhaps close beside structure: room there does not mean room to climb.
   const bool leaves_start =
       now_W_.z() < config_.floor_m && (now_W_ - agent_.me().p_WB_start).head<2>().norm() < kStartM;
   had_room_ = had_room_ || (room && !leaves_start);
@@ -123,7 +124,7 @@ std::optional<TrajectoryCommand> SafetyFilter::step(Tracker& tracker, const Fact
   return tracker.step(facts.state, dt_s);
 }
 
-/// As fast as is safe; nullopt: it must brake.
+/// Moves the UAV on as fast as is safe. @returns nullopt if it must brake.
 std::optional<TrajectoryCommand> SafetyFilter::move_on(Tracker& tracker, const Facts& facts, double most_mps,
                                                        const std::vector<PeerReach>& peers) {
   const double dt_s = agent_.exchange_period_s;
@@ -134,7 +135,7 @@ std::optional<TrajectoryCommand> SafetyFilter::move_on(Tracker& tracker, const F
     Tracker tried = tracker;
     tried.limit_speed(limit_mps);
     auto command = tried.step(facts.state, dt_s);
-    // What is commanded is a mean: while it catches up with the point mass it gets faster, even if the UAV brakes.
+    // The commanded setpoint is a mean: until it has caught up with the point mass, it accelerates even if that brakes.
     const double fastest_mps = std::max(tried.commanded().v_WB.norm(), tried.tracking().setpoint.v_WB.norm());
     const Held held = judge(tried.stopping_places(dt_s), fastest_mps, facts, peers);
     if (held.by == Held::By::nothing) {
@@ -146,13 +147,13 @@ std::optional<TrajectoryCommand> SafetyFilter::move_on(Tracker& tracker, const F
   return std::nullopt;
 }
 
-/// As much as is asked for, about where it is commanded to be.
+/// Whether all space around the commanded position that the invariant needs for a UAV at rest is proved free.
 bool SafetyFilter::has_room(const Facts& facts) const {
   if (assumes_boxes_) return true;
   return facts.map.ball_free(now_W_, tube_m(0.0), ground_m());
 }
 
-/// What of an acceleration, taken from two velocities, is not their noise.
+/// The part of an acceleration, computed from two velocities, that their noise does not explain.
 Vector3d SafetyFilter::certain_W(const Vector3d& a_W) const {
   const double change_mps = a_W.norm() * agent_.exchange_period_s;
   const double noise_mps = kNoiseSigmas * std::sqrt(2.0) * agent_.odometry.velocity_sigma_mps;
@@ -160,8 +161,8 @@ Vector3d SafetyFilter::certain_W(const Vector3d& a_W) const {
   return change_mps > noise_mps ? Vector3d(a_W * (1.0 - noise_mps / change_mps)) : Vector3d::Zero();
 }
 
-/// A UAV that is told to be slow and as low as the errors of two heights explain stands on the ground. One beside it,
-/// which knows that it stands there, too, does not have to climb past its height as told.
+/// Whether a peer stands on the ground: it is reported slow, and no higher than the errors of two heights explain. A
+/// UAV that stands beside it then does not have to climb past its reported height. Always false if heights are exact.
 bool SafetyFilter::stands(const Peer& peer) const {
   const double error_m = kHeightSigmas * std::sqrt(2.0) * peer.deviation_m.z();
   const double slow_mps = kRestsMps + kNoiseSigmas * agent_.odometry.velocity_sigma_mps;
@@ -180,7 +181,8 @@ std::vector<SafetyFilter::PeerReach> SafetyFilter::reach_of_peers(const Facts& f
     if (peer.visible && soon_W.norm() > v_W.norm()) v_W = soon_W;
     const double speed_mps = v_W.norm();
     Vector3d to_W = p_W;
-    // One that is heard may have changed its mind since. Who rests goes nowhere before it is heard again.
+    // A moving peer may have braked or flown on since its state was received. A peer at rest does not move before its
+    // next state is received.
     if (speed_mps > std::max(kRestsMps, kNoiseSigmas * agent_.odometry.velocity_sigma_mps))
       to_W += v_W * (stopping_m(speed_mps) / speed_mps);
     const double apart_m = apart_if_exact_m(peer.uav, facts.state.v_WB.norm()) + (peer.visible ? 0.0 : kUnheardM);
@@ -191,7 +193,8 @@ std::vector<SafetyFilter::PeerReach> SafetyFilter::reach_of_peers(const Facts& f
   return reach;
 }
 
-/// @returns the first thing on the way that forbids it.
+/// Checks a braking trajectory. What breaks the invariant counts only if the UAV comes nearer to it.
+/// @returns the first violation; By::nothing: the trajectory is safe.
 Held SafetyFilter::judge(const std::vector<Vector3d>& way_W, double speed_mps, const Facts& facts,
                          const std::vector<PeerReach>& peers) {
   const std::vector<Vector3d> places_W = thinned(way_W);
@@ -204,7 +207,7 @@ Held SafetyFilter::judge(const std::vector<Vector3d>& way_W, double speed_mps, c
       const Vector3d off_W = from_segment(p_W, peer.from_W, peer.to_W);
       const double off_m = off_W.norm();
       if (off_m >= peer.apart_m + (exact ? 0.0 : along_m(peer.error_m, off_W))) continue;
-      // What the peer sweeps may reach this UAV: then no place is nearer to it. So the peer's own place counts, too.
+      // If the peer's segment reaches this UAV, no place is nearer to it. So the peer's own position counts, too.
       const bool nearer = off_m < peer.now_m - nearer_m_ || (p_W - peer.from_W).norm() < peer.from_m - nearer_m_;
       if (nearer) return {Held::By::peer, p_W, peer.uav};
     }
@@ -250,7 +253,7 @@ bool SafetyFilter::assumed(const Vector3d& p_W, double radius_m, const WorldMap&
   const bool above_start = (p_W - agent_.me().p_WB_start).head<2>().norm() < kStartM && p_W.z() < kAboveStartM;
   const double room_m = above_start ? 0.5 * radius_m : radius_m;
   return map.structure_distance_m(p_W) >= room_m && std::ranges::none_of(boxes, [&](const OrientedBox& box) {
-           // Where it was put down in a box, or below one, there is nothing but that way out.
+           // A UAV that was put down in a box, or below one, has no other way out than straight up.
            const bool about_start = above_start && box.contains(agent_.me().p_WB_start, radius_m);
            return !about_start && off_box_m(box, p_W) <= room_m &&
                   off_box_m(box, p_W) < off_box_m(box, now_W_) - nearer_m_;

@@ -6,13 +6,13 @@
 // The filter commands a motion only if the invariant holds after it. Otherwise the UAV slows down or brakes. Braking
 // was safe in the exchange before, so it still is, unless the known world has changed (a new hit, a UAV that came into
 // sight, a restart). Then the invariant may be broken, and the UAV may not come nearer to what breaks it. Two
-// exceptions need less room than kHaloM, but all of it proved, and are slow (FlightConfig::tight_halo_m, tight_mps):
+// exceptions need less than kHaloM, but all of it proved free, and are slow (FlightConfig::tight_halo_m, tight_mps):
 //   - a UAV whose start has less room, beside a wall perhaps, until it has had full room once;
-//   - a UAV that flies back along its own trail. kHaloM allows for structure that beams have missed, and there was none
-//     where its body has been.
+//   - a UAV that flies back along its own trail. kHaloM allows for structure that beams have missed, but where the
+//     UAV's body has been, there is none.
 //
 // Two UAVs that both keep the invariant never meet: either may brake at any time, and neither relies on the other.
-// A UAV that must get down, or falls, asks for less (Trust).
+// A UAV that must get down, since it would fall otherwise, requires less (Trust).
 // In a fleet without a LiDAR, no UAV can prove space free; nor can a UAV without a working LiDAR that receives no map.
 // Such a UAV assumes that space is free outside all boxes and away from known structure (assume_boxes()).
 // Frame W.   Units: SI.   Threads: one.   Deterministic.
@@ -70,16 +70,16 @@ class SafetyFilter {
   /// Whether space outside all boxes is assumed to be free from now on.
   void assume_boxes(bool assume) { assumes_boxes_ = assume; }
   bool assumes_boxes() const { return assumes_boxes_; }
-  /// What a UAV trusts that must get down: because its battery is nearly empty, or beside others that stand.
+  /// What the filter assumes for a UAV that must get down: its battery is nearly empty, or it gave up a takeoff.
   enum class Trust : std::uint8_t {
     proved,   ///< the usual rules
     start,    ///< unknown space counts as free, and UAVs that have not left their starts cannot be in the way
     unknown,  ///< unknown space counts as free
-    all,      ///< so it does, and positions count as exact
+    all,      ///< like `unknown`, positions count as exact, and tight_halo_m replaces kHaloM
   };
   void set_trust(Trust trust) { trust_ = trust; }
   Trust trust() const { return trust_; }
-  /// What slowed the UAV down in the last step().
+  /// What slowed the UAV down in the last step(), or would hold it by the last clear_up_to().
   const Held& held() const { return held_; }
   /// Whether this UAV may rest at p_W (centre): all space about it that the invariant needs is proved free.
   bool proved(const Vector3d& p_W, const WorldMap& map, const std::vector<OrientedBox>& boxes) const;
@@ -89,13 +89,13 @@ class SafetyFilter {
   double ground_m() const { return config_.ground_m + errors_.ground_m; }
   /// Radius of the sphere that must be free about this UAV's centre at a speed [m].
   double tube_m(double speed_mps) const { return tube_m(speed_mps, kHaloM); }
-  /// The same for another UAV at rest that has no LiDAR, and flies on this UAV's map.
+  /// The same for another UAV at rest that has no LiDAR, and relies on the map of this UAV.
   double tube_of_told_m(std::size_t uav) const;
 
   /// Minimum distance of the centres of this and another UAV that is in a direction [m]: both bodies,
   /// both errors, and a margin.
   double apart_m(std::size_t uav, double speed_mps, const Vector3d& direction_W) const;
-  /// The greatest of all directions.
+  /// The greatest of these over all directions.
   double apart_m(std::size_t uav, double speed_mps) const;
 
   /// Numbers of exchanges on a Path or Hold: all; those in which the filter made the UAV brake; those in which the
@@ -140,12 +140,12 @@ class SafetyFilter {
   Held held_;
   Counts counts_;
   std::vector<Cube> cubes_;  ///< scratch
-  /// The commanded position. The filter compares with it whether the UAV comes nearer to something. Compared with its
-  /// measured position, a UAV that swings about its setpoint would advance only at a crawl.
+  /// The commanded position in flight, else the measured one. The filter judges from it whether the UAV comes nearer to
+  /// something. Judged from its measured position, a UAV that swings about its setpoint would advance only at a crawl.
   Vector3d now_W_ = Vector3d::Zero();
-  double nearer_m_;         ///< a place that is nearer by less than this does not count as nearer: rounding, and noise
-  double halo_m_ = kHaloM;  ///< that counts in this exchange
-  bool had_room_ = false;   ///< the full kHaloM was free once since the start or restart
+  double nearer_m_;         ///< a place that is nearer by less does not count as nearer, because of rounding and noise
+  double halo_m_ = kHaloM;  ///< the one that applies in this exchange
+  bool had_room_ = false;   ///< away from the start, the full kHaloM was free once since the start or restart
 };
 
 }  // namespace skein::agent

@@ -8,11 +8,10 @@ namespace skein::agent {
 namespace {
 
 constexpr std::int64_t kShowing = -3;
-constexpr double kUpM = 2.5;  ///< above its start, a UAV has risen
+constexpr double kUpM = 2.5;  ///< a UAV farther than this from its start has risen
 constexpr double kColumnTopM = 6.0;
-constexpr double kAsideM = 5.0,
-                 kAboveM[] = {5.0, 2.5, 8.0,
-                              12.0};  ///< from there a LiDAR sees the column well, unless a roof is between
+/// Places to hover, from which a LiDAR sees the column well unless a roof is in between.
+constexpr double kAsideM = 5.0, kAboveM[] = {5.0, 2.5, 8.0, 12.0};
 constexpr int kSides = 8;
 constexpr double kShowMps = 4.0, kAgainS = 20.0;
 constexpr int kMostAttempts = 4;

@@ -1,6 +1,7 @@
-// An explorer shows photographers, which have no LiDAR, a way up. It hovers beside the start of a mate that has not
-// risen yet, until its map proves the column above that start free, or for FlightConfig::look_s. Map sharing tells the
-// mate (onboard/map_radio.hpp). The explorer that starts nearest to a photographer is in charge of it.
+// An explorer shows photographers, which have no LiDAR, the way up. It hovers beside the start of a photographer that
+// has not risen yet, until its map proves the column above that start free, or for FlightConfig::look_s. Map sharing
+// tells the photographer (onboard/map_radio.hpp). Each photographer is the charge of the explorer that starts nearest
+// to it.
 // Frame W.   Units: SI.   Threads: one.   Deterministic.
 #pragma once
 
@@ -18,19 +19,19 @@ class Showing {
   /// @param agent, filter  must outlive this.
   Showing(const AgentConfig& agent, const SafetyFilter& filter);
 
-  /// Chooses the nearest mate that needs to be shown its way. @returns a goal beside its start; nullopt: none.
+  /// Chooses the nearest charge that needs to be shown the way up. @returns a goal beside its start; nullopt: none.
   std::optional<Goal> next(const PlannerInput& in, const FreeSpace& space);
-  /// Whether the column above the mate() is proved free, or the mate has risen.
+  /// Whether the column above the start of mate() is proved free, or mate() has risen.
   bool shown(const PlannerInput& in) const;
-  /// Index in the fleet of the mate that next() chose last.
+  /// Index in the fleet of the photographer that next() chose last.
   std::size_t mate() const { return mate_; }
 
  private:
-  /// A photographer that this UAV has to show its way.
+  /// A photographer to which this UAV has to show the way up.
   struct Charge {
     std::size_t uav = 0;
-    int attempts = 0;
-    Tick not_before = 0;
+    int attempts = 0;     ///< goals that next() returned for it
+    Tick not_before = 0;  ///< earliest time of the next attempt
   };
   bool has_risen(std::size_t uav, const PlannerInput& in) const;
   bool column_known(std::size_t uav, const WorldMap& map) const;

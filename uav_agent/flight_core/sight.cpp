@@ -3,8 +3,8 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kScanLostS = 3.0;      ///< a LiDAR that told nothing for so long has failed; it scans at 10 Hz
-constexpr std::size_t kOwnRegions = 8;  ///< of the map, in which its own start lies: it was told of none
+constexpr double kScanLostS = 3.0;      ///< a LiDAR without a scan for so long has failed; it scans at 10 Hz
+constexpr std::size_t kOwnRegions = 8;  ///< a map with no more regions holds only the space around the UAV's start
 
 }  // namespace
 

@@ -1,4 +1,4 @@
-// From where a UAV learns of free space: from its own LiDAR, or from map messages of other UAVs.
+// How a UAV learns of free space: from its own LiDAR, or from map messages of other UAVs.
 // Threads: one.   Deterministic.   Source: our own rules.
 #pragma once
 
@@ -27,8 +27,8 @@ class OwnSight {
 };
 
 /// A UAV without a working LiDAR learns of free space by radio. If its map holds only the space around its start, and
-/// nothing new arrives for alone_s, its safety filter assumes that space outside the boxes is free, except known
-/// structure.
+/// does not grow for alone_s, its safety filter assumes that space outside the boxes is free, except known structure
+/// (SafetyFilter::assume_boxes()). Does nothing in a fleet without an explorer.
 class ToldSpace {
  public:
   /// @param config, agent  must outlive this.

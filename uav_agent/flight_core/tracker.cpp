@@ -9,16 +9,16 @@ namespace skein::agent {
 namespace {
 
 constexpr double kBrakingShare = 0.8;  ///< of the acceleration limit; the rest keeps the UAV on the line
-constexpr double kLookAheadS = 0.3;    ///< how far ahead on the path the point mass heads for
+constexpr double kLookAheadS = 0.3;    ///< the mass heads for a point on the path so far ahead, at its present speed
 constexpr double kMinLookAheadM = 0.15;
-constexpr double kTouchM = 0.1;  ///< a sharp corner counts as reached this close
+constexpr double kTouchM = 0.1;  ///< a sharp corner counts as reached within this distance
 constexpr double kSharpSpeedMps = 0.3;
 constexpr double kSharpCosine = 0.5;             ///< turns of more than 60 degrees are sharp
-constexpr double kBendM = 8.0;                   ///< corners farther apart are turns of their own
-constexpr double kMinLegM = 1e-3;                ///< shorter legs are no legs
-constexpr double kSlowestPace = 0.1;             ///< of a set-point that waits for its UAV
+constexpr double kBendM = 8.0;                   ///< corners farther apart are separate turns
+constexpr double kMinLegM = 1e-3;                ///< shorter legs count as empty
+constexpr double kSlowestPace = 0.1;             ///< least share of the speed of a mass that waits for its UAV
 constexpr double kLongestStepS = 0.05;           ///< of the point mass; a longer exchange takes several
-constexpr std::size_t kMostStoppingSteps = 400;  ///< nobody takes 20 s
+constexpr std::size_t kMostStoppingSteps = 400;  ///< 20 s at exchanges of 0.05 s: no UAV takes so long to stop
 constexpr double kNoPositionM = 0.02;            ///< the controller takes |p| < 0.01 for "no position"
 constexpr double kAccelerationShare = 0.7;       ///< of the vehicle's limit; the controller corrects with the rest
 
@@ -27,14 +27,14 @@ Vector3d shortened(const Vector3d& v, double length) {
   return norm > length ? Vector3d(v * (length / norm)) : v;
 }
 
-/// 1 where one of the legs is none.
+/// Cosine of the turn between two legs; 1 if either of them is empty.
 double cosine_between(const Vector3d& in, const Vector3d& out) {
   const bool turns = in.norm() > kMinLegM && out.norm() > kMinLegM;
   return turns ? in.dot(out) / (in.norm() * out.norm()) : 1.0;
 }
 
 /// Greatest speed at which a turn cuts its corner by no more than `cut`: the circle that touches both legs.
-/// @param bend_m  of way over which it turns, from the first corner to the last: that much wider a circle.
+/// @param bend_m  length of the path from the first corner of the turn to the last: it widens the circle.
 double corner_speed(double cosine, double cut, double acceleration, double bend_m) {
   const double half = std::sqrt(std::max(0.0, 0.5 * (1.0 + cosine)));  // cosine of half the turn
   if (half > 1.0 - 1e-6) return std::numeric_limits<double>::infinity();
@@ -89,7 +89,7 @@ void Tracker::stand_by(const RigidBodyState& state) {
   progress_ = 0.0;
 }
 
-/// As if it had come this way at this velocity all along: the point mass is ahead by half of what is smoothed.
+/// Starts as if the UAV had come here at this velocity all along: the point mass is ahead by half of smoothing_s.
 void Tracker::start_from(const Vector3d& p_W, const Vector3d& v_W, double dt_s) {
   const Vector3d v = shortened(v_W, config_.max_speed_mps);
   const int count = std::max(1, static_cast<int>(std::lround(config_.smoothing_s / dt_s)));
@@ -122,7 +122,7 @@ void Tracker::lay_out(const std::vector<Waypoint>& waypoints) {
   for (const Waypoint& waypoint : waypoints) {
     const Vector3d leg = waypoint.p_WB - corners_.back().p_W;
     const double speed = std::clamp(waypoint.speed_mps, 0.05, config_.max_speed_mps);
-    // Every waypoint keeps its corner, so that legs can be told by number; an empty leg just has no length.
+    // Each waypoint has a corner, even at the end of an empty leg, so that the indices of legs and waypoints agree.
     corners_.push_back(Corner{.p_W = waypoint.p_WB,
                               .s = corners_.back().s + leg.norm(),
                               .leg_speed = speed,
@@ -142,7 +142,7 @@ double Tracker::turn_speed(const Vector3d& in, const Vector3d& out, double bend_
   return corner_speed(cosine_between(in, out), config_.corner_m, acceleration, bend_m);
 }
 
-/// Each of several corners close together may be gentle, and all of them a sharp turn.
+/// Limits the speed at corners that are close together: each of them may be gentle, but all together a sharp turn.
 void Tracker::slow_down_in_bends() {
   const auto leg = [&](std::size_t i) { return Vector3d(corners_[i].p_W - corners_[i - 1].p_W); };
   for (std::size_t i = 1; i + 2 < corners_.size(); ++i) {
@@ -168,7 +168,7 @@ Vector3d Tracker::point_at(double s) const {
 }
 
 void Tracker::advance_progress() {
-  // The nearest point of the polyline, not far ahead and not beyond a sharp corner that was not touched yet.
+  // To the nearest point of the polyline that is at most `window` ahead, and not beyond an unreached sharp corner.
   const double window = kMinLookAheadM + mass_.v_WB.norm() * kLookAheadS;
   double best = std::numeric_limits<double>::infinity(), best_s = progress_;
   for (std::size_t i = leg_at(progress_); i < corners_.size(); ++i) {
@@ -199,14 +199,14 @@ double Tracker::speed_limit(double dt_s) const {
   for (std::size_t i = leg; i < corners_.size(); ++i) {
     const bool last = i + 1 == corners_.size();
     double ahead = std::max(0.0, corners_[i].s - progress_);
-    // Beside the end there is still a way to go.
+    // A mass beside the end of the path still has some way to go.
     if (last && ahead < kTouchM) ahead = std::max(ahead, (corners_[i].p_W - mass_.p_WB).norm());
     a = std::min(a, corners_[i].braking);
     const double weakest = kBrakingShare * config_.max_sink_acceleration_mps2;
     if (ahead > limit * limit / (2.0 * std::min(a, weakest)) + limit * dt_s + 1.0) break;
     const double next_leg = last ? 0.0 : corners_[i + 1].leg_speed;
     const double at_corner = last ? 0.0 : std::min(corners_[i].speed, next_leg);
-    // One step's travel is taken off, as the speed holds until the next step.
+    // The speed holds until the next step, so the distance flown in one step is subtracted.
     const double braking = std::sqrt(at_corner * at_corner + 2.0 * a * ahead + 0.25 * a * a * dt_s * dt_s);
     limit = std::min(limit, std::max(at_corner, braking - 0.5 * a * dt_s));
   }

@@ -4,9 +4,9 @@
 // replaced at any time without a jump. The mass cuts a corner by about `corner_m`, in the worst zigzag by twice that.
 //
 // The commanded setpoint is the mean of the mass's states over the last `smoothing_s`. The mean keeps every limit that
-// the mass keeps, and stays within the bends of the mass's track: a stop ends where the mass stops, without overshoot.
+// the mass keeps, and stays inside the bends of the mass's track: a stop ends where the mass stops, without overshoot.
 // The mean acceleration changes by at most twice the limit in `smoothing_s`. This matters because a multirotor must
-// tilt before it accelerates: with a demand that flips from step to step, it swings instead of following.
+// tilt before it accelerates: if the demand flips from step to step, it swings instead of following.
 // Frame W.   Units: SI and radians.   Pure; threads: one.
 #pragma once
 
@@ -26,8 +26,8 @@ class Tracker {
     double max_sink_acceleration_mps2 = 2.5;  ///< downward part; attitude control needs the remaining thrust
     double smoothing_s = 0.4;                 ///< time over which the commanded setpoint is the mean
     double max_yaw_rate = 0.8;                ///< [rad/s]
-    double corner_m = 0.25;                   ///< by which a path may cut a corner
-    double slow_down_error_m = 0.6;  ///< with more tracking error, the mass slows down: to 10 % at twice as much
+    double corner_m = 0.25;                   ///< distance by which the UAV may cut a corner
+    double slow_down_error_m = 0.6;  ///< with more tracking error, the mass slows down, to 10 % at twice as much
     double lost_error_m = 3.0;       ///< with more tracking error, the setpoint restarts at the UAV
   };
 
@@ -54,10 +54,10 @@ class Tracker {
 
   /// The last commanded setpoint.
   const Setpoint& commanded() const { return ref_; }
-  /// Whether it holds or follows a path.
+  /// Whether the tracker holds or follows a path.
   bool moves() const { return mode_ == Mode::hold || mode_ == Mode::path; }
-  /// Positions (p_WB) that it would command in the next exchanges after hold(), from the present one until rest: the
-  /// braking trajectory. Exact as long as the tracking error stays below lost_error_m.
+  /// The braking trajectory: positions (p_WB) that the tracker would command in the exchanges after hold(), from the
+  /// present one until rest. Exact as long as the tracking error stays below lost_error_m.
   std::vector<Vector3d> stopping_places(double dt_s) const;
 
  private:

@@ -28,7 +28,8 @@ class VoxelGrid {
   static constexpr int kFaces = 6;  ///< +x -x +y -y +z -z of G
 
   /// @param X_WG  pose of the lowest corner.   @param size_m  is rounded up to whole cubes, at least one.
-  /// @throws std::invalid_argument for an edge that is not positive, empty chunks, or more than 16 million cubes.
+  /// @throws std::invalid_argument for an edge that is not positive, empty chunks or chunks of more than 65,535 cubes,
+  ///   or more than 16 million cubes.
   VoxelGrid(const Isometry3d& X_WG, const Vector3d& size_m, double voxel_m, std::size_t chunk_voxels = 512);
 
   double voxel_m() const { return voxel_m_; }

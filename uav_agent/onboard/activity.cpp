@@ -5,10 +5,10 @@ namespace {
 
 using What = Doing::What;
 
-constexpr double kGoalMoved_m = 0.5;  ///< less is no other goal
-constexpr double kBetween_s = 0.5;    ///< so short a time without a goal lies between two of them
-constexpr double kMateBreak_s = 0.5;  ///< as in reports (Agent::waits())
-constexpr double kNoWayTold_s = 1.0;  ///< at least
+constexpr double kGoalMoved_m = 0.5;  ///< a goal that has moved by no more is still the same
+constexpr double kBetween_s = 0.5;    ///< a shorter time without a goal is the moment between two goals
+constexpr double kMateBreak_s = 0.5;  ///< longest break within one wait, as in Agent::waits()
+constexpr double kNoWayTold_s = 1.0;  ///< least time for which a reason is reported
 constexpr double kStands_mps = 0.3;
 constexpr double kHere_m = 0.7;
 constexpr double kStandsFor_s = 1.0;
@@ -18,7 +18,7 @@ bool is_between(const ActivityFacts& facts) {
   return doing != nullptr && (doing->what == What::seeks_way || doing->what == What::no_goal);
 }
 
-/// Whether it has got somewhere to go, and is on its way.
+/// Whether the UAV is on its way somewhere; without a flight core always true.
 bool is_on_its_way(const ActivityFacts& facts) {
   const auto* doing = std::get_if<Doing>(&facts.what);
   return doing == nullptr || doing->what == What::takeoff || doing->what == What::to_goal ||
@@ -128,7 +128,7 @@ std::string ActivityTeller::mode_of(const ActivityFacts& facts) const {
   return words_for(doing.what);
 }
 
-/// It stands for a while: where it wanted to be, or because the safety filter lets it go no further.
+/// Notes whether the UAV has stood still for a while: at its goal, or because the safety filter stops it.
 void ActivityTeller::note_standstill(const ActivityFacts& facts) {
   rests_ = held_ = false;
   const auto* doing = std::get_if<Doing>(&facts.what);
@@ -160,7 +160,7 @@ void ActivityTeller::note_waiting(const ActivityFacts& facts) {
   now_.waits_for = name_of(waits_for_);
 }
 
-/// It stands until the UAV is on its way again.
+/// Notes why there is no path. The reason is reported until the UAV is on its way again.
 void ActivityTeller::note_no_way(const ActivityFacts& facts) {
   if (!facts.no_way.empty()) {
     now_.no_way = facts.no_way;

@@ -1,8 +1,8 @@
 // Describes in words what a UAV does and why (topic /{id}/activity, docs/view.md); all these words are here. Nothing
 // that controls the flight reads them.
 //
-// A message is due when the description changes, else once a second. States of an exchange or two are not reported as a
-// change: the moment between two goals, or a peer in the way for which the UAV does not even slow down.
+// A message is due when the description changes, else once a second. Short states are not reported as a change: up to
+// 0.5 s between two goals, or a peer in the way for which the UAV stops for less than 1 s.
 // Frame W.   Units: SI.   Deterministic: cpu_s is left at 0.   Threads: one.
 #pragma once
 
@@ -18,7 +18,7 @@
 
 namespace skein::agent {
 
-/// For a planner that does without the flight core: the kind of its last output.
+/// For a planner that does not use the flight core: the motion that it requested last.
 struct OwnMotion {
   enum class Kind { none, setpoint, path, hold, command };
   Kind kind = Kind::none;
@@ -34,7 +34,7 @@ struct ActivityFacts {
   std::size_t undelivered = 0;
   Held held = {};                             ///< why the safety filter slows the UAV down
   std::optional<std::size_t> waits_for = {};  ///< index in the fleet of the UAV that it waits for
-  std::string no_way = {};                    ///< why no path was found in this exchange; empty: none was missed
+  std::string no_way = {};                    ///< why no path was found in this exchange; empty: no search failed
 };
 
 class ActivityTeller {
@@ -55,10 +55,10 @@ class ActivityTeller {
   const std::vector<FleetMember>& fleet_;
   Activity now_;                       ///< the present description
   std::optional<Activity> told_;       ///< the last message
-  Tick due_ = 0;                       ///< the next message at the latest
-  std::optional<Tick> between_since_;  ///< since when it flies to no goal
-  std::optional<Tick> slow_since_;     ///< since when it stands still
-  std::optional<Tick> held_since_;     ///< since when the safety filter stops it on its way
+  Tick due_ = 0;                       ///< when the next message is due at the latest
+  std::optional<Tick> between_since_;  ///< since when the UAV has flown to no goal
+  std::optional<Tick> slow_since_;     ///< since when the UAV has stood still
+  std::optional<Tick> held_since_;     ///< since when the safety filter has stopped the UAV on its way
   Doing::What before_ = Doing::What::ground;
   std::optional<Vector3d> last_goal_W_;
   bool rests_ = false, held_ = false;

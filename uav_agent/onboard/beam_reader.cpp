@@ -11,10 +11,10 @@ namespace skein::agent {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-/// A point may be that far from its beam's line: single precision of directions, and of coordinates.
+/// Points may lie off the lines of their beams by this, since directions and coordinates have single precision.
 constexpr double kRoundingRad = 1e-4;
 constexpr double kRoundingOfCoordinates = 4.0 * std::numeric_limits<float>::epsilon();
-/// Noise moves a point along its beam, beyond the LiDAR's range, too; it is drawn from a normal distribution.
+/// Normally distributed noise moves a point along its beam, even beyond the LiDAR's range, by up to so many deviations.
 constexpr double kSigmas = 7.0;
 constexpr Tick kLongestGap = kTicksPerSecond / 10;
 constexpr Tick kMemory = kTicksPerSecond;  ///< the longest exchange period
@@ -54,8 +54,8 @@ const LidarServo* BeamReader::servo_at(Tick tick) const {
   return found == servos_.end() ? nullptr : &*found;
 }
 
-/// From the angles and rates at this scan and at the one before: the servo turns at constant rate, stops, and turns
-/// back, no more than once between two scans.
+/// Angle of the servo at a tick, from its angles and rates at this scan and at the one before. Between two scans, the
+/// servo turns at a constant rate, and at most once rests at a stop or turns back.
 std::optional<double> BeamReader::servo_angle(Tick scan, Tick tick) const {
   const LidarServo* now = servo_at(scan);
   if (now == nullptr) return std::nullopt;
@@ -76,7 +76,7 @@ std::optional<double> BeamReader::servo_angle(Tick scan, Tick tick) const {
   return fits ? std::optional(angle(tick)) : std::nullopt;
 }
 
-/// Whence the columns were fired, and the body at the end.
+/// Enters the poses from which the columns were fired into the scan. @param end  becomes the LiDAR's pose at the end.
 ScanDoubt BeamReader::place(BeamScan& scan, BodyTrack::Pose& end) const {
   const auto fire = [&](int first, Tick tick) {
     const std::optional<double> angle = servo_angle(scan.tick, tick);
@@ -106,7 +106,7 @@ std::optional<std::size_t> BeamReader::beam_of(const Vector3d& direction_L) cons
          static_cast<std::size_t>(column) % static_cast<std::size_t>(config_.columns);
 }
 
-/// Gives each point to its beam. @returns false where one has none, or is out of order.
+/// Assigns each point to its beam. @returns false if a point lies on no beam, out of range, or out of order.
 bool BeamReader::assign(const Scan& scan, const BodyTrack::Pose& end, BeamScan& beams) const {
   const Isometry3d X_LW = end.X_WB.inverse();
   const double slack = kSigmas * config_.sigma_m + end.error_m;
@@ -120,7 +120,7 @@ bool BeamReader::assign(const Scan& scan, const BodyTrack::Pose& end, BeamScan& 
     const double allowed = kRoundingRad + (rounding + end.error_m) / range + end.error_rad;
     const double most_off = std::min(allowed, most_off_);
     const auto lies_on = [&](std::size_t beam) { return (direction_L - directions_L_[beam]).norm() <= most_off; };
-    // Mostly its neighbour has returned, too. A beam that it lies on is the one that it is nearest to.
+    // The point is usually on the beam after the last one. A beam on which it lies is also the nearest one.
     std::size_t beam = next;
     if (beam >= directions_L_.size() || !lies_on(beam)) {
       const std::optional<std::size_t> nearest = beam_of(direction_L);
@@ -134,7 +134,7 @@ bool BeamReader::assign(const Scan& scan, const BodyTrack::Pose& end, BeamScan& 
   return true;
 }
 
-/// Which beams may meet a ball, or nearly do: rings, and columns to both sides of one.
+/// The beams that may meet a ball, and some beside it: a range of rings, and columns to both sides of one column.
 BeamReader::Window BeamReader::window_about(const Vector3d& p_L, double radius_m) const {
   constexpr double kMarginRad = 1e-3;
   const Window all{0, config_.rings - 1, 0, config_.columns / 2};
@@ -154,7 +154,7 @@ BeamReader::Window BeamReader::window_about(const Vector3d& p_L, double radius_m
   return window;
 }
 
-/// Tells what another UAV's body has to do with a beam.
+/// Changes the state of a beam that ended in another UAV's body, or that passes it without a return.
 void BeamReader::mark(std::size_t i, const Isometry3d& X_WL, const KnownBody& body, BeamScan::Beam& beam) const {
   const Vector3d direction_W = X_WL.linear() * directions_L_[i];
   const Vector3d p_W = X_WL.translation() + beam.range_m * direction_W;

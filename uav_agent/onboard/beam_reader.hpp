@@ -3,7 +3,7 @@
 // that get no point returned nothing.
 //
 // The points of a cloud are in the order of the beams, and each lies on the line of its beam. If one does not, the
-// odometry or the angle was wrong, and the whole scan is rejected (ScanDoubt::misfit). The simulator computes the
+// odometry or servo angle was wrong, and the whole scan is rejected (ScanDoubt::misfit). The simulator computes the
 // points of a scan in W from the pose at its end, so this holds with motion distortion, too; each column's Firing then
 // has the pose from which it was fired.
 // Frames: W world, B body, L LiDAR.   Units: SI, radians.   Pure; threads: one.

@@ -6,7 +6,7 @@
 namespace skein::agent {
 namespace {
 
-/// At part s of h seconds, from value and derivative at both ends.
+/// Cubic Hermite curve over h seconds, from values and derivatives at both ends, at the share s of that time.
 Vector3d hermite(double s, double h, const Vector3d& x0, const Vector3d& v0, const Vector3d& x1, const Vector3d& v1) {
   const double s2 = s * s, s3 = s2 * s;
   return (2.0 * s3 - 3.0 * s2 + 1.0) * x0 + (s3 - 2.0 * s2 + s) * h * v0 + (3.0 * s2 - 2.0 * s3) * x1 +
@@ -29,7 +29,7 @@ Quaterniond turned_by(const Vector3d& rotation) {
 void BodyTrack::add(Tick tick, const RigidBodyState& state) {
   if (!samples_.empty() && samples_.back().tick >= tick) samples_.clear();
   samples_.push_back({tick, state});
-  // One older than the memory stays: what lies between it and the next may be asked for.
+  // One sample older than the memory stays: at() may have to interpolate between it and the next one.
   while (samples_.size() > 1 && samples_[1].tick <= tick - memory_) samples_.pop_front();
 }
 
@@ -48,7 +48,7 @@ std::optional<BodyTrack::Pose> BodyTrack::at(Tick tick) const {
   const Vector3d& w = b.w_WB_B;
   const Vector3d turn_rate = w + 0.5 * turn.cross(w) + turn.cross(turn.cross(w)) / 12.0;
   const Quaterniond q_WB = a.q_WB * turned_by(hermite(s, h, Vector3d::Zero(), a.w_WB_B, turn, turn_rate));
-  // The curve's own acceleration may be as wrong as the body's is large.
+  // The curve's acceleration differs from the body's by at most twice the limit of accelerations.
   const double part = 2.0 * h * h / 32.0;
   return Pose{Eigen::Translation3d(p_WB) * q_WB, part * kMostAcceleration, part * kMostAngularAcceleration};
 }

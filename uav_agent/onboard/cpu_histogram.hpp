@@ -10,7 +10,7 @@ namespace skein::agent {
 
 class CpuHistogram {
  public:
-  /// Period of the reference's exchanges [s]: a planner that takes longer would not keep up on a real UAV.
+  /// Exchange period of CARIC [s]: a planner that takes longer would not keep up on a real UAV.
   static constexpr double kFieldExchangeS = 0.05;
 
   /// @param cpu_s  CPU time of one exchange; a negative value counts as zero.

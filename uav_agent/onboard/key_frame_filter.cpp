@@ -13,10 +13,10 @@ namespace {
 
 using Cloud = pcl::PointCloud<pcl::PointXYZ>;
 
-constexpr float kHorizonM = 1e4F;     ///< nothing real is farther away sideways
-constexpr std::uint32_t kListed = 7;  ///< leaves one point in fourteen to be searched for, instead of one in five
+constexpr float kHorizonM = 1e4F;     ///< greatest |x| and |y| of a plausible point
+constexpr std::uint32_t kListed = 7;  ///< one point in fourteen then needs the slower search, instead of one in five
 
-/// Points in cells of a grid, sorted by cell: who is near whom.
+/// Finds the neighbours of points, which are sorted by their cells in a grid.
 /// PCL's RadiusOutlierRemoval asks a kd-tree for each point, which costs a futex call each time (FLANN's OpenMP).
 class Neighbourhood {
  public:
@@ -34,7 +34,7 @@ class Neighbourhood {
     auto operator<=>(const Entry&) const = default;
   };
 
-  /// Thinned points come voxel by voxel: who is near is mostly listed near.
+  /// Thinned points are listed voxel by voxel, so points near each other are mostly near each other in the list.
   bool has_listed_neighbours(std::uint32_t i, int wanted) const {
     const std::uint32_t reach = kListed + static_cast<std::uint32_t>(wanted);
     const std::size_t end = std::min<std::size_t>(points_.size(), std::size_t{i} + reach + 1);
@@ -47,7 +47,7 @@ class Neighbourhood {
   bool has_searched_neighbours(std::uint32_t i, int wanted) {
     if (entries_.empty()) sort();
     const Eigen::Vector3i c = cell(points_[i]);
-    // The own row first: there is nearly always somebody.
+    // The point's own row first: there is nearly always a neighbour in it.
     for (const int dz : {0, -1, 1}) {
       for (const int dy : {0, -1, 1}) {
         const Eigen::Vector3i row = c + Eigen::Vector3i(0, dy, dz);
@@ -68,7 +68,7 @@ class Neighbourhood {
   }
 
   Eigen::Vector3i cell(const Eigen::Vector3f& p) const { return (p / radius_).array().floor().matrix().cast<int>(); }
-  /// Neighbours in x have neighbouring keys. Within the horizon, cells of 2 cm and more fit 21 bits a direction.
+  /// Cells adjacent along x have consecutive keys. Within kHorizonM, cells of 2 cm and more fit 21 bits per axis.
   static std::uint64_t key(const Eigen::Vector3i& c) {
     constexpr std::int64_t kOffset = 1 << 20;
     const auto bits = [](int i) { return static_cast<std::uint64_t>(i + kOffset); };
@@ -80,7 +80,7 @@ class Neighbourhood {
 
   const std::vector<Eigen::Vector3f>& points_;
   const float radius_;
-  std::vector<Entry> entries_;  ///< made when they are first asked for
+  std::vector<Entry> entries_;  ///< filled at the first search
 };
 
 }  // namespace
@@ -92,7 +92,7 @@ KnownBodies::KnownBodies(const std::vector<KnownBody>& bodies) {
     reach_ = std::max(reach_, body.radius_m);
   }
   std::ranges::sort(bodies_, {}, x_of);
-  reach_ += 1e-6 + 1e-9 * reach_;  // what is at the edge is judged by the distance alone
+  reach_ += 1e-6 + 1e-9 * reach_;  // at the edge, only the exact distance decides
 }
 
 bool KnownBodies::hold(const Vector3d& p_W) const {

@@ -1,6 +1,6 @@
-// Shares the map by radio, on behalf of the on-board software: sends the messages of MapNews on /plan in envelopes of
-// their own, and reads those of other UAVs into this UAV's map. is_of_maps() recognises these messages, so that the
-// on-board software can keep them from the planner.
+// Shares the world map by radio: sends the messages of MapNews on /plan in envelopes of their own, and enters those of
+// other UAVs into this UAV's map. is_of_maps() recognises these messages, so that the agent can keep them from the
+// planner.
 // Frame W.   Units: SI.   Threads: one.   Deterministic.
 #pragma once
 
@@ -15,7 +15,7 @@
 
 namespace skein::agent {
 
-/// Stands where other envelopes have the planner's name and version (payload.hpp). No planner has this name.
+/// In map messages, it replaces the planner's name and version in the envelope (payload.hpp). No planner has this name.
 inline constexpr std::string_view kMapMessages = "map/1";
 
 class MapRadio {
@@ -24,7 +24,7 @@ class MapRadio {
   explicit MapRadio(const AgentConfig& config)
       : fleet_(config.fleet.size()), self_(config.self), news_(self_, fleet_) {}
 
-  static bool is_of_maps(const RadioMessage& message);  ///< whether the message is of map sharing
+  static bool is_of_maps(const RadioMessage& message);  ///< whether it is a message of map sharing
 
   /// Enters the received map messages into the map. Ignores messages of planners and damaged ones.
   void hear(std::span<const RadioMessage> received, Tick now, WorldMap& map);

@@ -54,7 +54,7 @@ class ReadyFrames {
   std::vector<std::shared_ptr<Known>> known_;  ///< at most most_; a new entry replaces the oldest
   std::vector<std::size_t> hashes_;            ///< of the questions in known_
   std::size_t oldest_ = 0;
-  std::size_t expected_ = 0;  ///< index in known_ to try first: agents ask for the same frames in the same order
+  std::size_t expected_ = 0;  ///< index in known_ to try first: all agents use the same frames in the same order
 };
 
 }  // namespace skein::agent

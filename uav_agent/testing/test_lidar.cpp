@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
-/// How far along a ray its box begins; kNever if it misses the box or begins inside.
+/// Distance along a ray to a box; kNever if the ray misses the box or begins inside it.
 double way_to_box(const Vector3d& half, const Vector3d& from_O, const Vector3d& direction_O) {
   double enter = 0.0, leave = kNever;
   for (int i = 0; i < 3; ++i) {
@@ -56,7 +56,7 @@ Scan TestLidar::scan(Tick tick, const Isometry3d& X_WB, const std::vector<Orient
     const Vector3d centre_L = X_WL.inverse() * solid.center;
     const double off_m = centre_L.norm();
     if (off_m > config_.range_max_m + radius_m) continue;
-    // Beams that pass the ball about the box miss the box.
+    // Beams that miss the bounding sphere of the box miss the box.
     const double least_along_m = off_m > radius_m ? std::sqrt(off_m * off_m - radius_m * radius_m) : -kNever;
     const Matrix3d R_OL = solid.R_WO.transpose() * R_WL;
     const Vector3d from_O = solid.R_WO.transpose() * (p_WL - solid.center);

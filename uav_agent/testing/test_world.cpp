@@ -84,7 +84,7 @@ struct Uav {
   double highest_m = 0.0;
   std::uint64_t captures = 0;
   std::vector<std::uint64_t> acks;
-  std::vector<RadioMessage> mail;  ///< to be heard at the next step
+  std::vector<RadioMessage> mail;  ///< to be delivered at the next step
   std::size_t undelivered = 0;
 };
 
@@ -236,7 +236,7 @@ void TestWorld::Impl::move(Uav& uav, const AgentOutput& output) {
   mix(uav.gimbal.yaw);
 }
 
-/// Everybody in sight hears everything, at the next step.
+/// Each UAV in line of sight receives all messages at the next step.
 void TestWorld::Impl::deliver_radio(const std::vector<AgentOutput>& outputs) {
   for (std::size_t to = 0; to < uavs.size(); ++to) {
     uavs[to].mail.clear();
@@ -324,7 +324,7 @@ double TestWorld::highest_m(std::size_t uav) const { return impl_->uavs.at(uav).
 Vector3d TestWorld::position(std::size_t uav) const { return impl_->uavs.at(uav).state.p_WB; }
 
 double TestWorld::coverage() const {
-  // Of the structure in the boxes, above what is too low to be flown at.
+  // Of the structure in the boxes, except below 5 m, which is too low to fly at.
   double seen = 0.0, all = 0.0;
   for (const SurfacePoint& point : impl_->surface) {
     const bool inspected = std::any_of(impl_->scene.boxes.begin(), impl_->scene.boxes.end(),

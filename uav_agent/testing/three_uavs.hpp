@@ -9,7 +9,7 @@
 
 namespace skein::agent {
 
-/// As the agent with the index `self` is configured.
+/// Configuration of the agent with the index `self`.
 inline AgentConfig three_uavs(std::size_t self) {
   AgentConfig agent;
   agent.self = UavIndex(self);
@@ -22,7 +22,7 @@ inline AgentConfig three_uavs(std::size_t self) {
   return agent;
 }
 
-/// All others in line of sight.
+/// Peers of an agent that has all other UAVs in line of sight.
 inline Peers all_in_sight(const AgentConfig& agent) {
   Peers peers(agent);
   std::vector<Neighbour> neighbours;

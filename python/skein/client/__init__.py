@@ -1,5 +1,5 @@
-"""Programs of one's own in a fleet: in the place of a UAV's software (`--planner UAV=exec:'python3 my_uav.py'`), at the
-ground station (`gcs=exec:...`), or only to listen.
+"""Your own programs in a fleet: in place of a UAV's software (`--planner UAV=exec:'python3 my_uav.py'`), at the ground
+station (`gcs=exec:...`), or only as a listener.
 
     from skein.client import Client
 
@@ -7,7 +7,7 @@ ground station (`gcs=exec:...`), or only to listen.
         for step in uav:
             uav.fly_to([0, 0, 5])
 
-It is the lock-step client of Skein's own programs, under both vendors (docs/how-to-python.md, docs/lockstep.md).
+It uses the lock-step client of Skein's own programs, with either DDS vendor (docs/how-to-python.md, docs/lockstep.md).
 """
 
 from .listener import FlyingFleet, Heard, Listener, flying_fleet

@@ -1,4 +1,4 @@
-"""The compiled part of this package, `_skein_client`, wherever it lies."""
+"""Finds and loads the compiled part of this package, `_skein_client`."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ _INTERFACE = 1  #: as in uav_agent/client/module_node.cpp
 
 
 class Member(Protocol):
-    """A member of the lock-step: bytes in, bytes out."""
+    """A member of the lock-step, which receives and sends serialised messages."""
 
     k: int
     tick: int
@@ -37,7 +37,7 @@ class Member(Protocol):
 
 
 class Listener(Protocol):
-    """Hears what is said in one domain."""
+    """Receives serialised messages of one DDS domain."""
 
     def next(self, timeout_s: float) -> tuple[str, bytes] | None: ...
     def has_writers(self) -> bool: ...
@@ -46,7 +46,7 @@ class Listener(Protocol):
 
 
 class Native(Protocol):
-    """The module."""
+    """The compiled module (uav_agent/client/module_node.cpp)."""
 
     interface: int
     WrongUse: type[Exception]
@@ -64,7 +64,7 @@ class Native(Protocol):
 
 
 def _places() -> Iterator[Path]:
-    """In a build's folder, as installed, and in a pack."""
+    """Folders that may contain the module: of a build, of an installation, of a pack."""
     if named := os.environ.get("SKEIN_BIN_DIR"):
         yield Path(named)
         yield Path(named).parent / "lib" / "skein"
@@ -75,7 +75,7 @@ def _places() -> Iterator[Path]:
 
 
 def _find_configuration() -> None:
-    """Scenarios and vehicles, which the launcher's programs find beside them."""
+    """Sets SKEIN_CONFIG_DIR, if unset, to the folder of scenarios and vehicles."""
     package = Path(__file__).resolve().parents[1]
     for folder in (package.parents[1] / "config",                       # of a checkout, and of a pack
                    package.parents[3] / "share" / "skein" / "config"):  # as installed

@@ -1,4 +1,4 @@
-"""A program in Python in the place of a UAV's software, or at the ground station, as a member of the lock-step."""
+"""A Python program as a member of the lock-step, in place of a UAV's software or at the ground station."""
 
 from __future__ import annotations
 
@@ -23,18 +23,18 @@ from .messages import Message
 from .step import Step
 
 _TEXT = "std_msgs/msg/String"
-_ACCELERATION_MPS2 = 1.0  #: of fly_to()
-_LEASE_S = 60  #: a program that stands for so long is taken for dead
+_ACCELERATION_MPS2 = 1.0  #: greatest acceleration and deceleration of fly_to()
+_LEASE_S = 60  #: DDS lease: a program that is silent for so long counts as dead
 _open: weakref.WeakSet[Client] = weakref.WeakSet()
 
 
 class LostError(ProcessError):
-    """The fleet goes on without this program, or has gone: it did not answer in time, say."""
+    """The fleet has ended, or goes on without this program, for example because the program did not answer in time."""
 
 
 @dataclass(slots=True)
 class _Flight:
-    """Where fly_to() has come to."""
+    """Last command of fly_to(): exchange, position, speed and yaw."""
 
     k: int
     p_W: Vector
@@ -44,7 +44,7 @@ class _Flight:
 
 @contextlib.contextmanager
 def translated() -> Iterator[None]:
-    """Exceptions of the compiled part as those of this package."""
+    """A context that turns exceptions of the compiled part into those of this package."""
     try:
         yield
     except native.WrongUse as error:
@@ -53,12 +53,12 @@ def translated() -> Iterator[None]:
         raise InputError(str(error)) from None
     except native.Lost as error:
         raise LostError(str(error), 3) from None
-    except RuntimeError as error:  # of a vendor
+    except RuntimeError as error:  # from the DDS vendor
         raise ProcessError(str(error), 3) from None
 
 
 def variable(name: str, value: Any) -> str:
-    """`value`, or what the launcher says by a variable."""
+    """`value`, or the environment variable `name`, which the launcher sets. Raises InputError if both are missing."""
     if value is not None:
         return str(value)
     if found := os.environ.get(name):
@@ -74,27 +74,27 @@ def whole(name: str, text: str, most: int) -> int:
 
 
 class Client:
-    """Takes part in the lock-step, under either vendor, and delivers the UAV's captures by itself.
+    """Takes part in the lock-step, with either DDS vendor, and delivers the UAV's captures by itself.
 
         with Client() as uav:
             for step in uav:
                 uav.fly_to(step.state.p_WB + [0, 0, 1])
 
-    Each turn of the loop is one exchange; what is commanded in it leaves when the next one is asked for. The fleet
-    waits for it. The launcher says by variables which UAV, domain, vendor and run; arguments say otherwise.
+    Each pass of the loop is one exchange. Its commands are sent when the loop asks for the next exchange; the fleet
+    waits until then. The launcher sets variables for UAV, domain, vendor and run; arguments override them.
 
-    `scans`, `key_frames`: read them; they cost most. `read`: further topics of this UAV's domain, for
-    `Step.messages()`. `debug`: names of values that `debug()` will tell. From the thread that made it alone.
+    `scans`, `key_frames`: whether to read them; they cost most. `read`: further topics of this UAV's domain, for
+    `Step.messages()`. `debug`: names of the values that `debug()` publishes. Use it from the thread that made it.
     """
 
     def __init__(self, *, scans: bool = False, key_frames: bool = False, read: Sequence[str] = (),
                  debug: Sequence[str] = (), name: str | None = None, domain: int | None = None, dds: str | None = None,
                  run: int | None = None, scenario: str | os.PathLike[str] | None = None,
                  security: str | os.PathLike[str] | None = None) -> None:
-        self.name = variable("SKEIN_UAV", name)  #: a UAV's, or "gcs"
+        self.name = variable("SKEIN_UAV", name)  #: name of the UAV, or "gcs"
         file = variable("SKEIN_SCENARIO", None if scenario is None else os.fspath(scenario))
         with translated():
-            #: The rules of the game, the own vehicle, who else flies. At the station `vehicle` is None.
+            #: The rules of the mission, the own vehicle and the fleet. At the station `vehicle` is None.
             self.config: AgentConfig = words.config_of(native.config(file, self.name))
             radio = native.radio(file, self.name)
         self._radio = {topic: of for topic, of, _ in radio}
@@ -133,7 +133,7 @@ class Client:
         return self
 
     def __next__(self) -> Step:
-        """Answers the step before, with all that was said in it, and waits for the next one."""
+        """Answers the last step with all messages that it queued, and waits for the next step. Raises LostError."""
         if self._closed:
             if self._step is not None and self._step.final:
                 raise StopIteration
@@ -153,11 +153,11 @@ class Client:
 
     @property
     def joins(self) -> int:
-        """How often it has joined: again after a fault had stopped it."""
+        """How often the program has joined the lock-step: once, and again after each fault that stopped it."""
         return self._member.joins
 
     def close(self) -> None:
-        """Leaves the fleet. Before the last step that is a loss, which the launcher reports."""
+        """Leaves the fleet. Before the last step, the launcher reports the program as lost."""
         self._closed = True
         self._member.close()
 
@@ -169,23 +169,23 @@ class Client:
             error.add_note(f"{self.name}'s program failed at step {self._step.k} ({self._step.time_s:.2f} s)")
         self.close()
 
-    # ---- what it says, within a step -----------------------------------------------------------------------------
+    # ---- commands and messages, within a step --------------------------------------------------------------------
 
     def command(self, command: TrajectoryCommand) -> None:
-        """To the flight controller as it is, for this exchange (docs/rules.md, P1 to P3)."""
+        """Sends a command to the flight controller unchanged, for this exchange (docs/rules.md, P1 to P3)."""
         if not isinstance(command, TrajectoryCommand):
             raise InputError(f"command: must be a TrajectoryCommand, not {command!r}")
         self._say(f"/{self.name}/command/trajectory", words.trajectory_at(self._now().tick, command))
 
     def fly_to(self, p_W: VectorLike, speed_mps: float = 2.0, yaw: float | None = None) -> bool:
-        """Along a straight line, in each step anew. Nothing is gone round: that is this program's own business.
-        `yaw`: of the body; None: as it is. Returns whether the UAV is there, within half a metre."""
+        """Flies along a straight line; call it in each step. It avoids no obstacles: that is up to your program. `yaw`:
+        of the body [rad]; None: unchanged. Returns whether the UAV is within half a metre of the place."""
         step, goal, speed = self._now(), words.finite(p_W, "p_W"), words.number(speed_mps, "speed_mps")
         if speed <= 0.0:
             raise InputError(f"speed_mps: must be above 0, not {speed_mps!r}")
         state, dt = step.state, self.config.exchange_period_s
         heading = self._flight.yaw if self._flight else state.yaw
-        if self._flight is None or step.k - self._flight.k > 1:  # it did something else in between
+        if self._flight is None or step.k - self._flight.k > 1:  # no fly_to() in the last step
             self._flight, heading = _Flight(step.k - 1, state.p_WB, 0.0, state.yaw), state.yaw
         last = self._flight
         if last.k < step.k:
@@ -200,23 +200,23 @@ class Client:
         return bool(np.linalg.norm(goal - state.p_WB) < 0.5)
 
     def gimbal(self, command: GimbalCommand) -> None:
-        """Angles or rates."""
+        """Commands the gimbal's angles or rates."""
         if not isinstance(command, GimbalCommand):
             raise InputError(f"command: must be a GimbalCommand, not {command!r}")
         self._say(f"/{self.name}/command/gimbal", words.gimbal_command(command))
 
     def look_at(self, p_W: VectorLike) -> None:
-        """Turns the gimbal so that the point is in the image's centre, as near as its limits allow."""
+        """Turns the gimbal so that the point is in the centre of the image, as far as the gimbal's limits allow."""
         aim = words.aim_at(words.finite(p_W, "p_W"), self._now().state, self.config.vehicle)
         self.gimbal(aim)
 
     def trigger(self) -> None:
-        """Takes a picture. From the first time on the camera takes none by itself."""
+        """Takes a picture. After the first call, the camera takes no pictures by itself any more."""
         self._say(f"/{self.name}/command/camera_trigger",
                   messages.new("skein_msgs/msg/BoolStamped", header=words.header_at(self._now().tick), data=True))
 
     def send(self, what: str | Message, topic: str = "/plan") -> None:
-        """By radio, a text or a message of the topic's type. It arrives with the next step where there is a link."""
+        """Sends a text, or a message of the topic's type, by radio. Nodes with a link receive it in the next step."""
         of = self._radio.get(topic)
         if of is None or topic not in self._sends:
             raise InputError(f"{self.name} may not send on '{topic}'; it may on {', '.join(sorted(self._sends))}. "
@@ -227,7 +227,7 @@ class Client:
         self._say(topic, message)
 
     def activity(self, mode: str, *, goal_W: VectorLike | None = None, waits_for: str = "", no_way: str = "") -> None:
-        """What it does, for people who look on: the live page, the recording, activity.csv."""
+        """Reports what the UAV does, for human readers of the live page, the recording and activity.csv."""
         message = messages.new("skein_msgs/msg/Activity", header=words.header_at(self._now().tick), mode=mode,
                                waits_for=waits_for, no_way=no_way, undelivered=self._now().undelivered,
                                has_goal=goal_W is not None)
@@ -238,16 +238,17 @@ class Client:
         self._say(f"/{self.name}/activity", message)
 
     def debug(self, name: str, value: float) -> None:
-        """A value under a name of `Client(debug=[...])`, for faults, properties and plots (docs/properties.md)."""
+        """Publishes a value, for faults, properties and plots (docs/properties.md). `name`: one of
+        `Client(debug=[...])`."""
         if name not in self._debug:
             known = ", ".join(self._debug) or "none"
             raise InputError(f"'{name}' is no name of Client(debug=[...]); those are: {known}")
         self._say(f"/{self.name}/debug/{name}", messages.new("std_msgs/msg/Float64", data=words.number(value, name)))
 
-    # ---- radio topics of one's own (docs/radio.md) ---------------------------------------------------------------
+    # ---- the program's own radio topics (docs/radio.md) ----------------------------------------------------------
 
     def open(self, topic: str, type: str = _TEXT, targets: Sequence[str] = ("all",)) -> None:
-        """Registers a radio topic to send on: from `is_open()` on."""
+        """Registers a radio topic for sending to `targets`. Send only once `is_open()` returns True."""
         self._now()
         if isinstance(targets, str):
             raise InputError(f"targets: must be a list of nodes, not {targets!r}")
@@ -258,7 +259,7 @@ class Client:
         self._sends.add(topic)
 
     def is_open(self, topic: str) -> bool:
-        """Whether what is sent on a topic goes out. Raises InputError when the router has refused it."""
+        """Whether the radio topic is open for sending. Raises InputError if the router has refused it."""
         self._now()
         if topic not in self._sends:
             return False
@@ -269,14 +270,14 @@ class Client:
         return is_open
 
     def listen(self, topic: str, type: str = _TEXT) -> None:
-        """Hears a radio topic that some node registers, sooner or later."""
+        """Receives a radio topic that another node registers, now or later."""
         self._now()
         messages.type_named(type)
         with translated():
             self._member.listen(topic, type)
         self._radio[topic] = type
 
-    # ---- within --------------------------------------------------------------------------------------------------
+    # ---- internals -----------------------------------------------------------------------------------------------
 
     def _now(self) -> Step:
         if self._step is None or self._closed:
@@ -332,7 +333,7 @@ class Client:
 
 @atexit.register
 def _leave() -> None:
-    """Vendors' threads must end before the interpreter does."""
+    """Closes all clients: the DDS vendor's threads must end before the interpreter does."""
     for client in list(_open):
         with contextlib.suppress(Exception):
             client.close()

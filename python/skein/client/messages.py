@@ -1,12 +1,12 @@
-"""Messages of ROS 2 in Python, without ROS 2: their fields by name, from bytes and to bytes (CDR, as DDS carries them).
+"""Reads and writes messages of ROS 2 without ROS 2: fields by name, serialised as CDR, as DDS carries them.
 
     twist = messages.new("geometry_msgs/msg/Twist")
     twist.linear.x = 1.0
     payload = messages.encode(twist)
 
-All types of Skein's topics are known (docs/topics.md); `define()` adds one from the text of its `.msg` file. Texts are
-`str`, lists of numbers are arrays of NumPy, lists of anything else are lists. Bytes that are no message of the type
-are a `DamagedError`, values that do not fit into their field an `InputError`.
+It knows all types of Skein's topics (docs/topics.md); `define()` adds a type from the text of its `.msg` file. Texts
+are `str`, arrays of numbers are NumPy arrays, arrays of anything else are lists. Bytes that are no message of the type
+raise `DamagedError`, values that do not fit into their field `InputError`.
 """
 
 from __future__ import annotations
@@ -25,19 +25,19 @@ __all__ = ["Message", "decode", "define", "encode", "new", "type_named"]
 
 _LINE = "=" * 80
 _FIELD = re.compile(r"([\w/]+)(\[(\d*)\])?\s+([a-zA-Z]\w*)$")
-#: Type of ROS to its code in `struct` and its bytes.
+#: ROS types of numbers: code in `struct`, size in bytes.
 _NUMBERS = {"bool": ("?", 1), "char": ("B", 1), "uint8": ("B", 1), "int8": ("b", 1), "byte": ("B", 1),
             "int16": ("h", 2), "uint16": ("H", 2), "int32": ("i", 4), "uint32": ("I", 4), "int64": ("q", 8),
             "uint64": ("Q", 8), "float32": ("f", 4), "float64": ("d", 8)}
-_HEADER = 4  #: bytes: how the rest is encoded
-_MOST_DEPTH = 32  #: of messages in messages
+_HEADER = 4  #: bytes of the encapsulation header
+_MOST_DEPTH = 32  #: deepest nesting of messages
 
 
 @dataclass(frozen=True)
 class _Field:
     name: str
-    kind: str          #: of `_NUMBERS`, "string", or a message's type
-    count: int | None  #: None: one; 0: any number; else so many
+    kind: str          #: a key of `_NUMBERS`, "string", or a message's type
+    count: int | None  #: None: a single value; 0: an array of any length; otherwise: an array of this length
 
     @property
     def is_number(self) -> bool:
@@ -45,7 +45,7 @@ class _Field:
 
 
 class Message:
-    """Base of all messages. Each type is a class of its own, with its fields as attributes and no others."""
+    """Base of all messages. Each type is a class of its own, whose only attributes are its fields."""
 
     __slots__ = ()
     TYPE: ClassVar[str] = ""
@@ -66,7 +66,7 @@ class Message:
     __hash__ = None  # type: ignore[assignment]
 
     def __getattr__(self, name: str) -> Any:
-        """Of a field that there is not."""
+        """Called for an unknown field. Raises AttributeError with the names of the fields."""
         raise AttributeError(f"{self.TYPE} has no field '{name}'; it has "
                              + ", ".join(field.name for field in self.FIELDS))
 
@@ -81,7 +81,7 @@ _types: dict[str, type[Message]] = {}
 
 
 def type_named(name: str) -> type[Message]:
-    """The class of a type: "std_msgs/msg/String"."""
+    """The class of a type like "std_msgs/msg/String". Raises InputError if the type is unknown."""
     if not isinstance(name, str):
         raise InputError(f"the type of a message is a text like 'std_msgs/msg/String', not {name!r:.80}")
     if name not in _types:
@@ -97,9 +97,9 @@ def type_named(name: str) -> type[Message]:
 
 
 def define(name: str, text: str) -> type[Message]:
-    """Makes a type known by the text of its `.msg` file; types that it is made of may follow, each behind a line of 80
-    '=' and a line "MSG: package/Type", as `ros2 interface` and recordings have them. Constants and defaults are none of
-    a message's bytes, and not understood here."""
+    """Defines a type by the text of its `.msg` file. The types that it contains may follow, each after a line of 80 '='
+    and a line "MSG: package/Type", as in `ros2 interface` and recordings. Constants and default values, which are not
+    part of a message's bytes, are not supported. Raises InputError."""
     if not isinstance(text, str):
         raise InputError(f"the definition of a message is the text of its .msg file, not {text!r:.80}")
     if not isinstance(name, str) or not re.fullmatch(r"[a-zA-Z]\w*/msg/[a-zA-Z]\w*", name):
@@ -114,7 +114,7 @@ def define(name: str, text: str) -> type[Message]:
 
 
 def _full(kind: str, of: str) -> str:
-    """"geometry_msgs/Point", or "Point" of the same package, in full."""
+    """Full name of a type that the type `of` calls "geometry_msgs/Point", or "Point" if it is of the same package."""
     names = kind.split("/")
     return f"{names[0] if len(names) > 1 else of.split('/')[0]}/msg/{names[-1]}"
 
@@ -146,7 +146,7 @@ def _add(name: str, text: str) -> type[Message]:
 
 
 def new(type_name: str, **values: Any) -> Message:
-    """A message with all fields at zero but those that are named."""
+    """A message with the given values; all other fields are zero or empty."""
     return type_named(type_name)(**values)
 
 
@@ -162,7 +162,7 @@ def _default(field: _Field) -> Any:
 
 
 class _Reader:
-    """Of a payload whose lengths nobody vouches for."""
+    """Reads an untrusted payload. Raises DamagedError if it is too short or malformed."""
 
     def __init__(self, payload: bytes) -> None:
         if len(payload) < _HEADER or payload[0] != 0 or payload[1] not in (0, 1):
@@ -171,7 +171,7 @@ class _Reader:
         self.order = "<" if payload[1] == 1 else ">"
 
     def take(self, size: int, align: int) -> int:
-        """Where it begins."""
+        """Skips padding and a value of `size` bytes. Returns where the value begins."""
         begin = self.at + -self.at % align
         if begin + size > len(self.data):
             raise DamagedError(f"it ends after {len(self.data)} bytes, in the middle of a field")
@@ -209,7 +209,7 @@ class _Reader:
                 value = self.value(field, depth)
             else:
                 count = field.count or self.number("uint32")
-                if count > len(self.data):  # each takes a byte at least
+                if count > len(self.data):  # each element takes at least one byte
                     raise DamagedError(f"it says that {count} {field.name} follow, and ends before")
                 value = (self.numbers(field.kind, count) if field.is_number
                          else [self.value(field, depth) for _ in range(count)])
@@ -218,7 +218,7 @@ class _Reader:
 
 
 def decode(type_name: str, payload: bytes) -> Message:
-    """A message of that type, from bytes with their encapsulation header."""
+    """Deserialises a message of this type from bytes with an encapsulation header. Raises DamagedError."""
     of = type_named(type_name)
     try:
         return _Reader(payload).message(of)
@@ -306,7 +306,7 @@ def _short(value: Any) -> str:
 
 
 def encode(message: Message) -> bytes:
-    """Its bytes, with their encapsulation header, padded to a multiple of four."""
+    """Serialises a message, with an encapsulation header, padded to a multiple of four bytes. Raises InputError."""
     if not isinstance(message, Message) or not message.TYPE:
         raise InputError(f"must be a message (skein.client.messages.new), not {_short(message)}")
     writer = _Writer()

@@ -1,4 +1,4 @@
-"""What one exchange brings to a member of the lock-step, in the words of `skein.planner`."""
+"""The inputs of one exchange for a member of the lock-step, with the types of `skein.planner`."""
 
 from __future__ import annotations
 
@@ -21,16 +21,16 @@ _TEXT = "std_msgs/msg/String"
 
 
 class Step:
-    """What one exchange of 50 ms brings. It may be kept; fields are converted when they are read first."""
+    """The inputs of one exchange of 50 ms. You may keep it. It converts a field when you first read it."""
 
     def __init__(self, client: Client, k: int, tick: int, final: bool, arrived: dict[str, list[bytes]],
                  station_linked: bool, undelivered: int) -> None:
         self._client = client
         self._arrived = arrived
         self._latest = dict(client._latest)
-        self.k = k          #: exchange
-        self.tick = tick    #: simulated time, 400 a second
-        self.final = final  #: the last one
+        self.k = k          #: number of the exchange
+        self.tick = tick    #: simulated time, in ticks of 2.5 ms
+        self.final = final  #: whether it is the last one
         self.station_linked = station_linked  #: direct link to the station
         self.undelivered = undelivered        #: captures that the station has not acknowledged
 
@@ -40,7 +40,7 @@ class Step:
         return self.tick / TICKS_PER_SECOND
 
     def messages(self, topic: str) -> list[Message]:
-        """All that came with this step on a topic that is read, or on a radio topic, in order."""
+        """All messages that arrived with this step on a topic of `Client(read=...)` or a radio topic, in order."""
         of = self._client._type_of(topic)
         return [messages.decode(of, payload) for payload in self._arrived.get(self._client._arrival(topic), ())]
 
@@ -50,7 +50,7 @@ class Step:
 
     @cached_property
     def state(self) -> State:
-        """Of the own body."""
+        """State of the own body, by its odometry. Raises InputError at the station, or before the first odometry."""
         odometry = self._last(f"/{self._client.name}/ground_truth/odometry")
         if odometry is None:
             raise InputError("the ground station has no body" if not self._client.is_uav else "no odometry yet")
@@ -63,19 +63,19 @@ class Step:
 
     @cached_property
     def boxes(self) -> tuple[OrientedBox, ...]:
-        """What is to be inspected; empty until received."""
+        """The boxes to inspect; empty until received."""
         last = self._last("/gcs/bounding_box_vertices")
         return () if last is None else words.boxes_of(last)
 
     @cached_property
     def mission_remaining_s(self) -> float | None:
-        """None before the first take-off."""
+        """Remaining mission time [s]; None before the first takeoff of the fleet."""
         last = self._last(f"/{self._client.name}/mission_duration_remained")
         return None if last is None else words.seconds_of(last)
 
     @cached_property
     def neighbours(self) -> tuple[Neighbour, ...]:
-        """Nodes in line of sight at this step, the station among them."""
+        """Nodes in line of sight at this step, including the station."""
         names = ("gcs", *(one.name for one in self._client.config.fleet))
         clouds = self.messages(f"/{self._client.name}/nbr_odom_cloud")
         return words.neighbours_of(clouds[-1], names) if clouds else ()
@@ -87,19 +87,19 @@ class Step:
 
     @cached_property
     def radio(self) -> tuple[RadioMessage, ...]:
-        """Texts that others sent. Other types: `messages("/their_topic")`."""
+        """Texts that other nodes sent. For topics of other types: `messages("/their_topic")`."""
         return tuple(RadioMessage(topic, message.data) for topic, of in self._client._radio.items() if of == _TEXT
                      for message in self.messages(topic))
 
     @cached_property
     def scans(self) -> tuple[Scan, ...]:
-        """Of the LiDAR, with `Client(scans=True)`."""
+        """Scans of the own LiDAR; only with `Client(scans=True)`."""
         return tuple(Scan(words.tick_of(one.header), words.cloud_points(one))
                      for one in self._optional("cloud_inW", "scans"))
 
     @cached_property
     def key_frames(self) -> tuple[KeyFrame, ...]:
-        """The own ones and those of neighbours, with `Client(key_frames=True)`."""
+        """Key frames, own ones first, then those of neighbours; only with `Client(key_frames=True)`."""
         own = self._client.config.index + 1
         found = [KeyFrame(words.cloud_points(one), None, own) for one in self._optional("slf_kf_cloud", "key_frames")]
         return tuple(found + [KeyFrame(words.cloud_points(one), None, words.source_of(one))
@@ -107,7 +107,7 @@ class Step:
 
     @cached_property
     def rejected(self) -> tuple[str, ...]:
-        """Why commands of the step before were ignored."""
+        """Why the server ignored commands of the last step."""
         if not self._client.is_uav:
             return ()
         return tuple(f"{one.command}: {one.reason}"

@@ -1,4 +1,4 @@
-"""Between messages and the words of `skein.planner`, CARIC's conventions included.
+"""Converts between messages, with CARIC's conventions, and the types of `skein.planner`.
 
 Frames W and B; SI units and radians.
 """
@@ -24,7 +24,7 @@ _SCAN = np.dtype({"names": ["x", "y", "z", "intensity"], "formats": ["<f4"] * 4}
 _NEIGHBOUR = np.dtype([("p_W", "<f4", 3), ("node", "<f4"), ("t", "<f8"), ("q", "<f4", 4), ("v_B", "<f4", 3),
                        ("w_B", "<f4", 3)])
 _DETECTED = np.dtype([("p_W", "<f4", 3), ("score", "<f4"), ("n_W", "<f4", 3), ("order", "<f4")])
-#: Of `Step.detected`.
+#: Type of `Step.detected`.
 DETECTED = np.dtype([("p_W", "<f4", 3), ("score", "<f8"), ("order", "<u4"), ("n_W", "<f4", 3)])
 
 
@@ -33,13 +33,13 @@ class Neighbour:
     """A node in line of sight."""
 
     node: int  #: 0 the station, 1, 2, ... the fleet
-    name: str  #: "gcs", or a UAV's
+    name: str  #: "gcs", or the name of a UAV
     p_W: Vector
     v_W: Vector
 
 
 def _rotated(q: Any, v: Any) -> Vector:
-    """v in W, of a vector in B; q is w, x, y, z."""
+    """The vector v, given in B, in W. q is the attitude w, x, y, z, body to world."""
     w, u = q[0], np.asarray(q[1:], float)
     vector = np.asarray(v, float)
     rotated: Vector = vector + 2.0 * np.cross(u, np.cross(u, vector) + w * vector)
@@ -71,7 +71,7 @@ def tick_of(header: Message) -> int:
 
 
 def boxes_of(cloud: Message) -> tuple[OrientedBox, ...]:
-    """Eight corners a box: the first at -x -y -z of its own axes, then x fastest."""
+    """Boxes from their corners, eight per box: the first at -x -y -z along its own axes, then x fastest."""
     corners = np.array([[p.x, p.y, p.z] for p in cloud.points]).reshape(-1, 3)
     boxes = []
     for i in range(len(corners) // 8):
@@ -79,7 +79,7 @@ def boxes_of(cloud: Message) -> tuple[OrientedBox, ...]:
         edges = own[[1, 2, 4]] - own[0]
         size = np.linalg.norm(edges, axis=1)
         R_WO = np.eye(3)
-        if size.min() > 0.0:  # single precision: the axes are squared up again
+        if size.min() > 0.0:  # the corners have single precision: the axes are made orthogonal again
             x = edges[0] / size[0]
             y = edges[1] - x * (x @ edges[1])
             y /= np.linalg.norm(y)
@@ -90,7 +90,7 @@ def boxes_of(cloud: Message) -> tuple[OrientedBox, ...]:
 
 
 def _points(cloud: Message, layout: np.dtype[Any]) -> npt.NDArray[np.void]:
-    """Its points; none if it has another layout."""
+    """The points of a cloud; an empty array if the cloud has another layout."""
     if cloud.point_step != layout.itemsize or len(cloud.data) % layout.itemsize:
         return np.zeros(0, layout)
     return np.frombuffer(cloud.data.tobytes(), layout)
@@ -103,7 +103,7 @@ def cloud_points(cloud: Message) -> npt.NDArray[np.float32]:
 
 
 def source_of(cloud: Message) -> int | None:
-    """The node whose key frame it is."""
+    """Number of the node whose LiDAR made a key frame; None if unknown."""
     points = _points(cloud, _SCAN)
     return _whole(float(points["intensity"][-1])) if len(points) else None
 
@@ -113,7 +113,7 @@ def _whole(number: float) -> int | None:
 
 
 def neighbours_of(cloud: Message, names: tuple[str, ...]) -> tuple[Neighbour, ...]:
-    """@names: of all nodes."""
+    """The nodes in line of sight. `names`: of all nodes, the station first."""
     found = []
     for point in _points(cloud, _NEIGHBOUR):
         node = _whole(float(point["node"]))
@@ -138,7 +138,7 @@ def detected_of(clouds: list[Message]) -> npt.NDArray[np.void]:
 
 
 def finite(value: VectorLike, what: str) -> Vector:
-    """Three numbers. Raises InputError."""
+    """`value` as a vector of three finite numbers. Raises InputError. `what`: name of the value, for the message."""
     try:
         vector = np.array(value, float)
     except (TypeError, ValueError):
@@ -199,7 +199,7 @@ def gimbal_command(command: GimbalCommand) -> Message:
 
 
 def aim_at(p_W: Vector, state: State, vehicle: Vehicle) -> GimbalCommand:
-    """Angles that put p_W into the middle of the image, as near as the gimbal's limits allow."""
+    """Gimbal angles that put p_W into the centre of the image, as far as the gimbal's limits allow."""
     ahead = p_W - state.p_WB - state.R_WB @ vehicle.camera.p_BC
     pitch = math.atan2(-ahead[2], math.hypot(ahead[0], ahead[1]))
     yaw = math.remainder(math.atan2(ahead[1], ahead[0]) - state.yaw, math.tau)
@@ -208,7 +208,7 @@ def aim_at(p_W: Vector, state: State, vehicle: Vehicle) -> GimbalCommand:
 
 
 def config_of(raw: Mapping[str, Any]) -> AgentConfig:
-    """As the module gives it. At the ground station `index` is -1, and `vehicle` None."""
+    """The AgentConfig from the module's dictionary. At the ground station `index` is -1, and `vehicle` is None."""
     fleet = tuple(FleetMember(**(one | {"p_WB_start": np.array(one["p_WB_start"])})) for one in raw["fleet"])
     vehicle: Any = None
     if raw["vehicle"] is not None:

@@ -1,8 +1,8 @@
 """Plots of runs and studies for papers, by matplotlib.
 
-Each function takes a run (or several), or a study, and, if you like, the Axes to draw on; it returns the Axes. Without
-one it makes a figure as wide as a column of a paper (3.5 inches). `save()` writes files that are the same each time.
-Colours are those of Skein's reports, which people with any colour vision can tell apart.
+Each function takes a run (or several) or a study, and optionally the Axes to draw into, and returns these Axes. Without
+Axes it makes a figure as wide as a column of a paper (3.5 inches). `save()` writes the same bytes for the same figure.
+The colours are those of Skein's reports, which people with any colour vision can tell apart.
 """
 
 from .flight import activity, links, links_over_time, map

@@ -1,4 +1,4 @@
-"""Studies: scores by scene and planner, and planner against planner."""
+"""Plots of studies: figures by scene and planner, scores over time, and differences between planners."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ from . import look
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-_FEWEST_IN_A_BOX = 5  # quartiles of fewer are mostly invented
+_FEWEST_IN_A_BOX = 5  # quartiles of fewer flights say little
 
 
 def scores(study: Study, ax: Axes | None = None, *, figure: str = "score") -> Axes:
-    """A figure of `study.flights` by scene and planner: every flight a dot, the median a line, from 5 flights on a box
-    from quartile to quartile with whiskers to the ends."""
+    """A figure (a column of `study.flights`) by scene and planner: a dot for each flight, a line at the median. From 5
+    flights on also a box between the quartiles, with whiskers to the least and the greatest value."""
     flights, planners, scenarios = study.flights, study.planners, study.scenarios
     slots = len(scenarios) * (len(planners) + 1) - 1
     with look.drawing(ax, 2.4, max(look.WIDTH, 0.16 * slots + 0.8)) as ax:
@@ -44,7 +44,7 @@ def scores(study: Study, ax: Axes | None = None, *, figure: str = "score") -> Ax
 
 def curves(study: Study, ax: Axes | None = None, *, scenario: str | None = None) -> Axes:
     """Scores over time in one scene: for each planner the median of its flights, in a band from the least to the
-    greatest. `scenario` may be left out where there is only one."""
+    greatest score. `scenario` may be left out if the study has only one."""
     if scenario is None and len(study.scenarios) > 1 or scenario is not None and scenario not in study.scenarios:
         raise ValueError(f"which scenario? There are {', '.join(study.scenarios)}, not {scenario!r}")
     with look.drawing(ax, 2.2) as ax:
@@ -56,7 +56,7 @@ def curves(study: Study, ax: Axes | None = None, *, scenario: str | None = None)
                 continue
             times = np.unique(np.concatenate([[run.sim_time_s for run in flights],
                                               *(run.timeline["time_s"] for run in flights)]))
-            # What a flight had delivered last before each of these times; it keeps that after its end.
+            # The delivered score of each flight at each of these times. After its end, a flight keeps its score.
             known = np.array([run.timeline["score"][np.searchsorted(run.timeline["time_s"], times, side="right") - 1]
                               for run in flights])
             colour = look.PLANNERS[p % len(look.PLANNERS)]
@@ -81,14 +81,14 @@ def _draw_box(ax: Axes, x: float, values: Array, colour: str) -> None:
         ax.bar(x, high - low, bottom=low, width=0.7, facecolor="white", edgecolor="white", zorder=2.5)
         ax.bar(x, high - low, bottom=low, width=0.7, facecolor=colour + "2e", edgecolor=colour, linewidth=0.8, zorder=3)
     ax.hlines(median, x - 0.35, x + 0.35, color=colour, linewidth=1.8, zorder=4)
-    # Dots side by side, in the order of the flights: no chance, the same figure each time.
+    # Dots are spread sideways by the order of flights, not at random, so that the figure is the same each time.
     places = x + 0.16 * (np.arange(len(values)) % 3 - 1 if len(values) > 2 else np.zeros(len(values)))
     ax.plot(places, values, "o", color=colour, markersize=2.4, markeredgecolor="white", markeredgewidth=0.3, zorder=5)
 
 
 def pairs(study: Study, ax: Axes | None = None, *, figure: str = "score") -> Axes:
-    """Planner against planner: the median difference with the same seed of scores, or of another figure of pairs.csv,
-    and its 95 % interval where there are enough flights, as the launcher computed them."""
+    """Differences between planners in flights with the same seed: the median of the differences of scores, or of
+    another figure of pairs.csv, and its 95 % interval if there are enough flights. The launcher computed them."""
     table = study.pairs[study.pairs["figure"] == figure]
     if not len(table):
         raise ValueError(f"which figure? There are {', '.join(dict.fromkeys(map(str, study.pairs['figure'])))}")

@@ -1,4 +1,5 @@
-"""Fleets that a program steps, for learning and for planners that search by simulation (docs/how-to-python.md)."""
+"""Fleets that your program advances step by step: for learning, and for planners that search by simulation
+(docs/how-to-python.md)."""
 
 from . import spaces
 from .fleet import Fleet

@@ -1,4 +1,5 @@
-"""What a learner is told to do: checked here, and written where it finds it (uav_agent/planners/learner/orders.hpp)."""
+"""Actions of learners: checks them, and writes them to the memory that the fleet's process reads
+(uav_agent/planners/learner/orders.hpp)."""
 
 from __future__ import annotations
 
@@ -12,7 +13,7 @@ from ..errors import InputError
 from . import spaces
 
 MOST_WAYPOINTS = 32
-_GIMBALS = {"gimbal_rate": (1, 2), "gimbal": (2, 2), "look_at": (3, 3)}  # kind, numbers
+_GIMBALS = {"gimbal_rate": (1, 2), "gimbal": (2, 2), "look_at": (3, 3)}  # kind in orders.hpp, how many numbers
 _MOTIONS = {"velocity": ("velocity", "yaw_rate"), "goal": ("goal", "speed", "path", "yaw")}
 _KNOWN = {actions: dict.fromkeys((*motion, *_GIMBALS, "trigger")) for actions, motion in _MOTIONS.items()}
 _MOST_MPS, _MOST_CLIMB_MPS, _MOST_TURN = 5.0, 3.0, 1.0
@@ -20,7 +21,7 @@ _FAR_M, _HIGH_M = 300.0, 150.0
 
 
 def action_space(actions: str) -> spaces.Space:
-    """What `sample()` draws from: the usual parts of an action. The page has all."""
+    """The space of actions, with their usual keys only. docs/how-to-python.md lists all keys."""
     motion: dict[str, spaces.Space]
     if actions == "velocity":
         most = np.array([_MOST_MPS, _MOST_MPS, _MOST_CLIMB_MPS])
@@ -35,12 +36,12 @@ def action_space(actions: str) -> spaces.Space:
 
 
 def _numbers(uav: str, name: str, value: Any, shape: tuple[int, ...]) -> Any:
-    """As an array of float64 of this shape; -1 in it is any number."""
+    """`value` as a float64 array of the shape `shape`, in which -1 stands for any size. Raises InputError."""
     try:
         array = np.asarray(value, np.float64)
     except (TypeError, ValueError):
         raise InputError(f"{uav}: {name} must be numbers, not {value!r}") from None
-    if array.shape == shape and len(shape) < 2:  # the usual case, and quick
+    if array.shape == shape and len(shape) < 2:  # the usual case, by a fast check
         numbers = array.tolist()
         if math.isfinite(sum(numbers) if shape else numbers):
             return array
@@ -53,7 +54,7 @@ def _numbers(uav: str, name: str, value: Any, shape: tuple[int, ...]) -> Any:
 
 
 def check_names(uav: str, action: Any, actions: str) -> Mapping[str, Any]:
-    if type(action) is not dict and not isinstance(action, Mapping):  # the former is the quicker question
+    if type(action) is not dict and not isinstance(action, Mapping):  # the first test is faster
         example = {_MOTIONS[actions][0]: (0, 0, 1)}
         raise InputError(f"{uav}: an action is a dictionary, as {example}, not {action!r}")
     known = _KNOWN[actions]
@@ -69,7 +70,7 @@ def check_names(uav: str, action: Any, actions: str) -> Mapping[str, Any]:
 
 
 class Orders:
-    """Writes the actions of one learner."""
+    """Writes the actions of one learner into the memory shared with the fleet's process."""
 
     def __init__(self, uav: str, actions: str, views: dict[str, Any]) -> None:
         self._uav, self._actions = uav, actions
@@ -77,7 +78,7 @@ class Orders:
         self._views = {name[len(prefix):]: view for name, view in views.items() if name.startswith(prefix)}
 
     def read(self, action: Any) -> dict[str, Any]:
-        """Checks all of it, so that of a wrong one nothing is done. Returns values by field."""
+        """Checks the complete action before anything is written. Returns the values by field. Raises InputError."""
         uav, action = self._uav, check_names(self._uav, action, self._actions)
         values: dict[str, Any] = {}
         if "velocity" in action:

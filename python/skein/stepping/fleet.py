@@ -1,4 +1,4 @@
-"""A fleet that this program steps, with PettingZoo's interface for several agents (ParallelEnv)."""
+"""A fleet that your program advances step by step, with PettingZoo's interface for several agents (ParallelEnv)."""
 
 from __future__ import annotations
 
@@ -21,14 +21,15 @@ from .worker import Family, Worker
 
 Observation = dict[str, Any]
 Reward = Callable[["Fleet", str], float]
-_ACTIONS = {"velocity": "velocity", "goal": "way"}  # as the planner `learner` calls them
-_STATE = ("position", "velocity", "attitude", "angular_velocity", "gimbal")  # of each learner, in Fleet.state()
+_ACTIONS = {"velocity": "velocity", "goal": "way"}  # value of the parameter `flies` of the planner `learner`
+_STATE = ("position", "velocity", "attitude", "angular_velocity", "gimbal")  # parts of Fleet.state(), by learner
 
 
 class Fleet:
-    """A fleet in a process of its own, which stands between two calls of `step()`.
+    """A fleet in a process of its own, whose simulated time stands still between two calls of `step()`.
 
-    Whoever is in `learners` does what `step()` says; all others fly their planner. See docs/how-to-python.md.
+    The UAVs in `learners` carry out the actions that `step()` passes; each other UAV flies its planner. Only one thread
+    at a time may use a fleet. docs/how-to-python.md has more.
     """
 
     metadata: dict[str, Any] = {"name": "skein_v0", "render_modes": ["ansi"], "is_parallelizable": True}
@@ -38,9 +39,9 @@ class Fleet:
                  scans: bool = False, map_window: tuple[int, int, int] = (16, 16, 8), map_cell_m: float = 1.0,
                  detections: int = 256, reward: Reward | None = None, render_mode: str | None = None,
                  launcher: str | os.PathLike[str] | None = None, **options: Any) -> None:
-        """`options` are those of `skein fleet --help`, as keywords: `duration=60`, `scene_seed=3`, `faults="a.yaml"`.
+        """`options` are the options of `skein fleet --help`: `duration=60`, `scene_seed=3`, `faults="a.yaml"`.
 
-        Raises InputError, with the launcher's message, if this cannot be flown.
+        Raises InputError if an argument is wrong, for options with the launcher's message.
         """
         self.possible_agents: list[str] = settings.names("learners", learners)
         self._actions = settings.one_of("actions", actions, _ACTIONS)
@@ -59,9 +60,9 @@ class Fleet:
         self._worker: Worker | None = None
         self._observations: dict[str, Observations] = {}
         self._orders: dict[str, Orders] = {}
-        self._log: dict[str, list[tuple[int, dict[str, Any]]]] = {}  # what learners were told, by step
+        self._log: dict[str, list[tuple[int, dict[str, Any]]]] = {}  # checked actions, with their steps
         self._started: tuple[int, Any] = (0, None)  # seed and scene
-        self._score = 0.0  # of the station, at the last step
+        self._score = 0.0  # delivered score after the last step
         self._flying = self._closed = False
         self.agents: list[str] = []
         self._over = False
@@ -73,24 +74,24 @@ class Fleet:
         self._steps = self._steps_of(step_s)
         self._about = about
         self._action_spaces = {uav: action_space(actions) for uav in self.possible_agents}
-        self._start(self._seed)  # spaces are known once it flies
+        self._start(self._seed)  # the fleet's process announces the observation spaces
         self._observation_spaces = {uav: self._observations[uav].space() for uav in self.possible_agents}
 
-    # -- what it is ---------------------------------------------------------------------------------------------------
+    # -- properties ---------------------------------------------------------------------------------------------------
 
     @property
     def uavs(self) -> tuple[str, ...]:
-        """All of the fleet, in its order."""
+        """Names of all UAVs, in fleet order."""
         return self._uavs
 
     @property
     def step_s(self) -> float:
-        """Simulated time that a step takes."""
+        """Simulated time of a step [s]."""
         return self._steps * self._period_s
 
     @property
     def over(self) -> bool:
-        """The mission has ended."""
+        """Whether the mission has ended."""
         return self._over
 
     @property
@@ -134,12 +135,12 @@ class Fleet:
 
     @property
     def truth(self) -> Truth:
-        """The world as it is, which no UAV knows."""
+        """The true state of the world, which no UAV knows."""
         return Truth(self._running(), self._uavs)
 
     def state(self) -> Any:
-        """What the learners know of themselves, in one array: position, velocity, attitude, angular velocity and gimbal
-        of each of `possible_agents`. It is not the truth."""
+        """The learners' own estimates of their states, in one array: position, velocity, attitude, angular velocity and
+        gimbal of each of `possible_agents`. This is not the truth."""
         self._running()
         parts = [self._observations[uav].views[name] for uav in self.possible_agents for name in _STATE]
         return np.concatenate(parts) if parts else np.zeros(0)
@@ -148,8 +149,8 @@ class Fleet:
 
     def reset(self, seed: int | None = None, options: Mapping[str, Any] | None = None
               ) -> tuple[dict[str, Observation], dict[str, dict[str, Any]]]:
-        """Begins anew. Without a seed the first mission is that of the fleet's seed, the next one that of the number
-        after it, and so on. `options={"scene_seed": 3}` chooses another scene of a procedural family."""
+        """Begins a new mission. Without `seed`, the first mission uses the fleet's seed, and each later mission the
+        next number. `options={"scene_seed": 3}` chooses another scene of a procedural family."""
         self._check_open()
         if options is not None and not isinstance(options, Mapping):
             raise InputError(f"reset(options=...) must be a dictionary, as {{'scene_seed': 3}}, not {options!r:.80}")
@@ -163,7 +164,7 @@ class Fleet:
         if options and "scene_seed" in options:
             self._options["scene_seed"] = settings.whole("scene_seed", options["scene_seed"])
         as_it_is = (self._resets == 0 and self._started == (self._seed, self._scene())
-                    and self._running().views["truth.step"] == 0)  # the constructor has begun it
+                    and self._running().views["truth.step"] == 0)  # the constructor has started it
         if not as_it_is:
             self._start(self._seed)
         self._resets += 1
@@ -173,15 +174,16 @@ class Fleet:
     def step(self, actions: Mapping[str, Mapping[str, Any]] | None = None, *, step_s: float | None = None
              ) -> tuple[dict[str, Observation], dict[str, float], dict[str, bool], dict[str, bool],
                         dict[str, dict[str, Any]]]:
-        """Goes on by `step_s`. A learner without an action goes on with its last one.
+        """Flies for `step_s` [simulated s]. A learner without an action continues its last one.
 
-        Returns observations, rewards, terminations, truncations and infos of those that were in `agents`."""
+        Returns observations, rewards, terminations, truncations and infos of all learners that were in `agents` before.
+        Raises InputError for an invalid action, before the fleet moves, and ProcessError if the process has failed."""
         self.begin_step(actions, step_s=step_s)
         return self.end_step()
 
     def begin_step(self, actions: Mapping[str, Mapping[str, Any]] | None = None, *,
                    step_s: float | None = None) -> None:
-        """The first half of `step()`: the fleet flies, and this program may do something else."""
+        """The first half of `step()`: starts the flight, and returns at once. `end_step()` must follow."""
         worker = self._running()
         if self._over:
             raise InputError("the mission is over: call reset()")
@@ -203,13 +205,13 @@ class Fleet:
                 self._log.setdefault(uav, []).append((now, value))
             worker.begin_steps(steps)
             self._flying = True
-        except BaseException:  # Ctrl-C: nobody could say how far it has come
+        except BaseException:  # after Ctrl-C, the state of the fleet would be unknown
             worker.let_go()
             raise
 
     def end_step(self) -> tuple[dict[str, Observation], dict[str, float], dict[str, bool], dict[str, bool],
                                 dict[str, dict[str, Any]]]:
-        """The second half of `step()`: waits for the fleet."""
+        """The second half of `step()`: waits until the fleet has flown the step. Returns the same as `step()`."""
         worker = self._running()
         if not self._flying:
             raise InputError("the fleet stands: call begin_step() before")
@@ -232,8 +234,8 @@ class Fleet:
         return observations, rewards, terminations, truncations, infos
 
     def fork(self) -> Fleet:
-        """A copy of the fleet as it stands, planners' minds and all. Both go on by themselves, and with the same
-        actions they fly the same."""
+        """A copy of the fleet in its present state, including the state of its planners. Original and copy are
+        independent; given the same actions, both fly identically."""
         worker = self._running()
         if self._flying:
             raise InputError("a fleet that flies cannot be copied: call end_step() before")
@@ -246,13 +248,13 @@ class Fleet:
         return copy
 
     def result(self) -> dict[str, Any]:
-        """Digest, score, and what each UAV did, until now. Writes no files."""
+        """Digest, score, and the work of each UAV, up to now. Writes no files."""
         result: dict[str, Any] = self._running().ask("result")
         return {"scenario": self._about["scenario"], "planner": self._planner, "seed": self._started[0], **result}
 
     def save_commands(self, uav: str, file: str | os.PathLike[str]) -> Path:
-        """Writes what a learner was told since reset() as a file that the planner `hand` flies again:
-        `skein run --planner patrol,UAV=hand:FILE` is the same flight, with all that a run leaves behind."""
+        """Writes the actions of a learner since reset() to a file for the planner `hand`. `skein run --planner
+        patrol,UAV=hand:FILE` then repeats the flight, and writes all files of a run. Only for actions="velocity"."""
         self._of(self._orders, uav)
         if self._actions != "velocity":
             raise InputError("only velocities can be flown again: actions='velocity'")
@@ -271,11 +273,11 @@ class Fleet:
         return "\n".join(lines)
 
     def close(self) -> None:
-        """Ends the process. Nothing is left of the fleet."""
+        """Ends the fleet and its process. Copies of the fleet go on."""
         if self._worker is not None:
             self._worker.let_go()
         self._worker, self._closed, self.agents = None, True, []
-        self._families.clear()  # those that no copy needs end
+        self._families.clear()  # a family that no copy of this fleet uses ends
 
     def __enter__(self) -> Fleet:
         return self
@@ -319,7 +321,7 @@ class Fleet:
         self._orders = {uav: Orders(uav, self._actions, worker.views) for uav in self.possible_agents}
 
     def _give_up(self) -> None:
-        """Ends the fleet if it flies: its answer would be taken for that to the next step."""
+        """Ends the fleet if it flies. Otherwise, its reply to this step would count as the reply to the next one."""
         if self._flying and self._worker is not None:
             self._worker.let_go()
 

@@ -1,4 +1,4 @@
-"""One learner, with Gymnasium's interface for one agent (Env)."""
+"""A fleet with one learner, with Gymnasium's interface for one agent (Env)."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ except ImportError:
 
 
 class GymEnv(_Env):  # type: ignore[misc]
-    """A fleet in which one UAV learns; `fleet` is all of it."""
+    """A fleet with exactly one learner. `fleet` is the `skein.Fleet`."""
 
     spec: Any = None
 
@@ -64,5 +64,6 @@ class GymEnv(_Env):  # type: ignore[misc]
 
 
 def gym_env(uav: str, scenario: Any = "towers", **options: Any) -> GymEnv:
-    """An environment in which `uav` learns and the others fly their planner. `options` are those of `skein.Fleet`."""
+    """An environment with the learner `uav`; the other UAVs fly their planner. `options` are arguments of
+    `skein.Fleet`."""
     return GymEnv(Fleet(scenario, learners=[uav], **options))

@@ -1,4 +1,4 @@
-"""What a learner knows, as dictionaries of arrays (uav_agent/planners/learner/observation.hpp)."""
+"""Observations of learners, as dictionaries of arrays (uav_agent/planners/learner/observation.hpp)."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ from . import spaces
 _FLAGS = {"linked", "airborne", "peers_linked"}
 _COUNTS = {"box_count", "undelivered", "detection_count", "scan_points"}
 _LEAST: dict[str, float] = {"time_s": 0.0, "time_left_s": 0.0, "peer_ages_s": -1.0, "scan_age_s": -1.0}
-_GOALS = 4  # the highest of `goal`
-Field = tuple[str, str, list[int], int]  # name, type, shape, offset: as the fleet's process says
+_GOALS = 4  # greatest value of `goal`
+Field = tuple[str, str, list[int], int]  # name, type, shape, offset of an array in the shared memory block
 
 
 class Observations:
-    """Reads those of one learner."""
+    """Reads the observations of one learner."""
 
     def __init__(self, uav: str, fields: list[Field], block: Any) -> None:
         prefix = f"{uav}.sees."
@@ -32,8 +32,8 @@ class Observations:
         self.views: dict[str, Any] = {name: now[name][0:1].reshape(now[name].shape[1:]) for name in names}
 
     def read(self) -> dict[str, Any]:
-        """Copies, which stay as they are when the fleet goes on."""
-        copy = self._bytes.copy().view(self._kind).reshape(())  # as bytes: by fields it would take ten times as long
+        """Copies of the arrays, which do not change when the fleet flies on."""
+        copy = self._bytes.copy().view(self._kind).reshape(())  # copying bytes is ten times as fast as copying fields
         return dict(zip(self._names, map(copy.__getitem__, self._names)))
 
     def space(self) -> spaces.Space:

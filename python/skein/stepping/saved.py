@@ -1,4 +1,4 @@
-"""What a learner was told, as a file that the planner `hand` flies again (core/planners/hand_file.hpp)."""
+"""Writes the actions of a learner to a file that the planner `hand` flies again (core/planners/hand_file.hpp)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a fleet is made with: checked here, before a process is started."""
+"""Checks the arguments of a fleet before a process is started. All functions raise InputError."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ def number(name: str, value: Any) -> float:
     known = isinstance(value, (int, float, np.integer, np.floating)) and not isinstance(value, bool)
     try:
         found = float(value) if known else math.nan
-    except OverflowError:  # a whole number without bounds
+    except OverflowError:  # an int that is too large for a float
         found = math.inf
     if not math.isfinite(found):
         raise InputError(f"{name} must be a number, not {str(value):.80}")
@@ -37,7 +37,7 @@ def one_of(name: str, value: Any, known: Iterable[str | None]) -> Any:
 
 
 def names(name: str, value: Any) -> list[str]:
-    """Of UAVs: one, or several. A name that comes again counts once."""
+    """A list of UAVs' names, from one name or several. Repeated names count once."""
     listed = [value] if isinstance(value, str) else value
     if not isinstance(listed, (Sequence, set, frozenset, dict)) or not all(isinstance(one, str) for one in listed):
         raise InputError(f"{name} must be a UAV's name or a list of such names, not {value!r:.80}")

@@ -1,5 +1,5 @@
-"""Spaces of observations and actions: Gymnasium's where it is installed, else these, which have as much of the same
-interface as a fleet needs: `contains`, `sample`, `seed`, and what they are made of.
+"""Spaces of observations and actions. If Gymnasium is installed, these names are its classes. Otherwise they are the
+classes below, which have the part of its interface that a fleet needs: `contains`, `sample`, `seed` and attributes.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ import numpy as np
 
 
 class Space:
-    """Of all values that something may have."""
+    """A set of values. Base of all spaces."""
 
     def __init__(self, shape: tuple[int, ...] | None, dtype: Any, seed: int | None = None) -> None:
         self.shape = shape
@@ -24,7 +24,7 @@ class Space:
         return self._random
 
     def seed(self, seed: int | None = None) -> list[int]:
-        """What `sample()` draws from now on."""
+        """Seeds `sample()`."""
         drawn = int(np.random.SeedSequence().generate_state(1)[0]) if seed is None else int(seed)
         self._random = np.random.default_rng(drawn)
         return [drawn]
@@ -39,7 +39,7 @@ class Space:
         return self.contains(x)
 
 class Box(Space):
-    """Arrays of a shape and type, each number between a lowest and a highest one."""
+    """Arrays of one shape and type, with bounds for each number."""
 
     def __init__(self, low: Any, high: Any, shape: tuple[int, ...] | None = None, dtype: Any = np.float32,
                  seed: int | None = None) -> None:
@@ -75,7 +75,7 @@ class Box(Space):
         return f"Box({self.low.min(initial=np.inf)}, {self.high.max(initial=-np.inf)}, {self.shape}, {self.dtype})"
 
 class Discrete(Space):
-    """Whole numbers from 0 on."""
+    """Whole numbers from 0 to n - 1."""
 
     def __init__(self, n: int, seed: int | None = None) -> None:
         super().__init__((), np.int64, seed)
@@ -97,7 +97,7 @@ class Discrete(Space):
         return f"Discrete({self.n})"
 
 class Dict(Space):
-    """Dictionaries with certain keys, each with a space of its own."""
+    """Dictionaries with fixed keys, and a space for the values of each key."""
 
     def __init__(self, spaces: Mapping[str, Space], seed: int | None = None) -> None:
         super().__init__(None, None, seed)
@@ -140,7 +140,7 @@ class Dict(Space):
 
 
 def _use_gymnasium() -> bool:
-    """Those of the package, under the same names, where it is installed."""
+    """Replaces the classes of this module by Gymnasium's, if it is installed. Returns whether it is."""
     try:
         theirs = importlib.import_module("gymnasium.spaces")
     except ImportError:

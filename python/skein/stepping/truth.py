@@ -1,4 +1,4 @@
-"""The truth about a fleet that is stepped. No UAV knows any of it."""
+"""The true state of a stepped fleet and its world. No UAV knows it."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ _BOX = np.dtype([("name", "U64"), ("center", "f8", 3), ("size", "f8", 3), ("atti
 
 
 class Truth:
-    """How the world stands at the present step. Arrays have a row for each UAV, in the order of `uavs`."""
+    """The world at the present step. Frame W, SI units. Arrays have a row for each UAV, in the order of `uavs`."""
 
     def __init__(self, worker: Worker, uavs: tuple[str, ...]) -> None:
         self._worker = worker
@@ -31,7 +31,7 @@ class Truth:
 
     @property
     def step(self) -> int:
-        """Exchanges so far."""
+        """Number of exchanges so far."""
         return int(self._number("step"))
 
     @property
@@ -45,12 +45,12 @@ class Truth:
 
     @property
     def score(self) -> float:
-        """What the station counts: delivered captures."""
+        """The score of the delivered captures, as the station counts it."""
         return float(self._number("score"))
 
     @property
     def score_earned(self) -> float:
-        """The same as if all captures were delivered."""
+        """The score if all captures were delivered."""
         return float(self._number("score_earned"))
 
     @property
@@ -84,7 +84,7 @@ class Truth:
 
     @property
     def alive(self) -> Array:
-        """(n,): it has not collided, nor left the world"""
+        """(n,): whether the UAV has neither collided nor left the world"""
         return self._rows("alive").astype(bool)
 
     @property
@@ -93,17 +93,18 @@ class Truth:
 
     @property
     def captures(self) -> Array:
-        """(n,): exposures that saw an interest point"""
+        """(n,): number of exposures that saw at least one interest point"""
         return self._rows("captures")
 
     @property
     def distance_m(self) -> Array:
-        """(n,): flown"""
+        """(n,): length of the flight so far [m]"""
         return self._rows("distance_m")
 
     @property
     def points(self) -> Array:
-        """All interest points: the best quality delivered and earned of each (0: none), and whether a camera saw it."""
+        """All interest points: position and normal in W, best delivered and earned quality (0: none), and whether a
+        camera ever saw the point."""
         rows = self._worker.ask("scene")["points"]
         table = np.zeros(len(rows), _POINT)
         if rows:
@@ -114,6 +115,6 @@ class Truth:
 
     @property
     def boxes(self) -> Array:
-        """What UAVs are told of the structure, when they are told: name, centre, size and attitude of each box."""
+        """The boxes that UAVs receive during the mission: name, centre, size and attitude of each."""
         boxes = self._worker.ask("scene")["boxes"]
         return np.array([(box["name"], box["center"], box["size"], box["attitude"]) for box in boxes], _BOX)

@@ -1,4 +1,4 @@
-"""Several fleets side by side, each in a process of its own."""
+"""Several fleets that fly in parallel, each in a process of its own."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from .fleet import Fleet
 
 
 class FleetVector:
-    """Fleets that are stepped at once; they use as many cores as there are. What each returns is that of `Fleet`."""
+    """Fleets that fly their steps in parallel, on all cores. Results are lists with the results of each `Fleet`."""
 
     def __init__(self, fleets: Sequence[Fleet]) -> None:
         self.fleets = list(fleets)
@@ -35,7 +35,7 @@ class FleetVector:
 
     def reset(self, seed: int | Sequence[int] | None = None, options: Mapping[str, Any] | None = None
               ) -> tuple[list[dict[str, Any]], list[dict[str, Any]]]:
-        """Begins anew. One seed is the first fleet's; the others get those after it."""
+        """Begins a new mission in each fleet. A single seed is for the first fleet; the others get the next numbers."""
         seeds: Sequence[int | None]
         if seed is None:
             seeds = [None] * len(self.fleets)
@@ -50,7 +50,7 @@ class FleetVector:
     def step(self, actions: Sequence[Mapping[str, Any] | None], *, step_s: float | None = None
              ) -> tuple[list[dict[str, Any]], list[dict[str, float]], list[dict[str, bool]], list[dict[str, bool]],
                         list[dict[str, Any]]]:
-        """A step of each fleet; a fleet whose mission is over stays, and returns empty dictionaries."""
+        """Flies one step of each fleet. A fleet whose mission is over stays as it is and returns empty dictionaries."""
         self._check_length("actions", actions)
         flying = []
         try:
@@ -60,12 +60,12 @@ class FleetVector:
                         fleet.begin_step(one, step_s=step_s)
                         flying.append(fleet)
             except InputError:
-                for fleet in flying:  # those that were told before go on, and stand again
+                for fleet in flying:  # fleets that have begun the step finish it
                     fleet.end_step()
                 raise
             parts: list[tuple[Any, ...]] = [fleet.end_step() if fleet in flying else ({}, {}, {}, {}, {})
                                             for fleet in self.fleets]
-        except BaseException:  # Ctrl-C, or one of them has failed: nobody waits for the others any more
+        except BaseException:  # after Ctrl-C or a failure of one fleet, the replies of the others are never read
             for fleet in self.fleets:
                 fleet._give_up()
             raise
@@ -89,7 +89,7 @@ class FleetVector:
 
 
 def vector_env(n: int, scenario: Any = "towers", *, seed: int = 0, **options: Any) -> FleetVector:
-    """`n` fleets as `skein.Fleet` makes them, with the seeds `seed`, `seed + 1`, ..."""
+    """Makes `n` fleets with the seeds `seed`, `seed + 1`, ...; `options` are arguments of `skein.Fleet`."""
     if settings.whole("n", n) < 1:
         raise InputError("n must be 1 or more")
     first = settings.whole("seed", seed)

@@ -1,8 +1,8 @@
-"""Processes in which fleets fly, and the one talk that there is with them (one_process/session.hpp).
+"""Processes in which fleets fly, and the protocol with which this program controls them (one_process/session.hpp).
 
-A family of them begins with one that the launcher becomes, which has no fleet. All others are copies: of that one with
-a fleet that begins, or of another with a fleet as it stands. A process ends when its socket is closed here, by whatever
-end of this program.
+The first process of a family is the launcher, which turns into a process without a fleet. All others are copies: of the
+first process, with a new fleet, or of another one, with its fleet in its present state. A process ends when its socket
+is closed at this end, which happens in whatever way this program ends.
 """
 
 from __future__ import annotations
@@ -28,16 +28,16 @@ from .observations import Field
 
 _LONGEST_ANSWER = 1 << 20
 _MOST_LINES = 20
-_FRAME = "  at "  # of the addresses that a crash leaves (process/health/crash_notes.hpp)
-_FIRST_SESSION = 64  # descriptors below 10 are a shell's own, and the checkout's launcher begins as one
-_LOOK_S = 1  # how often a process that does not answer is looked at
-_PATIENCE_S = 30.0  # for a process that was told to end
+_FRAME = "  at "  # prefix of the stack addresses that a crash prints (process/health/crash_notes.hpp)
+_FIRST_SESSION = 64  # lowest descriptor: a checkout's launcher starts as a shell script, and shells use those below 10
+_LOOK_S = 1  # interval between checks of a process that does not answer
+_PATIENCE_S = 30.0  # timeout for a process that was told to end
 
 _all: weakref.WeakSet[_Process] = weakref.WeakSet()
 
 
 def _forget_all() -> None:
-    """In a copy of this program: fleets are its parent's, and must end when that does."""
+    """In a copy of this program (os.fork): closes its copies of the sockets, so that the fleets end with the parent."""
     for process in list(_all):
         process.let_go()
 
@@ -55,15 +55,15 @@ def _content(file: int) -> bytes:
 
 
 class _Process:
-    """A socket, and what is printed at its other end."""
+    """This program's end of the socket of a fleet's process, and the output of that process."""
 
     def __init__(self, ours: socket.socket, log: int) -> None:
         self._socket: socket.socket | None = ours
         self._log = log
         self._owner = os.getpid()
         self.pid = 0
-        self.patience_s = 60.0  # for a turn, as the launcher has it
-        # The kernel wakes us, not poll(2), which Python's own timeouts ask before each call: two calls fewer a step.
+        self.patience_s = 60.0  # timeout of a step, with the launcher's default
+        # A timeout by the kernel: a timeout by Python calls poll(2) before each call, two more system calls per step.
         ours.setsockopt(socket.SOL_SOCKET, socket.SO_RCVTIMEO, struct.pack("@ll", int(_LOOK_S), 0))
         _all.add(self)
 
@@ -72,7 +72,7 @@ class _Process:
         return self._socket is None
 
     def let_go(self) -> None:
-        """Closes what is open here; the process at the other end finds out."""
+        """Closes this end of the socket; the process at the other end then ends."""
         if self._socket is not None:
             self._socket.close()
             os.close(self._log)
@@ -90,11 +90,11 @@ class _Process:
         return self._socket
 
     def check(self) -> None:
-        """Raises InputError if there is nobody to talk to."""
+        """Raises InputError if the fleet's process has ended, or belongs to the parent of this program."""
         self._open()
 
     def said(self) -> str:
-        """The last lines of what was printed."""
+        """The last lines of the process's output."""
         lines = [line for line in _content(self._log).decode(errors="replace").strip().splitlines()
                  if not line.startswith(_FRAME)]
         return "\n".join(lines[-_MOST_LINES:])
@@ -107,7 +107,8 @@ class _Process:
             raise self._failure(self._last_words()) from None
 
     def receive(self) -> bytes:
-        """The answer. Whoever does not wait for it to its end (Ctrl-C) has no fleet any more."""
+        """Waits for the reply. If the wait is interrupted (Ctrl-C), the fleet ends. Raises ProcessError if the process
+        has failed."""
         ours = self._open()
         try:
             answer = self._wait_for(ours)
@@ -123,8 +124,8 @@ class _Process:
         return answer
 
     def exchange(self, text: str, files: tuple[int, ...] = ()) -> bytes:
-        """Says something and waits for the answer. An interrupt anywhere between (Ctrl-C) ends the talk: otherwise the
-        answer would be taken for that to the next question."""
+        """Sends a message and waits for the reply. An interrupt in between (Ctrl-C) ends the fleet: otherwise this
+        reply would count as the reply to the next message."""
         try:
             self.send(text, files)
             return self.receive()
@@ -139,7 +140,7 @@ class _Process:
                 return ours.recv(_LONGEST_ANSWER)
             except BlockingIOError:
                 stopped_s = stopped_s + _LOOK_S if self._is_stopped() else 0.0
-                if stopped_s > 1.5 * self.patience_s > 0.0:  # it looks after itself unless it stands still
+                if stopped_s > 1.5 * self.patience_s > 0.0:  # only a stopped process misses its own timeout
                     raise self._failure({"failed": "is stopped (SIGSTOP), and does not go on"}) from None
 
     def _is_stopped(self) -> bool:
@@ -157,7 +158,7 @@ class _Process:
         return {}
 
     def _failure(self, told: dict[str, Any]) -> Error:
-        """The process has ended, or is about to."""
+        """The exception for a process that has ended or failed. Kills the process if it is stopped."""
         who = told.get("ended") or told.get("program") or "the fleet's process"
         number = int(told.get("signal", 0))
         if number:
@@ -180,7 +181,7 @@ class _Process:
 
 
 class Family:
-    """What the processes of equal fleets have in common: the one that is copied for a new fleet."""
+    """The processes of fleets with the same arguments. It owns the first one, which is copied for each new fleet."""
 
     def __init__(self, words: list[str], launcher: str | os.PathLike[str] | None, patience_s: Any = None) -> None:
         ours, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
@@ -188,11 +189,12 @@ class Family:
         session = fcntl.fcntl(theirs, fcntl.F_DUPFD_CLOEXEC, _FIRST_SESSION)
         theirs.close()
         command = [find_launcher(launcher), *words, f"--session={session}"]
-        # Until the launcher has become that process, which looks after itself, the kernel tells it of our death.
+        # If this program dies while the launcher still prepares, the kernel ends the launcher. Later the process itself
+        # ends when its socket is closed.
         if setpriv := shutil.which("setpriv"):
             command = [setpriv, "--pdeathsig", "TERM", "--", *command]
         self._root = _Process(ours, log)
-        with contextlib.suppress(TypeError, ValueError):  # the launcher will say what is wrong
+        with contextlib.suppress(TypeError, ValueError):  # the launcher reports an invalid value
             self._root.patience_s = float(patience_s)
         try:
             child = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=log, stderr=log,
@@ -221,26 +223,26 @@ class Family:
 
     @property
     def closed(self) -> bool:
-        """Its first process has ended, or an interrupt has cut it off: another family can take its place. A copy of the
-        interpreter has none instead."""
+        """Whether the first process has ended or was closed after an interrupt, so that a new family must replace this
+        one. Always False in a copy of the interpreter, which cannot replace its parent's family."""
         return self._root.closed and os.getpid() == self._root._owner
 
     def close(self) -> None:
         self._end()
 
     def worker(self, seed: int) -> Worker:
-        """A fleet that begins."""
+        """A process with a new fleet."""
         return Worker(self, self._root, {"do": "reset", "seed": seed})
 
 
 def _end(root: _Process, child: subprocess.Popen[bytes]) -> None:
-    """The first process of a family; those that are left are still needed, and end by themselves."""
+    """Ends the first process of a family. The processes with fleets go on until they are closed themselves."""
     if root.closed and os.getpid() != root._owner:
         return
     root.let_go()
     try:
         child.wait(0.0 if child.poll() is not None else 1.0)
-    except subprocess.TimeoutExpired:  # it was still the launcher
+    except subprocess.TimeoutExpired:  # the launcher was still preparing
         with contextlib.suppress(ProcessLookupError):
             os.killpg(child.pid, signal.SIGTERM)
         try:
@@ -251,7 +253,7 @@ def _end(root: _Process, child: subprocess.Popen[bytes]) -> None:
 
 
 class Worker(_Process):
-    """A fleet's process, and the block of memory that it shares."""
+    """The process of one fleet, and the memory block that it shares with this program."""
 
     def __init__(self, family: Family, original: _Process, order: dict[str, Any],
                  fields: list[Field] | None = None) -> None:
@@ -277,14 +279,14 @@ class Worker(_Process):
                                       for name, kind, shape, offset in self.fields}
 
     def fork(self) -> Worker:
-        """A copy of this process, fleet and all."""
+        """A copy of this process and its fleet."""
         return Worker(self._family, self, {"do": "fork"}, self.fields)
 
     def begin_steps(self, count: int) -> None:
         self.send(f"s {count}")
 
     def end_steps(self) -> bool:
-        """Waits until the fleet stands again. Returns whether its run has ended."""
+        """Waits until the fleet has flown the steps. Returns whether its run has ended."""
         return self.receive() == b"e"
 
     def ask(self, what: str) -> Any:

@@ -1,6 +1,6 @@
-// An ordinary rclcpp node that hears a bag being played: prints the stamps of each topic when the player has gone.
-//   listen FILE      writes FILE when its subscriptions are there, and FILE.heard with a line "TOPIC NANOSECONDS" for
-//                    each message
+// An ordinary rclcpp node that subscribes to a bag that is played: prints the stamps of each topic when the player has
+// gone.
+//   listen FILE      writes FILE once its subscriptions exist, and to FILE.heard a line "TOPIC NANOSECONDS" per message
 #include <chrono>
 #include <fstream>
 #include <string>
@@ -18,7 +18,7 @@ namespace {
 class Listener : public rclcpp::Node {
  public:
   explicit Listener(const std::string& file) : Node("listen"), heard_(file + ".heard") {
-    // As much as a subscription may ask for: what is offered as VOLATILE would not match TRANSIENT_LOCAL.
+    // The strictest QoS that still matches: a VOLATILE publisher would not match a TRANSIENT_LOCAL subscription.
     const rclcpp::QoS moving = rclcpp::QoS(1000).reliable(), latched = rclcpp::QoS(1).reliable().transient_local();
     hear<nav_msgs::msg::Odometry>("/jurong/ground_truth/odometry", moving);
     hear<geometry_msgs::msg::TwistStamped>("/jurong/gimbal", moving);

@@ -1,7 +1,8 @@
-"""Plays what dump.mjs has read of a bag, as ROS 2's player does: raw messages, publishers of the offered QoS.
+"""Plays the messages that dump.mjs has read from a bag as ROS 2's player does: raw, by publishers with the offered QoS.
 
-    play.py DUMP STAY HEARD  publishes once every topic has a subscriber, each message when the one before is a line of
-                             the file HEARD: one middleware acknowledges after seconds; stays until the file STAY exists
+    play.py DUMP STAY HEARD  begins once every topic has a subscriber; publishes each message once the file HEARD has a
+                             line for the one before, because one middleware acknowledges only after seconds; stays
+                             until the file STAY exists
 """
 import base64
 import importlib
