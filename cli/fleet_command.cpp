@@ -14,6 +14,7 @@
 
 #include "cli/run/fleet_plan.hpp"
 #include "cli/run/preflight.hpp"
+#include "core/files/write_whole.hpp"
 #include "core/text/text.hpp"
 #include "core/types.hpp"
 #include "process/files/nowhere.hpp"
@@ -21,7 +22,7 @@
 namespace skein::cli {
 namespace {
 
-/// A program that dies or stands for a while needs a launcher that brings it back, and files that remember.
+/// Killing or pausing a program needs a launcher that restarts it, and files that keep its state; here is neither.
 void check_faults(const FaultPlan& faults) {
   for (const Fault& fault : faults.faults) {
     if (!std::holds_alternative<Kill>(fault.action) && !std::holds_alternative<Pause>(fault.action)) continue;
@@ -31,7 +32,7 @@ void check_faults(const FaultPlan& faults) {
   }
 }
 
-/// What the process is told (one_process/session.hpp).
+/// The session plan that the fleet's process gets (one_process/session.hpp).
 nlohmann::json session_plan(const FleetPlan& plan) {
   nlohmann::json programs = nlohmann::json::array(), uavs = nlohmann::json::array();
   for (const ProgramSpec& program : fleet_programs(plan, kFirstDomain, kNowhere)) {
@@ -50,10 +51,10 @@ nlohmann::json session_plan(const FleetPlan& plan) {
             {"exchange_period_s", seconds(plan.scenario.exchange_ticks())}}}};
 }
 
-/// A file without a name, which the next program finds under the path that is returned.
+/// Writes an anonymous file (memfd). @returns the path under which the program that replaces this one finds it.
 std::string file_with(const std::string& text) {
   const int file = ::memfd_create("skein-session", 0);
-  if (file < 0 || ::write(file, text.data(), text.size()) != static_cast<ssize_t>(text.size())) {
+  if (file < 0 || !write_whole(file, text)) {
     throw std::system_error(errno, std::generic_category(), "memfd");
   }
   return "/proc/self/fd/" + std::to_string(file);

@@ -1,4 +1,4 @@
-// The skein command: reads the command line, hands over, turns what went wrong into a message and an exit code.
+// The skein command: parses the command line, calls the command, and turns errors into a message and an exit code.
 #include <unistd.h>
 
 #include <csignal>
@@ -47,7 +47,7 @@ namespace {
 /// The agent program that flies by default.
 std::filesystem::path default_agent() { return own_agent({}).value_or(program_dir() / programs::kAgent); }
 
-/// Help is given whatever is wrong with the agent program.
+/// The list of planners for the help. If the agent program fails, its error takes the place of the list.
 std::string planner_list() try {
   const std::filesystem::path agent = default_agent();
   std::string text = "\nPlanners: " + joined(planners_of(agent)) + "\n";
@@ -56,14 +56,14 @@ std::string planner_list() try {
   return std::string("\nPlanners: ") + error.what() + "\n";
 }
 
-/// Those of files, and those that are drawn.
+/// The names of scenarios in files, and of procedurally drawn ones.
 std::vector<std::string> scenario_names() {
   std::vector<std::string> names = config_names(default_config_dir() / "scenarios");
   names.insert(names.end(), kDrawnWorlds.begin(), kDrawnWorlds.end());
   return names;
 }
 
-/// One overload a command.
+/// Executes a command: one overload for each.
 struct Execute {
   const Console& console;
   int operator()(const RunOptions& options) const {
@@ -105,8 +105,17 @@ struct Execute {
   }
 };
 
+/// The command of these arguments. A mission that names no duration gets that of the environment, except in a capsule,
+/// which has all that is flown.
+Command command_of(const std::vector<std::string>& arguments) {
+  Command command = parse_command_line(arguments);
+  const auto* run = std::get_if<RunOptions>(&command);
+  if (run != nullptr && is_capsule(*run)) return command;
+  return parse_command_line(with_duration_of_environment(arguments));
+}
+
 int execute(const std::vector<std::string>& arguments, const Console& console) try {
-  return std::visit(Execute{console}, parse_command_line(with_duration_of_environment(arguments)));
+  return std::visit(Execute{console}, command_of(arguments));
 } catch (const InputError& error) {
   console.err << error.what() << std::endl;
   return kExitBadInput;
@@ -122,7 +131,7 @@ int execute(const std::vector<std::string>& arguments, const Console& console) t
 
 int main(int argc, char** argv) {
   skein::cli::settle_process();
-  std::signal(SIGXFSZ, SIG_IGN);  // a limit on a file's size is like a full disk: the call says so
+  std::signal(SIGXFSZ, SIG_IGN);  // at a file size limit the write fails, as on a full disk
   const bool terminal = ::isatty(STDERR_FILENO) == 1;
   return skein::cli::execute({argv + 1, argv + argc},
                              {std::cout, std::cerr, terminal, terminal && skein::cli::owns_terminal()});

@@ -17,9 +17,9 @@
 namespace skein::cli {
 namespace {
 
-/// `skein run` asks for what is not in the cache only where it takes no longer [s].
+/// `skein run` asks for an answer that is not in the cache only if computing it takes no longer than this [s].
 constexpr double kPatienceS = 10.0;
-constexpr std::size_t kMostLines = 20;  ///< of what the program said
+constexpr std::size_t kMostLines = 20;  ///< lines of the program's output that are kept
 
 /// What the oracle is asked about a scenario.
 struct Question {
@@ -57,7 +57,7 @@ Asked ask(const Question& question) {
   if (question.plan) argv.emplace_back("--plan");
   if (question.patience_s) argv.insert(argv.end(), {"--oracle-patience", std::to_string(*question.patience_s)});
   Asked asked;
-  // As in a run: the same libm gives the same answer.
+  // With a run's environment, hence the same libm and the same answer.
   asked.exit = run_to_end({programs::kSimServer, argv, fleet_environment(false), log});
   asked.answers = value_or(read_json(answer), "rows", Json::array());
   for (const std::string& line : last_lines(log, kMostLines)) asked.said += (asked.said.empty() ? "" : "\n") + line;
@@ -70,7 +70,7 @@ Json points_and_score(const Json& part) {
 
 std::string metres(double value) { return number_text(value) + " m"; }
 
-/// Points, score, and by how many percent twice as many viewpoints changed it.
+/// Points, score, and the change of the score with twice as many viewpoints [%].
 std::string figures(const Json& part) {
   return fmt::format("{:>10}{:>12.1f}{:>+10.2f} %", value_or(part, "points", 0).get<std::size_t>(),
                      value_or(part, "score", 0.0).get<double>(), value_or(part, "change_percent", 0.0).get<double>());
@@ -85,7 +85,7 @@ void print_one(std::ostream& out, const Json& answer, bool outside_only) {
   row("outside");
 }
 
-/// A share of the estimate, for people.
+/// A share of the estimate, as text for the user.
 std::string share_of(double score, double estimate) {
   return estimate > 0.0 ? fmt::format(" ({:.1f} % of reachable)", 100.0 * score / estimate) : std::string();
 }
@@ -98,7 +98,7 @@ std::string score_line(const char* name, const Json& part, double estimate) {
                      share_of(figure(part, "score"), estimate), number_of(part, "points"));
 }
 
-/// What full knowledge scores in the mission's time.
+/// Prints the score that a plan with full knowledge reaches in the mission time.
 void print_plan(std::ostream& out, const Json& answer) {
   const Json plan = value_or(answer, "plan", Json::object()), flown = value_or(plan, "flown", Json::object());
   const double estimate = figure(value_or(answer, "reachable", Json::object()), "score");
@@ -114,7 +114,7 @@ void print_plan(std::ostream& out, const Json& answer) {
   out << std::flush;
 }
 
-/// What an answer has for programs that ask for figures: not each point, and a plan where it is asked for.
+/// The part of an answer that --json prints: without the values of each point, and with the plan only on request.
 Json for_programs(Json answer, bool plan) {
   if (!plan) answer.erase("plan");
   answer.erase("estimate");
@@ -185,8 +185,8 @@ void print_oracle(std::ostream& out, const std::string& scenario, const Json& an
   }
   out << '\n';
   if (!outside_only) {
-    out << "reachable  estimate from all places that a " << (vehicle ? "whole UAV" : "camera")
-        << " can get to from the sky or its start, always that clear\n";
+    out << "reachable  from all places that a " << (vehicle ? "whole UAV" : "camera")
+        << " can reach from above or from its start without coming nearer to the structure\n";
   }
   const double berth = value_or(first, "outside_berth_m", 0.0);
   out << "outside    from where openings less than " << metres(2.0 * berth) << " wide keep it out" << std::endl;

@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// As the user gave them then. What belongs to that run alone, where it went and who debugged, is left out.
+/// The options as the user gave them then, without those that only that run needed: output, debugging, view, security.
 RunOptions options_of(const fs::path& run, const Json& result) {
   const std::string command = value_or(result, "command", "").get<std::string>();
   if (command.empty()) {
@@ -47,8 +47,7 @@ RunOptions options_of(const fs::path& run, const Json& result) {
   options.secure = options.force = options.one_process = options.cores = false;
   options.record = "run";
   options.keep_maps_s.reset();
-  options.view = {};
-  // Hands are not there any more; what they wanted is.
+  // The person who flew by hand is gone, but the run kept the commands.
   options.planner = planners_repeated(options.planner, fleet_of(result), [&](const std::string& uav) {
     return fs::absolute(run / run_folder::hand_file(uav));
   });
@@ -66,7 +65,7 @@ ReplayOf replay_of(const fs::path& run) {
   return {recording, std::nullopt, {}, {}};
 }
 
-/// In one process where that can be: it is sooner there, and the result is the same.
+/// Chooses one process where that is possible: it is faster, and the result is the same.
 void choose_processes(const Reflight& reflight, RunOptions& options) {
   options.dds = reflight.dds.value_or(options.dds);
   options.debug = reflight.debug;
@@ -76,13 +75,13 @@ void choose_processes(const Reflight& reflight, RunOptions& options) {
   options.one_process = !needs_processes(plan_fleet(options, program_dir())).has_value();
 }
 
-/// Where what is flown again goes: where the user says, else to a folder of its own in the run's.
+/// The results folder of the new flight: the one that the user names, else a new one in the run's folder.
 fs::path folder_of(const Reflight& reflight, const std::string& name) {
   if (reflight.out) return *reflight.out;
   return reflight.force ? reflight.run / name : free_results_dir(reflight.run / name);
 }
 
-/// Members whose planner is another one than then. @param then, now  options of the two runs.
+/// Members whose planner has changed. @param then, now  options of the two runs.
 std::vector<std::string> with_other_planner(const RunOptions& then, const RunOptions& now) {
   const FleetPlan before = plan_fleet(then, program_dir()), after = plan_fleet(now, program_dir());
   std::vector<std::string> members;
@@ -97,14 +96,14 @@ std::vector<std::string> with_other_planner(const RunOptions& then, const RunOpt
   return members;
 }
 
-/// What became of the digest of then, for people; empty: it is the same, or there is none.
+/// Says, for the user, how the digest has changed; empty if it is the same, or a run has none.
 std::string other_digest(const Json& then, const Json& now) {
   if (!then["digest"].is_string() || !now["digest"].is_string() || then["digest"] == now["digest"]) return {};
   return "the world itself is another one: its digest was " + then["digest"].get<std::string>() + ", and is " +
          now["digest"].get<std::string>() + "; another version, build or scenario file?";
 }
 
-/// UAVs that an agent flies, and no program of the user's own.
+/// UAVs that an agent flies, not a program of the user's own.
 std::vector<std::string> uavs_with_agents(const RunOptions& options) {
   std::vector<std::string> uavs;
   for (const UavPlanner& planner : plan_fleet(options, program_dir()).planners) {
@@ -113,7 +112,7 @@ std::vector<std::string> uavs_with_agents(const RunOptions& options) {
   return uavs;
 }
 
-/// A fork changes what comes after a time, so there must be something after it.
+/// A fork changes what comes after a time, so the recorded run must go on after it. @throws InputError
 void require_within(double at_s, const Json& then) {
   const double end_s = value_or(then, "sim_time_s", 0.0).get<double>();
   if (at_s < end_s) return;

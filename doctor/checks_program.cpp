@@ -26,24 +26,25 @@ std::vector<InterfaceFacts> read_interfaces() {
 DomainNetworkFacts read_network_of(const std::string& domain, const DomainNetwork& network) {
   DomainNetworkFacts facts{.domains = {domain}, .network = network};
   if (network.host_only()) return facts;
+  const bus::Addresses addresses = bus::look_up_all(network.peers);
   for (const std::string& name : network.peers) {
     PeerFacts& peer = facts.peers.emplace_back(PeerFacts{.name = name});
-    const auto address = bus::look_up(name);
-    if (!address) continue;
-    peer.address = bus::text_of(*address);
-    if (const auto source = bus::source_towards(*address)) peer.source = bus::text_of(*source);
+    const auto address = addresses.find(name);
+    if (address == addresses.end()) continue;
+    peer.address = bus::text_of(address->second);
+    if (const auto source = bus::source_towards(address->second)) peer.source = bus::text_of(*source);
   }
   try {
-    facts.address = bus::find_reach(network, domain, std::chrono::milliseconds(0)).address;
+    facts.address = bus::find_reach(network, domain, std::chrono::milliseconds(0), addresses).address;
   } catch (const InputError& error) {
     facts.no_interface = error.what();
   } catch (const std::exception&) {
-    // No peer tells the interface: the peers' own findings say why.
+    // No peer determines the interface: the findings about the peers say why.
   }
   return facts;
 }
 
-/// Domains that have the same network together, in the order of the first ones.
+/// Groups the domains by network, in the order of each group's first domain.
 std::vector<DomainNetworkFacts> read_networks(const Visit& visit) {
   std::vector<DomainNetworkFacts> networks;
   for (const std::string& domain : visit.domains) {

@@ -39,7 +39,7 @@ Limit number_in(const std::string& word) {
   return whole ? Limit(value) : std::nullopt;
 }
 
-/// The number behind a key in a file of lines "KEY NUMBER ...".
+/// The number after a key in a file of lines "KEY NUMBER ...".
 Limit entry_in(const fs::path& file, const std::string& key) {
   std::ifstream in(file);
   for (std::string line; std::getline(in, line);) {
@@ -55,7 +55,8 @@ void take_less(std::optional<Value>& least, const std::optional<Value>& other) {
   if (other && (!least || *other < *least)) least = other;
 }
 
-/// This process's cgroup and those above it; an engine may show a container its own one as the root.
+/// Folders of this process's cgroup and of all its ancestors, up to `mount`: in a container, the engine may show the
+/// container's own cgroup as the root.
 std::vector<fs::path> folders_of(const fs::path& mount, const std::string& cgroup) {
   std::vector<fs::path> folders;
   for (fs::path path = fs::path(cgroup).relative_path(); !path.empty(); path = path.parent_path()) {
@@ -65,13 +66,14 @@ std::vector<fs::path> folders_of(const fs::path& mount, const std::string& cgrou
   return folders;
 }
 
-/// What is left of `most` when `used` is in use, of which `cached` would be given back.
+/// What is left of the limit `most`: `used` is in use, but the kernel frees `cached` of it on demand.
 Limit left_of(Limit most, Limit used, Limit cached) {
   if (!most) return std::nullopt;
   const std::uint64_t held = used.value_or(0) - std::min(used.value_or(0), cached.value_or(0));
   return *most - std::min(*most, held);
 }
 
+/// Reads a folder of cgroup v2.
 void read_unified(const fs::path& folder, CgroupFacts& facts) {
   take_less(facts.memory_left,
             left_of(number_in(word_in(folder / "memory.max")), number_in(word_in(folder / "memory.current")),
@@ -85,7 +87,7 @@ void read_unified(const fs::path& folder, CgroupFacts& facts) {
     take_less(facts.cpus, std::optional(static_cast<double>(*time) / static_cast<double>(*of)));
 }
 
-/// The former version. A memory limit that is none is a number near 2^63.
+/// Reads a folder of cgroup v1, which shows "no memory limit" as a number near 2^63.
 void read_former(const std::string& controller, const fs::path& folder, CgroupFacts& facts) {
   constexpr std::uint64_t kUnlimited = std::uint64_t{1} << 60;
   if (controller == "memory") {
@@ -96,7 +98,7 @@ void read_former(const std::string& controller, const fs::path& folder, CgroupFa
   } else if (controller == "pids") {
     take_less(facts.processes, number_in(word_in(folder / "pids.max")));
   } else if (controller == "cpu") {
-    const Limit time = number_in(word_in(folder / "cpu.cfs_quota_us"));  // -1, no number of ours: none
+    const Limit time = number_in(word_in(folder / "cpu.cfs_quota_us"));  // -1, which number_in() rejects: no limit
     const Limit of = number_in(word_in(folder / "cpu.cfs_period_us"));
     if (time && of && *of > 0) {
       take_less(facts.cpus, std::optional(static_cast<double>(*time) / static_cast<double>(*of)));
@@ -104,6 +106,7 @@ void read_former(const std::string& controller, const fs::path& folder, CgroupFa
   }
 }
 
+/// Evidence that this process runs in a container; empty: none.
 std::string container_sign() {
   for (const char* file : {"/.dockerenv", "/run/.containerenv"}) {
     if (fs::exists(file)) return file;
@@ -157,8 +160,8 @@ MachineFacts read_machine() {
   facts.cgroup = read_cgroup();
   facts.open_files = resource(RLIMIT_NOFILE, &rlimit::rlim_cur);
   facts.most_open_files = resource(RLIMIT_NOFILE, &rlimit::rlim_max);
-  facts.processes = number_in(word_in("/proc/sys/kernel/threads-max"));
-  if (::geteuid() != 0) take_less(facts.processes, resource(RLIMIT_NPROC, &rlimit::rlim_cur));  // root has none
+  facts.kernel_processes = number_in(word_in("/proc/sys/kernel/threads-max"));
+  if (::geteuid() != 0) facts.processes = resource(RLIMIT_NPROC, &rlimit::rlim_cur);  // it does not hold for root
   facts.receive_buffer = number_in(word_in("/proc/sys/net/core/rmem_max"));
   facts.send_buffer = number_in(word_in("/proc/sys/net/core/wmem_max"));
   if (const Limit kb = entry_in("/proc/meminfo", "MemAvailable:")) facts.memory = *kb * 1024;
@@ -170,7 +173,7 @@ MachineFacts read_machine() {
 DiskFacts read_disk(const fs::path& results) {
   DiskFacts facts;
   std::error_code error;
-  facts.folder = (fs::absolute(results, error) / "").lexically_normal().parent_path();  // without a slash at its end
+  facts.folder = (fs::absolute(results, error) / "").lexically_normal().parent_path();  // without a trailing slash
   while (!fs::is_directory(facts.folder, error) && facts.folder.has_relative_path()) {
     facts.folder = facts.folder.parent_path();
   }

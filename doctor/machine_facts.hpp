@@ -1,5 +1,5 @@
-// What the machine grants a fleet: limits of the kernel, of the shell and of a container; disk, clocks. Only reads, but
-// for one file that it makes in the results folder and takes away.
+// Resources that the machine grants a fleet: limits of the kernel, of the shell and of a container; disk, clocks. Only
+// reads, except that read_disk() creates one file in the results folder and deletes it.
 #pragma once
 
 #include <cstdint>
@@ -9,43 +9,43 @@
 
 namespace skein::doctor {
 
-/// Bytes or a count; nullopt: no limit, or none that can be seen from here.
+/// Bytes or a count; nullopt: no limit, or a limit that this process cannot see.
 using Limit = std::optional<std::uint64_t>;
 
-/// Of this process's cgroup and all those above it.
+/// The lowest limits of this process's cgroup and of all its ancestors.
 struct CgroupFacts {
-  Limit memory_left{};           ///< [bytes] what is cached counts as left
-  std::optional<double> cpus{};  ///< a quota
-  Limit processes{};             ///< threads count each
+  Limit memory_left{};           ///< [bytes]; reclaimable cache counts as free
+  std::optional<double> cpus{};  ///< CPU quota, in CPUs
+  Limit processes{};             ///< each thread counts
 };
 
 struct MachineFacts {
-  std::string container{};  ///< by what it is known to be one; empty: none
+  std::string container{};  ///< evidence that this is a container; empty: it is none
   CgroupFacts cgroup;
-  Limit open_files{}, most_open_files{};  ///< of a process; what it may be raised to
-  Limit processes{};                      ///< of this user, threads count each
-  Limit receive_buffer{}, send_buffer{};  ///< [bytes] that a socket may ask for
+  Limit open_files{}, most_open_files{};  ///< of a process: the limit; what it may be raised to
+  Limit processes{}, kernel_processes{};  ///< of this user; of the whole host; each thread counts
+  Limit receive_buffer{}, send_buffer{};  ///< [bytes]; maximum that a socket may request
   Limit memory{};                         ///< [bytes] available
   int cpus = 1;
 };
 
 struct DiskFacts {
-  std::filesystem::path folder{};  ///< the results folder, or the one above it that exists
+  std::filesystem::path folder{};  ///< the results folder, or its nearest ancestor that exists
   Limit free{};                    ///< [bytes]
-  std::string no_file{};           ///< why no file could be made; empty: it could
+  std::string no_file{};           ///< why no file could be created; empty: one could
 };
 
 struct ClockFacts {
-  double monotonic_s = 0.0, realtime_s = 0.0;  ///< by which they went on over the same while
-  double date_s = 0.0;                         ///< since 1970
-  std::string source{};                        ///< the kernel's; empty: not told
+  double monotonic_s = 0.0, realtime_s = 0.0;  ///< time that each clock measured in the same interval
+  double date_s = 0.0;                         ///< time of day, since 1970 [s]
+  std::string source{};                        ///< the kernel's clock source; empty: unknown
 };
 
-/// @param root  for tests: where proc/ and sys/ are looked for.
+/// @param root  folder that contains proc/ and sys/; for tests.
 CgroupFacts read_cgroup(const std::filesystem::path& root = "/");
 MachineFacts read_machine();
 DiskFacts read_disk(const std::filesystem::path& results);
-/// Takes some milliseconds.
+/// Blocks for some milliseconds.
 ClockFacts read_clocks();
 
 }  // namespace skein::doctor

@@ -13,7 +13,7 @@ std::string megabytes(std::uint64_t bytes) {
                             : fmt::format("{} MB", bytes / 1'000'000);
 }
 
-/// Less of two limits, either of which may be none.
+/// The lower of two limits, either of which may be missing.
 Limit less_of(const Limit& a, const Limit& b) { return a && b ? std::min(*a, *b) : a ? a : b; }
 
 }  // namespace
@@ -39,15 +39,17 @@ Finding judge_open_files(const MachineFacts& machine, const FleetNeeds& needs) {
 
 Finding judge_processes(const MachineFacts& machine, const FleetNeeds& needs) {
   const std::string what = "processes";
-  const Limit most = less_of(machine.processes, machine.cgroup.processes);
+  const Limit most = less_of(less_of(machine.processes, machine.kernel_processes), machine.cgroup.processes);
   if (!most) return fine(what, "no limit");
   const std::string found =
       fmt::format("{} with threads may run; {} UAVs need about {}", *most, needs.uavs, needs.threads());
   if (*most >= needs.threads()) return fine(what, found);
-  const bool by_cgroup = machine.cgroup.processes == most;
+  const std::string number = std::to_string(needs.threads());
+  // Only the lowest limit is in the way.
   return failure(what, found,
-                 by_cgroup ? fmt::format("raise pids.max of the cgroup; a container: --pids-limit {}", needs.threads())
-                           : fmt::format("`ulimit -u {}` before the run", needs.threads()));
+                 machine.cgroup.processes == most ? "raise pids.max of the cgroup; a container: --pids-limit " + number
+                 : machine.processes == most      ? "`ulimit -u " + number + "` before the run"
+                                                  : "as root, on the host: sysctl -w kernel.threads-max=" + number);
 }
 
 Finding judge_buffers(const MachineFacts& machine) {

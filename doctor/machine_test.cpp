@@ -31,6 +31,7 @@ MachineFacts drawn_machine(Random& random, const FleetNeeds& needs) {
   machine.open_files = ample(random, needs.open_files());
   machine.most_open_files = ample(random, needs.open_files());
   machine.processes = ample(random, needs.threads());
+  machine.kernel_processes = ample(random, needs.threads());
   machine.cgroup.processes = ample(random, needs.threads());
   machine.receive_buffer = ample(random, kSocketBuffer);
   machine.send_buffer = ample(random, kSocketBuffer);
@@ -64,6 +65,7 @@ const std::vector<Lack>& lacks() {
   static const std::vector<Lack> kAll = {
       {"open files", [](auto& m, auto& random, const auto& n) { m.open_files = random() % n.open_files(); }},
       {"processes", [](auto& m, auto& random, const auto& n) { m.processes = random() % n.threads(); }},
+      {"processes", [](auto& m, auto& random, const auto& n) { m.kernel_processes = random() % n.threads(); }},
       {"processes", [](auto& m, auto& random, const auto& n) { m.cgroup.processes = random() % n.threads(); }},
       {"socket buffers",
        [](auto& m, auto& random, const auto&) {
@@ -93,6 +95,28 @@ TEST(MachineJudges, NameWhatLacksAndNothingElse) {
     MachineFacts poor = machine;
     lack.take_away(poor, random, needs);
     EXPECT_EQ(complaints(judge(poor, needs)), std::vector{lack.what});
+  }
+}
+
+TEST(MachineJudges, TheLowestLimitOfProcessesIsTheOneToRaise) {
+  Random random(5);
+  for (int i = 0; i < 500; ++i) {
+    const FleetNeeds needs{1 + random() % 100};
+    MachineFacts machine = drawn_machine(random, needs);
+    const std::vector<std::pair<Limit*, std::string>> limits = {{&machine.processes, "ulimit -u"},
+                                                                {&machine.kernel_processes, "kernel.threads-max"},
+                                                                {&machine.cgroup.processes, "pids.max"}};
+    const std::uint64_t least = random() % (needs.threads() - 1);
+    const auto& [lowest, words] = limits[random() % limits.size()];
+    for (const auto& [limit, other] : limits) {
+      if (random() % 2 == 0) *limit = least + 1 + random() % needs.threads();
+    }
+    *lowest = least;
+    const Finding finding = judge_processes(machine, needs);
+    EXPECT_EQ(finding.verdict, Verdict::fail);
+    for (const auto& [limit, other] : limits) {
+      EXPECT_EQ(finding.mend.find(other) != std::string::npos, limit == lowest) << finding.mend;
+    }
   }
 }
 

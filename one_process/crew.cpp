@@ -199,9 +199,14 @@ Crew::Outcome Crew::outcome_of(Place& place, bool beside, const std::function<st
   } catch (const Killed&) {
     outcome.killed = true;
   } catch (const Paused&) {
-    place.paused = true;
-    place.member->node().inbox().set_deaf(true);
-    pipe_.send_surely(shared_lines::news_json(shared_lines::Stopped{place.name}));
+    if (place.member) {
+      place.paused = true;
+      place.member->node().inbox().set_deaf(true);
+      pipe_.send_surely(shared_lines::news_json(shared_lines::Stopped{place.name}));
+    } else {  // its start was cut off: there is nothing that could go on later
+      std::cerr << place.name << ": failed: it was stopped before it was ready" << std::endl;
+      outcome.code = kExitProcessFailed;
+    }
   } catch (...) {  // an unknown exception: a process of its own would have aborted
     std::cerr << place.name << ": failed: an exception that is no std::exception" << std::endl;
     outcome.signal = SIGABRT;

@@ -113,6 +113,8 @@ class ToyProgram final : public bus::FleetProgram {
   std::variant<int, std::unique_ptr<bus::FleetMember>> prepare(const ProgramOptions& options, StatusPipe&) override {
     if (options.check_only) return 9;
     if (what_ == "refuses") throw InputError("no such thing");
+    if (what_ == "dies early") bus::kill_ourselves();
+    if (what_ == "stops early") bus::stop_ourselves();
     return std::make_unique<Toy>(name_, what_);
   }
 
@@ -245,6 +247,21 @@ TEST_P(CrewTest, WhoIsStoppedStandsStillUntilItGoesOn) {
   crew_->obey(shared_lines::Signal{"stops", SIGCONT});
   rounds(2);
   EXPECT_EQ(diary_.turns["stops"], 5);
+}
+
+TEST_P(CrewTest, WhoIsKilledOrStoppedBeforeItIsReadyHasEnded) {
+  start("dies", "dies early");
+  start("stops", "stops early");
+  start("stays", "stays");
+  crew_->obey(shared_lines::Signal{"stops", SIGCONT});
+  rounds(3);
+  auto told = ends();
+  EXPECT_EQ(told.size(), 2U);
+  EXPECT_EQ(told["dies"].signal, SIGKILL);
+  EXPECT_EQ(told["stops"].code, kExitProcessFailed);
+  EXPECT_TRUE(stopped_.empty()) << "nobody is to continue it";
+  EXPECT_NE(log("stops").find("stopped before it was ready"), std::string::npos) << log("stops");
+  EXPECT_EQ(diary_.turns["stays"], 3);
 }
 
 TEST_P(CrewTest, WhoIsAskedToEndDoesSo) {

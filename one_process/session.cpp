@@ -19,6 +19,7 @@
 #include <system_error>
 #include <utility>
 
+#include "core/files/write_whole.hpp"
 #include "core/text/number_checks.hpp"
 #include "one_process/death_notice.hpp"
 #include "process/health/crash_notes.hpp"
@@ -46,12 +47,7 @@ std::byte* map_block(int file, std::size_t bytes, std::byte* at = nullptr) {
 }
 
 void write_to_file(int file, const std::string& text) {
-  for (std::size_t done = 0; done < text.size();) {
-    const ssize_t written = ::write(file, text.data() + done, text.size() - done);
-    if (written < 0 && errno == EINTR) continue;
-    if (written < 0) throw_errno("write");
-    done += static_cast<std::size_t>(written);
-  }
+  if (!write_whole(file, text)) throw_errno("write");
 }
 
 void close_all(const std::vector<int>& files) {
@@ -108,16 +104,14 @@ void Session::load_scene() {
 int Session::serve() {
   load_scene();
   hello();
-  while (const auto message = socket_.receive()) {
-    try {
-      answer(*message);
-    } catch (const FleetFailed& failed) {
-      fail(failed);
-      return kExitProcessFailed;
-    } catch (const std::exception& error) {
-      fail({"", 0, 0, error.what()});
-      return kExitProcessFailed;
-    }
+  try {
+    while (const auto message = socket_.receive()) answer(*message);
+  } catch (const FleetFailed& failed) {
+    fail(failed);
+    return kExitProcessFailed;
+  } catch (const std::exception& error) {
+    fail({"", 0, 0, error.what()});
+    return kExitProcessFailed;
   }
   return kExitDone;
 }
@@ -137,6 +131,9 @@ void Session::answer(const SessionMessage& message) {
     if (copy(message)) return socket_.send("k");
     if (what == "reset") begin(order.at("seed"));
     return hello();
+  }
+  if (what != "result" && what != "scene") {
+    throw std::logic_error("there is no order \"" + what + "\": reset, fork, result or scene would do");
   }
   if (!fleet_ || message.files.empty()) throw std::logic_error("there is no fleet to tell of");
   write_to_file(message.files[0], (what == "scene" ? fleet_->scene() : fleet_->result()).dump());

@@ -7,6 +7,7 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <stdexcept>
 
 namespace skein::one_process {
 namespace {
@@ -34,6 +35,11 @@ std::optional<SessionMessage> SessionSocket::receive() const {
     if (note->cmsg_level != SOL_SOCKET || note->cmsg_type != SCM_RIGHTS) continue;
     message.files.resize((note->cmsg_len - CMSG_LEN(0)) / sizeof(int));
     std::memcpy(message.files.data(), CMSG_DATA(note), message.files.size() * sizeof(int));
+  }
+  if ((head.msg_flags & (MSG_TRUNC | MSG_CTRUNC)) != 0) {  // the kernel has dropped what did not fit
+    for (const int file : message.files) ::close(file);
+    throw std::length_error("a message of this session is too long: it may have " + std::to_string(kLongest) +
+                            " bytes and " + std::to_string(kMostFiles) + " descriptors");
   }
   return message;
 }

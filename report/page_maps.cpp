@@ -1,4 +1,4 @@
-// The section about what each UAV knew at its end.
+// The section with each UAV's map at the end of its agent.
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@ constexpr int kMostMapCells = 120;  ///< along the longer side of a drawing
 constexpr std::size_t kMostMaps = 20;
 constexpr std::size_t kHeights = 4;
 
-/// Seen from above, in square cells.
+/// A UAV's map in plan view, in square cells. A cell has the colour of its highest occupied cube, or of free space.
 class Plan {
  public:
   explicit Plan(const PictureView& view) : view_(view) {
@@ -30,7 +30,7 @@ class Plan {
   void add(const KnownCube& cube) {
     const Vector3d low = (cube.lowest_W - view_.low()) / cell_m_;
     const Vector3d high = low + Vector3d::Constant(cube.edge_m / cell_m_);
-    // A cube that is smaller than a cell is in the cell of its middle.
+    // A cube that is smaller than a cell belongs to the cell that contains the cube's middle.
     const auto first = [&](int axis) {
       return std::max(0, static_cast<int>(std::floor(low[axis] + 0.5 * small(cube))));
     };
@@ -63,18 +63,20 @@ class Plan {
     return svg + "</g>\n";
   }
 
-  /// Up to which height a colour goes.
+  /// Upper limit of the heights that have this colour [m].
   double height_m(std::size_t colour) const {
-    return view_.high().z() * static_cast<double>(colour - 1) / static_cast<double>(kHeights);
+    return highest_m() * static_cast<double>(colour - 1) / static_cast<double>(kHeights);
   }
 
  private:
+  /// Height that the colours divide [m]: at least 1, since the box of a flat scene may have none.
+  double highest_m() const { return std::max(1.0, view_.high().z()); }
   double small(const KnownCube& cube) const { return std::min(1.0, cube.edge_m / cell_m_); }
   std::uint8_t at(int x, int y) const { return colours_[static_cast<std::size_t>(y * columns_ + x)]; }
-  /// 0: unknown; 1: free; then by height.
+  /// 0: unknown (never returned here); 1: free; 2 and more: occupied, by height.
   std::uint8_t colour_of(const KnownCube& cube) const {
     if (!cube.occupied) return 1;
-    const double share = cube.middle_W().z() / std::max(1.0, view_.high().z());
+    const double share = cube.middle_W().z() / highest_m();
     return static_cast<std::uint8_t>(2 + std::clamp(static_cast<int>(share * kHeights), 0, int{kHeights} - 1));
   }
   std::string bar(int from, int to, int row) const {

@@ -1,5 +1,6 @@
 #include "results/csv_table.hpp"
 
+#include <charconv>
 #include <stdexcept>
 
 #include "core/files/file_bytes.hpp"
@@ -29,15 +30,28 @@ const std::string& CsvTable::text(const std::string& column) const {
 
 double CsvTable::number(const std::string& column) const {
   const std::string& cell = text(column);
-  try {
-    return std::stod(cell);
-  } catch (const std::exception&) {
-    fail("column '" + column + "': '" + cell + "' is no number");
-  }
+  const auto value = parse_number(cell);
+  if (!value) fail("column '" + column + "': '" + cell + "' is no number");
+  return *value;
 }
 
 std::optional<double> CsvTable::number_if_any(const std::string& column) const {
   return text(column).empty() ? std::nullopt : std::optional(number(column));
+}
+
+std::uint64_t CsvTable::count(const std::string& column) const {
+  const std::string& cell = text(column);
+  std::uint64_t value = 0;
+  const char* const end = cell.data() + cell.size();
+  const auto read = std::from_chars(cell.data(), end, value);
+  if (read.ec != std::errc() || read.ptr != end) {
+    fail("column '" + column + "': '" + cell + "' is no whole number of at least 0");
+  }
+  return value;
+}
+
+std::optional<std::uint64_t> CsvTable::count_if_any(const std::string& column) const {
+  return text(column).empty() ? std::nullopt : std::optional(count(column));
 }
 
 void CsvTable::fail(const std::string& what) const {

@@ -19,13 +19,17 @@ class CsvTable {
   /// Goes to the next row. @returns false at the end.
   bool next();
 
+  /// Whether the table has a column of this name.
+  bool has(const std::string& column) const { return columns_.contains(column); }
   /// The cell of this row in a column. @throws std::runtime_error, with file and line, if there is no such cell.
   const std::string& text(const std::string& column) const;
-  /// @throws std::runtime_error also if the cell is not a number.
+  /// @throws std::runtime_error also if the cell is not a finite number.
   double number(const std::string& column) const;
   /// nullopt: the cell is empty.
   std::optional<double> number_if_any(const std::string& column) const;
-  std::uint64_t count(const std::string& column) const { return static_cast<std::uint64_t>(number(column)); }
+  /// @throws std::runtime_error also if the cell is not a whole number from 0 to 2^64 - 1.
+  std::uint64_t count(const std::string& column) const;
+  std::optional<std::uint64_t> count_if_any(const std::string& column) const;
 
  private:
   [[noreturn]] void fail(const std::string& what) const;

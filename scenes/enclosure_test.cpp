@@ -76,6 +76,37 @@ TEST(Enclosure, TheSameHallWithItsDoorShutIsClosed) {
   EXPECT_TRUE(is_enclosed(RayScene(hall), {-8, -8, 0.16}));
 }
 
+/// Corridors of 2.7 x 3 m side by side along x, under a roof. Each opens to the next at one of its ends, by turns.
+/// @param open  whether the last one has no wall at its far side.
+TriangleMesh maze(int corridors, double length, bool open) {
+  constexpr double kPitch = 3.0, kThick = 0.3, kHeight = 3.0;
+  const double middle = 0.5 * kPitch * (corridors - 1), depth = kPitch * corridors + kThick;
+  std::vector<OrientedBox> boxes = {upright({0, middle, kHeight}, {length + kThick, depth, kThick})};
+  for (const double end : {-0.5, 0.5}) {
+    boxes.push_back(upright({end * length, middle, 0.5 * kHeight}, {kThick, depth, kHeight}));
+  }
+  for (int i = 0; i <= corridors; ++i) {
+    if (i == corridors && open) continue;
+    const bool whole = i == 0 || i == corridors;
+    const double gap = whole ? 0.0 : kPitch, aside = i % 2 == 0 ? 0.5 * gap : -0.5 * gap;
+    boxes.push_back(upright({aside, kPitch * (i - 0.5), 0.5 * kHeight}, {length + kThick - gap, kThick, kHeight}));
+  }
+  return join(boxes);
+}
+
+TEST(Enclosure, AMazeIsOpenWhereverItsEndIs) {
+  for (const int corridors : {1, 2, 4, 8, 70}) {
+    EXPECT_FALSE(is_enclosed(RayScene(maze(corridors, 12.0, true)), {0.0, 0.0, 0.16})) << corridors;
+  }
+  EXPECT_FALSE(is_enclosed(RayScene(maze(8, 40.0, true)), {0.0, 0.0, 0.16}));
+}
+
+TEST(Enclosure, AMazeWithoutAnEndIsClosed) {
+  for (const int corridors : {1, 2, 4, 8}) {
+    EXPECT_TRUE(is_enclosed(RayScene(maze(corridors, 12.0, false)), {0.0, 0.0, 0.16})) << corridors;
+  }
+}
+
 TEST(Enclosure, NoShippedScenarioHasAnEnclosedStart) {
   const std::filesystem::path config = source_path("config");
   const char* assets = std::getenv("SKEIN_ASSETS");

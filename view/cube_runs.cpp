@@ -102,8 +102,9 @@ std::optional<ShownMap> shown_map(std::string_view octree, double cell_m, double
   LeafRows rows(cell_m, static_cast<int>(std::floor(slice_m / cell_m)));
   if (!visit_octree(octree, cell_m, [&](const KnownCube& leaf) { rows.add(leaf); }) || !rows.sound) return std::nullopt;
   ShownMap map{cell_m, joined_runs(std::move(rows.occupied)), cell_m, slice_m, joined_runs(std::move(rows.free))};
-  for (; map.occupied.size() > most_runs; map.cell_m *= 2.0) map.occupied = coarser_runs(map.occupied);
-  for (; map.free.size() > most_runs; map.slice_cell_m *= 2.0) map.free = coarser_runs(map.free);
+  const std::size_t most = std::max(most_runs, kLeastRuns);
+  for (; map.occupied.size() > most; map.cell_m *= 2.0) map.occupied = coarser_runs(map.occupied);
+  for (; map.free.size() > most; map.slice_cell_m *= 2.0) map.free = coarser_runs(map.free);
   return map;
 }
 

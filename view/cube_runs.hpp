@@ -14,6 +14,8 @@
 namespace skein::view {
 
 inline constexpr std::size_t kMostRuns = 10'000;
+/// However large cubes become, those on different sides of y = 0 or z = 0 stay apart: four rows are never made fewer.
+inline constexpr std::size_t kLeastRuns = 4;
 
 /// The cubes x to x + length - 1 of the row (y, z).
 struct CubeRun {
@@ -36,7 +38,7 @@ std::vector<CubeRun> coarser_runs(const std::vector<CubeRun>& runs);
 
 /// @param octree  in OctoMap's binary serialisation. @param cell_m  edge of its smallest cells.
 /// @param slice_m  height of the slice of free cubes.
-/// @param most_runs  of either kind; with more, the cubes of that kind are made larger.
+/// @param most_runs  of either kind, at least kLeastRuns; with more, the cubes of that kind are made larger.
 /// @returns nullopt when the octree is damaged, or describes more space than a UAV can have seen.
 std::optional<ShownMap> shown_map(std::string_view octree, double cell_m, double slice_m,
                                   std::size_t most_runs = kMostRuns);

@@ -139,6 +139,21 @@ TEST(CubeRuns, AreOfLargerCubesWhereThereAreTooMany) {
   EXPECT_GT(coarse, 5U);
 }
 
+TEST(CubeRuns, AreFourRowsAtLeast) {
+  std::mt19937 random(6);
+  std::size_t four = 0;
+  for (int trial = 0; trial < 60; ++trial) {
+    const std::string tree = drawn_tree(random);
+    const std::size_t most = random() % 6;
+    const auto map = shown_map(tree, 0.5, 1.0, most);
+    ASSERT_TRUE(map);
+    EXPECT_LE(map->occupied.size(), std::max(most, kLeastRuns));
+    EXPECT_LE(map->free.size(), std::max(most, kLeastRuns));
+    if (most < kLeastRuns && map->occupied.size() == kLeastRuns) ++four;
+  }
+  EXPECT_GT(four, 5U) << "cubes on all sides of the origin, which cannot be fewer";
+}
+
 TEST(CubeRuns, ArriveAsTheyWerePacked) {
   std::mt19937 random(5);
   for (int trial = 0; trial < 200; ++trial) {

@@ -13,10 +13,12 @@ struct Choice {
   bool lidar = true, maps = true;
 };
 
+/// @returns a JSON object; an empty one as long as the flight has no scene.
 std::string told(const Feed& flight, const std::vector<std::string>& clouds) {
   FeedPlace place;
   place.look_at(clouds);
-  return flight.next(place, std::numeric_limits<std::size_t>::max());
+  const std::string text = flight.next(place, std::numeric_limits<std::size_t>::max());
+  return text.empty() ? "{}" : text;
 }
 
 std::string told(const Feed& flight, const Choice& choice) {
@@ -27,7 +29,8 @@ std::string told(const Feed& flight, const Choice& choice) {
   const auto word = [](bool is) { return is ? "true" : "false"; };
   std::string text = told(flight, clouds);
   text.pop_back();  // }
-  return text + R"(,"kept":{"lidar":)" + word(choice.lidar) + R"(,"maps":)" + word(choice.maps) + "}}";
+  if (text.size() > 1) text += ',';
+  return text + R"("kept":{"lidar":)" + word(choice.lidar) + R"(,"maps":)" + word(choice.maps) + "}}";
 }
 
 }  // namespace

@@ -52,5 +52,13 @@ TEST(KeptFlight, HasPointsAndMapsAsLongAsThereIsRoom) {
   for (const std::string& text : {all, maps, none, nothing}) EXPECT_EQ(told_by(text)["lines"].size(), 1U);
 }
 
+TEST(KeptFlight, WithoutASceneIsAJsonObjectAllTheSame) {
+  Feed feed;
+  EXPECT_EQ(told_by(kept_flight(feed, 0)), Json::object());
+  EXPECT_EQ(told_by(kept_flight(feed, 1'000'000)), Json::parse(R"({"kept": {"lidar": true, "maps": true}})"));
+  feed.add_line(R"({"k":"pose"})");
+  EXPECT_EQ(told_by(kept_flight(feed, 1)), Json::parse(R"({"kept": {"lidar": false, "maps": false}})"));
+}
+
 }  // namespace
 }  // namespace skein::view

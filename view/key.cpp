@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "core/files/file_bytes.hpp"
+#include "core/files/write_whole.hpp"
 #include "core/types.hpp"
 
 namespace skein::view {
@@ -59,7 +60,7 @@ bool Key::opens(std::string_view given) const {
 void write_private_file(const std::filesystem::path& file, std::string_view text) {
   ::unlink(file.c_str());
   const int fd = ::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, S_IRUSR | S_IWUSR);
-  const bool written = fd >= 0 && ::write(fd, text.data(), text.size()) == static_cast<ssize_t>(text.size());
+  const bool written = fd >= 0 && write_whole(fd, text);
   const int reason = errno;
   if (fd >= 0) ::close(fd);
   if (!written) throw std::runtime_error(file.string() + ": " + std::strerror(reason));

@@ -13,6 +13,12 @@ namespace {
 constexpr int kKeyBits = 21;
 constexpr float kPerMetre = 10.0F, kMostNumber = 32'767.0F;
 
+/// Whether a point can be told in 16-bit decimetres; false also for a point that is not finite.
+bool can_be_told(const Eigen::Vector3f& p_W) {
+  return p_W.allFinite() && p_W.cwiseAbs().maxCoeff() * kPerMetre < kMostNumber;
+}
+
+/// @param p_W  can_be_told().
 std::uint64_t cell_of(const Eigen::Vector3f& p_W) {
   std::uint64_t key = 0;
   for (const float along : p_W) {
@@ -27,7 +33,8 @@ std::uint64_t cell_of(const Eigen::Vector3f& p_W) {
 void ScanPoints::add(std::span<const Eigen::Vector3f> points_W) {
   for (const Eigen::Vector3f& p_W : points_W) {
     if (cells_.size() == most_kept_) return;
-    if (p_W.z() >= kGround_m && cells_.insert(cell_of(p_W)).second) points_W_.push_back(p_W);
+    if (!can_be_told(p_W) || p_W.z() < kGround_m) continue;
+    if (cells_.insert(cell_of(p_W)).second) points_W_.push_back(p_W);
   }
 }
 
@@ -45,7 +52,7 @@ std::string packed_points(std::span<const Eigen::Vector3f> points_W) {
   std::vector<std::uint8_t> bytes;
   bytes.reserve(6 * points_W.size());
   for (const Eigen::Vector3f& p_W : points_W) {
-    if (!p_W.allFinite() || p_W.cwiseAbs().maxCoeff() * kPerMetre >= kMostNumber) continue;
+    if (!can_be_told(p_W)) continue;
     for (const float along : p_W) {
       const auto number = static_cast<std::uint16_t>(std::lround(along * kPerMetre));
       bytes.push_back(static_cast<std::uint8_t>(number));

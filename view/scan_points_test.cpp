@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <random>
 
 #include "process/json_text.hpp"
@@ -36,6 +38,25 @@ TEST(ScanPoints, AreOneInEachCubeAboveTheGround) {
   for (const Eigen::Vector3f& p : points) {
     if (p.z() < 0.3F) continue;
     EXPECT_TRUE(std::ranges::any_of(kept, [&](const auto& other) { return cube(other) == cube(p); }));
+  }
+}
+
+TEST(ScanPoints, AreOnlyThoseThatCanBeTold) {
+  constexpr float kInfinite = std::numeric_limits<float>::infinity();
+  std::mt19937 random(5);
+  for (const float odd : {kInfinite, -kInfinite, std::nanf(""), 1e30F, -1e30F, 3'277.0F, -3'277.0F}) {
+    for (int axis = 0; axis < 3; ++axis) {
+      std::vector<Eigen::Vector3f> points = drawn(random, 50, 1'000.0F);
+      for (Eigen::Vector3f& p : points) {
+        p.z() = std::abs(p.z()) + 1.0F;
+        p[axis] = odd;
+      }
+      ScanPoints scan(3);
+      scan.add(points);
+      EXPECT_TRUE(scan.empty()) << odd << " on axis " << axis;
+      scan.add(std::vector<Eigen::Vector3f>{{1.0F, 2.0F, 3.0F}, {4.0F, 5.0F, 6.0F}, {-3'276.0F, 0.0F, 3'276.0F}});
+      EXPECT_EQ(scan.take(10).size(), 3U) << "the room was kept for these";
+    }
   }
 }
 

@@ -1,7 +1,7 @@
-// Flies a run with --view, with a browser that looks on or without one, and prints what the page took, as a line of JSON:
-// milliseconds from the first step to the first picture, script and all work of the page's thread by picture [ms],
-// pictures, the largest number of draw calls. `skein bench --view` starts it. The browser is open before the run is, as
-// a user's is; the thread's work is its CPU time, for a machine without a graphics card draws on the same cores.
+// Starts a run with --view, with or without a browser that shows it, and prints the cost of the page as a line of JSON:
+// time from the first step to the first picture [ms], CPU time of scripts and of all work of the page's thread per
+// picture [ms], number of pictures, largest number of draw calls. `skein bench --view` starts it. The browser is open
+// before the run begins, as a user's is. Work is measured as CPU time: without a graphics card, the same cores draw.
 // usage: node watched_run.mjs WEB CHROMIUM page|nobody RUN SKEIN ARGUMENT...
 import {spawn} from 'node:child_process';
 import {readFileSync} from 'node:fs';
@@ -32,16 +32,16 @@ async function look() {
   };
   while ((await stateOf(page))?.live !== 'yes' && !over) await sleep(10);
   const picture = performance.now();
-  await sleep(1000);  // what is done once is no frame's
+  await sleep(1000);  // excludes work that is done only once
   let [first, last] = [null, null];
   while (!over) {
     const now = await metrics().catch(() => null);
     if (now !== null && (last === null || now.frames >= last.frames)) last = now;
     first ??= now;
-    await sleep(2000);  // asking costs script, too
+    await sleep(2000);  // the query itself costs script time
   }
   const frames = last === null ? 0 : last.frames - first.frames;
-  if (frames === 0) return {picture};  // it was over too soon
+  if (frames === 0) return {picture};  // the run ended too early
   return {
     picture, frames,
     script_ms: (1000 * (last.script - first.script)) / frames,

@@ -19,16 +19,16 @@ int exit_code(NodeEnd end, const std::string& member) {
   switch (end) {
     case NodeEnd::finished:
     case NodeEnd::stopped:
-      return 0;
+      return kExitDone;
     case NodeEnd::server_gone:
       spdlog::error("{}: sim_server is gone", member);
-      return 3;
+      return kExitProcessFailed;
     case NodeEnd::resumed:
     case NodeEnd::dropped:
       spdlog::error("{}: sim_server goes on without us", member);
-      return 3;
+      return kExitProcessFailed;
   }
-  return 3;
+  return kExitProcessFailed;
 }
 
 }  // namespace skein::bus

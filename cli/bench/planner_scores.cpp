@@ -7,6 +7,7 @@
 #include <fstream>
 #include <map>
 #include <sstream>
+#include <tuple>
 
 #include "core/text/text.hpp"
 #include "core/types.hpp"
@@ -26,9 +27,9 @@ std::vector<std::string> cells_of(const std::string& line) {
 /// "wild" of "wild 3".
 std::string kind_of(const std::string& scene) { return scene.substr(0, scene.find(' ')); }
 
-/// What the scenes of one kind give a planner together.
+/// Sums of a planner over the scenes of one kind.
 struct Sum {
-  int scenes = 0, only_one = 0;  ///< in both tables, in one alone
+  int scenes = 0, only_before = 0, only_now = 0;  ///< in both tables, only in the old one, only in the new one
   double before = 0.0, now = 0.0;
   int collisions_before = 0, collisions = 0, frozen_before = 0, frozen = 0;
 };
@@ -38,6 +39,9 @@ std::string change_text(const Sum& sum) {
   const double percent = 100.0 * (sum.now / sum.before - 1.0);
   return std::abs(percent) < 0.05 ? "0.0 %" : fmt::format("{:+.1f} %", percent);  // tables hold rounded scores
 }
+
+/// Whose score in which scene it is.
+auto key_of(const PlannerScore& score) { return std::tie(score.scene, score.planner); }
 
 }  // namespace
 
@@ -83,7 +87,7 @@ std::vector<PlannerScore> read_planner_scores(const std::filesystem::path& file)
     scores.push_back({cells[0], cells[1], numbers[0], static_cast<int>(numbers[1]), static_cast<int>(numbers[2]),
                       static_cast<int>(numbers[3])});
   }
-  if (line.empty() && scores.empty()) throw InputError(file.string() + ": holds no scores");
+  if (scores.empty()) throw InputError(file.string() + ": holds no scores");
   return scores;
 }
 
@@ -92,11 +96,9 @@ void print_planner_scores(std::ostream& out, const std::vector<PlannerScore>& be
   std::map<std::pair<std::string, std::string>, Sum> sums;
   for (const PlannerScore& score : now) {
     Sum& sum = sums[{kind_of(score.scene), score.planner}];
-    const auto then = std::ranges::find_if(before, [&](const PlannerScore& other) {
-      return other.scene == score.scene && other.planner == score.planner;
-    });
+    const auto then = std::ranges::find(before, key_of(score), key_of);
     if (then == before.end()) {
-      ++sum.only_one;
+      ++sum.only_now;
       continue;
     }
     ++sum.scenes;
@@ -107,6 +109,10 @@ void print_planner_scores(std::ostream& out, const std::vector<PlannerScore>& be
     sum.frozen_before += then->frozen_uavs;
     sum.frozen += score.frozen_uavs;
   }
+  for (const PlannerScore& score : before) {
+    const bool is_gone = std::ranges::find(now, key_of(score), key_of) == now.end();
+    if (is_gone) ++sums[{kind_of(score.scene), score.planner}].only_before;
+  }
   out << fmt::format("{:<12}{:<14}{:>8}{:>12}{:>12}{:>10}{:>13}{:>11}\n", "scenes", "planner", "flights", "before",
                      "now", "change", "collisions", "frozen");
   for (const auto& [key, sum] : sums) {
@@ -116,8 +122,11 @@ void print_planner_scores(std::ostream& out, const std::vector<PlannerScore>& be
                          fmt::format("{} -> {}", sum.collisions_before, sum.collisions),
                          fmt::format("{} -> {}", sum.frozen_before, sum.frozen));
     }
-    if (sum.only_one > 0) {
-      out << fmt::format("{:<12}{:<14}{:>8}   not in the table before\n", key.first, key.second, sum.only_one);
+    if (sum.only_now > 0) {
+      out << fmt::format("{:<12}{:<14}{:>8}   not in the table before\n", key.first, key.second, sum.only_now);
+    }
+    if (sum.only_before > 0) {
+      out << fmt::format("{:<12}{:<14}{:>8}   only in the table before\n", key.first, key.second, sum.only_before);
     }
   }
   out << "sums of scores; frozen: UAVs that did less than the least amount of work in a minute with some open\n";

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <random>
 #include <sstream>
 
 #include "cli/testing/fake_programs.hpp"
@@ -32,6 +33,8 @@ TEST(PlannerScores, DamagedTablesAreNamedByLine) {
   const auto file = folder.path() / "scores.csv";
   const std::string header = "scene,planner,score,points,collisions,frozen_uavs\n";
   const std::map<std::string, std::string> tables = {{"", "no scores"},
+                                                     {header, "no scores"},
+                                                     {header.substr(0, header.size() - 1), "no scores"},
                                                      {"scene,score\n", "line 1"},
                                                      {header + "towers,kios,1,2,3,4\ntowers,kios,1,2,3\n", "line 3"},
                                                      {header + "towers,kios,x,2,3,4\n", "line 2"},
@@ -64,6 +67,31 @@ TEST(PlannerScores, KindsOfScenesAreSummedOverWhatBothHave) {
   EXPECT_EQ(lines.at("wild"),
             (Cells{"wild", "kios", "2", "40.0", "48.0", "+20.0", "%", "1", "->", "0", "3", "->", "1"}));
   EXPECT_NE(out.str().find("1   not in the table before"), std::string::npos) << out.str();
+}
+
+// A planner that no longer flies in a scene must not make its sums look better in silence.
+TEST(PlannerScores, WhatOnlyOneTableHasIsCounted) {
+  std::mt19937 random(13);
+  for (int trial = 0; trial < 50; ++trial) {
+    std::vector<PlannerScore> before, now;
+    int only_before = 0, only_now = 0;
+    for (int scene = 0; scene < 8; ++scene) {
+      const PlannerScore score{"wild " + std::to_string(scene), "kios", 10.0, 20, 0, 0};
+      const bool was = random() % 2 == 0, is = random() % 2 == 0;
+      if (was) before.push_back(score);
+      if (is) now.push_back(score);
+      if (was && !is) ++only_before;
+      if (is && !was) ++only_now;
+    }
+    std::ostringstream out;
+    print_planner_scores(out, before, now);
+    const auto expect = [&](int count, const std::string& words) {
+      const std::string told = " " + std::to_string(count) + "   " + words;
+      EXPECT_EQ(out.str().find(count == 0 ? words : told) != std::string::npos, count != 0) << told << out.str();
+    };
+    expect(only_now, "not in the table before");
+    expect(only_before, "only in the table before");
+  }
 }
 
 }  // namespace

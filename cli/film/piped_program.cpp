@@ -14,7 +14,7 @@
 namespace skein::cli {
 namespace {
 
-/// For any one thing that is asked of a program: far longer than anything takes on a busy machine.
+/// Timeout of each wait for the program: far longer than any request takes on a busy machine.
 constexpr int kPatience_ms = 300'000;
 constexpr std::size_t kLogLines = 8;
 
@@ -31,7 +31,7 @@ HeldSignals::HeldSignals() {
 }
 
 HeldSignals::~HeldSignals() {
-  // What came is dealt with: let loose it would end this process before it has tidied up.
+  // Discards the signals that have arrived: unblocked, they would end this process before it has cleaned up.
   signalfd_siginfo info;
   while (::read(fd_.get(), &info, sizeof info) == sizeof info) continue;
   ::sigaction(SIGPIPE, &former_pipe_action_, nullptr);
@@ -44,7 +44,7 @@ PipedProgram::PipedProgram(const ProgramSpec& spec, const HeldSignals& signals)
 PipedProgram::~PipedProgram() {
   if (program_.pid <= 0) return;
   ::kill(-program_.program, SIGKILL);
-  ::waitpid(program_.pid, nullptr, 0);  // its minder, which ends all that is left below it
+  ::waitpid(program_.pid, nullptr, 0);  // its minder, which ends all remaining descendants
 }
 
 std::string PipedProgram::last_words() const { return last_lines_below(spec_.log, kLogLines); }
@@ -74,6 +74,7 @@ std::string PipedProgram::read() {
     const ssize_t size = ::read(program_.status.get(), buffer.data(), buffer.size());
     if (size > 0) return {buffer.data(), static_cast<std::size_t>(size)};
     if (size == 0) throw std::runtime_error(spec_.name + " has ended early" + last_words());
+    if (errno != EAGAIN && errno != EINTR) throw_errno(spec_.name);
     wait_for(program_.status.get(), POLLIN);
   }
 }

@@ -1,12 +1,10 @@
 #include "cli/hunt/capsule_run.hpp"
 
 #include <algorithm>
-#include <cstdlib>
 #include <set>
 #include <sstream>
 
 #include "cli/fault_tests/fault_test.hpp"
-#include "cli/host/environment.hpp"
 #include "cli/hunt/trial.hpp"
 #include "cli/properties/judge.hpp"
 #include "cli/properties/run_signals.hpp"
@@ -38,8 +36,8 @@ std::optional<double> result_score(const fs::path& dir) {
   return score.is_number() ? std::optional(score.get<double>()) : std::nullopt;
 }
 
-/// The same run in another way, of which nothing is kept but what `look` takes.
-/// @param how  the user sees the lines of two runs: which of them the second is.
+/// Flies a second run for comparison, in a scratch folder. `look` reads the folder before it is deleted.
+/// @param how  describes the second run to the user, who sees the messages of both runs
 template <class Look>
 void fly_aside(RunOptions run, const std::string& how, const Console& console, const Look& look) {
   const ScratchDir scratch;
@@ -88,7 +86,7 @@ Replayed judge_digest(const FaultTest& test, const fs::path& dir, const Console&
   return verdict;
 }
 
-/// What is flown is in the capsule. @throws InputError for an option that would say it otherwise
+/// @throws InputError for an option that would change what is flown, since the capsule alone defines that.
 void check_options(const RunOptions& options) {
   static const std::set<std::string> kTaken = {"--dds",    "--one-process", "--agent",   "--assets",
                                                "--out",    "--force",       "--record",  "--no-report",
@@ -99,7 +97,6 @@ void check_options(const RunOptions& options) {
   for (const std::string& argument : arguments_of(options)) {
     const std::string name = argument.substr(0, argument.find('='));
     if (kTaken.contains(name) || std::ranges::find(usual, argument) != usual.end()) continue;
-    if (name == "--duration" && std::getenv(kDurationVariable) != nullptr) continue;  // for missions that name none
     throw InputError(name + " does not go with a capsule, which has all that is flown: change it in a copy of " +
                      options.scenario);
   }

@@ -7,6 +7,7 @@
 #include "cli/fault_tests/flights.hpp"
 #include "cli/options.hpp"
 #include "cli/properties/judge.hpp"
+#include "cli/run/preflight.hpp"
 #include "cli/study/side_by_side.hpp"
 #include "process/program.hpp"
 #include "results/run_folder.hpp"
@@ -64,10 +65,10 @@ properties::PropertySet TrialFlights::asked(const properties::PropertySet& set) 
 
 TrialOutcome TrialFlights::read(const Trial& trial, const fs::path& dir, const ExitStatus& exit) {
   ++flown_;
-  const Setting& setting = *setting_of(trial);
-  if (exit.code == kExitBadInput) return {};
+  const Setting* const setting = setting_of(trial);
+  if (setting == nullptr || exit.code == kExitBadInput) return {};
   const auto undisturbed = undisturbed_.find(what_is_flown(trial.run));
-  return read_outcome(dir, exit, trial, asked(setting.set), setting.scenario,
+  return read_outcome(dir, exit, trial, asked(setting->set), setting->scenario,
                       undisturbed == undisturbed_.end() ? std::nullopt : std::optional(undisturbed->second));
 }
 

@@ -24,7 +24,7 @@ using Outcome = Verdict::Outcome;
 constexpr std::array<EnumName<Outcome>, 3> kOutcomes = {
     {{"holds", Outcome::holds}, {"fails", Outcome::fails}, {"vacuous", Outcome::vacuous}}};
 
-/// Whether the run is one at all.
+/// The finding of kCompletes: whether the run went to its end, with a digest, and lost no program.
 TrialFinding completes(const std::filesystem::path& dir, const ExitStatus& exit, const Json& result) {
   TrialFinding finding{kCompletes, Outcome::holds, {}, 0.0, "completed, with a digest"};
   const std::string status = value_or(result, "status", "none").get<std::string>();
@@ -68,7 +68,8 @@ SignalUse use_of(const std::string& name, std::vector<std::string> arguments = {
   return {&*found, std::move(arguments)};
 }
 
-/// Which component each node is in, by the links of one exchange: "0 0 1 0".
+/// Connected components of the nodes, by the links of one exchange. As text, each node has the number of the first node
+/// of its component: "0 0 2 0 ".
 class Components {
  public:
   Components(properties::RunSignals& signals, const Scenario& scenario) : nodes_(scenario.fleet.size() + 1) {
@@ -105,10 +106,10 @@ class Components {
   std::vector<Pair> links_;
 };
 
-constexpr double kStatePeriod_s = 0.5;  ///< between two looks at what the fleet is in
+constexpr double kStatePeriod_s = 0.5;  ///< between two samples of the fleet's state
 constexpr int kPhases = 4;
 
-/// "0", "a few", "many".
+/// Class of an amount: 0 none, 1 few, 2 many.
 int amount(double count) { return count < 0.5 ? 0 : count < 10.0 ? 1 : 2; }
 
 std::set<std::string> kinds_in_force(const std::vector<Fault>& faults, const TrialOutcome& outcome, double time_s) {
@@ -116,7 +117,8 @@ std::set<std::string> kinds_in_force(const std::vector<Fault>& faults, const Tri
   for (std::size_t i = 0; i < faults.size() && i < outcome.began_s.size(); ++i) {
     const auto begin_s = outcome.began_s[i];
     if (!begin_s || time_s < *begin_s) continue;
-    const double end_s = faults[i].for_s ? *begin_s + *faults[i].for_s : faults[i].until_s.value_or(1e9);
+    // A fault that waited ends at the earlier of the two.
+    const double end_s = std::min(faults[i].until_s.value_or(1e9), *begin_s + faults[i].for_s.value_or(1e9));
     if (time_s < end_s) kinds.insert(fault_kind(faults[i]));
   }
   return kinds;
@@ -210,7 +212,7 @@ TrialOutcome read_outcome(const std::filesystem::path& dir, const ExitStatus& ex
     outcome.began_s.push_back(step.is_number() ? std::optional(step.get<double>() * scenario.exchange_period_s)
                                                : std::nullopt);
   }
-  if (outcome.findings.front().fails()) return outcome;  // what it left behind may be half of it
+  if (outcome.findings.front().fails()) return outcome;  // its files may be incomplete
   const results::RunRecord run = results::read_run(dir);
   std::optional<results::RunRecord> without;
   if (undisturbed) without = results::read_run(*undisturbed);

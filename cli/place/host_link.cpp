@@ -7,6 +7,8 @@
 #include <array>
 #include <cerrno>
 #include <csignal>
+#include <optional>
+#include <utility>
 
 #include "core/text/text.hpp"
 #include "core/types.hpp"
@@ -17,12 +19,12 @@ namespace {
 
 using std::chrono::milliseconds;
 
-/// Until a host has logged us in and started its part.
+/// Longest wait for an answer. The first one includes the login and the start of `skein --host`.
 constexpr double kMeet_s = 30.0;
 constexpr std::size_t kMostUnsent = 1 << 20, kLogLines = 5;
 constexpr milliseconds kLook{200};
 
-/// Its streams are on the two pipes that a program of ours gets, its complaints in its log.
+/// The carrier's stdin and stdout are the pipes that start_program() makes; its stderr goes to the log.
 ProgramSpec carrier_of(const PlacedHost& host, const std::filesystem::path& log) {
   return {host.name,
           {"/bin/sh", "-c", fmt::format("exec {} <&{} >&{}", shell_line(host.connect), kControlFd, kStatusFd)},
@@ -37,7 +39,7 @@ HostLink::HostLink(const PlacedHost& host, std::filesystem::path log)
 
 HostLink::~HostLink() {
   if (!lost()) flush(kSpeak);
-  carrier_.control.reset();  // its end of file
+  carrier_.control.reset();  // the host reads end-of-file
   pollfd ended{carrier_.pidfd.get(), POLLIN, 0};
   if (lost() || ::poll(&ended, 1, static_cast<int>(kSilence.count())) <= 0) ::kill(-carrier_.program, SIGKILL);
   ::waitpid(carrier_.pid, nullptr, 0);
@@ -64,7 +66,7 @@ void HostLink::flush(milliseconds patience) {
 
 void HostLink::read() {
   std::array<char, 65536> buffer;
-  for (int i = 0; i < 64; ++i) {  // others have their turn
+  for (int i = 0; i < 64; ++i) {  // limited, so that other hosts have their turn
     const ssize_t n = ::read(carrier_.status.get(), buffer.data(), buffer.size());
     if (n < 0 && errno == EINTR) continue;
     if (n == 0) return lose("the connection has ended");
@@ -75,7 +77,7 @@ void HostLink::read() {
 }
 
 std::deque<Frame> HostLink::take() {
-  std::deque<Frame> frames;
+  std::deque<Frame> frames = std::exchange(others_, {});
   if (lost()) return frames;
   read();
   try {
@@ -96,11 +98,18 @@ std::deque<Frame> HostLink::take() {
 
 Frame HostLink::answer(const std::string& what) {
   const auto deadline = Clock::now() + std::chrono::duration<double>(kMeet_s);
+  std::optional<Frame> answer;
   while (true) {
     for (Frame& frame : take()) {
-      if (frame.text("say") == "trouble") throw InputError("--place: " + name_ + ": " + frame.text("text"));
-      if (frame.text("say") == what) return std::move(frame);
+      if (answer) {
+        others_.push_back(std::move(frame));
+      } else if (frame.text("say") == "trouble") {
+        throw InputError("--place: " + name_ + ": " + frame.text("text"));
+      } else if (frame.text("say") == what) {
+        answer = std::move(frame);
+      }
     }
+    if (answer) return std::move(*answer);
     if (!lost() && Clock::now() > deadline) lose(fmt::format("it has not answered for {:.0f} s", kMeet_s));
     if (lost()) throw InputError("--place: " + why_);
     pollfd readable{carrier_.status.get(), POLLIN, 0};
@@ -113,7 +122,7 @@ void HostLink::lose(const std::string& why) {
   why_ = (met_ ? name_ + " is gone: " : name_ + " cannot be used: ") + why + complaint();
 }
 
-/// What ssh has to say, and what the host's shell said instead of our program.
+/// The carrier's messages, and what the host's shell printed instead of the greeting.
 std::string HostLink::complaint() const {
   std::string text = last_lines_below(log_, kLogLines);
   if (!met_ && !reader_.before_greeting().empty()) text += "\n  " + reader_.before_greeting();

@@ -30,7 +30,7 @@ std::string domain_of(const std::string& program) { return programs::member_name
 struct PlacedFleet::There {
   There(const PlacedHost& host, const fs::path& log) : programs(host.programs), link(host, log) {}
 
-  std::vector<std::string> programs;  ///< that are placed there
+  std::vector<std::string> programs;  ///< placed on this host
   HostLink link;
   HostFolders folders;
   std::string machine, user, launcher_address, address;
@@ -48,7 +48,7 @@ PlacedFleet::~PlacedFleet() = default;
 
 // ---- before the flight ------------------------------------------------------------------------------------------
 
-/// All at once: each login takes its time.
+/// Connects to all hosts at the same time, since each login takes a while.
 std::vector<std::unique_ptr<PlacedFleet::There>> PlacedFleet::connect(const std::vector<PlacedHost>& hosts) const {
   std::vector<std::unique_ptr<There>> all;
   for (const PlacedHost& host : hosts) {
@@ -113,7 +113,7 @@ std::optional<std::string> PlacedFleet::network_of_hosts() const {
   return text.empty() ? std::nullopt : std::optional("{" + text + "}");
 }
 
-/// A doctor of this host. @param name  what it calls itself
+/// A doctor process on this host. @param name  its name among the doctors.
 ProgramSpec PlacedFleet::doctor(const std::string& name, const std::vector<std::string>& domains) const {
   std::vector<std::string> argv = {plan_.bin_dir / programs::kDoctor,
                                    "--scenario",
@@ -259,7 +259,7 @@ void PlacedFleet::hear(There& there, const Frame& frame, std::vector<Event>& eve
   const auto is_placed = [&](const std::string& program) {
     return std::ranges::find(there.programs, program) != there.programs.end();
   };
-  // A host speaks for its own programs alone: an agent's is not to be trusted with the server's words.
+  // Takes only frames about programs that are placed on the host: an agent's host must not speak for the server.
   if (!name.empty() && say != "file" && !there.running.contains(name) && !is_placed(name)) return;
   if ((say == "file" || say == "left") && !is_placed(frame.text("program"))) return;
   const auto number = [&](const char* key) { return value_or(frame.head, key, 0.0).get<double>(); };
@@ -357,7 +357,6 @@ std::vector<std::string> PlacedFleet::collect(const fs::path& out) {
   const auto missing = [&] {
     return std::ranges::any_of(hosts_, [](const auto& there) { return !there->collected && !there->link.lost(); });
   };
-  std::vector<Event> ignored;
   while (missing()) {
     for (const Event& event : wait(kSpeak)) {
       if (event.kind == Event::Kind::interrupt) return {"the files of programs on other hosts were not collected"};
@@ -375,7 +374,7 @@ std::vector<std::string> PlacedFleet::collect(const fs::path& out) {
   return left;
 }
 
-/// Under a name that begins with the program's, unless it is one of the program's own.
+/// Saves a file that a program wrote. Puts the program's name in front, unless the file's name is one of the program's.
 void PlacedFleet::keep_file(const Frame& frame, const fs::path& out) {
   const std::string program = frame.text("program"), name = fs::path(frame.text("name")).filename();
   const std::string member = programs::member_name(program);

@@ -1,6 +1,6 @@
-// The programs of a fleet of which some run on other hosts (`skein run --place`): those here are children of this
-// process, those there of a process that serves it (host_service.hpp). A host of which nothing is heard any more is the
-// end of its programs. Linux. Threads: everything from one thread, which must live as long as the programs.
+// Runs a fleet with some programs on other hosts (`skein run --place`): local programs are children of this process,
+// remote ones are children of a `skein --host` there (host_service.hpp). If the launcher loses contact with a host, the
+// programs there count as ended. Linux. Threads: everything from one thread, which must live as long as the programs.
 #pragma once
 
 #include <chrono>
@@ -23,22 +23,24 @@ namespace skein::cli {
 
 class PlacedFleet final : public ProgramHost {
  public:
-  /// Connects to the hosts. @throws InputError when one cannot be reached, has another build, or is another one's
-  ///   machine.
+  /// Connects to the hosts. @throws InputError when a host cannot be reached, has another build, is the same machine as
+  ///   another host, or does not know the launcher's address, which is needed without --network.
   PlacedFleet(const FleetPlan& plan, const std::vector<PlacedHost>& hosts);
-  /// Ends what runs here and, by closing the connections, what runs there.
+  /// Ends the local programs and, by closing the connections, the remote ones.
   ~PlacedFleet() override;
 
-  /// Takes domains that are free on all hosts, for as long as this lives. @throws InputError when there are none.
+  /// Takes DDS domains that are free on all hosts, for the lifetime of this object. @param base  as for DomainBlock.
+  /// @throws InputError when there are none.
   void take_domains(std::optional<int> base, int size);
   const DomainBlock& domains() const { return *domains_; }
-  /// How the fleet's domains reach the hosts, as --network takes it: the user's own text, else each placed UAV's domain
-  /// has its host and this one as peers, and nothing else leaves this host. nullopt: nothing does.
+  /// How DDS reaches the hosts, as a value of --network: the user's own; else the domain of each placed program has its
+  /// host and this one as peers, and no other domain leaves this host. nullopt: no domain does.
   const std::optional<std::string>& network() const { return network_; }
-  /// Asks a doctor on each host at the same time whether they hear each other in the placed domains.
-  /// @param tell  hears that it takes its time. @throws InputError with what is in the way; Interrupted.
+  /// Runs a doctor on each host and here at the same time: they check that DDS connects the hosts in the domains of the
+  /// placed programs. @param tell  receives a message, since this takes a while. @throws InputError with what the
+  ///   doctors found wrong; Interrupted.
   void ask_doctors(const std::function<void(const std::string&)>& tell);
-  /// What the user should know of a secured run there.
+  /// Warnings for a secured run: on hosts where the login is not root, agents have no user ids of their own.
   std::vector<std::string> security_warnings() const;
   /// "jurong on hostB, raffles on hostC".
   std::string text() const;
@@ -61,10 +63,10 @@ class PlacedFleet final : public ProgramHost {
   struct Use {
     double cpu_s = 0.0, memory_mb = 0.0;
   };
-  struct There;  ///< a host, and what runs there
+  struct There;  ///< a host and its programs
 
   std::vector<std::unique_ptr<There>> connect(const std::vector<PlacedHost>& hosts) const;
-  void meet(There& there, const std::vector<std::unique_ptr<There>>& others) const;
+  void meet(There& there, const std::vector<std::unique_ptr<There>>& all) const;
   std::optional<std::string> network_of_hosts() const;
   There* of(const std::string& program) const;
   ProgramSpec doctor(const std::string& name, const std::vector<std::string>& domains) const;
@@ -75,12 +77,12 @@ class PlacedFleet final : public ProgramHost {
   static void keep_file(const Frame& frame, const std::filesystem::path& out);
 
   const FleetPlan plan_;
-  const ScratchDir scratch_;  ///< what the connections complain of
+  const ScratchDir scratch_;  ///< logs of the connections and the doctors
   std::vector<std::unique_ptr<There>> hosts_;
   Supervisor here_;
   std::optional<DomainBlock> domains_;
   std::optional<std::string> network_;
-  std::map<std::string, std::filesystem::path> logs_;  ///< here, of programs there
+  std::map<std::string, std::filesystem::path> logs_;  ///< on this host, by remote program
 };
 
 }  // namespace skein::cli

@@ -16,6 +16,7 @@
 #include "cli/secure/keys.hpp"
 #include "cli/secure/rules.hpp"
 #include "core/config/config_files.hpp"
+#include "core/files/write_whole.hpp"
 #include "core/topics.hpp"
 #include "core/types.hpp"
 #include "process/files/closed_to_agents.hpp"
@@ -27,17 +28,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Any user as agents are, to ask what they can read; nullopt when the launcher, not being root, may not choose.
+/// A user id as agents have, to check what they can read; nullopt: agents run as the launcher's user.
 std::optional<UserId> any_agents_user() {
   if (::geteuid() != 0) return std::nullopt;
   return UserId{kFirstAgentUser, kFirstAgentUser};
 }
 
-/// Of what an agent wrote, that is kept: it may write without end.
+/// Limits to what is kept of an agent's files, since it may write without end [bytes, files].
 constexpr std::uintmax_t kMostOfAnAgent = 64 << 20;
 constexpr std::size_t kMostFilesOfAnAgent = 1000;
 
-/// While it lives, this thread opens files with the rights of another user (setfsuid(2)).
+/// During its lifetime, this thread opens files with the rights of another user (setfsuid(2)).
 class AsUser {
  public:
   explicit AsUser(UserId user) : groups_(static_cast<std::size_t>(::getgroups(0, nullptr))) {
@@ -67,7 +68,7 @@ bool can_read(const fs::path& file, UserId user) {
   return fd >= 0;
 }
 
-/// The folder on the way to `file`, or the file itself, that is closed to a user.
+/// The first folder on the path to `file` that is closed to a user, else the file itself.
 fs::path closed_part(const fs::path& file, UserId user) {
   const AsUser as_user(user);
   fs::path part;
@@ -100,8 +101,8 @@ void make_private_folder(const fs::path& folder, const std::optional<UserId>& us
   give(folder, user);
 }
 
-/// Copies a file that `owner` made, unless it is something else in a file's clothes: a link to what is not his.
-/// @param room  for all that is still to come; less what was taken. @returns whether the whole file was copied.
+/// Copies a regular file that belongs to `owner`. Skips everything else, such as links to files of other users.
+/// @param room  bytes that may still be copied; becomes less. @returns false if the copy was cut.
 bool copy_from(const fs::path& from, const fs::path& to, UserId owner, std::uintmax_t& room) {
   const int fd = ::open(from.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
   if (fd < 0) return true;
@@ -125,14 +126,14 @@ bool copy_from(const fs::path& from, const fs::path& to, UserId owner, std::uint
 
 void write_private_file(const fs::path& file, const std::string& text) {
   const int fd = ::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0400);
-  const bool written = fd >= 0 && ::write(fd, text.data(), text.size()) == static_cast<ssize_t>(text.size());
+  const bool written = fd >= 0 && write_whole(fd, text);
   const int reason = errno;
   if (fd >= 0) ::close(fd);
   if (!written) throw std::system_error(reason, std::generic_category(), file.string());
 }
 
 std::map<std::string, SecurityFiles> security_of(const FleetPlan& plan, int base_domain) {
-  // Two authorities: whoever has a certificate must not be taken for one who may sign permissions.
+  // Two authorities, so that no participant's certificate counts as one that may sign permissions.
   const Authority identities("identities"), documents("permissions");
   const std::string rules = documents.sign(governance(base_domain, base_domain + domain_count(plan) - 1));
   std::map<std::string, SecurityFiles> security;
@@ -237,7 +238,8 @@ std::vector<std::string> SecureRun::collect() const {
       left_behind.push_back(program + ": " + std::to_string(cut) +
                             " of the files that it wrote are cut short or were "
                             "left behind (the disk is full, or they are more than " +
-                            std::to_string(kMostOfAnAgent >> 20) + " MB)");
+                            std::to_string(kMostOfAnAgent >> 20) + " MB or " + std::to_string(kMostFilesOfAnAgent) +
+                            " files)");
     }
   }
   return left_behind;

@@ -20,19 +20,20 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kUsualArraySize = 1001;                              ///< Slurm's own default of MaxArraySize
-constexpr std::size_t kMostSilent = 40;                                    ///< looks in a row: ten minutes
-constexpr std::chrono::milliseconds kFirstLook{250}, kLongestLook{15000};  ///< at Slurm's queue
-constexpr std::chrono::milliseconds kGlance{500};                          ///< at the folder of units that are over
-constexpr std::chrono::seconds kStrandedFor{60};       ///< then nodes that are gone will hardly come back soon
-constexpr std::chrono::milliseconds kLeastLook{2000};  ///< after one that such a unit caused
-/// So long before its limit of time a unit is told to end [s]: what is in the air then is flown again.
+constexpr std::size_t kUsualArraySize = 1001;  ///< Slurm's own default of MaxArraySize
+constexpr std::size_t kMostSilent = 40;        ///< failed queries in a row: about ten minutes
+constexpr std::chrono::milliseconds kFirstLook{250}, kLongestLook{15000};  ///< periods of queries to Slurm
+constexpr std::chrono::milliseconds kGlance{500};      ///< period of looks at the folder of finished units
+constexpr std::chrono::seconds kStrandedFor{60};       ///< missing nodes are not expected back after that
+constexpr std::chrono::milliseconds kLeastLook{2000};  ///< least time to a query that a finished unit causes
+/// Slurm sends a unit SIGTERM 30 s before its time limit. The flight in progress then is flown again.
 constexpr const char* kNotice = "B:TERM@30";
 
-/// Jobs of a sweep are found by their names, which tell the list of units too: who submitted them need not live.
+/// The jobs of a sweep are found by their names, which also contain the number of the list of units. So the process
+/// that submitted them need not run any more.
 std::string job_prefix(const SweepSettings& settings) { return "skein-" + settings.token + "-"; }
 
-/// What a shell's command says on its standard output. @throws InputError with its own words when it fails.
+/// Standard output of a shell command. @throws InputError with the command's own messages if it fails.
 std::string output_of(const std::string& command) {
   const ScratchDir scratch;
   const fs::path out = scratch.path() / "out", log = scratch.path() / "log";
@@ -46,7 +47,7 @@ std::string output_of(const std::string& command) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-/// Of an array a task's index must be below it.
+/// Slurm's MaxArraySize: all task indices of an array must be less.
 std::size_t max_array_size() {
   std::istringstream lines(output_of("scontrol show config"));
   for (std::string line; std::getline(lines, line);) {
@@ -117,7 +118,7 @@ class SlurmEngine : public SweepEngine {
   bool lacks_nodes() const override { return lacks_nodes_; }
 
  private:
-  /// Of all jobs with such a name: job, name, index in its array, state, node, why it waits.
+  /// The jobs whose names begin with `prefix`: id, name, index in its array, state, node, reason why it waits.
   std::vector<std::vector<std::string>> queue(const std::string& prefix) const {
     std::vector<std::vector<std::string>> jobs;
     std::istringstream lines(output_of("squeue --noheader --array --format='%F|%j|%K|%T|%N|%r'"));
@@ -137,27 +138,43 @@ class SlurmEngine : public SweepEngine {
 
   /// @param at_once  units that may fly at the same time; none: as many as Slurm likes
   void submit(const EngineWork& work, std::optional<int> at_once) {
-    const std::size_t most = max_array_size();
     std::vector<std::string> ids;
-    for (std::size_t i = 0; i < work.units.size(); i += most) {
-      const auto begin = work.units.begin() + static_cast<std::ptrdiff_t>(i);
-      const auto end = work.units.begin() + static_cast<std::ptrdiff_t>(std::min(i + most, work.units.size()));
-      // One array after the other where only so many may fly at once: each counts for itself.
-      ids.push_back(submit_array({{begin, end}, work.not_on}, at_once, at_once && !ids.empty() ? ids.back() : ""));
+    try {
+      submit_arrays(work, at_once, ids);
+    } catch (const InputError&) {
+      // The sweep must go on after the arrays before the one that was rejected, too.
+      if (!ids.empty()) merge_ = submit_merge();
+      throw;
     }
-    arrays_.insert(arrays_.end(), ids.begin(), ids.end());
     merge_ = submit_merge();
     console_.err << fmt::format("{} units are with Slurm, job{} {}", work.units.size(), ids.size() == 1 ? "" : "s",
                                 joined(ids))
                  << std::endl;
   }
 
-  /// While others fly: what a busy Slurm does not take now, the next call of fly() gives to it.
+  /// @param ids  receives the arrays that Slurm has taken, also if it rejects a later one
+  void submit_arrays(const EngineWork& work, std::optional<int> at_once, std::vector<std::string>& ids) {
+    const std::size_t most = max_array_size();
+    for (std::size_t i = 0; i < work.units.size(); i += most) {
+      const auto begin = work.units.begin() + static_cast<std::ptrdiff_t>(i);
+      const auto end = work.units.begin() + static_cast<std::ptrdiff_t>(std::min(i + most, work.units.size()));
+      // Slurm applies `at_once` to each array, so arrays with such a limit run one after the other.
+      ids.push_back(submit_array({{begin, end}, work.not_on}, at_once, at_once && !ids.empty() ? ids.back() : ""));
+      arrays_.push_back(ids.back());
+    }
+  }
+
+  /// Submits more units while others fly. If Slurm, being busy, rejects them, the next call of fly() submits them.
   void submit_more(const EngineWork& work, std::optional<int> at_once) try {
     if (work.units.empty()) return;
     const std::string former = merge_;
-    submit(work, at_once);
-    if (!former.empty()) output_of("scancel " + former);  // the new one waits for all
+    try {
+      submit(work, at_once);
+    } catch (const InputError& error) {
+      console_.err << error.what() << std::endl;
+    }
+    // The new merge job, if there is one, waits for all arrays.
+    if (!former.empty() && merge_ != former) output_of("scancel " + former);
   } catch (const InputError& error) {
     console_.err << error.what() << std::endl;
   }
@@ -186,8 +203,8 @@ class SlurmEngine : public SweepEngine {
     return id;
   }
 
-  /// It goes on with the sweep after all arrays, whoever lives: gives Slurm what failed once more, or merges.
-  /// @returns its id.
+  /// Submits the job that continues the sweep after all arrays, even if this process has ended by then: it submits
+  /// failed units again, or merges the results. @returns its id.
   std::string submit_merge() const {
     const auto settings = *folder_.settings();
     std::vector<std::string> words = settings.command;
@@ -206,20 +223,21 @@ class SlurmEngine : public SweepEngine {
     command +=
         " --output=" + shell_word(folder_.dir() / "log" / "slurm.log") + " --open-mode=append " + shell_word(script);
     const std::string id = output_of(command);
-    return id.substr(0, id.find_first_of(";\n"));  // of a cluster among several its name follows
+    return id.substr(0, id.find_first_of(";\n"));  // with several clusters, the cluster's name follows
   }
 
-  /// Asks Slurm less and less often while nothing changes, but soon when a unit is over.
+  /// Waits until Slurm holds no unit any more. Queries Slurm less and less often while nothing changes, but soon after
+  /// a unit has finished. @returns false if the user interrupted it.
   bool follow(const std::vector<std::size_t>& units, const Meanwhile& meanwhile) try {
     Supervisor signals;
     std::chrono::milliseconds look = kFirstLook;
-    std::size_t before = 0, silent = 0;
+    std::size_t before = 0, silent = 0, silent_of_stranded = 0;
     bool may_ask = true;
     for (;;) {
       const auto left = jobs_left(silent);
       if (left && left->empty()) return true;
       meanwhile.tell();
-      if (left) give_up_stranded(*left);
+      if (left) give_up_stranded(*left, silent_of_stranded);
       if (left && may_ask && idle_slots(*left) > 0) {
         may_ask = false;
         submit_more(meanwhile.more(), jobs_ ? std::optional(idle_slots(*left)) : std::nullopt);
@@ -233,21 +251,33 @@ class SlurmEngine : public SweepEngine {
     return false;
   }
 
-  /// If the only nodes that may fly what is left have died, Slurm waits for them for ever.
-  void give_up_stranded(const std::vector<EngineJob>& left) {
-    const auto now = std::chrono::steady_clock::now();
+  /// Cancels units that wait for nodes that are gone, because Slurm would wait for ever. If Slurm, being busy, does not
+  /// answer, the next look tries again. @param silent  counts failed tries in a row
+  void give_up_stranded(const std::vector<EngineJob>& left, std::size_t& silent) try {
     const std::set<std::string> arrays = stranded_arrays(left);
-    if (arrays.empty()) return stranded_since_.reset();
-    if (!stranded_since_) stranded_since_ = now;
-    if (now - *stranded_since_ < kStrandedFor) return;
-    stranded_since_.reset();
-    lacks_nodes_ = true;
-    for (const std::string& id : arrays) output_of("scancel " + id);
-    console_.err << "no node is left for job " << joined({arrays.begin(), arrays.end()})
-                 << ", which must not fly on others: cancelled" << std::endl;
+    if (stranded_for_long(!arrays.empty())) {
+      for (const std::string& id : arrays) output_of("scancel " + id);
+      stranded_since_.reset();
+      lacks_nodes_ = true;
+      console_.err << "no node is left for job " << joined({arrays.begin(), arrays.end()})
+                   << ", which must not fly on others: cancelled" << std::endl;
+    }
+    silent = 0;
+  } catch (const InputError&) {
+    if (++silent > kMostSilent) throw;
   }
 
-  /// Arrays that exclude nodes, if nothing is left but units of these, and Slurm says that all other nodes are gone.
+  bool stranded_for_long(bool stranded) {
+    const auto now = std::chrono::steady_clock::now();
+    if (!stranded) {
+      stranded_since_.reset();
+    } else if (!stranded_since_) {
+      stranded_since_ = now;
+    }
+    return stranded_since_ && now - *stranded_since_ >= kStrandedFor;
+  }
+
+  /// Arrays that exclude nodes, if only their units are left, and Slurm reports that all other nodes are gone.
   std::set<std::string> stranded_arrays(const std::vector<EngineJob>& left) const {
     const auto waits = [](const EngineJob& job) { return job.state == "PENDING"; };
     if (excluding_.empty() || left.empty() || !std::ranges::all_of(left, waits)) return {};
@@ -261,14 +291,14 @@ class SlurmEngine : public SweepEngine {
     return arrays;
   }
 
-  /// Slots for which no unit is left, while others still fly.
+  /// Number of slots for which no unit is left, while other units still fly.
   int idle_slots(const std::vector<EngineJob>& left) const {
     const bool waits = std::ranges::any_of(left, [](const EngineJob& job) { return job.state.starts_with("PENDING"); });
     if (waits || left.empty()) return 0;
     return jobs_ ? std::max(*jobs_ - static_cast<int>(left.size()), 0) : 1;
   }
 
-  /// @throws Interrupted
+  /// Waits for `look`, or until a unit has finished. @throws Interrupted
   void wait_for_next_look(Supervisor& signals, const std::vector<std::size_t>& units, std::chrono::milliseconds look) {
     using Clock = std::chrono::steady_clock;
     const auto begin = Clock::now(), until = begin + look;
@@ -289,7 +319,7 @@ class SlurmEngine : public SweepEngine {
         std::ranges::count_if(units, [&](std::size_t unit) { return done.contains(unit); }));
   }
 
-  /// nullopt: a busy Slurm does not answer at times. @param silent  how often it has not
+  /// nullopt: Slurm does not answer, as happens when it is busy. @param silent  counts failed queries in a row
   std::optional<std::vector<EngineJob>> jobs_left(std::size_t& silent) try {
     std::vector<EngineJob> left = jobs();
     silent = 0;
@@ -306,10 +336,10 @@ class SlurmEngine : public SweepEngine {
   const Console& console_;
   std::string token_;                ///< of the sweep
   std::vector<std::string> arrays_;  ///< jobs of the units that fly() gave to Slurm
-  std::set<std::string> excluding_;  ///< those of them that exclude nodes
+  std::set<std::string> excluding_;  ///< jobs of units that exclude nodes
   std::optional<std::chrono::steady_clock::time_point> stranded_since_;
   bool lacks_nodes_ = false;
-  std::string merge_;  ///< the job that goes on after them; empty: none
+  std::string merge_;  ///< job that continues the sweep after the arrays; empty: none
 };
 
 }  // namespace

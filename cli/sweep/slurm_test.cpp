@@ -1,15 +1,21 @@
-// What is passed on to Slurm.
+// What is passed on to Slurm, and what becomes of what it rejects.
 #include "cli/sweep/slurm.hpp"
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+#include <sstream>
+
 #include "cli/options.hpp"
 #include "cli/sweep/engines.hpp"
+#include "cli/testing/fake_programs.hpp"
 #include "core/types.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 namespace skein::cli {
 namespace {
 
+namespace fs = std::filesystem;
 using Words = std::vector<std::string>;
 
 std::string refusal(const Words& words) try {
@@ -47,6 +53,83 @@ TEST(SweepOptions, NeedTheirExecutor) {
   EXPECT_EQ(sweep.logins, (Words{"4/a", "b", ":"}));
   EXPECT_EQ(sweep.unit_minutes, 2.0);
   EXPECT_EQ(sweep.command.front(), "compare");
+}
+
+/// A sweep of single flights, and shell scripts in the place of Slurm's commands.
+class StandInSlurm : public testing::Test {
+ protected:
+  StandInSlurm() {
+    ::setenv("PATH", (bin().string() + ":" + path_).c_str(), 1);
+    fs::create_directories(bin());
+    write_script(bin() / "scontrol", "echo MaxArraySize = 2");
+    write_script(bin() / "squeue", "");
+    write_script(bin() / "scancel", "");
+    SweepSettings settings;
+    settings.token = "token";
+    settings.sizes = {.flights = 8};
+    settings.reference = flight(0);
+    settings.command = {"compare"};
+    settings.working_folder = scratch_.path();
+    folder_.begin(settings, false, [this](std::size_t number) { return SweepUnit{{flight(number)}}; });
+  }
+  ~StandInSlurm() override { ::setenv("PATH", path_.c_str(), 1); }
+
+  SweepFlight flight(std::size_t number) const {
+    return {number, scratch_.path() / std::to_string(number), {"run"}, Json::object()};
+  }
+  fs::path bin() const { return scratch_.path() / "bin"; }
+  fs::path file(const std::string& name) const { return scratch_.path() / name; }
+  bool fly(const EngineWork& work, bool detach) {
+    SweepOptions options;
+    options.detach = detach;
+    const auto engine = make_slurm_engine(options, {}, folder_, {said_, said_});
+    return engine->fly(work, {[] {}, [] { return EngineWork{}; }});
+  }
+
+  const std::string path_ = std::getenv("PATH");
+  const ScratchFolder scratch_;
+  const SweepFolder folder_{scratch_.path()};
+  std::ostringstream said_;
+};
+
+// Slurm limits how many jobs a user may have, so it may take the first arrays of a sweep and reject the next one.
+TEST_F(StandInSlurm, ASweepGoesOnAfterTheArraysThatWereTaken) {
+  for (std::size_t taken = 0; taken < 4; ++taken) {
+    fs::remove(file("calls"));
+    write_script(bin() / "sbatch", "echo \"$*\" >>" + file("calls").string() +
+                                       "\ncase \"$*\" in *merge*) echo 9; exit ;; esac\n"
+                                       "n=$(wc -l <" +
+                                       file("calls").string() + ")\nif [ $n -gt " + std::to_string(taken) +
+                                       " ]; then echo too many jobs >&2; exit 1; fi\necho $n\n");
+    try {
+      fly({{0, 1, 2, 3, 4, 5, 6, 7}, {}}, true);
+      ADD_FAILURE() << "one array was rejected";
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("too many jobs"), std::string::npos) << error.what();
+    }
+    const std::string calls = read_text(file("calls"));
+    std::string after;
+    for (std::size_t id = 1; id <= taken; ++id) after += ":" + std::to_string(id);
+    const bool merges = calls.find("merge --dependency=afterany" + after + " ") != std::string::npos;
+    EXPECT_EQ(merges, taken > 0) << calls;
+  }
+}
+
+// The second query of a look asks why units wait: it may fail as well as the first, when Slurm is busy.
+TEST_F(StandInSlurm, AQueryThatFailsIsRepeated) {
+  write_script(bin() / "sbatch", "echo 1");
+  for (int failing = 2; failing <= 3; ++failing) {
+    fs::remove(file("queries"));
+    write_script(bin() / "squeue", "echo >>" + file("queries").string() + "\nn=$(wc -l <" + file("queries").string() +
+                                       ")\n[ $n -ne " + std::to_string(failing) +
+                                       " ] || exit 1\n"
+                                       "if [ $n -gt 1 ] && [ $n -lt 4 ]; then\n"
+                                       "  list=$(ls " +
+                                       (folder_.dir() / "lists").string() +
+                                       " | grep -v sh | sort -n | tail -1)\n"
+                                       "  echo \"1|skein-token-$list|0|PENDING||ReqNodeNotAvail\"\nfi\n");
+    EXPECT_NO_THROW(EXPECT_TRUE(fly({{0}, {"node1"}}, false))) << failing;
+  }
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <string>
 #include <system_error>
 
+#include "core/files/write_whole.hpp"
 #include "process/files/closed_to_agents.hpp"
 #include "process/files/nowhere.hpp"
 
@@ -26,14 +27,7 @@ class File {
 
   bool is_open() const { return fd_ >= 0; }
   bool sync() const { return ::fsync(fd_) == 0; }
-  bool write(std::string_view content) const {
-    while (!content.empty()) {
-      const ssize_t written = ::write(fd_, content.data(), content.size());
-      if (written < 0 && errno != EINTR) return false;
-      if (written > 0) content.remove_prefix(static_cast<std::size_t>(written));
-    }
-    return true;
-  }
+  bool write(std::string_view content) const { return write_whole(fd_, content); }
 
  private:
   int fd_;
@@ -42,7 +36,7 @@ class File {
 }  // namespace
 
 void write_file_atomically(const std::filesystem::path& path, std::string_view content, Readers readers) {
-  // The process id keeps two programs that write the same path from sharing a temporary file.
+  // The process id prevents two programs that write the same path from sharing a temporary file.
   const std::string temporary = path.string() + ".tmp" + std::to_string(::getpid());
   const auto fail = [&](const char* step) {
     const int reason = errno;
@@ -55,7 +49,7 @@ void write_file_atomically(const std::filesystem::path& path, std::string_view c
     if (!file.is_open() || !file.write(content) || !file.sync()) fail("write");
   }
   if (std::rename(temporary.c_str(), path.c_str()) != 0) fail("put in place");
-  // The name is durable only once its folder is; some file systems cannot sync folders, which is no failure.
+  // The new name is durable only after its folder is synced. Some file systems cannot sync folders: this is no failure.
   const File folder(path.has_parent_path() ? path.parent_path().string() : ".", O_RDONLY | O_DIRECTORY);
   if (folder.is_open()) static_cast<void>(folder.sync());
 }

@@ -15,7 +15,7 @@
 namespace skein {
 namespace {
 
-/// Ends with a zero byte whatever a program wrote there.
+/// The text up to the first zero byte; all of it if a program has overwritten that byte.
 std::string text_of(std::span<const char> text) { return {text.begin(), std::find(text.begin(), text.end(), '\0')}; }
 
 void write(std::span<char> to, const std::string& text) {
@@ -37,14 +37,12 @@ struct TurnPage::Content {
 };
 
 TurnPage::TurnPage() : fd_(::memfd_create("skein-turns", MFD_CLOEXEC)) {
-  if (fd_ < 0 || ::ftruncate(fd_, sizeof(Content)) != 0) {
-    throw std::system_error(errno, std::generic_category(), "page of turns");
-  }
+  if (fd_ < 0 || ::ftruncate(fd_, sizeof(Content)) != 0) fail("page of turns");
   map();
 }
 
 TurnPage::TurnPage(const std::filesystem::path& file) : fd_(::open(file.c_str(), O_RDWR | O_CLOEXEC)) {
-  if (fd_ < 0) throw std::system_error(errno, std::generic_category(), file.string());
+  if (fd_ < 0) fail(file.string());
   map();
   content_->process = ::getpid();
   ::close(std::exchange(fd_, -1));
@@ -57,8 +55,15 @@ TurnPage::~TurnPage() {
 
 void TurnPage::map() {
   void* const memory = ::mmap(nullptr, sizeof(Content), PROT_READ | PROT_WRITE, MAP_SHARED, fd_, 0);
-  if (memory == MAP_FAILED) throw std::system_error(errno, std::generic_category(), "page of turns");
+  if (memory == MAP_FAILED) fail("page of turns");
   content_ = static_cast<Content*>(memory);
+}
+
+// Called by constructors, and after one that throws there is no destructor to close the file.
+void TurnPage::fail(const std::string& what) {
+  const int reason = errno;
+  if (fd_ >= 0) ::close(fd_);
+  throw std::system_error(reason, std::generic_category(), what);
 }
 
 std::filesystem::path TurnPage::path() const {

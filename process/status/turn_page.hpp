@@ -1,6 +1,6 @@
 // Which program has its turn in a process that hosts a whole fleet: shared memory that this process writes and the
-// launcher reads. The launcher owns it, so the contents survive when the process stops, exits or calls exec() without a
-// word. Each thread of the process has its own seat in it; in a seat, one program at a time has its turn.
+// launcher reads. The launcher owns it, so the contents survive when the process stops, exits or calls exec() without
+// notice. Each thread of the process has its own seat in it; in a seat, one program at a time has its turn.
 // Linux.   Threads: one thread writes to a seat, any thread reads. Program names are cut to 119 bytes, reasons to 255.
 #pragma once
 
@@ -31,7 +31,7 @@ class TurnPage {
 
   static constexpr std::size_t kSeats = 64;
 
-  /// A turn of `program` begins; the turn in the seat ends. @param seat  below kSeats
+  /// Records that a turn of `program` begins in a seat; leave() that it ends. @param seat  below kSeats
   void enter(std::size_t seat, const std::string& program);
   void leave(std::size_t seat);
   /// Records why the process ends during a turn. @param program  whose turn it is; empty: not known.
@@ -50,6 +50,7 @@ class TurnPage {
  private:
   struct Content;
   void map();
+  [[noreturn]] void fail(const std::string& what);
 
   int fd_ = -1;
   Content* content_ = nullptr;

@@ -1,6 +1,12 @@
 #include "process/status/turn_page.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <csignal>
+#include <filesystem>
+#include <iterator>
+#include <system_error>
 
 namespace skein {
 namespace {
@@ -38,6 +44,27 @@ TEST(TurnPage, WhoGaveTheReasonIsTheOne) {
   launchers.clear();
   EXPECT_EQ(launchers.holders(), Names{});
   EXPECT_EQ(launchers.reason(), "");
+}
+
+std::ptrdiff_t open_files() {
+  return std::distance(std::filesystem::directory_iterator("/proc/self/fd"), std::filesystem::directory_iterator());
+}
+
+// The launcher makes a page for each process of a fleet: what fails again and again must not use up its descriptors.
+TEST(TurnPage, OneThatCannotBeMadeLeavesNoFileOpen) {
+  const std::ptrdiff_t before = open_files();
+  EXPECT_THROW(TurnPage("/dev/null"), std::system_error) << "it cannot be mapped";
+  EXPECT_THROW(TurnPage("/no/such/page"), std::system_error);
+  EXPECT_EQ(open_files(), before);
+  rlimit usual{};
+  ::getrlimit(RLIMIT_FSIZE, &usual);
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  const rlimit none{0, usual.rlim_max};
+  ::setrlimit(RLIMIT_FSIZE, &none);
+  EXPECT_THROW(TurnPage(), std::system_error) << "it cannot get its size";
+  ::setrlimit(RLIMIT_FSIZE, &usual);
+  std::signal(SIGXFSZ, handler);
+  EXPECT_EQ(open_files(), before);
 }
 
 TEST(TurnPage, LongNamesAreCut) {

@@ -1,12 +1,13 @@
-"""What every planner must do and must never do, whatever its strategy, as cases of pytest:
+"""The contract that every planner must keep, whatever its strategy, as test cases for pytest:
 
     from skein.testing import PlannerContract
 
     class TestMine(PlannerContract):
         planner = "py:my_planner.py"
 
-`pytest` then flies it in short missions of one process each: alone and with others, unheard, out of sight, started
-again in flight, and twice to the same digest. Any `--planner` will do, those in C++ and `exec:` programs too.
+`pytest` then flies the planner in short one-process missions: alone and with seven others, in another scene, without
+radio, restarted in flight, and twice for the same digest. Any `--planner` that flies in one process will do, in C++,
+too; for an `exec:` program, set `options = {"one_process": False}`.
 """
 
 from __future__ import annotations
@@ -22,17 +23,17 @@ from .run import run as fly
 
 
 class PlannerContract:
-    """Derive from it, and say which planner. pytest collects what is called Test...: the derived class."""
+    """Derive a class whose name begins with Test, so that pytest collects it, and set `planner`."""
 
-    planner: ClassVar[str] = ""            #: as --planner takes it
+    planner: ClassVar[str] = ""            #: a value of --planner
     scenario: ClassVar[str] = "towers"
     duration_s: ClassVar[float] = 60.0     #: of each mission
     seed: ClassVar[int] = 3
-    least_distance_m: ClassVar[float] = 1.0  #: that each UAV flies; 0: it may stay where it is
+    least_distance_m: ClassVar[float] = 1.0  #: least distance that each UAV must fly; 0: it may stay where it is
     options: ClassVar[dict[str, Any]] = {}   #: more options of `skein.run`
 
     def fly(self, folder: Path, **options: Any) -> Run:
-        """A mission, from which nothing is kept that takes time."""
+        """Flies a mission without recording, oracle and report, which would take time."""
         assert self.planner, f"{type(self).__name__}.planner must say which planner"
         words: dict[str, Any] = {"planner": self.planner, "seed": self.seed, "duration": self.duration_s,
                                  "one_process": True, "record": "none", "no_oracle": True, "no_report": True,
@@ -40,7 +41,7 @@ class PlannerContract:
         return fly(self.scenario, **(words | self.options | options))
 
     def expect_sound(self, run: Run, flies: bool = True) -> None:
-        """It came to its end, without a collision, and everything that was commanded was taken."""
+        """Asserts that the run was completed without collisions and without rejected commands."""
         result = run.result
         assert result["status"] == "completed", result["warnings"]
         assert result["deterministic"], result["warnings"]
@@ -80,7 +81,7 @@ class PlannerContract:
         killed = self.faults(tmp_path, f"at_s: {self.duration_s / 3:g}, for_s: 3, kill: {first}")
         run = self.fly(tmp_path / "run", faults=killed)
         self.expect_sound(run)
-        assert not run.result["uavs"][0].get("lost"), f"{first} did not take part again"
+        assert not run.result["uavs"][0]["program_lost"], f"{first} did not take part again"
 
 
 @contextmanager

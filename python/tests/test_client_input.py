@@ -170,6 +170,17 @@ def test_a_listener_that_cannot_be_says_why(arguments: Any, match: str) -> None:
         Listener(["/gcs/score"], run="/no/such/run")
 
 
+@pytest.mark.parametrize(("options", "match"), [
+    ({"domain": 223, "run": "runs/mine"}, "run: cannot stand beside domain"),
+    ({"domain": 223, "patience_s": 3}, "patience_s: cannot stand beside domain"),
+    *(({"domain": domain, "patience_s": wrong}, "patience_s: must be")
+      for domain in (None, 223) for wrong in (-1e-9, -0.05, -3, float("nan"), float("inf"), "3")),
+])
+def test_what_a_listener_would_not_heed_is_refused(options: dict[str, Any], match: str) -> None:
+    with pytest.raises(skein.InputError, match=match):
+        Listener(["/gcs/score"], dds="cyclonedds", **options)
+
+
 def _in_a_copy(client: Client, answers: Any) -> None:
     try:
         next(client)

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import json
 import subprocess
 import sys
+import warnings
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -170,6 +172,24 @@ def test_words_and_colours_are_those_of_the_report(root: Path) -> None:
     for _, words, begins in plots.flight._MODES:
         assert f"text: '{words}'" in modes
         assert all(f"'{begin}'" in modes for begin in begins)
+
+
+@pytest.mark.parametrize("sim_time_s", ["0", "null", "45"])
+@pytest.mark.parametrize("draw", [plots.score, plots.activity, plots.links, plots.links_over_time],
+                         ids=lambda draw: draw.__name__)
+def test_an_aborted_run_is_drawn(flown: skein.Run, tmp_path: Path, draw: Any, sim_time_s: str) -> None:
+    for file in flown.path.glob("*.csv"):  # they have no row
+        (tmp_path / file.name).write_text(file.read_text().splitlines()[0] + "\n")
+    result = json.loads((flown.path / "result.json").read_text())
+    del result["checksum"]
+    result["sim_time_s"] = json.loads(sim_time_s)
+    (tmp_path / "result.json").write_text(json.dumps(result))
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        ax = draw(skein.Run(tmp_path))
+        plots.save(ax, tmp_path / "drawn.svg")
+    assert ax.get_xlim()[1] > ax.get_xlim()[0]
+    assert "nan" not in [text.get_text() for text in ax.texts], "what is unknown is left out"
 
 
 def test_a_study_without_flights_that_count_is_drawn(study: skein.Study, tmp_path: Path) -> None:

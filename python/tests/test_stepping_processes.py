@@ -145,6 +145,15 @@ def test_a_crash_is_an_exception_and_reset_begins_anew(number: signal.Signals) -
         fleet.step()
 
 
+def test_an_order_that_does_not_exist_is_refused() -> None:
+    for unknown in ("results", "Scene", ""):
+        with skein.Fleet("towers", planner="hover", learners=["jurong"]) as fleet:
+            fleet.reset(seed=1)
+            assert fleet._worker is not None
+            with pytest.raises(skein.ProcessError, match=f'no order "{unknown}"'):
+                fleet._worker.ask(unknown)
+
+
 NAMED = ["throws", "throws_number", "segfaults", "aborts", "exits", "overflows", "hangs"]
 
 

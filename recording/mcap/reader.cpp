@@ -3,6 +3,8 @@
 #include <zstd.h>
 
 #include <algorithm>
+#include <memory>
+#include <new>
 
 #include "core/files/file_bytes.hpp"
 #include "core/text/text.hpp"
@@ -89,23 +91,42 @@ class DamageSearch {
   std::vector<std::string> damage_;
 };
 
+/// Decompresses as much as the frames really have. A damaged size may have any value, so memory grows with what comes
+/// out, and is not allocated for the size that the file states.
+/// @param size  stated size. @returns false if the frames are damaged, or have another size.
+bool decompress(ByteView packed, std::uint64_t size, Bytes& bytes) {
+  constexpr std::uint64_t kFirst = 1 << 20;  // as much as the chunks of our own recordings have
+  const std::unique_ptr<ZSTD_DCtx, decltype(&ZSTD_freeDCtx)> context(ZSTD_createDCtx(), &ZSTD_freeDCtx);
+  if (!context) throw std::bad_alloc();
+  ZSTD_inBuffer in{packed.data(), packed.size(), 0};
+  bytes.resize(std::min(size, kFirst));
+  ZSTD_outBuffer out{bytes.data(), bytes.size(), 0};
+  for (std::size_t left = 0; in.pos < in.size || left > 0;) {
+    const std::size_t read = in.pos, written = out.pos;
+    left = ZSTD_decompressStream(context.get(), &out, &in);
+    if (ZSTD_isError(left) != 0) return false;
+    if (out.pos == out.size && out.size < size) {
+      bytes.resize(std::min<std::uint64_t>(size, 2 * out.size));
+      out.dst = bytes.data();
+      out.size = bytes.size();
+    } else if (in.pos == read && out.pos == written) {
+      return false;  // cut off, or more comes out than is stated
+    }
+  }
+  return out.pos == size;
+}
+
 ByteView view(const std::string& bytes) { return {reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}; }
 
 }  // namespace
 
 std::optional<Bytes> unpack(const Chunk& chunk) {
+  if (chunk.uncompressed_size > kLargestChunk) return std::nullopt;
   Bytes records;
   if (chunk.compression.empty()) {
+    if (chunk.records.size() != chunk.uncompressed_size) return std::nullopt;
     records.assign(chunk.records.begin(), chunk.records.end());
-  } else if (chunk.compression == "zstd" && chunk.uncompressed_size <= kLargestChunk) {
-    // Checked before memory is allocated: a damaged size may have any value.
-    const auto told = ZSTD_getFrameContentSize(chunk.records.data(), chunk.records.size());
-    if (told != ZSTD_CONTENTSIZE_UNKNOWN && told != chunk.uncompressed_size) return std::nullopt;
-    records.resize(chunk.uncompressed_size);
-    const std::size_t size =
-        ZSTD_decompress(records.data(), records.size(), chunk.records.data(), chunk.records.size());
-    if (ZSTD_isError(size) != 0 || size != records.size()) return std::nullopt;
-  } else {
+  } else if (chunk.compression != "zstd" || !decompress(chunk.records, chunk.uncompressed_size, records)) {
     return std::nullopt;
   }
   if (chunk.uncompressed_crc != 0 && crc_of(records) != chunk.uncompressed_crc) return std::nullopt;

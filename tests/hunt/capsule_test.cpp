@@ -19,10 +19,14 @@ capsule: {property: most, skein: '0.1.0', command: skein hunt towers}
 )";
 
 TEST_F(Capsule, EndsWithTheScoreOfTheFindAndNotOfTheRunWithoutFaults) {
-  ChildProcess& run = skein({"run", write("share.yaml", kShare), "--one-process", "--out", folder() / "find"});
+  // The variable is about missions that name no duration: a capsule has its own.
+  ChildProcess& run = start_program(
+      "share", {program("skein"), "run", write("share.yaml", kShare), "--one-process", "--out", folder() / "find"},
+      {{"SKEIN_DURATION", "20"}});
   EXPECT_EQ(run.wait().code, 1) << run.out() << run.err();
   const Json find = Json::parse(text_of(folder() / "find" / "result.json"));
   EXPECT_FALSE(find["faults"].empty());
+  EXPECT_EQ(find["mission_time_s"], 40.0);
   char score[32];
   std::snprintf(score, sizeof score, "%.3f", find["score"].get<double>());
   const std::string out = run.out(), told = "this run, with its faults: score " + std::string(score) + ", results in " +
@@ -52,11 +56,14 @@ TEST_F(Capsule, OptionsThatSayWhatIsFlownAreRefused) {
                                           {"--uavs", "4"},      {"--clock", "realtime"},     {"--secure"},
                                           {"--rules", "paper"}, {"--agent-timeout", "5"},    {"--debug", "jurong=wait"},
                                           {"--stop-at", "10"},  {"--faults", "nobody.yaml"}, {"--scene-seed", "2"}};
-  for (const Arguments& more : refused) {
-    ChildProcess& run = skein(joined({"run", capsule, "--out", folder() / "none"}, more));
+  const auto expect_refusal = [&](const Arguments& more, const Environment& environment) {
+    ChildProcess& run = start_program(
+        "refused", joined({program("skein"), "run", capsule, "--out", folder() / "none"}, more), environment);
     EXPECT_EQ(run.wait().code, 2) << more[0] << run.out() << run.err();
     EXPECT_NE(run.err().find(more[0] + " does not go with a capsule"), std::string::npos) << run.err();
-  }
+  };
+  for (const Arguments& more : refused) expect_refusal(more, {});
+  for (const char* usual : {"20", "30"}) expect_refusal({"--duration", "20"}, {{"SKEIN_DURATION", usual}});
   EXPECT_FALSE(std::filesystem::exists(folder() / "none"));
 }
 

@@ -1,7 +1,7 @@
-// A flight that nobody flew, told as sim_server and station tell one: four towers full of interest points, around which
-// UAVs climb in circles and photograph what is before them, radio links that towers block, deliveries to the station.
-// As much is told of each UAV and second as of the fleets that Skein flies (about six captures with five points each at
-// first, and fewer when most has been seen well). The same numbers give the same lines.
+// A made-up flight, fed to the page as sim_server and station feed a real one: four towers full of interest points,
+// UAVs that climb around them in circles and photograph the points before them, radio links that towers block,
+// deliveries to the station. The amount of data per UAV and second is that of real fleets (at first about six captures
+// with five points each; fewer once most points have been seen well). The same sizes give the same lines.
 // Frame W (ENU), SI units.   Pure.
 #pragma once
 
@@ -15,12 +15,12 @@
 namespace skein::test {
 
 struct MadeUpSize {
-  std::size_t uavs = 20, points = 10000;  ///< points: of each tower a quarter
+  std::size_t uavs = 20, points = 10000;  ///< each tower has a quarter of the points
 };
 
 class MadeUpFlight {
  public:
-  /// Tells the scene and the first moment. @param feed  must outlive this.
+  /// Feeds the scene and the first moment. @param feed  must outlive this.
   MadeUpFlight(MadeUpSize size, view::Feed& feed);
 
   double time_s() const { return static_cast<double>(step_) * kStep_s; }
@@ -36,7 +36,7 @@ class MadeUpFlight {
   };
   struct Uav {
     view::ShownUav shown;
-    double angle = 0.0, from_tower = 0.0;  ///< of it around its tower [rad]; [m]
+    double angle = 0.0;  ///< about its tower's axis [rad]
     std::size_t tower = 0;
     bool works = false;
     std::uint64_t captures = 0;

@@ -10,7 +10,8 @@ namespace skein::agent {
 namespace {
 
 constexpr double kMaxVoxels = 16e6;
-constexpr std::uint8_t kPlain = 0, kRuns = 1;  ///< encoding of a chunk
+constexpr std::size_t kMostInChunk = std::numeric_limits<std::uint16_t>::max();  ///< a chunk tells its length so
+constexpr std::uint8_t kPlain = 0, kRuns = 1;                                    ///< encoding of a chunk
 constexpr std::size_t kLongestRun = 255;
 /// Greatest valid value of the state bits, which are the numbers of VoxelState: two states merge to the greater one.
 constexpr std::uint8_t kHighestState = 2;
@@ -20,7 +21,8 @@ constexpr std::uint8_t kHighestState = 2;
 VoxelGrid::VoxelGrid(const Isometry3d& X_WG, const Vector3d& size_m, double voxel_m, std::size_t chunk_voxels)
     : X_WG_(X_WG), X_GW_(X_WG.inverse()), voxel_m_(voxel_m), chunk_voxels_(chunk_voxels) {
   const Vector3d edges = (size_m / voxel_m).array().max(1e-9).ceil();
-  if (!(voxel_m > 0.0) || chunk_voxels == 0 || !edges.allFinite() || edges.prod() > kMaxVoxels) {
+  const bool chunks_can_be = chunk_voxels > 0 && chunk_voxels <= kMostInChunk;
+  if (!(voxel_m > 0.0) || !chunks_can_be || !edges.allFinite() || edges.prod() > kMaxVoxels) {
     throw std::invalid_argument("a voxel grid of this size cannot be");
   }
   dims_ = edges.cast<int>();

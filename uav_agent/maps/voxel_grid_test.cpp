@@ -161,6 +161,23 @@ TEST(VoxelGrid, ChunksCarryTheWholeMap) {
   EXPECT_TRUE(same(from, to));
 }
 
+TEST(VoxelGrid, ChunksAreNoLongerThanTheyCanTell) {
+  const auto grid_of = [](std::size_t chunk) { return VoxelGrid(Isometry3d::Identity(), {60, 60, 40}, 1.0, chunk); };
+  for (const std::size_t chunk : {0U, 65'536U, 70'000U, 144'000U, 1'000'000U}) {
+    EXPECT_THROW(grid_of(chunk), std::invalid_argument) << chunk;
+  }
+  VoxelGrid from = grid_of(65'535), to = grid_of(65'535);
+  GridDraw draw;
+  fill(from, 200'000, draw);  // so dense that the chunks are written cube by cube
+  for (std::size_t chunk = 0; chunk < from.chunks(); ++chunk) {
+    PayloadWriter writer;
+    from.write_chunk(chunk, writer);
+    PayloadReader reader(writer.data());
+    EXPECT_TRUE(to.merge_chunk(chunk, reader) && reader.at_end()) << chunk;
+  }
+  EXPECT_TRUE(same(from, to));
+}
+
 TEST(VoxelGrid, MergingIsTheSameInAnyOrderAndTwice) {
   VoxelGrid a = turned_grid(), b = turned_grid();
   GridDraw draw;

@@ -1,4 +1,5 @@
-"""A program that only listens: to plot, to print, to keep. Nobody waits for it, and it changes nothing."""
+"""Receives messages of a fleet without taking part in the lock-step: no program waits for it, and it does not affect
+the flight."""
 
 from __future__ import annotations
 
@@ -24,7 +25,7 @@ _open: weakref.WeakSet[Listener] = weakref.WeakSet()
 
 @dataclass(slots=True)
 class Heard:
-    """What was said."""
+    """A received message."""
 
     topic: str
     message: Message
@@ -32,7 +33,7 @@ class Heard:
 
 @dataclass(frozen=True, slots=True)
 class FlyingFleet:
-    """A fleet that flies on this host."""
+    """A fleet that flies on this host. `folder`: its results."""
 
     folder: Path
     base_domain: int
@@ -41,7 +42,7 @@ class FlyingFleet:
     fleet: tuple[str, ...]  #: names of the UAVs
 
     def domain(self, node: str) -> int:
-        """Of "world", "gcs" or a UAV."""
+        """DDS domain of a node: "world", "gcs" or a UAV's name. Raises InputError for another name."""
         names = ("world", "gcs", *self.fleet)
         if not isinstance(node, str) or node not in names:
             raise InputError(f"'{node}' is no node of this fleet; those are {', '.join(names)}")
@@ -49,17 +50,24 @@ class FlyingFleet:
 
 
 def flying_fleet(run: str | os.PathLike[str] | None = None, patience_s: float = 0.0) -> FlyingFleet:
-    """The fleet whose results go to the folder `run`; None: the only one that flies. It may come within `patience_s`.
-    As `skein ps` finds them, so not those in one process, which are on no network, or in containers."""
-    looks = 1 + int(words.number(patience_s, "patience_s") / _LOOK_S)
-    for look in range(looks):
+    """The fleet whose results go to the folder `run`; None: the only fleet on this host. Waits up to `patience_s` [s]
+    for it, then raises InputError. Like `skein ps`, it finds no fleets in one process (no DDS) or in containers."""
+    looks_left = int(_patience_s(patience_s) / _LOOK_S)
+    while True:
         try:
             return _flying_fleet(run)
         except InputError:
-            if look == looks - 1:
+            if looks_left == 0:
                 raise
+        looks_left -= 1
         time.sleep(_LOOK_S)
-    raise InputError("patience_s: must not be negative")
+
+
+def _patience_s(value: float) -> float:
+    patience_s = words.number(value, "patience_s")
+    if patience_s < 0.0:
+        raise InputError(f"patience_s: must be at least 0, not {value!r}")
+    return patience_s
 
 
 def _flying_fleet(run: str | os.PathLike[str] | None) -> FlyingFleet:
@@ -81,9 +89,9 @@ def _fleets() -> Iterator[FlyingFleet]:
         try:
             line = (process / "cmdline").read_bytes().decode(errors="surrogateescape").split("\0")
             folder = Path(os.readlink(process / "cwd"))
-        except OSError:  # it has ended, or is somebody else's
+        except OSError:  # the process has ended, or belongs to another user
             continue
-        if "sim_server" not in (Path(word).name for word in line[:6]):  # a loader may stand before it
+        if "sim_server" not in (Path(word).name for word in line[:6]):  # the command may begin with a loader
             continue
         options = {word: value for word, value in zip(line, line[1:]) if word.startswith("--")}
         try:
@@ -100,17 +108,17 @@ def _names_of(scenario: str) -> tuple[str, ...]:
 
 
 class Listener:
-    """Hears topics in one domain of a fleet that flies.
+    """Receives topics in one domain of a flying fleet.
 
         with Listener(["/jurong/ground_truth/odometry"], node="jurong") as listener:
             for heard in listener:
                 print(heard.message.pose.pose.position)
 
-    `topics`: names, or names with types for what is none of Skein's own (a radio topic, say). `node`: "world" (the
-    truth), "gcs" or a UAV; by default the first part of the first topic's name. `run`: the fleet's results folder; it
-    may begin to fly within `patience_s`.
-    Without a fleet on this host `domain` and `dds` say where. It ends when the fleet does. What is not taken in time,
-    more than `most` messages, is thrown away, the oldest first (`missed`).
+    `topics`: names, or a dictionary from names to types for topics that are not Skein's own, such as radio topics.
+    `node`: whose domain: "world" (the truth), "gcs" or a UAV; default: the first part of the first topic's name.
+    `run`: the fleet's results folder. The listener waits up to `patience_s` [s] for the fleet to start. For a fleet on
+    another host, give `domain` and `dds` instead of both. The loop ends when the fleet ends. At most `most` messages
+    wait to be taken; beyond that, the oldest are discarded and counted (`missed`). Use it from the thread that made it.
     """
 
     def __init__(self, topics: Sequence[str] | Mapping[str, str], *, node: str | None = None,
@@ -124,6 +132,10 @@ class Listener:
                 raise InputError(f"{name}: must be a text, not {text!r:.80}")
         if whole("most", str(most), 10**9) < 1:
             raise InputError("most: must be at least 1")
+        if domain is not None and run is not None:
+            raise InputError("run: cannot stand beside domain: both say which fleet it is")
+        if _patience_s(patience_s) > 0.0 and domain is not None:
+            raise InputError("patience_s: cannot stand beside domain, in which the loop waits for the fleet anyway")
         named = dict(topics) if isinstance(topics, Mapping) else dict.fromkeys(topics, "")
         first = next(iter(named)).split("/")
         self.node = node if node is not None else first[1] if len(first) > 2 else "gcs"
@@ -156,7 +168,8 @@ class Listener:
             return native.type_of(topic, self.node)
 
     def hear(self, timeout_s: float | None = None) -> Heard | None:
-        """The next message; None after `timeout_s`, or, without one, when nobody writes these topics any more."""
+        """The next message. None after `timeout_s` [s]; without a timeout, None when no program writes these topics any
+        more."""
         if self._closed:
             raise Error("it is closed")
         if timeout_s is not None and not (math.isfinite(timeout_s) and timeout_s >= 0):
@@ -181,7 +194,7 @@ class Listener:
 
     @property
     def missed(self) -> int:
-        """Messages that were thrown away, since they were not taken in time."""
+        """Number of messages that were discarded because they were not taken in time."""
         if not self._closed:
             with translated():
                 self._missed = self._ear.missed()

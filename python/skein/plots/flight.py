@@ -1,4 +1,4 @@
-"""A flight: from above, what each UAV did, and its radio links."""
+"""Plots of one flight: plan view, activities of the UAVs, and radio links."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ from . import look
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-# As the page of a run has them (web/src/modes.js): the beginnings of what UAVs say that they do.
+# Kinds of activities: colour, name, and the first words of the activities that UAVs report. As in web/src/modes.js.
 _MODES = (
     (look.QUALITIES[0], "on the ground, takes off", ("on the ground", "takes off", "waits to be shown its way up")),
     (look.PLANNERS[0], "flies to goals, rests there", (
         "flies to a goal", "flies along", "flies to a set-point", "rests at its goal", "holds its place",
         "sends commands")),
-    (look.PLANNERS[3], "shows a mate its way up", ("shows ",)),
+    (look.PLANNERS[3], "shows another UAV its way up", ("shows ",)),
     (look.PLANNERS[4], "has no goal or way, recovers", (
         "has no goal", "looks for a way", "looks around", "flies nearer", "tries from elsewhere", "climbs to see more",
         "flies back")),
@@ -29,7 +29,7 @@ _MODES = (
 
 
 def map(run: Run, ax: Axes | None = None) -> Axes:
-    """The flight from above: interest points by their delivered quality, boxes, tracks, starts, station, collisions."""
+    """Plan view of a flight: interest points by delivered quality, boxes, tracks, starts, station and collisions."""
     poses, points = run.trajectories, run.points
     sides = [max(np.ptp([*poses[axis], *points[axis]]), 1.0) for axis in ("x", "y")]
     with look.drawing(ax, 1.2 + float(np.clip(2.4 * sides[1] / sides[0], 0.8, 4.0))) as ax:
@@ -107,7 +107,8 @@ def _lanes(ax: Axes, names: list[str], end_s: float) -> None:
 
 
 def activity(run: Run, ax: Axes | None = None) -> Axes:
-    """What each UAV did, as its program said, in kinds with a colour each; captures as strokes above."""
+    """What each UAV did over time, as its program reported it, with a colour for each kind of activity. Strokes above a
+    UAV's bar are its captures."""
     uavs = run.uavs
     with look.drawing(ax, 1.5 + 0.24 * len(uavs)) as ax:
         said, captures = run.activity, run.captures
@@ -122,7 +123,7 @@ def activity(run: Run, ax: Axes | None = None) -> Axes:
                         linewidth=0)
             taken = np.unique(captures["time_s"][captures["uav"] == uav])
             ax.vlines(taken, lane - 0.38, lane - 0.22, color=look.INK, linewidth=0.35)
-        _lanes(ax, uavs, run.sim_time_s)
+        _lanes(ax, uavs, look.end_s(run))
         patches = look.matplotlib().patches
         handles = [patches.Patch(color=_MODES[kind][0], label=_MODES[kind][1]) for kind in sorted(kinds)]
         handles.append(look.matplotlib().lines.Line2D([], [], color=look.INK, linewidth=0.6, marker="|", markersize=5,
@@ -132,7 +133,7 @@ def activity(run: Run, ax: Axes | None = None) -> Axes:
 
 
 def links(run: Run, ax: Axes | None = None) -> Axes:
-    """Which share of the time each radio link was there: rows send, columns receive."""
+    """The share of the run's time in which each radio link was open. Rows are senders, columns receivers."""
     nodes = ["gcs", *run.uavs]
     with look.drawing(ax, 2.9) as ax:
         share = np.full((len(nodes), len(nodes)), np.nan)
@@ -140,11 +141,12 @@ def links(run: Run, ax: Axes | None = None) -> Axes:
         for row in run.links:
             if row["a"] in nodes and row["b"] in nodes:
                 share[nodes.index(row["a"]), nodes.index(row["b"])] += row["to_s"] - row["from_s"]
-        share = 100.0 * share / run.sim_time_s
+        # An aborted run may have lasted no time, or an unknown one: then there is no share.
+        share = 100.0 * share / run.sim_time_s if run.sim_time_s > 0.0 else np.full_like(share, np.nan)
         steps = look.matplotlib().colors.LinearSegmentedColormap.from_list("links", ["#ffffff", look.DIRECT])
         ax.imshow(share, cmap=steps, vmin=0.0, vmax=100.0)
         for (i, j), value in np.ndenumerate(share):
-            if i != j:
+            if not np.isnan(value):
                 ax.text(j, i, f"{value:.0f}", ha="center", va="center", fontsize=7,
                         color="white" if value > 65.0 else look.INK)
         ax.set_xticks(range(len(nodes)), nodes, rotation=45, ha="right", rotation_mode="anchor")
@@ -157,7 +159,7 @@ def links(run: Run, ax: Axes | None = None) -> Axes:
 
 
 def links_over_time(run: Run, ax: Axes | None = None) -> Axes:
-    """When each UAV had a link to the station: itself, or by way of others."""
+    """When each UAV was linked to the station, directly or through other UAVs."""
     uavs = run.uavs
     with look.drawing(ax, 1.1 + 0.24 * len(uavs)) as ax:
         up = run.links
@@ -182,7 +184,7 @@ def links_over_time(run: Run, ax: Axes | None = None) -> Axes:
         for (lane, colour), all_spans in spans.items():
             for begin_s, end_s in all_spans:
                 ax.barh(lane, end_s - begin_s, left=begin_s, height=0.6, linewidth=0, color=colour)
-        _lanes(ax, uavs, run.sim_time_s)
+        _lanes(ax, uavs, look.end_s(run))
         patch = look.matplotlib().patches.Patch
         look.legend_below(ax, [patch(color=look.DIRECT, label="linked to the station"),
                                patch(color=look.RELAYED, label="by way of others")], 2)

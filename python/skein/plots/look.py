@@ -1,4 +1,4 @@
-"""How plots look, and how they become files."""
+"""Style of the plots, and functions that all plots share."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 INK, SOFT, LINE = "#1b2330", "#5c6675", "#d5dae1"
-# As in report/style.hpp and run_style(): planners (c), tracks (t), qualities (q), causes of losses, links, faults.
+# The colours of report/style.hpp: planners (c), tracks (t), qualities (q), causes of losses (k), links, faults.
 PLANNERS = ("#0072b2", "#d55e00", "#009e73", "#b8578f", "#b97f00", "#3b8fc4", "#6b6b6b")
 TRACKS = ("#d55e00", "#00855f", "#c0609a", "#c98a00", "#2a2f38", "#8b5a2b")
 QUALITIES = ("#cfd4db", "#a9cbe8", "#6aa6d8", "#2d7bbf", "#0b4a86")
@@ -33,9 +33,9 @@ CAUSES = {
     "energy": ("#a5501e", "battery empty"),
 }
 DIRECT, RELAYED, FAULT, BAD = "#2f9585", "#a3d3cb", "#d55e00", "#b3261e"
-LINE_STYLES = ("-", (0, (5, 1.5)), (0, (1.2, 1.2)), (0, (6, 1.5, 1.2, 1.5)))  # for print without colours
+LINE_STYLES = ("-", (0, (5, 1.5)), (0, (1.2, 1.2)), (0, (6, 1.5, 1.2, 1.5)))  # for prints without colours
 
-WIDTH = 3.5  # inches, of a column
+WIDTH = 3.5  # width of a column [inches]
 _TICKS = {"labelsize": 7, "width": 0.6, "length": 2.5, "color": SOFT, "labelcolor": INK, "which": "both"}
 _STYLE = {
     "font.family": "DejaVu Sans", "font.size": 8, "axes.labelsize": 8, "axes.titlesize": 8, "legend.fontsize": 7,
@@ -49,7 +49,7 @@ _STYLE = {
 
 
 def matplotlib() -> Any:
-    """The package, with pyplot."""
+    """The package matplotlib, with pyplot imported. Raises DependencyError if it is not installed."""
     try:
         import matplotlib.pyplot
     except ImportError:
@@ -65,7 +65,7 @@ def style() -> Iterator[None]:
 
 
 def axes(rows: int = 1, columns: int = 1, height: float = 2.2, width: float = WIDTH) -> Any:
-    """Axes in a new figure in this style: one, or an array as `matplotlib.pyplot.subplots` has it. Sizes in inches."""
+    """Axes in a new figure in this style: one, or an array as `matplotlib.pyplot.subplots` returns. Sizes in inches."""
     with style():
         _, made = matplotlib().pyplot.subplots(rows, columns, figsize=(width, height))
         for ax in [made] if rows * columns == 1 else made.flat:
@@ -74,7 +74,7 @@ def axes(rows: int = 1, columns: int = 1, height: float = 2.2, width: float = WI
 
 
 def save(drawn: Axes | Figure, file: str | os.PathLike[str]) -> None:
-    """Writes a figure, or the one of these Axes, as SVG, PDF or PNG. The same figure gives the same file."""
+    """Writes a figure, or the figure of these Axes, as SVG, PDF or PNG. The same figure gives the same bytes."""
     figure = getattr(drawn, "figure", drawn)
     suffix = os.fspath(file).rpartition(".")[2].lower()
     dates: dict[str, dict[str, None]] = {"svg": {"Date": None}, "pdf": {"CreationDate": None}}
@@ -84,7 +84,7 @@ def save(drawn: Axes | Figure, file: str | os.PathLike[str]) -> None:
 
 @contextlib.contextmanager
 def drawing(ax: Axes | None, height: float, width: float = WIDTH) -> Iterator[Axes]:
-    """The Axes to draw on, in this style."""
+    """A context in this style, with the Axes to draw into: `ax`, or those of a new figure (sizes in inches)."""
     with style():
         yield axes(height=height, width=width) if ax is None else ax
 
@@ -96,13 +96,18 @@ def several(runs: Run | Iterable[Run]) -> list[Run]:
     return all_runs
 
 
+def end_s(run: Run) -> float:
+    """Where the time axis of a run ends [s]: an aborted run may have lasted no time, or an unknown one."""
+    return run.sim_time_s if run.sim_time_s > 0.0 else 1.0
+
+
 def labels_of(runs: Sequence[Run], labels: Sequence[str] | None) -> list[str]:
-    """What runs are called: by what differs among them."""
+    """Labels for runs: `labels`, or what differs between the runs."""
     if labels is not None:
         if len(labels) != len(runs):
             raise ValueError(f"there are {len(labels)} labels for {len(runs)} runs")
         return list(labels)
-    # A program's path says less than its name.
+    # Of a program, only the file's name, without its folder.
     planners = [", ".join(dict.fromkeys(p if ":" in p else p.rpartition("/")[2] or p for p in run.planner.values()))
                 for run in runs]
     parts = [(run.scenario, planner, f"seed {run.seed}") for run, planner in zip(runs, planners)]
@@ -112,12 +117,12 @@ def labels_of(runs: Sequence[Run], labels: Sequence[str] | None) -> list[str]:
 
 
 def track_colours(run: Run) -> dict[str, str]:
-    """By UAV, in fleet order."""
+    """Colours of the tracks, by name of the UAV, in fleet order."""
     return {uav: TRACKS[i % len(TRACKS)] for i, uav in enumerate(run.uavs)}
 
 
 def legend_below(ax: Axes, handles: Sequence[Any], columns: int, inches: float = 0.45) -> None:
-    """Beneath the Axes, its ticks and its label."""
+    """Adds a legend below the Axes. `inches`: distance from the x axis, for its ticks and its label."""
     down = matplotlib().transforms.ScaledTranslation(0.0, -inches, ax.figure.dpi_scale_trans)
     ax.legend(handles=handles, ncol=columns, loc="upper center", bbox_to_anchor=(0.5, 0.0),
               bbox_transform=ax.transAxes + down, columnspacing=1.2, handlelength=1.2, borderaxespad=0.0)

@@ -1,4 +1,4 @@
-"""Scores of runs: over time, what was lost, and how good the pictures were."""
+"""Plots of runs' scores: score over time, losses, delays of delivery, and quality."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..run import Run
+from ..tables import Array
 from . import look
 
 if TYPE_CHECKING:
@@ -16,9 +17,9 @@ if TYPE_CHECKING:
 
 def score(runs: Run | Iterable[Run], ax: Axes | None = None, *, labels: Sequence[str] | None = None,
           earned: bool | None = None) -> Axes:
-    """The delivered score over time. Of a single run also what was earned (dashed), and faults as bars.
+    """The delivered score over time. For a single run also the earned score (dashed), and faults as bars.
 
-    `earned`: whether that is drawn; by default for a single run.
+    `earned`: whether to draw the earned score; by default only for a single run.
     """
     all_runs = look.several(runs)
     names = look.labels_of(all_runs, labels)
@@ -27,23 +28,27 @@ def score(runs: Run | Iterable[Run], ax: Axes | None = None, *, labels: Sequence
         for i, (run, name) in enumerate(zip(all_runs, names)):
             colour = look.PLANNERS[i % len(look.PLANNERS)]
             dashes = look.LINE_STYLES[0 if alone else (i // len(look.PLANNERS) + i) % len(look.LINE_STYLES)]
-            curve = run.timeline
-            ax.step([*curve["time_s"], run.sim_time_s], [*curve["score"], curve["score"][-1]], where="post",
-                    color=colour, linestyle=dashes, label="delivered" if alone and labels is None else name, zorder=3)
+            ax.step(*_to_the_end(run.timeline, run.sim_time_s), where="post", color=colour, linestyle=dashes,
+                    label="delivered" if alone and labels is None else name, zorder=3)
             if alone if earned is None else earned:
-                made = run.earned()
-                ax.step([*made["time_s"], run.sim_time_s], [*made["score"], made["score"][-1]], where="post",
+                ax.step(*_to_the_end(run.earned(), run.sim_time_s), where="post",
                         color=colour if not alone else look.SOFT, linestyle=(0, (2, 1.5)), linewidth=0.9, zorder=2,
                         label="earned" if alone else f"{name}, earned")
             if alone:
                 _draw_faults(run, ax)
         ax.set(xlabel="simulated time [s]", ylabel="score")
-        ax.set_xlim(0.0, max(run.sim_time_s for run in all_runs))
+        ax.set_xlim(0.0, max(look.end_s(run) for run in all_runs))
         ax.set_ylim(bottom=0.0)
         ax.grid(axis="y", color=look.LINE, linewidth=0.5)
         ax.set_axisbelow(True)
         ax.legend(loc="upper left")
     return ax
+
+
+def _to_the_end(curve: Array, end_s: float) -> tuple[list[float], list[float]]:
+    """Times and scores of a curve, whose last score lasts until `end_s`. A run that was aborted may have no score."""
+    times_s, scores = [*curve["time_s"]], [*curve["score"]]
+    return (times_s + [end_s], scores + scores[-1:]) if scores else ([], [])
 
 
 def _draw_faults(run: Run, ax: Axes) -> None:
@@ -59,7 +64,7 @@ def _draw_faults(run: Run, ax: Axes) -> None:
 
 
 def losses(runs: Run | Iterable[Run], ax: Axes | None = None, *, labels: Sequence[str] | None = None) -> Axes:
-    """From what was delivered to what could be had: a bar for each run, with a part for each cause of loss."""
+    """A bar for each run, from the delivered to the attainable score, with a segment for each cause of loss."""
     all_runs = look.several(runs)
     names = look.labels_of(all_runs, labels)
     with look.drawing(ax, 1.35 + 0.26 * len(all_runs)) as ax:
@@ -87,7 +92,8 @@ def losses(runs: Run | Iterable[Run], ax: Axes | None = None, *, labels: Sequenc
 
 
 def delivery(runs: Run | Iterable[Run], ax: Axes | None = None, *, labels: Sequence[str] | None = None) -> Axes:
-    """Which share of the captures had come to the station after how long; those that never came keep it below 100 %."""
+    """The share of the captures that had reached the station, by delay. Captures that were never delivered keep it
+    below 100 %."""
     all_runs = look.several(runs)
     names = look.labels_of(all_runs, labels)
     with look.drawing(ax, 2.0) as ax:
@@ -112,12 +118,13 @@ def delivery(runs: Run | Iterable[Run], ax: Axes | None = None, *, labels: Seque
 
 def quality(runs: Run | Iterable[Run], ax: Axes | None = None, *, labels: Sequence[str] | None = None,
             bins: int = 20) -> Axes:
-    """How many points have which delivered quality, of those that have any. `bins` from 0 to the best, 1 or above."""
+    """Histogram of the delivered quality of the points that scored, with `bins` bins from 0 to 1, or to the best
+    quality if that is above 1."""
     all_runs = look.several(runs)
     names = look.labels_of(all_runs, labels)
     with look.drawing(ax, 2.0) as ax:
         scores = [run.points["score"][run.points["score"] > 0.0] for run in all_runs]
-        # By the rules some qualities can be above 1.
+        # Under some rules, a quality can be above 1.
         edges = np.linspace(0.0, max([1.0, *(values.max(initial=0.0) for values in scores)]), bins + 1)
         for i, (values, name) in enumerate(zip(scores, names)):
             counts = np.histogram(values, edges)[0]
