@@ -1,7 +1,11 @@
-// State estimates that the on-board software receives in addition to odometry: uncertainty of the pose, battery status.
+// What the on-board software receives in addition to odometry: uncertainty of the pose, battery status, link quality.
 // Frame: W world (ENU).  Units: SI, radians.
 #pragma once
 
+#include <utility>
+#include <vector>
+
+#include "core/ids.hpp"
 #include "core/types.hpp"
 
 namespace skein {
@@ -21,5 +25,14 @@ struct BatteryStatus {
   double voltage_v = 0.0;    ///< at the terminals
   double current_a = 0.0;    ///< positive: discharging
 };
+
+/// Quality of an open radio link, in scenarios with path loss.
+struct LinkQuality {
+  double received_dbm = 0.0;  ///< power that arrives; the same in both directions
+  double rate_bit_s = 0.0;    ///< for the fleet's messages from this UAV to the other end
+
+  bool operator==(const LinkQuality&) const = default;
+};
+using LinkQualities = std::vector<std::pair<Node, LinkQuality>>;  ///< by the node at the other end
 
 }  // namespace skein

@@ -87,6 +87,7 @@ std::span<const TopicInfo> uav_topics() {
                                    kGimbal,
                                    kBattery,
                                    kWind,
+                                   kRadioLinks,
                                    kCloud,
                                    kLidarServo,
                                    kSelfKeyframe,

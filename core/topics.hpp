@@ -134,6 +134,9 @@ inline constexpr TopicInfo kBattery{"/{id}/battery", "sensor_msgs/msg/BatterySta
 /// The flight controller's estimate of the wind; only if the scenario's conditions have wind.
 inline constexpr TopicInfo kWind{"/{id}/wind", "geometry_msgs/msg/TwistStamped", Direction::to_agent, kStateDepth,
                                  "every exchange, if there is wind; linear: velocity of the air in W"};
+/// What the UAV's radio measures; only if the scenario's conditions have path loss.
+inline constexpr TopicInfo kRadioLinks{"/{id}/radio_links", "skein_msgs/msg/RadioLinks", Direction::to_agent,
+                                       kStateDepth, "every exchange, if there is path loss; the open links"};
 inline constexpr TopicInfo kCloud{
     "/{id}/cloud_inW", "sensor_msgs/msg/PointCloud2", Direction::to_agent, kCloudDepth, "10 Hz", false, true,
     &kScanLayout};
@@ -342,6 +345,7 @@ inline WireTopic odometry(std::string_view id) { return wire(kOdometry, id); }
 inline WireTopic gimbal(std::string_view id) { return wire(kGimbal, id); }
 inline WireTopic battery(std::string_view id) { return wire(kBattery, id); }
 inline WireTopic wind(std::string_view id) { return wire(kWind, id); }
+inline WireTopic radio_links(std::string_view id) { return wire(kRadioLinks, id); }
 inline WireTopic cloud(std::string_view id) { return wire(kCloud, id); }
 inline WireTopic lidar_servo(std::string_view id) { return wire(kLidarServo, id); }
 inline WireTopic self_keyframe(std::string_view id) { return wire(kSelfKeyframe, id); }

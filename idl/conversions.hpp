@@ -45,6 +45,11 @@ msg::TwistStamped to_wind(Tick tick, const Vector3d& wind_W);
 /// nullopt where a number is not finite.
 std::optional<Vector3d> from_wind(const msg::TwistStamped& wind);
 
+/// Of the open links of a UAV.
+msg::RadioLinks to_radio_links(Tick tick, const LinkQualities& links);
+/// Leaves out links with a number that is not finite.
+LinkQualities from_radio_links(const msg::RadioLinks& links);
+
 /// Angles in linear, rates in angular; y pitch, z yaw.
 msg::TwistStamped to_gimbal(Tick tick, const std::string& id, const GimbalState& gimbal);
 GimbalState from_gimbal(const msg::TwistStamped& twist);

@@ -1,4 +1,4 @@
-// What a UAV is told beside its state: how sure its odometry is, the battery, the wind.
+// What a UAV receives beside its state: uncertainty of its odometry, battery, wind, quality of radio links.
 #include <array>
 #include <cmath>
 #include <limits>
@@ -76,6 +76,28 @@ std::optional<Vector3d> from_wind(const msg::TwistStamped& wind) {
   const auto& v = wind.twist().linear();
   const Vector3d wind_W(v.x(), v.y(), v.z());
   return wind_W.allFinite() ? std::optional(wind_W) : std::nullopt;
+}
+
+msg::RadioLinks to_radio_links(Tick tick, const LinkQualities& links) {
+  msg::RadioLinks message;
+  message.header(to_header(tick, ""));
+  for (const auto& [node, quality] : links) {
+    msg::RadioLink link;
+    link.node(static_cast<std::uint32_t>(std::size_t{node}));
+    link.received_dbm(static_cast<float>(quality.received_dbm));
+    link.rate(static_cast<float>(quality.rate_bit_s));
+    message.links().push_back(link);
+  }
+  return message;
+}
+
+LinkQualities from_radio_links(const msg::RadioLinks& links) {
+  LinkQualities qualities;
+  for (const msg::RadioLink& link : links.links()) {
+    if (!std::isfinite(link.received_dbm()) || !std::isfinite(link.rate())) continue;
+    qualities.emplace_back(Node(link.node()), LinkQuality{link.received_dbm(), link.rate()});
+  }
+  return qualities;
 }
 
 }  // namespace skein

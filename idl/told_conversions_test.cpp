@@ -44,5 +44,16 @@ TEST(ToldConversions, WindIsAVectorOfFiniteNumbers) {
   EXPECT_FALSE(from_wind(to_wind(40, {std::numeric_limits<double>::infinity(), 0.0, 0.0})));
 }
 
+TEST(ToldConversions, LinksComeBackAndOnesWithoutANumberAreLeftOut) {
+  const LinkQualities links = {{kStationNode, {-61.5, 1.5e6}}, {Node{3}, {-80.25, 162500.0}}};
+  EXPECT_EQ(from_radio_links(to_radio_links(40, links)), links);
+  EXPECT_TRUE(from_radio_links(to_radio_links(40, {})).empty());
+  msg::RadioLinks odd = to_radio_links(40, links);
+  odd.links()[0].received_dbm(std::numeric_limits<float>::quiet_NaN());
+  EXPECT_EQ(from_radio_links(odd), (LinkQualities{links[1]}));
+  odd.links()[1].rate(std::numeric_limits<float>::infinity());
+  EXPECT_TRUE(from_radio_links(odd).empty());
+}
+
 }  // namespace
 }  // namespace skein

@@ -87,6 +87,8 @@ std::string type_name() {
   X(skein_msgs, RadioReply)                        \
   X(skein_msgs, BoolStamped)                       \
   X(skein_msgs, CommandRejected)                   \
+  X(skein_msgs, RadioLink)                         \
+  X(skein_msgs, RadioLinks)                        \
   X(skein_msgs, Activity)                          \
   X(skein_msgs, HandCommand)                       \
   X(skein_msgs, Event)                             \

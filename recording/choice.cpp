@@ -36,7 +36,8 @@ std::optional<Choice> choice_of(Scope scope, std::string_view node, std::string_
   if (scope == Scope::none) return std::nullopt;
   const bool tells_of_itself = !debug_name(wire_topic(topic), node).empty();
   if (scope == Scope::messages) return tells_of_itself ? std::optional(Choice{0, true}) : std::nullopt;
-  if (is_one_of({kOdometry, kGimbal, kBattery, kWind}, node, topic)) return Choice{ticks(kPosePeriod_s), true};
+  if (is_one_of({kOdometry, kGimbal, kBattery, kWind, kRadioLinks}, node, topic))
+    return Choice{ticks(kPosePeriod_s), true};
   if (is_one_of({kTrajectoryCommand, kGimbalCommand, kCameraTrigger, kTrigger, kCommandRejected, kCapture,
                  kCaptureStored, kActivity, kHand},
                 node, topic)) {

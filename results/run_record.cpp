@@ -33,7 +33,8 @@ RunRecord read_run(const std::filesystem::path& dir) {
   });
   each_row<PoseCells>(dir, [&](const PoseCells& row) {
     const Vector3d p_W = row.p_W(), v_W = row.v_W();
-    record.positions.push_back({row.time_s(), row.uav(), p_W, v_W, row.alive_beyond_doubt(), row.clearance_m()});
+    record.positions.push_back(
+        {row.time_s(), row.uav(), p_W, v_W, row.alive_beyond_doubt(), row.clearance_m(), row.charge()});
   });
   each_row<ScoreCells>(dir, [&](const ScoreCells& row) {
     record.scores.push_back({row.time_s(), row.score(), row.points()});

@@ -51,6 +51,7 @@ struct PositionRow {
   Vector3d v_W = Vector3d::Zero();
   bool alive = true;
   std::optional<double> clearance_m = {};  ///< to the structure
+  std::optional<double> charge = {};       ///< of the battery, as a share of its capacity
 };
 
 /// The delivered score from this time on, and the number of points in it (score_timeline.csv).

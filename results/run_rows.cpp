@@ -3,7 +3,7 @@
 namespace skein::results {
 namespace {
 
-// What several tables call the same.
+// Names of columns that several tables have.
 constexpr const char* kTime = "time_s";
 constexpr const char* kUav = "uav";
 constexpr const char* kStep = "step";
@@ -36,10 +36,7 @@ const std::string& EventCells::object() const { return table_.text("object"); }
 
 std::uint64_t MessageCells::step() const { return table_.count(kStep); }
 const std::string& MessageCells::uav() const { return table_.text(kUav); }
-std::optional<std::uint64_t> MessageCells::arrives() const {
-  const auto step = table_.number_if_any("arrives");
-  return step ? std::optional(static_cast<std::uint64_t>(*step)) : std::nullopt;
-}
+std::optional<std::uint64_t> MessageCells::arrives() const { return table_.count_if_any("arrives"); }
 
 double PoseCells::time_s() const { return table_.number(kTime); }
 const std::string& PoseCells::uav() const { return table_.text(kUav); }
@@ -59,6 +56,9 @@ GimbalState PoseCells::gimbal() const {
 bool PoseCells::alive() const { return table_.text(kAlive) != "0"; }
 bool PoseCells::alive_beyond_doubt() const { return table_.number(kAlive) != 0.0; }
 std::optional<double> PoseCells::clearance_m() const { return table_.number_if_any("clearance"); }
+std::optional<double> PoseCells::charge() const {
+  return table_.has("charge") ? table_.number_if_any("charge") : std::nullopt;
+}
 
 double ScoreCells::time_s() const { return table_.number(kTime); }
 double ScoreCells::points() const { return table_.number("points"); }

@@ -83,6 +83,7 @@ class PoseCells : public RunRow {
   bool alive() const;               ///< true unless the cell is "0"
   bool alive_beyond_doubt() const;  ///< throws if the cell is not a number
   std::optional<double> clearance_m() const;
+  std::optional<double> charge() const;
 };
 
 /// The delivered score from a time on, and the number of points in it.

@@ -14,7 +14,9 @@ constexpr std::size_t kSharedNodes = 16;
 
 LinkTracer::LinkTracer(const Scenario& scenario, const FaultPlan& faults, std::uint64_t seed)
     : scenario_(scenario), faults_(faults), sights_(scenario.fleet.size() + 1), unfailed_(scenario.fleet.size() + 1) {
-  if (scenario.conditions.radio.on()) path_loss_.emplace(scenario.conditions.radio, seed);
+  if (!scenario.conditions.radio.on()) return;
+  path_loss_.emplace(scenario.conditions.radio, seed);
+  received_dbm_ = LinkMatrix<double>(scenario.fleet.size() + 1);
 }
 
 Links LinkTracer::trace(Tick tick, const RayScene& rays, const std::vector<Place>& uavs, const ForEach& for_each) {
@@ -34,7 +36,12 @@ Links LinkTracer::trace(Tick tick, const RayScene& rays, const std::vector<Place
     const RayFilter filter{.except_uav = body_of(a), .except_other_uav = body_of(b), .among = about};
     const bool linked = sights_.at(a, b).linked(from, to, rays, filter);
     const double distance_m = (from.p_W - to.p_W).norm();
-    const std::uint8_t level = !linked ? 0 : path_loss_ ? path_loss_->level(from.p_W, to.p_W) : 1;
+    std::uint8_t level = linked ? 1 : 0;
+    if (linked && path_loss_) {
+      const double received_dbm = path_loss_->received_dbm(from.p_W, to.p_W);
+      received_dbm_.at(a, b) = received_dbm_.at(b, a) = received_dbm;
+      level = PathLoss::level(received_dbm);
+    }
     for (const auto& [source, target] : {std::pair(a, b), std::pair(b, a)}) {
       const std::uint8_t unfailed = in_range(source, target, distance_m) ? level : 0;
       unfailed_.at(source, target) = unfailed;
@@ -64,6 +71,12 @@ Links LinkTracer::open(Tick tick, const Links& links) const {
     }
   }
   return open;
+}
+
+std::optional<LinkQuality> LinkTracer::quality(std::uint8_t level, Node from, Node to) const {
+  if (level == 0 || !path_loss_) return std::nullopt;
+  return LinkQuality{received_dbm_.at(from, to),
+                     scenario_.conditions.radio.rate_share * kRadioRates.at(level - 1U).rate_bit_s};
 }
 
 bool LinkTracer::ends_before(const LinkEffect& effect, Node from, Node to, double distance_m) const {

@@ -9,6 +9,7 @@
 #include "core/for_each.hpp"
 #include "core/radio/link_matrix.hpp"
 #include "core/scenario.hpp"
+#include "core/told_state.hpp"
 #include "sight/ray_scene.hpp"
 #include "sim_server/conditions/path_loss.hpp"
 #include "sim_server/sensors/sight_memory.hpp"
@@ -37,6 +38,9 @@ class LinkTracer {
               const ForEach& for_each = one_after_another);
   /// The links of the last trace() as they would be if no fault limited their range.
   const Links& unfailed() const { return unfailed_; }
+  /// @param level  of this link, as trace() and open() return it. @returns the link's quality since the last trace();
+  /// nullopt: the link is closed, or the scenario has no path loss.
+  std::optional<LinkQuality> quality(std::uint8_t level, Node from, Node to) const;
   /// @returns `links` without those that blackouts, outages and partitions cut in the exchange at this tick.
   Links open(Tick tick, const Links& links) const;
 
@@ -49,7 +53,8 @@ class LinkTracer {
   const Scenario& scenario_;
   const FaultPlan& faults_;
   std::optional<PathLoss> path_loss_;
-  LinkMatrix<SightMemory> sights_;  ///< by pair of nodes, at (lower, higher)
+  LinkMatrix<double> received_dbm_;  ///< of links with line of sight; of no nodes without path loss
+  LinkMatrix<SightMemory> sights_;   ///< by pair of nodes, at (lower, higher)
   Links unfailed_;
 };
 

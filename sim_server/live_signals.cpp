@@ -50,6 +50,7 @@ double LiveSignals::of_uav(const SignalUse& signal) const {
   if (signal.is("y")) return uav.state.p_WB.y();
   if (signal.is("z")) return uav.state.p_WB.z();
   if (signal.is("speed")) return uav.state.v_WB.norm();
+  if (signal.is("charge")) return uav.battery ? uav.battery->charge : 1.0;
   if (signal.is("alive")) return uav.alive ? 1.0 : 0.0;
   throw std::logic_error("no live signal: " + signal.text());
 }

@@ -68,6 +68,7 @@ TEST_F(LiveSignalsTest, AreWhatTheWorldIs) {
     EXPECT_EQ(value("separation(a)"), std::min(between(0, 1), between(0, 2)));
     EXPECT_EQ(value("separation(c, b)"), between(1, 2));
     EXPECT_NEAR(value("clearance(a)"), 12.0 - uav(0).state.p_WB.x(), 1e-3);
+    EXPECT_EQ(value("charge(a)"), 1.0) << "it has no battery";
     EXPECT_EQ(value("clearance"), std::min({value("clearance(a)"), value("clearance(b)"), value("clearance(c)")}));
     EXPECT_EQ(value("faults"), simulation_->tick() >= ticks(5.0) && simulation_->tick() < ticks(7.0) ? 1.0 : 0.0);
     with_fault += value("faults") > 0.0;
@@ -81,6 +82,17 @@ TEST_F(LiveSignalsTest, AreWhatTheWorldIs) {
   EXPECT_EQ(value("acknowledged(a)"), 1.0);
   EXPECT_EQ(value("acknowledged(b)"), 0.0);
   EXPECT_EQ(value("held"), captured - 1.0);
+}
+
+TEST_F(LiveSignalsTest, AChargeIsThatOfTheUavsBattery) {
+  scenario_.duration_s = 60.0;
+  scenario_.conditions.battery = conditions_preset("harsh").battery;
+  fly(5.0, [&] {
+    for (const auto& [name, i] : {std::pair("a", 0U), std::pair("c", 2U)}) {
+      EXPECT_EQ(value("charge(" + std::string(name) + ")"), uav(i).battery->charge);
+    }
+  });
+  EXPECT_LT(value("charge(a)"), 0.95);
 }
 
 TEST_F(LiveSignalsTest, WhoComesBackHasRestarted) {

@@ -374,6 +374,9 @@ std::span<const UavView> Simulation::uavs() const { return impl_->views; }
 const Camera& Simulation::camera(UavIndex i) const { return impl_->uavs.at(i).camera; }
 const Links& Simulation::links() const { return impl_->links; }
 const Links& Simulation::open_links() const { return impl_->open_links; }
+std::optional<LinkQuality> Simulation::link_quality(Node from, Node to) const {
+  return impl_->tracer.quality(impl_->open_links.at(from, to), from, to);
+}
 const Links& Simulation::unfailed_links() const { return impl_->tracer.unfailed(); }
 double Simulation::clearance(UavIndex uav) const {
   return impl_->clearances.at(uav).at(impl_->rays, impl_->views.at(uav).state.p_WB);

@@ -80,6 +80,7 @@ UavNode::UavNode(UavIndex uav, const Scenario& scenario, Simulation& simulation,
   }
   if (scenario.conditions.battery.on()) battery_ = &server.writer(domain, bus::spec(topics::battery(id_)));
   if (scenario.conditions.wind.on()) wind_ = &server.writer(domain, bus::spec(topics::wind(id_)));
+  if (scenario.conditions.radio.on()) radio_links_ = &server.writer(domain, bus::spec(topics::radio_links(id_)));
   server.read<msg::MultiDOFJointTrajectory>(domain, bus::spec(topics::trajectory_command(id_)),
                                             [this](const msg::MultiDOFJointTrajectory& trajectory) {
                                               if (const auto command = from_trajectory(trajectory))
@@ -148,6 +149,18 @@ void UavNode::publish_state() {
 
 void UavNode::publish_neighbours() {
   send(neighbour_odometry_, [&] { return neighbour_cloud(simulation_, scenario_, node_of_uav(uav_)); });
+  if (radio_links_) send(*radio_links_, [&] { return to_radio_links(simulation_.tick(), link_qualities()); });
+}
+
+LinkQualities UavNode::link_qualities() const {
+  LinkQualities qualities;
+  for (const Node other : scenario_.nodes()) {
+    if (other == node_of_uav(uav_)) continue;
+    if (const auto quality = simulation_.link_quality(node_of_uav(uav_), other)) {
+      qualities.emplace_back(other, *quality);
+    }
+  }
+  return qualities;
 }
 
 void UavNode::publish_clouds() {

@@ -61,6 +61,7 @@ class UavNode {
  private:
   void publish_state();
   void publish_neighbours();
+  LinkQualities link_qualities() const;
   void publish_clouds();
   void publish_captures();
   void publish_detections();
@@ -77,7 +78,7 @@ class UavNode {
   bus::CountedWriter &odometry_, &gimbal_, &neighbour_odometry_, &neighbour_keyframe_, &detected_points_, &detected_,
       &remained_, &clock_, &boxes_, &rejected_, &capture_;
   bus::CountedWriter *cloud_ = nullptr, *servo_ = nullptr, *self_keyframe_ = nullptr;  ///< explorers only
-  bus::CountedWriter *battery_ = nullptr, *wind_ = nullptr;  ///< if the scenario's conditions have them
+  bus::CountedWriter *battery_ = nullptr, *wind_ = nullptr, *radio_links_ = nullptr;   ///< if conditions have them
   DetectionLog detections_;
   std::map<std::uint64_t, CaptureReport> card_;  ///< reports, as told to the agent, that it has not released
   std::vector<std::uint64_t> released_;

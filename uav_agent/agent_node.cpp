@@ -69,6 +69,10 @@ void AgentNode::read_sensors(LockstepClient& client) {
       if (const auto wind = from_wind(m)) input_.wind_W = wind;
     });
   }
+  if (scenario_.conditions.radio.on()) {
+    client.read<msg::RadioLinks>(bus::spec(topics::radio_links(member())), Counterpart::server,
+                                 [this](const auto& m) { input_.links = from_radio_links(m); });
+  }
   client.read<msg::TwistStamped>(bus::spec(topics::gimbal(member())), Counterpart::server,
                                  [this](const auto& m) { input_.gimbal = from_gimbal(m); });
   client.read<msg::Duration>(bus::spec(topics::mission_duration_remained(member())), Counterpart::server,

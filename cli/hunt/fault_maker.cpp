@@ -5,6 +5,7 @@
 #include <iterator>
 #include <set>
 
+#include "cli/hunt/weather_faults.hpp"
 #include "core/faults/fault_check.hpp"
 #include "core/faults/fault_writer.hpp"
 #include "core/radio/radio_routes.hpp"
@@ -16,16 +17,16 @@ namespace {
 
 constexpr std::size_t kMostFaults = 6;
 constexpr double kShortest_s = 0.1, kLongest_s = 40.0;
-/// A vehicle that cannot hold itself up is no matter of its planner.
+/// Motor failures are short and weak: no planner can save a vehicle that lacks the thrust to stay in the air.
 constexpr double kLongestFall_s = 2.0, kLeastThrust = 0.6;
-constexpr double kLongestLie_s = 12.0;  ///< of odometry, for the same reason
+constexpr double kLongestLie_s = 12.0;  ///< longest fault of odometry, for a similar reason
 constexpr double kShareOfWaiting = 0.2, kShareOfAllNodes = 0.4, kShareOfAllTopics = 0.5;
-constexpr double kShareOfGround = 0.4;    ///< of programs that are killed or stopped: every UAV depends on them
-constexpr double kShareOfForGood = 0.15;  ///< of UAVs' programs that are killed
-/// Of faults that come again and again: what only one instant in ten brings to light is met sooner.
+constexpr double kShareOfGround = 0.4;    ///< of the programs to kill or pause: every UAV depends on these
+constexpr double kShareOfForGood = 0.15;  ///< share of kills of a UAV's program that have no end
+/// Share of faults that are repeated: a defect that shows only at one instant in ten is then found sooner.
 constexpr double kShareOfRepeated = 0.2, kLeastInterval_s = 2.0, kLongestInterval_s = 12.0;
 
-/// How often each kind is drawn: programs and radio fail in more ways than the rest.
+/// Kinds are drawn in proportion to their weights: programs and radio can fail in more ways than the rest.
 struct Kind {
   const char* name;
   int weight;
@@ -33,7 +34,10 @@ struct Kind {
 constexpr Kind kKinds[] = {{"link", 4},          {"partition", 2},     {"blackout", 2},        {"station_outage", 2},
                            {"kill", 5},          {"pause", 3},         {"lidar_failure", 2},   {"camera_failure", 1},
                            {"motor_failure", 1}, {"command_delay", 1}, {"odometry_freeze", 1}, {"odometry_jump", 1},
-                           {"stuck_gimbal", 1}};
+                           {"stuck_gimbal", 1},  {"gust", 2},          {"fix_loss", 2},        {"battery_loss", 1},
+                           {"conditions", 2}};
+
+constexpr std::string_view kWeather[] = {"gust", "fix_loss", "battery_loss", "conditions"};
 
 std::size_t below(RandomStream& draw, std::size_t count) {
   return std::min(static_cast<std::size_t>(draw.uniform() * static_cast<double>(count)), count - 1);
@@ -43,10 +47,10 @@ const std::string& one_of(const std::vector<std::string>& names, RandomStream& d
   return names[below(draw, names.size())];
 }
 double rounded(double value, double step) { return std::round(value / step) * step; }
-/// Tenths, so that a file tells them as they are.
+/// Rounded to tenths, so that a fault file states the value exactly.
 double tenths(double value) { return std::round(10.0 * value) / 10.0; }
 double hundredths(double value) { return std::round(100.0 * value) / 100.0; }
-/// Mostly short, sometimes long.
+/// Draws a length [s]: mostly short, sometimes long.
 double length(RandomStream& draw, double longest_s) {
   const double u = draw.uniform();
   return tenths(kShortest_s + (longest_s - kShortest_s) * u * u);
@@ -86,6 +90,8 @@ const std::vector<std::string>& fault_kinds() {
 
 FaultMaker::FaultMaker(const Scenario& scenario, FaultSpace space)
     : space_(std::move(space)),
+      scenarios_conditions_(scenario.conditions),
+      conditions_(scenario.conditions),
       uavs_(scenario.uav_names()),
       nodes_(uavs_),
       ground_programs_{programs::kStation, programs::kCommRouter} {
@@ -99,6 +105,12 @@ FaultMaker::FaultMaker(const Scenario& scenario, FaultSpace space)
     topics.insert(route.ros_topic.substr(0, route.ros_topic.find('/', 1)));  // "/captures" means "/captures/changi"
   }
   topics_.assign(topics.begin(), topics.end());
+}
+
+FaultMaker FaultMaker::under(const std::string& conditions) const {
+  FaultMaker maker = *this;
+  if (!conditions.empty()) maker.conditions_ = chosen_conditions(conditions, scenarios_conditions_);
+  return maker;
 }
 
 const std::string& FaultMaker::uav(RandomStream& draw) const { return one_of(uavs_, draw); }
@@ -173,6 +185,7 @@ FaultAction FaultMaker::action(const std::string& kind, RandomStream& draw) cons
     return OdometryJump{uav(draw), offset_m};
   }
   if (kind == "stuck_gimbal") return StuckGimbal{uav(draw)};
+  if (std::ranges::find(kWeather, kind) != std::end(kWeather)) return weather_fault(kind, uav(draw), conditions_, draw);
   return CameraFailure{uav(draw)};
 }
 
@@ -198,7 +211,7 @@ std::optional<FaultCondition> FaultMaker::condition(RandomStream& draw) const {
   }
 }
 
-/// When it begins and how long it lasts, or what it waits for.
+/// Draws when a fault begins, or the condition that it waits for, and how long it lasts.
 void FaultMaker::place(Fault& fault, RandomStream& draw) const {
   fault.at_s = tenths(draw.uniform(1.0, space_.heal_by_s - 1.0));
   const double length_s = length(draw, longest_of(fault));
@@ -230,12 +243,14 @@ void FaultMaker::end_in_time(Fault& fault) const {
   fault.until_s = std::max(shortest_s, std::min(fault.until_s.value_or(shortest_s), space_.heal_by_s));
 }
 
-Fault FaultMaker::any(RandomStream& draw) const {
+std::optional<Fault> FaultMaker::any(RandomStream& draw) const {
   std::vector<std::string> lots;
   for (const Kind& kind : kKinds) {
     const bool wanted = std::ranges::find(space_.kinds, kind.name) != space_.kinds.end();
-    for (int i = 0; wanted && i < kind.weight; ++i) lots.emplace_back(kind.name);
+    if (!wanted || !is_possible(kind.name, conditions_)) continue;
+    for (int i = 0; i < kind.weight; ++i) lots.emplace_back(kind.name);
   }
+  if (lots.empty()) return std::nullopt;
   Fault fault{0.0, std::nullopt, action(one_of(lots, draw), draw)};
   place(fault, draw);
   return fault;
@@ -244,14 +259,16 @@ Fault FaultMaker::any(RandomStream& draw) const {
 std::vector<Fault> FaultMaker::schedule(RandomStream& draw) const {
   std::vector<Fault> faults;
   for (std::size_t left = 1 + below(draw, 4); left > 0; --left) {
-    faults.push_back(any(draw));
+    const std::optional<Fault> fault = any(draw);
+    if (!fault) return {};
+    faults.push_back(*fault);
     if (chance(draw, kShareOfRepeated)) repeat(faults, draw);
   }
   if (faults.size() > kMostFaults) faults.resize(kMostFaults);
   return without_contradictions(std::move(faults));
 }
 
-/// The last one again, up to three times, each as long as there is time before the next.
+/// Repeats the last fault up to three times at equal intervals. Each lasts at most half an interval.
 void FaultMaker::repeat(std::vector<Fault>& faults, RandomStream& draw) const {
   Fault fault = faults.back();
   const double interval_s = tenths(draw.uniform(kLeastInterval_s, kLongestInterval_s));
@@ -268,15 +285,23 @@ void FaultMaker::repeat(std::vector<Fault>& faults, RandomStream& draw) const {
 
 std::vector<Fault> FaultMaker::varied(std::vector<Fault> faults, const std::vector<Fault>& other,
                                       RandomStream& draw) const {
-  for (std::size_t left = 1 + below(draw, 2); left > 0; --left) vary_one(faults, other, draw);
-  if (faults.empty()) faults.push_back(any(draw));
+  // Schedules of runs under other conditions may have faults that these runs cannot have.
+  const auto erase_impossible = [&] {
+    std::erase_if(faults, [&](const Fault& fault) { return !is_possible(fault, conditions_); });
+  };
+  erase_impossible();
+  for (std::size_t left = 1 + below(draw, 2); left > 0; --left) {
+    vary_one(faults, other, draw);
+    erase_impossible();
+  }
+  if (faults.empty()) return schedule(draw);
   return without_contradictions(std::move(faults));
 }
 
 void FaultMaker::vary_one(std::vector<Fault>& faults, const std::vector<Fault>& other, RandomStream& draw) const {
   const std::size_t what = below(draw, 8);
   if (faults.empty() || (what == 0 && faults.size() < kMostFaults)) {
-    faults.push_back(any(draw));
+    if (const std::optional<Fault> fault = any(draw)) faults.push_back(*fault);
     return;
   }
   const std::size_t at = below(draw, faults.size());
@@ -294,17 +319,17 @@ void FaultMaker::vary_one(std::vector<Fault>& faults, const std::vector<Fault>& 
     case 3:  // shorter or longer
       set_length(fault, tenths(std::min(longest_of(fault), length_of(fault) * draw.uniform(0.3, 2.5) + kShortest_s)));
       break;
-    case 4:  // another target, another strength
+    case 4:  // another target or strength
       fault.action = action(fault_kind(fault), draw);
       break;
-    case 5: {  // together with another one, or right behind it
+    case 5: {  // at the same time as another fault, or right after it
       const Fault& with = faults[below(draw, faults.size())];
       const double length_s = length_of(fault), end_s = with.until_s.value_or(with.at_s);
       fault.at_s = chance(draw, 0.5) ? with.at_s : std::min(end_s, space_.heal_by_s - 1.0);
       set_length(fault, length_s);
       break;
     }
-    case 6:  // one of another schedule
+    case 6:  // one more, from the other schedule
       if (!other.empty() && faults.size() < kMostFaults) faults.push_back(other[below(draw, other.size())]);
       return;
     default:

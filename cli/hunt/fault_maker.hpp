@@ -1,7 +1,7 @@
-// Faults that nobody thought of: schedules of all kinds of faults (docs/faults.md), drawn at random, and varied. They
-// know kinds, not what could be wrong with a planner. All are over in time for what must hold "after heal", but for
-// some UAVs whose programs are killed for good.
-// The same stream draws the same faults. Pure; any thread. Simulated seconds.
+// Draws random schedules of all kinds of faults (docs/faults.md), and varies schedules. It has no knowledge of what
+// could be wrong with a planner. All faults end early enough for properties that must hold "after heal", except that
+// some programs of UAVs are killed for good.
+// The same stream draws the same faults. Pure; any thread. Times in simulated seconds.
 #pragma once
 
 #include <optional>
@@ -17,26 +17,30 @@ namespace skein::cli {
 /// Kinds of faults, as keys of a fault file spell them.
 const std::vector<std::string>& fault_kinds();
 
-/// What schedules may be made of.
+/// What a schedule may contain.
 struct FaultSpace {
   std::vector<std::string> kinds = fault_kinds();  ///< not empty
-  double heal_by_s = 60.0;                         ///< every fault that is ever over is so by then
-  bool ground_program = false;                     ///< one runs at the ground station
+  double heal_by_s = 60.0;                         ///< all faults end by then, except kills for good
+  bool ground_program = false;                     ///< whether an agent program runs at the ground station
 };
 
 class FaultMaker {
  public:
-  /// @param scenario  must outlive this.
+  /// Draws faults for runs under the scenario's own conditions.
   FaultMaker(const Scenario& scenario, FaultSpace space);
+  /// @param conditions  as `--conditions` has them; empty: the scenario's own.
+  /// @returns one for runs under these conditions.
+  FaultMaker under(const std::string& conditions) const;
 
-  /// One to four faults, some of them several times.
+  /// Draws one to four faults, and repeats some of them; at most six in all. None if no kind of the space is possible
+  /// under the conditions.
   std::vector<Fault> schedule(RandomStream& draw) const;
-  /// A schedule like another: a time, a length, a target or a strength changed, a fault more or less.
-  /// @param other  whose faults may be mixed in.
+  /// Varies a schedule: changes a time, length, target or strength, or adds or removes a fault.
+  /// @param other  a schedule from which a fault may be added.
   std::vector<Fault> varied(std::vector<Fault> faults, const std::vector<Fault>& other, RandomStream& draw) const;
 
  private:
-  Fault any(RandomStream& draw) const;
+  std::optional<Fault> any(RandomStream& draw) const;
   FaultAction action(const std::string& kind, RandomStream& draw) const;
   LinkEffect link(RandomStream& draw) const;
   void repeat(std::vector<Fault>& faults, RandomStream& draw) const;
@@ -47,16 +51,19 @@ class FaultMaker {
   const std::string& uav(RandomStream& draw) const;
   const std::string& node(RandomStream& draw) const;
   const std::string& program(RandomStream& draw) const;
-  bool is_death(const Fault& fault) const;  ///< of a UAV's program
+  bool is_death(const Fault& fault) const;  ///< whether it kills a UAV's program
 
   const FaultSpace space_;
+  const ConditionsConfig scenarios_conditions_;
+  ConditionsConfig conditions_;  ///< of the runs
   std::vector<std::string> uavs_, with_lidar_, nodes_, ground_programs_, topics_;
 };
 
-/// Of two faults that take hold of the same thing at the same time the later one in the list goes.
+/// Removes each fault that holds the same resource (held_by()) at the same time as an earlier one in the list.
 std::vector<Fault> without_contradictions(std::vector<Fault> faults);
 
-/// What a fault is, for who says that something does not hold with it: its kind, and a link's effects ("duplication").
+/// The words by which a property can exclude a fault (NamedProperty::not_with): its kind, and for a link also the keys
+/// of its effect ("duplication").
 std::vector<std::string> words_of(const Fault& fault);
 
 }  // namespace skein::cli

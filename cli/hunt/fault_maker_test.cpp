@@ -36,6 +36,7 @@ class FaultMakers : public testing::Test {
     ::setenv("SKEIN_CONFIG_DIR", source_path("config").c_str(), 1);
     LoadOptions load;
     load.duration_s = 120.0;
+    load.conditions = "breezy";  // all kinds of faults are possible
     towers_ = load_scenario("towers", load);
     space_.heal_by_s = 77.0;
     space_.ground_program = true;
@@ -179,6 +180,44 @@ TEST_F(FaultMakers, EveryKindIsDrawnOrOnlyThoseThatAreWanted) {
     for (const Fault& fault : faults) seen.insert(fault_kind(fault));
   });
   EXPECT_EQ(seen, std::set<std::string>({"kill", "link"}));
+}
+
+/// Each case must be a fault file that its run accepts, also if it varies a case of a run under other conditions.
+TEST_F(FaultMakers, OnlyFaultsThatAreInTheWeatherAreDrawn) {
+  LoadOptions load;
+  load.duration_s = 120.0;
+  std::vector<Fault> former;
+  std::map<std::string, std::set<std::string>> kinds;
+  const std::vector<std::string> all = {"none", "breezy", "wind=harsh", "odometry=breezy+camera=harsh",
+                                        "battery=harsh"};
+  const FaultMaker maker(towers_, space_);
+  for (std::uint64_t i = 0; i < kSchedules; ++i) {
+    RandomStream draw(11, "weather", i);
+    const std::string& conditions = all[i % all.size()];
+    const FaultMaker here = maker.under(conditions);
+    const std::vector<Fault> faults = i % 2 == 0 ? here.schedule(draw) : here.varied(former, former, draw);
+    ASSERT_FALSE(faults.empty());
+    load.conditions = conditions;
+    towers_ = load_scenario("towers", load);
+    EXPECT_NO_THROW(read_back(faults)) << conditions;
+    for (const Fault& fault : faults) kinds[conditions].insert(fault_kind(fault));
+    former = faults;
+  }
+  for (const char* kind : {"gust", "fix_loss", "battery_loss", "conditions"}) {
+    EXPECT_TRUE(kinds["breezy"].contains(kind)) << kind;
+    EXPECT_FALSE(kinds["none"].contains(kind)) << kind;
+  }
+  EXPECT_TRUE(kinds["wind=harsh"].contains("gust"));
+  EXPECT_FALSE(kinds["wind=harsh"].contains("battery_loss"));
+}
+
+TEST_F(FaultMakers, WhereNoKindIsPossibleNothingIsDrawn) {
+  space_.kinds = {"battery_loss", "fix_loss"};
+  const FaultMaker maker = FaultMaker(towers_, space_).under("none");
+  RandomStream draw(12, "nothing", 0);
+  EXPECT_TRUE(maker.schedule(draw).empty());
+  const std::vector<Fault> loss = {{.at_s = 5.0, .until_s = 9.0, .action = FixLoss{towers_.uav_names()[0]}}};
+  EXPECT_TRUE(maker.varied(loss, loss, draw).empty());
 }
 
 TEST_F(FaultMakers, ALinkIsCalledByItsEffectsToo) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 
+#include "cli/hunt/weather_faults.hpp"
 #include "cli/machine.hpp"
 #include "cli/run/agent_file.hpp"
 #include "cli/run/preflight.hpp"
@@ -26,15 +27,15 @@ namespace fs = std::filesystem;
 using properties::PropertyEntries;
 using properties::PropertyEntry;
 
-/// Of the mission, behind the longest deadline: towards its end whoever has no time left for more work stands where it
-/// has a link, and waits. A program that comes back far from home does so long before the end.
+/// Mission time after the longest deadline. Near the end of a mission, a UAV without time for more work hovers where it
+/// has a link, and waits. A UAV whose program restarts far from home does so long before the end.
 constexpr double kAfterDeadline_s = 40.0;
 constexpr double kLeastForFaults_s = 5.0;
-constexpr double kPatience_s = 300.0;  ///< of wall time: many flights at once make each slow, and none of them wrong
+constexpr double kPatience_s = 300.0;  ///< wall time; many flights at once make each one slow, which is no failure
 constexpr std::size_t kBuildLetters = 12;
 constexpr std::uintmax_t kLargestAgent = 2'000'000'000;
 
-/// The ready ones that a hunt asks, and that fit this fleet.
+/// The ready properties that hunts evaluate by default, without those that do not fit this scenario.
 PropertyEntries usual_entries(const Scenario& scenario) {
   PropertyEntries entries;
   for (const std::string& name : properties::ready_property_names()) {
@@ -43,7 +44,7 @@ PropertyEntries usual_entries(const Scenario& scenario) {
     try {
       properties_of(one, scenario);
     } catch (const InputError&) {
-      continue;  // it is about more UAVs than there are, or a longer mission
+      continue;  // it needs more UAVs, or a longer mission
     }
     entries.push_back(one.front());
   }
@@ -80,6 +81,20 @@ void check_conditions(const HuntOptions& options, const Scenario& scenario) {
     } catch (const InputError& error) {
       throw InputError("--conditions " + conditions + ": " + error.what());
     }
+  }
+}
+
+/// Faults that were asked for must be possible in some of the runs.
+void check_kinds(const HuntOptions& options, const Scenario& scenario) {
+  for (const std::string& kind : options.faults) {
+    const auto possible = [&](const std::string& conditions) {
+      return is_possible(kind, chosen_conditions(conditions, scenario.conditions));
+    };
+    const bool here = options.conditions.empty() ? is_possible(kind, scenario.conditions)
+                                                 : std::ranges::any_of(options.conditions, possible);
+    if (here) continue;
+    throw InputError("--faults: no run of this hunt can have the fault '" + kind +
+                     "'; fly under conditions that have it, as with --conditions breezy");
   }
 }
 
@@ -150,10 +165,11 @@ HuntPlan plan_hunt(const HuntOptions& options) {
   plan.fleet.options.one_process = plan.one_process;
   if (!options.jobs) plan.options.jobs = plan.one_process ? usable_cores() : 1;
   if (options.dds) plan.fleet.options.dds = *options.dds;
-  if (options.properties) properties::load_properties(*options.properties, plan.fleet.scenario);  // with its lines
+  if (options.properties) properties::load_properties(*options.properties, plan.fleet.scenario);  // names error lines
   plan.entries = entries_of(options, plan.fleet.scenario);
   plan.space.kinds = kinds_of(options);
   check_conditions(options, plan.fleet.scenario);
+  check_kinds(options, plan.fleet.scenario);
   plan.space.ground_program = plan.fleet.ground.has_value();
   const double duration_s = plan.fleet.scenario.duration_s;
   const double deadline_s = longest_deadline_s(properties_of(plan.entries, plan.fleet.scenario));
@@ -192,7 +208,7 @@ std::string capsule_text(const std::string& name, const Trial& trial, const Caps
     if (node.kind == ConfigNode::Kind::scalar && node.scalar != "ready") node.quoted = true;
     text += "properties:\n  " + mark.property + ": " + flow_text(node) + "\n";
   }
-  // What failed is what counts: a UAV that is lost on the way there is another matter.
+  // Only the property that failed counts: the test ignores collisions and the delivery of captures.
   text += mark.property == kSameDigest
               ? "expect: {same_digest: [one_process], custody: none, collisions: {at_least: 0}}\n"
               : "expect: {custody: none, collisions: {at_least: 0}}\n";

@@ -94,6 +94,12 @@ TEST_F(HuntPlans, RefusesWhatMakesNoSense) {
   HuntOptions hunt = options();
   hunt.faults = {"kil"};
   refused(hunt, "--faults: there is no fault 'kil'; did you mean 'kill'?");
+  hunt.faults = {"kill", "battery_loss"};
+  refused(hunt, "--faults: no run of this hunt can have the fault 'battery_loss'; fly under conditions that have it");
+  hunt.conditions = {"none", "wind=harsh"};
+  refused(hunt, "'battery_loss'");
+  hunt.conditions = {"none", "battery=harsh"};
+  EXPECT_NO_THROW(plan_hunt(hunt));
   hunt = options();
   hunt.without = {"separatoin"};
   refused(hunt, "--without: there is no property 'separatoin' in this hunt; did you mean 'separation'?");

@@ -6,9 +6,9 @@
 namespace skein::cli {
 namespace {
 
-constexpr double kShareOfNew = 0.4;         ///< of cases that are like none before
-constexpr double kShareOfNearest = 0.5;     ///< of the others: like one that came near
-constexpr double kShareOfOtherSeeds = 0.2;  ///< and conditions
+constexpr double kShareOfNew = 0.4;         ///< of cases that are drawn afresh
+constexpr double kShareOfNearest = 0.5;     ///< of the others: variations of a case with a small margin
+constexpr double kShareOfOtherSeeds = 0.2;  ///< of variations: other seed and conditions than the original
 
 std::size_t place(RandomStream& draw, std::size_t count) {
   return std::min(static_cast<std::size_t>(draw.uniform() * static_cast<double>(count)), count - 1);
@@ -33,14 +33,14 @@ const HuntCase& HuntSearch::next(const std::vector<std::optional<TrialOutcome>>&
   if (!conditions_.empty()) made.conditions = conditions_[index == 0 ? 0 : place(draw, conditions_.size())];
   if (index == 0) return cases_.emplace_back(std::move(made));
   if (discoverers_.empty() || draw.uniform() < kShareOfNew) {
-    made.faults = maker_.schedule(draw);
+    made.faults = maker_.under(made.conditions).schedule(draw);
   } else {
     const HuntCase& like = parent(draw);
     if (draw.uniform() >= kShareOfOtherSeeds) {
       made.seed = like.seed;
       made.conditions = like.conditions;
     }
-    made.faults = maker_.varied(like.faults, parent(draw).faults, draw);
+    made.faults = maker_.under(made.conditions).varied(like.faults, parent(draw).faults, draw);
   }
   return cases_.emplace_back(std::move(made));
 }
@@ -49,7 +49,7 @@ const HuntCase& HuntSearch::parent(RandomStream& draw) const {
   if (!nearest_.empty() && draw.uniform() < kShareOfNearest) {
     return cases_[std::next(nearest_.begin(), static_cast<std::ptrdiff_t>(place(draw, nearest_.size())))->second.index];
   }
-  // Rather a late one: what the first ones met, many have met since.
+  // Prefers later discoverers, since many cases have met the states of the first ones since.
   const std::size_t late = std::max(place(draw, discoverers_.size()), place(draw, discoverers_.size()));
   return cases_[discoverers_[late]];
 }
@@ -59,7 +59,7 @@ void HuntSearch::learn(std::size_t index, const TrialOutcome& outcome) {
   for (const std::uint64_t state : outcome.states) is_new = states_.insert(state).second || is_new;
   if (is_new) discoverers_.push_back(index);
   for (const TrialFinding& finding : outcome.findings) {
-    // What is broken already is known; to come nearer to what is not is what helps.
+    // Failures are known already. The search goes on from cases that hold with a small margin.
     if (finding.fails() || !finding.margin) continue;
     const auto [nearest, first] = nearest_.try_emplace(finding.property, Nearest{*finding.margin, index});
     if (!first && *finding.margin < nearest->second.margin) nearest->second = {*finding.margin, index};

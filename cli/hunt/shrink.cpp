@@ -6,6 +6,7 @@
 
 #include "cli/fault_tests/flights.hpp"
 #include "cli/hunt/fault_maker.hpp"
+#include "cli/hunt/weather_faults.hpp"
 #include "core/conditions.hpp"
 #include "core/overloaded.hpp"
 
@@ -13,7 +14,7 @@ namespace skein::cli {
 namespace {
 
 constexpr double kLeastMission_s = 10.0, kLeastLength_s = 0.5;
-constexpr double kAfterSeen_s = 5.0;  ///< that a mission goes on
+constexpr double kAfterSeen_s = 5.0;  ///< time that a mission goes on after the failure
 constexpr const char* kSimplestScene = "towers";
 
 double to_multiple(double value, double step) { return std::round(value / step) * step; }
@@ -26,14 +27,14 @@ double length_of_fault(const Fault& fault) {
 Fault with_times(Fault fault, double at_s, double length_s) {
   if (fault.waits) {
     fault.for_s = length_s;
-  } else if (fault.until_s) {  // else it is for good
+  } else if (fault.until_s) {  // else it has no end
     fault.until_s = to_tenths(at_s + length_s);
   }
   fault.at_s = to_tenths(at_s);
   return fault;
 }
 
-/// Whether a fault, or what it waits for, names one of these.
+/// Whether a fault, or the condition that it waits for, names one of these UAVs.
 bool names_any(const Fault& fault, const std::set<std::string>& of) {
   std::set<std::string> names;
   const auto add = [&names](const std::vector<std::string>& more) { names.insert(more.begin(), more.end()); };
@@ -52,7 +53,7 @@ bool names_any(const Fault& fault, const std::set<std::string>& of) {
 
 std::string identity(const Trial& trial) { return what_is_flown(trial.run) + trial.text(); }
 
-/// What was refused with the one may do with the other.
+/// Whether the number of faults or UAVs differs: then a simplification that was refused for one may work for the other.
 bool is_other_setting(const Trial& a, const Trial& b) {
   return a.faults.size() != b.faults.size() || a.run.uavs != b.run.uavs;
 }
@@ -80,6 +81,15 @@ class Proposals {
   void propose(const std::string& what, Trial trial) {
     trial.faults = without_contradictions(std::move(trial.faults));
     if (identity(trial) != identity(trial_)) proposals_.push_back({what, std::move(trial)});
+  }
+  /// Proposes a trial under plainer conditions, unless they make one of its faults impossible.
+  void propose_under(const std::string& what, const std::string& conditions) {
+    Trial trial = trial_;
+    trial.run.conditions = conditions;
+    const ConditionsConfig there = chosen_conditions(conditions, scenario_.conditions);
+    if (std::ranges::all_of(trial.faults, [&](const Fault& fault) { return is_possible(fault, there); })) {
+      propose(what, std::move(trial));
+    }
   }
   void propose(const std::string& what, std::size_t index, Fault fault) {
     Trial trial = trial_;
@@ -118,7 +128,7 @@ class Proposals {
     }
   }
 
-  /// As long as what came of it takes to be seen, and some more.
+  /// Never ends before the failure has been seen, or before the time that the property needs after the last fault.
   void shorter_mission() {
     double healed_s = 0.0;
     for (const Fault& fault : trial_.faults) healed_s = std::max(healed_s, fault.until_s.value_or(fault.at_s));
@@ -157,20 +167,17 @@ class Proposals {
     propose("parameters", trial);
   }
 
-  /// None, or none of one kind.
+  /// No conditions, or none of one section.
   void plainer_conditions() {
     if (!trial_.run.conditions) return;
-    Trial trial = trial_;
-    trial.run.conditions = "none";
-    propose("conditions", trial);
+    propose_under("conditions", "none");
     for (const std::string& section : condition_sections()) {
       const std::string without = *trial_.run.conditions + "," + section + "=none";
-      trial.run.conditions = conditions_text(chosen_conditions(without, scenario_.conditions));
-      propose("conditions but " + section, trial);
+      propose_under("conditions but " + section, conditions_text(chosen_conditions(without, scenario_.conditions)));
     }
   }
 
-  /// At the time at which it began, if it waited for something.
+  /// Replaces the condition of a waiting fault by the time at which the fault began.
   void without_waiting(std::size_t index) {
     Fault fault = trial_.faults[index];
     if (!fault.waits || index >= outcome_.began_s.size() || !outcome_.began_s[index]) return;
@@ -205,9 +212,15 @@ class Proposals {
     } else if (auto* motor = std::get_if<MotorFailure>(&fault.action)) {
       motor->thrust = to_hundredths(0.5 * (1.0 + motor->thrust));
       if (motor->thrust < 0.98) propose("weaker", index, fault);
+    } else if (auto* gust = std::get_if<Gust>(&fault.action)) {
+      for (double& part : gust->velocity_mps) part = to_tenths(0.5 * part);
+      if (gust->velocity_mps.norm() > 0.5) propose("weaker", index, fault);
+    } else if (auto* loss = std::get_if<BatteryLoss>(&fault.action)) {
+      loss->charge = to_hundredths(0.5 * (1.0 + loss->charge));
+      if (loss->charge < 0.98) propose("weaker", index, fault);
     }
   }
-  /// Of random effects certain ones are simpler: they hang on no draw.
+  /// Certain effects are simpler than random ones, because they depend on no draw.
   void weaker_link(std::size_t index, Fault fault, LinkEffect& effect) {
     const LinkEffect before = effect;
     if (effect.loss > 0.0 && effect.loss < 1.0) {
@@ -242,14 +255,14 @@ class Proposals {
     }
   }
 
-  /// Whether a fault may last until then.
+  /// Whether a fault that ends then leaves enough mission time for the property.
   bool is_in_time(double end_s) const { return end_s + after_s_.value_or(0.0) <= *trial_.run.duration_s; }
 
   const Trial& trial_;
   const TrialOutcome& outcome_;
   const Scenario& scenario_;
   const std::optional<double> after_s_;
-  double seen_s_ = 0.0;  ///< when it failed
+  double seen_s_ = 0.0;  ///< when the property failed
   std::vector<Proposal> proposals_;
 };
 

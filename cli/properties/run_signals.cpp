@@ -11,14 +11,15 @@
 namespace skein::cli {
 namespace {
 
-constexpr double kFarClearance_m = 100.0;  ///< as sim_server tells it
+constexpr double kFarClearance_m = 100.0;  ///< the largest that sim_server reports
 
 std::size_t exchanges_of(const results::RunRecord& run, const Scenario& scenario) {
   const double end_s = value_or(run.result, "sim_time_s", 0.0);
   return static_cast<std::size_t>(std::llround(end_s / scenario.exchange_period_s)) + 1;
 }
 
-/// Of a UAV's program: without the station or the router, what must hold after faults cannot.
+/// Whether a fault kills a UAV's program for good. False for the station and the router: without them, what must hold
+/// after the faults cannot.
 bool is_death_for_good(const Json& fault, const Scenario& scenario) {
   if (value_or(fault, "kind", "") != "kill" || value_or(fault, "until_s", nullptr).is_number()) return false;
   const Json target = value_or(fault, "target", nullptr);
@@ -37,7 +38,7 @@ std::optional<double> FolderSignals::healed_s() const {
   for (const Json& fault : value_or(run_.result, "faults", Json::array())) {
     if (!value_or(fault, "began_step", nullptr).is_number()) continue;
     Json ended = value_or(fault, "ended_step", nullptr);
-    // After the death of a program for good nothing changes any more: what the others do then can be asked.
+    // A permanent death counts as ended at once: nothing changes afterwards, so properties can ask for what follows.
     if (!ended.is_number() && is_death_for_good(fault, scenario_)) ended = fault["began_step"];
     if (!ended.is_number()) return std::nullopt;
     healed_s = std::max(healed_s, ended.get<double>() * period_s());
@@ -64,7 +65,7 @@ FolderSignals::Values FolderSignals::work_out(const SignalUse& signal) {
   for (const char* name : {"member", "restarts", "link", "faults", "time"}) {
     if (signal.is(name)) return of_members(signal);
   }
-  for (const char* name : {"x", "y", "z", "speed", "distance", "clearance", "alive"}) {
+  for (const char* name : {"x", "y", "z", "speed", "distance", "clearance", "charge", "alive"}) {
     if (signal.is(name)) return of_fleet(signal);
   }
   for (const char* name : {"sent", "arrived", "arrived_once", "arrived_by_link", "in_flight"}) {
@@ -96,31 +97,34 @@ const std::map<std::string, FolderSignals::Track>& FolderSignals::tracks() {
   return tracks_;
 }
 
-/// trajectories.csv has each UAV every other exchange; in between it stays where it was.
+/// trajectories.csv has a row of each UAV every other exchange; in between, the values stay as they were.
 std::map<std::string, FolderSignals::Track> FolderSignals::tracks_of(const results::RunRecord& run) const {
   std::map<std::string, Track> tracks;
   for (const std::string& name : scenario_.uav_names()) {
     tracks[name] = {std::vector<Vector3d>(exchanges_, Vector3d::Zero()),
-                    std::vector<Vector3d>(exchanges_, Vector3d::Zero()), constant(1.0), constant(kFarClearance_m)};
+                    std::vector<Vector3d>(exchanges_, Vector3d::Zero()), constant(1.0), constant(kFarClearance_m),
+                    constant(1.0)};
   }
   const double end_s = (static_cast<double>(exchanges_) - 0.5) * period_s();  // another run may have lasted longer
-  std::map<std::string, std::size_t> next;                                    // exchange that is not known yet
+  std::map<std::string, std::size_t> next;                                    // first exchange without values
   for (const results::PositionRow& row : run.positions) {
     const auto track = tracks.find(row.uav);
     if (track == tracks.end() || row.time_s > end_s) continue;
     const std::size_t exchange = exchange_at(row.time_s);
     std::size_t& from = next[row.uav];
-    auto& [positions, velocities, alive, clearance] = track->second;
+    auto& [positions, velocities, alive, clearance, charge] = track->second;
     for (; from < exchange && from > 0; ++from) {
       positions[from] = positions[from - 1];
       velocities[from] = velocities[from - 1];
       alive[from] = alive[from - 1];
       clearance[from] = clearance[from - 1];
+      charge[from] = charge[from - 1];
     }
     positions[exchange] = row.p_W;
     velocities[exchange] = row.v_W;
     alive[exchange] = row.alive ? 1.0 : 0.0;
     clearance[exchange] = row.clearance_m.value_or(kFarClearance_m);
+    charge[exchange] = row.charge.value_or(1.0);
     from = exchange + 1;
   }
   for (auto& [name, track] : tracks) {
@@ -129,6 +133,7 @@ std::map<std::string, FolderSignals::Track> FolderSignals::tracks_of(const resul
       track.velocities[k] = track.velocities[k - 1];
       track.alive[k] = track.alive[k - 1];
       track.clearance[k] = track.clearance[k - 1];
+      track.charge[k] = track.charge[k - 1];
     }
   }
   return tracks;
@@ -165,6 +170,7 @@ FolderSignals::Values FolderSignals::of_fleet(const SignalUse& signal) {
   for (const auto& [name, track] : all) {
     if (!uav.empty() && name != uav) continue;
     if (signal.is("clearance")) return track.clearance;
+    if (signal.is("charge")) return track.charge;
     if (signal.is("alive")) return track.alive;
     for (std::size_t k = 0; k < exchanges_; ++k) {
       const Vector3d& p_W = track.positions[k];
@@ -195,7 +201,7 @@ FolderSignals::Values FolderSignals::separation(const SignalUse& signal) {
 
 // ---- who takes part ---------------------------------------------------------------------------------------------
 
-/// 1 from an event of the one kind on, 0 from one of the other.
+/// 1 from an event `on` of these two until an event `off`; else 0.
 FolderSignals::Values FolderSignals::on_off(const std::string& on, const std::string& off, const std::string& subject,
                                             const std::string& object) const {
   Values values = constant(0.0);
@@ -244,7 +250,7 @@ FolderSignals::Values FolderSignals::result(const SignalUse& signal) const {
   for (const std::string& key : split(path, '.')) {
     Json next;
     std::vector<std::string> known;
-    if (here.is_array()) {  // of named things
+    if (here.is_array()) {  // of objects with names
       for (const Json& one : here) {
         known.push_back(value_or(one, "name", "").get<std::string>());
         if (known.back() == key) next = one;

@@ -1,6 +1,6 @@
-// The signals (core/expressions/signal_table.hpp) of a finished run, from its folder. Each is worked out when it is
-// first asked for. Where the server knows a signal while the run goes on, it has the same values
-// (sim_server/live_signals.hpp). Not thread-safe.
+// The signals (core/expressions/signal_table.hpp) of a finished run, computed from its folder, each when it is first
+// requested. A signal that sim_server also computes during the run (sim_server/live_signals.hpp) has the same values
+// there. Not thread-safe.
 #pragma once
 
 #include <map>
@@ -36,7 +36,7 @@ class FolderSignals final : public properties::RunSignals {
  private:
   struct Track {
     std::vector<Vector3d> positions, velocities;
-    Values alive, clearance;
+    Values alive, clearance, charge;
   };
 
   Values work_out(const SignalUse& signal);

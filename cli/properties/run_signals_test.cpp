@@ -20,7 +20,7 @@ namespace {
 TEST_F(RunSignalsTest, TheFleetIsWhereItsTableSays) {
   for (std::size_t tenth = 0; tenth <= 20; ++tenth) {
     const double t = 0.1 * static_cast<double>(tenth);
-    run_.positions.push_back({t, "a", {3.0 * t, 0, 1}, {3, 0, 0}, true, 10.0 - t});
+    run_.positions.push_back({t, "a", {3.0 * t, 0, 1}, {3, 0, 0}, true, 10.0 - t, 1.0 - 0.25 * t});
     run_.positions.push_back({t, "b", {0, 4.0, 1}, {0, 0, 0}, t < 1.0, 5.0});
   }
   const std::vector<double> x = number("x(a)"), separation = number("separation"), clearance = number("clearance");
@@ -28,6 +28,8 @@ TEST_F(RunSignalsTest, TheFleetIsWhereItsTableSays) {
     const double t = 0.1 * static_cast<double>(k / 2);  // of the last row
     EXPECT_NEAR(x[k], 3.0 * t, 1e-9) << k;
     EXPECT_NEAR(number("distance(a)")[k], 3.0 * t, 1e-9) << k;
+    EXPECT_NEAR(number("charge(a)")[k], 1.0 - 0.25 * t, 1e-9) << k;
+    EXPECT_EQ(number("charge(b)")[k], 1.0) << "has no battery";
     if (t < 0.999) {
       EXPECT_NEAR(separation[k], std::hypot(3.0 * t, 4.0), 1e-9) << k;
     } else {

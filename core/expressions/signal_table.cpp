@@ -34,6 +34,8 @@ std::vector<SignalInfo> make_table() {
       number("clearance", {uav}, 0, kMetres, kLive,
              "from the body's centre to the structure, 100 m at most; without a name, the least of all that are not "
              "out"),
+      number("charge", {uav}, 1, kPlainNumber, kLive,
+             "share of the battery's capacity that is left; 1 without batteries"),
       boolean("alive", {uav}, "it has not collided, and is in the world"),
       boolean("member", {program}, "the program takes part in the run"),
       number("restarts", {program}, 0, kPlainNumber, kLive, "how often the program has come back"),

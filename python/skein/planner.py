@@ -1,12 +1,12 @@
 """The interface of a planner written in Python: `skein run --planner py:my_planner.py[:Class][:key=value,...]`.
 
-A planner is one class, derived from `Planner`, with `plan(inputs) -> PlannerOutput`. It flies inside its UAV's agent
-as a planner in C++ does, with the names of `uav_agent/api/planner.hpp`. What it returns may depend only on its inputs
-and on its own past; it bounds its effort by counts, never by time (docs/how-to-python.md has more).
+A planner is one class, derived from `Planner`, with `plan(inputs) -> PlannerOutput`. It runs inside its UAV's agent, as
+a planner in C++ does, and uses the names of `uav_agent/api/planner.hpp`. Its output may depend only on its present and
+past inputs. It bounds its effort by counts, never by time (docs/how-to-python.md has more).
 
 Frames: W world (east, north, up; the ground at z = 0), B body (forward, left, up). SI units and radians. Vectors are
-arrays of three float64. What `inputs` gives as arrays of its own may be kept. Clouds are views of the agent's memory,
-and maps are asked, during the call only: a planner that keeps a view is ended with a message that says which.
+arrays of three float64. A planner may keep the vectors in `inputs`. Point clouds are views of the agent's memory; they
+and the maps are valid during the call only. If a planner keeps a view, its agent ends with a message that names it.
 """
 
 from __future__ import annotations
@@ -26,9 +26,9 @@ from .maps import FreeSpace, OccupancyMap, WorldMap
 from .planner_config import (AgentConfig, Camera, FleetMember, FlightConfig, Vector, VectorLike, Vehicle, parameter)
 
 __all__ = ["AgentConfig", "BeamScan", "Camera", "Firing", "FleetMember", "FlightConfig", "FlightState", "FreeSpace",
-           "GimbalAim", "GimbalCommand", "GimbalState", "Goal", "GoneError", "Hold", "KeyFrame", "Motion",
-           "OccupancyMap", "OrientedBox", "Outcome", "Path", "Peer", "Planner", "PlannerInput", "PlannerOutput",
-           "RadioMessage", "Scan", "Setpoint", "Space", "State", "TICKS_PER_SECOND", "TrackingState",
+           "GimbalAim", "GimbalCommand", "GimbalState", "Goal", "GoneError", "Hold", "KeyFrame", "LinkQuality",
+           "Motion", "OccupancyMap", "OrientedBox", "Outcome", "Path", "Peer", "Planner", "PlannerInput",
+           "PlannerOutput", "RadioMessage", "Scan", "Setpoint", "Space", "State", "TICKS_PER_SECOND", "TrackingState",
            "TrajectoryCommand", "Vector", "VectorLike", "Vehicle", "Waypoint", "WorldMap", "parameter"]
 
 TICKS_PER_SECOND = 400
@@ -36,23 +36,24 @@ _ZERO = (0.0, 0.0, 0.0)
 
 
 class GoneError(Error):
-    """The call is over to which this belonged: `plan()` has returned. Copy what you keep."""
+    """This input belonged to a call of `plan()` that has returned. Copy what you want to keep."""
 
 
 class Space(enum.IntEnum):
-    """What a cube of `WorldMap` is."""
+    """State of a cube of the `WorldMap`."""
 
     unknown = 0
     free = 1
     occupied = 2
 
 
-# ---- what a planner asks for by way of motion --------------------------------------------------------------------
+# ---- motions that a planner can request --------------------------------------------------------------------------
 
 
 @dataclass(slots=True)
 class Setpoint:
-    """A point to fly to now: it goes to the flight controller as it is, clamped to the vehicle's limits."""
+    """A setpoint for the flight controller, sent without smoothing in every exchange until the next motion. Only
+    velocity and acceleration are clamped, to the tracker's limits."""
 
     p_WB: VectorLike
     yaw: float = 0.0
@@ -63,24 +64,24 @@ class Setpoint:
 @dataclass(slots=True)
 class Waypoint:
     p_WB: VectorLike
-    speed_mps: float = 1.0  #: not exceeded on the leg that ends here
+    speed_mps: float = 1.0  #: maximum speed on the leg that ends here
 
 
 @dataclass(slots=True)
 class Path:
-    """A polyline to follow from the present set-point on; replaces any path before. The UAV stops at its end."""
+    """A polyline to follow from the present setpoint on; it replaces any earlier path. The UAV stops at its end."""
 
     waypoints: Sequence[Waypoint]
 
 
 @dataclass(slots=True)
 class Hold:
-    """Brake as hard as the limits allow, then stay."""
+    """Brake as hard as the tracker's limits allow, then hover."""
 
 
 @dataclass(slots=True)
 class TrajectoryCommand:
-    """Goes to the flight controller as it is, in this exchange and no other (docs/rules.md, P1 to P3)."""
+    """A command that goes to the flight controller unchanged, in this exchange only (docs/rules.md, P1 to P3)."""
 
     p_WB: VectorLike = _ZERO
     v_WB: VectorLike = _ZERO
@@ -99,52 +100,52 @@ class GimbalCommand:
 
 
 Motion = Union[Setpoint, Path, Hold, TrajectoryCommand, None]
-#: A point in W to keep in the image's centre, a command as it is, or None: carry on.
+#: Aim of the camera: a point in W to keep in the centre of the image, a gimbal command, or None: the last aim stays.
 GimbalAim = Union[GimbalCommand, VectorLike, None]
 
 
 @dataclass(slots=True)
 class Goal:
-    """Something that a planner wants: to be at a place, or to fly along a line from there."""
+    """What the planner wants: to be at a place, or to fly along a line of waypoints that begins there."""
 
-    id: int                    #: its planner's name for it
-    way: Sequence[Waypoint]    #: at least one
-    yaw: float | None = None   #: of the body, from the first waypoint on
-    gimbal: GimbalAim = None   #: from when it is taken up
+    id: int                    #: the planner's own number
+    way: Sequence[Waypoint]    #: at least one; the flight core searches a path to the first one
+    yaw: float | None = None   #: of the body in W, from 4 m before the first waypoint on; None: any
+    gimbal: GimbalAim = None   #: applied when the flight core sets out to the goal
 
 
 @dataclass(slots=True)
 class RadioMessage:
-    """A message between planners. Radio tells nobody who sent."""
+    """A message between planners. The radio does not identify the sender."""
 
-    topic: str  #: that the scenario lets this UAV send on; "/plan" always
-    text: str   #: any bytes but NUL: what is no UTF-8 is escaped as `surrogateescape` does
-    source: int | None = None  #: of a received one, if it is known: 0 the station, 1, 2, ... the fleet
+    topic: str  #: one on which the scenario lets this UAV send; "/plan" always is one
+    text: str   #: any bytes but NUL; bytes that are not UTF-8 are escaped by `surrogateescape`
+    source: int | None = None  #: sender of a received message, if known: 0 the station, 1, 2, ... the fleet
 
 
 @dataclass(slots=True)
 class PlannerOutput:
-    """What a planner wants in this exchange. Nothing said is "carry on"."""
+    """What a planner wants in this exchange. An empty output means "carry on"."""
 
     motion: Motion = None
-    yaw: float | None = None  #: body yaw to turn to; only with a Path or Hold
+    yaw: float | None = None  #: body yaw to turn to; only on a Path or Hold
     gimbal: GimbalAim = None
-    trigger: bool = False     #: ask for a capture; only where the camera is in manual mode
+    trigger: bool = False     #: take a picture now; the first trigger ends the camera's automatic rhythm for good
     radio: Sequence[RadioMessage] = ()
-    goals: Sequence[Goal] | None = None  #: what it likes best first; only with `Planner.flight()`. None: as before
-    heard_maps: Sequence[bytes] = ()     #: what others said of their maps (`OccupancyMap.octomap_bytes()`)
-    going_to_W: VectorLike | None = None
-    no_way: str = ""                     #: why it found no way in this exchange
-    waits_for: str | int | None = None   #: a UAV, by its name or its index in the fleet
-    debug: Mapping[str, float] = dataclasses.field(default_factory=dict)  #: values of `Planner.debug_names()`
+    goals: Sequence[Goal] | None = None  #: best first; only with `Planner.flight()`. None: the last list stays
+    heard_maps: Sequence[bytes] = ()     #: maps received from other UAVs (`OccupancyMap.octomap_bytes()`)
+    going_to_W: VectorLike | None = None  #: where it is about to fly: other UAVs send map updates about the way first
+    no_way: str = ""                     #: why it found no path in this exchange
+    waits_for: str | int | None = None   #: the UAV for which it waits: name, or index in the fleet
+    debug: Mapping[str, float] = dataclasses.field(default_factory=dict)  #: by name, of `Planner.debug_names()`
 
 
-# ---- what a planner is given -------------------------------------------------------------------------------------
+# ---- inputs of a planner -----------------------------------------------------------------------------------------
 
 
 @dataclass(slots=True)
 class State:
-    """Of the own body."""
+    """State of the own body, by its odometry."""
 
     p_WB: Vector
     q_WB: Vector    #: attitude, body to world: w, x, y, z
@@ -174,45 +175,56 @@ class GimbalState:
 
 @dataclass(slots=True)
 class TrackingState:
-    """How far the tracker has come with the last Path."""
+    """Progress of the tracker along the last Path."""
 
-    setpoint: Setpoint  #: where the next path begins
-    leg: int            #: index of the waypoint being flown to; their number when done
-    done: bool          #: at rest at the end of the path, or no path
+    setpoint: Setpoint  #: where the next path would begin
+    leg: int            #: index of the waypoint that the UAV flies to; the number of waypoints when done
+    done: bool          #: at rest at the end of the path, or there is no path
     airborne: bool      #: a first motion was commanded
 
 
 @dataclass(slots=True)
 class OrientedBox:
-    """Around a structure, loosely."""
+    """A loose box around a structure."""
 
     name: str
-    center: Vector
+    center: Vector  #: in W
     size: Vector  #: full edge lengths along its own axes
-    R_WO: npt.NDArray[np.float64]
+    R_WO: npt.NDArray[np.float64]  #: (3, 3), from the box's axes to W
 
     def contains(self, p_W: VectorLike, margin: float = 0.0) -> bool:
         return bool(np.all(np.abs(self.R_WO.T @ (np.asarray(p_W) - self.center)) <= 0.5 * self.size + margin))
 
 
 @dataclass(slots=True)
+class LinkQuality:
+    """Quality of an open radio link, in scenarios with path loss."""
+
+    received_dbm: float  #: power that arrives
+    rate_bit_s: float    #: for the fleet's messages from this UAV to the other end
+
+
+@dataclass(slots=True)
 class Peer:
-    """Another UAV, as far as line of sight tells."""
+    """Another UAV, as this UAV knows it from when it was in line of sight."""
 
     uav: int  #: index in the fleet
     name: str
-    p_W: Vector        #: when last seen; the nominal start before
+    p_W: Vector        #: position when last seen; before that, its nominal start
     v_W: Vector
     a_W: Vector
-    seen: int | None   #: tick
-    visible: bool      #: in line of sight at this step
+    seen: int | None   #: tick at which it was last in line of sight; None: never
+    visible: bool      #: in line of sight in this exchange
+    left_start: bool   #: was seen to leave its start; False if the scenario's odometry is exact
+    deviation_m: Vector  #: standard deviation of p_W's error per axis, as far as the conditions tell; 0: exact
+    link: LinkQuality | None  #: None: it is not in line of sight, or the scenario has no path loss
 
 
 @dataclass(slots=True)
 class KeyFrame:
     points_W: npt.NDArray[np.float32]  #: (N, 3), a view
-    p_WS: Vector | None  #: the sensor's position, if the message tells
-    source: int | None   #: 0 the station, 1, 2, ... the fleet
+    p_WS: Vector | None  #: position of the sensor, if known
+    source: int | None   #: node whose LiDAR made it, if known: 1, 2, ... the fleet
 
 
 @dataclass(slots=True)
@@ -223,87 +235,89 @@ class Scan:
 
 @dataclass(slots=True)
 class Firing:
-    """Columns of a scan that were fired together."""
+    """Columns of a scan that the LiDAR fired at the same tick: from first_column up to that of the next firing."""
 
     first_column: int
     tick: int
-    X_WL: npt.NDArray[np.float64]  #: (4, 4)
-    error_m: float
-    error_rad: float
+    X_WL: npt.NDArray[np.float64]  #: (4, 4), pose of the LiDAR
+    error_m: float    #: bound of the error of X_WL that interpolation adds to that of the odometry
+    error_rad: float  #: the same of its rotation
 
 
 @dataclass(slots=True)
 class BeamScan:
     tick: int
-    doubt: Literal["none", "no_servo", "no_pose", "misfit"]
+    doubt: Literal["none", "no_servo", "no_pose", "misfit"]  #: if not "none", all beams are unknown
     beams: npt.NDArray[np.void]  #: (rings, columns), a view: `state` (0 unknown, 1 none, 2 range, 3 uav) and `range_m`
-    fired: tuple[Firing, ...]
-    points: int
+    fired: tuple[Firing, ...]  #: in order of columns
+    points: int  #: number of returns
 
 
 @dataclass(slots=True)
 class Outcome:
-    id: int
-    kind: Literal["reached", "no_way", "blocked"]
-    leg: int
-    reason: str
+    id: int  #: `Goal.id`
+    kind: Literal["reached", "no_way", "blocked"]  #: no_way: first waypoint not reached; blocked: stopped beyond it
+    leg: int  #: if blocked: index in `Goal.way` of the waypoint that the UAV did not reach
+    reason: str  #: for a log
 
 
 @dataclass(slots=True)
 class FlightState:
-    """What the flight core is about."""
+    """State of the flight core."""
 
-    working: bool       #: in the air, and free to fly to goals
-    idle: bool          #: working, and no goal is left
-    goal: int | None
-    on_way: bool
-    leg: int
-    outcomes: tuple[Outcome, ...]  #: since the exchange before
+    working: bool       #: it flies to goals now; otherwise (takeoff, recovery, ...) they wait
+    idle: bool          #: working, and no goal of the last list is left
+    goal: int | None    #: id of the goal being flown; only while working
+    on_way: bool        #: the UAV has reached the first waypoint and flies along `Goal.way`
+    leg: int            #: while on_way: index of the waypoint that it flies to
+    outcomes: tuple[Outcome, ...]  #: of goals that ended since the last exchange with `working`
 
 
 class PlannerInput:
-    """What one exchange brings. Fields are converted when they are read first, so that what is not asked for costs
-    nothing. For tests of one's own: `PlannerInput(k=0, tick=0, state=State(...), ...)`."""
+    """The inputs of one exchange. The agent converts a field when the planner first reads it, so that unused fields
+    cost nothing. For your own tests: `PlannerInput(k=0, tick=0, state=State(...), ...)`."""
 
     __slots__ = ("_source", "k", "tick", "state", "gimbal", "tracking", "map", "boxes", "peers", "mission_remaining_s",
                  "station_linked", "undelivered_captures", "detected", "radio", "key_frames", "scans", "beam_scans",
-                 "world_map", "scanned", "flight", "space", "position_sigma_m", "yaw_sigma", "battery_charge", "wind_W")
+                 "world_map", "scanned", "flight", "space", "position_sigma_m", "yaw_sigma", "battery_charge", "wind_W",
+                 "station_link")
 
     _source: Any
-    k: int     #: exchange
-    tick: int  #: simulated time, 400 a second
+    k: int     #: number of the exchange
+    tick: int  #: simulated time, in ticks of 2.5 ms
     state: State
     gimbal: GimbalState
     tracking: TrackingState
     map: OccupancyMap
     boxes: tuple[OrientedBox, ...]  #: empty until received
     peers: tuple[Peer, ...]         #: all other UAVs, in fleet order
-    mission_remaining_s: float | None  #: None before the first take-off
-    station_linked: bool               #: direct link at this step
-    undelivered_captures: int
+    mission_remaining_s: float | None  #: None before the first takeoff of the fleet
+    station_linked: bool               #: direct link to the station in this exchange
+    undelivered_captures: int          #: of this UAV, not yet acknowledged by the station
     detected: npt.NDArray[np.void]  #: in this step's pictures, a view: `p_W`, `n_W` (3 float32), `score`, `order`
     radio: tuple[RadioMessage, ...]
     key_frames: tuple[KeyFrame, ...]
     scans: tuple[Scan, ...]           #: only if `wants_scans()`
     beam_scans: tuple[BeamScan, ...]  #: only if `wants_beams()`
     world_map: WorldMap | None        #: only if `wants_world_map()` or `flight()`
-    scanned: bool
+    scanned: bool            #: a scan of the own LiDAR arrived
     flight: FlightState      #: only if `flight()`
-    space: FreeSpace | None  #: where it may choose to fly; only if `flight()`
-    position_sigma_m: npt.NDArray[np.float64]  #: deviation of `state`'s position by axis; 0: it is exact
-    yaw_sigma: float                           #: of its yaw [rad]
-    battery_charge: float | None               #: share that is left; None: this world has no batteries
-    wind_W: npt.NDArray[np.float64] | None     #: estimated velocity of the air [m/s]; None: there is no wind
+    space: FreeSpace | None  #: where it may plan paths; only if `flight()`
+    position_sigma_m: npt.NDArray[np.float64]  #: standard deviation of the position in `state`, per axis; 0: exact
+    yaw_sigma: float                           #: standard deviation of its yaw [rad]
+    battery_charge: float | None               #: remaining share; None: the scenario has no batteries
+    wind_W: npt.NDArray[np.float64] | None     #: estimated wind velocity [m/s]; None: no wind
+    station_link: LinkQuality | None  #: None: no link to the station, or no path loss
 
     def __init__(self, **fields: Any) -> None:
         self._source = None
         for name, value in fields.items():
             setattr(self, name, value)
 
-    if not TYPE_CHECKING:  # there, a field that is none is a mistake
+    if not TYPE_CHECKING:  # type checkers must reject unknown fields
 
         def __getattr__(self, name: str) -> Any:
-            """Of a field that was not read before."""
+            """Converts a field at its first use."""
             if name not in PlannerInput.__slots__:
                 raise AttributeError(f"a planner's inputs have no '{name}'; they have " + ", ".join(self.__slots__[1:]))
             if name == "_source" or self._source is None:
@@ -319,37 +333,39 @@ class PlannerInput:
 
 
 class Planner:
-    """Base of all planners. A `Config` of its own, a dataclass, has its parameters."""
+    """Base of all planners. A derived class may define its own dataclass `Config`, whose fields are its parameters."""
 
     @dataclass
     class Config:
         """No parameters."""
 
     def __init__(self, config: Any, agent: AgentConfig) -> None:
-        """Before the first exchange. A planner's own may take less: nothing, or the config alone."""
+        """Called before the first exchange. The constructor of a derived class may also take nothing, or the config
+        alone."""
         self.config = config
         self.agent = agent
 
     def plan(self, inputs: PlannerInput) -> PlannerOutput | None:
-        """Once per exchange of 50 ms, also before take-off. None is "carry on"."""
+        """Called once per exchange of 50 ms, also before takeoff. None means "carry on"."""
         raise NotImplementedError
 
     def flight(self) -> FlightConfig | None:
-        """How it flies, if the flight core flies it (`PlannerOutput.goals`); asked once, before the first exchange."""
+        """Parameters of the flight core, if it is to fly this UAV to `PlannerOutput.goals`; None: no flight core.
+        Called once, before the first exchange."""
         return None
 
     def wants_scans(self) -> bool:
-        """Whether it looks at the LiDAR's scans; asked once. They cost most of a run's time."""
+        """Whether the planner reads the LiDAR's scans. Called once. Scans take most of a run's time."""
         return False
 
     def wants_beams(self) -> bool:
-        """Whether it looks at the beams of the scans, those without a return among them; asked once."""
+        """Whether the planner reads the beams of all scans, including beams without a return. Called once."""
         return False
 
     def wants_world_map(self) -> bool:
-        """Whether it looks at the map of what beams have proved; asked once."""
+        """Whether the planner reads the world map, which is built from all beams. Called once."""
         return False
 
     def debug_names(self) -> Sequence[str]:
-        """Names of the values that it publishes as `PlannerOutput.debug`; asked once."""
+        """Names of the values that the planner publishes as `PlannerOutput.debug`. Called once."""
         return ()

@@ -88,6 +88,41 @@ def test_what_flew_is_kept_and_flown_again(tmp_path: Path, wanderer: str) -> Non
     assert said.returncode == 0 and "has changed since that run" in said.stderr, said.stdout + said.stderr
 
 
+#: Compares what it is told of its peers with what it sees of them. @IDEAL@: whether there are no conditions.
+OBSERVER = '''
+import numpy as np
+from skein.planner import *
+
+left = {}
+
+class Observer(Planner):
+    def plan(self, inputs):
+        for peer in inputs.peers:
+            key = self.agent.name, peer.uav
+            away = np.linalg.norm(peer.p_W - self.agent.fleet[peer.uav].p_WB_start) > 0.5
+            left[key] = left.get(key, False) or bool(peer.visible and (away or np.linalg.norm(peer.v_W) > 0.3))
+            assert peer.deviation_m.shape == (3,) and peer.deviation_m.dtype == np.float64
+            if @IDEAL@:
+                assert not peer.left_start and not peer.deviation_m.any() and peer.link is None
+            else:
+                assert (peer.link is not None) is peer.visible
+                assert peer.link is None or (-82 <= peer.link.received_dbm < 20 and peer.link.rate_bit_s >= 162500)
+                assert peer.left_start is left[key] and (peer.deviation_m > 0).all()
+        assert (inputs.station_link is not None) is (inputs.station_linked and not @IDEAL@)
+        assert inputs.time_s < 10 or any(left.values())
+        out = PlannerOutput()
+        if inputs.tracking.done:
+            out.motion = Path([Waypoint(inputs.state.p_WB + [0, 0, 6.0], 2.0)])
+        return out
+'''
+
+
+@pytest.mark.parametrize("conditions", ["none", "harsh"])
+def test_peers_tell_how_far_they_are_to_be_trusted(tmp_path: Path, conditions: str) -> None:
+    (tmp_path / "observer.py").write_text(OBSERVER.replace("@IDEAL@", str(conditions == "none")))
+    assert fly(tmp_path, f"py:{tmp_path}/observer.py", conditions=conditions).digest is not None
+
+
 def test_another_seed_of_hashes_is_found_out(tmp_path: Path) -> None:
     """The order of a set of texts decides: check-planner names step, UAV and field."""
     (tmp_path / "sets.py").write_text(
@@ -209,6 +244,22 @@ def test_the_contract_fails_where_a_planner_does_not_keep_it(tmp_path: Path) -> 
         OfOdd().test_alone(tmp_path)
     with pytest.raises(AssertionError, match="must say which planner"):
         PlannerContract().test_alone(tmp_path)
+
+
+@pytest.mark.parametrize("lost", [False, True])
+def test_the_contract_asks_whether_a_program_came_back(tmp_path: Path, lost: bool) -> None:
+    run = fly(tmp_path, HOVER, duration=3)
+    run.result["uavs"][0]["program_lost"] = lost
+
+    class OfLost(PlannerContract):
+        def fly(self, folder: Path, **options: Any) -> skein.Run:
+            return run
+
+    if lost:
+        with pytest.raises(AssertionError, match="did not take part again"):
+            OfLost().test_started_again_in_flight(tmp_path)
+    else:
+        OfLost().test_started_again_in_flight(tmp_path)
 
 
 def test_drawn_parameters_reach_the_planner(tmp_path: Path) -> None:

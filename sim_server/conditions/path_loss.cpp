@@ -39,10 +39,9 @@ double PathLoss::received_dbm(const Vector3d& p_W, const Vector3d& q_W) const {
   return radio_.power_dbm - radio_.loss_at_1m_db - 10.0 * *radio_.exponent * std::log10(distance_m) - shadow_db;
 }
 
-std::uint8_t PathLoss::level(const Vector3d& p_W, const Vector3d& q_W) const {
-  const double received = received_dbm(p_W, q_W);
+std::uint8_t PathLoss::level(double received_dbm) {
   std::uint8_t level = 0;
-  for (const RadioRate& rate : kRadioRates) level += received >= rate.least_dbm ? 1 : 0;
+  for (const RadioRate& rate : kRadioRates) level += received_dbm >= rate.least_dbm ? 1 : 0;
   return level;
 }
 

@@ -42,8 +42,8 @@ class PathLoss {
 
   /// Received power [dBm] between antennas at p_W and q_W. Ignores obstacles: LinkTracer checks the line of sight.
   double received_dbm(const Vector3d& p_W, const Vector3d& q_W) const;
-  /// Index in kRadioRates, counted from 1, of the highest data rate that the received power allows; 0: none.
-  std::uint8_t level(const Vector3d& p_W, const Vector3d& q_W) const;
+  /// Index in kRadioRates, counted from 1, of the highest data rate that this received power allows; 0: none.
+  static std::uint8_t level(double received_dbm);
 
  private:
   RadioConditions radio_;

@@ -49,9 +49,9 @@ TEST(PathLoss, LevelsFallWithDistanceToNone) {
   radio.shadowing_sigma_db = 0.0;
   const PathLoss loss(radio, 1);
   std::uint8_t before = static_cast<std::uint8_t>(kRadioRates.size());
-  EXPECT_EQ(loss.level({0, 0, 10}, {2, 0, 10}), before);
+  EXPECT_EQ(PathLoss::level(loss.received_dbm({0, 0, 10}, {2, 0, 10})), before);
   for (double distance_m = 2.0; distance_m < 1e5; distance_m *= 1.1) {
-    const std::uint8_t level = loss.level({0, 0, 10}, {distance_m, 0, 10});
+    const std::uint8_t level = PathLoss::level(loss.received_dbm({0, 0, 10}, {distance_m, 0, 10}));
     EXPECT_LE(level, before);
     before = level;
   }

@@ -7,9 +7,11 @@
 #include <cmath>
 #include <functional>
 #include <memory>
+#include <set>
 
 #include "core/config/config_node.hpp"
 #include "core/vehicle/rotor_power.hpp"
+#include "sim_server/conditions/path_loss.hpp"
 #include "sim_server/points_shown.hpp"
 #include "sim_server/run_digest.hpp"
 #include "sim_server/simulation.hpp"
@@ -286,9 +288,38 @@ TEST_F(Windy, ALinkNeedsPowerBesideLineOfSight) {
   Simulation& near = start();
   hover(4.0);
   EXPECT_EQ(near.links().at(kStationNode, Node{1}), kRadioRates.size());
-  EXPECT_EQ(near.links().at(kStationNode, Node{1}), near.links().at(Node{1}, kStationNode));
   scenario_.conditions.radio.power_dbm = -30.0;
   EXPECT_EQ(start().links().at(kStationNode, Node{1}), 0);
+}
+
+TEST_F(Windy, TheQualityOfALinkIsWhatArrivesAndTheRateThatItAllows) {
+  add("photographer", 40, 30);
+  add("photographer", -60, -80);
+  EXPECT_FALSE(start().link_quality(Node{1}, Node{2})) << "no path loss";
+  scenario_.conditions.radio = conditions_preset("harsh").radio;
+  const FaultPlan faults{"test.yaml", "", "", {{.at_s = 3.0, .until_s = 4.0, .action = Blackout{"uav1"}}}};
+  std::set<double> rates;
+  int closed = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    Simulation& sim = start(seed, faults);
+    hover(4.5, [&] {
+      for (const Node a : scenario_.nodes()) {
+        for (const Node b : scenario_.nodes()) {
+          const auto quality = sim.link_quality(a, b);
+          const std::uint8_t level = sim.open_links().at(a, b);
+          ASSERT_EQ(quality.has_value(), level > 0);
+          closed += quality ? 0 : 1;
+          if (!quality) continue;
+          EXPECT_EQ(PathLoss::level(quality->received_dbm), level);
+          EXPECT_EQ(quality->received_dbm, sim.link_quality(b, a)->received_dbm);
+          EXPECT_EQ(quality->rate_bit_s, 0.05 * kRadioRates.at(level - 1U).rate_bit_s);
+          rates.insert(quality->rate_bit_s);
+        }
+      }
+    });
+  }
+  EXPECT_GE(rates.size(), 3U) << "or the test shows little";
+  EXPECT_GE(closed, 20 * 20 * (4 + 6)) << "of all nodes with themselves, and of the one without a radio";
 }
 
 TEST_F(Windy, AShutterThatIsLateAndALongExposureBlurWhatAMovingCameraSees) {

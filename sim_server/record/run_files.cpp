@@ -81,7 +81,8 @@ RunFiles::RunFiles(const std::filesystem::path& folder, const Scenario& scenario
       events_(folder, scenario),
       activities_(folder, scenario),
       review_(scenario) {
-  trajectories_ << run_tables::kPoseColumns << "vx,vy,vz,gimbal_pitch,gimbal_yaw,alive,clearance\n";
+  trajectories_ << run_tables::kPoseColumns << "vx,vy,vz,gimbal_pitch,gimbal_yaw,alive,clearance"
+                << (scenario.conditions.battery.on() ? ",charge\n" : "\n");
   digests_ << "k,digest";
   for (const std::string& column : digest.columns()) digests_ << "," << column;
   digests_ << "\n";
@@ -140,9 +141,11 @@ void RunFiles::add_step(const Simulation& simulation, const StepDigest& digest) 
     const auto& [p, q, v, w] = uav.state;
     fmt::format_to(
         std::back_inserter(line),
-        "{:.2f},{},{:.4f},{:.4f},{:.4f},{:.5f},{:.5f},{:.5f},{:.5f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{},{:.3f}\n",
+        "{:.2f},{},{:.4f},{:.4f},{:.4f},{:.5f},{:.5f},{:.5f},{:.5f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{},{:.3f}",
         seconds(simulation.tick()), scenario_.fleet[i].name, p.x(), p.y(), p.z(), q.w(), q.x(), q.y(), q.z(), v.x(),
         v.y(), v.z(), uav.gimbal.pitch, uav.gimbal.yaw, uav.alive ? 1 : 0, simulation.clearance(i));
+    if (uav.battery) fmt::format_to(std::back_inserter(line), ",{:.4f}", uav.battery->charge);
+    line.push_back('\n');
   }
   trajectories_ << std::string_view(line.data(), line.size());
 }

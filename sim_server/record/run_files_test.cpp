@@ -232,6 +232,30 @@ TEST_F(RunFilesTest, APoseHasAValueForEachColumn) {
   }
 }
 
+TEST_F(RunFilesTest, APoseHasTheChargeWhereThereAreBatteries) {
+  const auto table = [&] {
+    Simulation simulation(scenario_, {}, 0);
+    while (seconds(simulation.tick()) < 1.0) simulation.advance();
+    RunFiles files(folder_, scenario_, RunDigest(scenario_.uav_names()));
+    files.add_step(simulation, {.k = 20, .running = "r", .fields = {}});
+    StatusPipe nobody(-1);
+    files.write_report(simulation, {}, nobody);
+    const auto battery = simulation.uav(UavIndex{0}).battery;
+    std::ifstream in(folder_ / "trajectories.csv");
+    std::string columns, row;
+    std::getline(in, columns);
+    std::getline(in, row);
+    return std::tuple(columns, row, battery ? battery->charge : 1.0);
+  };
+  const auto [columns, row, full] = table();
+  scenario_.conditions.battery = conditions_preset("harsh").battery;
+  const auto [with_charge, charged_row, charge] = table();
+  EXPECT_EQ(with_charge, columns + ",charge");
+  ASSERT_LT(charge, 1.0) << "electronics need power on the ground, too";
+  EXPECT_NEAR(std::stod(charged_row.substr(charged_row.rfind(',') + 1)), charge, 1e-4);
+  EXPECT_EQ(charged_row.substr(0, charged_row.rfind(',')), row);
+}
+
 TEST_F(RunFilesTest, AFileThatTheDiskRefusesIsNamedAndNoOther) {
   for (const char* full : {"trajectories.csv", "digests.csv", "events.csv"}) {
     std::filesystem::remove_all(folder_);

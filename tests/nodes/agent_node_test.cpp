@@ -89,6 +89,57 @@ TEST(AgentNode, FliesByOdometryAndAnswersTheGroundProgramByRadio) {
   EXPECT_EQ(agent.malformed() + ground.malformed(), 0U);
 }
 
+TEST(AgentNode, ReadsTheQualityOfItsLinks) {
+  constexpr std::uint64_t kSteps = 6;
+  Scenario scenario = toy_scenario(2);
+  scenario.conditions.radio = conditions_preset("breezy").radio;
+  const auto bus = bus::make_bus({.vendor = "inproc"});
+  ToyServer server(*bus, scenario, kSteps);
+  server.expect("a", ToyServer::domain_of(UavIndex{0}));
+  server.expect_router();
+  server.open_topics(ToyServer::domain_of(UavIndex{0}), topics::uav_topics(), "a");
+  const auto writer = [&](const topics::WireTopic& topic) -> bus::CountedWriter& {
+    return server.writer(ToyServer::domain_of(UavIndex{0}), topic);
+  };
+  const auto quality = [](std::uint64_t k) { return LinkQuality{-50.0 - static_cast<double>(k), 1000.0}; };
+  server.before_step = [&](std::uint64_t k) {
+    const auto tick = static_cast<Tick>(20 * k);
+    writer(topics::radio_links("a"))
+        .write(to_radio_links(tick, {{Node{2}, quality(k)}, {kStationNode, quality(2 * k)}}));
+    writer(topics::odometry("a")).write(to_odometry(tick, "a", {}));
+    writer(topics::neighbour_odometry("a"))
+        .write(to_cloud(tick, std::vector<NeighbourPoint>{{.node = 0.0F, .qw = 1.0F}, {.node = 2.0F, .qw = 1.0F}}));
+  };
+  struct Heard {
+    std::uint64_t k = 0;
+    std::optional<LinkQuality> peer, station;
+  };
+  class Listener final : public agent::Planner {
+   public:
+    explicit Listener(std::vector<Heard>& heard) : heard_(heard) {}
+    agent::PlannerOutput plan(const agent::PlannerInput& in) override {
+      heard_.push_back({in.k, in.peers.all().at(0).link, in.station_link});
+      return {};
+    }
+
+   private:
+    std::vector<Heard>& heard_;
+  };
+  std::vector<Heard> heard;
+  agent::AgentNode agent(scenario, UavIndex{0}, std::make_unique<Listener>(heard), 0, *bus);
+  router::RouterNode router(scenario, 0, 0, *bus);
+  agent.start();
+  router.start();
+  ASSERT_TRUE(take_turns({[&] { server.poll(); }, [&] { router.poll(); }, [&] { agent.poll(); }}, [&] {
+    return server.over();
+  })) << agent.waiting_for();
+  ASSERT_GE(heard.size(), kSteps - 1);
+  for (const Heard& one : heard) {
+    EXPECT_EQ(one.peer, quality(one.k)) << one.k;
+    EXPECT_EQ(one.station, quality(2 * one.k)) << one.k;
+  }
+}
+
 TEST(AgentNode, ShowsItsMapWhereSomebodyLooksOn) {
   constexpr std::uint64_t kSteps = 200, kLooksFrom = 100;
   const Scenario scenario = toy_scenario(1);

@@ -6,14 +6,14 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kMaxGapS = 0.25;      ///< two sightings further apart give no velocity
+constexpr double kMaxGapS = 0.25;      ///< two sightings farther apart give no velocity
 constexpr double kVelocityGain = 0.5;  ///< of the newest difference; smooths the 20 Hz positions
-constexpr double kStandsM = 0.5;       ///< within it of its start, and not faster than kStandsMps, a UAV stands there
+constexpr double kStandsM = 0.5;       ///< a UAV this near to its start, and not faster than kStandsMps, stands there
 constexpr double kStandsMps = 0.3;
 
 double square(double x) { return x * x; }
 
-/// Of an error that has grown to a share of its stationary variance.
+/// Standard deviation of a position error that has grown to a share of its stationary variance.
 Vector3d deviation_m(const OdometryConditions& odometry, double grown) {
   const double always2 = square(odometry.bias_sigma_m) + square(odometry.noise_sigma_m);
   const double across_m = std::sqrt(always2 + grown * square(odometry.horizontal_sigma_m));
@@ -39,12 +39,19 @@ Peers::Peers(const AgentConfig& config) : odometry_(config.odometry) {
   }
 }
 
-void Peers::update(Tick tick, const std::vector<Neighbour>& neighbours) {
+void Peers::update(Tick tick, const std::vector<Neighbour>& neighbours, const LinkQualities& links) {
   station_visible_ = false;
-  for (Peer& peer : peers_) peer.visible = false;
+  station_link_.reset();
+  for (Peer& peer : peers_) {
+    peer.visible = false;
+    peer.link.reset();
+  }
   for (const Neighbour& neighbour : neighbours) {
+    const auto link = std::ranges::find(links, neighbour.node, &LinkQualities::value_type::first);
+    const auto quality = link == links.end() ? std::nullopt : std::optional(link->second);
     if (neighbour.node == kStationNode) {
       station_visible_ = true;
+      station_link_ = quality;
       continue;
     }
     const UavIndex uav = *uav_of_node(neighbour.node);
@@ -67,6 +74,7 @@ void Peers::update(Tick tick, const std::vector<Neighbour>& neighbours) {
     peer.p_W = neighbour.p_W;
     peer.seen = tick;
     peer.visible = true;
+    peer.link = quality;
   }
   if (!odometry_.on()) return;
   for (std::size_t i = 0; i < peers_.size(); ++i) {
@@ -80,8 +88,8 @@ void Peers::update(Tick tick, const std::vector<Neighbour>& neighbours) {
   }
 }
 
-/// If starts are known, the error of a UAV's odometry grows from when it leaves its start. Whether it has lost its fix,
-/// no one tells.
+/// Share of its stationary variance that a UAV's position error has reached. If starts are known, the error grows from
+/// when the UAV leaves its start. Whether the UAV has lost its fix is not reported to others.
 double Peers::grown(const Start& start, Tick tick) const {
   if (!odometry_.known_start || (start.left && !start.stood)) return 1.0;
   return -std::expm1(-2.0 * seconds(tick - start.stood.value_or(0)) / odometry_.time_constant_s);

@@ -45,6 +45,22 @@ TEST(Peers, TakeVelocityFromSuccessivePositionsAndForgetItAfterAGap) {
   EXPECT_EQ(peers.all()[0].a_W, Vector3d::Zero()) << "too long ago";
 }
 
+TEST(Peers, HaveTheLinkOfThisExchangeAndNoOther) {
+  Peers peers(fleet_of(3, 0));
+  const std::vector<Neighbour> both = {{.node = kStationNode}, {.node = Node{2}}};
+  const LinkQuality good{-50.0, 1.6e6}, poor{-81.0, 1.6e5};
+  peers.update(0, both, {{Node{2}, poor}, {kStationNode, good}, {Node{3}, good}});
+  EXPECT_EQ(peers.all()[0].link, poor);
+  EXPECT_EQ(peers.station_link(), good);
+  EXPECT_FALSE(peers.all()[1].link) << "is not in line of sight";
+  peers.update(20, both);
+  EXPECT_TRUE(peers.all()[0].visible && peers.station_visible());
+  EXPECT_FALSE(peers.all()[0].link || peers.station_link()) << "ideal links have no quality";
+  peers.update(40, both, {{Node{2}, good}, {kStationNode, poor}});
+  peers.update(60, {}, {});
+  EXPECT_FALSE(peers.all()[0].link || peers.station_link());
+}
+
 TEST(Peers, RememberWhereSomebodyWasLastSeen) {
   Peers peers(fleet_of(2, 0));
   peers.update(

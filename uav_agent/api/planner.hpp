@@ -62,12 +62,13 @@ struct PlannerInput {
   const WorldMap* world_map = nullptr;  ///< from own beams and others' maps; only if wants_world_map() or flight()
   /// A scan of this UAV's own LiDAR arrived. Always false without wants_beams(), wants_world_map() and flight().
   bool scanned = false;
-  FlightState flight = {};                    ///< of the flight core: outcomes of goals, ...; only if flight()
-  std::optional<HandCommand> hand = {};       ///< the pilot's new command, if any; only for the planner `hand`
-  PoseUncertainty uncertainty = {};           ///< of `state`, as the odometry reports it
-  std::optional<BatteryStatus> battery = {};  ///< nullopt: the scenario has no batteries
-  std::optional<Vector3d> wind_W = {};        ///< estimated wind velocity [m/s]; nullopt: no wind
-  const FreeSpace* space = nullptr;           ///< where the flight core may fly; only if flight()
+  FlightState flight = {};                       ///< of the flight core: outcomes of goals, ...; only if flight()
+  std::optional<HandCommand> hand = {};          ///< the pilot's new command, if any; only for the planner `hand`
+  PoseUncertainty uncertainty = {};              ///< of `state`, as the odometry reports it
+  std::optional<BatteryStatus> battery = {};     ///< nullopt: the scenario has no batteries
+  std::optional<Vector3d> wind_W = {};           ///< estimated wind velocity [m/s]; nullopt: no wind
+  std::optional<LinkQuality> station_link = {};  ///< nullopt: no link to the station, or no path loss (see Peer::link)
+  const FreeSpace* space = nullptr;              ///< where the flight core may fly; only if flight()
 };
 
 /// A value that the planner publishes on the topic /<id>/debug/<name>. Faults may wait for it, and properties may refer

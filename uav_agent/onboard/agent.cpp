@@ -25,10 +25,10 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kBodyMarginM = 0.3;  ///< around a known body
-constexpr double kGroundM = 0.3;      ///< what a LiDAR meets below is the ground
+constexpr double kBodyMarginM = 0.3;  ///< margin around a known body
+constexpr double kGroundM = 0.3;      ///< hits of a LiDAR below this height are the ground
 constexpr double kScanAgeS = 0.1;     ///< a scan is at most this much older than the positions with it
-constexpr double kBodySigmas = 3.0;   ///< of the relative position, by which another UAV's body may be off
+constexpr double kBodySigmas = 3.0;   ///< of the relative position, by which other UAVs' bodies are enlarged
 constexpr double kWaitBreak_s = 0.5;
 
 WorldMap::Config world_map_config() {
@@ -90,27 +90,27 @@ struct Agent::Impl {
   const std::shared_ptr<ReadyFrames> frames;
   Peers peers;
   OccupancyMap map;
-  std::optional<BeamReader> beam_reader;      ///< if the planner wants beams and there is a LiDAR
-  std::deque<Scan> scans_ahead;               ///< of which the odometry has yet to come
+  std::optional<BeamReader> beam_reader;      ///< if beams or the world map are wanted and there is a LiDAR
+  std::deque<Scan> scans_ahead;               ///< for whose ticks the odometry has not arrived yet
   std::vector<BeamScan> beam_scans;           ///< of this exchange
-  std::unique_ptr<WorldMapper> world_mapper;  ///< if the planner wants the map and there is a LiDAR
-  std::unique_ptr<WorldMap> world_map;        ///< if it wants the map and there is none
-  std::optional<MapRadio> map_radio;          ///< if it wants the map
-  std::optional<UavTraces> uav_traces;        ///< if it wants the map
-  std::vector<RadioMessage> planners_radio;   ///< of this exchange, without what was told of maps
+  std::unique_ptr<WorldMapper> world_mapper;  ///< if the world map is wanted and there is a LiDAR
+  std::unique_ptr<WorldMap> world_map;        ///< if the world map is wanted and there is no LiDAR
+  std::optional<MapRadio> map_radio;          ///< if the world map is wanted
+  std::optional<UavTraces> uav_traces;        ///< if the world map is wanted
+  std::vector<RadioMessage> planners_radio;   ///< of this exchange, without messages of map sharing
   Uplink uplink;
   Tracker tracker;
-  std::unique_ptr<FlightCore> core;  ///< if it flies the planner
+  std::unique_ptr<FlightCore> core;  ///< if it flies this UAV for the planner
   std::vector<OrientedBox> boxes;
   GimbalAim aim;
   double waited_s = 0.0;
   std::vector<WaitSpan> waits;
   std::map<std::string, std::uint64_t> no_ways;
   std::string no_way;
-  OwnMotion own_motion;  ///< if no core flies the planner
+  OwnMotion own_motion;  ///< if there is no core
   ActivityTeller activity{config.fleet};
-  std::optional<FreeSpace> space;        ///< of `taken_in`, if the core flies the planner
-  std::optional<PlannerInput> taken_in;  ///< of a step that is not over
+  std::optional<FreeSpace> space;        ///< PlannerInput::space of `taken_in`, if there is a core
+  std::optional<PlannerInput> taken_in;  ///< input of a step that has begun and not ended
 };
 
 void Agent::Impl::wait_for(std::size_t mate, double now_s) {
@@ -124,9 +124,9 @@ void Agent::Impl::wait_for(std::size_t mate, double now_s) {
 std::vector<KnownBody> Agent::Impl::other_bodies(const PoseUncertainty& uncertainty) const {
   std::vector<KnownBody> bodies;
   for (const Peer& peer : peers.all()) {
-    // One that was never seen still stands where it was put.
+    // A UAV that was never seen is taken to stand at its start.
     if (!peer.visible && peer.seen) continue;
-    // Its returns must not become structure, which the map would never forget.
+    // Returns from another UAV must not become structure, which the map would never forget.
     const double off_m = kBodySigmas * relative_deviation_m(uncertainty, peer).maxCoeff();
     bodies.push_back(known_body(peer.p_W, peer.v_W, config.fleet[peer.uav].body_radius_m + off_m));
   }
@@ -160,8 +160,8 @@ void Agent::Impl::read_beams(const AgentInput& input) {
   }
 }
 
-/// Another UAV that did not hear this one may have taken its body for structure, and told so. This UAV knows that its
-/// own place is free; otherwise it could never leave it.
+/// Another UAV that did not know this UAV's position may have mapped its body as structure, and sent that. But this UAV
+/// knows that its own place is free; otherwise it could never leave that place.
 void Agent::Impl::clear_own_place(const Vector3d& p_W) {
   WorldMap& world = *known_world();
   if (world.structure_distance_m(p_W) > config.me().body_radius_m) return;
@@ -171,7 +171,7 @@ void Agent::Impl::clear_own_place(const Vector3d& p_W) {
 
 void Agent::Impl::perceive(const AgentInput& input) {
   if (tracker.stands_by()) tracker.stand_by(input.state);
-  peers.update(input.tick, input.neighbours);
+  peers.update(input.tick, input.neighbours, input.links);
   if (world_map && world_map->regions().empty()) {
     world_map->set_free(input.state.p_WB, WorldMapper::Config().start_clear_m);
   }
@@ -183,8 +183,8 @@ void Agent::Impl::perceive(const AgentInput& input) {
   if (!input.boxes.empty()) boxes = input.boxes;
   if (!input.key_frames.empty()) {
     const KnownBodies bodies(known_bodies(input));
-    // A lone hit may be a UAV out of sight; but far off, it is all that a LiDAR finds of a thin member, and where one
-    // box holds everything, UAVs fly between members that were only seen from afar.
+    // An isolated hit may be a UAV out of sight. But from afar it is all that a LiDAR finds of a thin member. Where one
+    // box holds a whole site, UAVs fly between members that were only seen from afar, so isolated hits are kept.
     const bool keep_lone = std::any_of(boxes.begin(), boxes.end(), is_roomy);
     for (const KeyFrame& frame : input.key_frames) {
       auto sound_W = frames->filter(keep_lone).sound(frame.points_W, bodies);
@@ -230,10 +230,11 @@ PlannerInput Agent::Impl::planner_input(const AgentInput& input) const {
                       .hand = input.hand,
                       .uncertainty = input.uncertainty,
                       .battery = input.battery,
-                      .wind_W = input.wind_W};
+                      .wind_W = input.wind_W,
+                      .station_link = peers.station_link()};
 }
 
-/// The flight core does what the planner wants.
+/// Lets the flight core fly to the planner's goals: replaces the planner's motion by the core's.
 void Agent::Impl::fly(const PlannerInput& in, PlannerOutput& decision) {
   Steering steering = core->step(in, std::move(decision.goals));
   decision.motion = std::move(steering.motion);

@@ -1,5 +1,5 @@
 // One UAV's on-board software without its transport: map, peers, planner, tracking, delivery of captures.
-// agent_node feeds it once per exchange from DDS topics and publishes what it returns; tests feed it by hand.
+// Once per exchange, agent_node passes it the input from DDS topics and publishes its output; tests call it directly.
 // Pure and deterministic: same inputs, same outputs. Frame W.   Units: SI and radians.   Threads: one.
 #pragma once
 
@@ -29,11 +29,12 @@ struct AgentInput {
   std::optional<Tick> state_tick = {};  ///< tick of the odometry; nullopt: this tick
   PoseUncertainty uncertainty;          ///< of the odometry
   std::optional<BatteryStatus> battery;
-  std::optional<Vector3d> wind_W;  ///< estimated velocity of the air
+  std::optional<Vector3d> wind_W;  ///< estimated velocity of the air [m/s]
   GimbalState gimbal;
-  std::optional<double> mission_remaining_s;  ///< nullopt before the first take-off
+  std::optional<double> mission_remaining_s;  ///< nullopt before the first takeoff of the fleet
   std::vector<OrientedBox> boxes;             ///< if they arrived in this step; else empty
   std::vector<Neighbour> neighbours;          ///< odometry of the nodes in line of sight now
+  LinkQualities links;                        ///< quality of their links; empty without path loss
   std::vector<KeyFrame> key_frames;           ///< in order: own first, then neighbours'
   std::vector<Scan> scans;                    ///< own; only if wants_scans() or wants_beams()
   std::vector<LidarServo> servos;             ///< own, in order of time; only if wants_beams()
@@ -41,7 +42,7 @@ struct AgentInput {
   std::vector<HandedOut> capture_reports;   ///< from the camera; it may repeat unacknowledged ones
   std::vector<std::uint64_t> capture_acks;  ///< capture numbers that the station has journalled
   std::vector<RadioMessage> radio;          ///< from other UAVs: messages of their planners and of map sharing
-  std::optional<HandCommand> hand;          ///< command of the person who flies it by hand; the last of a step
+  std::optional<HandCommand> hand;          ///< the last command of the pilot in this step; only for the planner `hand`
 };
 
 struct AgentOutput {
@@ -94,7 +95,7 @@ class Agent {
   const WorldMap* world_map() const;
   /// Reasons why no path was found (PlannerOutput::no_way), and in how many exchanges.
   const std::map<std::string, std::uint64_t>& no_ways() const;
-  /// The reason in the last exchange; empty: no path was missed.
+  /// The reason in the last exchange; empty: no search for a path failed.
   const std::string& no_way() const;
   /// How long this UAV has waited for other UAVs (PlannerOutput::waits_for) [s].
   double waited_s() const;

@@ -123,10 +123,15 @@ py::object beam_scan_of(Call& call, const BeamScan& scan, std::size_t i) {
                            scan.points);
 }
 
+py::object link_or_none(const std::optional<LinkQuality>& link) {
+  return link ? words().link_quality(link->received_dbm, link->rate_bit_s) : py::object(py::none());
+}
+
 py::object peers_of(const Call& call, const PlannerInput& in) {
   return tuple_of(in.peers.all(), [&](const Peer& peer, std::size_t) {
     return words().peer(static_cast<std::size_t>(peer.uav), call.order().agent.fleet.at(peer.uav).name,
-                        to_array(peer.p_W), to_array(peer.v_W), to_array(peer.a_W), or_none(peer.seen), peer.visible);
+                        to_array(peer.p_W), to_array(peer.v_W), to_array(peer.a_W), or_none(peer.seen), peer.visible,
+                        peer.left_start, to_array(peer.deviation_m), link_or_none(peer.link));
   });
 }
 
@@ -189,6 +194,7 @@ const std::map<std::string_view, Make>& fields() {
          return in.battery ? py::object(py::float_(in.battery->charge)) : py::object(py::none());
        }},
       {"wind_W", [](const CallPtr&, const In& in) { return array_or_none(in.wind_W); }},
+      {"station_link", [](const CallPtr&, const In& in) { return link_or_none(in.station_link); }},
   };
   return kFields;
 }

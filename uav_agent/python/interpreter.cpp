@@ -100,6 +100,7 @@ Words::Words(const py::module_& planner)
       gone_error(planner.attr("GoneError")),
       hold(planner.attr("Hold")),
       key_frame(planner.attr("KeyFrame")),
+      link_quality(planner.attr("LinkQuality")),
       oriented_box(planner.attr("OrientedBox")),
       outcome(planner.attr("Outcome")),
       path(planner.attr("Path")),

@@ -18,8 +18,8 @@ struct Words {
   explicit Words(const py::module_& planner);
 
   py::object agent_config, beam_scan, camera, firing, fleet_member, flight_config, flight_state, gimbal_command,
-      gimbal_state, goal, gone_error, hold, key_frame, oriented_box, outcome, path, peer, planner_input, planner_output,
-      radio_message, scan, setpoint, state, tracking_state, trajectory_command, vehicle, waypoint;
+      gimbal_state, goal, gone_error, hold, key_frame, link_quality, oriented_box, outcome, path, peer, planner_input,
+      planner_output, radio_message, scan, setpoint, state, tracking_state, trajectory_command, vehicle, waypoint;
 };
 
 struct Interpreter {

@@ -45,7 +45,9 @@ class PythonPlannerTest : public testing::Test {
     return make(file("class Mine(Planner):\n" + more + "    def plan(self, inputs):\n        " + body + "\n"));
   }
   PlannerOutput ask(Planner& planner, std::uint64_t k = 7) {
-    const Peers peers(agent_);
+    Peers peers(agent_);
+    peers.update(0, {});
+    for (const auto& neighbours : seen_) peers.update(static_cast<Tick>(20 * k), neighbours, links_);
     PlannerInput in{.k = k,
                     .tick = static_cast<Tick>(20 * k),
                     .state = {.p_WB = {1.0, 2.0, 3.0}, .v_WB = {0.5, 0.25, 0.125}},
@@ -58,7 +60,8 @@ class PythonPlannerTest : public testing::Test {
                     .detected = detected_,
                     .radio = {},
                     .scans = scans_,
-                    .world_map = &world_};
+                    .world_map = &world_,
+                    .station_link = peers.station_link()};
     return planner.plan(in);
   }
   std::string refusal(Planner& planner, std::uint64_t k = 7) {
@@ -84,6 +87,8 @@ class PythonPlannerTest : public testing::Test {
   WorldMap world_{WorldMap::Config{}};
   std::vector<OrientedBox> boxes_ = {{"box", {1, 2, 3}, {4, 5, 6}, Matrix3d::Identity()}};
   std::vector<Scan> scans_ = {{20, {{1, 2, 3}, {4, 5, 6}}}};
+  std::vector<std::vector<Neighbour>> seen_;  ///< one update of the peers after the other
+  LinkQualities links_;
   std::vector<DetectedPoint> detected_ = {{{1, 2, 3}, 0.5, 9, {0, 0, 1}}, {{4, 5, 6}, 0.25, 8, {1, 0, 0}}};
 };
 
@@ -107,6 +112,37 @@ TEST_F(PythonPlannerTest, InputsArriveAsTheyAre) {
       "        assert self.agent.name == 'jurong' and self.agent.me().role == 'explorer'\n"
       "        assert inputs.radio == () and inputs.flight.goal is None and inputs.tracking.done");
   EXPECT_EQ(refusal(*planner), "");
+}
+
+TEST_F(PythonPlannerTest, PeersTellHowFarTheirPositionsAreToBeTrusted) {
+  agent_.odometry = {.horizontal_sigma_m = 3.0, .vertical_sigma_m = 2.0, .bias_sigma_m = 4.0, .known_start = true};
+  seen_ = {{{.node = Node{2}, .p_W = {8.0, 0.0, 5.0}, .v_W = Vector3d(1.0, 0.0, 0.0)}}};
+  const auto planner = planning(
+      "left, stands = inputs.peers\n"
+      "        assert (left.name, left.left_start, stands.left_start) == ('raffles', True, False)\n"
+      "        assert left.visible and not stands.visible\n"
+      "        assert left.deviation_m.tolist() == [5, 5, 20 ** 0.5]\n"
+      "        assert all(4 <= of_one < 4.1 for of_one in stands.deviation_m), stands.deviation_m");
+  EXPECT_EQ(refusal(*planner), "");
+  agent_.odometry = {};
+  const auto exact = planning(
+      "assert [peer.deviation_m.tolist() for peer in inputs.peers] == [[0, 0, 0]] * 2\n"
+      "        assert not any(peer.left_start for peer in inputs.peers)");
+  EXPECT_EQ(refusal(*exact), "");
+}
+
+TEST_F(PythonPlannerTest, LinksHaveTheirQuality) {
+  seen_ = {{{.node = Node{2}}, {.node = kStationNode}}};
+  links_ = {{Node{2}, {-61.5, 1e6}}, {kStationNode, {-80.0, 125e3}}};
+  const auto planner = planning(
+      "near, far = inputs.peers\n"
+      "        assert (near.link.received_dbm, near.link.rate_bit_s) == (-61.5, 1e6)\n"
+      "        assert far.link is None\n"
+      "        assert inputs.station_link.rate_bit_s == 125e3");
+  EXPECT_EQ(refusal(*planner), "");
+  links_ = {};
+  const auto ideal = planning("assert inputs.peers[0].link is None and inputs.station_link is None");
+  EXPECT_EQ(refusal(*ideal), "");
 }
 
 TEST_F(PythonPlannerTest, MapsAreAskedOneByOneAndAllAtOnce) {

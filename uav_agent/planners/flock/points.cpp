@@ -11,6 +11,7 @@ constexpr double kRegionM = 16.0, kCm = 0.01;
 constexpr double kQualitySteps = 50.0;  ///< smaller differences in quality are not sent
 constexpr double kForgetS = 10.0;       ///< age at which another UAV's hashes expire
 constexpr std::size_t kPointBytes = 10;
+constexpr double kSameFacing = 0.7;  ///< least cosine between the normals of detections of the same point
 constexpr int kMostVain = 10;
 constexpr double kVainS = 120.0;
 constexpr std::uint32_t kHashStart = 2166136261U, kHashFactor = 16777619U;  // FNV-1a
@@ -26,32 +27,125 @@ std::uint8_t component(double n) {
 }  // namespace
 
 void FlockPoints::detect(std::span<const DetectedPoint> detected, const Vector3d& p_WC) {
+  std::vector<Told> all;
   for (const DetectedPoint& point : detected) {
-    take(point.p_W.cast<double>(), point.n_W.cast<double>(), point.score, &p_WC);
+    all.push_back({point.p_W.cast<double>(), point.n_W.cast<double>(), point.score, point.order});
+  }
+  take(all, &p_WC);
+}
+
+std::optional<FlockPoints::Spot> FlockPoints::spot_of(const Told& told) {
+  const Eigen::Vector3d region = (told.p_W / kRegionM).array().floor();
+  if (!(region.cwiseAbs().maxCoeff() < 32'000.0) || !(told.n_W.norm() > 0.1)) return std::nullopt;
+  Spot spot;
+  for (int i = 0; i < 3; ++i) {
+    const auto along = static_cast<std::size_t>(i);
+    spot.cell[along] = static_cast<std::int16_t>(region[i]);
+    const double cm = std::floor((told.p_W[i] - kRegionM * region[i]) / kCm);
+    spot.place[along] = static_cast<std::uint16_t>(std::clamp(cm, 0.0, kRegionM / kCm - 1.0));
+  }
+  return spot;
+}
+
+void FlockPoints::take(const std::vector<Told>& all, const Vector3d* p_WC) {
+  std::set<std::size_t> taken;
+  std::vector<std::pair<const Told*, Spot>> others;
+  for (const Told& told : all) {
+    const auto spot = spot_of(told);
+    if (!spot) continue;
+    if (const auto point = known(told, *spot)) {
+      raise(*point, told, *spot);
+      taken.insert(*point);
+    } else {
+      others.emplace_back(&told, *spot);
+    }
+  }
+  for (const auto& [told, spot] : others) {
+    std::optional<std::size_t> point = merge_m_ > 0.0 ? nearest(*told, taken) : known(*told, spot);
+    if (point) {
+      raise(*point, *told, spot);
+    } else {
+      point = add(*told, spot, p_WC);
+    }
+    if (point) taken.insert(*point);
   }
 }
 
-void FlockPoints::take(const Vector3d& p_W, const Vector3d& n_W, double q, const Vector3d* p_WC) {
-  const Eigen::Vector3d region = (p_W / kRegionM).array().floor();
-  if (!(region.cwiseAbs().maxCoeff() < 32'000.0) || !(n_W.norm() > 0.1)) return;
-  Cell cell;
-  Place place;
-  for (int i = 0; i < 3; ++i) {
-    cell[static_cast<std::size_t>(i)] = static_cast<std::int16_t>(region[i]);
-    const double cm = std::floor((p_W[i] - kRegionM * region[i]) / kCm);
-    place[static_cast<std::size_t>(i)] = static_cast<std::uint16_t>(std::clamp(cm, 0.0, kRegionM / kCm - 1.0));
+std::optional<std::size_t> FlockPoints::known(const Told& told, const Spot& spot) const {
+  if (told.own && merge_m_ > 0.0) {
+    const auto found = own_.find(*told.own);
+    return found == own_.end() ? std::nullopt : std::optional(found->second);
   }
-  if (!regions_.contains(cell) && regions_.size() >= kMostRegions) return;
-  Region& in_region = regions_[cell];
-  const auto [found, fresh] = in_region.points.emplace(place, points_.size());
-  if (fresh) {
-    points_.push_back({p_W, n_W.normalized(), q});
-    if (p_WC != nullptr && n_W.dot(*p_WC - p_W) < 0.0) points_.back().n_W *= -1.0;
+  const auto region = regions_.find(spot.cell);
+  if (region == regions_.end()) return std::nullopt;
+  const auto found = region->second.points.find(spot.place);
+  return found == region->second.points.end() ? std::nullopt : std::optional(found->second);
+}
+
+std::optional<std::size_t> FlockPoints::add(const Told& told, const Spot& spot, const Vector3d* p_WC) {
+  if (!regions_.contains(spot.cell) && regions_.size() >= kMostRegions) return std::nullopt;
+  Region& region = regions_[spot.cell];
+  const std::size_t point = points_.size();
+  if (!region.points.emplace(spot.place, point).second) return std::nullopt;  // that of another point
+  points_.push_back({told.p_W, told.n_W.normalized(), told.q});
+  if (p_WC != nullptr && told.n_W.dot(*p_WC - told.p_W) < 0.0) points_.back().n_W *= -1.0;
+  spots_.push_back(spot);
+  is_own_.push_back(told.own.has_value());
+  if (told.own && merge_m_ > 0.0) own_[*told.own] = point;
+  region.changed = true;
+  return point;
+}
+
+/// Improves a point by what was told of it.
+void FlockPoints::raise(std::size_t point, const Told& told, const Spot& spot) {
+  if (told.own && merge_m_ > 0.0) {
+    own_[*told.own] = point;
+    is_own_[point] = true;
+  } else if (!told.own && spot < spots_[point]) {
+    move(point, spot, told.p_W);
   }
-  FlockPoint& point = points_[found->second];
-  in_region.changed |= fresh || quality_step(q) > quality_step(point.q);
-  if (q > point.q) point.vain = 0;
-  point.q = std::max(point.q, q);
+  regions_[spots_[point].cell].changed |= quality_step(told.q) > quality_step(points_[point].q);
+  if (told.q > points_[point].q) points_[point].vain = 0;
+  points_[point].q = std::max(points_[point].q, told.q);
+}
+
+/// The nearest point within merge_m_ on a surface that faces the same way, or the opposite way: the sign of a normal
+/// is unknown until a camera has seen its point. Two points of this UAV's own camera are never the same.
+std::optional<std::size_t> FlockPoints::nearest(const Told& told, const std::set<std::size_t>& except) const {
+  std::optional<std::size_t> best;
+  double least_m = merge_m_;
+  const auto look_in = [&](const Region& region) {
+    for (const auto& [place, i] : region.points) {
+      const double off_m = (points_[i].p_W - told.p_W).norm();
+      if (off_m >= least_m || (told.own && is_own_[i]) || except.contains(i)) continue;
+      if (std::abs(points_[i].n_W.dot(told.n_W)) < kSameFacing * told.n_W.norm()) continue;
+      least_m = off_m;
+      best = i;
+    }
+  };
+  const auto along = [](double x) { return static_cast<int>(std::floor(x / kRegionM)); };
+  const Vector3d low_W = told.p_W.array() - merge_m_, high_W = told.p_W.array() + merge_m_;
+  for (int x = along(low_W.x()); x <= along(high_W.x()); ++x) {
+    for (int y = along(low_W.y()); y <= along(high_W.y()); ++y) {
+      for (int z = along(low_W.z()); z <= along(high_W.z()); ++z) {
+        const Cell cell = {static_cast<std::int16_t>(x), static_cast<std::int16_t>(y), static_cast<std::int16_t>(z)};
+        if (const auto region = regions_.find(cell); region != regions_.end()) look_in(region->second);
+      }
+    }
+  }
+  return best;
+}
+
+void FlockPoints::move(std::size_t point, const Spot& to, const Vector3d& p_W) {
+  if (!regions_.contains(to.cell) && regions_.size() >= kMostRegions) return;
+  Region& there = regions_[to.cell];
+  if (!there.points.emplace(to.place, point).second) return;  // that of another point
+  there.changed = true;
+  Region& from = regions_[spots_[point].cell];
+  from.points.erase(spots_[point].place);
+  from.changed = true;
+  spots_[point] = to;
+  points_[point].p_W = p_W;
 }
 
 void FlockPoints::expect_better(std::size_t point, Tick now) {
@@ -152,14 +246,16 @@ bool FlockPoints::read_region(PayloadReader& reader) {
   Vector3d corner_W;
   for (int i = 0; i < 3; ++i) corner_W[i] = kRegionM * static_cast<std::int16_t>(reader.u16());
   const std::size_t points = reader.u16();
+  std::vector<Told> all;
   for (std::size_t i = 0; i < points && reader.ok(); ++i) {
-    Vector3d p_W, n_W;
+    Told told;
     // In the middle of its centimetre, so that rounding gives the same place again.
-    for (int k = 0; k < 3; ++k) p_W[k] = corner_W[k] + kCm * (reader.u16() + 0.5);
-    for (int k = 0; k < 3; ++k) n_W[k] = (reader.u8() - 128) / 127.0;
-    const double q = reader.u8() / kQualitySteps;
-    if (reader.ok()) take(p_W, n_W, q, nullptr);
+    for (int k = 0; k < 3; ++k) told.p_W[k] = corner_W[k] + kCm * (reader.u16() + 0.5);
+    for (int k = 0; k < 3; ++k) told.n_W[k] = (reader.u8() - 128) / 127.0;
+    told.q = reader.u8() / kQualitySteps;
+    if (reader.ok()) all.push_back(told);
   }
+  take(all, nullptr);
   return reader.ok();
 }
 

@@ -4,13 +4,20 @@
 // The exchange needs no acknowledgements: each UAV sends a hash for each region of the site, and the others send the
 // regions in which theirs differ. Lists merge by the greater quality, in any order and any number of times. So a lost
 // region is sent again, and a UAV whose program was restarted gets everything back.
+//
+// With odometry errors, each UAV sees a point at a place of its own, which drifts. A UAV knows its own points by their
+// order. Points of others that are nearer than `merge_m` to one of its own count as the same, and the lesser of the two
+// places stays: so all UAVs end up with the same list.
 // Frame W.   Units: SI.   Threads: one.   Deterministic.   Bounded: kMostRegions regions, `room` bytes per message.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <map>
+#include <optional>
+#include <set>
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "uav_agent/api/payload.hpp"
@@ -29,6 +36,9 @@ struct FlockPoint {
 class FlockPoints {
  public:
   static constexpr std::size_t kMostRegions = 800;
+
+  /// @param merge_m  distance within which detections may be of the same point; 0: places are exact.
+  explicit FlockPoints(double merge_m = 0.0) : merge_m_(merge_m) {}
 
   /// Adds detections of this UAV's own camera.
   /// @param p_WC  position of the camera.
@@ -60,14 +70,37 @@ class FlockPoints {
     Tick heard = 0;
   };
 
-  void take(const Vector3d& p_W, const Vector3d& n_W, double q, const Vector3d* p_WC);
+  struct Spot {
+    Cell cell;
+    Place place;
+    bool operator<(const Spot& other) const { return std::tie(cell, place) < std::tie(other.cell, other.place); }
+  };
+  struct Told {
+    Vector3d p_W = Vector3d::Zero(), n_W = Vector3d::Zero();
+    double q = 0.0;
+    std::optional<std::uint32_t> own = {};  ///< order of a point of this UAV's own camera; nullopt: another UAV's
+  };
+
+  static std::optional<Spot> spot_of(const Told& told);
+  /// Adds points of one UAV, which are different ones: in exact places, or nearest to known ones, or new.
+  void take(const std::vector<Told>& all, const Vector3d* p_WC);
+  void raise(std::size_t point, const Told& told, const Spot& spot);
+  std::optional<std::size_t> add(const Told& told, const Spot& spot, const Vector3d* p_WC);
+  /// Index of the point with this order, or in exactly this place.
+  std::optional<std::size_t> known(const Told& told, const Spot& spot) const;
+  std::optional<std::size_t> nearest(const Told& told, const std::set<std::size_t>& except) const;
+  void move(std::size_t point, const Spot& to, const Vector3d& p_W);
   std::uint16_t hash_of(const Region& region) const;
   void write_slice(const Cell& cell, const Region& region, std::size_t most, PayloadWriter& writer) const;
   void write_region(const Cell& cell, const Region& region, std::size_t first, std::size_t count,
                     PayloadWriter& writer) const;
   bool read_region(PayloadReader& reader);
 
+  double merge_m_;
   std::vector<FlockPoint> points_;
+  std::vector<Spot> spots_;                   ///< of points_
+  std::vector<bool> is_own_;                  ///< by point: this UAV's camera has detected it
+  std::map<std::uint32_t, std::size_t> own_;  ///< by order: this UAV's own points; only if places are not exact
   std::map<Cell, Region> regions_;
   std::map<std::size_t, Account> accounts_;  ///< by sender: the hashes that it has sent
   mutable std::size_t next_ = 0;             ///< regions to send take turns

@@ -77,6 +77,58 @@ TEST(FlockPoints, AllEndUpWithTheBestOfAllWhateverIsLost) {
   }
 }
 
+/// Each UAV sees the scene displaced by an error of its own, which drifts. Its points are few enough to tell apart. All
+/// UAVs end up with one entry for nearly every point, with the best quality of all.
+TEST(FlockPoints, DriftMakesNoNewPoints) {
+  constexpr double kSigmaM = 0.2, kSpacingM = 3.0;
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    RandomStream random(seed, "drift", 0);
+    std::vector<DetectedPoint> scene;
+    for (int i = 0; i < 200; ++i) {  // a wall
+      const double y = kSpacingM * (i % 20) + random.uniform(-0.7, 0.7), z = kSpacingM * (i / 20.0) + 2.0;
+      scene.push_back({Vector3d(20.0, y, z).cast<float>(), 0.0, 0, {-1.0F, 0.0F, 0.0F}});
+    }
+    const double merge_m = 2.0 * std::sqrt(2.0) * kSigmaM;
+    std::vector<FlockPoints> uavs(3, FlockPoints(merge_m)), exact(3);
+    std::vector<Vector3d> errors(3, Vector3d::Zero());
+    std::vector<std::map<std::size_t, std::uint32_t>> orders(3);
+    std::vector<double> best(scene.size(), 0.0);
+    std::vector<std::vector<double>> own(3, best);
+    Tick now = 0;
+    for (int round = 0; round < 40; ++round) {
+      for (std::size_t uav = 0; uav < 3; ++uav) {
+        for (double& along : errors[uav])
+          along = 0.95 * along + std::sqrt(1.0 - 0.95 * 0.95) * kSigmaM * random.normal();
+        std::vector<DetectedPoint> seen;
+        for (std::size_t i = 0; i < scene.size(); ++i) {
+          if (random.bits() % 8 != 0 || (i + uav) % 3 == 0) continue;  // no UAV sees all
+          DetectedPoint point = scene[i];
+          point.p_W += errors[uav].cast<float>();
+          point.order = orders[uav].emplace(i, orders[uav].size()).first->second;
+          point.score = own[uav][i] = std::max(own[uav][i], random.uniform(0.2, 1.0));
+          best[i] = std::max(best[i], point.score);
+          seen.push_back(point);
+        }
+        uavs[uav].detect(seen, Vector3d::Zero());
+        exact[uav].detect(seen, Vector3d::Zero());
+      }
+      talk(uavs, random, 1, now);
+    }
+    talk(uavs, random, 80, now);
+    EXPECT_GT(exact[0].all().size(), 2 * scene.size()) << "each detection is a point of its own";
+    for (const FlockPoints& points : uavs) {
+      EXPECT_NEAR(static_cast<double>(points.all().size()), static_cast<double>(scene.size()), 0.2 * scene.size());
+      std::size_t found = 0;
+      for (std::size_t i = 0; i < scene.size(); ++i) {
+        found += std::ranges::any_of(points.all(), [&](const FlockPoint& point) {
+          return (point.p_W - scene[i].p_W.cast<double>()).norm() < 1.0 && std::abs(point.q - best[i]) < 0.03;
+        });
+      }
+      EXPECT_GT(found, 0.9 * scene.size()) << "seed " << seed;
+    }
+  }
+}
+
 /// A dense region has more points than a message has room for.
 TEST(FlockPoints, DenseRegionsGoOutInSlices) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {

@@ -16,8 +16,9 @@ constexpr double kLowestM = 0.3;        ///< surface below this height does not 
 constexpr double kEndM = 1.2;           ///< last part of a line of sight, in cubes, that belongs to the surface
 constexpr double kPriorM2 = 200.0;      ///< surface with the expected density that the estimate begins with
 constexpr double kClearlyBetter = 0.1;  ///< least improvement of quality that counts
-constexpr double kFacing = 0.17;        ///< least cosine between line of sight and a face's normal
-constexpr double kRangeRatio = 1.6;     ///< most distance of a face, in units of d*: farther ones are not sharp
+constexpr double kMergeSigmas = 2.0;  ///< detections of a point are this near: standard deviations, relative, per axis
+constexpr double kFacing = 0.17;      ///< least cosine between line of sight and a face's normal
+constexpr double kRangeRatio = 1.6;   ///< most distance of a face, in units of d*: farther ones are not sharp
 
 VoxelGrid site_grid(const std::vector<OrientedBox>& boxes, const FlockConfig& config, double sharp_m) {
   double voxel_m = config.voxel_m;
@@ -37,6 +38,7 @@ FlockSurfaces::FlockSurfaces(const FlockConfig& config, const AgentConfig& agent
       grid_(site_grid(boxes, config, sharp_m)),
       voxels_({.around_m = kFreeAroundM}),
       survey_(boxes, config.survey_m),
+      points_(kMergeSigmas * std::sqrt(2.0 / 3.0) * deviation_in_flight_m(agent.odometry).norm()),
       listed_(grid_.count(), 0),
       in_site_(grid_.count(), 0),
       looked_here_(grid_.count(), 0) {

@@ -36,6 +36,7 @@ inline constexpr FleetTopic kFleetTopics[] = {
     {"/{id}/command_rejected", Way::to_node, kCommandDepth},
     {"/{id}/battery", Way::to_node, kStateDepth},
     {"/{id}/wind", Way::to_node, kStateDepth},
+    {"/{id}/radio_links", Way::to_node, kStateDepth},
     {"/{id}/activity", Way::from_node, kCommandDepth},
     {"/{id}/command/trajectory", Way::from_node, kCommandDepth},
     {"/{id}/command/gimbal", Way::from_node, kCommandDepth},
