@@ -53,12 +53,7 @@ void AgentNode::declare(LockstepClient& client) {
   }
 }
 
-void AgentNode::read_sensors(LockstepClient& client) {
-  client.read<msg::Odometry>(bus::spec(topics::odometry(member())), Counterpart::server, [this](const auto& m) {
-    input_.state = from_odometry(m);
-    input_.state_tick = from_time(m.header().stamp());
-    input_.uncertainty = uncertainty_from_odometry(m);
-  });
+void AgentNode::read_conditions(LockstepClient& client) {
   if (scenario_.conditions.battery.on()) {
     client.read<msg::BatteryState>(bus::spec(topics::battery(member())), Counterpart::server, [this](const auto& m) {
       if (const auto battery = from_battery(m)) input_.battery = battery;
@@ -73,6 +68,15 @@ void AgentNode::read_sensors(LockstepClient& client) {
     client.read<msg::RadioLinks>(bus::spec(topics::radio_links(member())), Counterpart::server,
                                  [this](const auto& m) { input_.links = from_radio_links(m); });
   }
+}
+
+void AgentNode::read_sensors(LockstepClient& client) {
+  client.read<msg::Odometry>(bus::spec(topics::odometry(member())), Counterpart::server, [this](const auto& m) {
+    input_.state = from_odometry(m);
+    input_.state_tick = from_time(m.header().stamp());
+    input_.uncertainty = uncertainty_from_odometry(m);
+  });
+  read_conditions(client);
   client.read<msg::TwistStamped>(bus::spec(topics::gimbal(member())), Counterpart::server,
                                  [this](const auto& m) { input_.gimbal = from_gimbal(m); });
   client.read<msg::Duration>(bus::spec(topics::mission_duration_remained(member())), Counterpart::server,

@@ -44,6 +44,7 @@ class AgentNode final : public MemberNode {
   void show_octomap();
   void show_flight_map();
   void show_diagnostics();
+  void read_conditions(bus::LockstepClient& client);
   void read_sensors(bus::LockstepClient& client);
   void read_captures(bus::LockstepClient& client);
   void write(bus::LockstepClient& client) const;

@@ -188,8 +188,8 @@ TEST_F(FaultMakers, OnlyFaultsThatAreInTheWeatherAreDrawn) {
   load.duration_s = 120.0;
   std::vector<Fault> former;
   std::map<std::string, std::set<std::string>> kinds;
-  const std::vector<std::string> all = {"none", "breezy", "wind=harsh", "odometry=breezy+camera=harsh",
-                                        "battery=harsh"};
+  const std::vector<std::string> all = {"none", "breezy", "none,wind=harsh", "none,odometry=breezy+camera=harsh",
+                                        "none,battery=harsh"};
   const FaultMaker maker(towers_, space_);
   for (std::uint64_t i = 0; i < kSchedules; ++i) {
     RandomStream draw(11, "weather", i);
@@ -207,8 +207,8 @@ TEST_F(FaultMakers, OnlyFaultsThatAreInTheWeatherAreDrawn) {
     EXPECT_TRUE(kinds["breezy"].contains(kind)) << kind;
     EXPECT_FALSE(kinds["none"].contains(kind)) << kind;
   }
-  EXPECT_TRUE(kinds["wind=harsh"].contains("gust"));
-  EXPECT_FALSE(kinds["wind=harsh"].contains("battery_loss"));
+  EXPECT_TRUE(kinds["none,wind=harsh"].contains("gust"));
+  EXPECT_FALSE(kinds["none,wind=harsh"].contains("battery_loss"));
 }
 
 TEST_F(FaultMakers, WhereNoKindIsPossibleNothingIsDrawn) {

@@ -79,8 +79,8 @@ def print_differences(study: skein.Study, figure: str) -> None:
                 row.append("" if len(found) == 0 else median.format(found[0]["median"]))
                 continue
             pair = found[0]
-            row.append(f"{median.format(pair['median'])} ({bound.format(pair['low'])} to {bound.format(pair['high'])}), "
-                       f"{pair['p_holm']:.3f}")
+            interval = f"{bound.format(pair['low'])} to {bound.format(pair['high'])}"
+            row.append(f"{median.format(pair['median'])} ({interval}), {pair['p_holm']:.3f}")
         rows.append(row)
     print(f"**{title}**\n")
     print_table([""] + study.scenarios + ["all"], rows)
