@@ -29,12 +29,14 @@ class Column:
 
 @dataclass(frozen=True)
 class Table:
-    """A table: its name in Python, its file, its columns, and the reason why the file may be missing."""
+    """A table: its name in Python, its file, its columns, the reason why the file may be missing, and columns that only
+    some runs have, behind the others."""
 
     name: str
     file: str
     columns: tuple[Column, ...]
     missing: str = "the run was ended before it was written, or the disk was full"
+    optional: tuple[Column, ...] = ()
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -73,7 +75,8 @@ TIMELINE = Table("timeline", "score_timeline.csv", (_TIME, Column("points", "cou
 
 TRAJECTORIES = Table("trajectories", "trajectories.csv", (
     _TIME, _UAV, *_POSITION, *_columns("number", "1", "qw qx qy qz"), *_columns("number", "m/s", "vx vy vz"),
-    *_columns("number", "rad", "gimbal_pitch gimbal_yaw"), Column("alive", "flag"), Column("clearance", "number", "m")))
+    *_columns("number", "rad", "gimbal_pitch gimbal_yaw"), Column("alive", "flag"), Column("clearance", "number", "m")),
+    optional=(Column("charge", "number", "1"),))
 
 TRACKING = Table("tracking", "tracking.csv", (
     Column("vehicle", "text"), Column("speed_mps", "number", "m/s"), Column("acceleration_mps2", "number", "m/s^2"),

@@ -239,7 +239,8 @@ class Run:
 
     @property
     def trajectories(self) -> Array:
-        """trajectories.csv: pose, velocity and gimbal of every UAV, ten times a simulated second."""
+        """trajectories.csv: pose, velocity and gimbal of every UAV, ten times a simulated second; with batteries
+        also their `charge`."""
         return self.table("trajectories")
 
     @property

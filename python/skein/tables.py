@@ -185,8 +185,9 @@ def _check_header(rows: _Rows, columns: Sequence[Column]) -> None:
 def read_table(folder: Path, table: Table, file: str | None = None) -> Array:
     """A table of a run, in the file's order, as a read-only array."""
     rows = _plain_rows(folder / (file or table.file), table.missing)
-    _check_header(rows, table.columns)
-    return _array(rows, table.columns, "")
+    columns = (*table.columns, *(column for column in table.optional if column.name in rows.header))
+    _check_header(rows, columns)
+    return _array(rows, columns, "")
 
 
 def read_wide_table(folder: Path, table: Table, before: int, extra: str) -> Array:

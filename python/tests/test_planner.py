@@ -120,7 +120,12 @@ class Observer(Planner):
 @pytest.mark.parametrize("conditions", ["none", "harsh"])
 def test_peers_tell_how_far_they_are_to_be_trusted(tmp_path: Path, conditions: str) -> None:
     (tmp_path / "observer.py").write_text(OBSERVER.replace("@IDEAL@", str(conditions == "none")))
-    assert fly(tmp_path, f"py:{tmp_path}/observer.py", conditions=conditions).digest is not None
+    run = fly(tmp_path, f"py:{tmp_path}/observer.py", conditions=conditions)
+    assert run.digest is not None
+    names = run.trajectories.dtype.names
+    assert ("charge" in names) is (conditions == "harsh"), "only with batteries"
+    if conditions == "harsh":
+        assert 0 < run.trajectories["charge"].min() < 1 == run.trajectories["charge"].max()
 
 
 def test_another_seed_of_hashes_is_found_out(tmp_path: Path) -> None:
