@@ -31,7 +31,8 @@ Json keep_python_files(const std::vector<UavPlanner>& planners, const std::files
                        std::vector<std::string>& warnings);
 
 /// The value of --planner that repeats a run with its Python files as they were: the run's copy replaces each file that
-/// has changed since. @param text, fleet  as for parse_planners(). @param tell  is told of each file that is replaced
+/// has changed since. @param text, fleet  as for parse_planners(). @param tell  called with a message for each file
+/// that it replaces
 std::string with_python_files_of(const std::string& text, const std::vector<std::string>& fleet,
                                  const std::filesystem::path& run, const Json& result,
                                  const std::function<void(const std::string&)>& tell);

@@ -5,6 +5,7 @@
 #include <iterator>
 #include <set>
 
+#include "cli/hunt/draws.hpp"
 #include "cli/hunt/weather_faults.hpp"
 #include "core/faults/fault_check.hpp"
 #include "core/faults/fault_writer.hpp"
@@ -39,17 +40,11 @@ constexpr Kind kKinds[] = {{"link", 4},          {"partition", 2},     {"blackou
 
 constexpr std::string_view kWeather[] = {"gust", "fix_loss", "battery_loss", "conditions"};
 
-std::size_t below(RandomStream& draw, std::size_t count) {
-  return std::min(static_cast<std::size_t>(draw.uniform() * static_cast<double>(count)), count - 1);
-}
 bool chance(RandomStream& draw, double share) { return draw.uniform() < share; }
 const std::string& one_of(const std::vector<std::string>& names, RandomStream& draw) {
   return names[below(draw, names.size())];
 }
 double rounded(double value, double step) { return std::round(value / step) * step; }
-/// Rounded to tenths, so that a fault file states the value exactly.
-double tenths(double value) { return std::round(10.0 * value) / 10.0; }
-double hundredths(double value) { return std::round(100.0 * value) / 100.0; }
 /// Draws a length [s]: mostly short, sometimes long.
 double length(RandomStream& draw, double longest_s) {
   const double u = draw.uniform();

@@ -3,16 +3,14 @@
 #include <algorithm>
 #include <iterator>
 
+#include "cli/hunt/draws.hpp"
+
 namespace skein::cli {
 namespace {
 
 constexpr double kShareOfNew = 0.4;         ///< of cases that are drawn afresh
 constexpr double kShareOfNearest = 0.5;     ///< of the others: variations of a case with a small margin
 constexpr double kShareOfOtherSeeds = 0.2;  ///< of variations: other seed and conditions than the original
-
-std::size_t place(RandomStream& draw, std::size_t count) {
-  return std::min(static_cast<std::size_t>(draw.uniform() * static_cast<double>(count)), count - 1);
-}
 
 }  // namespace
 
@@ -29,8 +27,8 @@ const HuntCase& HuntSearch::next(const std::vector<std::optional<TrialOutcome>>&
   for (; learnt_ < known; ++learnt_) learn(learnt_, *before[learnt_]);
   RandomStream draw(seed_, "hunt", index);
   HuntCase made;
-  made.seed = 1 + place(draw, kRunSeeds);
-  if (!conditions_.empty()) made.conditions = conditions_[index == 0 ? 0 : place(draw, conditions_.size())];
+  made.seed = 1 + below(draw, kRunSeeds);
+  if (!conditions_.empty()) made.conditions = conditions_[index == 0 ? 0 : below(draw, conditions_.size())];
   if (index == 0) return cases_.emplace_back(std::move(made));
   if (discoverers_.empty() || draw.uniform() < kShareOfNew) {
     made.faults = maker_.under(made.conditions).schedule(draw);
@@ -47,10 +45,10 @@ const HuntCase& HuntSearch::next(const std::vector<std::optional<TrialOutcome>>&
 
 const HuntCase& HuntSearch::parent(RandomStream& draw) const {
   if (!nearest_.empty() && draw.uniform() < kShareOfNearest) {
-    return cases_[std::next(nearest_.begin(), static_cast<std::ptrdiff_t>(place(draw, nearest_.size())))->second.index];
+    return cases_[std::next(nearest_.begin(), static_cast<std::ptrdiff_t>(below(draw, nearest_.size())))->second.index];
   }
   // Prefers later discoverers, since many cases have met the states of the first ones since.
-  const std::size_t late = std::max(place(draw, discoverers_.size()), place(draw, discoverers_.size()));
+  const std::size_t late = std::max(below(draw, discoverers_.size()), below(draw, discoverers_.size()));
   return cases_[discoverers_[late]];
 }
 

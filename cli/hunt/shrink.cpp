@@ -5,6 +5,7 @@
 #include <set>
 
 #include "cli/fault_tests/flights.hpp"
+#include "cli/hunt/draws.hpp"
 #include "cli/hunt/fault_maker.hpp"
 #include "cli/hunt/weather_faults.hpp"
 #include "core/conditions.hpp"
@@ -18,8 +19,6 @@ constexpr double kAfterSeen_s = 5.0;  ///< time that a mission goes on after the
 constexpr const char* kSimplestScene = "towers";
 
 double to_multiple(double value, double step) { return std::round(value / step) * step; }
-double to_tenths(double value) { return std::round(10.0 * value) / 10.0; }
-double to_hundredths(double value) { return std::round(100.0 * value) / 100.0; }
 
 double length_of_fault(const Fault& fault) {
   return fault.waits ? fault.for_s.value_or(0.0) : fault.until_s.value_or(fault.at_s) - fault.at_s;
@@ -28,9 +27,9 @@ Fault with_times(Fault fault, double at_s, double length_s) {
   if (fault.waits) {
     fault.for_s = length_s;
   } else if (fault.until_s) {  // else it has no end
-    fault.until_s = to_tenths(at_s + length_s);
+    fault.until_s = tenths(at_s + length_s);
   }
-  fault.at_s = to_tenths(at_s);
+  fault.at_s = tenths(at_s);
   return fault;
 }
 
@@ -186,8 +185,8 @@ class Proposals {
     fault.waits = false;
     fault.when.reset();
     fault.for_s.reset();
-    fault.at_s = to_hundredths(begin_s);
-    fault.until_s = to_hundredths(end_s);
+    fault.at_s = hundredths(begin_s);
+    fault.until_s = hundredths(end_s);
     propose("at once", index, std::move(fault));
   }
 
@@ -195,7 +194,7 @@ class Proposals {
     const Fault& fault = trial_.faults[index];
     const double length_s = length_of_fault(fault);
     for (const double share : {0.25, 0.5}) {
-      const double shorter_s = to_tenths(share * length_s);
+      const double shorter_s = tenths(share * length_s);
       if (shorter_s >= kLeastLength_s) propose("shorter", index, with_times(fault, fault.at_s, shorter_s));
     }
   }
@@ -210,13 +209,13 @@ class Proposals {
       delay->exchanges /= 2;
       if (delay->exchanges > 0) propose("weaker", index, fault);
     } else if (auto* motor = std::get_if<MotorFailure>(&fault.action)) {
-      motor->thrust = to_hundredths(0.5 * (1.0 + motor->thrust));
+      motor->thrust = hundredths(0.5 * (1.0 + motor->thrust));
       if (motor->thrust < 0.98) propose("weaker", index, fault);
     } else if (auto* gust = std::get_if<Gust>(&fault.action)) {
-      for (double& part : gust->velocity_mps) part = to_tenths(0.5 * part);
+      for (double& part : gust->velocity_mps) part = tenths(0.5 * part);
       if (gust->velocity_mps.norm() > 0.5) propose("weaker", index, fault);
     } else if (auto* loss = std::get_if<BatteryLoss>(&fault.action)) {
-      loss->charge = to_hundredths(0.5 * (1.0 + loss->charge));
+      loss->charge = hundredths(0.5 * (1.0 + loss->charge));
       if (loss->charge < 0.98) propose("weaker", index, fault);
     }
   }
@@ -234,7 +233,7 @@ class Proposals {
       propose("no bursts", index, fault);
     }
     effect = before;
-    effect.latency_s = to_hundredths(0.5 * before.latency_s);
+    effect.latency_s = hundredths(0.5 * before.latency_s);
     effect.jitter_s = 0.0;
     if (effect.latency_s >= 0.05) propose("latency", index, fault);
     for (const bool source : {true, false}) {

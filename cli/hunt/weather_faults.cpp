@@ -5,6 +5,7 @@
 #include <numbers>
 #include <vector>
 
+#include "cli/hunt/draws.hpp"
 #include "core/config/config_node.hpp"
 #include "core/text/text.hpp"
 
@@ -26,12 +27,10 @@ std::vector<std::string> parts_on(const ConditionsConfig& conditions) {
   return parts;
 }
 
-double with_decimals(double value, double decimals) { return std::round(value * decimals) / decimals; }
-
 /// A change of one part, as a fault file has it.
 std::string change_of(const std::string& part, RandomStream& draw) {
-  const auto drawn = [&draw](double low, double high, double decimals) {
-    return number_text(with_decimals(draw.uniform(low, high), decimals));
+  const auto drawn = [&draw](double low, double high, double parts) {
+    return number_text(in_parts(draw.uniform(low, high), parts));
   };
   if (part == "wind")
     return "{mean_mps: " + drawn(1.0, kWithstood_mps, 1.0) + ", turbulence: " + drawn(0.0, 2.0, 10.0) + "}";
@@ -62,16 +61,14 @@ bool is_possible(const Fault& fault, const ConditionsConfig& conditions) {
 FaultAction weather_fault(const std::string& kind, const std::string& uav, const ConditionsConfig& conditions,
                           RandomStream& draw) {
   if (kind == "fix_loss") return FixLoss{uav};
-  if (kind == "battery_loss") return BatteryLoss{uav, with_decimals(draw.uniform(kLeastCharge, 0.9), 100.0)};
+  if (kind == "battery_loss") return BatteryLoss{uav, hundredths(draw.uniform(kLeastCharge, 0.9))};
   if (kind == "gust") {
     const double most_mps = std::max(kLeastGust_mps, kWithstood_mps - conditions.wind.mean_mps);
     const double speed_mps = draw.uniform(1.0, most_mps), to = draw.uniform(0.0, 2.0 * std::numbers::pi);
-    const auto part = [](double value) { return with_decimals(value, 10.0); };
-    return Gust{uav, {part(speed_mps * std::cos(to)), part(speed_mps * std::sin(to)), 0.0}};
+    return Gust{uav, {tenths(speed_mps * std::cos(to)), tenths(speed_mps * std::sin(to)), 0.0}};
   }
   const std::vector<std::string> parts = parts_on(conditions);
-  const double place = draw.uniform() * static_cast<double>(parts.size());
-  const std::string& part = parts[std::min(static_cast<std::size_t>(place), parts.size() - 1)];
+  const std::string& part = parts[below(draw, parts.size())];
   return ConditionsChange{parse_config_document("{" + part + ": " + change_of(part, draw) + "}", "").root};
 }
 
