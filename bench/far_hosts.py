@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What a network between hosts costs a fleet: `skein run --place` over links of known delay, beside one host.
+"""Measures the cost of a network between hosts: `skein run --place` over links of known delay, compared with one host.
 
 The two hosts are network namespaces. For a round trip of 0, a veth pair connects them. Otherwise each has a TAP device,
 and a process forwards the frames between these and delays each by half of the round trip. Flights on one host and on

@@ -17,22 +17,22 @@ std::string repeated_from(const std::string& text) {
   return planners_repeated(text, kThree, [](const std::string& uav) { return "runs/x/hand-" + uav + ".csv"; });
 }
 
-using Names = std::vector<std::string>;
+using Texts = std::vector<std::string>;
 
 TEST(HandFlights, KnowsWhoIsFlownByHand) {
-  EXPECT_EQ(hands_in("kios"), Names{});
-  EXPECT_EQ(hands_in("kios,bob=hand"), Names{"bob"});
+  EXPECT_EQ(hands_in("kios"), Texts{});
+  EXPECT_EQ(hands_in("kios,bob=hand"), Texts{"bob"});
   EXPECT_EQ(hands_in("hand"), kThree);
-  EXPECT_EQ(hands_in("bob=hand:safe=false,approach_mps=2"), Names{"bob"});
-  EXPECT_EQ(hands_in("bob=hand:hand-bob.csv"), Names{}) << "a file flies it";
-  EXPECT_EQ(hands_in("bob=hand:file=hand-bob.csv,safe=false"), Names{});
-  EXPECT_EQ(hands_in("bob=hand@team/agent"), Names{"bob"});
-  EXPECT_EQ(hands_in("handy,bob=exec:hand"), Names{});
+  EXPECT_EQ(hands_in("bob=hand:safe=false,approach_mps=2"), Texts{"bob"});
+  EXPECT_EQ(hands_in("bob=hand:hand-bob.csv"), Texts{}) << "a file flies it";
+  EXPECT_EQ(hands_in("bob=hand:file=hand-bob.csv,safe=false"), Texts{});
+  EXPECT_EQ(hands_in("bob=hand@team/agent"), Texts{"bob"});
+  EXPECT_EQ(hands_in("handy,bob=exec:hand"), Texts{});
   const auto yaml = std::filesystem::path(testing::TempDir()) / "hand_flights.yaml";
   std::ofstream(yaml) << "safe: false\n";
-  EXPECT_EQ(hands_in("bob=hand:" + yaml.string()), Names{"bob"});
+  EXPECT_EQ(hands_in("bob=hand:" + yaml.string()), Texts{"bob"});
   std::ofstream(yaml) << "safe: false\nfile: x.csv\n";
-  EXPECT_EQ(hands_in("bob=hand:" + yaml.string()), Names{});
+  EXPECT_EQ(hands_in("bob=hand:" + yaml.string()), Texts{});
 }
 
 TEST(HandFlights, SomebodyMustBeAbleToFly) {
@@ -63,7 +63,7 @@ TEST(HandFlights, AreRepeatedFromWhatWasKept) {
   for (const char* text : {"kios,bob=hand", "hand", "ann=hand:safe=false,gcs=none", "cid=exec:./mine --x 3,bob=hand"}) {
     const std::string again = repeated_from(text);
     const Planners planners = parse_planners(again, kThree), before = parse_planners(text, kThree);
-    EXPECT_EQ(flown_by_hand(planners.uavs), Names{}) << again;
+    EXPECT_EQ(flown_by_hand(planners.uavs), Texts{}) << again;
     for (std::size_t i = 0; i < kThree.size(); ++i) {
       if (before.uavs[i].spec.starts_with("hand")) continue;
       EXPECT_EQ(written(planners.uavs[i]), written(before.uavs[i])) << again;

@@ -1,16 +1,17 @@
-# Agent programs with planners of one's own. Used by this build's tests and, installed, by find_package(skein).
+# Functions that build agent programs with a user's planners. This build's tests use them, and find_package(skein)
+# includes the installed copy.
 
 # skein_add_agent(NAME SOURCES ... [LIBS ...] [DEBUG])
-# A program like uav_agent: with all planners of Skein, and those that the sources register. Beside it NAME_fleet, in
-# which whole fleets of such agents fly as one process. DEBUG: the sources are compiled for a debugger (-Og), and fly
-# the same.
+# Adds a program like uav_agent, with all planners of Skein and those that the sources register, and beside it
+# NAME_fleet, in which whole fleets of such agents fly in one process. DEBUG compiles the sources for a debugger (-Og);
+# the results of a flight stay the same.
 function(skein_add_agent name)
   cmake_parse_arguments(ARG "DEBUG" "" "SOURCES;LIBS" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE skein::agent_main skein::agent skein::agent_nodes ${ARG_LIBS})
   skein_compile_as_skein(${name})
   if(ARG_DEBUG)
-    target_compile_options(${name} PRIVATE -Og)  # behind what the build type says of it
+    target_compile_options(${name} PRIVATE -Og)  # after the options of the build type, so that it overrides these
   endif()
   add_executable(${name}_fleet $<TARGET_OBJECTS:${name}>)
   target_link_libraries(${name}_fleet PRIVATE
@@ -22,7 +23,8 @@ function(skein_add_agent name)
 endfunction()
 
 # skein_add_planner_test(NAME PLANNERS ... SOURCES ... [LIBS ...])
-# A GoogleTest program and a CTest entry: what every planner must do and must never do, for some planners by name.
+# Adds a GoogleTest program and a CTest entry: the contract of all planners (what each must do and must never do),
+# tested on the planners with these names.
 function(skein_add_planner_test name)
   cmake_parse_arguments(ARG "" "" "PLANNERS;SOURCES;LIBS" ${ARGN})
   find_package(GTest REQUIRED)
@@ -37,11 +39,11 @@ function(skein_add_planner_test name)
   add_test(NAME ${name} COMMAND ${name} --gtest_filter=${filter})
 endfunction()
 
-# As Skein itself is compiled: C++20, optimised unless asked otherwise, and no fused multiply-add, so that a result does
-# not depend on the optimiser's mood. With all that a debugger can show of a planner.
+# Compiles a target with Skein's own options: C++20; -O2 unless the user sets a build type; no fused multiply-add, so
+# that results do not depend on where the optimiser would use it; full debug symbols.
 function(skein_compile_as_skein name)
   target_compile_features(${name} PRIVATE cxx_std_20)
   set_target_properties(${name} PROPERTIES CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
   target_compile_options(${name} PRIVATE -ffp-contract=off -Wno-psabi -g $<$<CONFIG:>:-O2>
-    $<$<CXX_COMPILER_ID:GNU>:-gno-inline-points>)  # gdb stops in the planner, not in what is inlined there
+    $<$<CXX_COMPILER_ID:GNU>:-gno-inline-points>)  # gdb stops in the planner, not in code that is inlined there
 endfunction()

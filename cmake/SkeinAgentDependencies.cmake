@@ -1,5 +1,5 @@
-# What an agent program links, and a whole fleet in one process, all from Debian 12. Used by this build and, installed,
-# by find_package(skein).
+# The packages that an agent program links, and a program with a whole fleet; all are from Debian 12. This build uses
+# this file, and find_package(skein) includes the installed copy.
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 find_package(yaml-cpp REQUIRED)
 find_package(pugixml 1.13 REQUIRED)
@@ -16,7 +16,7 @@ find_package(CycloneDDS REQUIRED)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(OCTOMAP REQUIRED IMPORTED_TARGET octomap)
 
-# The simulator's. Double precision Bullet (Debian ships both).
+# The packages of the simulator. Bullet in double precision (Debian has both variants).
 pkg_check_modules(BULLET REQUIRED IMPORTED_TARGET bullet-float64)
 pkg_check_modules(ASSIMP REQUIRED IMPORTED_TARGET assimp)
 pkg_check_modules(LZF REQUIRED IMPORTED_TARGET liblzf)
@@ -25,8 +25,8 @@ find_package(ZLIB REQUIRED)
 find_package(embree 3 REQUIRED)
 
 # skein_find_pcl(PART...)
-# Targets pcl::PART, the libraries alone: PCL's own CMake package, and its pkg-config files, want VTK, Qt and more.
-# Debian's libpcl-PART1.13 will do; headers are for Skein's own build (SkeinDependencies.cmake).
+# Adds targets pcl::PART, without headers. PCL's own CMake package and its pkg-config files require VTK, Qt and more;
+# for these targets, Debian's libpcl-PART1.13 suffices. Only Skein's own build needs headers (SkeinDependencies.cmake).
 function(skein_find_pcl)
   foreach(part ${ARGN})
     find_library(SKEIN_PCL_${part} NAMES pcl_${part} libpcl_${part}.so.1.13 REQUIRED)

@@ -1,4 +1,4 @@
-# Compiler settings and the three functions with which every folder declares its targets.
+# Compiler settings, and the functions with which each folder declares its targets.
 set(CMAKE_CXX_STANDARD 20)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_CXX_EXTENSIONS OFF)
@@ -16,23 +16,24 @@ if(CCACHE_PROGRAM AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE_PROGRAM})
 endif()
 
-# Every binary lands in one folder, where the launcher looks for its siblings.
+# All programs are built into one folder, because the launcher looks for the other programs beside itself.
 set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
 
-option(SKEIN_UNITY "Compile the files of a folder together; OFF: each alone, for who edits and rebuilds much" ON)
+option(SKEIN_UNITY "Compile the files of a folder together; OFF: each alone, for faster rebuilds after edits" ON)
 set(SKEIN_SANITIZE OFF CACHE STRING "Build with sanitizers: address (and undefined behaviour), thread, or OFF")
-# What is built and run with ThreadSanitizer: what has threads of its own, both vendors' buses, and whole fleets over
-# the inproc bus. What happens between threads of the vendors' own libraries is not looked into (tsan.supp).
+# The tests that run with ThreadSanitizer: those of code with threads, of both vendors' buses, and of whole fleets over
+# the inproc bus. ThreadSanitizer ignores what happens between threads of the vendors' libraries (tsan.supp).
 set(SKEIN_THREAD_TESTS bus_inbox_test bus_unsent_test process_program_test process_status_pipe_test
   one_process_crew_test one_process_flights_test one_process_digests_test bus_contract_test radio_contract_test
   view_server_test)
 
-# What takes more than half a minute, for it computes much: a third of it runs at each commit.
+# Slow tests: a third of the tests of these entries runs at each commit, because each entry takes more than half a
+# minute.
 set(SKEIN_SLOW_TESTS agent_planner_contract_test agent_planners_kios_kios_test agent_planners_patrol_patrol_test
   agent_planners_star_star_flight_test agent_planners_xxh_xxh_test agent_published_strategies_test bus_contract_test
   oracle_oracle_test scenes_scene_families_test scenes_wild_flood_test)
 
-# What takes long with sanitizers, for it computes much: an eighth of it runs at each commit.
+# Tests that are slow with sanitizers: an eighth of the tests of these entries runs at each commit.
 set(SKEIN_SLOW_SANITIZED_TESTS oracle_oracle_test sim_plan_flight_test sim_plan_plan_test
   scenes_scene_families_test agent_planner_contract_test
   sim_wild_world_test sim_whole_simulation_test sim_flight_dynamics_test sight_ray_fan_test
@@ -42,38 +43,38 @@ set(SKEIN_SLOW_SANITIZED_TESTS oracle_oracle_test sim_plan_flight_test sim_plan_
   agent_planners_kios_kios_test agent_planners_patrol_patrol_test agent_planners_star_star_flight_test
   agent_planners_xxh_xxh_test agent_published_strategies_test agent_flight_core_safety_filter_test
   cli_compose_compose_file_test one_process_digests_test protocol_test)
-# A third of it, for this is about what sanitizers look for.
+# Of these, a third runs at each commit: they test code in which sanitizers are most likely to find defects.
 set(SKEIN_SANITIZED_TESTS_IN_THREE bus_contract_test radio_contract_test)
 
-# -ffp-contract=off: no fused multiply-add, so that a result does not depend on the optimiser's mood.
+# -ffp-contract=off: no fused multiply-add, so that results do not depend on where the optimiser would use it.
 # Never -march=native: one binary gives the same bits on every x86-64 machine.
-# -Wno-restrict: GCC 12 sees overlaps in operator+ of a literal and a std::string that are not there.
+# -Wno-restrict: GCC 12 warns of overlaps in operator+ of a literal and a std::string that do not exist.
 add_compile_options(-Wall -Wextra -Wshadow -Wno-psabi -Wno-restrict -ffp-contract=off)
 if(SKEIN_SANITIZE)
   set(sanitizers address,undefined)
   if(SKEIN_SANITIZE STREQUAL thread)
     set(sanitizers thread)
   endif()
-  # -Wno-maybe-uninitialized: what the sanitizers insert makes GCC see that where it is not.
+  # -Wno-maybe-uninitialized: the code that sanitizers insert causes false warnings of GCC.
   add_compile_options(-fsanitize=${sanitizers} -fno-sanitize-recover=all -fno-omit-frame-pointer -O1 -g1
     -Wno-maybe-uninitialized)
-  # AddressSanitizer itself ends a program at a null pointer and beyond the end of an object; without UBSan's checks of
-  # that, and of each virtual call, the compiler takes a seventh less. Without that of alignment it takes another third
-  # less: skein_check_alignment() asks it of what reads bytes of others.
+  # AddressSanitizer itself ends a program that uses a null pointer or reads beyond the end of an object. Without
+  # UBSan's checks of these, and of each virtual call, compilation takes a seventh less time; without its check of
+  # alignment, another third less. skein_check_alignment() switches the latter on for code that reads foreign bytes.
   if(SKEIN_SANITIZE STREQUAL address)
     add_compile_options(-fno-sanitize=null,object-size,vptr,alignment)
   endif()
-  # Programs of 110 MB each without the rest of this line; with it, of less than half.
+  # Without the options after the first, each program has 110 MB; with them, less than half of that.
   add_link_options(-fsanitize=${sanitizers} -no-pie -Wl,--compress-debug-sections=zlib)
-  # Debian's libpcl frees with plain free() what Eigen allocates here; without this it would not be the same allocator.
+  # Debian's libpcl frees memory with plain free() that Eigen allocates here. This definition makes Eigen use malloc().
   add_compile_definitions(EIGEN_MALLOC_ALREADY_ALIGNED=1)
 endif()
 
-# Function names and lines for debuggers and backtraces, mapped so that neither ccache nor a moved tree minds where it
-# lies (docs/decisions/0018-debugging.md).
+# Function names and line numbers for debuggers and backtraces. Paths are relative to the source tree, so that ccache
+# hits and symbols stay valid wherever the tree is (docs/decisions/0018-debugging.md).
 if(NOT SKEIN_SANITIZE)
   add_compile_options($<$<CONFIG:Release>:-g1>)
-  add_link_options($<$<CONFIG:Release>:-Wl,--compress-debug-sections=zlib>)  # a third of the size
+  add_link_options($<$<CONFIG:Release>:-Wl,--compress-debug-sections=zlib>)  # sections have a third of their size
 endif()
 add_compile_options(-ffile-prefix-map=${CMAKE_SOURCE_DIR}=.)
 
@@ -91,8 +92,8 @@ function(skein_add_library name)
   skein_compile_by_folder(${name} ${ARG_SOURCES})
 endfunction()
 
-# The folder with which a source of the present folder is compiled. The subjects of core/ and of process/ are small:
-# each of the two is one.
+# The name of the folder whose files are compiled together with this source of the current folder. The sub-folders of
+# core/ and of process/ are small, so each of these two counts as one folder.
 function(skein_unit_of source out)
   get_filename_component(folder ${CMAKE_CURRENT_SOURCE_DIR}/${source} DIRECTORY)
   file(RELATIVE_PATH folder ${PROJECT_SOURCE_DIR} ${folder})
@@ -102,27 +103,28 @@ function(skein_unit_of source out)
 endfunction()
 
 # skein_compile_by_folder(TARGET SOURCES...)
-# The files of a folder are compiled as one, for reading headers is most of the work. So a name in an unnamed namespace
-# means one thing in a folder. CMake compiles alone what has options of its own.
+# Compiles the files of a folder as one, because most of the time is spent on headers. So a name in an unnamed namespace
+# must be unique within its folder. CMake compiles a file alone if it has options of its own.
 function(skein_compile_by_folder target)
   foreach(source ${ARGN})
     skein_unit_of(${source} group)
     set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${group})
   endforeach()
   set_target_properties(${target} PROPERTIES UNITY_BUILD ${SKEIN_UNITY} UNITY_BUILD_MODE GROUP)
-  # GCC takes what is included for a header, in which an unnamed namespace would be a mistake.
+  # GCC treats the included source files as headers, in which an unnamed namespace would be a mistake.
   target_compile_options(${target} PRIVATE
     $<$<AND:$<BOOL:${SKEIN_UNITY}>,$<COMPILE_LANGUAGE:CXX>>:-Wno-subobject-linkage>)
 endfunction()
 
 # skein_compile_quickly(TARGET)
-# For what does no work in the steps of a run: the compiler takes two thirds of the time, results are the same.
+# Optimises less, for code that does no work in the steps of a run: compilation takes two thirds of the time, and
+# results are the same.
 function(skein_compile_quickly target)
   target_compile_options(${target} PRIVATE $<IF:$<BOOL:${SKEIN_SANITIZE}>,-O0,-O1>)
 endfunction()
 
 # skein_check_alignment(TARGET)
-# For what takes bytes of messages and files apart: sanitizer builds look for pointers that are not aligned.
+# For code that parses bytes of messages and files: AddressSanitizer builds also check the alignment of pointers.
 function(skein_check_alignment target)
   if(SKEIN_SANITIZE STREQUAL address)
     target_compile_options(${target} PRIVATE -fsanitize=alignment)
@@ -139,7 +141,7 @@ function(skein_add_program name)
 endfunction()
 
 # skein_add_helper(NAME SOURCES ... LIBS ...)
-# A program that only tests start; helper_program(NAME) of tests/support/places.hpp is its path.
+# Adds a program that only tests start; helper_program(NAME) of tests/support/places.hpp returns its path.
 function(skein_add_helper name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LIBS" ${ARGN})
   if(NOT BUILD_TESTING)
@@ -153,11 +155,12 @@ endfunction()
 
 # skein_add_test(NAME SOURCES ... LIBS ... [LABELS ...] [TIMEOUT s] [SERIAL] [ALONE] [TURNS k]
 #   [PROGRAMS target...])
-# A CTest entry: the tests that stand in the sources *_test.cpp. The tests of a CMake folder are one program,
-# `core_tests` say, which runs those of one entry at a time (tests/support/test_program.hpp). PROGRAMS are what its
-# tests start. ALONE: they are a program of their own, for what changes a whole program (operator new). Assets come
-# from SKEIN_ASSETS and SKEIN_GOLDEN in the environment. TURNS: every k-th of its tests runs, another share at each
-# commit (SKEIN_TURN; without it all run).
+# Adds a CTest entry with the tests of the sources *_test.cpp. All tests of a CMake folder are one program, for example
+# `core_tests`, which runs the tests of one entry at a time (tests/support/test_program.hpp). PROGRAMS: programs that
+# the tests start. ALONE: the tests are a program of their own, because they change a whole program (operator new).
+# External data come from SKEIN_ASSETS and SKEIN_GOLDEN in the environment. TIMEOUT: see skein_set_timeout(). SERIAL: no
+# other entry runs at the same time. TURNS: every k-th of the tests runs, a different share at each commit (SKEIN_TURN;
+# without it all run).
 function(skein_add_test name)
   cmake_parse_arguments(ARG "SERIAL;ALONE" "TIMEOUT;TURNS" "SOURCES;LIBS;LABELS;PROGRAMS" ${ARGN})
   if(NOT BUILD_TESTING OR (SKEIN_SANITIZE STREQUAL thread AND NOT name IN_LIST SKEIN_THREAD_TESTS))
@@ -207,14 +210,14 @@ function(skein_add_test name)
 endfunction()
 
 # skein_set_timeout(NAME s)
-# When CTest kills an entry that takes s on an idle machine at most: five times that, for machines that are busy, and
-# for sanitizers. What does not end by itself is found earlier, by the test itself (tests/support/eventually.hpp).
+# CTest kills an entry after five times s, the longest time that the entry takes on an idle machine [s]: machines may be
+# busy, and sanitizers take time. A test itself detects earlier that it waits in vain (tests/support/eventually.hpp).
 function(skein_set_timeout name seconds)
   math(EXPR seconds "5 * ${seconds}")
   set_tests_properties(${name} PROPERTIES TIMEOUT ${seconds})
 endfunction()
 
-# The name of the program with the tests of the present folder: core_tests, bus_lockstep_tests, tests_fleet.
+# The name of the program with the tests of the current folder: core_tests, bus_lockstep_tests, tests_fleet.
 function(skein_folder_program out)
   file(RELATIVE_PATH folder ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR})
   string(REPLACE "/" "_" program ${folder})
@@ -224,7 +227,7 @@ function(skein_folder_program out)
   set(${out} ${program} PARENT_SCOPE)
 endfunction()
 
-# A program of tests, made at the first call.
+# Adds a test program at the first call.
 function(skein_test_program program)
   if(TARGET ${program})
     return()
@@ -234,16 +237,16 @@ function(skein_test_program program)
   set_target_properties(${program} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests
     UNITY_BUILD ${SKEIN_UNITY} UNITY_BUILD_MODE GROUP)
   target_link_libraries(${program} PRIVATE skein_test_main)
-  # Less care for tests is a quarter less time; with sanitizers, half of it.
+  # Tests are optimised less: compilation takes a quarter less time, and half of the time with sanitizers.
   target_compile_options(${program} PRIVATE $<$<CONFIG:Release>:-O1> $<$<BOOL:${SKEIN_SANITIZE}>:-O0>
-    $<$<BOOL:${SKEIN_UNITY}>:-Wno-subobject-linkage -Wno-shadow>)  # what stands in another file is not shadowed
+    $<$<BOOL:${SKEIN_UNITY}>:-Wno-subobject-linkage -Wno-shadow>)  # names of another source file are not shadowed
   target_link_options(${program} PRIVATE $<$<CONFIG:Release>:-Wl,--strip-debug,--compress-debug-sections=none>)
 endfunction()
 
 # skein_test_needs(TARGET...)
-# What the tests of the present folder run: built with the target `tests`, and with those of the folder and of each that
-# it is in, tests_in_tests_fleet and tests_in_tests. `./skein test tests/fleet` asks for one of them, and knows by
-# test_folders.txt which there are.
+# Targets that the tests of the current folder need. They are built with the target `tests`, and with a target of the
+# folder and of each folder above it, for example tests_in_tests_fleet and tests_in_tests. `./skein test tests/fleet`
+# builds one of these; test_folders.txt lists them for ./skein.
 function(skein_test_needs)
   add_dependencies(tests ${ARGN})
   file(RELATIVE_PATH folder ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR})
@@ -260,8 +263,8 @@ endfunction()
 set(SKEIN_TEST_FOLDERS ${CMAKE_BINARY_DIR}/test_folders.txt)
 file(WRITE ${SKEIN_TEST_FOLDERS} "")
 
-# Sources of a test program, 24 of a folder compiled as one. So a name in an unnamed namespace means one thing in the
-# tests of a folder, too.
+# Adds sources to a test program; up to 30 are compiled as one, because each unit spends seven seconds on headers. So a
+# name in an unnamed namespace must be unique among the tests of a program, too.
 function(skein_add_test_sources program)
   get_target_property(present ${program} SOURCES)
   foreach(source ${ARGN})
@@ -269,14 +272,13 @@ function(skein_add_test_sources program)
       continue()
     endif()
     target_sources(${program} PRIVATE ${source})
-    skein_unit_of(${source} folder)
-    get_property(count GLOBAL PROPERTY skein_test_sources_of_${folder})
+    get_property(count GLOBAL PROPERTY skein_test_sources_of_${program})
     if(NOT count)
       set(count 0)
     endif()
-    math(EXPR batch "${count} / 24")
+    math(EXPR batch "${count} / 30")
     math(EXPR count "${count} + 1")
-    set_property(GLOBAL PROPERTY skein_test_sources_of_${folder} ${count})
-    set_source_files_properties(${source} PROPERTIES UNITY_GROUP tests_${folder}_${batch})
+    set_property(GLOBAL PROPERTY skein_test_sources_of_${program} ${count})
+    set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${program}_${batch})
   endforeach()
 endfunction()

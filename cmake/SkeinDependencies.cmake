@@ -1,8 +1,8 @@
-# Every package that Skein uses, all from Debian 12. Which folder may use which is checked by tests/layers.
-include(SkeinAgentDependencies)  # what an agent needs: planners outside of this tree link it, too
+# Every package that Skein uses; all are from Debian 12. tests/layers checks which folder uses which package.
+include(SkeinAgentDependencies)  # packages that agents with planners from outside this tree also link
 find_program(FASTDDSGEN fastddsgen REQUIRED)
 
-# Debian has PCL's headers only in libpcl-dev, which wants 500 packages more: ./skein unpacks what it needs of it.
+# Debian has PCL's headers only in libpcl-dev, which depends on 500 more packages. So ./skein only unpacks the headers.
 find_path(PCL_INCLUDE_DIR pcl/point_types.h PATH_SUFFIXES pcl-1.13
   PATHS ${PROJECT_SOURCE_DIR}/build/pcl/usr/include)
 if(NOT PCL_INCLUDE_DIR)
@@ -10,15 +10,15 @@ if(NOT PCL_INCLUDE_DIR)
 endif()
 set(pcl_parts common filters)
 if(BUILD_TESTING)
-  skein_find_pcl(io)  # what our own reader of point files is held against
+  skein_find_pcl(io)  # the tests compare Skein's reader of point files with PCL's
   list(APPEND pcl_parts io)
 endif()
 foreach(part ${pcl_parts})
   target_include_directories(pcl::${part} INTERFACE ${PCL_INCLUDE_DIR})
 endforeach()
 
-# For planners in Python: the interpreter as a library. pybind11's own package would look for whichever Python is first
-# in PATH.
+# For planners in Python: the interpreter as a library. The CMake package of pybind11 would use the first Python in
+# PATH, whichever that is.
 pkg_check_modules(PYTHON REQUIRED IMPORTED_TARGET python3-embed)
 find_path(PYBIND11_INCLUDE_DIR pybind11/pybind11.h REQUIRED)
 add_library(pybind11::headers INTERFACE IMPORTED)

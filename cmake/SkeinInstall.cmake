@@ -1,15 +1,15 @@
-# What `cmake --install` lays down: the programs, their configuration, and what planners outside of this tree need
-# (docs/how-to-add-a-planner.md). find_package(skein) works on the build folder, too.
+# Rules of `cmake --install`: the programs, their configuration, and everything that planners outside of this tree need
+# (docs/how-to-add-a-planner.md). find_package(skein) also finds the build folder.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 set(package ${CMAKE_INSTALL_LIBDIR}/cmake/skein)
-set(SKEIN_CONTRACT_DIR ${PROJECT_SOURCE_DIR}/uav_agent/testing)  # where the sources of skein_add_planner_test() are
+set(SKEIN_CONTRACT_DIR ${PROJECT_SOURCE_DIR}/uav_agent/testing)  # sources for skein_add_planner_test()
 set(installed_contract_dir ${CMAKE_INSTALL_DATADIR}/skein/contract)
 
-# Components, which are Debian packages too (SkeinPackages.cmake): `runtime` is what flies fleets, `agent` the part of
-# it that flies one UAV, `dev` what planners outside of this tree are built with, `source` the code that debuggers show,
-# `python` the package `skein` for Python.
+# Components, each of which is a Debian package, too (SkeinPackages.cmake): `runtime` has the programs of a fleet,
+# `agent` only the program of one UAV, `dev` headers and libraries for planners outside of this tree, `source` the code
+# that debuggers show, `python` the package `skein` for Python.
 set(programs skein sim_server comm_router station uav_agent uav_agent_fleet skein_doctor)
 file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/man)
 foreach(program ${programs})
@@ -29,9 +29,10 @@ function(skein_install_programs component)
 endfunction()
 skein_install_programs(runtime ${programs})
 skein_install_programs(agent uav_agent)
-install(TARGETS skein_other_clock LIBRARY DESTINATION lib/skein COMPONENT runtime)  # of skein check-planner
+install(TARGETS skein_other_clock LIBRARY DESTINATION lib/skein COMPONENT runtime)  # for skein check-planner
 
-# What makes reports interactive. The script builds it or refuses; it is optional only where SKEIN_WITHOUT_WEB says so.
+# The scripts that make reports interactive. SkeinWebBundle.cmake builds them, or fails; with SKEIN_WITHOUT_WEB=1 in the
+# environment they are optional.
 install(CODE "set(SKEIN_ROOT \"${PROJECT_SOURCE_DIR}\")" COMPONENT runtime)
 install(SCRIPT cmake/SkeinWebBundle.cmake COMPONENT runtime)
 install(FILES ${PROJECT_SOURCE_DIR}/build/web/report.js ${PROJECT_SOURCE_DIR}/build/web/live.js
@@ -42,15 +43,15 @@ install(FILES cli/completion/skein.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bas
 install(FILES cli/completion/_skein DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions COMPONENT runtime)
 install(FILES cli/completion/skein.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d
   COMPONENT runtime)
-install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT license)  # Debian has it already
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT license)  # Debian packages have a copyright file
 
-# Where config/gdb/skein_printers.py looks for it.
+# The folder in which config/gdb/skein_printers.py looks for sources.
 install(DIRECTORY bus cli comm_router core doctor one_process oracle process properties recording report results scenes
   sight sim_server station uav_agent view DESTINATION src/skein COMPONENT source
   FILES_MATCHING PATTERN "*.cpp" PATTERN "*.hpp" PATTERN testing EXCLUDE)
 
-# The package for Python, where Debian's finds it under /usr.
-if(TARGET skein_python)  # of planners in Python, and of programs of one's own
+# The package for Python, in the folder where Debian's Python finds it if the prefix is /usr.
+if(TARGET skein_python)  # extension modules for planners and other programs in Python
   install(TARGETS skein_python skein_client LIBRARY DESTINATION lib/skein COMPONENT python)
 endif()
 install(DIRECTORY python/skein DESTINATION lib/python3/dist-packages COMPONENT python
@@ -68,14 +69,14 @@ foreach(library ${libraries})
   add_library(skein::${library} ALIAS skein_${library})
 endforeach()
 
-# Headers of what a planner may use. The rest is internal: the contract's sources get the agent's headers for
-# themselves.
+# The headers that a planner may use. All others are internal; those that the sources of the planners' contract need are
+# installed beside these sources.
 install(DIRECTORY core DESTINATION include/skein COMPONENT dev FILES_MATCHING PATTERN "*.hpp")
 foreach(folder api maps flight flight_core planning)
   install(DIRECTORY uav_agent/${folder} DESTINATION include/skein/uav_agent COMPONENT dev
     FILES_MATCHING PATTERN "*.hpp")
 endforeach()
-# Packages for ROS 2, as sources: who has ROS 2 builds them with it (docs/ros2.md).
+# Packages for ROS 2, as sources: users of ROS 2 build them with colcon (docs/ros2.md).
 install(DIRECTORY ros2 DESTINATION ${CMAKE_INSTALL_DATADIR}/skein COMPONENT dev USE_SOURCE_PERMISSIONS
   PATTERN generate_messages.py EXCLUDE PATTERN __pycache__ EXCLUDE)
 install(FILES uav_agent/testing/planner_contract_test.cpp uav_agent/testing/test_lidar.cpp

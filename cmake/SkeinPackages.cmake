@@ -1,18 +1,18 @@
-# Debian packages of the components, for Debian 12: `cpack` in the build folder writes skein, skein-agent and skein-dev,
-# what debuggers want of the first two, skein-dbgsym and skein-agent-dbgsym, the code that they show, skein-source, and
-# python3-skein.
-# What the programs need of Debian is read from them (dpkg-shlibdeps), so they have to be built on Debian 12.
+# Debian packages of the components, for Debian 12: `cpack` in the build folder writes skein, skein-agent and skein-dev;
+# skein-dbgsym and skein-agent-dbgsym, the debug symbols of the first two; skein-source, the code that debuggers show;
+# and python3-skein.
+# dpkg-shlibdeps derives the dependencies of the programs from the programs, so they must be built on Debian 12.
 set(CPACK_GENERATOR DEB)
 set(CPACK_COMPONENTS_ALL agent runtime dev source python)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
-set(CPACK_STRIP_FILES OFF)  # what has a -dbgsym is stripped when that is made; archives keep their lines
+set(CPACK_STRIP_FILES OFF)  # CPack strips the components with a -dbgsym package; static libraries keep their symbols
 set(CPACK_DEBIAN_AGENT_DEBUGINFO_PACKAGE ON)
 set(CPACK_DEBIAN_RUNTIME_DEBUGINFO_PACKAGE ON)
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_RECOMMENDS binutils)  # addr2line, for the names in the backtrace of a crash
 set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
   OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
-set(SKEIN_MAINTAINER "Skein maintainers <maintainers@skein.invalid>" CACHE STRING "Of the Debian packages")
+set(SKEIN_MAINTAINER "Skein maintainers <maintainers@skein.invalid>" CACHE STRING "Maintainer of the Debian packages")
 set(CPACK_PACKAGE_CONTACT ${SKEIN_MAINTAINER})
 set(CPACK_PACKAGE_VENDOR Skein)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
@@ -33,7 +33,7 @@ small container images.")
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_NAME skein)
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_RUNTIME_PACKAGE_PROVIDES "skein-agent (= ${PROJECT_VERSION})")  # it has all that is in there
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_PROVIDES "skein-agent (= ${PROJECT_VERSION})")  # it has all its files
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_CONFLICTS skein-agent)
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_REPLACES skein-agent)
 set(CPACK_COMPONENT_RUNTIME_DESCRIPTION "distributed simulator of inspection UAVs
@@ -42,7 +42,7 @@ ${about}
 This package is all that flies: the launcher, the simulation server, the
 radio's router, the ground station and the UAVs' on-board software.")
 
-# As ./skein has them for the build, without what only Skein's own build needs.
+# The packages that ./skein installs for a build, without those that only Skein's own build needs.
 set(CPACK_DEBIAN_DEV_PACKAGE_NAME skein-dev)
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
 string(JOIN ", " CPACK_DEBIAN_DEV_PACKAGE_DEPENDS
@@ -67,7 +67,7 @@ skein-agent-dbgsym. Nothing is built from it.")
 
 set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-skein)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
-# In an agent's image nothing but the agent is wanted, for planners in Python.
+# The image of an agent with planners in Python has skein-agent, not skein.
 string(JOIN ", " CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
   "skein (= ${PROJECT_VERSION}) | skein-agent (= ${PROJECT_VERSION})"
   "python3 (>= 3.11)" "python3 (<< 3.12)" python3-numpy)

@@ -1,5 +1,5 @@
-# The Python that tests and packages are made for, in SKEIN_PYTHON: Debian's, which has Debian's packages. What is
-# python3 in PATH may be another one.
+# Sets SKEIN_PYTHON to the Python for which tests and packages are made: Debian's, because that one has Debian's
+# packages. The python3 in PATH may be another one.
 set(modules numpy pandas matplotlib pytest)
 list(JOIN modules "," imports)
 find_program(SKEIN_PYTHON_IN_PATH python3)

@@ -1,7 +1,7 @@
-# Run by `cmake --install` and cpack: whether the script that makes reports interactive is there. Where it is missing or
-# older than its sources, npm builds it, after a build that ./skein has under way. Without it nothing is installed,
-# unless SKEIN_WITHOUT_WEB=1 in the environment asks for that: reports that are not interactive must be a decision.
-# SKEIN_ROOT: the source tree.
+# `cmake --install` and cpack run this file. It checks that the script which makes reports interactive exists. If the
+# script is missing or older than its sources, npm builds it, after any build of it by ./skein has ended. Without the
+# script, the installation fails, unless SKEIN_WITHOUT_WEB=1 is in the environment: a user must decide to have static
+# reports. SKEIN_ROOT: the source tree.
 set(bundle ${SKEIN_ROOT}/build/web/report.js)
 if("$ENV{SKEIN_WITHOUT_WEB}")
   if(NOT EXISTS ${bundle})
@@ -14,7 +14,7 @@ file(GLOB_RECURSE sources ${SKEIN_ROOT}/web/src/*)
 list(APPEND sources ${SKEIN_ROOT}/web/package-lock.json)
 set(wanted OFF)
 foreach(source ${sources})
-  if(${source} IS_NEWER_THAN ${bundle})  # true where there is no bundle, too
+  if(${source} IS_NEWER_THAN ${bundle})  # also true if there is no bundle
     set(wanted ON)
   endif()
 endforeach()

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Writes the messages of the ROS 2 package skein_msgs from Skein's IDL, one file a message.
+"""Writes the messages of the ROS 2 package skein_msgs from Skein's IDL, one file per message.
 
     generate_messages.py [--check]        --check: writes nothing; exit code 1 if a file is not as it would be written
 
-idl/skein_msgs.idl is the one source; the files in skein_msgs/msg are checked in, so that a workspace with ROS 2 alone
+idl/skein_msgs.idl is the only source; the files in skein_msgs/msg are checked in, so that a workspace with ROS 2 alone
 builds the package. tests/ros2 checks that they are current.
 """
 import os
@@ -38,7 +38,7 @@ def field_line(line):
 
 
 def messages(text):
-    """{name: .msg text} of the IDL's structs, with the comments that stand right before a struct and in it."""
+    """{name: .msg text} of the IDL's structs, with the comments immediately before a struct and within it."""
     result, comment, fields, name = {}, [], None, None
     for line in text.splitlines():
         bare = line.strip()

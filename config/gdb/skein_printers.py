@@ -1,4 +1,4 @@
-"""What gdb shows of Eigen's vectors, matrices and quaternions, and of Skein's ids, in a line instead of a screenful.
+"""Printers for gdb: show Eigen's vectors, matrices and quaternions, and Skein's ids, in one line.
 
 Loaded by `skein run --debug UAV=gdb` and `skein attach`; by hand: (gdb) source config/gdb/skein_printers.py
 """
@@ -7,11 +7,11 @@ import os
 import gdb
 import gdb.printing
 
-MOST_NUMBERS = 64  # of a matrix
+MOST_NUMBERS = 64  # greatest number of elements of a matrix that are shown
 
 
 def number(value):
-    """Shortest text that tells a number from others, as far as eyes go."""
+    """A number as text, with six significant digits."""
     if value.type.strip_typedefs().code == gdb.TYPE_CODE_FLT:
         return "%.6g" % float(value)
     return str(value)
@@ -32,7 +32,7 @@ class Dense:
         self.cols = int(storage["m_cols"]) if "m_cols" in members else sizes[1]
         data = storage["m_data"]
         pointer = data.type.strip_typedefs().code == gdb.TYPE_CODE_PTR
-        self.data = data if pointer else data["array"]  # no pointer to it: what a function returned has no address
+        self.data = data if pointer else data["array"]  # a value that a function returned has no address
 
     def at(self, row, col):
         return number(self.data[row * self.cols + col if self.row_major else col * self.rows + row])

@@ -76,7 +76,7 @@ def quaternion(roll, pitch, yaw):
 
 
 def single(value):
-    """The nearest number of single precision."""
+    """The nearest single-precision number."""
     mantissa, exponent = math.frexp(value)
     return math.ldexp(round(mantissa * 2**24), exponent - 24)
 
@@ -112,7 +112,7 @@ def capture(rng):
     R_WB = product(product(turn(2, yaw), turn(1, pitch)), turn(0, roll))
     R_WC = product(product(turn(2, yaw), turn(2, a)), turn(1, b))  # the gimbal removes roll and pitch
     p_WC = add(p_WB, apply(R_WB, offset))
-    # Mostly in the picture, sometimes beside, above or behind it.
+    # The point is mostly in the picture, sometimes beside it, above it or behind the camera.
     beyond = 1.0 if rng.random() < 0.8 else 2.0
     depth = rng.uniform(0.5, 15.0) * (1 if rng.random() < 0.95 else -1)
     aim = [depth, abs(depth) * math.tan(half_h) * rng.uniform(-beyond, beyond),
@@ -138,7 +138,7 @@ def capture(rng):
     if not in_fov:
         return row
 
-    # Blur: where the point is when the shutter closes.
+    # Blur: from the position of the point when the shutter closes.
     v_WC = apply(R_WB, add(v_B, cross(w_B, offset)))
     yaw_rate = (math.sin(roll) * w_B[1] + math.cos(roll) * w_B[2]) / math.cos(pitch)
     omega_W = add([0.0, 0.0, yaw_rate + a_rate], scale(b_rate, apply(turn(2, yaw + a), [0.0, 1.0, 0.0])))
@@ -151,7 +151,7 @@ def capture(rng):
     most = max(row["pixel_move_u"], row["pixel_move_v"])
     row["q_blur"] = 1.0 if most == 0.0 else min(1.0, 1.0 / most)
 
-    # Resolution: a millimetre of the surface on the sensor.
+    # Resolution: from the size of a millimetre of the surface on the sensor.
     m = apply(transposed(R_WC), n_W)
     m = scale(1 / norm(m), m)
     steps = [scale(0.0005, [-m[2], 0.0, m[0]]), scale(0.0005, [-m[1], m[0], 0.0])]
@@ -206,8 +206,8 @@ TICK = 1 / 20
 LIMITS_DEG = {"pitch": 80.0, "yaw": 90.0}
 RATE_LIMIT_DEG_S = 60.0
 LAPSES_AFTER = 2  # ticks without a rate command
-DEGREE = 0.01745329251  # as the reference has it
-STILL = 1e-9  # rates below it are none, or differ from none by rounding
+DEGREE = 0.01745329251  # rad; the rounded value of the reference
+STILL = 1e-9  # rad/s; a smaller rate is 0 up to rounding
 
 
 def clamp(value, limit):
@@ -227,12 +227,12 @@ def gimbal_sequence(rng, number):
         if tick == 0 or rng.random() < (0.04 if pushes else 0.15):
             modes = (1, 1, -1, -1, 0)
             if any(0 < abs(r) < STILL for r in rate.values()) or mode == 1:
-                modes = (1, -1)  # whether a rate is none would be rounding's choice
+                modes = (1, -1)  # whether the rate is exactly 0 would depend on rounding
             mode, age, held = rng.choice(modes), 0, None
             most = {1: 3.0, -1: 2.0, 0: 0.0}[mode]
             command = {axis: rng.uniform(-most, most) for axis in angle}
         elif mode == -1 and pushes:
-            age = 0  # the same rate again and again, into the stop
+            age = 0  # the same rate in each tick, until the gimbal reaches its limit
         before = dict(angle)
         if mode == -1 and age > LAPSES_AFTER and held is None:
             held = dict(angle)

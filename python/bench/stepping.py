@@ -95,7 +95,7 @@ def copying(scenario: str, at_s: float, count: int, figures: Figures) -> None:
             used += time.process_time() + cpu_s(pid) + cpu_s(pid_of(copy))
             process = Path(f"/proc/{pid_of(copy)}")
             copy.close()
-            while process.exists():  # it frees its memory on the same core, which takes longer than the copy
+            while process.exists():  # freeing its memory on the same core takes longer than the copy
                 time.sleep(0.001)
             figures[f"copy_{scenario}_clock_ms"].append(1e3 * clock)
             figures[f"copy_{scenario}_cpu_ms"].append(1e3 * used)
@@ -116,7 +116,7 @@ def main() -> None:
     parser.add_argument("--copied", default="towers", help="scenarios, with commas; files are those of SKEIN_ASSETS")
     parser.add_argument("--json", help="file for the figures, instead of stdout")
     options = parser.parse_args()
-    os.sched_setaffinity(0, {min(os.sched_getaffinity(0))})  # one core, for all of it
+    os.sched_setaffinity(0, {min(os.sched_getaffinity(0))})  # all processes share one core
     figures: Figures = defaultdict(list)
     for i in range(options.repeat):
         say(f"steps, {i + 1} of {options.repeat}")

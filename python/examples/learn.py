@@ -80,7 +80,7 @@ def learn(size: Size, jobs: int, seed: int) -> dict[str, Any]:
     learning = []
     for generation in range(size.generations):
         half = random.normal(size=(size.population // 2, len(mean)))
-        drawn = mean + spread * np.concatenate([half, -half])  # in pairs, which cancels noise
+        drawn = mean + spread * np.concatenate([half, -half])  # in pairs, which reduces noise
         result = scores(list(drawn), size.learning, size.duration_s, jobs)
         # Ranks within each scene, so that a scene with many points has no more influence than others.
         ranks = result.argsort(axis=0).argsort(axis=0).mean(axis=1)

@@ -1,6 +1,6 @@
-"""What the tests share: the package of this checkout, short flights, and pictures that nobody looks at.
+"""Code that the tests share: the import of this checkout's package, short flights, and plots without a window.
 
-The launcher is the one that SKEIN names, as CTest sets it, else this checkout's.
+The launcher is the one that the variable SKEIN names, which CTest sets, else this checkout's.
 """
 
 from __future__ import annotations
@@ -21,6 +21,16 @@ sys.path.insert(0, str(ROOT / "python"))
 import skein  # noqa: E402
 
 
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    """Keeps every SKEIN_TURNS-th test, a different share at each commit (SKEIN_TURN; without it all run)."""
+    turn, turns = os.environ.get("SKEIN_TURN"), int(os.environ.get("SKEIN_TURNS", "1"))
+    if turn is None:
+        return
+    left_out = [item for number, item in enumerate(items) if (number + int(turn)) % turns]
+    items[:] = [item for number, item in enumerate(items) if (number + int(turn)) % turns == 0]
+    config.hook.pytest_deselected(items=left_out)
+
+
 @pytest.fixture(scope="session")
 def root() -> Path:
     return ROOT
@@ -28,7 +38,7 @@ def root() -> Path:
 
 @pytest.fixture(scope="session")
 def faults(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Links that lose messages, and a UAV that is cut off."""
+    """A fault file: links that lose messages, and a UAV without radio for a time."""
     file = tmp_path_factory.mktemp("faults") / "faults.yaml"
     file.write_text("faults:\n"
                     "  - {at_s: 0, until_s: 45, link: {loss: 0.3}}\n"
@@ -45,14 +55,14 @@ def flown(tmp_path_factory: pytest.TempPathFactory, faults: Path) -> skein.Run:
 
 @pytest.fixture(scope="session")
 def study(tmp_path_factory: pytest.TempPathFactory) -> skein.Study:
-    """Two planners, five seeds: enough for an interval."""
+    """A study of two planners with five seeds, which suffice for an interval."""
     return skein.compare(["patrol", "kios:voxel_m=4,lanes=3"], seeds=range(5), duration=3,
                          out=tmp_path_factory.mktemp("flown") / "study")
 
 
 @pytest.fixture(scope="session", autouse=True)
 def _leave_nothing(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
-    """Flights take room; what a test that failed has flown stays."""
+    """Deletes all results after the tests, because they need much space; after a failure they stay."""
     yield
     if not request.session.testsfailed:
         shutil.rmtree(tmp_path_factory.getbasetemp(), ignore_errors=True)

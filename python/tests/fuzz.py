@@ -1,5 +1,5 @@
-"""Draws wrong values, wrong orders of calls, interrupts and copies of the interpreter, and asks the package's classes
-to live with them. test_fuzz.py runs it: a crash of the interpreter is a crash of this program.
+"""Calls the package's classes with random wrong values, in wrong orders, with interrupts and in copies of the
+interpreter. test_fuzz.py starts this program, because a crash of the interpreter would end the tests.
 
     python3 fuzz.py fleet|interrupts|results|programs SEED
 """
@@ -23,8 +23,8 @@ import skein
 from skein import client
 
 UAV = "jurong"
-# What may be said of wrong input: exceptions of the package, Python's own for a call that does not fit the function,
-# and KeyError for a name that a table does not have.
+# Permitted exceptions for wrong input: those of the package, TypeError for arguments that do not fit the function, and
+# KeyError for an unknown name.
 REFUSALS = (skein.Error, KeyError, TypeError)
 
 
@@ -34,7 +34,7 @@ class Draw:
         self.refused = self.taken = 0
 
     def value(self, depth: int = 0) -> Any:
-        """Anything but what is right."""
+        """A random value, which is almost never a valid argument."""
         draw = self.random
         shape = tuple(draw.randrange(5) for _ in range(draw.randrange(4)))
         plain: list[Callable[[], Any]] = [
@@ -52,7 +52,7 @@ class Draw:
         return draw.choice(plain)()
 
     def ask(self, what: Callable[..., Any], *arguments: Any, **named: Any) -> None:
-        """Either it is taken, or it is refused with a message."""
+        """Calls a function, which must accept the arguments or refuse them with a message."""
         try:
             what(*arguments, **named)
             self.taken += 1
@@ -69,7 +69,7 @@ def action(draw: Draw) -> Any:
 
 
 def fuzz_fleet(draw: Draw) -> None:
-    """Wrong calls, drawn: the fleet stays as it is, so that its twin, which hears none of them, flies the same."""
+    """Random wrong calls do not change a fleet: its twin, which receives none of them, flies identically."""
     options: Any = {"learners": [UAV], "duration": 30, "no_check": True}
     fleet, twin = skein.Fleet("towers", **options), skein.Fleet("towers", **options)
     fleet.reset(seed=3)
@@ -109,7 +109,7 @@ def fuzz_fleet(draw: Draw) -> None:
 
 
 def wrong_step(draw: Draw, fleet: skein.Fleet) -> None:
-    """One that cannot be taken: its actions or its length are wrong."""
+    """Calls `step()` with wrong actions, or with a wrong duration."""
     value = draw.value()
     if value is None or isinstance(value, dict):
         value = [value]
@@ -125,7 +125,7 @@ def wrong_reset(draw: Draw, fleet: skein.Fleet) -> None:
 
 
 def in_a_copy(fleet: skein.Fleet) -> int:
-    """What a copy of the interpreter ends with: 0 if each call was refused. This one's fleet flies on."""
+    """Uses the fleet in a copy of the interpreter. Returns the copy's exit code: 0 if each call was refused."""
     child = os.fork()
     if child == 0:
         code = 0
@@ -142,7 +142,7 @@ def in_a_copy(fleet: skein.Fleet) -> int:
 
 
 class Interrupts:
-    """Ctrl-C at a drawn line of the package."""
+    """Raises SIGINT at a chosen line of the package's code."""
 
     def __init__(self, draw: Draw) -> None:
         self._draw, self._left, self.lines = draw, 0, 0
@@ -150,7 +150,7 @@ class Interrupts:
 
     @contextlib.contextmanager
     def at_line(self, number: int) -> Iterator[None]:
-        """Of those that are run within; 0: never."""
+        """Raises it at the `number`-th line that is executed within the context; 0: never. Counts the lines."""
         self._left, self.lines = number, 0
         sys.settrace(self._trace)
         try:
@@ -170,8 +170,8 @@ class Interrupts:
 
 
 def fuzz_interrupts(draw: Draw) -> None:
-    """After an interrupt, wherever it strikes, a fleet that still stands goes on step by step, and any flies right
-    after reset()."""
+    """After an interrupt at any line, a fleet that has not ended still flies step by step; and each fleet flies as
+    usual after reset()."""
     interrupts, struck, stood = Interrupts(draw), 0, 0
     up = {UAV: {"velocity": (0.3, 0, 1)}}
     with skein.Fleet("towers", learners=[UAV], duration=30, no_check=True) as fleet:
@@ -210,7 +210,7 @@ def fuzz_interrupts(draw: Draw) -> None:
 
 
 def fuzz_results(draw: Draw) -> None:
-    """Folders of runs and studies whose files hold anything, and names of anything in them."""
+    """Reads folders of runs and studies whose files have random contents, with random names of tables."""
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder)
         keys = ["scenario", "planner", "seed", "status", "score", "digest", "uavs", "losses", "sim_time_s"]
@@ -239,7 +239,7 @@ def fuzz_results(draw: Draw) -> None:
 
 
 def fuzz_programs(draw: Draw) -> None:
-    """Messages, clients and listeners of anything."""
+    """Makes messages, clients and listeners from random values."""
     types = ["nav_msgs/msg/Odometry", "std_msgs/msg/String", "skein_msgs/msg/Step", "x/msg/Y"]
     for _ in range(400):
         value = draw.value()

@@ -1,4 +1,4 @@
-"""Processes that work in a folder, and waiting for their ends without a clock."""
+"""Finds the processes whose working folder is in a folder, and waits for their ends without a clock."""
 
 from __future__ import annotations
 
@@ -10,19 +10,19 @@ PATIENCE_S = 120
 
 
 def processes_in(folder: Path) -> dict[int, str]:
-    """By id, what each is called."""
+    """Names of the processes, by id."""
     found = {}
     for entry in Path("/proc").iterdir():
         try:
             if entry.name.isdigit() and Path(os.readlink(entry / "cwd")).is_relative_to(folder):
                 found[int(entry.name)] = (entry / "comm").read_text().strip()
-        except OSError:  # it has ended, or is somebody else's
+        except OSError:  # the process has ended, or belongs to another user
             continue
     return found
 
 
 class Watch:
-    """Of the processes that are there now."""
+    """Watches the processes that exist now."""
 
     def __init__(self, folder: Path) -> None:
         self.names: list[str] = []
@@ -35,7 +35,7 @@ class Watch:
                 continue
 
     def still_there_after_waiting(self) -> list[str]:
-        """Names of those that do not end."""
+        """Waits for the ends of all processes. Returns the names of those that do not end."""
         left = []
         for descriptor, name in self._descriptors.items():
             poll = select.poll()

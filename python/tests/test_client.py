@@ -13,7 +13,7 @@ import pytest
 
 import skein
 
-#: Asks for all that a step has, says all that may be said, and insists that messages are written as they came.
+#: A program that reads all inputs of a step, sends all kinds of messages, and checks that encoding reverses decoding.
 CURIOUS = '''
 import random
 import numpy as np
@@ -89,7 +89,7 @@ def test_it_hears_and_says_everything_the_same_under_both_vendors_and_under_chao
 
 
 def of_the_page(root: Path, name: str) -> str:
-    """A program of docs/how-to-python.md."""
+    """The text of a program in docs/how-to-python.md."""
     page = (root / "docs/how-to-python.md").read_text()
     return page.split(f"```python {name}\n")[1].split("```")[0]
 
@@ -114,7 +114,7 @@ def test_nobody_notices_a_listener(root: Path, tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("fault", ["kill", "pause"])
 def test_killed_or_stopped_it_comes_back_and_loses_no_capture(root: Path, tmp_path: Path, fault: str) -> None:
-    """The station does not hear it until after the fault: all that it has by then is delivered later."""
+    """The UAV has no link until after the fault, so it delivers all its captures afterwards."""
     faults = tmp_path / "faults.yaml"
     faults.write_text("faults:\n  - {at_s: 0, until_s: 26, blackout: jurong}\n"
                       f"  - {{at_s: 22, for_s: 2, {fault}: jurong}}\n")
@@ -207,7 +207,7 @@ def test_it_is_typed(root: Path, tmp_path: Path) -> None:
 
 
 def test_what_is_kept_of_a_run_is_as_the_launcher_says(tmp_path: Path) -> None:
-    """The number of the run decides who is heard: a program of another run is not let in, and says so."""
+    """A program with the number of another run does not become a member, and its log says so."""
     code = ("import os\nos.environ['SKEIN_RUN'] = '12345'\nfrom skein.client import Client\n"
             "with Client() as uav:\n    for step in uav:\n        print('let in')\n")
     with pytest.raises(skein.ProcessError):

@@ -1,4 +1,4 @@
-"""What cannot be is told, and never crashes the interpreter: messages from random bytes, wrong arguments, misuse."""
+"""Wrong input raises an exception and never crashes the interpreter: random bytes, wrong arguments, misuse."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ ODD = [None, True, -1, 2**70, 1e300, float("nan"), "text", "a\0b", b"bytes", [],
 
 
 def filled(of: type[Message], draw: random.Random, depth: int = 0) -> Message:
-    """A message with drawn values in all fields."""
+    """A message with random values in all fields."""
     message = of()
     for field in of.FIELDS:
         def one() -> Any:
@@ -227,7 +227,7 @@ def test_misuse_is_an_exception() -> None:
         listener.hear(0.0)
 
 
-#: Tries what cannot be said, in flight, and then flies as if nothing had been.
+#: A program that makes wrong calls in flight, which must not change its flight.
 NASTY = '''
 import random, numpy as np
 import skein

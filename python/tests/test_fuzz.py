@@ -1,4 +1,4 @@
-"""Wrong values, orders of calls, interrupts and copies, drawn anew in each run: never a crash of the interpreter."""
+"""Random wrong values, orders of calls, interrupts and copies, different in each run, never crash the interpreter."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-# A failure names its seed; SKEIN_FUZZ_SEED draws the same again.
+# A failure names its seed; with this seed in SKEIN_FUZZ_SEED, the tests draw the same values.
 SEED = int(os.environ.get("SKEIN_FUZZ_SEED") or random.SystemRandom().randrange(1 << 32))
 
 

@@ -1,4 +1,4 @@
-"""Rules of the house for Python, beside those of tests/layers."""
+"""Rules for the project's Python code, in addition to those of tests/layers."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ def test_the_package_needs_nothing_but_numpy_to_be_imported(root: Path) -> None:
     for file in sources(root):
         if root / "python" / "skein" not in file.parents:
             continue
-        for node in ast.parse(file.read_text()).body:  # not within functions
+        for node in ast.parse(file.read_text()).body:  # imports within functions are allowed
             names = [alias.name for alias in node.names] if isinstance(node, ast.Import) else []
             if isinstance(node, ast.ImportFrom) and node.level == 0:
                 names = [node.module or ""]

@@ -1,4 +1,4 @@
-"""Ctrl-C, and the end of the program that flies: no orphan stays, and what was flown is there."""
+"""After Ctrl-C, or the end of the program that flies a fleet, no process remains, and the results so far are there."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ except KeyboardInterrupt as interrupt:
 
 
 def start(folder: Path, options: str = "") -> subprocess.Popen[str]:
-    """A Python program that flies in `folder`, in a session of its own, once its fleet flies."""
+    """Starts a Python program that flies a fleet in `folder`, in a session of its own. Returns when the fleet flies."""
     code = _FLIGHT.format(package=str(Path(skein.__file__).parents[1]), options=options)
     child = subprocess.Popen([sys.executable, "-c", code], cwd=folder, text=True, start_new_session=True,
                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, stdin=subprocess.DEVNULL)
@@ -44,7 +44,7 @@ def start(folder: Path, options: str = "") -> subprocess.Popen[str]:
 def test_an_interrupt_ends_the_fleet_and_keeps_the_result(tmp_path: Path, how: str, options: str) -> None:
     child = start(tmp_path, options)
     assert len(processes_in(tmp_path)) > (2 if options else 7)
-    # A terminal sends it to all of its foreground group, a notebook to the interpreter.
+    # A terminal sends SIGINT to its whole foreground process group, a notebook only to the interpreter.
     os.killpg(child.pid, signal.SIGINT) if how == "terminal" else child.send_signal(signal.SIGINT)
     out, _ = child.communicate(timeout=PATIENCE_S)
     assert child.returncode == 5
@@ -69,7 +69,7 @@ def test_an_exception_of_the_users_own_ends_the_fleet(tmp_path: Path, monkeypatc
         pass
 
     class Stream:
-        """Of a user who has seen enough of what the launcher says."""
+        """A user's stream that raises an exception during the flight."""
 
         def write(self, text: str) -> None:
             if "simulated" in text:
@@ -114,7 +114,7 @@ def test_ctrl_c_while_the_launcher_starts_reaches_it(tmp_path: Path, monkeypatch
     def interrupted_popen(*words: Any, **options: Any) -> Any:
         child = popen(*words, **options)
         children.append(child)
-        os.kill(os.getpid(), signal.SIGINT)  # before the caller knows of the child
+        os.kill(os.getpid(), signal.SIGINT)  # before the caller has the child
         return child
 
     monkeypatch.setattr(subprocess, "Popen", interrupted_popen)

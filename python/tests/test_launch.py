@@ -1,4 +1,4 @@
-"""Keyword options as words of the command line, which launcher is taken, and what its exit codes become."""
+"""Keyword arguments become words of the command line; which launcher is used; exit codes become exceptions."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from skein.launch import option_arguments
 
 
 def launcher_that(folder: Path, *lines: str) -> Path:
-    """A program in the place of the launcher."""
+    """Writes a shell script that replaces the launcher."""
     file = folder / "launcher"
     file.write_text("#!/bin/sh\n" + "\n".join(lines) + "\n")
     file.chmod(0o755)

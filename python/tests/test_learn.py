@@ -1,4 +1,4 @@
-"""The example that learns: what its small size finds is valid, and the same each time."""
+"""The learning example in its small size: its result is valid, and the same in each run."""
 
 from __future__ import annotations
 

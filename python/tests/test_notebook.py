@@ -1,4 +1,4 @@
-"""Notebooks of python/examples are executed: their cells, in order, in one interpreter, without Jupyter."""
+"""Executes the notebooks in python/examples: all cells in order, in one interpreter, without Jupyter."""
 
 from __future__ import annotations
 

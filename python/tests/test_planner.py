@@ -1,4 +1,4 @@
-"""Planners in Python in flight: as those in C++, in one process and over DDS, killed, replayed, and wrong."""
+"""Planners in Python in flight, compared with planners in C++: in one process and over DDS, killed, replayed, wrong."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ import skein
 from skein.testing import PlannerContract
 
 HOVER = "py:python/examples/hover.py"
-#: Uses both generators, a set's order and a module of its own; says by radio what it drew.
+#: A planner that uses both random generators, the order of a set and an own module, and sends its numbers by radio.
 WANDERER = '''
 import random
 import numpy as np
@@ -88,7 +88,7 @@ def test_what_flew_is_kept_and_flown_again(tmp_path: Path, wanderer: str) -> Non
     assert said.returncode == 0 and "has changed since that run" in said.stderr, said.stdout + said.stderr
 
 
-#: Compares what it is told of its peers with what it sees of them. @IDEAL@: whether there are no conditions.
+#: A planner that compares the fields of its peers with each other. @IDEAL@: whether the run has no conditions.
 OBSERVER = '''
 import numpy as np
 from skein.planner import *
@@ -129,7 +129,7 @@ def test_peers_tell_how_far_they_are_to_be_trusted(tmp_path: Path, conditions: s
 
 
 def test_another_seed_of_hashes_is_found_out(tmp_path: Path) -> None:
-    """The order of a set of texts decides: check-planner names step, UAV and field."""
+    """A planner depends on the order of a set of texts: check-planner names step, UAV and field of the difference."""
     (tmp_path / "sets.py").write_text(
         "from skein.planner import *\n"
         "class Sets(Planner):\n"
@@ -227,7 +227,7 @@ def test_the_interface_is_typed(root: Path, tmp_path: Path) -> None:
 
 
 class TestHover(PlannerContract):
-    """The contract holds of a planner that can do little wrong; short, for it is about the contract."""
+    """A simple planner fulfils the contract. Missions are short, because this tests the contract, not the planner."""
 
     planner = HOVER
     duration_s = 10.0

@@ -1,4 +1,4 @@
-"""Plots: what they show is what the tables say, and their files are the same each time."""
+"""Plots show the contents of the tables, and their files are the same each time."""
 
 from __future__ import annotations
 
@@ -123,7 +123,7 @@ def test_the_parts_of_a_loss_add_up(flown: skein.Run) -> None:
     assert [bar.get_x() for bar in bars] == pytest.approx([sum(parts[:i]) for i in range(len(parts))])
     assert parts[0] == pytest.approx(flown.score)
     assert sum(parts[1:]) == pytest.approx(sum(size for size in lost.values() if size > 0.0))
-    # The line, which is nearer by what is above the estimate.
+    # The line is at the attainable score, which is less than the sum of the bars if points scored above the estimate.
     assert ax.get_lines()[0].get_xdata()[0] == pytest.approx(flown.result["attainable"]["score"])
     shown = {text.get_text() for text in ax.get_legend().get_texts()}
     assert len(shown) == 1 + sum(size > 0.0 for size in lost.values())
@@ -178,7 +178,7 @@ def test_words_and_colours_are_those_of_the_report(root: Path) -> None:
 @pytest.mark.parametrize("draw", [plots.score, plots.activity, plots.links, plots.links_over_time],
                          ids=lambda draw: draw.__name__)
 def test_an_aborted_run_is_drawn(flown: skein.Run, tmp_path: Path, draw: Any, sim_time_s: str) -> None:
-    for file in flown.path.glob("*.csv"):  # they have no row
+    for file in flown.path.glob("*.csv"):  # tables without rows
         (tmp_path / file.name).write_text(file.read_text().splitlines()[0] + "\n")
     result = json.loads((flown.path / "result.json").read_text())
     del result["checksum"]
@@ -195,7 +195,7 @@ def test_an_aborted_run_is_drawn(flown: skein.Run, tmp_path: Path, draw: Any, si
 def test_a_study_without_flights_that_count_is_drawn(study: skein.Study, tmp_path: Path) -> None:
     for file in study.path.glob("*.csv"):
         lines = file.read_text().splitlines()
-        if file.name == "flights.csv":  # of the second planner there is no result
+        if file.name == "flights.csv":  # the second planner has no result
             empty = "," * (lines[0].count(",") - 4)
             lines = [lines[0], *(f"towers,kios,{seed},{empty}crashed,none" for seed in (0, 1)),
                      *(line for line in lines if ",patrol,3," in line)]

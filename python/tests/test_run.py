@@ -1,4 +1,4 @@
-"""A run's folder: what its result says, its tables together, and what is not there."""
+"""The folder of a run: its result, its tables and their consistency, and missing files."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ def test_its_tables_add_up(flown: skein.Run) -> None:
 def test_links_are_the_events_as_intervals(flown: skein.Run) -> None:
     links = flown.links
     assert (links["from_s"] <= links["to_s"]).all() and (np.diff(links["from_s"]) >= 0).all()
-    # Replayed event by event, the links that are up are those whose interval holds the time.
+    # After each event, the open links are those whose interval contains the time.
     up: set[tuple[str, str]] = set()
     changes = flown.events[np.isin(flown.events["event"], ["link_up", "link_down"])]
     assert len(np.unique(changes["time_s"])) > 2
@@ -77,7 +77,7 @@ def test_a_frame_has_the_same_rows(flown: skein.Run, name: str) -> None:
         values = frame[column].to_numpy()
         assert np.array_equal(values, array[column], equal_nan=array[column].dtype.kind == "f"), column
         assert array[column].dtype.kind != "U" or all(type(value) is str for value in values)
-    frame.iloc[:1] = frame.iloc[1:2].to_numpy()  # it is the caller's own
+    frame.iloc[:1] = frame.iloc[1:2].to_numpy()  # the frame is a copy
     assert not array.flags.writeable
 
 

@@ -1,4 +1,4 @@
-"""Fleets that are stepped: the interfaces clause by clause, digests, and what learners are told."""
+"""Stepped fleets: the clauses of both interfaces, digests, and observations of learners."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ def drawn_action(random: np.random.Generator) -> dict[str, Any]:
 
 
 def fly(fleet: skein.Fleet, random: np.random.Generator, until_s: float) -> None:
-    """Drawn actions, in steps of drawn length."""
+    """Flies with random actions, in steps of random length."""
     while not fleet.over and (left := round(min(until_s - fleet.truth.time_s, 1e6) / 0.05)) > 0:
         fleet.step({uav: drawn_action(random) for uav in fleet.agents},
                    step_s=0.05 * min(left, int(random.integers(1, 12))))
@@ -32,7 +32,7 @@ def same(a: Any, b: Any) -> bool:
 
 @pytest.fixture(scope="module")
 def fleet() -> Iterator[skein.Fleet]:
-    """Whoever needs another flight resets it."""
+    """A fleet that several tests use. A test that needs a new mission calls reset()."""
     with skein.Fleet("towers", planner="patrol", seed=3, learners=LEARNERS, stop_at=6, step_s=0.1) as made:
         yield made
 
@@ -107,7 +107,7 @@ def test_whoever_collides_terminates_and_the_others_go_on() -> None:
             fleet.step({"jurong": up, "sentosa": up})
         here, there = fleet.truth.position[[0, fleet.uavs.index("sentosa")]]
         gone: dict[str, bool] = {}
-        # Towards the other one, in the world's frame turned into the heading, which is 0.
+        # Flies towards the other UAV. The heading is 0, so the velocity in W is the one that the action needs.
         while fleet.agents and not fleet.over and not gone.get("jurong"):
             here, there = fleet.truth.position[[0, fleet.uavs.index("sentosa")]]
             way = there - here

@@ -1,4 +1,4 @@
-"""Processes of fleets that are stepped: copies, crashes, input that is wrong, and what is left behind."""
+"""Processes of stepped fleets: copies, crashes, wrong input, and processes that remain."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ HERE = Path(__file__).parent
 
 
 def workers() -> dict[int, str]:
-    """Processes below this one, by id."""
+    """All descendants of this process, by id."""
     parents = {}
     for entry in Path("/proc").iterdir():
         if entry.name.isdigit():
@@ -65,7 +65,7 @@ def test_a_copy_flies_as_the_one_that_it_was_copied_from(planner: str, seed: int
         fly(fleet, random, float(random.uniform(2, 8)))
         with fleet.fork() as copy:
             assert pid_of(copy) != pid_of(fleet) and copy.truth.step == fleet.truth.step
-            with copy.fork() as other:  # flies something else, and disturbs nobody
+            with copy.fork() as other:  # it flies differently, which does not affect the others
                 fly(other, np.random.default_rng(99), copy.truth.time_s + 2)
                 until_s = copy.truth.time_s + 3
                 fly(copy, np.random.default_rng(seed), until_s)
@@ -185,8 +185,8 @@ def test_nothing_is_left_behind() -> None:
     started = set(workers()) - before
     assert len(started) >= 3
     fleet.close()
-    fleet.close()  # once more does nothing
-    del copy  # forgotten, not closed
+    fleet.close()  # a second call does nothing
+    del copy  # deleted without close()
     gc.collect()
     for pid in started:
         wait_for_end(pid)
@@ -225,7 +225,7 @@ copies = [fleet.fork(), fleet.fork()]
 
 
 def started(folder: Path, then: str) -> subprocess.Popen[str]:
-    """A program that works in a folder, so that its processes are found there; it has said a line."""
+    """Starts a program with the working folder `folder`, by which its processes are found. Returns when it is ready."""
     child = subprocess.Popen([sys.executable, "-c", SCRIPT.format(package=str(HERE.parent), then=then)], cwd=folder,
                              stdout=subprocess.PIPE, stdin=subprocess.PIPE, text=True, stderr=subprocess.STDOUT)
     assert child.stdout is not None and child.stdout.readline() == "ready\n"
@@ -272,7 +272,7 @@ def test_a_copy_of_the_interpreter_has_no_fleet() -> None:
             except skein.InputError as error:
                 said = str(error)
             os.write(write, said.encode())
-            os.read(hold_read, 1)  # it outlives the fleet
+            os.read(hold_read, 1)  # the copy lives longer than the fleet
             os._exit(0)
         os.close(hold_read)
         os.close(write)
@@ -314,7 +314,7 @@ def test_what_cannot_be_flown_is_refused(scenario: str, options: dict[str, Any],
 
 
 def bad_actions() -> list[tuple[dict[str, Any], str]]:
-    """Drawn: values that are none, in each part of an action."""
+    """Actions with an invalid value in one part, and the expected message; partly random."""
     random = np.random.default_rng(4)
     shapes: dict[str, tuple[int, ...]] = {"velocity": (3,), "yaw_rate": (), "gimbal_rate": (2,), "gimbal": (2,),
                                           "look_at": (3,)}

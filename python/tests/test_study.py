@@ -1,4 +1,4 @@
-"""Studies: their tables, their flights, and what the launcher computed of pairs."""
+"""Studies: their tables, their flights, and the pairs that the launcher computed."""
 
 from __future__ import annotations
 

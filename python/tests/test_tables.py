@@ -1,4 +1,4 @@
-"""Tables: the columns that the pages list, and files that are damaged."""
+"""Tables: the columns are those on the pages; damaged files are detected."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from skein.tables import read_study_table, read_table
 
 
 def documented(page: Path, file: str) -> list[tuple[str, str]]:
-    """Columns below "### FILE" of docs/results.md, with their units where the page has them."""
+    """The columns below "### FILE" on docs/results.md: names, and units if the page has a column of units."""
     section = re.search(rf"^### {re.escape(file)}\n(.*?)(?=^#)", page.read_text(), re.MULTILINE | re.DOTALL)
     assert section is not None, file
     table = re.search(r"^\| column \|.*?(?=^[^|])", section[1] + "\n", re.MULTILINE | re.DOTALL)
@@ -42,7 +42,7 @@ def test_the_page_lists_these_columns_in_this_order(root: Path, table: columns.T
     known = [(column.name, column.unit) for column in table.columns]
     if table is columns.DIGESTS:
         known[2:2] = [(f"<uav>.{field}", "") for field in columns.DIGESTS_OF_A_UAV]
-    if not any(unit for _, unit in listed):  # the page has no units here, or in words
+    if not any(unit for _, unit in listed):  # the page has no column of units for this table
         known = [(name, "") for name, _ in known]
     assert listed == known
 
@@ -63,7 +63,7 @@ def test_the_page_of_studies_lists_these_columns(root: Path) -> None:
 
 
 def plain(text: str) -> list[dict[str, str]]:
-    """Cell by cell, as slowly as can be."""
+    """A slow and simple reader, to compare with."""
     header, *rows = [line.split(",") for line in text.split("\n")[:-1]]
     assert all(len(row) == len(header) for row in rows)
     return [dict(zip(header, row)) for row in rows]
@@ -92,7 +92,7 @@ def test_an_array_says_what_the_file_says(flown: skein.Run, name: str) -> None:
 
 
 def damaged(draw: random.Random, data: bytes) -> bytes:
-    """Cut short, or with a byte changed, left out, added or repeated."""
+    """Data that are truncated, or in which bytes are changed, removed, inserted or repeated."""
     at = draw.randrange(len(data))
     kind = draw.randrange(5)
     if kind == 0:
@@ -112,7 +112,7 @@ def test_a_damaged_file_is_refused_or_read_as_it_is(flown: skein.Run, tmp_path: 
     table = columns.RUN_TABLES[name]
     shutil.copy(flown.path / "result.json", tmp_path)
     lines = (flown.path / table.file).read_bytes().splitlines(keepends=True)
-    data = b"".join(lines[: 1 + 12])  # short, so that headers and ends are hit often
+    data = b"".join(lines[: 1 + 12])  # short, so that the damage often hits the header or the end
     refused = 0
     for _ in range(400):
         hurt = damaged(draw, data)
@@ -162,7 +162,7 @@ def test_a_result_that_is_damaged_is_refused(flown: skein.Run, tmp_path: Path) -
         except skein.DamagedError as error:
             assert re.search(r"result\.json:[0-9]+: ", str(error)), error
             continue
-        # White space alone, the digits of an exponent, or the name of the checksum's own key.
+        # The damage may have changed only white space, digits of an exponent, or the name of the checksum's key.
         assert result == flown.result or "checksum" not in result
         assert result == json.loads(hurt)
     for text in ("[" * 100_000, "[]", "1", '{"checksum": "", "a": ' + "[" * 900 + "]" * 900 + "}"):

@@ -14,9 +14,10 @@ using test::Flight;
 using test::vehicle_named;
 
 /// A body without rotors, far above the ground.
-class Body {
+class SpinningBody {
  public:
-  Body(const VehicleConfig& config, const Vector3d& w_WB_B, const Vector3d& v_WB = Vector3d::Zero(), int steps = 1)
+  SpinningBody(const VehicleConfig& config, const Vector3d& w_WB_B, const Vector3d& v_WB = Vector3d::Zero(),
+               int steps = 1)
       : whole_(mass_properties(config)), steps_(steps), world_({}, kTickS / steps) {
     world_.add_uav(config, Isometry3d(Eigen::Translation3d(0, 0, kHeight)));
     world_.set_state(UavIndex{0}, {.p_WB = {0, 0, kHeight}, .v_WB = v_WB, .w_WB_B = w_WB_B});
@@ -47,7 +48,7 @@ class Body {
 TEST(RigidBody, TumblingKeepsAngularMomentumAndSpinEnergy) {
   for (const char* name : {"explorer", "photographer"}) {
     for (const Vector3d& w : {Vector3d(3, 2, -4), Vector3d(0.5, 6, 0.5), Vector3d(-1, 0.2, 9)}) {
-      Body body(vehicle_named(name), w);
+      SpinningBody body(vehicle_named(name), w);
       const Vector3d L = body.angular_momentum_W();
       const double E = body.spin_energy();
       for (int i = 0; i < 10; ++i) {
@@ -64,7 +65,7 @@ TEST(RigidBody, FreeFallTradesHeightForSpeed) {
   // The height is integrated with the speed at the end of each step: g^2 t dt / 2 per mass is lost, no more, no less.
   for (const int steps : {1, 2, 8}) {
     const VehicleConfig config = vehicle_named("photographer");
-    Body body(config, {2, -1, 3}, {4, -3, 10}, steps);
+    SpinningBody body(config, {2, -1, 3}, {4, -3, 10}, steps);
     const double E = body.total_energy(), spin = body.spin_energy();
     const Vector3d v_WBcm = body.v_WBcm();
     body.move(4.0);
@@ -76,7 +77,7 @@ TEST(RigidBody, FreeFallTradesHeightForSpeed) {
 }
 
 TEST(RigidBody, TorqueChangesAngularMomentumBySoMuch) {
-  Body body(vehicle_named("photographer"), {1, 2, 3});
+  SpinningBody body(vehicle_named("photographer"), {1, 2, 3});
   const Vector3d L = body.angular_momentum_W();
   Vector3d push = Vector3d::Zero();
   for (int i = 0; i < 200; ++i) {
@@ -91,7 +92,7 @@ TEST(RigidBody, ASymmetricTopPrecesses) {
   // Its axis circles the angular momentum; seen from the body, the rates turn at (Iz - Ix) / Ix times the spin.
   const VehicleConfig explorer = vehicle_named("explorer");  // Ix = Iy
   const double spin = 4.0, cross = 0.6;
-  Body body(explorer, {cross, 0, spin});
+  SpinningBody body(explorer, {cross, 0, spin});
   const Matrix3d inertia = mass_properties(explorer).I_BBcm_B;
   const double rate = (inertia(2, 2) / inertia(0, 0) - 1.0) * spin;
   for (int i = 1; i <= 20; ++i) {
@@ -122,7 +123,7 @@ TEST(RigidBody, AGyroscopeGivesWayAcrossThePush) {
 TEST(RigidBody, SpinsSteadilyAboutTheGreatestAndLeastInertiaOnly) {
   const VehicleConfig photographer = vehicle_named("photographer");  // Ix < Iy < Iz
   const auto axis_wanders = [&](const Vector3d& axis_B) {
-    Body body(photographer, 8.0 * axis_B + Vector3d(0.01, 0.01, 0.01));
+    SpinningBody body(photographer, 8.0 * axis_B + Vector3d(0.01, 0.01, 0.01));
     double least = 1.0;
     for (int i = 0; i < 150; ++i) {
       body.move(0.1);

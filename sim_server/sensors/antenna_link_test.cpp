@@ -18,11 +18,11 @@ auto wall_at(double x) {
   };
 }
 
-const AntennaNode kLeft{{0, 0, 5}, 0.2}, kRight{{20, 0, 5}, 0.1};
+const AntennaNode kLeftNode{{0, 0, 5}, 0.2}, kRightNode{{20, 0, 5}, 0.1};
 
 TEST(AntennaLink, FreeSightIsALinkAndTakesOneRay) {
   int rays = 0;
-  const auto link = trace_link(kLeft, kRight, [&](const Vector3d&, const Vector3d&) -> std::optional<double> {
+  const auto link = trace_link(kLeftNode, kRightNode, [&](const Vector3d&, const Vector3d&) -> std::optional<double> {
     ++rays;
     return std::nullopt;
   });
@@ -32,15 +32,15 @@ TEST(AntennaLink, FreeSightIsALinkAndTakesOneRay) {
 }
 
 TEST(AntennaLink, WallBlocksAndTheRangeIsStillKnown) {
-  const auto link = trace_link(kLeft, kRight, wall_at(10));
+  const auto link = trace_link(kLeftNode, kRightNode, wall_at(10));
   EXPECT_FALSE(link.linked);
   EXPECT_EQ(link.range, 20.0);
 }
 
 TEST(AntennaLink, WallRightBeforeTheEndDependsOnTheOrder) {
   const auto wall = wall_at(19.85);
-  EXPECT_TRUE(trace_link(kLeft, kRight, wall).linked);
-  EXPECT_FALSE(trace_link(kRight, kLeft, wall).linked);
+  EXPECT_TRUE(trace_link(kLeftNode, kRightNode, wall).linked);
+  EXPECT_FALSE(trace_link(kRightNode, kLeftNode, wall).linked);
 }
 
 TEST(AntennaLink, OneFreePairOfThirtySixSuffices) {
@@ -48,21 +48,22 @@ TEST(AntennaLink, OneFreePairOfThirtySixSuffices) {
     if (from.z() > 5.15 && to.z() > 5.05) return std::nullopt;
     return 1.0;
   };
-  EXPECT_TRUE(trace_link(kLeft, kRight, lid).linked);
-  EXPECT_EQ(count_sight_lines(kLeft, kRight, lid).clear, 1);
+  EXPECT_TRUE(trace_link(kLeftNode, kRightNode, lid).linked);
+  EXPECT_EQ(count_sight_lines(kLeftNode, kRightNode, lid).clear, 1);
 }
 
 TEST(AntennaLink, EachNodeHasOneAntennaOnEachOfItsSidesAndAnyOfThemSuffices) {
   for (int axis = 0; axis < 3; ++axis) {
     for (const double side : {-1.0, 1.0}) {
       const Vector3d offset = side * Vector3d::Unit(axis);
-      const Vector3d from = kLeft.p_W + kLeft.offset_m * offset, to = kRight.p_W + kRight.offset_m * offset;
+      const Vector3d from = kLeftNode.p_W + kLeftNode.offset_m * offset,
+                     to = kRightNode.p_W + kRightNode.offset_m * offset;
       const auto only_there = [&](const Vector3d& a, const Vector3d& b) -> std::optional<double> {
         if ((a - from).norm() < 1e-9 && (b - to).norm() < 1e-9) return std::nullopt;
         return 1.0;
       };
-      EXPECT_EQ(count_sight_lines(kLeft, kRight, only_there).clear, 1) << side << " on axis " << axis;
-      EXPECT_TRUE(trace_link(kLeft, kRight, only_there).linked) << side << " on axis " << axis;
+      EXPECT_EQ(count_sight_lines(kLeftNode, kRightNode, only_there).clear, 1) << side << " on axis " << axis;
+      EXPECT_TRUE(trace_link(kLeftNode, kRightNode, only_there).linked) << side << " on axis " << axis;
     }
   }
 }

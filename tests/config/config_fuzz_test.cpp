@@ -1,5 +1,5 @@
-// Damaged configuration is refused or read, and nothing else happens: no crash, no other exception. Seeded, so that a
-// failure comes back.
+// Damaged configuration is either refused with InputError or read: no crash, no other exception. The damage is drawn
+// with a fixed seed, so that a failure is repeatable.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -23,7 +23,7 @@ std::string text_of(const fs::path& file) {
 
 std::size_t below(RandomStream& random, std::size_t limit) { return limit == 0 ? 0 : random.bits() % limit; }
 
-/// One damage: a byte, a cut, a doubled or moved piece, or a piece of YAML's own syntax in the wrong place.
+/// Damages a text once: changes a byte, truncates it, repeats or moves a piece, or inserts a piece of YAML's syntax.
 void damage(RandomStream& random, std::string& text) {
   static const std::vector<std::string> pieces = {":",         "\n",    "- ",    "[",    "]",  "{",     "}",  "\"",
                                                   "'",         "&a ",   "*a",    "!!x ", "? ", "| ",    "> ", "#",
@@ -49,7 +49,7 @@ void damage(RandomStream& random, std::string& text) {
   }
 }
 
-/// Loads through `load`; only InputError may come out.
+/// Calls `load`, which may throw only InputError.
 template <class Load>
 void expect_harmless(const std::string& text, const Load& load) {
   try {
@@ -87,7 +87,7 @@ TEST(ConfigFuzz, DamagedVehicle) {
        [](const ConfigDocument& document) { read_config<VehicleConfig>(document); });
 }
 
-/// The whole loader, cross-checks included; through a file, so only a few rounds.
+/// The whole loader with its cross-checks. It reads a file, which is slow, so there are only a few rounds.
 TEST(ConfigFuzz, DamagedScenarioFile) {
   const fs::path copy = fs::path(::testing::TempDir()) / "skein_config_fuzz.yaml";
   const std::string original = text_of(source_path("config/scenarios/mbs.yaml"));

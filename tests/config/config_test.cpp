@@ -1,5 +1,5 @@
-// Every shipped file loads; what is printed reads back; every invalid_*.yaml here is refused with
-// what its "# expect:" lines say. A new rule needs a new file, no code.
+// Every configuration file in the tree loads; printed configuration can be read back; every invalid_*.yaml in this
+// folder is refused with the messages in its "# expect:" lines. A new rule needs a new file, but no code.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -47,7 +47,7 @@ LoadOptions without_assets() {
   return options;
 }
 
-/// The shipped configuration, wherever this program is.
+/// The configuration in the source tree.
 class ConfigFolder {
  public:
   ConfigFolder() { ::setenv("SKEIN_CONFIG_DIR", kConfig.c_str(), 1); }

@@ -1,4 +1,4 @@
-// docs/scenarios.md says what is true: its examples load, and its table has every key.
+// docs/scenarios.md is correct: its examples load, and its table has every key.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -23,7 +23,7 @@ std::string page() {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-/// The page's YAML blocks, but for those that say that they are something else.
+/// The page's YAML blocks, except those that are marked as something else.
 std::vector<std::string> examples() {
   static const std::string begin_mark = "```yaml\n", end_mark = "```\n";
   const std::string text = page();

@@ -1,5 +1,5 @@
-// docs/topics.md says what is true: its tables have every topic with its type, its depth and who writes it, and no
-// other.
+// docs/topics.md is correct: its tables have exactly the topics of the table in the code, each with its type, its depth
+// and its writer.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -45,7 +45,7 @@ std::string with_id(std::string_view pattern, const std::string& id) {
   return name;
 }
 
-/// Who writes it, where its direction tells.
+/// The writer of a topic, if its direction implies it; otherwise empty.
 std::string writer(topics::Direction direction) {
   switch (direction) {
     case topics::Direction::to_agent:

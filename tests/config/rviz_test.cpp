@@ -1,6 +1,6 @@
-// What RViz is told to show: config/skein.rviz what a run writes for viewers, ros2/skein_ros/rviz/uav.rviz what a UAV
-// is told and what its agent shows. Each topic is in the table, of the kind that its display takes, and none is left
-// out.
+// The configurations of RViz: config/skein.rviz shows the topics of a run for viewers, ros2/skein_ros/rviz/uav.rviz the
+// topics that a UAV receives and those that its agent publishes. Each topic is in the table of topics, with the type
+// that its display needs, and no topic is missing.
 #include <gtest/gtest.h>
 #include <unistd.h>
 #include <yaml-cpp/yaml.h>
@@ -41,7 +41,7 @@ TEST_F(RvizConfig, ShowsEveryTopicForViewers) {
     const auto topic = std::ranges::find(table, name, &topics::TopicInfo::pattern);
     ASSERT_NE(topic, table.end()) << name << " does not exist";
     EXPECT_EQ(plugin, display_of(topic->type)) << name;
-    // Who asks for less does not get what was written before; who asks for more gets nothing.
+    // A reader with a weaker durability misses earlier samples; one with a stronger durability does not match.
     EXPECT_EQ(display["Topic"]["Durability Policy"].as<std::string>(), topic->latched ? "Transient Local" : "Volatile")
         << name;
     EXPECT_EQ(display["Topic"]["Reliability Policy"].as<std::string>(), "Reliable") << name;
@@ -55,7 +55,7 @@ TEST_F(RvizConfig, ShowsEveryTopicForViewers) {
   }
 }
 
-/// Displays of one topic each, by its name; @param table  must have it.
+/// The topics that displays show. @param table  must contain each topic.
 std::set<std::string> shown_by(const YAML::Node& manager, std::span<const topics::TopicInfo> table,
                                const std::string& id) {
   std::set<std::string> shown;
@@ -103,7 +103,7 @@ TEST_F(UavRvizConfig, ShowsWhatAUavIsTold) {
   EXPECT_TRUE(shown.contains("/uav/octomap"));
 }
 
-// ROS's launch is not at hand: its modules are replaced (run_launch.py).
+// ROS's launch packages are not installed: run_launch.py replaces their modules.
 TEST_F(UavRvizConfig, IsStartedForOneUavByItsLaunchFile) {
   const std::string answer = testing::TempDir() + "launch-" + std::to_string(::getpid()) + ".json";
   const std::string command = "python3 " + source_path("tests/config/run_launch.py ") +

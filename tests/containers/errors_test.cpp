@@ -1,4 +1,4 @@
-// What `skein compose --up` says when a fleet cannot fly in containers, and when the user has had enough of it.
+// Messages of `skein compose --up` if a fleet cannot fly in containers, and if the user interrupts it.
 #include <signal.h>
 
 #include "container_fixture.hpp"
@@ -8,7 +8,7 @@ namespace {
 
 class ComposeErrors : public Containers {
  protected:
-  /// The user must do something about it, and is told what.
+  /// Expects a message that tells the user how to solve the problem.
   void expect_refusal(const std::string& reason, const Arguments& more, const Environment& environment = {}) {
     SkeinRun& run = start_up("run" + std::to_string(++number_), more, environment);
     EXPECT_EQ(run.exit_code(), 2) << run.err();

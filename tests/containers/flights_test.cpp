@@ -1,4 +1,4 @@
-// A fleet flies in containers as it does without: the same digest, and nothing is left of it.
+// A fleet in containers has the same digest as without containers, and leaves nothing behind.
 #include <spdlog/fmt/fmt.h>
 #include <unistd.h>
 
@@ -40,7 +40,7 @@ INSTANTIATE_TEST_SUITE_P(Vendors, EveryVendor,
                                          std::pair("mixed", "patrol")),
                          [](const auto& vendor) { return vendor.param.first; });
 
-// Else all other tests would look at programs of the build folder only.
+// Otherwise all other tests would only test the programs of the build folder.
 TEST_F(FlightInContainers, TheImagesOwnProgramsAreThoseOfThisBuild) {
   if (programs_of_this_build().empty()) return;
   const std::string untested = "the images have the programs of another build: not tested is that their own fly";
@@ -55,7 +55,7 @@ TEST_F(FlightInContainers, ProgramsOfABuildFolderFlyInThePlaceOfTheImages) {
   EXPECT_EQ(flight_of(run), alone(arguments("patrol", "20")));
 }
 
-// Every kind of member is killed and stopped once, in an order that is drawn, while messages are lost on the way.
+// A member of each kind is killed and paused once, in a random order, while links lose messages.
 TEST_F(FlightInContainers, FaultsMeanTheSame) {
   std::vector<std::string> killed = {"jurong", "changi", "station", "comm_router", "gcs"}, stopped = killed;
   std::ranges::shuffle(killed, random_);
@@ -72,7 +72,7 @@ TEST_F(FlightInContainers, FaultsMeanTheSame) {
   expect_whole(run);
   EXPECT_EQ(flight_of(run), alone(flown));
   EXPECT_GT(run.result()["radio"]["dropped_fault"], 0);
-  // Who was away photographs and delivers again.
+  // A UAV whose program was absent photographs and delivers afterwards.
   const auto captures = read_csv(run.dir() / "captures.csv");
   EXPECT_TRUE(std::ranges::any_of(captures, [](const auto& capture) {
     return capture.at("uav") == "changi" && std::stod(capture.at("time_s")) > 90.0 &&
@@ -85,7 +85,7 @@ TEST_F(FlightInContainers, FaultsMeanTheSame) {
   }
 }
 
-// As docs/containers.md has it, but for the compiler; in a fleet of another size.
+// The steps of docs/containers.md without the compilation, in a fleet of another size.
 TEST_F(FlightInContainers, APlannersOwnImageFliesAUav) {
   const fs::path context = folder() / "image";
   fs::create_directory(context);
@@ -108,7 +108,7 @@ TEST_F(FlightInContainers, APlannersOwnImageFliesAUav) {
   EXPECT_EQ(flight_of(run), alone(flown("@" + helper_program("probe_agent"), {})));
 }
 
-// Docker's images have no gdb: SIGCONT lets the program go on, as who leaves gdb does.
+// The images have no gdb: SIGCONT lets the program continue, as leaving gdb would.
 TEST_F(FlightInContainers, TheFleetWaitsForWhoIsDebugged) {
   const std::string agent = "uav_agent-jurong";
   const Arguments flown = arguments("kios", "20");
@@ -138,7 +138,7 @@ TEST_F(FlightInContainers, TheFleetWaitsForWhoIsDebugged) {
   EXPECT_EQ(flight_of(run), alone(flown));
 }
 
-// As docs/how-to-debug.md has it, with commands from a pipe.
+// The steps of docs/how-to-debug.md, with commands from a pipe.
 TEST_F(FlightInContainers, GdbOpensInTheContainerOfWhoIsDebugged) {
   const std::string image = "skein-agent-debug";
   if (shell("docker image inspect " + image).code != 0) {
@@ -168,7 +168,7 @@ TEST_F(FlightInContainers, GdbOpensInTheContainerOfWhoIsDebugged) {
 
 class TwentyUavs : public FlightInContainers, public testing::WithParamInterface<std::string> {};
 
-// The scenario is a file of the user, which the image does not have.
+// The scenario is a user's file, which the image does not contain.
 TEST_P(TwentyUavs, FlyTheSame) {
   const std::string text = cli::bench_scenario({.uavs = 20, .duration_s = 60});
   const Arguments flown = {write("twenty.yaml", text), "--planner", "patrol", "--no-oracle"};

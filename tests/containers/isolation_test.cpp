@@ -1,4 +1,4 @@
-// What a program in a UAV's container can reach: the server and the router in its own domain, and nothing else.
+// A program in a UAV's container can reach server and router in its own domain, and nothing else.
 #include <signal.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ constexpr const char* kOthersDomains = " 1 2 4 5";  // two of other UAVs
 
 class Isolation : public Containers {
  protected:
-  /// Addresses of all containers in networks that the spy is not in.
+  /// Addresses of all containers in the networks to which the spy's container is not connected.
   static std::vector<std::string> foreign_addresses(const SkeinRun& run) {
     std::vector<std::string> foreign;
     for (const std::string& program : kPrograms) {
@@ -35,8 +35,8 @@ class Isolation : public Containers {
   }
 };
 
-// One script, so that it does not take long: prints what it should not be able to find or do. Where nobody listens on a
-// port, a host that can be reached says so; what sees no answer at all has reached nobody.
+// A single script, to save time: prints everything that it finds or does against the rules. A reachable host refuses a
+// connection to a closed port; without any answer, the host is not reachable.
 constexpr const char* kSpying = R"sh(
 expect() { [ "$2" = "$3" ] || echo "$1: $2, not $3"; }
 expect interfaces "$(ls /sys/class/net | grep -E -v '^(lo|tunl0|sit0|ip6tnl0)$' | tr '\n' ' ')" "eth0 "
@@ -81,7 +81,7 @@ TEST_F(Isolation, AUavSeesItsOwnDomainAndNothingElse) {
   std::string addresses, names = "station";
   for (const std::string& address : foreign_addresses(run)) addresses += " " + address;
   EXPECT_EQ(words(addresses).size(), 2u * 6u + 2u + 4u) << "server and router, station, UAVs: " << addresses;
-  // What would be this host, in the spy's own network, too.
+  // The gateways' addresses, which would be this host's in each network, the spy's own included.
   for (const std::string& network :
        words(shell("docker network ls --quiet --filter label=com.docker.compose.project=" + project(run)).text)) {
     addresses += " " + shell("docker network inspect --format '{{(index .IPAM.Config 0).Gateway}}' " + network).text;
@@ -108,7 +108,7 @@ TEST_F(Isolation, AUavSeesItsOwnDomainAndNothingElse) {
 
 class Intruder : public Isolation, public testing::WithParamInterface<std::string> {};
 
-// It speaks to the server and the router, which are in all domains, in the one network that it shares with them.
+// The intruder sends to the server and the router, which are in all domains, over the network that it shares with them.
 TEST_P(Intruder, HearsNothingOfOtherDomainsAndNobodyHearsIt) {
   SkeinRun& run = start_up("up", arguments("patrol", "300", {"--dds", GetParam()}));
   const std::string spy = container(run, kAgent);

@@ -1,4 +1,4 @@
-// What happens to a fleet's containers from outside: they are killed, stand still, or lose their network for a while.
+// A fleet whose containers are killed or paused from outside, or lose their network for a while.
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace {
 
 class FromOutside : public Containers {
  protected:
-  /// @returns the step of the last return of `member`; 0 when it has not come back.
+  /// @returns the step at which `member` last rejoined; 0: it has not.
   static long returned_at(const SkeinRun& run, const std::string& member) {
     const std::string log = log_of(run, "sim_server");
     const std::regex again(member + " joined again at step (\\d+)");
@@ -20,18 +20,18 @@ class FromOutside : public Containers {
     for (std::sregex_iterator it(log.begin(), log.end(), again), end; it != end; ++it) step = std::stol((*it)[1]);
     return step;
   }
-  /// Whether captures of `uav` from after that step have arrived.
+  /// Whether captures that `uav` took after this step were delivered.
   static bool delivers_after(const SkeinRun& run, const std::string& uav, long step) {
     return std::ranges::any_of(read_csv(run.dir() / "captures.csv"), [&](const auto& capture) {
       return capture.at("uav") == uav && std::stod(capture.at("time_s")) > 0.05 * static_cast<double>(step) &&
              !capture.at("delivered_at_s").empty();
     });
   }
-  /// All that were lost take part again.
+  /// Whether all lost members have rejoined.
   static bool all_are_back(const Json& result) {
     return std::ranges::all_of(result["lost_members"], [](const Json& lost) { return lost["back_at_s"].is_number(); });
   }
-  /// The run is as without a disturbance, or says what it has lost.
+  /// Expects the run to be the same as without the disturbance, or to name its lost members.
   void expect_same_or_named_loss(SkeinRun& run, const Arguments& flown) {
     const int code = run.exit_code();
     const Json result = run.result();
@@ -73,7 +73,7 @@ TEST_F(FromOutside, WhoIsKilledAndStartedAgainWorksAgain) {
   for (const char* uav : {"sentosa", "nanyang"}) {
     EXPECT_TRUE(delivers_after(run, uav, std::ranges::max(returned["station"], returned["comm_router"]))) << uav;
   }
-  // Nothing that the station had was lost with it; what was taken in the last moment is still under way.
+  // The station has lost no delivered capture when it died; captures of the last moment are still on their way.
   EXPECT_GE(result["score"].get<double>(), 0.99 * result["score_earned"].get<double>()) << result["losses"];
 }
 
@@ -87,7 +87,7 @@ TEST_F(FromOutside, WhoStandsStillForAMomentIsMissedByNobody) {
   EXPECT_EQ(flight_of(run), alone(flown));
 }
 
-// Longer than its lease: it is given up, and has to join anew.
+// Longer than its lease: the server drops the UAV, which must join again.
 TEST_F(FromOutside, WhoStandsStillForLongComesBack) {
   SkeinRun& run = start_up("up", arguments("patrol", "300"));
   const std::string id = flying(run, "uav_agent-changi");
@@ -123,7 +123,7 @@ TEST_F(FromOutside, ACableThatIsPulledForAMomentDoesNotMatter) {
   const Answer link = shell(in_network_of(flying(run, "uav_agent-changi")) + "ip -oneline link show eth0");
   std::smatch match;
   Answer pulled = link;
-  // This host's end of it: "eth0@if7" is the other end of the interface with number 7 here.
+  // This host's end of the link: "eth0@if7" in the container is the peer of interface 7 on this host.
   if (std::regex_search(link.text, match, std::regex("eth0@if(\\d+)"))) {
     pulled = shell("end=$(ip -oneline link | sed -n 's/^" + match[1].str() +
                    ": \\([^@]*\\)@.*/\\1/p') && ip link set \"$end\" down && sleep 2 && ip link set \"$end\" up");

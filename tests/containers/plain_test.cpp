@@ -1,4 +1,4 @@
-// A fleet that docker-compose brings up by itself, from a file that `skein compose` has written.
+// A fleet that docker-compose starts by itself, from a file that `skein compose` has written.
 #include <unistd.h>
 
 #include "container_fixture.hpp"
@@ -8,7 +8,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Version 2 is a part of the client.
+/// The command of docker-compose: version 2 is a plugin of Docker's client.
 std::string compose() { return shell("docker compose version").code == 0 ? "docker compose" : "docker-compose"; }
 
 class PlainCompose : public Containers {};
@@ -30,11 +30,11 @@ TEST_F(PlainCompose, FliesTheSameAndItsResultsAreMerged) {
   for (const std::string& program : kPrograms) {
     const std::string id = shell(command + "ps --quiet " + program).text;
     EXPECT_EQ(shell("timeout 120 docker wait " + id).text, "0") << program << ": " << shell("docker logs " + id).text;
-    // Volumes are there as long as the container is, whether it runs or not.
+    // Volumes exist as long as their container, whether it runs or not.
     const Answer copied = shell("docker cp " + id + ":/results/. " + dir.string());
     EXPECT_EQ(copied.code, 0) << copied.text;
   }
-  // The server names a file of its container.
+  // The server's report names a file in its container, so the scenario is given here.
   const ChildProcess& merged = skein({"merge", dir, "--scenario", "towers"});
   ASSERT_TRUE(fs::exists(dir / "result.json")) << merged.err();
   const Json result = Json::parse(text_of(dir / "result.json"));

@@ -1,5 +1,5 @@
-// A fleet over the engines of a swarm, from a file of `skein compose --stack`: two engines on hosts of their own, which
-// are network namespaces (swarm.sh).
+// A fleet over the engines of a swarm, from a file of `skein compose --stack`: two engines on two hosts, which are
+// network namespaces (swarm.sh).
 #include <unistd.h>
 
 #include <set>
@@ -37,7 +37,7 @@ class Stack : public Containers {
     return shell("docker --host unix://" + (swarm_ / ("node" + std::to_string(node) + ".sock")).string() + " " +
                  command);
   }
-  /// Deploys what `skein compose --stack` writes.
+  /// Deploys the file that `skein compose --stack` writes.
   void deploy(Arguments arguments) {
     const std::string file = folder() / "stack.yaml";
     for (const char* word : {"--stack", "--file", file.c_str()}) arguments.emplace_back(word);
@@ -50,7 +50,7 @@ class Stack : public Containers {
     return on(1, "service ps --format '{{.Node}} {{.CurrentState}}' fleet_" + program).text;
   }
   bool is_complete(const std::string& program) const { return state_of(program).find("Complete") != std::string::npos; }
-  /// What programs left in volumes of their nodes, once all of these have ended, merged.
+  /// Waits until these programs have ended, and merges the files in their nodes' volumes. @returns the result.
   Json merged(const Arguments& programs = kPrograms) {
     for (const std::string& program : programs) {
       EXPECT_TRUE(eventually([&] { return is_complete(program); }, std::chrono::minutes(3)))

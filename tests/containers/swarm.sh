@@ -1,13 +1,15 @@
 #!/usr/bin/env bash
-# Two engines on hosts of their own, which are network namespaces that a cable connects; node1 is the swarm's manager.
-#   swarm.sh up FOLDER IMAGE...    with these images of the engine that answers; FOLDER/node1.sock is the manager's
-#   swarm.sh cut FOLDER            the cable
-#   swarm.sh down FOLDER
-# Exits with 77 where it cannot be: not root, no engine's program, no such namespaces, or no overlay networks.
+# Starts a Docker swarm of two engines. Each is on a host of its own: two network namespaces, connected by a veth pair
+# (the cable). node1 is the manager.
+#   swarm.sh up FOLDER IMAGE...    starts the swarm with these images of the running engine; its manager's socket is
+#                                  FOLDER/node1.sock
+#   swarm.sh cut FOLDER            cuts the cable
+#   swarm.sh down FOLDER           ends the swarm
+# Exit code 77: impossible here (not root, no dockerd, no network namespaces, or no overlay networks).
 set -euo pipefail
 what=$1 folder=$2
 shift 2
-name=swarm$(basename "$folder" | cksum | cut -c1-5)  # of the namespaces: short enough for names of devices
+name=swarm$(basename "$folder" | cksum | cut -c1-5)  # prefix of the namespaces' names; short enough for device names
 on() { local node=$1; shift; docker --host "unix://$folder/node$node.sock" "$@"; }
 cannot() { echo "swarm.sh: $*" >&2; exit 77; }
 
@@ -22,7 +24,7 @@ down() {
     for ((i = 0; i < 300; ++i)); do [[ -d /proc/$pid ]] || break; sleep 0.1; done
   done
   for node in 1 2; do
-    # A swarm keeps the networks of its containers beside itself.
+    # A swarm leaves the mounted network namespaces of its containers behind.
     for mount in $(awk -v below="$folder/" 'index($2, below) == 1 {print $2}' /proc/mounts | sort -r); do
       umount "$mount" || true
     done
@@ -43,7 +45,7 @@ up() {
     ip -n "$name-$node" link set lo up
     ip -n "$name-$node" addr add "10.99.0.$node/24" dev "swarm$node"
     ip -n "$name-$node" link set "swarm$node" up
-    # Not by `ip netns exec`, which hides the control groups.
+    # Not with `ip netns exec`, which hides the control groups.
     setsid nsenter --net="/run/netns/$name-$node" unshare --uts /bin/sh -c "hostname node$node && exec \"\$@\"" sh \
       dockerd --host "unix://$folder/node$node.sock" --data-root "$folder/data$node" --exec-root "$folder/exec$node" \
       --pidfile "$folder/node$node.pid" --bridge none --ip6tables=false >"$folder/node$node.log" 2>&1 </dev/null &

@@ -1,4 +1,4 @@
-// The page of a fleet in containers: on this host, for who has the key, and out of the UAVs' reach.
+// The page of a fleet in containers is served on this host, to browsers with the key, and UAVs cannot reach it.
 #include <csignal>
 #include <regex>
 
@@ -22,7 +22,7 @@ class PageInContainers : public Containers {
   }
 
   std::string host() const { return "127.0.0.1:" + port_.text(); }
-  /// What this host is answered. @param key  empty: none is shown
+  /// Sends a request from this host. @returns the answer. @param key  empty: sends none.
   std::string get(const std::string& target, const std::string& key, const std::string& more = {}) const {
     Wire wire(static_cast<std::uint16_t>(std::stoi(port_.text())));
     wire.send("GET " + target + " HTTP/1.1\r\nHost: " + host() + "\r\n" +
@@ -32,7 +32,7 @@ class PageInContainers : public Containers {
   std::string follow(const std::string& key) const {
     return get("/flight", key, "Origin: http://" + host() + "\r\n" + kUpgrade);
   }
-  /// All addresses of a container, and those that its networks' gateways have, or would have.
+  /// All addresses of a container, and the addresses of its networks' gateways, whether these exist or not.
   static std::string addresses_of(const std::string& container) {
     return shell("docker inspect --format '{{range .NetworkSettings.Networks}}{{.IPAddress}} {{.Gateway}} {{end}}' " +
                  container)
@@ -47,7 +47,7 @@ class PageInContainers : public Containers {
   const FreePort port_;
 };
 
-// Prints where it reaches anything at all.
+// Prints each address and port that it can reach.
 constexpr const char* kKnocking = R"sh(
 for address in $ADDRESSES; do
   for port in $PORTS; do

@@ -1,7 +1,7 @@
-// The second process of the bus contract tests, which a test stops and kills:
+// The second process of the bus contract tests, which a test pauses and kills:
 //   bus_contract_peer VENDOR DOMAIN
-// Until then it reads the topic "to_peer" and answers each sample on "from_peer". It publishes its id on the latched
-// topic "hello".
+// It reads the topic "to_peer" and answers each sample on "from_peer". It publishes its id on the latched topic
+// "hello".
 #include <unistd.h>
 
 #include <cstdlib>

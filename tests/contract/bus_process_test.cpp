@@ -1,4 +1,4 @@
-// What every backend promises when the other process is stopped or killed.
+// The contract of every backend if the other process is paused or killed.
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <spawn.h>
@@ -33,7 +33,7 @@ class Peer {
   Peer(const Peer&) = delete;
   Peer& operator=(const Peer&) = delete;
 
-  /// Returns when all its threads stand still.
+  /// Pauses it. Returns when all its threads are stopped.
   void stop() {
     ::kill(pid_, SIGSTOP);
     waitpid(pid_, nullptr, WUNTRACED);
@@ -58,7 +58,7 @@ double resident_mb() {
   return resident * static_cast<double>(sysconf(_SC_PAGESIZE)) / 1e6;
 }
 
-/// Shared memory of the vendors that stands in /dev/shm.
+/// Names of the vendors' shared memory in /dev/shm.
 std::set<std::string> shared_memory() {
   std::set<std::string> names;
   if (!std::filesystem::exists("/dev/shm")) return names;
@@ -72,7 +72,7 @@ std::set<std::string> shared_memory() {
 
 class BusProcesses : public testing::TestWithParam<Pair> {
  protected:
-  /// The peer reads; a second reader, in this process, keeps up.
+  /// The peer reads the writer's topic, and so does a second reader in this process.
   void SetUp() override {
     self_ = bus::make_bus({.vendor = GetParam().writer})->join(domains_.base());
     writer_ = self_->create_writer(topic("to_peer"));
@@ -80,7 +80,7 @@ class BusProcesses : public testing::TestWithParam<Pair> {
     hello_ = self_->create_reader(topic("hello", {.latched = true, .depth = 1}), introduced_.callback());
     live_ = bus::make_bus({.vendor = GetParam().reader})->join(domains_.base());
     live_reader_ = live_->create_reader(topic("to_peer"), [keep = live_got_.callback()](Sample&& sample) {
-      sample.payload = {sample.payload.begin(), sample.payload.begin() + 12};  // memory is measured below
+      sample.payload = {sample.payload.begin(), sample.payload.begin() + 12};  // the test measures memory
       keep(std::move(sample));
     });
     const auto hello = introduced_.wait_for(1);
@@ -90,7 +90,8 @@ class BusProcesses : public testing::TestWithParam<Pair> {
     ASSERT_TRUE(eventually([&] { return writer_->matched().size() == 2 && !live_reader_->matched().empty(); }));
   }
 
-  /// A match on one side says nothing of the other side; only an answer does. Returns when no more are on their way.
+  /// Waits for an answer of the peer, because a match on this side does not imply one on the other. Returns when all
+  /// answers have arrived.
   void connect_both_ways() {
     std::uint64_t written = 0;
     ASSERT_TRUE(eventually([&] {
@@ -100,7 +101,7 @@ class BusProcesses : public testing::TestWithParam<Pair> {
     ASSERT_TRUE(eventually([&] { return heard_.numbers(0).back() == written; }));
   }
 
-  /// Writes rounds of `depth` samples, each when the live reader has the one before.
+  /// Writes rounds of 50 samples, each when the live reader has received the one before.
   void write_in_step(std::size_t count) {
     while (written_ < count) {
       for (int i = 0; i < 50 && written_ < count; ++i) writer_->write(numbered(written_++, 2000));
@@ -144,7 +145,7 @@ TEST_P(BusProcesses, StoppedReaderHoldsNobodyUp) {
   write_in_step(2000);
   [[maybe_unused]] const double before = resident_mb();
   for (std::uint64_t n = 0; n < 50'000; ++n) writer_->write(numbered(n, 2000));
-#ifndef __SANITIZE_ADDRESS__  // it keeps what is freed for a while
+#ifndef __SANITIZE_ADDRESS__  // AddressSanitizer keeps freed memory for a while
   EXPECT_LT(resident_mb() - before, 50.0) << "what a stopped reader has not acknowledged piles up";
 #endif
   peer_.resume();

@@ -1,4 +1,4 @@
-// What every backend promises (bus/bus.hpp), for each vendor and for two of them in one domain.
+// The contract of every backend (bus/bus.hpp), for each vendor and for two vendors in one domain.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -27,7 +27,7 @@ class BusContract : public testing::TestWithParam<Pair> {
     return bus::make_bus({.vendor = vendor})->join(domains_.base() + offset);
   }
 
-  /// Both ends know of each other: the writer of the reader, and the reader of the writer.
+  /// Waits until both ends have matched: the writer the reader, and the reader the writer.
   static void connect(const bus::Writer& writer, const bus::Reader& reader, std::size_t count = 1) {
     ASSERT_TRUE(eventually([&] { return writer.matched().size() >= count && reader.matched().size() >= count; }));
   }
@@ -91,7 +91,7 @@ TEST_P(BusContract, BurstsOfManyWritersArriveWholeAndInOrder) {
     writers.push_back(a->create_writer(spec));
     connect(*writers[w], *readers[w]);
   }
-  // A datagram's worth, several, and more than one datagram takes, in changing order.
+  // Sizes of which a datagram holds many, several, one, or only a part, in changing order.
   const std::vector<std::size_t> sizes{8, 300, 5'000, 13'960, 100'000};
   for (std::size_t round = 0; round < kRounds; ++round) {
     {

@@ -1,5 +1,5 @@
-// What comes from the network is not trusted: every type that Skein reads, damaged in every way that a seed draws, is
-// decoded or refused, without a crash and without memory beyond what its size warrants. Run it with sanitizers too.
+// Messages from the network are untrusted: randomly damaged messages of every type that Skein reads are decoded or
+// refused, without a crash, and with an amount of memory that is bounded by their size. Run it also with sanitizers.
 // SKEIN_LONG=1 draws many more.
 #include <gtest/gtest.h>
 
@@ -20,7 +20,7 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-/// More than any type needs for each byte that it is read from: its largest element, and vectors that grow.
+/// Limits of the memory for decoding: more than any type needs, for its largest elements and for vectors that grow.
 constexpr std::size_t kMemoryPerByte = 512, kMemoryBase = 4096;
 
 int rounds(int count) { return std::getenv("SKEIN_LONG") ? 50 * count : count; }
@@ -29,12 +29,13 @@ class Damage {
  public:
   explicit Damage(const std::string& type) : random_(1, "fuzz " + type, 0) {}
 
-  /// One to four injuries; most leave the encapsulation header alone, since behind a wrong one nothing is read.
+  /// Damages a payload in one to four places. Most payloads keep a valid encapsulation header, because a decoder reads
+  /// nothing after an invalid one.
   Bytes apply(Bytes payload) {
     for (std::uint64_t n = random_.bits() % 4 + 1; n > 0; --n) injure(payload);
     if (payload.size() >= 4 && random_.bits() % 8 != 0) {
       payload[0] = 0;
-      payload[1] = random_.bits() % 8 == 0 ? 0 : 1;  // big-endian now and then
+      payload[1] = random_.bits() % 8 == 0 ? 0 : 1;  // sometimes big-endian
     }
     return payload;
   }
@@ -63,7 +64,7 @@ class Damage {
       case 5:
         payload.erase(here, here + static_cast<std::ptrdiff_t>(below(std::min<std::size_t>(64, payload.size() - at))));
         return;
-      default: {  // a piece of it, once more at the end
+      default: {  // repeats a piece of it at the end
         const Bytes piece(here, payload.end());
         payload.insert(payload.end(), piece.begin(), piece.end());
         return;
@@ -71,7 +72,7 @@ class Damage {
     }
   }
 
-  /// Lengths live at multiples of four behind the header.
+  /// Overwrites a word with a critical length; lengths are at multiples of four after the header.
   void set_word(Bytes& payload, std::size_t at) {
     const std::uint32_t lengths[] = {0,          1,          0xffffffff, 0x7fffffff,
                                      0x80000000, 0x10000000, 65536,      static_cast<std::uint32_t>(payload.size())};
@@ -83,7 +84,7 @@ class Damage {
   RandomStream random_;
 };
 
-/// Decodes with a book kept over memory. @returns whether it was a message.
+/// Decodes, and checks the memory that this needs. @returns whether it was a message.
 template <class T>
 bool decode_measured(const Bytes& payload, T& message) {
   const CountedMemory memory;
@@ -92,7 +93,7 @@ bool decode_measured(const Bytes& payload, T& message) {
   return good;
 }
 
-/// Damages a payload again and again; what can still be read goes to `use`, and serves as the next one to damage.
+/// Damages a payload `count` times. A payload that is still a message goes to `use`, and is damaged further.
 template <class T, class Use>
 void fuzz(const T& message, int count, Use use) {
   const Bytes whole = encode(message);
@@ -139,7 +140,7 @@ TYPED_TEST(EveryDecoder, SurvivesDamage) {
   fuzz(filled_message<TypeParam>(), rounds(5000), [](const TypeParam&) {});
 }
 
-// ---- what programs make of what they have read -------------------------------------------------------------------
+// ---- what programs do with decoded messages ----------------------------------------------------------------------
 
 const std::vector<std::string> kFleet = {"jurong", "raffles"};
 
@@ -213,7 +214,7 @@ TEST(DamagedMessages, CapturesAndLedgersKeepTheirMeaning) {
   });
 }
 
-// ---- counted and told ----------------------------------------------------------------------------------------------
+// ---- refused messages are counted and reported ---------------------------------------------------------------------
 
 TEST(DamagedMessages, AreCountedOnEachTopicAndLeadNowhere) {
   bus::Inbox inbox(0);

@@ -1,5 +1,5 @@
-// A fleet on one host and whoever else is on it with the settings that the vendors have by themselves, such as ROS 2
-// nodes: they meet, though the fleet sends nothing to other hosts.
+// A fleet on one host, and programs on the same host with the vendors' default settings, such as ROS 2 nodes: they
+// match, although the fleet sends nothing to other hosts.
 #include <gtest/gtest.h>
 
 #include <memory>
@@ -20,7 +20,7 @@ TEST_P(OwnHost, ParticipantsWithDefaultSettingsAreMet) {
   bus::BusConfig by_default{.vendor = other_vendor};
   by_default.networks[bus::kEveryDomain].interface = DomainNetwork::kAll;
   const auto other_bus = bus::make_bus(by_default);
-  const bool fleet_first = other_vendor == "fastdds";  // whoever comes first is found by the other
+  const bool fleet_first = other_vendor == "fastdds";  // the participant that joins second discovers the first one
   std::unique_ptr<bus::Participant> fleet, other;
   if (fleet_first) fleet = fleet_bus->join(domains.base());
   other = other_bus->join(domains.base());
@@ -42,7 +42,8 @@ TEST_P(OwnHost, ParticipantsWithDefaultSettingsAreMet) {
   EXPECT_EQ(at_fleet.numbers(50).back(), 149U);
 }
 
-// Two Cyclone DDS of different settings cannot share a domain within one process: tests/ros2 has that pair.
+// Two participants of Cyclone DDS with different settings cannot be in one domain of one process: tests/ros2 tests
+// them.
 INSTANTIATE_TEST_SUITE_P(Vendors, OwnHost,
                          testing::Values(std::pair("cyclonedds", "fastdds"), std::pair("fastdds", "cyclonedds"),
                                          std::pair("fastdds", "fastdds")),

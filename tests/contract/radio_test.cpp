@@ -1,6 +1,6 @@
-// The radio, end to end, on every vendor: server, router and three members of a small world talk by the lock-step, in
-// one thread, about types that exist in this test only. A topic of the scenario and topics that are registered at run
-// time carry what they are given bit for bit, 4 MB too, to whom they may and to nobody else.
+// The radio, end to end, with every vendor: server, router and three members in lock-step, in one thread, with message
+// types that exist only in this test. A topic of the scenario and topics that are registered during the run deliver
+// messages of up to 4 MB bit for bit, to their permitted targets and to no other node.
 #include <gtest/gtest.h>
 #include <spdlog/fmt/fmt.h>
 
@@ -29,11 +29,11 @@ const std::string kBlob = "/blob", kBlobType = "only_here/msg/Blob";
 const std::string kLater = "/later", kLaterType = "only_here/msg/Later";
 
 bool linked(std::size_t from, std::size_t to, std::uint64_t k) {
-  if (from == to || (k >= kDeath && (from == 2 || to == 2))) return false;  // b is dead by then
+  if (from == to || (k >= kDeath && (from == 2 || to == 2))) return false;  // b is dead from then on
   return (from + 2 * to + k) % 3 != 0;
 }
 
-/// What a node says in a step: an odd number of bytes now and then, and three times a large one.
+/// A node's message in a step: sometimes with an odd number of bytes, and three times a large one.
 Bytes said(std::size_t node, const std::string& topic, std::uint64_t k) {
   const bool large = k % 7 == 5;
   return numbered(1000 * k + 10 * node + topic.size(), large ? kLarge + 3 * node : 8 + (k * 37 + node) % 5000);
@@ -56,7 +56,7 @@ Scenario world() {
   return scenario;
 }
 
-/// One member: sends on both topics whenever it may, keeps what it hears, by topic and step.
+/// A member: sends on both topics whenever they are open, and stores received messages by topic and step.
 class Member {
  public:
   Member(const std::string& vendor, int base, Node node)
@@ -99,7 +99,7 @@ class Member {
     };
   }
 
-  /// Requests that make no sense, each for another reason.
+  /// Sends invalid requests, each invalid for another reason.
   void ask_for_nonsense() {
     radio_.send("/itself", kLaterType, {kNodes[node_]});
     radio_.send("/nobody", kLaterType, {"nowhere"});
@@ -168,7 +168,7 @@ class Server {
   std::string digest_;
 };
 
-/// What a node must hear on a topic: step of hearing, payload.
+/// The messages that a node must receive on a topic: step in which it receives them, payload.
 std::vector<std::pair<std::uint64_t, Bytes>> expected(std::size_t to, const std::string& topic,
                                                       const std::vector<std::vector<std::uint64_t>>& sent) {
   std::vector<std::pair<std::uint64_t, Bytes>> list;
@@ -182,7 +182,7 @@ std::vector<std::pair<std::uint64_t, Bytes>> expected(std::size_t to, const std:
   return list;
 }
 
-/// The small world of one test: a's member on the second vendor, all else on the first.
+/// The small world of one test: the member of `a` uses the second vendor, all others use the first.
 class Radio : public testing::TestWithParam<Pair> {
  protected:
   Radio() {
@@ -191,7 +191,7 @@ class Radio : public testing::TestWithParam<Pair> {
     }
   }
 
-  /// @param meanwhile  called again and again
+  /// @param meanwhile  called repeatedly during the flight
   void fly(const std::function<void()>& meanwhile = [] {}) {
     router_.start();
     ASSERT_TRUE(eventually([&] {
@@ -206,7 +206,7 @@ class Radio : public testing::TestWithParam<Pair> {
         << "; " << router_.waiting_for();
   }
 
-  /// All deliveries of a run; the same on every vendor.
+  /// The digest over all deliveries is the same with every vendor.
   void expect_usual_digest() const {
     static const std::string first = server_.digest();
     EXPECT_TRUE(server_.digest() == first);
@@ -222,7 +222,7 @@ class Radio : public testing::TestWithParam<Pair> {
 };
 
 TEST_P(Radio, CarriesAnyTypeBitForBitToWhomItMay) {
-  // A stranger at the source, and one where a topic must not arrive.
+  // A participant outside the fleet in the sender's domain, and one in a domain where a topic must not arrive.
   const auto at_a = bus_->join(node_domain(base_, Node{1})), at_gcs = bus_->join(node_domain(base_, Node{0}));
   std::atomic<int> back = 0, from_elsewhere = 0;
   const auto listen = [](bus::Participant& where, const std::string& name, auto& count) {

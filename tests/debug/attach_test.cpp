@@ -1,4 +1,4 @@
-// `skein ps` and `skein attach`: into a fleet that is already flying.
+// `skein ps` and `skein attach`: debugging in a fleet that already flies.
 #include "debug_fixture.hpp"
 
 namespace skein::test {
@@ -46,7 +46,7 @@ TEST_F(Attach, GdbLooksIntoAFlyingProgramAndLeavesItFlying) {
 
 TEST_F(Attach, WhoeverLooksInAndGoesOnChangesNothing) {
   SKEIN_NEEDS_GDB();
-  // On a busy machine gdb reads symbols for longer than a fleet usually waits.
+  // On a busy machine, gdb needs more time to read symbols than the default timeout of an agent.
   const Arguments flight = {scenario_, "--planner",   "patrol",          "--duration",
                             "400",     "--no-oracle", "--agent-timeout", "600"};
   SkeinRun& fleet = start("fleet", flight);
@@ -59,7 +59,7 @@ TEST_F(Attach, WhoeverLooksInAndGoesOnChangesNothing) {
   EXPECT_EQ(fleet.digest(), run("plain", joined(flight, {"--one-process"})).digest());
 }
 
-// Both fleets have the same domains, in networks of their own: other tests' fleets are in none of them.
+// Both fleets use the same domains, in separate network namespaces that no other test uses.
 TEST_F(Attach, AFleetInAnotherNetworkIsToldFromTheOneHere) {
   if (std::system("unshare --net true 2>/dev/null") != 0) GTEST_SKIP() << "no network namespaces here: not root";
   const auto start_apart = [&](const std::string& name) -> ChildProcess& {

@@ -1,5 +1,5 @@
-// `--break-on`: the debugger stops where something happened to its UAV, and the flight goes on to the same digest. A
-// recorded flight of one UAV in gdb.
+// `--break-on`: the debugger stops where an event happened to its UAV, and the flight continues to the same digest.
+// Also: a recorded flight of one UAV in gdb.
 #include <cmath>
 
 #include "debug_fixture.hpp"
@@ -8,7 +8,7 @@
 namespace skein::test {
 namespace {
 
-/// At SIGTRAP, then in the planner, then to the end.
+/// Commands of gdb: run to SIGTRAP, then to the planner, then to the end.
 std::string look_once(const std::string& planner) {
   return "run\nbreak skein::agent::" + planner + "::plan\ncontinue\nprint in.tick\ndelete\ncontinue\n";
 }
@@ -19,7 +19,7 @@ class Break : public DebugTest {
   static long last_exchange_before(double time_s) {
     return 20 * static_cast<long>(std::ceil(time_s / 0.05 - 1e-6) - 1);
   }
-  /// Flies in gdb, which must stop once, in the last exchange before `time_s`, and have the digest of `plain`.
+  /// Flies in gdb, which must stop once, in the last exchange before `time_s`. The digest must be that of `plain`.
   void expect_stop(const std::string& name, const Arguments& flight, const std::string& planner, double time_s,
                    const SkeinRun& plain) {
     const Arguments words = joined({"skein", "run", "--debug", "changi=gdb", "--out", dir(name)}, flight);

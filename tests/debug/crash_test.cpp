@@ -1,4 +1,4 @@
-// What a program that crashes leaves behind, and what agents log.
+// The files that a crashed program leaves, and the log of agents.
 #include <spdlog/fmt/fmt.h>
 
 #include <random>

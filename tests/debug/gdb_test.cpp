@@ -1,4 +1,5 @@
-// `skein run --debug UAV=gdb`: what is typed there is heard, what is debugged flies as ever, and who leaves is lost.
+// `skein run --debug UAV=gdb`: gdb gets the typed commands, the digest is that without gdb, and a program is lost when
+// the user leaves its gdb.
 #include <map>
 #include <regex>
 
@@ -63,7 +64,7 @@ TEST_F(Gdb, StopsInTheExchangeBeforeATime) {
   EXPECT_EQ(result("gdb")["digest"], plain_digest());
 }
 
-// In a folder from which the names of sources, which are relative to the tree, lead nowhere.
+// gdb runs in a folder in which the relative names of sources do not exist.
 TEST_F(Gdb, EveryPlannerIsFoundInItsOwnSource) {
   SKEIN_NEEDS_GDB();
   std::string commands = "cd /\n";

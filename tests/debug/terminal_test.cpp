@@ -1,4 +1,4 @@
-// At a terminal: what is typed is for the debugger, Ctrl-C stops its program and not the fleet, Ctrl-Z both.
+// At a terminal: the debugger gets the input, Ctrl-C stops only the debugged program, Ctrl-Z stops debugger and fleet.
 #include <fcntl.h>
 #include <poll.h>
 #include <pty.h>
@@ -10,7 +10,7 @@
 namespace skein::test {
 namespace {
 
-/// A shell at a terminal of its own.
+/// A shell with its own terminal.
 class Terminal {
  public:
   Terminal() {
@@ -21,7 +21,7 @@ class Terminal {
     }
   }
   ~Terminal() {
-    ::close(fd_);  // SIGHUP for all that is left
+    ::close(fd_);  // sends SIGHUP to the remaining processes
     ::kill(pid_, SIGKILL);
     ::waitpid(pid_, nullptr, 0);
   }
@@ -31,7 +31,7 @@ class Terminal {
   void type(const std::string& text) {
     ASSERT_EQ(::write(fd_, text.data(), text.size()), static_cast<ssize_t>(text.size()));
   }
-  /// Whether `part` is shown after what was seen before.
+  /// Whether the terminal shows `part` after the part that was found before.
   bool shows(const std::string& part) {
     return eventually([&] {
       pollfd polled{fd_, POLLIN, 0};

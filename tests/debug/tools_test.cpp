@@ -1,4 +1,4 @@
-// --debug with other tools than gdb, with none that is installed, and without any.
+// --debug with tools other than gdb, with a tool that is not installed, and without a tool.
 #include <regex>
 
 #include "core/files/command_file.hpp"

@@ -1,4 +1,4 @@
-// The shipped fault tests and what the pages say about faults: every file loads, every table is complete.
+// The fault tests in config/faults/ and the pages about faults: every file loads, every table is complete.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -69,7 +69,7 @@ TEST_F(FaultFiles, EveryShippedOneIsAFaultTestNamedAfterItsFile) {
   EXPECT_LE(total_s, 100.0 * static_cast<double>(shipped().size())) << "the suite should stay short";
 }
 
-// Work is taken over from a program that does not come back: elsewhere the property says nothing.
+// Other UAVs take over the work of a program only if it does not come back; otherwise the property is vacuous.
 TEST_F(FaultFiles, ThoseThatAskForWorkToBeTakenOverKillForGood) {
   std::size_t asked = 0;
   for (const std::string& name : shipped()) {

@@ -1,5 +1,5 @@
-// What others might do to a run: programs of another run in its domains, a ground program that poses as the station,
-// and somebody who stops programs and lets them go on.
+// Attacks on a run: programs of another run in its domains, a ground program that poses as the station, and a person
+// who pauses programs and lets them continue.
 #include <signal.h>
 
 #include <algorithm>
@@ -23,7 +23,7 @@ class Attack : public FleetTest, public testing::WithParamInterface<std::string>
     return run(name, arguments);
   }
 
-  /// A client of another run at the place of each UAV, from before the fleet starts on.
+  /// Starts a client of another run in the domain of each UAV. Call it before the fleet starts.
   std::vector<ChildProcess*> knock_at(int base) {
     std::vector<ChildProcess*> clients;
     for (std::size_t i = 0; i < kFleet.size(); ++i) {
@@ -39,7 +39,7 @@ class Attack : public FleetTest, public testing::WithParamInterface<std::string>
 
 TEST_P(Attack, WhatAnotherRunLeftBehindIsNotListenedTo) {
   const std::string digest = brief("alone", "patrol").digest();
-  // What is left behind holds no lock, so another test's fleet may take the domains before ours does: then elsewhere.
+  // The clients hold no lock, so another test's fleet may take the domains before this one does. Then tries others.
   for (int attempt = 1; attempt <= kAttempts; ++attempt) {
     const int base = FreeDomains(2 + static_cast<int>(kFleet.size())).base();
     const std::vector<ChildProcess*> leftover = knock_at(base);
@@ -83,7 +83,7 @@ TEST_P(Attack, WhoStandsStillForAWhileIsNotTakenForDead) {
   for (const std::string& victim : victims) order += " " + victim;
   SCOPED_TRACE("order:" + order);
   for (const std::string& victim : victims) ::kill(found.at(victim), SIGSTOP);
-  // Longer than the leases that DDS programs usually have.
+  // Longer than usual leases of DDS.
   EXPECT_FALSE(eventually([&] { return flying.skein().ended().has_value(); }, std::chrono::seconds(12)));
   for (const std::string& victim : victims) ::kill(found.at(victim), SIGCONT);
   EXPECT_EQ(flying.exit_code(), 0) << flying.err();

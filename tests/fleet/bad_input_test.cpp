@@ -1,4 +1,4 @@
-// Wrong input: exit code 2, one message that says where and what would be right, and nothing was started.
+// Wrong input: exit code 2, one message that says where the mistake is and what would be right, and no program starts.
 #include <sys/stat.h>
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace {
 
 class BadInput : public FleetTest {
  protected:
-  /// The run must be refused with a message that holds all of `parts`.
+  /// Expects the run to be refused with a message that contains all of `parts`.
   void expect_refused(const Arguments& arguments, const std::vector<std::string>& parts, std::size_t most_lines = 2) {
     const std::string name = "run" + std::to_string(++count_);
     SkeinRun& refused = run(name, arguments, {}, 2);

@@ -1,4 +1,4 @@
-// `skein bench` with as little as it can measure: that every part is measured and reported, not how fast it is.
+// `skein bench` in its smallest size: checks that every part is measured and reported, not how fast it is.
 #include "fleet_fixture.hpp"
 #include "tests/free_domain.hpp"
 
@@ -31,7 +31,7 @@ TEST_F(BenchTest, ASmallOneReportsEveryPart) {
   ASSERT_EQ(report["speed"].size(), report["machine"]["cores"] > 1 ? 3u : 2u) << "over DDS, and in one process";
   for (const Json& speed : report["speed"]) expect_speed(speed);
   const Json every_scan = report["speed"][0]["lidar"]["every_scan"];  // the same in both
-  EXPECT_GT(every_scan["scans"], 40);                                 // two explorers, ten scans a second
+  EXPECT_GT(every_scan["scans"], 40);                                 // two explorers, ten scans per second
   EXPECT_GT(every_scan["mean_returns"], 0.0);
 
   ASSERT_EQ(report["rounds"].size(), 1u);
@@ -59,7 +59,7 @@ TEST_F(BenchTest, TheFloorHoldsOverBothVendors) {
     const Json report = Json::parse(floor.out());
     EXPECT_EQ(report["rounds"], 50);
     EXPECT_GT(report["cpu_s"], 0.0);
-    EXPECT_EQ(report["messages"], 23);  // nine a UAV, five on the ground
+    EXPECT_EQ(report["messages"], 23);  // nine per UAV, five on the ground
   }
 }
 

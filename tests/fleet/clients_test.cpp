@@ -17,7 +17,7 @@ using topics::WireTopic;
 
 class Clients : public FleetTest {
  protected:
-  /// A run whose fleet waits for the agent of `uav`; its domains are known.
+  /// Starts a run that waits for the agent of `uav`, so that a test can use its domains before the flight.
   SkeinRun& waiting_for(const std::string& name, const std::string& uav, Arguments arguments) {
     arguments.insert(arguments.end(), {"--debug", uav});
     SkeinRun& run = start(name, arguments);
@@ -25,13 +25,13 @@ class Clients : public FleetTest {
     return run;
   }
 
-  /// Starts the agent with the command that the launcher printed, gdb left out.
+  /// Starts the agent with the command that the launcher printed, without gdb.
   ChildProcess& start_printed_command(const SkeinRun& run) {
     return start_program("agent", {"/bin/sh", "-c", run.debug_command()});
   }
 };
 
-/// What a stranger in one domain hears.
+/// Samples that a program outside the fleet receives in one domain.
 class Listener {
  public:
   explicit Listener(std::filesystem::path file) : file_(std::move(file)) {}
@@ -63,7 +63,7 @@ long delivered(const Json& result, const std::string& from, const std::string& t
   return 0;
 }
 
-/// All that one UAV and its software say in their own domain, and what else is not for others.
+/// The topics of one UAV's own domain, and others that other UAVs must not receive.
 std::vector<WireTopic> private_topics(const std::string& uav) {
   return {topics::odometry(uav),
           topics::gimbal(uav),
@@ -85,7 +85,7 @@ std::vector<WireTopic> private_topics(const std::string& uav) {
 }
 
 TEST_F(Clients, StrangerHearsWhatTheRouterLetsThroughAndNothingElse) {
-  // What UAVs tell each other of their maps is lost: the counts of links are those of captures then.
+  // Loses the messages about maps, so that the links' counts are those of capture reports.
   const auto faults = write("no_plans.yaml", "faults:\n  - {at_s: 0, link: {loss: 1, topics: [/plan]}}\n");
   SkeinRun& run =
       waiting_for("run", "nanyang", {"towers", "--planner", "patrol", "--duration", "90", "--faults", faults.string()});
@@ -102,7 +102,7 @@ TEST_F(Clients, StrangerHearsWhatTheRouterLetsThroughAndNothingElse) {
   const Listener uav_listener(folder() / "uav_heard"), gcs_listener(folder() / "gcs_heard");
   start_program("uav_listener", uav_listener.command(uav_domain(base, UavIndex{4}), at_uav));
   start_program("gcs_listener", gcs_listener.command(gcs_domain(base), at_gcs));
-  // The fleet waits for nanyang's agent, so nothing has been said before they listen.
+  // The fleet waits for nanyang's agent, so no message is sent before the listeners have matched.
   ASSERT_TRUE(eventually([&] { return uav_listener.writers(acks) == 1 && uav_listener.writers(own) == 1; }));
   ASSERT_TRUE(eventually([&] {
     return std::all_of(kFleet.begin(), kFleet.end(), [&](const std::string& uav) {
@@ -117,8 +117,8 @@ TEST_F(Clients, StrangerHearsWhatTheRouterLetsThroughAndNothingElse) {
   EXPECT_TRUE(result["deterministic"]) << "a stranger's ear changes nothing";
   const long acknowledged = delivered(result, "gcs", "nanyang");
   ASSERT_GT(acknowledged, 0) << "no radio message to listen to";
-  // Nobody waits for a stranger. A writer of another vendor may take a second to match it, and the whole flight takes
-  // two; and what it has not asked for again when the router leaves is gone.
+  // The fleet does not wait for a program outside the lock-step. A writer of another vendor may take a second to match
+  // it, and the whole flight takes two; samples that it has not requested again when the router leaves are lost.
   const auto hears = [](const Listener& listener, const WireTopic& topic, long sent) {
     eventually([&] { return listener.samples(topic) >= sent; }, std::chrono::seconds(2));
     EXPECT_LE(listener.samples(topic), sent) << topic.name;
@@ -174,7 +174,7 @@ TEST_F(Clients, ForeignClientIsWatchedLikeTheOthers) {
 class Hanging : public ByHand, public testing::WithParamInterface<std::string> {};
 
 TEST_P(Hanging, ProgramIsDroppedAndTheRunGoesOn) {
-  // Leases that last for longer than the patience with an answer.
+  // The leases are longer than the timeout of an answer.
   start_fleet({.all = {"--duration", "40", "--lease", "60"}, .server = {"--agent-timeout", "12"}});
   ASSERT_TRUE(eventually([&] { return is_flying(dir_); }));
   ChildProcess& victim = *fleet_.at(GetParam());

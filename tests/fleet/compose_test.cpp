@@ -1,4 +1,4 @@
-// Files for docker-compose: the built programs take the command lines that stand in them.
+// Files for docker-compose: the built programs accept the command lines in them.
 #include <yaml-cpp/yaml.h>
 
 #include "fleet_fixture.hpp"
@@ -11,7 +11,7 @@ namespace fs = std::filesystem;
 
 class ComposeCommands : public FleetTest {
  protected:
-  /// All of them must be content with what a container would be told.
+  /// Expects all programs to accept the arguments and variables that their containers would get.
   void expect_accepted(Arguments fleet) {
     const fs::path file = folder() / "compose.yaml";
     fleet.insert(fleet.begin(), "compose");
@@ -32,7 +32,7 @@ class ComposeCommands : public FleetTest {
   }
 
  private:
-  /// What a container has elsewhere, where this host has it.
+  /// Replaces paths in a container by paths on this host.
   std::string here(std::string argument) const {
     const std::map<std::string, std::string> places = {
         {"/usr/share/skein/config", source_path("config")},

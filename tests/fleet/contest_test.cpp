@@ -1,4 +1,4 @@
-// `skein contest` and `skein compare` with real fleets, as short as they can be: resumed, and one or two at a time.
+// `skein contest` and `skein compare` with short flights of real fleets: resumed, and with one or two fleets at a time.
 #include <csignal>
 #include <regex>
 #include <set>
@@ -12,7 +12,7 @@ namespace {
 
 class ContestTest : public FleetTest {
  protected:
-  /// Two UAVs before one block of 12 points.
+  /// Two UAVs in front of one block with 12 points.
   const std::string scene_ = write_small_scene(folder());
   Arguments contest(const std::string& out) const {
     return {
@@ -21,7 +21,7 @@ class ContestTest : public FleetTest {
   }
   std::string file(const std::string& out, const std::string& name) const { return text_of(folder() / out / name); }
 
-  /// Every link of a study's page, and each flight has one to its own page.
+  /// Every link on a study's page leads to a file, and each flight has a link to its own page.
   void expect_links_lead_somewhere(const std::string& out, const std::string& page) const {
     const std::regex link("href=\"([^\"]*)\"");
     std::set<std::string> pages, figures;
@@ -36,7 +36,7 @@ class ContestTest : public FleetTest {
   }
 };
 
-/// Scores and digests: what does not depend on the machine.
+/// Scores and digests, which do not depend on the machine.
 std::vector<std::string> what_repeats(const std::filesystem::path& flights) {
   std::vector<std::string> rows;
   for (auto row : read_csv(flights)) {
@@ -75,7 +75,7 @@ TEST_F(ContestTest, FliesRanksAndGoesOnWhereItWasStopped) {
   expect_links_lead_somewhere("one", page);
   EXPECT_NE(file("one", "table.tex").find("\\bottomrule"), std::string::npos);
 
-  // A flight that was stopped halfway leaves no mark; it alone is flown again, to the same digest.
+  // A flight that was interrupted has no flight.json. It alone is flown again, with the same digest.
   std::filesystem::remove(folder() / "one/flights/scenario/patrol/seed-1/flight.json");
   ChildProcess& again = skein(contest("one"));
   ASSERT_EQ(again.wait().code, 0) << again.err();
@@ -84,7 +84,7 @@ TEST_F(ContestTest, FliesRanksAndGoesOnWhereItWasStopped) {
   ASSERT_EQ(repeated.size(), 4u);
   for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(repeated[i].at("digest"), flights[i].at("digest"));
 
-  // A flight may lose its page, or be of a time without: it is listed without a link.
+  // A flight without a page of its own is listed without a link.
   std::filesystem::remove(folder() / "one/flights/scenario/patrol/seed-1/report.html");
   ASSERT_EQ(skein(contest("one")).wait().code, 0);
   EXPECT_EQ(file("one", "report.html").find("patrol/seed-1/report.html"), std::string::npos);

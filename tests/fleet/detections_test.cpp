@@ -1,5 +1,5 @@
-// What CARIC's programs find about interest points: each UAV's log of what it saw, and the score at the ground station.
-// Read by a stranger who knows no more than the messages say.
+// The topics about interest points that programs of CARIC read: each UAV's log of detections, and the score at the
+// ground station. A program that knows only the messages reads them.
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -18,7 +18,7 @@ using Numbers = std::vector<double>;
 
 class Detections : public FleetTest {
  protected:
-  /// A wall of points whose indices say nothing about where they are.
+  /// A wall of points in an order that does not reveal their positions.
   static SmallScene dense_scene() {
     SmallScene scene = default_scene();
     scene.points.clear();
@@ -32,7 +32,7 @@ class Detections : public FleetTest {
 
   void SetUp() override {
     const std::string scenario = write_small_scene(folder() / "small", dense_scene());
-    // Not as fast as it goes: a reader that has found the writer is heard of by it a little later only.
+    // Not at full speed: a reader may match the writer a little earlier than the writer matches the reader.
     run_ = &start("run",
                   {scenario, "--planner", "star", "--duration", "60", "--clock", "realtime:12", "--debug", "changi"});
     ASSERT_TRUE(run_->wait_for("gdb --args")) << run_->err();
@@ -41,7 +41,7 @@ class Detections : public FleetTest {
     for (std::size_t i = 0; i < kSmallFleet.size(); ++i) {
       listen(kSmallFleet[i], "cyclonedds", uav_domain(base, UavIndex(i)), {topics::detected_points(kSmallFleet[i])});
     }
-    // The fleet waits for changi's agent meanwhile.
+    // Meanwhile the fleet waits for changi's agent.
     for (const std::string name : {"gcs", "jurong", "changi"}) {
       ASSERT_TRUE(eventually([&] { return text_of(heard(name)).find("listening") != std::string::npos; })) << name;
     }
@@ -52,7 +52,7 @@ class Detections : public FleetTest {
     ASSERT_EQ(scene_.size(), static_cast<std::size_t>(kWallColumns * kWallRows));
   }
 
-  /// The command that the launcher printed, gdb left out.
+  /// The command that the launcher printed, without gdb.
   std::string agent_command() const {
     const std::string text = run_->err(), gdb = "gdb --args ";
     const std::size_t at = text.find(gdb), begin = text.rfind('\n', at) + 1, end = text.find('\n', at);
@@ -67,7 +67,7 @@ class Detections : public FleetTest {
   }
   std::filesystem::path heard(const std::string& name) const { return folder() / (name + ".heard"); }
 
-  /// The points of each sample of a topic, by the names of their fields.
+  /// The points of each sample of a topic: a list of numbers for each field.
   std::vector<Json> samples(const std::string& name, const topics::WireTopic& topic) const {
     std::istringstream lines(text_of(heard(name)));
     std::vector<Json> found;
@@ -78,7 +78,7 @@ class Detections : public FleetTest {
     return found;
   }
 
-  /// Index in the scene of the point at this place; none when there is no such point.
+  /// Index in the scene of the point at this place; nullopt: there is none.
   std::optional<std::size_t> index_at(const Json& points, std::size_t i) const {
     const auto same = [&](const Numbers& point) {
       const char* names[] = {"x", "y", "z", "normal_x", "normal_y", "normal_z"};
@@ -108,7 +108,7 @@ void Detections::check_log(const std::string& uav) const {
   SCOPED_TRACE(uav);
   const std::vector<Json> logs = samples(uav, topics::detected_points(uav));
   ASSERT_GT(logs.size(), 20U);
-  std::vector<std::size_t> order;  // indices, as they came
+  std::vector<std::size_t> order;  // indices in the scene, in the order of detection
   Numbers best;
   for (const Json& log : logs) {
     ASSERT_EQ(names_of(log),
@@ -136,7 +136,7 @@ void Detections::check_log(const std::string& uav) const {
   std::size_t by_chance = 0;
   for (std::size_t i = 0; i < order.size(); ++i) by_chance += order[i] == i;
   EXPECT_LT(by_chance, order.size() / 2) << "these are indices";
-  // What the referee wrote down of this UAV is what it was told.
+  // The referee's record of this UAV equals the log that the UAV received.
   std::map<std::size_t, double> audit;
   for (const auto& row : read_csv(run_->dir() / "captures.csv")) {
     if (row.at("uav") == uav) {

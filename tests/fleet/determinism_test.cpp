@@ -1,4 +1,4 @@
-// The same command gives the same digest, whatever the DDS vendors, the order of arrivals and the load of the machine.
+// The same command gives the same digest with any DDS vendors, any order of arrivals, and any load of the machine.
 #include "fleet_fixture.hpp"
 
 namespace skein::test {
@@ -20,7 +20,7 @@ class BusyCore {
 
 class Determinism : public FleetTest {
  protected:
-  /// @returns the digest of a run that went as it should.
+  /// Flies a run, which must be complete. @returns its digest.
   std::string digest(const std::string& name, const Arguments& arguments, const Environment& environment = {}) {
     SkeinRun& done = run(name, arguments, environment);
     const Json result = done.result();
@@ -67,7 +67,7 @@ TEST_F(Determinism, EverySeedIsAnotherRunAndRepeats) {
   std::string text;
   EXPECT_EQ(diff("seed1", "seed2", text), 1);
   EXPECT_NE(text.find("first difference at step 0 (0 s):\n"), std::string::npos) << text;
-  EXPECT_NE(text.find("\n  jurong position\n"), std::string::npos) << text;  // its start offset was drawn
+  EXPECT_NE(text.find("\n  jurong position\n"), std::string::npos) << text;  // its start offset is random
 }
 
 TEST_F(Determinism, TwoFleetsAtOnceKeepApart) {

@@ -1,4 +1,4 @@
-// `skein doctor` as a user has it: what it prints, its exit codes, and that its mends mend.
+// `skein doctor` as a user runs it: its output, its exit codes, and that the remedies that it suggests work.
 #include <arpa/inet.h>
 #include <gtest/gtest.h>
 #include <sys/socket.h>
@@ -28,7 +28,7 @@ class Doctor : public testing::Test {
   struct Answer {
     int code = -1;
     std::string out, err;
-    json report;  ///< of --json
+    json report;  ///< output of --json
 
     json finding(const std::string& what) const {
       for (const json& entry : report["findings"]) {
@@ -38,7 +38,7 @@ class Doctor : public testing::Test {
     }
     std::string verdict(const std::string& what) const { return finding(what).value("verdict", "none"); }
   };
-  /// @param before  shell's commands, "ulimit -n 60; "
+  /// @param before  shell commands before it: "ulimit -n 60; "
   Answer ask(const std::string& words, const std::string& before = {}, const Environment& environment = {}) {
     const std::string skein = build_path("bin/skein");
     ChildProcess child({"/bin/sh", "-c", before + "exec " + shell_word(skein) + " doctor " + words}, environment,

@@ -1,4 +1,4 @@
-// A disk that is full ends files, never the flight: its score and its result are those of a run with room.
+// A full disk truncates files but never ends the flight: score and result are those of a run with enough space.
 #include <cerrno>
 #include <random>
 

@@ -1,4 +1,4 @@
-// A strategy's program at the ground station: it joins, hears and leaves, and changes nothing by being there.
+// A strategy's program at the ground station: it joins, receives messages and leaves, and its presence changes nothing.
 #include "fleet_fixture.hpp"
 
 namespace skein::test {

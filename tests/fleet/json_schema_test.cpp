@@ -1,4 +1,4 @@
-// What docs/result.schema.json makes of results that are not as it wants them.
+// docs/result.schema.json rejects results that do not conform to it.
 #include "json_schema.hpp"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@ using Json = nlohmann::json;
 
 Json schema() { return Json::parse(std::ifstream(source_path("docs/result.schema.json"))); }
 
-/// The least that a schema takes: of each type the first, and of each object what it requires.
+/// A minimal value that conforms to a schema: of several types the first one, of an object only the required keys.
 Json example_of(const Json& schema) {
   if (schema.contains("enum")) return schema["enum"][0];
   const Json type = schema["type"].is_array() ? schema["type"][0] : schema["type"];
@@ -36,7 +36,7 @@ Json example_of(const Json& schema) {
   return object;
 }
 
-/// Calls `use` with each object that is in a value, its own included.
+/// Calls `use` with each object within a value, and with the value itself if it is an object.
 template <class Use>
 void each_object(Json& value, const Use& use) {
   if (value.is_object()) use(value);

@@ -1,4 +1,4 @@
-// `skein keys`: a secured fleet whose programs are started one by one, each with the keys that were made for it.
+// `skein keys`: a secured fleet whose programs are started individually, each with the keys that were made for it.
 #include <signal.h>
 
 #include <algorithm>

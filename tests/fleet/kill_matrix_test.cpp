@@ -1,5 +1,5 @@
-// Each program killed in turn at times that a seed draws, by fault file and from outside: the run ends, and what the
-// station acknowledged is never lost. SKEIN_LONG=1 draws more seeds.
+// Kills each program at a random time, by a fault file and from outside: the run ends, and no capture is lost that the
+// station has acknowledged. SKEIN_LONG=1 uses more seeds.
 #include <signal.h>
 
 #include <map>
@@ -20,7 +20,7 @@ std::string program_of(const std::string& member) {
 
 class KillMatrix : public FleetTest, public testing::WithParamInterface<std::uint64_t> {
  protected:
-  /// What the journal holds was acknowledged, and nothing else was: the account of the captures and the score agree.
+  /// Expects captures.csv to list exactly the captures in the station's journal as delivered, and the score to agree.
   static void expect_custody(const SkeinRun& run) {
     using Key = std::pair<std::string, std::uint64_t>;
     std::map<Key, double> journalled, delivered;
@@ -83,7 +83,7 @@ TEST_P(KillMatrix, FromOutside) {
   Arguments arguments = kMinute;
   arguments.insert(arguments.end(), {"--dds", "mixed"});
   SkeinRun& hit = start("outside", arguments);
-  // A moment that depends on the machine: whatever it is, the books must be right.
+  // The time of the kill depends on the machine; custody must hold for any time.
   const std::uintmax_t bytes = 20'000 + RandomStream(GetParam(), "kill_matrix", 1).bits() % 100'000;
   const bool there = eventually([&] {
     std::error_code missing;

@@ -1,4 +1,4 @@
-// Whatever dies, hangs or is interrupted in mid-run: the run ends in good order, says so, and leaves nothing behind.
+// Programs die, hang or are interrupted during a run: the run ends properly, reports what happened, and leaves nothing.
 #include <signal.h>
 
 #include <algorithm>
@@ -14,14 +14,15 @@
 namespace skein::test {
 namespace {
 
-/// Far longer than the tests let it fly, so that nothing here depends on the machine's speed.
+/// Far longer than the tests let it fly, so that no test depends on the machine's speed.
 const Arguments kLongRun = {"towers", "--planner", "patrol", "--duration", "2000"};
-/// Ends by itself, some seconds after the programs were found. With both vendors: each must cope with a sudden death.
+/// Ends by itself, some seconds after the test has found the programs. With both vendors, because each must cope with a
+/// sudden death.
 const Arguments kShortRun = {"towers", "--planner", "patrol", "--duration", "60", "--dds", "mixed"};
 
 class Interruption : public FleetTest {
  protected:
-  /// A run in the air with all its programs.
+  /// Starts a run. @returns it when it flies with all its programs.
   SkeinRun& flying(const Arguments& arguments) {
     SkeinRun& run = start("run", arguments);
     EXPECT_TRUE(run.wait_until_flying()) << run.err();
@@ -95,7 +96,7 @@ Arguments without_launcher(pid_t pid) {
   return words;
 }
 
-// As a user would who has mended it meanwhile.
+// A user has fixed the program and starts it again.
 TEST_F(Interruption, WhoIsStartedAgainByHandIsLostNoLonger) {
   SkeinRun& run = flying({"towers", "--planner", "patrol", "--duration", "300"});
   const pid_t pid = processes_of(run.dir()).at("uav_agent-changi");
@@ -125,7 +126,7 @@ class StopSignalled : public Interruption, public testing::WithParamInterface<in
 
 TEST_P(StopSignalled, EndsTheRunWithItsResultSoFar) {
   SkeinRun& run = flying(kLongRun);
-  run.skein().signal(GetParam());  // the launcher alone: a terminal's Ctrl-C does not reach the others either
+  run.skein().signal(GetParam());  // only the launcher, as with Ctrl-C at a terminal
   EXPECT_EQ(run.exit_code(), 130) << run.err();
   expect_complete_result(run);
   const Json result = run.result();
@@ -169,7 +170,7 @@ TEST_F(Interruption, BeforeTheFirstStepNobodyIsBlamed) {
 
 TEST_F(Interruption, SecondInterruptEndsItAtOnce) {
   SkeinRun& run = flying(kLongRun);
-  ::kill(processes_of(run.dir()).at("sim_server"), SIGSTOP);  // so that the first one cannot be obeyed
+  ::kill(processes_of(run.dir()).at("sim_server"), SIGSTOP);  // so that the first interrupt has no effect
   run.skein().signal(SIGINT);
   ASSERT_TRUE(run.wait_for("Ctrl-C again"));
   run.skein().signal(SIGINT);
@@ -194,7 +195,7 @@ TEST_P(KilledLauncher, LeavesAFolderThatMergeJoins) {
   run.skein().signal(SIGKILL);
   EXPECT_EQ(run.skein().wait().signal, SIGKILL);
   ASSERT_TRUE(eventually([&] { return processes_of(run.dir()).empty(); }, std::chrono::seconds(20)));
-  // As the agents of containers leave it.
+  // An agent in a container leaves its files in such a folder.
   const auto agents = run.dir() / "agents" / "jurong";
   std::filesystem::create_directories(agents);
   std::filesystem::rename(run.dir() / "uav_agent-jurong.log", agents / "uav_agent-jurong.log");
@@ -232,7 +233,7 @@ TEST_F(Interruption, WhatAKilledLauncherLeavesTheNextOneRemoves) {
   std::mt19937 draw(19);
   for (int round = 0; round < 4; ++round) {
     ChildProcess& launcher = start_program("killed" + std::to_string(round), check, {{"TMPDIR", tmp}});
-    auto looks = draw() % 100;  // at its folder, before the end comes
+    auto looks = draw() % 100;  // the number of checks that see its folder before it is killed
     eventually([&] { return launcher.ended() || (left() && looks-- == 0); });
     launcher.signal(SIGKILL);
     launcher.wait();

@@ -1,5 +1,5 @@
-// What a user's command starts beside itself ends with the run, wherever it went: in the background, in a session of
-// its own, with another environment. Also when the launcher is killed.
+// All processes that a user's command starts end with the run: in the background, in a session of their own, with
+// another environment. They also end if the launcher is killed.
 #include <signal.h>
 
 #include <sstream>
@@ -29,7 +29,7 @@ class Leftovers : public FleetTest {
     return start("run", {scenario_, "--duration", duration, "--planner", "hover,jurong=exec:" + command});
   }
 
-  /// Those that the command started; all four of them.
+  /// The four processes that the command has started.
   std::vector<pid_t> started() const {
     std::istringstream in(text_of(folder() / "pids"));
     std::vector<pid_t> pids;
@@ -73,7 +73,7 @@ TEST_F(Leftovers, EndWhenTheProgramIsKilled) {
   SkeinRun& run = start_run("2000");
   ASSERT_TRUE(run.wait_until_flying()) << run.err();
   const std::vector<pid_t> pids = started();
-  ::kill(pids.back(), SIGKILL);  // the client: its shell ends then
+  ::kill(pids.back(), SIGKILL);  // the client; then its shell ends
   ASSERT_TRUE(run.wait_for("uav_agent-jurong failed: exit code 137")) << run.err();
   expect_gone(pids);
   run.skein().signal(SIGINT);

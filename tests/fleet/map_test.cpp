@@ -1,4 +1,4 @@
-// What the LiDAR sees keeps the fleet alive: a podium that is in no box stands in the way to the strips.
+// The map from LiDAR prevents collisions: a podium outside all boxes is in the way to the strips.
 #include "fleet_fixture.hpp"
 #include "small_scene.hpp"
 
@@ -7,7 +7,7 @@ namespace {
 
 constexpr double kPodiumHeight = 5.5;
 
-/// A block on a podium that nobody is told of: it reaches 8 m out of the front face, where the strips come down.
+/// A block on a podium that is in no box: the podium extends 8 m from the front face, where the strips end.
 SmallScene hidden_podium() {
   SmallScene scene;
   const Block block = {{30.0, 0.0, 9.0}, {12.0, 30.0, 18.0}};
@@ -33,7 +33,7 @@ TEST_F(MapMatters, PatrolKeepsOffWhatIsInNoBox) {
   EXPECT_TRUE(with_map["collisions"].empty()) << with_map["collisions"];
   EXPECT_GT(with_map["score"], 0.0) << "it has not been where the podium is";
 
-  // Along the front face, as somebody would who knows the boxes alone.
+  // Flies along the front face, as if only the boxes were there.
   const auto file = write("front.yaml",
                           "paths:\n  jurong:\n    - {position: [19, 9, 10]}\n    - {position: [19, 9, 4]}\n"
                           "    - {position: [19, -9, 4]}\n");

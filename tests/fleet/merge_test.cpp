@@ -1,4 +1,4 @@
-// `skein merge`: what programs leave that nobody's launcher started becomes the result that the launcher would write.
+// `skein merge`: from the files of programs without a launcher it makes the result that a launcher would write.
 #include <signal.h>
 
 #include <fstream>
@@ -14,17 +14,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Only a launcher sees what programs take of the machine, and when it started them.
+/// Only a launcher measures the resources of the programs, and knows when it started them.
 const std::vector<std::string> kOnlyTheLaunchers = {"startup_s", "processes", "memory_mb"};
-/// Measured, so that no two flights have the same.
+/// Measured values, which differ between flights.
 const std::vector<std::string> kMeasured = {"wall_time_s", "real_time_factor", "timing"};
 const std::vector<std::string> kMeasuredOfUavs = {"planner_cpu_s", "planner_cpu_p99_ms", "planner_cpu_max_ms",
                                                   "planner_exchanges_over_50ms"};
 
-/// A result without what differs from flight to flight, or from merge to launcher.
+/// A result without the values that differ between flights, or between merge and launcher.
 Json comparable(Json result) {
-  result.erase("checksum");  // over what is measured, too
-  result.erase("command");   // nobody typed one for what ran without the launcher
+  result.erase("checksum");  // it also covers measured values
+  result.erase("command");   // without the launcher there is no command
   for (const auto* keys : {&kOnlyTheLaunchers, &kMeasured}) {
     for (const std::string& key : *keys) result.erase(key);
   }
@@ -53,7 +53,7 @@ class Merge : public ByHand {
     arguments.insert(arguments.end(), more.begin(), more.end());
     return skein(arguments);
   }
-  /// Its result must fit the schema.
+  /// Merges; the result must conform to the schema.
   Json merged(const Arguments& more = {}) {
     ChildProcess& process = merge(more);
     EXPECT_EQ(process.wait().code, 0) << process.err();
@@ -102,7 +102,7 @@ TEST_F(Merge, AStationThatAFaultKilledForGoodIsSettled) {
   EXPECT_FALSE(fs::exists(report("station"))) << "it came back too late, and leaves it to its books";
   Json result = merged();
   EXPECT_GT(result["score"], 0.0);
-  result["dds"]["station"] = launched["dds"]["station"];  // the books do not tell
+  result["dds"]["station"] = launched["dds"]["station"];  // the journal does not contain it
   EXPECT_EQ(comparable(result), comparable(launched)) << Json::diff(comparable(launched), comparable(result));
 }
 
@@ -149,7 +149,7 @@ TEST_F(Merge, WithoutAServersReportThereIsNothingToMerge) {
   expect_refused();
 }
 
-// As a launcher leaves it that was killed with all its programs.
+// The files of a launcher that was killed with all its programs.
 TEST_F(Merge, WithoutAServersReportTheRecordingsPartsAreJoined) {
   fly();
   fs::remove(report("sim_server"));

@@ -1,5 +1,5 @@
-// A UAV whose program stops, closes all its descriptors or ends without a word, in a fleet of processes: the others fly
-// on, it alone is named, and nothing is left of it.
+// A UAV whose program stops, closes all its descriptors or ends without a report, in a fleet of processes: the others
+// fly on, messages name only this UAV, and no process or file of it remains.
 #include "fleet_fixture.hpp"
 #include "small_scene.hpp"
 #include "tests/support/places.hpp"
@@ -7,7 +7,7 @@
 namespace skein::test {
 namespace {
 
-/// What jurong does at 3 s, and over which vendor.
+/// What jurong's program does at 3 s, and the DDS vendor.
 using NastyCase = std::pair<std::string, std::string>;
 
 class Nasty : public FleetTest, public testing::WithParamInterface<NastyCase> {

@@ -1,4 +1,4 @@
-// What a planner may ask for beside the map and a path, through all of a fleet: LiDAR scans, and commands of its own.
+// Inputs and outputs of planners beside map and path, through a whole fleet: LiDAR scans, and commands of their own.
 #include <cmath>
 
 #include "fleet_fixture.hpp"
@@ -10,7 +10,7 @@ namespace {
 
 using PlannerInputs = FleetTest;
 
-/// What the probe of a UAV logged last.
+/// The last entry of the planner `probe` in a UAV's log.
 Json last_news(const SkeinRun& run, const std::string& uav) {
   const std::string log = text_of(run.dir() / ("uav_agent-" + uav + ".log")), mark = "probe {";
   const std::size_t at = log.rfind(mark);
@@ -19,7 +19,7 @@ Json last_news(const SkeinRun& run, const std::string& uav) {
   return Json::parse(log.substr(begin, log.find('\n', begin) - begin), nullptr, false);
 }
 
-/// Height of a UAV by time, from trajectories.csv.
+/// Heights of a UAV by time [s], from trajectories.csv.
 std::map<double, double> heights(const SkeinRun& run, const std::string& uav) {
   std::map<double, double> z;
   for (const auto& row : read_csv(run.dir() / "trajectories.csv")) {

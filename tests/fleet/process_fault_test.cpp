@@ -1,11 +1,11 @@
-// Programs that a fault file kills or stops, and lets back: such a run is as exact and repeatable as any other.
+// Programs that a fault file kills or pauses and lets back in: such runs are as deterministic as any other.
 #include "fleet_fixture.hpp"
 #include "tests/support/places.hpp"
 
 namespace skein::test {
 namespace {
 
-/// Long enough that photographers work before, while and after programs are away.
+/// Long enough that photographers work before, during and after the absence of programs.
 const Arguments kFaultedTowers = {"towers", "--planner", "patrol", "--duration", "75"};
 
 class ProcessFaults : public FleetTest {
@@ -19,7 +19,7 @@ class ProcessFaults : public FleetTest {
     return run(name, arguments, environment);
   }
 
-  /// Two runs of the same faults that have as little as possible in common.
+  /// Two runs with the same faults, and otherwise as different as possible.
   std::pair<Json, Json> fly_twice(const std::string& faults) {
     const std::string one = "one" + std::to_string(pairs_), two = "two" + std::to_string(pairs_);
     ++pairs_;
@@ -49,7 +49,7 @@ constexpr const char* kAway =
     "  - {at_s: 30.0, until_s: 35.0, ORDER: comm_router}\n"
     "  - {at_s: 38.0, until_s: 42.0, ORDER: station}\n"
     "  - {at_s: 40.0, until_s: 45.0, ORDER: sentosa}\n"
-    "  - {at_s: 44.0, until_s: 45.0, ORDER: comm_router}\n";  // two come back at once
+    "  - {at_s: 44.0, until_s: 45.0, ORDER: comm_router}\n";  // two programs come back at the same time
 
 std::string all_away(const std::string& order) {
   std::string text = kAway;

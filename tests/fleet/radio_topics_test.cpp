@@ -1,5 +1,5 @@
-// Radio topics that two programs of a user register in the middle of a fleet, of a type that nobody else has: what they
-// carry arrives whole and in order, the same in every run.
+// Radio topics that two programs of a user register during a run, with a type that no other program has: their messages
+// arrive complete and in order, identically in every run.
 #include <sstream>
 
 #include "fleet_fixture.hpp"
@@ -12,7 +12,7 @@ const std::string kTalkers =
 
 class RadioTopics : public FleetTest {
  protected:
-  /// Messages that a talker heard: its last line.
+  /// Number of messages that a talker has received, from the last line of its log.
   static long heard(const SkeinRun& run, const std::string& uav) {
     std::istringstream log(text_of(run.dir() / ("uav_agent-" + uav + ".log")));
     std::string line, last;

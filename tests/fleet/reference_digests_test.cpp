@@ -1,9 +1,9 @@
-// The same input gives the same run from version to version, over DDS and in one process: digests of all bundled scenes
-// and planners, and of some faults, as the version before had them (reference_digests.csv): in one process all of them
-// at each commit, over DDS a fifth in turn; with sanitizers an eighth of them, of those with faults a sixteenth, or
-// none (ThreadSanitizer).
-// A change that is meant to change them says so in the CHANGELOG and brings new ones: SKEIN_WRITE_DIGESTS=FILE writes
-// what this test sees.
+// The same input gives the same run in every version, over DDS and in one process: compares the digests of all bundled
+// scenes and planners, and of some faults, with those of the previous version (reference_digests.csv). At each commit,
+// all rows fly in one process, and a fifth of them over DDS. With sanitizers, an eighth of the rows flies; of those
+// with faults a sixteenth, or none (ThreadSanitizer).
+// If a change alters digests on purpose, the CHANGELOG says so, and the file gets new ones: SKEIN_WRITE_DIGESTS=FILE
+// writes the digests of this test.
 #include <cstdlib>
 #include <fstream>
 
@@ -52,7 +52,7 @@ TEST_P(ReferenceDigests, AreThoseOfTheVersionBefore) {
   if (with_faults) {
     arguments.insert(arguments.end(), {"--faults", source_path("config/faults/" + row.at("faults") + ".yaml")});
   }
-  const bool over_dds = !sanitized && has_turn(number, 5);  // with sanitizers many processes are too slow
+  const bool over_dds = !sanitized && has_turn(number, 5);  // many processes with sanitizers are too slow
   if (over_dds) {
     EXPECT_EQ(run("run", arguments).digest(), row.at("digest"));
   }

@@ -1,4 +1,4 @@
-// What a run leaves behind says the same in all its files, and can be recomputed from the audit alone.
+// The files of a run agree with each other, and the score can be recomputed from captures.csv alone.
 #include <algorithm>
 #include <cmath>
 
@@ -11,14 +11,14 @@ namespace {
 constexpr double kSumTolerance = 1e-5;
 constexpr double kMinPointScore = 0.2;
 constexpr double kDurationS = 120.0;
-/// Limit of a commanded speed, and what a controller may overshoot it by.
+/// Greatest speed: the limit of a commanded speed times the permitted overshoot of the controller [m/s].
 constexpr double kMaxSpeed = 1.3 * 6.0;
 
 using Row = std::map<std::string, std::string>;
 
 double number(const Row& row, const std::string& column) { return std::stod(row.at(column)); }
 
-/// One run for all checks, for it takes a while.
+/// One run for all checks, because a run takes a while.
 class Results : public FleetTest {
  protected:
   void SetUp() override {
@@ -76,7 +76,7 @@ class Results : public FleetTest {
     EXPECT_FALSE(scene["boxes"].empty());
   }
 
-  /// The score again, from the audit: the best delivered capture of each point, of UAVs without a collision.
+  /// Recomputes the score: the best delivered capture of each point, by UAVs without a collision.
   void check_captures() const {
     SCOPED_TRACE("captures.csv");
     std::set<std::string> collided;
@@ -108,7 +108,7 @@ class Results : public FleetTest {
     EXPECT_EQ(best.size(), result_["points_detected"].get<std::size_t>());
   }
 
-  /// Every point's loss has one cause; line by line they are what result.json says.
+  /// Every point's loss has one cause; the sums over the lines are those in result.json.
   void check_losses() const {
     SCOPED_TRACE("losses.csv");
     ASSERT_TRUE(result_["losses"].is_object()) << result_["warnings"];

@@ -1,4 +1,4 @@
-// `skein run --secure`: the same flight, and nobody else gets anything of it.
+// `skein run --secure`: the flight is the same, and no other program receives its messages.
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -45,7 +45,7 @@ class Secure : public FleetTest {
   std::string scenario_;
 };
 
-/// A secured fleet that waits for the agent of kVictim, so that there is time to knock at its doors.
+/// A secured fleet that waits for the agent of kVictim, so that other programs have time to try to join.
 class SecureWaiting : public Secure, public testing::WithParamInterface<std::string> {
  protected:
   void start_fleet(const std::string& planner = "patrol", const std::string& clock = "lockstep") {
@@ -61,7 +61,7 @@ class SecureWaiting : public Secure, public testing::WithParamInterface<std::str
     ASSERT_TRUE(fs::is_directory(keys_)) << command_;
   }
 
-  /// Somebody who reads the victim's topic, in the victim's domain. @param keys  that he shows, if any.
+  /// Starts a program that reads the victim's topic in the victim's domain. @param keys  its keys; empty: it has none.
   ChildProcess& listen(const std::string& name, const std::string& vendor, const fs::path& keys) {
     return listen(name, vendor, keys, kVictimsDomain, topic_);
   }
@@ -73,7 +73,8 @@ class SecureWaiting : public Secure, public testing::WithParamInterface<std::str
 
   std::string domain(int offset) const { return std::to_string(run_->domains().first + offset); }
   fs::path heard(const std::string& name) const { return folder() / (name + ".heard"); }
-  /// Writers that he has matched, and samples that he has heard; -1 when he never got so far as to listen.
+  /// Number of writers that such a program has matched, and of samples that it has received; -1: it never began to
+  /// read.
   std::pair<long, long> ears(const std::string& name) const {
     std::istringstream text(text_of(heard(name)));
     std::string topic;
@@ -82,7 +83,7 @@ class SecureWaiting : public Secure, public testing::WithParamInterface<std::str
     return numbers;
   }
 
-  /// Keys for the victim's domain from another authority.
+  /// Keys for the victim's domain that another authority has signed.
   fs::path forged_keys() const {
     const fs::path dir = folder() / "forged";
     fs::create_directories(dir);
@@ -105,7 +106,7 @@ class SecureWaiting : public Secure, public testing::WithParamInterface<std::str
   const topics::WireTopic topic_ = topics::odometry(kVictim);
   SkeinRun* run_ = nullptr;
   std::string command_;
-  fs::path keys_;  ///< the victim's
+  fs::path keys_;  ///< folder of the victim's keys
 };
 
 TEST_P(SecureWaiting, FliesAsAnOpenFleetAndStrangersGetNothing) {
@@ -120,7 +121,7 @@ TEST_P(SecureWaiting, FliesAsAnOpenFleetAndStrangersGetNothing) {
   listen("neighbour", vendor, others_keys);
   start_program("impostor", {helper_program("impostor"), vendor, domain(kOthersDomain), domain(kVictimsDomain),
                              heard("impostor"), others_keys, topic_.name, topic_.type});
-  // Whoever has the victim's own certificate hears, so the others had the time to.
+  // The listener with the victim's own certificate receives samples, so the others had enough time, too.
   EXPECT_TRUE(eventually([&] { return ears("friend").first == 1; }));
   const std::string refusal = vendor == "fastdds" ? "Not found a rule allowing to use the domain" : "denied by default";
   const std::string forgery = "certificate signature failure";
@@ -152,7 +153,7 @@ TEST_P(SecureWaiting, FliesAsAnOpenFleetAndStrangersGetNothing) {
 }
 
 TEST_P(SecureWaiting, TheStationsProgramReadsTheScoreButNoIndices) {
-  start_fleet("patrol,gcs=listen", "realtime:10");  // time for writers to hear of the readers that found them
+  start_fleet("patrol,gcs=listen", "realtime:10");  // slow enough that writers match readers in time
   const fs::path keys = keys_.parent_path() / "uav_agent-gcs", station = keys_.parent_path() / "station";
   constexpr int kGcsDomain = 1;
   listen("score", GetParam(), keys, kGcsDomain, topics::score());
@@ -173,7 +174,8 @@ INSTANTIATE_TEST_SUITE_P(Vendors, SecureWaiting, testing::Values("cyclonedds", "
 TEST_F(Secure, AgentsCannotLookAtWhatIsNotTheirs) {
   if (!is_root()) GTEST_SKIP() << "agents have users of their own only when the launcher is root";
   fs::permissions(folder() / "small/scene/points.pcd", fs::perms(0600));
-  // What an agent tries, on the launcher too; each line names what it could read.
+  // Files and processes that an agent must not reach, the launcher included; each output line names one that it
+  // reached.
   const fs::path script = write("look.sh",
                                 "mine=${SKEIN_SECURITY%/*}\n"
                                 "for file in $mine/station/key.pem $mine/uav_agent-" +
@@ -202,8 +204,9 @@ TEST_F(Secure, AgentsCannotLookAtWhatIsNotTheirs) {
 
 TEST_F(Secure, AgentsReadNoGroundTruthThatIsThereAlready) {
   if (!is_root()) GTEST_SKIP() << "agents have users of their own only when the launcher is root";
-  // An open run of this launcher; one as an ordinary user, or an older version, left it; a world in a cache that agents
-  // can enter, drawn now; one drawn before, left open; the estimate of that world.
+  // Ground truth of earlier runs: an unsecured run of this launcher; a run as left by an ordinary user or an older
+  // version; in a cache that agents can enter, a world that is generated now, one that was left readable, and its
+  // estimate.
   const fs::path cache = folder() / "open_cache", worlds = cache / "skein/worlds";
   const Environment open_cache = {{"XDG_CACHE_HOME", cache}};
   run("earlier", {scenario_, "--duration", "5", "--planner", "hover"});
@@ -258,7 +261,7 @@ TEST_F(Secure, AgentsReadNoGroundTruthThatIsThereAlready) {
     EXPECT_NE(said.find(std::to_string(kAgentsGroup)), std::string::npos)
         << "it read the scenarios, and no more: " << said;
   }
-  // Everybody else reads on.
+  // All other users can still read these files.
   const auto reader = [&](const fs::path& file) {
     ChildProcess& cat =
         start_program("cat" + std::to_string(std::hash<std::string>{}(file)),
@@ -287,7 +290,7 @@ TEST_F(Secure, NobodyIsLeftUnderTheUserIdsOfARun) {
   const uid_t first = fly("first");
   ASSERT_GE(first, cli::kFirstAgentUser);
   EXPECT_FALSE(anybody_is(first));
-  // Somebody of that id all the same: it is not given to the next run.
+  // If a process with this id exists nevertheless, the next run gets another id.
   const std::string id = std::to_string(first);
   start_program("survivor", {"/usr/bin/setpriv", "--reuid", id, "--regid", id, "--clear-groups", "/bin/sleep", "1000"});
   ASSERT_TRUE(eventually([&] { return anybody_is(first); }));

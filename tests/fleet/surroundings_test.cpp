@@ -1,4 +1,4 @@
-// What a fleet finds around it, other fleets and the user's environment, does not reach into its run.
+// Other fleets and the user's environment do not affect a run.
 #include <signal.h>
 
 #include <random>
@@ -17,7 +17,7 @@ class Surroundings : public FleetTest {
  protected:
   Surroundings() : scenario_(write_small_scene(folder())) {}
 
-  /// A fleet that waits for one of its agents, with a temporary folder of its own.
+  /// Starts a fleet that waits for one of its agents, with its own temporary folder.
   SkeinRun& waiting_fleet(const std::string& name, const Arguments& more = {}) {
     fs::create_directories(folder() / (name + ".tmp"));
     Arguments arguments = {scenario_, "--planner", "hover", "--debug", "changi"};
@@ -68,7 +68,7 @@ TEST_F(Surroundings, AProgramThatIsStartedByHandComputesAsOneOfAFleet) {
   station.wait();
 }
 
-/// Variables that once kept a fleet from forming or could change it; HERE stands for a folder that holds the files.
+/// Variables that once prevented a fleet from starting, or could change it; HERE is a folder with the files.
 const std::vector<std::pair<std::string, std::string>> kHostileVariables = {
     {"ROS_DISCOVERY_SERVER", "127.0.0.1:11811"},
     {"ROS_SUPER_CLIENT", "TRUE"},
@@ -89,7 +89,7 @@ const std::vector<std::pair<std::string, std::string>> kHostileVariables = {
     {"SKEIN_SECURITY", "/nowhere"},
     {"SKEIN_DOMAIN", "3"},
     {"SKEIN_CHOAS", "3"}};
-/// What a shell may do before it starts the launcher.
+/// Commands that a shell may execute before it starts the launcher.
 const std::vector<std::string> kHostileShells = {"umask 0777",
                                                  "umask 0",
                                                  "exec 0<&-",
@@ -108,7 +108,7 @@ TEST_P(HostileSurroundings, DoNotChangeTheFlight) {
   std::mt19937 random(GetParam());
   const auto chosen = [&] { return random() % 2 == 0; };
   const fs::path here = folder() / "here";
-  // A participant that would look for a discovery server that is not there, as the default of every one.
+  // A default profile with which each participant would look for a discovery server that does not exist.
   write("here/DEFAULT_FASTRTPS_PROFILES.xml", R"(<?xml version="1.0" encoding="UTF-8"?>
 <dds xmlns="http://www.eprosima.com/XMLSchemas/fastRTPS_Profiles"><profiles>
   <participant profile_name="hostile" is_default_profile="true"><rtps>
@@ -154,7 +154,7 @@ INSTANTIATE_TEST_SUITE_P(Seeds, HostileSurroundings, testing::Range(0u, 4u));
 
 class ByHandSurroundings : public ByHand {};
 
-// The client in the place of changi is heard by who has the same number alone.
+// The client in place of changi communicates only with programs that have the same run number.
 TEST_F(ByHandSurroundings, AllProgramsTakeTheNumberOfTheRun) {
   const Options options{.all = {"--duration", "3"}, .server = {"--agent-timeout", "10"}};
   for (const std::string& name : kPrograms) {

@@ -1,5 +1,5 @@
-// Programs that no launcher watches over (--keep): they notice who dies, come back when a fault lets them, and end in
-// good order when they are asked to.
+// Programs without a launcher (--keep): they detect lost programs, come back when a fault ends, and end properly on
+// request.
 #include <signal.h>
 
 #include <spdlog/fmt/fmt.h>
@@ -13,17 +13,17 @@
 namespace skein::test {
 namespace {
 
-/// Who comes back at once stands at the door for longer than anything is kept for it.
+/// Long enough that a program that restarts at once must wait to be let back in.
 constexpr double kAway_s = 5.0;
 
 class Unattended : public ByHand, public testing::WithParamInterface<std::string> {
  protected:
-  /// For ever: who is not noticed to be dead holds the run up.
+  /// Options without timeouts: a dead program that is not detected would stop the run for ever.
   Options kept(Arguments more = {}, const std::string& duration_s = "60", const std::string& lease_s = "3") const {
     more.insert(more.end(), {"--duration", duration_s, "--keep", "--dds", GetParam(), "--lease", lease_s});
     return {.all = std::move(more), .server = {"--agent-timeout", "0", "--startup-timeout", "0"}};
   }
-  /// The process that does the work.
+  /// The process id of the program below its keeper.
   pid_t worker(const std::string& name) const {
     const std::string pid = std::to_string(fleet_.at(name)->pid());
     std::istringstream children(text_of("/proc/" + pid + "/task/" + pid + "/children"));
@@ -39,7 +39,7 @@ class Unattended : public ByHand, public testing::WithParamInterface<std::string
   std::mt19937 random_{std::random_device{}()};
 };
 
-// Every program is killed once and stopped once; the order is drawn.
+// Every program is killed once and paused once, in a random order.
 TEST_P(Unattended, FaultsMeanTheSameAsUnderTheLauncher) {
   std::vector<std::string> victims = {"changi", "jurong", "sentosa", "station", "comm_router"}, stopped = victims;
   std::ranges::shuffle(victims, random_);
@@ -123,7 +123,7 @@ TEST_P(Unattended, AllThatAreAskedToEndAtOnceDo) {
   EXPECT_EQ(server_report()["status"], "interrupted");
 }
 
-// However late: also when the server has gone before they are up again.
+// Also a program that is still restarting when the server ends.
 TEST_P(Unattended, WhoIsKilledForGoodEndsWithTheRun) {
   std::vector<std::string> victims = {"changi", "station", "comm_router"};
   std::string faults = "faults:\n";
@@ -140,7 +140,7 @@ TEST_P(Unattended, WhoIsKilledForGoodEndsWithTheRun) {
   EXPECT_FALSE(std::filesystem::exists(dir_ / "uav_agent-changi.report.json")) << "it did nothing in its last life";
 }
 
-// Books and reports of one must not pass for the other's.
+// A run must not use the journal and the reports of the other run.
 TEST_P(Unattended, TwoRunsInOneFolderAreToldApart) {
   const auto brief = [&](const std::string& run) {
     Options options = kept({"--run", run});
@@ -163,11 +163,11 @@ TEST_P(Unattended, TwoRunsInOneFolderAreToldApart) {
   EXPECT_EQ(server_report()["digest"], digest) << "nothing is lost";
 }
 
-// As the health check of a container sees it.
+// The health check of a container looks at the same file.
 TEST_P(Unattended, WhoHangsTouchesItsFileNoMore) {
   namespace fs = std::filesystem;
   const std::string hangs = "uav_agent-jurong", works = "uav_agent-changi";
-  const Options options = kept({}, "600", "60");  // who stands still that long is not dropped, on any machine
+  const Options options = kept({}, "600", "60");  // long enough not to drop a paused program
   std::map<std::string, Arguments> with_health;
   for (const std::string& name : {hangs, works}) {
     with_health[name] = command(name, options);

@@ -1,5 +1,5 @@
-// Who looks on, in the world's domain: what is shown is the run's own, and the run is the same whether somebody looks,
-// looks and does not take what comes, or nobody does.
+// Viewers in the world domain: the shown data are those of the run, and the run is the same with a viewer, with a
+// viewer that stops reading, and without one.
 #include <algorithm>
 #include <cmath>
 #include <csignal>
@@ -14,11 +14,11 @@ namespace skein::test {
 namespace {
 
 using Numbers = std::vector<double>;
-/// From 10 s to 40 s nobody has a link to the station: so long that a viewer on a busy machine sees some of it.
+/// From 10 s to 40 s no UAV has a link to the station: so long that a viewer on a busy machine sees a part of it.
 constexpr double kOutageBegins_s = 10.0, kOutageEnds_s = 40.0;
 constexpr double kPeriod_s = 0.1, kExchange_s = 0.05;
 
-/// The fleet's vendor, and the viewer's.
+/// The DDS vendors of fleet and viewer.
 struct Vendors {
   std::string fleet, viewer;
 };
@@ -34,7 +34,7 @@ class Viewer : public FleetTest, public testing::WithParamInterface<Vendors> {
             "--faults",
             write("outage.yaml", "faults:\n  - {at_s: 10, until_s: 40, station_outage: true}\n")};
   }
-  /// A run that a viewer has found before it begins. @param signal  that the viewer gets then, if not 0.
+  /// Flies a run that a viewer has matched before its begin. @param signal  sent to the viewer then; 0: none.
   SkeinRun& run_with_viewer(int signal = 0) {
     Arguments arguments = flight();
     arguments.insert(arguments.end(), {"--dds", GetParam().fleet, "--debug", "changi"});
@@ -46,7 +46,7 @@ class Viewer : public FleetTest, public testing::WithParamInterface<Vendors> {
     if (signal != 0) viewer.signal(signal);
     start_program("agent", {"/bin/sh", "-c", run.debug_command()});
     EXPECT_EQ(run.exit_code(), 0) << run.err();
-    viewer.signal(SIGKILL);  // or it would see the next run in these domains
+    viewer.signal(SIGKILL);  // otherwise it would also see the next run in these domains
     return run;
   }
   std::filesystem::path heard() const { return folder() / "heard"; }
@@ -113,7 +113,7 @@ void Viewer::expect_lines_between_nodes() const {
     expected.insert("gcs");
     EXPECT_EQ(names, expected);
   }
-  std::map<bool, std::size_t> lines, with_station;  ///< by whether the station is out
+  std::map<bool, std::size_t> lines, with_station;  ///< by whether the station has its outage
   for (const Json& links : samples_.at("/viz/links")) {
     const auto known = places.find(links["stamp"]);
     if (known == places.end()) continue;

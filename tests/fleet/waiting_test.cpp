@@ -1,4 +1,5 @@
-// Whoever is waited for is named, and every wait ends: by an answer, a time-out, an end that is noticed, or Ctrl-C.
+// Messages name the program that a fleet waits for, and every wait ends: by an answer, a timeout, a detected end, or
+// Ctrl-C.
 #include <signal.h>
 
 #include "fleet_fixture.hpp"
@@ -60,7 +61,7 @@ TEST_F(Waiting, SeveralHungPlannersCostOneTimeOut) {
       << lost[0]["reason"];
 }
 
-/// A fleet whose agent of changi is started by a tool that lives on when its program has ended, or does not.
+/// A fleet whose agent of changi is started by a tool, which may outlive its program.
 class Debugged : public Waiting {
  protected:
   void start_fleet(const std::string& planner = "hover") {
@@ -71,7 +72,7 @@ class Debugged : public Waiting {
     run_ = &start("run", {scenario_, "--planner", "hover", "--duration", "5", "--debug", "changi"});
     ASSERT_TRUE(run_->wait_for("changi yourself")) << run_->err();
   }
-  /// @param tool  in the place of "gdb --args", or before a user's command.
+  /// @param tool  replaces "gdb --args", or precedes a user's command.
   ChildProcess& start_tool(const std::string& tool) {
     return start_program("tool", {"/bin/sh", "-c", run_->debug_command(tool)});
   }
@@ -129,7 +130,7 @@ TEST_F(Debugged, TheEndOfTheRunIsNoLoss) {
   EXPECT_EQ(run_->err().find("debugged program"), std::string::npos) << run_->err();
 }
 
-// Its report is part of the result, though the rest of the fleet has left long before.
+// The launcher waits for its report, although the rest of the fleet has ended long before.
 TEST_F(Debugged, AProgramThatLeavesLateIsWaitedFor) {
   if (!std::filesystem::exists("/usr/bin/gdb")) GTEST_SKIP() << "no gdb here";
   start_fleet_that_ends();

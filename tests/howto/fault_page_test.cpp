@@ -1,5 +1,5 @@
-// docs/how-to-test-faults.md, followed word for word: the files that it shows are written, the commands that it shows
-// are run, and what they print must be what it shows.
+// Follows docs/how-to-test-faults.md literally: writes the files that the page shows, runs its commands, and compares
+// their output with the page.
 #include "page_test.hpp"
 #include "report/testing/xml_check.hpp"
 #include "results_page.hpp"
@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 
 class FaultPage : public PageTest {
  protected:
-  /// The page has the agent of the other page.
+  /// The page uses the agent of how-to-add-a-planner.md.
   FaultPage() { give_agent(checkout() / "build" / "my_agent"); }
 };
 
@@ -33,7 +33,7 @@ TEST_F(FaultPage, DoesWhatItSays) {
   EXPECT_EQ(elements.front().attributes.at("failures"), "0");
   EXPECT_EQ(std::count_if(elements.begin(), elements.end(), [](const auto& e) { return e.name == "testcase"; }), 4);
 
-  // The same folder once more: as for a reader who comes back. The files are as the page leaves them.
+  // Once more in the same folder, as for a reader who comes back. The files are as the page has left them.
   int number = 0;
   for (const PageBlock& block : blocks) {
     if (block.is_file()) follow(block);

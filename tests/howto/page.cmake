@@ -1,11 +1,11 @@
 # extract_from_page(PAGE NAME FILE)
-# Writes to FILE what the page's fenced blocks hold that carry NAME, one after the other: ```cpp orbit.cpp
+# Writes to FILE the content of all fenced blocks of the page that begin with NAME (```cpp orbit.cpp), in order.
 function(extract_from_page page name file)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${page})
   file(READ ${page} rest)
   set(content "")
   while(TRUE)
-    # No lists and no patterns: semicolons and brackets of the code would be theirs.
+    # Uses neither CMake lists nor regular expressions, because the code contains semicolons and brackets.
     string(FIND "${rest}" " ${name}\n" at)
     if(at EQUAL -1)
       break()
@@ -26,5 +26,5 @@ function(extract_from_page page name file)
     message(FATAL_ERROR "${page}: no block is called ${name}")
   endif()
   file(WRITE ${file}.new "${content}")
-  configure_file(${file}.new ${file} COPYONLY)  # only when it has changed
+  configure_file(${file}.new ${file} COPYONLY)  # only if the content has changed
 endfunction()

@@ -1,4 +1,4 @@
-// What pages tell to type stands in blocks that a test types (pages_test.cpp), but for little.
+// The commands of pages are in blocks that a test executes (pages_test.cpp), with few exceptions.
 #include <regex>
 
 #include "page_test.hpp"
@@ -7,7 +7,7 @@
 namespace skein::test {
 namespace {
 
-// What is only to be read is little, and says why. Commands stand in blocks that are typed.
+// Few blocks are not executed, and these give a reason. All commands are in blocks for commands.
 TEST(PageBlocks, SayWhatIsTyped) {
   static const std::regex kCommand(R"((^|\n)\s*(\$ )?(\./)?skein [a-z])");
   constexpr int kMostUntyped = 61;

@@ -1,5 +1,5 @@
-// A new user's hour: the commands of every page, typed in its order in an empty folder, and then all of them again in
-// the same folder. How pages mark what is not typed: page_test.hpp.
+// Executes the commands of every page, in order, as a new user would: in an empty folder, and then all of them again in
+// the same folder. page_test.hpp explains how pages mark blocks that are not executed.
 #include <algorithm>
 #include <iterator>
 #include <regex>
@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What stands for itself in a page, or all of it.
+/// A part of a page that can be followed by itself; most pages have one.
 struct Chapter {
   std::string page = {}, name = {};
   std::vector<PageBlock> blocks = {};
@@ -21,7 +21,7 @@ struct Chapter {
   friend std::ostream& operator<<(std::ostream& out, const Chapter& chapter) { return out << chapter.page; }
 };
 
-/// Of a page, whose name without what a test's name may not have is `stem`.
+/// The chapters of a page that have commands. @param stem  the page's name, with characters that a test's name may have
 std::vector<Chapter> chapters_of(const std::string& page, const std::string& stem) try {
   std::vector<Chapter> all = {{page, stem, {}, {}}};
   for (PageBlock& block : blocks_of(source_path(page))) {
@@ -34,7 +34,7 @@ std::vector<Chapter> chapters_of(const std::string& page, const std::string& ste
   return {{page, stem, {}, error.what()}};
 }
 
-/// Those with something to run.
+/// The chapters of all pages that have commands.
 std::vector<Chapter> all_chapters() {
   std::vector<Chapter> all;
   for (const std::string& page : all_pages()) {
@@ -44,7 +44,7 @@ std::vector<Chapter> all_chapters() {
   return all;
 }
 
-/// fault_page_test.cpp follows that page's consoles, and compares what they print.
+/// Whether another test executes the block: fault_page_test.cpp does so with the consoles of one page.
 bool is_typed_elsewhere(const std::string& page, const PageBlock& block) {
   return page == "docs/how-to-test-faults.md" && block.language == "console";
 }

@@ -1,4 +1,4 @@
-// docs/how-to-add-a-planner.md, followed word for word.
+// Follows docs/how-to-add-a-planner.md literally.
 #include <fstream>
 
 #include "fleet_fixture.hpp"
@@ -13,7 +13,7 @@ constexpr std::chrono::minutes kCompilersPatience{10};
 
 using PlannerPage = FleetTest;
 
-/// The page's folder beside the checkout, with its files in it; the checkout is there by its build folder.
+/// Creates the page's folder with its files, beside a checkout that has only its build folder.
 void lay_out(const fs::path& folder, bool with_tests) {
   fs::create_directories(folder / "my_planners");
   fs::create_directories(folder / "skein" / "build");
@@ -27,7 +27,8 @@ void lay_out(const fs::path& folder, bool with_tests) {
 
 TEST_F(PlannerPage, ItsPlannerFliesTheSameInTheTreeAndOutOfIt) {
   lay_out(folder(), long_tests());
-  // Typed twice, as by a reader who comes back. Nothing may help the installed programs to find their configuration.
+  // Executed twice, as by a reader who comes back. No variable may help the installed programs to find their
+  // configuration.
   const std::string follow = "cd " + folder().string() +
                              " && unset SKEIN_CONFIG_DIR SKEIN_BIN_DIR && set -e && . ./outside.sh && . ./outside.sh" +
                              (long_tests() ? " && ctest --test-dir my_planners/build --output-on-failure" : "");

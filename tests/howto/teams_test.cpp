@@ -1,5 +1,5 @@
-// Programs of two teams meet, in one flight and in one study (docs/how-to-add-a-planner.md): --planner NAME@AGENT. What
-// each does is what it does under --agent.
+// Agent programs of two teams in one flight, and in one study (docs/how-to-add-a-planner.md): --planner NAME@AGENT.
+// Each behaves as with --agent.
 #include <unistd.h>
 
 #include "fleet_fixture.hpp"
@@ -9,7 +9,7 @@
 namespace skein::test {
 namespace {
 
-/// Two agent programs: of one only the first knows orbit, of the other only the second knows probe.
+/// Two agent programs: only the first has the planner orbit, only the second has probe.
 const std::string kOrbits = helper_program("howto_agent"), kProbes = helper_program("probe_agent");
 
 class Teams : public FleetTest {
@@ -31,7 +31,8 @@ TEST_F(Teams, MeetInOneFlight) {
   EXPECT_FALSE(result.contains("agent"));
   EXPECT_NE(text_of(met.dir() / "uav_agent-changi.log").find("probe {"), std::string::npos);
   EXPECT_TRUE(result["processes"].contains("uav_agent-gcs"));
-  // The same flight, whichever program is the fleet's; and a planner that all know is the same in each.
+  // The flight does not depend on which program is the fleet's default; a planner of both programs flies the same in
+  // each.
   EXPECT_EQ(fly("of_one", "orbit,changi=probe:up_m=2@" + kProbes, {"--agent", kOrbits}).digest(), met.digest());
   EXPECT_NE(fly("alone", "orbit", {"--agent", kOrbits}).digest(), met.digest());
   EXPECT_EQ(fly("patrols", "patrol@" + kOrbits + ",changi=hover@" + kProbes).digest(),
@@ -40,7 +41,7 @@ TEST_F(Teams, MeetInOneFlight) {
 }
 
 TEST_F(Teams, MeetBehindTheirKeys) {
-  std::filesystem::permissions(folder(), std::filesystem::perms(0755));  // as other users they read the scenario
+  std::filesystem::permissions(folder(), std::filesystem::perms(0755));  // agents with other user ids read the scenario
   const std::string planner = "orbit@" + kOrbits + ",changi=probe@" + kProbes;
   EXPECT_EQ(fly("secure", planner, {"--secure"}).digest(), fly("open", planner).digest());
   if (::geteuid() != 0) GTEST_SKIP() << "only root's agents are other users";

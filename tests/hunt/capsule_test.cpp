@@ -1,4 +1,4 @@
-// `skein run CAPSULE.yaml` tells of the find, also where it flies a second run to compare with.
+// `skein run CAPSULE.yaml` reports about the find, also if it flies a second run for comparison.
 #include "fleet_fixture.hpp"
 
 namespace skein::test {
@@ -6,7 +6,7 @@ namespace {
 
 using Capsule = FleetTest;
 
-/// Nine tenths of what is scored without faults: which is asked of a second run, without the outage.
+/// A property that compares with the score of a second run, without the outage: at least nine tenths of it.
 constexpr const char* kShare = R"(# fault test
 name: share
 run: {scenario: towers, planner: patrol, seed: 0, uavs: 2, duration_s: 40}
@@ -19,7 +19,7 @@ capsule: {property: most, skein: '0.1.0', command: skein hunt towers}
 )";
 
 TEST_F(Capsule, EndsWithTheScoreOfTheFindAndNotOfTheRunWithoutFaults) {
-  // The variable is about missions that name no duration: a capsule has its own.
+  // The variable applies to missions without a duration; a capsule has one.
   ChildProcess& run = start_program(
       "share", {program("skein"), "run", write("share.yaml", kShare), "--one-process", "--out", folder() / "find"},
       {{"SKEIN_DURATION", "20"}});
@@ -32,7 +32,7 @@ TEST_F(Capsule, EndsWithTheScoreOfTheFindAndNotOfTheRunWithoutFaults) {
   const std::string out = run.out(), told = "this run, with its faults: score " + std::string(score) + ", results in " +
                                             (folder() / "find").string() + "\nmost fails: ";
   EXPECT_NE(out.find(told), std::string::npos) << out;
-  // There is one table, that of the find, and nothing of a score behind those words.
+  // There is one table, that of the find, and no score after these words.
   const auto count = [](const std::string& text, const std::string& part) {
     std::size_t found = 0;
     for (std::size_t at = 0; (at = text.find(part, at)) != std::string::npos; ++at) ++found;
@@ -40,7 +40,7 @@ TEST_F(Capsule, EndsWithTheScoreOfTheFindAndNotOfTheRunWithoutFaults) {
   };
   EXPECT_EQ(count(out, "digest    "), 1u) << out;
   EXPECT_EQ(out.find("score ", out.find(told) + told.size()), std::string::npos) << out;
-  // The launcher announces the second run before its messages, and its end after them.
+  // The launcher announces the second run before the messages of that run, and its end after them.
   const std::string err = run.err();
   const std::size_t first = err.find("first run, the find itself, with its faults"),
                     second = err.find("second run, without the faults"), over = err.find("the second run is over");
@@ -49,7 +49,7 @@ TEST_F(Capsule, EndsWithTheScoreOfTheFindAndNotOfTheRunWithoutFaults) {
   EXPECT_EQ(err.find("score", over), std::string::npos) << err;
 }
 
-// What is flown is in the capsule: nothing that says it otherwise is passed over in silence.
+// The capsule defines the flight: options that would change it are refused.
 TEST_F(Capsule, OptionsThatSayWhatIsFlownAreRefused) {
   const std::string capsule = write("share.yaml", kShare);
   const std::vector<Arguments> refused = {{"--duration", "20"}, {"--planner", "kios"},       {"--seed", "3"},

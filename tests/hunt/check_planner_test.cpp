@@ -1,5 +1,5 @@
-// `skein check-planner`: a repeatable planner passes in all surroundings. Of one that is not, the command names those
-// in which the run is another one, where the runs part, who says something else first, and what usually is the cause.
+// `skein check-planner`: a repeatable planner passes in all surroundings. For another planner, the command names the
+// surroundings in which the run differs, the first difference, the UAV whose output differs first, and usual causes.
 #include <regex>
 
 #include "fleet_fixture.hpp"
@@ -23,7 +23,7 @@ class CheckPlanner : public FleetTest {
 
   static constexpr const char* kSurroundings[] = {"again", "heap", "clock", "load", "cyclonedds", "fastdds", "chaos"};
 
-  /// In which the run was the same, or another one: of the mission without faults, then of that with a restart.
+  /// The surroundings that the command lists with `word`: for the mission without faults, then for that with a restart.
   static std::vector<std::set<std::string>> told(const std::string& said, const std::string& word) {
     std::vector<std::set<std::string>> all;
     static const std::regex line(R"((?:^|\n)(?:a mission[^:\n]*: digest|  (same|DIFFERENT)  (\w+):))");

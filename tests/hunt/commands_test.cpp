@@ -1,5 +1,5 @@
-// Commands around a hunt, driven as a user would: what it writes, Ctrl-C, programs of one's own (`exec:`), the capsule
-// flown again, and `skein blame`.
+// A hunt and related commands as a user runs them: output files, Ctrl-C, a user's own programs (`exec:`), a repeated
+// capsule, and `skein blame`.
 #include <csignal>
 #include <fstream>
 #include <pugixml.hpp>
@@ -30,7 +30,7 @@ class HuntCommands : public FleetTest {
             helper_program("planted_agent")};
   }
 
-  /// What a hunt wrote down of its runs, each line parsed.
+  /// The lines of a hunt's log, parsed.
   std::vector<Json> log(const std::string& out) const {
     const std::string text = text_of(folder() / out / "log.jsonl");
     EXPECT_TRUE(text.empty() || text.back() == '\n') << "a line was cut off";
@@ -42,7 +42,7 @@ class HuntCommands : public FleetTest {
     }
     return lines;
   }
-  /// The same, without regard to the order in which flights ended.
+  /// The same lines without their order, which depends on the order in which flights ended.
   std::set<std::string> log_lines(const std::string& out) const {
     std::set<std::string> texts;
     for (const Json& line : log(out)) texts.insert(line.dump());
@@ -50,7 +50,7 @@ class HuntCommands : public FleetTest {
   }
 };
 
-/// Programs, by their command lines, that name this folder.
+/// Command lines of all processes that contain the path of this folder.
 std::string processes_below(const fs::path& dir) {
   std::string found;
   std::error_code ignored;
@@ -100,7 +100,7 @@ CountsByProperty counts_of_junit(const fs::path& file) {
   return counts;
 }
 
-/// Of the table of properties.
+/// The counts in the page's table of properties.
 CountsByProperty counts_of_page(const std::string& html) {
   static const std::regex row(R"(<t[dh][^>]*>(\w+)(?: \(vacuous\))?</t[dh]><td[^>]*>(\d+)</td><td[^>]*>(\d+)</td>)"
                               R"(<td[^>]*>(\d+)</td>)");
@@ -159,7 +159,7 @@ TEST_F(HuntCommands, PageAndJUnitCountWhatTheLogSaysAndTheCapsuleFliesTheFindAga
   EXPECT_NE(again.out.find("all_fly_on fails: "), std::string::npos) << again.out;
   EXPECT_NE(again.out.find("this is the run that was found, bit for bit"), std::string::npos) << again.out;
   EXPECT_NE(again.err.find("second run, without the faults"), std::string::npos) << again.err;
-  // One table, of the run with faults.
+  // One table, that of the run with faults.
   std::vector<std::string> tables;
   const std::regex table(R"((?:^|\n)score +([0-9.]+) of )");
   for (std::sregex_iterator at(again.out.begin(), again.out.end(), table), end; at != end; ++at) {
@@ -227,7 +227,7 @@ TEST_F(HuntCommands, AProgramOfOnesOwnIsHuntedOverDds) {
     with_faults += line["flown"].get<std::string>().find("faults: []") == std::string::npos;
   }
   EXPECT_EQ(with_faults, 2u) << "the first case has none";
-  // It is the run that `skein run` flies.
+  // `skein run` flies the same run.
   const std::string flown = lines[1]["flown"];
   std::smatch seed;
   ASSERT_TRUE(std::regex_search(flown, seed, std::regex(R"(^seed: (\d+)\n)"))) << flown;
@@ -239,7 +239,7 @@ TEST_F(HuntCommands, AProgramOfOnesOwnIsHuntedOverDds) {
 
 // ---- blame ------------------------------------------------------------------------------------------------------
 
-/// What `skein blame` says of one fault.
+/// The output of `skein blame` about one fault.
 struct Blamed {
   double points = 0.0;
   std::optional<double> seconds;
@@ -259,7 +259,7 @@ std::map<std::string, Blamed> blamed(const std::string& said) {
   return all;
 }
 
-/// When a run had this score.
+/// Time at which a run reached this score [s]; -1: never.
 double time_of_score(const fs::path& dir, double score) {
   for (const auto& row : read_csv(dir / "score_timeline.csv")) {
     if (std::stod(row.at("score")) >= score - 1e-6) return std::stod(row.at("time_s"));

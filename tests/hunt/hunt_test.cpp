@@ -1,5 +1,5 @@
-// Planted defects are found by a search that knows none of them, made small, and stand in a capsule that fails with the
-// defect and passes without, over DDS. One of them in the usual suite; all of them with SKEIN_LONG=1.
+// A hunt finds planted defects without knowing them, minimises the finds, and writes capsules that fail with the defect
+// and pass without it, over DDS. The usual suite tests one defect, SKEIN_LONG=1 all of them.
 #include <fstream>
 #include <map>
 #include <regex>
@@ -16,13 +16,13 @@ namespace fs = std::filesystem;
 constexpr std::chrono::minutes kPatience{60};
 constexpr std::size_t kMostFaults = 3;
 
-/// A program with a defect, and the same without.
+/// A program with a defect, and the same program without it.
 struct Planted {
   std::string name;
-  Arguments defect, sound;      ///< what `skein hunt` is told of the agent, and `skein test --faults`
-  std::string planner;          ///< with the defect
-  std::string sound_planner;    ///< without
-  Environment defect_programs;  ///< where the programs with the defect are, if they are not the agent's
+  Arguments defect, sound;      ///< options for the agent, for `skein hunt` and `skein test --faults`
+  std::string planner;          ///< the planner with the defect
+  std::string sound_planner;    ///< the planner without it
+  Environment defect_programs;  ///< variables for the programs with the defect, if it is not in the agent
 };
 
 Planted of_planner(const std::string& defect) {
@@ -32,7 +32,7 @@ Planted of_planner(const std::string& defect) {
 
 class Hunts : public FleetTest {
  protected:
-  /// A folder with the station that is too hasty, and all other programs as they are.
+  /// Variables for a folder with the station that acknowledges too early, and with the other programs unchanged.
   Environment hasty() const {
     const fs::path dir = folder() / "hasty";
     fs::create_directories(dir);
@@ -44,7 +44,7 @@ class Hunts : public FleetTest {
     return {{"SKEIN_BIN_DIR", dir}};
   }
 
-  /// @returns its exit code. What it said is in `said_`.
+  /// Runs `skein`; its output is in `said_`. @returns its exit code.
   int skein(const Arguments& words, const Environment& environment = {}) {
     const std::string name = "call-" + std::to_string(++calls_);
     Arguments argv = {program("skein")};
@@ -64,7 +64,7 @@ class Hunts : public FleetTest {
     return files;
   }
 
-  /// The search finds it, and what it leaves fails with the defect and passes without.
+  /// Expects a hunt to find the defect, and its capsules to fail with the defect and to pass without it.
   void expect_found(const Planted& planted, int runs, const Arguments& more) {
     const Arguments words = joined({"hunt", "towers", "--planner", planted.planner, "--runs", std::to_string(runs),
                                     "--first", "--seed", "1", "--out", folder() / planted.name},
@@ -157,7 +157,7 @@ TEST_F(Hunts, FlyUnderTheConditionsThatAreGiven) {
                   conditions, "--out", folder() / "hunt"});
   };
   ASSERT_EQ(hunt("none,wind=breezy+odometry=breezy"), 0) << said_;
-  std::map<std::string, std::set<std::string>> digests;  // of a seed's flights, by conditions
+  std::map<std::string, std::set<std::string>> digests;  // digests of the flights of a seed, by conditions
   std::istringstream lines(text_of(folder() / "hunt" / "log.jsonl"));
   for (std::string line; std::getline(lines, line);) {
     const Json flown = Json::parse(line);
@@ -174,7 +174,7 @@ TEST_F(Hunts, FlyUnderTheConditionsThatAreGiven) {
       << said_;
 }
 
-/// The defects of planted.cpp, and two of Skein's own programs.
+/// The defects in planted.cpp, and one in each of two programs of Skein.
 class AllDefects : public Hunts, public testing::WithParamInterface<const char*> {};
 
 TEST_P(AllDefects, AreFound) {

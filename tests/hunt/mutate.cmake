@@ -1,5 +1,5 @@
 # cmake -DFROM=... -DTO=... -DFIND=... -DREPLACE=... -P mutate.cmake
-# A source with one mistake put in. FIND must be there exactly once.
+# Writes a copy of a source with one inserted mistake. FIND must occur exactly once.
 file(READ ${FROM} text)
 string(FIND "${text}" "${FIND}" first)
 string(FIND "${text}" "${FIND}" last REVERSE)

@@ -1,4 +1,4 @@
-// Every rule on a small tree that breaks it: a rule that finds nothing anywhere proves nothing.
+// Each rule on a small tree that breaks it, to show that the rule can find violations.
 #include "tests/layers/rules.hpp"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A folder with files that a test makes up.
+/// A folder with files that a test writes.
 class MadeUpTree : public ::testing::Test {
  protected:
   MadeUpTree() {

@@ -1,5 +1,5 @@
-// The wrapper ./skein in a small tree of its own, whose compiler and launcher only write down what they are asked for:
-// which targets it builds for a command, and which words reach the launcher.
+// The wrapper ./skein in a small artificial tree, whose build tool and launcher only record their arguments: which
+// targets it builds for a command, and which arguments reach the launcher.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -35,7 +35,7 @@ class Wrapper : public testing::Test {
 
   void SetUp() override {
     fs::copy_file(source_path("skein"), root_ / "skein");
-    // All packages are there; nothing is up to date; what is asked of ninja is written down.
+    // All packages are installed; no target is up to date; ninja records its arguments.
     write(root_ / "bin/dpkg-query", "#!/bin/sh\nshift 3\nfor package in \"$@\"; do echo $package installed; done\n",
           true);
     write(root_ / "bin/ninja",

@@ -1,5 +1,5 @@
-// The network between two hosts is cut in mid-flight: a lease that outlasts the cut makes nothing of it, and after a
-// shorter one the UAV that is given up is not told to have broken a rule.
+// The network between two hosts is cut during a flight: with a lease longer than the cut, nothing happens; with a
+// shorter one, the UAV is dropped, but not accused of having broken the protocol.
 #include <signal.h>
 
 #include <stdexcept>
@@ -12,7 +12,7 @@
 namespace skein::test {
 namespace {
 
-/// Changi's agent is a user's command on a host of its own.
+/// Changi's agent is a user's command on another host.
 class Cut : public FleetTest {
  protected:
   void SetUp() override {
@@ -27,7 +27,7 @@ class Cut : public FleetTest {
   std::string network() const {
     return "{usual: {peers: [" + hosts_.address(0, "fleet") + ", " + hosts_.address(0, "changi") + "]}}";
   }
-  /// @param lease_s  of changi's agent; the fleet's is the launcher's.
+  /// @param lease_s  lease of changi's agent [s]; the other programs have the launcher's default.
   ChildProcess& fly(int lease_s) {
     const std::string domain = std::to_string(domains_.base());
     std::string agent = "exec";

@@ -40,7 +40,7 @@ class DoctorNet : public testing::Test {
   }
 
   std::string scenario() const { return folder_ / "one.yaml"; }
-  /// All hosts of a network are peers in its domain.
+  /// Configuration of the networks: in each domain, all hosts of its network are peers.
   std::string network(const std::string& host) const {
     std::string text = "{a: {peers: [" + hosts_.address(1, "server") + ", " + hosts_.address(1, "router") + ", " +
                        hosts_.address(1, "a") + "]}";
@@ -67,7 +67,7 @@ class DoctorNet : public testing::Test {
   }
   int code(const std::string& host) { return doctors_.at(host)->wait().code; }
 
-  /// What a host says of another in a domain; null when it says nothing.
+  /// A host's report about another host in a domain; null: there is none.
   json said(const std::string& host, const std::string& domain, const std::string& other) {
     code(host);
     const json report = json::parse(doctors_.at(host)->out(), nullptr, false);

@@ -1,4 +1,4 @@
-// Each domain on a network of its own: a server and a router on all of them, two UAVs that share none.
+// Each domain has its own network: server and router are on all of them, two UAVs have none in common.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,10 +19,10 @@ namespace {
 
 constexpr std::size_t kSamples = 20;
 
-/// Vendors of server, router, a and b.
+/// DDS vendors of server, router, a and b.
 using Vendors = std::array<std::string, 4>;
 
-/// What a domain's `interface` says: nothing, its subnet, or "all".
+/// Value of a domain's key `interface`: none, its subnet, or "all".
 enum class Interface { none, subnet, all };
 
 class DomainNetworks : public testing::Test {
@@ -44,7 +44,7 @@ class DomainNetworks : public testing::Test {
     if (!folder_.empty()) std::filesystem::remove_all(folder_);
   }
 
-  /// "{world: {peers: [...]}, a: ...}": all on the networks that `host` is on.
+  /// "{world: {peers: [...]}, a: ...}": the peers on all networks of `host`.
   std::string network(const std::string& host, Interface interface = Interface::none) const {
     std::string text = "{";
     const auto domain = [&](const std::string& name, int number, const std::vector<std::string>& all) {
@@ -150,7 +150,7 @@ TEST_F(DomainNetworks, AUavThatAsksForMoreHearsNothing) {
   start("server", "cyclonedds", 1, network("server"), 100, {{"world", 1}, {"a", 2}, {"b", 2}});
   start("router", "fastdds", 2, network("router"), 100, {{"world", 1}, {"a", 2}, {"b", 2}});
   start("b", "cyclonedds", 4, network("b"), 100, {{"b", 2}});
-  // It knows all addresses, and joins all domains.
+  // The UAV knows all addresses, and joins all domains.
   const std::string all = hosts_.address(0, "server") + ", " + hosts_.address(1, "server") + ", " +
                           hosts_.address(2, "server") + ", " + hosts_.address(2, "b") + ", " +
                           hosts_.address(0, "router");
@@ -164,7 +164,7 @@ TEST_F(DomainNetworks, AUavThatAsksForMoreHearsNothing) {
   EXPECT_EQ(heard(3, "b"), "");
 }
 
-// As in containers, where names come and go with them: the first one to start knows none but its own.
+// As in containers, whose names exist only while they run: the first program to start can resolve only its own name.
 TEST_F(DomainNetworks, AnOwnNameTellsTheOwnAddressBeforeOthersAreKnown) {
   const std::string network = "{a: {peers: [sim.a, uav.a]}}";
   hosts_.tell("server", "sim.a", hosts_.address(1, "server"));

@@ -44,7 +44,7 @@ class Place : public FleetTest {
     return !launcher.ended();
   }
 
-  /// A launcher for hosts that runs as an ordinary user, whoever logs in.
+  /// A script that runs the launcher on a host as an ordinary user, whichever user logs in.
   std::string write_as_nobody() const {
     const auto file = write("nobody/skein", "#!/bin/sh\nexec setpriv --reuid=nobody --regid=nogroup --clear-groups " +
                                                 program("skein") + " \"$@\"\n");
@@ -61,7 +61,7 @@ const Arguments kBoth = {"--place", "jurong=b,changi=c"};
 
 class PlaceByVendor : public Place, public testing::WithParamInterface<Arguments> {};
 
-// One of them killed, one paused, and brought back: by processes on other hosts.
+// Faults kill one agent and pause another; processes on their hosts carry this out.
 TEST_P(PlaceByVendor, IsTheFlightOfOneHost) {
   const Arguments flight =
       joined({"--duration", "25", "--keep-maps", "--faults",
@@ -88,7 +88,7 @@ TEST_P(PlaceByVendor, IsTheFlightOfOneHost) {
   for (const char* file : {"uav_agent-jurong.log", "uav_agent-changi.report.json"}) {
     EXPECT_FALSE(text_of(folder() / "two" / file).empty()) << file;
   }
-  // What an agent may see was there, and nothing else of the scene.
+  // The agent's host had the files that an agent may read, and no others of the scene.
   const auto had = [&](const std::string& name) {
     return std::ranges::any_of(seen, [&](const std::string& file) { return file.ends_with(name); });
   };
@@ -105,7 +105,7 @@ TEST_F(Place, AHostThatVanishesIsTheLossOfItsUavs) {
   ChildProcess& launcher = fly("run", joined(kBoth, {"--duration", "120"}));
   ASSERT_TRUE(wait_until_flying("run", launcher)) << launcher.err();
   login_.cut("b");
-  // Cut off from everybody, its minder ends all.
+  // On a host without connection, the minder ends all programs.
   EXPECT_TRUE(login_.is_clean("b")) << testing::PrintToString(login_.processes_on("b"));
   EXPECT_EQ(launcher.wait().code, 3);
   EXPECT_NE(launcher.err().find("uav_agent-jurong failed: its host b is gone"), std::string::npos) << launcher.err();
@@ -116,7 +116,7 @@ TEST_F(Place, AHostThatVanishesIsTheLossOfItsUavs) {
   login_.mend("b");
 }
 
-/// The times of day of the three hosts are hours apart.
+/// The clocks of the three hosts show different times of day.
 class PlaceByOtherClocks : public Place {
  protected:
   void SetUp() override {
@@ -148,7 +148,7 @@ TEST_F(PlaceByOtherClocks, IsTheFlightOfOneHost) {
   }
 }
 
-/// Minders, leases and what notices that an agent hangs.
+/// Minders, leases and the timeout of a hanging agent work with different clocks.
 TEST_F(PlaceByOtherClocks, LossesAreNoticedAllTheSame) {
   ChildProcess& launcher =
       fly("run", joined(kBoth, {"--duration", "20", "--agent-timeout", "3"}), "patrol,changi=exec:exec sleep 1000");
@@ -179,7 +179,7 @@ TEST_F(Place, AKilledLauncherLeavesNothingOnAnyHost) {
 }
 
 TEST_F(Place, ACommandOfTheUsersAndWhatItStartsEndWithTheRun) {
-  // It leaves a child in a session of its own.
+  // The command leaves a child in another session.
   ChildProcess& launcher =
       fly("run", {"--place", "jurong=b", "--duration", "10", "--agent-timeout", "10"},
           "patrol,jurong=exec:setsid sleep 1000 & env > \"$SKEIN_OUT/env\"; sleep 1; kill -SEGV $$");
@@ -233,7 +233,7 @@ TEST_F(Place, DomainsThatAnotherHostUsesAreNotTaken) {
   first.wait();
 }
 
-// Its commands, typed on each host as they are printed.
+// Executes the printed commands on each host.
 TEST_F(Place, AFleetThatIsStartedByHandFliesTheSame) {
   const Arguments flight = {"--duration", "10", "--dds", "fastdds"};
   run("one", joined({scene_, "--planner", "patrol", "--no-oracle", "--no-report"}, flight));
@@ -257,7 +257,7 @@ TEST_F(Place, AFleetThatIsStartedByHandFliesTheSame) {
   EXPECT_EQ(result("hand")["digest"], result("one")["digest"]) << text << a.err() << b.err();
 }
 
-// Where the login is not root's, agents run as that user, and the launcher says so.
+// If the login is not root's, agents run as that user, and the launcher reports this.
 TEST_F(Place, ASecuredAgentWithoutAUserIdOfItsOwnIsNamed) {
   ChildProcess& launcher = start_program(
       "run", login_.hosts().on("a", {program("skein"), "run", scene_, "--planner", "patrol", "--duration", "8",

@@ -20,7 +20,7 @@
 namespace skein::test {
 namespace {
 
-/// Says in each step what it has heard, and climbs.
+/// Repeats in each step the messages that it has received, and climbs.
 class Parrot final : public agent::Planner {
  public:
   explicit Parrot(std::vector<agent::PlannerInput>* seen = nullptr) : seen_(seen) {}
@@ -36,7 +36,7 @@ class Parrot final : public agent::Planner {
   std::vector<agent::PlannerInput>* seen_;
 };
 
-/// Greets in every step.
+/// Sends a message in every step.
 class Greeter final : public agent::GroundProgram {
  public:
   std::vector<agent::RadioMessage> work(const agent::GroundInput& input) override {
@@ -81,7 +81,7 @@ TEST(AgentNode, FliesByOdometryAndAnswersTheGroundProgramByRadio) {
   ASSERT_GT(heights.size(), kSteps / 2);
   EXPECT_TRUE(std::ranges::is_sorted(heights)) << "it climbs";
   EXPECT_GT(heights.back(), heights.front());
-  // Said in step k, heard and answered in k + 1, at the ground in k + 2.
+  // Sent in step k, received and answered in k + 1, received at the station in k + 2.
   ASSERT_EQ(ground_side.heard.size(), kSteps - 2);
   for (std::uint64_t k = 0; k < kSteps - 2; ++k) {
     EXPECT_EQ(ground_side.heard[k].text, "a: hello " + std::to_string(k));
@@ -207,7 +207,7 @@ TEST(AgentNode, ShowsItsMapWhereSomebodyLooksOn) {
   }
 }
 
-// One that looks on learns what the program knows of itself, once a second, and changes none of its counts.
+// An observer receives the program's diagnostics once per second, and does not change the program's counts.
 TEST(AgentNode, TellsOfItselfWhereSomebodyLooksOn) {
   constexpr std::uint64_t kSteps = 200, kLooksFrom = 100;
   const Scenario scenario = toy_scenario(1);
@@ -336,7 +336,7 @@ TEST(AgentNode, KeepsCaptureReportsAsTheyCameUntilTheStationHasThem) {
         UavIndex{0}, n, static_cast<Tick>(n), 7 * n, {{static_cast<std::uint32_t>(n), 0.5F, 0.6F, 0.3F, 0.7F}}};
   };
   server.before_step = [&](std::uint64_t k) {
-    if (k < 10) {  // each one twice: a card repeats itself
+    if (k < 10) {  // each report twice, because the server repeats reports
       msg::CaptureReports reports;
       for (const std::uint64_t n : {k / 2, k}) reports.reports().push_back(to_message(report(n), scenario.uav_names()));
       card.write(reports);
@@ -345,7 +345,7 @@ TEST(AgentNode, KeepsCaptureReportsAsTheyCameUntilTheStationHasThem) {
     if (k >= 5) linked.push_back({.node = 0.0F});
     neighbours.write(to_cloud(static_cast<Tick>(20 * k), linked));
   };
-  // A station that hears, and acknowledges what it hears for the second time.
+  // A station that acknowledges a report when it receives it for the second time.
   std::map<std::uint64_t, int> heard;
   std::vector<std::uint64_t> to_acknowledge;
   ToyMember station(*bus, gcs_domain(0), bus::kStationName);
@@ -361,7 +361,7 @@ TEST(AgentNode, KeepsCaptureReportsAsTheyCameUntilTheStationHasThem) {
   station.client().declare_writer(bus::spec(topics::captures_ack("a")), bus::LockstepClient::Counterpart::router);
   station.on_step = [&](const msg::Step&) {
     if (to_acknowledge.empty()) return;
-    // Before each good one, damaged ones: another capture's number, which came by once only and must be kept.
+    // Before each valid acknowledgement come damaged ones, with numbers of captures that the agent must keep.
     msg::CaptureAck damaged = to_capture_ack("a", to_acknowledge);
     damaged.captures().front() ^= 1;
     station.client().write(topics::captures_ack("a").name, damaged);

@@ -1,5 +1,5 @@
-// A whole fleet in this process: the server, router, station and agents of a run as they are, over a bus without
-// threads. Nothing may depend on the order in which they get their turns.
+// A whole fleet in this process: the production nodes of server, router, station and agents, over a bus without
+// threads. Nothing may depend on the order in which the nodes get their turns.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -35,13 +35,13 @@ struct Flight {
   LoadOptions load = {};
   std::uint64_t seed = 0;
   std::optional<double> stop_at_s = {};
-  std::optional<view::LookOrder> look = {};  ///< somebody watches, and looks at this all the time
+  std::optional<view::LookOrder> look = {};  ///< what a viewer requests during the whole flight; none: no viewer
 };
 
 class Fleet {
  public:
-  /// @param order    draws who gets the next turn.
-  /// @param network  the bus is this one, and `order` draws what happens on it next, too.
+  /// @param order    seed that draws the node with the next turn.
+  /// @param network  the bus to use; `order` then also draws its events.
   Fleet(const Flight& flight, std::uint64_t order, SimNetwork* network = nullptr)
       : scenario_(load_scenario(flight.scenario, with_config(flight.load))),
         random_(order, "turns", 0),
@@ -75,23 +75,23 @@ class Fleet {
   }
   ~Fleet() { std::filesystem::remove_all(folder_); }
 
-  /// Turns in drawn order until the run is over. @returns false when nothing moves any more.
+  /// Gives turns in random order until the run is over. @returns false if the run does not finish.
   bool fly() {
     for (std::uint64_t turn = 0; !server_->end() && turn < 20'000'000; ++turn) go_on();
     station_->write_report();
     return server_->end() == bus::NodeEnd::finished;
   }
-  /// So many turns.
+  /// Gives this number of turns.
   void fly_on(int turns) {
     for (int i = 0; i < turns; ++i) go_on();
   }
-  /// A UAV's program is gone.
+  /// Kills a UAV's program.
   void kill(UavIndex uav) {
     nodes_[3 + uav].reset();
     server_->report_lost(scenario_.fleet[uav].name);
   }
   sim::SimNode& server() { return *server_; }
-  /// What was shown to who looks.
+  /// The messages that the viewer has received.
   const std::vector<Json>& shown() const { return shown_; }
   std::size_t points() const {
     const auto report =
@@ -110,7 +110,7 @@ class Fleet {
   static std::optional<sim::WatchOptions> watch_of(const Flight& flight) {
     return flight.look ? std::optional(sim::WatchOptions{.speed = std::nullopt}) : std::nullopt;
   }
-  /// As the station does for a browser.
+  /// Requests points and maps, as the station does for a browser.
   void look_at(const view::LookOrder& look) {
     viewer_ = bus_->join(world_domain(0));
     orders_ = viewer_->create_writer(bus::spec(topics::view_orders()));
@@ -121,7 +121,7 @@ class Fleet {
     });
     order_.data(view::text_of(look));
   }
-  /// A match or a sample arrives, or somebody gets a turn.
+  /// One event: a match or a sample arrives, or a node gets a turn.
   void go_on() {
     if (orders_ && turns_++ % 5000 == 0) orders_->write(encode(order_));
     if (network_ != nullptr && random_.bits() % 2 == 0) {
@@ -147,7 +147,7 @@ class Fleet {
   std::vector<std::unique_ptr<bus::LockstepNode>> nodes_;
   sim::SimNode* server_ = nullptr;
   station::StationNode* station_ = nullptr;
-  std::unique_ptr<bus::Participant> viewer_;  ///< none: nobody looks
+  std::unique_ptr<bus::Participant> viewer_;  ///< null: there is no viewer
   std::unique_ptr<bus::Writer> orders_;
   std::unique_ptr<bus::Reader> clouds_;
   msg::String order_;
@@ -167,7 +167,7 @@ TEST(FleetInOneProcess, TheOrderOfTurnsIsNoMatter) {
   EXPECT_EQ(digests.size(), 1U);
 }
 
-// Harsher than DDS (tests/protocol/sim_network.hpp), with the server as it is and not as a model of it.
+// A network that is harsher than DDS (tests/protocol/sim_network.hpp), with the production server.
 TEST(FleetInOneProcess, TheOrderOfDiscoveryAndArrivalIsNoMatter) {
   Fleet calm({.planner = "patrol", .stop_at_s = 2.0}, 1);
   ASSERT_TRUE(calm.fly());
@@ -179,8 +179,8 @@ TEST(FleetInOneProcess, TheOrderOfDiscoveryAndArrivalIsNoMatter) {
   }
 }
 
-// Whose points and maps are shown, and how often, is decided by wall time. "hover" reads no scans: they are computed
-// for the page alone, and its map is the one of key frames.
+// The times at which points and maps are sent to a viewer depend on wall time, but must not affect the flight. The
+// planner "hover" reads no scans, so they are computed only for the page, and its map is that of key frames.
 TEST(FleetInOneProcess, IsTheSameWhereSomebodyLooksAtPointsAndMaps) {
   for (const std::string planner : {"patrol", "hover"}) {
     const Flight flight{.planner = planner, .seed = 5, .stop_at_s = 15.0};
@@ -189,7 +189,7 @@ TEST(FleetInOneProcess, IsTheSameWhereSomebodyLooksAtPointsAndMaps) {
     EXPECT_TRUE(unseen->shown().empty());
     const auto digest = unseen->server().summary().digest;
     ASSERT_TRUE(digest);
-    unseen.reset();  // two fleets of one process would hear each other
+    unseen.reset();  // two fleets in one process would exchange messages
     Flight seen_flight = flight;
     seen_flight.look = view::LookOrder{{"jurong", "nobody", "changi"}, "raffles"};
     Fleet seen(seen_flight, 2);
@@ -209,8 +209,6 @@ TEST(FleetInOneProcess, IsTheSameWhereSomebodyLooksAtPointsAndMaps) {
   }
 }
 
-// What flies over DDS in tests/fleet/reference_digests_test.cpp has the same digest here: one row for each family and
-// planner.
 TEST(FleetInOneProcess, GoesOnWithoutWhoIsLost) {
   Fleet fleet({.stop_at_s = 6.0}, 4);
   fleet.fly_on(2000);
@@ -234,7 +232,7 @@ TEST(FleetInOneProcess, EndsAtTheNextStepWhenTheUserSaysSo) {
 }  // namespace
 }  // namespace skein::test
 
-// With the launcher's pins, as all programs of a fleet: libm chooses its code by them when a process starts.
+// With the environment of a fleet's programs, because libm chooses its code when a process starts.
 int main(int argc, char** argv) {
   skein::take_fleet_environment(argv);
   return skein::run_test_program(argc, argv);

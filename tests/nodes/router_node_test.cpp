@@ -1,4 +1,5 @@
-// The router between members who talk: who hears what follows from the links of the step in which it was said.
+// The router between members that send messages: the links of the step in which a message is sent decide who receives
+// it.
 #include "comm_router/router_node.hpp"
 
 #include <gtest/gtest.h>
@@ -65,7 +66,7 @@ TEST(RouterNode, EachMessageReachesTheLinkedOnesInTheNextStep) {
     };
     router.start();
     ASSERT_TRUE(take_turns(turns, [&] { return server.over(); })) << router.waiting_for();
-    // By source, then in the order of saying it.
+    // Ordered by source, then by the order of sending.
     for (auto& [uav, steps] : expected) {
       for (auto& [k, texts] : steps) std::ranges::sort(texts);
     }
@@ -103,7 +104,7 @@ TEST(RouterNode, TellsForWhomItWaitsBeforeItsRadioIsOpen) {
   const Scenario scenario = toy_scenario(1);
   const auto bus = bus::make_bus({.vendor = "inproc"});
   ToyServer server(*bus, scenario, 3);
-  server.expect_uavs(scenario);  // and no router: it is not invited
+  server.expect_uavs(scenario);  // but not the router, which therefore cannot join
   router::RouterNode router(scenario, 0, 0, *bus);
   ToyMember a(*bus, uav_domain(0, UavIndex{0}), "a");
   router.start();

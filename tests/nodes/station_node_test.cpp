@@ -1,4 +1,4 @@
-// The station with a ledger and a UAV that reports: what agrees counts, is acknowledged, and is remembered.
+// The station with a ledger and a reporting UAV: reports that equal the ledger count, are acknowledged, and are stored.
 #include "station/station_node.hpp"
 
 #include <gtest/gtest.h>
@@ -31,8 +31,8 @@ class StationNodeTest : public testing::Test {
   }
   ~StationNodeTest() override { std::filesystem::remove_all(folder_); }
 
-  /// A run in which UAV "a" hands in all captures, the forged one with another token, again and again.
-  /// @returns what was acknowledged.
+  /// Flies a run in which UAV "a" repeatedly reports all captures, and a forged one with another token.
+  /// @returns the acknowledged captures.
   std::set<std::uint64_t> run(std::optional<std::uint64_t> station_dies_at = {}) {
     std::set<std::uint64_t> acknowledged;
     const auto bus = bus::make_bus({.vendor = "inproc", .run = RunId{5}});

@@ -1,6 +1,6 @@
-// A fleet that somebody steps: server, router, station and agents as they are, two of them learners, over a bus without
-// threads and with turns in drawn order. It stands exactly where it is to stand. Each learner looks there once, and
-// plans when it is told. Neither the order of turns nor the length of steps changes the flight.
+// A stepped fleet: the production nodes of server, router, station and agents, two of them learners, over a bus without
+// threads and with turns in random order. The fleet stops exactly at the requested step. Each learner observes once
+// there, and plans only with its orders. Neither the order of turns nor the length of steps changes the flight.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -20,7 +20,7 @@
 namespace skein::test {
 namespace {
 
-/// Holds the fleet at `target`, and writes down what server and learners do.
+/// Stops the fleet at `target`, and checks and records what server and learners do.
 class Desk final : public agent::LearnerDesk, public sim::StepGate {
  public:
   void enter(const std::string&, agent::Learner&) override {}
@@ -30,7 +30,7 @@ class Desk final : public agent::LearnerDesk, public sim::StepGate {
     EXPECT_EQ(simulation.step(), begun.value_or(simulation.step() - 1) + 1) << "a step was left out";
     EXPECT_LE(simulation.step(), target) << "nobody has asked for it";
     begun = simulation.step();
-    if (last) target = *begun + 1;  // nobody is asked any more
+    if (last) target = *begun + 1;  // no further request will come
   }
   bool may_end(std::uint64_t k) const override { return k < target; }
   void closed(const sim::Simulation&, const sim::RunDigest& digest) override { closed_with = digest.hex(); }
@@ -40,7 +40,7 @@ class Desk final : public agent::LearnerDesk, public sim::StepGate {
   std::optional<std::string> closed_with;
 };
 
-/// The planner `learner`; counts when it looks and plans.
+/// The planner `learner`; counts its observations and its plans by step.
 class Watched final : public agent::Planner, public agent::Learner {
  public:
   Watched(std::unique_ptr<agent::Planner> planner, const Desk& desk) : planner_(std::move(planner)), desk_(desk) {
@@ -63,13 +63,13 @@ class Watched final : public agent::Planner, public agent::Learner {
     planner_->learner()->look(in);
     EXPECT_EQ(*at<double>("sees.time_s"), seconds(in.tick));
   }
-  /// The field of that name in the block.
+  /// The field with this name in the shared memory block.
   template <class T>
   T* at(const std::string& name) {
     const auto field = std::ranges::find(layout_.fields(), name, &BlockField::name);
     return reinterpret_cast<T*>(block_.data() + field->offset);
   }
-  /// Velocities that are the same in each flight, whatever its steps are.
+  /// Orders a velocity that depends only on k, so that it is the same in each flight.
   void order(std::uint64_t k) {
     *at<double>("does.yaw_rate") = 0.1;
     at<double>("does.velocity")[2] = 0.5 + 0.1 * static_cast<double>(k / 20 % 3);
@@ -120,12 +120,12 @@ class SteppedFleet {
   void go_on(int turns) {
     for (int i = 0; i < turns; ++i) nodes_[turns_.bits() % nodes_.size()]->poll();
   }
-  /// It may go on until this step. Server and learners sleep until somebody wakes them.
+  /// Lets the fleet fly to this step. Wakes all nodes, because server and learners sleep.
   void go_on_until(std::uint64_t k) {
     desk->target = k;
     for (const auto& node : nodes_) node->inbox().wake();
   }
-  /// Whether all learners have looked in the step in which the fleet is to stand.
+  /// Whether the fleet stands: all learners have observed in the target step.
   bool stands() const {
     return desk->begun == desk->target &&
            std::ranges::all_of(learners, [&](Watched* one) { return one->looks.contains(desk->target); });
@@ -147,7 +147,7 @@ class SteppedFleet {
   std::vector<std::unique_ptr<bus::LockstepNode>> nodes_;
 };
 
-/// Steps of drawn length, `longest` at most, in drawn order of turns. @returns the digest.
+/// Flies with steps of random length, at most `longest`, and turns in random order. @returns the digest.
 std::string flown(std::uint64_t seed, std::uint64_t longest) {
   SteppedFleet fleet(seed);
   RandomStream random(seed, "steps", 0);
@@ -160,13 +160,14 @@ std::string flown(std::uint64_t seed, std::uint64_t longest) {
     if (fleet.over()) break;
     const std::uint64_t k = fleet.desk->target;
     stood.insert(k);
-    fleet.go_on(200);  // whatever turns it gets, it stands
+    fleet.go_on(200);  // further turns do not move the fleet
     EXPECT_EQ(fleet.desk->begun, k);
     for (Watched* learner : fleet.learners) {
       EXPECT_EQ(learner->planned, k) << "it has planned without having been told";
       learner->order(k);
     }
-    // Each order holds for twenty steps: the same orders, whatever the steps.
+    // A step ends at the latest where the velocity changes, every 20 exchanges, so that all flights get the same
+    // orders.
     fleet.go_on_until(std::min(k + 1 + random.bits() % longest, k / 20 * 20 + 20));
   }
   for (Watched* learner : fleet.learners) {

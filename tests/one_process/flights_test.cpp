@@ -1,5 +1,5 @@
-// Fleets in one process, driven as a user does. That they fly as over DDS, fleet_reference_digests_test holds; here is
-// what a process is to its program besides: a log, a death of its own, an end.
+// Fleets in one process, as a user starts them. fleet_reference_digests_test checks that they fly as over DDS. This
+// file checks what one process must provide to each program: its own log, its own death, its own end.
 #include <algorithm>
 
 #include "fleet_fixture.hpp"
@@ -17,12 +17,12 @@ class OneProcess : public FleetTest {
     more.insert(more.begin(), {scene_, "--one-process", "--no-oracle", "--duration", duration_s});
     return more;
   }
-  /// With the agent of nasty_planner.cpp: jurong does it at 3 s.
+  /// Uses the agent of nasty_planner.cpp: jurong misbehaves in this way at 3 s.
   Arguments nasty(const std::string& how, Arguments more = {}) const {
     more.insert(more.end(), {"--agent", helper_program("nasty_agent"), "--planner", "hover,jurong=nasty:how=" + how});
     return flight(more);
   }
-  /// Jurong brings the whole process to its end. It alone is blamed.
+  /// Jurong ends the whole process. Messages must name only jurong.
   SkeinRun& end_with_jurong(const std::string& how, Arguments more = {}) {
     more.insert(more.end(), {"--agent-timeout", "2"});
     SkeinRun& flown = run(how, nasty(how, more), {}, 3);
@@ -104,7 +104,7 @@ TEST_F(OneProcess, WhoTakesTheProcessAlongIsNamed) {
   for (const auto& [how, reason] : deaths) {
     SCOPED_TRACE(how);
     SkeinRun& run = end_with_jurong(how, {"--threads", "2"});
-    if (sanitizer().empty()) {  // a sanitizer takes such deaths for its own, and has the end of the log
+    if (sanitizer().empty()) {  // a sanitizer handles such deaths itself, and writes the end of the log
       EXPECT_TRUE(says(run.err(), "nasty " + how)) << "what it said last";
       EXPECT_TRUE(says(run.err(), reason)) << run.err();
       EXPECT_EQ(says(run.err(), "backtrace in uav_agent-jurong.log"), how != "exits" && how != "hangs") << run.err();
@@ -125,7 +125,7 @@ TEST_F(OneProcess, WhoEndsOrStopsTheProcessWithoutAWordIsNamed) {
                                                                    {"becomes", "became another one"}};
   for (const auto& [how, reason] : deaths) {
     SCOPED_TRACE(how);
-    SkeinRun& run = end_with_jurong(how, {"--threads", "1"});  // with more, it may be one of two
+    SkeinRun& run = end_with_jurong(how, {"--threads", "1"});  // with more threads, the culprit is one of two programs
     EXPECT_TRUE(says(run.err(), reason)) << run.err();
     EXPECT_NE(run.result()["status"], "completed");
     expect_nothing_left();

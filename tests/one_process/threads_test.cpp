@@ -1,4 +1,4 @@
-// A flight in one process is the same whatever number of threads flies it: planners, seeds and faults are drawn.
+// A flight in one process is the same with any number of threads. Planners, seeds and faults are random.
 #include "core/random_stream.hpp"
 #include "fleet_fixture.hpp"
 #include "tests/support/places.hpp"
@@ -8,7 +8,7 @@ namespace {
 
 class Threads : public FleetTest, public testing::WithParamInterface<std::size_t> {};
 
-/// Programs that are killed and come back, or stand still for a while, at drawn times.
+/// Faults at random times: programs that are killed and come back, or are paused for a while.
 std::string drawn_faults(RandomStream& random) {
   std::string text = "faults:\n";
   for (const std::string& uav : kFleet) {

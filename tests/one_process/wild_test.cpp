@@ -1,4 +1,4 @@
-// Worlds that no planner was made for, flown by all of them: nobody collides, nobody stays where it was set down.
+// All planners in generated worlds, for which none was made: no UAV collides, and each leaves its start.
 #include <set>
 
 #include "core/text/suggestion.hpp"
@@ -12,8 +12,8 @@ namespace {
 class Wild : public FleetTest {};
 
 TEST_F(Wild, AllPlannersFlyInTenWorlds) {
-  // Three or four of the ten at a commit. With sanitizers two or three: not a fifth, for these have one of five turns
-  // themselves (.ci/run), and would always draw the same.
+  // Three or four of the ten worlds at each commit; with sanitizers two or three. Not a fifth, because .ci/run runs the
+  // sanitizers at every fifth commit, which would then always choose the same worlds.
   std::vector<std::string> worlds;
   for (std::size_t seed = 100; seed < 110; ++seed) {
     if (has_turn(seed, sanitizer().empty() ? 3 : 4)) worlds.push_back(std::to_string(seed));
@@ -34,7 +34,7 @@ TEST_F(Wild, AllPlannersFlyInTenWorlds) {
   EXPECT_EQ(flown, std::set<std::string>(planners.begin(), planners.end()));
 }
 
-/// Each of these worlds once brought a mistake to light: a start below a roof or beside a wall, photographers alone,
+/// Each of these worlds once revealed a mistake: a start below a roof or beside a wall, photographers alone,
 /// thin braces, canopies, stations on roofs, UAVs that meet behind a corner (docs/decisions/0029-flight-core.md).
 TEST_F(Wild, WorldsOfFormerMistakesStaySafe) {
   if (!long_tests()) GTEST_SKIP() << "takes minutes: SKEIN_LONG=1";

@@ -1,5 +1,5 @@
-// The components of an installation and the Debian packages made of them: what is in them, and that a fleet flies from
-// a prefix that its user may not write to.
+// The components of an installation and their Debian packages: the files in them, and flights from a prefix to which
+// the user may not write.
 #include <unistd.h>
 
 #include <cstdlib>
@@ -21,7 +21,7 @@ const Paths kAllPrograms = {"skein",   "skein_doctor", "sim_server",     "comm_r
 
 bool has_program(const std::string& name) { return std::system(("command -v " + name + " >/dev/null").c_str()) == 0; }
 
-/// Names of the files below `folder` of which the path begins with `prefix`, without it.
+/// Paths of the files below `folder` that begin with `prefix`, without the prefix.
 Paths below(const Paths& files, const std::string& prefix) {
   Paths found;
   for (const std::string& file : files) {
@@ -40,11 +40,11 @@ Paths files_of(const fs::path& folder) {
 
 class Packages : public FleetTest {
  protected:
-  /// What is asked here needs no script for pages, and no network to build it.
+  /// These tests need no scripts for pages, which could only be built with a network.
   Packages() { ::setenv("SKEIN_WITHOUT_WEB", "1", 1); }
   ~Packages() override { ::unsetenv("SKEIN_WITHOUT_WEB"); }
 
-  /// Runs a program to its end, which must be a good one. @returns what it wrote, messages and all.
+  /// Runs a program to its end; its exit code must be 0. @returns its stdout and stderr.
   std::string done(const Arguments& argv) {
     const std::string name = "step" + std::to_string(steps_++);
     const Arguments in_shell = {"/bin/sh", "-c", "exec \"$@\" 2>&1", "sh"};
@@ -61,7 +61,7 @@ class Packages : public FleetTest {
     return prefix;
   }
 
-  /// Of those that cpack writes here, once for all tests; empty: there is none.
+  /// The package whose name begins with `name`; empty: there is none. cpack writes the packages once for all tests.
   fs::path package_that_begins_with(const std::string& name) {
     if (debs_.empty()) {
       debs_ = fs::temp_directory_path() / ("skein-packages-" + std::to_string(::getpid()));
@@ -126,7 +126,7 @@ TEST_F(Packages, AnInstalledFleetFliesForWhoMayNotWriteThere) {
   fs::permissions(home, fs::perms::all);
   const std::string without_root = ::geteuid() == 0 ? "setpriv --reuid=nobody --regid=nogroup --clear-groups "
                                                     : "chmod -R a-w " + prefix.string() + ";";
-  // Nothing may help it to find its programs and its configuration.
+  // No variable may help the launcher to find its programs and its configuration.
   done({"/bin/sh", "-c",
         "cd " + home.string() + " && unset SKEIN_CONFIG_DIR SKEIN_BIN_DIR SKEIN_AGENT && export HOME=" + home.string() +
             " PATH=" + (prefix / "bin").string() + ":$PATH; " + without_root + "sh -c '! touch " +
@@ -147,7 +147,7 @@ TEST_F(Packages, ThePackageForPythonFliesWhatIsInstalled) {
   EXPECT_EQ(flown, (programs / "bin" / "skein").string() + "\ncompleted\n");
 }
 
-/// As one installation below one folder, and without a variable that helps Python to find anything.
+/// All components in one folder, without a variable that helps Python to find the package.
 TEST_F(Packages, APlannerInPythonFliesByWhatIsInstalled) {
   const fs::path prefix = install("runtime");
   done({"cmake", "--install", build_path(), "--component", "python", "--prefix", prefix});
@@ -160,7 +160,7 @@ TEST_F(Packages, APlannerInPythonFliesByWhatIsInstalled) {
   EXPECT_NE(said.find((prefix / "lib/python3/dist-packages/skein").string()), std::string::npos) << said;
 }
 
-/// The same of a program in the place of a UAV's software.
+/// The same with a Python program that replaces a UAV's software.
 TEST_F(Packages, AProgramInPythonFliesByWhatIsInstalled) {
   const fs::path prefix = install("runtime");
   done({"cmake", "--install", build_path(), "--component", "python", "--prefix", prefix});

@@ -1,4 +1,4 @@
-// The lock-step protocol under every order of events that a seed draws: no deadlock, no divergence.
+// The lock-step protocol with random orders of events: no deadlock, no divergence.
 // SKEIN_LONG=1 draws many more.
 #include <gtest/gtest.h>
 
@@ -60,7 +60,7 @@ TEST(Protocol, WhatAnotherRunLeftBehindHasNoSay) {
   }
 }
 
-/// Who holds everybody up is named and given up, nobody else is, and the others go on to the last step.
+/// Expects that the server gave up exactly the member for which all wait, and that the others reached the last step.
 void expect_only_a_given_up(const FleetModel& model, const std::string& what, std::uint64_t steps) {
   ASSERT_EQ(model.given_up(), std::vector<std::string>{"a: " + what});
   ASSERT_EQ(model.lost(), std::vector<std::string>{"a"});
@@ -120,7 +120,7 @@ INSTANTIATE_TEST_SUITE_P(All, LostOnItsWay,
 
 std::uint64_t step_of(const std::string& said) { return std::stoull(said.substr(said.find('@') + 1)); }
 
-/// Every message on a registered topic that was said in sight of somebody who listened, and no other, was heard.
+/// Expects each node to have received exactly the messages on registered topics that were sent to it over an open link.
 void expect_heard_by_whom_it_may(const FleetModel& model, const std::vector<std::string>& nodes) {
   std::size_t heard = 0;
   for (std::size_t from = 0; from < nodes.size(); ++from) {
@@ -149,8 +149,8 @@ TEST(Protocol, RegisteredTopicsCarryEveryMessage) {
   }
 }
 
-/// Whoever is there, from the start or since a restart, knows from its first step on what is latched: what the topic's
-/// history holds then, and all that follows.
+/// Expects a member to have received, from its first step on, all samples of a latched topic: those in the topic's
+/// history when it joined, and all later ones.
 void expect_latched_known(const std::string& life, const std::vector<StepLog>& steps, std::uint64_t seed) {
   if (steps.empty() || life.starts_with(bus::kStationName)) return;
   std::vector<std::string> expected, heard;
@@ -165,8 +165,8 @@ void expect_latched_known(const std::string& life, const std::vector<StepLog>& s
   ASSERT_EQ(heard, expected) << life << " schedule " << seed;
 }
 
-/// What must hold in every run, whoever dies: steps without gaps; a radio message is heard one step after it was
-/// said, once, as it was said; a command is taken once, in the step of its sender, in order.
+/// Invariants of every run, whichever program dies: steps without gaps; a radio message is received unchanged, once,
+/// one step after it was sent; a command is accepted once, in the step in which it was sent, in order.
 void check_invariants(const FleetModel& model, const std::string& victim, std::uint64_t seed) {
   std::set<std::string> said;
   for (const auto& [life, steps] : model.agents()) {
@@ -181,7 +181,7 @@ void check_invariants(const FleetModel& model, const std::string& victim, std::u
         if (text.find('@') == std::string::npos) continue;  // a sensor
         ASSERT_TRUE(heard.insert(text).second) << life << " heard twice: " << text << " schedule " << seed;
         ASSERT_EQ(step_of(text) + 1, steps[i].k) << life << " schedule " << seed;
-        // The dead may have spoken without living to log it.
+        // The victim may have died between sending the message and logging it.
         ASSERT_TRUE(text.starts_with(victim) || said.contains(text)) << text;
       }
     }
@@ -230,12 +230,13 @@ INSTANTIATE_TEST_SUITE_P(All, ProtocolLoss,
                            return std::string(loss.param.victim) + (loss.param.restart ? "Restarts" : "Dies");
                          });
 
-/// Who is out neither thinks nor is heard, and nobody else misses a step; without a router nobody hears anybody.
+/// Checks a member's absence by a fault: it takes no steps and sends nothing, the others miss no step; without the
+/// router, no radio message arrives.
 void check_absence(const FleetModel& model, const ProcessFault& fault, std::uint64_t seed) {
   const auto out = [&](std::uint64_t k) { return k >= fault.begin && k < fault.end; };
   std::map<std::string, std::set<std::uint64_t>> steps;
   for (const auto& [life, logs] : model.agents()) {
-    // Who was stopped goes on in the same log: it hears again what is latched.
+    // A paused member continues with the same log, and receives latched samples again.
     if (fault.kill) {
       ASSERT_NO_FATAL_FAILURE(expect_latched_known(life, logs, seed));
     }
@@ -295,7 +296,7 @@ INSTANTIATE_TEST_SUITE_P(All, ScriptedFault,
                            return std::string(fault.param.victim) + (fault.param.kill ? "Killed" : "Stopped");
                          });
 
-/// Discovery or a link that is slower than all else together: whoever relies on being quick enough is found out.
+/// Discovery, or a link, that is slower than everything else: shows code that relies on being fast enough.
 TEST(Protocol, WhatIsSlowChangesNothing) {
   FleetModel first({.uavs = 2}, 0);
   ASSERT_EQ(first.run(), "");

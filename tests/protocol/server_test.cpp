@@ -1,4 +1,4 @@
-// What the server says about members that come, that a fault takes out and that are lost, one call at a time.
+// The server's decisions about members that join, are absent by a fault, or are lost, tested call by call.
 #include "bus/lockstep/server.hpp"
 
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ class OneMember : public testing::Test {
     joined_ = boundary();
   }
 
-  /// Until nobody is at the door any more.
+  /// Runs a boundary between two steps until no member waits to join.
   bool boundary() {
     bool closed = false;
     for (int turn = 0; turn < 20; ++turn) {
@@ -33,7 +33,7 @@ class OneMember : public testing::Test {
     }
     return closed;
   }
-  /// One step, that all members answer. @returns its epoch, as the first one is told.
+  /// Runs one step, which all members answer. @returns the epoch that the first member received with it.
   std::uint32_t step() {
     server_.publish({.k = k_, .tick = static_cast<std::int64_t>(20 * k_), .links = {}, .ledger_upto = 0});
     for (int turn = 0; turn < 20 && !server_.answered(); ++turn) {

@@ -1,5 +1,5 @@
-// Reads a recording with code that is not Skein's: @mcap/core by the index (whole files) and as a stream (cut off ones),
-// each message decoded by the definition that the file carries. Prints one line of JSON.
+// Reads a recording with code that is not Skein's: with @mcap/core, by the index (complete files) or as a stream
+// (truncated files). Decodes each message with the definition in the file. Prints one line of JSON.
 //   node check.mjs FILE [stream]
 import { McapIndexedReader, McapStreamReader } from "@mcap/core";
 import { parse } from "@foxglove/rosmsg";

@@ -1,5 +1,5 @@
-// What UAVs know of the space around them, on flights that were recorded: the map that they keep against a plain one,
-// and the file that each leaves behind as OctoMap reads it.
+// The knowledge of UAVs about the space around them in recorded flights: compares their maps with a simple one, and
+// reads their map files with OctoMap.
 #include <octomap/OcTree.h>
 
 #include <cmath>
@@ -28,7 +28,7 @@ Cell cell_of(const Vector3d& p_W, double cell_m) {
           static_cast<int>(std::floor(p_W.z() / cell_m))};
 }
 
-/// A map as simple as can be: cells with hits, and how many rays passed which coarse cells.
+/// A simple map: cells with hits, and for each coarse cell the number of rays that passed it.
 struct PlainMap {
   void insert(const std::vector<Eigen::Vector3f>& hits_W, const agent::PassedCells& passed) {
     for (const Eigen::Vector3f& hit : hits_W) {
@@ -37,7 +37,7 @@ struct PlainMap {
     for (const auto& [key, counts] : passed.blocks) {
       for (std::size_t i = 0; i < counts.size(); ++i) {
         if (counts[i] == 0) continue;
-        Cell cell;  // of OctoMap's keys: 14 bits of a block's place on each axis, two of the place within
+        Cell cell;  // OctoMap's key: per axis 14 bits for the block and 2 for the place within it
         for (std::size_t axis = 0; axis < 3; ++axis) {
           cell[axis] = static_cast<int>((key >> (16 * axis) & 0x3FFFU) * 4 + (i >> (2 * axis) & 3U)) - (1 << 15);
         }
@@ -75,7 +75,7 @@ struct PlainMap {
 
 class FlownMaps : public FleetTest {
  protected:
-  /// Of a scene that chance chooses.
+  /// Flies a run with a random scene, planner and seed.
   SkeinRun& flight(const std::string& name, Arguments more) {
     static constexpr const char* kScenes[] = {"towers", "hangar", "cranes", "spire", "sail"};
     static constexpr const char* kPlanners[] = {"patrol", "kios", "xxh", "star", "flock"};
@@ -164,7 +164,7 @@ TEST_F(FlownMaps, AreLeftBehindForOctoMap) {
         free += node != nullptr && !tree.isNodeOccupied(node);
         EXPECT_FALSE(node != nullptr && tree.isNodeOccupied(node)) << name << " was in what it knew to be occupied";
       }
-      // Its LiDAR sees little above and below; it climbs, and stands, where it has not looked.
+      // The LiDAR sees little above and below the UAV, which therefore climbs and hovers in space that it has not seen.
       const int least = uav["role"] == "explorer" ? places / 4 : 0;
       EXPECT_GE(free, least) << name << " saw where it flew";
     }

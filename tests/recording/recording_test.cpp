@@ -1,4 +1,5 @@
-// recording.mcap of whole fleets: the same however it was flown, what the tables say, and readable by others.
+// recording.mcap of whole fleets: the same for each way to fly, consistent with the tables, and readable by other
+// software.
 #include <signal.h>
 #include <unistd.h>
 
@@ -18,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// How many messages each topic has, and those of some.
+/// Number of messages of each topic, and the messages of two topics.
 struct Recorded {
   explicit Recorded(const fs::path& file) {
     mcap::Reader reader(file);
@@ -35,19 +36,19 @@ struct Recorded {
   std::map<std::string, int> topics;
   double last_s = 0.0;
   std::vector<msg::Event> events;
-  msg::Tally tally;  ///< the last
+  msg::Tally tally;  ///< the last one
 };
 
 class Recording : public FleetTest {
  protected:
   static fs::path file(const SkeinRun& run) { return run.dir() / run_folder::kRecording; }
 
-  /// Skips where the packages of check.mjs cannot be had.
+  /// Skips the test if the packages of check.mjs cannot be installed.
   void need_independent_reader() {
     const std::string why = install_reader(source_path("tests/recording/check.mjs"));
     if (!why.empty()) GTEST_SKIP() << why;
   }
-  /// What the independent reader found. @param mode  "" or "stream"
+  /// The output of check.mjs. @param mode  "" or "stream"
   Json read_by_others(const fs::path& recording, const std::string& mode = "") {
     const fs::path answer = folder() / "answer.json";
     const std::string command = "node " + reader_folder() + "/check.mjs " + recording.string() + " " + mode + " >" +
@@ -120,7 +121,7 @@ TEST_F(Recording, SaysWhatTheTablesSay) {
   }
 }
 
-// What they do not record themselves is on nobody's disk: they are killed in the middle of a window.
+// The programs that record are killed in the middle of a chunk; no other program has the data of this chunk.
 TEST_F(Recording, LosesNothingWhenAFaultKillsWhoRecords) {
   const auto killed = [&](const std::string& name, const std::string& program) {
     const std::string faults = write(name + ".yaml", "faults:\n  - {at_s: 23.4, until_s: 26, kill: " + program + "}\n");
@@ -148,7 +149,7 @@ TEST_F(Recording, HasMoreOnRequest) {
     arguments.push_back("--record=" + scope);
     by_scope.emplace(scope, file(run(scope, arguments)));
   }
-  const std::string left = "/jurong/nbr_odom_cloud", cloud = "/jurong/cloud_inW";  // hover asks for no cloud
+  const std::string left = "/jurong/nbr_odom_cloud", cloud = "/jurong/cloud_inW";  // hover does not read clouds
   EXPECT_FALSE(by_scope.at("run").topics.contains(left));
   EXPECT_GT(by_scope.at("all").topics.at(left), 390);
   EXPECT_FALSE(by_scope.at("run").topics.contains("/gcs/score"));
@@ -176,7 +177,7 @@ TEST_F(Recording, IsReadByOthers) {
     if (mode == "stream") {
       EXPECT_EQ(found.value("dataEnd", false), true) << "a whole file has its DataEnd";
       EXPECT_EQ(found.value("complete", false), true);
-    } else {  // by the index; in the file itself, chunks of several programs overlap
+    } else {  // read by the index, because chunks of several programs overlap in the file
       EXPECT_EQ(found["ordered"], true) << "by log time";
       EXPECT_EQ(found["statistics"], found["messages"]) << "the Statistics record counts what is there";
       EXPECT_GT(found["chunks"], 0);
@@ -184,7 +185,7 @@ TEST_F(Recording, IsReadByOthers) {
   }
 }
 
-// Whoever kills all of it leaves the parts, which are read as far as they go; by others, too.
+// If all programs are killed, the parts remain, and Skein and other software can read them up to their ends.
 TEST_F(Recording, OfARunThatWasKilledIsReadAsFarAsItGoes) {
   need_independent_reader();
   if (IsSkipped()) return;

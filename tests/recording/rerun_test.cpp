@@ -1,4 +1,4 @@
-// skein rerun and skein fork: recorded runs flown again, with drawn scenes, planners and faults.
+// skein rerun and skein fork: recorded runs are flown again, with random scenes, planners and faults.
 #include <fstream>
 #include <random>
 
@@ -15,7 +15,7 @@ class Rerun : public FleetTest {
   std::string drawn(const std::vector<std::string>& of) { return of[draw_() % of.size()]; }
   std::string number(unsigned below) { return std::to_string(draw_() % below); }
 
-  /// Of a run whose scene and planner chance chooses.
+  /// Arguments of a run with a random scene, planner and seed.
   Arguments drawn_flight() {
     return {drawn({"towers", "hangar", "cranes", "spire", "sail"}),
             "--planner",
@@ -145,7 +145,7 @@ TEST_F(Rerun, ASecondTimeGoesToAFolderOfItsOwn) {
   }
 }
 
-/// Commands that read a run, with one bit of a file of it flipped.
+/// Commands read a run in which one bit of a file is flipped.
 class DamagedRun : public Rerun {
  protected:
   void flip(const fs::path& file, const std::string& bytes) {
@@ -190,12 +190,12 @@ TEST_F(DamagedRun, ABitOfTheResultIsReportedByAllWhoReadIt) {
   for (int draw = 0; draw < 12 && !HasFailure(); ++draw) {
     flip(file, bytes);
     std::ofstream(file, std::ios::binary | std::ios::app) << rest;
-    if (Json::parse(text_of(file), nullptr, false) == result) continue;  // the letter of an exponent
+    if (Json::parse(text_of(file), nullptr, false) == result) continue;  // flipped the case of an exponent's letter
     expect_reported({"diff", run.dir(), folder() / "sound"}, 2, run_folder::kResult);
     expect_reported({"fork", run.dir(), "--at", "5", "--out", folder() / "no"}, 2, run_folder::kResult);
     expect_reported({"report", run.dir()}, 2, run_folder::kResult);
   }
-  // A result that was edited, checksum and all.
+  // A result that was edited, and whose checksum was removed.
   result["score"] = 1234.5;
   result.erase("checksum");
   std::ofstream(file) << result.dump();

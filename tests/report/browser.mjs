@@ -1,13 +1,14 @@
-// The browser that looks at pages: what it saw of each, and pictures of it as numbers.
+// Opens pages in a browser, collects their complaints, and computes figures of their pictures.
 import {createRequire} from 'node:module';
 import path from 'node:path';
 
 export const sleep = (ms) => new Promise((resolve) => setTimeout(resolve, ms));
 
 /**
- * Waits until a fact holds, however slow the machine is: the test that started the script ends it when it waits for ever,
- * and shows what it says here on stderr. @param ask  what is looked at; what it throws counts as null.
- * @returns what it was when the fact held.
+ * Waits until a fact holds, however slow the machine is. If that never happens, the test that started the script ends
+ * it, and shows its messages on stderr. @param ask  returns a value to check; if it throws, the value is null.
+ * @param holds  the fact, as a function of this value. @param what  describes the fact. @returns the value for which it
+ * held.
  */
 export async function waitUntil(ask, holds, what) {
   const kQuiet = 20000;  // ms
@@ -15,7 +16,7 @@ export async function waitUntil(ask, holds, what) {
     try {
       return await ask();
     } catch {
-      return null;  // the page is loaded anew, say
+      return null;  // for example because the page reloads
     }
   };
   for (let told = Date.now();;) {
@@ -29,18 +30,21 @@ export async function waitUntil(ask, holds, what) {
   }
 }
 
-/** @param browser  or a context of it. @returns a page that is waited for as long as it takes, as waitUntil() does. */
+/**
+ * @param browser  or a context of it.
+ * @returns a new page, whose functions wait without a timeout, like waitUntil().
+ */
 export async function openTab(browser) {
   const page = await browser.newPage();
   page.setDefaultTimeout(0);
   return page;
 }
 
-/** @param web  the folder of puppeteer-core's package.json. */
+/** @param web  the folder with the package.json that lists puppeteer-core. */
 export async function openBrowser(web, executablePath) {
   const require = createRequire(path.join(web, 'package.json'));
   const puppeteer = (await import(require.resolve('puppeteer-core'))).default;
-  const asRoot = process.getuid() === 0 ? ['--no-sandbox'] : [];  // it has no sandbox for root
+  const asRoot = process.getuid() === 0 ? ['--no-sandbox'] : [];  // Chromium has no sandbox for root
   return puppeteer.launch({
     executablePath,
     headless: true,
@@ -50,7 +54,7 @@ export async function openBrowser(web, executablePath) {
   });
 }
 
-/** Opens a page of a file. @returns it, and what it complained of as it goes on. */
+/** Opens a file. @returns the page, and its complaints (the list grows): errors, and requests for anything else. */
 export async function openPage(browser, file, {width, scheme}) {
   const page = await openTab(browser);
   const complaints = [];
@@ -67,11 +71,12 @@ export async function openPage(browser, file, {width, scheme}) {
   return {page, complaints};
 }
 
-let table = null;  // where pictures are looked at
+let table = null;  // the page in which pictures are evaluated
 
 /**
- * Of parts of a picture (base64 PNG): how many colours, the share of the most frequent, and the brightness (0 to 1).
- * @param parts  [left, top, width, height] of each; none: the whole picture, whose figures are returned then.
+ * Evaluates parts of a picture (base64 PNG): number of colours, share of the most frequent one, brightness (0 to 1).
+ * @param parts  [left, top, width, height] of each part [pixels]; null: the whole picture.
+ * @returns a list of figures; for the whole picture, its figures.
  */
 export async function lookAt(browser, png, parts = null) {
   table ??= await openTab(browser);

@@ -1,4 +1,5 @@
-// report.html in a browser: it asks for nothing, says what the tables beside it say, and is to be seen everywhere.
+// report.html in a browser: it requests no other resource, agrees with the tables of the run, and no part of it is
+// blank.
 #include "core/files/command_file.hpp"
 #include "fleet_fixture.hpp"
 #include "tests/support/places.hpp"
@@ -21,7 +22,7 @@ class ReportInABrowser : public FleetTest {
     }
   }
 
-  /// What look.mjs finds wrong with the page of a run.
+  /// Expects look.mjs to find no problem with the page of a run.
   void look(const std::string& run) {
     ChildProcess& node = start_program("look", {command_file("node"), source_path("tests/report/look.mjs"), kWeb,
                                                 command_file("chromium"), program("skein"), kBundle, folder() / run});

@@ -1,4 +1,4 @@
-// What the tables of a page must say, computed here once more from result.json and the tables beside it.
+// The expected contents of a page's tables, computed a second time from result.json and the tables of the run.
 import fs from 'node:fs';
 import path from 'node:path';
 
@@ -25,7 +25,7 @@ export function readRun(dir) {
   };
 }
 
-/** Leaves of a file of OctoMap's: [lowest corner, edge, whether occupied]. */
+/** @returns the leaves of a file of OctoMap: [lowest corner [m], edge [m], whether occupied]. */
 function octree(bytes) {
   let at = 0;
   let resolution = 0;
@@ -56,7 +56,7 @@ function octree(bytes) {
 
 const kCauses = [
   'out_of_reach', 'never_in_picture', 'below_threshold', 'voided', 'not_delivered', 'distance', 'tilt', 'blur',
-  'above_estimate'
+  'drift', 'wind', 'energy', 'above_estimate'
 ];
 
 function losses({result}) {
@@ -136,7 +136,10 @@ function maps(run) {
   return rows.length > 0 ? rows : null;
 }
 
-/** Steps of links, and who reached the station in each, by way of others or without. */
+/**
+ * @returns the share of the run in which each link was open; by UAV, the percentage with a direct and with a relayed
+ * link.
+ */
 function contact({result, events}) {
   const names = result.uavs.map((uav) => uav.name);
   const up = new Set();
@@ -222,7 +225,7 @@ function simulation({result: {timing}}) {
   return parts.map((part) => [part, 100 * part / timing.cpu_s]);
 }
 
-/** Rows of numbers by table, null for a dash; a table that is null must not be there. */
+/** @returns rows of numbers by table, null for a dash; a table that is null must not be on the page. */
 export function expectedTables(run) {
   const {result} = run;
   const {radio} = result;
@@ -256,7 +259,7 @@ export function expectedTables(run) {
   };
 }
 
-/** Which columns of a table hold words, not numbers. */
+/** Columns of tables that contain words, not numbers. */
 export const kWords = {
   processes: [0, 1],
   uavs: [0, 1, 2, 3],
@@ -264,7 +267,7 @@ export const kWords = {
   collisions: [0, 1]
 };
 
-/** Numbers of a cell's text as [value, decimals]; null for a dash. */
+/** @returns the numbers in a cell's text as [value, decimals]; null for a dash. */
 export function numbersOf(text) {
   if (text.trim() === '–') return [null];
   return [...text.matchAll(/-?\d+(?:\.(\d+))?/g)].map((match) => [number(match[0]), (match[1] ?? '').length]);

@@ -1,5 +1,5 @@
-// Looks at report.html of results folders in a browser, without and with the script, light and dark, on narrow and
-// wide screens. Prints what is wrong, a line each; nothing: all is well.
+// Opens report.html of results folders in a browser, without and with the script, light and dark, on narrow and wide
+// screens. Prints each problem as a line; prints nothing if all is well.
 // usage: node look.mjs WEB CHROMIUM SKEIN BUNDLE FOLDER...
 import {execFileSync} from 'node:child_process';
 import path from 'node:path';
@@ -24,7 +24,7 @@ function compareRow(table, row, cells, expected) {
   expect(same, `table ${table}, row ${row}: ${cells.join(' | ')}, and it should be ${expected.join(' | ')}`);
 }
 
-/** Every number of every table, and those at the top. */
+/** Checks every number of every table, and the facts at the top of the page. */
 async function checkNumbers(page, run) {
   const tables = await page.$$eval(
       'table[data-table]',
@@ -75,7 +75,10 @@ async function checkFigures(page) {
   });
 }
 
-/** What the script adds: it draws, its slider moves the fleet, its colours and layers change the picture. */
+/**
+ * Checks what the script adds: charts and 3D view are drawn, the slider moves the fleet, colours and layers have
+ * effects.
+ */
 async function checkLive(page, run) {
   expect(await page.$('body[data-live="yes"]'), 'the script did not come to its end');
   expect((await page.$$('.live-chart canvas')).length === 2, 'there are not two live charts');
@@ -90,9 +93,9 @@ async function checkLive(page, run) {
     slider.value = String(Number(slider.max) * part);
     slider.dispatchEvent(new Event('input'));
   }, share);
-  await moveTo(0.5);  // names stand on whole pixels, and at the end of a flight hardly anybody moves
+  await moveTo(0.5);  // not at the end, when UAVs hardly move: the positions of names are whole pixels
   expect((await places()) !== then, 'the slider does not move the fleet');
-  await moveTo(0.97);  // there are captures by then
+  await moveTo(0.97);  // late enough that there are captures
   const half = await look();
   expect(half !== before, 'the slider does not change the picture');
   await page.select('#colour-by', 'uav');
@@ -111,7 +114,7 @@ async function checkLive(page, run) {
   expect((await lookAt(browser, await look())).colours < (await lookAt(browser, half)).colours, 'the layers do not go');
 }
 
-/** @param thorough  every figure, and all that the script adds. */
+/** @param thorough  whether to check also every figure, and all that the script adds. */
 async function checkPage(folder, run, live, width, scheme, thorough) {
   where = `${path.basename(folder)}, ${live ? 'live' : 'static'}, ${width} px, ${scheme}`;
   const {page, complaints} = await openPage(browser, path.join(folder, 'report.html'), {width, scheme});
@@ -128,7 +131,7 @@ async function checkPage(folder, run, live, width, scheme, thorough) {
 
 for (const folder of folders) {
   const run = readRun(folder);
-  const all = folder === folders[0];  // of the others the two extremes
+  const all = folder === folders[0];  // of the other folders, only the two extreme cases
   for (const live of [false, true]) {
     execFileSync(skein, ['report', folder], {env: {...process.env, SKEIN_WEB: live ? bundle : 'none'}});
     for (const width of [400, 900, 1600]) {

@@ -1,5 +1,5 @@
-// A run's folder as a bag of ROS 2: rosbag2 is not at hand, so the recording is read with @mcap/core and played by a
-// small player, as rosbag2's does it, into a node of rclcpp; what that hears is what was recorded.
+// A run's folder as a bag of ROS 2. rosbag2 is not installed, so @mcap/core reads the recording, and a small player
+// plays it as rosbag2 would, for an rclcpp node, which must receive the recorded messages.
 #include <fstream>
 #include <sstream>
 
@@ -92,7 +92,7 @@ TEST_P(Bag, IsPlayedIntoRclcppAsItWasRecorded) {
   const std::string dump = folder() / "dump", stay = folder() / "stay", heard = folder() / "listener.heard";
   ASSERT_EQ(std::system((command + " >" + dump).c_str()), 0);
 
-  // Of its own: another fleet may have the flown one's by now, with a /tf.
+  // Another domain than that of the flight, which another fleet may use by now, with its own /tf.
   const FreeDomains domains(1);
   const int domain = domains.base();
   ChildProcess& listener = start_listener(domain, "listener");
@@ -100,7 +100,7 @@ TEST_P(Bag, IsPlayedIntoRclcppAsItWasRecorded) {
       GetParam(), domain, "python3 " + source_path("tests/ros2/bag/play.py ") + dump + " " + stay + " " + heard);
   const auto exists = [](const std::string& file) { return [file] { return std::filesystem::exists(file); }; };
   ASSERT_TRUE(eventually(exists(stay + ".played"))) << player.err() << listener.err();
-  // One that comes late gets what is latched.
+  // A listener that starts late receives the latched topics.
   ChildProcess& late = start_listener(domain, "late");
   const auto has_latched = [&] { return heard_by("late").size() == std::size(kLatched); };
   EXPECT_TRUE(eventually(has_latched)) << late.err();

@@ -1,5 +1,5 @@
-// The commands of the pages about ROS 2 that need one, typed as their reader would: those whose comment says so. A
-// fleet that a block starts in the background is flying before the next line is typed, as when a reader looks at it.
+// Executes the commands on pages that need ROS 2: the blocks whose comment says so. If a block starts a fleet in the
+// background, the test waits until it flies before it executes the next line.
 #include <signal.h>
 
 #include <fstream>
@@ -18,10 +18,10 @@ namespace skein::test {
 namespace {
 
 constexpr const char* kTyped = "needs ROS 2; tests/ros2 types it";
-constexpr const char* kReadersRos = "source /opt/ros/humble/setup.bash\n";  // every shell here has another one set up
+constexpr const char* kReadersRos = "source /opt/ros/humble/setup.bash\n";  // left out: these shells have another ROS 2
 const std::regex kBackground(R"((\./skein .*) &)");
 
-/// A page, and how many of its blocks are typed at least.
+/// A page, and the least number of its blocks that must be executed.
 using Page = std::pair<const char*, int>;
 
 class RosPageTyped : public WorkspaceTest, public testing::WithParamInterface<Page> {
@@ -32,14 +32,14 @@ class RosPageTyped : public WorkspaceTest, public testing::WithParamInterface<Pa
     const auto is_ours = [&] { return (lock_ = HostLock::try_take("skein " + workspace())).has_value(); };
     ASSERT_TRUE(eventually(is_ours, std::chrono::minutes(15))) << "another test reads pages in " << workspace();
     const std::set<std::filesystem::path> colcons = {"ros2", "build", "install", "log", "built"};
-    for (const auto& entry : std::filesystem::directory_iterator(checkout())) {  // of another reader
+    for (const auto& entry : std::filesystem::directory_iterator(checkout())) {  // files of an earlier test
       if (!colcons.contains(entry.path().filename())) std::filesystem::remove_all(entry);
     }
     std::filesystem::create_symlink(program("skein"), checkout() / "skein");
     std::filesystem::create_directory_symlink(source_path("config"), checkout() / "config");
   }
 
-  /// The reader's folder is the workspace, so colcon finds that all is built.
+  /// The reader's folder is the workspace of the tests, in which everything is built already.
   std::filesystem::path checkout() const { return workspace(); }
 
   /// A shell in the reader's folder that has ROS 2 set up, and the workspace once the page has built it.
@@ -54,7 +54,7 @@ class RosPageTyped : public WorkspaceTest, public testing::WithParamInterface<Pa
         variables);
   }
 
-  /// @returns a shell that flies a fleet, once it flies. Its domains are free ones, whatever the page says.
+  /// Starts a fleet in free domains, instead of the page's. @returns its shell, once the fleet flies.
   ChildProcess& fly(const std::string& command) {
     ChildProcess& fleet = shell("exec " + std::regex_replace(command, std::regex(R"( --domain \d+)"), "") + "\n");
     const auto flies = [&] {
@@ -66,15 +66,15 @@ class RosPageTyped : public WorkspaceTest, public testing::WithParamInterface<Pa
     return fleet;
   }
 
-  static constexpr int kMission_s = 20;  ///< of fleets that are waited for
+  static constexpr int kMission_s = 20;  ///< mission time of fleets whose end the test awaits [s]
   bool is_built_ = false;
 
  private:
   int shells_ = 0;
-  std::optional<HostLock> lock_;  ///< of the reader's folder
+  std::optional<HostLock> lock_;  ///< for the reader's folder
 };
 
-/// The page's domains, 40 and above, as those of a fleet.
+/// Replaces the page's domain of jurong, 42, by that of a fleet.
 std::string with_domains_of(const ChildProcess& fleet, const std::string& text) {
   const std::string said = fleet.err();
   std::smatch match;
@@ -103,7 +103,7 @@ TEST_P(RosPageTyped, IsFollowed) {
     }
     if (fleet != nullptr) typed = with_domains_of(*fleet, typed);
     ChildProcess& reader = shell(typed);
-    // A node ends when its reader ends it, here when its fleet has heard it.
+    // The page's reader ends the node; the test ends it when the fleet has received its commands.
     if (typed.find("climber.py") != std::string::npos) {
       const auto flies = [&] {
         for (const auto& row : read_csv(checkout() / "runs/nodes/trajectories.csv", LastLine::may_be_unfinished)) {

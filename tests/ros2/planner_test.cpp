@@ -1,5 +1,5 @@
-// Planners that are ROS 2 nodes (ros2/skein_ros): they fly and score in the lock-step, alike over both middlewares and
-// in each repeat, and what they must not do is named.
+// Planners that are ROS 2 nodes (ros2/skein_ros): they fly and score in the lock-step, identically over both
+// middlewares and in each repetition, and messages name forbidden behaviour.
 #include <fmt/format.h>
 #include <signal.h>
 
@@ -28,7 +28,7 @@ TEST_F(RosPlanner, FliesAndScoresAlikeOverMiddlewaresAndVendors) {
   const Arguments flight = {"towers", "--planner", "hover,jurong=ros:skein_ros_examples/circle", "--duration", "60"};
   std::set<std::string> digests;
   for (const auto* middleware : kMiddlewares) {
-    // The fleet is of the other vendor; once its messages are late and out of order.
+    // The fleet uses the other vendor; in one case, its messages are delayed and reordered.
     const bool other = std::string(middleware) == "cyclonedds";
     const Environment chaos = other ? Environment{} : Environment{{"SKEIN_CHAOS", "38"}};
     SkeinRun& done =
@@ -88,7 +88,8 @@ std::vector<std::string> words_in(const std::filesystem::path& file) {
   return words;
 }
 
-// Nobody waits for one that a fault keeps away from the start on; it joins later, and flies as in each repeat.
+// The fleet does not wait for a node that a fault keeps away from the start on; it joins later, and flies identically
+// each time.
 TEST_F(RosPlanner, ThatJoinsLateFlies) {
   const auto faults = write("faults.yaml", "faults:\n  - {at_s: 0.05, until_s: 6, kill: jurong}\n");
   const Arguments flight = {"towers",   "--planner", "hover,jurong=ros:skein_ros_examples/circle", "--duration", "20",
@@ -103,7 +104,7 @@ TEST_F(RosPlanner, ThatJoinsLateFlies) {
   EXPECT_EQ(digests.size(), 1U);
 }
 
-// Killed from outside and started again by hand, with what the launcher had given it.
+// Killed from outside, and restarted by hand with the command and the environment from the launcher.
 TEST_F(RosPlanner, ThatIsKilledAndStartedAgainFliesOn) {
   for (const auto* middleware : kMiddlewares) {
     SkeinRun& fleet = start_with(middleware, middleware,
@@ -134,7 +135,7 @@ TEST_F(RosPlanner, ThatIsKilledAndStartedAgainFliesOn) {
     const Json lost = fleet.result()["lost_members"];
     ASSERT_EQ(lost.size(), 1U);
     ASSERT_TRUE(lost[0]["back_at_s"].is_number()) << lost;
-    std::set<int> places;  // on its circle, by whole metres
+    std::set<int> places;  // x coordinates on its circle, in whole metres
     for (const auto& row : read_csv(fleet.dir() / "trajectories.csv")) {
       const bool since = std::stod(row.at("time_s")) > lost[0]["back_at_s"].get<double>() + 2.0;
       if (since && row.at("uav") == "jurong") places.insert(static_cast<int>(std::stod(row.at("x"))));
@@ -143,7 +144,7 @@ TEST_F(RosPlanner, ThatIsKilledAndStartedAgainFliesOn) {
   }
 }
 
-// With its UAV's certificate, over the fleet's own vendor; any other is refused before anything starts.
+// With its UAV's certificate, and the fleet's own vendor as middleware; another vendor is refused before the start.
 TEST_F(RosPlanner, FliesInASecuredFleetOfItsVendor) {
   const Arguments flight = {"towers", "--planner", "hover,jurong=ros:skein_ros_examples/circle", "--duration", "10"};
   std::set<std::string> digests = {run_with("cyclonedds", "open", flight).digest()};
@@ -160,7 +161,7 @@ TEST_F(RosPlanner, FliesInASecuredFleetOfItsVendor) {
   EXPECT_EQ(digests.size(), 1U);
 }
 
-// The fleet waits for one that takes its time, and nothing comes out otherwise.
+// The fleet waits for a slow node, and the result is the same.
 TEST_F(RosPlanner, ThatHesitatesChangesNothing) {
   std::set<std::string> digests;
   for (const char* what : {"nothing", "hesitate"}) {
@@ -226,7 +227,7 @@ std::string hexadecimal(const std::vector<std::uint8_t>& bytes) {
   return text;
 }
 
-/// The bytes of a message of any of Skein's types, read and written again; nullopt: they are no such message.
+/// Decodes bytes as a message of one of Skein's types, and encodes it again; nullopt: they are no such message.
 using Again = std::function<std::optional<std::vector<std::uint8_t>>(const std::vector<std::uint8_t>& bytes)>;
 template <class Message>
 std::optional<std::vector<std::uint8_t>> again(const std::vector<std::uint8_t>& bytes) {
@@ -264,10 +265,10 @@ TEST_P(RosMessages, AreTheSameBytesForRosAndForSkein) {
     auto bytes = types.at(type)(bytes_of(entry["bytes"]));
     ASSERT_TRUE(bytes) << line;
     const std::size_t length = bytes_of(entry["bytes"]).size();
-    // Ours end on a multiple of four, as they stand in a datagram.
+    // Skein pads a message to a multiple of four bytes, as in a datagram.
     for (; bytes->size() > length && bytes->size() % 4 != 1; bytes->pop_back()) ASSERT_EQ(bytes->back(), 0) << type;
-    // rmw_fastrtps leaves anything where CDR has padding, and pads what follows an empty sequence, too: what is read
-    // of ours is compared there.
+    // rmw_fastrtps writes arbitrary bytes as padding, and also pads after an empty sequence. With it, the test compares
+    // only the messages that ROS 2 reads from Skein's bytes.
     if (std::string(GetParam()) == "cyclonedds") {
       ASSERT_EQ(hexadecimal(*bytes), entry["bytes"]) << type;
     }
@@ -298,7 +299,7 @@ TEST(RosMessageFiles, AreAsTheIdlHasThem) {
   EXPECT_EQ(std::system(("python3 " + source_path("ros2/generate_messages.py") + " --check").c_str()), 0);
 }
 
-// The package has a table of its own, since it needs no Skein.
+// The package has its own table of topics, because it does not need Skein.
 TEST(RosTopics, AreThoseOfSkeinsTable) {
   const auto way = [](const topics::TopicInfo& topic) {
     return topic.direction == topics::Direction::from_agent ? skein_ros::Way::from_node : skein_ros::Way::to_node;
@@ -307,7 +308,7 @@ TEST(RosTopics, AreThoseOfSkeinsTable) {
   for (const topics::TopicInfo& topic : topics::uav_topics()) {
     const bool counted =
         topic.direction == topics::Direction::to_agent || topic.direction == topics::Direction::from_agent;
-    if (!counted || topic.pattern == topics::kHand.pattern) continue;  // nobody flies a node by hand
+    if (!counted || topic.pattern == topics::kHand.pattern) continue;  // a UAV with a node is not flown by hand
     ++expected;
     const auto found = std::ranges::find_if(skein_ros::kFleetTopics,
                                             [&](const auto& entry) { return entry.pattern == topic.pattern; });

@@ -1,5 +1,5 @@
-// docs/porting-from-caric.md: its commands are run as they stand, and the planner that it shows flies with explorers
-// and photographers, scores, and repeats its digest.
+// docs/porting-from-caric.md: runs its commands unchanged; the planner on the page flies with explorers and
+// photographers, scores, and has the same digest each time.
 #include <regex>
 #include <set>
 
@@ -10,7 +10,7 @@ namespace {
 
 class Porting : public WorkspaceTest {};
 
-/// The `./skein run` commands of a page's blocks, as words.
+/// The words of the `./skein run` commands in a page's blocks.
 std::vector<Arguments> runs_of(const std::string& page) {
   std::vector<Arguments> runs;
   std::istringstream lines(text_of(source_path(page)));
@@ -54,7 +54,7 @@ TEST_F(Porting, ThePortedBaselineScoresAndRepeats) {
     EXPECT_GT(result["score"], 20.0);
     EXPECT_EQ(result["score"], result["score_earned"]) << "all came home in time to deliver";
     for (const Json& uav : result["uavs"]) EXPECT_EQ(uav["commands_rejected"], 0) << uav["name"];
-    // Teams and their regions: the explorers are the first to arrive at work, photographers have left their starts.
+    // The planner assigns regions to teams: explorers arrive first, and photographers have left their starts.
     for (const Json& uav : result["uavs"]) EXPECT_GT(uav["distance_m"], 10.0) << uav["name"];
     digests.insert(done.digest());
   }

@@ -1,5 +1,5 @@
-// UAVs that ROS 2 nodes fly in real time without the lock-step (--clock realtime --planner UAV=ros): real nodes that
-// know nothing of Skein, on either middleware, come late, die and come back, or stall. What they said is counted.
+// UAVs that ROS 2 nodes fly in real time without the lock-step (--clock realtime --planner UAV=ros): real nodes that do
+// not know Skein, on either middleware, start late, die and come back, or stall. Skein counts their messages.
 #include <algorithm>
 
 #include "tests/support/places.hpp"
@@ -21,14 +21,15 @@ class FreeNodes : public WorkspaceTest, public testing::WithParamInterface<std::
     return fleet;
   }
 
-  /// Started when the fleet flies: it comes late. @param what  of free_node.py, after UAV and FILE
+  /// Starts a node while the fleet flies. @param what  arguments of free_node.py after UAV and FILE
   ChildProcess& start_free_node(const SkeinRun& fleet, const std::string& name, const std::string& middleware,
                                 const std::string& what) {
     return start_node(
         name, middleware, fleet.domains().first + 2, "",
         as_told("python3 " + source_path("tests/ros2/free_node.py ") + kNodesUav + " " + file(name) + " " + what));
   }
-  /// With the settings that `skein run --ros-env` prints for Fast DDS: a node that is killed leaves no shared memory.
+  /// The command with the settings that `skein run --ros-env` prints for Fast DDS, with which a killed node leaves no
+  /// shared memory.
   std::string as_told(const std::string& command) const {
     return "env FASTRTPS_DEFAULT_PROFILES_FILE=" + installed("skein_ros") + "/share/skein_ros/fastdds_udp.xml " +
            command;
@@ -36,7 +37,7 @@ class FreeNodes : public WorkspaceTest, public testing::WithParamInterface<std::
   bool wait_for_file(const std::string& path) {
     return eventually([&] { return std::filesystem::exists(path); }, std::chrono::minutes(3));
   }
-  /// What a node says that it published, once it is where it was to go.
+  /// Waits until a node has flown the UAV to its goal. @returns the numbers of messages that it published.
   Json published(const std::string& name) {
     if (!wait_for_file(file(name))) {
       ADD_FAILURE() << name << " has not flown the UAV to its goal";
@@ -51,7 +52,7 @@ class FreeNodes : public WorkspaceTest, public testing::WithParamInterface<std::
     return fleet.result();
   }
 
-  /// The first of a node's messages are lost to a reader that has not matched it yet, as between any two nodes.
+  /// Bound on a node's first messages that are lost, because the reader has not matched the node yet.
   static constexpr std::uint64_t kBeforeMatch = 15;
   static Json counts_of(const Json& result, const std::string& topic) {
     for (const Json& entry : result["uavs"][0]["from_nodes"]) {
@@ -83,7 +84,7 @@ TEST_P(FreeNodes, ThatComeLateDieAndComeBackFlyTheirUav) {
 
   const Json result = end(fleet);
   const Json counts = counts_of(result, kTrajectory);
-  // How often the killed one published, nobody knows: forty times at least.
+  // The killed node published at least forty times; the exact number is not known.
   EXPECT_GE(counts["received"].get<std::uint64_t>() + 3 * kBeforeMatch, 60U + 40U + 60U) << counts;
   EXPECT_EQ(counts["received"], counts["handed_on"]) << counts;
   EXPECT_EQ(counts["refused"], 0) << counts;
@@ -118,8 +119,8 @@ TEST_P(FreeNodes, AreToldWhatIsRejected) {
   EXPECT_EQ(result["uavs"][0]["commands_rejected"], 5);
 }
 
-// The UAV's program is away for a while, the node goes on: what it says meanwhile has no effect and is counted, and
-// afterwards it flies the UAV again.
+// The UAV's program is absent for a while, but the node continues: its messages during the absence have no effect and
+// are counted, and afterwards the node flies the UAV again.
 TEST_P(FreeNodes, SpeakInVainWhileAFaultStopsOrKillsTheirUavsProgram) {
   for (const std::string kind : {"pause", "kill"}) {
     const auto faults =
@@ -137,7 +138,7 @@ TEST_P(FreeNodes, SpeakInVainWhileAFaultStopsOrKillsTheirUavsProgram) {
   }
 }
 
-// A component in C++ with a wall timer, as `ros2 run` starts it.
+// A component in C++ with a wall timer, started as by `ros2 run`.
 TEST_P(FreeNodes, InCppFlyWithSimulatedTime) {
   SkeinRun& fleet = start_fleet();
   const std::string library = installed("skein_ros_examples") + "/lib/libplain_node.so";
@@ -177,7 +178,7 @@ TEST_F(NoNodes, AreRefusedInTheLockStep) {
   EXPECT_NE(refused.err().find("--clock realtime"), std::string::npos) << refused.err();
 }
 
-// Of the fleet that flies, as its user's shell evaluates it.
+// The environment that a user's shell evaluates, for the fleet that flies on this host.
 TEST_F(NoNodes, FindTheirDomainByTheLauncher) {
   SkeinRun& fleet = start("fleet", {"towers", "--clock", "realtime", "--duration", "3000", "--no-oracle"});
   ASSERT_TRUE(fleet.wait_until_flying()) << fleet.err();

@@ -1,5 +1,5 @@
-// What ROS 2 nodes with default settings see of a fleet on their host, and what becomes of what they say. Real nodes
-// (rclpy) on either middleware beside fleets on either vendor.
+// ROS 2 nodes with default settings beside a fleet on the same host: what they receive, and the effects of their
+// messages. Real nodes (rclpy) on either middleware, and fleets with either vendor.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -23,8 +23,8 @@ class Ros2 : public Ros2Test, public testing::WithParamInterface<std::string> {
                       "python3 " + source_path("tests/ros2/listener.py") + " " + kUav + " " + file(name));
   }
 
-  /// Nobody waits for a listener: a writer may match it when the fleet flies already. From then on it heard everything,
-  /// and heard what the run's own files say.
+  /// Expects a listener to have received all messages from some time on, because a writer may match it only during the
+  /// flight, and the messages to agree with the run's files.
   void expect_all_heard(const SkeinRun& run, const std::string& listener) const {
     SCOPED_TRACE(listener);
     const Json heard = Json::parse(text_of(file(listener)));
@@ -53,7 +53,7 @@ class Ros2 : public Ros2Test, public testing::WithParamInterface<std::string> {
       ++compared;
     }
     EXPECT_GT(compared, odometry.size() / 3);
-    std::size_t most_points = 0;  // far from everything there are none
+    std::size_t most_points = 0;  // a scan far from all structure has no points
     for (const Json& cloud : heard["clouds"]) {
       most_points = std::max(most_points, cloud[1].get<std::size_t>());
       EXPECT_EQ(cloud[2], Json({"x", "y", "z", "intensity"}));

@@ -1,5 +1,5 @@
-// What a ROS 2 node sees that looks on in a UAV's domain with the settings of ros2/skein_ros/rviz/uav.rviz: each
-// display gets its topic, of its type, in the frames of tf; and what the agent knows of itself. RViz 2 is not at hand.
+// A ROS 2 node that subscribes in a UAV's domain with the settings of ros2/skein_ros/rviz/uav.rviz, in place of RViz 2:
+// each display gets its topic, with its type and in the frames of tf; the node also gets the agent's diagnostics.
 #include <algorithm>
 #include <cmath>
 
@@ -17,14 +17,14 @@ void expect_displays(const Json& seen) {
   for (const auto& [topic, display] : seen["shown"].items()) {
     SCOPED_TRACE(topic);
     EXPECT_EQ(display["wire"], Json({display["type"]}));
-    // Explorers find nothing in so short a flight.
+    // In so short a flight, an explorer may detect no point.
     if (topic == "/jurong/detected_interest_points" && display["samples"] == 0) continue;
     EXPECT_GT(display["samples"], 0);
     EXPECT_EQ(display["frames"], Json({"world"}));
   }
 }
 
-/// Of its own frames alone, each with one parent, and where its odometry says.
+/// Expects only the UAV's own frames, each with one parent, at the positions of its odometry.
 void expect_frames(const Json& seen) {
   std::map<std::string, std::string> parents;
   std::map<long, Json> places;
@@ -71,7 +71,7 @@ void expect_diagnostics(const Json& seen) {
 }
 
 TEST_P(UavViewer, SeesWhatItsUavIsToldAndNothingOfOthers) {
-  // False odometry: what is true of the UAV is not in its frames.
+  // With odometry errors: the true position must not be in its frames.
   const Arguments flight = {"towers", "--planner", "patrol",       "--stop-at", "30",
                             "--seed", "3",         "--conditions", "breezy"};
   SkeinRun& fleet = start("fleet", joined(flight, {"--dds", GetParam(), "--debug", "changi"}));

@@ -1,5 +1,5 @@
-// What a ROS 2 node sees that looks on in the world's domain as RViz 2 does, and whether Skein's messages are those of
-// ROS 2. visualization_msgs and tf2_msgs, which the tests' ROS 2 has not got, are built from Skein's IDL.
+// A ROS 2 node that subscribes in the world domain as RViz 2 does: what it receives, and whether Skein's messages are
+// those of ROS 2. The tests' ROS 2 lacks visualization_msgs and tf2_msgs, which are therefore built from Skein's IDL.
 #include <algorithm>
 #include <cmath>
 

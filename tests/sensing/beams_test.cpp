@@ -1,6 +1,6 @@
-// There and back: what the production LiDAR measured, and what a UAV rebuilds of the cloud, the servo's angle and its
-// own odometry. Scenes, poses, flights and servo phases are drawn; with and without noise, motion distortion and lost
-// returns, and with exchanges that do not fall on the scans.
+// Compares the beams that the production LiDAR measured with those that a UAV reconstructs from the cloud, the servo's
+// angle and its own odometry. Scenes, poses, flights and servo phases are random; with and without noise, motion
+// distortion and lost returns, and with exchanges that do not coincide with scans.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,7 +22,7 @@ using agent::BeamState;
 using agent::KnownBody;
 using agent::ScanDoubt;
 
-/// A body that sways, rises and turns.
+/// The motion of a body that sways, rises and turns.
 class Sway {
  public:
   explicit Sway(RandomStream& random)
@@ -54,13 +54,13 @@ class Sway {
 };
 
 constexpr UavIndex kSelf{0}, kOther{1};
-constexpr double kBodyM = 0.95;  ///< radius that holds the other UAV, with a margin
+constexpr double kBodyM = 0.95;  ///< radius of a sphere around the other UAV, with a margin
 
 struct Case {
   double sigma_m = 0.0;
   bool distorted = false;
   Tick exchange = 20;  ///< ticks
-  bool loses = false;  ///< returns
+  bool loses = false;  ///< whether the LiDAR loses returns
 };
 
 struct Outcome {
@@ -69,7 +69,7 @@ struct Outcome {
 
 class BeamsThereAndBack : public testing::TestWithParam<Case> {
  protected:
-  /// Boxes about the UAV, some so near that it does not see them, and another UAV.
+  /// Draws boxes around the UAV, some below the LiDAR's least range, and another UAV.
   void draw(std::uint64_t key) {
     RandomStream random(key, "beams", 0);
     sway_.emplace(random);
@@ -91,14 +91,14 @@ class BeamsThereAndBack : public testing::TestWithParam<Case> {
       config_.dropped_sectors = {.share = 0.2, .width_deg = 30.0, .hold_s = 0.5};
     }
     config_.servo_period_s = key % 2 == 0 ? 8.0 : 0.66;
-    // Where it is fast, it reaches its stop, stands there for 22 ms and turns back, all between two scans.
+    // A fast servo reaches its stop, rests there for 22 ms and turns back, all between two scans.
     config_.servo_rate_deg_s = key % 3 == 0 ? 45.0 : 130.0;
     config_.servo_limit_deg = key % 2 == 0 ? 90.0 : 20.0;
     lidar_.emplace(config_, kSelf, key + 1);
     lost_.emplace(config_, kSelf, key + 1);
   }
 
-  /// What the last scan returned: infinite where nothing.
+  /// The ranges of the last scan; infinite: no return.
   std::vector<double> returned(Tick tick) {
     std::vector<double> ranges(lidar_->ranges().begin(), lidar_->ranges().end());
     const std::vector<bool>& lost = lost_->of(tick);
@@ -108,7 +108,7 @@ class BeamsThereAndBack : public testing::TestWithParam<Case> {
     return ranges;
   }
 
-  /// Compares beam by beam.
+  /// Compares each beam with its measured range.
   void compare(const BeamScan& beams, const std::vector<double>& ranges) {
     for (int ring = 0; ring < config_.rings; ++ring) {
       for (int column = 0; column < config_.columns; ++column) {
@@ -133,7 +133,7 @@ class BeamsThereAndBack : public testing::TestWithParam<Case> {
     }
   }
 
-  /// Whether the beam met or passed the other UAV's sphere, or nearly so.
+  /// Whether the beam hit or passed the other UAV's sphere, or came near it.
   bool concerns_other(const BeamScan& beams, int ring, int column, double range) const {
     const Isometry3d& X_WL = beams.firing(column).X_WL;
     const Vector3d along = X_WL.linear() * lidar_direction_L(config_, ring, column);
@@ -157,7 +157,7 @@ class BeamsThereAndBack : public testing::TestWithParam<Case> {
       ASSERT_EQ(firing.tick, at_once ? beams.tick : beams.tick - 39 + static_cast<Tick>(i));
       const Isometry3d X_WL = lidar_pose(sway_->X_WB(seconds(firing.tick)), lidar_->servo(firing.tick).angle);
       const Isometry3d off = X_WL.inverse() * firing.X_WL;
-      // The LiDAR sits 0.2 m above the body's origin.
+      // The LiDAR is 0.2 m above the body's origin.
       ASSERT_LE(off.translation().norm(), firing.error_m + 0.21 * firing.error_rad + 1e-9);
       ASSERT_LE(Eigen::AngleAxisd(off.linear()).angle(), firing.error_rad + 1e-7);
     }
@@ -222,7 +222,7 @@ INSTANTIATE_TEST_SUITE_P(Flights, BeamsThereAndBack,
                                          Case{0.03, false, 20, true}, Case{0.03, true, 12, true}),
                          name_of_case);
 
-// As the faults odometry_jump and odometry_freeze have it.
+// Odometry errors like those of the faults odometry_jump and odometry_freeze.
 TEST_P(BeamsThereAndBack, FalseOdometryTellsNothing) {
   std::size_t scans = 0;
   for (std::uint64_t key = 0; key < 12; ++key) {

@@ -1,5 +1,5 @@
-// The criterion of free_evidence.hpp asked of a million members: how many of those that cross a tube that the map calls
-// free has the LiDAR not seen?
+// Tests the criterion of free_evidence.hpp with a million random members that cross a tube which the map calls free:
+// counts those that the LiDAR has not seen.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -35,8 +35,8 @@ TEST_P(DrawnMembers, AreSeenWhereATubeIsFree) {
 INSTANTIATE_TEST_SUITE_P(Flights, DrawnMembers, testing::Range<std::size_t>(0, flights().size()),
                          [](const auto& flight) { return flights()[flight.param].name; });
 
-/// The worst that can be drawn: a wire along a line of beams, between it and the next. Lines are half a degree apart:
-/// up to 5.7 m no wire of 5 cm fits between two.
+/// The worst case: a wire parallel to a line of beams, between it and the next line. Lines are half a degree apart, so
+/// up to 5.7 m, no wire of 5 cm fits between two lines.
 TEST(WiresAlongALineOfBeams, AreSeenUpToFiveMetres) {
   const SensedSpace space(flights().front(), kServoPhaseS, exact_map());
   RandomStream random(3, "wires", 0);

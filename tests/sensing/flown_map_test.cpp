@@ -1,4 +1,4 @@
-// What the map on board knows, beside one that counts each beam for itself in cubes of half a metre everywhere.
+// Compares the map on board with a reference map that counts each beam individually, in cubes of 0.5 m everywhere.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,11 +10,11 @@
 namespace skein::sensing {
 namespace {
 
-/// A UAV that hovers for a sweep, and the tubes of ten metres straight away from it: at least half of their space is
-/// free. Of their length, where all across must be free, it is 0.45 with each beam for itself, and 0.42 on board.
+/// A UAV hovers for one sweep. At least half of the space in straight tubes of 10 m that start at it is free. The share
+/// of their length at which the whole cross-section is free is 0.45 with individual beams, and 0.42 on board.
 TEST(OneSweep, ProvesHalfOfTenMetres) {
   for (const bool exact : {false, true}) {
-    for (const double phase_s : {3.0, 0.5, 5.0}) {  // either way of the servo
+    for (const double phase_s : {3.0, 0.5, 5.0}) {  // both directions of the servo
       const SensedSpace space(flights().front(), phase_s, exact ? exact_map() : agent::WorldMapper::Config());
       const Vector3d start_W(0.0, 0.0, kHeightM);
       RandomStream random(5, "ways", 0);
@@ -41,8 +41,9 @@ TEST(OneSweep, ProvesHalfOfTenMetres) {
 
 class FlownMap : public testing::TestWithParam<std::size_t> {};
 
-/// Bundles put all of their beams into one window, so single cubes at the border of what is proved differ both ways;
-/// tubes hardly do. What must hold of each map by itself is the criterion (drawn_members_test.cpp).
+/// The map on board assigns all beams of a bundle to one window, so single cubes at the border of the proved space
+/// differ in both directions, but tubes hardly do. Each map by itself must fulfil the criterion
+/// (drawn_members_test.cpp).
 TEST_P(FlownMap, KnowsWhatEachBeamForItselfProves) {
   const Flight flight = flights()[GetParam()];
   const SensedSpace flown(flight, 3.0, {}), exact(flight, 3.0, exact_map());
@@ -68,7 +69,7 @@ TEST_P(FlownMap, KnowsWhatEachBeamForItselfProves) {
 INSTANTIATE_TEST_SUITE_P(Flights, FlownMap, testing::Range<std::size_t>(0, flights().size()),
                          [](const auto& flight) { return flights()[flight.param].name; });
 
-/// Effort is counted, and not timed: windows that beams pass, and bytes.
+/// The effort is measured by counts, not by time: windows that beams pass, and bytes.
 TEST(FlownMap, CostsNoMoreThanItMay) {
   for (const Flight& flight : flights()) {
     const SensedSpace flown(flight, 3.0, {});

@@ -1,5 +1,6 @@
-// drawn_members_test.cpp with a LiDAR that loses returns: how many members has it not seen? A UAV hovers for one sweep
-// of the servo, so that it looks at most places once. Where it looks again, it misses hardly any, whatever is lost.
+// The same as drawn_members_test.cpp, with a LiDAR that loses returns: counts the members that it has not seen. A UAV
+// hovers for one sweep of the servo, so that it scans most places once; with a second scan it would miss hardly any
+// member.
 #include <gtest/gtest.h>
 
 #include <iostream>
@@ -29,7 +30,7 @@ void print(const std::string& what, const Tally& tally) {
   std::cout << what << ": " << tally.unseen << " of " << tally.drawn << " members unseen\n";
 }
 
-/// Each beam for itself, and a map of all beams.
+/// Beams are lost independently; the map uses each beam individually.
 class LostBeams : public testing::TestWithParam<double> {
  protected:
   Tally draw(const LidarConfig& told, const char* what) const {
@@ -57,7 +58,7 @@ INSTANTIATE_TEST_SUITE_P(Shares, LostBeams, testing::Values(0.3, 0.5), [](const 
   return "Of" + std::to_string(static_cast<int>(100.0 * p.param)) + "In100";
 });
 
-/// Of a map as UAVs have it, over many draws of sectors.
+/// Tally of the map that UAVs have, over many draws of lost sectors.
 Tally draw_with_sectors(SensedSpace& space, const std::string& what) {
   Tally all;
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
@@ -69,8 +70,8 @@ Tally draw_with_sectors(SensedSpace& space, const std::string& what) {
   return all;
 }
 
-/// Sectors that are drawn anew a few times in the second in which the LiDAR looks at a place do no more than single
-/// beams. Of those that stay for longer, some members are not seen: free_evidence.hpp tells that limit.
+/// Sectors that are drawn anew several times while the LiDAR scans a place have no more effect than single lost beams.
+/// With longer sectors, the LiDAR misses some members; free_evidence.hpp explains this limit.
 TEST(DroppedSectors, AreMadeUpForIfTheyAreDrawnAnewWhileTheLidarLooks) {
   for (const double share : {0.1, 0.3}) {
     for (const double hold_s : {0.3, 3.0, 100.0}) {

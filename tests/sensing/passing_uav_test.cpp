@@ -1,5 +1,5 @@
-// A UAV that is not heard flies about where a LiDAR sees it, among short poles that look no different to a map; then it
-// is heard again elsewhere. What does the map say of its trace, and of the poles?
+// A UAV whose position is not received flies within sight of a LiDAR, among short poles that look the same in a map.
+// Later its position is received again, elsewhere. Checks what the map then contains of its trace, and of the poles.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -18,7 +18,7 @@ namespace {
 constexpr double kLostS = 6.0, kFoundS = 16.0, kEndS = 46.0;
 constexpr double kPoleWidthM = 0.06;
 
-/// Turns, so that its LiDAR looks all around, and drifts.
+/// Pose X_WB of the UAV with the LiDAR, which turns so that it scans all directions, and drifts.
 Isometry3d looker(double t) {
   return Eigen::Translation3d(0.15 * t, 0.3 * std::sin(0.4 * t), kHeightM) *
          Eigen::AngleAxisd(0.25 * t, Vector3d::UnitZ());
@@ -30,15 +30,15 @@ Vector3d drawn_place(RandomStream& random, double from_m, double to_m) {
 }
 
 struct DrawnPassing {
-  std::vector<Vector3d> way_W;    ///< of the UAV that is not heard, from where it is lost on; its pace is even
-  std::vector<Vector3d> poles_W;  ///< places on them
+  std::vector<Vector3d> way_W;    ///< route of the other UAV while it is not received; equal time for each leg
+  std::vector<Vector3d> poles_W;  ///< points on the poles
   TriangleMesh mesh;
 
   explicit DrawnPassing(std::uint64_t seed) {
     RandomStream random(seed, "passing", 0);
     const Vector3d begin_W = drawn_place(random, 5.0, 9.0);
     way_W = {begin_W, begin_W + 6.0 * sim::test::random_unit(random)};
-    way_W.push_back(way_W[1] + 0.2 * sim::test::random_unit(random));  // there it stays for a while
+    way_W.push_back(way_W[1] + 0.2 * sim::test::random_unit(random));  // a leg so short that it nearly stays there
     way_W.push_back(way_W[2] + 12.0 * sim::test::random_unit(random));
     while (poles_W.size() < 400) {
       const Vector3d middle_W = drawn_place(random, 5.0, poles_W.size() < 200 ? 10.0 : 22.0);
@@ -62,12 +62,12 @@ struct DrawnPassing {
 };
 
 struct Seen {
-  std::size_t trace = 0;      ///< cubes on the other UAV's way that were occupied when it was heard again
-  std::size_t left = 0;       ///< of them, those that are still so at the end
-  std::size_t free = 0;       ///< and those that are free
-  std::size_t poles = 0;      ///< their cubes that were occupied then
-  std::size_t lost = 0;       ///< of them, those that are unknown at the end
-  std::size_t pole_free = 0;  ///< at any time since
+  std::size_t trace = 0;      ///< cubes on the other UAV's route that were occupied when it was received again
+  std::size_t left = 0;       ///< of these, cubes that are still occupied at the end
+  std::size_t free = 0;       ///< of these, cubes that are free at the end
+  std::size_t poles = 0;      ///< cubes of poles that were occupied when it was received again
+  std::size_t lost = 0;       ///< of these, cubes that are unknown at the end
+  std::size_t pole_free = 0;  ///< cubes of poles that were free at any time since
 };
 
 class Passing {
@@ -138,7 +138,7 @@ class Passing {
     return cubes;
   }
 
-  /// What is heard is no structure; for this test it is as well out of the world.
+  /// Scans. @param heard  the other UAV is received, so it is not structure, and this test removes it from the world.
   void scan(Tick tick, bool heard) {
     const double t = seconds(tick);
     world_.set_pose(UavIndex{1}, Isometry3d(Eigen::Translation3d(heard ? Vector3d(900, 0, 0) : drawn_.at(t))));

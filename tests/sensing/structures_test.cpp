@@ -1,4 +1,4 @@
-// Structure of all kinds, drawn about a UAV that flies: what the map says of the places where it stands.
+// Random structure of all kinds around a flying UAV: what the map says about the places where structure is.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,10 +13,10 @@
 namespace skein::sensing {
 namespace {
 
-/// Walls with slots between them, slabs, beams and wires, none of them within 3 m of the route.
+/// Random walls with slots, slabs, beams and wires, none within 3 m of the route.
 struct DrawnScene {
   TriangleMesh mesh;
-  std::vector<Vector3d> surface_W;  ///< places on it, drawn evenly in each part
+  std::vector<Vector3d> surface_W;  ///< random points on its surface, uniform in each part
 
   DrawnScene(std::uint64_t key, const Flight& flight) {
     RandomStream random(key, "structures", 0);

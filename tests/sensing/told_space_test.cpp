@@ -1,5 +1,5 @@
-// An explorer has flown for a minute, and then comes into line of sight of a photographer that knows nothing: how much
-// of what the explorer knows to be free does the photographer know ten seconds later?
+// An explorer has flown for a minute, and then comes into line of sight of a photographer with an empty map. Checks how
+// much of the space that the explorer knows to be free the photographer knows ten seconds later.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -16,7 +16,7 @@ using agent::test::NewsRadio;
 
 constexpr double kHoverS = 8.0, kFlyS = 60.0, kSpeedMps = 2.0;
 
-/// Hovers for a sweep of its LiDAR, and then flies, facing its way.
+/// Flights that begin with a hover for one sweep of the LiDAR; the UAV faces its direction of flight.
 std::vector<Flight> explorers() {
   const auto way_m = [](double t) { return kSpeedMps * std::max(0.0, t - kHoverS); };
   return {
@@ -31,13 +31,13 @@ std::vector<Flight> explorers() {
 struct Link {
   std::string name;
   double bytes_per_s = 20'000.0, loss = 0.0;
-  std::optional<double> restart_s = {};  ///< of the photographer
+  std::optional<double> restart_s = {};  ///< time at which the photographer's program restarts [s]
 };
 const std::vector<Link> kLinks = {{"Whole", 20'000.0, 0.0, {}},
                                   {"HalfOfWhichSomeIsLost", 10'000.0, 0.3, {}},
                                   {"HalfOfWhichSomeIsLostAndARestart", 10'000.0, 0.3, 3.0}};
 
-/// Free cubes of the explorer within 30 m of its route.
+/// Cubes within 30 m of the explorer's route that are free in its map.
 std::vector<Eigen::Vector3i> free_about_the_route(const SensedSpace& space) {
   std::vector<Eigen::Vector3i> cubes;
   agent::WorldMap::Chunk known;

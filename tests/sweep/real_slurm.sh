@@ -1,10 +1,10 @@
 #!/bin/sh
-# A Slurm of its own on this machine: munged, slurmctld, and a slurmd for each of two nodes of one core. No systemd, no
-# cgroups. Runs until it is told to end; then nothing of it is left, nor if it is killed.
-#   real_slurm.sh FOLDER     FOLDER/slurm.conf is for SLURM_CONF; FOLDER/ready appears once jobs may come
-# The process in FOLDER/slurmctld.pid may be killed: another one takes its place. With the one in FOLDER/node-n2.pid all
-# that runs on that node is gone, as when its power fails; it stays so.
-# Exit code 77: it cannot run here, and says why.
+# Runs a separate Slurm on this machine: munged, slurmctld, and a slurmd for each of two nodes with one core. Uses
+# neither systemd nor cgroups. Runs until a signal ends it; no process of it remains then, also not if it is killed.
+#   real_slurm.sh FOLDER     FOLDER/slurm.conf is the file for SLURM_CONF; FOLDER/ready appears once Slurm accepts jobs
+# A test may kill the process in FOLDER/slurmctld.pid: it is restarted. If a test kills the process in
+# FOLDER/node-n2.pid, all processes of this node die, as in a power failure, and the node stays down.
+# Exit code 77: Slurm cannot run here; the script prints the reason.
 set -eu
 folder=$1
 [ "$(id -u)" = 0 ] || { echo "only root can start Slurm's daemons"; exit 77; }
@@ -18,7 +18,7 @@ mkdir -p "$folder/state" "$folder/spool-n1" "$folder/spool-n2" "$folder/munge"
 chmod 0755 "$folder"
 chmod 0700 "$folder/munge"
 
-# Three ports that nobody has now.
+# Three ports that no program uses now.
 set -- $(python3 -c 'import socket
 sockets = [socket.socket() for _ in range(3)]
 [s.bind(("127.0.0.1", 0)) for s in sockets]
@@ -58,7 +58,7 @@ export SLURM_CONF="$folder/slurm.conf"
 daemons=
 end() {
   trap - EXIT
-  kill -KILL $daemons 2>/dev/null || true  # with `unshare` all of its node
+  kill -KILL $daemons 2>/dev/null || true  # the end of an `unshare` also ends all processes of its node
   wait
 }
 trap end EXIT

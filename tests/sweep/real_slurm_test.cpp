@@ -1,4 +1,4 @@
-// Studies by Slurm's own daemons, in the long suite (real_slurm.sh).
+// Studies with the real daemons of Slurm (real_slurm.sh), in the long suite.
 #include "sweep_fixture.hpp"
 
 namespace skein::test {
@@ -22,7 +22,7 @@ class RealSlurm : public SweepTest {
     SweepTest::TearDown();
   }
 
-  /// One whose process id the script has written.
+  /// Kills a daemon whose process id is in a file of the script.
   bool kill_daemon(const std::string& name) const {
     return ::kill(std::stoi("0" + text_of(dir_ / (name + ".pid"))), SIGKILL) == 0;
   }
@@ -39,7 +39,7 @@ TEST_F(RealSlurm, IsAsThePlainStudy) {
   EXPECT_NE(study.err().find("2 nodes; 1 flight flown again elsewhere, each with the same digest"), std::string::npos)
       << study.err();
 
-  // The controller is killed in its midst: a job merges.
+  // The sweep's controller is killed during the sweep; then a job of Slurm merges.
   ChildProcess& killed = fly("killed", {"--executor", "slurm"}, slurm_);
   EXPECT_TRUE(eventually([&] { return flown("killed") >= 2; })) << killed.err();
   killed.signal(SIGKILL);
@@ -49,21 +49,22 @@ TEST_F(RealSlurm, IsAsThePlainStudy) {
   expect_as_plain("killed");
 }
 
-// Slurm gives the tasks of a node that is gone to another one, and has its jobs in files.
+// Slurm moves the tasks of a lost node to another node, and keeps its jobs in files.
 TEST_F(RealSlurm, ANodeAndTheControllerOfTheClusterMayDie) {
   ChildProcess& study = fly("deaths", {"--executor", "slurm"}, slurm_);
   ASSERT_TRUE(eventually([&] { return flown("deaths") >= 2; })) << study.err();
   ASSERT_TRUE(kill_daemon("slurmctld"));
   ASSERT_TRUE(kill_daemon("node-n2"));
   EXPECT_LT(flown("deaths"), flights()) << "they were to die in its midst";
-  // Slurm may need four minutes: if its controller died just after a task had ended, the next one takes the task for
-  // running, until it asks the node.
+  // Slurm may need four minutes: if its controller died just after a task had ended, the new controller considers the
+  // task running until it queries the node.
   EXPECT_TRUE(eventually([&] { return study.ended().has_value(); }, std::chrono::minutes(10))) << study.err();
   EXPECT_EQ(study.wait().code, 0) << study.err() << logs("deaths");
   expect_as_plain("deaths");
 }
 
-// Of one minute. Slurm looks each half a minute whose time will be over within a minute: so all that fly then end.
+// The limit is one minute. Every half a minute, Slurm signals the jobs that reach their limit within a minute, so all
+// jobs that run then end.
 TEST_F(RealSlurm, ALimitOfTimeLeavesWholeFlights) {
   tests_ = 40;
   ChildProcess& study =
@@ -73,7 +74,7 @@ TEST_F(RealSlurm, ALimitOfTimeLeavesWholeFlights) {
   expect_as_plain("cut");
 }
 
-// `skein run --place slurm`: the launcher is on one node of the allocation, the UAVs are on the other.
+// `skein run --place slurm`: the launcher is on one node of the allocation, the UAVs are on the other one.
 TEST_F(RealSlurm, AFleetOverTheNodesOfAnAllocation) {
   const Arguments flight = {"towers", "--planner", "patrol", "--duration", "10", "--no-oracle", "--no-report"};
   run("one", flight);

@@ -1,5 +1,5 @@
-// Studies by `--executor`, with real fleets as short as they can be: whatever flies them, and whatever is killed
-// meanwhile, digests, scores and tables are those of the plain command.
+// Studies with `--executor`, with short flights of real fleets: for each engine, and whatever is killed meanwhile,
+// digests, scores and tables are those of the command without an engine.
 #include "sweep_fixture.hpp"
 #include "tests/fleet/small_disk.hpp"
 
@@ -8,7 +8,7 @@ namespace {
 
 class Sweep : public SweepTest {
  protected:
-  /// PATH and the rest of a stand-in for Slurm.
+  /// Sets up the stand-in for Slurm. @returns the variables that it needs, with PATH.
   Environment slurm(const std::string& nodes, const std::string& limits = "1001") {
     fs::create_directories(folder() / "slurm");
     write("slurm/nodes", nodes);
@@ -20,7 +20,7 @@ class Sweep : public SweepTest {
     return {{"STAND_IN_SLURM", folder() / "slurm"},
             {"PATH", (folder() / "slurm").string() + ":" + std::getenv("PATH")}};
   }
-  /// Of the stand-in: all jobs.
+  /// All jobs of the stand-in.
   Json slurm_jobs() const { return Json::parse(text_of(folder() / "slurm" / "jobs.json"), nullptr, false); }
   bool slurm_is_idle() const {
     const Json jobs = slurm_jobs();
@@ -106,7 +106,7 @@ TEST_F(Sweep, DetachedItIsMergedByAJobThoughTasksAreKilled) {
   ChildProcess& study = fly("detached", {"--executor", "slurm", "--detach"}, with);
   ASSERT_EQ(study.wait().code, 0) << study.err();
   EXPECT_FALSE(fs::exists(folder() / "detached" / "report.html"));
-  // A node dies, twice; Slurm gives its unit to another one.
+  // A node dies, twice; each time Slurm gives its unit to another node.
   for (std::size_t after = 1; after <= 3; after += 2) {
     ASSERT_TRUE(eventually([&] { return flown("detached") >= after; }));
     for (const Json& pid : slurm_jobs()["1"]["pids"]) ::kill(-pid.get<pid_t>(), SIGKILL);
@@ -133,7 +133,7 @@ TEST_F(Sweep, ALimitOfTimeLeavesWholeFlights) {
 }
 
 TEST_F(Sweep, AnotherBuildOnANodeFliesNothing) {
-  // Its station is another file, which says the same.
+  // In this build, `station` is another file with the same behaviour.
   const fs::path bin = folder() / "bin";
   fs::create_directories(bin);
   for (const auto& entry : fs::directory_iterator(fs::path(program("skein")).parent_path())) {
@@ -173,7 +173,7 @@ TEST_F(Sweep, AHuntIsTheSameSearch) {
   EXPECT_EQ(lines("plain hunt"), lines("swept hunt"));
 }
 
-/// The archive alone, in a root folder that has nothing else.
+/// Flies with the archive alone, in a root folder that contains nothing else.
 TEST_F(Sweep, APackFliesWhereNothingIsInstalled) {
   if (::getuid() != 0 || !is_installed("unshare")) GTEST_SKIP() << "only root may fly in another root folder";
   ChildProcess& pack = start_program("pack", {program("skein"), "pack", folder() / "skein.tar.gz"});
@@ -209,7 +209,7 @@ exec chroot "$root" "$SKEIN_LOADER" --library-path $lib --argv0 skein /opt/skein
   }
 }
 
-/// Planners and programs in Python, with this machine's interpreter and what is in the archive.
+/// Planners and programs in Python, with this machine's interpreter and the files of the archive.
 TEST_F(Sweep, APackFliesPython) {
   if (!fs::exists(program("libskein_python.so"))) GTEST_SKIP() << "this build has no Python";
   ChildProcess& pack = start_program("pack", {program("skein"), "pack", folder() / "skein.tar.gz"});

@@ -1,5 +1,5 @@
-// Follows a run in a browser: what its UAVs say that they do, as activity.csv has it, live and in the replay; and whom
-// it waits for while a UAV's program is stopped. Prints what is wrong, a line each; nothing: all is well.
+// Follows a run in a browser. Checks that the page shows the activities that UAVs report as in activity.csv, live and
+// in the replay, and that it names the UAV whose stopped program the run waits for. Prints each problem as a line.
 // usage: node activity.mjs WEB CHROMIUM DOOR RUN UAV PID
 import {readFileSync} from 'node:fs';
 import path from 'node:path';
@@ -9,16 +9,16 @@ import {letGo, openRun, pausedByItself, sleep, stateOf, until} from './page.mjs'
 const [web, chromium, door, run, uav, pid] = process.argv.slice(2);
 const {browser, page, complaints} = await openRun([web, chromium, door]);
 const expect = (good, what) => good || console.log(what);
-const kTicks = 400;  // of a second
+const kTicks = 400;  // per simulated second
 
-/** By UAV, what the table says that it does: [what, why]. */
+/** @returns by UAV: activity and reason in the page's table. */
 const shown = () => page.$$eval('#fleet tbody tr', (rows) => Object.fromEntries(rows.map((row) => {
   const cell = row.querySelector('.does');
   const why = cell.querySelector('.why')?.textContent ?? '';
   return [row.querySelector('button').textContent, [cell.firstChild?.textContent ?? '', why]];
 })));
 
-/** The same of activity.csv. */
+/** @returns the same from activity.csv. @param seconds  simulated time. */
 function written(seconds) {
   const [head, ...lines] = readFileSync(path.join(run, 'activity.csv'), 'utf8').trim().split('\n').map((l) => l.split(','));
   const found = {};
@@ -33,7 +33,7 @@ function written(seconds) {
 
 const held = await pausedByItself(page);
 expect(held.tick === 12 * kTicks, `it paused at tick ${held.tick}`);
-await sleep(1000);  // lines and states come by different ways
+await sleep(1000);  // lines and states do not arrive in a common order
 const live = await shown();
 await page.evaluate((name) => [...document.querySelectorAll('#fleet button')]
     .find((button) => button.textContent === name).click(), uav);
@@ -42,7 +42,7 @@ for (const word of [live[uav][0], 'goal', 'waits for', 'ms for a simulated secon
   expect(facts.includes(word), `of ${uav} the page says ${facts}, without ${word}`);
 await page.keyboard.press('Escape');
 
-// A program that does not answer holds the run up, and the page says whose.
+// A program that does not answer stops the run, and the page names its UAV.
 await letGo(page);
 process.kill(Number(pid), 'SIGSTOP');
 try {
@@ -71,7 +71,7 @@ for (const name of Object.keys(table)) {
            `at ${seconds} s ${name} does ${what[name]} ${where}, and ${table[name]} in activity.csv`);
 }
 expect(Object.keys(table).length === Object.keys(live).length, 'activity.csv has not all UAVs');
-// Its lanes have a colour for each of its words.
+// The lanes have a colour for each activity that the UAVs reported.
 const others = await page.evaluate(() => globalThis.skein.figures().otherModes);
 expect(others.length === 0, `of no kind: ${others}`);
 expect((await page.$$('#modes li')).length > 4, 'the lanes have no legend');

@@ -1,4 +1,4 @@
-// Agents of a secured fleet, under their user ids, before the page of their own run.
+// Agents of a secured fleet, with their own user ids, try to use the page of their run.
 #include <unistd.h>
 
 #include <csignal>
@@ -14,8 +14,8 @@ namespace fs = std::filesystem;
 
 const std::string kAgent = "jurong";
 
-// What an agent tries; each line says what it got. KEY is of whatever file it can read. It knocks until the station
-// serves the page: before, connections wait.
+// The requests that an agent tries; each line is an answer. KEY is a key from any file that the agent can read. It
+// repeats the requests until the station serves the page; before that, connections wait.
 constexpr const char* kLooking = R"sh(
 ask() {  # TARGET MORE BYTES
   exec 3<>/dev/tcp/127.0.0.1/$PORT || return
@@ -65,7 +65,7 @@ TEST_F(AgentsAndThePage, ASecuredAgentSeesTheDoorAndNoMore) {
   const fs::path door = door_of(seen);
   ASSERT_TRUE(seen.wait_until_flying()) << seen.err();
 
-  // The same by the user whose run it is: what the agent could not do can be done.
+  // The same requests by the run's owner succeed.
   const std::string secret = text_of(door.parent_path() / "view.key").substr(0, 64);
   const fs::path own = write("own.sh", ". " + looking.string() + "\nSECRET=$(cat " + door.string() +
                                            " | grep -o '[0-9a-f]\\{64\\}')\nDOORS=" + door.string() + "\nlook\n");

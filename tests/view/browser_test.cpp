@@ -1,4 +1,4 @@
-// The page of a run in a browser: while it flies, and when it is over. The scripts beside this look.
+// The page of a run in a browser, during the flight and afterwards. The scripts in this folder examine it.
 #include <csignal>
 
 #include "view_fixture.hpp"
@@ -8,8 +8,8 @@ namespace {
 
 class PageOfARun : public BrowserTest {
  protected:
-  /// A flight that somebody watches, holds and lets go is the one that nobody watched.
-  /// @param script  what somebody does with the page, up to its replay.
+  /// Expects a flight that a user watches, pauses and resumes to have the digest of the flight without a page.
+  /// @param script  uses the page, up to the replay.
   void watch(const Arguments& flight, const Arguments& how, const std::string& script = "watch") {
     const std::string unseen = run("unseen", joined(flight, {"--one-process"})).digest();
     SkeinRun& seen = start("seen", joined(joined(flight, how), {"--view", "--pause-at", "0", "--speed", "1"}));
@@ -25,7 +25,7 @@ class PageOfARun : public BrowserTest {
 
 const Arguments kWatchedFlight = {"towers", "--planner", "kios", "--duration", "60", "--no-oracle"};
 
-/// What is lost is told, too.
+/// With the oracle, so that the page shows losses, too.
 const Arguments kEstimatedFlight = {"towers", "--planner", "kios", "--duration", "60"};
 
 TEST_F(PageOfARun, FollowsAFleetOverDds) { watch(kEstimatedFlight, {}); }
@@ -59,7 +59,7 @@ TEST_F(PageOfARun, ComesBackWithAStationThatWasKilled) {
   }
 }
 
-// What its buttons did is repeated by the file that they left.
+// The file of the faults that its buttons caused repeats the flight.
 TEST_F(PageOfARun, BreaksAFleetByItsButtons) {
   for (const Arguments& how : {Arguments{"--one-process"}, Arguments{}}) {
     const std::string name = how.empty() ? "dds" : "one";
@@ -73,7 +73,7 @@ TEST_F(PageOfARun, BreaksAFleetByItsButtons) {
   }
 }
 
-// As by `ssh -L`, from a machine that is not this one.
+// As with `ssh -L`, from another machine.
 TEST_F(PageOfARun, ComesThroughATunnelWithAnotherPort) {
   SkeinRun& seen =
       start("seen", joined(kWatchedFlight, {"--one-process", "--view", "--pause-at", "5", "--speed", "2"}));

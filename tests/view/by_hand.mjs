@@ -1,5 +1,5 @@
-// Breaks a run and mends it by the page's own buttons, with the pointer and with the keyboard, while it is paused and
-// while it flies. Prints what is wrong, a line each; nothing: all is well.
+// Begins and ends faults with the buttons of a run's page, with pointer and keyboard, while the run is paused and while
+// it flies. Prints each problem as a line; prints nothing if all is well.
 // usage: node by_hand.mjs WEB CHROMIUM DOOR RUN
 import {readFileSync} from 'node:fs';
 import path from 'node:path';
@@ -27,7 +27,8 @@ await letGo(page);
 await page.click('#pause');
 await until(page, ({state}) => state === 'paused', 'it is paused by its button');
 
-// A link, by the keyboard: marked until the step has come, then cut; its other direction is not.
+// Cuts a link with the keyboard: the page marks it until the next step, then shows it as cut; the other direction
+// stays.
 await page.focus(cell(4, 0));
 await page.keyboard.press('Enter');
 await waitUntil(() => look(cell(4, 0)), ({kind}) => kind.includes('waits'), 'the cut waits for the next step');
@@ -35,10 +36,10 @@ expect((await faults()).some((text) => text.includes('begins with the next step'
 await step();
 const cut = await waitUntil(() => look(cell(4, 0)), ({kind}) => !kind.includes('waits'), 'the link is cut');
 expect(cut.title.includes('click heals it'), `the cell says ${cut.title}`);
-expect(['l l2', 'l l0'].includes(cut.kind), `the cell is ${cut.kind}`);  // blocked anyway, if out of sight
+expect(['l l2', 'l l0'].includes(cut.kind), `the cell is ${cut.kind}`);  // l0: out of sight
 expect((await look(cell(0, 4))).kind !== 'l l2', 'the other direction is cut, too');
 
-// What has not begun is taken back.
+// A fault that has not begun can be taken back.
 await page.click('#fleet tbody tr:nth-child(4) button');
 const kill = '#uav-faults button[data-fault="kill"]';
 await waitUntil(() => look(kill), ({disabled}) => !disabled, 'the chosen UAV can be broken');
@@ -47,7 +48,7 @@ await waitUntil(() => look(kill), ({text}) => text.includes('take back'), 'the k
 expect((await look('#uav-faults button[data-fault="pause"]')).disabled, 'who is killed could be paused, too');
 await page.click(kill);
 await waitUntil(() => look(kill), ({pressed}) => pressed === 'false', 'it is taken back');
-// And once more in earnest; its program starts again.
+// This time the fault begins; afterwards the program is started again.
 await page.click(kill);
 await waitUntil(() => look(kill), ({pressed}) => pressed === 'true', 'the kill waits again');
 await step();
@@ -59,7 +60,7 @@ await waitUntil(() => look(kill), ({text}) => text.includes('Kill'), 'it starts 
 await step();
 await waitUntil(faults, (texts) => texts.some((text) => /killed.*changi.*\d to \d/.test(text)), 'the kill is in the list as over');
 
-// The other way to end a fault, and one that is refused.
+// Another way to end a fault, and a fault that the server refuses.
 await page.$$eval('#faults ol li.on button', (buttons) => buttons.at(-1).click());  // the oldest: the link
 await step();
 await waitUntil(() => look(cell(4, 0)), ({title}) => title.includes('Click cuts it'), 'the link is healed');

@@ -1,4 +1,4 @@
-// Faults by hand: whatever somebody who watches a run does to it, by-hand.yaml repeats the run bit for bit.
+// Faults by hand: whichever faults a viewer causes in a run, by-hand.yaml repeats the run bit for bit.
 #include <algorithm>
 #include <map>
 #include <random>
@@ -11,11 +11,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// `patrol` delivers and hears its neighbours: whoever is cut off or killed leaves traces in the digest.
+/// UAVs deliver captures and exchange messages in it, so faults of links and programs change the digest.
 const Arguments kBrokenFlight = {"towers", "--planner", "kios", "--duration", "60", "--no-oracle", "--no-report"};
 const Arguments kWatched = {"--view", "--view-close", "--speed", "10"};
 
-/// Of everything that this file is about one, in a drawn order, and others that are drawn.
+/// One fault of each kind that these tests need and four other random ones, in a random order.
 std::vector<Json> drawn_faults(std::mt19937& random) {
   const auto uav = [&] { return kFleet[random() % kFleet.size()]; };
   const auto fault = [](const std::string& kind, Json more) {
@@ -47,7 +47,7 @@ class FaultsByHand : public ViewTest {
   static std::uint64_t done(const PageClient& page) { return page.state()["faults"]["done"]; }
   static std::uint64_t refused(const PageClient& page) { return page.state()["faults"]["refused"]; }
 
-  /// Asks, and waits for the answer. @returns whether it was done.
+  /// Sends an order, and waits for the answer. @returns whether the server carried it out.
   static bool ask(PageClient& page, const Json& order) {
     const std::uint64_t before = done(page), refused_before = refused(page);
     page.ask(order);
@@ -55,7 +55,7 @@ class FaultsByHand : public ViewTest {
     return done(page) != before;
   }
 
-  /// Breaks a run and mends it until it is over.
+  /// Begins and ends faults until the run is over.
   static void meddle(PageClient& page, std::uint32_t seed) {
     std::mt19937 random(seed);
     double due_s = 12.0 + 0.01 * static_cast<double>(random() % 300);
@@ -65,7 +65,7 @@ class FaultsByHand : public ViewTest {
       if (holds) page.ask({{"do", "pause"}});
       if (holds && !page.wait([&] { return page.state()["paused"] == true; })) break;
       ask(page, fault);
-      const bool heard = fault.value("of", "") != "station";  // what is said while it dies nobody may hear
+      const bool heard = fault.value("of", "") != "station";  // orders to a dying station may be lost
       if (heard && random() % 2 == 0 && !page.state()["faults"]["open"].empty()) {
         ask(page, {{"do", "end_fault"}, {"fault", page.state()["faults"]["open"][0]["n"]}});
       }
@@ -91,7 +91,7 @@ class FaultsByHand : public ViewTest {
         std::ranges::is_sorted(result["interventions"], {}, [](const Json& one) { return one["step"].get<int>(); }));
   }
 
-  /// A flight that somebody breaks is repeated by the file that it leaves.
+  /// Expects by-hand.yaml to repeat a flight with faults by hand.
   void break_and_repeat(std::uint32_t seed, const Arguments& how, const Arguments& again) {
     SkeinRun& seen = start("seen", joined(joined(kBrokenFlight, how), kWatched));
     PageClient page(door_of(seen));
@@ -117,7 +117,7 @@ TEST_F(FaultsByHand, AreRepeatedOfAFleetOverFastDds) { break_and_repeat(3, {"--d
 
 TEST_F(FaultsByHand, AreRepeatedByAFleetOverDds) { break_and_repeat(4, {"--one-process"}, {"--dds", "mixed"}); }
 
-// Its own faults stand first, with the times that its seed drew, and the draws of its links are the same.
+// The faults of the run's fault file come first, with the times that the seed drew, and its random losses are the same.
 TEST_F(FaultsByHand, StandBehindThoseOfTheFile) {
   const auto own = write("own.yaml",
                          "faults:\n  - {at_s: [13, 16], for_s: [3, 9], link: {loss: 0.4}}\n"
@@ -147,7 +147,7 @@ TEST_F(FaultsByHand, StandBehindThoseOfTheFile) {
   EXPECT_NE(run("own", joined(flight, {"--faults", own})).digest(), seen.digest());
 }
 
-// While the station is away nobody could resume a run that is paused.
+// While the station is dead, no viewer can resume a paused run.
 TEST_F(FaultsByHand, AStationThatIsKilledWhileTheRunIsPausedComesBack) {
   SkeinRun& seen = start("seen", joined(joined(kBrokenFlight, {"--one-process"}), kWatched));
   PageClient page(door_of(seen));

@@ -1,5 +1,5 @@
-// Looks at LiDAR points and at a map while a run flies, stops to look at them, and looks at the map in its replay.
-// Prints what is wrong, a line each; nothing: all is well.
+// Requests LiDAR points and a map on the page of a live run, ends the request, and requests the map in the replay.
+// Prints each problem as a line; prints nothing if all is well.
 // usage: node clouds.mjs WEB CHROMIUM DOOR RUN
 import {lookAt} from '../report/browser.mjs';
 import {letGo, openRun, pausedByItself, sleep, until, waitUntil} from './page.mjs';
@@ -7,9 +7,9 @@ import {letGo, openRun, pausedByItself, sleep, until, waitUntil} from './page.mj
 const [web, chromium, door] = process.argv.slice(2);
 const {browser, page, complaints} = await openRun([web, chromium, door]);
 const expect = (good, what) => good || console.log(what);
-const kMostBytes = 20000;  // of the points of a UAV, or of a map, on average: five of each a second at most
+const kMostBytes = 20000;  // mean size of one UAV's points, or of a map, in a message
 
-/** What the page is told, by its socket. */
+/** Statistics of the messages that the page receives on its WebSocket. */
 const told = {scene: null, frames: 0, clouds: 0, bytes: 0, since: 0, names: new Map(), newest: new Map(), points: []};
 const spy = await page.createCDPSession();
 await spy.send('Network.enable');
@@ -39,7 +39,7 @@ const note = () => page.$eval('#clouds-note', (element) => element.textContent);
 const choose = (id, value) => page.select(`#${id}`, value);
 const press = (id) => page.evaluate((name) => document.getElementById(name).click(), id);
 const stage = async () => {
-  await sleep(300);  // a picture of the screen later
+  await sleep(300);  // until the browser has drawn the next picture
   const png = await (await page.$('.stage')).screenshot({encoding: 'base64'});
   const figures = await lookAt(browser, png);
   await page.bringToFront();
@@ -47,14 +47,14 @@ const stage = async () => {
 };
 const count = (kind) => [...told.names].reduce((sum, [name, times]) => sum + (name.startsWith(kind) ? times : 0), 0);
 
-await page.reload();  // with the spy from the beginning
+await page.reload();  // so that the spy sees all messages
 await pausedByItself(page);
 await letGo(page);
 await eventually(() => told.frames > 30, 'news of the flight');
 expect(told.clouds === 0, 'there are points or maps, and nobody looks');
 expect(await note() === '', `nobody looks, and the page says ${await note()}`);
 
-await choose('speed', '0.5');  // it must not be over before the look
+await choose('speed', '0.5');  // so that the run does not end before the checks
 await choose('lidar-of', 'all');
 await choose('map-of', 'jurong');
 await eventually(() => count('lidar') >= 10 && told.points.length > 1500, 'LiDAR points');
@@ -66,7 +66,7 @@ expect(each < kMostBytes, `points or a map have ${each} bytes`);
 expect(told.newest.get('map jurong').kind === 'what it flies on', 'it is another map');
 expect(told.newest.get('map jurong').free.length > 100, 'nothing is free at its height');
 
-// Points lie on the structure, of which the page has points some way apart.
+// LiDAR points are near the structure, of which the page knows the interest points.
 const near = (() => {
   const kCell = 1.5;
   const cells = new Map();
@@ -90,10 +90,10 @@ expect(share > 0.6, `${share} of the LiDAR points are beside the points of the s
 const beside = told.points.filter(([x, y, z]) => near([x + 6, y - 6, z + 6])).length / told.points.length;
 expect(beside < share / 2, `${beside} of the LiDAR points would be there if they stood elsewhere: that proves little`);
 
-// What is chosen is to be seen: while time is held nothing else changes.
+// Each choice changes the picture. The run is paused, so that nothing else changes it.
 await press('pause');
 await until(page, ({state}) => state === 'paused', 'it is paused');
-await sleep(1500);  // for what was on its way
+await sleep(1500);  // for messages that were sent before the pause
 expect(/LiDAR points, the newest of .* jurong: what it flies on/.test(await note()), `the page says ${await note()}`);
 const both = await stage();
 await choose('clouds-by', 'uav');
@@ -110,7 +110,7 @@ for (const [one, {png}] of Object.entries(pictures))
     if (one < other) expect(png !== second, `the pictures ${one} and ${other} are the same`);
 expect(both.colours > none.colours, 'points and map add no colour');
 
-// Who does not look any more is sent nothing; nor is a page that has ceased to ask.
+// The server sends nothing more when the user ends the request, nor when the page no longer renews it.
 await letGo(page);
 await eventually(() => told.since > 20, 'an end of points and maps');
 await choose('lidar-of', 'all');

@@ -1,17 +1,18 @@
-// What the page takes to show 20 UAVs and 10,000 points: draw calls, bytes, memory over an hour. Prints what is beyond
-// its bounds, a line each; nothing: all is well. With FIGURES in its environment the figures go to stderr.
+// Measures what the page needs to show 20 UAVs and 10,000 points: draw calls, bytes, memory over an hour. Prints a line
+// for each figure beyond its bound; prints nothing if all is well. If FIGURES is in the environment, prints all figures
+// to stderr.
 // usage: node figures.mjs WEB CHROMIUM DOOR FEEDER
 import {lookAt} from '../report/browser.mjs';
 import {makeUp} from './made_up.mjs';
 import {openRun, waitUntil} from './page.mjs';
 
-const kSpeed = 8;               // simulated seconds a second
-const kStates = 1000 / 80;      // a second that the server sends at most (kPause of view/server.cpp)
-const kPointSets = 5, kMapBytes = 20000;  // a second at most, for 20 UAVs (view::look_budget())
-const kMostDrawCalls = 25;     // 50 are asked for
-const kMostSent = 300000;       // bytes a second
-const kLeastSent = 60000;       // less would not be the flight that was meant
-const kMostGrowth = 1.4;        // of memory from ten minutes to an hour; 2.2 if nothing is thinned
+const kSpeed = 8;               // simulated seconds per second
+const kStates = 1000 / 80;      // greatest number that the server sends per second (kPause of view/server.cpp)
+const kPointSets = 5, kMapBytes = 20000;  // greatest rate per second, for 20 UAVs (view::look_budget())
+const kMostDrawCalls = 25;     // the requirement is 50
+const kMostSent = 300000;       // bytes per second
+const kLeastSent = 60000;       // bytes per second; fewer would mean that the flight is not the intended one
+const kMostGrowth = 1.4;        // of memory, from ten minutes to an hour; without thinning it is 2.2
 const [web, chromium, door, feeder] = process.argv.slice(2);
 const expect = (good, what) => good || console.log(what);
 const note = (...what) => process.env.FIGURES && console.error(...what);
@@ -19,7 +20,7 @@ const note = (...what) => process.env.FIGURES && console.error(...what);
 const flight = await makeUp(feeder, door);
 const {browser, page, complaints} = await openRun([web, chromium, door]);
 const devtools = await page.createCDPSession();
-/** Flies to a simulated time, and waits until the page shows it. */
+/** Advances the flight to a simulated time, and waits until the page shows it. */
 async function flyTo(seconds) {
   await flight.tell(`to ${seconds}`);
   return waitUntil(
@@ -33,17 +34,20 @@ async function memory() {
   return usedSize + backingStorageSize;
 }
 
-/** All that may be shown is: points of all UAVs, and a map. */
+/** Shows all that a page can show: the points of all UAVs, and a map. */
 async function showAll() {
   await page.select('#lidar-of', 'all');
   await page.select('#map-of', 'uav00');
 }
 
-/** What is sent in a second, of a minute of the flight: its lines come by simulated time, states by that of the server. */
+/**
+ * Checks the bytes sent per second, over a part of the flight. The rate of lines depends on simulated time, that of
+ * states on wall time.
+ */
 async function checkSent(from, until) {
   await flyTo(from);
   let [lines, largestState, messages] = [0, 0, 0];
-  const largest = new Map();  // by cloud
+  const largest = new Map();  // size by name of a cloud
   devtools.on('Network.webSocketFrameReceived', ({response: {payloadData}}) => {
     const {state, clouds = []} = JSON.parse(payloadData);
     const size = state === undefined ? 0 : JSON.stringify(state).length;

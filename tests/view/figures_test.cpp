@@ -1,5 +1,5 @@
-// What the page takes: draw calls, what is sent, memory over an hour. Of a large flight that is made up, at a pace of
-// its own: nothing here depends on the clock.
+// The cost of the page: draw calls, bytes sent, memory over an hour, for a large artificial flight that the test
+// advances. Nothing depends on the clock.
 #include "view_fixture.hpp"
 
 namespace skein::test {

@@ -1,5 +1,5 @@
-// Flies a UAV by hand from the page of a run, and vanishes with a key held down. Prints what is wrong, a line each;
-// nothing: all is well. With a fifth word it leaves pictures in that folder, for people.
+// Flies a UAV by hand from the page of a run, then kills the browser while a key is pressed. Prints each problem as a
+// line; prints nothing if all is well. With PICTURES, writes pictures for people into this folder.
 // usage: node hand.mjs WEB CHROMIUM DOOR UAV [PICTURES]
 import {letGo, openRun, pausedByItself, sleep, until, waitUntil} from './page.mjs';
 
@@ -21,7 +21,7 @@ const shoot = (name) => pictures && page.screenshot({path: `${pictures}/${name}.
 
 await pausedByItself(page);
 await letGo(page);
-// Nobody has the controls yet: keys fly nothing.
+// Before the user takes the controls, keys have no effect.
 await page.keyboard.down('w');
 await sleep(700);
 expect((await hand()).wanted === 'rest', 'a key flies it before the controls were taken');
@@ -37,8 +37,8 @@ await page.keyboard.up('r');
 await wait(({wanted}) => wanted === 'rest', 'the key is up');
 const top = await position();
 
-// Two keys at once, and a page that loses its focus while they are down. It flies straight on first: a UAV that turns
-// from rest on circles about its place, 2.5 m from it.
+// Two keys at once, and a page that loses the focus while they are pressed. The UAV first flies straight on, because a
+// UAV that turns while it accelerates from rest flies a circle and gets no farther than 2.5 m from its place.
 const away = ({facts}) => {
   const [x, y] = facts.position.split(',').map(Number.parseFloat);
   return Math.hypot(x - top[0], y - top[1]);
@@ -54,7 +54,7 @@ await wait(({wanted}) => wanted === 'rest', 'a page without focus lets it rest')
 await page.keyboard.up('w');
 await page.keyboard.up('q');
 
-// The arrows fly, and the speed counts; what is typed elsewhere does not fly.
+// Arrow keys fly the UAV at the speed of the slider. Keys pressed in an input field do not.
 await page.evaluate(() => {
   const speed = document.getElementById('hand-speed');
   speed.value = '1';
@@ -86,5 +86,5 @@ await page.evaluate(() => document.activeElement.blur());
 await page.keyboard.down('d');
 await wait(({wanted}) => wanted === 'right 1.0 m/s', 'it flies to the right');
 for (const complaint of complaints) console.log(complaint);
-// Nobody says goodbye.
+// The browser dies without closing the connection.
 browser.process().kill('SIGKILL');

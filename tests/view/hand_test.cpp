@@ -1,4 +1,4 @@
-// A UAV that is flown by hand from the page: what was wanted of it is kept, and repeats the flight to the bit.
+// A UAV that is flown by hand from the page: a file keeps its commands, and repeats the flight bit for bit.
 #include <csignal>
 
 #include "view_fixture.hpp"
@@ -41,7 +41,7 @@ TEST_F(FlownByHand, RepeatsFromWhatWasKept) {
   const Arguments repeated = joined(kHandFlight, {"--planner", "kios,jurong=hand:" + kept.string()});
   EXPECT_EQ(run("one", joined(repeated, {"--one-process"})).digest(), flown.digest());
   EXPECT_EQ(run("dds", joined(repeated, {"--dds", "mixed"})).digest(), flown.digest());
-  // Without what was wanted of it, it is another flight.
+  // Without these commands, the flight differs.
   const auto nothing =
       write("hand-nothing.csv", "step,tick,ahead,left,up,yaw_rate,gimbal_pitch_rate,gimbal_yaw_rate\n");
   const Arguments still = joined(kHandFlight, {"--planner", "kios,jurong=hand:" + nothing.string(), "--one-process"});
@@ -57,7 +57,7 @@ TEST_F(FlownByHand, RepeatsFromWhatWasKept) {
   EXPECT_NE(fork.out().find("the fork is the same run"), std::string::npos) << fork.out();
 }
 
-/// Faults take the program of a UAV out while somebody's file flies it, in one process and in many.
+/// Faults kill and pause the program of a UAV that a file of commands flies, in one process and in several.
 TEST_F(FlownByHand, RepeatsThroughFaultsOfItsProgram) {
   const auto kept = write("hand-jurong.csv",
                           "step,tick,ahead,left,up,yaw_rate,gimbal_pitch_rate,gimbal_yaw_rate\n"

@@ -1,5 +1,5 @@
-// Looks at the file of a finished run, as somebody does to whom it was sent. Prints what is wrong, a line each; nothing:
-// all is well.
+// Opens the self-contained page of a finished run, as a person does who has received the file. Prints each problem as a
+// line; prints nothing if all is well.
 // usage: node kept.mjs WEB CHROMIUM FILE RUN
 import {readFileSync} from 'node:fs';
 import path from 'node:path';
@@ -23,7 +23,10 @@ async function checkLosses(page) {
   await checkLossesInTime(page, await lossesOf(page));
 }
 
-/** What the page makes of the captures comes to what the launcher has found; captures do not tell what was too poor. */
+/**
+ * The page computes the same losses from the captures as the launcher, except below_threshold, which captures do not
+ * show.
+ */
 async function checkLossesInTime(page, last) {
   const at = (seconds) => page.$eval('#moment', (slider, to) => {
     slider.value = String(to);
@@ -57,7 +60,7 @@ async function checkPoint(page) {
   expect(shown.includes(score.toFixed(3)), `of point ${index} the page says ${shown}, and score.csv ${score}`);
 }
 
-/** Of drawn steps: where one is a pixel wide or wider its bar has its value, and no bar tells of more than there is. */
+/** Draws random steps: the bars have no gaps, and each step that is at least a pixel wide has a bar with its value. */
 function checkBars() {
   for (let tries = 0; tries < 200; ++tries) {
     const t = Array.from({length: 30}, () => Math.random() ** 3 * 100).sort((a, b) => a - b);
@@ -95,13 +98,13 @@ for (const [width, scheme] of [[1400, 'light'], [390, 'dark']]) {
   const tooWide = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
   expect(tooWide <= 0, `the page is ${tooWide} pixels too wide`);
   if (width === 1400) await checkPoint(page);
-  await sleep(600);  // the panels come after the scene
+  await sleep(600);  // the panels are drawn later than the scene
   await checkLosses(page);
   for (const complaint of complaints) expect(false, complaint);
   await page.close();
 }
 
-// An address that was shared.
+// An address that another user has shared.
 const name = result.uavs[1].name;
 const {page, complaints} = await openPage(browser, `${file}#t=20&uav=${name}&view=camera`, {width: 1400, scheme: 'light'});
 await until(page, ({state, live}) => state === 'replay' && live === 'yes', 'the replay');
@@ -109,7 +112,7 @@ expect(await page.$eval('#chosen h2', (element) => element.textContent) === name
 expect((await page.$eval('#clock', (element) => element.textContent)) === '20.0 s', 'the address does not choose its time');
 expect((await page.evaluate(() => location.hash)).includes('view=camera'), 'the address was lost');
 
-// Each picture of a film shows its own moment in all its parts, however fast one follows the other.
+// All parts of each picture of a film show the same moment, however fast the pictures follow each other.
 const filmed = (seconds) => page.evaluate(async (at) => {
   await film.show(at);
   return document.getElementById('fleet').innerText;
@@ -127,5 +130,5 @@ for (const [k, seconds] of moments.entries()) {
 expect(new Set(fast).size > 4, 'nothing moves in the film');
 
 for (const complaint of complaints)
-  expect(complaint.startsWith('asks for file://'), complaint);  // of itself, with what follows its #
+  expect(complaint.startsWith('asks for file://'), complaint);  // the page's own address, with another part after #
 await browser.close();

@@ -1,4 +1,4 @@
-// Files that show a finished run: the page that holds its flight, of one run and of two, and a film of it.
+// Files that show a finished run: a self-contained page of one run or of two, and a film.
 #include <csignal>
 #include <fstream>
 #include <sstream>
@@ -20,7 +20,7 @@ class KeptRun : public ViewTest {
     return command;
   }
 
-  /// What a script beside this finds wrong with a page.
+  /// Expects a script in this folder to find no problem with a page.
   void look(const std::string& script, const Arguments& arguments) {
     if (const std::string why = no_browser(); !why.empty()) GTEST_SKIP() << why;
     look_with_browser(script, arguments);
@@ -33,7 +33,7 @@ TEST_F(KeptRun, IsAFileThatShowsItWithoutAnyRequest) {
   replay({done.dir(), "--export", file});
   look("kept", {file, done.dir()});
 
-  // 600 s of five UAVs are to fit into 4 MB.
+  // A flight of 600 s with five UAVs must fit into 4 MB; this one is a tenth as long.
   const std::uintmax_t script = fs::file_size(source_path("build/web/live.js"));
   EXPECT_LT(fs::file_size(file) - script, (4'000'000 - script) / 10) << "of a minute";
 

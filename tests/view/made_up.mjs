@@ -1,8 +1,8 @@
-// A flight that is made up (feeder.cpp), at the pace of who looks.
+// An artificial flight (feeder.cpp), which the test advances.
 import {spawn} from 'node:child_process';
 import {createInterface} from 'node:readline';
 
-/** @returns how to tell the feeder something; it resolves with its answer. */
+/** Starts the feeder. @returns {tell, end}: tell() sends a line to the feeder, and resolves with its answer. */
 export async function makeUp(feeder, door, ...size) {
   const child = spawn(feeder, [door, ...size.map(String)], {stdio: ['pipe', 'pipe', 'inherit']});
   const answers = createInterface({input: child.stdout})[Symbol.asyncIterator]();

@@ -1,5 +1,5 @@
-// Looks at a UAV's map in time on the page of a finished run: it grows as the slider moves, and is at each moment what
-// the newest snapshot was. Prints what is wrong, a line each; nothing: all is well.
+// Checks a UAV's map over time on the page of a finished run: the map grows when the slider moves, and is at each
+// moment the newest snapshot. Prints each problem as a line; prints nothing if all is well.
 // usage: node maps.mjs WEB CHROMIUM PAGE RUN   (PAGE: a door, or a page in a file)
 import {readFileSync} from 'node:fs';
 
@@ -67,7 +67,7 @@ expect(new Set(shown.map(({time}) => time)).size >= 4, `there are too few maps: 
 const cubes = shown.map((one) => one.cubes);
 expect(cubes.at(-1) > 1.5 * cubes[0] && cubes[0] > 0, `it does not grow: ${cubes}`);
 
-// It is to be seen.
+// The map is visible.
 await moveTo(45);
 const withMap = await stage();
 await page.select('#map-of', '');

@@ -1,4 +1,5 @@
-// Maps in time: of a run that did not keep them, as it would have kept them, and on the page of its replay.
+// Maps over time: computed afterwards for a run that did not keep them, equal to those that it would have kept, and
+// shown on the page of its replay.
 #include <csignal>
 #include <fstream>
 

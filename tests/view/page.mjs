@@ -1,11 +1,15 @@
-// The page of a run in a browser, opened as a user opens it, and what it complains of as it goes on.
+// Opens the page of a run in a browser as a user does, and collects its complaints: errors, and requests to other
+// hosts.
 import {readFileSync} from 'node:fs';
 
 import {openBrowser, openTab, sleep, waitUntil} from '../report/browser.mjs';
 
 export {sleep, waitUntil};
 
-/** @param known  a browser that is open already. @param webgl  false: as one that has none. @returns browser, page, complaints, and the page's host. */
+/**
+ * @param known  a browser to use; null: opens one. @param webgl  false: emulates a browser without WebGL.
+ * @returns browser, page, complaints (the list grows), and the page's host with its port.
+ */
 export async function openRun([web, chromium, door], {width = 1400, height = 950, scheme = 'light', webgl = true} = {}, known = null) {
   const browser = known ?? await openBrowser(web, chromium);
   const page = await openTab(browser);
@@ -33,7 +37,7 @@ export async function openRun([web, chromium, door], {width = 1400, height = 950
   return {browser, page, complaints, host};
 }
 
-/** What the page says; null while it is loaded anew. */
+/** @returns what the page shows; null while it reloads. */
 export async function stateOf(page) {
   try {
     return await page.evaluate(() => ({
@@ -49,10 +53,10 @@ export async function stateOf(page) {
   }
 }
 
-/** Waits until a fact holds. @returns what the page says then. */
+/** Waits until a fact holds. @returns what the page then shows. */
 export const until = (page, holds, what) => waitUntil(() => stateOf(page), holds, what);
 
-/** Waits for a run that pauses by itself (--pause-at): however slow the browser was, it is not over yet. */
+/** Waits until the run pauses by itself (--pause-at), so that it does not end before a slow browser is ready. */
 export const pausedByItself = (page) =>
   until(page, ({state, live}) => state === 'paused' && live === 'yes', 'it pauses by itself');
 
@@ -62,7 +66,7 @@ export async function letGo(page) {
   return until(page, ({state}) => state === 'flies', 'it goes on');
 }
 
-/** Where a point of the scene is on the screen, by the page's own means: the pointer tells of it. */
+/** Searches the scene with the pointer for a point whose tip matches. @returns its place on the screen; null: none. */
 export async function findPoint(page, wanted) {
   const box = await (await page.$('.stage canvas')).boundingBox();
   for (let y = 0.3; y < 0.8; y += 0.02) {
@@ -76,14 +80,14 @@ export async function findPoint(page, wanted) {
   return null;
 }
 
-/** What the page tells of losses: by row of its table points and score; null while it tells nothing. */
+/** @returns the page's table of losses: points and score by row; null: it shows none. */
 export const lossesOf = (page) => page.$eval('#losses', (panel) => (panel.hidden ? null : {
   when: panel.querySelector('thead th').textContent,
   rows: Object.fromEntries([...panel.querySelectorAll('tbody tr:not([hidden])')].map((row) => [
     row.cells[0].textContent, [Number(row.cells[1].textContent), Number(row.cells[2].textContent)]])),
 }));
 
-/** Whether what could be had, less what is lost, is what was delivered: as shown, so to a tenth a row. */
+/** Whether attainable minus lost score is the delivered score, up to the rounding of each row to a tenth. */
 export function addsUp({rows}) {
   const {'could be had, by estimate': [, could], delivered: [, delivered], ...lost} = rows;
   const losses = Object.values(lost);

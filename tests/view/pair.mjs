@@ -1,4 +1,4 @@
-// Looks at the file of two finished runs. Prints what is wrong, a line each; nothing: all is well.
+// Opens the self-contained page of two finished runs. Prints each problem as a line; prints nothing if all is well.
 // usage: node pair.mjs WEB CHROMIUM FILE RUN_A RUN_B TIME     TIME: of the first difference [s], or "same"
 import {readFileSync} from 'node:fs';
 import path from 'node:path';
@@ -40,7 +40,7 @@ if (time === 'same') {
   await page.keyboard.press('End');
 }
 
-// Without A and without B there are other pictures.
+// The pictures without A and without B differ from that of both, and from each other.
 const stage = async () => (await page.$('.stage')).screenshot({encoding: 'base64'});
 const pictures = [await stage()];
 for (const run of ['A', 'B']) {

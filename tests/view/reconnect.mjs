@@ -1,4 +1,4 @@
-// Follows a run whose station is killed and comes back. Prints what is wrong, a line each; nothing: all is well.
+// Follows a run whose station is killed and restarted. Prints each problem as a line; prints nothing if all is well.
 // usage: node reconnect.mjs WEB CHROMIUM DOOR RUN
 import {readFileSync} from 'node:fs';
 import path from 'node:path';
@@ -8,14 +8,14 @@ import {letGo, openRun, pausedByItself, stateOf, until, waitUntil} from './page.
 const [web, chromium, door, run] = process.argv.slice(2);
 const {browser, page} = await openRun([web, chromium, door]);
 const expect = (good, what) => good || console.log(what);
-const kKilled = 18 * 400;  // ticks: it is back by then
+const kKilled = 18 * 400;  // ticks; the station is back by then
 
 let loads = 0;
 page.on('load', () => ++loads);
 await pausedByItself(page);
 await letGo(page);
 await until(page, ({state, tick}) => state === 'flies' && tick > kKilled, 'it flies on after the station is back');
-await page.click('#pause');  // it must not be over before the events are read
+await page.click('#pause');  // so that the run does not end before the events are read
 expect(loads === 1, `the page was loaded ${loads} times`);
 const told = () => page.$$eval('#events li', (all) => all.map((li) => li.textContent).join('\n'));
 for (const word of ['station takes no part any more', 'jurong takes part']) {

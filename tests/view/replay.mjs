@@ -1,5 +1,5 @@
-// Looks at a finished run on the page that follows runs: light and dark, wide and narrow, by mouse and by keyboard.
-// Prints what is wrong, a line each; nothing: all is well.
+// Opens the replay of a finished run: light and dark, wide and narrow, with mouse and keyboard.
+// Prints each problem as a line; prints nothing if all is well.
 // usage: node replay.mjs WEB CHROMIUM DOOR RUN
 import {readFileSync} from 'node:fs';
 import path from 'node:path';
@@ -15,7 +15,7 @@ const rows = (name) => {
   const [head, ...lines] = readFileSync(path.join(run, name), 'utf8').trim().split('\n').map((line) => line.split(','));
   return lines.map((cells) => Object.fromEntries(head.map((key, i) => [key, cells[i]])));
 };
-/** The figures of a picture. A page draws nothing while another one is in front, as the one that is looked with. */
+/** @returns figures of a picture. Brings the page back to the front, because a page behind lookAt()'s draws nothing. */
 const look = async (browser, page, png) => {
   const figures = await lookAt(browser, png);
   await page.bringToFront();
@@ -51,7 +51,7 @@ async function checkSlider(page, browser) {
   expect((await stateOf(page)).score === result.score, 'the score of the end is not the result\'s');
 }
 
-/** By the tabulator alone one reaches a UAV, which the view then follows. */
+/** A user can reach a UAV with the Tab key alone; the view then follows this UAV. */
 async function checkKeyboard(page) {
   await page.evaluate(() => document.activeElement.blur());
   for (let presses = 0; presses < 60; ++presses) {
@@ -65,7 +65,7 @@ async function checkKeyboard(page) {
   expect(await page.$eval('#chosen', (element) => element.hidden), 'Escape does not let go');
 }
 
-/** What counts, by UAV, as the station wrote it down. */
+/** Score by UAV, from the station's captures.csv. */
 const counted = {};
 for (const {uav, q, reason} of rows('captures.csv'))
   if (reason === '' && Number(q) >= 0.2) counted[uav] = (counted[uav] ?? 0) + Number(q);

@@ -1,4 +1,4 @@
-// Browsers that do not read, and strangers that ask for what is not theirs, while a fleet flies.
+// Browsers that stop reading, and clients without the key, while a fleet flies.
 #include <csignal>
 #include <fstream>
 #include <list>
@@ -16,7 +16,7 @@ class StalledBrowsers : public ViewTest {
  protected:
   std::string host() const { return "127.0.0.1:" + port_.text(); }
   std::uint16_t port() const { return static_cast<std::uint16_t>(std::stoi(port_.text())); }
-  /// What asks to follow. @param key  of the run
+  /// The request to follow a run. @param key  the run's key
   std::string follow(const std::string& key) const {
     return "GET /flight HTTP/1.1\r\nHost: " + host() + "\r\nOrigin: http://" + host() + "\r\nCookie: skein_" +
            port_.text() + "=" + key + "\r\n" + kUpgrade + "\r\n";
@@ -39,7 +39,7 @@ TEST_F(StalledBrowsers, NeitherHoldTheRunUpNorChangeIt) {
                            joined(joined(flight, how), {"--view", port_.text(), "--view-close", "--speed", "max"}));
     const std::string key = key_beside(door_of(seen));
     std::list<Wire> stalled;
-    for (int i = 0; i < 40; ++i) {  // they are let in, and read no more
+    for (int i = 0; i < 40; ++i) {  // they are accepted, and then stop reading
       stalled.emplace_back(port()).send(follow(key));
       stalled.back().until([](const std::string& text) { return text.find("101") != std::string::npos; });
     }

@@ -1,5 +1,6 @@
-// A browser on another machine, by a tunnel whose near end has another port, as `ssh -L 9000:127.0.0.1:8080 HOST` makes
-// it: the key is pasted at the door, and the page follows the run. Prints what is wrong, a line each.
+// A browser on another machine, connected by a tunnel with another port at its near end, like that of
+// `ssh -L 9000:127.0.0.1:8080 HOST`. Enters the key on the login page; then the page must follow the run. Prints each
+// problem as a line.
 // usage: node tunnel.mjs WEB CHROMIUM DOOR RUN
 import {readFileSync} from 'node:fs';
 import net from 'node:net';
@@ -32,7 +33,7 @@ for (const host of [`localhost:${port}`, `127.0.0.1:${port}`]) {
   await page.type('input[name=key]', '0'.repeat(64));
   await page.keyboard.press('Enter');
   await page.waitForSelector('[role=alert]');
-  complaints.length = 0;  // of the refusal
+  complaints.length = 0;  // removes the complaints about the refusal
   await page.type('input[name=key]', key);
   await page.keyboard.press('Enter');
   await page.waitForSelector('#score');

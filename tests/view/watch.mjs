@@ -1,5 +1,5 @@
-// Follows a run in a browser from its beginning to its replay: holds it, steps it, lets it go. Prints what is wrong, a
-// line each; nothing: all is well.
+// Follows a run in a browser from its beginning to its replay: pauses it, steps it, and resumes it. Prints each problem
+// as a line; prints nothing if all is well.
 // usage: node watch.mjs WEB CHROMIUM DOOR RUN
 import {readFileSync} from 'node:fs';
 import path from 'node:path';
@@ -10,7 +10,7 @@ import {addsUp, letGo, lossesOf, openRun, pausedByItself, sleep, stateOf, until,
 const [web, chromium, door, run] = process.argv.slice(2);
 const {browser, page, complaints, host} = await openRun([web, chromium, door]);
 const expect = (good, what) => good || console.log(what);
-const kStep = 20;  // ticks of an exchange
+const kStep = 20;  // ticks per exchange
 
 const begins = await pausedByItself(page);
 expect(begins.tick === 0, `it paused at tick ${begins.tick}`);
@@ -30,7 +30,7 @@ for (let step = 1; step <= 3; ++step) {
 await sleep(500);
 expect((await stateOf(page)).tick === held.tick + 3 * kStep, 'it went on after a step');
 
-// What could be had is told as soon as the oracle knows, with the next step.
+// The page shows the attainable score with the next step after the oracle has computed it.
 const losses = await waitUntil(async () => {
   await page.keyboard.press('s');
   await sleep(200);
@@ -39,7 +39,7 @@ const losses = await waitUntil(async () => {
 expect(losses?.when === 'so far' && addsUp(losses), `of losses it tells ${JSON.stringify(losses)}`);
 const stepped = await stateOf(page);
 
-// Time is told from the keyboard alone, and another speed counts.
+// The keyboard alone resumes the run, and the chosen speed takes effect.
 await page.select('#speed', 'max');
 await page.keyboard.press('Escape');
 await page.evaluate(() => document.activeElement.blur());
@@ -60,7 +60,7 @@ expect(lost?.rows['could be had, by estimate'][0] === result.attainable.points &
        `in the end it tells ${JSON.stringify(lost)} of losses`);
 const picture = await lookAt(browser, await page.screenshot({encoding: 'base64'}));
 expect(picture.colours > 100 && picture.largest < 0.9, `the page is blank: ${JSON.stringify(picture)}`);
-// Who has not shown the key sees nothing.
+// A browser without the key does not see the run.
 const stranger = await openTab(await browser.createBrowserContext());
 await stranger.goto(`http://${host}/`, {waitUntil: 'load'});
 expect(await stranger.$('#flight') === null, 'a browser without the key sees the run');

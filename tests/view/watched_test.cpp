@@ -1,4 +1,4 @@
-// A run that is watched, without a browser: its digest, its exit code, and what it leaves.
+// A watched run, without a browser: its digest, its exit code, and its files.
 #include <csignal>
 #include <fstream>
 #include <sstream>
@@ -12,7 +12,7 @@ namespace fs = std::filesystem;
 
 const Arguments kShort = {"towers", "--planner", "kios", "--duration", "20", "--no-oracle", "--no-report"};
 
-/// Inodes of TCP sockets that listen, of this host.
+/// Inodes of all listening TCP sockets of this host.
 std::set<std::string> listening_inodes() {
   std::set<std::string> inodes;
   for (const char* table : {"/proc/net/tcp", "/proc/net/tcp6"}) {
@@ -27,7 +27,7 @@ std::set<std::string> listening_inodes() {
   return inodes;
 }
 
-/// How many listening sockets a process has, under whatever many descriptors.
+/// Number of a process's listening sockets, however many descriptors they have.
 std::size_t listeners_of(pid_t pid) {
   const std::set<std::string> listening = listening_inodes();
   std::set<std::string> own;
@@ -62,7 +62,7 @@ TEST_F(WatchedRun, HasTheDigestOfOneThatNobodyWatches) {
 }
 
 TEST_F(WatchedRun, ListensAtTheStationAndForItsReplayAlone) {
-  SkeinRun& seen = start("seen", joined(kShort, {"--view", "--speed", "0.5"}));  // it must not be over before the look
+  SkeinRun& seen = start("seen", joined(kShort, {"--view", "--speed", "0.5"}));  // it must not end before the check
   ASSERT_TRUE(seen.wait_until_flying()) << seen.err();
   for (const auto& [name, pid] : processes_of(seen.dir())) {
     EXPECT_EQ(listeners_of(pid), name == "station" || name == "skein" ? 1U : 0U) << name;
@@ -89,7 +89,7 @@ TEST_F(WatchedRun, EndsWithItsOwnExitCodeWhenItsReplayDoes) {
   EXPECT_FALSE(fs::exists(door_in(seen.err()).parent_path())) << "the key's folder stays";
 }
 
-// At a tenth of real time the factor would be 0.1 if held time counted; without, it is a hundred times that.
+// At a tenth of real time, the factor would be 0.1 if paused time counted; without it, the factor is much greater.
 TEST_F(WatchedRun, HeldTimeIsNoTimeOfTheRun) {
   const Arguments slow = {"--one-process", "--stop-at", "0.5", "--view", "--view-close", "--speed", "0.1"};
   EXPECT_GT(run("slow", joined(kShort, slow)).result()["real_time_factor"].get<double>(), 0.2);

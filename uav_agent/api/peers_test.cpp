@@ -5,7 +5,7 @@
 namespace skein::agent {
 namespace {
 
-AgentConfig fleet_of(std::size_t count, std::size_t self) {
+AgentConfig fleet_in_a_row(std::size_t count, std::size_t self) {
   AgentConfig config;
   config.self = UavIndex(self);
   for (std::size_t i = 0; i < count; ++i) {
@@ -17,7 +17,7 @@ AgentConfig fleet_of(std::size_t count, std::size_t self) {
 }
 
 TEST(Peers, AreAllOthersAtTheirStartsUntilSeen) {
-  const Peers peers(fleet_of(3, 1));
+  const Peers peers(fleet_in_a_row(3, 1));
   ASSERT_EQ(peers.all().size(), 2U);
   EXPECT_EQ(peers.all()[0].uav, 0U);
   EXPECT_EQ(peers.all()[1].uav, 2U);
@@ -27,7 +27,7 @@ TEST(Peers, AreAllOthersAtTheirStartsUntilSeen) {
 }
 
 TEST(Peers, TakeVelocityFromSuccessivePositionsAndForgetItAfterAGap) {
-  Peers peers(fleet_of(2, 0));
+  Peers peers(fleet_in_a_row(2, 0));
   Vector3d p(0.0, 0.0, 5.0);
   for (Tick tick = 0; tick <= 400; tick += 20) {
     peers.update(tick, {{.node = Node{2}, .p_W = p}});
@@ -46,7 +46,7 @@ TEST(Peers, TakeVelocityFromSuccessivePositionsAndForgetItAfterAGap) {
 }
 
 TEST(Peers, HaveTheLinkOfThisExchangeAndNoOther) {
-  Peers peers(fleet_of(3, 0));
+  Peers peers(fleet_in_a_row(3, 0));
   const std::vector<Neighbour> both = {{.node = kStationNode}, {.node = Node{2}}};
   const LinkQuality good{-50.0, 1.6e6}, poor{-81.0, 1.6e5};
   peers.update(0, both, {{Node{2}, poor}, {kStationNode, good}, {Node{3}, good}});
@@ -62,7 +62,7 @@ TEST(Peers, HaveTheLinkOfThisExchangeAndNoOther) {
 }
 
 TEST(Peers, RememberWhereSomebodyWasLastSeen) {
-  Peers peers(fleet_of(2, 0));
+  Peers peers(fleet_in_a_row(2, 0));
   peers.update(
       20,
       {{.node = kStationNode, .p_W = Vector3d::Zero()}, {.node = Node{2}, .p_W = {1.0, 2.0, 3.0}}, {.node = Node{9}}});

@@ -9,7 +9,7 @@ namespace {
 
 OrientedBox tower() { return make_box({10.0, 0.0, 20.0}, {16.0, 30.0, 40.0}); }
 
-AgentConfig fleet_of(std::size_t count, std::size_t self) {
+AgentConfig fleet_beside_station(std::size_t count, std::size_t self) {
   AgentConfig config;
   config.self = UavIndex(self);
   config.fleet.resize(count);
@@ -23,7 +23,7 @@ TEST(DeliveryPlaces, SeeTheStationAndAreApart) {
   const FreeSpace space({.clearance_m = 1.8}, boxes, map);
   std::vector<Vector3d> best;
   for (std::size_t self = 0; self < 5; ++self) {
-    const auto places = delivery_places(fleet_of(5, self), space, 12.0);
+    const auto places = delivery_places(fleet_beside_station(5, self), space, 12.0);
     ASSERT_FALSE(places.empty());
     for (const Vector3d& place : places) {
       EXPECT_TRUE(space.free(place));
@@ -39,7 +39,7 @@ TEST(DeliveryPlaces, LieAboveAStationOnARoof) {
   const std::vector<OrientedBox> boxes = {tower()};
   const OccupancyMap map;
   const FreeSpace space({.clearance_m = 1.8}, boxes, map);
-  AgentConfig agent = fleet_of(3, 1);
+  AgentConfig agent = fleet_beside_station(3, 1);
   for (const double station_m : {0.3, 8.0, 41.0, 60.0}) {
     agent.station_position = {10.0, 0.0, station_m};
     if (station_m < 40.0) agent.station_position = {-4.0, 0.0, station_m};  // beside the tower, not in it
@@ -58,7 +58,7 @@ TEST(DeliveryPlaces, AvoidWhatTheMapShows) {
   map.insert(roof, std::nullopt);
   const std::vector<OrientedBox> boxes;
   const FreeSpace space({.clearance_m = 1.8}, boxes, map);
-  for (const Vector3d& place : delivery_places(fleet_of(1, 0), space, 12.0)) {
+  for (const Vector3d& place : delivery_places(fleet_beside_station(1, 0), space, 12.0)) {
     EXPECT_GT((place - Vector3d(-1.0, 0.0, 0.3)).head<2>().norm(), 8.0);
   }
 }

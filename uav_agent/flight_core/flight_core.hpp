@@ -19,6 +19,7 @@
 #include "uav_agent/flight_core/navigator.hpp"
 #include "uav_agent/flight_core/recovery.hpp"
 #include "uav_agent/flight_core/showing.hpp"
+#include "uav_agent/flight_core/takeoff.hpp"
 
 namespace skein::agent {
 
@@ -63,11 +64,7 @@ class FlightCore {
  private:
   enum class Mode { ground, takeoff, working, homing, showing, recovering, landing };
 
-  void leave_ground(const PlannerInput& in, Steering& steering);
   void take_off(const PlannerInput& in, Steering& steering);
-  void climb_from(const Vector3d& place_W, const PlannerInput& in, Steering& steering);
-  Vector3d away_from_neighbours_W(const PlannerInput& in) const;
-  void climb_aside(const PlannerInput& in, Steering& steering);
   std::vector<Outcome> outcomes();
   void work(const PlannerInput& in, Steering& steering);
   bool begin_showing(const PlannerInput& in);
@@ -75,11 +72,6 @@ class FlightCore {
   void go_home(const PlannerInput& in, Steering& steering);
   bool flies_along() const;
   Doing::What doing_home(const PlannerInput& in) const;
-  int neighbours_after() const;
-  std::optional<std::size_t> lifts_off_after(const PlannerInput& in);
-  bool may_drift_into_neighbours(const PlannerInput& in);
-  /// Whether the UAV knows its position only with an error, and reacts to it.
-  bool drifts(const PlannerInput& in) const { return config_.reacts && !in.uncertainty.exact(); }
   void enter(Mode mode, const PlannerInput& in);
 
   const FlightConfig& config_;
@@ -92,15 +84,9 @@ class FlightCore {
   Recovery recovery_;
   Showing showing_;
   Landing landing_;
+  Takeoff takeoff_;
   Mode mode_ = Mode::ground;
-  Tick since_ = 0;                   ///< when this mode began, or a goal was last flown in it
-  std::optional<Tick> ready_since_;  ///< when the UAV was first ready to lift off
-  std::optional<Vector3d> top_W_;    ///< where the climb of the takeoff ends
-  bool sinks_back_ = false;          ///< the UAV gave up a takeoff, and is not on the ground yet
-  std::size_t next_aside_ = 0;       ///< index of the place beside the start that the takeoff tries next
-  bool stepped_aside_ = false;       ///< whether the UAV stepped aside in this climb
-  double climbed_m_ = 0.0;           ///< height reached in the climb, at climbed_at_
-  Tick climbed_at_ = 0;
+  Tick since_ = 0;                      ///< when this mode began, or a goal was last flown in it
   Tick show_at_ = 0;                    ///< earliest time to look for the next photographer to show the way up
   std::optional<Tick> at_place_since_;  ///< when homing reached its place, still without a link
   std::size_t next_place_ = 0;          ///< index of the place that homing tries first

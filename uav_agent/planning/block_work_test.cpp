@@ -19,7 +19,7 @@ OrientedBox site(double yaw = 0.4) {
   return box;
 }
 
-AgentConfig fleet_of(std::size_t count, std::size_t self) {
+AgentConfig named_fleet(std::size_t count, std::size_t self) {
   AgentConfig agent;
   agent.self = UavIndex(self);
   for (std::size_t i = 0; i < count; ++i) agent.fleet.push_back({.name = "uav" + std::to_string(i)});
@@ -59,7 +59,7 @@ TEST(BlockWork, TakesOnlyBoxesThatSayLittle) {
   tower.size = {30.0, 28.0, 120.0};
   OrientedBox podium = site();
   podium.size = {64.0, 52.0, 17.0};
-  const AgentConfig agent = fleet_of(1, 0);
+  const AgentConfig agent = named_fleet(1, 0);
   const CameraReach reach;
   EXPECT_FALSE(is_roomy(tower) || is_roomy(podium));
   EXPECT_TRUE(is_roomy(site()));
@@ -68,14 +68,14 @@ TEST(BlockWork, TakesOnlyBoxesThatSayLittle) {
 }
 
 TEST(BlockWork, ThereIsNothingToDoWhereTheMapShowsNothing) {
-  const AgentConfig agent = fleet_of(1, 0);
+  const AgentConfig agent = named_fleet(1, 0);
   const CameraReach reach;
   BlockWork work({}, agent, reach, {site()});
   EXPECT_FALSE(work.next(0, Vector3d::Zero(), OccupancyMap()));
 }
 
 TEST(BlockWork, ItsStripsRunAlongTheStructure) {
-  const AgentConfig agent = fleet_of(1, 0);
+  const AgentConfig agent = named_fleet(1, 0);
   const CameraReach reach;
   BlockWork work({}, agent, reach, {site()});
   const Vector3d centre(45.0, 35.0, 0.0), size(20.0, 16.0, 40.0);
@@ -111,7 +111,7 @@ TEST(BlockWork, BlocksAreDealtOutEvenly) {
 }
 
 TEST(BlockWork, WhatFailedIsTriedAgainLater) {
-  const AgentConfig agent = fleet_of(1, 0);
+  const AgentConfig agent = named_fleet(1, 0);
   const CameraReach reach;
   BlockWork work({}, agent, reach, {site()});
   const OccupancyMap map = map_of_tower({45.0, 35.0, 0.0}, {20.0, 16.0, 40.0});

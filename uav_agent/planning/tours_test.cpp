@@ -63,13 +63,13 @@ bool visits_all_once(const Tour& tour, std::size_t nodes) {
   return tour.empty() || tour.front() == 0;
 }
 
-struct Kind {
+struct TourKind {
   const char* name;
   double wind;
   bool closed;
 };
 
-class SmallTours : public testing::TestWithParam<Kind> {};
+class SmallTours : public testing::TestWithParam<TourKind> {};
 
 TEST_P(SmallTours, AreNearlyOptimal) {
   double gaps = 0.0, worst = 0.0;
@@ -90,8 +90,8 @@ TEST_P(SmallTours, AreNearlyOptimal) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, SmallTours,
-                         testing::Values(Kind{"open", 0.0, false}, Kind{"closed", 0.0, true},
-                                         Kind{"open_directed", 0.8, false}, Kind{"closed_directed", 0.8, true}),
+                         testing::Values(TourKind{"open", 0.0, false}, TourKind{"closed", 0.0, true},
+                                         TourKind{"open_directed", 0.8, false}, TourKind{"closed_directed", 0.8, true}),
                          [](const auto& kind) { return kind.param.name; });
 
 TEST(Tours, ImprovementNeverMakesWorseAndStopsWhenItsEffortIsSpent) {

@@ -15,9 +15,9 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kTouchM = 0.63 + 0.3;  ///< to structure: the larger body, and a little
-constexpr double kSmallestGapM = 0.3;   ///< between two bodies
-constexpr double kUnmeasuredM = 1e3;    ///< a distance that nobody flew in
+constexpr double kTouchM = kExplorerRadiusM + 0.3;  ///< to structure: the larger body, and a little
+constexpr double kSmallestGapM = 0.3;               ///< between two bodies
+constexpr double kUnmeasuredM = 1e3;                ///< a distance that nobody flew in
 
 /// A file of drawn commands: up, and then anything.
 std::string hands_of_anybody() {

@@ -17,7 +17,7 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kBodyAndABit_M = 0.63 + 0.3, kBetweenBodiesM = 0.3;
+constexpr double kBodyAndABit_M = kExplorerRadiusM + 0.3, kBetweenBodiesM = 0.3;
 
 class PublishedStrategy : public testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(Planners, PublishedStrategy, testing::Values("flock", "kios", "xxh", "star"));

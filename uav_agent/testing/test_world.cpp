@@ -280,8 +280,8 @@ TestWorld::TestWorld(TestScene scene, const std::vector<TestUav>& fleet, const s
   config.duration_s = duration_s;
   config.station_position = impl_->scene.station;
   for (const TestUav& uav : fleet) {
-    config.fleet.push_back(
-        {uav.name, uav.role, Vector3d(uav.start.x(), uav.start.y(), 0.0), uav.role == Role::explorer ? 0.63 : 0.32});
+    config.fleet.push_back({uav.name, uav.role, Vector3d(uav.start.x(), uav.start.y(), 0.0),
+                            uav.role == Role::explorer ? kExplorerRadiusM : kPhotographerRadiusM});
   }
   for (const UavIndex self : FirstUavs(fleet.size())) {
     config.self = self;

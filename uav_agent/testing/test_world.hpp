@@ -30,6 +30,8 @@ struct TestUav {
   Role role = Role::explorer;
   Vector2d start = Vector2d::Zero();
 };
+/// Radii of the bodies that test worlds give UAVs [m].
+constexpr double kExplorerRadiusM = 0.63, kPhotographerRadiusM = 0.32;
 /// UAVs in a row, 3 m apart, with alternating roles; the first is an explorer.
 std::vector<TestUav> test_fleet(std::size_t count);
 

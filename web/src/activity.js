@@ -1,27 +1,28 @@
-// What each UAV says that it does, and why (topic /{id}/activity): kept as it is told, asked for any moment, and drawn
-// into the scene as a line to its goal. A UAV that says nothing has none; then flight.js goes by its motion.
+// The activity of each UAV and the reason for it, as the UAV reports them (topic /{id}/activity): stores the reports,
+// looks them up by time, and draws a line to the goal into the scene. For a UAV that reports nothing, flight.js derives
+// its activity from its motion.
 import * as THREE from 'three';
 
 import {kMostSayings, thin} from './history.js';
 import {kDashes, Segments} from './overlays.js';
 import {colour, data, element, indexAt, moment, trackColour} from './page.js';
 
-const kCross = 0.9;  // m, at the goal
+const kCross = 0.9;  // [m]; half the size of the cross at the goal
 
-/** What the UAVs of a flight said. */
+/** Stores the activity reports of the UAVs of a flight. */
 export function makeSayings() {
-  const said = [];  // by UAV: {t: [], what: []}
+  const said = [];  // by UAV: {t: [], what: []}, times [s] and reports
   return {
-    /** A line of the flight. */
+    /** Takes a line of the kind "activity" (view/story.hpp). */
     take({t, u, m, g, w, n}) {
       while (said.length <= u) said.push({t: [], what: []});
       said[u].t.push(t);
       said[u].what.push({mode: m, goal: g && {x: g[0] / 100, y: g[1] / 100, z: g[2] / 100}, waitsFor: w, noWay: n, since: t});
       thin([said[u].t, said[u].what], kMostSayings);
     },
-    /** All that a UAV said: {t, what}, in order; null: nothing. */
+    /** @returns all reports of a UAV, {t, what}, ordered by time; null: there are none. */
     of: (index) => said[index] ?? null,
-    /** What a UAV said last; null: nothing so far. */
+    /** @returns a UAV's last report up to a time; null: there is none. */
     at(index, time) {
       const at = said[index] === undefined ? -1 : indexAt(said[index].t, time);
       return at < 0 ? null : said[index].what[at];
@@ -29,26 +30,29 @@ export function makeSayings() {
   };
 }
 
-/** What a UAV of the page said last; null: nothing so far. */
+/** @returns the last report of a UAV up to a time; null: there is none. @param uav  its number on the page. */
 export const saidAt = (uav, time) => data.saidAt?.(uav, time) ?? null;
 
-/** How far it is from a pose to what was said as its goal [m]; null: it has none. */
+/** @returns the distance from a pose to the goal of a report [m]; null: pose or goal is missing. */
 export const toGoal = (what, pose) => what?.goal && pose ?
     Math.hypot(what.goal.x - pose.x, what.goal.y - pose.y, what.goal.z - pose.z) : null;
 
-/** Its own numbers, as of now; null: it says none, or the page shows another moment. */
+/**
+ * @returns the numbers that a UAV reports about itself: speed [m/s], undelivered captures, CPU time per simulated second
+ * [ms]; null: it reports none, or the page does not show the newest moment, for which alone they are known.
+ */
 export function numbersOf(index) {
   const now = moment.newest ? data.now?.a?.[index] : null;
   return now ? {speed: now[0] / 100, undelivered: now[1], cpu: now[2]} : null;
 }
 
-/** Why it does that, in words; empty: nothing holds it. */
+/** @returns in words for whom a UAV waits, and why it has found no path; empty: neither applies. */
 export function whyOf(what) {
   if (what === null) return '';
   return [what.waitsFor && `waits for ${what.waitsFor}`, what.noWay && `no way: ${what.noWay}`].filter(Boolean).join('; ');
 }
 
-/** What it does, and below that why. */
+/** Shows an activity in a cell of a table, and the reason below it. */
 export function showDoes(cell, text, what) {
   const why = whyOf(what);
   const key = `${text}\n${why}`;
@@ -57,7 +61,7 @@ export function showDoes(cell, text, what) {
   cell.replaceChildren(text, ...(why ? [element('small', {class: 'why'}, why)] : []));
 }
 
-/** For the panel of one UAV. */
+/** @returns the rows about a UAV's activity for its panel: [name, text]. */
 export function factsOfActivity(index, pose) {
   const what = saidAt(index, moment.seconds);
   if (what === null) return [];

@@ -1,11 +1,11 @@
-// The fleet's bodies, the station and collisions: a draw call for each shape, however many there are.
+// The fleet's bodies, the station and collisions: one draw call for each shape, however many bodies there are.
 import * as THREE from 'three';
 
 import {colour, data, trackColour} from './page.js';
 
 const kNowhere = new THREE.Matrix4().makeScale(0, 0, 0);
 
-/** Many of one shape, each with a place and a colour. */
+/** Many bodies of one shape, each with a place and a colour. */
 class Shapes {
   constructor(geometry, most, material = new THREE.MeshLambertMaterial()) {
     this.object = new THREE.InstancedMesh(geometry, material, Math.max(most, 1));
@@ -15,7 +15,7 @@ class Shapes {
     for (let i = 0; i < most; ++i) this.object.setMatrixAt(i, kNowhere);
   }
 
-  /** @param position  null: it is not there. */
+  /** @param position  null: the body is not drawn. */
   put(i, position) {
     this.object.setMatrixAt(i, position === null ? kNowhere : this.at.makeTranslation(position));
   }
@@ -26,12 +26,15 @@ class Shapes {
 
   end() {
     this.object.instanceMatrix.needsUpdate = true;
-    this.object.boundingSphere = null;  // of all of them, for whoever is hit
+    this.object.boundingSphere = null;  // recomputed at the next search for the body below the pointer
     if (this.object.instanceColor) this.object.instanceColor.needsUpdate = true;
   }
 }
 
-/** UAVs: explorers have edges, and those of a second run are hollow. `bodies` tell where each of them is, and whether it is there. */
+/**
+ * UAVs: explorers have edges, and the UAVs of a second run are hollow. `bodies`: position of each UAV, and whether it
+ * is shown.
+ */
 export class Fleet {
   constructor() {
     this.bodies = data.uavs.map(() => ({position: new THREE.Vector3(), visible: false}));
@@ -48,7 +51,7 @@ export class Fleet {
     this.object = new THREE.Group().add(...this.kinds.map(({shapes}) => shapes.object));
   }
 
-  /** After the bodies have been moved. */
+  /** Call it after `bodies` have changed. */
   update() {
     for (const {members, shapes} of this.kinds) {
       members.forEach((uav, i) => shapes.put(i, this.bodies[uav].visible ? this.bodies[uav].position : null));
@@ -63,7 +66,7 @@ export class Fleet {
     }
   }
 
-  /** @returns the UAV that was hit, of a ray's hit; -1: none of these. */
+  /** @returns the UAV that a ray has hit; -1: the ray has hit something else. */
   uavOf({object, instanceId}) {
     return this.kinds.find(({shapes}) => shapes.object === object)?.members[instanceId] ?? -1;
   }
@@ -73,7 +76,10 @@ export class Fleet {
   }
 }
 
-/** The station, and where UAVs collided: those that the data tell, and those of a flight that goes on. */
+/**
+ * The station, and the places of collisions: those in the page's data, and those of the UAVs of a flight that is told
+ * in lines.
+ */
 export class Marks {
   constructor() {
     this.station = new Shapes(new THREE.ConeGeometry(1.2, 3, 20).rotateX(Math.PI / 2), data.station ? 1 : 0);

@@ -8,9 +8,9 @@ import {barsOf} from './steps.js';
 const sync = uPlot.sync('time');
 const charts = [];
 let zooming = false;
-let zoomed = false;  // by the reader: what comes at the end of the time changes no scale then
+let zoomed = false;  // by the reader: new data then do not change the scale
 
-/** Whatever one chart shows of the time, the others show too. */
+/** Gives all charts the same interval of time as one chart. */
 function zoomAll(from) {
   if (zooming) return;
   zooming = true;
@@ -29,11 +29,14 @@ const axis = (more) => ({
   ...more,
 });
 
-/** How often a chart of data that grow is drawn again, in ms; and how much more time than its drawing lies between. */
+/**
+ * The time between two drawings of a chart whose data grow is at least kRefresh [ms], and kRest times the time of a
+ * drawing.
+ */
 const kRefresh = 1000;
 const kRest = 30;
 
-/** Draws more data, now and then, and all of them in the end. */
+/** Redraws a chart when its data have grown, but not too often; the last change is always drawn. */
 function refresh(made, columns) {
   let due = 0;
   let later = 0;
@@ -54,7 +57,7 @@ function refresh(made, columns) {
   });
 }
 
-/** @param columns  makes its data. */
+/** @param columns  returns the chart's data: a column of times [s], and columns of values. */
 function chart(figure, height, options, columns) {
   const place = element('div', {class: 'live live-chart'});
   replaceDrawing(figure, place);
@@ -88,7 +91,7 @@ function chart(figure, height, options, columns) {
     if (place.clientWidth > 0 && place.clientWidth !== made.width) made.setSize({width: place.clientWidth, height});
   }).observe(place);
   onTheme(() => made.redraw());
-  let marked = false;  // while it shows a moment of the past; the newest one has no mark
+  let marked = false;  // while it marks a moment in the past; the newest moment has no mark
   moment.listen(() => {
     const marks = moment.seconds < data.end;
     if (marks || marked) made.redraw(false);
@@ -97,7 +100,7 @@ function chart(figure, height, options, columns) {
   return made;
 }
 
-/** Bars of what went wrong, behind the curves. */
+/** Draws bars for the durations of faults, behind the curves. */
 function drawFaults(u) {
   const {ctx, bbox} = u;
   ctx.save();
@@ -110,7 +113,7 @@ function drawFaults(u) {
   ctx.restore();
 }
 
-/** Where two flights part. */
+/** Draws a line at the first difference between two flights. */
 function drawDifference(u) {
   const at = u.valToPos(data.difference?.t ?? NaN, 'x', true);
   const {ctx, bbox} = u;
@@ -125,7 +128,7 @@ function drawDifference(u) {
   ctx.restore();
 }
 
-/** Where the 3D view's time is. */
+/** Draws a line at the time that the 3D view shows. */
 function drawMoment(u) {
   drawDifference(u);
   const at = u.valToPos(moment.seconds, 'x', true);
@@ -141,12 +144,15 @@ function drawMoment(u) {
   ctx.restore();
 }
 
-/** As many UAVs have a row for their captures below the score. */
+/** In fleets of up to this size, each UAV has a row for its captures below the score. */
 const kMostRows = 12;
 const rows = data.uavs.length <= kMostRows ? data.uavs.length : 0;
-const kRow = 0.04;  // of the chart's height
+const kRow = 0.04;  // height of a row, as a share of the chart's height
 
-/** Counts by second as what there is to draw: several seconds in a pixel are one, of their largest count. */
+/**
+ * Calls `use` for the counts per second that are to be drawn. Several seconds within a pixel become one, with their
+ * largest count.
+ */
 function eachBusy(u, counts, use) {
   const {min, max} = u.scales.x;
   const step = Math.max(1, Math.floor((max - min) / Math.max(u.bbox.width, 1)));
@@ -157,7 +163,7 @@ function eachBusy(u, counts, use) {
   }
 }
 
-/** Seconds in which a UAV improved a point. */
+/** Draws the seconds in which each UAV has taken captures. */
 function drawCaptures(u) {
   const {ctx, bbox} = u;
   const each = (bbox.height * kRow * rows) / (1 + kRow * rows) / Math.max(rows, 1);
@@ -167,7 +173,7 @@ function drawCaptures(u) {
   });
 }
 
-/** A column over common times for what changes at times of its own. */
+/** @returns the values of a curve of steps at the given times [s]. */
 function sampled(curve, times) {
   const at = Float64Array.from(curve.t, (ms) => ms / 1000);
   return times.map((time) => {
@@ -177,7 +183,7 @@ function sampled(curve, times) {
 }
 
 export function scoreChart(figure) {
-  const runs = data.runs ?? [data];  // two on one clock, or one
+  const runs = data.runs ?? [data];  // two runs on one clock, or one run
   const columns = () => {
     const curves = runs.flatMap(({earned, delivered}) => [earned, delivered]);
     const all = [0, ...curves.flatMap(({t}) => t.map((ms) => ms / 1000)), data.end];
@@ -231,13 +237,13 @@ export function scoreChart(figure) {
 }
 
 const kLane = 54;
-const kLowLane = 30;        // of a large fleet on the page that follows a run; its rows have no names
+const kLowLane = 30;        // in a large fleet on the page that follows a run; the rows of such a lane have no names
 const kLargeFleet = 8;
-const kRoomForNames = 700;  // of the rows of a lane, in pixels
+const kRoomForNames = 700;  // pixels; in narrower charts, the rows of a lane have no names
 const laneHeight = () =>
     data.uavs.length > 20 ? 20 : data.follows && data.uavs.length > kLargeFleet ? kLowLane : kLane;
 
-/** Filled spans of a lane; `flat` holds begin and end, one after the other. */
+/** Draws filled spans of a lane. @param flat  begin and end of each span, one after the other [s]. */
 function drawSpans(u, flat, name, top, height) {
   const {ctx, bbox} = u;
   ctx.fillStyle = colour(name);

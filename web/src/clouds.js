@@ -1,22 +1,22 @@
-// What the page asks for beside what everybody is told: LiDAR points, and the map of one UAV. One draw call for all
-// points, one for what a map has occupied, one for what it has free.
+// Data that the server sends only to pages that request them: LiDAR points, and the map of one UAV. There is one draw
+// call for all points, one for the occupied cubes of the map, and one for its free cubes.
 import * as THREE from 'three';
 
 import {colour, data, element, growth, moment, trackColour} from './page.js';
 import {unpackedPoints, unpackedRuns} from './packed.js';
 
-const kAskAgain = 2000;    // ms; who does not ask for three times as long is told no more
-const kMostPoints = 60000; // of all UAVs; then the oldest go
-const kCell = 0.5;         // m; one point in each cube
-const kNew = 1;            // s that a point is drawn larger
-const kHeights = ['c0', 'c2', 'c4', 'c1'];  // from the ground up
+const kAskAgain = 2000;    // ms between two renewals of the request, which expires after three times as long
+const kMostPoints = 60000; // of all UAVs; a new point then replaces the oldest
+const kCell = 0.5;         // m; a UAV has at most one point in each cube of this size
+const kNew = 1;            // s; new points are drawn larger for this long
+const kHeights = ['c0', 'c2', 'c4', 'c1'];  // colours from the ground upwards
 
-const maps = new Map();     // UAV -> the newest that was told
-const scans = new Map();    // UAV -> the newest points that were told; of a finished run, all
+const maps = new Map();     // name of a UAV -> the newest message about its map
+const scans = new Map();    // name of a UAV -> its newest points; in a replay all of them
 let layers = null;
-let fresh = false;          // what came in is in no picture yet
+let fresh = false;          // data have arrived that no picture shows yet
 
-/** Colours by height, up to that of what is inspected. */
+/** @returns a function from height to colour; the scale ends at the height of the boxes. */
 function heightColours() {
   const named = kHeights.map((name) => new THREE.Color(colour(name)));
   const top = Math.max(...data.boxes.flat().map(([, , z]) => z / 100), 10);
@@ -46,7 +46,7 @@ void main() {
   #include <colorspace_fragment>
 }`;
 
-/** LiDAR points of all UAVs, in a ring: when it is full the oldest make room. */
+/** LiDAR points of all UAVs, in a ring buffer: when it is full, new points replace the oldest. */
 class Points {
   constructor() {
     const attribute = (name, size) => {
@@ -65,7 +65,7 @@ class Points {
   }
 
   clear() {
-    this.slots = new Map();  // cube -> place in the ring
+    this.slots = new Map();  // cube -> index in the ring
     this.keys = new Array(kMostPoints);
     this.next = this.count = 0;
     this.geometry.setDrawRange(0, 0);
@@ -108,16 +108,19 @@ class Points {
   }
 }
 
-/** Rows of cubes, each stretched along x: an instance a row. Which of them are there changes with the moment. */
+/** Cubes of a map, as rows along x: one instance per row. The rows that are shown depend on the moment. */
 class Rows {
   constructor(geometry, material) {
     [this.geometry, this.material] = [geometry, material];
     this.object = new THREE.Group();
-    this.steps = [];  // {t, until, runs, cubes}, until Infinity of those that stay
-    this.times = [];  // at which any of them comes or goes, in order
+    this.steps = [];  // {t, until, runs, cubes}; until is Infinity for rows that stay
+    this.times = [];  // at which rows appear or disappear, ascending [s]
   }
 
-  /** @param steps  {t, until?, runs}: what was there from when to when. @param squeeze  of a cube in each direction. */
+  /**
+   * @param steps  {t, until?, runs}: rows that exist from t to until [s].
+   * @param cell  edge of a cube [m]. @param squeeze  by axis: share of the edge that is drawn.
+   */
   set(steps, cell, squeeze) {
     [this.cell, this.squeeze] = [cell, squeeze];
     this.steps = steps.map(({t, until = Infinity, runs}) => ({t, until, runs: unpackedRuns(runs)}));
@@ -127,7 +130,7 @@ class Rows {
     }
     this.times = [...new Set(this.steps.flatMap(({t, until}) => [t, until]))].sort((one, other) => one - other);
     const rows = (now) => this.steps.reduce((sum, {t, until, runs}) => (t <= now && now < until ? sum + runs.length / 4 : sum), 0);
-    const count = Math.max(0, ...this.times.map(rows));  // at once
+    const count = Math.max(0, ...this.times.map(rows));  // most rows at any one time
     if (!this.mesh || count > this.mesh.instanceMatrix.count) {
       this.mesh?.dispose();
       this.mesh = new THREE.InstancedMesh(this.geometry, this.material, Math.max(2 * count, 256));
@@ -137,13 +140,13 @@ class Rows {
     this.shown = null;
   }
 
-  /** @param shade  a colour by height; none: that of the material. */
+  /** @param shade  function from height to colour; none: the material's colour. */
   paint(shade) {
     this.shade = shade;
     this.shown = null;
   }
 
-  /** Those of a moment. They are laid out anew only where other ones are there than before. */
+  /** Shows the rows of a moment. Instances are set anew only if the rows differ from those of the last call. */
   show(seconds) {
     if (!this.mesh) return;
     const now = seconds + 1e-6;
@@ -190,7 +193,7 @@ class Layers {
     growth.listen(() => this.takeFresh());
   }
 
-  /** Shows what came in. The newest moment moves on, and is drawn with it anyway. */
+  /** Draws new data if the page shows a moment in the past; the newest moment is drawn anew in any case. */
   takeFresh() {
     if (fresh && !moment.newest) {
       this.show(moment.seconds);
@@ -199,7 +202,7 @@ class Layers {
     fresh = false;
   }
 
-  /** UAVs whose points are wanted. */
+  /** @returns the names of the UAVs whose points are requested. */
   lidar() {
     const {lidar} = this.chosen;
     if (lidar !== 'followed') return lidar === 'all' ? data.clouds.lidar : [];
@@ -207,7 +210,7 @@ class Layers {
     return data.clouds.lidar.filter((name) => name === followed);
   }
 
-  /** Asks for what is wanted; of that, again and again, or nobody is told any more. */
+  /** Sends the current request. A request with content is sent again and again, because it expires. */
   ask() {
     const lidar = this.lidar();
     const order = {do: 'look', ...(lidar.length > 0 ? {lidar} : {}), ...(this.chosen.map ? {map: this.chosen.map} : {})};
@@ -226,7 +229,9 @@ class Layers {
     return (uav) => colours[uav];
   }
 
-  /** What is told no more, as it was all told. */
+  /**
+   * Removes all points. In a replay, the points of the requested UAVs have all been received already: adds them again.
+   */
   clearPoints() {
     this.points.clear();
     if (data.mode === 'replay')
@@ -273,7 +278,7 @@ class Layers {
     this.scene.draw();
   }
 
-  /** As it was at the moment; called before each picture. */
+  /** Shows the data of a moment. Call it before each picture. */
   show(seconds) {
     if (this.chosen.lidar === 'followed' && this.scene.followed !== this.last) {
       this.last = this.scene.followed;
@@ -308,7 +313,7 @@ class Layers {
     const map = maps.get(name);
     if (map === undefined) return data.mode === 'live' ? `the map of ${name} comes with the next step` : `the map of ${name} is being loaded`;
     if (map.none) return `${name} has no map to show: ${map.none}`;
-    const times = map.times ?? [map.t];  // of its snapshots
+    const times = map.times ?? [map.t];  // times of its snapshots
     const now = moment.newest ? Infinity : seconds + 1e-6;
     const newest = times.findLast((time) => time <= now);
     if (newest === undefined)
@@ -317,7 +322,7 @@ class Layers {
   }
 }
 
-/** Takes in what was asked for; the page's next picture shows it. */
+/** Stores received points and maps; the page's next picture shows them. */
 export function takeClouds(list) {
   for (const cloud of list) {
     const at = cloud.n.indexOf(' ');
@@ -334,7 +339,7 @@ export function takeClouds(list) {
   }
 }
 
-/** Controls of these layers, which they add to a scene. */
+/** Adds the layers to a scene. @returns them, with their controls in `tools`. */
 export function makeClouds(scene) {
   layers = new Layers(scene);
   const {lidar, maps: mapped, missing = ''} = data.clouds;

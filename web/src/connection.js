@@ -1,9 +1,9 @@
-// The WebSocket of the page: what the flight tells, and what is asked of it. When whoever serves it goes, as it
-// does when the run is over and its replay begins, it asks again until somebody answers.
+// The WebSocket of the page: receives the flight and sends the browser's orders. When the connection is lost, as at the
+// end of a run, when another server begins to serve its replay, the page connects again until a server answers.
 
-const kAgain = 400;  // ms
+const kAgain = 400;  // ms between two attempts
 
-/** @param use  {scene, lines, state, clouds, gone}: what to do with each. @returns how to send an order. */
+/** @param use  callbacks {scene, lines, state, clouds, gone}. @returns a function that sends an order. */
 export function connect(use) {
   let socket = null;
   const open = () => {

@@ -1,19 +1,19 @@
-// What became of each interest point: who photographed it how well, and what was delivered of that. What stands now is
-// kept up to date by each line that is told; the past is looked up in the captures that are kept.
+// The custody of each interest point: which UAV photographed it with which quality, and which of these captures were
+// delivered. Each line of the flight updates the present state; states of the past are looked up in stored captures.
 
 export const kDetected = 0.2;
-const kHistory = 4;  // captures of a point that are kept for the past alone
-const kMore = 6;     // that come before its captures are looked through again
+const kHistory = 4;  // captures of a point that are kept only to show the past
+const kMore = 6;     // new captures of a point before forget() runs again
 
-/** A point in a capture; q in 1/1000000, its parts in 1/1000, whole numbers, which take a third of the memory. */
+/** A point in a capture. Integers take a third of the memory: q in 1/1000000, its parts in 1/1000. */
 class Seen {
   constructor(of, q, blur, distance) {
     this.of = of;
     this.its_q = q;
     this.its_blur = blur;
     this.its_distance = distance;
-    this.record = false;  // whether it was the point's best for a time
-    this.stays = 0;       // what forget() made of it last
+    this.record = false;  // whether it was the point's best capture at any time
+    this.stays = 0;       // number of the last call of forget() that kept it
   }
   get q() { return this.its_q / 1000000; }
   get blur() { return this.its_blur / 1000; }
@@ -21,23 +21,23 @@ class Seen {
   get distance() { return this.its_distance / 1000; }
 }
 
-const kRounding = 2e-6;  // of two numbers in 1/1000000
+const kRounding = 2e-6;  // of the difference of two numbers that are rounded to 1/1000000
 const kNobody = {delivered: null, taken: null};
-/** Of two that are as good the earlier one counts, as with the station. */
+/** Of two captures with equal quality, the earlier one counts, as in the station's tally. */
 const better = (one, other) => (other === null || other === undefined ? one.its_q > 0 :
     one.its_q > other.its_q || (one.its_q === other.its_q && one.of.time < other.of.time));
 const counts = (seen) => seen !== null && seen.q >= kDetected;
 
-/** @param data  of the flight: its UAVs, and when it ends. */
+/** @param data  the flight's data: its UAVs, and its end [s]. */
 export function makeCustody(data) {
-  const bestTaken = [], bestDelivered = [];  // by UAV, while a point's captures are looked through
+  const bestTaken = [], bestDelivered = [];  // by UAV, only within forget()
   let stamp = 0;
-  const open = new Map();      // by UAV and number: captures that were not delivered, with what they saw
-  const points = [];           // {seen, delivered, taken, lost}: the best that was delivered, and the best that was taken
-  let now = null;              // tally of what stands
-  let changed = new Set();     // points whose state is another since somebody asked
+  const open = new Map();      // by UAV and number: captures that are not delivered yet, with the points in them
+  const points = [];           // {seen, delivered, taken, lost}: captures, best delivered one, best of all, loss
+  let now = null;              // tally of the present state
+  let changed = new Set();     // points whose state has changed since the last changedPoints()
   let past = {time: NaN, tally: null};
-  let estimate = null;         // by point: the best that could be had, and whether a UAV gets there
+  let estimate = null;         // by point: attainable quality, and whether a UAV can reach it
 
   const isVoid = ({uav}) => data.uavs[uav].voided !== Infinity;
 
@@ -49,7 +49,7 @@ export function makeCustody(data) {
     };
   }
 
-  /** The best capture of a point by those whose captures do not count. */
+  /** @returns the best capture of a point by UAVs whose captures do not count because they collided; null: none. */
   function bestVoid(index, time) {
     let best = null;
     for (const one of points[index].seen)
@@ -58,9 +58,10 @@ export function makeCustody(data) {
   }
 
   /**
-   * What separates a point from what could be had of it, as result.json will have it (docs/results.md, Losses), as far as
-   * captures tell: what was in the picture too poorly counts as never in the picture.
-   * @returns null for a point that has lost nothing, and as long as nobody knows what could be had.
+   * The difference between the attainable score of a point and its delivered score, and the cause, as in result.json
+   * (docs/results.md, Losses). This function never returns the causes that captures do not reveal: below_threshold (such
+   * a point counts as never_in_picture), drift, wind and energy.
+   * @returns null for a point that has lost nothing, and while the attainable score is not known.
    */
   function lossOf(index, {delivered, taken}, time) {
     if (estimate === null) return null;
@@ -83,7 +84,7 @@ export function makeCustody(data) {
   }
   const anyVoid = () => data.uavs.some(({voided}) => voided !== Infinity);
 
-  /** What could be had, once that is known. */
+  /** Takes the attainable quality of all points (a line of the kind "estimate", view/story.hpp). */
   function expect({q, no}) {
     let index = 0;
     estimate = {q: Float64Array.from(q, (value) => value / 1000000), beyond: new Set(no.map((more) => (index += more)))};
@@ -93,7 +94,7 @@ export function makeCustody(data) {
     recount();
   }
 
-  /** Adds what a point has lost to a tally, or takes it off. */
+  /** Adds the loss of a point to a tally, or subtracts it. @param by  1 or -1. */
   function lose(tally, lost, by) {
     if (lost === null) return;
     const sum = tally.losses.get(lost.cause) ?? {points: 0, score: 0};
@@ -102,7 +103,7 @@ export function makeCustody(data) {
     tally.losses.set(lost.cause, sum);
   }
 
-  /** Adds a point to a tally, or takes it off. */
+  /** Adds a point to a tally, or subtracts it. @param by  1 or -1. */
   function count(tally, {delivered, taken}, by) {
     const given = counts(delivered);
     const state = tally.states[given ? 'delivered' : taken === null ? 'unseen' : counts(taken) ? 'carried' : 'poor'];
@@ -115,7 +116,7 @@ export function makeCustody(data) {
     tally.shares[delivered.of.uav] += by * delivered.q;
   }
 
-  /** As it is at the end of what was told. */
+  /** Changes a point, and updates the tally of the present state. */
   function set(index, change) {
     const point = points[index];
     count(now, point, -1);
@@ -142,8 +143,9 @@ export function makeCustody(data) {
   }
 
   /**
-   * Of the captures of a point stay, of each UAV, the best one and the best one that was delivered: whatever is delivered
-   * yet, and whoever collides, they tell what stands. Of the others a few for the past, first those that were the best once.
+   * Limits the stored captures of a point. Each UAV's best capture and its best delivered capture stay: with these, the
+   * present state stays correct whichever captures are delivered later, and whichever UAVs collide. A few others stay
+   * to show the past, preferably those that were the point's best at some time.
    */
   function forget(point) {
     ++stamp;
@@ -176,7 +178,7 @@ export function makeCustody(data) {
     point.room = kept + kMore;
   }
 
-  /** A UAV took a capture. @param list  of each point that it saw: index, less the one before; q, q_blur, q_distance. */
+  /** A UAV took a capture. @param list  by point in it: index minus that of the point before; q, q_blur, q_distance. */
   function take({t, u, c, p: list}) {
     const capture = {uav: u, number: c, time: t, delivered: Infinity};
     const seen = [];
@@ -196,7 +198,7 @@ export function makeCustody(data) {
     open.set(`${u} ${c}`, {capture, seen});
   }
 
-  /** A capture came to the station. @returns false when none such was taken and not delivered. */
+  /** A capture reached the station. @returns false if there is no such capture, or it was delivered before. */
   function deliver(time, uav, number) {
     const key = `${uav} ${number}`;
     const taken = open.get(key);
@@ -212,7 +214,7 @@ export function makeCustody(data) {
     return true;
   }
 
-  /** A UAV's captures do not count from now on: what stands is looked up anew. */
+  /** Computes the present state anew. Call it when a UAV's captures no longer count. */
   function lookUpAll() {
     points.forEach((point, index) => {
       Object.assign(point, lookUp(index, Infinity));
@@ -233,14 +235,17 @@ export function makeCustody(data) {
     return {delivered, taken};
   }
 
-  /** What is known of a point at a time: its best capture that was delivered, and the best that was taken. */
+  /** @returns the state of a point at a time: its best delivered capture, and its best capture; null: none. */
   function custody(index, time) {
     const point = points[index];
     if (time >= data.end) return point;
     return point.seen.length === 0 ? kNobody : lookUp(index, time);
   }
 
-  /** Of all points: how many are in which state and what they hold, what was earned, and whose the score is. */
+  /**
+   * @returns over all points: number and score by state, score earned, losses by cause, and each UAV's share of the
+   * score.
+   */
   function tallyAt(time) {
     if (time >= data.end) return now;
     if (past.time !== time) {
@@ -255,17 +260,17 @@ export function makeCustody(data) {
     return past.tally;
   }
 
-  /** Points that are otherwise than when this was asked last; what the page shows of the past does not change. */
+  /** @returns the points whose present state has changed since the last call. */
   function changedPoints() {
     const those = changed;
     changed = new Set();
     return those;
   }
 
-  /** For who watches over the page's memory. */
+  /** @returns the number of stored captures of all points, for tests of the page's memory. */
   const kept = () => points.reduce((sum, {seen}) => sum + seen.length, 0);
 
-  /** What could be had in all, {points, score}; null: not known. */
+  /** @returns the attainable score of all points, {points, score}; null: not known. */
   const expected = () => estimate;
 
   return {beginPoints, expect, expected, take, deliver, lookUpAll, custody, tallyAt, changedPoints, kept};

@@ -1,16 +1,16 @@
-// The page as a film sees it: one moment after another, set from outside (cli/film/). Only a page that holds its flight
-// is filmed: there nothing comes in between.
+// The page's interface for films: `skein replay` (cli/film/) sets one moment after another. Only a self-contained page
+// is filmed, because no data arrive there between two pictures.
 import {data, element, moment} from './page.js';
 
 const drawnPicture = () => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));
 
 /**
- * @param open    shows what an address says
- * @param panels  shows what all panels say of the moment; a reader's are drawn less often than the scene, by the clock
+ * @param open    shows what the page's address specifies; returns its time [s]
+ * @param panels  draws all panels; for a reader, they are drawn less often than the scene
  */
 export function offerFilm(open, panels) {
   window.film = {
-    /** Leaves out what only a reader needs. @returns when the flight ends, and where the address begins [s]. */
+    /** Hides the controls. @returns the end of the flight, and the time in the address [s]. */
     async begin(address) {
       document.body.classList.add('film');
       if (address) history.replaceState(null, '', address.startsWith('#') ? address : `#${address}`);

@@ -1,5 +1,5 @@
-// A flight as it is told in lines (view/story.hpp), kept in the form that scene and charts draw (page_data.cpp), and
-// what is asked of it at any moment. One that flies and one that is over are told alike.
+// Stores a flight, which arrives as lines (view/story.hpp), in the form that scene and charts draw (page_data.cpp), and
+// answers what its state was at any time. A live flight and a finished one arrive in the same form.
 import {makeSayings} from './activity.js';
 import {makeCustody} from './custody.js';
 import {tellFault} from './hand_faults.js';
@@ -8,27 +8,27 @@ import {indexAt} from './page.js';
 import {poseOn} from './poses.js';
 
 const kSlow = 0.1;          // m/s
-const kWorkedFor = 5;       // s that a capture counts as work
-const kOneGo = 5;          // s between two deliveries
-const kOpenEnd = 1e9;       // of a span that has not ended
+const kWorkedFor = 5;       // s; a UAV counts as working for this long after a capture
+const kOneGo = 5;          // s; deliveries with shorter gaps become one event
+const kOpenEnd = 1e9;       // s; end of a span that has not ended
 
 export const kLinks = ['blocked', 'linked', 'cut by a fault', 'dead'];
 
 /**
- * A flight. @param data  filled with what scene and charts read.
- * @returns what it is told with, and asked by. UAVs go by their numbers in its own fleet.
+ * @param data  the flight fills it for scene and charts.
+ * @returns the functions of a flight. They number the UAVs of its own fleet.
  */
 export function makeFlight(data) {
-  const links = {t: [], l: []};      // times, digits
+  const links = {t: [], l: []};      // times [s]; digits of kLinks
   const counted = {t: [], n: [], s: []};
-  const early = [];                  // deliveries that a journal tells before their captures are told
+  const early = [];                  // deliveries that arrive before their captures, from a station's journal
   const events = [];
-  const failures = [];               // faults, as hand_faults.js has them
+  const failures = [];               // faults, as tellFault() stores them
   const sayings = makeSayings();
   const {beginPoints, expect, expected, take: takeCapture, deliver, lookUpAll, custody, tallyAt, changedPoints, kept} = makeCustody(data);
   const saidAt = sayings.at;
 
-  /** Fills what scene and charts read with a flight of which nothing is known but its scene. */
+  /** Fills the data of scene and charts with a flight of which only the scene is known. */
   function begin(scene) {
     Object.assign(data, scene);
     data.end = 0;
@@ -58,7 +58,7 @@ export function makeFlight(data) {
     data.failures = failures;
   }
 
-  /** Spans grow at their end: `on` from this time. */
+  /** Begins or ends the last span: from this time on, the state is `on`. */
   function mark(spans, time, on) {
     const open = spans.length > 0 && spans.at(-1) === kOpenEnd;
     if (on && !open) spans.push(time, kOpenEnd);
@@ -72,18 +72,18 @@ export function makeFlight(data) {
     thin([curve.t, curve.v], kMostSteps);
   }
 
-  /** What would be scored if all were delivered. */
+  /** Updates the curve of the score earned: the score if all captures were delivered. */
   const earn = (time) => {
     const {earned} = tallyAt(Infinity);
     if (Math.round(1000 * earned) !== data.earned.v.at(-1)) add(data.earned, time, Math.round(1000 * earned));
   };
 
-  /** @returns whether such a capture has been told. */
+  /** @returns false if the capture has not arrived yet. */
   function delivered(time, u, number) {
     if (!deliver(time, u, number)) return false;
     add(data.uavs[u].waiting, time, --data.uavs[u].undelivered);
     const uav = data.uavs[u];
-    // What is handed over in one go is one event.
+    // Deliveries in quick succession are one event.
     if (uav.handedOver !== undefined && time - uav.handedOver.until < kOneGo) {
       ++uav.handedOver.object;
       uav.handedOver.until = time;
@@ -178,7 +178,7 @@ export function makeFlight(data) {
     },
   };
 
-  /** Takes lines in; kinds of a later version are passed over. */
+  /** Takes lines. Unknown kinds, such as those of a later version, are ignored. */
   function tell(lines) {
     for (const line of lines) {
       while (early.length > 0 && line.k === 'capture' && early[0][0] <= line.t)
@@ -188,13 +188,13 @@ export function makeFlight(data) {
     }
   }
 
-  /** Takes in how it stands now. */
+  /** Takes the newest state of a live flight. */
   function stand(state) {
     data.now = state;
     data.end = Math.max(data.end, state.t);
   }
 
-  /** Digits of kLinks, row by sender; empty before anything is known. */
+  /** @returns the links at a time: a digit of kLinks for each, a row for each sender; empty: not known. */
   function linksAt(time) {
     const at = indexAt(links.t, time);
     return at < 0 ? '' : links.l[at];
@@ -202,7 +202,7 @@ export function makeFlight(data) {
 
   const within = (spans, time) => spans.some((begin, i) => i % 2 === 0 && begin <= time && time < spans[i + 1]);
 
-  /** How a UAV is linked to the station, in a word. */
+  /** @returns in a word how a UAV is linked to the station. */
   function linkOf(index, time) {
     const {direct, relayed, collided} = data.uavs[index];
     if (collided !== null && collided <= time) return '–';
@@ -211,13 +211,16 @@ export function makeFlight(data) {
     return within(relayed, time) ? 'relayed' : 'none';
   }
 
-  /** Of the station's tally. */
+  /** @returns score and detected points of the station's tally at a time. */
   function scoreAt(time) {
     const at = indexAt(counted.t, time);
     return at < 0 ? {score: 0, points: 0} : {score: counted.s[at], points: counted.n[at]};
   }
 
-  /** Where a UAV is and looks, between the poses of its trail; the newest if that is asked for. null: not known. */
+  /**
+   * @returns position of a UAV and direction of its view, interpolated; null: not known.
+   * @param newest  the newest pose.
+   */
   function poseAt(index, time, newest) {
     const {track} = data.uavs[index];
     const at = indexAt(track.t, time);
@@ -231,7 +234,7 @@ export function makeFlight(data) {
     return pose && {...pose, alive: track.alive[at] === 1, speed: track.speed[pose.next]};
   }
 
-  /** By UAV: how much of the score is its, and how many of its captures had not been delivered. */
+  /** @returns by UAV: its share of the score, and the number of its undelivered captures. */
   function sharesAt(time) {
     const {shares} = tallyAt(time);
     return data.uavs.map(({waiting}, uav) => {
@@ -240,17 +243,19 @@ export function makeFlight(data) {
     });
   }
 
-  /** Where the score is: of all points, how many are in which state, and what they hold. */
+  /**
+   * @returns number and score of the points by state, and the mean losses of delivered points to blur and resolution.
+   */
   function pointsAt(time) {
     const {states: exact, blur, resolution} = tallyAt(time);
-    // Sums that were added to and taken from: nothing is not quite 0.
+    // After additions and subtractions, the sum over no points is not exactly 0.
     const states = Object.fromEntries(Object.entries(exact).map(
         ([name, {points, score}]) => [name, {points, score: points === 0 ? 0 : score}]));
     const {points} = states.delivered;
     return {states, blur: points > 0 ? blur / points : 0, resolution: points > 0 ? resolution / points : 0};
   }
 
-  /** Where the points went: what could be had, and by cause what of it is lost. null: nobody knows what could be had. */
+  /** @returns attainable score, losses by cause, and delivered score; null: the attainable score is not known. */
   function lossesAt(time) {
     const could = expected();
     if (could === null) return null;
@@ -258,7 +263,7 @@ export function makeFlight(data) {
     return {could, losses, delivered: states.delivered};
   }
 
-  /** What a UAV does, in words: its own, else from its motion. */
+  /** @returns a UAV's activity in words: as it reports it, else derived from its motion. */
   function doing(index, time) {
     const uav = data.uavs[index];
     if (uav.collided !== null && uav.collided <= time) return 'collided';

@@ -1,15 +1,16 @@
-// The flights that the page shows: one, or two on one clock. Scene, charts and panels ask here, by a UAV's number on the
-// page, where the second fleet follows the first; each flight knows its own fleet only.
+// The flights that the page shows: one, or two on one clock. Scene, charts and panels use the functions of this file,
+// with a UAV's number on the page: the UAVs of the second fleet follow those of the first. A flight itself numbers its
+// own fleet.
 import {makeFlight} from './flight.js';
 import {data} from './page.js';
 
 export {kLinks} from './flight.js';
 
-/** Of two flights. */
+/** The names of two flights. */
 export const kRuns = ['A', 'B'];
 
 export let flights = [makeFlight(data)];
-/** Which of them are drawn, and whose score the points have. */
+/** Which runs are drawn; and the run whose score the points show. */
 export const drawn = {runs: [true, true], points: 0};
 
 export const isPair = () => flights.length > 1;
@@ -19,7 +20,7 @@ function whose(uav) {
   return uav < first ? [flights[0], uav] : [flights[1], uav - first];
 }
 
-/** What is asked of one UAV goes to its flight. */
+/** @returns a function of a UAV of the page that calls the function of this name of its flight. */
 const ofUav = (name) => (uav, ...rest) => {
   const [flight, own] = whose(uav);
   return flight[name](own, ...rest);
@@ -30,16 +31,16 @@ export const poseAt = ofUav('poseAt');
 const saidAt = ofUav('saidAt');
 const saidBy = ofUav('saidBy');
 
-/** By UAV of the page. */
+/** @returns by UAV of the page: its share of the score, and its undelivered captures. */
 export const sharesAt = (time) => flights.flatMap((flight) => flight.sharesAt(time));
 
-/** What happened in all of them; "run" tells in which of two. */
+/** @returns the events of all flights; of two flights, "run" is the name of the event's. */
 export function allEvents() {
   if (!isPair()) return flights[0].events;
   return flights.flatMap(({events}, k) => events.map((event) => ({...event, run: kRuns[k]})));
 }
 
-/** Of both fleets as one: no link leads from one into the other. */
+/** @returns the links of both fleets as those of one; there are none between the fleets. */
 function pairedLinksAt(time) {
   const sizes = flights.map((flight) => flight.data.uavs.length);
   const nodes = 1 + sizes[0] + sizes[1];
@@ -53,7 +54,10 @@ function pairedLinksAt(time) {
   return digits.join('');
 }
 
-/** A UAV of one of two flights: all that its own flight knows of it, now and later, under a name of both. */
+/**
+ * @returns a UAV of one of two flights for the page: it inherits from the flight's UAV, and its name begins with the
+ * run's.
+ */
 const seenIn = (k, uav, own) => Object.create(uav, {name: {value: `${kRuns[k]} ${uav.name}`}, own: {value: own}, run: {value: k}});
 
 function beginPair({other, ...first}) {
@@ -68,7 +72,7 @@ function beginPair({other, ...first}) {
     runs: flights.map((flight) => flight.data),
     uavs: flights.flatMap((flight, k) => flight.data.uavs.map((uav, own) => seenIn(k, uav, own))),
     faults,
-    causes_known: false,  // why a point lost what it did is known of each flight by itself
+    causes_known: false,  // the causes of losses are known only for each flight by itself
     best: [],
     collisions: [...first.collisions, ...other.collisions],
     custody: (point, time) => flights[drawn.points].custody(point, time),
@@ -80,7 +84,7 @@ function beginPair({other, ...first}) {
   });
 }
 
-/** Fills what scene and charts read with a scene, of one flight or of two. */
+/** Fills the data of scene and charts from the scene of one flight, or of two. */
 export function begin(scene) {
   if (scene.other)
     beginPair(scene);
@@ -88,7 +92,7 @@ export function begin(scene) {
     flights[0].begin(scene);
 }
 
-/** Takes lines in. Those of the second flight come as {"k": "other", "line": ...}. */
+/** Takes lines. Those of the second flight arrive as {"k": "other", "line": ...}. */
 export function tell(lines) {
   if (!isPair()) return flights[0].tell(lines);
   for (const line of lines) {
@@ -100,5 +104,5 @@ export function tell(lines) {
   data.end = Math.max(...flights.map((flight) => flight.data.end));
 }
 
-/** Takes in how the flight stands now. Two are never followed at once. */
+/** Takes the newest state of a live flight. A page never follows two live flights. */
 export const stand = (state) => flights[0].stand(state);

@@ -1,16 +1,16 @@
-// Faults: which there were, and those that whoever looks on begins and ends by hand (view/fault_order.hpp). What is asked
-// for holds from the next step on; whether it was done, the next state tells.
+// Faults: shows those of the run, and lets a viewer begin and end faults by hand (view/fault_order.hpp). An order takes
+// effect with the next step; the next state says whether the server accepted it.
 import {data, element, moment} from './page.js';
 
 const kMostRows = 60;
-const kStationAway_s = 5;  // the station serves this page: nobody could bring it back by hand
-const kStation = 'gcs';    // the node; its program is called station
+const kStationAway_s = 5;  // the station serves this page, so a viewer could not end such a fault
+const kStation = 'gcs';    // name of its node; its program is called station
 
 const hand = {order: () => {}, connected: false, seen: null};
 
 /**
- * A line of the flight (story.hpp). @param told  of each fault that has begun: number, by hand or not, kind, of whom, from
- * when until when.
+ * Takes a line of the kind "fault" (story.hpp). @param told  by fault that has begun: its number, whether a viewer
+ * began it, kind, target, begin and end [s].
  */
 export function tellFault(told, {t, n, hand: byHand, on, kind, of}) {
   if (on === 1) told.push({number: n, byHand: byHand === 1, kind, of, from: t, until: Infinity});
@@ -18,19 +18,19 @@ export function tellFault(told, {t, n, hand: byHand, on, kind, of}) {
   if (on === 0 && open !== undefined) open.until = t;
 }
 
-/** @param order  how to ask for something. */
+/** @param order  function that sends an order. */
 export function useHand(order) {
   hand.order = order;
 }
 
-/** Whether somebody hears what is asked for. */
+/** @param connected  whether a server receives orders. */
 export function connectHand(connected) {
   hand.connected = connected;
 }
 
 const openByHand = () => data.now?.faults?.open ?? [];
 const openOf = (kind, of) => openByHand().find((one) => one.kind === kind && one.of === of);
-/** What is broken is broken now, not in the past that the slider may show. */
+/** Faults begin at present, so the viewer cannot begin one while the page shows the past. */
 const mayAct = () => data.mode === 'live' && hand.connected && moment.newest;
 
 function ask(order) {
@@ -58,7 +58,7 @@ function toggleLink(from, to) {
   ask({do: 'fault', kind: 'link', from: nodeName(from), to: nodeName(to)});
 }
 
-/** A cell of the matrix: a click cuts the link or heals it, with Shift that of the other direction, too. */
+/** @returns a cell of the matrix: a click cuts the link or restores it; with Shift, also in the other direction. */
 export function linkButton(from, to) {
   const button = element('button', {type: 'button', class: 'l l0', disabled: '', 'data-from': from, 'data-to': to});
   button.addEventListener('click', (event) => {
@@ -69,7 +69,7 @@ export function linkButton(from, to) {
   return button;
 }
 
-/** @param kind  of the link, a digit; @param text  the same in words */
+/** @param kind  digit of kLinks. @param text  the same in words. */
 export function showLinkButton(button, from, to, kind, text) {
   const cut = cutOf(from, to);
   const waits = cut !== undefined && !cut.begun;
@@ -82,9 +82,9 @@ export function showLinkButton(button, from, to, kind, text) {
   button.setAttribute('aria-label', title);
 }
 
-// ---- what belongs to one UAV ------------------------------------------------------------------------------------
+// ---- faults of one UAV ----------------------------------------------------------------------------------------------
 
-/** kind, what begins it, what ends it */
+/** kind of fault, text of the button that begins it, text of the button that ends it */
 const kOfUav = [
   ['kill', 'Kill its program', 'Start its program again'],
   ['pause', 'Pause its program', 'Let its program go on'],
@@ -120,7 +120,7 @@ function selectOf(label, values, chosen) {
                  ...values.map(([value, text]) => element('option', value === chosen ? {value, selected: ''} : {value}, text)));
 }
 
-/** Beside the facts of the chosen UAV: what of it can be broken. */
+/** @returns the panel with the faults of the chosen UAV. */
 export function uavFaultsPanel() {
   const title = element('h2', {}, '');
   const row = element('div', {class: 'tools-row'});
@@ -154,7 +154,7 @@ export function uavFaultsPanel() {
   return {element: made, show};
 }
 
-// ---- all of them ------------------------------------------------------------------------------------------------
+// ---- all faults ----------------------------------------------------------------------------------------------------
 
 const kKinds = {
   link: 'link', partition: 'partition', blackout: 'radio blackout', station_outage: 'radio outage', kill: 'killed',
@@ -164,7 +164,9 @@ const kKinds = {
 };
 const targetText = ({kind, of}) => (kind === 'link' ? of.replaceAll(kStation, 'station').replace(' > ', ' to ') : of === kStation ? 'station' : of);
 
-/** At the moment that the page shows: those in force first, then the past, newest first. */
+/**
+ * @returns the faults at the moment that the page shows: first those in force, then those in the past, newest first.
+ */
 function rows() {
   const now = moment.seconds;
   const open = openByHand();
@@ -198,7 +200,10 @@ function rowOf({key, text, of, when, state, ends, label, byHand}) {
                  ends === undefined ? element('span', {class: 'soft'}, byHand === false ? 'fault file' : '') : button);
 }
 
-/** What failed and fails; those by hand can be ended, and programs that no UAV has be killed. */
+/**
+ * @returns the panel with all faults. A viewer can end faults by hand here, and kill the programs that belong to no
+ * UAV.
+ */
 export function faultsPanel() {
   const parts = [
     toggle('kill', 'station', `Kill the station for ${kStationAway_s} s`, 'Start the station again', {for_s: kStationAway_s}),

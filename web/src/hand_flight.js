@@ -1,16 +1,18 @@
-// Flies one UAV by hand, from the keyboard or a gamepad: what is wanted of it goes to the server whenever it changes, and
-// again and again while it holds, for the server takes who has fallen silent for gone (sim_server/hand_desk.hpp).
+// Flies one UAV by hand, with the keyboard or a gamepad. The page sends a command to the server whenever it changes,
+// and repeats it while the UAV is to move, because a command lapses on the server (sim_server/hand_desk.hpp).
 import style from './hand_flight.css';
 import {data, element} from './page.js';
 
-const kPeriod = 50;   // ms between two orders at least
-const kRenew = 250;   // ms; the server waits for 1 s
+const kPeriod = 50;   // ms; shortest time between two orders
+const kRenew = 250;   // ms; a command lapses after 1 s
 const kDeadZone = 0.12;
 const kYawRate = 0.8, kGimbalRate = 0.5;  // rad/s
-const kMostUp = 3;    // m/s
-const kSpeeds = {min: 0.5, max: 6, step: 0.5, value: 2};
+const kMostUp = 3;    // m/s; greatest vertical speed
+const kSpeeds = {min: 0.5, max: 6, step: 0.5, value: 2};  // m/s
 
-/** What each key adds to: ahead, left, up, yaw (to the left), pitch of the camera (down), its yaw (to the left). */
+/**
+ * The axis and the sign of each key: ahead, left, up, yaw (left), pitch of the camera (down), yaw of the camera (left).
+ */
 const kKeys = {
   KeyW: ['ahead', 1], ArrowUp: ['ahead', 1], KeyS: ['ahead', -1], ArrowDown: ['ahead', -1],
   KeyA: ['left', 1], ArrowLeft: ['left', 1], KeyD: ['left', -1], ArrowRight: ['left', -1],
@@ -30,13 +32,13 @@ const kHeld = [
 const nothing = () => ({ahead: 0, left: 0, up: 0, yaw: 0, pitch: 0, turn: 0});
 const bounded = (value) => Math.max(-1, Math.min(1, value));
 
-/** Of a stick that never rests quite in its middle. */
+/** @returns a stick's value without the dead zone: a stick is never exactly at its centre. */
 function stick(value) {
   const beyond = Math.max(0, Math.abs(value ?? 0) - kDeadZone) / (1 - kDeadZone);
   return Math.sign(value ?? 0) * beyond;
 }
 
-/** What all gamepads with the standard mapping say, in sum. */
+/** Adds the values of all gamepads with the standard mapping. */
 function fromGamepads(axes) {
   for (const pad of navigator.getGamepads?.() ?? []) {
     if (!pad?.connected || pad.mapping !== 'standard') continue;
@@ -50,7 +52,7 @@ function fromGamepads(axes) {
   }
 }
 
-/** What is wanted now, at a speed [m/s]. */
+/** @returns the command of the pressed keys and of the gamepads. @param speed  of a full deflection [m/s]. */
 function commandOf(keys, speed) {
   const axes = nothing();
   for (const key of keys) axes[kKeys[key][0]] += kKeys[key][1];
@@ -79,7 +81,7 @@ function inWords(command) {
   ].join(', ');
 }
 
-/** Hands on the controls of one UAV at a time. @param order  sends one */
+/** The user's control of one UAV at a time. @param order  function that sends an order. */
 class Hands {
   constructor(order) {
     this.order = order;
@@ -89,14 +91,14 @@ class Hands {
     this.command = commandOf(this.keys, this.speed);
     this.said = null;
     this.saidAt = 0;
-    // Before any other listener of the page: while somebody flies, the keys fly, and do nothing else.
+    // Called before any other listener of the page: during a flight by hand, these keys have no other effect.
     addEventListener('keydown', (event) => this.press(event), {capture: true});
     addEventListener('keyup', (event) => this.keys.delete(event.code) && this.say(), {capture: true});
     for (const name of ['blur', 'pagehide']) addEventListener(name, () => this.drop());
     document.addEventListener('visibilitychange', () => document.hidden && this.drop());
   }
 
-  /** @param onLeave  called when they let go */
+  /** Takes control of a UAV. @param onLeave  called when the user gives up control. */
   take(uav, onLeave) {
     this.leave();
     this.uav = uav;
@@ -123,13 +125,13 @@ class Hands {
     this.keys.add(event.code);
   }
 
-  /** Nothing is held any more, whatever was. */
+  /** Treats all keys as released. */
   drop() {
     this.keys.clear();
     if (this.uav !== null) this.say(true);
   }
 
-  /** @param rest  whatever a gamepad says */
+  /** Sends the command if it is due. @param rest  commands rest, whatever the gamepads say. */
   say(rest = false) {
     if (this.uav === null) return;
     const away = rest || document.hidden || !document.hasFocus();
@@ -150,8 +152,8 @@ function legend() {
 }
 
 /**
- * @param order  sends one to the server @param follow  of a UAV, through its camera or not
- * @returns null where no UAV is flown by hand
+ * @param order  function that sends an order. @param follow  makes the view follow a UAV, through its camera or not.
+ * @returns the panel; null: no UAV is flown by hand.
  */
 export function handPanel(order, follow) {
   const names = data.by_hand ?? [];
@@ -191,7 +193,7 @@ export function handPanel(order, follow) {
   take.addEventListener('click', () => {
     if (hands.uav !== null) return hands.leave();
     hands.take(which.value, letGo);
-    made.focus({preventScroll: true});  // on the button, Space would press it
+    made.focus({preventScroll: true});  // else Space would press the button
     follow(index(), through.checked);
     show();
   });
@@ -207,7 +209,7 @@ export function handPanel(order, follow) {
     hands.speed = Number(speed.value);
     show();
   });
-  speed.addEventListener('change', () => made.focus({preventScroll: true}));  // its arrow keys would move it
+  speed.addEventListener('change', () => made.focus({preventScroll: true}));  // else arrow keys would move it
   show();
   return {element: made, show};
 }

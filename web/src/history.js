@@ -1,26 +1,30 @@
-// How much of its past the page keeps, so that a flight of an hour takes as much memory as one of ten minutes: the
-// newest part whole, what is older coarser. Lists have a most; when they reach it, their older half is thinned to half as
-// many entries, evenly over its time.
+// Limits of the past that the page stores, so that a flight of an hour takes as much memory as one of ten minutes: the
+// newest part is complete, older parts are coarser. When a list reaches its greatest length, its older half is thinned
+// to half as many entries, evenly over its time.
 
-/** Of each UAV: poses of 800 s, one each half second, before any are thinned. */
+/** Poses of each UAV: one every half second; the first are thinned after 800 s. */
 export const kMostPoses = 1600;
-/** Steps of a curve: of score, of captures that wait. */
+/** Steps of a curve: of the score, or of undelivered captures. */
 export const kMostSteps = 4000;
-/** Of the radio links of all. */
+/** States of all radio links. */
 export const kMostLinks = 2400;
-/** What a UAV said that it does. */
+/** Activity reports of a UAV. */
 export const kMostSayings = 600;
 /** Numbers in a list of spans, two each. */
 export const kMostSpans = 1000;
 export const kMostEvents = 2000;
 
-/** @param columns  lists of the same length, the first of times, in their order. @returns whether anything went. */
+/**
+ * Thins lists.
+ * @param columns  of equal length; the first has times, ascending.
+ * @returns whether it removed entries.
+ */
 export function thin(columns, most) {
   const [times] = columns;
   const {length} = times;
   if (length < most) return false;
   const half = length >> 1;
-  const least = (times[half] - times[0]) / (half >> 1);  // between two that stay
+  const least = (times[half] - times[0]) / (half >> 1);  // time between two entries that stay
   let [kept, due] = [0, -Infinity];
   for (let i = 0; i < length; ++i) {
     const time = times[i];
@@ -33,7 +37,7 @@ export function thin(columns, most) {
   return true;
 }
 
-/** Spans, begin and end one after the other: the shortest ones, and the shortest gaps between them, go. */
+/** Removes the shortest spans, and the shortest gaps. @param spans  begin and end of each, one after the other [s]. */
 export function thinSpans(spans, most = kMostSpans) {
   if (spans.length < most) return;
   for (let least = 0.5; spans.length > most / 2; least *= 2) {
@@ -50,7 +54,9 @@ export function thinSpans(spans, most = kMostSpans) {
   }
 }
 
-/** What happened: of the older half go deliveries first, which are many, then every second of what is left. */
+/**
+ * Thins the older half of the events: removes the many deliveries, then, if that does not suffice, every second event.
+ */
 export function thinEvents(events, most = kMostEvents) {
   if (events.length < most) return;
   const half = events.length >> 1;

@@ -1,12 +1,17 @@
-// A flight that the page itself holds (skein replay --export): nothing is fetched. It is told as a server tells it.
+// The flight inside a self-contained page (skein replay --export). The page receives it in the same form as from a
+// server.
 
-/** Base64 of a zlib stream of UTF-8. */
+/** @param text  base64 of a zlib stream. @returns the UTF-8 text in it. */
 export async function unpacked(text) {
   const bytes = Uint8Array.from(atob(text.trim()), (letter) => letter.charCodeAt(0));
   return new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream('deflate'))).text();
 }
 
-/** @param kept  {lidar, maps}: which of them the page holds (view/kept_flight.hpp); none: they are not spoken of. */
+/**
+ * Removes controls of data that the page does not contain, and adds a note about them to the scene.
+ * @param kept  {lidar, maps}: whether the page contains them (view/kept_flight.hpp); undefined: neither, without a
+ * note.
+ */
 function tellWhatIsKept(scene, kept) {
   if (!kept) delete scene.clouds;
   if (!scene.clouds) return;
@@ -18,10 +23,10 @@ function tellWhatIsKept(scene, kept) {
   }
 }
 
-/** @param holder  the element with the flight. @param use  as connect() has it. @returns takes orders. */
+/** @param holder  the element with the flight. @param use  as of connect(). @returns a function that takes orders. */
 export function tellKept(holder, use) {
   const text = holder.textContent;
-  const clouds = new Map();  // of those that nobody has asked for yet, by name
+  const clouds = new Map();  // points and maps that were not requested yet, by name
   holder.remove();
   unpacked(text).then((json) => {
     const told = JSON.parse(json);

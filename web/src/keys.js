@@ -1,11 +1,11 @@
-// The scene by keyboard: arrows turn it, + and - come nearer and go away, 0 looks as at the beginning.
+// Keyboard control of the scene: arrows turn it, + and - zoom, 0 restores the first view.
 import * as THREE from 'three';
 
 const kTurn = Math.PI / 24;
 const kNearer = 1.15;
 const kTurns = {ArrowLeft: [1, 0], ArrowRight: [-1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1]};
 
-/** @param home  looks as at the beginning */
+/** @param home  restores the first view */
 export function takeKeys(canvas, camera, controls, home) {
   canvas.tabIndex = 0;
   canvas.setAttribute('role', 'application');

@@ -1,4 +1,4 @@
-// Names of the UAVs in the scene. Where two would cover each other the nearer one is shown.
+// Names of the UAVs in the scene. If two names would overlap, only that of the nearer UAV is shown.
 import * as THREE from 'three';
 
 import {colour, data, element, shortName, trackColour} from './page.js';
@@ -6,7 +6,7 @@ import {colour, data, element, shortName, trackColour} from './page.js';
 const kGap = 2;  // pixels
 
 export class Labels {
-  /** @param bodies  where they are: {position, visible} */
+  /** @param bodies  of the UAVs: {position, visible} */
   constructor(stage, bodies) {
     this.bodies = bodies;
     this.tags = data.uavs.map(({name}) => element('span', {class: 'tag', 'aria-hidden': 'true'}, shortName(name, 18)));
@@ -27,7 +27,7 @@ export class Labels {
     });
   }
 
-  /** @param first  a UAV whose name is shown in any case; -1: none. @param without  one whose name is not. */
+  /** @param first  a UAV whose name has priority; -1: none. @param without  a UAV whose name is hidden; -1: none. */
   show(camera, {width, height}, on, first, without) {
     this.measure();
     const order = [];
@@ -35,7 +35,7 @@ export class Labels {
       const place = this.places[uav];
       const at = this.at.copy(body.position).project(camera);
       place.depth = uav === first ? -2 : at.z;
-      // To the right of its body, unless that is beyond the edge.
+      // To the right of the body, or to the left if it does not fit on the right.
       const x = ((at.x + 1) / 2) * width;
       place.x = Math.round(x + 9 + place.width > width && x - 9 - place.width > 0 ? x - 9 - place.width : x + 9);
       place.y = Math.round(((1 - at.y) / 2) * height - 18);

@@ -1,4 +1,4 @@
-// The page that follows a run while it flies, and shows it again when it is over. Scene and charts are the report's.
+// The page that follows a live run, and replays it when it is over. Scene and charts are those of the report.
 import uplotStyle from 'uplot/dist/uPlot.min.css';
 
 import {takeClouds} from './clouds.js';
@@ -38,7 +38,7 @@ const set = (id, text) => {
   if (found.textContent !== text) found.textContent = text;
 };
 
-/** Pause, step and speed of a run that flies. */
+/** Controls of a live run: pause, step and speed. */
 function controls(order) {
   const pause = element('button', {type: 'button', id: 'pause', class: 'main', 'aria-keyshortcuts': 'p', title: 'Pause the flight (p)'}, 'Pause');
   const step = element('button', {type: 'button', id: 'step', 'aria-keyshortcuts': 's', title: 'One exchange further (s)'}, 'Step');
@@ -129,9 +129,9 @@ function frame(order) {
   return {...places, side, couple};
 }
 
-/** The page's address holds what it shows, to be kept or shared. */
+/** The page's address contains what the page shows, so that a user can save or share it. */
 const address = {
-  shown: false,  // what it said when the page was opened; until then it stays
+  shown: false,  // whether the page shows what its address said when it was opened; before that, write() does nothing
   write() {
     if (!this.shown) return;
     const words = new URLSearchParams();
@@ -240,13 +240,13 @@ const keptFlight = document.getElementById('kept');
 const follow = keptFlight === null ? connect : (use) => tellKept(keptFlight, use);
 const order = follow({
   scene(told) {
-    // Somebody else serves the run now: its replay after its end, or a station that was started again.
+    // Another program serves the run now: the launcher, which serves the replay, or a restarted station.
     if (begun) return location.reload();
     begun = true;
     live = true;
     begin(told);
     data.ask = (text) => order(text);
-    if (told.mode === 'replay') return;  // shown when all of it is here
+    if (told.mode === 'replay') return;  // shown when all lines have arrived
     ready = show((text) => order(text));
   },
   lines(lines, more) {
@@ -270,7 +270,7 @@ const order = follow({
 });
 
 let waiting = false;
-/** Once a picture of the screen, however much came in; without a graphics card a picture may take a second. */
+/** Draws new data at most once per picture of the screen; without a graphics card, drawing may take a second. */
 function grow() {
   if (waiting) return;
   waiting = true;

@@ -1,11 +1,11 @@
-// Where the points went: from what could be had to what was delivered, cause by cause (docs/results.md), at the moment
-// that is shown. At the end of a run it is what result.json says.
+// The panel of losses: from the attainable score to the delivered one, cause by cause (docs/results.md), at the moment
+// that the page shows. At the end of a run, these are the numbers of result.json.
 import {isPair, kRuns} from './flights.js';
 import {element, moment, swatch} from './page.js';
 
 const score = (value) => (value === 0 ? 0 : value).toFixed(1);
 
-/** Points and score of each cause at the moment. */
+/** @returns attainable, lost (by cause) and delivered points and score at the moment; falsy: not known. */
 function lostBy({lossesAt, data: run}) {
   const final = run.losses && typeof run.attainable?.score === 'number' && moment.seconds >= run.end;
   if (final) {
@@ -15,7 +15,7 @@ function lostBy({lossesAt, data: run}) {
   return so && {could: so.could, of: (key) => so.losses.get(key), delivered: so.delivered};
 }
 
-/** @param flight  of which. @param run  of two, which */
+/** @param run  the flight's index on a page with two runs. */
 export function lossesPanel(flight, run = 0) {
   const {data} = flight;
   const row = (colour, text, kind = '') => {

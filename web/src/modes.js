@@ -1,5 +1,5 @@
-// What UAVs say that they do, in kinds with a colour each, for the lanes. The words are those of the on-board software
-// (docs/view.md); a program of a user's own may have others.
+// Kinds of the activities that UAVs report, each with a colour for the lanes. The words are those of Skein's on-board
+// software (docs/view.md); a user's program may report others.
 import {element, swatch} from './page.js';
 
 const kOther = {colour: 'q2', text: 'other', begins: ['']};
@@ -16,9 +16,9 @@ const kKinds = [
 const kindOf = (mode) => kKinds.find(({begins}) => begins.some((begin) => mode.startsWith(begin)));
 
 /**
- * When a UAV did what.
- * @param said  times and sayings, in order. @param end  of the time
- * @returns by kind: its colour, and begin and end of each of its spans, one after the other.
+ * Computes the times of each kind of activity of a UAV.
+ * @param said  times [s], ascending, and activity reports. @param end  of the last span [s].
+ * @returns by kind: its colour, and begin and end of each of its spans, one after the other [s].
  */
 export function spansOf({t, what}, end) {
   const spans = new Map();
@@ -35,10 +35,10 @@ export function spansOf({t, what}, end) {
   return [...spans].map(([{colour}, flat]) => ({colour, flat}));
 }
 
-/** Words of a UAV's that are of no kind. */
+/** @returns the activities that a UAV reported and that belong to no kind. */
 export const otherModes = (said) => [...new Set((said?.what ?? []).map(({mode}) => mode))].filter((mode) => kindOf(mode) === kOther);
 
-/** What the colours mean. */
+/** @returns the legend of the colours. */
 export function legendOfModes() {
   return element('ul', {class: 'legend', id: 'modes'}, ...kKinds.map(({colour, text}) => element('li', {}, swatch(colour), text)));
 }

@@ -1,4 +1,4 @@
-// What a flight tells beside positions, drawn into the scene: where cameras look, and the radio links.
+// Draws data of a flight into the scene: the fields of view of cameras, and the radio links.
 import * as THREE from 'three';
 import {LineMaterial} from 'three/addons/lines/LineMaterial.js';
 import {LineSegments2} from 'three/addons/lines/LineSegments2.js';
@@ -6,10 +6,10 @@ import {LineSegmentsGeometry} from 'three/addons/lines/LineSegmentsGeometry.js';
 
 import {colour, data, moment, trackColour} from './page.js';
 
-export const kDashes = 24;  // of a line at most
-const kDash = 1.6;          // m, and as much between two of them
+export const kDashes = 24;  // greatest number of dashes of a line
+const kDash = 1.6;          // m; length of a dash, and of a gap
 
-/** Segments with a colour each, in one draw call. */
+/** Line segments, each with its own colour, in one draw call. @param room  greatest number of segments. */
 export class Segments {
   constructor(room, width, opacity) {
     this.geometry = new LineSegmentsGeometry();
@@ -31,7 +31,7 @@ export class Segments {
     this.geometry.attributes.instanceColorStart.data.array.set([r, g, b, r, g, b], at);
   }
 
-  /** A line of kDashes segments at most. @param share  of it that is drawn */
+  /** Adds a dashed line: at most kDashes segments. @param share  part of the line that is drawn. */
   addDashed(from, to, shade, share = 0.5) {
     const way = to.clone().sub(from);
     const dashes = Math.min(Math.ceil(way.length() / (2 * kDash)), kDashes);
@@ -46,7 +46,7 @@ export class Segments {
   }
 }
 
-/** What each camera can see sharp enough: a pyramid. */
+/** The field of view of each camera, up to the range in which it sees sharply enough: a pyramid. */
 export function makeFrusta() {
   const segments = new Segments(8 * data.uavs.length, 1.2, 0.75);
   let colours = [];
@@ -83,9 +83,9 @@ export function makeFrusta() {
 }
 
 /**
- * Links that are there, and those that a fault cuts. Of what is blocked or dead only the links of the followed UAV are
- * drawn: all of them would hide the scene.
- * @param followed  tells which UAV that is; -1: none
+ * Draws the open links and those that a fault cuts. Of the blocked and dead links, only those of the followed UAV are
+ * drawn, because all of them would hide the scene.
+ * @param followed  returns the followed UAV; -1: none.
  */
 export function makeLinks(bodies, followed) {
   const nodes = bodies.length + 1;

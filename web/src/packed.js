@@ -1,15 +1,15 @@
-// Points and cubes as they are told (view/scan_points.hpp, view/cube_runs.hpp), unpacked.
+// Unpacks LiDAR points and the cubes of maps as the server sends them (view/scan_points.hpp, view/cube_runs.hpp).
 
 const bytesOf = (text) => Uint8Array.from(atob(text), (digit) => digit.charCodeAt(0));
 
-/** @returns x, y, z [m] of each point in turn. */
+/** @returns x, y, z of each point [m], one point after the other. */
 export function unpackedPoints(text) {
   const bytes = bytesOf(text);
   const view = new DataView(bytes.buffer);
   return Float32Array.from({length: bytes.length >> 1}, (_, i) => view.getInt16(2 * i, true) / 10);
 }
 
-/** @returns x, y, z of the first cube and the number of cubes, of each row in turn. */
+/** @returns for each row x, y, z of its first cube [cubes] and its number of cubes, one row after the other. */
 export function unpackedRuns(text) {
   const bytes = bytesOf(text);
   let at = 0;

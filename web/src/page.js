@@ -1,31 +1,31 @@
-// What all parts of the page share: its data, its colours, and one moment in the run that they all show.
+// Things that all parts of the page share: its data, its colours, and the moment of the run that they all show.
 
-/** Of a finished run, in the page; of one that is followed, filled while it goes on (flight.js). */
+/** A report contains its data; on the page that follows a run, flight.js fills them. */
 export const data = JSON.parse(document.getElementById('data')?.textContent ?? '{"end": 0, "follows": true}');
 
 const colours = new Map();
 matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => colours.clear());
 
-/** A colour of the style sheet, as it is in light or dark. */
+/** @returns a colour of the style sheet, in the current light or dark scheme. */
 export function colour(name) {
   if (!colours.has(name))
     colours.set(name, getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim());
   return colours.get(name);
 }
 
-/** Calls back now and whenever light turns to dark or back. */
+/** Calls back now, and whenever the colour scheme changes between light and dark. */
 export function onTheme(use) {
   use();
   matchMedia('(prefers-color-scheme: dark)').addEventListener('change', use);
 }
 
-/** As many colours as style.cpp has for tracks; then they repeat. A UAV of a second flight has that of its own fleet. */
+/** @returns the colour of a UAV: one of the 6 of style.cpp, by its number in its own fleet. */
 export const trackColour = (uav) => `t${(data.uavs?.[uav]?.own ?? uav) % 6}`;
 
 const listeners = [];
 let chosen = data.end;
 export const moment = {
-  /** Whether it is the newest that there is, and moves on with it. */
+  /** Whether the page shows the newest moment, also when that moves on. */
   newest: true,
   get seconds() {
     return this.newest ? data.end : chosen;
@@ -39,7 +39,7 @@ export const moment = {
 };
 
 const growing = [];
-/** Data that grow: who shows them is told when there are more. */
+/** Informs the parts of the page when the data have grown. */
 export const growth = {
   tell() {
     for (const use of growing) use();
@@ -48,7 +48,7 @@ export const growth = {
   listen: (use) => growing.push(use),
 };
 
-/** Undoes the differences of page_data.cpp: a track in seconds, metres and radians. One that grows is in them already. */
+/** @returns a track in seconds, metres and radians. That of a report is stored as differences (page_data.cpp). */
 export function track(uav) {
   if (uav.track.grows) return uav.track;
   const sum = (differences, scale) => {
@@ -59,7 +59,7 @@ export function track(uav) {
   return {t: sum(t, 0.01), x: sum(x, 0.01), y: sum(y, 0.01), z: sum(z, 0.01), yaw: sum(yaw, 0.001), pitch: sum(pitch, 0.001)};
 }
 
-/** The last index whose value is not beyond `value`, or -1. */
+/** @returns the last index with a value of at most `value`; -1: none. @param values  ascending. */
 export function indexAt(values, value) {
   let low = 0;
   let high = values.length;
@@ -73,7 +73,7 @@ export function indexAt(values, value) {
   return low - 1;
 }
 
-/** An element with attributes and children. */
+/** @returns a new element with attributes and children. */
 export function element(name, attributes = {}, ...children) {
   const made = document.createElement(name);
   for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, value);
@@ -81,14 +81,14 @@ export function element(name, attributes = {}, ...children) {
   return made;
 }
 
-/** A small field of a named colour. */
+/** @returns a small field in a colour of the style sheet. */
 export function swatch(name) {
   const made = element('span', {class: 'swatch', 'aria-hidden': 'true'});
   made.style.background = `var(--${name})`;
   return made;
 }
 
-/** Puts a live part before a figure's drawing, which stays for paper. */
+/** Shows an interactive part in place of a figure's drawing, which remains for printing. */
 export function replaceDrawing(figure, live) {
   for (const child of figure.children) {
     if (child.tagName === 'FIGCAPTION') continue;
@@ -98,7 +98,7 @@ export function replaceDrawing(figure, live) {
   figure.append(live);
 }
 
-/** What all names of the fleet begin and end with, in characters. */
+/** @returns the lengths of the common prefix and of the common suffix of all names of the fleet. */
 function common() {
   const names = data.uavs.map(({name}) => name);
   const least = Math.min(...names.map(({length}) => length)) - 1;
@@ -112,7 +112,9 @@ function common() {
 }
 let shared = null;
 
-/** A name of about so many characters at most: what sets it apart from the others of the fleet stays. */
+/**
+ * Shortens a name to about `most` characters. The part that distinguishes it from the other names of the fleet stays.
+ */
 export function shortName(name, most) {
   if (name.length <= most) return name;
   shared ??= common();

@@ -1,10 +1,10 @@
-// Two runs on one clock: what the page has beside all that it has for one.
+// Two runs on one clock: the parts of the page that a page with one run does not have.
 import {data, element, moment} from './page.js';
 import {drawn, flights, kRuns} from './flights.js';
 
 const seconds = (time) => `${time.toFixed(2)} s`;
 
-/** Whether, and where, they part. */
+/** @returns an element about the first difference between the runs. */
 function difference() {
   const {t, fields, unknown} = data.difference;
   if (unknown) return element('span', {}, `Where they part is not known: ${unknown}`);
@@ -16,7 +16,7 @@ function difference() {
   return element('span', {}, go, ` ${fields.slice(0, most).join(', ')}${more}`);
 }
 
-/** Below the head: which is which, and where they part. */
+/** @returns the note below the head: names of the runs, and their first difference. */
 export function pairNote() {
   const names = flights.map(({data: run}, k) => element(
       'span', {class: `run-${kRuns[k]}`}, element('strong', {}, kRuns[k]), ` ${run.title} by ${run.planners}, ${run.status}`));
@@ -24,7 +24,7 @@ export function pairNote() {
   return element('p', {class: 'note pair', id: 'pair'}, ...names, ...fleets, difference());
 }
 
-/** @param kind  makes one of the figures of the head. */
+/** @param figure  function that makes a figure of the head. */
 export const pairFigures = (figure) => [figure('score', 'delivered score of A'), figure('score-b', 'delivered score of B')];
 
 export function showPairHead() {
@@ -55,7 +55,7 @@ function tools(scene, changed) {
   row.prepend(...boxes, element('label', {}, 'Points of', whose));
 }
 
-/** On the slider, where they part. */
+/** Marks the first difference on the slider. */
 function markSlider() {
   const slider = document.getElementById('moment');
   const {t} = data.difference;
@@ -67,7 +67,7 @@ function markSlider() {
   rail.append(slider, mark);
 }
 
-/** @param changed  is called when another thing is to be drawn. */
+/** @param changed  called when the user changes what is to be drawn. */
 export function completePair(scene, changed) {
   if (!scene) return;
   tools(scene, changed);

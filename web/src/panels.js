@@ -1,26 +1,26 @@
-// The panels beside the scene: what each UAV does, its links, what happened, and what was chosen. Each is drawn anew for
-// the moment that the page shows.
+// The panels beside the scene: activities of the UAVs, links, events, and facts about the chosen UAV or point. Each is
+// drawn for the moment that the page shows.
 import {factsOfActivity, numbersOf, saidAt, showDoes} from './activity.js';
 import {allEvents, doing, drawn, flights, isPair, kLinks, kRuns, linkOf, poseAt, sharesAt} from './flights.js';
 import {linkButton, showLinkButton} from './hand_faults.js';
 import {data, element, moment, shortName, swatch, trackColour} from './page.js';
 
 const kMostEvents = 150;
-const kMostInMatrix = 33;  // radio nodes
+const kMostInMatrix = 33;  // radio nodes; larger fleets have no matrix
 const kManyInMatrix = 9;   // from here on cells are small, and columns have no names
 
 function panel(title, attributes, ...children) {
   return element('section', {class: 'panel', ...attributes}, element('h2', {}, title), ...children);
 }
 
-/** Of a panel that each of two flights has: its title, and its id. */
+/** @returns title and id of a panel that exists once for each of two flights. */
 const titled = (run, title, id) => [isPair() ? `${title}: ${kRuns[run]}` : title, {id: run > 0 ? `${id}-${kRuns[run]}` : id}];
 
 function headRow(names) {
   return element('thead', {}, element('tr', {}, ...names.map((name) => element('th', {scope: 'col'}, name))));
 }
 
-/** @param choose  what a click on a UAV means */
+/** @param choose  called with the UAV that the user clicks on. */
 export function fleetPanel(choose) {
   const rows = data.uavs.map((uav, i) => {
     const button = element('button', {type: 'button', title: `Follow ${uav.name}`}, swatch(trackColour(i)), shortName(uav.name, 12));
@@ -68,9 +68,9 @@ const kPointStates = [
 ];
 
 /**
- * What became of the points so far, and what keeps those that were delivered from 1.
- * @param choose  what it means to ask for a point by its number: a click in the scene is not for everybody. null: nobody
- * asks here. @param run  of two, which
+ * The panel of the points: number and score by state, and why delivered points have less than the full quality.
+ * @param choose  called with the number of a point that the user enters, for users who cannot click on it in the scene;
+ * null: no such field. @param run  index of the flight on a page with two runs.
  */
 export function pointsPanel(choose, run = 0) {
   const cells = kPointStates.map(() => ['', ''].map(() => element('td')));
@@ -163,7 +163,7 @@ function factsOfPoint(index, flight = flights[drawn.points]) {
   return facts;
 }
 
-/** Of both flights, where there are two. */
+/** @returns the facts about a point in each flight of the page. */
 const factsOfPoints = (index) => !isPair() ? factsOfPoint(index) :
     flights.flatMap((flight, k) => factsOfPoint(index, flight).map(([name, text]) => [`${kRuns[k]}: ${name}`, text]));
 
@@ -181,12 +181,12 @@ function factsOfUav(index) {
   ];
 }
 
-/** One line, for the pointer. */
+/** @returns a line about a point, for the tip at the pointer. */
 export function describe(index) {
   return [`point ${index}`, ...factsOfPoint(index).slice(0, 3).map(([, text]) => text)].join(' · ');
 }
 
-/** @param onThrough, onLeave  what its buttons mean */
+/** @param onThrough, onLeave  called by its buttons. */
 export function chosenPanel(onThrough, onLeave) {
   const title = element('h2', {}, '');
   const facts = element('dl', {});

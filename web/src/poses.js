@@ -1,10 +1,13 @@
-// Where something is between two of its recorded poses.
+// Interpolates between recorded poses.
 import {indexAt} from './page.js';
 
-/** The shorter way from one angle to another. */
+/** Interpolates between two angles, along the shorter way. */
 const turned = (from, to, share) => from + share * Math.atan2(Math.sin(to - from), Math.cos(to - from));
 
-/** @param track  columns t, x, y, z, yaw, pitch. @returns null before the first of them; `at`: the last one that is over. */
+/**
+ * @param track  columns t, x, y, z, yaw, pitch.
+ * @returns the pose; `at`: index of the last pose before it. null: too early.
+ */
 export function poseOn(track, time) {
   const at = indexAt(track.t, time);
   if (at < 0) return null;

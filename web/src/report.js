@@ -1,4 +1,4 @@
-// Makes a run's report interactive. Whatever fails, the drawing that stood there stays.
+// Makes a run's report interactive. If this fails, the static drawings stay.
 import uplotStyle from 'uplot/dist/uPlot.min.css';
 
 import {lanesChart, scoreChart} from './charts.js';

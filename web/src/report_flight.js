@@ -1,9 +1,9 @@
-// What a report's data tell of cameras and links, asked as a flight that is told in lines is (flight.js): so the
-// report's scene is that of the page that follows runs.
+// Gives the cameras and links of a report's data the interface of a flight (flight.js), so that a report and the page
+// that follows a run have the same scene.
 import {data, element, indexAt, track} from './page.js';
 import {poseOn} from './poses.js';
 
-/** Before the scene is made. */
+/** Call it before the scene is made. */
 export function offerFlight() {
   const tracks = data.uavs.map(track);
   data.poseAt = (uav, time) => {
@@ -19,7 +19,7 @@ export function offerFlight() {
   };
 }
 
-/** Whom the view goes with, and whether through its camera. */
+/** Adds controls: the UAV that the view follows, and whether the view is that of its camera. */
 export function followTools(scene) {
   const whom = element('select', {id: 'follow', 'aria-label': 'whom the view follows'}, element('option', {value: '-1'}, 'nobody'),
                        ...data.uavs.map(({name}, i) => element('option', {value: String(i)}, name)));

@@ -1,4 +1,5 @@
-// The scene in three dimensions: the structure as its interest points, boxes, tracks, and the fleet at one moment.
+// The scene in three dimensions: the structure (drawn as its interest points), boxes, tracks, and the fleet at one
+// moment.
 import * as THREE from 'three';
 import {OrbitControls} from 'three/addons/controls/OrbitControls.js';
 
@@ -12,7 +13,7 @@ import {makeFrusta, makeLinks} from './overlays.js';
 import {colour, data, element, indexAt, moment, onTheme, replaceDrawing, swatch, track, trackColour} from './page.js';
 import {trailsOfRuns} from './trails.js';
 
-const kPerPoint = 9;  // numbers of a point in the data
+const kPerPoint = 9;  // numbers per point in the data
 const kDetected = 0.2;
 const kMostNames = 20;
 const count = data.points.length / kPerPoint;
@@ -36,7 +37,10 @@ const tracks = data.uavs.map(track);
 const scoreColour = (score) =>
     score < kDetected ? 'q0' : `q${1 + Math.min(Math.floor(((score - kDetected) / (1 - kDetected)) * 4), 3)}`;
 
-/** Half of the usual distance between neighbours: discs of that size make a surface. */
+/**
+ * @returns a radius with which discs at the points look like a surface: 0.8 times the median distance of neighbours
+ * [m].
+ */
 function discRadius() {
   const distances = [];
   for (let k = 0; k < Math.min(count, 60); ++k) {
@@ -101,8 +105,8 @@ class Scene {
     this.controls = new OrbitControls(this.camera, this.renderer.domElement);
     this.controls.addEventListener('change', () => this.draw());
     this.by = 'score';
-    this.named = new Map();  // colours
-    this.painted = null;     // time of which the points have their colours
+    this.named = new Map();  // cache of colours by name
+    this.painted = null;     // time for which the points are coloured
     this.size = {width: 1, height: 1};
     this.fill();
     this.lookFrom();
@@ -132,7 +136,7 @@ class Scene {
     this.marks = new Marks();
     this.tracks = new THREE.Group().add(...this.trails.map(({object}) => object));
     this.scene.add(this.structure, this.boxes, this.tracks, this.fleet.object, this.marks.object);
-    // Of a flight that tells of its cameras and links.
+    // Only if the data of the flight contain cameras and links.
     this.frusta = data.poseAt && data.uavs.every(({hfov}) => hfov > 0) ? makeFrusta() : null;
     this.links = data.linksAt ? makeLinks(this.bodies, () => this.followed ?? -1) : null;
     this.goals = data.poseAt ? makeGoals(this.bodies) : null;
@@ -156,7 +160,7 @@ class Scene {
     this.controls.update();
   }
 
-  /** All colours anew. */
+  /** Sets all colours anew. */
   paint() {
     this.scene.background = new THREE.Color(colour('panel'));
     this.boxes.material.color.set(colour('soft'));
@@ -184,7 +188,10 @@ class Scene {
     return shown === delivered ? scoreColour(shown.q) : 'carried';
   }
 
-  /** Where a body is: between two positions of its track, or as the flight itself tells. */
+  /**
+   * Places a body: at the flight's pose if there is one, else interpolated on the track.
+   * @returns index on the track.
+   */
   place(body, uav, seconds) {
     if (data.poseAt) {
       const pose = data.poseAt(uav, seconds, moment.newest);
@@ -208,7 +215,7 @@ class Scene {
     this.structure.setColorAt(index, this.named.get(name));
   }
 
-  /** Of a flight that goes on only what has changed is painted anew. */
+  /** Colours the points. On a live page, only points that have changed get a new colour. */
   paintPoints(seconds, over) {
     const changed = data.changedPoints && this.painted === Infinity && over ? data.changedPoints() : null;
     const time = over ? Infinity : seconds;
@@ -222,7 +229,7 @@ class Scene {
     if (this.structure.instanceColor && changed?.size !== 0) this.structure.instanceColor.needsUpdate = true;
   }
 
-  /** As it was at the moment. */
+  /** Shows the moment of the page. */
   show() {
     const {seconds} = moment;
     const over = seconds >= data.end;
@@ -240,7 +247,7 @@ class Scene {
     this.shown = seconds;
   }
 
-  /** A UAV that the view goes with; -1: none. @param through  looks through its camera. */
+  /** Makes the view follow a UAV; -1: none. @param through  the view is that of its camera. */
   follow(uav, through = false) {
     if (this.through && !through) this.camera.fov = 40;
     this.followed = uav;
@@ -265,7 +272,7 @@ class Scene {
           new THREE.Vector3(Math.cos(pitch) * Math.cos(yaw), Math.cos(pitch) * Math.sin(yaw), -Math.sin(pitch))));
       return;
     }
-    // Who looks on keeps the distance and the angle.
+    // The view keeps its distance and its angle.
     this.camera.position.add(position).sub(this.last ?? this.controls.target);
     this.controls.target.copy(position);
     this.last = position.clone();
@@ -275,7 +282,7 @@ class Scene {
   fit() {
     const {clientWidth: width, clientHeight: height} = this.stage;
     if (width === 0 || height === 0) return;
-    this.size = {width, height};  // asked for in each picture it would cost a layout of the page each
+    this.size = {width, height};  // stored, because reading it from the page for each picture would be slow
     this.renderer.setSize(width, height, false);
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
@@ -291,7 +298,7 @@ class Scene {
     this.labels?.show(this.camera, this.size, this.fleet.object.visible, followed, this.through ? followed : -1);
   }
 
-  /** The graphics driver passes this mark when it has finished the picture. */
+  /** Adds a fence to the commands of the graphics driver, which signals that the picture is finished. */
   markEnd() {
     const gl = this.renderer.getContext();
     gl.deleteSync(this.mark ?? null);
@@ -299,14 +306,14 @@ class Scene {
     gl.flush();
   }
 
-  /** Whether the last picture is finished: who draws again before that only waits, and the page with it. */
+  /** Whether the last picture is finished. Drawing before that would block the page. */
   isFinished() {
     const gl = this.renderer.getContext();
     if (!this.mark || gl.isContextLost()) return true;
     return gl.getSyncParameter(this.mark, gl.SYNC_STATUS) !== gl.UNSIGNALED;
   }
 
-  /** @returns what is hit of some objects, first the nearest. */
+  /** @returns the objects below the pointer, nearest first. */
   hits(event, objects) {
     const {left, top, width, height} = this.renderer.domElement.getBoundingClientRect();
     const ray = new THREE.Raycaster();
@@ -316,7 +323,7 @@ class Scene {
     return ray.intersectObjects(objects.filter((object) => object.visible));
   }
 
-  /** Tells of the point below the pointer. */
+  /** Shows a tip about the point below the pointer. */
   point(event) {
     if (event.buttons !== 0 || count === 0) return;
     const hit = this.hits(event, [this.structure])[0];
@@ -377,7 +384,10 @@ function layer(name, objects, scene) {
   return element('label', {}, box, name);
 }
 
-/** Slider and play button of the moment; a run plays in half a minute. @param scene  undefined: none is drawn */
+/**
+ * Slider and play button of the moment. A run plays in half a minute, a run shorter than that in real time.
+ * @param scene  undefined: there is no scene.
+ */
 function timeTools(scene) {
   const slider = element(
       'input', {type: 'range', min: '0', max: String(data.end), step: 'any', 'aria-label': 'time', id: 'moment'});
@@ -417,7 +427,7 @@ function timeTools(scene) {
   return element('span', {class: 'time'}, play, slider, shown);
 }
 
-/** What a click on the scene means to the page, if anything. */
+/** Lets the user choose UAVs and points by clicks on the scene. */
 function takeClicks(scene) {
   let from = null;
   const {domElement: canvas} = scene.renderer;
@@ -431,10 +441,10 @@ function takeClicks(scene) {
   });
 }
 
-/** @returns the scene, or undefined where there is no WebGL. */
+/** @returns the scene; undefined: the browser has no WebGL 2. */
 export function sceneView(figure) {
   if (document.createElement('canvas').getContext('webgl2') === null) {
-    // A report keeps its drawing. A flight that is followed has none, but a time.
+    // A report keeps its static drawing. The page that follows a run has none, but needs the slider.
     if (data.follows)
       figure.append(
           element('p', {class: 'soft'}, 'This browser has no WebGL 2, which the scene needs. All else is here.'),

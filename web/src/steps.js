@@ -1,8 +1,9 @@
-// A curve of steps as what there is to draw. Pure.
+// Prepares a curve of steps for drawing. Pure.
 
 /**
- * Steps that are narrower than a pixel are drawn as one, of the most that they reach; a wider one is drawn by itself.
- * @param t, v  when each step begins, and its value. @param end  of the last one. @param place  of a time, in pixels
+ * Steps narrower than a pixel are merged into one bar with their greatest value; a wider step is one bar.
+ * @param t, v  begin and value of each step. @param end  of the last step. @param place  function from a time to
+ * pixels.
  * @returns [from, to, value] of each bar, in pixels, in order.
  */
 export function barsOf({t, v}, end, place) {

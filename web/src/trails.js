@@ -1,5 +1,5 @@
-// All trails of a fleet in one draw call: segments in the order of their times, of which those up to the moment are
-// drawn. Of two fleets, the second one's are dashed.
+// All trails of a fleet in one draw call: segments ordered by time, which are drawn up to the moment that the page
+// shows. If there are two fleets, the trails of the second one are dashed.
 import * as THREE from 'three';
 import {LineMaterial} from 'three/addons/lines/LineMaterial.js';
 import {LineSegments2} from 'three/addons/lines/LineSegments2.js';
@@ -10,7 +10,7 @@ import {colour, data, indexAt, trackColour} from './page.js';
 const kLeastRoom = 1024;
 
 class Trails {
-  /** @param tracks  of its UAVs; those of a flight that goes on grow. @param uavs  their numbers on the page */
+  /** @param tracks  of the UAVs; on the page that follows a run, they grow. @param uavs  their numbers on the page. */
   constructor(tracks, uavs, dashed) {
     this.tracks = tracks;
     this.uavs = uavs;
@@ -26,8 +26,8 @@ class Trails {
   }
 
   clear() {
-    this.filled = this.tracks.map(() => 0);  // segments of each
-    this.ends = [];                          // by segment: when it ends, [s]
+    this.filled = this.tracks.map(() => 0);  // number of segments by UAV
+    this.ends = [];                          // by segment: its end [s]
     this.whose = [];
     this.thinned = this.tracks[0]?.thinned;
   }
@@ -43,7 +43,7 @@ class Trails {
     this.paints = instanceColorStart.data;
   }
 
-  /** Takes in what the tracks have grown by, or what was left when they were thinned. */
+  /** Adds segments for the new parts of the tracks; begins anew if the tracks were thinned. */
   grow() {
     if (this.thinned !== this.tracks[0]?.thinned) this.clear();
     const fresh = [];
@@ -86,7 +86,7 @@ class Trails {
     this.paints.needsUpdate = true;
   }
 
-  /** @param isThere  whether a UAV of the page is drawn; a fleet of which nobody is has no trails. */
+  /** @param isThere  whether a UAV of the page is drawn; if no UAV of the fleet is, neither are its trails. */
   showUntil(seconds, isThere) {
     this.grow();
     const count = indexAt(this.ends, seconds) + 1;
@@ -95,7 +95,7 @@ class Trails {
   }
 }
 
-/** Trails of each run that the page shows. @param tracks  by UAV of the page */
+/** @returns the trails of each run of the page. @param tracks  by UAV of the page. */
 export function trailsOfRuns(tracks) {
   const runs = [...new Set(data.uavs.map(({run}) => run ?? 0))];
   return runs.map((of) => {

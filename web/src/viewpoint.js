@@ -1,21 +1,21 @@
-// From where the reader looks at the scene, as the page's address holds it: eye and target, in metres.
+// The reader's viewpoint, in the page's address: positions of eye and target in W [m].
 let scene = null;
-let turned = false;  // by the reader: before that the address need not hold it
+let turned = false;  // by the reader; before that, the address does not contain the viewpoint
 
-/** @param shown  undefined where there is no WebGL. */
+/** @param shown  the scene; undefined: there is none, without WebGL. */
 export function watchEye(shown) {
   scene = shown ?? null;
   scene?.controls.addEventListener('end', () => (turned = true));
 }
 
-/** @param words  of the address. */
+/** Writes the viewpoint. @param words  of the address. */
 export function writeEye(words) {
-  if (!turned || scene.followed >= 0) return;  // who follows a UAV looks from wherever it is
+  if (!turned || scene.followed >= 0) return;  // a view that follows a UAV depends on the UAV's position
   const numbers = [...scene.camera.position.toArray(), ...scene.controls.target.toArray()];
   words.set('eye', numbers.map((metres) => metres.toFixed(1)).join(','));
 }
 
-/** Looks from where the address says, if it does. */
+/** Moves the view to the viewpoint in the address, if there is one. */
 export function readEye() {
   const numbers = new URLSearchParams(location.hash.slice(1)).get('eye')?.split(',').map(Number) ?? [];
   if (scene === null || numbers.length !== 6 || !numbers.every(Number.isFinite)) return;

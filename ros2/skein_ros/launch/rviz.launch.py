@@ -10,7 +10,7 @@ from launch.actions import DeclareLaunchArgument, SetEnvironmentVariable
 from launch.substitutions import LaunchConfiguration
 from launch_ros.actions import Node
 
-# Of rviz/uav.rviz.
+# The topics in rviz/uav.rviz.
 TOPICS = ["ground_truth/odometry", "cloud_inW", "slf_kf_cloud", "nbr_kf_cloud", "nbr_odom_cloud",
           "detected_interest_points", "octomap"]
 

@@ -1,4 +1,4 @@
-"""The base class of planners in Python, as skein_ros::Planner is in C++."""
+"""The base class of planners in Python, the counterpart of skein_ros::Planner in C++."""
 import math
 from dataclasses import dataclass, field
 
@@ -29,17 +29,17 @@ class Neighbour:
 @dataclass
 class Inputs:
     """All that has been received up to a step."""
-    time_s: float = 0.0  # simulated
-    time_left_s: float = None  # of the mission; None before the first take-off
+    time_s: float = 0.0  # simulated time [s]
+    time_left_s: float = None  # remaining time of the mission [s]; None before the first takeoff
     p_WB: np.ndarray = None
     yaw: float = 0.0
     odometry: Odometry = None
-    gimbal: TwistStamped = None  # angles in linear, rates in angular: y pitch, z yaw
-    boxes: list = field(default_factory=list)  # each: eight vertices in W, as an array of 8 x 3
+    gimbal: TwistStamped = None  # linear: angles [rad]; angular: rates [rad/s]; y pitch, z yaw
+    boxes: list = field(default_factory=list)  # for each box its eight vertices in W [m], an array of 8 x 3
     neighbours: list = field(default_factory=list)
-    scan: PointCloud2 = None  # of this step, points in W; else None
-    detections: PointCloud2 = None  # all interest points that this UAV ever saw, or None
-    messages: list = field(default_factory=list)  # from others' say(), of this step
+    scan: PointCloud2 = None  # the LiDAR scan of this step, points in W; else None
+    detections: PointCloud2 = None  # all interest points that this UAV has seen so far, or None
+    messages: list = field(default_factory=list)  # texts of this step that others sent with say()
 
     def sees_station(self):
         return any(neighbour.node == 0 for neighbour in self.neighbours)
@@ -82,16 +82,17 @@ class Planner(rclpy.node.Node):
             self.create_timer(0.05, self._step)
 
     def plan(self, inputs):
-        """Decides. In the lock-step it is called once a step, 20 times a simulated second, when all that belongs to the
-        step has been received; otherwise by a timer. An exception ends the process, and its text is in the log."""
+        """Decides what the UAV does. In the lock-step it is called once per step, 20 times per simulated second, when
+        all messages of the step have been received; otherwise by a timer. An exception ends the process; the log has
+        its text."""
         raise NotImplementedError
 
     def fly_to(self, p_WB, yaw):
-        """The vehicle flies to a place [m, in W], heading to `yaw`. Holds until the next command."""
+        """Flies to a place [m, in W], with the heading `yaw` [rad]. The command holds until the next one."""
         self.fly(p_WB, (0.0, 0.0, 0.0), yaw)
 
     def fly(self, p_WB, v_WB, yaw):
-        """The same at a velocity [m/s, in W]."""
+        """The same, passing the place with a velocity [m/s, in W]."""
         transform, velocity = Transform(), Twist()
         transform.translation.x, transform.translation.y, transform.translation.z = map(float, p_WB)
         transform.rotation.w, transform.rotation.z = math.cos(yaw / 2), math.sin(yaw / 2)
@@ -103,23 +104,23 @@ class Planner(rclpy.node.Node):
         self._trajectory.publish(message)
 
     def aim(self, pitch, yaw):
-        """The gimbal turns to these angles, relative to the body: pitch down is positive, yaw to the left."""
+        """Turns the gimbal to angles relative to the body [rad]: positive pitch looks down, positive yaw turns left."""
         message = Twist()
         message.linear.x, message.linear.y, message.linear.z = 1.0, float(pitch), float(yaw)  # 1: angles
         self._gimbal.publish(message)
 
     def take_picture(self):
-        """The camera takes a picture now, and from now on only when it is told to."""
+        """Takes a picture now. After the first call, the camera takes no pictures by itself any more."""
         message = BoolStamped(data=True)
         message.header.stamp = self._inputs.odometry.header.stamp
         self._trigger.publish(message)
 
     def say(self, text):
-        """By radio, to all nodes in line of sight (/plan)."""
+        """Sends a text by radio to all nodes in line of sight (topic /plan)."""
         self._radio.publish(String(data=text))
 
     def show_activity(self, mode):
-        """For people who watch, at each change."""
+        """Reports the UAV's activity, for people who watch. Publishes only changes."""
         if mode == self._mode:
             return
         self._mode = mode
@@ -128,8 +129,8 @@ class Planner(rclpy.node.Node):
         self._activity.publish(message)
 
     def _listen(self, message_type, topic, callback, qos):
-        """An executor goes around, through all that it could wait for, for each message: a step takes them all at
-        once, so it is not told of these subscriptions."""
+        """Subscribes to a topic without the executor, which would search all its entities for each message:
+        `_take_all()` takes all messages of a step at once."""
         subscription = self.create_subscription(message_type, topic, callback, qos)
         self._subscriptions.remove(subscription)
         self._ears.append(subscription)

@@ -1,4 +1,4 @@
-"""main() of a planner in Python."""
+"""The main function of a planner in Python."""
 import os
 import sys
 
@@ -20,8 +20,8 @@ def _step_library():
 
 
 def enter_step():
-    """Starts this program again with libskein_step.so, if the launcher has not loaded it; sleeps on a clock of ROS
-    take simulated time from then on."""
+    """Starts this program again with libskein_step.so, if the launcher has not loaded it. From then on, a sleep on a
+    clock of ROS takes simulated time."""
     if step.library() is None and os.environ.get("SKEIN_UAV"):
         if os.environ.get(_ENTERED):
             sys.exit(f"cannot load {_step_library()} by LD_PRELOAD")
@@ -33,7 +33,7 @@ def enter_step():
 
 
 def run(make, args=None):
-    """Spins the node that `make()` makes until the run is over."""
+    """Spins the node that `make()` returns, until the run is over."""
     enter_step()
     rclpy.init(args=args)
     node = make()
@@ -42,7 +42,7 @@ def run(make, args=None):
     except (ExternalShutdownException, KeyboardInterrupt):
         pass
     except Exception:  # pylint: disable=broad-except
-        if rclpy.ok():  # else the run is over, and rclpy met the end in the middle of something
+        if rclpy.ok():  # otherwise the run has ended during a call of rclpy
             raise
     node.destroy_node()
     rclpy.try_shutdown()

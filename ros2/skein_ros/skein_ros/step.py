@@ -1,4 +1,4 @@
-"""libskein_step.so, if this process has loaded it (skein_ros/step.h)."""
+"""Calls the functions of libskein_step.so (skein_ros/step.h), if this process has loaded it."""
 import ctypes
 import os
 
@@ -7,7 +7,7 @@ _kept = []  # callbacks that the library may call
 
 
 def library():
-    """Its functions; None: it is not loaded."""
+    """The functions of the library; None: it is not loaded."""
     functions = ctypes.CDLL(None)
     try:
         functions.skein_ros_is_member.restype = ctypes.c_bool
@@ -21,13 +21,13 @@ def library():
 
 
 def is_member():
-    """Whether this process steps with a fleet."""
+    """Whether this process is a member of the lock-step."""
     functions = library()
     return functions is not None and functions.skein_ros_is_member()
 
 
 def before_answer(plan):
-    """`plan()` is called at the end of each step. An exception ends the process, and its text is in the log."""
+    """Calls `plan()` at the end of each step from now on. An exception ends the process; the log has its text."""
     functions = library()
 
     def call(_):
@@ -43,12 +43,12 @@ def before_answer(plan):
 
 
 def sleep_until(until_ns):
-    """Sleeps on simulated time."""
+    """Sleeps until a simulated time [ns]. Returns whether the run goes on then."""
     return library().skein_ros_sleep_until(until_ns)
 
 
 def uav():
-    """The UAV that this program flies."""
+    """The name of the UAV that this program flies."""
     name = os.environ.get("SKEIN_UAV")
     if not name:
         raise RuntimeError("SKEIN_UAV is not set: start this planner with "

@@ -1,5 +1,5 @@
-// Some topics of a recording, read with @mcap/core in the order of time: a line of JSON for each message, as a player of
-// bags has it from its file.
+// Reads some topics of a recording with @mcap/core, ordered by time. Prints a line of JSON for each message, with the
+// data that a player of bags reads from the file.
 //   node dump.mjs FILE TOPIC...
 import { McapIndexedReader } from "@mcap/core";
 import { decompress } from "fzstd";

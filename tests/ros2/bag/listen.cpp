@@ -1,5 +1,5 @@
-// An ordinary rclcpp node that subscribes to a bag that is played: prints the stamps of each topic when the player has
-// gone.
+// An ordinary rclcpp node that subscribes to the topics of a bag while it is played. Prints the stamps of each topic
+// when the player has ended.
 //   listen FILE      writes FILE once its subscriptions exist, and to FILE.heard a line "TOPIC NANOSECONDS" per message
 #include <chrono>
 #include <fstream>

@@ -14,8 +14,6 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kExplorerRadiusM = 0.63;
-
 AgentConfig agent_of(std::size_t self, std::size_t explorers, std::size_t photographers) {
   AgentConfig agent;
   agent.self = UavIndex(self);

@@ -8,8 +8,6 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kExplorerRadiusM = 0.63, kPhotographerRadiusM = 0.32;
-
 TEST(Patrol, PhotographsTheStructureAndBringsItHome) {
   TestWorld world(two_towers(), test_fleet(3), "patrol", 300.0);
   world.run(300.0);

@@ -12,7 +12,6 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kExplorerRadiusM = 0.63;
 constexpr double kRestingMps = 0.1;
 
 AgentConfig photographer_and_explorer() {

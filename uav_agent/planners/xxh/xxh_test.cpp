@@ -7,8 +7,6 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kExplorerRadiusM = 0.63, kPhotographerRadiusM = 0.32;
-
 TEST(XxhTalk, WordsSurviveTheRadio) {
   XxhWord word;
   word.start_W = {1.0, -2.0, 0.25};
