@@ -32,7 +32,7 @@ FileKind kind_of(const std::string& file) {
     if (found != kTellingKeys.end()) return found->second;
   }
   throw InputError(file + ":1: is of no known kind: a scenario has the keys 'scene' and 'fleet', a vehicle 'role', a " +
-                   "file for the waypoints planner 'paths', a fault file 'faults', a fault test 'expect' too, a file "
+                   "file for the waypoints planner 'paths', a fault file 'faults', a fault test 'run' too, a file "
                    "of properties 'properties'");
 }
 

@@ -56,11 +56,11 @@ TEST_F(CheckCommand, FaultFilesNeedNoFilesOfTheScene) {
 
 TEST_F(CheckCommand, FaultTestsNameTheirScenario) {
   const std::string faults = "run: {scenario: ./small.yaml}\nfaults: [{at_s: 10, blackout: alpha}]\n";
-  const std::string test = file("t.yaml", faults + "expect: {score: {at_least: 1}}");
+  const std::string test = file("t.yaml", faults + "properties: {some: 'eventually score >= 1'}");
   EXPECT_EQ(check({{test}, {}, {}}), kExitDone);
   EXPECT_EQ(out_.str(), test + ": OK (fault test, with small)\n");
-  EXPECT_THROW(check({{file("u.yaml", faults)}, {}, {}}), InputError) << "nothing is expected";
-  EXPECT_THROW(check({{file("w.yaml", faults + "expect: {scor: 1}")}, {}, {}}), InputError);
+  EXPECT_EQ(check({{file("u.yaml", faults)}, {}, {}}), kExitDone) << "what holds by default is enough";
+  EXPECT_THROW(check({{file("w.yaml", faults + "properties: {some: 'eventually scor >= 1'}")}, {}, {}}), InputError);
 }
 
 TEST_F(CheckCommand, AnAgentIsAskedForTheWordOfItsPlanners) {

@@ -111,7 +111,7 @@ struct TestOptions {
   std::optional<std::string> seeds;            ///< fly each test with each of these seeds; format as in StudyOptions
   std::optional<std::filesystem::path> junit;  ///< file for a report of the fault tests as JUnit XML
   int jobs = 1;                                ///< flights at once
-  bool verbose = false;                        ///< also print what was seen of expectations that hold
+  bool verbose = false;                        ///< also print what was seen of what holds
 };
 
 /// `skein replay`: shows a finished run in a browser, or two runs on one clock; or writes a file that shows them.
@@ -298,6 +298,12 @@ struct KeysOptions {
   std::filesystem::path out;
 };
 
+/// `skein convert`: fault tests of earlier versions.
+struct ConvertOptions {
+  std::vector<std::filesystem::path> files;  ///< fault tests, or folders of them
+  bool in_place = false;                     ///< rewrite the files, instead of printing their new text
+};
+
 struct MergeOptions {
   std::filesystem::path dir;
   std::optional<std::string> scenario;  ///< instead of the scenario that the server reports
@@ -362,10 +368,10 @@ struct CompletionOptions {
   std::vector<std::string> words;
 };
 
-using Command =
-    std::variant<RunOptions, TestOptions, CheckOptions, SceneOptions, BenchOptions, OracleOptions, DiffOptions,
-                 StudyOptions, DoctorOptions, ComposeOptions, HuntOptions, BlameOptions, CheckPlannerOptions,
-                 KeysOptions, MergeOptions, ReportOptions, ReplayOptions, RerunOptions, ForkOptions, FleetOptions,
-                 PsOptions, AttachOptions, UnitOptions, HostOptions, PackOptions, HelpText, CompletionOptions>;
+using Command = std::variant<RunOptions, TestOptions, CheckOptions, SceneOptions, BenchOptions, OracleOptions,
+                             DiffOptions, StudyOptions, DoctorOptions, ComposeOptions, HuntOptions, BlameOptions,
+                             CheckPlannerOptions, KeysOptions, ConvertOptions, MergeOptions, ReportOptions,
+                             ReplayOptions, RerunOptions, ForkOptions, FleetOptions, PsOptions, AttachOptions,
+                             UnitOptions, HostOptions, PackOptions, HelpText, CompletionOptions>;
 
 }  // namespace skein::cli

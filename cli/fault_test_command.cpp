@@ -14,7 +14,6 @@
 #include "cli/study/side_by_side.hpp"
 #include "cli/study/spec.hpp"
 #include "cli/test_counts.hpp"
-#include "core/text/text.hpp"
 #include "process/files/atomic_file.hpp"
 #include "process/host/environment.hpp"
 #include "process/program.hpp"
@@ -160,30 +159,28 @@ class FaultTestRun {
     const FaultTest& test = tests_[index];
     const FlightsOfTest& flights = flights_.tests[index];
     const results::RunRecord own = record_of(flights.own);
-    const FaultPlan faults = as_flown(test.plan.faults, own.result, test.plan.scenario);
-    Evidence evidence{test.plan.scenario, faults, own, flown_[flights.own].exit->code, nullptr, {}};
+    Evidence evidence{test.plan.faults, own, flown_[flights.own].exit->code, {}};
     std::optional<results::RunRecord> fault_free;
-    if (flights.fault_free) evidence.fault_free = &fault_free.emplace(record_of(*flights.fault_free));
+    if (flights.fault_free) fault_free = record_of(*flights.fault_free);
     std::map<std::string, results::RunRecord> repeats;
     for (const auto& [how, flight] : flights.repeats) repeats.emplace(how, record_of(flight));
     for (const auto& [how, record] : repeats) evidence.repeats.emplace_back(how, &record);
     for (const Judgement& judgement : judged(test.expect, evidence)) {
-      const Finding& finding = judgement.finding;
-      const bool tell_time = !finding.holds && finding.at_s;
-      const std::string what = finding.text + (tell_time ? ", at " + number_text(*finding.at_s) + " s" : "");
-      (finding.holds ? verdict.held : verdict.broken).push_back(test.said_of(judgement.path(), what));
+      (judgement.holds ? verdict.held : verdict.broken).push_back(test.said_of(judgement.path, judgement.text));
     }
-    judge_properties_of(test, own, evidence.fault_free, verdict);
+    judge_properties_of(test, own, fault_free ? &*fault_free : nullptr, verdict);
   }
 
   static void judge_properties_of(const FaultTest& test, const results::RunRecord& own,
                                   const results::RunRecord* fault_free, FaultVerdict& verdict) {
     if (test.property_set.empty()) return;
     using Outcome = properties::Verdict::Outcome;
-    FolderSignals signals(own, test.plan.scenario, fault_free);
+    FolderSignals signals(own, test.plan.scenario, fault_free, &test.plan.faults);
     for (const PropertyFinding& finding : judge_properties(test.property_set, signals)) {
       const Outcome outcome = finding.verdict.outcome;
-      (outcome == Outcome::holds   ? verdict.held
+      // A default property that the file does not mention need not have anything to judge.
+      const bool is_quiet = outcome == Outcome::holds || (outcome == Outcome::vacuous && !test.states(finding.name));
+      (is_quiet                    ? verdict.held
        : outcome == Outcome::fails ? verdict.broken
                                    : verdict.vacuous)
           .push_back(test.said_of("properties." + finding.name, finding.text()));

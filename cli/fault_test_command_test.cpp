@@ -47,12 +47,13 @@ class FaultTestCommand : public testing::Test {
     body.replace(body.find("DIGEST"), 6, digest);
     write_script(programs_.dir() / "sim_server", "arguments=\"$*\"" + std::string(kReadOptions) + body);
   }
-  void test_file(const std::string& name, const std::string& expect) {
+  /// @param property  the text of the test's own one
+  void test_file(const std::string& name, const std::string& property, const std::string& more = "") {
     std::filesystem::create_directories(programs_.dir() / "tests");
     write_text(programs_.dir() / "tests" / (name + ".yaml"),
                "run: {scenario: ../small.yaml, planner: hover, duration_s: 20}\nfaults: [{at_s: 2, blackout: alpha}]\n"
-               "expect: {custody: none, " +
-                   expect + "}\n");
+               "properties: {score_adds_up: off, mine: " +
+                   property + "}\n" + more);
   }
   int run(TestOptions options = {}) {
     out_.str("");
@@ -60,7 +61,7 @@ class FaultTestCommand : public testing::Test {
     options.out = programs_.dir() / "results";
     return run_tests(options, {out_, err_, false});
   }
-  /// Where the only expectation of a test stands.
+  /// Where the property of a test stands.
   std::string place(const std::string& name) const {
     return (programs_.dir() / "tests" / (name + ".yaml")).string() + ":3";
   }
@@ -73,45 +74,48 @@ class FaultTestCommand : public testing::Test {
 };
 
 TEST_F(FaultTestCommand, SaysWhatPassedAndWhatDidNot) {
-  test_file("a_good", "score: 3");
-  test_file("b_bad", "score: {at_least: 5}");
+  test_file("a_good", "always result(score) == 3");
+  test_file("b_bad", "always result(score) >= 5");
   EXPECT_EQ(run(), kExitCheckFailed);
   EXPECT_EQ(out_.str(), "PASS a_good\nFAIL b_bad\n     " + place("b_bad") +
-                            ": expect.score: expected at least 5, seen 3, at 20 s\n     results: " +
+                            ": properties.mine: it did not hold at 0 s, margin -2\n     results: " +
                             (programs_.dir() / "results" / "b_bad").string() + "\n1 passed, 1 failed\n");
   EXPECT_TRUE(std::filesystem::exists(programs_.dir() / "results" / "b_bad" / "result.json"));
 }
 
 TEST_F(FaultTestCommand, AllPassed) {
-  test_file("good", "score: 3");
+  test_file("good", "always result(score) == 3");
   EXPECT_EQ(run(), kExitDone);
   EXPECT_EQ(out_.str(), "PASS good\n1 passed, 0 failed\n");
 }
 
 TEST_F(FaultTestCommand, NothingFliesWhenAFileIsWrong) {
-  test_file("a_good", "score: 3");
-  test_file("b_wrong", "scor: 3");
-  test_file("c_wrong", "left: [gamma]");
+  test_file("a_good", "always result(score) == 3");
+  test_file("b_wrong", "always scor == 3");
+  test_file("c_wrong", "always member(gamma)");
   try {
     run();
     FAIL();
   } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("b_wrong.yaml:3: unknown key 'expect.scor'"), std::string::npos);
-    EXPECT_NE(std::string(error.what()).find("c_wrong.yaml:3: expect.left"), std::string::npos) << "all are named";
+    EXPECT_NE(std::string(error.what()).find("b_wrong.yaml:3:47: properties.mine: there is no signal 'scor'"),
+              std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("c_wrong.yaml:3:54: properties.mine: there is no program"),
+              std::string::npos)
+        << "all are named";
   }
   EXPECT_EQ(flights(), "");
 }
 
 TEST_F(FaultTestCommand, TheRunWithoutFaultsIsFlownOnceForAll) {
-  test_file("a", "score_vs_fault_free: 1");
-  test_file("b", "score_vs_fault_free: 1");
+  test_file("a", "finally result(score) == undisturbed_score");
+  test_file("b", "finally result(score) == undisturbed_score");
   EXPECT_EQ(run(), kExitDone) << out_.str();
   EXPECT_EQ(flights(), "yes cyclonedds calm\nno cyclonedds calm\nyes cyclonedds calm\n");
 }
 
 TEST_F(FaultTestCommand, RepetitionsMayTakeTurns) {
-  test_file("a", "score: 3");
-  test_file("b", "score: 3");
+  test_file("a", "always result(score) == 3");
+  test_file("b", "always result(score) == 3");
   TestOptions options;
   options.repeat = {"fastdds", "chaos"};
   EXPECT_EQ(run(options), kExitDone) << out_.str();
@@ -126,7 +130,7 @@ TEST_F(FaultTestCommand, RepetitionsMayTakeTurns) {
 
 TEST_F(FaultTestCommand, AnotherDigestIsAFailure) {
   serve("${SKEIN_CHAOS:-calm}");
-  test_file("a", "same_digest: [again, chaos]");
+  test_file("a", "always result(score) == 3", "expect: {same_digest: [again, chaos]}\n");
   EXPECT_EQ(run(), kExitCheckFailed);
   EXPECT_NE(
       out_.str().find("expect.same_digest: expected the digest \"calm\" of the repetition 'chaos' too, seen \"1\""),
@@ -135,8 +139,8 @@ TEST_F(FaultTestCommand, AnotherDigestIsAFailure) {
 }
 
 TEST_F(FaultTestCommand, EachSeedIsATestOfItsOwn) {
-  test_file("a", "score: 3");
-  test_file("b", "score: 4");
+  test_file("a", "always result(score) == 3");
+  test_file("b", "always result(score) == 4");
   TestOptions options;
   options.seeds = "4-5,9";
   EXPECT_EQ(run(options), kExitCheckFailed);
@@ -152,7 +156,7 @@ TEST_F(FaultTestCommand, EachSeedIsATestOfItsOwn) {
 
 TEST_F(FaultTestCommand, SideBySideTheOutputIsTheSame) {
   for (const char* name : {"a", "b", "c", "d", "e"})
-    test_file(name, std::string(name) == "c" ? "score: 9" : "score: 3");
+    test_file(name, std::string(name) == "c" ? "always result(score) == 9" : "always result(score) == 3");
   EXPECT_EQ(run(), kExitCheckFailed);
   const std::string alone = out_.str();
   TestOptions options;
@@ -162,19 +166,19 @@ TEST_F(FaultTestCommand, SideBySideTheOutputIsTheSame) {
 }
 
 TEST_F(FaultTestCommand, VerboseTellsWhatWasSeen) {
-  test_file("good", "score: {at_least: 2}");
+  test_file("good", "always result(score) >= 2");
   TestOptions options;
   options.verbose = true;
   EXPECT_EQ(run(options), kExitDone);
   EXPECT_TRUE(out_.str().starts_with("PASS good\n")) << out_.str();
-  EXPECT_NE(out_.str().find("     holds: " + place("good") + ": expect.score: expected at least 2, seen 3\n"),
+  EXPECT_NE(out_.str().find("     holds: " + place("good") + ": properties.mine: margin 1, decided at 0 s\n"),
             std::string::npos)
       << out_.str();
 }
 
 TEST_F(FaultTestCommand, AReportForOtherPrograms) {
-  test_file("a_good", "score: 3");
-  test_file("b_bad<&\">", "score: {at_least: 5}");
+  test_file("a_good", "always result(score) == 3");
+  test_file("b_bad<&\">", "always result(score) >= 5");
   TestOptions options;
   options.junit = programs_.dir() / "report.xml";
   EXPECT_EQ(run(options), kExitCheckFailed);
@@ -194,13 +198,13 @@ TEST_F(FaultTestCommand, AReportForOtherPrograms) {
   }
   EXPECT_EQ(elements[2].attributes.at("name"), "a_good");
   EXPECT_EQ(elements[4].attributes.at("name"), "b_bad<&\">");
-  EXPECT_NE(elements[5].attributes.at("message").find("expect.score: expected at least 5, seen 3, at 20 s"),
+  EXPECT_NE(elements[5].attributes.at("message").find("properties.mine: it did not hold at 0 s, margin -2"),
             std::string::npos);
 }
 
 TEST_F(FaultTestCommand, OfARunThatLeavesNothingTheReasonIsTold) {
   programs_.script("comm_router", "");
-  test_file("a", "score: 3");
+  test_file("a", "always result(score) == 3");
   write_script(programs_.dir() / "fails", "echo nobody home >&2; exit 3");
   std::filesystem::remove(programs_.dir() / "skein");
   std::filesystem::create_symlink(programs_.dir() / "fails", programs_.dir() / "skein");
@@ -209,7 +213,7 @@ TEST_F(FaultTestCommand, OfARunThatLeavesNothingTheReasonIsTold) {
 }
 
 TEST_F(FaultTestCommand, ABadReportOrSeedIsToldBeforeAnythingFlies) {
-  test_file("a", "score: 3");
+  test_file("a", "always result(score) == 3");
   const auto refused = [&](TestOptions options, const std::string& words) {
     try {
       run(options);
@@ -238,7 +242,7 @@ TEST_F(FaultTestCommand, AnAgentOfOnesOwnFliesTheTests) {
   write_script(programs_.dir() / "mine",
                "[ \"$1\" != --list-planners ] || { echo '{}'; exit 0; }\n"
                "echo \"$*\" >> \"$(dirname \"$0\")/mine.calls\"\n");
-  test_file("a", "exit_code: {at_most: 9}");
+  test_file("a", "always result(score) == 3", "expect: {exit_code: {at_most: 9}}\n");
   TestOptions options;
   options.agent = programs_.dir() / "mine";
   EXPECT_EQ(run(options), kExitDone) << out_.str();

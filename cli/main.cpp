@@ -12,6 +12,7 @@
 #include "cli/check_planner_command.hpp"
 #include "cli/completion.hpp"
 #include "cli/compose_command.hpp"
+#include "cli/convert_command.hpp"
 #include "cli/diff_command.hpp"
 #include "cli/doctor_command.hpp"
 #include "cli/fleet_command.hpp"
@@ -74,6 +75,7 @@ struct Execute {
   int operator()(const BlameOptions& options) const { return blame(options, console); }
   int operator()(const CheckPlannerOptions& options) const { return check_planner(options, console); }
   int operator()(const CheckOptions& options) const { return check_files(options, console); }
+  int operator()(const ConvertOptions& options) const { return convert_files(options, console); }
   int operator()(const SceneOptions& options) const { return export_scene(options); }
   int operator()(const BenchOptions& options) const { return run_bench(options, console); }
   int operator()(const OracleOptions& options) const { return consult_oracle(options, console); }

@@ -312,6 +312,7 @@ class OptionParser {
     list(task, add_rerun);
     list(task, add_fork);
     list(task, add_test);
+    list(task, add_convert);
     list(task, add_hunt);
     list(task, add_blame);
     task = "Scenarios and machines";

@@ -108,7 +108,7 @@ void add_test(CLI::App& app, TestOptions& test) {
       ->check(CLI::Range(1, 64))
       ->capture_default_str();
   command->add_option("--junit", test.junit, "File for a report as JUnit XML, as CI servers read it")->needs(faults);
-  command->add_flag("-v,--verbose", test.verbose, "Tell what was seen where an expectation holds, too")->needs(faults);
+  command->add_flag("-v,--verbose", test.verbose, "Tell what was seen where something holds, too")->needs(faults);
   command->footer(
       "Examples:\n"
       "  skein test\n"
@@ -135,6 +135,17 @@ void add_check(CLI::App& app, CheckOptions& check) {
       "Examples:\n"
       "  skein check my_scenario.yaml my_vehicle.yaml my_faults.yaml\n"
       "  skein check my_faults.yaml --scenario cranes");
+}
+
+void add_convert(CLI::App& app, ConvertOptions& convert) {
+  CLI::App* command = app.add_subcommand("convert", "Turn fault tests of earlier versions into those of this one");
+  command->add_option("FILE", convert.files, "A fault test, or a folder of them")->required();
+  command->add_flag("--in-place", convert.in_place, "Rewrite the files (default: print their new text)");
+  command->footer(
+      "Examples:\n"
+      "  skein convert my_tests/outage.yaml\n"
+      "  skein convert --in-place my_tests\n\n"
+      "Keys of `expect` that became properties are converted (docs/how-to-test-faults.md).");
 }
 
 void add_scene(CLI::App& app, SceneOptions& scene) {

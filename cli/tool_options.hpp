@@ -31,6 +31,7 @@ void add_bench(CLI::App& app, BenchOptions& bench);
 void add_attach(CLI::App& app, AttachOptions& attach);
 void add_doctor(CLI::App& app, DoctorOptions& doctor);
 void add_oracle(CLI::App& app, OracleOptions& oracle);
+void add_convert(CLI::App& app, ConvertOptions& convert);
 void add_merge(CLI::App& app, MergeOptions& merge);
 void add_report(CLI::App& app, ReportOptions& report);
 void add_rerun(CLI::App& app, RerunOptions& rerun);

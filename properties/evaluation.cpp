@@ -57,6 +57,14 @@ class Rows {
   std::vector<double> values_;
 };
 
+/// Whether a condition says that something keeps a certain value: `gain(captures) == 0`. Then a run in which nothing
+/// changes does say something about it.
+bool says_still(const Expression& condition) {
+  const bool is_still = condition.op == Expression::Op::equal && !is_constant(condition) &&
+                        std::ranges::any_of(condition.parts, is_constant);
+  return is_still || std::ranges::any_of(condition.parts, says_still);
+}
+
 /// Exchanges [first, last] in which a property is evaluated.
 struct Stretch {
   std::size_t first = 0, last = 0;
@@ -103,7 +111,8 @@ class Evaluation {
     if (!decided && excused_) return vacuous("it was not exercised: what stands behind 'unless' came first");
     if (!decided) return vacuous("the run ended before it could be decided");
     if (property_.kind == Kind::sometimes && worst.outcome == Outcome::fails) return vacuous("it was never reached");
-    if (worst.outcome == Outcome::holds && !rows_.any_moved(property_, whole->first, whole->last)) {
+    if (worst.outcome == Outcome::holds && !says_still(property_.condition) &&
+        !rows_.any_moved(property_, whole->first, whole->last)) {
       return vacuous("nothing that it is about ever moved");
     }
     return worst;
@@ -188,7 +197,8 @@ class Evaluation {
     }
     const bool holds = decision.margin.holds;
     const bool may_come = property_.kind == Kind::eventually || property_.kind == Kind::until;
-    if (may_come && !holds && !part.is_whole) return std::nullopt;
+    const bool is_open = property_.kind == Kind::finally || (may_come && !holds);
+    if (is_open && !part.is_whole) return std::nullopt;
     Verdict verdict;
     verdict.outcome = holds ? Outcome::holds : Outcome::fails;
     verdict.margin = decision.margin.margin;
@@ -205,6 +215,7 @@ class Evaluation {
         "from " + number_text(time_of(part.first)) + " to " + number_text(time_of(part.last)) + " s";
     switch (property_.kind) {
       case Kind::always:
+      case Kind::finally:
         return "it did not hold at " + when;
       case Kind::never:
         return "it held at " + when;
@@ -219,6 +230,7 @@ class Evaluation {
 
   Decision decided(const Stretch& part) const {
     if (property_.kind == Kind::until) return decided_until(part);
+    if (property_.kind == Kind::finally) return {margin_here(part.last, part.first), part.last};
     const bool all = property_.kind == Kind::always || property_.kind == Kind::never;
     std::optional<Decision> result;
     for (std::size_t k = part.first; k <= part.last; ++k) {

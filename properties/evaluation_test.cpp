@@ -79,6 +79,10 @@ TEST(Evaluation, AlwaysIsTheLeastAndEventuallyTheGreatestOfItsWindow) {
     const Verdict eventually = judged("eventually held >= 50" + window, {{"held", held}});
     EXPECT_EQ(eventually.margin, greatest - 50.0);
     EXPECT_EQ(eventually.outcome, greatest >= 50.0 ? Outcome::holds : Outcome::fails);
+    const Verdict finally = judged("finally held >= 50" + window, {{"held", held}});
+    EXPECT_EQ(finally.margin, held[to] - 50.0);
+    EXPECT_EQ(finally.outcome, held[to] >= 50.0 ? Outcome::holds : Outcome::fails);
+    EXPECT_EQ(finally.at_s, static_cast<double>(to));
     const Verdict sometimes = judged("sometimes held >= 50" + window, {{"held", held}});
     EXPECT_EQ(sometimes.outcome, greatest >= 50.0 ? Outcome::holds : Outcome::vacuous);
   }
@@ -171,6 +175,9 @@ TEST(Evaluation, WhatTheRunDoesNotDecideIsVacuousAndSaysWhy) {
   EXPECT_NE(reason(judged("eventually held > 9 within 5 s", {{"held", rising}})).find("before it could be decided"),
             std::string::npos);
   EXPECT_EQ(judged("eventually held > 9 within 2 s", {{"held", rising}}).outcome, Outcome::fails);
+  EXPECT_NE(reason(judged("finally held >= 0 within 5 s", {{"held", rising}})).find("before it could be decided"),
+            std::string::npos)
+      << "what is true before the window's end need not be true there";
   EXPECT_EQ(judged("eventually held >= 2 within 5 s", {{"held", rising}}).outcome, Outcome::holds) << "it came in time";
 }
 
@@ -256,6 +263,19 @@ TEST(Evaluation, WhatComesUnderUnlessIsNoSuccess) {
   EXPECT_EQ(outcome(always, {0, 1, 0, 2, 2}, {0, 0, 0, 1, 1}), Outcome::holds) << "as far as it was asked";
   const Verdict excused = judged(eventually, {{"held", {0, 1, 1}}, {"member(a)", {0, 0, 1}}});
   EXPECT_NE(excused.reason.find("not exercised"), std::string::npos) << excused.reason;
+}
+
+// A run in which nothing happens says that nothing happens, and little else.
+TEST(Evaluation, AConditionThatSomethingKeepsAValueIsNotVacuous) {
+  const std::vector<double> still = {3, 3, 3, 3}, moving = {3, 4, 5, 6};
+  for (const char* text : {"always gain(held) == 0", "finally held == 3", "always held == 3 and held < 9",
+                           "for u in uavs, always gain(held(a)) == 0"}) {
+    EXPECT_EQ(judged(text, {{"held", still}, {"held(a)", still}}).outcome, Outcome::holds) << text;
+    EXPECT_EQ(judged(text, {{"held", moving}, {"held(a)", moving}}).outcome, Outcome::fails) << text;
+  }
+  for (const char* text : {"always held < 9", "always held(a) == held", "always gain(held) <= 2"}) {
+    EXPECT_EQ(judged(text, {{"held", still}, {"held(a)", still}}).outcome, Outcome::vacuous) << text;
+  }
 }
 
 }  // namespace

@@ -11,6 +11,8 @@ namespace {
 
 /// Entry, instead of a text, that selects a ready property with its default parameters.
 constexpr std::string_view kReady = "ready";
+/// Entry that turns a default property off.
+constexpr std::string_view kOff = "off";
 
 std::filesystem::path ready_dir() { return default_config_dir() / "properties"; }
 
@@ -130,6 +132,15 @@ ReadyProperty load_ready_property(const std::string& name) {
 
 std::vector<std::string> ready_property_names() { return config_names(ready_dir()); }
 
+PropertyEntries missing_defaults(const PropertyEntries& entries) {
+  PropertyEntries missing;
+  for (const char* name : kDefaultProperties) {
+    const bool is_there = std::ranges::any_of(entries, [&](const auto& entry) { return entry.first == name; });
+    if (!is_there) missing.emplace_back(name, std::string(kReady));
+  }
+  return missing;
+}
+
 PropertySet parse_properties(const PropertyEntries& entries, const std::string& key, const Scenario& scenario,
                              ConfigErrors& errors) {
   PropertySet set;
@@ -137,6 +148,12 @@ PropertySet parse_properties(const PropertyEntries& entries, const std::string& 
   for (const auto& [name, entry] : entries) {
     const std::string path = key + "." + name;
     const std::string* text = std::get_if<std::string>(&entry);
+    if (text != nullptr && *text == kOff) {
+      errors.check(std::ranges::find(kDefaultProperties, name) != kDefaultProperties.end(), path,
+                   "only a property that holds by default can be off: " +
+                       joined({kDefaultProperties.begin(), kDefaultProperties.end()}) + "; leave this line out");
+      continue;
+    }
     if (text != nullptr && *text != kReady) {
       parse_text(set.emplace_back(NamedProperty{name, *text}), {}, scenario, path, errors);
       continue;

@@ -1,6 +1,7 @@
 // Properties in YAML: in a file of their own, or in a fault test. docs/properties.md explains both. Reads files only.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <map>
 #include <string>
@@ -16,6 +17,12 @@ namespace skein::properties {
 using PropertyEntry = std::variant<std::string, skein::Named<std::string>>;
 using PropertyEntries = skein::Named<PropertyEntry>;
 
+/// The ready properties that hold in every fault test whose file does not say otherwise. Only these may be `off`.
+inline constexpr std::array kDefaultProperties = {"custody_kept", "no_collision", "score_adds_up"};
+
+/// The default properties that `entries` does not mention, as entries of a file.
+PropertyEntries missing_defaults(const PropertyEntries& entries);
+
 /// A property of a file, ready to be evaluated.
 struct NamedProperty {
   std::string name;
@@ -25,9 +32,10 @@ struct NamedProperty {
 };
 using PropertySet = std::vector<NamedProperty>;
 
+/// Entries that are `off` give no property.
 /// @param key      key of the entries in the document: "properties".
 /// @param errors   receives all errors, with line and column: texts that do not parse, and unknown ready properties or
-///   parameters.
+///   parameters, and `off` for a property that is none of kDefaultProperties.
 /// @throws InputError if the file of a ready property is wrong.
 PropertySet parse_properties(const PropertyEntries& entries, const std::string& key, const Scenario& scenario,
                              ConfigErrors& errors);

@@ -68,8 +68,8 @@ class Reader {
       property_.condition = parser_.condition();
       if (!parser_.accept("until")) {
         ExpressionText::fail(parser_.at(),
-                             "here must be 'until', or one of always, never, sometimes and eventually "
-                             "before the condition; not " +
+                             "here must be 'until', or one of always, never, sometimes, eventually and "
+                             "finally before the condition; not " +
                                  parser_.next_text());
       }
       property_.goal = parser_.condition();
@@ -84,8 +84,9 @@ class Reader {
  private:
   bool read_kind() {
     using enum Property::Kind;
-    for (const auto& [word, kind] : {std::pair("always", always), std::pair("never", never),
-                                     std::pair("sometimes", sometimes), std::pair("eventually", eventually)}) {
+    for (const auto& [word, kind] :
+         {std::pair("always", always), std::pair("never", never), std::pair("sometimes", sometimes),
+          std::pair("eventually", eventually), std::pair("finally", finally)}) {
       if (!parser_.accept(word)) continue;
       property_.kind = kind;
       return true;

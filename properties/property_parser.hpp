@@ -1,5 +1,5 @@
 // Parses the text of a property:
-//   [for u in uavs,] [whenever CONDITION,] always CONDITION     or never, sometimes, eventually
+//   [for u in uavs,] [whenever CONDITION,] always CONDITION     or never, sometimes, eventually, finally
 //   [for u in uavs,] CONDITION until CONDITION
 // then, all optional: `unless CONDITION`; `within 20 s`; one of `after heal`, `after 20 s`, `from 10 s to 20 s`.
 // Conditions: core/expressions/expression_parser.hpp.  Pure.

@@ -33,10 +33,10 @@ void refused(const std::string& text, std::size_t at, const std::string& words) 
 
 TEST(PropertyParser, EachKindIsRead) {
   using enum Property::Kind;
-  for (const auto& [text, kind] :
-       {std::pair("always held < 3", always), std::pair("never held > 3", never),
-        std::pair("sometimes held > 3", sometimes), std::pair("eventually held > 3 within 5 s", eventually),
-        std::pair("z(changi) < 1 m until time > 3 s", until)}) {
+  for (const auto& [text, kind] : {std::pair("always held < 3", always), std::pair("never held > 3", never),
+                                   std::pair("sometimes held > 3", sometimes), std::pair("finally held > 3", finally),
+                                   std::pair("eventually held > 3 within 5 s", eventually),
+                                   std::pair("z(changi) < 1 m until time > 3 s", until)}) {
     const std::vector<Property> properties = parse(text);
     ASSERT_EQ(properties.size(), 1U) << text;
     EXPECT_EQ(properties[0].kind, kind) << text;

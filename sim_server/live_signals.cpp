@@ -15,6 +15,7 @@ void LiveSignals::end_step(const std::function<bool(const std::string&)>& is_mem
   for (auto& [name, member] : members_) {
     const bool present = is_member(name);
     member.restarts += present && !member.present && member.was_present;
+    member.leaves += !present && member.present;
     member.present = present;
     member.was_present = member.was_present || present;
   }
@@ -28,7 +29,8 @@ double LiveSignals::value(const SignalUse& signal) const {
   if (signal.is("separation")) return separation(signal);
   if (signal.is("clearance")) return clearance(signal);
   if (signal.is("member")) return members_.at(signal.argument(0)).present ? 1.0 : 0.0;
-  if (signal.is("restarts")) return restarts(signal.argument(0));
+  if (signal.is("restarts")) return changes(signal.argument(0), &Member::restarts);
+  if (signal.is("leaves")) return changes(signal.argument(0), &Member::leaves);
   if (signal.is("link")) return linked(signal) ? 1.0 : 0.0;
   if (signal.is("faults")) {
     return static_cast<double>(std::ranges::count_if(
@@ -83,9 +85,9 @@ double LiveSignals::clearance(const SignalUse& signal) const {
   return least_m;
 }
 
-double LiveSignals::restarts(const std::string& member) const {
+double LiveSignals::changes(const std::string& member, int Member::*kind) const {
   double sum = 0.0;
-  for (const auto& [name, one] : members_) sum += member.empty() || name == member ? one.restarts : 0;
+  for (const auto& [name, one] : members_) sum += member.empty() || name == member ? one.*kind : 0;
   return sum;
 }
 

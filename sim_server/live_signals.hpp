@@ -33,7 +33,7 @@ class LiveSignals {
  private:
   struct Member {
     bool present = false, was_present = false;
-    int restarts = 0;
+    int restarts = 0, leaves = 0;
   };
   struct Captures {
     double taken = 0.0, released = 0.0;
@@ -43,7 +43,7 @@ class LiveSignals {
   double of_uav(const SignalUse& signal) const;
   double separation(const SignalUse& signal) const;
   double clearance(const SignalUse& signal) const;
-  double restarts(const std::string& member) const;
+  double changes(const std::string& member, int Member::*kind) const;
   bool linked(const SignalUse& signal) const;
   double sum(const SignalUse& signal, const std::function<double(const Captures&)>& of) const;
 

@@ -104,6 +104,7 @@ TEST_F(LiveSignalsTest, WhoComesBackHasRestarted) {
     EXPECT_EQ(value("restarts(a)"), first || second ? 0.0 : third ? 1.0 : 2.0) << step;
     EXPECT_EQ(value("restarts(b)"), 0.0) << "joined for the first time";
     EXPECT_EQ(value("restarts"), value("restarts(a)"));
+    EXPECT_EQ(value("leaves(a)"), step <= 10 ? 0.0 : step < 30 ? 1.0 : 2.0) << step;
     if (step == 10) away_ = {"a", "gcs"};
     if (step == 20) away_ = {"gcs"};
     if (step == 29) away_ = {"a"};

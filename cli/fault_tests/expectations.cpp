@@ -1,169 +1,83 @@
 #include "cli/fault_tests/expectations.hpp"
 
-#include <algorithm>
-
-#include "cli/fault_tests/windows.hpp"
-#include "core/text/suggestion.hpp"
 #include "core/text/text.hpp"
-#include "results/run_folder.hpp"
-#include "results/run_tables.hpp"
+#include "results/diff.hpp"
 
 namespace skein::cli {
 namespace {
 
-// ---- checks of files --------------------------------------------------------------------------------------------
-
-void check_known(const std::string& name, const std::vector<std::string>& known, const std::string& key,
-                 const std::string& what, const ExpectationContext& context) {
-  const bool found = std::find(known.begin(), known.end(), name) != known.end();
-  context.errors.check(found, "expect." + key, "there is no " + what + " '" + name + "'; " + suggestion(name, known));
+/// When two runs part, where their digests tell.
+std::optional<double> parting_time(const results::RunRecord& run, const results::RunRecord& other) try {
+  const auto difference = results::first_difference(run.dir, other.dir);
+  return difference ? std::optional(difference->time_s) : std::nullopt;
+} catch (const InputError&) {
+  return std::nullopt;  // one of them died before it wrote any
 }
 
-void check_members(const std::string& key, const std::vector<std::string>& names, const ExpectationContext& context) {
-  std::vector<std::string> known = context.scenario.uav_names();
-  known.insert(known.end(), {context.scenario.node_name(kStationNode), programs::kStation, programs::kCommRouter});
-  for (const std::string& name : names) check_known(name, known, key, "program", context);
-}
+class Judge {
+ public:
+  explicit Judge(const Evidence& evidence) : evidence_(evidence) {}
 
-void check_uavs(const std::string& key, const UavLimits& uavs, const ExpectationContext& context) {
-  for (const auto& [name, limits] : uavs) check_known(name, context.scenario.uav_names(), key, "UAV", context);
-}
+  std::vector<Judgement> all(const Expectations& wanted) {
+    const Json& result = evidence_.run.result;
+    const std::string status = value_or(result, "status", "nothing");
+    add("status", status == wanted.status, wanted.status, status, end_s());
+    add("exit_code", *wanted.exit_code, evidence_.exit_code, "");
+    const bool has_digest = value_or(result, "deterministic", false) && value_or(result, "digest", nullptr).is_string();
+    add("deterministic", has_digest == wanted.deterministic, wanted.deterministic ? "a digest" : "no digest",
+        has_digest ? "one" : "none", end_s());
+    judge_faults(wanted.faults_acted);
+    const Json radio = value_or(result, "radio", Json::object());
+    for (const auto& [name, limits] : wanted.radio.limits) {
+      add("radio." + name, limits, value_or(radio, name.c_str(), 0.0), " " + name);
+    }
+    judge_digests();
+    return std::move(judgements_);
+  }
 
-void check_during(const std::string& key, const std::vector<Window>& windows, const ExpectationContext& context) {
-  for (std::size_t i = 0; i < windows.size(); ++i) {
-    const std::string path = key + "[" + std::to_string(i) + "]";
-    // The clock before take-off counts in times, so a run is longer than its mission; but nobody waits for minutes.
-    context.errors.check(windows[i].after_s < context.scenario.duration_s, "expect." + path + ".after_s",
-                         "is after the end: the mission lasts " + number_text(context.scenario.duration_s) + " s");
-    for (const auto& [name, limits] : windows[i].uavs) {
-      check_known(name, context.scenario.uav_names(), path + ".uavs." + name, "UAV", context);
+ private:
+  double end_s() const { return value_or(evidence_.run.result, "sim_time_s", 0.0); }
+
+  void add(const std::string& key, bool holds, const std::string& expected, const std::string& seen,
+           std::optional<double> at_s = {}) {
+    const std::string when = !holds && at_s ? ", at " + number_text(*at_s) + " s" : "";
+    judgements_.push_back({"expect." + key, holds, "expected " + expected + ", seen " + seen + when});
+  }
+  void add(const std::string& key, const Limits& limits, double seen, const std::string& of) {
+    add(key, limits.contain(seen), limits.text() + of, number_text(seen), end_s());
+  }
+
+  void judge_faults(bool wanted) {
+    const Json entries = value_or(evidence_.run.result, "faults", Json::array());
+    for (std::size_t i = 0; i < evidence_.plan.faults.size(); ++i) {
+      const Fault& fault = evidence_.plan.faults[i];
+      const bool began = i < entries.size() && value_or(entries[i], "began_step", nullptr).is_number();
+      const std::string time = fault.waits ? " when " + fault.when->text : " at " + number_text(fault.at_s) + " s";
+      add("faults_acted", began == wanted,
+          "that " + fault_kind(fault) + " of " + fault_target(fault) + (wanted ? " begins" : " does not begin") + time,
+          "that it " + (began ? "did" : "did not; the run ended at " + number_text(end_s()) + " s"));
     }
   }
-}
 
-void check_taken_over(const std::string& key, const TakenOver& wanted, const ExpectationContext& context) {
-  check_known(wanted.uav, context.scenario.uav_names(), key + ".uav", "UAV", context);
-  context.errors.check(first_fault_of(wanted.uav, context.plan) != nullptr, "expect." + key + ".uav",
-                       "no fault of this file befalls '" + wanted.uav + "', so it has nothing to hand over");
-}
-
-// ---- the table --------------------------------------------------------------------------------------------------
-
-template <class T>
-using Judge = std::function<Findings(const T&, const Evidence&)>;
-template <class T>
-using Check = std::function<void(const std::string& key, const T&, const ExpectationContext&)>;
-
-enum class Needs { nothing, fault_free };
-
-template <class T>
-void read_wanted(ConfigReader& r, const std::string& key, std::optional<T>& wanted) {
-  if constexpr (std::is_same_v<T, Limits>) {
-    read_limits(r, key, wanted);
-  } else {
-    r.field(key, wanted);
+  void judge_digests() {
+    const Json digest = value_or(evidence_.run.result, "digest", nullptr);
+    for (const auto& [how, run] : evidence_.repeats) {
+      const Json other = value_or(run->result, "digest", nullptr);
+      const bool same = digest.is_string() && digest == other;
+      add("same_digest", same, "the digest " + digest.dump() + " of the repetition '" + how + "' too",
+          other.dump() + (same ? "" : "; compare " + evidence_.run.dir.string() + " with " + run->dir.string()),
+          same ? std::nullopt : parting_time(evidence_.run, *run));
+    }
   }
-}
 
-/// What holds where a file says nothing, spelled as in a file.
-template <class T>
-struct Usual {
-  std::optional<T> value;
-
-  template <class R>
-  void describe(R& r) {
-    read_wanted(r, "usual", value);
-  }
+  const Evidence& evidence_;
+  std::vector<Judgement> judgements_;
 };
-
-template <class T>
-ExpectationKind kind(const std::string& key, const std::string& meaning, const std::string& usual, Judge<T> judge,
-                     Needs needs = Needs::nothing, Check<T> check = {}) {
-  return {key, meaning, usual, [=](ConfigReader& r) -> std::optional<Expectation> {
-            std::optional<T> wanted;
-            if (!usual.empty()) wanted = read_config<Usual<T>>(parse_config_document("usual: " + usual, key)).value;
-            read_wanted(r, key, wanted);
-            if (!wanted) return std::nullopt;
-            Expectation expectation{key, needs == Needs::fault_free, {}, {}, {}};
-            if constexpr (std::is_same_v<T, std::vector<Repeat>>) expectation.repeats = *wanted;
-            if (check) expectation.check = [=](const ExpectationContext& context) { check(key, *wanted, context); };
-            expectation.judge = [=](const Evidence& evidence) { return judge(*wanted, evidence); };
-            return expectation;
-          }};
-}
-
-/// @param path  in result.json, as a JSON pointer.
-ExpectationKind number_kind(const char* key, const char* path, const std::string& meaning) {
-  return kind<Limits>(key, meaning, "",
-                      [path](const Limits& wanted, const Evidence& e) { return judge_number(path, wanted, e); });
-}
-
-ExpectationKind vs_fault_free_kind(const std::string& key, const char* of, const std::string& meaning) {
-  return kind<Limits>(
-      key, meaning, "", [of](const Limits& wanted, const Evidence& e) { return judge_vs_fault_free(of, wanted, e); },
-      Needs::fault_free);
-}
-
-ExpectationKind members_kind(const std::string& key, const char* event, const std::string& meaning) {
-  return kind<std::vector<std::string>>(
-      key, meaning, "",
-      [event](const std::vector<std::string>& wanted, const Evidence& e) { return judge_members(event, wanted, e); },
-      Needs::nothing, check_members);
-}
 
 }  // namespace
 
-const std::vector<ExpectationKind>& expectation_kinds() {
-  static const std::vector<ExpectationKind> kinds = {
-      kind<std::string>("status", "how the run ended, as in result.json", "completed",
-                        [](const std::string& wanted, const Evidence& e) { return judge_text("status", wanted, e); }),
-      kind<Limits>("exit_code", "of `skein run`", "0", judge_exit_code),
-      kind<bool>("deterministic", "the run has a digest", "true", judge_deterministic),
-      kind<bool>("faults_acted", "every fault of the file began before the run ended", "true", judge_faults_acted),
-      kind<Limits>("collisions", "UAVs that collided", "0", judge_collisions),
-      number_kind("score", "/score", "delivered score"),
-      number_kind("score_earned", "/score_earned", "score of all captures, delivered or not"),
-      number_kind("points_detected", "/points_detected", "points with a delivered capture"),
-      number_kind("scans", "/timing/scans", "LiDAR scans of all explorers that were looked at"),
-      vs_fault_free_kind("score_vs_fault_free", "score", "delivered score / that of the same run without faults"),
-      vs_fault_free_kind("earned_vs_fault_free", "score_earned", "earned score / that of the same run without faults"),
-      kind<Limits>("score_vs_earned", "delivered score / earned score", "", judge_vs_earned),
-      kind<RadioLimits>("radio",
-                        "messages `sent`, `delivered`, `dropped_no_los`, `dropped_fault`, `dropped_overflow`, "
-                        "`duplicated`, `corrupted`, or `sent_bytes`, `delivered_bytes`, each with its limits",
-                        "", judge_radio),
-      kind<UavLimits>("uavs",
-                      "for a UAV's name: `captures`, `distance_m`, `max_speed_mps`, `idle_s`, "
-                      "`commands_rejected`, each with its limits",
-                      "", judge_uavs, Needs::nothing, check_uavs),
-      kind<std::vector<Window>>(
-          "during",
-          "a list of parts of the run, `{after_s, until_s}`, each with limits for `distance_m`, `captures`, "
-          "`delivered`, "
-          "`acknowledged`, `lost`, `late` and `score`, and in `uavs` for a UAV's name, all but `score`",
-          "", judge_during, Needs::nothing, check_during),
-      members_kind("left", run_tables::kLeft, "exactly these programs left the run before its end"),
-      members_kind("rejoined", run_tables::kJoined, "exactly these programs joined again"),
-      kind<TakenOver>("taken_over", "`{uav, within_s, points}`: the work of a UAV that failed is done by others", "",
-                      judge_taken_over, Needs::fault_free, check_taken_over),
-      kind<Custody>("custody",
-                    "`kept`: nothing that was acknowledged is missing; `exact`: what was delivered, and when, "
-                    "is what ledger and links say; `none`",
-                    "kept", judge_custody),
-      kind<std::vector<Repeat>>("same_digest",
-                                "further runs with the same digest: `again`, `cyclonedds`, `fastdds`, "
-                                "`mixed`, `chaos`, `one_process`",
-                                "[]", judge_same_digest),
-  };
-  return kinds;
-}
-
 std::vector<Judgement> judged(const Expectations& expectations, const Evidence& evidence) {
-  std::vector<Judgement> all;
-  for (const Expectation& expectation : expectations.all) {
-    for (Finding& finding : expectation.judge(evidence)) all.push_back({expectation.key, std::move(finding)});
-  }
-  return all;
+  return Judge(evidence).all(expectations);
 }
 
 }  // namespace skein::cli

@@ -1,66 +1,68 @@
-// What may be expected of a run with faults. One table (expectation_kinds) names every expectation, what it measures
-// and what holds where a file says nothing; reading files, judging runs and docs/how-to-test-faults.md follow it.
+// What a fault test expects of a run beside its properties: how it ended, its digest, the counters of its radio, and
+// that its faults began. docs/how-to-test-faults.md lists the keys. Pure, but for the runs' digests.csv.
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "cli/fault_tests/judges.hpp"
-#include "core/config/config_reader.hpp"
+#include "cli/fault_tests/limits.hpp"
 #include "core/faults/fault_plan.hpp"
+#include "results/run_record.hpp"
 
 namespace skein::cli {
 
-/// What makes sense in a file depends on the scenario and the faults.
-struct ExpectationContext {
-  const Scenario& scenario;
-  const FaultPlan& plan;
-  ConfigErrors& errors;
-};
+/// One more run of the same test, which must have the same digest.
+enum class Repeat { again, cyclonedds, fastdds, mixed, chaos, one_process };
+constexpr std::array<EnumName<Repeat>, 6> enum_names(Repeat) {
+  return {{{"again", Repeat::again},
+           {"cyclonedds", Repeat::cyclonedds},
+           {"fastdds", Repeat::fastdds},
+           {"mixed", Repeat::mixed},
+           {"chaos", Repeat::chaos},
+           {"one_process", Repeat::one_process}}};
+}
 
-/// One line of a file's `expect`, read.
-struct Expectation {
-  std::string key;
-  bool needs_fault_free = false;
-  std::vector<Repeat> repeats;
-  std::function<void(const ExpectationContext&)> check;  ///< adds errors where names do not exist
-  /// At least one finding, unless there was nothing to look at.
-  std::function<Findings(const Evidence&)> judge;
-};
+constexpr auto radio_counters() {
+  return std::array{"sent",       "delivered", "dropped_no_los", "dropped_fault",  "dropped_overflow",
+                    "duplicated", "corrupted", "sent_bytes",     "delivered_bytes"};
+}
 
-/// A kind of expectation.
-struct ExpectationKind {
-  std::string key, meaning;
-  std::string usual;  ///< what is expected where a file does not say, as files spell it; empty: nothing
-  std::function<std::optional<Expectation>(ConfigReader&)> read;
-};
-
-const std::vector<ExpectationKind>& expectation_kinds();
-
-/// A file's `expect`.
+/// A file's `expect`, with what a test expects where its file does not say.
 struct Expectations {
-  std::vector<Expectation> all;
+  std::string status = "completed";
+  std::optional<Limits> exit_code = Limits{0.0, 0.0};
+  bool deterministic = true, faults_acted = true;
+  LimitsByName<radio_counters> radio;
+  std::vector<Repeat> same_digest;
 
   template <class R>
   void describe(R& r) {
-    for (const ExpectationKind& kind : expectation_kinds()) {
-      if (auto expectation = kind.read(r)) all.push_back(std::move(*expectation));
-    }
+    r.field("status", status);
+    read_limits(r, "exit_code", exit_code);
+    r.field("deterministic", deterministic);
+    r.field("faults_acted", faults_acted);
+    r.field("radio", radio);
+    r.field("same_digest", same_digest);
   }
 };
 
-struct Judgement {
-  std::string key;  ///< of the expectation
-  Finding finding;
-
-  /// Of its place in the file.
-  std::string path() const { return "expect." + key + finding.part; }
+/// The runs that are judged.
+struct Evidence {
+  const FaultPlan& plan;
+  const results::RunRecord& run;
+  int exit_code = 0;                                                       ///< of `skein run`
+  std::vector<std::pair<std::string, const results::RunRecord*>> repeats;  ///< how each was flown, and its record
 };
 
-/// What became of each expectation, in the table's order.
+/// What became of an expectation, or of a part of it.
+struct Judgement {
+  std::string path;  ///< of its key in the file: "expect.radio.sent"
+  bool holds = true;
+  std::string text;  ///< "expected ..., seen ...", with the simulated time at which it failed if that is known
+};
+
 std::vector<Judgement> judged(const Expectations& expectations, const Evidence& evidence);
 
 }  // namespace skein::cli

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "cli/fault_tests/columns.hpp"
+#include "cli/fault_tests/conversion.hpp"
 #include "cli/properties/judge.hpp"
 #include "core/conditions.hpp"
 #include "core/config/config_files.hpp"
@@ -57,8 +58,7 @@ struct TestFile {
     r.field("run", run);
     r.field("properties", property_entries);
     r.field("capsule", capsule);
-    r.has("properties") ? r.field("expect", expect) : r.required("expect", expect);
-    if (!r.has("expect")) expect.describe(r);  // what is usual
+    r.field("expect", expect);
   }
 };
 
@@ -101,23 +101,46 @@ void check_run(const RunOptions& options, ConfigErrors& errors) {
   errors.throw_if_any();
 }
 
-properties::PropertySet read_properties(const std::variant<std::string, properties::PropertyEntries>& given,
-                                        const FleetPlan& plan, ConfigErrors& errors) {
-  static const std::string key = "properties";
-  properties::PropertySet set;
-  if (const auto* file = std::get_if<std::string>(&given)) {
-    if (file->empty()) return set;
-    try {
-      set = properties::load_properties(find_config_file("property file", *file, {}, plan.faults.file.parent_path()),
-                                        plan.scenario);
-    } catch (const InputError& error) {
-      errors.check(false, key, error.what());
-    }
-    return set;
+constexpr const char* kProperties = "properties";
+
+/// Reads the property file that a test names. Errors in it are reported at the name.
+void read_property_file(const std::string& name, FaultTest& test, ConfigErrors& errors) try {
+  const fs::path file = find_config_file("property file", name, {}, test.plan.faults.file.parent_path());
+  test.property_set = properties::load_properties(file, test.plan.scenario);
+  test.entries = properties::load_property_entries(file);
+} catch (const InputError& error) {
+  errors.check(false, kProperties, error.what());
+}
+
+/// Reads the properties of a test. A capsule is about one property, so the default ones do not hold for it.
+void read_properties(const std::variant<std::string, properties::PropertyEntries>& given, FaultTest& test,
+                     ConfigErrors& errors) {
+  const Scenario& scenario = test.plan.scenario;
+  const auto* file = std::get_if<std::string>(&given);
+  if (file != nullptr && !file->empty()) {
+    read_property_file(*file, test, errors);
+  } else if (file == nullptr) {
+    test.entries = std::get<properties::PropertyEntries>(given);
+    test.property_set = properties::parse_properties(test.entries, kProperties, scenario, errors);
+    check_against_plan(test.property_set, test.plan.faults, scenario, kProperties, errors);
   }
-  set = properties::parse_properties(std::get<properties::PropertyEntries>(given), key, plan.scenario, errors);
-  check_against_plan(set, plan.faults, plan.scenario, key, errors);
-  return set;
+  if (test.capsule) return;
+  const auto usual =
+      properties::parse_properties(properties::missing_defaults(test.entries), kProperties, scenario, errors);
+  test.property_set.insert(test.property_set.end(), usual.begin(), usual.end());
+}
+
+/// Refuses keys of `expect` of earlier versions, which properties replace.
+void refuse_old_keys(const ConfigDocument& document, const fs::path& file) {
+  const ConfigNode* expect = document.root.find("expect");
+  if (expect == nullptr) return;
+  ConfigErrors errors(document);
+  for (const std::string& key : expect->keys) {
+    const std::vector<std::string>& old = old_expectations();
+    errors.check(std::ranges::find(old, key) == old.end(), "expect." + key,
+                 "is a property now; `skein convert --in-place " + file.string() + "` converts it");
+  }
+  errors.throw_if_any();
 }
 
 /// A capsule that is about nothing in the file would hold for ever.
@@ -136,6 +159,7 @@ FaultTest read_fault_test(const fs::path& file, const ConfigDocument& document, 
   errors.check(document.root.find("faults") != nullptr, "faults",
                "is missing: a list of faults, or the name of a fault file");
   errors.throw_if_any();
+  refuse_old_keys(document, file);
   ConfigDocument without_faults = document;
   without_faults.root.remove("faults");
   TestFile content = read_config<TestFile>(without_faults);
@@ -144,30 +168,18 @@ FaultTest read_fault_test(const fs::path& file, const ConfigDocument& document, 
   check_run(options, errors);
   FaultTest test{file.stem(), file, plan_fleet(options, program_dir()), std::move(content.expect), {}, document};
   test.capsule = std::move(content.capsule);
-  const auto* entries = std::get_if<properties::PropertyEntries>(&content.property_entries);
-  if (entries != nullptr) test.entries = *entries;
-  test.property_set = read_properties(content.property_entries, test.plan, errors);
+  read_properties(content.property_entries, test, errors);
   if (test.capsule) check_mark(*test.capsule, test.property_set, errors);
-  for (const Expectation& expectation : test.expect.all) {
-    if (expectation.check) expectation.check({test.plan.scenario, test.plan.faults, errors});
-  }
   errors.throw_if_any();
   return test;
 }
 
 }  // namespace
 
-bool FaultTest::needs_fault_free() const {
-  return needs_undisturbed(property_set) ||
-         std::any_of(expect.all.begin(), expect.all.end(), [](const Expectation& e) { return e.needs_fault_free; });
-}
+bool FaultTest::needs_fault_free() const { return needs_undisturbed(property_set); }
 
-std::vector<Repeat> FaultTest::repeats() const {
-  std::vector<Repeat> all;
-  for (const Expectation& expectation : expect.all) {
-    all.insert(all.end(), expectation.repeats.begin(), expectation.repeats.end());
-  }
-  return all;
+bool FaultTest::states(const std::string& property) const {
+  return std::ranges::any_of(entries, [&](const auto& entry) { return entry.first == property; });
 }
 
 std::string FaultTest::said_of(const std::string& key, const std::string& what) const try {

@@ -43,16 +43,16 @@ struct FaultTest {
   std::filesystem::path file;  ///< path as it was given
   FleetPlan plan;              ///< includes the faults; its options say how to fly the test
   Expectations expect;
-  properties::PropertySet property_set;  ///< from `properties` of the file
+  properties::PropertySet property_set;  ///< from `properties` of the file, and the default properties
   ConfigDocument document;               ///< the file as it is
   std::optional<CapsuleMark> capsule = {};
   properties::PropertyEntries entries = {};  ///< `properties` as the file spells them
 
   bool needs_fault_free() const;  ///< whether judging the test needs the same run without faults
-  /// The repetitions that the file's expectations ask for.
-  std::vector<Repeat> repeats() const;
+  /// Whether the file says something about this property; otherwise it holds by default.
+  bool states(const std::string& property) const;
   /// "FILE:LINE: KEY: WHAT", in the form of errors in the file itself; for a key that is missing, with the line of its
-  /// enclosing key. @param key  for example "expect.score"
+  /// enclosing key. @param key  for example "properties.separation"
   std::string said_of(const std::string& key, const std::string& what) const;
 };
 

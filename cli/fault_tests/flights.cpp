@@ -74,7 +74,7 @@ class Planning {
   }
 
   std::vector<Repeat> repeats_of(const FaultTest& test, std::size_t index) const {
-    std::vector<Repeat> all = test.repeats();
+    std::vector<Repeat> all = test.expect.same_digest;
     if (options_.rotate && !asked_.empty()) {
       all.push_back(asked_[index % asked_.size()]);
     } else {

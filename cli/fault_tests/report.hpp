@@ -13,7 +13,7 @@ struct FaultVerdict {
   std::string name;            ///< with the seed, where each is flown with several
   std::filesystem::path file;  ///< as the user named it
   bool flown = false;
-  std::vector<std::string> broken;   ///< a sentence for each expectation that does not hold
+  std::vector<std::string> broken;   ///< a sentence for each expectation or property that does not hold
   std::vector<std::string> held;     ///< and for each that does
   std::vector<std::string> vacuous;  ///< and for each property that the run says nothing of
   std::filesystem::path results;

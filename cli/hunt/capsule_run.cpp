@@ -64,7 +64,7 @@ Replayed judge_property(const FaultTest& test, const fs::path& dir, const Consol
     fly_aside(undisturbed, "without the faults", console,
               [&](const fs::path& aside) { without = results::read_run(aside); });
   }
-  FolderSignals signals(run, test.plan.scenario, without ? &*without : nullptr);
+  FolderSignals signals(run, test.plan.scenario, without ? &*without : nullptr, &test.plan.faults);
   Replayed verdict{false, "nothing is asked"};
   for (const PropertyFinding& found : judge_properties(test.property_set, signals)) {
     if (found.name != test.capsule->property) continue;

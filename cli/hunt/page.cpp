@@ -72,7 +72,9 @@ report::TimeCurve margin_curve(const HuntSummary& summary, const Find& find) {
   const auto property = std::ranges::find(set, find.broke, &properties::NamedProperty::name);
   if (property == set.end() || needs_undisturbed({*property})) return curve;
   const results::RunRecord run = results::read_run(find.run);
-  FolderSignals signals(run, scenario);
+  FaultPlan plan;
+  plan.faults = find.trial.faults;
+  FolderSignals signals(run, scenario, nullptr, &plan);
   std::vector<double> worst;
   for (const properties::Property& one : property->cases) {
     const std::vector<double> margins = margins_over_time(one, signals);

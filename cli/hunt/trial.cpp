@@ -216,7 +216,9 @@ TrialOutcome read_outcome(const std::filesystem::path& dir, const ExitStatus& ex
   const results::RunRecord run = results::read_run(dir);
   std::optional<results::RunRecord> without;
   if (undisturbed) without = results::read_run(*undisturbed);
-  FolderSignals signals(run, scenario, without ? &*without : nullptr);
+  FaultPlan plan;
+  plan.faults = trial.faults;
+  FolderSignals signals(run, scenario, without ? &*without : nullptr, &plan);
   for (const PropertyFinding& found : judge_properties(asked_of(trial.faults, set), signals)) {
     outcome.findings.push_back(finding_of(found));
   }

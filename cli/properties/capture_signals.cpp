@@ -1,10 +1,11 @@
 // Signals of captures: which were taken, delivered and acknowledged, and whose work they were.
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <optional>
 #include <set>
 
-#include "cli/fault_tests/custody.hpp"
+#include "cli/properties/custody.hpp"
 #include "cli/properties/run_signals.hpp"
 #include "results/run_folder.hpp"
 
@@ -127,6 +128,18 @@ FolderSignals::Values FolderSignals::of_captures(const SignalUse& signal) {
     return stepped(steps);
   }
   if (signal.is("earned")) return stepped(earned_steps(run_, scenario_));
+  if (signal.is("delivered_score")) {
+    return stepped(score_steps(run_, scenario_, [](const results::CaptureRow& row) { return row.delivered_at_s; }));
+  }
+  if (signal.is("lost") || signal.is("late")) {
+    std::vector<std::size_t> exchanges;
+    for (const results::MessageRow& row : run_.messages) {
+      const bool is_meant = signal.is("late") == row.arrives.has_value() && (uav.empty() || row.uav == uav);
+      if (is_meant) exchanges.push_back(row.step);
+    }
+    return counted(exchanges);
+  }
+  if (signal.is("custody_differences")) return custody_differences();
   return of_custody(signal);
 }
 
@@ -151,6 +164,26 @@ FolderSignals::Values FolderSignals::of_custody(const SignalUse& signal) {
     }
   }
   return counted(exchanges);
+}
+
+FolderSignals::Values FolderSignals::custody_differences() const {
+  if (faults_ == nullptr) throw InputError("custody_differences: is known only where the faults of the run are known");
+  // Exchanges in which a capture is delivered, by the derivation and by the station; `exchanges_`: never.
+  std::map<CaptureKey, std::pair<std::size_t, std::size_t>> deliveries;
+  const auto entry = [&](const CaptureKey& capture) -> auto& {
+    return deliveries.try_emplace(capture, exchanges_, exchanges_).first->second;
+  };
+  for (const auto& [capture, step] : derived_deliveries(run_, scenario_, *faults_)) entry(capture).first = step;
+  for (const results::CaptureRow& row : run_.captures) {
+    if (!row.delivered_at_s) continue;
+    entry({row.uav, row.capture}).second = static_cast<std::size_t>(std::llround(*row.delivered_at_s / period_s()));
+  }
+  Values values = constant(0.0);
+  for (const auto& [capture, steps] : deliveries) {
+    const auto [from, to] = std::minmax(steps.first, steps.second);
+    for (std::size_t k = from; k < std::min(to, exchanges_); ++k) ++values[k];
+  }
+  return values;
 }
 
 /// Whether a report could go from a UAV to the station and its acknowledgement back, between two exchanges. What is
@@ -185,12 +218,11 @@ FolderSignals::Values FolderSignals::of_work(const SignalUse& signal) {
   if (signal.is("undisturbed_earned")) return constant(value_or(without.result, "score_earned", 0.0));
   const std::string uav = signal.argument(0);
   if (signal.is("missed")) return missed(uav, without);
-  const auto left = std::ranges::find_if(
-      run_.events, [&](const results::EventRow& row) { return row.event == run_tables::kLeft && row.subject == uav; });
-  if (left == run_.events.end()) return constant(0.0);
-  const double from_s = static_cast<double>(left->step) * period_s();
+  const std::optional<double> failed = failed_s(uav);
+  if (!failed) return constant(0.0);
+  const double from_s = *failed;
   std::set<int> in_hand = work_before(without, uav, from_s);
-  if (signal.is("in_hand")) return constant(static_cast<double>(in_hand.size()));
+  if (signal.is("in_hand")) return counted(std::vector<std::size_t>(in_hand.size(), exchange_at(from_s)));
   std::vector<std::size_t> exchanges;
   std::vector<const results::CaptureRow*> rows;
   for (const results::CaptureRow& row : run_.captures) rows.push_back(&row);
@@ -201,6 +233,21 @@ FolderSignals::Values FolderSignals::of_work(const SignalUse& signal) {
     }
   }
   return counted(exchanges);
+}
+
+/// When a UAV's program first left; if it never did, when the first fault of this UAV began. nullopt: neither.
+std::optional<double> FolderSignals::failed_s(const std::string& uav) const {
+  for (const results::EventRow& row : run_.events) {
+    if (row.event == run_tables::kLeft && row.subject == uav) return static_cast<double>(row.step) * period_s();
+  }
+  std::optional<double> first_s;
+  for (const Json& fault : value_or(run_.result, "faults", Json::array())) {
+    const Json began = value_or(fault, "began_step", nullptr);
+    if (!began.is_number() || value_or(fault, "target", nullptr) != uav) continue;
+    const double began_s = began.get<double>() * period_s();
+    first_s = std::min(first_s.value_or(began_s), began_s);
+  }
+  return first_s;
 }
 
 /// A restarted program has lost its knowledge, and begins anew. So the same UAV's flight in the run without faults,

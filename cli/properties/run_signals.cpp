@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "core/text/suggestion.hpp"
 #include "core/text/text.hpp"
@@ -30,8 +31,12 @@ bool is_death_for_good(const Json& fault, const Scenario& scenario) {
 }  // namespace
 
 FolderSignals::FolderSignals(const results::RunRecord& run, const Scenario& scenario,
-                             const results::RunRecord* undisturbed)
-    : run_(run), scenario_(scenario), undisturbed_(undisturbed), exchanges_(exchanges_of(run, scenario)) {}
+                             const results::RunRecord* undisturbed, const FaultPlan* faults)
+    : run_(run),
+      scenario_(scenario),
+      undisturbed_(undisturbed),
+      faults_(faults),
+      exchanges_(exchanges_of(run, scenario)) {}
 
 std::optional<double> FolderSignals::healed_s() const {
   double healed_s = 0.0;
@@ -62,7 +67,7 @@ FolderSignals::Values FolderSignals::work_out(const SignalUse& signal) {
   if (signal.is("debug")) return debug(signal);
   if (signal.is("separation")) return separation(signal);
   if (signal.is("without_work")) return without_work(signal.argument(0));
-  for (const char* name : {"member", "restarts", "link", "faults", "time"}) {
+  for (const char* name : {"member", "restarts", "leaves", "link", "faults", "time"}) {
     if (signal.is(name)) return of_members(signal);
   }
   for (const char* name : {"x", "y", "z", "speed", "distance", "clearance", "charge", "alive"}) {
@@ -135,6 +140,14 @@ std::map<std::string, FolderSignals::Track> FolderSignals::tracks_of(const resul
       track.clearance[k] = track.clearance[k - 1];
       track.charge[k] = track.charge[k - 1];
     }
+  }
+  // A collision may lie between two rows of the table, or after its last one.
+  for (const Json& collision : value_or(run.result, "collisions", Json::array())) {
+    const auto track = tracks.find(value_or(collision, "uav", "").get<std::string>());
+    const double time_s = value_or(collision, "time_s", 0.0);
+    if (track == tracks.end() || time_s > end_s) continue;
+    Values& alive = track->second.alive;
+    std::fill(alive.begin() + static_cast<std::ptrdiff_t>(exchange_at(time_s)), alive.end(), 0.0);
   }
   return tracks;
 }
@@ -223,14 +236,16 @@ FolderSignals::Values FolderSignals::of_members(const SignalUse& signal) {
     for (std::size_t k = 0; k < exchanges_; ++k) times.push_back(static_cast<double>(k) * period_s());
     return times;
   }
-  if (signal.is("restarts")) {
-    std::vector<std::size_t> again;
-    std::map<std::string, int> lives;
+  if (signal.is("restarts") || signal.is("leaves")) {
+    const bool joins = signal.is("restarts");
+    std::vector<std::size_t> steps;
+    std::set<std::string> known;  // the first time that a program joins is no restart
     for (const results::EventRow& row : run_.events) {
-      if (row.event != run_tables::kJoined || (!subject.empty() && row.subject != subject)) continue;
-      if (lives[row.subject]++ > 0) again.push_back(row.step);
+      const bool is_meant = row.event == (joins ? run_tables::kJoined : run_tables::kLeft);
+      if (!is_meant || (!subject.empty() && row.subject != subject)) continue;
+      if (!joins || !known.insert(row.subject).second) steps.push_back(row.step);
     }
-    return counted(again);
+    return counted(steps);
   }
   Values in_force = constant(0.0);
   for (const Json& fault : value_or(run_.result, "faults", Json::array())) {
@@ -264,6 +279,7 @@ FolderSignals::Values FolderSignals::result(const SignalUse& signal) const {
     }
     here = std::move(next);
   }
+  if (here.is_array()) return constant(static_cast<double>(here.size()));
   if (here.is_boolean()) return constant(here.get<bool>() ? 1.0 : 0.0);
   if (!here.is_number()) throw InputError("result(" + path + "): this is no number of the run's result");
   return constant(here.get<double>() * unit_of_result(path).factor);

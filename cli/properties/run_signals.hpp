@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "cli/properties/radio_log.hpp"
+#include "core/faults/fault_plan.hpp"
 #include "core/scenario.hpp"
 #include "properties/evaluation.hpp"
 #include "results/run_record.hpp"
@@ -23,10 +24,10 @@ class FolderSignals final : public properties::RunSignals {
  public:
   using Values = std::vector<double>;  ///< one for each exchange
 
-  /// @param run, scenario, undisturbed  must outlive this. @param undisturbed  the same run without faults, if there is
-  ///   one.
+  /// All parameters must outlive this. @param undisturbed  the same run without faults, if there is one.
+  /// @param faults  of the run; without them, `custody_differences` cannot be computed
   FolderSignals(const results::RunRecord& run, const Scenario& scenario,
-                const results::RunRecord* undisturbed = nullptr);
+                const results::RunRecord* undisturbed = nullptr, const FaultPlan* faults = nullptr);
 
   const std::vector<double>& values(const SignalUse& signal) override;
   std::size_t exchanges() const override { return exchanges_; }
@@ -45,8 +46,10 @@ class FolderSignals final : public properties::RunSignals {
   Values of_captures(const SignalUse& signal);
   Values of_messages(const SignalUse& signal);
   Values of_custody(const SignalUse& signal);
+  Values custody_differences() const;
   bool has_path(const std::string& uav, std::size_t from, std::size_t to);
   Values of_work(const SignalUse& signal);
+  std::optional<double> failed_s(const std::string& uav) const;
   Values missed(const std::string& uav, const results::RunRecord& without);
   Values separation(const SignalUse& signal);
   Values result(const SignalUse& signal) const;
@@ -69,6 +72,7 @@ class FolderSignals final : public properties::RunSignals {
   const results::RunRecord& run_;
   const Scenario& scenario_;
   const results::RunRecord* const undisturbed_;
+  const FaultPlan* const faults_;
   const std::size_t exchanges_;
   std::map<std::string, Values> known_;  ///< by SignalUse::text()
   std::optional<RadioLog> radio_;

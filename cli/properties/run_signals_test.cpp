@@ -69,6 +69,8 @@ TEST_F(RunSignalsTest, MembersLinksAndFaultsFollowEventsAndResult) {
   EXPECT_EQ(values("member(a)"), steps({{0, 1}, {10, 0}, {20, 1}, {30, 0}, {31, 1}}));
   EXPECT_EQ(number("restarts(a)"), steps({{20, 1}, {31, 2}}));
   EXPECT_EQ(number("restarts"), number("restarts(a)"));
+  EXPECT_EQ(number("leaves(a)"), steps({{10, 1}, {30, 2}}));
+  EXPECT_EQ(number("leaves"), number("leaves(a)"));
   EXPECT_EQ(values("link(a, gcs)"), steps({{0, 1}, {5, 0}}));
   EXPECT_EQ(values("link(b, a)"), steps({{7, 1}}));
   EXPECT_EQ(values("link(a, b)"), steps({}));
@@ -108,6 +110,7 @@ TEST_F(RunSignalsTest, NumbersOfTheResultAreCalledByTheirKeys) {
   EXPECT_EQ(number("result(uavs.b.idle_s)")[0], 0.5);
   EXPECT_THROW(number("result(radio.snet)"), InputError);
   EXPECT_THROW(number("result(radio)"), InputError);
+  EXPECT_EQ(number("result(uavs)")[9], 2.0) << "a list has a length";
 }
 
 TEST_F(RunSignalsTest, TimeWithoutWorkIsThatOfTheTable) {
@@ -133,8 +136,45 @@ TEST_F(RunSignalsTest, CapturesAreCountedWhenTheyAreTakenDeliveredAndAcknowledge
   EXPECT_EQ(number("score"), steps({{10, 1}, {40, 1.5}}));
   EXPECT_EQ(number("points"), steps({{10, 2}, {40, 3}}));
   EXPECT_EQ(number("earned"), steps({{2, 1}, {4, 1.3}}));
+  EXPECT_EQ(number("delivered_score"), steps({{10, 1}}));
   run_.captures[0].delivered_at_s = run_.captures[1].delivered_at_s = 0.65;
   EXPECT_EQ(number("acknowledged_kept"), steps({})) << "acknowledged before it was there";
+}
+
+TEST_F(RunSignalsTest, LostAndLateMessagesAreCountedWhenTheyAreSent) {
+  run_.messages = {{3, "a", std::nullopt}, {5, "b", 9}, {7, "a", 8}};
+  EXPECT_EQ(number("lost"), steps({{3, 1}}));
+  EXPECT_EQ(number("late"), steps({{5, 1}, {7, 2}}));
+  EXPECT_EQ(number("late(a)"), steps({{7, 1}}));
+  EXPECT_EQ(number("lost(b)"), steps({}));
+}
+
+TEST_F(RunSignalsTest, ADeliveryThatDoesNotFollowFromTheRecordIsADifference) {
+  run_.events = {{0, "joined", "a", ""},     {0, "joined", "station", ""}, {0, "joined", "comm_router", ""},
+                 {0, "link_up", "a", "gcs"}, {10, "captured", "a", "0"},   {20, "captured", "a", "1"}};
+  run_.captures = {capture("a", 0, 0.5, 0.55), capture("a", 1, 1.0, 1.05, 1)};
+  const FaultPlan plan;
+  const auto differences = [&] {
+    FolderSignals all(run_, scenario_, nullptr, &plan);
+    const auto info = std::ranges::find(signal_table(), "custody_differences", &SignalInfo::name);
+    return all.values({&*info, {}});
+  };
+  EXPECT_EQ(differences(), steps({}));
+  run_.captures[1].delivered_at_s = 1.15;
+  EXPECT_EQ(differences(), steps({{21, 1}, {23, 0}})) << "late";
+  run_.captures[1].delivered_at_s = 1.0;
+  EXPECT_EQ(differences(), steps({{20, 1}, {21, 0}})) << "early";
+  run_.captures.pop_back();
+  EXPECT_EQ(differences(), steps({{21, 1}})) << "the station does not even know of it";
+  EXPECT_THROW(number("custody_differences"), InputError) << "the faults are not known";
+}
+
+TEST_F(RunSignalsTest, ACollisionIsKnownWhereverItsRowIs) {
+  run_.positions = {{0.0, "a", {0, 0, 1}}, {1.9, "a", {1, 0, 1}}};
+  run_.result["collisions"] = Json::array({{{"uav", "a"}, {"with", "ground"}, {"time_s", 1.96}}});
+  EXPECT_EQ(values("alive(a)").at(39), 1.0);
+  EXPECT_EQ(values("alive(a)").at(40), 0.0);
+  EXPECT_EQ(values("alive(b)").at(40), 1.0);
 }
 
 // A way there, and later one back: found by looking at every pair of exchanges.
@@ -185,9 +225,14 @@ TEST_F(RunSignalsTest, WorkThatIsTakenOverIsWhatNobodyElseWouldHaveDone) {
   run_.events = {{0, "joined", "a", ""}, {10, "left", "a", ""}};
   run_.captures = {capture("a", 0, 0.1, {}, 0), capture("b", 0, 0.2, {}, 1), capture("b", 1, 1.0, {}, 2),
                    capture("b", 2, 1.5, {}, 1), capture("b", 3, 1.6, {}, 0), capture("b", 4, 1.7, {}, 3)};
-  EXPECT_EQ(number("in_hand(a)", &undisturbed), std::vector<double>(kExchanges, 2.0)) << "points 1 and 2";
+  EXPECT_EQ(number("in_hand(a)", &undisturbed), steps({{10, 2}})) << "points 1 and 2";
   EXPECT_EQ(number("taken_over(a)", &undisturbed), steps({{20, 1}, {30, 2}}));
   EXPECT_EQ(number("taken_over(b)", &undisturbed), steps({})) << "it is still there";
+  run_.events.pop_back();
+  EXPECT_EQ(number("in_hand(a)", &undisturbed), steps({})) << "it never failed";
+  run_.result["faults"] = Json::array({{{"target", "b"}, {"began_step", 4}}, {{"target", "a"}, {"began_step", 21}}});
+  EXPECT_EQ(number("in_hand(a)", &undisturbed), steps({{21, 1}})) << "point 2, from its fault on";
+  EXPECT_EQ(number("taken_over(a)", &undisturbed), steps({}));
   EXPECT_EQ(number("undisturbed_score", &undisturbed)[0], 9.0);
   EXPECT_THROW(number("undisturbed_score"), InputError);
 }
@@ -287,7 +332,8 @@ TEST_F(RunSignalsTest, EverySignalOfTheTableIsKnown) {
           arguments.emplace_back(i == 0 ? "a" : "b");
       }
     }
-    FolderSignals all(run_, scenario_, &run_);
+    const FaultPlan plan;
+    FolderSignals all(run_, scenario_, &run_, &plan);
     EXPECT_EQ(all.values({&info, arguments}).size(), kExchanges) << info.name;
   }
 }

@@ -1,27 +1,30 @@
-// Requirements that every flight of a study must meet: `collisions==0`, `attainable_percent>=5`. Names are those of
-// study_columns(). Pure.
+// Requirements that every flight of a study must meet: `collisions==0`, `frozen_s <= 80 and score >= 100`. These are
+// conditions as in properties (core/expressions/expression_parser.hpp), over the figures of study_columns(), without
+// units. Pure.
 #pragma once
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "cli/study/columns.hpp"
+#include "core/expressions/expression.hpp"
+#include "core/expressions/signal_table.hpp"
 
 namespace skein::cli {
 
 struct Requirement {
-  enum class Relation { equal, unequal, less, at_most, more, at_least };
-
   std::string text;  ///< as the user wrote it
-  const StudyColumn* column = nullptr;
-  Relation relation = Relation::equal;
-  double value = 0.0;
+  Expression condition = {};
+  std::vector<SignalUse> figures = {};  ///< by slot in the condition
 
-  /// Whether a flight meets it; false if this figure, or all figures (nullopt), are not known.
-  bool holds(const std::optional<FlightFigures>& figures) const;
+  /// Whether a flight meets it; false if a figure that decides it, or all figures (nullopt), are not known.
+  bool holds(const std::optional<FlightFigures>& flight) const;
+  /// The figures of a flight that the requirement names, for people.
+  std::string seen(const std::optional<FlightFigures>& flight) const;
 };
 
-/// @throws InputError unless `text` is NAME RELATION NUMBER; for an unknown name, the message suggests names.
+/// @throws InputError unless `text` is a condition over figures; for an unknown name, the message suggests names.
 Requirement parse_requirement(const std::string& text);
 
 }  // namespace skein::cli

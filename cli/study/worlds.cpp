@@ -89,10 +89,8 @@ bool print_requirements(std::ostream& out, const Study& study, const std::vector
       if (requirement.holds(flight.figures)) continue;
       if (all_hold) out << "\nnot kept:\n";
       all_hold = false;
-      const auto figure = flight.figures ? requirement.column->value(*flight.figures) : std::nullopt;
-      out << fmt::format("  {}: {} in {}, {}, seed {}\n    {}\n", requirement.text,
-                         figure ? fixed_at_most(*figure, 3) : "no figure", study.scenarios[flight.scenario],
-                         study.planners[flight.planner], flight.seed, flight.command);
+      out << fmt::format("  {}: {} in {}, {}, seed {}\n    {}\n", requirement.text, requirement.seen(flight.figures),
+                         study.scenarios[flight.scenario], study.planners[flight.planner], flight.seed, flight.command);
     }
   }
   return all_hold;

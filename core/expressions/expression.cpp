@@ -38,6 +38,10 @@ Margin rises_between(const Expression& part, const Instant& from, const Instant&
 
 }  // namespace
 
+bool is_constant(const Expression& expression) {
+  return expression.op != Expression::Op::signal && std::ranges::all_of(expression.parts, is_constant);
+}
+
 double number_at(const Expression& expression, const Instant& instant) {
   const auto part = [&](std::size_t i) { return number_at(expression.parts[i], instant); };
   switch (expression.op) {

@@ -85,6 +85,9 @@ inline Margin certain(bool holds) {
   return {holds, holds ? kInfinity : -kInfinity};
 }
 
+/// Whether no part of an expression is a signal.
+bool is_constant(const Expression& expression);
+
 /// @param expression  a number. @returns NaN where it is undefined.
 double number_at(const Expression& expression, const Instant& instant);
 /// @param expression  a condition.

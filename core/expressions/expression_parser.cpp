@@ -18,10 +18,6 @@ std::string of_unit(const Unit& unit) {
   return unit == kPlainNumber ? std::string("a plain number") : "in " + unit_text(unit);
 }
 
-bool is_constant(const Expression& part) {
-  return part.op != Op::signal && std::ranges::all_of(part.parts, is_constant);
-}
-
 void expect_number(const Expression& part, const std::string& where) {
   if (part.is_condition) ExpressionParser::fail(part.at, where + " must be a number, and this is a condition");
 }
@@ -194,7 +190,7 @@ Expression ExpressionParser::primary() {
     const Quantity given = number();
     return {.op = Op::number, .number = given.value, .unit = given.unit, .at = begin};
   }
-  const std::string name = word("a signal, a number or '('");
+  const std::string name = word("a " + std::string(scope_.signal_word) + ", a number or '('");
   for (const Function& known : kFunctions) {
     if (name == known.name) return function(known.op, begin, name);
   }
@@ -229,7 +225,7 @@ Expression ExpressionParser::function(Op op, std::size_t at, const std::string& 
 
 const SignalInfo& ExpressionParser::signal_named(std::size_t at, const std::string& name) const {
   std::vector<std::string> known;
-  for (const SignalInfo& info : signal_table()) {
+  for (const SignalInfo& info : *scope_.signals) {
     if (info.name == name && scope_.live_only && !info.is_live) {
       fail(at, "'" + name + "' is known only after the run, so that nothing can wait for it");
     }
@@ -237,7 +233,7 @@ const SignalInfo& ExpressionParser::signal_named(std::size_t at, const std::stri
     if (info.is_live || !scope_.live_only) known.emplace_back(info.name);
   }
   for (const auto& [parameter, value] : scope_.parameters) known.push_back(parameter);
-  fail(at, "there is no signal '" + name + "'; " + suggestion(name, known));
+  fail(at, "there is no " + std::string(scope_.signal_word) + " '" + name + "'; " + suggestion(name, known));
 }
 
 Expression ExpressionParser::signal(std::size_t at, const std::string& name) {

@@ -28,6 +28,8 @@ struct ExpressionScope {
   bool live_only = false;                             ///< only signals known during a run, no operators on the past
   std::map<std::string, std::string> variables = {};  ///< name of the UAV that each variable stands for
   std::map<std::string, Quantity> parameters = {};
+  const std::vector<SignalInfo>* signals = &signal_table();  ///< all signals that there are
+  std::string_view signal_word = "signal";                   ///< what they are called in messages
 };
 
 /// Parses a text part by part. All member functions throw ExpressionError.

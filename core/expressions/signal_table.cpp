@@ -39,6 +39,7 @@ std::vector<SignalInfo> make_table() {
       boolean("alive", {uav}, "it has not collided, and is in the world"),
       boolean("member", {program}, "the program takes part in the run"),
       number("restarts", {program}, 0, kPlainNumber, kLive, "how often the program has come back"),
+      number("leaves", {program}, 0, kPlainNumber, kLive, "how often the program has left the run"),
       boolean("link", {node, node}, "the radio link is open: line of sight, less what faults cut as a whole"),
       number("faults", {}, 0, kPlainNumber, kLive, "how many faults are in force"),
       number("captures", {uav}, 0, kPlainNumber, kLive, "captures that found something better than before"),
@@ -50,7 +51,14 @@ std::vector<SignalInfo> make_table() {
       number("acknowledged_by_path", {uav}, 0, kPlainNumber, kAfterwards,
              "acknowledged captures for which there was a way: an open link to the station after they were taken, and "
              "an open link back after that, with the programs on the way taking part"),
+      number("lost", {uav}, 0, kPlainNumber, kAfterwards, "messages with capture reports that a link with faults lost"),
+      number("late", {uav}, 0, kPlainNumber, kAfterwards,
+             "messages with capture reports that a link with faults delayed"),
+      number("custody_differences", {}, 0, kPlainNumber, kAfterwards,
+             "captures whose delivery by now is not the one that follows from the server's record and the faults"),
       number("score", {}, 0, kPlainNumber, kAfterwards, "of what is delivered, as the station counts it"),
+      number("delivered_score", {}, 0, kPlainNumber, kAfterwards,
+             "the sum, over all interest points, of the best capture that is delivered and counts"),
       number("points", {}, 0, kPlainNumber, kAfterwards, "interest points with a delivered capture that counts"),
       number("earned", {}, 0, kPlainNumber, kAfterwards, "score of all captures, delivered or not"),
       number("sent", {node, node, topic}, 0, kPlainNumber, kAfterwards,
@@ -68,11 +76,11 @@ std::vector<SignalInfo> make_table() {
       number("undisturbed_earned", {}, 0, kPlainNumber, kAfterwards, "`earned` of the same run without faults"),
       number("undisturbed_distance", {uav}, 0, kMetres, kAfterwards, "`distance` in the same run without faults"),
       number("in_hand", {uav}, 1, kPlainNumber, kAfterwards,
-             "points that were the UAV's remaining work when its program first left: in the same run without faults, "
-             "this UAV photographs them only after that time, and no other UAV ever does. The same number all the "
-             "time; 0 if the program never left"),
+             "points that were the UAV's remaining work when it failed: in the same run without faults, this UAV "
+             "photographs them only after that time, and no other UAV ever does. A UAV fails when its program first "
+             "leaves; if its program never leaves, when the first fault of this UAV begins. 0 before it fails"),
       number("taken_over", {uav}, 1, kPlainNumber, kAfterwards,
-             "how many of the points of `in_hand(uav)` other UAVs have photographed since the program first left"),
+             "how many of the points of `in_hand(uav)` other UAVs have photographed since the UAV failed"),
       number(
           "missed", {uav}, 1, kPlainNumber, kAfterwards,
           "points that a UAV whose program was away should have photographed by now, but that no UAV photographs in "
@@ -84,7 +92,8 @@ std::vector<SignalInfo> make_table() {
              "while it is out or its program is away"),
       number("debug", {uav, word}, 2, kPlainNumber, kLive,
              "what the UAV's program published last as `/<id>/debug/<name>`; 0 before"),
-      number("result", {path}, 1, kPlainNumber, kAfterwards, "a number of `result.json`, all the time"),
+      number("result", {path}, 1, kPlainNumber, kAfterwards,
+             "a number of `result.json`, all the time; of a list, how many entries it has"),
   };
 }
 

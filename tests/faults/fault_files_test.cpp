@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
-#include <regex>
 
 #include "cli/fault_tests/fault_test.hpp"
 #include "core/config/config_files.hpp"
@@ -123,13 +122,22 @@ TEST_F(FaultFiles, ExamplesOfThePageOfTestsLoad) {
   for (const std::string& block : blocks) EXPECT_NO_THROW(load_fault_test(written(block))) << block;
 }
 
-TEST_F(FaultFiles, ThePageOfTestsListsEveryExpectation) {
+TEST_F(FaultFiles, ThePageOfTestsListsEveryExpectationAndEveryDefaultProperty) {
   const std::string text = page("how-to-test-faults.md");
-  for (const ExpectationKind& kind : expectation_kinds()) {
-    const std::string usual = kind.usual.empty() ? " " : " `" + kind.usual + "` ";
-    const std::regex row("\n\\|[^|]*`" + kind.key + "`[^|]*\\|" +
-                         std::regex_replace(usual, std::regex(R"([\[\]])"), R"(\$&)") + "\\|");
-    EXPECT_TRUE(std::regex_search(text, row)) << kind.key;
+  for (const char* row : {"| `status` | `completed` |", "| `exit_code` | `0` |", "| `deterministic` | `true` |",
+                          "| `faults_acted` | `true` |", "| `radio` | |", "| `same_digest` | `[]` |"}) {
+    EXPECT_NE(text.find(std::string("\n") + row), std::string::npos) << row;
+  }
+  for (const char* name : properties::kDefaultProperties) {
+    EXPECT_NE(text.find("`" + std::string(name) + "`"), std::string::npos) << name;
+  }
+}
+
+// A shipped file states each thing once.
+TEST_F(FaultFiles, NoShippedOneRepeatsADefaultOne) {
+  for (const std::string& name : shipped()) {
+    const FaultTest test = load_fault_test(kRoot / "config" / "faults" / (name + ".yaml"));
+    for (const char* usual : properties::kDefaultProperties) EXPECT_FALSE(test.states(usual)) << name << " " << usual;
   }
 }
 

@@ -14,7 +14,6 @@ faults:
   - {at_s: 10, station_outage: true}
 properties:
   most: eventually score >= 90 % * undisturbed_score after 15 s
-expect: {custody: none, collisions: {at_least: 0}}
 capsule: {property: most, skein: '0.1.0', command: skein hunt towers}
 )";
 

@@ -1,12 +1,11 @@
 // The fate of capture reports, derived anew from what the server saw: its ledger, its links, who took part when. The
-// station's own account is compared with it. Pure.
+// signal `custody_differences` compares the station's own account with it. Pure.
 #pragma once
 
 #include <cstdint>
 #include <map>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "core/faults/fault_plan.hpp"
 #include "results/run_record.hpp"
@@ -25,13 +24,5 @@ using CaptureKey = std::pair<std::string, std::uint64_t>;
 /// remembers.
 std::map<CaptureKey, std::uint64_t> derived_deliveries(const results::RunRecord& run, const Scenario& scenario,
                                                        const FaultPlan& plan);
-
-/// What was acknowledged and is missing, one sentence each: a capture that a UAV released (the acknowledgement reached
-/// it) and that the station does not have; a score that is not what the delivered captures add up to.
-std::vector<std::string> custody_losses(const results::RunRecord& run, const Scenario& scenario);
-
-/// Where the station's account differs from the derived one, one sentence each: another set, or another time.
-std::vector<std::string> custody_differences(const results::RunRecord& run, const Scenario& scenario,
-                                             const FaultPlan& plan);
 
 }  // namespace skein::cli

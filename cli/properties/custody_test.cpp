@@ -1,5 +1,5 @@
 // What must have become of capture reports, by hand-made accounts of the server.
-#include "cli/fault_tests/custody.hpp"
+#include "cli/properties/custody.hpp"
 
 #include <gtest/gtest.h>
 
@@ -121,47 +121,13 @@ TEST_F(CustodyTest, WhatIsPhotographedWhileTheAgentIsAwayIsHandedOutLater) {
   EXPECT_EQ(derived(), first(26));
 }
 
-TEST_F(CustodyTest, TheStationsAccountIsCompared) {
+TEST_F(CustodyTest, AFaultThatWaitedActsFromItsBeginningOn) {
   captured(20, 0);
-  captured(20, 1);
   link(0, 300);
-  run_.captures = {{"alpha", 0, 1.0, 7, 0.5, 1.05, ""}, {"alpha", 1, 1.0, 8, 0.5, std::nullopt, "not received"}};
-  EXPECT_EQ(custody_differences(run_, scenario_, plan_),
-            (std::vector<std::string>{"expected delivery of alpha's capture 1 at 1.05 s (step 21), seen never"}));
-  run_.captures[1].delivered_at_s = 1.10;
-  EXPECT_EQ(custody_differences(run_, scenario_, plan_),
-            (std::vector<std::string>{
-                "expected delivery of alpha's capture 1 at 1.05 s (step 21), seen at 1.1 s (step 22)"}));
-  run_.captures[1].delivered_at_s = 1.05;
-  EXPECT_TRUE(custody_differences(run_, scenario_, plan_).empty());
-  run_.captures.pop_back();
-  EXPECT_EQ(custody_differences(run_, scenario_, plan_).size(), 1u) << "the station does not even know of it";
-}
-
-TEST_F(CustodyTest, NothingThatWasAcknowledgedIsMissing) {
-  run_.captures = {{"alpha", 0, 1.0, 7, 0.5, 1.05, ""}, {"alpha", 1, 1.0, 7, 0.75, std::nullopt, "not received"}};
-  run_.result["score"] = 0.5;
-  event(23, "released", "alpha", "0");
-  EXPECT_TRUE(custody_losses(run_, scenario_).empty());
-  event(24, "released", "alpha", "1");
-  EXPECT_EQ(custody_losses(run_, scenario_),
-            (std::vector<std::string>{
-                "expected alpha's capture 1, acknowledged before 1.2 s (step 24), to be with the station; "
-                "seen that it is not"}));
-}
-
-TEST_F(CustodyTest, TheScoreIsWhatTheDeliveredCapturesAddUpTo) {
-  run_.captures = {
-      {"alpha", 0, 1.0, 7, 0.5, 1.05, ""}, {"alpha", 1, 2.0, 7, 0.75, 2.05, ""}, {"alpha", 2, 3.0, 8, 0.1, 3.05, ""}};
-  run_.result["score"] = 0.75;
-  EXPECT_TRUE(custody_losses(run_, scenario_).empty()) << "the best counts, and none below 0.2";
-  run_.result["score"] = 0.5;
-  EXPECT_EQ(
-      custody_losses(run_, scenario_),
-      (std::vector<std::string>{"expected the score to be what the delivered captures add up to, 0.75; seen 0.5"}));
-  run_.result["collisions"] = Json::array({{{"uav", "alpha"}}});
-  run_.result["score"] = 0.0;
-  EXPECT_TRUE(custody_losses(run_, scenario_).empty()) << "who collides loses its points";
+  plan_.faults.push_back({.at_s = 0.5, .until_s = 1.5, .action = StationOutage{}, .waits = true});
+  EXPECT_EQ(derived(), first(21)) << "it has not begun";
+  run_.result["faults"] = Json::array({{{"began_step", 20}}});
+  EXPECT_EQ(derived(), first(31));
 }
 
 }  // namespace

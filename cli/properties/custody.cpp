@@ -1,21 +1,15 @@
-#include "cli/fault_tests/custody.hpp"
+#include "cli/properties/custody.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <set>
 
-#include "cli/fault_tests/limits.hpp"
 #include "core/scoring/score_table.hpp"
-#include "core/text/text.hpp"
 #include "results/run_folder.hpp"
 #include "results/run_tables.hpp"
 
 namespace skein::cli {
 namespace {
-
-constexpr std::size_t kShown = 3;
-constexpr double kScoreError = 1e-4;  ///< captures.csv has nine digits of floats
 
 /// True from `step` on, or false.
 class Switch {
@@ -34,16 +28,25 @@ std::uint64_t step_of(double time_s, const Scenario& scenario) {
   return static_cast<std::uint64_t>(std::llround(time_s / scenario.exchange_period_s));
 }
 
-/// "12.35 s (step 247)".
-std::string when(std::uint64_t step, const Scenario& scenario) {
-  return number_text(static_cast<double>(step) * scenario.exchange_period_s) + " s (step " + std::to_string(step) + ")";
+/// The plan with the times at which its faults began in a run, also those that waited for a condition.
+FaultPlan as_flown(FaultPlan plan, const Json& result, const Scenario& scenario) {
+  const Json entries = value_or(result, "faults", Json::array());
+  for (std::size_t i = 0; i < std::min(plan.faults.size(), entries.size()); ++i) {
+    const Json step = value_or(entries[i], "began_step", nullptr);
+    if (plan.faults[i].waits && step.is_number()) {
+      plan.faults[i].set_off(step.get<Tick>() * scenario.exchange_ticks());
+    }
+  }
+  return plan;
 }
 
 /// A run as the derivation looks at it.
 class Timeline {
  public:
   Timeline(const results::RunRecord& run, const Scenario& scenario, const FaultPlan& plan)
-      : scenario_(scenario), plan_(plan), last_step_(step_of(value_or(run.result, "sim_time_s", 0.0), scenario)) {
+      : scenario_(scenario),
+        plan_(as_flown(plan, run.result, scenario)),
+        last_step_(step_of(value_or(run.result, "sim_time_s", 0.0), scenario)) {
     const std::string station = scenario.node_name(kStationNode);
     for (const results::EventRow& row : run.events) {
       if (row.event == run_tables::kJoined || row.event == run_tables::kLeft)
@@ -108,7 +111,7 @@ class Timeline {
   }
 
   const Scenario& scenario_;
-  const FaultPlan& plan_;
+  const FaultPlan plan_;
   const std::uint64_t last_step_;
   std::map<std::string, Switch> present_, linked_;  ///< by member; by UAV, to the station
   std::map<std::string, std::map<std::uint64_t, std::vector<std::uint64_t>>> captured_;
@@ -155,27 +158,6 @@ class Sender {
   bool was_here_ = false, standing_still_ = false;
 };
 
-/// In which step the station took each capture of the ledger in, as it says; none: it did not.
-std::map<CaptureKey, std::optional<std::uint64_t>> accounted(const results::RunRecord& run, const Scenario& scenario) {
-  std::map<CaptureKey, std::optional<std::uint64_t>> all;
-  for (const results::CaptureRow& row : run.captures) {
-    auto& at = all[{row.uav, row.capture}];
-    if (row.delivered_at_s) at = step_of(*row.delivered_at_s, scenario);
-  }
-  return all;
-}
-
-std::string name(const CaptureKey& capture) { return capture.first + "'s capture " + std::to_string(capture.second); }
-
-/// The first few, and how many more there are.
-std::vector<std::string> shortened(std::vector<std::string> sentences) {
-  if (sentences.size() <= kShown) return sentences;
-  const std::size_t more = sentences.size() - kShown;
-  sentences.resize(kShown);
-  sentences.back() += " (and " + std::to_string(more) + " more)";
-  return sentences;
-}
-
 }  // namespace
 
 std::map<CaptureKey, std::uint64_t> derived_deliveries(const results::RunRecord& run, const Scenario& scenario,
@@ -188,64 +170,6 @@ std::map<CaptureKey, std::uint64_t> derived_deliveries(const results::RunRecord&
     for (std::uint64_t k = 0; k <= timeline.last_step(); ++k) sender.step(k, delivered);
   }
   return delivered;
-}
-
-std::vector<std::string> custody_losses(const results::RunRecord& run, const Scenario& scenario) {
-  const auto account = accounted(run, scenario);
-  std::vector<std::string> sentences;
-  for (const results::EventRow& row : run.events) {
-    if (row.event != run_tables::kReleased) continue;
-    const CaptureKey capture{row.subject, std::stoull(row.object)};
-    const auto found = account.find(capture);
-    const bool there = found != account.end() && found->second && *found->second <= row.step;
-    if (!there) {
-      sentences.push_back("expected " + name(capture) + ", acknowledged before " + when(row.step, scenario) +
-                          ", to be with the station; seen that it is not");
-    }
-  }
-  std::set<std::string> collided;
-  for (const Json& collision : value_or(run.result, "collisions", Json::array())) {
-    if (scenario.rules.collision_voids_score) collided.insert(value_or(collision, "uav", "").get<std::string>());
-  }
-  std::map<int, double> best;
-  for (const results::CaptureRow& row : run.captures) {
-    if (!row.delivered_at_s || collided.contains(row.uav) || row.q < scenario.rules.min_point_score) continue;
-    best[row.point] = std::max(best[row.point], row.q);
-  }
-  double sum = 0.0;
-  for (const auto& [point, q] : best) sum += q;
-  const double score = value_or(run.result, "score", 0.0);
-  if (std::abs(sum - score) > kScoreError * std::max(1.0, sum)) {
-    sentences.push_back("expected the score to be what the delivered captures add up to, " + number_text(sum) +
-                        "; seen " + number_text(score));
-  }
-  return shortened(std::move(sentences));
-}
-
-std::vector<std::string> custody_differences(const results::RunRecord& run, const Scenario& scenario,
-                                             const FaultPlan& plan) {
-  const auto derived = derived_deliveries(run, scenario, plan);
-  const auto account = accounted(run, scenario);
-  const auto text = [&](const std::optional<std::uint64_t>& step) {
-    return step ? "at " + when(*step, scenario) : std::string("never");
-  };
-  std::set<CaptureKey> all;
-  for (const auto& [capture, step] : account) all.insert(capture);
-  for (const results::EventRow& row : run.events) {
-    if (row.event == run_tables::kCaptured) all.emplace(row.subject, std::stoull(row.object));
-  }
-  std::vector<std::string> sentences;
-  for (const CaptureKey& capture : all) {
-    const auto found = derived.find(capture);
-    std::optional<std::uint64_t> expected;
-    if (found != derived.end()) expected = found->second;
-    const auto entry = account.find(capture);
-    const auto seen = entry == account.end() ? std::nullopt : entry->second;
-    if (expected != seen) {
-      sentences.push_back("expected delivery of " + name(capture) + " " + text(expected) + ", seen " + text(seen));
-    }
-  }
-  return shortened(std::move(sentences));
 }
 
 }  // namespace skein::cli
