@@ -9,14 +9,31 @@
 
 namespace skein::sim {
 
-bool in_sight(const Vector3d& p_WC, const Vector3d& p_W, UavIndex own_uav, const RayScene& world) {
+namespace {
+
+/// How far a camera may move until the points near it are searched again: far enough for some seconds of flight, but
+/// short beside a search radius.
+constexpr double kNearSlack_m = 2.0;
+
+/// The first hit of the ray from a camera to a point, or any body or ground before the point.
+std::optional<Hit> hit_towards(const Vector3d& p_WC, const Vector3d& p_W, UavIndex own_uav, const RayScene& world) {
   const Vector3d ray = p_W - p_WC;
   const double distance = ray.norm();
   RayFilter filter;
   filter.except_uav = own_uav;
   // Hits beyond the tolerance do not matter. The ray is a little longer, so that a hit at the tolerance is not cut off.
-  const auto hit = world.first_hit(p_WC, ray, distance + 2.0 * Camera::kSurfaceTolerance, filter);
+  return world.first_hit_or_blocker(p_WC, ray, distance + 2.0 * Camera::kSurfaceTolerance,
+                                    distance - Camera::kSurfaceTolerance, filter);
+}
+
+bool is_at(const std::optional<Hit>& hit, double distance) {
   return hit && std::abs(hit->distance - distance) <= Camera::kSurfaceTolerance;
+}
+
+}  // namespace
+
+bool in_sight(const Vector3d& p_WC, const Vector3d& p_W, UavIndex own_uav, const RayScene& world) {
+  return is_at(hit_towards(p_WC, p_W, own_uav, world), (p_W - p_WC).norm());
 }
 
 bool in_sight_of_reference(const Vector3d& p_WC, const Vector3d& p_W, UavIndex own_uav, const RayScene& world) {
@@ -49,7 +66,8 @@ Camera::Camera(const CameraConfig& config, double desired_mm_per_pixel, const Ru
       uav_(uav),
       interval_(ticks(config.trigger_interval_s)),
       best_(points.size(), 0.0F),
-      seen_(points.size(), false) {
+      seen_(points.size(), false),
+      blockers_(points.size(), kNoTriangle) {
   change_conditions(conditions);
 }
 
@@ -58,28 +76,62 @@ void Camera::change_conditions(const CameraConditions& conditions) {
   vibration_ = conditions.vibration_deg_s * kRadPerDeg;
 }
 
-template <class Judge>
-void Camera::for_each_in_view(const RigidBodyState& body, const GimbalState& gimbal, const RayScene& world,
-                              const Judge& judge) const {
+struct Camera::View {
+  Vector3d p_WB;
+  Exposure exposure;
+};
+
+Camera::View Camera::view_of(const RigidBodyState& body, const GimbalState& gimbal, const Vector3d& shake_W) const {
   CameraState state = camera_state(body, gimbal, config_);
-  if (vibration_ > 0.0) {
-    RandomStream draw(seed_, "vibration", uav_, captures_);
-    state.w_WC += vibration_ * normals(draw);
+  state.w_WC += shake_W;
+  return {body.p_WB, Exposure(state, config_, desired_mm_per_pixel_, rules_)};
+}
+
+void Camera::find_near(const std::array<const View*, 3>& views) {
+  const auto within = [&](const View* view) {
+    return view == nullptr || (view->exposure.position() - *near_centre_).norm() <= kNearSlack_m;
+  };
+  if (near_centre_ && std::ranges::all_of(views, within)) return;
+  near_centre_ = views.front()->exposure.position();
+  double slack_m = kNearSlack_m;
+  for (const View* view : views) {
+    if (view != nullptr) slack_m = std::max(slack_m, (view->exposure.position() - *near_centre_).norm());
   }
-  const Exposure exposure(state, config_, desired_mm_per_pixel_, rules_);
-  const Vector3d& p_WC = exposure.position();
-  if (rules_.camera_blind_in_structure && is_through_structure(body.p_WB, p_WC, world)) return;
-  const SightTest sees = sight_test(rules_);
-  const UavIndex sees_through = rules_.own_body_hides ? kNobody : uav_;
-  // Most points of a scene are outside the search radius: a fast test in single precision, with a margin, drops them.
-  const Eigen::Vector3f centre = p_WC.cast<float>();
-  const float reach = static_cast<float>(exposure.radius()) + 0.01F;
+  // In single precision, with a margin for rounding.
+  const Eigen::Vector3f centre = near_centre_->cast<float>();
+  const float reach = static_cast<float>(views.front()->exposure.radius() + slack_m) + 0.01F;
+  near_.clear();
   for (std::uint32_t i = 0; i < points_.size(); ++i) {
-    if ((points_[i].p_W - centre).squaredNorm() > reach * reach) continue;
+    if (!((points_[i].p_W - centre).squaredNorm() > reach * reach)) near_.push_back(i);
+  }
+}
+
+bool Camera::sees(std::uint32_t point, const Vector3d& p_WC, const Vector3d& p_W, const RayScene& world) {
+  const UavIndex sees_through = rules_.own_body_hides ? kNobody : uav_;
+  if (rules_.ray_ends_at_point) return in_sight_of_reference(p_WC, p_W, sees_through, world);
+  const double distance = (p_W - p_WC).norm();
+  for (const std::uint32_t known : {blockers_[point], last_blocker_}) {
+    if (world.surely_blocked_by(known, p_WC, p_W, distance - kSurfaceTolerance)) return false;
+  }
+  const auto hit = hit_towards(p_WC, p_W, sees_through, world);
+  const bool seen = is_at(hit, distance);
+  blockers_[point] = hit && !seen ? hit->triangle : kNoTriangle;
+  if (blockers_[point] != kNoTriangle) last_blocker_ = blockers_[point];
+  return seen;
+}
+
+template <class Judge>
+void Camera::for_each_in_view(const View& view, const RayScene& world, const Judge& judge) {
+  const Vector3d& p_WC = view.exposure.position();
+  std::optional<bool> blind;  // costs a ray, too
+  for (const std::uint32_t i : near_) {
     const Vector3d p_W = points_[i].p_W.cast<double>();
-    const auto p_C = exposure.view(p_W);
+    const auto p_C = view.exposure.view(p_W);
     if (!p_C) continue;
-    judge(i, exposure.score(*p_C, points_[i].n_W.cast<double>()), [&] { return sees(p_WC, p_W, sees_through, world); });
+    judge(i, view.exposure.score(*p_C, points_[i].n_W.cast<double>()), [&] {
+      if (!blind) blind = rules_.camera_blind_in_structure && is_through_structure(view.p_WB, p_WC, world);
+      return !*blind && sees(i, p_WC, p_W, world);
+    });
   }
 }
 
@@ -87,7 +139,16 @@ Capture Camera::capture(Tick tick, const RigidBodyState& body, const GimbalState
                         const OtherStates& other) {
   Capture capture{tick, {}};
   last_ = tick;
-  for_each_in_view(body, gimbal, world, [&](std::uint32_t i, const auto& quality, const auto& in_sight) {
+  Vector3d shake_W = Vector3d::Zero();
+  if (vibration_ > 0.0) {
+    RandomStream draw(seed_, "vibration", uav_, captures_);
+    shake_W = vibration_ * normals(draw);
+  }
+  const View view = view_of(body, gimbal, shake_W);
+  const auto exact = other.exact ? std::optional(view_of(*other.exact, gimbal, shake_W)) : std::nullopt;
+  const auto calm = other.calm ? std::optional(view_of(*other.calm, gimbal, shake_W)) : std::nullopt;
+  find_near({&view, exact ? &*exact : nullptr, calm ? &*calm : nullptr});
+  for_each_in_view(view, world, [&](std::uint32_t i, const auto& quality, const auto& in_sight) {
     const double q = quality ? quality->score() : 0.0;
     const bool counts = q > 0.0 && q >= rules_.min_point_score;  // false for NaN
     // The ray comes last: it costs more than all formulas together. A point that does not count needs a ray only until
@@ -99,17 +160,15 @@ Capture Camera::capture(Tick tick, const RigidBodyState& body, const GimbalState
     best_[i] = std::max(best_[i], static_cast<float>(q));
     capture.detections.push_back({i, quality->q_blur, quality->q_res, quality->q_distance, q, best_[i], improved});
   });
-  imagine(other.exact, gimbal, world, best_if_exact_);
-  imagine(other.calm, gimbal, world, best_if_calm_);
+  if (exact) imagine(*exact, world, best_if_exact_);
+  if (calm) imagine(*calm, world, best_if_calm_);
   ++captures_;
   return capture;
 }
 
-void Camera::imagine(const std::optional<RigidBodyState>& body, const GimbalState& gimbal, const RayScene& world,
-                     std::vector<float>& best_if) const {
-  if (!body) return;
+void Camera::imagine(const View& view, const RayScene& world, std::vector<float>& best_if) {
   best_if.resize(points_.size(), 0.0F);
-  for_each_in_view(*body, gimbal, world, [&](std::uint32_t i, const auto& quality, const auto& in_sight) {
+  for_each_in_view(view, world, [&](std::uint32_t i, const auto& quality, const auto& in_sight) {
     const double q = quality ? quality->score() : 0.0;
     const bool better = q >= rules_.min_point_score && static_cast<float>(q) > std::max(best_[i], best_if[i]);
     if (better && in_sight()) best_if[i] = static_cast<float>(q);

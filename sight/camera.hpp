@@ -2,6 +2,7 @@
 // Frames: W world, B body, C camera (x optical axis, y left, z up).   Units: SI, radians.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -89,13 +90,18 @@ class Camera {
   static constexpr double kSurfaceTolerance = 0.025;  ///< between the first hit of a ray and the point [m]
 
  private:
+  /// A picture with the body in some state: what its points are judged with.
+  struct View;
+  View view_of(const RigidBodyState& body, const GimbalState& gimbal, const Vector3d& shake_W) const;
+  /// Updates `near_`, which then has all points within the search radius of these pictures.
+  void find_near(const std::array<const View*, 3>& views);
   /// Calls `judge(index, quality, in_sight)`, in ascending order of index, for each point in the field of view and
-  /// search radius of a picture with the body in this state. `quality` may be nullopt; `in_sight()` traces a ray.
+  /// search radius of a picture. `quality` may be nullopt; `in_sight()` traces a ray, so it should be called last.
   template <class Judge>
-  void for_each_in_view(const RigidBodyState& body, const GimbalState& gimbal, const RayScene& world,
-                        const Judge& judge) const;
-  void imagine(const std::optional<RigidBodyState>& body, const GimbalState& gimbal, const RayScene& world,
-               std::vector<float>& best_if) const;
+  void for_each_in_view(const View& view, const RayScene& world, const Judge& judge);
+  void imagine(const View& view, const RayScene& world, std::vector<float>& best_if);
+  /// The rules' sight_test(). A triangle that surely blocks the line, like the last time, saves the ray.
+  bool sees(std::uint32_t point, const Vector3d& p_WC, const Vector3d& p_W, const RayScene& world);
 
   double rated_exposure_s_;  ///< from the vehicle's file
   CameraConfig config_;      ///< with the true exposure time
@@ -111,6 +117,11 @@ class Camera {
   std::vector<float> best_;
   std::vector<bool> seen_;
   std::vector<float> best_if_exact_, best_if_calm_;
+  // The following affect only the computing time.
+  std::vector<std::uint32_t> near_;      ///< ascending; points within the search radius of `near_centre_`, and more
+  std::optional<Vector3d> near_centre_;  ///< where the camera was when `near_` was found
+  std::vector<std::uint32_t> blockers_;  ///< by point: the triangle that blocked its last ray, or kNoTriangle
+  std::uint32_t last_blocker_ = kNoTriangle;  ///< of any point
 };
 
 }  // namespace skein::sim

@@ -16,6 +16,7 @@ LinkTracer::LinkTracer(const Scenario& scenario, const FaultPlan& faults, std::u
     : scenario_(scenario), faults_(faults), sights_(scenario.fleet.size() + 1), unfailed_(scenario.fleet.size() + 1) {
   if (!scenario.conditions.radio.on()) return;
   path_loss_.emplace(scenario.conditions.radio, seed);
+  fields_.resize(scenario.fleet.size() + 1);
   received_dbm_ = LinkMatrix<double>(scenario.fleet.size() + 1);
 }
 
@@ -29,6 +30,7 @@ Links LinkTracer::trace(Tick tick, const RayScene& rays, const std::vector<Place
     return AntennaNode{uavs[*uav].p_WB, scenario_.fleet[*uav].vehicle.antenna_offset_m};
   };
   const auto on_air = [&](Node node) { return node == kStationNode || uavs[*uav_of_node(node)].alive; };
+  const auto field_of = [this](Node node) { return *fields_[node].value; };
   const auto trace_pair = [&](Node a, Node b, std::vector<UavIndex>& about) {
     if (!on_air(a) || !on_air(b)) return;
     const AntennaNode from = antenna(a), to = antenna(b);
@@ -38,7 +40,7 @@ Links LinkTracer::trace(Tick tick, const RayScene& rays, const std::vector<Place
     const double distance_m = (from.p_W - to.p_W).norm();
     std::uint8_t level = linked ? 1 : 0;
     if (linked && path_loss_) {
-      const double received_dbm = path_loss_->received_dbm(from.p_W, to.p_W);
+      const double received_dbm = path_loss_->received_dbm(from.p_W, to.p_W, field_of(a) + field_of(b));
       received_dbm_.at(a, b) = received_dbm_.at(b, a) = received_dbm;
       level = PathLoss::level(received_dbm);
     }
@@ -56,9 +58,17 @@ Links LinkTracer::trace(Tick tick, const RayScene& rays, const std::vector<Place
       for (std::size_t other = row + 1; other < nodes; ++other) trace_pair(Node{row}, Node{other}, about);
     }
   };
-  const std::size_t pieces = (nodes + 1) / 2;
-  nodes < kSharedNodes ? one_after_another(pieces, trace_rows) : for_each(pieces, trace_rows);
+  const ForEach share = nodes < kSharedNodes ? one_after_another : for_each;
+  share(fields_.size(), [&](std::size_t node) {
+    if (on_air(Node{node})) update(fields_[node], antenna(Node{node}).p_W);
+  });
+  share((nodes + 1) / 2, trace_rows);
   return links;
+}
+
+void LinkTracer::update(NodeField& field, const Vector3d& p_W) const {
+  if (field.value && field.p_W == p_W) return;  // the station, and UAVs that stand still
+  field = {p_W, path_loss_->field_at(p_W)};
 }
 
 Links LinkTracer::open(Tick tick, const Links& links) const {

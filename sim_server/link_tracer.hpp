@@ -45,6 +45,13 @@ class LinkTracer {
   Links open(Tick tick, const Links& links) const;
 
  private:
+  /// The shadowing field at a radio node.
+  struct NodeField {
+    Vector3d p_W = Vector3d::Zero();
+    std::optional<double> value;  ///< nullopt: not yet computed
+  };
+
+  void update(NodeField& field, const Vector3d& p_W) const;
   /// Whether this effect limits this link to a range shorter than this distance.
   bool ends_before(const LinkEffect& effect, Node from, Node to, double distance_m) const;
   bool in_range(Node from, Node to, double distance_m) const;
@@ -53,6 +60,7 @@ class LinkTracer {
   const Scenario& scenario_;
   const FaultPlan& faults_;
   std::optional<PathLoss> path_loss_;
+  std::vector<NodeField> fields_;    ///< by node; of no nodes without path loss
   LinkMatrix<double> received_dbm_;  ///< of links with line of sight; of no nodes without path loss
   LinkMatrix<SightMemory> sights_;   ///< by pair of nodes, at (lower, higher)
   Links unfailed_;

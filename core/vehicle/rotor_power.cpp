@@ -17,7 +17,9 @@ double induced_velocity(double thrust_n, double disc_area_m2, double across_mps,
   constexpr int kSteps = 8;
   for (int i = 0; i < kSteps; ++i) {
     const double through = climb + v, total = std::hypot(across_mps, through);
+    const double before = v;
     v -= (v * total - hover2) / (total + v * through / total);
+    if (v == before) break;  // further steps would not change it
   }
   return v;
 }

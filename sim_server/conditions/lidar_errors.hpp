@@ -34,6 +34,9 @@ class LidarErrors {
   double cos_incidence(std::span<const double> ranges, std::size_t beam) const;
 
  private:
+  double slope(std::span<const double> ranges, std::size_t beam) const;
+  bool is_lost(std::span<const double> ranges, std::size_t beam) const;
+
   LidarConditions conditions_;
   LidarConfig lidar_;
   std::uint64_t seed_;

@@ -23,6 +23,7 @@ OdometryError::OdometryError(const OdometryConditions& config, std::uint64_t see
       z_(first_error()),
       yaw_(draw_),
       at_start_(config.known_start) {
+  turn();
   if (config_.mean_fix_s) until_change_s_ = draw_duration(*config_.mean_fix_s);
   draw_noise();
 }
@@ -35,8 +36,12 @@ Vector3d OdometryError::with_fix_m() const {
 Vector3d OdometryError::position_error_m() const { return lost_ ? walked_m_ : with_fix_m(); }
 double OdometryError::yaw_error() const { return config_.yaw_sigma_deg * kRadPerDeg * yaw_.value(); }
 
+/// Call it when yaw_error() changes: the flight controller asks for believed() far more often.
+void OdometryError::turn() { yaw_turn_ = Eigen::AngleAxisd(yaw_error(), Vector3d::UnitZ()); }
+
 void OdometryError::step(double step_s) {
   yaw_.step(std::exp(-step_s / config_.yaw_time_constant_s), draw_);
+  turn();
   if (at_start_) return;
   const double keeps = std::exp(-step_s / config_.time_constant_s);
   for (GaussMarkov* axis : {&x_, &y_, &z_}) axis->step(keeps, draw_);
@@ -81,6 +86,7 @@ void OdometryError::change(const OdometryConditions& config) {
     lost_s_ = 0.0;
   }
   config_ = config;
+  turn();
 }
 
 void OdometryError::draw_noise() {
@@ -91,7 +97,7 @@ void OdometryError::draw_noise() {
 RigidBodyState OdometryError::believed(const RigidBodyState& truth) const {
   RigidBodyState state = truth;
   state.p_WB += position_error_m();
-  state.q_WB = Eigen::AngleAxisd(yaw_error(), Vector3d::UnitZ()) * truth.q_WB;
+  state.q_WB = yaw_turn_ * truth.q_WB;
   return state;
 }
 

@@ -67,13 +67,15 @@ class OdometryError {
   GaussMarkov first_error() { return config_.known_start ? GaussMarkov() : GaussMarkov(draw_); }
   double draw_duration(double mean_s) { return -mean_s * portable_log(1.0 - draw_.uniform()); }
   Vector3d with_fix_m() const;
+  void turn();
   void lose_fix();
 
   OdometryConditions config_;
   RandomStream draw_, noise_draw_;
   Vector3d bias_m_;
   GaussMarkov x_, y_, z_, yaw_;
-  bool at_start_;  ///< not yet taken off from a known start
+  Quaterniond yaw_turn_;  ///< the rotation by yaw_error()
+  bool at_start_;         ///< not yet taken off from a known start
   bool lost_ = false, jammed_ = false;
   double until_change_s_ = 0.0;  ///< time until the fix is lost or returns
   double lost_s_ = 0.0, variance_when_lost_ = 0.0;

@@ -45,6 +45,27 @@ TEST(OdometryError, IsAGaussMarkovProcessOfItsDeviationAndTimeConstant) {
   }
 }
 
+/// believed() uses a rotation that is computed when the error changes.
+TEST(OdometryError, TurnsByItsYawBitForBit) {
+  OdometryConditions config{.yaw_sigma_deg = 3.0, .yaw_time_constant_s = 2.0, .mean_fix_s = {}};
+  OdometryError error(config, 3, UavIndex{1});
+  RigidBodyState truth;
+  truth.q_WB = kTilted;
+  const auto expect_turned = [&] {
+    const Quaterniond turned = Eigen::AngleAxisd(error.yaw_error(), Vector3d::UnitZ()) * kTilted;
+    EXPECT_EQ(error.believed(truth).q_WB.coeffs(), turned.coeffs());
+    EXPECT_EQ(error.told(truth).q_WB.coeffs(), turned.coeffs());
+  };
+  expect_turned();
+  for (int i = 0; i < 200; ++i) {
+    error.step(kStep_s);
+    expect_turned();
+  }
+  config.yaw_sigma_deg = 1.0;
+  error.change(config);
+  expect_turned();
+}
+
 TEST(OdometryError, IsNoneAtAKnownStartAndThenGrowsToItsDeviation) {
   constexpr std::uint64_t kSeeds = 4000;
   const OdometryConditions config{.horizontal_sigma_m = 0.3,

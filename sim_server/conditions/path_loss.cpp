@@ -33,9 +33,9 @@ double ShadowField::at(const Vector3d& p_W) const {
   return std::sqrt(2.0 / static_cast<double>(waves_.size())) * sum;
 }
 
-double PathLoss::received_dbm(const Vector3d& p_W, const Vector3d& q_W) const {
+double PathLoss::received_dbm(const Vector3d& p_W, const Vector3d& q_W, double fields) const {
   const double distance_m = std::max(kNearest_m, (p_W - q_W).norm());
-  const double shadow_db = radio_.shadowing_sigma_db * (field_.at(p_W) + field_.at(q_W)) / std::numbers::sqrt2;
+  const double shadow_db = radio_.shadowing_sigma_db * fields / std::numbers::sqrt2;
   return radio_.power_dbm - radio_.loss_at_1m_db - 10.0 * *radio_.exponent * std::log10(distance_m) - shadow_db;
 }
 

@@ -41,7 +41,13 @@ class PathLoss {
   void change(const RadioConditions& radio) { radio_ = radio; }
 
   /// Received power [dBm] between antennas at p_W and q_W. Ignores obstacles: LinkTracer checks the line of sight.
-  double received_dbm(const Vector3d& p_W, const Vector3d& q_W) const;
+  double received_dbm(const Vector3d& p_W, const Vector3d& q_W) const {
+    return received_dbm(p_W, q_W, field_at(p_W) + field_at(q_W));
+  }
+  /// The same for callers that know the field. @param fields  the sum of the field's values at both positions.
+  double received_dbm(const Vector3d& p_W, const Vector3d& q_W, double fields) const;
+  /// Value of the shadowing field at a position. It costs far more than everything else about a link.
+  double field_at(const Vector3d& p_W) const { return field_.at(p_W); }
   /// Index in kRadioRates, counted from 1, of the highest data rate that this received power allows; 0: none.
   static std::uint8_t level(double received_dbm);
 

@@ -27,20 +27,32 @@ Vector3d blown_to(double from) { return {-std::cos(from), -std::sin(from), 0.0};
 
 }  // namespace
 
-double mean_wind(const WindConditions& wind, double height_m) {
-  const double z0_m = wind.roughness_length_m;
-  return wind.mean_mps * std::log(std::max(height_m, z0_m) / z0_m) / std::log(kReferenceHeight_m / z0_m);
+double mean_wind(const WindConditions& wind, double height_m) { return WindProfile(wind).mean(height_m); }
+GustScales gust_scales(const WindConditions& wind, double height_m) { return WindProfile(wind).gusts(height_m); }
+
+WindProfile::WindProfile(const WindConditions& wind)
+    : mean_mps_(wind.mean_mps),
+      roughness_length_m_(wind.roughness_length_m),
+      log_reference_(std::log(kReferenceHeight_m / roughness_length_m_)) {
+  gusts_.sigma_up_mps = 0.1 * wind.turbulence * mean(kTwentyFeet_m);
 }
 
-GustScales gust_scales(const WindConditions& wind, double height_m) {
+double WindProfile::mean(double height_m) const {
+  return mean_mps_ * std::log(std::max(height_m, roughness_length_m_) / roughness_length_m_) / log_reference_;
+}
+
+const GustScales& WindProfile::gusts(double height_m) {
   const double h_ft = std::clamp(height_m / kFoot_m, 10.0, 1000.0);
+  if (h_ft == height_ft_) return gusts_;  // a UAV on the ground, say
+  height_ft_ = h_ft;
   const double base = 0.177 + 0.000823 * h_ft;
-  const double sigma_up = 0.1 * wind.turbulence * mean_wind(wind, kTwentyFeet_m);
-  return {sigma_up / std::pow(base, 0.4), sigma_up, h_ft / std::pow(base, 1.2) * kFoot_m, h_ft * kFoot_m};
+  gusts_.sigma_across_mps = gusts_.sigma_up_mps / std::pow(base, 0.4);
+  gusts_.length_across_m = h_ft / std::pow(base, 1.2) * kFoot_m;
+  gusts_.length_up_m = h_ft * kFoot_m;
+  return gusts_;
 }
 
-double LongitudinalGust::step(double way, RandomStream& draw) {
-  const double keeps = std::exp(-way);
+double LongitudinalGust::keep(double keeps, RandomStream& draw) {
   state_ = keeps * state_ + std::sqrt(1.0 - keeps * keeps) * draw.normal();
   return state_;
 }
@@ -51,8 +63,8 @@ TransverseGust::TransverseGust(RandomStream& draw) : first_(std::sqrt(0.5) * dra
   second_ = 0.5 * first_ + std::sqrt(0.125) * draw.normal();
 }
 
-double TransverseGust::step(double way, RandomStream& draw) {
-  const double keeps = std::exp(-way), keeps2 = keeps * keeps;
+double TransverseGust::keep(double way, double keeps, RandomStream& draw) {
+  const double keeps2 = keeps * keeps;
   const double var_1 = 0.5 * (1.0 - keeps2);
   const double cov = 0.25 * (1.0 - keeps2 * (1.0 + 2.0 * way));
   const double var_2 = 0.25 * (1.0 - keeps2 * (1.0 + 2.0 * way + 2.0 * way * way));
@@ -65,6 +77,7 @@ double TransverseGust::step(double way, RandomStream& draw) {
 
 Wind::Wind(const WindConditions& wind, std::uint64_t seed, UavIndex uav)
     : wind_(wind),
+      profile_(wind),
       draw_(seed, "gusts", uav),
       estimate_draw_(seed, "wind_estimate", uav),
       along_W_(blown_to(direction_from(wind, seed))),
@@ -75,20 +88,24 @@ Wind::Wind(const WindConditions& wind, std::uint64_t seed, UavIndex uav)
       error_W_(wind.estimate_sigma_mps * normals(estimate_draw_)) {}
 
 void Wind::step(const Vector3d& p_WB, const Vector3d& v_WB, double step_s, const Vector3d& extra_W) {
-  const Vector3d mean_W = mean_wind(wind_, p_WB.z()) * along_W_;
-  const GustScales scales = gust_scales(wind_, p_WB.z());
+  const Vector3d mean_W = profile_.mean(p_WB.z()) * along_W_;
+  const GustScales& scales = profile_.gusts(p_WB.z());
   const double way_m = step_s * std::max(kLeastAirspeed_mps, (v_WB - mean_W).norm());
   velocity_W_ = mean_W + extra_W;
   if (scales.sigma_up_mps > 0.0) {
-    const double u = u_.step(way_m / scales.length_across_m, draw_), v = v_.step(way_m / scales.length_across_m, draw_);
+    const double way = way_m / scales.length_across_m, keeps = std::exp(-way);
+    const double u = u_.keep(keeps, draw_), v = v_.keep(way, keeps, draw_);
     const double w = w_.step(way_m / scales.length_up_m, draw_);
     velocity_W_ +=
         scales.sigma_across_mps * (u * along_W_ + v * across_W_) + scales.sigma_up_mps * w * Vector3d::UnitZ();
   }
-  const double keeps = std::exp(-step_s / wind_.estimate_time_constant_s);
-  lagging_W_ = begun_ ? Vector3d(keeps * lagging_W_ + (1.0 - keeps) * velocity_W_) : velocity_W_;
+  if (step_s != step_s_) {  // every step is a tick
+    step_s_ = step_s;
+    keeps_ = std::exp(-step_s / wind_.estimate_time_constant_s);
+  }
+  lagging_W_ = begun_ ? Vector3d(keeps_ * lagging_W_ + (1.0 - keeps_) * velocity_W_) : velocity_W_;
   begun_ = true;
-  error_W_ = keeps * error_W_ + wind_.estimate_sigma_mps * std::sqrt(1.0 - keeps * keeps) * normals(estimate_draw_);
+  error_W_ = keeps_ * error_W_ + wind_.estimate_sigma_mps * std::sqrt(1.0 - keeps_ * keeps_) * normals(estimate_draw_);
 }
 
 Vector3d body_drag(double drag_area_m2, const Vector3d& v_A) {

@@ -9,6 +9,9 @@
 // Frame: W world (ENU).  Units: SI.  Threads: one.  The same seed and flight give the same bits.
 #pragma once
 
+#include <cmath>
+#include <optional>
+
 #include "core/conditions.hpp"
 #include "core/random_stream.hpp"
 #include "core/types.hpp"
@@ -25,13 +28,28 @@ struct GustScales {
 };
 GustScales gust_scales(const WindConditions& wind, double height_m);
 
+/// mean_wind() and gust_scales() of a wind at many heights: computes only once what does not depend on the height.
+class WindProfile {
+ public:
+  explicit WindProfile(const WindConditions& wind);
+  double mean(double height_m) const;
+  const GustScales& gusts(double height_m);
+
+ private:
+  double mean_mps_, roughness_length_m_, log_reference_;
+  double height_ft_ = 0.0;  ///< of `gusts_`
+  GustScales gusts_;
+};
+
 /// The gust u: spectrum 1 / (1 + (L Omega)^2), scaled to unit variance.
 class LongitudinalGust {
  public:
   /// Draws the stationary state.
   explicit LongitudinalGust(RandomStream& draw) : state_(draw.normal()) {}
   /// @param way  distance that the UAV flew through the air, in lengths L. @returns the gust.
-  double step(double way, RandomStream& draw);
+  double step(double way, RandomStream& draw) { return keep(std::exp(-way), draw); }
+  /// The same for callers that know exp(-way).
+  double keep(double keeps, RandomStream& draw);
 
  private:
   double state_;
@@ -41,7 +59,8 @@ class LongitudinalGust {
 class TransverseGust {
  public:
   explicit TransverseGust(RandomStream& draw);
-  double step(double way, RandomStream& draw);
+  double step(double way, RandomStream& draw) { return keep(way, std::exp(-way), draw); }
+  double keep(double way, double keeps, RandomStream& draw);
 
  private:
   double first_, second_;  ///< white noise after one first-order lag, and after two
@@ -53,7 +72,11 @@ class Wind {
   Wind(const WindConditions& wind, std::uint64_t seed, UavIndex uav);
 
   /// @param wind  for the steps that follow. Direction and state of the gusts do not change.
-  void change(const WindConditions& wind) { wind_ = wind; }
+  void change(const WindConditions& wind) {
+    wind_ = wind;
+    profile_ = WindProfile(wind);
+    step_s_.reset();  // computes `keeps_` anew
+  }
   /// Advances the wind by one time step. @param p_WB, v_WB  of the UAV. @param extra_W  wind that a fault adds.
   void step(const Vector3d& p_WB, const Vector3d& v_WB, double step_s, const Vector3d& extra_W = Vector3d::Zero());
 
@@ -66,12 +89,15 @@ class Wind {
 
  private:
   WindConditions wind_;
+  WindProfile profile_;
   RandomStream draw_, estimate_draw_;
   Vector3d along_W_, across_W_;
   LongitudinalGust u_;
   TransverseGust v_, w_;
   Vector3d velocity_W_ = Vector3d::Zero(), lagging_W_ = Vector3d::Zero(), error_W_ = Vector3d::Zero();
   bool begun_ = false;
+  std::optional<double> step_s_;  ///< the last step
+  double keeps_ = 1.0;            ///< share of its deviation that the estimate keeps in such a step
 };
 
 /// Drag of a body without its rotors [N], in the frame of `v_A`. @param v_A  velocity of the body through the air.

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <functional>
@@ -130,6 +131,53 @@ TEST(Wind, HasItsMeanAndItsVariancesHoveringAndFlying) {
       EXPECT_NEAR(m.variance.z(), scales.sigma_up_mps * scales.sigma_up_mps,
                   0.1 * scales.sigma_up_mps * scales.sigma_up_mps);
     }
+  }
+}
+
+/// WindProfile computes each part once, or again if the height has changed; digests need the same bits.
+TEST(Wind, ItsProfileIsThatOfTheFormulasBitForBit) {
+  RandomStream draw(5, "wind_test", 0);
+  for (int i = 0; i < 50; ++i) {
+    const WindConditions wind{.mean_mps = draw.uniform(0.1, 25.0),
+                              .from_deg = {},
+                              .roughness_length_m = draw.uniform(0.0001, 2.0),
+                              .turbulence = draw.uniform(0.0, 4.0)};
+    const auto mean = [&](double height_m) {
+      const double z0_m = wind.roughness_length_m;
+      return wind.mean_mps * std::log(std::max(height_m, z0_m) / z0_m) / std::log(10.0 / z0_m);
+    };
+    WindProfile profile(wind);
+    double height_m = 0.0;
+    for (int step = 0; step < 100; ++step) {
+      if (draw.uniform() < 0.7) height_m = draw.uniform(-1.0, step % 2 == 0 ? 5.0 : 400.0);
+      EXPECT_EQ(profile.mean(height_m), mean(height_m));
+      const double h_ft = std::clamp(height_m / 0.3048, 10.0, 1000.0), base = 0.177 + 0.000823 * h_ft;
+      const double sigma_up = 0.1 * wind.turbulence * mean(20.0 * 0.3048);
+      const GustScales scales = profile.gusts(height_m);
+      EXPECT_EQ(scales.sigma_up_mps, sigma_up);
+      EXPECT_EQ(scales.sigma_across_mps, sigma_up / std::pow(base, 0.4));
+      EXPECT_EQ(scales.length_across_m, h_ft / std::pow(base, 1.2) * 0.3048);
+      EXPECT_EQ(scales.length_up_m, h_ft * 0.3048);
+    }
+  }
+}
+
+TEST(Wind, BlowsAsItsNewConditionsSayAfterAChange) {
+  const WindConditions before{.mean_mps = 5.0, .from_deg = {}, .turbulence = 1.0, .estimate_sigma_mps = 0.0};
+  WindConditions after = before;
+  after.turbulence = 2.5;  // unlike another mean, it leaves the first step of the gusts as it is
+  after.estimate_time_constant_s = 0.3;
+  Wind changed(before, 4, UavIndex{0}), expected(before, 4, UavIndex{0});
+  changed.step({0, 0, 20}, Vector3d::Zero(), 0.05);
+  expected.change(after);
+  expected.step({0, 0, 20}, Vector3d::Zero(), 0.05);
+  changed.change(after);
+  const Vector3d lag_W = changed.estimate_W() - expected.estimate_W();
+  for (int i = 1; i <= 10; ++i) {
+    for (Wind* wind : {&changed, &expected}) wind->step({0, 0, 20}, Vector3d::Zero(), 0.05);
+    EXPECT_EQ(changed.velocity_W(), expected.velocity_W());
+    const Vector3d off_W = changed.estimate_W() - expected.estimate_W();
+    EXPECT_LT((off_W - std::exp(-i * 0.05 / 0.3) * lag_W).norm(), 1e-12) << "the estimate lags as newly told";
   }
 }
 

@@ -79,14 +79,13 @@ TEST(Takeoff, ExplorersLiftOffFirstAndABrokenUavIsNotAwaitedForEver) {
   EXPECT_EQ(last.waited_for, (std::set<std::size_t>{1})) << "the last one before it that still stands";
 }
 
-TEST(Takeoff, AnExplorerThatDriftsStepsAsideThenSinksBackAndClimbsOnceSpaceIsProved) {
+TEST(Takeoff, AnExplorerThatDriftsSinksBackAndClimbsOnceSpaceIsProved) {
   StandingUav uav(standing_fleet(1, 0, 0));
   uav.uncertainty.position_m = {0.3, 0.3, 0.3};
   ASSERT_TRUE(uav.takes_until(Takeoff::Phase::climbs, 30.0));
   const auto given_up_s = uav.takes_until(Takeoff::Phase::ground, 60.0);
   ASSERT_TRUE(given_up_s);
   EXPECT_GE(*given_up_s, uav.config.stall_s + uav.config.look_s);
-  EXPECT_GT(uav.farthest_m, 0.2);
   EXPECT_LT(uav.state.p_WB.z(), kStandsM + 3.0);
   uav.takes_until(Takeoff::Phase::over, 10.0);
   EXPECT_LE(uav.tracker.tracking().setpoint.p_WB.z(), kStandsM) << "it does not hover, where it would drift";

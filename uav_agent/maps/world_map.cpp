@@ -10,7 +10,6 @@ namespace {
 
 constexpr std::uint64_t kTidyEach = 20;        // scans
 constexpr std::size_t kTidyAfterBlocks = 256;  // least growth since the last tidying that makes hear() tidy again
-constexpr int kRegionBits = 2;                 // a region's edge is 2^2 chunks
 /// From this level on, windows are so large that the beams of a slowly moving LiDAR are not spread evenly over them.
 /// The accepted probability is halved there.
 constexpr std::size_t kUneven = 2;
@@ -108,7 +107,11 @@ void WorldMap::note_changes() {
   }
   for (const Cube& cube : levels_.front()->take_structure_changes()) {
     distances_.changed(cube);
-    chunks_[grid_key(MapLevel::block_of(cube))].structure_changed_at = changes_;
+    const Cube chunk = MapLevel::block_of(cube);
+    chunks_[grid_key(chunk)].structure_changed_at = changes_;
+    structured_[grid_key(shifted(chunk, kRegionBits))] |= std::uint64_t{1} << place_in_region(chunk);
+    structure_low_ = structure_low_.cwiseMin(cube);
+    structure_high_ = structure_high_.cwiseMax(cube + Cube::Ones());
   }
 }
 
@@ -356,16 +359,6 @@ void WorldMap::not_free_near(const Vector3d& p_W, double radius_m, double lowest
   });
 }
 
-double WorldMap::clear_way_m(const Vector3d& from_W, const Vector3d& direction_W, double reach_m) const {
-  const double step_m = 0.5 * config_.cell_m;
-  for (double way_m = 0.0; way_m < reach_m; way_m += step_m) {
-    const Cube cube = cube_of(from_W + way_m * direction_W);
-    const bool met = levels_.front()->known(cube).space == Space::occupied;
-    if (met && !levels_.front()->doubted(cube)) return way_m;
-  }
-  return reach_m;
-}
-
 void WorldMap::read(const Cube& chunk, Chunk& known) const {
   levels_.front()->read(chunk, known);
   Chunk larger;
@@ -391,7 +384,7 @@ WorldMap::Counts WorldMap::counts() const {
     counts.bytes += level->bytes();
     counts.windows += level->windows();
   }
-  counts.bytes += distances_.bytes() + chunks_.bytes() + in_regions_.bytes();
+  counts.bytes += distances_.bytes() + chunks_.bytes() + in_regions_.bytes() + structured_.bytes();
   counts.occupied = levels_.front()->occupied_cells();
   return counts;
 }

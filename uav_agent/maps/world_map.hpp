@@ -48,7 +48,7 @@ class WorldMap {
   };
   /// Edge of a chunk, in smallest cubes. A chunk is a block of the finest level, and the unit of changed_at().
   static constexpr int kChunk = MapLevel::kBlock;
-  static constexpr int kRegion = 4;  ///< edge of a region, in chunks
+  static constexpr int kRegionBits = 2, kRegion = 1 << kRegionBits;  ///< edge of a region, in chunks
   static constexpr int kRegionChunks = kRegion * kRegion * kRegion;
   /// The i-th chunk of a region, x first.
   static Cube chunk_of(const Cube& region, int i) {
@@ -104,7 +104,7 @@ class WorldMap {
     return ((p_W - middle_W(cube)).cwiseAbs().array() - 0.5 * config_.cell_m).max(0.0).matrix().norm();
   }
   /// Distance along a unit vector to the first occupied cube that is not in doubt, at most `reach_m` [m]. Sampled at
-  /// steps of half a cube.
+  /// multiples of half a cube.
   double clear_way_m(const Vector3d& from_W, const Vector3d& direction_W, double reach_m) const;
 
   using Chunk = std::array<MapLevel::Known, MapLevel::kCells>;  ///< its smallest cubes, x first
@@ -186,6 +186,10 @@ class WorldMap {
   BlockTable<ChunkNote> chunks_;
   BlockTable<RegionNote> in_regions_;
   std::vector<Eigen::Vector3i> regions_;
+  /// Where cubes ever were occupied: by region, one bit for each chunk, in the order of chunk_of(); and the box around
+  /// all such cubes, in cubes. For clear_way_m(), which asks of many places far from any structure.
+  BlockTable<std::uint64_t> structured_;
+  Cube structure_low_ = Cube::Zero(), structure_high_ = Cube::Zero();
   std::uint64_t changes_ = 0, scans_ = 0;
   std::size_t tidied_blocks_ = 0;  ///< number of blocks after the last tidy_if_grown() that tidied
   OnMet on_met_;

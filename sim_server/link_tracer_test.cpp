@@ -1,0 +1,54 @@
+// The quality of links with path loss, from exchange to exchange.
+#include "sim_server/link_tracer.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/random_stream.hpp"
+#include "sim_server/fleet_bodies.hpp"
+#include "tests/support/test_scenes.hpp"
+
+namespace skein::sim {
+namespace {
+
+/// The tracer keeps the shadowing field of nodes that stand still, and computes it once for all links of the others.
+TEST(LinkTracer, GivesEachLinkThePowerThatPathLossGives) {
+  constexpr std::uint64_t kSeed = 3;
+  Scenario scenario;
+  scenario.conditions.radio = conditions_preset("harsh").radio;
+  scenario.station_position = {-5.0, 2.0, 1.0};
+  for (const char* name : {"a", "b", "c", "d"}) scenario.fleet.emplace_back().name = name;
+  const FaultPlan no_faults;
+  LinkTracer tracer(scenario, no_faults, kSeed);
+  const PathLoss path_loss(scenario.conditions.radio, kSeed);
+  const RayScene rays(TriangleMesh{}, body_shapes(scenario));
+  RandomStream draw(2, "link_tracer_test", 0);
+  std::vector<LinkTracer::Place> uavs(scenario.fleet.size());
+  std::size_t linked = 0, silent = 0;
+  for (Tick tick = 0; tick < 200; ++tick) {
+    for (LinkTracer::Place& uav : uavs) {
+      if (tick == 0 || draw.uniform() < 0.5) uav.p_WB = test::random_in_box(draw, {-150, -150, 5}, {150, 150, 40});
+    }
+    uavs.back().alive = tick < 150;
+    const Links links = tracer.trace(tick, rays, uavs);
+    const auto place = [&](Node node) {
+      return node == kStationNode ? scenario.station_position : uavs[node - 1].p_WB;
+    };
+    for (const Node from : scenario.nodes()) {
+      for (const Node to : scenario.nodes()) {
+        if (from == to) continue;
+        const bool dead = tick >= 150 && (from == scenario.fleet.size() || to == scenario.fleet.size());
+        const double power_dbm = path_loss.received_dbm(place(from), place(to));
+        ASSERT_EQ(links.at(from, to), dead ? 0 : PathLoss::level(power_dbm)) << tick;
+        const auto quality = tracer.quality(links.at(from, to), from, to);
+        ASSERT_EQ(quality.has_value(), links.at(from, to) != 0);
+        ASSERT_EQ(quality ? quality->received_dbm : power_dbm, power_dbm) << tick;
+        ++(quality ? linked : silent);
+      }
+    }
+  }
+  EXPECT_GT(linked, 500U);
+  EXPECT_GT(silent, 500U);
+}
+
+}  // namespace
+}  // namespace skein::sim
