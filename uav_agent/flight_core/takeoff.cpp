@@ -114,7 +114,8 @@ void Takeoff::climb(const PlannerInput& in, Steering& steering) {
   if (stalled && !navigator_.sees()) waits_for_ = agent_.first_explorer();
 }
 
-/// Begins the first recovery behaviour that helps a UAV that is held before it has risen. @returns whether there is one.
+/// Begins the first recovery behaviour that helps a UAV that is held before it has risen.
+/// @returns whether there is one.
 bool Takeoff::recovers(const PlannerInput& in, Steering& steering) {
   const Held::By held_by = filter_.held().by;
   if (held_by == Held::By::structure && stalled_s(in) > config_.stall_s) {
