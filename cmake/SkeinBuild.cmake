@@ -213,6 +213,11 @@ endfunction()
 # CTest kills an entry after five times s, the longest time that the entry takes on an idle machine [s]: machines may be
 # busy, and sanitizers take time. A test itself detects earlier that it waits in vain (tests/support/eventually.hpp).
 function(skein_set_timeout name seconds)
+  # In a new clone, CTest knows no times of earlier runs. By COST it starts the longest entries first there, so that
+  # none of them runs alone at the end.
+  if(seconds GREATER 120)
+    set_tests_properties(${name} PROPERTIES COST ${seconds})
+  endif()
   math(EXPR seconds "5 * ${seconds}")
   set_tests_properties(${name} PROPERTIES TIMEOUT ${seconds})
 endfunction()
