@@ -26,9 +26,10 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
     turn, turns = os.environ.get("SKEIN_TURN"), int(os.environ.get("SKEIN_TURNS", "1"))
     if turn is None:
         return
-    left_out = [item for number, item in enumerate(items) if (number + int(turn)) % turns]
-    items[:] = [item for number, item in enumerate(items) if (number + int(turn)) % turns == 0]
-    config.hook.pytest_deselected(items=left_out)
+    first = -int(turn) % turns
+    chosen = items[first::turns]
+    config.hook.pytest_deselected(items=[item for number, item in enumerate(items) if number % turns != first])
+    items[:] = chosen
 
 
 @pytest.fixture(scope="session")
