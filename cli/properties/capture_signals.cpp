@@ -1,6 +1,5 @@
 // Signals of captures: which were taken, delivered and acknowledged, and whose work they were.
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <optional>
 #include <set>
@@ -176,7 +175,7 @@ FolderSignals::Values FolderSignals::custody_differences() const {
   for (const auto& [capture, step] : derived_deliveries(run_, scenario_, *faults_)) entry(capture).first = step;
   for (const results::CaptureRow& row : run_.captures) {
     if (!row.delivered_at_s) continue;
-    entry({row.uav, row.capture}).second = static_cast<std::size_t>(std::llround(*row.delivered_at_s / period_s()));
+    entry({row.uav, row.capture}).second = exchange_at(*row.delivered_at_s);
   }
   Values values = constant(0.0);
   for (const auto& [capture, steps] : deliveries) {
