@@ -90,7 +90,7 @@ struct Planner::Ends {
   rclcpp::Publisher<std_msgs::msg::String>::SharedPtr radio;
   rclcpp::Publisher<skein_msgs::msg::Activity>::SharedPtr activity;
   rclcpp::CallbackGroup::SharedPtr no_executor;
-  std::vector<std::function<void()>> ears;  ///< take what has arrived
+  std::vector<std::function<void()>> ears;  ///< one per topic: takes the messages that have arrived
   rclcpp::TimerBase::SharedPtr timer;
 };
 
@@ -119,7 +119,7 @@ Planner::Planner(const std::string& name, const rclcpp::NodeOptions& options)
   ends_->radio = create_publisher<std_msgs::msg::String>("/plan", qos);
   ends_->activity = create_publisher<skein_msgs::msg::Activity>(prefix + "/activity", qos);
 
-  // An executor goes around, through all that it could wait for, for each message: a step takes them all at once.
+  // An executor would search all its entities for each message: step() takes all messages at once.
   ends_->no_executor = create_callback_group(rclcpp::CallbackGroupType::MutuallyExclusive, false);
   hear<nav_msgs::msg::Odometry>(prefix + "/ground_truth/odometry", qos,
                                 [this](nav_msgs::msg::Odometry::ConstSharedPtr m) { hear_odometry(*m); });
@@ -167,9 +167,8 @@ void Planner::hear_odometry(const nav_msgs::msg::Odometry& message) {
 
 void Planner::step() {
   for (const auto& ear : ends_->ears) ear();
-  if (!ends_->has_state) return;
   try {
-    plan(ends_->inputs);
+    if (ends_->has_state) plan(ends_->inputs);
   } catch (const std::exception& error) {
     fail("the planner threw: " + std::string(error.what()));
   }
@@ -201,7 +200,7 @@ void Planner::fly(const Vector& p_WB, const Vector& v_WB, double yaw) {
 
 void Planner::aim(double pitch, double yaw) {
   geometry_msgs::msg::Twist message;
-  message.linear.x = 1.0;  // angles
+  message.linear.x = 1.0;  // > 0: angles, not rates
   message.linear.y = pitch;
   message.linear.z = yaw;
   ends_->gimbal->publish(message);

@@ -18,7 +18,7 @@ namespace {
 
 constexpr const char* kEntered = "SKEIN_STEP_ENTERED";
 
-/// libskein_step.so, beside this library.
+/// The path of libskein_step.so, which lies beside this library.
 std::filesystem::path step_library() {
   Dl_info info = {};
   ::dladdr(reinterpret_cast<const void*>(&enter_step), &info);

@@ -1,7 +1,7 @@
-// run_in_step LIBRARY:CLASS [--ros-args ...]: makes a node of a class that knows nothing of Skein, and spins it in the
-// lock-step. The class is a component as rclcpp_components has them: its constructor takes rclcpp::NodeOptions. It is
-// found by that constructor's symbol (so the constructor must be defined outside of the class), and neither
-// rclcpp_components nor a registration is needed.
+// run_in_step LIBRARY:CLASS [--ros-args ...]: creates a node of a class that knows nothing of Skein, and spins it in
+// the lock-step. The class is a component as in rclcpp_components: its constructor takes rclcpp::NodeOptions.
+// run_in_step finds the class by that constructor's symbol (so the constructor must be defined outside of the class),
+// and needs neither rclcpp_components nor a registration.
 //   LIBRARY  a path, or the name of a library in LD_LIBRARY_PATH      CLASS  with its namespaces: my_pkg::MyNode
 #include <dlfcn.h>
 
@@ -13,7 +13,7 @@
 
 namespace {
 
-/// Nobody tells how large an object is; no node is as large as this.
+/// The library does not tell the size of the object. No node is as large as this.
 constexpr std::size_t kMostBytes = std::size_t{1} << 20;
 
 /// The symbol of CLASS::CLASS(const rclcpp::NodeOptions&).
@@ -41,7 +41,7 @@ std::shared_ptr<rclcpp::Node> make_node(const std::string& library, const std::s
   }
   void* const memory = std::calloc(1, kMostBytes);
   construct(memory, rclcpp::NodeOptions());
-  // A component derives from rclcpp::Node first, so the object begins with it.
+  // rclcpp::Node must be the first base of the class, so that the object begins with its Node.
   return {static_cast<rclcpp::Node*>(memory), [](rclcpp::Node* node) {
             node->~Node();
             std::free(node);

@@ -1,4 +1,4 @@
-// libskein_step.so, if it is loaded: its functions (skein_ros/step.h), found while the program runs.
+// Finds the functions of libskein_step.so (skein_ros/step.h) at run time, if that library is loaded.
 #pragma once
 
 #include <dlfcn.h>
@@ -7,16 +7,16 @@
 
 namespace skein_ros {
 
-/// nullptr: the library is not loaded.
+/// The function `name` of the library; nullptr if the library is not loaded.
 template <class Function>
 Function step_function(const char* name) {
   return reinterpret_cast<Function>(::dlsym(RTLD_DEFAULT, name));
 }
 
-/// True if this process steps with a fleet.
+/// True if this process is a member of the lock-step.
 bool is_member();
 
-/// Says why, and ends the process with exit code 3.
+/// Writes `why` to stderr, and ends the process with exit code 3.
 [[noreturn]] void fail(const std::string& why);
 
 }  // namespace skein_ros

@@ -1,5 +1,5 @@
-// The program at the ground station: collects who starts where, and says the list once it is complete, that is 10 s
-// after the last new report. From then on it is the same list, so that all UAVs work out the same teams.
+// The program at the ground station: collects where each UAV starts. 10 s after the last new report it closes the list,
+// and sends it every second from then on. The list does not change, so that all UAVs compute the same teams.
 #include <map>
 #include <sstream>
 
@@ -38,7 +38,7 @@ class Station : public rclcpp::Node {
     said_->publish(message);
   }
 
-  std::map<std::string, std::string> starts_;  ///< what is behind the name
+  std::map<std::string, std::string> starts_;  ///< of each name: role and position, as received
   double newest_s_ = 0.0;
   rclcpp::Publisher<std_msgs::msg::String>::SharedPtr said_;
   rclcpp::Subscription<std_msgs::msg::String>::SharedPtr heard_;

@@ -1,5 +1,5 @@
-// The site in cubes of 2.5 m along the axes of the world: which hold structure, and ways between the others. A cell of
-// which nothing is known counts as free, unless it is doubtful: near what is to be inspected.
+// The site in cubic cells of 2.5 m along the axes of the world: which of them hold structure, and ways through the
+// others. An unknown cell counts as free, unless it is doubtful, that is, near a box.
 // Pure, no ROS.   Units: m.
 #pragma once
 
@@ -22,7 +22,7 @@ struct Cell {
 
 Cell cell_at(const Vector& p_W);
 Vector middle_of(const Cell& cell);
-/// The six that share a face with it.
+/// The six cells that share a face with it.
 std::array<Cell, 6> neighbours_of(const Cell& cell);
 
 class Grid {
@@ -31,23 +31,23 @@ class Grid {
 
   Grid();
 
-  /// 200 m to each side, and from the ground to 150 m.
+  /// The grid reaches 200 m to each side, and from the ground to 150 m.
   bool contains(const Cell& cell) const;
   bool is_occupied(const Cell& cell) const { return contains(cell) && known_[index(cell)] == kOccupied; }
-  /// Whether a vehicle may be there.
+  /// Whether a vehicle may enter it.
   bool is_open(const Cell& cell) const;
   bool touches_structure(const Cell& cell) const;
   bool is_visited(const Cell& cell) const { return contains(cell) && visited_[index(cell)]; }
 
-  /// @returns whether that is news. A cell stays occupied.
+  /// An occupied cell stays occupied. @returns whether the grid has changed
   bool learn(const Cell& cell, bool occupied);
   void visit(const Cell& cell);
   /// From now on the cells for which `test` holds are doubtful.
   void doubt(const Test& test);
 
-  /// The shortest way from face to face to the nearest goal, without `from` itself. It enters open cells
-  /// alone, and none that is `barred`; it is empty if `from` is a goal.
-  /// @returns false if there is none within 300,000 cells.
+  /// The shortest way through common faces to the nearest goal, without `from` itself; empty if `from` is a goal. It
+  /// enters only cells that are open and not `barred`.
+  /// @returns false if a search of 300,000 cells finds none
   bool find_way(const Cell& from, const Test& is_goal, const Test& barred, std::vector<Cell>& way);
 
  private:
@@ -55,7 +55,7 @@ class Grid {
 
   static constexpr char kUnknown = 0, kFree = 1, kOccupied = 2;
   std::vector<char> known_, visited_, doubtful_;
-  std::vector<int> came_from_;  ///< of a search, by index
+  std::vector<int> came_from_;  ///< of a search, by index: the cell before
 };
 
 }  // namespace baseline

@@ -31,7 +31,7 @@ std::vector<Region> path_from(Vector at, std::vector<Region> boxes) {
   return path;
 }
 
-/// Takes that much volume from the front of a path.
+/// Takes regions of that volume, within `tolerance`, from the front of a path.
 std::vector<Region> take(double volume, double tolerance, std::vector<Region>& path) {
   std::vector<Region> taken;
   while (!path.empty() && volume > tolerance) {
@@ -79,7 +79,7 @@ std::vector<int> Region::sections(int team_size) const {
 }
 
 Region box_of(const std::vector<Vector>& vertices_W) {
-  // From any vertex the shortest ways lead along the edges: the diagonals are those that are square to no edge.
+  // Of the ways from one vertex to the others, the shortest three that are perpendicular to each other are the edges.
   std::vector<Vector> ways;
   for (const Vector& vertex : vertices_W) ways.push_back(vertex - vertices_W.front());
   std::sort(ways.begin(), ways.end(), [](const Vector& a, const Vector& b) { return a.norm() < b.norm(); });

@@ -1,9 +1,10 @@
 // CARIC's public baseline as an ordinary ROS 2 node: one for each UAV, under the UAV's namespace.
 //
-// All UAVs report where they start; the station (gcs.cpp) says the list; all work out the same teams. The explorer
-// of a team flies to the next region and surveys the bottom layer of each section, cell by cell along the structure. A
-// photographer inspects its section once that is surveyed: every third layer, from cell to cell, a look at each face.
-// The last section is the explorer's own. When all are done the team goes on, and at last home.
+// All UAVs report where they start; the station (gcs.cpp) sends the list; all compute the same teams. The explorer
+// of a team flies to the next region and surveys the first layer of each photographer's section, cell by cell along the
+// structure. A photographer inspects its section once that is surveyed: in every third layer, it looks from each cell
+// at the faces of the structure. The last section is the explorer's own. When all are done, or `patience_s` after the
+// explorer is, the team flies to the next region, and at last home.
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -20,7 +21,7 @@
 
 namespace baseline {
 
-/// So near a box, only cells that a beam of a LiDAR has crossed are entered.
+/// So near a box, UAVs enter only cells that a LiDAR's beam has crossed.
 constexpr double kDoubtM = 2.25;
 
 enum class Stage { report, climb, go, survey, wait, inspect, gather, home };
@@ -36,7 +37,7 @@ class Uav : public rclcpp::Node {
   void hear_scan(const sensor_msgs::msg::PointCloud2& cloud);
   void hear_neighbours(const sensor_msgs::msg::PointCloud2& cloud);
 
-  // Every 50 ms, and twice a second.
+  // Timers: fly() every 50 ms, plan() twice a second.
   void fly();
   void plan();
   void decide();
@@ -46,7 +47,7 @@ class Uav : public rclcpp::Node {
   void join_team(const std::map<std::string, Start>& fleet);
   void lead();
   void follow_leader();
-  /// Goes on with the inspection of a layer. @returns false once no cell of it is left that can be reached.
+  /// Continues the inspection of a layer. @returns false once it has no cell left that the UAV can reach
   bool work_at(int layer);
   /// The same with every `layer_step`th layer of a section, from layer_ on.
   bool inspect(int section);
@@ -56,7 +57,7 @@ class Uav : public rclcpp::Node {
   void enter(Stage stage);
   bool must_go_home() const;
 
-  /// By another UAV.
+  /// Whether another UAV is there, or has claimed the cell.
   bool is_taken(const Cell& cell, const std::vector<Cell>& claimed) const;
   bool leads() const { return team_.members.front() == radio_.name(); }
   const Region& region() const { return team_.regions[work_.region]; }
@@ -75,9 +76,9 @@ class Uav : public rclcpp::Node {
   Cell home_;
   Work work_;
   int section_ = 0;             ///< of the team's region: the leader's is the last one
-  int layer_ = 0, misses_ = 0;  ///< of the inspection; searches in a row that found no way
+  int layer_ = 0, misses_ = 0;  ///< of the inspection; successive searches that found no way
   double stage_since_s_ = 0.0, starts_at_s_ = 0.0;
-  double decides_at_s_ = 0.0;  ///< not before: a search that found no way is not repeated at once
+  double decides_at_s_ = 0.0;  ///< not earlier, so as not to repeat a failed search at once
   std::vector<rclcpp::SubscriptionBase::SharedPtr> heard_;
   std::vector<rclcpp::TimerBase::SharedPtr> timers_;
 };
@@ -184,7 +185,7 @@ void Uav::report() {
 }
 
 void Uav::join_team(const std::map<std::string, Start>& fleet) {
-  // Explorers before photographers, then by name: the order of taking off and of giving way.
+  // Explorers before photographers, then by name: the order of takeoff and of right of way.
   std::map<std::string, int> ranks;
   for (const bool explorers : {true, false}) {
     for (const auto& [name, start] : fleet) {
@@ -297,7 +298,7 @@ bool Uav::work_at(int layer) {
     misses_ = 0;
     return true;
   }
-  // Others may be in the way for a moment.
+  // Other UAVs may be in the way for a moment.
   if (++misses_ < 4) return true;
   misses_ = 0;
   return false;

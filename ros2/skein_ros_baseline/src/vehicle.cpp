@@ -57,8 +57,8 @@ void Vehicle::look_around(const Grid& grid) {
   cell_until_s_ = node_.now().seconds() + cell_s_;
 }
 
-/// A vehicle of 2 m/s overshoots by 0.9 m where the place that it follows stops dead: the place slows down before it
-/// ends or turns.
+/// At 2 m/s a vehicle overshoots by 0.9 m if its setpoint stops at once. So the setpoint slows down before the way ends
+/// or turns.
 double Vehicle::pace_mps() const {
   double straight_m = 0.0;
   Vector at = place_, ahead = Vector::Zero();
@@ -88,7 +88,7 @@ void Vehicle::look() {
   const Vector& face = faces_.front();
   gimbal_pitch_goal_ = std::clamp(-std::asin(face.z()), -kMostPitch, kMostPitch);  // down is positive
   if (std::abs(face.z()) < 0.5) {
-    // The gimbal turns by less than 90 degrees; for what lies behind, the body does.
+    // The body faces east, and the gimbal turns by less than 90 degrees to either side: the body turns to faces behind.
     const double yaw = std::atan2(face.y(), face.x());
     const bool behind = std::abs(yaw) > kHalfTurn / 2.0 - 0.1;
     yaw_goal_ = behind ? yaw : 0.0;
@@ -110,7 +110,7 @@ void Vehicle::fly(const std::function<bool(const Cell&)>& barred) {
   const Cell here = cell_at(place_);
   if (!way_.empty() && !(way_.front() == here) && barred(way_.front())) stop();
   const Vector before = place_;
-  // Not ahead of a vehicle that is held back.
+  // The setpoint waits for a vehicle that is held back.
   if ((p_WB_ - place_).norm() < kCellM / 2.0) advance(pace_mps() * kPeriodS);
   look();
 
@@ -129,7 +129,7 @@ void Vehicle::fly(const std::function<bool(const Cell&)>& barred) {
   trajectory_->publish(command);
 
   geometry_msgs::msg::Twist aim;
-  aim.linear.x = 1.0;  // angles
+  aim.linear.x = 1.0;  // > 0: angles, not rates
   aim.linear.y = gimbal_pitch_goal_;
   aim.linear.z = gimbal_yaw_goal_;
   gimbal_->publish(aim);

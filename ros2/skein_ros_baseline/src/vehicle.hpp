@@ -1,4 +1,4 @@
-// The UAV's own topics: what it is told of itself, and how it flies along cells and looks at their faces.
+// The UAV's own topics: receives its state, flies it along cells, and turns the camera to the structure beside them.
 // Frames: W world (ENU), B body (x ahead, y left, z up).   Units: SI, radians.   Thread: that of the node.
 #pragma once
 
@@ -24,23 +24,23 @@ class Vehicle {
 
   bool has_state() const { return has_state_; }
   const Vector& p_WB() const { return p_WB_; }
-  /// Where it is to be now, from which a new way begins.
+  /// The cell of the setpoint, in which a new way begins.
   Cell cell() const { return cell_at(place_); }
-  /// Of the mission [s]; nullopt before the first take-off.
+  /// Of the mission [s]; nullopt before the fleet's first takeoff.
   const std::optional<double>& time_left_s() const { return time_left_s_; }
   double speed_mps() const { return speed_mps_; }
 
-  /// From now on along these cells, from middle to middle.
+  /// From now on flies along these cells, from middle to middle.
   void follow(const std::vector<Cell>& way);
-  /// To the middle of the cell in which it is.
+  /// Flies to the middle of cell().
   void stop() { follow({cell()}); }
   bool has_arrived() const;
   const std::deque<Cell>& way() const { return way_; }
-  /// Turns the camera to the structure around the cell where it is, face by face; only after has_arrived().
+  /// Turns the camera to the structure beside cell(), face by face. Call this only after has_arrived().
   void look_around(const Grid& grid);
   bool has_looked() const { return faces_.empty(); }
 
-  /// One step of 50 ms: commands to the vehicle and its gimbal. It goes on into no cell that is `barred`.
+  /// One step of 50 ms: commands vehicle and gimbal. Stops before a cell that is `barred`.
   void fly(const std::function<bool(const Cell&)>& barred);
 
  private:
@@ -54,9 +54,9 @@ class Vehicle {
   Vector p_WB_ = Vector::Zero();
   double yaw_ = 0.0, gimbal_pitch_ = 0.0, gimbal_yaw_ = 0.0;
   std::optional<double> time_left_s_;
-  Vector place_ = Vector::Zero();  ///< where it is to be now; runs along way_
+  Vector place_ = Vector::Zero();  ///< the setpoint; moves along way_
   std::deque<Cell> way_;
-  std::deque<Vector> faces_;  ///< directions in W that it has yet to look in
+  std::deque<Vector> faces_;  ///< directions in W in which it has yet to look
   double cell_until_s_ = 0.0, aimed_since_s_ = -1.0;
   double yaw_goal_ = 0.0, gimbal_pitch_goal_ = 0.0, gimbal_yaw_goal_ = 0.0;
   rclcpp::Publisher<trajectory_msgs::msg::MultiDOFJointTrajectory>::SharedPtr trajectory_;

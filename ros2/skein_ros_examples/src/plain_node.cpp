@@ -1,5 +1,5 @@
-// A node that knows nothing of Skein, as a component: topics under relative names, which a remapping leads to its UAV's
-// (--ros-args -r __ns:=/jurong), a wall timer, /clock, a topic of its own.
+// A node that knows nothing of Skein, as a component. It uses relative topic names, which a namespace resolves to those
+// of its UAV (--ros-args -r __ns:=/jurong), a wall timer, the node's clock, and a topic of its own.
 #include <nav_msgs/msg/odometry.hpp>
 #include <rclcpp/rclcpp.hpp>
 #include <std_msgs/msg/string.hpp>
@@ -14,7 +14,7 @@ class Climber : public rclcpp::Node {
  private:
   void tick() {
     if (!start_) return;
-    // Up by a step each second of the node's clock, and by a bit for each message that it has heard from itself.
+    // Climbs 0.5 m per second of the node's clock, and 1 mm for each message that it has received from itself.
     const double climbed_m = std::min(height_m_, 0.5 * now().seconds() + 0.001 * heard_count_);
     trajectory_msgs::msg::MultiDOFJointTrajectory command;
     command.header.stamp = now();

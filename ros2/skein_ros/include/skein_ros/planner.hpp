@@ -1,4 +1,4 @@
-// A planner for Skein as a ROS 2 node: derive from Planner, decide in plan(), end with SKEIN_ROS_MAIN.
+// A planner for Skein as a ROS 2 node: derive from Planner, decide in plan(), end the file with SKEIN_ROS_MAIN.
 // Frames: W world (ENU), B body (x ahead, y left, z up).  Units: SI and radians.
 // Threads: one. plan() and all callbacks run in the thread that spins the node.
 #pragma once
@@ -34,25 +34,25 @@ struct Box {
 
   Vector middle() const;
   double bottom() const;  ///< lowest z [m]
-  double radius() const;  ///< of the upright cylinder around it [m]
+  double radius() const;  ///< of the vertical cylinder around it [m]
 };
 
 /// Distance on the ground [m].
 double ground_distance(const Vector& p_W, const Vector& q_W);
 
-/// All that has been received up to a step.
+/// What the node has received up to a step.
 struct Inputs {
   double time_s = 0.0;                ///< simulated
-  std::optional<double> time_left_s;  ///< of the mission; nullopt before the first take-off
+  std::optional<double> time_left_s;  ///< of the mission; nullopt before the fleet's first takeoff
   Vector p_WB{};
   double yaw = 0.0;
   nav_msgs::msg::Odometry odometry;
   geometry_msgs::msg::TwistStamped gimbal;  ///< angles in linear, rates in angular: y pitch, z yaw
   std::vector<Box> boxes;
   std::vector<Neighbour> neighbours;
-  sensor_msgs::msg::PointCloud2::ConstSharedPtr scan;        ///< of this step, points in W; else null
-  sensor_msgs::msg::PointCloud2::ConstSharedPtr detections;  ///< all interest points that this UAV ever saw, or null
-  std::vector<std::string> messages;                         ///< from others' say(), of this step
+  sensor_msgs::msg::PointCloud2::ConstSharedPtr scan;        ///< if one came in this step, else null; points in W
+  sensor_msgs::msg::PointCloud2::ConstSharedPtr detections;  ///< all interest points seen so far by this UAV; or null
+  std::vector<std::string> messages;                         ///< received by radio in this step, from others' say()
 
   bool sees_station() const;
 };
@@ -63,21 +63,22 @@ class Planner : public rclcpp::Node {
   ~Planner() override;
 
  protected:
-  /// Decides. In the lock-step it is called once a step, 20 times a simulated second, when all that belongs to the step
-  /// has been received; otherwise by a timer. An exception ends the process, and its text is in the log.
+  /// Decides what the UAV does. In the lock-step it is called once per step, 20 times per simulated second, when the
+  /// node has received all messages of the step; otherwise every 50 ms by a timer. An exception ends the process; the
+  /// log has its text.
   virtual void plan(const Inputs& in) = 0;
 
-  /// The vehicle flies to a place [m, in W], heading to `yaw`. Holds until the next command.
+  /// Flies to a place [m, in W], with the heading `yaw`. The command holds until the next one.
   void fly_to(const Vector& p_WB, double yaw);
-  /// The same at a velocity [m/s, in W].
+  /// The same, passing the place with a velocity [m/s, in W].
   void fly(const Vector& p_WB, const Vector& v_WB, double yaw);
-  /// The gimbal turns to these angles, relative to the body: pitch down is positive, yaw to the left.
+  /// Turns the gimbal to angles relative to the body: positive pitch looks down, positive yaw turns left.
   void aim(double pitch, double yaw);
-  /// The camera takes a picture now, and from now on only when it is told to.
+  /// Takes a picture now. After the first call, the camera takes no pictures by itself any more.
   void take_picture();
-  /// By radio, to all nodes in line of sight (/plan).
+  /// Sends a text by radio to all nodes in line of sight (topic /plan).
   void say(const std::string& text);
-  /// For people who watch, at each change.
+  /// Reports the UAV's activity, for people who watch. Publishes only changes.
   void show_activity(const std::string& mode);
 
   const std::string& uav() const;
@@ -91,13 +92,14 @@ class Planner : public rclcpp::Node {
   std::unique_ptr<Ends> ends_;
 };
 
-/// The UAV that this program flies (SKEIN_UAV). @throws std::runtime_error without one.
+/// The UAV that this program flies (SKEIN_UAV). @throws std::runtime_error if the variable is not set
 std::string uav_of_environment();
 
-/// Starts this program again with libskein_step.so, if the launcher has not loaded it. Before rclcpp::init().
+/// Restarts this program with libskein_step.so, if it flies a UAV and has not loaded that library. Call this before
+/// rclcpp::init().
 void enter_step();
 
-/// main() of a planner: spins a node made by `make` until the run is over. @returns the exit code
+/// main() of a planner: spins the node that `make` creates, until the run is over. @returns the exit code
 int run(int argc, char** argv, const std::function<std::shared_ptr<rclcpp::Node>()>& make);
 
 template <class MyPlanner>
@@ -107,6 +109,6 @@ int run(int argc, char** argv) {
 
 }  // namespace skein_ros
 
-/// The program of a planner with a constructor from rclcpp::NodeOptions.
+/// Defines main() for a planner whose constructor takes rclcpp::NodeOptions.
 #define SKEIN_ROS_MAIN(MyPlanner) \
   int main(int argc, char** argv) { return skein_ros::run<MyPlanner>(argc, argv); }

@@ -11,7 +11,7 @@
 namespace skein_ros {
 namespace {
 
-/// A buffer of the rmw's that is used again for each sample.
+/// A buffer of the rmw, reused for each sample.
 class Buffer {
  public:
   Buffer() : buffer_(rmw_get_zero_initialized_serialized_message()) {
@@ -48,7 +48,7 @@ bool Incoming::is_for_us(const rmw_message_info_t& info) {
 }
 
 void Incoming::set_base(Source source, std::uint64_t count) {
-  // What is latched is received again as far as its history goes back, so that much counts again.
+  // The node receives latched samples again, as far as the history reaches: these count again.
   const std::uint64_t repeated = latched_ ? std::min<std::uint64_t>(count, static_cast<std::uint64_t>(depth_)) : 0;
   base_[source] = count - repeated;
 }
@@ -103,7 +103,6 @@ void Outgoing::flush(bool lost) {
   for (const auto& bytes : held_) {
     if (lost) continue;
     if (sent == static_cast<std::size_t>(depth_)) {
-      ++dropped_;
       say_once("a step may have " + std::to_string(depth_) + " samples on " + topic() +
                ": what the node publishes beyond that is not sent");
       continue;

@@ -1,5 +1,5 @@
-// The ends of a node's topics that belong to the lock-step: publications are held until the step is answered, and
-// samples until all that the step announced are here. Threads: the node's.
+// A node's subscriptions and publishers in the lock-step: this library holds publications until the node has finished
+// the step, and arrivals until all samples that the step announced are here. Threads: the node's.
 #pragma once
 
 #include <rmw/rmw.h>
@@ -16,7 +16,7 @@
 
 namespace skein_ros {
 
-/// A serialised message and, of an arrival, where it came from.
+/// A serialised message; for an arrival, also where it came from.
 struct Sample {
   std::vector<std::uint8_t> bytes;
   rmw_message_info_t info = {};
@@ -35,18 +35,18 @@ class Incoming {
   std::string topic() const { return subscription_->topic_name; }
   Counterpart counterpart() const { return counterpart_; }
 
-  /// The source had sent `count` samples when the node was invited.
+  /// `source` had sent `count` samples when the node was invited.
   void set_base(Source source, std::uint64_t count);
-  /// Takes what has arrived from `source` out of the rmw; samples of others are dropped.
+  /// Takes all samples out of the rmw, and drops those that are not from `source`.
   void drain(Writers& writers, Source source);
-  /// What the step announces of a source, cumulative.
+  /// The step announces that `source` has sent `count` samples in all.
   void expect(Source source, std::uint64_t count);
   bool complete() const { return arrived_ >= expected_; }
-  /// "3 of 4", for people.
+  /// How many of the announced samples are here, for the log: "3 of 4".
   std::string missing() const;
   /// Hands the announced samples to the node.
   void release();
-  /// Without counting: from a publisher in the same process.
+  /// Hands over a sample of a publisher in this process, which is not counted.
   void hand(Sample sample) { ready_.push_back(std::move(sample)); }
 
   bool has_sample() const { return !ready_.empty(); }
@@ -62,8 +62,8 @@ class Incoming {
   const Counterpart counterpart_;
   const int depth_;
   const bool latched_;
-  const std::int64_t made_ns_;  ///< of the wall clock
-  bool up_to_date_ = false;     ///< a sample of source_ has come that was written for this reader
+  const std::int64_t made_ns_;  ///< time of creation on the wall clock
+  bool up_to_date_ = false;     ///< source_ has sent a sample that was meant for this reader
   std::map<Source, std::uint64_t> base_;
   Source source_ = 0;
   std::uint64_t arrived_ = 0, released_ = 0, expected_ = 0;  ///< cumulative, of source_
@@ -81,13 +81,12 @@ class Outgoing {
   std::string topic() const { return publisher_->topic_name; }
   Counterpart counterpart() const { return counterpart_; }
 
-  /// To be sent when the step is answered.
+  /// Holds a sample until the end of the step.
   void hold(std::vector<std::uint8_t> bytes) { held_.push_back(std::move(bytes)); }
-  /// Sends what was held, as much as a step may have; says once if there is more, which is lost.
-  /// @param lost  sends nothing: nobody is there to hear it
+  /// Sends the held samples, at most as many as the history is deep; drops the rest, and logs that once.
+  /// @param lost  drops all of them, because nobody is there to receive them
   void flush(bool lost);
   std::uint64_t sent() const { return sent_; }
-  std::uint64_t dropped() const { return dropped_; }
 
  private:
   rmw_publisher_t* const publisher_;
@@ -95,7 +94,7 @@ class Outgoing {
   const Counterpart counterpart_;
   const int depth_;
   std::vector<std::vector<std::uint8_t>> held_;
-  std::uint64_t sent_ = 0, dropped_ = 0;
+  std::uint64_t sent_ = 0;
 };
 
 }  // namespace skein_ros

@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t kUsualBytes = 4096;
 
-/// A buffer of the rmw's.
+/// A buffer of the rmw, filled with zeros.
 class Buffer {
  public:
   explicit Buffer(std::size_t bytes) : buffer_(rmw_get_zero_initialized_serialized_message()) {
@@ -40,8 +40,8 @@ class Buffer {
 };
 
 std::vector<std::uint8_t> encoded_by_rmw(const void* message, const rosidl_message_type_support_t* type) {
-  // The middleware leaves what is in the buffer where CDR has padding. The bytes of radio messages are in the digest,
-  // so there must be zeros, and a buffer that has grown meanwhile is of no use.
+  // The middleware does not write CDR's padding. The digest covers the bytes of radio messages, so the padding must be
+  // zero. A buffer that has grown may have other bytes there: serialise again, into a larger one.
   for (std::size_t capacity = kUsualBytes;;) {
     Buffer buffer(capacity);
     if (rmw_serialize(message, type, buffer.get()) != RMW_RET_OK) {
@@ -67,7 +67,7 @@ using Callbacks = message_type_support_callbacks_t;
 using eprosima::fastcdr::Cdr;
 using eprosima::fastcdr::FastBuffer;
 
-/// Of messages in C++ and of those in C, which Python has.
+/// For messages in C++, and for those in C, which Python uses.
 const void* callbacks_of(const rosidl_message_type_support_t* type) {
   for (const char* language : {"rosidl_typesupport_fastrtps_cpp", "rosidl_typesupport_fastrtps_c"}) {
     const auto* const found = get_message_typesupport_handle(type, language);

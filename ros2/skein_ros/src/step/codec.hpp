@@ -1,7 +1,7 @@
-// Messages to CDR and back. rmw_cyclonedds_cpp builds its description of a type anew at each rmw_serialize() and
-// rmw_deserialize(), which took half of a node's time; so where a message's package has the type support of
-// rmw_fastrtps_cpp, as all have that were built with the usual ROS 2, that is used with either middleware.
-// Threads: none of this is shared.
+// Converts messages to CDR and back. rmw_cyclonedds_cpp builds the description of a type anew at each rmw_serialize()
+// and rmw_deserialize(), which took half of a node's time. So, with either middleware, the codec uses the type support
+// of rmw_fastrtps_cpp if the message's package has it, as all packages built with the usual ROS 2 do.
+// Threads: no shared state.
 #pragma once
 
 #include <rmw/rmw.h>
@@ -11,17 +11,17 @@
 
 namespace skein_ros {
 
-/// rmw's view of bytes, which stay the caller's.
+/// The bytes as a message of the rmw, not copied: the caller keeps them.
 rmw_serialized_message_t view_of(const std::vector<std::uint8_t>& bytes);
 
-/// Of one type of messages.
+/// For messages of one type.
 class Codec {
  public:
   explicit Codec(const rosidl_message_type_support_t* type);
 
-  /// With encapsulation header, and zeros where CDR has padding. @throws std::runtime_error when it cannot be written
+  /// With encapsulation header, and zeros where CDR has padding. @throws std::runtime_error if that fails
   std::vector<std::uint8_t> encode(const void* message) const;
-  /// @returns false for what is no such message
+  /// @returns false if the bytes are no such message
   bool decode(const std::vector<std::uint8_t>& bytes, void* message) const;
 
  private:

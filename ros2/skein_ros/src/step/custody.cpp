@@ -39,11 +39,11 @@ void Custody::take(const skein_msgs::msg::CaptureReports& reports) {
 void Custody::see(const sensor_msgs::msg::PointCloud2& neighbours) {
   constexpr std::size_t kNodeOffset = 12;  // the field "intensity", a float32
   linked_ = false;
+  if (neighbours.point_step < kNodeOffset + sizeof(float)) return;
   for (std::size_t at = 0; at + neighbours.point_step <= neighbours.data.size(); at += neighbours.point_step) {
     float node = std::numeric_limits<float>::quiet_NaN();
     std::memcpy(&node, neighbours.data.data() + at + kNodeOffset, sizeof node);
     linked_ = linked_ || node == 0.0F;
-    if (neighbours.point_step == 0) return;
   }
 }
 

@@ -1,5 +1,5 @@
-// Custody of captures on board: each report of the camera's is kept until the station acknowledges it, and sent
-// whenever there is a direct link to the station (docs/lockstep.md). Knows no middleware.   Threads: one.
+// Custody of captures on board: keeps each report of the camera until the station acknowledges it, and sends it while
+// there is a direct link to the station (docs/lockstep.md). Knows no middleware.   Threads: one.
 #pragma once
 
 #include <cstdint>
@@ -18,20 +18,18 @@ class Custody {
  public:
   explicit Custody(std::string uav) : uav_(std::move(uav)) {}
 
-  /// What the camera hands out, possibly again.
+  /// Keeps the reports that the camera hands out. It may hand out a report again.
   void take(const skein_msgs::msg::CaptureReports& reports);
-  /// The nodes in line of sight.
+  /// The nodes in line of sight: whether the station is among them.
   void see(const sensor_msgs::msg::PointCloud2& neighbours);
-  /// What the station has written down. A message whose sum is wrong, or of another UAV, says nothing.
-  /// @returns what is to be handed on to the camera, if anything
+  /// Deletes the reports that the station has in its journal. Ignores a message for another UAV or with a wrong sum.
+  /// @returns the captures to acknowledge to the camera
   std::vector<std::uint64_t> acknowledge(const skein_msgs::msg::CaptureAck& ack);
 
-  /// What is to be sent to the station in step k; empty: nothing.
+  /// The reports to send to the station in step k, perhaps none.
   skein_msgs::msg::CaptureReports due(std::uint64_t k);
-  /// The camera may forget these.
+  /// The message that lets the camera release these captures.
   skein_msgs::msg::CaptureAck ack_of(std::vector<std::uint64_t> captures) const;
-
-  std::size_t undelivered() const { return held_.size(); }
 
  private:
   struct Held {

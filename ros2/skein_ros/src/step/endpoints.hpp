@@ -1,4 +1,4 @@
-// Endpoints of the lock-step's own, and typed messages through them.
+// Creates the endpoints of the lock-step itself, and sends and receives typed messages through them.
 #pragma once
 
 #include <rmw/rmw.h>
@@ -46,7 +46,7 @@ void publish(rmw_publisher_t* publisher, const Message& message) {
   }
 }
 
-/// @returns false: there is none
+/// @returns false if there is no message
 template <class Message>
 bool take(rmw_subscription_t* subscription, Message& message, rmw_message_info_t& info) {
   bool taken = false;
@@ -55,7 +55,7 @@ bool take(rmw_subscription_t* subscription, Message& message, rmw_message_info_t
   return taken;
 }
 
-/// @returns false for what is no such message
+/// @returns false if the sample is no such message
 template <class Message>
 bool read(const Sample& sample, Message& message) {
   static const Codec codec(type_of<Message>());

@@ -1,5 +1,5 @@
-// The topics of a UAV's domain that belong to the lock-step, by their ROS names: what the server counts towards a node,
-// and what it counts from one. core/topics.hpp of Skein is the one table; a test compares (tests/ros2). Needs no ROS.
+// The topics between server and node that the lock-step counts in a UAV's domain, by their ROS names. The authoritative
+// table is Skein's core/topics.hpp; a test compares the two (tests/ros2). Needs no ROS.
 #pragma once
 
 #include <string>
@@ -18,7 +18,7 @@ struct FleetTopic {
 };
 
 inline constexpr int kStateDepth = 8, kCommandDepth = 64, kRadioDepth = 256;
-/// Of arrivals on a radio topic: twenty UAVs and the ground station may send in one step.
+/// For arrivals on a radio topic: twenty UAVs and the ground station may send in one step.
 inline constexpr int kArrivalDepth = 21 * kRadioDepth;
 
 inline constexpr FleetTopic kFleetTopics[] = {

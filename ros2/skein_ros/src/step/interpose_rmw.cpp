@@ -1,5 +1,5 @@
-// The rmw functions that a node in the lock-step calls in place of its middleware's (docs/decisions/0037). This library
-// is loaded before the middleware (LD_PRELOAD), so that it serves C++ and Python, whatever the middleware.
+// The rmw functions that a node in the lock-step calls instead of those of its middleware (docs/decisions/0037).
+// LD_PRELOAD loads this library before the middleware, so it works for C++ and Python, and with any middleware.
 #include <rmw/rmw.h>
 
 #include <cstring>
@@ -35,8 +35,8 @@ Outgoing* outgoing_of(const rmw_publisher_t* publisher) {
   return nullptr;
 }
 
-/// What the node publishes waits for the end of the step; on a topic of its own it goes out at once, and to the node's
-/// own subscriptions first: they hear each other in the order of publishing, and nobody else.
+/// On a topic that the fleet counts, holds the message until the end of the step; on any other, sends it at once. The
+/// process's own uncounted subscriptions receive it first: they get the process's messages in order, and no others.
 rmw_ret_t publish(Outgoing& out, std::vector<std::uint8_t> bytes) {
   skein_ros::require_node_thread(("publishes on " + out.topic()).c_str());
   skein_ros::note_work();
@@ -127,7 +127,7 @@ rmw_publisher_t* rmw_create_publisher(const rmw_node_t* node, const rosidl_messa
 
 rmw_ret_t rmw_destroy_publisher(rmw_node_t* node, rmw_publisher_t* publisher) {
   if (const Outgoing* const out = outgoing_of(publisher)) {
-    // What it has sent stays counted until the run is over.
+    // The lock-step still counts its samples, so the publisher stays until the run is over.
     if (out->counterpart() != Counterpart::nobody && member()->has_declared() && !member()->is_over())
       return RMW_RET_OK;
     member()->remove(*out);
@@ -220,7 +220,7 @@ rmw_ret_t rmw_take_serialized_message_with_info(const rmw_subscription_t* subscr
 
 rmw_ret_t rmw_wait(rmw_subscriptions_t* subscriptions, rmw_guard_conditions_t* guards, rmw_services_t* services,
                    rmw_clients_t* clients, rmw_events_t* events, rmw_wait_set_t* wait_set, const rmw_time_t* timeout) {
-  // Threads of rclcpp's own that watch the graph wait for nothing but guard conditions.
+  // Threads of rclcpp, which watch the graph, wait only for guard conditions.
   const bool nodes = (subscriptions != nullptr && subscriptions->subscriber_count > 0) ||
                      (services != nullptr && services->service_count > 0) || skein_ros::in_node_code();
   if (!steps() || !nodes) {

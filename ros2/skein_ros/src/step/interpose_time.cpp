@@ -1,5 +1,5 @@
-// Clocks and sleeps of a node in the lock-step: simulated time for every clock of ROS (steady ones, too: a wall timer
-// fires at the same step in each run), for the clocks of C++ as the node's own code reads them, and for sleeps in it.
+// Clocks and sleeps of a node in the lock-step. Every clock of ROS shows simulated time (also steady ones: a wall timer
+// fires at the same step in each run), and so do C++ clocks and sleeps in the node's own code.
 #include <dlfcn.h>
 #include <rcl/timer.h>
 #include <rcutils/time.h>
@@ -36,9 +36,9 @@ std::int64_t now_of(clockid_t clock) {
   return simulated_now(&now_ns) ? now_ns : real_now(clock);
 }
 
-/// The middleware and the standard library keep the wall clock, also when the node calls them.
+/// Calls from the middleware and from the standard library use the wall clock, also when the node has called these.
 bool is_of_middleware(const void* address) {
-  static std::map<const void*, bool> known;  // by library; the node's thread alone comes here
+  static std::map<const void*, bool> known;  // by library; only the node's thread calls this
   Dl_info info = {};
   if (::dladdr(address, &info) == 0 || info.dli_fname == nullptr) return true;
   const auto [entry, is_new] = known.try_emplace(info.dli_fbase, false);
@@ -55,16 +55,17 @@ bool of_node(const void* caller) { return in_node_code() && !is_of_middleware(ca
 
 std::int64_t cpp_now(clockid_t clock, const void* caller) { return of_node(caller) ? now_of(clock) : real_now(clock); }
 
-/// @returns false: the caller really sleeps
+/// @returns false if there is no simulated time, or if the sleep ended early
 bool sleep_for_simulated(std::int64_t duration_ns) {
   std::int64_t now_ns = 0;
   if (!simulated_now(&now_ns)) return false;
   return sleep_until_simulated(now_ns + duration_ns);
 }
 
-int sleep_of_node(const struct timespec* duration, const void* caller) {
+/// @param left  gets the remaining time if a signal ends the sleep; may be nullptr
+int sleep_of_node(const struct timespec* duration, struct timespec* left, const void* caller) {
   if (of_node(caller) && sleep_for_simulated(duration->tv_sec * kSecond_ns + duration->tv_nsec)) return 0;
-  return static_cast<int>(::syscall(SYS_clock_nanosleep, CLOCK_MONOTONIC, 0, duration, nullptr));
+  return static_cast<int>(::syscall(SYS_clock_nanosleep, CLOCK_MONOTONIC, 0, duration, left));
 }
 
 }  // namespace
@@ -87,17 +88,17 @@ rcl_ret_t rcl_timer_call(rcl_timer_t* timer) {
   return SKEIN_REAL(rcl_timer_call)(timer);
 }
 
-// The C library's, by their names for the linker.
+// Functions of the C library, by their symbols.
 
 int nanosleep_of_node(const struct timespec* duration, struct timespec* left) __asm__("nanosleep");
-int nanosleep_of_node(const struct timespec* duration, struct timespec*) {
-  return sleep_of_node(duration, __builtin_return_address(0)) == 0 ? 0 : -1;
+int nanosleep_of_node(const struct timespec* duration, struct timespec* left) {
+  return sleep_of_node(duration, left, __builtin_return_address(0)) == 0 ? 0 : -1;
 }
 
 int usleep_of_node(useconds_t duration) __asm__("usleep");
 int usleep_of_node(useconds_t duration) {
   const struct timespec time = {duration / 1'000'000, static_cast<long>(duration % 1'000'000) * 1000};
-  return sleep_of_node(&time, __builtin_return_address(0)) == 0 ? 0 : -1;
+  return sleep_of_node(&time, nullptr, __builtin_return_address(0)) == 0 ? 0 : -1;
 }
 
 int clock_nanosleep_of_node(clockid_t clock, int flags, const struct timespec* time,
@@ -110,13 +111,13 @@ int clock_nanosleep_of_node(clockid_t clock, int flags, const struct timespec* t
   return ::syscall(SYS_clock_nanosleep, clock, flags, time, left) == 0 ? 0 : errno;
 }
 
-// Of C++, by their names for the linker: std::chrono::steady_clock::now() and system_clock::now().
+// Functions of the C++ library, by their symbols: std::chrono::steady_clock::now() and system_clock::now().
 std::int64_t _ZNSt6chrono3_V212steady_clock3nowEv() { return cpp_now(CLOCK_MONOTONIC, __builtin_return_address(0)); }
 std::int64_t _ZNSt6chrono3_V212system_clock3nowEv() { return cpp_now(CLOCK_REALTIME, __builtin_return_address(0)); }
 
-// Of rclcpp, by their names for the linker, so that this library needs no rclcpp.
+// Functions of rclcpp, by their symbols, so that this library needs no rclcpp.
 
-/// NodeOptions::use_clock_thread(): /clock is read by the node's own thread.
+/// NodeOptions::use_clock_thread(): false in the lock-step, so that the node's own thread reads /clock.
 bool _ZNK6rclcpp11NodeOptions16use_clock_threadEv(const void* options) {
   if (skein_ros::member() != nullptr) return false;
   using Function = bool (*)(const void*);
@@ -125,7 +126,7 @@ bool _ZNK6rclcpp11NodeOptions16use_clock_threadEv(const void* options) {
   return real(options);
 }
 
-/// rclcpp::sleep_for(), of which Rate and WallRate are made.
+/// rclcpp::sleep_for(), which Rate and WallRate call.
 bool _ZN6rclcpp9sleep_forERKNSt6chrono8durationIlSt5ratioILl1ELl1000000000EEEESt10shared_ptrINS_7ContextEE(
     const std::int64_t* duration_ns, void* context) {
   if (skein_ros::member() != nullptr && skein_ros::member()->is_open()) return sleep_for_simulated(*duration_ns);
@@ -135,7 +136,7 @@ bool _ZN6rclcpp9sleep_forERKNSt6chrono8durationIlSt5ratioILl1ELl1000000000EEEESt
   return real(duration_ns, context);
 }
 
-/// rclcpp::Time: a virtual destructor, then the time.
+/// The layout of rclcpp::Time: the pointer to its virtual functions, then the time.
 struct RclcppTime {
   const void* functions;
   std::int64_t ns;

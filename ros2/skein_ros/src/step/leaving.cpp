@@ -23,8 +23,8 @@ bool is_secured() {
   return enabled != nullptr && std::string(enabled) == "true";
 }
 
-/// Runs before what was registered earlier. With its security, Fast DDS still encrypts what it sends when the last of
-/// its participants goes with the static objects, and OpenSSL has gone by then.
+/// Runs before exit handlers that were registered earlier. In a secured fleet, the last participant of Fast DDS is
+/// destroyed with the static objects, when OpenSSL has gone, and would still encrypt what it sends: so end at once.
 void forgive(int code, void*) {
   if (code == 1) exit_at_once(0);
   if (is_secured()) exit_at_once(code);

@@ -1,19 +1,19 @@
-// How a node's process ends, starts again and really sleeps.
+// How a node's process ends, starts again, and sleeps in wall time.
 #pragma once
 
 #include <chrono>
 
 namespace skein_ros {
 
-/// The run is over: the node is asked to end, as by SIGTERM. A Python node that does not catch what rclpy.spin() throws
-/// then has done nothing wrong, so its exit code becomes 0.
+/// The run is over: raises SIGTERM, so that the node ends; without a handler, the process ends at once. A Python node
+/// need not catch what rclpy.spin() then throws, so exit code 1 becomes 0.
 void end_node();
-/// For a node that goes on working after end_node(): ends the process if it does so for long.
+/// Called at each wait or sleep after end_node(). Ends the process if the node goes on for long.
 void count_work_after_end();
 [[noreturn]] void exit_at_once(int code);
-/// The same program from its beginning, in this process.
+/// Starts the same program from its beginning, in this process.
 [[noreturn]] void start_again();
-/// Of the wall clock.
+/// Sleeps in wall time, not in simulated time.
 void sleep_really(std::chrono::nanoseconds duration);
 
 }  // namespace skein_ros

@@ -19,9 +19,8 @@ inline rmw_qos_profile_t reader_qos(int depth, bool latched) {
   return qos;
 }
 
-// Cyclone DDS takes the first heartbeat of a writer for the point from which on samples are reliable, and Fast DDS
-// sends that too early as often as not. So a heartbeat goes ahead of each sample of Fast DDS's: this is how it asserts
-// liveliness.
+// For Cyclone DDS, reliable delivery begins at a writer's first heartbeat, and the heartbeat that Fast DDS sends at the
+// match often comes too early. So with Fast DDS a heartbeat precedes each sample: it sends one to assert liveliness.
 
 inline rmw_qos_profile_t writer_qos(int depth, bool latched) {
   rmw_qos_profile_t qos = reader_qos(depth, latched);
@@ -29,7 +28,7 @@ inline rmw_qos_profile_t writer_qos(int depth, bool latched) {
   return qos;
 }
 
-/// Before each sample of a publisher with writer_qos().
+/// Call this before each sample of a publisher with writer_qos().
 inline void send_heartbeat(const rmw_publisher_t* publisher) {
   if (!is_cyclonedds() && rmw_publisher_assert_liveliness(publisher) != RMW_RET_OK) rmw_reset_error();
 }

@@ -23,7 +23,7 @@ using std::chrono::steady_clock;
 constexpr std::int64_t kExchange_ns = 50'000'000;
 constexpr milliseconds kMatchPoll{2};
 constexpr milliseconds kIdlePoll{500};
-constexpr seconds kLinger{5};  // as long as the answer to the last step may be on its way
+constexpr seconds kLinger{5};  // so long may the last answer take to arrive
 constexpr seconds kNotice{10};
 
 std::int64_t ns(const builtin_interfaces::msg::Time& time) { return time.sec * 1'000'000'000LL + time.nanosec; }
@@ -36,7 +36,7 @@ void Member::say_ready(std::uint32_t revision) {
   ready.member = setup_.uav;
   ready.revision = revision;
   if (revision == 0) {
-    // What of it the node really writes is known when it has made its publishers.
+    // Which of these the node really writes is known once it has created its publishers.
     ready.writes.push_back("rt/" + setup_.uav + "/activity");
     for (const auto& name : setup_.debug_values) ready.writes.push_back("rt/" + setup_.uav + "/debug/" + name);
   } else {
@@ -111,6 +111,7 @@ bool Member::take_invitation() {
   while (take(resyncs_, resync, info)) {
     if (resync.run != setup_.run || resync.source != self_) continue;
     server_ = writers_.of(resyncs_, info);
+    base_.clear();  // an earlier invitation may have come before its writer was known
     for (const auto& count : resync.base) base_.push_back({count.topic, {count.source, count.count}});
     now_ns_ = static_cast<std::int64_t>(resync.k) * kExchange_ns;
     return server_ != 0;
@@ -118,7 +119,7 @@ bool Member::take_invitation() {
   return false;
 }
 
-/// Unless the node does it itself.
+/// Creates the endpoints for the custody of captures. The ground station has no camera, and needs none.
 void Member::open_custody() {
   const std::string captures = "/captures/" + setup_.uav, acks = "/captures_ack/" + setup_.uav + "/" + setup_.uav;
   const auto in = [&](auto message, const std::string& topic, Counterpart counterpart, int depth) {
@@ -165,7 +166,7 @@ void Member::declare() {
   say_ready(1);
 }
 
-/// The router that the present step names hears this node, and this node hears it.
+/// True if the router that the present step names has matched this node's endpoints, or if the step names no router.
 bool Member::router_matched() {
   if (router_ == 0 || router_ == matched_router_) return true;
   const auto in = [&](const auto& end) {
@@ -216,7 +217,7 @@ void Member::read_steps() {
 }
 
 void Member::on_step(skein_msgs::msg::Step step) {
-  if (step_ && step.k == step_->k) {  // told again: the answer may be lost
+  if (step_ && step.k == step_->k) {  // the server repeats it: the answer may be lost
     if (last_done_) publish(done_, *last_done_);
     return;
   }
@@ -246,14 +247,14 @@ void Member::on_step(skein_msgs::msg::Step step) {
 
 void Member::obey(const std::string& order) {
   if (order == "stop") {
-    // The launcher stops and continues a user's program by itself. Only a new participant may come back, and it may say
-    // hello as early as it likes: the invitation waits until the fault is over.
+    // The launcher itself stops and continues a user's program. Only a new participant may come back. It may send the
+    // hello at once: the server invites it when the fault is over.
     say("a fault stops this program: it starts again");
     start_again();
   }
   say("a fault kills this program");
   ::raise(SIGKILL);
-  exit_at_once(128 + SIGKILL);  // the first process of a PID namespace is safe from its own SIGKILL
+  exit_at_once(128 + SIGKILL);  // Linux protects the first process of a PID namespace from its own SIGKILL
 }
 
 bool Member::step_is_here() {
@@ -316,7 +317,7 @@ void Member::send_captures(std::uint64_t k) {
 void Member::end_turn() {
   in_turn_ = false;
   send_captures(step_->k);
-  // While the router is away there is no radio: a message is lost as it would be in the air.
+  // While the router is away there is no radio: radio messages are lost.
   for (const auto& outgoing : outgoings_)
     outgoing->flush(outgoing->counterpart() == Counterpart::router && router_ == 0);
   answer(*step_);
@@ -347,7 +348,7 @@ void Member::answer(const skein_msgs::msg::Step& step) {
   last_done_ = std::move(done);
 }
 
-/// Leaving at once could take the last answer away with us before it has arrived.
+/// Waits until the server has gone: if this process ended at once, its last answer might not arrive.
 void Member::leave() {
   const auto since = steady_clock::now();
   while (publishes(node_, steps_->topic_name, server_) && steady_clock::now() - since < kLinger) {
@@ -373,11 +374,11 @@ std::string Member::waiting_for() const {
   if (!declared_) return "topics to match with sim_server";
   if (!member_) return "the first step";
   if (!pending_) return "the next step";
-  std::string text = "samples announced by sim_server:";
+  std::string missing;
   for (const auto& incoming : incomings_) {
-    if (!incoming->complete()) text += " " + incoming->topic() + " " + incoming->missing() + ";";
+    if (!incoming->complete()) missing += " " + incoming->topic() + " " + incoming->missing() + ";";
   }
-  return text;
+  return missing.empty() ? "topics to match with the router" : "samples announced by sim_server:" + missing;
 }
 
 void Member::report_waiting() {

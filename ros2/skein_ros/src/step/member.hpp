@@ -1,6 +1,6 @@
-// A ROS 2 process as a member of the lock-step (docs/lockstep.md): joins, waits for all that a step announces, lets the
-// node work, sends what the node published, answers. Speaks through the node's own rmw, in the node's own participant.
-// Threads: the one that the node waits in; now_ns() and is_open() from any.
+// A ROS 2 process as a member of the lock-step (docs/lockstep.md): joins, waits for all samples that a step announces,
+// lets the node work, sends what the node published, and answers. Uses the node's own rmw and DDS participant.
+// Threads: the one that the node waits in; now_ns(), is_open(), is_over() and interrupt() from any.
 #pragma once
 
 #include <atomic>
@@ -25,14 +25,14 @@ class Member {
  public:
   explicit Member(Setup setup) : setup_(std::move(setup)), custody_(setup_.uav) {}
 
-  /// Says hello and waits for the invitation: the fleet stands still from now on until the node has joined.
+  /// Sends the hello and waits for the invitation. From then on the fleet pauses until the node has joined.
   void open(rmw_context_t* context);
   bool is_open() const { return open_; }
-  /// Takes its own endpoints out of a context that is about to end, if they are in it.
+  /// Destroys the member's own endpoints if they are in this context, which is about to end.
   void close(const rmw_context_t* context);
-  /// True once the fleet has been told what the node reads and writes.
+  /// True once the member has announced what the node reads and writes.
   bool has_declared() const { return declared_; }
-  /// The node's context is shut down, by a signal mostly: whatever is waited for in vain. From any thread.
+  /// The node's context is shut down, mostly by a signal: waits end.
   void interrupt() { interrupted_ = true; }
   /// True once the last step is answered.
   bool is_over() const { return over_; }
@@ -41,12 +41,12 @@ class Member {
   /// Simulated time [ns].
   std::int64_t now_ns() const { return now_ns_; }
 
-  /// The program that counts a topic which the node reads or writes, with the depth of its history.
+  /// Of a topic that the node reads or writes: the program at the other end, and the depth of the history.
   struct Role {
     Counterpart counterpart = Counterpart::nobody;
     int depth = 0;
     bool latched = false;
-    std::string refusal = {};  ///< why the node must not have it
+    std::string refusal = {};  ///< why the node must not have the endpoint; empty: it may
   };
   Role role_of_reading(const std::string& topic) const;
   Role role_of_writing(const std::string& topic) const;
@@ -62,14 +62,14 @@ class Member {
   bool in_turn() const { return in_turn_; }
   /// Sends what the node published in this step, and answers it. @pre in_turn()
   void end_turn();
-  /// Called at the end of each step, when the node has nothing else left to do in it.
+  /// `plan` is called at the end of each step, when the node has nothing else left to do in it.
   void before_answer(std::function<void()> plan) { before_answer_ = std::move(plan); }
   void plan() const {
     if (before_answer_) before_answer_();
   }
   enum class Wait { stepped, interrupted };
-  /// Waits for the next step. Ends early when one of these conditions is triggered, which `guards` tells then, or,
-  /// without any, when the context is shut down.
+  /// Waits for the next step. Returns early if one of `guards` is triggered, and leaves only the triggered ones there;
+  /// if `guards` is null, when the context is shut down.
   Wait begin_turn(rmw_guard_conditions_t* guards);
 
  private:

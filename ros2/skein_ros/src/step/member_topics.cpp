@@ -1,4 +1,4 @@
-// Which topics of a node belong to the lock-step, and what it has on them.
+// Which topics of a node belong to the lock-step, and the node's endpoints on them.
 #include <algorithm>
 
 #include "fleet_topics.hpp"

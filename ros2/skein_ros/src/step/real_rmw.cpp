@@ -8,7 +8,7 @@ namespace skein_ros {
 
 void* real_symbol(const char* name) {
   if (void* const next = dlsym(RTLD_NEXT, name)) return next;
-  // In Python none of them is in the global scope: the extension module has loaded them for itself.
+  // In Python, none of these libraries is in the global scope: the extension module has loaded them locally.
   for (const char* library : {"librmw_implementation.so", "librmw_cyclonedds_cpp.so", "librmw_fastrtps_cpp.so",
                               "librcl.so", "librclcpp.so"}) {
     void* const handle = dlopen(library, RTLD_LAZY | RTLD_NOLOAD);

@@ -1,4 +1,4 @@
-// The middleware below: the rmw functions that this library stands in front of, as the node's own rmw has them.
+// The original functions that this library replaces: those of the node's own rmw, rcl and rclcpp.
 #pragma once
 
 #include <rmw/error_handling.h>
@@ -6,12 +6,12 @@
 
 namespace skein_ros {
 
-/// The next definition of an rmw function after ours. Ends the process if there is none.
+/// The next definition of a function after ours. Ends the process if there is none.
 void* real_symbol(const char* name);
 
 }  // namespace skein_ros
 
-/// real(rmw_wait)(...): the function of that name of the node's rmw.
+/// SKEIN_REAL(rmw_wait)(...) calls the original function.
 #define SKEIN_REAL(function)                                                                             \
   ([]() -> decltype(&(function)) {                                                                       \
     static const auto real = reinterpret_cast<decltype(&(function))>(skein_ros::real_symbol(#function)); \

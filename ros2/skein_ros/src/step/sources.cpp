@@ -20,7 +20,8 @@ Source source_of_guid(const std::uint8_t* guid) {
   return hash;
 }
 
-/// rmw_cyclonedds names a writer by its instance handle; Cyclone DDS itself knows the GUID. Both structs begin so.
+/// rmw_cyclonedds identifies a writer by its instance handle; only Cyclone DDS itself knows the GUID, with which its
+/// dds_builtintopic_endpoint_t begins.
 struct Endpoint {
   std::uint8_t key[16];
 };
@@ -41,7 +42,7 @@ Function of_cyclonedds(const char* name) {
 Source of_matched_writer(const rmw_subscription_t* subscription, std::uint64_t writer) {
   static const auto matched = of_cyclonedds<MatchedPublication>("dds_get_matched_publication_data");
   static const auto free_endpoint = of_cyclonedds<FreeEndpoint>("dds_builtintopic_free_endpoint");
-  std::int32_t reader = 0;
+  std::int32_t reader = 0;  // the struct of rmw_cyclonedds begins with this handle
   std::memcpy(&reader, subscription->data, sizeof reader);
   Endpoint* const endpoint = matched(reader, writer);
   if (endpoint == nullptr) return 0;
@@ -50,7 +51,7 @@ Source of_matched_writer(const rmw_subscription_t* subscription, std::uint64_t w
   return source;
 }
 
-/// The endpoints on a topic that a node's rmw knows of.
+/// The endpoints on a topic that the node's rmw knows.
 class Endpoints {
  public:
   using Get = decltype(&rmw_get_publishers_info_by_topic);
@@ -85,7 +86,7 @@ bool is_cyclonedds() {
 }
 
 bool may_be_repeated(const rmw_message_info_t& info) {
-  const std::uint8_t* const vendor = info.publisher_gid.data;  // of a GUID prefix: the first two bytes
+  const std::uint8_t* const vendor = info.publisher_gid.data;  // the first two bytes of a GUID
   return !is_cyclonedds() && vendor[0] == 1 && vendor[1] == 16;
 }
 

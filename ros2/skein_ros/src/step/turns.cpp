@@ -15,9 +15,9 @@
 namespace skein_ros {
 namespace {
 
-/// A node that only polls (spin_some() without a sleep) has nothing to do when it has found that so often in a row.
+/// If a node only polls (spin_some() without a sleep), its step ends after so many successive polls that found nothing.
 constexpr int kIdlePolls = 2;
-/// So often a timer cannot be due within one step, unless its period is 0.
+/// Only a timer with period 0 is due so often within one step.
 constexpr int kMostTimerCalls = 100'000;
 constexpr std::int64_t kForever = std::numeric_limits<std::int64_t>::max();
 
@@ -25,7 +25,7 @@ std::atomic<std::thread::id> node_thread;
 thread_local bool node_code = false;
 int idle_polls = 0, timer_calls = 0;
 
-/// While it lives, the thread is not in the node's code.
+/// While an InStep exists, in_node_code() is false in its thread.
 class InStep {
  public:
   InStep() { node_code = false; }
@@ -54,7 +54,8 @@ Incoming* incoming_of(Member& me, const void* data) {
   return nullptr;
 }
 
-/// Leaves in the list what has a sample: /clock alone if it has, so that the time is right for all that follows.
+/// Leaves in the list the subscriptions that have a sample. If /clock has one, it leaves only /clock, so that the node
+/// knows the time when it reads the others.
 bool mark_ready(Member& me, const rmw_subscriptions_t* asked, rmw_subscriptions_t* subscriptions) {
   if (subscriptions == nullptr) return false;
   const auto has_sample = [&](void* data) {
@@ -84,7 +85,7 @@ void clear(List* list, std::size_t count, void** entries) {
   if (list != nullptr) std::fill_n(entries, count, nullptr);
 }
 
-/// What an executor waits for, one look at a time: rmw_wait() clears what is not ready.
+/// What an executor waits for. It is kept here for repeated looks, because rmw_wait() clears what is not ready.
 class Look {
  public:
   Look(rmw_subscriptions_t* subscriptions, rmw_guard_conditions_t* guards, rmw_services_t* services,
@@ -95,7 +96,7 @@ class Look {
     if (guards != nullptr)
       guards_asked_.assign(guards->guard_conditions, guards->guard_conditions + guards->guard_condition_count);
     if (events != nullptr) events_asked_.assign(events->events, events->events + events->event_count);
-    // A service of the node's is called at any time, and an answer comes at any time: neither is in the lock-step.
+    // Calls of the node's services and answers to its clients come at any time: they are not in the lock-step.
     if (services != nullptr) clear(services, services->service_count, services->services);
     if (clients != nullptr) clear(clients, clients->client_count, clients->clients);
   }
@@ -108,11 +109,11 @@ class Look {
     if (found != RMW_RET_OK && found != RMW_RET_TIMEOUT) rmw_reset_error();
     const rmw_subscriptions_t asked{asked_.size(), asked_.data()};
     const bool samples = mark_ready(me, &asked, subscriptions_);
-    // What it returns does not tell: Fast DDS's says OK where nothing is ready and nothing was to be waited for.
+    // The result of rmw_wait() does not tell: with Fast DDS it is OK if there was nothing to wait for.
     return samples || (guards_ != nullptr && any(guards_->guard_conditions, guards_asked_.size())) ||
            (events_ != nullptr && any(events_->events, events_asked_.size()));
   }
-  /// Nothing but the guard conditions that were triggered while the next step was awaited.
+  /// Leaves only the guard conditions that were triggered while the member waited for the next step.
   void nothing_but_guards() {
     if (subscriptions_ != nullptr) clear(subscriptions_, asked_.size(), subscriptions_->subscribers);
     if (events_ != nullptr) clear(events_, events_asked_.size(), events_->events);
@@ -218,7 +219,7 @@ rmw_ret_t wait_in_step(rmw_subscriptions_t* subscriptions, rmw_guard_conditions_
       look.nothing_but_guards();
       return RMW_RET_OK;
     }
-    // A poll has had its step; who waits goes on until something is ready, or due.
+    // A poll returns after one step; any other wait goes on until something is ready or its timeout has passed.
     if (polls) return look.now(me) ? RMW_RET_OK : RMW_RET_TIMEOUT;
   }
 }

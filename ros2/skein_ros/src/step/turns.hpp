@@ -1,4 +1,5 @@
-// The node's thread between its work and the lock-step: a step ends when the node has nothing left to do in it.
+// Switches the node's thread between the node's own code and the lock-step: a step ends when the node has nothing left
+// to do in it.
 #pragma once
 
 #include <cstdint>
@@ -7,26 +8,28 @@
 
 namespace skein_ros {
 
-/// The process's member; nullptr: this process is no program of a fleet.
+/// This process as a member of the lock-step; nullptr: it is no program of a fleet.
 Member* member();
 
-/// True in the thread that the node waits in, while it runs the node's own code.
+/// True if the calling thread is the node's, and runs the node's own code.
 bool in_node_code();
-/// From now on this thread is in it.
+/// From now on the calling thread runs the node's own code.
 void enter_node_code();
 
-/// Simulated time for every clock of ROS; false: there is none, ask the real clock.
+/// The simulated time [ns]. @returns false if there is none: use the real clock
 bool simulated_now(std::int64_t* now_ns);
 
-/// Sleeps until this simulated time: steps are answered meanwhile. False: the run is over, or there is none.
+/// Sleeps until this simulated time [ns], and answers steps meanwhile.
+/// @returns false if the run is over, the context was shut down, or this process is no member
 bool sleep_until_simulated(std::int64_t until_ns);
 
-/// Something has happened in the step: a timer was called, a sample taken, a message published.
+/// The node has taken a sample or published a message: its polls are not idle.
 void note_work();
-/// A timer was called.
+/// A timer was called. Ends the process if that happens without end within one step.
 void note_timer();
 
-/// The thread that calls it is the node's, or it ends the process: `what` it did in which other.
+/// The first thread that calls this is the node's. A call from any other thread ends the process; the message names
+/// that thread and `what` it does.
 void require_node_thread(const char* what);
 
 /// rmw_wait() of a node in the lock-step.
