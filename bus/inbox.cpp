@@ -42,7 +42,8 @@ struct Arrival {
   }
 };
 
-/// Arrivals whose order is kept: one participant's samples for one subscription. Posted work is one stream.
+/// Arrivals that stay in order although SKEIN_CHAOS delays them: one participant's samples for one subscription. All
+/// posted work together is one stream, too.
 using Stream = std::pair<const Subscription*, ParticipantId>;
 
 unsigned chaos_of_environment() {
@@ -50,8 +51,8 @@ unsigned chaos_of_environment() {
   return value == nullptr ? 0 : static_cast<unsigned>(std::strtoul(value, nullptr, 10));
 }
 
-/// Random delay of an arrival under chaos: half of the delays are 0, most others are shorter than a step takes (below
-/// 0.3 ms), few are longer (below 3 ms). SplitMix64 (Steele, Lea and Flood 2014).
+/// Random delays of arrivals under SKEIN_CHAOS: half of them are 0, most others are below 0.3 ms, which is less than a
+/// step takes, and a few are up to 3 ms. The generator is SplitMix64 (Steele, Lea and Flood 2014).
 class ChaosDelay {
  public:
   explicit ChaosDelay(unsigned seed) : state_((std::uint64_t{seed} << 32) ^ static_cast<std::uint64_t>(getpid())) {}
@@ -199,7 +200,7 @@ bool Inbox::dispatch(std::chrono::milliseconds timeout, std::size_t rings) {
   try {
     while (done < batch.size()) batch[done++].run();
   } catch (...) {
-    // A handler may throw an exception to its program. The samples after it stay in the inbox.
+    // The caller gets the handler's exception. The arrivals that were not handled yet stay in the inbox.
     const std::scoped_lock lock(impl_->mutex);
     std::vector<Arrival> later = impl_->take();
     for (; done < batch.size(); ++done) impl_->add(std::move(batch[done]));

@@ -14,21 +14,22 @@
 namespace skein::one_process {
 namespace {
 
-/// After this idle wall time the fleet has failed: its programs wait for something that will not happen.
+/// If no program has had anything to do for this wall time, the fleet has failed: its programs wait for something that
+/// will not happen.
 constexpr std::chrono::seconds kStandstill{60};
 
 std::vector<shared_lines::Start> with_seed(std::vector<shared_lines::Start> starts, std::uint64_t seed) {
   for (shared_lines::Start& start : starts) {
     const auto option = std::ranges::find(start.argv, "--seed");
     if (option == start.argv.end() || option + 1 == start.argv.end()) {
-      throw std::logic_error(start.program + ": it is told no seed");
+      throw std::logic_error(start.program + ": its start order has no seed");
     }
     *(option + 1) = std::to_string(seed);
   }
   return starts;
 }
 
-/// Sleeps for kNap: after some idle rounds, programs can only wait for wall time to pass.
+/// Sleeps for kNap. Call it after Crew::kIdleRounds idle rounds: programs can then only wait for wall time to pass.
 void nap() {
   const timespec nap{0, std::chrono::nanoseconds(Crew::kNap).count()};
   ::ppoll(nullptr, 0, &nap, nullptr);
@@ -45,7 +46,7 @@ class SteppedFleet::Desk final : public agent::LearnerDesk, public sim::StepGate
   }
 
   void enter(const std::string& uav, agent::Learner& learner) override {
-    if (block != nullptr) throw std::logic_error(uav + " is started again");
+    if (block != nullptr) throw std::logic_error(uav + ": the agent of a learner cannot be restarted");
     learner.lay_out(layout, uav + ".");
     learners.emplace_back(uav, &learner);
   }
@@ -105,7 +106,8 @@ void SteppedFleet::step(std::uint64_t steps) {
   run();
 }
 
-/// Runs rounds until the fleet stands still: no program had anything to do in a round that began in the target step.
+/// Runs rounds until the fleet stands still: in a round that began in the target step, no program had anything to do.
+/// If the target is the run's last step, runs until the run has ended.
 void SteppedFleet::run() {
   using Clock = std::chrono::steady_clock;
   const auto ring = [this] {
@@ -129,7 +131,7 @@ void SteppedFleet::run() {
     if (there) {
       desk_->truth.write(desk_->block);
       if (!desk_->is_last) return;
-      desk_->target += 1;  // the last step needs no orders: lets it end
+      desk_->target += 1;  // the last step needs no orders, so let it end
       ring();
       continue;
     }

@@ -1,5 +1,5 @@
-// What every procedural family promises, for several seeds of each: sound meshes, repeatable bytes, points that are
-// even and visible, boxes that make sense, starts and a station with room about them.
+// Tests what every family of procedural scenes must provide, for several scene seeds: sound meshes, repeatable bytes,
+// evenly spread and visible interest points, plausible boxes, free space around the starts and the station.
 #include "core/scenario/scene_families.hpp"
 
 #include <gtest/gtest.h>
@@ -36,7 +36,7 @@ struct Built {
   std::unique_ptr<RayScene> world;
 };
 
-/// Built once for all tests.
+/// A scene; each is built once for all tests.
 const Built& built(const std::string& family, std::uint64_t scene_seed) {
   static std::map<std::pair<std::string, std::uint64_t>, std::unique_ptr<Built>> scenes;
   auto& place = scenes[{family, scene_seed}];
@@ -57,14 +57,15 @@ class EveryScene : public testing::TestWithParam<std::tuple<std::string, std::ui
 
   Vector3d corner(std::uint32_t vertex) const { return scene_.mesh.vertices[vertex].cast<double>(); }
 
-  /// Distance of the structure from the lower part of the vertical line over a place.
+  /// Least distance between the structure and the vertical line over a place, from the ground up to `height`.
   double clearance_of_column(const Vector2d& p_W, double height) const {
     double least = std::numeric_limits<double>::infinity();
     for (double z = 0.25; z <= height; z += 0.5) least = std::min(least, world_.clearance({p_W.x(), p_W.y(), z}));
     return least;
   }
 
-  /// Whether a UAV finds room to look at the point from: at some metres, and not shut in there.
+  /// Whether a camera 2 m or 4 m in front of the point can see it, from a place that is not enclosed and at least 0.5 m
+  /// from the structure and above the ground.
   bool is_visible(const InterestPoint& point) const {
     const Vector3d n = point.n_W.cast<double>(), p = point.p_W.cast<double>() + 0.005 * n;
     for (int x = -2; x <= 2; ++x) {
@@ -152,15 +153,16 @@ TEST_P(EveryScene, PointsLieOnTheSurfaceAndFaceOutwards) {
     ASSERT_NEAR(n.norm(), 1.0, 1e-5);
     ASSERT_GE(p.z(), 0.3);
     ASSERT_LT(world_.clearance(p, 1.0), 1e-3) << p.transpose();
-    // Looking back from a little above, the surface is there and nothing before it.
+    // A ray from 2 mm above the point back to the surface hits the surface there, and nothing nearer.
     const auto hit = world_.first_hit(p + 0.002 * n, -n, 0.004);
     ASSERT_TRUE(hit) << p.transpose();
     ASSERT_NEAR(hit->distance, 0.002, 1.1e-3) << p.transpose();
   }
 }
 
-TEST_P(EveryScene, PointsAreEven) {
-  // Nearest neighbours on the same side; of points thrown at random, distances scatter by half of their mean.
+TEST_P(EveryScene, PointsAreEvenlySpread) {
+  // The distance of a point to its nearest neighbour. Neighbours that face the other way, for example on the other side
+  // of a thin plate, do not count. For random places, the standard deviation of this distance is about half its mean.
   constexpr std::size_t kEvery = 8;
   std::vector<double> nearest;
   for (std::size_t i = 0; i < scene_.points.size(); i += kEvery) {
@@ -241,7 +243,7 @@ TEST_P(EveryFamily, SeedsDifferInShapePointsAndBoxes) {
 }
 
 TEST_P(EveryFamily, SomeSeedsHaveOneBoxAroundEverything) {
-  EXPECT_GE(built(GetParam(), 0).scene.boxes.size(), 4u) << "not the nominal scene";
+  EXPECT_GE(built(GetParam(), 0).scene.boxes.size(), 4u) << "the nominal scene has several boxes";
   std::size_t single = 0;
   for (std::uint64_t seed = 1; seed < kSeeds; ++seed) single += built(GetParam(), seed).scene.boxes.size() == 1;
   EXPECT_GE(single, 1u);

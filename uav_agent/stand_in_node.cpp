@@ -22,7 +22,7 @@ std::vector<topics::WireTopic> commands(const std::string& uav, const std::vecto
   return result;
 }
 
-/// On which the scenario lets it send; captures are delivered without the nodes.
+/// The radio topics on which the scenario lets the UAV send, without that of captures: UserNode delivers the captures.
 std::vector<topics::WireTopic> radio(const Scenario& scenario, Node node) {
   std::vector<topics::WireTopic> result;
   std::set<std::string> known = {topics::captures(scenario.node_name(node)).name};
@@ -46,13 +46,13 @@ StandInNode::StandInNode(const Scenario& scenario, UavIndex uav, int base_domain
   }
 }
 
-// Readers go before the participant that they belong to.
+// Destroys the readers first: start() of the base class replaces the participant to which they belong.
 void StandInNode::start() {
   ears_.clear();
   UserNode::start();
 }
 
-// A participant does not hear its own writers, so what is handed on does not come back.
+// A participant receives nothing from its own writers, so messages that this node relays do not come back to it.
 void StandInNode::declare(bus::LockstepClient& client) {
   UserNode::declare(client);
   was_away_ = joins() > 1;

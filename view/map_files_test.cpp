@@ -1,4 +1,4 @@
-// Files with maps in time: of a program that was started again, cut off, damaged.
+// Reads the map files of a run, also those of a program that was restarted, and files that are cut off or damaged.
 #include "view/map_files.hpp"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// One cube of 16 m at the origin: occupied, or free.
+/// The octree of one cube of 16 m, occupied or free, with cells of 0.5 m and one corner at the origin.
 std::string one_large_cube(bool occupied) {
   std::string tree;
   for (int depth = 0; depth < 10; ++depth) tree += std::string(depth == 0 ? "\x00\xC0" : "\x03\x00", 2);
@@ -45,6 +45,7 @@ class MapFilesTest : public testing::Test {
       writer.flush();
     }
   }
+  /// Reads the maps of a UAV that climbs at 1 m/s: its height in metres is the time in seconds.
   std::optional<MapInTime> read() const {
     return read_maps(folder_, "a", [](double time_s) { return time_s; });
   }
@@ -61,7 +62,7 @@ class MapFilesTest : public testing::Test {
   const fs::path& folder_ = scratch_.path();
 };
 
-TEST_F(MapFilesTest, TellWhatWasWhen) {
+TEST_F(MapFilesTest, CubesHaveTimesOfAppearanceAndDisappearance) {
   EXPECT_FALSE(read());
   EXPECT_FALSE(there());
   keep({{2, true}, {5, false}, {7, true}});
@@ -79,21 +80,21 @@ TEST_F(MapFilesTest, TellWhatWasWhen) {
   ASSERT_EQ(map->free.size(), 1U);
   EXPECT_EQ(map->free[0].time_s, 5.0);
   EXPECT_EQ(map->free[0].until_s, 7.0);
-  EXPECT_EQ(map->free[0].runs[0].z, 10) << "at 5 m, where it was then";
+  EXPECT_EQ(map->free[0].runs[0].z, 10) << "the slice at 5 m, the height of the UAV at 5 s";
 }
 
-TEST_F(MapFilesTest, OfASecondLifeFollowTheFirst) {
+TEST_F(MapFilesTest, MapsAfterARestartFollowThoseBeforeIt) {
   keep({{2, true}, {5, true}});
   keep({{9, false}}, 1);
-  keep({{3, true}}, 3);  // there is no third, so it is of something else
+  keep({{3, true}}, 3);  // ignored: there is no file of life 2 before it
   const auto map = read();
   ASSERT_TRUE(map);
   EXPECT_EQ(map->times_s, (std::vector<double>{2.0, 5.0, 9.0}));
   ASSERT_EQ(map->occupied.size(), 1U);
-  EXPECT_EQ(map->occupied[0].until_s, 9.0) << "it had forgotten it";
+  EXPECT_EQ(map->occupied[0].until_s, 9.0) << "after its restart, the program no longer knew the cube";
 }
 
-TEST_F(MapFilesTest, HaveWhatIsWholeWhereTheyAreCutOff) {
+TEST_F(MapFilesTest, ACutOffFileGivesItsCompleteMaps) {
   keep({{2, true}, {5, false}, {7, true}});
   const auto size = fs::file_size(file());
   std::size_t most = 4;
@@ -110,7 +111,7 @@ TEST_F(MapFilesTest, HaveWhatIsWholeWhereTheyAreCutOff) {
   EXPECT_TRUE(there());
 }
 
-TEST_F(MapFilesTest, CountAsMissingWhereTheyAreDamaged) {
+TEST_F(MapFilesTest, ADamagedFileCountsAsMissing) {
   keep({{2, true}, {5, false}});
   rewrite([](std::string& text) { text[text.size() / 3] ^= 0x20; });
   EXPECT_FALSE(read());
@@ -124,7 +125,7 @@ TEST_F(MapFilesTest, CountAsMissingWhereTheyAreDamaged) {
   EXPECT_FALSE(read()) << "cells of no size";
 }
 
-TEST_F(MapFilesTest, AreThinnedWhereThereAreVeryMany) {
+TEST_F(MapFilesTest, OfVeryManyMapsOnlySomeAreRead) {
   std::vector<Kept> maps;
   for (int second = 1; second <= 700; ++second) maps.push_back({second, second > 300});
   keep(maps);

@@ -21,7 +21,7 @@ std::string value_of(const std::vector<std::string>& environment, const std::str
   return "";
 }
 
-TEST(Environment, SetsOnTopOfTheLaunchers) {
+TEST(Environment, GivenVariablesReplaceThoseOfTheLauncher) {
   ::setenv("SKEIN_TEST_VARIABLE", "old", 1);
   EXPECT_EQ(value_of(environment_with({}), "SKEIN_TEST_VARIABLE"), "old");
   EXPECT_EQ(value_of(environment_with({{"SKEIN_TEST_VARIABLE", "new"}}), "SKEIN_TEST_VARIABLE"), "new");
@@ -39,7 +39,7 @@ TEST(Environment, ChaosIsANumberOrNotSet) {
   EXPECT_NO_THROW(check_environment());
 }
 
-TEST(Environment, ADurationIsThatOfFlightsThatNameNone) {
+TEST(Environment, DurationVariableAppliesToFlightsWithoutTheOption) {
   using Words = std::vector<std::string>;
   EXPECT_EQ(with_duration_of_environment({"run", "towers"}), (Words{"run", "towers"}));
   ::setenv("SKEIN_DURATION", "12.5", 1);
@@ -62,7 +62,7 @@ TEST(Environment, ADurationIsThatOfFlightsThatNameNone) {
 
 using Values = std::map<std::string, std::string>;
 
-/// Sets variables while it lives.
+/// Sets environment variables, until it is destroyed.
 class Variables {
  public:
   explicit Variables(Values values) : values_(std::move(values)) {
@@ -76,7 +76,7 @@ class Variables {
   Values values_;
 };
 
-TEST(Environment, NothingReachesIntoTheProgramsDds) {
+TEST(Environment, ProgramsDoNotInheritVariablesThatConfigureDds) {
   const Values hostile = {{"ROS_DISCOVERY_SERVER", "127.0.0.1:11811"},
                           {"ROS_SUPER_CLIENT", "TRUE"},
                           {"ROS_DOMAIN_ID", "7"},
@@ -92,17 +92,17 @@ TEST(Environment, NothingReachesIntoTheProgramsDds) {
   const Variables set(hostile);
   for (const auto& [name, value] : hostile) EXPECT_EQ(value_of(fleet_environment(false), name), "") << name;
   EXPECT_EQ(ignored_variables().size(), hostile.size());
-  ASSERT_EQ(environment_warnings().size(), 1u) << "told once";
+  ASSERT_EQ(environment_warnings().size(), 1u) << "one warning names them all";
   for (const auto& [name, value] : hostile) {
     EXPECT_NE(environment_warnings()[0].find(name), std::string::npos) << name;
     EXPECT_NE(fleet_environment_prefix(false).find("-u " + name + " "), std::string::npos) << name;
   }
-  // A user's command is told some of them all the same.
+  // The launcher itself may set some of them for a program: a user's command gets the domain of its UAV in this way.
   EXPECT_EQ(value_of(fleet_environment(false, {{"SKEIN_DOMAIN", "3"}}), "SKEIN_DOMAIN"), "3");
   EXPECT_EQ(value_of(fleet_environment(false, {{"ROS_DOMAIN_ID", "3"}}), "ROS_DOMAIN_ID"), "3");
 }
 
-TEST(Environment, WhatIsTheUsersBusinessStays) {
+TEST(Environment, ProgramsInheritOtherVariables) {
   const Variables set(
       Values{{"LD_PRELOAD", ""}, {"TZ", "Pacific/Chatham"}, {"RMW_IMPLEMENTATION", "rmw_cyclonedds_cpp"}});
   const std::vector<std::string> environment = fleet_environment(false);
@@ -111,7 +111,7 @@ TEST(Environment, WhatIsTheUsersBusinessStays) {
   EXPECT_TRUE(environment_warnings().empty());
 }
 
-TEST(Environment, AVariableThatNobodyReadsIsTold) {
+TEST(Environment, WarnsOfUnknownSkeinVariables) {
   const Variables set(Values{{"SKEIN_CHOAS", "3"}});
   ASSERT_EQ(environment_warnings().size(), 1u);
   EXPECT_NE(environment_warnings()[0].find("SKEIN_CHOAS; did you mean 'SKEIN_CHAOS'?"), std::string::npos)

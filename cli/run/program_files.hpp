@@ -9,13 +9,15 @@
 
 namespace skein::cli {
 
-/// The parameter file of a planner NAME:FILE, as the user wrote its path; empty: there is none.
+/// The parameter file of a planner `NAME:FILE`, with its path as the user wrote it; empty if there is none.
 std::filesystem::path parameter_file(const UavPlanner& planner);
 
-/// The files of the scenario and the faults that this program reads, with the paths of the plan.
+/// The files of the scenario, its vehicles and the faults that this program reads; for sim_server, also those of the
+/// scene. The paths are those in the plan.
 std::vector<std::filesystem::path> scenario_files(const FleetPlan& plan, const std::string& program);
 
-/// The files of an agent's planner: parameters, Python source, and the modules beside it. None for other programs.
+/// The files of an agent's planner: its parameters, its Python source, and the modules beside that source. For other
+/// programs, there are none.
 std::vector<std::filesystem::path> planner_files(const FleetPlan& plan, const std::string& program);
 
 }  // namespace skein::cli

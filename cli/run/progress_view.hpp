@@ -15,7 +15,7 @@ class ProgressView {
   /// @param terminal  whether `out` can rewrite its last line.
   ProgressView(std::ostream& out, bool terminal) : out_(&out), terminal_(terminal) {}
 
-  /// Writes to `out` from now on. @param out  must outlive this.
+  /// Writes to another stream from now on. @param out  must outlive this.
   void write_to(std::ostream& out, bool terminal);
 
   /// @param wall_s  wall time since the programs started [s], for the speed.
@@ -36,7 +36,7 @@ class ProgressView {
   std::string shown_;
   status::Tally tally_;
   int tenths_shown_ = 0;
-  double first_sim_s_ = 0.0, first_wall_s_ = -1.0;  ///< of the first progress: start for the speed
+  double first_sim_s_ = 0.0, first_wall_s_ = -1.0;  ///< times of the first progress(): the speed counts from there
 };
 
 /// Prints the summary of a finished run. @param result  result.json. @param dir  the results folder

@@ -10,7 +10,8 @@
 namespace skein::cli {
 namespace {
 
-/// The figures of a flight as signals: one value each, so that nothing looks back.
+/// The figures of a flight, as signals for the parser. A figure has only one value, so parse_requirement() does not
+/// permit operators that look at earlier values, such as gain() (`live_only`).
 const std::vector<SignalInfo>& figure_table() {
   static const std::vector<SignalInfo> table = [] {
     std::vector<SignalInfo> all;
@@ -22,7 +23,7 @@ const std::vector<SignalInfo>& figure_table() {
   return table;
 }
 
-/// NaN: not known.
+/// The value of a figure; NaN if it is not known.
 double figure_of(const SignalUse& use, const std::optional<FlightFigures>& flight) {
   const auto value = flight ? study_column(std::string(use.info->name)).value(*flight) : std::nullopt;
   return value.value_or(std::nan(""));

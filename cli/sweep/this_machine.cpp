@@ -27,7 +27,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The id of the present boot. After another boot, a machine of the same name may be another one.
+/// An id that changes with each boot. A node with a known name but another id may be another machine.
 std::string boot_id() {
   std::ifstream in("/proc/sys/kernel/random/boot_id");
   std::string id;
@@ -41,8 +41,8 @@ RunOptions run_of(const SweepFlight& flight) {
   throw InputError("no flight: skein " + shell_line(flight.arguments));
 }
 
-/// Compares programs and files with those with which a sweep was planned, only once for flights that differ in nothing
-/// but seed or case.
+/// Compares this machine's programs and files with those with which the sweep was planned. For flights that differ only
+/// in seed or case, it compares them once.
 class Likeness {
  public:
   std::string unlike(const SweepFlight& flight) {
@@ -60,8 +60,8 @@ class Likeness {
     const auto differs = [&](const char* key) { return value_or(now, key, nullptr) != value_or(then, key, nullptr); };
     if (differs("skein_version") || differs("programs")) what.emplace_back("the programs are of another build");
     if (differs("agent")) what.emplace_back("the agent program is of another build");
-    if (differs("input")) what.emplace_back("the world is another draw, or a file of the scenario another one");
-    if (what.empty() && now != then) what.emplace_back("the same is flown otherwise: " + now.dump());
+    if (differs("input")) what.emplace_back("the generated world or a file of the scenario differs");
+    if (what.empty() && now != then) what.emplace_back("the flight itself would differ: " + now.dump());
     return what.empty() ? "" : joined(what, "; ") + " (" + run.scenario + ", " + run.planner + ")";
   } catch (const InputError& error) {
     return error.what();

@@ -1,5 +1,6 @@
-"""Calls the package's classes with random wrong values, in wrong orders, with interrupts and in copies of the
-interpreter. test_fuzz.py starts this program, because a crash of the interpreter would end the tests.
+"""Misuses the package's classes: passes random wrong values, calls them in wrong orders, interrupts calls, and uses
+objects in forked copies of the interpreter. test_fuzz.py runs this program in a process of its own, because a crash of
+the interpreter would end the tests.
 
     python3 fuzz.py fleet|interrupts|results|programs SEED
 """
@@ -125,7 +126,7 @@ def wrong_reset(draw: Draw, fleet: skein.Fleet) -> None:
 
 
 def in_a_copy(fleet: skein.Fleet) -> int:
-    """Uses the fleet in a copy of the interpreter. Returns the copy's exit code: 0 if each call was refused."""
+    """Uses the fleet in a forked copy of the interpreter. Returns the copy's exit code: 0 if each call was refused."""
     child = os.fork()
     if child == 0:
         code = 0
@@ -150,7 +151,8 @@ class Interrupts:
 
     @contextlib.contextmanager
     def at_line(self, number: int) -> Iterator[None]:
-        """Raises it at the `number`-th line that is executed within the context; 0: never. Counts the lines."""
+        """Raises SIGINT at the `number`-th line of the package that is executed within the context (0: never). Counts
+        these lines."""
         self._left, self.lines = number, 0
         sys.settrace(self._trace)
         try:
@@ -170,8 +172,8 @@ class Interrupts:
 
 
 def fuzz_interrupts(draw: Draw) -> None:
-    """After an interrupt at any line, a fleet that has not ended still flies step by step; and each fleet flies as
-    usual after reset()."""
+    """After an interrupt at any line, the next step() of a fleet either flies exactly one step, or is refused with a
+    message that names reset() or end_step(). After reset(), the fleet flies as before."""
     interrupts, struck, stood = Interrupts(draw), 0, 0
     up = {UAV: {"velocity": (0.3, 0, 1)}}
     with skein.Fleet("towers", learners=[UAV], duration=30, no_check=True) as fleet:
@@ -200,17 +202,18 @@ def fuzz_interrupts(draw: Draw) -> None:
             try:
                 step = fleet.truth.step
                 fleet.step()
-                assert fleet.truth.step == step + 1, "an answer was taken for another"
+                assert fleet.truth.step == step + 1, "the answer to one call was taken for that to another"
                 stood += 1
             except skein.InputError as error:
                 assert "reset" in str(error) or "end_step" in str(error), error
             if number % 3 == 0:
-                assert episode() == right, "another flight after an interrupt"
+                assert episode() == right, "the flight after an interrupt and reset() is another one"
     assert struck > 20 and stood > 2, (struck, stood)
 
 
 def fuzz_results(draw: Draw) -> None:
-    """Reads folders of runs and studies whose files have random contents, with random names of tables."""
+    """Reads runs and studies from folders whose files have random contents, and asks for tables by random names. Also
+    calls run(), compare() and contest() with random arguments."""
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder)
         keys = ["scenario", "planner", "seed", "status", "score", "digest", "uavs", "losses", "sim_time_s"]
@@ -263,6 +266,8 @@ def fuzz_programs(draw: Draw) -> None:
 
 
 def in_another(listener: Any) -> int:
+    """Uses the listener in a forked copy of the interpreter. Returns the copy's exit code: 0 if the listener refused or
+    had no message."""
     child = os.fork()
     if child == 0:
         code = 1

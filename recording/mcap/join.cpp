@@ -14,7 +14,6 @@ namespace {
 /// A chunk of a part, with the message indexes that follow it.
 struct Packed {
   Chunk chunk;
-  ByteView content;
   std::vector<MessageIndex> messages;
 };
 
@@ -22,7 +21,7 @@ std::vector<Packed> packed_of(const Reader& part) {
   std::vector<Packed> chunks;
   part.records([&](const RawRecord& record, std::uint64_t) {
     if (record.opcode == Opcode::chunk) {
-      if (auto chunk = parse_chunk(record.content)) chunks.push_back({std::move(*chunk), record.content, {}});
+      if (auto chunk = parse_chunk(record.content)) chunks.push_back({std::move(*chunk), {}});
     } else if (record.opcode == Opcode::message_index && !chunks.empty()) {
       if (auto index = parse_message_index(record.content)) chunks.back().messages.push_back(std::move(*index));
     }
@@ -38,12 +37,13 @@ void learn_name(const RawRecord& record, Summary& summary) {
   }
 }
 
-/// Adds the part's schemas and channels to the summary. A truncated part has no summary, but its chunks contain them.
+/// Adds the part's schemas and channels to the summary of the joined file. They are in the part's own summary. A
+/// truncated part has none, but its chunks contain them, too.
 void learn_names(const Reader& part, Summary& summary) {
   if (part.complete()) return part.summary([&](const RawRecord& record) { learn_name(record, summary); });
   for (const Packed& packed : packed_of(part)) {
     const auto records = unpack(packed.chunk);
-    if (!records) return;
+    if (!records) continue;
     ByteView left(*records);
     while (const auto record = take_record(left)) learn_name(*record, summary);
   }

@@ -1,5 +1,5 @@
-// Kills each program at a random time, by a fault file and from outside: the run ends, and no capture is lost that the
-// station has acknowledged. SKEIN_LONG=1 uses more seeds.
+// Kills programs (kVictims) at random times: all of them by a fault file, or one by a signal from outside. The run must
+// still end, and its results must have every capture that the station has acknowledged. SKEIN_LONG=1 uses more seeds.
 #include <signal.h>
 
 #include <map>
@@ -20,7 +20,8 @@ std::string program_of(const std::string& member) {
 
 class KillMatrix : public FleetTest, public testing::WithParamInterface<std::uint64_t> {
  protected:
-  /// Expects captures.csv to list exactly the captures in the station's journal as delivered, and the score to agree.
+  /// Expects that the delivered captures in captures.csv are exactly those in the station's journal, and that the score
+  /// is the sum of each point's best delivered quality.
   static void expect_custody(const SkeinRun& run) {
     using Key = std::pair<std::string, std::uint64_t>;
     std::map<Key, double> journalled, delivered;

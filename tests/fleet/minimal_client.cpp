@@ -1,10 +1,11 @@
 // The smallest program that takes part in the lock-step, written from docs/lockstep.md alone: it shares no lock-step
-// code with Skein, only the messages and the bus. It flies its UAV 3 m up and stays there.
+// code with Skein, only the messages and the bus. Its UAV climbs 3 m and hovers there.
 //   skein run --planner hover,UAV=exec:minimal_client
-// The launcher sets SKEIN_RUN, SKEIN_DOMAIN, SKEIN_UAV and SKEIN_DDS. Exit code 0 after the last step, 3 when the
-// server dropped it. An argument makes it misbehave from a certain step on, for tests of broken clients: "hang" stops
-// answering; "boast" announces one command more than it sends, "smuggle" one less; "forge" reports captures to the
-// station that no camera took. "tell" is correct behaviour: it publishes its activity.
+// The launcher sets SKEIN_RUN, SKEIN_DOMAIN, SKEIN_UAV and SKEIN_DDS. The exit code is 0 after the last step, and 3 if
+// the server dropped the program or left before. For tests of broken clients, an argument makes the program misbehave
+// from step kFirstLie on: "hang" stops answering; "boast" announces one command more than it sends, "smuggle" one less;
+// "forge" sends the station reports of captures that no camera has taken. With "tell", it behaves correctly, and also
+// publishes its activity.
 #include <algorithm>
 #include <condition_variable>
 #include <cstdlib>
@@ -72,7 +73,7 @@ class Queue {
   std::mutex mutex_;
   std::condition_variable arrived_;
   std::deque<std::pair<ParticipantId, Message>> waiting_;
-  std::unique_ptr<skein::bus::Reader> reader_;  // last, so that it is destroyed before what its callback uses
+  std::unique_ptr<skein::bus::Reader> reader_;  // last: destroyed before the members that its callback uses
 };
 
 /// The count of one topic of one source in a list; `otherwise` if the list has none.
@@ -120,7 +121,7 @@ class Client {
       for (const auto& other : step->second.members()) {
         while (other.name() == "comm_router" && !Queue<msg::Step>::contains(done_->matched(), other.source())) {
           if (!steps_.matches(server_)) return 3;
-          resyncs_.take();  // a pause
+          resyncs_.take();  // waits, 50 ms at most
         }
       }
       if (!answer(step->second)) return 3;
@@ -170,7 +171,7 @@ class Client {
     };
     while (!odometry_->matches(server_) || !steps_.matches(server_) || !heard(*commands_) || !heard(*done_) ||
            (reports_ && !reports_->has_readers()) || (activities_ && !heard(*activities_))) {
-      resyncs_.take();  // a pause
+      resyncs_.take();  // waits, 50 ms at most
     }
   }
 
@@ -180,7 +181,7 @@ class Client {
     });
   }
 
-  /// @returns false when the server has gone.
+  /// Answers a step; with "hang", waits until the server has gone instead. @returns false if the server has gone.
   bool answer(const msg::Step& step) {
     if (lie_ == "hang" && step.k() >= kFirstLie) {
       while (steps_.matches(server_)) steps_.take();

@@ -1,5 +1,6 @@
-// A UAV whose program stops, closes all its descriptors or ends without a report, in a fleet of processes: the others
-// fly on, messages name only this UAV, and no process or file of it remains.
+// In a fleet of processes, one UAV's program stops itself (SIGSTOP), closes all its descriptors, or ends without a
+// report. The other UAVs must fly on, messages must name only this UAV, and in the end the fleet must leave no process,
+// no domain lock and no shared memory behind.
 #include "fleet_fixture.hpp"
 #include "small_scene.hpp"
 #include "tests/support/places.hpp"
@@ -17,7 +18,7 @@ class Nasty : public FleetTest, public testing::WithParamInterface<NastyCase> {
   const std::string scene_ = write_small_scene(folder());  ///< two UAVs: jurong and changi
 };
 
-TEST_P(Nasty, WhoFallsSilentIsNamedAndTheOthersFlyOn) {
+TEST_P(Nasty, TheLostProgramIsNamedAndTheOthersFlyOn) {
   const auto& [how, vendor] = GetParam();
   SkeinRun& run = this->run(how,
                             {scene_, "--agent", helper_program("nasty_agent"), "--planner", planner(how), "--duration",
@@ -31,7 +32,7 @@ TEST_P(Nasty, WhoFallsSilentIsNamedAndTheOthersFlyOn) {
   const Json lost = result["lost_members"];
   ASSERT_EQ(lost.size(), 1U) << lost;
   EXPECT_EQ(lost[0]["member"], "jurong");
-  EXPECT_EQ(lost[0]["step"], 60) << "3 s of 0.05 s";
+  EXPECT_EQ(lost[0]["step"], 60) << "3 s in steps of 0.05 s";
   const std::string reason = how == "exits_now" ? "its process ended" : "did not answer for 2 s";
   EXPECT_TRUE(lost[0]["reason"].get<std::string>().starts_with(reason)) << lost[0]["reason"];
   for (const Json& uav : result["uavs"]) EXPECT_EQ(uav["program_lost"], uav["name"] == "jurong") << uav["name"];
@@ -59,7 +60,7 @@ TEST_P(NastyStudy, TheComparisonNamesTheUav) {
   const std::string problem = ",skein run ended with exit code 3: jurong at 3.0 s: ";
   const std::size_t nasty = flights.find("\"hover,jurong=nasty"), at = flights.find(problem);
   ASSERT_NE(nasty, std::string::npos) << flights;
-  EXPECT_GT(at, nasty) << "hover has none: " << flights;
+  EXPECT_GT(at, nasty) << "the flight of hover alone has no problem: " << flights;
   EXPECT_EQ(at, flights.rfind(problem)) << flights;
   ASSERT_NE(at, std::string::npos) << flights;
   EXPECT_NE((study.out() + study.err()).find("jurong at 3.0 s: "), std::string::npos) << study.out() << study.err();

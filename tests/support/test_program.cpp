@@ -24,7 +24,7 @@ std::vector<std::string> take(std::vector<std::string>& arguments, const std::st
   return values;
 }
 
-/// The tests in a file, in its order.
+/// The tests of a source file, in the order in which they are in the file.
 std::vector<std::string> tests_of(const std::string& file) {
   const ::testing::UnitTest& all = *::testing::UnitTest::GetInstance();
   std::vector<std::string> tests;
@@ -78,7 +78,8 @@ int run_test_program(int argc, char** argv) {
   const std::vector<std::string> entries = take(arguments, "--entry"), files = take(arguments, "--file"),
                                  turns = take(arguments, "--turns");
   const bool aligned = std::erase(arguments, "--aligned") > 0;
-  // GoogleTest takes the name of its report when it is initialised; GTEST_OUTPUT may name a folder.
+  // If GTEST_OUTPUT names a folder, the report in it is named after CTest's entry (`--entry`). InitGoogleMock() reads
+  // the flag `output`, so the flag must be set before.
   const std::string output = GTEST_FLAG_GET(output);
   if (!entries.empty() && output.ends_with("/")) GTEST_FLAG_SET(output, output + entries.front() + ".json");
   std::vector<char*> rest = {argv[0]};

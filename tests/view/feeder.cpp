@@ -1,9 +1,10 @@
 // Serves the page of a made-up flight (made_up_flight.hpp), to measure the cost of the page alone. It reads commands
 // from its standard input, one per line, and reports when each is done:
 //   to SECONDS         flies up to this simulated time as fast as it can
-//   fly SECONDS SPEED  flies up to it at SPEED simulated seconds per second
-// It ends with its input.
-// usage: view_feeder DOOR [UAVS [POINTS]]; DOOR is the file that opens the page
+//   fly SECONDS SPEED  flies up to this simulated time at SPEED simulated seconds per second of wall time
+// The program ends at the end of its input.
+// usage: view_feeder DOOR [UAVS [POINTS]]
+// It writes the file DOOR: opened in a browser, DOOR leads to the page.
 #include <chrono>
 #include <filesystem>
 #include <iostream>

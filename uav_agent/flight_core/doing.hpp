@@ -14,7 +14,7 @@ struct Doing {
     takeoff,
     awaits_way_up,  ///< waits until an explorer has proved the space above this UAV free
     to_goal,
-    along_goal,   ///< along the waypoints of a goal that has several
+    along_goal,   ///< flies along the waypoints of a goal that has several
     seeks_way,    ///< there are goals, but no path to one yet
     no_goal,      ///< all goals of the planner have ended, or it has set none
     shows_mate,   ///< shows a photographer the way up (showing.hpp)
@@ -23,14 +23,14 @@ struct Doing {
     elsewhere,
     climbs,
     back,
-    homing,      ///< to a place in line of sight of the station
+    homing,      ///< flies to a place in line of sight of the station
     delivers,    ///< stays where its captures arrive at the station
-    lands,       ///< because the battery is nearly empty (landing.hpp)
-    awaits_link  ///< has reached such a place, but has no link to the station
+    lands,       ///< flies to a landing place and lands: the battery is nearly empty (landing.hpp)
+    awaits_link  ///< is at a place for homing, but has no link to the station
   };
   What what = What::ground;
   std::optional<Vector3d> goal_W = {};   ///< where the UAV flies to; nullopt: nowhere
-  std::optional<std::size_t> mate = {};  ///< index in the fleet of that photographer; only if shows_mate
+  std::optional<std::size_t> mate = {};  ///< with shows_mate: index of the photographer in the fleet
 };
 
 }  // namespace skein::agent

@@ -1,4 +1,4 @@
-// The parts of the STAR planner: boxes, frontiers, surfaces, tours, ways, camera, messages.
+// Tests the parts of the STAR planner: boxes, frontiers, surfaces, tours, paths, camera, messages.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -21,7 +21,7 @@
 namespace skein::agent {
 namespace {
 
-TEST(StarCamera, TurnsAllTheWayAndLooksAtTheSurfaceOnArrival) {
+TEST(StarCamera, TurnsDuringTheWholeFlightAndLooksAtTheSurfaceOnArrival) {
   StarCamera camera(VehicleConfig(), true);
   RigidBodyState state;
   const GimbalState gimbal;
@@ -42,8 +42,8 @@ TEST(StarCamera, TurnsAllTheWayAndLooksAtTheSurfaceOnArrival) {
   }
 }
 
-/// Where the core turns the body, camera and body together look where they would look else, as far as the gimbal turns.
-TEST(StarCamera, TheGimbalDoesAllWhereTheBodyIsTheFlightCores) {
+/// If the flight core turns the body, the gimbal alone points the camera at the target, up to its limit in yaw.
+TEST(StarCamera, OnlyTheGimbalTurnsIfTheFlightCoreTurnsTheBody) {
   VehicleConfig vehicle;
   vehicle.gimbal.yaw_limit_deg = 90.0;
   StarCamera camera(vehicle, false);
@@ -62,7 +62,7 @@ TEST(StarCamera, TheGimbalDoesAllWhereTheBodyIsTheFlightCores) {
   }
 }
 
-TEST(StarWay, GoesOnThroughItsPlacesUpToTheHorizon) {
+TEST(StarWay, FollowsThePlacesUpToTheHorizon) {
   const OccupancyMap map;
   const std::vector<OrientedBox> no_boxes;
   const FreeSpace space(FreeSpace::Config(), no_boxes, map);
@@ -79,8 +79,8 @@ TEST(StarWay, GoesOnThroughItsPlacesUpToTheHorizon) {
   EXPECT_LT(length, 20.0 + 9.0) << "the horizon, and one leg";
 }
 
-/// Over drawn places, some of them below the floor: no leg of the way is in the way of anything, and it ends before the
-/// first place that cannot be flown to.
+/// Places are random, and some are too low to be free. Every leg of the path must be in free space, and the path must
+/// end at the last place before the first one that is not free.
 TEST(StarWay, NeverLeavesFreeSpace) {
   const OccupancyMap map;
   const std::vector<OrientedBox> no_boxes;
@@ -105,7 +105,7 @@ TEST(StarWay, NeverLeavesFreeSpace) {
   }
 }
 
-TEST(StarSite, CubesOfABoxAreNobodyElses) {
+TEST(StarSite, NoCubeBelongsToTwoBoxes) {
   const std::vector<OrientedBox> boxes = {make_box({0, 0, 10}, {20, 20, 20}), make_box({15, 0, 10}, {20, 20, 20})};
   const VoxelGrid grid = star_grid(boxes, StarConfig(), 7.36);
   EXPECT_LE(grid.count(), 120'000U);
@@ -117,7 +117,7 @@ TEST(StarSite, CubesOfABoxAreNobodyElses) {
   EXPECT_TRUE(both.empty());
 }
 
-/// A wall of known surface in the plane x = 0, seen from x > 0, in a grid of 2 m.
+/// A wall in the plane x = 0, occupied on the world map, and a grid with cubes of 2 m. The tests look at it from x > 0.
 struct Wall {
   VoxelGrid grid{Isometry3d(Eigen::Translation3d(-6.0, -16.0, 0.0)), {32.0, 32.0, 20.0}, 2.0};
   WorldMap map{WorldMap::Config()};
@@ -156,7 +156,7 @@ TEST(StarSurfaces, ViewpointsStandOffTheSurfaceAndCoverAllOfIt) {
   EXPECT_EQ(front.size(), wall.open_faces(0)) << "every face towards +x";
 }
 
-TEST(StarSurfaces, WhatWasInThePictureIsInspected) {
+TEST(StarSurfaces, FacesInThePictureCountAsInspected) {
   Wall wall;
   const StarSurfaces surfaces(StarSurfaces::Config(), VehicleConfig(), wall.grid);
   const std::size_t before = wall.open_faces(0);
@@ -168,14 +168,14 @@ TEST(StarSurfaces, WhatWasInThePictureIsInspected) {
   surfaces.mark_seen(state, {}, wall.voxels, wall.grid);
   EXPECT_LT(wall.open_faces(0), before);
   EXPECT_GT(wall.open_faces(0), 0U) << "not all of it was in the picture";
-  EXPECT_EQ(wall.open_faces(1), before) << "nor its back";
+  EXPECT_EQ(wall.open_faces(1), before) << "its back was not in the picture";
   state.p_WB.x() = 12.0;
   Wall far;
   surfaces.mark_seen(state, {}, far.voxels, far.grid);
   EXPECT_EQ(far.open_faces(0), before) << "too far away";
 }
 
-TEST(StarSurfaces, AViewThatFailedIsTriedLater) {
+TEST(StarSurfaces, AFailedViewIsTriedAgainLater) {
   Wall wall;
   StarSurfaces surfaces(StarSurfaces::Config(), VehicleConfig(), wall.grid);
   const auto views = [&](Tick now) {
@@ -191,9 +191,9 @@ TEST(StarSurfaces, AViewThatFailedIsTriedLater) {
   EXPECT_TRUE(std::ranges::any_of(views(ticks(60.0)), shares_a_face));
 }
 
-/// Whatever is drawn onto the map of beams: surface to look at is what is occupied there and not in doubt, and only in
-/// the boxes of the team.
-TEST(StarKnowledge, SurfaceIsWhatBeamsMetInTheTeamsBoxes) {
+/// Random cubes of the world map are occupied, and the map doubts some of these, because they may have been a UAV. The
+/// viewpoints must cover exactly the occupied cubes in the team's boxes that the map does not doubt.
+TEST(StarKnowledge, ViewpointsCoverTheOccupiedCubesInTheTeamsBoxes) {
   AgentConfig agent;
   agent.fleet = {{.name = "a", .role = Role::explorer, .p_WB_start = {-20.0, 0.0, 0.0}},
                  {.name = "b", .role = Role::photographer, .p_WB_start = {-25.0, 0.0, 0.0}}};
@@ -235,13 +235,13 @@ TEST(StarTour, KeepsItsDirectionAndItsFirstCluster) {
   const auto left = hierarchical_tour(grid, here, -to_the_right, places, std::nullopt, {}, {});
   EXPECT_LT(left.first_cluster_W.x(), 40.0);
   const auto again = hierarchical_tour(grid, here, none, places, right.first_cluster_W, {}, {});
-  EXPECT_GT(again.first_cluster_W.x(), 60.0) << "no flip";
+  EXPECT_GT(again.first_cluster_W.x(), 60.0) << "it keeps the first cluster of the last tour";
   const auto elsewhere = hierarchical_tour(grid, here, none, places, std::nullopt, {{29, 49, 10}}, {});
   EXPECT_GT(elsewhere.first_cluster_W.x(), 60.0) << "somebody works on the left";
   EXPECT_TRUE(hierarchical_tour(grid, here, none, {}, std::nullopt, {}, {}).visits.empty());
 }
 
-TEST(StarTour, VisitsEverythingOnceClusterByCluster) {
+TEST(StarTour, VisitsEveryPlaceOnce) {
   const VoxelGrid grid(Isometry3d::Identity(), {100.0, 100.0, 20.0}, 5.0);
   std::vector<Vector3d> places;
   for (int i = 0; i < 40; ++i) places.emplace_back(10.0 + 37 * i % 80, 10.0 + 53 * i % 80, 10.0);
@@ -254,7 +254,7 @@ TEST(StarTour, VisitsEverythingOnceClusterByCluster) {
   for (std::size_t i = 0; i < visits.size(); ++i) EXPECT_EQ(visits[i], i);
 }
 
-TEST(StarExplorer, GoesWhereTheKnownEndsInItsBox) {
+TEST(StarExplorer, GoalsAreAtTheFrontierInTheBox) {
   VoxelGrid grid(Isometry3d(Eigen::Translation3d(-20.0, -20.0, 0.0)), {40.0, 40.0, 24.0}, 2.0);
   for (VoxelGrid::Id id = 0; id < grid.count(); ++id) {
     if (grid.centre_W(id).x() < 0.0) grid.raise(id, VoxelState::free);
@@ -280,7 +280,8 @@ TEST(StarExplorer, GoesWhereTheKnownEndsInItsBox) {
   EXPECT_FALSE(explorer.open(goals.front()));
 }
 
-TEST(StarExplorer, GivesUpFrontiersThatStayOnes) {
+/// The LiDAR looks at the same frontier 20 times, but the space behind it stays unknown.
+TEST(StarExplorer, GivesUpFrontiersAfterSeveralLooks) {
   VoxelGrid grid(Isometry3d::Identity(), {20.0, 20.0, 20.0}, 2.0);
   for (VoxelGrid::Id id = 0; id < grid.count(); ++id) {
     if (grid.centre_W(id).x() < 10.0) grid.raise(id, VoxelState::free);
@@ -294,7 +295,7 @@ TEST(StarExplorer, GivesUpFrontiersThatStayOnes) {
   EXPECT_LT(explorer.tour(grid, space, make_box({10, 10, 10}, {20, 20, 20}), {here, {}, {}}, 0).size(), 3U);
 }
 
-TEST(StarTalk, GoalsAndInspectedSurfaceTravel) {
+TEST(StarTalk, MessagesCarryGoalsAndInspectedSurface) {
   AgentConfig speaker, listener;
   for (AgentConfig* agent : {&speaker, &listener}) {
     agent->fleet = {{.name = "a"}, {.name = "b", .role = Role::photographer, .p_WB_start = {5.0, 0.0, 0.0}}};
