@@ -78,6 +78,13 @@ if(NOT SKEIN_SANITIZE)
 endif()
 add_compile_options(-ffile-prefix-map=${CMAKE_SOURCE_DIR}=.)
 
+# gold is in the same package as the default linker, and takes half of its time.
+include(CheckLinkerFlag)
+check_linker_flag(CXX -fuse-ld=gold SKEIN_HAS_GOLD)
+if(SKEIN_HAS_GOLD AND NOT SKEIN_SANITIZE)
+  add_link_options(-fuse-ld=gold)
+endif()
+
 # skein_add_library(NAME [OBJECT] SOURCES ... PUBLIC libs... PRIVATE libs...)
 # Headers are included from the repository root: #include "core/types.hpp".
 function(skein_add_library name)
@@ -151,6 +158,19 @@ function(skein_add_helper name)
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR})
   target_link_libraries(${name} PRIVATE ${ARG_LIBS} skein_test_places)
+endfunction()
+
+# skein_add_helper_agent(NAME SOURCES ...)
+# Adds an agent program that only tests start, and NAME_fleet (skein_add_agent()).
+function(skein_add_helper_agent name)
+  skein_add_agent(${name} ${ARGN})
+  set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
+  if(NOT DEBUG IN_LIST ARGN)  # no debugger looks into it
+    target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1> -g0)
+    foreach(program ${name} ${name}_fleet)
+      target_link_options(${program} PRIVATE $<$<CONFIG:Release>:-Wl,--strip-debug,--compress-debug-sections=none>)
+    endforeach()
+  endif()
 endfunction()
 
 # skein_add_test(NAME SOURCES ... LIBS ... [LABELS ...] [TIMEOUT s] [SERIAL] [ALONE] [TURNS k]

@@ -48,6 +48,8 @@ class Package:
             ["cmake_minimum_required(VERSION 3.8)", f"project({self.name})", "find_package(ament_cmake REQUIRED)",
              "find_package(rosidl_default_generators REQUIRED)"] + [f"find_package({p} REQUIRED)" for p in uses] +
             [f"rosidl_generate_interfaces(${{PROJECT_NAME}} {messages} DEPENDENCIES {' '.join(uses)})",
+             # Each of its sources specialises a template that another source may have instantiated before.
+             "set_target_properties(${PROJECT_NAME}__rosidl_typesupport_introspection_cpp PROPERTIES UNITY_BUILD OFF)",
              "ament_package()", ""]))
         depends = "".join(f"<depend>{package}</depend>" for package in uses)
         write(os.path.join(folder, "package.xml"),
@@ -73,7 +75,8 @@ def main():
     for name in names:
         source, build = os.path.join(prefix, "src", name), os.path.join(prefix, "build", name)
         Package(name, structs).write(source)
-        for command in (["cmake", "-G", "Ninja", "-S", source, "-B", build, f"-DCMAKE_INSTALL_PREFIX={prefix}"],
+        for command in (["cmake", "-G", "Ninja", "-S", source, "-B", build, f"-DCMAKE_INSTALL_PREFIX={prefix}",
+                         "-DCMAKE_UNITY_BUILD=ON", "-DCMAKE_UNITY_BUILD_BATCH_SIZE=0"],
                         ["cmake", "--build", build, "--target", "install"]):
             subprocess.run(command, check=True)
 

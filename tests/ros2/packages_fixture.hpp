@@ -1,5 +1,5 @@
 // Fixture for ROS 2 nodes that observe a fleet with message types that the tests' ROS 2 lacks. The types are built
-// once, from Skein's IDL.
+// once, from Skein's IDL. In the suite, build_test.cpp has built them before.
 #pragma once
 
 #include "ros2_fixture.hpp"

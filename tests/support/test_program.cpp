@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -43,6 +45,25 @@ std::optional<std::size_t> turn_asked_for() {
   const char* const turn = std::getenv("SKEIN_TURN");
   if (!turn) return std::nullopt;
   return std::stoul(turn);
+}
+
+/// Runs the chosen tests. They, and the programs that they start, have a temporary folder of their own: so two suites
+/// may run at the same time, and nothing remains of tests that pass.
+int run_in_own_folder() {
+  namespace fs = std::filesystem;
+  std::string folder = (fs::temp_directory_path() / "skein-tests-XXXXXX").string();
+  if (::mkdtemp(folder.data()) == nullptr) throw std::runtime_error("cannot create " + folder);
+  fs::permissions(folder, fs::perms::all | fs::perms::sticky_bit);  // as /tmp: some tests start programs of other users
+  ::setenv("TMPDIR", folder.c_str(), 1);
+  ::setenv("TEST_TMPDIR", folder.c_str(), 1);  // GoogleTest's TempDir() prefers this variable
+  const int result = RUN_ALL_TESTS();
+  std::error_code error;
+  if (result == 0) {
+    fs::remove_all(folder, error);
+  } else if (!fs::remove(folder, error)) {  // it is not empty
+    std::printf("files of these tests: %s\n", folder.c_str());
+  }
+  return result;
 }
 
 }  // namespace
@@ -108,7 +129,7 @@ int run_test_program(int argc, char** argv) {
   std::string filter;
   for (const std::string& test : tests) filter += test + ":";
   if (!files.empty() && GTEST_FLAG_GET(filter) == "*") GTEST_FLAG_SET(filter, filter);
-  return RUN_ALL_TESTS();
+  return run_in_own_folder();
 }
 
 }  // namespace skein

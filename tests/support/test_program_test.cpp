@@ -2,8 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <map>
 #include <set>
+
+#include "tests/support/scratch_folder.hpp"
 
 namespace skein::test {
 namespace {
@@ -39,6 +44,32 @@ TEST(TestsInTurn, EveryTurnSeesEveryParameterOrOnlySome) {
     EXPECT_EQ(parameters(turn, false), all);
     EXPECT_EQ(parameters(turn, true), std::set<std::string>{turn == 0 ? "one" : "two"});
   }
+}
+
+/// The next test also starts this one in a program of its own.
+TEST(TemporaryFolder, WritesAFileAndAFolder) {
+  std::ofstream(std::filesystem::temp_directory_path() / "file") << "left";
+  std::filesystem::create_directory(std::filesystem::path(testing::TempDir()) / "folder");
+  if (std::getenv("SKEIN_TEST_FAILS") != nullptr) FAIL();
+}
+
+TEST(TemporaryFolder, BelongsToOneProgramAndIsRemovedIfItsTestsPass) {
+  const std::filesystem::path own = std::filesystem::temp_directory_path();
+  EXPECT_TRUE(std::filesystem::equivalent(own, testing::TempDir()));
+  EXPECT_TRUE(own.filename().string().starts_with("skein-tests-")) << own;
+  const ScratchFolder around;
+  const std::string program = std::filesystem::read_symlink("/proc/self/exe").string();
+  const auto left_by = [&](const std::string& variables) {
+    const std::string command =
+        "env -u TEST_TMPDIR TMPDIR='" + around.path().string() + "' " + variables + " '" + program +
+        "' --gtest_output= " + "--gtest_filter=TemporaryFolder.WritesAFileAndAFolder >/dev/null";
+    [[maybe_unused]] const int status = std::system(command.c_str());
+    std::size_t left = 0;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(around.path())) left += entry.exists();
+    return left;
+  };
+  EXPECT_EQ(left_by(""), 0U);
+  EXPECT_EQ(left_by("SKEIN_TEST_FAILS=1"), 3U) << "the folder with both files, to look at";
 }
 
 }  // namespace

@@ -7,30 +7,9 @@
 #include "lockstep_qos.hpp"
 #include "real_rmw.hpp"
 #include "say.hpp"
+#include "serialized_buffer.hpp"
 
 namespace skein_ros {
-namespace {
-
-/// A buffer of the rmw, reused for each sample.
-class Buffer {
- public:
-  Buffer() : buffer_(rmw_get_zero_initialized_serialized_message()) {
-    const auto allocator = rcutils_get_default_allocator();
-    if (rmw_serialized_message_init(&buffer_, 0, &allocator) != RMW_RET_OK) throw std::bad_alloc();
-  }
-  ~Buffer() {
-    if (rmw_serialized_message_fini(&buffer_) != RMW_RET_OK) rmw_reset_error();
-  }
-  Buffer(const Buffer&) = delete;
-  Buffer& operator=(const Buffer&) = delete;
-  rmw_serialized_message_t* get() { return &buffer_; }
-  std::vector<std::uint8_t> bytes() const { return {buffer_.buffer, buffer_.buffer + buffer_.buffer_length}; }
-
- private:
-  rmw_serialized_message_t buffer_;
-};
-
-}  // namespace
 
 Incoming::Incoming(rmw_subscription_t* subscription, const rosidl_message_type_support_t* type, Counterpart counterpart,
                    int depth, bool latched)
@@ -64,7 +43,7 @@ void Incoming::change_source(Source source) {
 
 void Incoming::drain(Writers& writers, Source source) {
   change_source(source);
-  static Buffer buffer;
+  static SerializedBuffer buffer;  // reused for each sample
   for (bool taken = true; taken;) {
     rmw_message_info_t info = rmw_get_zero_initialized_message_info();
     if (SKEIN_REAL(rmw_take_serialized_message_with_info)(subscription_, buffer.get(), &taken, &info, nullptr) !=

@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "serialized_buffer.hpp"
+
 #ifdef SKEIN_HAS_FASTCDR
 #include <fastcdr/Cdr.h>
 #include <fastcdr/exceptions/Exception.h>
@@ -18,32 +20,11 @@ namespace {
 
 constexpr std::size_t kUsualBytes = 4096;
 
-/// A buffer of the rmw, filled with zeros.
-class Buffer {
- public:
-  explicit Buffer(std::size_t bytes) : buffer_(rmw_get_zero_initialized_serialized_message()) {
-    const auto allocator = rcutils_get_default_allocator();
-    if (rmw_serialized_message_init(&buffer_, bytes, &allocator) != RMW_RET_OK) throw std::bad_alloc();
-    std::fill_n(buffer_.buffer, bytes, std::uint8_t{0});
-  }
-  ~Buffer() {
-    if (rmw_serialized_message_fini(&buffer_) != RMW_RET_OK) rmw_reset_error();
-  }
-  Buffer(const Buffer&) = delete;
-  Buffer& operator=(const Buffer&) = delete;
-  rmw_serialized_message_t* get() { return &buffer_; }
-  std::size_t capacity() const { return buffer_.buffer_capacity; }
-  std::vector<std::uint8_t> bytes() const { return {buffer_.buffer, buffer_.buffer + buffer_.buffer_length}; }
-
- private:
-  rmw_serialized_message_t buffer_;
-};
-
 std::vector<std::uint8_t> encoded_by_rmw(const void* message, const rosidl_message_type_support_t* type) {
   // The middleware does not write CDR's padding. The digest covers the bytes of radio messages, so the padding must be
   // zero. A buffer that has grown may have other bytes there: serialise again, into a larger one.
   for (std::size_t capacity = kUsualBytes;;) {
-    Buffer buffer(capacity);
+    SerializedBuffer buffer(capacity);
     if (rmw_serialize(message, type, buffer.get()) != RMW_RET_OK) {
       const std::string why = rmw_get_error_string().str;
       rmw_reset_error();
