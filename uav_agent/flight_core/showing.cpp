@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace skein::agent {
 namespace {
@@ -15,6 +16,9 @@ constexpr double kAsideM = 5.0, kAboveM[] = {5.0, 2.5, 8.0, 12.0};
 constexpr int kSides = 8;
 constexpr double kShowMps = 4.0, kAgainS = 20.0;
 constexpr int kMostAttempts = 4;
+/// So long an explorer waits for each explorer that starts nearer to a photographer. Where no UAV is lost, photographers
+/// rise within 55 s (towers, cranes, hangar).
+constexpr double kTakeOverS = 60.0;
 
 }  // namespace
 
@@ -22,12 +26,14 @@ Showing::Showing(const AgentConfig& agent, const SafetyFilter& filter) : agent_(
   if (agent.me().role != Role::explorer) return;
   for (std::size_t i = 0; i < agent.fleet.size(); ++i) {
     if (agent.fleet[i].role == Role::explorer) continue;
-    std::optional<std::size_t> nearest;
-    const auto off_m = [&](std::size_t j) { return (agent.fleet[j].p_WB_start - agent.fleet[i].p_WB_start).norm(); };
+    const auto rank = [&](std::size_t j) {
+      return std::pair((agent.fleet[j].p_WB_start - agent.fleet[i].p_WB_start).norm(), j);
+    };
+    Charge charge{.uav = i};
     for (std::size_t j = 0; j < agent.fleet.size(); ++j) {
-      if (agent.fleet[j].role == Role::explorer && (!nearest || off_m(j) < off_m(*nearest))) nearest = j;
+      if (agent.fleet[j].role == Role::explorer && rank(j) < rank(agent.self)) ++charge.nearer;
     }
-    if (nearest == std::size_t{agent.self}) charges_.push_back({i});
+    charges_.push_back(charge);
   }
 }
 
@@ -35,6 +41,13 @@ bool Showing::has_risen(std::size_t uav, const PlannerInput& in) const {
   return std::ranges::any_of(in.peers.all(), [&](const Peer& peer) {
     return peer.uav == uav && peer.seen && (peer.p_W - agent_.fleet[uav].p_WB_start).norm() > kUpM;
   });
+}
+
+bool Showing::is_due(const Charge& charge, const PlannerInput& in) const {
+  if (in.tick < charge.not_before) return false;
+  if (charge.nearer == 0) return true;
+  if (seconds(in.tick - *since_) <= kTakeOverS * charge.nearer) return false;
+  return std::ranges::any_of(in.peers.all(), [&](const Peer& peer) { return peer.uav == charge.uav && peer.visible; });
 }
 
 bool Showing::column_known(std::size_t uav, const WorldMap& map) const {
@@ -46,12 +59,13 @@ bool Showing::column_known(std::size_t uav, const WorldMap& map) const {
 }
 
 std::optional<Goal> Showing::next(const PlannerInput& in, const FreeSpace& space) {
+  if (!since_) since_ = in.tick;
   std::erase_if(charges_, [&](const Charge& it) { return it.attempts >= kMostAttempts || has_risen(it.uav, in); });
   const Vector3d here_W = in.tracking.setpoint.p_WB;
   const auto off_m = [&](const Charge& it) { return (agent_.fleet[it.uav].p_WB_start - here_W).norm(); };
   std::ranges::stable_sort(charges_, {}, off_m);
   for (Charge& it : charges_) {
-    if (in.tick < it.not_before || column_known(it.uav, *in.world_map)) continue;
+    if (!is_due(it, in) || column_known(it.uav, *in.world_map)) continue;
     const Vector3d start_W = agent_.fleet[it.uav].p_WB_start;
     const double heading = std::atan2(here_W.y() - start_W.y(), here_W.x() - start_W.x());
     for (std::size_t height = 0; height < std::size(kAboveM); ++height) {

@@ -1,7 +1,8 @@
 // An explorer shows photographers, which have no LiDAR, the way up. It hovers beside the start of a photographer that
 // has not risen yet, until its map proves the column above that start free, or for FlightConfig::look_s. Map sharing
 // tells the photographer (onboard/map_radio.hpp). Each photographer is the charge of the explorer that starts nearest
-// to it.
+// to it. This explorer may be lost: so an explorer that starts farther away takes over after a while, if it sees the
+// photographer stand at its start.
 // Frame W.   Units: SI.   Threads: one.   Deterministic.
 #pragma once
 
@@ -30,15 +31,19 @@ class Showing {
   /// A photographer to which this UAV has to show the way up.
   struct Charge {
     std::size_t uav = 0;
+    int nearer = 0;       ///< number of explorers that start nearer to it than this UAV
     int attempts = 0;     ///< goals that next() returned for it
     Tick not_before = 0;  ///< earliest time of the next attempt
   };
   bool has_risen(std::size_t uav, const PlannerInput& in) const;
+  /// Whether it is this UAV's turn to show a charge that has not risen the way up.
+  bool is_due(const Charge& charge, const PlannerInput& in) const;
   bool column_known(std::size_t uav, const WorldMap& map) const;
 
   const AgentConfig& agent_;
   const SafetyFilter& filter_;
   std::vector<Charge> charges_;
+  std::optional<Tick> since_;  ///< time of the first next()
   std::size_t mate_ = 0;
 };
 

@@ -68,6 +68,36 @@ TEST(Showing, EachPhotographerIsShownItsWayByTheNearestExplorer) {
   }
 }
 
+/// An explorer takes over where the one that starts nearer is lost: later for each such explorer, and only if it sees
+/// the photographer stand.
+TEST(Showing, FartherExplorersTakeOverAPhotographerThatTheySeeStand) {
+  AgentConfig fleet;
+  fleet.fleet = {{.name = "near", .p_WB_start = {6.0, 1.0, 0.0}},
+                 {.name = "far", .p_WB_start = {0.0, 0.0, 0.0}},
+                 {.name = "farther", .p_WB_start = {-4.0, 0.0, 0.0}},
+                 {.name = "p", .role = Role::photographer, .p_WB_start = {8.0, 0.0, 0.0}, .body_radius_m = 0.32}};
+  const auto first_shown_s = [&](std::size_t self, double p_z_m, bool visible) -> std::optional<double> {
+    Shows uav(fleet, self);
+    for (int i = 0; i < 400; ++i, uav.k += 20) {  // 400 s
+      const Vector3d p_W(8.0, 0.0, p_z_m);
+      if (visible) uav.peers.update(uav.input().tick, {{node_of_uav(UavIndex(3)), p_W, std::nullopt}});
+      if (uav.next()) return seconds(uav.input().tick);
+    }
+    return std::nullopt;
+  };
+  EXPECT_EQ(first_shown_s(0, 0.2, true), 0.0);
+  EXPECT_EQ(first_shown_s(0, 0.2, false), 0.0);
+  const auto second_s = first_shown_s(1, 0.2, true), third_s = first_shown_s(2, 0.2, true);
+  ASSERT_TRUE(second_s && third_s);
+  EXPECT_GE(*second_s, 60.0);
+  EXPECT_LE(*second_s, 65.0);
+  EXPECT_NEAR(*third_s, 2.0 * *second_s, 5.0);
+  for (const std::size_t self : {1, 2}) {
+    EXPECT_FALSE(first_shown_s(self, 0.2, false)) << "it may have risen, out of sight";
+    EXPECT_FALSE(first_shown_s(self, 8.0, true)) << "it has risen";
+  }
+}
+
 AgentConfig explorer_and_photographer() {
   AgentConfig agent;
   agent.fleet = {{.name = "a"},
