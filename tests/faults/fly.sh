@@ -1,16 +1,16 @@
 #!/bin/sh
 # Flies one fault test in one process: fly.sh SKEIN FILE NUMBER REPEATS OUT. NUMBER decides whether it flies in this
-# turn (SKEIN_TURN; without it always): it flies in one of two turns, and in one of four also again, in the ways of
+# turn (SKEIN_TURN; without it always): it flies in one of three turns, and in one of six also again, in the ways of
 # REPEATS. If REPEATS is `only`, it flies in one of six turns, once. The long suite repeats it in every way.
 set -eu
 has_turn() { [ -z "${SKEIN_TURN:-}" ] || [ $((($1 + SKEIN_TURN) % $2)) -eq 0 ]; }
-turns=2
+turns=3
 [ "$4" != only ] || turns=6
 has_turn "$3" "$turns" || { echo "not its turn"; exit 77; }
 how=
 if [ "${SKEIN_LONG:-}" = 1 ]; then
   how=--long
-elif [ "$4" != only ] && has_turn "$3" 4; then
+elif [ "$4" != only ] && has_turn "$3" 6; then
   how="--repeat $4"
 fi
 # shellcheck disable=SC2086  # may be two words
