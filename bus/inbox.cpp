@@ -42,8 +42,8 @@ struct Arrival {
   }
 };
 
-/// Arrivals that stay in order although SKEIN_CHAOS delays them: one participant's samples for one subscription. All
-/// posted work together is one stream, too.
+/// Identifies a stream: a sequence of arrivals that SKEIN_CHAOS may delay, but never reorders. One participant's
+/// samples for one subscription form a stream; all posted work together forms another.
 using Stream = std::pair<const Subscription*, ParticipantId>;
 
 unsigned chaos_of_environment() {

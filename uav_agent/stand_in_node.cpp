@@ -22,7 +22,7 @@ std::vector<topics::WireTopic> commands(const std::string& uav, const std::vecto
   return result;
 }
 
-/// The radio topics on which the scenario lets the UAV send, without that of captures: UserNode delivers the captures.
+/// The radio topics on which the scenario lets the UAV send, except the topic of captures: UserNode sends on that one.
 std::vector<topics::WireTopic> radio(const Scenario& scenario, Node node) {
   std::vector<topics::WireTopic> result;
   std::set<std::string> known = {topics::captures(scenario.node_name(node)).name};

@@ -17,7 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The octree of one cube of 16 m, occupied or free, with cells of 0.5 m and one corner at the origin.
+/// The octree of a map with cells of 0.5 m that knows one cube only: its edge is 16 m, one of its corners is the
+/// origin, and all of it is occupied, or all of it is free.
 std::string one_large_cube(bool occupied) {
   std::string tree;
   for (int depth = 0; depth < 10; ++depth) tree += std::string(depth == 0 ? "\x00\xC0" : "\x03\x00", 2);

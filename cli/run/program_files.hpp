@@ -12,8 +12,8 @@ namespace skein::cli {
 /// The parameter file of a planner `NAME:FILE`, with its path as the user wrote it; empty if there is none.
 std::filesystem::path parameter_file(const UavPlanner& planner);
 
-/// The files of the scenario, its vehicles and the faults that this program reads; for sim_server, also those of the
-/// scene. The paths are those in the plan.
+/// The files that this program reads of the scenario, of its vehicles and of the faults; for sim_server, also the files
+/// of the scene. The paths are those in the plan.
 std::vector<std::filesystem::path> scenario_files(const FleetPlan& plan, const std::string& program);
 
 /// The files of an agent's planner: its parameters, its Python source, and the modules beside that source. For other

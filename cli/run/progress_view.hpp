@@ -36,7 +36,7 @@ class ProgressView {
   std::string shown_;
   status::Tally tally_;
   int tenths_shown_ = 0;
-  double first_sim_s_ = 0.0, first_wall_s_ = -1.0;  ///< times of the first progress(): the speed counts from there
+  double first_sim_s_ = 0.0, first_wall_s_ = -1.0;  ///< times of the first progress(); the speed is a mean since then
 };
 
 /// Prints the summary of a finished run. @param result  result.json. @param dir  the results folder

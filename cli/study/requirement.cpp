@@ -10,8 +10,8 @@
 namespace skein::cli {
 namespace {
 
-/// The figures of a flight, as signals for the parser. A figure has only one value, so parse_requirement() does not
-/// permit operators that look at earlier values, such as gain() (`live_only`).
+/// The figures of a flight, as signals for the parser. A figure has only one value, so parse_requirement() sets
+/// `live_only`, which forbids operators that look at earlier values, such as gain().
 const std::vector<SignalInfo>& figure_table() {
   static const std::vector<SignalInfo> table = [] {
     std::vector<SignalInfo> all;

@@ -41,8 +41,8 @@ RunOptions run_of(const SweepFlight& flight) {
   throw InputError("no flight: skein " + shell_line(flight.arguments));
 }
 
-/// Compares this machine's programs and files with those with which the sweep was planned. For flights that differ only
-/// in seed or case, it compares them once.
+/// Compares this machine's programs and files with those that the plan of the sweep records (`made_under`). It compares
+/// only once for all flights that differ only in seed or case.
 class Likeness {
  public:
   std::string unlike(const SweepFlight& flight) {

@@ -2,10 +2,10 @@
 // code with Skein, only the messages and the bus. Its UAV climbs 3 m and hovers there.
 //   skein run --planner hover,UAV=exec:minimal_client
 // The launcher sets SKEIN_RUN, SKEIN_DOMAIN, SKEIN_UAV and SKEIN_DDS. The exit code is 0 after the last step, and 3 if
-// the server dropped the program or left before. For tests of broken clients, an argument makes the program misbehave
-// from step kFirstLie on: "hang" stops answering; "boast" announces one command more than it sends, "smuggle" one less;
-// "forge" sends the station reports of captures that no camera has taken. With "tell", it behaves correctly, and also
-// publishes its activity.
+// before that the server dropped the program or left the domain. For tests of broken clients, an argument makes the
+// program misbehave from step kFirstLie on: "hang" stops answering; "boast" announces one command more than it sends,
+// "smuggle" one less; "forge" sends the station reports of captures that no camera has taken. With "tell", it behaves
+// correctly, and also publishes its activity.
 #include <algorithm>
 #include <condition_variable>
 #include <cstdlib>

@@ -24,7 +24,7 @@ struct Doing {
     climbs,
     back,
     homing,      ///< flies to a place in line of sight of the station
-    delivers,    ///< stays where its captures arrive at the station
+    delivers,    ///< stays at a place from which its captures reach the station
     lands,       ///< flies to a landing place and lands: the battery is nearly empty (landing.hpp)
     awaits_link  ///< is at a place for homing, but has no link to the station
   };

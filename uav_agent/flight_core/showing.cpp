@@ -16,8 +16,8 @@ constexpr double kAsideM = 5.0, kAboveM[] = {5.0, 2.5, 8.0, 12.0};
 constexpr int kSides = 8;
 constexpr double kShowMps = 4.0, kAgainS = 20.0;
 constexpr int kMostAttempts = 4;
-/// So long an explorer waits for each explorer that starts nearer to a photographer. Where no UAV is lost,
-/// photographers rise within 55 s (towers, cranes, hangar).
+/// Before an explorer takes over a photographer, it waits this time for each explorer that starts nearer to it. In
+/// `towers`, `cranes` and `hangar`, photographers rise within 55 s if no UAV is lost.
 constexpr double kTakeOverS = 60.0;
 
 }  // namespace

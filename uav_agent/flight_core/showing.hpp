@@ -1,8 +1,8 @@
 // An explorer shows photographers, which have no LiDAR, the way up. It hovers beside the start of a photographer that
-// has not risen yet, until its map proves the column above that start free, or for FlightConfig::look_s. Map sharing
-// tells the photographer (onboard/map_radio.hpp). Each photographer is the charge of the explorer that starts nearest
-// to it. This explorer may be lost: so an explorer that starts farther away takes over after a while, if it sees the
-// photographer stand at its start.
+// has not risen yet, until its map proves that the column above that start is free, or until FlightConfig::look_s has
+// passed. Map sharing tells the photographer (onboard/map_radio.hpp). Each photographer is the charge of the explorer
+// that starts nearest to it. This explorer may be lost: so an explorer that starts farther away takes over after a
+// while, if it sees the photographer stand at its start.
 // Frame W.   Units: SI.   Threads: one.   Deterministic.
 #pragma once
 
@@ -36,7 +36,7 @@ class Showing {
     Tick not_before = 0;  ///< earliest time of the next attempt
   };
   bool has_risen(std::size_t uav, const PlannerInput& in) const;
-  /// Whether it is this UAV's turn to show a charge that has not risen the way up.
+  /// Whether it is this UAV's turn to show the way up to this charge, which has not risen yet.
   bool is_due(const Charge& charge, const PlannerInput& in) const;
   bool column_known(std::size_t uav, const WorldMap& map) const;
 

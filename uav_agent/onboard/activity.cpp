@@ -80,7 +80,7 @@ const char* words_for(What what) {
     case What::delivers:
       return "delivers";
     case What::lands:
-      return "returns to its start and lands: its battery is low";
+      return "flies to its landing place and lands: its battery is low";
     case What::awaits_link:
       return "waits for a link to the station";
   }

@@ -312,7 +312,7 @@ TEST(StarTalk, MessagesCarryGoalsAndInspectedSurface) {
   const auto input = [&](std::uint64_t k, const Peers& seen, std::span<const RadioMessage> radio) {
     return PlannerInput{k, static_cast<Tick>(20 * k), {}, {}, {}, map, boxes, seen, {}, false, 0, {}, radio};
   };
-  // The listener tells what it has, the speaker sends what is missing.
+  // First `hears` reports which part of the surface it knows; then `says` sends what `hears` lacks.
   PlannerOutput request, reply;
   hears.speak(input(8, of_listener, {}), ours, {}, request);
   ASSERT_EQ(request.radio.size(), 1U);
