@@ -75,15 +75,14 @@ endif()
 if(NOT SKEIN_SANITIZE)
   add_compile_options($<$<CONFIG:Release>:-g1>)
   add_link_options($<$<CONFIG:Release>:-Wl,--compress-debug-sections=zlib>)  # sections have a third of their size
+  # gold is in the same package as the default linker, and takes half of its time.
+  include(CheckLinkerFlag)
+  check_linker_flag(CXX -fuse-ld=gold SKEIN_HAS_GOLD)
+  if(SKEIN_HAS_GOLD)
+    add_link_options(-fuse-ld=gold)
+  endif()
 endif()
 add_compile_options(-ffile-prefix-map=${CMAKE_SOURCE_DIR}=.)
-
-# gold is in the same package as the default linker, and takes half of its time.
-include(CheckLinkerFlag)
-check_linker_flag(CXX -fuse-ld=gold SKEIN_HAS_GOLD)
-if(SKEIN_HAS_GOLD AND NOT SKEIN_SANITIZE)
-  add_link_options(-fuse-ld=gold)
-endif()
 
 # skein_add_library(NAME [OBJECT] SOURCES ... PUBLIC libs... PRIVATE libs...)
 # Headers are included from the repository root: #include "core/types.hpp".
@@ -130,6 +129,12 @@ function(skein_compile_quickly target)
   target_compile_options(${target} PRIVATE $<IF:$<BOOL:${SKEIN_SANITIZE}>,-O0,-O1>)
 endfunction()
 
+# skein_link_without_debug_information(TARGET)
+# For programs that only tests start, and that no debugger looks into: linking takes less time.
+function(skein_link_without_debug_information target)
+  target_link_options(${target} PRIVATE $<$<CONFIG:Release>:-Wl,--strip-debug,--compress-debug-sections=none>)
+endfunction()
+
 # skein_check_alignment(TARGET)
 # For code that parses bytes of messages and files: AddressSanitizer builds also check the alignment of pointers.
 function(skein_check_alignment target)
@@ -167,9 +172,8 @@ function(skein_add_helper_agent name)
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
   if(NOT DEBUG IN_LIST ARGN)  # no debugger looks into it
     target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1> -g0)
-    foreach(program ${name} ${name}_fleet)
-      target_link_options(${program} PRIVATE $<$<CONFIG:Release>:-Wl,--strip-debug,--compress-debug-sections=none>)
-    endforeach()
+    skein_link_without_debug_information(${name})
+    skein_link_without_debug_information(${name}_fleet)
   endif()
 endfunction()
 
@@ -265,7 +269,7 @@ function(skein_test_program program)
   # Tests are optimised less: compilation takes a quarter less time, and half of the time with sanitizers.
   target_compile_options(${program} PRIVATE $<$<CONFIG:Release>:-O1> $<$<BOOL:${SKEIN_SANITIZE}>:-O0>
     $<$<BOOL:${SKEIN_UNITY}>:-Wno-subobject-linkage -Wno-shadow>)  # names of another source file are not shadowed
-  target_link_options(${program} PRIVATE $<$<CONFIG:Release>:-Wl,--strip-debug,--compress-debug-sections=none>)
+  skein_link_without_debug_information(${program})
 endfunction()
 
 # skein_test_needs(TARGET...)

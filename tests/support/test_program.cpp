@@ -8,9 +8,10 @@
 #include <cstdlib>
 #include <filesystem>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <vector>
+
+#include "tests/support/scratch_folder.hpp"
 
 namespace skein {
 namespace {
@@ -51,17 +52,15 @@ std::optional<std::size_t> turn_asked_for() {
 /// may run at the same time, and nothing remains of tests that pass.
 int run_in_own_folder() {
   namespace fs = std::filesystem;
-  std::string folder = (fs::temp_directory_path() / "skein-tests-XXXXXX").string();
-  if (::mkdtemp(folder.data()) == nullptr) throw std::runtime_error("cannot create " + folder);
-  fs::permissions(folder, fs::perms::all | fs::perms::sticky_bit);  // as /tmp: some tests start programs of other users
-  ::setenv("TMPDIR", folder.c_str(), 1);
-  ::setenv("TEST_TMPDIR", folder.c_str(), 1);  // GoogleTest's TempDir() prefers this variable
+  ScratchFolder folder;
+  const std::string path = folder.path().string();
+  fs::permissions(path, fs::perms::all | fs::perms::sticky_bit);  // as /tmp: some tests start programs of other users
+  ::setenv("TMPDIR", path.c_str(), 1);
+  ::setenv("TEST_TMPDIR", path.c_str(), 1);  // GoogleTest's TempDir() prefers this variable
   const int result = RUN_ALL_TESTS();
-  std::error_code error;
-  if (result == 0) {
-    fs::remove_all(folder, error);
-  } else if (!fs::remove(folder, error)) {  // it is not empty
-    std::printf("files of these tests: %s\n", folder.c_str());
+  if (result != 0 && !fs::is_empty(path)) {
+    std::printf("files of these tests: %s\n", path.c_str());
+    folder.keep();
   }
   return result;
 }

@@ -56,7 +56,7 @@ TEST(TemporaryFolder, WritesAFileAndAFolder) {
 TEST(TemporaryFolder, BelongsToOneProgramAndIsRemovedIfItsTestsPass) {
   const std::filesystem::path own = std::filesystem::temp_directory_path();
   EXPECT_TRUE(std::filesystem::equivalent(own, testing::TempDir()));
-  EXPECT_TRUE(own.filename().string().starts_with("skein-tests-")) << own;
+  EXPECT_TRUE(own.filename().string().starts_with("skein-test-")) << own;
   const ScratchFolder around;
   const std::string program = std::filesystem::read_symlink("/proc/self/exe").string();
   const auto left_by = [&](const std::string& variables) {
