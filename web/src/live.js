@@ -206,6 +206,7 @@ async function show(order) {
     otherModes: data.uavs.flatMap((_, uav) => otherModes(data.saidBy(uav))),
     losses: Object.fromEntries(flights[0].lossesAt(Infinity)?.losses ?? []),
     trailSegments: scene?.trails.reduce((sum, {ends}) => sum + ends.length, 0) ?? 0,
+    trailsUntil: Math.min(...(scene?.trails ?? []).map(({ends}) => ends.at(-1) ?? 0)),  // [s]
   }));
   scoreChart(places.score);
   lanesChart(places.lanes);
