@@ -26,6 +26,7 @@ constexpr double kClimbsMps = 1.0;  ///< speed for which clear_up_to() checks a 
 /// known state, because its reported velocity lags by half of kPeerSmoothS. Measured over random flights: up to 0.48 m.
 constexpr double kUnheardM = 0.5;
 constexpr double kAboveStartM = 30.0, kStartM = 1.0;
+constexpr double kOnGroundM = 0.25;  ///< a slow UAV whose centre is no higher above its start stands on the ground
 
 /// Vector to p from the nearest point of a segment.
 Vector3d from_segment(const Vector3d& p_W, const Vector3d& a_W, const Vector3d& b_W) {
@@ -99,7 +100,8 @@ double SafetyFilter::apart_m(std::size_t uav, double speed_mps) const {
 std::optional<TrajectoryCommand> SafetyFilter::step(Tracker& tracker, const Facts& facts, double most_mps,
                                                     bool retraces) {
   held_ = {};
-  const bool flies = tracker.moves() && tracker.tracking().airborne;
+  // With a setpoint below the ground, a UAV stands on it.
+  const bool flies = tracker.moves() && tracker.tracking().airborne && tracker.commanded().p_WB.z() > 0.0;
   now_W_ = flies ? tracker.commanded().p_WB : facts.state.p_WB;
   nearer_m_ = std::max(kNearerM, (flies ? kCommandNoise : kNoiseSigmas) * agent_.odometry.noise_sigma_m);
   const double dt_s = agent_.exchange_period_s;
@@ -161,29 +163,36 @@ Vector3d SafetyFilter::certain_W(const Vector3d& a_W) const {
   return change_mps > noise_mps ? Vector3d(a_W * (1.0 - noise_mps / change_mps)) : Vector3d::Zero();
 }
 
-/// Whether a peer stands on the ground: it is reported slow, and no higher than the errors of two heights explain. A
-/// UAV that stands beside it then does not have to climb past its reported height. Always false if heights are exact.
+/// Whether a peer stands on the ground: it is reported slow, and no higher than the errors of two heights explain.
 bool SafetyFilter::stands(const Peer& peer) const {
-  const double error_m = kHeightSigmas * std::sqrt(2.0) * peer.deviation_m.z();
+  const double error_m = std::max(kOnGroundM, kHeightSigmas * std::sqrt(2.0) * peer.deviation_m.z());
   const double slow_mps = kRestsMps + kNoiseSigmas * agent_.odometry.velocity_sigma_mps;
-  return error_m > 0.0 && peer.v_W.norm() < slow_mps && peer.p_W.z() < agent_.fleet[peer.uav].p_WB_start.z() + error_m;
+  return peer.v_W.norm() < slow_mps && peer.p_W.z() < agent_.fleet[peer.uav].p_WB_start.z() + error_m;
+}
+
+/// Whether a peer is at its start, as far as this UAV has seen.
+bool SafetyFilter::is_at_start(const Peer& peer) const {
+  return !peer.left_start && (peer.p_W - agent_.fleet[peer.uav].p_WB_start).norm() < kStartM;
 }
 
 std::vector<SafetyFilter::PeerReach> SafetyFilter::reach_of_peers(const Facts& facts) const {
   std::vector<PeerReach> reach;
   for (const Peer& peer : facts.peers.all()) {
-    if (!peer.seen || (trust_ == Trust::start && !peer.left_start)) continue;
+    if (!peer.seen) continue;
     const double age_s = peer.visible ? 0.0 : seconds(facts.tick - *peer.seen);
     if (age_s > config_.peer_memory_s) continue;
     Vector3d p_W = peer.p_W, v_W = peer.v_W;
-    if (stands(peer)) p_W.z() = std::min(p_W.z(), agent_.fleet[peer.uav].p_WB_start.z());
+    // A UAV that stands on the ground beside it, too, does not come nearer by climbing past its reported height.
+    const bool on_ground = stands(peer);
+    if (on_ground) p_W.z() = std::min({p_W.z(), agent_.fleet[peer.uav].p_WB_start.z(), now_W_.z()});
+    if (trust_ == Trust::start && is_at_start(peer)) p_W.z() = now_W_.z();
     const Vector3d soon_W = peer.v_W + kPeerLagS * certain_W(peer.a_W);
     if (peer.visible && soon_W.norm() > v_W.norm()) v_W = soon_W;
     const double speed_mps = v_W.norm();
     Vector3d to_W = p_W;
     // A moving peer may have braked or flown on since its state was received. A peer at rest does not move before its
     // next state is received.
-    if (speed_mps > std::max(kRestsMps, kNoiseSigmas * agent_.odometry.velocity_sigma_mps))
+    if (!on_ground && speed_mps > std::max(kRestsMps, kNoiseSigmas * agent_.odometry.velocity_sigma_mps))
       to_W += v_W * (stopping_m(speed_mps) / speed_mps);
     const double apart_m = apart_if_exact_m(peer.uav, facts.state.v_WB.norm()) + (peer.visible ? 0.0 : kUnheardM);
     const double now_m = from_segment(now_W_, p_W, to_W).norm();
@@ -231,15 +240,23 @@ bool SafetyFilter::proved(const Vector3d& p_W, double radius_m, const Facts& fac
   return true;
 }
 
-bool SafetyFilter::clear_up_to(double height_m, const Facts& facts) {
+Held SafetyFilter::would_hold(const std::vector<Vector3d>& corners_W, const Facts& facts) {
   now_W_ = facts.state.p_WB;
   nearer_m_ = std::max(kNearerM, kNoiseSigmas * agent_.odometry.noise_sigma_m);
   halo_m_ = had_room_ ? kHaloM : config_.tight_halo_m;
   std::vector<Vector3d> way_W;
-  for (double up_m = kSampleM; up_m < height_m - now_W_.z() + kSampleM; up_m += kSampleM) {
-    way_W.emplace_back(now_W_.x(), now_W_.y(), std::min(height_m, now_W_.z() + up_m));
+  Vector3d from_W = now_W_;
+  for (const Vector3d& to_W : corners_W) {
+    const int steps = static_cast<int>(std::ceil((to_W - from_W).norm() / kSampleM));
+    for (int i = 1; i <= steps; ++i) way_W.emplace_back(from_W + (to_W - from_W) * i / steps);
+    from_W = to_W;
   }
-  held_ = way_W.empty() ? Held{} : judge(way_W, kClimbsMps, facts, reach_of_peers(facts));
+  return way_W.empty() ? Held{} : judge(way_W, kClimbsMps, facts, reach_of_peers(facts));
+}
+
+bool SafetyFilter::clear_up_to(double height_m, const Facts& facts) {
+  const Vector3d& p_W = facts.state.p_WB;
+  held_ = would_hold({{p_W.x(), p_W.y(), std::max(height_m, p_W.z())}}, facts);
   return held_.by == Held::By::nothing;
 }
 

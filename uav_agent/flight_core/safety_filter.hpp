@@ -73,7 +73,7 @@ class SafetyFilter {
   /// What the filter assumes for a UAV that must get down: its battery is nearly empty, or it gave up a takeoff.
   enum class Trust : std::uint8_t {
     proved,   ///< the usual rules
-    start,    ///< unknown space counts as free, and UAVs that have not left their starts cannot be in the way
+    start,    ///< unknown space counts as free, and UAVs at their starts do not keep this UAV from sinking beside them
     unknown,  ///< unknown space counts as free
     all,      ///< like `unknown`, positions count as exact, and tight_halo_m replaces kHaloM
   };
@@ -83,6 +83,8 @@ class SafetyFilter {
   const Held& held() const { return held_; }
   /// Whether this UAV may rest at p_W (centre): all space about it that the invariant needs is proved free.
   bool proved(const Vector3d& p_W, const WorldMap& map, const std::vector<OrientedBox>& boxes) const;
+  /// What would hold this UAV if it flew slowly from where it is through some places; nothing, if it could.
+  Held would_hold(const std::vector<Vector3d>& corners_W, const Facts& facts);
   /// Whether this UAV, which stands on the ground, could climb straight up to a height [m] without being held.
   bool clear_up_to(double height_m, const Facts& facts);
   /// Space below this height need not be proved free: what was seen there may be the ground.
@@ -124,6 +126,7 @@ class SafetyFilter {
   bool has_room(const Facts& facts) const;
   Vector3d certain_W(const Vector3d& a_W) const;
   bool stands(const Peer& peer) const;
+  bool is_at_start(const Peer& peer) const;
   std::vector<PeerReach> reach_of_peers(const Facts& facts) const;
   std::optional<TrajectoryCommand> move_on(Tracker& tracker, const Facts& facts, double most_mps,
                                            const std::vector<PeerReach>& peers);

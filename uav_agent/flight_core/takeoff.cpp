@@ -18,6 +18,9 @@ constexpr double kRisenM = 1.2;          ///< so high above its start, a UAV may
 constexpr double kClimbGainM = 0.3;
 constexpr double kStepAsideM = 0.3;  ///< more than half a cube of the map
 constexpr double kLowAsideM = 0.3;   ///< least height above the start at which a UAV flies to another place to climb
+constexpr int kMostGiveWays = 3;     ///< a UAV that could begin to work gives way no more often
+constexpr double kOffGroundM = 0.2;  ///< setpoints that are this far above the start keep a UAV off the ground
+constexpr double kGivesWayS = 8.0;   ///< for so long, a UAV that gives way to others does not try again
 
 }  // namespace
 
@@ -43,6 +46,7 @@ void Takeoff::stand(const PlannerInput& in, Steering& steering) {
     phase_ = Phase::over;
     return;
   }
+  if (in.tick < stands_until_) return;
   waits_for_ = lifts_off_after(in);
   if (waits_for_ || may_drift_into_neighbours(in)) return;
   const double layer_m = kClimbLayerM * neighbours_after();
@@ -51,6 +55,7 @@ void Takeoff::stand(const PlannerInput& in, Steering& steering) {
   steering.gimbal = GimbalCommand{GimbalMode::angle, 0.0, 0.0};
   climbed_m_ = p_W.z();
   stepped_aside_ = false;
+  aside_ = false;
   climbed_at_ = in.tick;
   phase_ = Phase::climbs;
 }
@@ -104,7 +109,9 @@ void Takeoff::climb(const PlannerInput& in, Steering& steering) {
   }
   const double risen_m = drifts(in) && !navigator_.sees() ? kClearM : kRisenM;
   const bool risen = in.state.p_WB.z() > agent_.me().p_WB_start.z() + risen_m;
-  if (!risen && recovers(in, steering)) return;
+  const bool low = !risen || in.state.p_WB.z() < config_.floor_m;
+  if (low && (climbs_aside(in, steering) || gives_way(in, steering))) return;
+  if (!risen && drifts(in) && recovers_from_drift(in, steering)) return;
   const bool stalled = stalled_s(in) > config_.stall_s + config_.look_s;
   if (in.tracking.done || (stalled && risen)) {
     steering.motion = Hold{};
@@ -114,38 +121,75 @@ void Takeoff::climb(const PlannerInput& in, Steering& steering) {
   if (stalled && !navigator_.sees()) waits_for_ = agent_.first_explorer();
 }
 
-/// Begins the first recovery behaviour that helps a UAV that is held before it has risen.
-/// @returns whether there is one.
-bool Takeoff::recovers(const PlannerInput& in, Steering& steering) {
+/// Climbs from a place aside if structure holds the UAV below the heights at which it could fly to a goal.
+/// @returns whether it does.
+bool Takeoff::climbs_aside(const PlannerInput& in, Steering& steering) {
   const Held::By held_by = filter_.held().by;
-  if (held_by == Held::By::structure && stalled_s(in) > config_.stall_s) {
-    climb_aside(in, steering);
-    return true;
-  }
-  if (!drifts(in)) return false;
+  // On its way to a place aside, a UAV may be held by another one that has moved meanwhile: try the next place.
+  const bool held = held_by == Held::By::structure || (aside_ && held_by == Held::By::peer);
+  if (!held || stalled_s(in) <= config_.stall_s || in.tick < next_search_at_) return false;
+  next_search_at_ = in.tick + ticks(config_.stall_s);
+  const std::optional<Vector3d> place_W = place_aside_W(in);
+  if (!place_W) return false;
+  aside_ = true;
+  climb_from(*place_W, in, steering);
+  return true;
+}
+
+/// What drift of the position makes necessary. @returns whether the UAV recovers.
+bool Takeoff::recovers_from_drift(const PlannerInput& in, Steering& steering) {
   // The clearance for drift may reach an unproved cube right above the UAV, which its LiDAR never sees: step aside.
   const bool looked = navigator_.sees() && stalled_s(in) > config_.look_s;
-  if (looked && !stepped_aside_ && held_by == Held::By::unproved) {
+  if (looked && !stepped_aside_ && filter_.held().by == Held::By::unproved) {
     stepped_aside_ = true;
     climb_from(in.tracking.setpoint.p_WB + kStepAsideM * away_from_neighbours_W(in), in, steering);
     return true;
   }
   if (stalled_s(in) <= config_.stall_s + (navigator_.sees() ? config_.look_s : 0.0)) return false;
+  sink_back(in, steering);
+  return true;
+}
+
+/// A UAV that hovers close above the ground holds the UAVs that stand beside it. So if it can neither climb nor fly
+/// aside, it sinks back to the ground, and lets them climb. @returns whether it does.
+bool Takeoff::gives_way(const PlannerInput& in, Steering& steering) {
+  const Held::By held_by = filter_.held().by;
+  const bool stuck = held_by == Held::By::structure || held_by == Held::By::peer;
+  const double up_m = in.tracking.setpoint.p_WB.z() - agent_.me().p_WB_start.z();
+  if (!stuck || stalled_s(in) <= config_.stall_s + config_.yield_s || !has_neighbours(in)) return false;
+  if (up_m < kOffGroundM || (up_m > kRisenM && gave_way_ == kMostGiveWays)) return false;
+  ++gave_way_;
+  stands_until_ = in.tick + ticks(kGivesWayS);
+  sink_back(in, steering);
+  return true;
+}
+
+void Takeoff::sink_back(const PlannerInput& in, Steering& steering) {
   filter_.set_trust(SafetyFilter::Trust::start);
   steering.motion = landing_.down_at(in.tracking.setpoint.p_WB, in);
   sinks_back_ = true;
   phase_ = Phase::ground;
-  return true;
 }
 
-/// Climbs from a place beside, farther from the structure that holds the UAV down.
-void Takeoff::climb_aside(const PlannerInput& in, Steering& steering) {
-  climbed_at_ = in.tick;
+/// Whether a UAV that starts near by has not been seen to leave.
+bool Takeoff::has_neighbours(const PlannerInput& in) const {
+  return std::ranges::any_of(in.peers.all(), [&](const Peer& peer) {
+    const Vector3d& start_W = agent_.fleet[peer.uav].p_WB_start;
+    return (start_W - agent_.me().p_WB_start).norm() <= kCrowdM && (peer.p_W - start_W).norm() < kClearM;
+  });
+}
+
+/// The next place aside to which, and up from which, nothing known would hold the UAV; nullopt if there is none.
+std::optional<Vector3d> Takeoff::place_aside_W(const PlannerInput& in) {
   const auto places_W = places_aside_W(in.state.p_WB, top_W_->z(), filter_.tube_m(0.0), *in.world_map);
-  if (places_W.empty()) return;
-  Vector3d place_W = places_W[next_aside_++ % places_W.size()];
-  place_W.z() = std::max(place_W.z(), agent_.me().p_WB_start.z() + kLowAsideM);
-  climb_from(place_W, in, steering);
+  const SafetyFilter::Facts facts{in.tick, in.state, *in.world_map, in.boxes, in.peers};
+  for (std::size_t tries = 0; tries < places_W.size(); ++tries) {
+    Vector3d place_W = places_W[next_aside_++ % places_W.size()];
+    place_W.z() = std::max(place_W.z(), agent_.me().p_WB_start.z() + kLowAsideM);
+    const Held held = filter_.would_hold({place_W, {place_W.x(), place_W.y(), config_.floor_m}}, facts);
+    if (held.by != Held::By::structure && held.by != Held::By::peer) return place_W;
+  }
+  return std::nullopt;
 }
 
 /// Flies to a place, and climbs from there.

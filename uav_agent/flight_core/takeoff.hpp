@@ -32,8 +32,12 @@ class Takeoff {
  private:
   void stand(const PlannerInput& in, Steering& steering);
   void climb(const PlannerInput& in, Steering& steering);
-  bool recovers(const PlannerInput& in, Steering& steering);
-  void climb_aside(const PlannerInput& in, Steering& steering);
+  bool climbs_aside(const PlannerInput& in, Steering& steering);
+  bool recovers_from_drift(const PlannerInput& in, Steering& steering);
+  bool gives_way(const PlannerInput& in, Steering& steering);
+  void sink_back(const PlannerInput& in, Steering& steering);
+  bool has_neighbours(const PlannerInput& in) const;
+  std::optional<Vector3d> place_aside_W(const PlannerInput& in);
   void climb_from(const Vector3d& place_W, const PlannerInput& in, Steering& steering);
   Vector3d away_from_neighbours_W(const PlannerInput& in) const;
   int neighbours_after() const;
@@ -52,7 +56,11 @@ class Takeoff {
   std::optional<Tick> ready_since_;  ///< when the UAV was first ready to lift off
   std::optional<Vector3d> top_W_;
   bool sinks_back_ = false;     ///< the UAV gave up a climb, and is not on the ground yet
+  Tick stands_until_ = 0;       ///< after a climb that it gave up
   std::size_t next_aside_ = 0;  ///< index of the place beside the start that it tries next
+  bool aside_ = false;          ///< whether it flies to such a place, or climbs from there
+  Tick next_search_at_ = 0;     ///< of such a place
+  int gave_way_ = 0;            ///< number of climbs that it gave up for others
   bool stepped_aside_ = false;  ///< whether it stepped aside in this climb
   double climbed_m_ = 0.0;      ///< height reached in the climb, at climbed_at_
   Tick climbed_at_ = 0;

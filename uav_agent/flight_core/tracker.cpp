@@ -101,6 +101,11 @@ void Tracker::start_from(const Vector3d& p_W, const Vector3d& v_W, double dt_s) 
   started_ = true;
 }
 
+/// Whether a climb begins while the setpoint is below the ground, where it keeps a UAV that has landed in its place.
+bool Tracker::begins_on_ground() const {
+  return mode_ == Mode::path && !done_ && corners_.empty() && ref_.p_WB.z() < 0.0 && waypoints_.back().p_WB.z() > 0.0;
+}
+
 void Tracker::forget_flown_legs() {
   if (mode_ != Mode::path || corners_.empty()) return;
   const std::size_t leg = std::min(leg_at(progress_), waypoints_.size());
@@ -275,9 +280,10 @@ std::optional<TrajectoryCommand> Tracker::step(const RigidBodyState& state, doub
     const double step_s = dt_s / steps;
     if (!started_) ref_.yaw = roll_pitch_yaw(state.q_WB.toRotationMatrix()).yaw;
     double error = (ref_.p_WB - state.p_WB).norm();
-    if (!started_ || error > config_.lost_error_m) {
+    const bool on_ground = begins_on_ground();
+    if (!started_ || error > config_.lost_error_m || on_ground) {
       forget_flown_legs();
-      start_from(state.p_WB, state.v_WB, step_s);
+      start_from(state.p_WB, on_ground ? Vector3d::Zero() : state.v_WB, step_s);
       error = 0.0;
     } else if (track_.empty()) {
       start_from(ref_.p_WB, ref_.v_WB, step_s);

@@ -33,8 +33,9 @@ class Tracker {
 
   explicit Tracker(const Config& config) : config_(config) {}
 
-  void follow(const Path& path);  ///< Follows the path from the present setpoint on; an empty path means hold().
-  void hold();                    ///< Brakes to rest and stays there.
+  /// Follows the path from the present setpoint on, or from the ground if that is below it. An empty path means hold().
+  void follow(const Path& path);
+  void hold();  ///< Brakes to rest and stays there.
   /// From now on commands this setpoint, with velocity and acceleration clamped to the limits.
   void fly_to(const Setpoint& setpoint);
   /// Turns to a yaw [rad] at max_yaw_rate, while it holds or follows a path.
@@ -64,6 +65,7 @@ class Tracker {
   enum class Mode { off, hold, path, setpoint, stand_by };
 
   void start_from(const Vector3d& p_W, const Vector3d& v_W, double dt_s);
+  bool begins_on_ground() const;
   void forget_flown_legs();
   void lay_out(const std::vector<Waypoint>& waypoints);
   void advance_along_path(double pace, double dt_s);

@@ -13,6 +13,7 @@ namespace skein::agent {
 namespace {
 
 constexpr double kDtS = 0.05;
+constexpr double kOnGroundM = 0.16;  ///< height of the centre of a UAV on the ground
 constexpr double kLidarRangeM = 40.0;
 constexpr double kSurfaceStepM = 0.8;
 constexpr std::uint64_t kKeyFrameSteps = 20, kCameraSteps = 4;
@@ -71,7 +72,7 @@ std::vector<SurfacePoint> sample_surface(const std::vector<OrientedBox>& solids)
 
 struct Uav {
   Uav(const AgentConfig& c, const std::string& p) : planner(p), agent(c, make_planner(p, c)), config(c) {
-    state.p_WB = c.me().p_WB_start + Vector3d(0.0, 0.0, 0.16);
+    state.p_WB = c.me().p_WB_start + Vector3d(0.0, 0.0, kOnGroundM);
     if (agent.wants_beams()) lidar.emplace(*c.vehicle.lidar);
   }
 
@@ -217,6 +218,7 @@ void TestWorld::Impl::move(Uav& uav, const AgentOutput& output) {
   if (output.gimbal && !(std::isfinite(output.gimbal->pitch) && std::isfinite(output.gimbal->yaw))) ++bad_commands;
   if (output.trajectory) {
     uav.state.p_WB = output.trajectory->p_WB;
+    uav.state.p_WB.z() = std::max(uav.state.p_WB.z(), kOnGroundM);
     uav.state.v_WB = output.trajectory->v_WB;
     uav.state.q_WB = Eigen::AngleAxisd(output.trajectory->yaw, Vector3d::UnitZ());
   }

@@ -45,9 +45,12 @@ constexpr double kAimAheadS = 0.9;    ///< so long before a view, the camera tur
 constexpr double kLeastGlance = 0.3;  ///< glances with less gain are left out [points]
 constexpr double kFollowM = 6.0, kTrailM = 2.0;  ///< distance behind an explorer; between two places of its trail
 constexpr std::size_t kMostTrail = 60;
-constexpr double kPointsPerS = 1.2;  ///< points that a UAV photographs where there are enough
-constexpr double kGoodRate = 3.0;    ///< gain that a route promises where there are enough points [points/s]
-constexpr double kRateShare = 0.15;  ///< weight of a new decision in the moving average
+constexpr double kPointsPerS = 1.2;     ///< points that a UAV photographs where there are enough
+constexpr double kGoodRate = 3.0;       ///< gain that a route promises where there are enough points [points/s]
+constexpr double kSeekAfterS = 4.0;     ///< after resting for so long, the flight core searches paths to ...
+constexpr std::size_t kMostSought = 4;  ///< ... so many views, ...
+constexpr double kSeekS = 12.0;         ///< ... and after this time to others
+constexpr double kRateShare = 0.15;     ///< weight of a new decision in the moving average
 
 }  // namespace
 
@@ -80,7 +83,7 @@ class FlockPlanner final : public Planner {
   std::optional<std::vector<Vector3d>> way_W(const PlannerInput& in, const Vector3d& to_W) const;
   void offer(const PlannerInput& in, const std::optional<std::vector<Vector3d>>& way, PlannerOutput& out);
   std::optional<Vector3d> behind_explorer_W(const PlannerInput& in) const;
-  void rest(const PlannerInput& in, PlannerOutput& out);
+  void rest(const PlannerInput& in, std::vector<Vector3d> sought_W, PlannerOutput& out);
   FlockWord own_word() const;
 
   const Config config_;
@@ -96,7 +99,7 @@ class FlockPlanner final : public Planner {
   std::int64_t id_ = 0;           ///< id of the route's goal
   bool rests_ = false;
   std::optional<Tick> there_since_, aimed_since_;
-  Tick planned_at_ = 0, glance_until_ = 0;
+  Tick planned_at_ = 0, glance_until_ = 0, sought_at_ = 0;
   double rate_ = 0.0, best_rate_ = kGoodRate;  ///< gain that its routes promise: average, and best average [points/s]
   bool glances_ = false;                       ///< the camera looks elsewhere than the route's first view
   std::deque<Vector3d> trail_W_;               ///< of explorers that it has seen, oldest first
@@ -253,6 +256,10 @@ void FlockPlanner::decide(const PlannerInput& in, PlannerOutput& out) {
   count_claims(in, targets);
   const Vector3d here_W = in.tracking.setpoint.p_WB;
   std::vector<FlockView> views = views_.find(*surfaces_, targets, *in.space, here_W, has_lidar());
+  std::vector<Vector3d> best_W;
+  for (const FlockView& view : views) {
+    if (best_W.size() < kMostSought && !reach_.taken(view.p_WB, in)) best_W.push_back(view.p_WB);
+  }
   const auto unreachable = [&](const FlockView& view) { return reach_.out_of_reach(view.p_WB, in); };
   std::erase_if(views, unreachable);
   std::optional<std::size_t> current;
@@ -298,7 +305,7 @@ void FlockPlanner::decide(const PlannerInput& in, PlannerOutput& out) {
     }
     route = best_route();
   }
-  if (route.views.empty()) return rest(in, out);
+  if (route.views.empty()) return rest(in, std::move(best_W), out);
   const bool goes_on = current && route.views.front() == *current;
   route_.clear();
   for (const std::size_t i : route.views) route_.push_back(views[i]);
@@ -353,15 +360,29 @@ std::optional<Vector3d> FlockPlanner::behind_explorer_W(const PlannerInput& in) 
   return std::nullopt;
 }
 
-/// For a UAV without any view worth a picture: it follows an explorer, or hovers. With a goal, the flight core begins
-/// no recovery behaviour.
-void FlockPlanner::rest(const PlannerInput& in, PlannerOutput& out) {
+/// For a UAV without any view within its reach. It follows an explorer, or lets the flight core search paths to views
+/// that it cannot reach through the cubes of its map; a UAV below a canopy perhaps. If there are none, an explorer
+/// leaves it to the flight core's recovery to see more of the site, and other UAVs hover. With a goal, the flight core
+/// begins no recovery behaviour.
+/// @param sought_W  the best views that are out of reach.
+void FlockPlanner::rest(const PlannerInput& in, std::vector<Vector3d> sought_W, PlannerOutput& out) {
   route_.clear();
+  if (!rests_) sought_at_ = in.tick - ticks(kSeekS - kSeekAfterS);
   const std::optional<Vector3d> behind_W = behind_explorer_W(in);
-  if (rests_ && in.flight.goal && (!behind_W || (*behind_W - rest_W_).norm() < kFollowM)) return;
+  const bool explores = has_lidar() && !surfaces_->survey().gaps().empty();
+  const bool may_seek = !behind_W && (!sought_W.empty() || explores);
+  const bool seeks = may_seek && seconds(in.tick - sought_at_) >= kSeekS;
+  if (rests_ && !seeks && (may_seek || in.flight.goal) && (!behind_W || (*behind_W - rest_W_).norm() < kFollowM))
+    return;
   rests_ = true;
-  rest_W_ = behind_W.value_or(in.tracking.setpoint.p_WB);
-  out.goals = {{.id = ++id_, .way = {{rest_W_, config_.flight.approach_mps}}}};
+  out.goals.emplace();
+  if (seeks) {
+    sought_at_ = in.tick;
+  } else {
+    rest_W_ = behind_W.value_or(in.tracking.setpoint.p_WB);
+    sought_W = {rest_W_};
+  }
+  for (const Vector3d& p_W : sought_W) out.goals->push_back({.id = ++id_, .way = {{p_W, config_.flight.approach_mps}}});
 }
 
 FlockWord FlockPlanner::own_word() const {

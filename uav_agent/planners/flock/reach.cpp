@@ -40,7 +40,11 @@ void FlockReach::update(Tick now) {
 bool FlockReach::out_of_reach(const Vector3d& p_WB, const PlannerInput& in) const {
   const auto near = [&](const Vector3d& p_W, double m) { return (p_W - p_WB).squaredNorm() < m * m; };
   const auto is_near = [&](const Refused& refused) { return near(refused.p_W, kRefusedM); };
-  if (std::ranges::any_of(refused_, is_near)) return true;
+  return std::ranges::any_of(refused_, is_near) || taken(p_WB, in);
+}
+
+bool FlockReach::taken(const Vector3d& p_WB, const PlannerInput& in) const {
+  const auto near = [&](const Vector3d& p_W, double m) { return (p_W - p_WB).squaredNorm() < m * m; };
   for (const Peer& peer : in.peers.all()) {
     if (!peer.visible) continue;
     if (near(peer.p_W, kApartM)) return true;

@@ -28,6 +28,8 @@ class FlockReach {
   /// Forgets refusals that have expired.
   void update(Tick now);
   bool out_of_reach(const Vector3d& p_WB, const PlannerInput& in) const;
+  /// Whether another UAV is at the place, flies to it, or is in the way. If so, the place is out of reach, too.
+  bool taken(const Vector3d& p_WB, const PlannerInput& in) const;
 
  private:
   struct Refused {
