@@ -256,10 +256,7 @@ void FlockPlanner::decide(const PlannerInput& in, PlannerOutput& out) {
   count_claims(in, targets);
   const Vector3d here_W = in.tracking.setpoint.p_WB;
   std::vector<FlockView> views = views_.find(*surfaces_, targets, *in.space, here_W, has_lidar());
-  std::vector<Vector3d> best_W;
-  for (const FlockView& view : views) {
-    if (best_W.size() < kMostSought && !reach_.taken(view.p_WB, in)) best_W.push_back(view.p_WB);
-  }
+  std::vector<Vector3d> best_W = reach_.not_taken(views, kMostSought, in);
   const auto unreachable = [&](const FlockView& view) { return reach_.out_of_reach(view.p_WB, in); };
   std::erase_if(views, unreachable);
   std::optional<std::size_t> current;

@@ -59,6 +59,15 @@ bool FlockReach::taken(const Vector3d& p_WB, const PlannerInput& in) const {
   return false;
 }
 
+std::vector<Vector3d> FlockReach::not_taken(const std::vector<FlockView>& views, std::size_t most,
+                                            const PlannerInput& in) const {
+  std::vector<Vector3d> places_W;
+  for (const FlockView& view : views) {
+    if (places_W.size() < most && !taken(view.p_WB, in)) places_W.push_back(view.p_WB);
+  }
+  return places_W;
+}
+
 bool FlockReach::stalls(const PlannerInput& in, const std::optional<Vector3d>& to_W) {
   if ((in.state.p_WB - gained_p_W_).norm() > kGainM) {
     gained_p_W_ = in.state.p_WB;

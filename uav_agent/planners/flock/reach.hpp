@@ -30,6 +30,8 @@ class FlockReach {
   bool out_of_reach(const Vector3d& p_WB, const PlannerInput& in) const;
   /// Whether another UAV is at the place, flies to it, or is in the way. If so, the place is out of reach, too.
   bool taken(const Vector3d& p_WB, const PlannerInput& in) const;
+  /// Places of the first `most` of these views that are not taken.
+  std::vector<Vector3d> not_taken(const std::vector<FlockView>& views, std::size_t most, const PlannerInput& in) const;
 
  private:
   struct Refused {
