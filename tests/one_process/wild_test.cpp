@@ -34,6 +34,21 @@ TEST_F(Wild, AllPlannersFlyInTenWorlds) {
   EXPECT_EQ(flown, std::set<std::string>(planners.begin(), planners.end()));
 }
 
+/// In these worlds, UAVs start close together beside structure. UAVs that hovered close above the ground once kept most
+/// of the fleet there for the whole mission.
+TEST_F(Wild, FleetsLeaveCrowdedStarts) {
+  const std::vector<std::string> worlds = {"222", "224", "269", "277", "292"};
+  for (std::size_t i = 0; i < worlds.size(); ++i) {
+    if (!has_turn(i, 3)) continue;
+    const SkeinRun& flight =
+        run("world-" + worlds[i], {"wild", "--scene-seed", worlds[i], "--planner", "flock", "--seed", "1", "--duration",
+                                   "120", "--one-process", "--record=none"});
+    for (const Json& uav : flight.result().at("uavs")) {
+      EXPECT_GT(uav.at("distance_m").get<double>(), 10.0) << uav.at("name") << " in world " << worlds[i];
+    }
+  }
+}
+
 /// Each of these worlds once revealed a mistake: a start below a roof or beside a wall, photographers alone,
 /// thin braces, canopies, stations on roofs, UAVs that meet behind a corner (docs/decisions/0029-flight-core.md).
 TEST_F(Wild, WorldsOfFormerMistakesStaySafe) {
