@@ -262,7 +262,7 @@ class Bench {
 
   const BenchOptions& options_;
   const Effort effort_;
-  const Console& console_;
+  const Console console_;
   const ScratchDir scratch_;
   Json report_ = Json::object();
   bool failed_ = false;

@@ -245,7 +245,7 @@ class PlannerCheck {
   }
 
   const CheckPlannerOptions& options_;
-  const Console& console_;
+  const Console console_;
   RunOptions base_;
   double duration_s_ = 0.0;
   std::string first_uav_;

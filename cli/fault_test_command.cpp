@@ -207,7 +207,7 @@ class FaultTestRun {
 
   const std::vector<FaultTest> tests_;
   const TestOptions& options_;
-  const Console& console_;
+  const Console console_;
   const FaultFlights flights_;
   std::vector<Flown> flown_;            ///< by flight
   std::vector<FaultVerdict> verdicts_;  ///< by test

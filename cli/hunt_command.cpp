@@ -209,7 +209,7 @@ class Hunt {
   double search_s() const { return std::chrono::duration<double>(last_ - began_).count(); }
 
   const HuntPlan& plan_;
-  const Console& console_;
+  const Console console_;
   HuntLog log_;
   HuntSearch search_;
   TrialFlights flights_;

@@ -151,7 +151,7 @@ class PythonBench {
 
   const BenchOptions& options_;
   const PythonEffort effort_;
-  const Console& console_;
+  const Console console_;
   const PythonTools tools_;
   const ScratchDir scratch_;
   bool failed_ = false;

@@ -78,7 +78,7 @@ class SensingBench {
   }
 
   const BenchOptions& options_;
-  const Console& console_;
+  const Console console_;
   const ScratchDir scratch_;
   bool failed_ = false;
 };

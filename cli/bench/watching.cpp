@@ -105,7 +105,7 @@ class WatchingBench {
   }
 
   const BenchOptions& options_;
-  const Console& console_;
+  const Console console_;
   const Tools tools_;
   const ScratchDir scratch_;
   bool failed_ = false;

@@ -66,7 +66,7 @@ class Finds {
 
   const HuntPlan& plan_;
   TrialFlights& flights_;
-  const Console& console_;
+  const Console console_;
   std::vector<Find> finds_;
   std::map<std::string, std::size_t> counts_;
 };

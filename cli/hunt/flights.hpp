@@ -57,7 +57,7 @@ class TrialFlights {
   properties::PropertySet asked(const properties::PropertySet& set) const;
 
   const HuntPlan& plan_;
-  const Console& console_;
+  const Console console_;
   std::map<std::string, std::optional<Setting>> settings_;    ///< by what_is_flown()
   std::map<std::string, std::filesystem::path> undisturbed_;  ///< folders of runs without faults, by what_is_flown()
   std::size_t flown_ = 0;

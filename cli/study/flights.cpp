@@ -108,7 +108,7 @@ class StudyRun {
   void tell(const std::string& text) const { console_.err << text << std::endl; }
 
   const StudyPlan& plan_;
-  const Console& console_;
+  const Console console_;
   StudyOutcomes outcomes_;
   std::size_t over_ = 0;
   double flown_s_ = 0.0, left_s_ = 0.0;  ///< mission time, in this call

@@ -39,7 +39,7 @@ class SideBySide {
   void on_interrupt();
 
   const std::size_t at_once_;
-  const Console& console_;
+  const Console console_;
   Supervisor supervisor_;
   std::map<std::string, std::size_t> in_the_air_;  ///< index of the flight by program
   bool interrupted_ = false;

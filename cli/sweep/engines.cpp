@@ -46,7 +46,7 @@ class LocalEngine : public SweepEngine {
 
   const int jobs_;
   const SweepFolder& folder_;
-  const Console& console_;
+  const Console console_;
 };
 
 /// GNU parallel distributes the units, on this machine or over ssh.
@@ -92,7 +92,7 @@ class ParallelEngine : public SweepEngine {
   const std::vector<std::string> logins_;
   const std::optional<int> jobs_;
   const SweepFolder& folder_;
-  const Console& console_;
+  const Console console_;
 };
 
 }  // namespace

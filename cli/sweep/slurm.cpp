@@ -333,7 +333,7 @@ class SlurmEngine : public SweepEngine {
   const bool detach_;
   const std::optional<int> jobs_;
   const SweepFolder& folder_;
-  const Console& console_;
+  const Console console_;
   std::string token_;                ///< of the sweep
   std::vector<std::string> arrays_;  ///< jobs of the units that fly() gave to Slurm
   std::set<std::string> excluding_;  ///< jobs of units that exclude nodes

@@ -43,7 +43,8 @@ TEST_F(Wild, FleetsLeaveCrowdedStarts) {
     const SkeinRun& flight =
         run("world-" + worlds[i], {"wild", "--scene-seed", worlds[i], "--planner", "flock", "--seed", "1", "--duration",
                                    "120", "--one-process", "--record=none"});
-    for (const Json& uav : flight.result().at("uavs")) {
+    const Json result = flight.result();
+    for (const Json& uav : result.at("uavs")) {
       EXPECT_GT(uav.at("distance_m").get<double>(), 10.0) << uav.at("name") << " in world " << worlds[i];
     }
   }
