@@ -122,6 +122,9 @@ class Reader {
                            "'sometimes' knows no 'within' and no 'whenever': it need not be in "
                            "each run; 'eventually' must");
     }
+    const double deadline_s =
+        std::min(window.from_s + window.within_s.value_or(0.0), window.until_s.value_or(scenario_.duration_s));
+    if (!property_.whenever && deadline_s > scenario_.duration_s) refuse_late(property_.window_at, deadline_s);
   }
 
   void read_after() {
@@ -151,11 +154,13 @@ class Reader {
     const std::size_t at = parser_.at();
     const double time_s = parser_.constant(kSeconds, what);
     if (time_s < 0.0) ExpressionText::fail(at, "a time must not be below 0 s");
-    if (time_s >= scenario_.duration_s) {
-      ExpressionText::fail(at, number_text(time_s) + " s are beyond the end: the mission of '" + scenario_.name +
-                                   "' lasts " + number_text(scenario_.duration_s) + " s");
-    }
+    if (time_s >= scenario_.duration_s) refuse_late(at, time_s);
     return time_s;
+  }
+
+  void refuse_late(std::size_t at, double time_s) {
+    ExpressionText::fail(at, number_text(time_s) + " s are beyond the end: the mission of '" + scenario_.name +
+                                 "' lasts " + number_text(scenario_.duration_s) + " s");
   }
 
   const Scenario& scenario_;

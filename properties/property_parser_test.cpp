@@ -79,6 +79,7 @@ TEST(PropertyParser, WrongOnesAreRefusedWhereTheyAreWrong) {
   refused("always held < 3 s", 14, "units do not fit");
   refused("eventually held > 3 within 5", 27, "what follows 'within' must be in s, and this is a plain number");
   refused("eventually held > 3 within 60 s", 27, "60 s are beyond the end: the mission of 'small' lasts 60 s");
+  refused("eventually held > 3 after 50 s within 20 s", 20, "70 s are beyond the end");
   refused("eventually held > 3 within -1 s", 27, "must not be below 0 s");
   refused("always held < 3 from 20 s to 10 s", 29, "the interval is upside down");
   refused("always held < 3 from 20 s", 25, "here must be 'to', not the end");

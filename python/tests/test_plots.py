@@ -101,18 +101,29 @@ def test_curves_are_of_the_flights(study: skein.Study) -> None:
         plots.curves(study, scenario="sail")
 
 
-def test_curves_have_the_median_at_any_time(flown: skein.Run, tmp_path: Path) -> None:
-    ends = {0: [(0, 0), (2, 5)], 1: [(0, 0), (1, 1), (4, 2)], 2: [(0, 0), (3, 9)]}
+def study_of(folder: Path, timelines: dict[int, list[tuple[int, int]]]) -> skein.Study:
+    """A study of one planner with these entries (time, score) of score_timeline.csv by seed; all flights last 6 s."""
     header = ",".join(skein.STUDY_TABLES["flights"].names)
-    lines = [f"s,p,{seed}{',' * (header.count(',') - 2)}{seed}" for seed in ends]
-    (tmp_path / "flights.csv").write_text("\n".join([header, *lines]) + "\n")
-    for seed, changes in ends.items():
-        (tmp_path / str(seed)).mkdir()
-        (tmp_path / str(seed) / "result.json").write_text('{"sim_time_s": 6}')
-        (tmp_path / str(seed) / "score_timeline.csv").write_text(
+    lines = [f"s,p,{seed}{',' * (header.count(',') - 2)}{seed}" for seed in timelines]
+    (folder / "flights.csv").write_text("\n".join([header, *lines]) + "\n")
+    for seed, changes in timelines.items():
+        (folder / str(seed)).mkdir()
+        (folder / str(seed) / "result.json").write_text('{"sim_time_s": 6}')
+        (folder / str(seed) / "score_timeline.csv").write_text(
             "time_s,points,score\n" + "".join(f"{time_s},1,{score}\n" for time_s, score in changes))
-    (line,) = plots.curves(skein.Study(tmp_path)).get_lines()
+    return skein.Study(folder)
+
+
+def test_curves_have_the_median_at_any_time(tmp_path: Path) -> None:
+    study = study_of(tmp_path, {0: [(0, 0), (2, 5)], 1: [(0, 0), (1, 1), (4, 2)], 2: [(0, 0), (3, 9)]})
+    (line,) = plots.curves(study).get_lines()
     assert [(x, y) for x, y in zip(*line.get_data())] == [(0, 0), (1, 0), (2, 1), (3, 5), (4, 5), (6, 5)]
+
+
+def test_a_flight_has_no_score_before_its_first_entry(tmp_path: Path) -> None:
+    study = study_of(tmp_path, {0: [], 1: [(1, 4)], 2: [(3, 9)]})
+    (line,) = plots.curves(study).get_lines()
+    assert [(x, y) for x, y in zip(*line.get_data())] == [(1, 0), (3, 4), (6, 4)]
 
 
 def test_the_parts_of_a_loss_add_up(flown: skein.Run) -> None:

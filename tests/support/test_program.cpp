@@ -120,9 +120,14 @@ int run_test_program(int argc, char** argv) {
     }
     tests.insert(tests.end(), more.begin(), more.end());
   }
+  const std::size_t shares = turns.empty() ? 1 : std::strtoul(turns.front().c_str(), nullptr, 10);
+  if (shares == 0) {
+    std::fprintf(stderr, "%s: --turns '%s': must be a number from 1 on\n", argv[0], turns.front().c_str());
+    return 2;
+  }
   if (const std::optional<std::size_t> turn = turn_asked_for(); turn && !turns.empty()) {
     const std::size_t all = tests.size();
-    tests = tests_in_turn(tests, *turn, std::stoul(turns.front()), aligned);
+    tests = tests_in_turn(tests, *turn, shares, aligned);
     std::printf("turn %zu: %zu of %zu tests\n", *turn, tests.size(), all);
   }
   std::string filter;

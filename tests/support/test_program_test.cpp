@@ -46,6 +46,14 @@ TEST(TestsInTurn, EveryTurnSeesEveryParameterOrOnlySome) {
   }
 }
 
+TEST(TestsInTurn, NoSharesAreRefused) {
+  const std::string program = std::filesystem::read_symlink("/proc/self/exe").string();
+  for (const std::string shares : {"0", "many"}) {
+    const int status = std::system(("SKEIN_TURN=1 '" + program + "' --turns " + shares + " 2>/dev/null").c_str());
+    EXPECT_EQ(WEXITSTATUS(status), 2) << shares;
+  }
+}
+
 /// The next test also starts this one in a program of its own.
 TEST(TemporaryFolder, WritesAFileAndAFolder) {
   std::ofstream(std::filesystem::temp_directory_path() / "file") << "left";

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..run import Run
 from ..study import Study
 from ..tables import Array
 from . import look
@@ -56,9 +57,7 @@ def curves(study: Study, ax: Axes | None = None, *, scenario: str | None = None)
                 continue
             times = np.unique(np.concatenate([[run.sim_time_s for run in flights],
                                               *(run.timeline["time_s"] for run in flights)]))
-            # The delivered score of each flight at each of these times. After its end, a flight keeps its score.
-            known = np.array([run.timeline["score"][np.searchsorted(run.timeline["time_s"], times, side="right") - 1]
-                              for run in flights])
+            known = np.array([_scores_at(run, times) for run in flights])
             colour = look.PLANNERS[p % len(look.PLANNERS)]
             ax.fill_between(times, known.min(axis=0), known.max(axis=0), step="post", color=colour, alpha=0.18,
                             linewidth=0)
@@ -72,6 +71,12 @@ def curves(study: Study, ax: Axes | None = None, *, scenario: str | None = None)
         ax.set_axisbelow(True)
         ax.legend(loc="upper left")
     return ax
+
+
+def _scores_at(run: Run, times: Array) -> Array:
+    """The delivered score of a flight at each of these times: 0 before its first entry, the last one after its end."""
+    scores = np.concatenate([[0.0], run.timeline["score"]])
+    return scores[np.searchsorted(run.timeline["time_s"], times, side="right")]
 
 
 def _draw_box(ax: Axes, x: float, values: Array, colour: str) -> None:

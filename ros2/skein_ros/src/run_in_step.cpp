@@ -4,17 +4,34 @@
 // and needs neither rclcpp_components nor a registration.
 //   LIBRARY  a path, or the name of a library in LD_LIBRARY_PATH      CLASS  with its namespaces: my_pkg::MyNode
 #include <dlfcn.h>
+#include <sys/mman.h>
 
-#include <cstdlib>
 #include <iostream>
 #include <sstream>
+#include <stdexcept>
+#include <string>
 
 #include "skein_ros/planner.hpp"
 
 namespace {
 
-/// The library does not tell the size of the object. No node is as large as this.
-constexpr std::size_t kMostBytes = std::size_t{1} << 20;
+/// The library does not tell the size of the object. So there is room for one of this size; of the room, only the pages
+/// that the object uses take memory. A larger object ends the program, because the pages behind cannot be written.
+constexpr std::size_t kMostBytes = std::size_t{1} << 30;
+constexpr std::size_t kGuardBytes = std::size_t{1} << 26;
+
+struct RoomOfNode {
+  RoomOfNode() {
+    constexpr int kFlags = MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE;
+    begin = ::mmap(nullptr, kMostBytes + kGuardBytes, PROT_NONE, kFlags, -1, 0);
+    if (begin == MAP_FAILED || ::mprotect(begin, kMostBytes, PROT_READ | PROT_WRITE) != 0) {
+      throw std::runtime_error("there is no address space for the node");
+    }
+  }
+  void free() const { ::munmap(begin, kMostBytes + kGuardBytes); }
+
+  void* begin = nullptr;
+};
 
 /// The symbol of CLASS::CLASS(const rclcpp::NodeOptions&).
 std::string constructor_of(const std::string& name) {
@@ -39,12 +56,12 @@ std::shared_ptr<rclcpp::Node> make_node(const std::string& library, const std::s
                              " with a constructor from const rclcpp::NodeOptions& " +
                              "that is defined outside of the class");
   }
-  void* const memory = std::calloc(1, kMostBytes);
-  construct(memory, rclcpp::NodeOptions());
+  const RoomOfNode room;
+  construct(room.begin, rclcpp::NodeOptions());
   // rclcpp::Node must be the first base of the class, so that the object begins with its Node.
-  return {static_cast<rclcpp::Node*>(memory), [](rclcpp::Node* node) {
+  return {static_cast<rclcpp::Node*>(room.begin), [room](rclcpp::Node* node) {
             node->~Node();
-            std::free(node);
+            room.free();
           }};
 }
 

@@ -101,6 +101,15 @@ int usleep_of_node(useconds_t duration) {
   return sleep_of_node(&time, nullptr, __builtin_return_address(0)) == 0 ? 0 : -1;
 }
 
+/// The C library's own sleep() would not call the functions above.
+unsigned sleep_s_of_node(unsigned seconds) __asm__("sleep");
+unsigned sleep_s_of_node(unsigned seconds) {
+  const struct timespec time = {seconds, 0};
+  struct timespec left = {};
+  if (sleep_of_node(&time, &left, __builtin_return_address(0)) == 0) return 0;
+  return static_cast<unsigned>(left.tv_sec) + (left.tv_nsec > 0 ? 1 : 0);
+}
+
 int clock_nanosleep_of_node(clockid_t clock, int flags, const struct timespec* time,
                             struct timespec* left) __asm__("clock_nanosleep");
 int clock_nanosleep_of_node(clockid_t clock, int flags, const struct timespec* time, struct timespec* left) {
