@@ -122,8 +122,7 @@ class Reader {
                            "'sometimes' knows no 'within' and no 'whenever': it need not be in "
                            "each run; 'eventually' must");
     }
-    const double deadline_s =
-        std::min(window.from_s + window.within_s.value_or(0.0), window.until_s.value_or(scenario_.duration_s));
+    const double deadline_s = window.until_s.value_or(window.from_s + window.within_s.value_or(0.0));
     if (!property_.whenever && deadline_s > scenario_.duration_s) refuse_late(property_.window_at, deadline_s);
   }
 
