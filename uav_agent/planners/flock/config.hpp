@@ -19,9 +19,10 @@ struct FlockConfig {
   double inspect_mps = 4.0;  ///< speed between views that are near each other
   int max_views = 160;       ///< most views evaluated in one decision
   int depth = 4;             ///< number of views planned ahead
+  double glance_s = 0.45;    ///< so long, the camera follows a place on the way to a view; 0: it does not
   double replan_s = 1.5;     ///< time between two decisions
   double share_s = 0.5;      ///< time between two messages
-  double claim_s = 4.0;      ///< age at which another UAV's claim of a view expires
+  double claim_s = 4.0;      ///< age at which another UAV's claim of a view expires; 0: claims do not count
   double prove_gain = 0.3;   ///< what an explorer adds to the gain of a view from space not proved free, as a share
   double survey_m = 30.0;    ///< a LiDAR finds all structure within this distance
   FlightConfig flight = {};
@@ -39,9 +40,10 @@ struct FlockConfig {
     r.field("inspect_mps", inspect_mps, within(0.2, 20.0));
     r.field("max_views", max_views, within(1, 5000));
     r.field("depth", depth, within(1, 20));
+    r.field("glance_s", glance_s, within(0.0, 5.0));
     r.field("replan_s", replan_s, within(0.1, 30.0));
     r.field("share_s", share_s, within(0.05, 10.0));
-    r.field("claim_s", claim_s, within(0.1, 60.0));
+    r.field("claim_s", claim_s, within(0.0, 60.0));
     r.field("prove_gain", prove_gain, within(0.0, 10.0));
     r.field("survey_m", survey_m, within(5.0, 100.0));
     r.check(voxel_m == 0.0 || voxel_m >= 0.5, "voxel_m", "must be 0 (by the camera) or at least 0.5");

@@ -40,7 +40,6 @@ constexpr double kRestS = 0.5;             ///< time between two decisions while
 constexpr double kClaimedShare = 0.9;      ///< share of an announced view's quality that counts as photographed
 constexpr std::size_t kMostLegs = 3;
 constexpr int kTries = 4;             ///< most routes tried in a decision, if there is no way to the first view
-constexpr double kGlanceS = 0.45;     ///< duration of a glance: the camera follows a place on the way
 constexpr double kAimAheadS = 0.9;    ///< so long before a view, the camera turns to it
 constexpr double kLeastGlance = 0.3;  ///< glances with less gain are left out [points]
 constexpr double kFollowM = 6.0, kTrailM = 2.0;  ///< distance behind an explorer; between two places of its trail
@@ -189,7 +188,7 @@ void FlockPlanner::note_picture(const FlockView::Sight& sight) {
 /// On the way to a view, turns the camera to other targets (glances), each time to those that gain most. While the
 /// camera follows a place, its pictures are sharp however fast the UAV flies.
 void FlockPlanner::glance(const PlannerInput& in, PlannerOutput& out) {
-  if (in.tick < glance_until_ || !targets_) return;
+  if (config_.glance_s == 0.0 || in.tick < glance_until_ || !targets_) return;
   const FlockView& next = route_.front();
   const double way_m = (next.p_WB - in.state.p_WB).norm();
   const double speed = std::max(in.state.v_WB.norm(), 1.0);
@@ -198,8 +197,8 @@ void FlockPlanner::glance(const PlannerInput& in, PlannerOutput& out) {
     glances_ = false;
     return;
   }
-  glance_until_ = in.tick + ticks(kGlanceS);
-  const Vector3d soon_W = in.state.p_WB + 0.5 * kGlanceS * in.state.v_WB;
+  glance_until_ = in.tick + ticks(config_.glance_s);
+  const Vector3d soon_W = in.state.p_WB + 0.5 * config_.glance_s * in.state.v_WB;
   FlockView best;
   double most = kLeastGlance;
   for (const Vector3d& aim_W : views_.aims(*targets_, soon_W, in.state, in.gimbal)) {
