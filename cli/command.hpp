@@ -347,6 +347,7 @@ struct StudyOptions {
   std::optional<double> agent_timeout_s;       ///< as in RunOptions
   std::optional<std::string> rules;            ///< a preset, instead of the scenarios'
   std::vector<std::string> conditions;         ///< fly each scenario under each of these; empty: the scenarios' own
+  std::vector<std::size_t> uavs;               ///< fly each scenario with each of these fleet sizes; empty: its own
   std::optional<std::string> dds;              ///< a vendor or "mixed"; none: in one process where possible
   std::optional<std::filesystem::path> agent;  ///< as in RunOptions
   std::optional<std::string> network;          ///< as in RunOptions

@@ -21,6 +21,7 @@ for argument; do
     --seed=*) seed=${argument#--seed=} ;;
     --planner=*) planner=${argument#--planner=} ;;
     --agent=*) agent=${argument##*/} ;;
+    --uavs=*) echo "${argument#--uavs=}" >> "$(dirname "$0")/uavs.txt" ;;
   esac
 done
 here=$(dirname "$0")
@@ -285,6 +286,21 @@ TEST_F(StudyCommand, ACompareHasNoTotals) {
   EXPECT_NE(file("report.html").find("missions of 60 s"), std::string::npos);
 }
 
+TEST_F(StudyCommand, EachFleetSizeIsASceneOfItsOwn) {
+  options_.contest = false;
+  options_.seeds = "1";
+  options_.uavs = {1, 2};
+  EXPECT_EQ(run(), kExitDone) << err_.str();
+  EXPECT_EQ(flown(), "hover 1\npatrol 1\nhover 1\npatrol 1\n");
+  EXPECT_EQ(read_text(programs_.dir() / "uavs.txt"), "1\n1\n2\n2\n");
+  EXPECT_NE(out_.str().find("small.yaml 1 UAV "), std::string::npos) << out_.str();
+  EXPECT_NE(out_.str().find("small.yaml 2 UAVs "), std::string::npos) << out_.str();
+  EXPECT_TRUE(std::filesystem::exists(*options_.out / "flights/small-uavs-2/patrol/seed-1/result.json"));
+  EXPECT_NE(file("report.html").find(" --uavs 1,2"), std::string::npos);
+  options_.uavs = {1};
+  EXPECT_NE(refusal().find("uavs: then 1, 2, now 1"), std::string::npos) << refusal();
+}
+
 TEST_F(StudyCommand, WhatIsWrongIsToldBeforeAnythingFlies) {
   const StudyOptions good = options_;
   const auto refused = [&](const std::string& with) {
@@ -300,6 +316,8 @@ TEST_F(StudyCommand, WhatIsWrongIsToldBeforeAnythingFlies) {
   refused("'hover' is named twice");
   options_.scenarios = {"towrs"};
   refused("did you mean 'towers'?");
+  options_.uavs = {2, 2};
+  refused("fleet size '2' is named twice");
   options_.seeds = "x";
   refused("'x' is no seed");
   options_.planners = {"gamma=hover"};

@@ -72,6 +72,12 @@ void add_study_options(CLI::App& command, StudyOptions& study) {
       ->check(seconds);
   command.add_option("--rules", study.rules, "Preset of rules, instead of the scenarios': contest, paper or reference");
   command
+      .add_option("--uavs", study.uavs,
+                  "Fly each scenario with each of these fleet sizes: 1,2,5,10; as for `skein run`")
+      ->check(CLI::Validator(check_positive, "POSITIVE"))
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  command
       .add_option("--conditions", study.conditions,
                   "Fly each scenario under each of these: none, breezy, harsh, wind=harsh+battery=breezy")
       ->delimiter(',')

@@ -62,26 +62,38 @@ std::vector<std::string> scenarios_of(const StudyOptions& options) {
   return scenarios;
 }
 
-/// Lists each scenario with each scene seed under each set of conditions.
+/// The values of --uavs as texts.
+std::vector<std::string> fleet_sizes(const StudyOptions& options) {
+  std::vector<std::string> sizes;
+  for (const std::size_t uavs : options.uavs) sizes.push_back(std::to_string(uavs));
+  return sizes;
+}
+
+/// The values of an option that may be left out, each as optional: one nullopt if it is.
+template <class T>
+std::vector<std::optional<T>> each_or_none(const std::vector<T>& values) {
+  if (values.empty()) return {std::nullopt};
+  return {values.begin(), values.end()};
+}
+
+/// Lists each scenario with each scene seed and fleet size under each set of conditions.
 void list_scenes(const StudyOptions& options, StudyPlan& plan) {
   refuse_doubles("conditions", options.conditions);
-  const auto list = [&](const std::string& name, const StudyScene& scene) {
-    if (options.conditions.empty()) {
-      plan.scenes.push_back(scene);
-      plan.scenarios.push_back(name);
-    }
-    for (const std::string& conditions : options.conditions) {
-      plan.scenes.push_back({scene.scenario, scene.scene_seed, conditions});
-      plan.scenarios.push_back(name + " " + conditions);
-    }
-  };
+  refuse_doubles("fleet size", fleet_sizes(options));
+  std::vector<std::uint64_t> scene_seeds;
+  if (options.scene_seeds) scene_seeds = parse_seeds(*options.scene_seeds, "--scene-seeds");
   for (const std::string& scenario : scenarios_of(options)) {
-    if (!options.scene_seeds) {
-      list(scenario, {scenario, options.scene_seed, {}});
-      continue;
-    }
-    for (const std::uint64_t scene_seed : parse_seeds(*options.scene_seeds, "--scene-seeds")) {
-      list(scenario + " " + std::to_string(scene_seed), {scenario, scene_seed, {}});
+    for (const auto& scene_seed : each_or_none(scene_seeds)) {
+      for (const auto& uavs : each_or_none(options.uavs)) {
+        for (const auto& conditions : each_or_none(options.conditions)) {
+          std::string name = scenario;
+          if (scene_seed) name += " " + std::to_string(*scene_seed);
+          if (uavs) name += " " + std::to_string(*uavs) + (*uavs == 1 ? " UAV" : " UAVs");
+          if (conditions) name += " " + *conditions;
+          plan.scenarios.push_back(name);
+          plan.scenes.push_back({scenario, scene_seed ? scene_seed : options.scene_seed, uavs, conditions});
+        }
+      }
     }
   }
 }
@@ -97,6 +109,7 @@ RunOptions run_options(const StudyOptions& options, const StudyScene& scene, con
   run.duration_s = options.duration_s;
   run.agent_timeout_s = options.agent_timeout_s;
   run.rules = options.rules;
+  run.uavs = scene.uavs;
   run.conditions = scene.conditions;
   run.dds = options.dds.value_or(run.dds);
   run.agent = options.agent;
@@ -157,6 +170,7 @@ std::string command_line(const StudyPlan& plan) {
   if (options.duration_s) add("--duration", shortest(*options.duration_s));
   if (options.agent_timeout_s) add("--agent-timeout", shortest(*options.agent_timeout_s));
   if (options.rules) add("--rules", *options.rules);
+  if (!options.uavs.empty()) add("--uavs", joined(fleet_sizes(options), ","));
   if (!options.conditions.empty()) add("--conditions", joined(options.conditions, ","));
   if (options.dds) add("--dds", *options.dds);
   if (const auto agent = own_agent(options.agent)) add("--agent", options.agent.value_or(*agent));
@@ -181,6 +195,7 @@ std::vector<std::string> stems_of(const StudyPlan& plan) {
   for (const StudyScene& scene : plan.scenes) {
     stems.push_back(fs::path(scene.scenario).stem());
     if (plan.options.scene_seeds) stems.back() += "-" + std::to_string(*scene.scene_seed);
+    if (scene.uavs) stems.back() += "-uavs-" + std::to_string(*scene.uavs);
     if (scene.conditions) stems.back() += "-" + *scene.conditions;
   }
   return stems;
@@ -202,6 +217,7 @@ Json settings_of(const StudyPlan& plan, const std::string& programs, const Json&
           {"duration_s", options.duration_s ? Json(*options.duration_s) : Json()},
           {"agent_timeout_s", options.agent_timeout_s ? Json(*options.agent_timeout_s) : Json()},
           {"rules", options.rules ? Json(*options.rules) : Json()},
+          {"uavs", options.uavs.empty() ? Json() : Json(options.uavs)},
           {"conditions", options.conditions.empty() ? Json() : Json(options.conditions)},
           {"dds", plan.medium},
           {"programs", programs},
@@ -246,7 +262,8 @@ StudyPlan plan_study(const StudyOptions& options, AskPrograms ask) {
       media.insert(medium_of(fleet));
       // Scenes that differ only in scene seed or conditions are equally valid for a program.
       const bool another_seed = s > 0 && (options.scene_seeds || plan.scenes[s].conditions) &&
-                                plan.scenes[s].scenario == plan.scenes[s - 1].scenario;
+                                plan.scenes[s].scenario == plan.scenes[s - 1].scenario &&
+                                plan.scenes[s].uavs == plan.scenes[s - 1].uavs;
       if (!another_seed && ask == AskPrograms::yes) check_with_programs(fleet, p == 0);
       const fs::path dir = plan.out / "flights" / scenario_folders[s] / planner_folders[p];
       const auto command = std::make_shared<const Json>(made_under.of(fleet));
@@ -315,6 +332,7 @@ std::string repeating_command(const StudyPlan& plan, const StudyFlight& flight) 
   if (plan.options.duration_s) add("--duration", shortest(*plan.options.duration_s));
   if (plan.options.agent_timeout_s) add("--agent-timeout", shortest(*plan.options.agent_timeout_s));
   if (plan.options.rules) add("--rules", *plan.options.rules);
+  if (scene.uavs) add("--uavs", std::to_string(*scene.uavs));
   if (scene.conditions) add("--conditions", *scene.conditions);
   if (plan.options.assets) add("--assets", *plan.options.assets);
   if (flight.agent) {

@@ -30,6 +30,7 @@ struct StudyFlight {
 struct StudyScene {
   std::string scenario;                     ///< as `skein run` takes it
   std::optional<std::uint64_t> scene_seed;  ///< nullopt: the scenario's own
+  std::optional<std::size_t> uavs;          ///< fleet size; nullopt: the scenario's own
   std::optional<std::string> conditions;    ///< as `skein run --conditions` takes them; nullopt: the scenario's own
 };
 
@@ -37,7 +38,7 @@ struct StudyPlan {
   StudyOptions options;
   std::vector<std::string> planners;   ///< as `skein run --planner` takes them
   std::vector<std::string> labels;     ///< their names: planner_labels()
-  std::vector<std::string> scenarios;  ///< names of the scenes: "towers", "wild 7", "wild 7 harsh"
+  std::vector<std::string> scenarios;  ///< names of the scenes: "towers", "wild 7", "wild 7 3 UAVs harsh"
   std::vector<StudyScene> scenes;      ///< the scenes, in the same order
   std::vector<std::uint64_t> seeds;
   std::filesystem::path out;         ///< absolute
