@@ -21,12 +21,14 @@ bool all_along(const Vector3d& a, const Vector3d& b, const Test& test) {
 
 }  // namespace
 
-bool FreeSpace::allowed(const Vector3d& p_W) const {
-  if (p_W.z() < config_.floor_m) return false;
-  const bool kept_out = std::ranges::any_of(keep_out_, [&](const Sphere& sphere) {
+bool FreeSpace::kept_out(const Vector3d& p_W) const {
+  return std::ranges::any_of(keep_out_, [&](const Sphere& sphere) {
     return (p_W - sphere.p_W).squaredNorm() < sphere.radius_m * sphere.radius_m;
   });
-  if (kept_out) return false;
+}
+
+bool FreeSpace::allowed(const Vector3d& p_W) const {
+  if (p_W.z() < config_.floor_m || kept_out(p_W)) return false;
   if (config_.world) return !config_.blind_fleet || !near_box(p_W);
   if (!near_box(p_W)) return true;
   if (!config_.use_map || !map_.known_free(p_W, kProofRays)) return false;
@@ -73,7 +75,7 @@ bool FreeSpace::leads_out(const Vector3d& a_W, const Vector3d& b_W) const {
   return all_along(a_W, b_W, [&](const Vector3d& p_W) {
     // The distance to structure is 0 in an occupied cube and beside it, so it cannot tell the two apart.
     const bool in_structure = config_.world ? config_.world->at(p_W) == Space::occupied : map_.occupied(p_W);
-    return !in_structure && structure_distance_m(p_W) >= least_m;
+    return !in_structure && !kept_out(p_W) && structure_distance_m(p_W) >= least_m;
   });
 }
 

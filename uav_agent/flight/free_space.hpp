@@ -47,8 +47,8 @@ class FreeSpace {
   bool segment_free(const Vector3d& a_W, const Vector3d& b_W) const;
   /// Cost of a metre of path at p, in metres of path through proved space.
   double cost(const Vector3d& p_W) const;
-  /// For a start a_W that is not free: whether the segment leads out of there. It must enter no structure, and come at
-  /// most 0.3 m nearer to structure than a_W is.
+  /// For a start a_W that is not free: whether the segment leads out of there. It must enter no structure and no ball
+  /// around another UAV, and come at most 0.3 m nearer to structure than a_W is.
   bool leads_out(const Vector3d& a_W, const Vector3d& b_W) const;
   /// Line of sight as far as map and boxes tell: no occupied cell of the map of key frames within `radius` of the
   /// segment (with use_map), and all parts of it that lie in boxes are known to be free.
@@ -59,6 +59,7 @@ class FreeSpace {
 
  private:
   bool near_box(const Vector3d& p_W) const;
+  bool kept_out(const Vector3d& p_W) const;
   double structure_distance_m(const Vector3d& p_W) const;
   /// free() without the conditions on clearance to structure and on proof by the world map.
   bool allowed(const Vector3d& p_W) const;

@@ -85,6 +85,31 @@ TEST(FreeSpace, AWayOutComesNoNearerToStructure) {
   EXPECT_GT(out, 100);
 }
 
+TEST(FreeSpace, NoWayOutLeadsPastAnotherUavMoreNearlyThanIsAllowed) {
+  const WorldMap world = wall();
+  const OccupancyMap nothing;
+  const std::vector<OrientedBox> boxes;
+  const FreeSpace::Config config{.clearance_m = 2.5, .world = &world};
+  RandomStream random(7, "balls", 0);
+  int refused = 0;
+  for (int i = 0; i < 500; ++i) {
+    const Vector3d from_W(random.uniform(0.8, 2.3), random.uniform(-5.0, 5.0), random.uniform(8.0, 20.0));
+    const Vector3d way = Vector3d(random.uniform(0.0, 6.0), random.uniform(-3, 3), random.uniform(-3, 3));
+    const Vector3d off = Vector3d(random.uniform(-2, 4), random.uniform(-2, 2), random.uniform(-2, 2));
+    const Sphere ball{from_W + off, 0.9 * off.norm()};
+    const bool leads_out = FreeSpace(config, boxes, nothing, {ball}).leads_out(from_W, from_W + way);
+    const double along = std::clamp(off.dot(way) / way.squaredNorm(), 0.0, 1.0);
+    const double nearest_m = (off - along * way).norm();
+    if (nearest_m < ball.radius_m - 0.3) {
+      EXPECT_FALSE(leads_out);
+      ++refused;
+    } else if (nearest_m >= ball.radius_m) {
+      EXPECT_EQ(leads_out, FreeSpace(config, boxes, nothing).leads_out(from_W, from_W + way));
+    }
+  }
+  EXPECT_GT(refused, 50);
+}
+
 TEST(FreeSpace, ByTheMapOfAllBeamsTheUnknownMayBePlannedThroughUnlessProofIsAsked) {
   WorldMap world = wall();
   world.set_free({10.0, 0.0, 10.0}, 4.0);

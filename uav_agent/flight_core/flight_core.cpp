@@ -8,6 +8,7 @@ namespace {
 
 constexpr double kNoLinkS = 4.0;  ///< longest wait for a link at a place that should have one
 constexpr double kIdleS = 4.0;    ///< recovery begins after so long without a goal that can be reached
+constexpr double kStaysM = 0.5;   ///< a UAV that moves no farther stays where it is
 constexpr std::int64_t kHome = -2;
 constexpr double kShowCheckS = 5.0;
 constexpr std::uint64_t kShowLook = 10;  ///< exchanges between two checks of whether a photographer was shown its way
@@ -166,15 +167,35 @@ void FlightCore::work(const PlannerInput& in, Steering& steering) {
   navigator_.step(in, filter_.held(), steering);
   for (Outcome& outcome : outcomes()) {
     if (outcome.kind != Outcome::Kind::no_way) recovery_.progress();
+    if (outcome.kind == Outcome::Kind::reached) held_s_ = 0.0;
     outcomes_.push_back(std::move(outcome));
   }
-  if (navigator_.current()) {
+  if (is_stuck(in)) {
+    held_s_ = 0.0;
+    navigator_.give_up("held at one place", steering);
+    for (Outcome& outcome : outcomes()) outcomes_.push_back(std::move(outcome));
+    recovery_.begin(in, filter_.held());
+    enter(Mode::recovering, in);
+  } else if (navigator_.current()) {
     since_ = in.tick;
     if (filter_.held().by == Held::By::peer) waits_for_ = filter_.held().peer;
   } else if (seconds(in.tick - since_) > kIdleS) {
-    recovery_.begin(in);
+    recovery_.begin(in, filter_.held());
     enter(Mode::recovering, in);
   }
+}
+
+/// Whether the safety filter has held the UAV at one place for longer than the navigator takes to look around, to yield
+/// and to search other paths. Planners that replace their goals do not leave the navigator the time for that; and two
+/// UAVs that are too near to each other may hold each other on all of these paths.
+bool FlightCore::is_stuck(const PlannerInput& in) {
+  const Vector3d& here_W = in.tracking.setpoint.p_WB;
+  if ((here_W - held_p_W_).norm() > kStaysM) {
+    held_p_W_ = here_W;
+    held_s_ = 0.0;
+  }
+  if (navigator_.current() && filter_.held().by != Held::By::nothing) held_s_ += agent_.exchange_period_s;
+  return held_s_ > config_.stall_s + config_.look_s + config_.yield_s;
 }
 
 /// @returns whether the UAV sets out to show a photographer the way up.
@@ -230,7 +251,7 @@ void FlightCore::go_home(const PlannerInput& in, Steering& steering) {
   if (missed) {
     navigator_.stop(steering);
     lost_way_home_ = true;
-    recovery_.begin(in);
+    recovery_.begin(in, filter_.held());
     enter(Mode::recovering, in);
     return;
   }

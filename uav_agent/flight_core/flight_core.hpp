@@ -67,6 +67,7 @@ class FlightCore {
   void take_off(const PlannerInput& in, Steering& steering);
   std::vector<Outcome> outcomes();
   void work(const PlannerInput& in, Steering& steering);
+  bool is_stuck(const PlannerInput& in);
   bool begin_showing(const PlannerInput& in);
   void show(const PlannerInput& in, Steering& steering);
   void go_home(const PlannerInput& in, Steering& steering);
@@ -86,13 +87,15 @@ class FlightCore {
   Landing landing_;
   Takeoff takeoff_;
   Mode mode_ = Mode::ground;
-  Tick since_ = 0;                      ///< when this mode began, or a goal was last flown in it
-  Tick show_at_ = 0;                    ///< earliest time to look for the next photographer to show the way up
-  std::optional<Tick> at_place_since_;  ///< when homing reached its place, still without a link
-  std::size_t next_place_ = 0;          ///< index of the place that homing tries first
-  bool lost_way_home_ = false;          ///< the UAV recovers because homing could not reach its places
-  std::vector<Outcome> outcomes_;       ///< outcomes that the planner has not received yet
-  std::vector<Goal> wanted_;            ///< the planner's last goals, for when `working` begins again
+  Tick since_ = 0;                        ///< when this mode began, or a goal was last flown in it
+  Tick show_at_ = 0;                      ///< earliest time to look for the next photographer to show the way up
+  std::optional<Tick> at_place_since_;    ///< when homing reached its place, still without a link
+  std::size_t next_place_ = 0;            ///< index of the place that homing tries first
+  Vector3d held_p_W_ = Vector3d::Zero();  ///< where the safety filter held the UAV on its way to goals, ...
+  double held_s_ = 0.0;                   ///< ... and for how long since it was last 0.5 m away or reached a goal
+  bool lost_way_home_ = false;            ///< the UAV recovers because homing could not reach its places
+  std::vector<Outcome> outcomes_;         ///< outcomes that the planner has not received yet
+  std::vector<Goal> wanted_;              ///< the planner's last goals, for when `working` begins again
   std::optional<std::size_t> waits_for_;
   std::string no_way_;
 };

@@ -18,10 +18,26 @@ AgentConfig a_lone_explorer() {
   return agent;
 }
 
+/// A UAV that a whole flight core flies.
+struct CoreUav : FlownUav {
+  using FlownUav::FlownUav;
+  /// Executes the steering of this exchange, and moves the UAV on by one exchange.
+  void fly_by(const Steering& steering) {
+    if (steering.yaw) tracker.turn_to(*steering.yaw);
+    if (const auto* path = std::get_if<Path>(&steering.motion)) tracker.follow(*path);
+    if (std::holds_alternative<Hold>(steering.motion)) tracker.hold();
+    core.move(tracker, {.tick = input().tick, .state = state, .map = map, .boxes = boxes, .peers = peers});
+    state.p_WB = tracker.commanded().p_WB;
+    state.v_WB = tracker.commanded().v_WB;
+    ++k;
+  }
+  FlightCore core{config, agent};
+};
+
 /// A strategy that wants one place after the other: most of them inside structure, or where nobody proves anything.
-struct WantsOnePlaceAfterTheOther : FlownUav {
+struct WantsOnePlaceAfterTheOther : CoreUav {
   explicit WantsOnePlaceAfterTheOther(std::uint64_t seed)
-      : FlownUav(a_lone_explorer(), {0.0, 0.0, 10.0}), random(seed, "outcomes", 0) {
+      : CoreUav(a_lone_explorer(), {0.0, 0.0, 10.0}), random(seed, "outcomes", 0) {
     clear({-24.0, -24.0, 0.0}, {24.0, 24.0, 24.0});
     build({10.0, 10.0, 6.0}, {14.0, 14.0, 12.0});
     boxes = {make_box({12.0, 12.0, 9.0}, {6.0, 6.0, 8.0})};
@@ -51,13 +67,7 @@ struct WantsOnePlaceAfterTheOther : FlownUav {
     }
     const Steering steering = core.step(in, std::move(goals));
     note_doing(in);
-    if (steering.yaw) tracker.turn_to(*steering.yaw);
-    if (const auto* path = std::get_if<Path>(&steering.motion)) tracker.follow(*path);
-    if (std::holds_alternative<Hold>(steering.motion)) tracker.hold();
-    core.move(tracker, {.tick = in.tick, .state = state, .map = map, .boxes = boxes, .peers = peers});
-    state.p_WB = tracker.commanded().p_WB;
-    state.v_WB = tracker.commanded().v_WB;
-    ++k;
+    fly_by(steering);
   }
   /// What it is about for people is what its strategy hears of it.
   void note_doing(const PlannerInput& in) {
@@ -74,7 +84,6 @@ struct WantsOnePlaceAfterTheOther : FlownUav {
   bool recovers = false;
   int wrong = 0;
   RandomStream random;
-  FlightCore core{config, agent};
   std::int64_t id = 0;
   bool flying = false;
   int outcomes = 0, forgotten = 0, longest_forgotten = 0;
@@ -94,6 +103,31 @@ TEST(FlightCore, EachOutcomeIsHeardWhenTheStrategyDecides) {
     EXPECT_EQ(uav.wrong, 0) << "seed " << seed;
     EXPECT_TRUE(uav.seen.contains(Doing::What::to_goal)) << "seed " << seed;
     EXPECT_TRUE(uav.recovers) << "seed " << seed;
+  }
+}
+
+// Its strategy wants another place out there every 1.5 s, and nobody proves the way: it looks around and tries elsewhere
+// all the same, and the strategy is told.
+TEST(FlightCore, AUavThatIsHeldRecoversAlthoughItsGoalsAreReplaced) {
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    WantsOnePlaceAfterTheOther uav(seed);
+    int told = 0;
+    for (int i = 0; i < 2400; ++i) {
+      PlannerInput in = uav.input();
+      uav.core.update(in);
+      in.flight = uav.core.state();
+      for (const Outcome& outcome : in.flight.outcomes) told += outcome.reason == "held at one place";
+      std::optional<std::vector<Goal>> goals;
+      if (i % 30 == 0) {
+        goals = {{.id = ++uav.id, .way = {{Vector3d(60.0, uav.random.uniform(-10.0, 10.0), 10.0), 3.0}}}};
+      }
+      uav.fly_by(uav.core.step(in, std::move(goals)));
+      uav.note_doing(in);
+    }
+    EXPECT_TRUE(uav.seen.contains(Doing::What::looks_round)) << "seed " << seed;
+    const bool flies = uav.seen.contains(Doing::What::approaches) || uav.seen.contains(Doing::What::elsewhere);
+    EXPECT_TRUE(flies) << "seed " << seed;
+    EXPECT_GT(told, 0) << "seed " << seed;
   }
 }
 
@@ -128,6 +162,64 @@ TEST(FlightCore, RecoversWhereThereIsNoWayHome) {
     for (int i = 0; i < 2400 && uav.state.p_WB.x() > wall_m - 3.0; ++i) uav.exchange();
     EXPECT_LT(uav.state.p_WB.x(), wall_m - 2.9) << "seed " << seed;
     EXPECT_TRUE(uav.seen.contains(Doing::What::back)) << "seed " << seed;
+  }
+}
+
+/// A photographer in a neck of a corridor, which another UAV holds: it hovers nearer than the safety filter would have let
+/// it come, and the path search, whose start is not free, leads the way past it. The strategy replaces its goal every
+/// 1.5 s, by another place behind that UAV.
+struct HeldInACorridor : CoreUav {
+  explicit HeldInACorridor(std::uint64_t seed) : CoreUav(two_photographers(), {-20.0, 0.0, 10.0}) {
+    lidar_works = false;
+    boxes = {make_box({60.0, 0.0, 9.0}, {6.0, 6.0, 8.0})};
+    clear({-24.0, -4.0, 6.0}, {24.0, 4.0, 14.0});
+    RandomStream random(seed, "held", 0);
+    other_W = Vector3d(random.uniform(1.1, 1.5), random.uniform(-0.3, 0.3), 10.0 + random.uniform(-0.3, 0.3));
+    fly_to({0.0, 0.0, 10.0}, 400);
+    EXPECT_LT(state.p_WB.norm(), 10.1) << "at its place";
+    build({-5.0, 1.5, 6.0}, {1.2, 2.9, 13.9});  // a neck that was seen too late
+    build({-5.0, -3.0, 6.0}, {1.2, -1.6, 13.9});
+  }
+  static AgentConfig two_photographers() {
+    AgentConfig agent;
+    agent.fleet = {{.name = "a", .role = Role::photographer, .body_radius_m = 0.32},
+                   {.name = "b", .role = Role::photographer, .p_WB_start = {0.0, 60.0, 0.0}, .body_radius_m = 0.32}};
+    return agent;
+  }
+  void fly_to(const Vector3d& p_W, int exchanges) {
+    ++id;
+    for (int i = 0; i < exchanges; ++i) {
+      PlannerInput in = input();
+      core.update(in);
+      in.flight = core.state();
+      fly_by(core.step(in, std::vector<Goal>{{.id = id, .way = {{p_W, 3.0}}}}));
+    }
+  }
+  void see_the_other() {
+    peers.update(input().tick, {{node_of_uav(UavIndex(1)), other_W, Vector3d(Vector3d::Zero())}});
+  }
+  Vector3d other_W;
+  std::int64_t id = 0;
+};
+
+TEST(FlightCore, AUavThatAnotherOneHoldsGoesAway) {
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    HeldInACorridor uav(seed);
+    RandomStream random(seed, "goals", 0);
+    double away_m = 0.0, least_m = 10.0;
+    for (int decisions = 0; decisions < 40; ++decisions) {
+      const Vector3d behind_W(random.uniform(8.0, 18.0), random.uniform(-0.8, 0.8), random.uniform(9.5, 10.5));
+      for (int i = 0; i < 30; ++i) {
+        uav.see_the_other();
+        if (i == 0) ++uav.id;
+        --uav.id;
+        uav.fly_to(behind_W, 1);
+        away_m = std::max(away_m, (uav.state.p_WB - uav.other_W).norm());
+        least_m = std::min(least_m, (uav.state.p_WB - uav.other_W).norm());
+      }
+    }
+    EXPECT_GT(away_m, 5.0) << "seed " << seed;
+    EXPECT_GT(least_m, 2 * 0.32) << "seed " << seed;
   }
 }
 

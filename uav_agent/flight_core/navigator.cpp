@@ -18,6 +18,7 @@ constexpr double kFineCellM = 1.0;     ///< of the second search, if the first l
 constexpr double kSearchAgainS = 0.5;  ///< pause after a search that found no path
 constexpr std::uint64_t kLookEach = 4;  ///< exchanges between two checks of the path ahead
 constexpr double kLookAheadM = 15.0, kSlackM = 0.4;
+constexpr double kBesideM = 0.1;  ///< so far beside its path, a UAV counts as being on it
 constexpr int kMostReplans = 3;
 constexpr double kRefusedM = 1.5;
 constexpr std::size_t kMostRefused = 64;
@@ -27,6 +28,18 @@ constexpr double kFaceM = 4.0;  ///< nearer than this to its goal, a UAV turns t
 constexpr double kHereM = 0.3;
 constexpr double kFitMps = 1.0;  ///< paths are wide enough for this speed
 constexpr double kCreepMps = 0.5, kProvedStepM = 1.0;
+
+/// Whether all places within kBesideM of p are nearer to structure than this. The map has one distance for each cube, and
+/// a path may lead along the border of two cubes: beside the path, the distance may be less than where it was planned.
+bool all_nearer_than(double distance_m, const Vector3d& p_W, const WorldMap& map) {
+  if (map.structure_distance_m(p_W) >= distance_m) return false;
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vector3d beside((corner & 1) != 0 ? kBesideM : -kBesideM, (corner & 2) != 0 ? kBesideM : -kBesideM,
+                          (corner & 4) != 0 ? kBesideM : -kBesideM);
+    if (map.structure_distance_m(p_W + beside) >= distance_m) return false;
+  }
+  return true;
+}
 
 }  // namespace
 
@@ -114,6 +127,11 @@ void Navigator::stop(Steering& steering) {
   goals_.clear();
   path_.clear();
   on_way_ = false;
+}
+
+void Navigator::give_up(const std::string& reason, Steering& steering) {
+  if (current_) end(on_way_ ? Outcome::Kind::blocked : Outcome::Kind::no_way, reason, steering);
+  stop(steering);
 }
 
 void Navigator::step(const PlannerInput& in, const Held& held, Steering& steering) {
@@ -249,7 +267,7 @@ bool Navigator::blocked_ahead(const PlannerInput& in) const {
     const int steps = std::max(1, static_cast<int>(std::ceil(leg.norm())));
     for (int j = 1; j <= steps; ++j) {
       const Vector3d p_W = at_W + leg * (static_cast<double>(j) / steps);
-      if (in.world_map->structure_distance_m(p_W) < least_m) return true;
+      if (all_nearer_than(least_m, p_W, *in.world_map)) return true;
     }
     length_m += leg.norm();
     at_W = path_[i].p_WB;

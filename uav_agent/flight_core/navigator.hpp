@@ -43,6 +43,8 @@ class Navigator {
   bool retraces() const { return current_ && retraces_; }
   /// Brakes, and drops all goals.
   void stop(Steering& steering);
+  /// The same, with an outcome for the goal being flown.
+  void give_up(const std::string& reason, Steering& steering);
 
   /// Runs one exchange. @param held  SafetyFilter::held() of the last exchange.
   void step(const PlannerInput& in, const Held& held, Steering& steering);

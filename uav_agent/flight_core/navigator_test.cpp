@@ -173,5 +173,31 @@ TEST(Navigator, FindsAWayAboutAUavThatStays) {
   }
 }
 
+// The map has one distance to structure for each cube. A path along the border of two cubes, and a UAV a few centimetres
+// beside it, must not look like structure that was not there before.
+TEST(Navigator, SeesNothingNewWhereNothingIsNew) {
+  std::size_t reached = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    RandomStream random(seed, "nothing_new", 0);
+    InAClearing uav;
+    for (int pillars = 0; pillars < 8;) {
+      const Vector3d low_W(std::floor(random.uniform(-18.0, 16.0)), std::floor(random.uniform(-18.0, 16.0)), 0.0);
+      if (low_W.head<2>().norm() < 6.0) continue;
+      uav.build(low_W, low_W + Vector3d(1.9, 1.9, 24.0));
+      ++pillars;
+    }
+    for (std::int64_t id = 1; id <= 12; ++id) {
+      uav.navigator.want({{.id = id, .way = {{drawn_place(random), 4.0}}}});
+      // Every other flight ends where the UAV happens to be, and not in the middle of a cube.
+      const auto outcomes = uav.navigate(id % 2 == 0 ? kTwoMinutes : 20 + static_cast<int>(random.bits() % 100));
+      for (const Outcome& outcome : outcomes) {
+        EXPECT_NE(outcome.reason, "something was seen on the way") << "seed " << seed << ", goal " << id;
+        reached += outcome.kind == Outcome::Kind::reached;
+      }
+    }
+  }
+  EXPECT_GT(reached, 100U);
+}
+
 }  // namespace
 }  // namespace skein::agent

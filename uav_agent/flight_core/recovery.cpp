@@ -37,7 +37,7 @@ void Recovery::update(const PlannerInput& in) {
   if (trail_W_.size() > kLongestTrail) trail_W_.pop_front();
 }
 
-void Recovery::begin(const PlannerInput& in) {
+void Recovery::begin(const PlannerInput& in, const Held& held) {
   const Vector3d here_W = in.tracking.setpoint.p_WB;
   if (!navigator_.open_space(in).free(here_W) && go_back(here_W)) {
     behaviour_ = Behaviour::back;
@@ -46,6 +46,9 @@ void Recovery::begin(const PlannerInput& in) {
   }
   for (int i = 0; i < kBehaviours; ++i) {
     behaviour_ = kOrder[tries_++ % kBehaviours];
+    // To look at a UAV that is in the way, or to approach the goal behind it, does not help.
+    const bool stays = behaviour_ == Behaviour::look_around || behaviour_ == Behaviour::approach;
+    if (held.by == Held::By::peer && stays) continue;
     if (behaviour_ == Behaviour::look_around) {
       // A UAV without a LiDAR waits, which gives UAVs with one the time to look.
       until_ = in.tick + ticks(navigator_.sees() ? config_.look_s : 0.5 * config_.look_s);

@@ -34,7 +34,7 @@ struct Recovers : FlownUav {
     Try result;
     navigator.update(input());
     recovery.update(input());
-    recovery.begin(input());
+    recovery.begin(input(), {});
     for (bool over = false; !over && k < from + 4000;) {
       const PlannerInput in = input();
       navigator.update(in);
@@ -123,7 +123,7 @@ TEST(Recovery, GoesBackTheWayThatItCame) {
     ASSERT_NEAR(uav.state.p_WB.z(), top_m, 0.2) << "seed " << seed;
     double lowest_m = top_m;
     for (int tries = 0; tries < 10; ++tries) {
-      recovery.begin(uav.input());
+      recovery.begin(uav.input(), {});
       for (bool over = false; !over;) {
         const PlannerInput in = uav.input();
         uav.navigator.update(in);
@@ -184,7 +184,7 @@ TEST(Recovery, AUavThatStructureHasShutInGoesBackWhereItCame) {
     for (; tries < 12 && uav.state.p_WB.z() > uav.low_m; ++tries) {
       const PlannerInput in = uav.input();
       uav.navigator.update(in);
-      uav.recovery.begin(in);
+      uav.recovery.begin(in, {});
       for (bool over = false; !over;) {
         const PlannerInput now = uav.input();
         uav.navigator.update(now);
