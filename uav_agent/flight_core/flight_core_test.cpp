@@ -106,8 +106,8 @@ TEST(FlightCore, EachOutcomeIsHeardWhenTheStrategyDecides) {
   }
 }
 
-// Its strategy wants another place out there every 1.5 s, and nobody proves the way: it looks around and tries elsewhere
-// all the same, and the strategy is told.
+// Its strategy wants another place out there every 1.5 s, and nobody proves the way: it looks around and tries
+// elsewhere all the same, and the strategy is told.
 TEST(FlightCore, AUavThatIsHeldRecoversAlthoughItsGoalsAreReplaced) {
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     WantsOnePlaceAfterTheOther uav(seed);
@@ -165,9 +165,9 @@ TEST(FlightCore, RecoversWhereThereIsNoWayHome) {
   }
 }
 
-/// A photographer in a neck of a corridor, which another UAV holds: it hovers nearer than the safety filter would have let
-/// it come, and the path search, whose start is not free, leads the way past it. The strategy replaces its goal every
-/// 1.5 s, by another place behind that UAV.
+/// A photographer in a neck of a corridor, which another UAV holds: it hovers nearer than the safety filter would have
+/// let it come, and the path search, whose start is not free, leads the way past it. The strategy replaces its goal
+/// every 1.5 s, by another place behind that UAV.
 struct HeldInACorridor : CoreUav {
   explicit HeldInACorridor(std::uint64_t seed) : CoreUav(two_photographers(), {-20.0, 0.0, 10.0}) {
     lidar_works = false;

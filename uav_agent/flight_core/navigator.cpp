@@ -29,8 +29,9 @@ constexpr double kHereM = 0.3;
 constexpr double kFitMps = 1.0;  ///< paths are wide enough for this speed
 constexpr double kCreepMps = 0.5, kProvedStepM = 1.0;
 
-/// Whether all places within kBesideM of p are nearer to structure than this. The map has one distance for each cube, and
-/// a path may lead along the border of two cubes: beside the path, the distance may be less than where it was planned.
+/// Whether all places within kBesideM of p are nearer to structure than this. The map has one distance for each cube,
+/// and a path may lead along the border of two cubes: beside the path, the distance may be less than where it was
+/// planned.
 bool all_nearer_than(double distance_m, const Vector3d& p_W, const WorldMap& map) {
   if (map.structure_distance_m(p_W) >= distance_m) return false;
   for (int corner = 0; corner < 8; ++corner) {

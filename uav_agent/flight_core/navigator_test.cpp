@@ -173,8 +173,8 @@ TEST(Navigator, FindsAWayAboutAUavThatStays) {
   }
 }
 
-// The map has one distance to structure for each cube. A path along the border of two cubes, and a UAV a few centimetres
-// beside it, must not look like structure that was not there before.
+// The map has one distance to structure for each cube. A path along the border of two cubes, and a UAV a few
+// centimetres beside it, must not look like structure that was not there before.
 TEST(Navigator, SeesNothingNewWhereNothingIsNew) {
   std::size_t reached = 0;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
