@@ -266,8 +266,9 @@ function(skein_test_program program)
   set_target_properties(${program} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests
     UNITY_BUILD ${SKEIN_UNITY} UNITY_BUILD_MODE GROUP)
   target_link_libraries(${program} PRIVATE skein_test_main)
-  # Tests are optimised less: compilation takes a quarter less time, and half of the time with sanitizers.
-  target_compile_options(${program} PRIVATE $<$<CONFIG:Release>:-O1> $<$<BOOL:${SKEIN_SANITIZE}>:-O0>
+  # Tests are optimised less, and have no debug information in a release build, as they are linked without: compilation
+  # takes a third less time, and half of the time with sanitizers.
+  target_compile_options(${program} PRIVATE $<$<CONFIG:Release>:-O1;-g0> $<$<BOOL:${SKEIN_SANITIZE}>:-O0>
     $<$<BOOL:${SKEIN_UNITY}>:-Wno-subobject-linkage -Wno-shadow>)  # names of another source file are not shadowed
   skein_link_without_debug_information(${program})
 endfunction()
