@@ -1,6 +1,7 @@
 #include "uav_agent/flight_core/flight_core.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 namespace skein::agent {
@@ -173,16 +174,19 @@ void FlightCore::work(const PlannerInput& in, Steering& steering) {
   if (is_stuck(in)) {
     held_s_ = 0.0;
     navigator_.give_up("held at one place", steering);
-    for (Outcome& outcome : outcomes()) outcomes_.push_back(std::move(outcome));
-    recovery_.begin(in, filter_.held());
-    enter(Mode::recovering, in);
+    std::ranges::move(outcomes(), std::back_inserter(outcomes_));
+    recover(in);
   } else if (navigator_.current()) {
     since_ = in.tick;
     if (filter_.held().by == Held::By::peer) waits_for_ = filter_.held().peer;
   } else if (seconds(in.tick - since_) > kIdleS) {
-    recovery_.begin(in, filter_.held());
-    enter(Mode::recovering, in);
+    recover(in);
   }
+}
+
+void FlightCore::recover(const PlannerInput& in) {
+  recovery_.begin(in, filter_.held());
+  enter(Mode::recovering, in);
 }
 
 /// Whether the safety filter has held the UAV at one place for longer than the navigator takes to look around, to yield
@@ -251,8 +255,7 @@ void FlightCore::go_home(const PlannerInput& in, Steering& steering) {
   if (missed) {
     navigator_.stop(steering);
     lost_way_home_ = true;
-    recovery_.begin(in, filter_.held());
-    enter(Mode::recovering, in);
+    recover(in);
     return;
   }
   if (at_place_since_ && seconds(in.tick - *at_place_since_) < kNoLinkS) return;

@@ -68,6 +68,7 @@ class FlightCore {
   std::vector<Outcome> outcomes();
   void work(const PlannerInput& in, Steering& steering);
   bool is_stuck(const PlannerInput& in);
+  void recover(const PlannerInput& in);
   bool begin_showing(const PlannerInput& in);
   void show(const PlannerInput& in, Steering& steering);
   void go_home(const PlannerInput& in, Steering& steering);

@@ -187,7 +187,6 @@ struct HeldInACorridor : CoreUav {
     return agent;
   }
   void fly_to(const Vector3d& p_W, int exchanges) {
-    ++id;
     for (int i = 0; i < exchanges; ++i) {
       PlannerInput in = input();
       core.update(in);
@@ -209,10 +208,9 @@ TEST(FlightCore, AUavThatAnotherOneHoldsGoesAway) {
     double away_m = 0.0, least_m = 10.0;
     for (int decisions = 0; decisions < 40; ++decisions) {
       const Vector3d behind_W(random.uniform(8.0, 18.0), random.uniform(-0.8, 0.8), random.uniform(9.5, 10.5));
+      ++uav.id;
       for (int i = 0; i < 30; ++i) {
         uav.see_the_other();
-        if (i == 0) ++uav.id;
-        --uav.id;
         uav.fly_to(behind_W, 1);
         away_m = std::max(away_m, (uav.state.p_WB - uav.other_W).norm());
         least_m = std::min(least_m, (uav.state.p_WB - uav.other_W).norm());

@@ -46,7 +46,6 @@ void Recovery::begin(const PlannerInput& in, const Held& held) {
   }
   for (int i = 0; i < kBehaviours; ++i) {
     behaviour_ = kOrder[tries_++ % kBehaviours];
-    // To look at a UAV that is in the way, or to approach the goal behind it, does not help.
     const bool stays = behaviour_ == Behaviour::look_around || behaviour_ == Behaviour::approach;
     if (held.by == Held::By::peer && stays) continue;
     if (behaviour_ == Behaviour::look_around) {

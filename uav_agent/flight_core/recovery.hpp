@@ -23,7 +23,8 @@ class Recovery {
   void update(const PlannerInput& in);
   /// Call it when the UAV has reached a goal: the next recovery starts with the first behaviour.
   void progress() { tries_ = backs_ = 0; }
-  /// Starts the next behaviour that is possible here. @param held  what holds the UAV
+  /// Starts the next behaviour that is possible here. @param held  what holds the UAV; if it
+  /// is another UAV, to look around or to approach the goal behind it does not help
   void begin(const PlannerInput& in, const Held& held);
   /// Runs one exchange. @returns whether the behaviour has ended, so that the planner's goals count again.
   bool step(const PlannerInput& in, const Held& held, Steering& steering);

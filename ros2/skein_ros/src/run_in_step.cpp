@@ -20,18 +20,14 @@ namespace {
 constexpr std::size_t kMostBytes = std::size_t{1} << 30;
 constexpr std::size_t kGuardBytes = std::size_t{1} << 26;
 
-struct RoomOfNode {
-  RoomOfNode() {
-    constexpr int kFlags = MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE;
-    begin = ::mmap(nullptr, kMostBytes + kGuardBytes, PROT_NONE, kFlags, -1, 0);
-    if (begin == MAP_FAILED || ::mprotect(begin, kMostBytes, PROT_READ | PROT_WRITE) != 0) {
-      throw std::runtime_error("there is no address space for the node");
-    }
+void* make_room() {
+  constexpr int kFlags = MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE;
+  void* const room = ::mmap(nullptr, kMostBytes + kGuardBytes, PROT_NONE, kFlags, -1, 0);
+  if (room == MAP_FAILED || ::mprotect(room, kMostBytes, PROT_READ | PROT_WRITE) != 0) {
+    throw std::runtime_error("there is no address space for the node");
   }
-  void free() const { ::munmap(begin, kMostBytes + kGuardBytes); }
-
-  void* begin = nullptr;
-};
+  return room;
+}
 
 /// The symbol of CLASS::CLASS(const rclcpp::NodeOptions&).
 std::string constructor_of(const std::string& name) {
@@ -56,12 +52,12 @@ std::shared_ptr<rclcpp::Node> make_node(const std::string& library, const std::s
                              " with a constructor from const rclcpp::NodeOptions& " +
                              "that is defined outside of the class");
   }
-  const RoomOfNode room;
-  construct(room.begin, rclcpp::NodeOptions());
+  void* const room = make_room();
+  construct(room, rclcpp::NodeOptions());
   // rclcpp::Node must be the first base of the class, so that the object begins with its Node.
-  return {static_cast<rclcpp::Node*>(room.begin), [room](rclcpp::Node* node) {
+  return {static_cast<rclcpp::Node*>(room), [room](rclcpp::Node* node) {
             node->~Node();
-            room.free();
+            ::munmap(room, kMostBytes + kGuardBytes);
           }};
 }
 
