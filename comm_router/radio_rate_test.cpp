@@ -1,4 +1,4 @@
-// Rates of links under path loss: what the server says of a link's level, messages queue for.
+// Rates of links under path loss: the server tells each link's level, and messages queue at the rate of that level.
 #include <gtest/gtest.h>
 
 #include <cmath>

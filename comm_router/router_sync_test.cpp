@@ -1,5 +1,5 @@
-// Property: whatever the order in which samples, Done, Step and Drop come in, the batches are those of an oracle that
-// sees everything in order.
+// Property: in whatever order samples, Done, Step and Drop arrive, RouterSync hands out the batches that the test
+// expects from the order in which they were sent.
 #include "comm_router/router_sync.hpp"
 
 #include <gtest/gtest.h>
@@ -56,7 +56,7 @@ std::vector<std::string> awaited(const RouterSync& sync) {
 /// Events that keep their order among themselves (one writer on one topic).
 using Lane = std::vector<std::function<void(RouterSync&)>>;
 
-/// A fleet that talks at random, loses members and gets them back; it writes down what the router ought to hand out.
+/// A fleet that sends at random, loses members and gets them back. It lists what the router must hand out.
 class Fleet {
  public:
   Fleet(const std::vector<RadioRoute>& routes, std::mt19937& random) : routes_(routes), random_(random) {
@@ -95,7 +95,7 @@ class Fleet {
 
   void join(Node node, const std::string& name) { members_.push_back({name, node, next_source_++, {}}); }
 
-  /// One member's step. One that is lost sends a part, perhaps Done as well, and is dropped.
+  /// Adds what one member sends in step k. A lost member sends messages, perhaps a false Done, and is dropped.
   void speak(Member& member, std::uint64_t k, bool lost, Round& round) {
     std::vector<SentCount> counts;
     for (const std::size_t r : routes_from(routes_, member.node)) {
@@ -116,14 +116,14 @@ class Fleet {
     if (!lost) {
       round.lanes.push_back({[=](RouterSync& sync) { sync.on_done(source, k, counts); }});
     } else {
-      // A lying Done: more than was ever sent.
+      // A false Done: it announces more messages than the member has sent.
       for (SentCount& count : counts) ++count.count;
       if (random_() % 2 == 0) round.lanes.push_back({[=](RouterSync& sync) { sync.on_done(source, k, counts); }});
       round.lanes.push_back({[=](RouterSync& sync) { sync.on_drop(k, source); }});
     }
   }
 
-  /// Somebody who is no member: heard, never counted.
+  /// Adds a message of a participant that is no member: the router must never hand it out.
   void stranger(Round& round) {
     const std::size_t r = random_() % routes_.size();
     round.lanes.push_back({[=](RouterSync& sync) { sync.on_radio(99999, r, payload("stranger")); }});
@@ -177,7 +177,7 @@ TEST(RouterSync, AnyOrderOfArrivalGivesTheSameBatches) {
   }
 }
 
-TEST(RouterSync, TheNextStepsSamplesMayComeBeforeItsStep) {
+TEST(RouterSync, SamplesMayArriveBeforeTheirStep) {
   const std::vector<RadioRoute> routes = some_routes();
   RouterSync sync(routes);
   sync.on_radio(7, 1, payload("a"));
@@ -192,7 +192,7 @@ TEST(RouterSync, TheNextStepsSamplesMayComeBeforeItsStep) {
   EXPECT_FALSE(sync.take());
   EXPECT_EQ(awaited(sync), std::vector<std::string>{"uav1: rt/x 2 of 3"});
   sync.on_radio(7, 1, payload("c"));
-  sync.on_radio(7, 1, payload("d"));  // beyond the count: of the next step
+  sync.on_radio(7, 1, payload("d"));  // beyond the count: belongs to the next step
   ASSERT_EQ(describe(*sync.take()), (std::vector<std::string>{"1#1:b", "1#2:c"}));
 
   sync.on_step(2, 0, {{"uav1", 7, Node{1}}}, {});
@@ -232,19 +232,19 @@ TEST(RouterSync, ADroppedMemberNeverComesBackUnderItsOldIdentity) {
   EXPECT_EQ(describe(*sync.take()), std::vector<std::string>{"1#0:fresh"});
 }
 
-TEST(RouterSync, NamesWhomItAwaitsAndNobodyWhoIsGone) {
+TEST(RouterSync, NamesTheMembersThatItAwaitsAndNoneThatIsGone) {
   const std::vector<RadioRoute> routes = some_routes();
   RouterSync sync(routes);
   EXPECT_EQ(sync.missing_answers(), 0U);
   sync.on_drop(0, 9);
   sync.on_step(0, 0, {{"uav1", 7, Node{1}}, {"uav2", 8, Node{2}}, {"uav3", 9, Node{3}}}, {});
-  EXPECT_FALSE(sync.take()) << "from here on number 9 is gone";
+  EXPECT_FALSE(sync.take()) << "from here on, participant 9 is gone";
   EXPECT_EQ(awaited(sync), (std::vector<std::string>{"uav1: done", "uav2: done"}));
   EXPECT_EQ(sync.missing_answers(), 2U);
   sync.on_done(7, 0, {{"rt/x", 1}, {"rt/y", 2}});
   sync.on_radio(7, 1, payload("a"));
   EXPECT_EQ(awaited(sync), (std::vector<std::string>{"uav1: rt/y 0 of 2", "uav2: done"}));
-  EXPECT_EQ(sync.missing_answers(), 1U) << "an answer is there, its samples are not";
+  EXPECT_EQ(sync.missing_answers(), 1U) << "uav1 has answered, but a sample is missing";
   sync.on_done(8, 0, {});
   EXPECT_EQ(awaited(sync), std::vector<std::string>{"uav1: rt/y 0 of 2"});
   EXPECT_EQ(sync.missing_answers(), 0U);
@@ -266,10 +266,10 @@ TEST(RouterSync, ARouteThatIsBoundToAMemberIsNotOpenToItsNeighbour) {
   routes[0].member = "station";  // "/x" of the ground station, where two programs are
   RouterSync sync(routes);
   for (std::uint64_t k = 0; k < 3; ++k) {
-    sync.on_radio(66, 0, payload("forged"));  // in the first step before it is a member
+    sync.on_radio(66, 0, payload("forged"));  // in the first step, before 66 is a member
     sync.on_radio(7, 0, payload("true"));
     sync.on_step(k, 0, {{"gcs", 66, Node{0}}, {"station", 7, Node{0}}}, {});
-    sync.on_done(66, k, {{"rt/x", 9 * (k + 1)}});  // nor is it waited for
+    sync.on_done(66, k, {{"rt/x", 9 * (k + 1)}});  // the router does not wait for these messages
     sync.on_done(7, k, {{"rt/x", k + 1}});
     const std::optional<StepBatch> batch = sync.take();
     ASSERT_TRUE(batch) << k;
@@ -277,13 +277,13 @@ TEST(RouterSync, ARouteThatIsBoundToAMemberIsNotOpenToItsNeighbour) {
   }
 }
 
-TEST(RouterSync, AMemberThatNeverAnnouncesCannotFillTheMemory) {
+TEST(RouterSync, AMemberThatNeverSendsDoneCannotFillTheMemory) {
   const std::vector<RadioRoute> routes = some_routes();
   RouterSync sync(routes);
   const Payload sample = payload("spam");
   sync.on_step(0, 0, {{"uav1", 7, Node{1}}}, {});
   for (int i = 0; i < 100000; ++i) sync.on_radio(7, 1, sample);
-  EXPECT_LT(sample.use_count(), 10000) << "so many of them are kept";
+  EXPECT_LT(sample.use_count(), 10000) << "RouterSync keeps that many samples";
 }
 
 }  // namespace

@@ -8,4 +8,8 @@ struct Overloaded : Cases... {
   using Cases::operator()...;
 };
 
+/// C++20 needs no such guide, but clang-tidy 16 does.
+template <class... Cases>
+Overloaded(Cases...) -> Overloaded<Cases...>;
+
 }  // namespace skein

@@ -1,6 +1,6 @@
 // Watches the process of a session, which has a single thread. It ends the process when the program that steps the
 // fleet has closed its end of the socket, or when a turn takes too long. It uses the signal of a timer instead of a
-// thread, because the process is copied by fork(), which copies only the calling thread.
+// thread, because sessions are copied by fork(), which copies only the calling thread.
 // Linux.   Threads: one.
 #pragma once
 

@@ -6,7 +6,8 @@
 
 namespace skein::one_process {
 
-/// Runs loops of a program that has its turn alone in parallel. @param workers  must outlive the result.
+/// @returns a function that runs a loop in parallel, for a program while no other program has a turn.
+/// @param workers  must outlive the result.
 ForEach shared_turn(Workers& workers);
 
 }  // namespace skein::one_process

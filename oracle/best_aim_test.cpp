@@ -1,4 +1,4 @@
-// The best way to look at a point, against every way tried, and against the code that judges captures.
+// Compares BestAim with a search over a grid of headings and pitches, and with the code that scores captures.
 #include "oracle/best_aim.hpp"
 
 #include <gtest/gtest.h>
@@ -36,7 +36,7 @@ double best_of_grid(const CameraKind& kind, const RulesConfig& rules, const Vect
   return best;
 }
 
-TEST(BestAim, IsAsGoodAsTheBestOfAllWaysAndTrue) {
+TEST(BestAim, IsAboutAsGoodAsTheBestOfAGridAndHasTheTrueQuality) {
   RandomStream random(1, "best_aim_test", 0);
   for (const char* preset : {"contest", "paper"}) {
     RulesConfig rules;
@@ -44,14 +44,14 @@ TEST(BestAim, IsAsGoodAsTheBestOfAllWaysAndTrue) {
     const CameraKind kind;
     const BestAim camera(kind, kDesired, rules);
     for (int i = 0; i < 40; ++i) {
-      // Every fourth almost straight down, where the heading is free.
+      // Every fourth point is almost straight below, where the heading is free.
       Vector3d direction = test::random_unit(random);
       if (i % 4 == 0) direction = Vector3d(0.05 * direction.x(), 0.05 * direction.y(), -1.0).normalized();
       const Vector3d ray = random.uniform(2.0, 15.0) * direction, n_W = test::random_unit(random);
       const Aim aim = camera.find(ray, n_W);
       EXPECT_NEAR(aim.q, quality(kind, rules, aim.yaw, aim.pitch, ray, n_W), 1e-9);
       EXPECT_LE(std::abs(aim.pitch), kind.gimbal.pitch_limit_deg * kRadPerDeg);
-      // The printed formula has narrow optima in the picture's corners, which the search may miss.
+      // The paper's formula has narrow optima in the picture's corners, which the search may miss.
       const double share = rules.unnormalised_displacement ? 0.96 : 0.8;
       EXPECT_GE(aim.q, share * best_of_grid(kind, rules, ray, n_W)) << preset << ' ' << i;
     }
@@ -66,7 +66,7 @@ TEST(BestAim, TheGimbalLimitsWhatCanBeShown) {
     const double angle = elevation_deg * kRadPerDeg;
     return Vector3d(5.0 * std::cos(angle), 0.0, 5.0 * std::sin(angle));
   };
-  // 40 degrees of pitch and the upper half of the picture, in its middle column, make 70.
+  // 40 degrees of pitch and half the picture's height of 60 degrees, in its middle column, make 70 degrees.
   for (const double side : {-1.0, 1.0}) {
     EXPECT_GT(camera.find(at(side * 69.0), -at(side * 69.0).normalized()).q, 0.0);
     EXPECT_EQ(camera.find(at(side * 74.0), -at(side * 74.0).normalized()).q, 0.0);
@@ -87,7 +87,7 @@ TEST(BestAim, QualityOfWhatIsFacedFallsWithDistanceAndEndsAtTheReach) {
   EXPECT_EQ(contest.find({contest.reach(), 0.0, 0.0}, n_W).q, 0.0);
   EXPECT_NEAR(contest.reach(), search_radius(kind.camera, kDesired), 1e-12);
 
-  // Without a search radius the threshold ends it: no point beyond the reach has a quality that counts.
+  // Without a search radius, min_point_score limits the reach: at the reach, no quality of the point counts.
   RulesConfig far_sighted;
   far_sighted.limit_search_radius = false;
   const BestAim free(kind, kDesired, far_sighted);

@@ -1,4 +1,4 @@
-// Property files, and the ready properties that are shipped.
+// Property files, and the ready properties that Skein ships.
 #include "properties/property_file.hpp"
 
 #include <gtest/gtest.h>
@@ -43,7 +43,7 @@ class PropertyFiles : public testing::Test {
   Scenario towers_;
 };
 
-TEST_F(PropertyFiles, TextsAndReadyOnesAreRead) {
+TEST_F(PropertyFiles, TextsAndReadyPropertiesAreRead) {
   const PropertySet set = load(
       "name: mine\ndescription: all kinds\nproperties:\n"
       "  low: always held < 30\n"
@@ -58,7 +58,7 @@ TEST_F(PropertyFiles, TextsAndReadyOnesAreRead) {
   EXPECT_EQ(*set[3].cases[0].window.within_s, 20.0);
 }
 
-TEST_F(PropertyFiles, WrongOnesAreRefusedWithLineAndColumn) {
+TEST_F(PropertyFiles, WrongPropertiesAreRefusedWithLineAndColumn) {
   refused("properties:\n  low: always hold < 30\n", ":2:15: properties.low: there is no signal 'hold'");
   refused("properties:\n  low: always held < 30 s\n", ":2:22: properties.low: units do not fit");
   refused("properties:\n  low:\n    eventually held > 3\n    within 9999 s\n",
@@ -72,7 +72,7 @@ TEST_F(PropertyFiles, WrongOnesAreRefusedWithLineAndColumn) {
   refused("propertis: {}\n", ":1: unknown key 'propertis'");
 }
 
-TEST_F(PropertyFiles, EveryReadyOneFitsTheShippedScenarios) {
+TEST_F(PropertyFiles, EveryReadyPropertyFitsTheShippedScenarios) {
   const std::vector<std::string> names = ready_property_names();
   EXPECT_GE(names.size(), 10U);
   std::set<std::string> signals;
@@ -83,7 +83,7 @@ TEST_F(PropertyFiles, EveryReadyOneFitsTheShippedScenarios) {
     const Scenario fleet = load_scenario(scenario, options);
     for (const std::string& name : names) {
       std::ofstream(file_) << "properties:\n  " << name << ": ready\n";
-      EXPECT_FALSE(load_properties(file_, fleet)[0].cases.empty()) << name << " of " << scenario;
+      EXPECT_FALSE(load_properties(file_, fleet)[0].cases.empty()) << name << " in " << scenario;
     }
   }
   for (const std::string& name : names) {

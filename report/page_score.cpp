@@ -25,7 +25,7 @@ std::string swatch(std::size_t cause) {
   return fmt::format("<span class=\"swatch\" style=\"background:var(--k{})\"></span>", cause);
 }
 
-/// A cell of the heat map. @param share  of the attainable value there; it determines how strong the colour is.
+/// A cell of the heat map. @param share  of the attainable value, 0 to 1; the greater, the stronger the colour.
 std::string heat(const std::string& text, double share, const std::string& colour) {
   return fmt::format("<td class=\"heat\" style=\"--v:{}%;--h:var(--{})\">{}</td>",
                      fixed(std::clamp(60.0 * share, 0.0, 60.0), 0), colour, text);

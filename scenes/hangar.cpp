@@ -16,14 +16,14 @@ namespace {
 
 constexpr std::size_t kHangarPoints = 3500;
 constexpr double kApron = 11.0;             ///< least distance between the origin, near the starts, and the airliner
-constexpr double kWall = 0.4, kRoof = 0.5;  ///< thicknesses
+constexpr double kWall = 0.4, kRoof = 0.5;  ///< thicknesses [m]
 
 /// The layout of the site. Frame H: origin on the ground in the middle of the hangar's mouth, x into the hangar.
 struct HangarSite {
   AirlinerShape airliner;
   Isometry3d X_WH = Isometry3d::Identity(), X_WA = Isometry3d::Identity();
   bool nose_first = true;
-  double inside = 0.0;  ///< how far the airliner reaches into the hangar
+  double inside = 0.0;  ///< [m]; how far the airliner reaches into the hangar
 };
 
 HangarSite draw_hangar_site(std::uint64_t scene_seed) {
@@ -31,7 +31,7 @@ HangarSite draw_hangar_site(std::uint64_t scene_seed) {
   HangarSite site;
   site.airliner = draw_airliner(random);
   site.nose_first = random.uniform() < 0.65;
-  // Deep enough that the airliner stands in the mouth. The outer parts of the wings stay outside: the doors are there.
+  // The airliner stands in the mouth. The outer parts of its wings stay outside, because the doors are there.
   site.inside = site.nose_first ? random.uniform(20.0, 32.0) : random.uniform(13.0, 16.0);
   const double heading = random.uniform(-0.22, 0.22);
   const double mouth = site.airliner.length + 1.0 - site.inside + kApron + random.uniform(0.0, 5.0);

@@ -1,5 +1,5 @@
-// Writes what the server has for the ground station: the topics of the GCS domain, and the referee's ledger, which the
-// station reads in the world domain.
+// Publishes the server's data for the ground station: the topics of the GCS domain and, in the world domain, the
+// referee's ledger.
 #pragma once
 
 #include "bus/bus.hpp"
@@ -16,7 +16,7 @@ class GcsNode {
 
   /// Publishes the samples of this step in the GCS domain.
   void publish();
-  /// Publishes the ledger entries that this step adds in the world domain; the first message has the interest points.
+  /// Publishes in the world domain the ledger entries that this step adds. The first message has the interest points.
   void publish_ledger(RunId run);
 
  private:

@@ -14,7 +14,7 @@ namespace skein::bus::cyclonedds {
 
 namespace {
 
-constexpr std::size_t kFragmentHeaders = 128;  // of RTPS message, timestamp, destination and fragment, with reserve
+constexpr std::size_t kFragmentHeaders = 128;  // bytes: RTPS message, timestamp, destination, fragment, reserve
 
 /// The domains of this process. Static, because a domain of Cyclone belongs to the whole process and cannot be created
 /// twice. The lock is held while a domain is deleted, so that no thread joins it meanwhile.

@@ -1,7 +1,7 @@
 // Restricts a domain of Cyclone DDS to this host, or to one of its networks.
 //
 // On the loopback interface, Cyclone DDS considers all other addresses unreachable, including the host's own addresses,
-// which nodes with default settings announce. reach_own_host() makes Cyclone DDS use these.
+// which nodes with default settings announce. reach_own_host() makes Cyclone DDS send to these.
 #pragma once
 
 #include <string>
@@ -18,8 +18,8 @@ void await_own_host(dds_entity_t domain);
 /// @param participant  in that domain. @throws std::runtime_error when Cyclone fails
 void reach_own_host(dds_entity_t domain, dds_entity_t participant);
 
-/// From now on the domain receives only packets to this address of the host. This excludes other networks, because
-/// Cyclone binds its sockets to no address. @throws std::exception when Cyclone or the system fails
+/// From now on the domain receives only packets to this address of the host, or to the loopback. Otherwise it would
+/// receive from all networks, because Cyclone binds its sockets to no address. @throws std::exception on failure
 void hear_own_address(dds_entity_t domain, dds_entity_t participant, const std::string& ipv4);
 
 }  // namespace skein::bus::cyclonedds

@@ -1,5 +1,5 @@
-// `skein bench --tracking`: the distance of the bundled vehicles from their set-points, and a bound on it by speed and
-// acceleration of the set-point. docs/flight-safety.md has the table.
+// `skein bench --tracking`: the distances of the bundled vehicles from their set-points, and a bound on this distance
+// that depends on speed and acceleration of the set-point. docs/flight-safety.md has the table.
 #pragma once
 
 #include <filesystem>
@@ -15,9 +15,9 @@ namespace skein::cli {
 /// |error| <= c0 + c1 |v| + c2 |a|, with v and a of the set-point [m, m/s, m/s^2].
 struct TrackingBound {
   double c0_m = 0.0, c1_s = 0.0, c2_s2 = 0.0;
-  double covered = 0.0;   ///< share of all samples that keep the bound
+  double covered = 0.0;   ///< share of all samples for which the bound holds
   double mean_m = 0.0;    ///< mean of the bound over the samples
-  double beyond_m = 0.0;  ///< how far a sample is above the bound at most
+  double beyond_m = 0.0;  ///< greatest excess of a sample over the bound
 
   double at(double speed_mps, double acceleration_mps2) const {
     return c0_m + c1_s * speed_mps + c2_s2 * acceleration_mps2;
@@ -32,7 +32,8 @@ TrackingBound fit_bound(const results::TrackingTable& table, const std::string& 
 /// Prints quantiles of the distance by speed and acceleration, and the bounds, for each vehicle.
 void print_tracking(std::ostream& out, const results::TrackingTable& table);
 
-/// Flies all planners in the scenes of the families, in runs/bench-tracking, without faults; keeps flights that these
+/// Flies `patrol`, `kios`, `xxh` and `star` in the five procedural scenarios (with --quick: in `towers` only), without
+/// faults; with --assets in `mbs` and `crane`, too. Writes to runs/bench-tracking, and keeps flights that these
 /// programs have already flown. Takes about ten minutes, with --quick one. @returns as bench_planners().
 int bench_tracking(const BenchOptions& options, const Console& console);
 

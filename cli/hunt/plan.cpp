@@ -28,7 +28,7 @@ using properties::PropertyEntries;
 using properties::PropertyEntry;
 
 /// Mission time after the longest deadline. Near the end of a mission, a UAV without time for more work hovers where it
-/// has a link, and waits. A UAV whose program restarts far from home does so long before the end.
+/// has a link, and waits. A UAV whose program restarts far from home begins to wait long before the end.
 constexpr double kAfterDeadline_s = 40.0;
 constexpr double kLeastForFaults_s = 5.0;
 constexpr double kPatience_s = 300.0;  ///< wall time; many flights at once make each one slow, which is no failure
@@ -84,7 +84,7 @@ void check_conditions(const HuntOptions& options, const Scenario& scenario) {
   }
 }
 
-/// Faults that were asked for must be possible in some of the runs.
+/// @throws InputError for a kind in `--faults` that no run of the hunt can have.
 void check_kinds(const HuntOptions& options, const Scenario& scenario) {
   for (const std::string& kind : options.faults) {
     const auto possible = [&](const std::string& conditions) {

@@ -1,3 +1,4 @@
+// States of the fleet in a trial whose faults wait for a condition.
 #include "cli/hunt/trial.hpp"
 
 #include <gtest/gtest.h>
@@ -22,7 +23,7 @@ class QuietMission final : public properties::RunSignals {
   const std::vector<double> none_ = std::vector<double>(401, 0.0), all_ = std::vector<double>(401, 1.0);
 };
 
-TEST(StatesOfATrial, AFaultThatWaitedEndsAsInTheFlight) {
+TEST(StatesOfATrial, AFaultThatWaitedEndsWhenItEndedInTheFlight) {
   Scenario scenario;
   for (const char* name : {"a", "b"}) scenario.fleet.emplace_back().name = name;
   QuietMission mission;

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// The cache folder of a world. Its path contains the number of the grammar, so that no world of an older one is used.
+/// The cache folder of a world. Its path has the grammar's version, so Skein uses no world of an older grammar.
 fs::path folder_of(const std::string& world) {
   const auto cache = user_cache_folder();
   if (!cache) {
@@ -36,8 +36,8 @@ std::string scenario_source(const std::string& scenario, const std::optional<std
   if (fs::is_regular_file(file)) return file;  // written last: the folder is complete
   const ScratchDir scratch;
   const fs::path log = scratch.path() / "draw.log";
-  // With the environment of a run: the same libm generates the same world, so a concurrent process writes the same
-  // bytes.
+  // sim_server gets the environment of a run, so that the libm of runs draws the world. A concurrent process writes the
+  // same bytes.
   const ExitStatus exit = run_to_end({programs::kSimServer,
                                       {program_dir() / programs::kSimServer, "--draw-world", scenario, "--scene-seed",
                                        seed, "--export-scene", folder, "--overwrite-export"},

@@ -78,7 +78,7 @@ Quantity ExpressionText::number() {
     next_ += unit.name.size();
     return {number.value * unit.factor, unit.unit};
   }
-  if (next_ == digits_end && !peek_word().empty()) {  // "20x"; a word apart is none of the number's
+  if (next_ == digits_end && !peek_word().empty()) {  // as in "20x"; in "20 x", x is the next word, not a unit
     std::vector<std::string> names;
     for (const UnitName& unit : kUnitNames) names.emplace_back(unit.name);
     fail(next_, "there is no unit " + next_text() + "; known are: " + joined(names));

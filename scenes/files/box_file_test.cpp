@@ -71,7 +71,7 @@ TEST_F(BoxFile, SaysWhatIsWrong) {
   EXPECT_NE(wrong(with("size: [100", "sise: [100")).find("did you mean 'size'?"), std::string::npos);
 }
 
-TEST_F(BoxFile, NoRotationIsShownByItsNumbers) {
+TEST_F(BoxFile, SaysByWhichNumbersAMatrixIsNoRotation) {
   const auto wrong = [&](const std::string& row) {
     return complaint(read_boxes, write("x.yaml", with("[1, 0, 0, 0,  0, 1, 0, 0,", row)));
   };

@@ -1,4 +1,4 @@
-// What the server leaves behind: poses, digests, the scene, and what of it could not be written; collisions.
+// The server's output files: poses, digests, the scene, and the report with collisions, losses and unwritten files.
 #include "sim_server/record/run_files.hpp"
 
 #include <gtest/gtest.h>
@@ -63,7 +63,7 @@ TEST_F(RunFilesTest, TheReportTellsPairTimeAndPlace) {
   EXPECT_EQ(report.value("unwritten", nlohmann::json::array()), nlohmann::json::array());
 }
 
-TEST_F(RunFilesTest, APoseATenthOfASecondAndADigestAnExchange) {
+TEST_F(RunFilesTest, APoseEveryTenthOfASecondAndADigestEveryExchange) {
   Simulation simulation(scenario_, {}, 0);
   RunDigest digest(scenario_.uav_names());
   RunFiles files(folder_, scenario_, digest);
@@ -92,7 +92,7 @@ TEST_F(RunFilesTest, APoseATenthOfASecondAndADigestAnExchange) {
   }
 }
 
-TEST_F(RunFilesTest, TheSceneHasItsBoxesAndPointsAsTheyStand) {
+TEST_F(RunFilesTest, TheSceneFileHasBoxesAndPointsUnchanged) {
   Scene scene;
   for (std::uint64_t i = 0; i < 20; ++i) {
     RandomStream random(i, "boxes", 0);
@@ -108,7 +108,7 @@ TEST_F(RunFilesTest, TheSceneHasItsBoxesAndPointsAsTheyStand) {
   scenario_.scene.meshes = {"/some/where/crane.stl", "hall.stl"};
   RunFiles(folder_, scenario_, RunDigest(scenario_.uav_names())).write_scene(scene);
   const auto json = nlohmann::json::parse(std::ifstream(folder_ / "scene.json"));
-  EXPECT_EQ(json["mesh"]["files"], nlohmann::json({"crane.stl", "hall.stl"})) << "no folder of this machine";
+  EXPECT_EQ(json["mesh"]["files"], nlohmann::json({"crane.stl", "hall.stl"})) << "without the folder";
   ASSERT_EQ(json["cameras"].size(), scenario_.fleet.size());
   const CameraConfig& camera = scenario_.fleet.back().vehicle.camera;
   EXPECT_EQ(json["cameras"].back(),
@@ -143,7 +143,7 @@ TEST_F(RunFilesTest, TheReportNamesWhoWasLostWhatWasSeenAndWhatIsMissing) {
                   {.name = "changi", .step = 5, .tick = 800, .reason = "killed", .back = Tick{1200}}};
   StatusPipe nobody(-1);
   RunFiles files(folder_, scenario_, RunDigest(scenario_.uav_names()));
-  std::filesystem::create_directory(folder_ / "scene.json");  // nothing can be written there
+  std::filesystem::create_directory(folder_ / "scene.json");  // so that the server cannot write the file
   files.write_scene(scene);
   files.note_unwritten("");
   files.note_unwritten("the disk is full");
@@ -159,7 +159,7 @@ TEST_F(RunFilesTest, TheReportNamesWhoWasLostWhatWasSeenAndWhatIsMissing) {
   EXPECT_EQ(report["unwritten"][1], "the disk is full");
 }
 
-// The battery lets a UAV hover for 30 s. A UAV lands with more or less of it left.
+// A full battery lasts for 30 s of hover, in the last case for 60 s. A UAV descends after 6 s or 21 s.
 TEST_F(RunFilesTest, AUavIsGroundedIfItLandsWithLittleMoreThanItsReserve) {
   scenario_.duration_s = 30.0;
   scenario_.conditions.battery.endurance_missions = 1.0;
@@ -226,7 +226,7 @@ TEST_F(RunFilesTest, APoseHasAValueForEachColumn) {
                                                     {"gimbal_yaw", simulation.uav(i).gimbal.yaw}};
     for (std::size_t c = 0; c < columns.size(); ++c) {
       const auto found = expected.find(columns[c]);
-      if (found == expected.end()) continue;  // its name, and how far away what it could hit is
+      if (found == expected.end()) continue;  // the UAV's name, and the clearance
       EXPECT_NEAR(std::stod(fields[c]), found->second, 1e-4) << columns[c];
     }
   }
@@ -259,7 +259,7 @@ TEST_F(RunFilesTest, APoseHasTheChargeWhereThereAreBatteries) {
   EXPECT_EQ(charged_row.substr(0, charged_row.rfind(',')), row);
 }
 
-TEST_F(RunFilesTest, AFileThatTheDiskRefusesIsNamedAndNoOther) {
+TEST_F(RunFilesTest, TheReportNamesOnlyTheFileThatTheDiskRefuses) {
   for (const char* full : {"trajectories.csv", "digests.csv", "events.csv"}) {
     std::filesystem::remove_all(folder_);
     std::filesystem::create_directories(folder_);

@@ -1,4 +1,4 @@
-// The LiDAR in rooms whose walls are known, and the law of its servo.
+// The LiDAR in rooms whose walls are known, and the motion of its servo.
 #include "sim_server/sensors/lidar.hpp"
 
 #include <gtest/gtest.h>
@@ -25,7 +25,7 @@ TEST(ServoAngle, AsTheReference) {
   struct Case {
     double t_s, angle_deg;
   };
-  // The first two seconds run to the stop, where it waits for the switch; from then on a triangle wave.
+  // The servo reaches its stop after two seconds, and waits there until it reverses at 4 s; then a triangle wave.
   for (const auto& [t_s, angle_deg] : {Case{0.0, 0.0},
                                        {1.0, 45.0},
                                        {2.0, 90.0},
@@ -45,8 +45,8 @@ TEST(ServoAngle, AsTheReference) {
   }
 }
 
-/// The closed form against the law itself, stepped; for servos that reach both stops, one, or none.
-TEST(ServoAngle, LikeSteppedLaw) {
+/// Compares the closed form with a servo that moves tick by tick, and reaches both stops, one, or none.
+TEST(ServoAngle, EqualsAServoThatMovesTickByTick) {
   for (const double limit_deg : {30.0, 60.0, 90.0, 120.0, 200.0}) {
     for (const double rate_deg_s : {10.0, 30.0, 45.0}) {
       LidarConfig config;
@@ -63,8 +63,8 @@ TEST(ServoAngle, LikeSteppedLaw) {
   }
 }
 
-/// The rate is the slope of the angle from there on.
-TEST(ServoAngle, HasTheRateThatItIsTold) {
+/// servo_rate() is the slope of servo_angle() just after a time.
+TEST(ServoAngle, HasTheRateOfServoRate) {
   for (const double limit_deg : {30.0, 60.0, 90.0, 120.0}) {
     LidarConfig config;
     config.servo_limit_deg = limit_deg;
@@ -115,7 +115,7 @@ TEST_F(LidarRoom, AllBeamsMeetTheWalls) {
   Lidar lidar(LidarConfig{}, UavIndex{0}, 0);
   for (const Tick tick : {0, 1000, 2200, 4040}) {
     const LidarScan scan = lidar.scan(tick, X_WB_, world);
-    // Rings from -15 to 15 degrees every two degrees, columns round from -pi: all in the order of the cloud.
+    // Order of the cloud: rings from -15 to 15 degrees, two degrees apart; in each ring, columns from azimuth -pi on.
     ASSERT_EQ(scan.points_W.size(), 16U * 440U);
     const Isometry3d X_WL = X_WB_ * Eigen::Translation3d(0.0, 0.0, 0.2) *
                             Eigen::AngleAxisd(servo_angle(LidarConfig{}, seconds(tick)), Vector3d::UnitX()) *
@@ -134,14 +134,14 @@ TEST_F(LidarRoom, AllBeamsMeetTheWalls) {
   }
 }
 
-/// Where a body that turns and drifts was at a tick.
+/// Pose at a tick of a body that turns and drifts, and is at X_WB at tick 80.
 Isometry3d moving_body(const Isometry3d& X_WB, Tick tick) {
   const double t = seconds(tick - 80);
   return Eigen::Translation3d(2.0 * t, -1.0 * t, 0.5 * t) * X_WB *
          Eigen::AngleAxisd(1.2 * t, Vector3d(0.2, -0.1, 1.0).normalized());
 }
 
-TEST_F(LidarRoom, MotionDuringAScanLeavesNoTraceOfAStillOne) {
+TEST_F(LidarRoom, MotionDistortionDoesNotChangeTheScanOfABodyAtRest) {
   const RayScene world = room();
   LidarConfig config;
   config.servo_rate_deg_s = 0.0;
@@ -225,7 +225,7 @@ TEST_F(LidarRoom, SeesOthersButNotItself) {
 TEST_F(LidarRoom, NoiseIsSeeded) {
   const RayScene world = room();
   LidarConfig config;
-  config.servo_rate_deg_s = 0.0;  // whatever the phase
+  config.servo_rate_deg_s = 0.0;  // so that the phase does not matter
   Lidar clean(config, UavIndex{0}, 0), noisy(config, UavIndex{0}, 5), again(config, UavIndex{0}, 5),
       other_seed(config, UavIndex{0}, 6), other_uav(config, UavIndex{1}, 5);
   const LidarScan reference = clean.scan(0, X_WB_, world), scan = noisy.scan(0, X_WB_, world);
@@ -247,7 +247,7 @@ TEST_F(LidarRoom, NoiseIsSeeded) {
   EXPECT_NEAR(std::sqrt(sum2 / n), 0.01, 0.0005);
 }
 
-/// What is lost is missing, and nothing else changes: not the noise of the others, not the truth.
+/// A scan has no points for lost returns. Nothing else changes: neither the noise of other points nor the true ranges.
 TEST_F(LidarRoom, LostReturnsAreNoPointsAndTheOthersStayTheSame) {
   const RayScene world = room();
   LidarConfig config;
@@ -277,7 +277,7 @@ TEST_F(LidarRoom, LostReturnsAreNoPointsAndTheOthersStayTheSame) {
   }
 }
 
-TEST_F(LidarRoom, LosesNothingWithSeedZeroNorWithNothingToLose) {
+TEST_F(LidarRoom, LosesNothingWithSeedZeroNorWithAShareOfZero) {
   const RayScene world = room();
   LidarConfig losing, nothing;
   losing.no_return_p = 0.5;
@@ -289,7 +289,7 @@ TEST_F(LidarRoom, LosesNothingWithSeedZeroNorWithNothingToLose) {
   }
 }
 
-/// Walls of a narrow and a wide room, just inside and just outside of 0.9 m and 50 m.
+/// The walls of the narrow room are partly nearer than 0.9 m, those of the wide room partly farther than 50 m.
 TEST(Lidar, SeesFromNinetyCentimetresToFiftyMetres) {
   const auto farthest_and_nearest = [](double half_size) {
     TriangleMesh mesh;
@@ -342,7 +342,7 @@ TEST(Lidar, SeedDrawsThePhaseOnce) {
   EXPECT_NE(angle_at_start(UavIndex{0}, 3), angle_at_start(UavIndex{0}, 4));
 }
 
-/// Not a test of speed, only a figure for the log: CPU time of a scan along a flight round the structure.
+/// Prints the CPU time of a scan during a flight around the structure, but sets no limit for it.
 TEST(Lidar, MeasureScanOnMbs) {
   const auto mesh = test::official_mesh("mbs/mbs.stl");
   if (!mesh) {

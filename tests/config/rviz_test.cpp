@@ -55,7 +55,7 @@ TEST_F(RvizConfig, ShowsEveryTopicForViewers) {
   }
 }
 
-/// The topics that displays show. @param table  must contain each topic.
+/// The topics that the displays show. Fails if one is not in `table`, or a display does not fit its topic.
 std::set<std::string> shown_by(const YAML::Node& manager, std::span<const topics::TopicInfo> table,
                                const std::string& id) {
   std::set<std::string> shown;
@@ -89,7 +89,7 @@ class UavRvizConfig : public testing::Test {
   const YAML::Node manager_ = YAML::LoadFile(source_path("ros2/skein_ros/rviz/uav.rviz"))["Visualization Manager"];
 };
 
-TEST_F(UavRvizConfig, ShowsWhatAUavIsTold) {
+TEST_F(UavRvizConfig, ShowsTheTopicsThatAUavReceives) {
   EXPECT_EQ(manager_["Global Options"]["Fixed Frame"].as<std::string>(), "world");
   const std::set<std::string> shown = shown_by(manager_, topics::uav_topics(), "uav");
   for (const topics::TopicInfo& topic : topics::uav_topics()) {
@@ -104,7 +104,7 @@ TEST_F(UavRvizConfig, ShowsWhatAUavIsTold) {
 }
 
 // ROS's launch packages are not installed: run_launch.py replaces their modules.
-TEST_F(UavRvizConfig, IsStartedForOneUavByItsLaunchFile) {
+TEST_F(UavRvizConfig, TheLaunchFileStartsItForOneUav) {
   const std::string answer = testing::TempDir() + "launch-" + std::to_string(::getpid()) + ".json";
   const std::string command = "python3 " + source_path("tests/config/run_launch.py ") +
                               source_path("ros2/skein_ros/launch/rviz.launch.py") + " >" + answer;

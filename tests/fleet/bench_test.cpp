@@ -1,4 +1,4 @@
-// `skein bench` in its smallest size: checks that every part is measured and reported, not how fast it is.
+// `skein bench` in its smallest size: it measures and reports every part. The tests require no speed.
 #include "fleet_fixture.hpp"
 #include "tests/free_domain.hpp"
 
@@ -28,7 +28,8 @@ TEST_F(BenchTest, ASmallOneReportsEveryPart) {
 
   const Json report = Json::parse(text_of(json));
   EXPECT_GE(report["machine"]["cores"], 1);
-  ASSERT_EQ(report["speed"].size(), report["machine"]["cores"] > 1 ? 3u : 2u) << "over DDS, and in one process";
+  ASSERT_EQ(report["speed"].size(), report["machine"]["cores"] > 1 ? 3u : 2u)
+      << "over DDS; one process, on one or all cores";
   for (const Json& speed : report["speed"]) expect_speed(speed);
   const Json every_scan = report["speed"][0]["lidar"]["every_scan"];  // the same in both
   EXPECT_GT(every_scan["scans"], 40);                                 // two explorers, ten scans per second
@@ -50,7 +51,7 @@ TEST_F(BenchTest, ASmallOneReportsEveryPart) {
   EXPECT_GE(report["targets"].size(), 4u);
 }
 
-TEST_F(BenchTest, TheFloorHoldsOverBothVendors) {
+TEST_F(BenchTest, TheFloorRunsOverBothVendors) {
   for (const std::string vendor : {"cyclonedds", "fastdds"}) {
     const FreeDomains domains(4);
     ChildProcess& floor = start_program(vendor, {program("bench_floor_" + vendor), "--uavs", "2", "--rounds", "50",
@@ -63,7 +64,7 @@ TEST_F(BenchTest, TheFloorHoldsOverBothVendors) {
   }
 }
 
-TEST_F(BenchTest, WhatIsKnownIsTabledAndDrawn) {
+TEST_F(BenchTest, SensingWritesItsTablesAndPictures) {
   const std::string kept = "[//]: # (table: space)\nold\n[//]: # (end of table)\nkept\n";
   std::string page = kept;
   for (const char* name : {"surface", "reach", "messages", "vendors", "cost"}) {
@@ -87,7 +88,7 @@ TEST_F(BenchTest, WhatIsKnownIsTabledAndDrawn) {
   }
 }
 
-TEST_F(BenchTest, WhatPythonCostsHasARowForEachFigure) {
+TEST_F(BenchTest, PythonPrintsARowForEachFigure) {
   const auto json = folder() / "python.json";
   ChildProcess& bench = skein({"bench", "--python", "--quick", "--duration", "2", "--json", json});
   ASSERT_EQ(bench.wait().code, 0) << bench.err() << bench.out();
@@ -100,7 +101,7 @@ TEST_F(BenchTest, WhatPythonCostsHasARowForEachFigure) {
   }
 }
 
-TEST_F(BenchTest, NonsenseIsRefused) {
+TEST_F(BenchTest, OptionsThatMakeNoSenseAreRefused) {
   for (const Arguments& arguments : std::vector<Arguments>{
            {"bench", "--sizes", "0"}, {"bench", "--dds", "mixed"}, {"bench", "--python", "--profile"}}) {
     EXPECT_EQ(skein(arguments).wait().code, 2);

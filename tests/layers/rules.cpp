@@ -60,6 +60,21 @@ void find_lines(const SourceFile& file, Look look, const std::regex& pattern, co
   }
 }
 
+/// Which lines of a Markdown page may be long: those of code, tables and images.
+std::vector<bool> unbroken(const SourceFile& page) {
+  std::vector<bool> unbroken;
+  bool in_code = false;
+  for (const std::string& line : page.lines) {
+    const std::size_t start = line.find_first_not_of(' ');
+    const std::string_view text =
+        start == std::string::npos ? std::string_view() : std::string_view(line).substr(start);
+    const bool fence = text.starts_with("```");
+    unbroken.push_back(in_code || fence || text.starts_with('|') || text.starts_with("!["));
+    if (fence) in_code = !in_code;
+  }
+  return unbroken;
+}
+
 }  // namespace
 
 Violations check_layers(const Tree& tree) {
@@ -264,15 +279,18 @@ Violations check_length(const Tree& tree, std::size_t most_lines) {
 Violations check_columns(const Tree& tree, std::size_t most_columns) {
   Violations violations;
   for (const SourceFile& file : tree) {
+    const bool page = file.path.ends_with(".md");
     const bool other_code = file.name() == "CMakeLists.txt" || file.path.ends_with(".cmake") ||
                             file.path.ends_with(".sh") || file.path.ends_with(".py") || file.path == "skein" ||
-                            file.path == ".ci/run";
-    if (!file.is_cpp() && !other_code) continue;
+                            file.path.starts_with(".ci/");
+    if (!file.is_cpp() && !other_code && !page) continue;
+    const std::vector<bool> may_be_long = page ? unbroken(file) : std::vector<bool>(file.lines.size());
     for (std::size_t i = 0; i < file.lines.size(); ++i) {
       const auto blank = [i](const std::vector<std::string>& lines) {
         return i < lines.size() && lines[i].find_first_not_of(' ') == std::string::npos;
       };
       if (file.is_cpp() && blank(file.code) && blank(file.comments)) continue;  // the text of a literal
+      if (may_be_long[i]) continue;
       const auto columns = std::ranges::count_if(file.lines[i], [](char c) { return (c & 0xc0) != 0x80; });  // of UTF-8
       if (static_cast<std::size_t>(columns) <= most_columns) continue;
       violations.push_back(at(file, i + 1, "is longer than " + std::to_string(most_columns) + " columns"));

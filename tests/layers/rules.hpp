@@ -69,7 +69,8 @@ const std::vector<LongFunction>& long_functions();
 /// more, and those of tests.
 Violations check_functions(const Tree& tree, const std::vector<LongFunction>& known, std::size_t most_lines = 60);
 
-/// No line of C++, Python, CMake or shell has more than `most_columns`, except lines inside a string literal.
+/// No line of C++, Python, CMake, shell or Markdown has more than `most_columns`, except lines inside a string literal,
+/// and code, tables and images of Markdown.
 Violations check_columns(const Tree& tree, std::size_t most_columns = 120);
 
 /// No marks of unfinished work.

@@ -224,17 +224,18 @@ TEST_F(MadeUpTree, LongFunctionsAreFoundUnlessTheListHasThem) {
   EXPECT_EQ(places(check_functions(tree(), {{"core/short.cpp", "h", ""}}, 3)), Places{"core/short.cpp:1"});
 }
 
-TEST_F(MadeUpTree, LongLinesAreFoundInAllCode) {
+TEST_F(MadeUpTree, LongLinesAreFoundInAllCodeAndPages) {
   file("core/good.cpp", "1234\n12\u00e94\n");
-  file("docs/page.md", "12345\n");
+  file("docs/page.md", "1234\n| 12345 |\n  ![12345](x)\n```sh\n12345\n```\n");
   file("core/text.cpp", "R\"(\n12345\n)\"\n");
   EXPECT_EQ(check_columns(tree(), 4), Violations{});
   file("core/CMakeLists.txt", "\n12345\n");
   file("core/long.hpp", "12345\n");
   file("python/long.py", "12345\n");
   file("skein", "12345\n");
+  file("docs/long.md", "```\n12345\n```\n\n12345\n");
   EXPECT_EQ(places(check_columns(tree(), 4)),
-            (Places{"core/CMakeLists.txt:2", "core/long.hpp:1", "python/long.py:1", "skein:1"}));
+            (Places{"core/CMakeLists.txt:2", "core/long.hpp:1", "docs/long.md:5", "python/long.py:1", "skein:1"}));
 }
 
 TEST_F(MadeUpTree, FoldersThatIncludeEachOtherAreFound) {

@@ -14,7 +14,7 @@ namespace {
 using Cloud = pcl::PointCloud<pcl::PointXYZ>;
 
 constexpr float kHorizonM = 1e4F;     ///< greatest |x| and |y| of a plausible point
-constexpr std::uint32_t kListed = 7;  ///< one point in fourteen then needs the slower search, instead of one in five
+constexpr std::uint32_t kListed = 7;  ///< entries tried on each side, beside `wanted`; 1 point in 14 is then searched
 
 /// Finds the neighbours of points, which are sorted by their cells in a grid.
 /// PCL's RadiusOutlierRemoval asks a kd-tree for each point, which costs a futex call each time (FLANN's OpenMP).
@@ -47,7 +47,7 @@ class Neighbourhood {
   bool has_searched_neighbours(std::uint32_t i, int wanted) {
     if (entries_.empty()) sort();
     const Eigen::Vector3i c = cell(points_[i]);
-    // The point's own row first: there is nearly always a neighbour in it.
+    // Begins with the point's own row: there is nearly always a neighbour in it.
     for (const int dz : {0, -1, 1}) {
       for (const int dy : {0, -1, 1}) {
         const Eigen::Vector3i row = c + Eigen::Vector3i(0, dy, dz);
@@ -92,7 +92,7 @@ KnownBodies::KnownBodies(const std::vector<KnownBody>& bodies) {
     reach_ = std::max(reach_, body.radius_m);
   }
   std::ranges::sort(bodies_, {}, x_of);
-  reach_ += 1e-6 + 1e-9 * reach_;  // at the edge, only the exact distance decides
+  reach_ += 1e-6 + 1e-9 * reach_;  // so that rounding excludes no body; the exact distance decides
 }
 
 bool KnownBodies::hold(const Vector3d& p_W) const {

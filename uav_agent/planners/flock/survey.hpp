@@ -1,5 +1,5 @@
-// Which parts of the site explorers have surveyed: had in line of sight, near enough for their LiDARs to find all
-// structure. Other parts are worth a flight. Parts that no place has in sight lie inside structure.
+// Which parts of the site explorers have surveyed: they had them in line of sight, near enough for their LiDARs to find
+// all structure. Other parts are worth a flight. Parts that are in sight from no place lie inside structure.
 // Each UAV keeps its own record, of its own LiDAR and of those of the explorers in line of sight.
 // Frame W.   Units: metres.   Threads: one.   Effort of look(): cells within survey_m.
 #pragma once
@@ -26,13 +26,13 @@ class FlockSurvey {
   /// @param grid  map of the structure that hides cells.
   void look(const VoxelGrid& grid, const Vector3d& p_W);
 
-  /// Call it when this UAV was at a place chosen to survey everything within `radius_m`. Cells that are still out of
-  /// sight after two such visits are given up: a corner of a cell may be in sight although its middle is not.
+  /// Call it when this UAV was at a place chosen to survey everything within `radius_m`. gaps() gives up cells that are
+  /// not surveyed after two such visits: a corner of a cell may be in sight although its middle is not.
   void visited(const Vector3d& p_W, double radius_m);
 
   /// Whether an explorer ever had the place in sight; true outside the survey's cells.
   bool seen(const Vector3d& p_W) const;
-  /// Cells in and near boxes that were not in sight long enough and are not given up, in groups.
+  /// Cells in and near boxes that were not in sight long enough and have not been given up, in groups.
   std::vector<FlockGap> gaps() const;
   std::size_t surveyed() const { return surveyed_; }    ///< number of surveyed cells in and near boxes
   std::size_t to_survey() const { return to_survey_; }  ///< number of all cells in and near boxes

@@ -1,5 +1,6 @@
 // Parameters of the STAR planner (star.cpp): --planner star:inspect_mps=1.5,voxel_m=2.5. A default without a
-// named source is our choice: no source gives a number.
+// named source is our choice: no source gives a number. d*: the distance at which the camera just has the desired
+// resolution.
 // Units: SI unless the name says otherwise.
 #pragma once
 
@@ -10,41 +11,42 @@
 
 namespace skein::agent {
 
-/// An optional parameter has two defaults, named in its comment: for faithful=false, true. resolved() fills them in.
+/// The comment of an optional parameter gives two defaults: for faithful=false, then for faithful=true. resolved() sets
+/// them.
 struct StarConfig {
-  double voxel_m = 0.0;          ///< edge of a cube of the map; 0: 0.35 d*, limited to 2 to 3 m
-  int max_voxels = 120'000;      ///< the cubes grow until the site has no more
+  double voxel_m = 0.0;          ///< edge of a cube of the grid; 0: 0.35 d*, limited to 2 to 3 m
+  int max_voxels = 120'000;      ///< on larger sites, the cubes grow until there are no more
   double volume_weight = 0.005;  ///< cost of a box in the teams' tours: metres of path per cubic metre
   /// What the assignment of boxes minimises: `total`, the sum of all tours, or `longest`, the longest tour of a team.
   FleetTourObjective share = FleetTourObjective::total;
-  double explore_mps = 2.5, inspect_mps = 2.0;     ///< after FUEL's and Star-Searcher's 2 m/s, and SOAR's 2.5
+  double explore_mps = 2.5, inspect_mps = 2.0;     ///< FUEL and Star-Searcher: 2 m/s; SOAR: 2.5 m/s
   double replan_s = 1.5;                           ///< time between two plans; FUEL
-  double covered_s = 0.5;                          ///< least time between two plans, when the target is done; FUEL
+  double covered_s = 0.5;                          ///< the same once the target is done; FUEL
   double turn_s = 1.5;                             ///< cost of a change of direction, per radian; FUEL's weight
-  double round_m = 2.0;                            ///< how far from a corner the path may leave it to round it
+  double round_m = 2.0;                            ///< most distance from a corner at which the path cuts it off
   double horizon_m = 20.0;                         ///< length of the path that is planned ahead
   double margin_m = 6.0;                           ///< width of the space around a box that is explored with it
   double cluster_m = 8.0;                          ///< largest extent of a cluster of frontier cubes
   int min_cluster = 3;                             ///< fewest cubes of a cluster
   double ring_inner_m = 5.0, ring_outer_m = 11.0;  ///< explorers' viewpoints around a cluster; SOAR: 8 to 11
   int refine = 5;                                  ///< how many of the next viewpoints are refined; FUEL: up to 7
-  int looks = 6;                      ///< seconds in view after which a cube that is still frontier is given up
+  int looks = 6;                      ///< seconds in view and near by, after which an explorer gives up a frontier cube
   double standoff_ratio = 0.85;       ///< distance of photographers' viewpoints to the surface, in units of d*
   double seen_ratio = 1.0;            ///< a surface seen from within this (in units of d*) counts as inspected, ...
   double oblique_deg = 65.0;          ///< ... if its normal is within this angle of the line of sight
   double patch_m = 0.0;               ///< largest patch of surface with one viewpoint; 0: the picture's height there
-  double view_radius_m = 10.0;        ///< of a cluster of viewpoints; Star-Searcher: 3, indoors
-  double history_s = 4.0;             ///< cost of another first cluster than in the last plan
+  double view_radius_m = 10.0;        ///< radius of a cluster of viewpoints; Star-Searcher: 3, indoors
+  double history_s = 4.0;             ///< cost of beginning with another cluster than in the last plan
   std::optional<double> mate_s = {};  ///< 8, 0: cost of beginning where another UAV is about to work
   int max_views = 150;                ///< most viewpoints in one plan: the nearest ones
   int effort = 30'000;                ///< most moves that a tour search evaluates
   double share_s = 0.5;               ///< time between two messages
-  /// 3, never: wait of a UAV without work, before a photographer flies to its explorer's box, or an explorer around its
-  /// team's boxes.
+  /// 3, never: time without work, after which a photographer flies to its explorer's box or one of the team's, and an
+  /// explorer begins one of its boxes again.
   std::optional<double> follow_s = {};
   std::optional<bool> helps = {};  ///< true, false: a team without a box, or without work, helps others
   /// Explorers aim their cameras at surface that they pass, and inspect like photographers when they have explored
-  /// their boxes. Otherwise they only explore, with the camera towards their frontiers.
+  /// their boxes. An explorer alone in its team always does. Others only explore, with the camera towards frontiers.
   bool explorers_inspect = false;
   bool faithful = false;  ///< follows the sources, and leaves out what they do not mention
   FlightConfig flight = {};

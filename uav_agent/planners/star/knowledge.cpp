@@ -5,9 +5,9 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kFreeAroundM = 0.5;             ///< radius around a cube's middle that must be free
-constexpr std::size_t kExplorersLooks = 20'000;  ///< most unknown cubes examined in one look at the map
-constexpr std::size_t kOthersLooks = 4'000;      ///< a UAV that does not explore can learn later what is free
+constexpr double kFreeAroundM = 0.5;             ///< radius around a cube's centre that must be free
+constexpr std::size_t kExplorersLooks = 20'000;  ///< most unknown cubes that an explorer examines per update
+constexpr std::size_t kOthersLooks = 4'000;      ///< the same for other UAVs, which need free space less soon
 
 VoxelGrid first_grid(const StarConfig& config, const AgentConfig& agent, const std::vector<OrientedBox>& boxes,
                      double sharp_m) {

@@ -13,7 +13,7 @@ namespace skein_ros {
 
 class SerializedBuffer {
  public:
-  /// @param bytes  capacity; these bytes are 0
+  /// @param bytes  capacity; the constructor sets these bytes to 0
   explicit SerializedBuffer(std::size_t bytes = 0) : buffer_(rmw_get_zero_initialized_serialized_message()) {
     const auto allocator = rcutils_get_default_allocator();
     if (rmw_serialized_message_init(&buffer_, bytes, &allocator) != RMW_RET_OK) throw std::bad_alloc();
