@@ -22,7 +22,7 @@ GROUPS = {
     "finds no path to its goals": ("looks for a way",),
     "flies to goals without work": ("flies to a goal", "flies along"),
     "recovers: flies back, looks around, tries from elsewhere, climbs": (
-        "looks around", "flies nearer", "tries from elsewhere", "climbs to see", "flies back"),
+        "looks around", "flies nearer", "tries from elsewhere", "climbs to see", "flies back", "makes room"),
     "shows another UAV its way up": ("shows",),
     "delivers, or looks for a link": ("returns", "delivers", "waits for a link", "stays where"),
 }

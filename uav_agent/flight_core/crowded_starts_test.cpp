@@ -59,5 +59,44 @@ TEST(CrowdedStarts, EveryUavGetsAway) {
   EXPECT_GE(uavs, 32U);
 }
 
+/// A tight group of one explorer and four or five photographers below a canopy that is wider than the group.
+Crowd drawn_group_below_a_canopy(std::uint64_t seed) {
+  RandomStream random(seed, "crowded_starts_test", 1);
+  Crowd crowd;
+  crowd.scene.boxes = {make_box({40.0, 0.0, 8.0}, {10.0, 10.0, 16.0})};
+  const double low_m = random.uniform(7.5, 9.0);
+  crowd.scene.solids = {make_box({40.0, 0.0, 7.0}, {6.0, 6.0, 14.0}),
+                        make_box({0.0, 0.0, low_m + 0.25}, {8.0, 8.0, 0.5})};
+  const std::size_t count = random.uniform() < 0.5 ? 5 : 6;
+  while (crowd.fleet.size() < count) {
+    constexpr double side_m = 1.5;
+    TestUav uav{.name = "u" + std::to_string(crowd.fleet.size()),
+                .role = crowd.fleet.empty() ? Role::explorer : Role::photographer,
+                .start = {random.uniform(-side_m, side_m), random.uniform(-side_m, side_m)}};
+    const auto fits = [&](const TestUav& other) {
+      return (uav.start - other.start).norm() - radius_m(uav.role) - radius_m(other.role) > 0.05;
+    };
+    if (std::ranges::all_of(crowd.fleet, fits)) crowd.fleet.push_back(uav);
+  }
+  return crowd;
+}
+
+// The explorer rises until the canopy stops it, and the others below it until it stops them. Nobody can fly past
+// another one any more, until those that rest make room.
+TEST(CrowdedStarts, EveryUavGetsAwayBelowACanopy) {
+  const char* const planners[] = {"star", "flock", "kios"};
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    const Crowd crowd = drawn_group_below_a_canopy(seed);
+    TestWorld world(crowd.scene, crowd.fleet, planners[seed % 3], 200.0);
+    world.run(150.0);
+    for (std::size_t i = 0; i < crowd.fleet.size(); ++i) {
+      EXPECT_GT((world.position(i).head<2>() - crowd.fleet[i].start).norm(), 6.0)
+          << "seed " << seed << ", " << planners[seed % 3] << ", UAV " << i << " at " << world.position(i).transpose();
+    }
+    EXPECT_GT(world.gap(), 0.0) << "seed " << seed;
+    EXPECT_GT(world.clearance(), kPhotographerRadiusM) << "seed " << seed;
+  }
+}
+
 }  // namespace
 }  // namespace skein::agent

@@ -23,6 +23,7 @@ struct Doing {
     elsewhere,
     climbs,
     back,
+    makes_room,  ///< flies aside for a UAV that stands close to it (making_room.hpp)
     homing,      ///< flies to a place in line of sight of the station
     delivers,    ///< stays at a place from which its captures reach the station
     lands,       ///< flies to a landing place and lands: the battery is nearly empty (landing.hpp)

@@ -11,6 +11,7 @@ constexpr double kNoLinkS = 4.0;  ///< longest wait for a link at a place that s
 constexpr double kIdleS = 4.0;    ///< recovery begins after so long without a goal that can be reached
 constexpr double kStaysM = 0.5;   ///< a UAV that moves no farther stays where it is
 constexpr std::int64_t kHome = -2;
+constexpr double kMakesRoomS = 10.0;  ///< longest flight aside
 constexpr double kShowCheckS = 5.0;
 constexpr std::uint64_t kShowLook = 10;  ///< exchanges between two checks of whether a photographer was shown its way
 
@@ -26,6 +27,7 @@ FlightCore::FlightCore(const FlightConfig& config, const AgentConfig& agent)
       homing_(config, agent),
       recovery_(config, navigator_),
       showing_(agent, filter_),
+      making_room_(config, agent, filter_),
       landing_(config, agent, filter_, navigator_),
       takeoff_(config, agent, filter_, navigator_, landing_) {}
 
@@ -68,6 +70,10 @@ Doing FlightCore::doing(const PlannerInput& in) const {
       break;
     case Mode::recovering:
       doing.what = recovery_.doing();
+      break;
+    case Mode::making_room:
+      doing.what = Doing::What::makes_room;
+      doing.goal_W = room_W_;
       break;
     case Mode::landing:
       doing.what = Doing::What::lands;
@@ -119,7 +125,7 @@ Steering FlightCore::step(const PlannerInput& in, std::optional<std::vector<Goal
       take_off(in, steering);
       break;
     case Mode::working:
-      if (begin_showing(in)) break;
+      if (begin_showing(in) || begin_making_room(in, steering)) break;
       if (asked) navigator_.want(wanted_);
       work(in, steering);
       break;
@@ -132,6 +138,11 @@ Steering FlightCore::step(const PlannerInput& in, std::optional<std::vector<Goal
     case Mode::recovering:
       if (!recovery_.step(in, filter_.held(), steering)) break;
       lost_way_home_ = false;
+      enter(Mode::working, in);
+      break;
+    case Mode::making_room:
+      if (!in.tracking.done && seconds(in.tick - since_) < kMakesRoomS) break;
+      steering.motion = Hold{};
       enter(Mode::working, in);
       break;
     case Mode::landing:
@@ -167,7 +178,7 @@ std::vector<Outcome> FlightCore::outcomes() {
 void FlightCore::work(const PlannerInput& in, Steering& steering) {
   navigator_.step(in, filter_.held(), steering);
   for (Outcome& outcome : outcomes()) {
-    if (outcome.kind != Outcome::Kind::no_way) recovery_.progress();
+    if (outcome.kind != Outcome::Kind::no_way) recovery_.progress(in);
     if (outcome.kind == Outcome::Kind::reached) held_s_ = 0.0;
     outcomes_.push_back(std::move(outcome));
   }
@@ -200,6 +211,18 @@ bool FlightCore::is_stuck(const PlannerInput& in) {
   }
   if (navigator_.current() && filter_.held().by != Held::By::nothing) held_s_ += agent_.exchange_period_s;
   return held_s_ > config_.stall_s + config_.look_s + config_.yield_s;
+}
+
+/// @returns whether the UAV, which rests, flies aside for another one that stands close to it.
+bool FlightCore::begin_making_room(const PlannerInput& in, Steering& steering) {
+  if (filter_.held().by != Held::By::nothing) return false;
+  room_W_ = making_room_.place_W(in);
+  if (!room_W_) return false;
+  navigator_.stop(steering);
+  std::ranges::move(outcomes(), std::back_inserter(outcomes_));
+  steering.motion = Path{{{*room_W_, config_.tight_mps}}};
+  enter(Mode::making_room, in);
+  return true;
 }
 
 /// @returns whether the UAV sets out to show a photographer the way up.
@@ -248,7 +271,7 @@ void FlightCore::go_home(const PlannerInput& in, Steering& steering) {
     missed = outcome.kind != Outcome::Kind::reached;
     if (missed) continue;
     at_place_since_ = in.tick;
-    recovery_.progress();
+    recovery_.progress(in);
   }
   const bool shut_in = missed && filter_.held().by == Held::By::structure;
   if (!navigator_.idle() && !shut_in) return;

@@ -1,6 +1,6 @@
 // Flies a UAV for its planner: takeoff, goals, return-to-link to deliver captures, recovery and landing. Its modes:
 //
-//   ground -> takeoff -> working <-> homing, showing, recovering
+//   ground -> takeoff -> working <-> homing, showing, recovering, making room
 //   showing, recovering -> homing -> recovering (no way home);   any but ground -> landing (battery nearly empty)
 //
 // A UAV that is restarted in flight goes from ground to working. The planner returns ranked goals (api/goals.hpp) and
@@ -16,6 +16,7 @@
 #include "uav_agent/flight_core/doing.hpp"
 #include "uav_agent/flight_core/homing.hpp"
 #include "uav_agent/flight_core/landing.hpp"
+#include "uav_agent/flight_core/making_room.hpp"
 #include "uav_agent/flight_core/navigator.hpp"
 #include "uav_agent/flight_core/recovery.hpp"
 #include "uav_agent/flight_core/showing.hpp"
@@ -36,6 +37,7 @@ class FlightCore {
     filter_.expect(caution_.errors());
     navigator_.update(in);
     recovery_.update(in);
+    making_room_.update(in);
   }
   /// The state for PlannerInput. Outcomes are handed out in mode `working` only, and kept until then, so that the
   /// planner receives them when its goals count.
@@ -62,13 +64,14 @@ class FlightCore {
   const SafetyFilter& filter() const { return filter_; }
 
  private:
-  enum class Mode { ground, takeoff, working, homing, showing, recovering, landing };
+  enum class Mode { ground, takeoff, working, homing, showing, recovering, making_room, landing };
 
   void take_off(const PlannerInput& in, Steering& steering);
   std::vector<Outcome> outcomes();
   void work(const PlannerInput& in, Steering& steering);
   bool is_stuck(const PlannerInput& in);
   void recover(const PlannerInput& in);
+  bool begin_making_room(const PlannerInput& in, Steering& steering);
   bool begin_showing(const PlannerInput& in);
   void show(const PlannerInput& in, Steering& steering);
   void go_home(const PlannerInput& in, Steering& steering);
@@ -85,6 +88,7 @@ class FlightCore {
   Homing homing_;
   Recovery recovery_;
   Showing showing_;
+  MakingRoom making_room_;
   Landing landing_;
   Takeoff takeoff_;
   Mode mode_ = Mode::ground;
@@ -95,6 +99,7 @@ class FlightCore {
   Vector3d held_p_W_ = Vector3d::Zero();  ///< where the safety filter held the UAV on its way to goals, ...
   double held_s_ = 0.0;                   ///< ... and for how long since it was last 0.5 m away or reached a goal
   bool lost_way_home_ = false;            ///< the UAV recovers because homing could not reach its places
+  std::optional<Vector3d> room_W_;        ///< where the UAV makes room for another one
   std::vector<Outcome> outcomes_;         ///< outcomes that the planner has not received yet
   std::vector<Goal> wanted_;              ///< the planner's last goals, for when `working` begins again
   std::optional<std::size_t> waits_for_;

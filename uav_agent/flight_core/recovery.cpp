@@ -10,7 +10,7 @@ namespace skein::agent {
 namespace {
 
 constexpr std::int64_t kGoal = -1;
-constexpr double kWorthM = 3.0;  ///< least approach to the missed goal, or way back, that is worth the flight
+constexpr double kWorthM = 3.0;  ///< least approach to the missed goal, way back, or way away, that is worth the flight
 constexpr int kExpansions = 2000;
 constexpr double kClimbM = 5.0;
 constexpr double kElsewhereM[] = {8.0, 14.0};
@@ -37,8 +37,13 @@ void Recovery::update(const PlannerInput& in) {
   if (trail_W_.size() > kLongestTrail) trail_W_.pop_front();
 }
 
+void Recovery::progress(const PlannerInput& in) {
+  if ((in.tracking.setpoint.p_WB - begun_W_).norm() >= kWorthM) tries_ = backs_ = 0;
+}
+
 void Recovery::begin(const PlannerInput& in, const Held& held) {
   const Vector3d here_W = in.tracking.setpoint.p_WB;
+  begun_W_ = here_W;
   if (!navigator_.open_space(in).free(here_W) && go_back(here_W)) {
     behaviour_ = Behaviour::back;
     until_ = in.tick + ticks(kLongestS);

@@ -21,8 +21,9 @@ class Recovery {
 
   /// Adds the UAV's position to its trail. Call it once per exchange, before the other functions.
   void update(const PlannerInput& in);
-  /// Call it when the UAV has reached a goal: the next recovery starts with the first behaviour.
-  void progress() { tries_ = backs_ = 0; }
+  /// Call it when a goal of the planner has ended to which there was a path. If the UAV is away from where it last had
+  /// to recover, the next recovery starts with the first behaviour: a goal right there is no progress.
+  void progress(const PlannerInput& in);
   /// Starts the next behaviour that is possible here. @param held  what holds the UAV; if it
   /// is another UAV, to look around or to approach the goal behind it does not help
   void begin(const PlannerInput& in, const Held& held);
@@ -43,8 +44,9 @@ class Recovery {
 
   const FlightConfig& config_;
   Navigator& navigator_;
-  int tries_ = 0;  ///< behaviours tried since progress()
-  int backs_ = 0;  ///< flights back along the trail since progress()
+  Vector3d begun_W_ = Vector3d::Zero();  ///< where the UAV was at begin()
+  int tries_ = 0;                        ///< behaviours tried since progress()
+  int backs_ = 0;                        ///< flights back along the trail since progress()
   Behaviour behaviour_ = kOrder[0];
   Tick until_ = 0;                ///< when the behaviour ends at the latest
   std::deque<Vector3d> trail_W_;  ///< where the UAV came from, oldest first, without loops

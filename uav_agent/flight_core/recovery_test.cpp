@@ -47,6 +47,11 @@ struct Recovers : FlownUav {
     result.took_s = static_cast<double>(k - from) * agent.exchange_period_s;
     return result;
   }
+  void fly_straight_to(const Vector3d& p_W) {
+    tracker.follow({{{p_W, 3.0}}});
+    for (int i = 0; i < 400; ++i) fly({});
+    EXPECT_LT((state.p_WB - p_W).norm(), 0.5);
+  }
   Recovery recovery{config, navigator};
 };
 
@@ -76,12 +81,18 @@ TEST(Recovery, ThenGoesElsewhereAndUp) {
     uav.recover();
     double moved_m = 0.0;
     for (int i = 0; i < 2; ++i) {
+      uav.recovery.progress(uav.input());
       const auto tried = uav.recover();
+      const bool anew = i == 0 && uav.recovery.doing() == Doing::What::looks_round;
+      EXPECT_FALSE(anew) << "a goal reached right there is no progress";
       moved_m = std::max(moved_m, tried.moved_m);
       EXPECT_LT(tried.took_s, 40.0) << "nothing of it is for ever";
     }
     EXPECT_GT(moved_m, 4.0);
-    uav.recovery.progress();
+    uav.fly_straight_to({0.0, 0.0, 10.0});
+    uav.recover();
+    uav.fly_straight_to({4.0, 0.0, 10.0});
+    uav.recovery.progress(uav.input());
     EXPECT_LT(uav.recover().moved_m, 0.5) << "the list begins anew";
   }
 }

@@ -75,6 +75,8 @@ const char* words_for(What what) {
       return "climbs to see more";
     case What::back:
       return "flies back the way it came";
+    case What::makes_room:
+      return "makes room for another UAV";
     case What::homing:
       return "returns to the station's sight";
     case What::delivers:

@@ -1,0 +1,71 @@
+#include "uav_agent/flight_core/making_room.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace skein::agent {
+namespace {
+
+constexpr double kStoodM = 0.5;   ///< a UAV that stays within this distance stands
+constexpr double kCloseM = 0.6;   ///< a UAV is too close at the distance that the safety filter demands, and this
+constexpr double kEnoughM = 2.0;  ///< more room than this is not needed
+constexpr double kBetterM = 0.5;  ///< least gain of room that is worth the flight
+constexpr double kStepsM[] = {1.0, 2.0, 3.0};
+
+}  // namespace
+
+MakingRoom::MakingRoom(const FlightConfig& config, const AgentConfig& agent, SafetyFilter& filter)
+    : config_(config), agent_(agent), filter_(filter), others_(agent.fleet.size()) {}
+
+void MakingRoom::note(const Vector3d& p_W, Tick tick, Stand& stand) {
+  if ((p_W - stand.p_W).norm() > kStoodM) stand = {p_W, tick};
+}
+
+void MakingRoom::update(const PlannerInput& in) {
+  note(in.tracking.setpoint.p_WB, in.tick, own_);
+  for (const Peer& peer : in.peers.all()) {
+    Stand& stand = others_[peer.uav];
+    if (!peer.visible) stand.since = in.tick;
+    note(peer.p_W, in.tick, stand);
+  }
+}
+
+/// Least distance from a place to the UAVs in sight, beyond what the safety filter demands; at most kEnoughM [m].
+double MakingRoom::room_m(const Vector3d& p_W, const PlannerInput& in) const {
+  double room_m = kEnoughM;
+  for (const Peer& peer : in.peers.all()) {
+    if (!peer.visible) continue;
+    room_m = std::min(room_m, (p_W - peer.p_W).norm() - filter_.apart_m(peer.uav, 0.0, p_W - peer.p_W));
+  }
+  return room_m;
+}
+
+std::optional<Vector3d> MakingRoom::place_W(const PlannerInput& in) {
+  // So long, the other UAV has tried to look around, to wait for this one and to search other paths.
+  const Tick patience = ticks(config_.stall_s + config_.look_s + config_.yield_s);
+  const Vector3d here_W = in.tracking.setpoint.p_WB;
+  const bool crowded = std::ranges::any_of(in.peers.all(), [&](const Peer& peer) {
+    const double apart_m = filter_.apart_m(peer.uav, 0.0, here_W - peer.p_W);
+    return peer.visible && in.tick - others_[peer.uav].since > patience &&
+           (here_W - peer.p_W).norm() < apart_m + kCloseM;
+  });
+  if (!crowded || in.tick - own_.since <= patience) return std::nullopt;
+  own_.since = in.tick;  // if there is no place, try again later
+  const SafetyFilter::Facts facts{in.tick, in.state, *in.world_map, in.boxes, in.peers};
+  double best_m = room_m(here_W, in) + kBetterM;
+  std::optional<Vector3d> best_W;
+  for (const double step_m : kStepsM) {
+    for (int i = 0; i < 27; ++i) {
+      const Vector3d along(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
+      const Vector3d p_W = here_W + along.normalized() * step_m;
+      if (i == 13 || p_W.z() < agent_.me().p_WB_start.z() + config_.floor_m) continue;
+      const double there_m = room_m(p_W, in);
+      if (there_m <= best_m || filter_.would_hold({p_W}, facts).by != Held::By::nothing) continue;
+      best_m = there_m;
+      best_W = p_W;
+    }
+  }
+  return best_W;
+}
+
+}  // namespace skein::agent
