@@ -178,15 +178,16 @@ function(skein_add_helper_agent name)
 endfunction()
 
 # skein_add_test(NAME SOURCES ... LIBS ... [LABELS ...] [TIMEOUT s] [SERIAL] [ALONE] [TURNS k]
-#   [PROGRAMS target...])
+#   [HALF 0|1] [PROGRAMS target...])
 # Adds a CTest entry with the tests of the sources *_test.cpp. All tests of a CMake folder are one program, for example
 # `core_tests`, which runs the tests of one entry at a time (tests/support/test_program.hpp). PROGRAMS: programs that
 # the tests start. ALONE: the tests are a program of their own, because they change a whole program (operator new).
 # External data come from SKEIN_ASSETS and SKEIN_GOLDEN in the environment. TIMEOUT: see skein_set_timeout(). SERIAL: no
 # other entry runs at the same time. TURNS: every k-th of the tests runs, a different share at each commit (SKEIN_TURN;
-# without it all run).
+# without it all run). HALF: the entry runs at every second commit only. Entries of half 0 and of half 1 take the same
+# time together, so that all commits do.
 function(skein_add_test name)
-  cmake_parse_arguments(ARG "SERIAL;ALONE" "TIMEOUT;TURNS" "SOURCES;LIBS;LABELS;PROGRAMS" ${ARGN})
+  cmake_parse_arguments(ARG "SERIAL;ALONE" "TIMEOUT;TURNS;HALF" "SOURCES;LIBS;LABELS;PROGRAMS" ${ARGN})
   if(NOT BUILD_TESTING OR (SKEIN_SANITIZE STREQUAL thread AND NOT name IN_LIST SKEIN_THREAD_TESTS))
     return()
   endif()
@@ -218,6 +219,9 @@ function(skein_add_test name)
   endif()
   if(turns)
     set(turns --turns ${turns} ${aligned})
+  endif()
+  if(DEFINED ARG_HALF)
+    list(APPEND turns --half ${ARG_HALF})
   endif()
   add_test(NAME ${name} COMMAND ${program} --entry ${name} ${turns} ${files})
   if(NOT ARG_TIMEOUT)

@@ -74,6 +74,10 @@ bool has_turn(std::size_t number, std::size_t turns) {
   return !turn || (number + *turn) % turns == 0;
 }
 
+std::optional<std::size_t> turn_in_half(std::size_t turn, std::size_t half) {
+  return turn % 2 == half ? std::optional(turn / 2) : std::nullopt;
+}
+
 std::vector<std::string> tests_in_turn(const std::vector<std::string>& tests, std::size_t turn, std::size_t turns,
                                        bool aligned) {
   std::vector<std::string> names, parameters, chosen;
@@ -96,7 +100,7 @@ std::vector<std::string> tests_in_turn(const std::vector<std::string>& tests, st
 int run_test_program(int argc, char** argv) {
   std::vector<std::string> arguments(argv + 1, argv + argc);
   const std::vector<std::string> entries = take(arguments, "--entry"), files = take(arguments, "--file"),
-                                 turns = take(arguments, "--turns");
+                                 turns = take(arguments, "--turns"), halves = take(arguments, "--half");
   const bool aligned = std::erase(arguments, "--aligned") > 0;
   // If GTEST_OUTPUT names a folder, the report in it is named after CTest's entry (`--entry`). InitGoogleMock() reads
   // the flag `output`, so the flag must be set before.
@@ -119,6 +123,16 @@ int run_test_program(int argc, char** argv) {
       return 2;
     }
     tests.insert(tests.end(), more.begin(), more.end());
+  }
+  if (!halves.empty() && halves.front() != "0" && halves.front() != "1") {
+    std::fprintf(stderr, "%s: --half '%s': must be 0 or 1\n", argv[0], halves.front().c_str());
+    return 2;
+  }
+  if (const std::optional<std::size_t> turn = turn_asked_for(); turn && !halves.empty()) {
+    const std::optional<std::size_t> own = turn_in_half(*turn, halves.front() == "1" ? 1 : 0);
+    if (own) setenv("SKEIN_TURN", std::to_string(*own).c_str(), 1);
+    if (!own) std::printf("turn %zu: none of %zu tests\n", *turn, tests.size());
+    if (!own) GTEST_FLAG_SET(filter, "-*");
   }
   const std::size_t shares = turns.empty() ? 1 : std::strtoul(turns.front().c_str(), nullptr, 10);
   if (shares == 0) {

@@ -46,6 +46,38 @@ TEST(TestsInTurn, EveryTurnSeesEveryParameterOrOnlySome) {
   }
 }
 
+TEST(TestsInTurn, WithHalvesEachTestHasItsTurnOnceInTwiceAsMany) {
+  for (std::size_t turns = 1; turns <= 5; ++turns) {
+    for (const std::size_t half : {0, 1}) {
+      std::map<std::string, int> count;
+      for (std::size_t turn = 1000; turn < 1000 + 2 * turns; ++turn) {
+        const auto own = turn_in_half(turn, half);
+        EXPECT_EQ(own.has_value(), turn % 2 == half);
+        if (!own) continue;
+        for (const std::string& test : tests_in_turn(kTests, *own, turns)) ++count[test];
+      }
+      EXPECT_EQ(count.size(), kTests.size()) << turns;
+      for (const auto& [test, times] : count) EXPECT_EQ(times, 1) << test << " in " << turns;
+    }
+  }
+}
+
+TEST(TestsInTurn, TheOtherHalfRunsNothing) {
+  const std::string program = std::filesystem::read_symlink("/proc/self/exe").string();
+  const std::string file = " --file tests/support/test_program_test.cpp --gtest_filter=TemporaryFolder.WritesAFile*";
+  const auto prints = [&](const std::string& options) {
+    const ScratchFolder folder;
+    const std::string out = (folder.path() / "out").string();
+    EXPECT_EQ(std::system(("SKEIN_TURN=7 '" + program + "'" + file + options + " >'" + out + "'").c_str()), 0);
+    std::ifstream in(out);
+    return std::string(std::istreambuf_iterator<char>(in), {});
+  };
+  EXPECT_NE(prints(" --half 1").find("1 test from"), std::string::npos);
+  EXPECT_EQ(prints(" --half 0").find("test from"), std::string::npos);
+  const int status = std::system(("SKEIN_TURN=1 '" + program + "' --half 2 2>/dev/null").c_str());
+  EXPECT_EQ(WEXITSTATUS(status), 2);
+}
+
 TEST(TestsInTurn, NoSharesAreRefused) {
   const std::string program = std::filesystem::read_symlink("/proc/self/exe").string();
   for (const std::string shares : {"0", "many"}) {

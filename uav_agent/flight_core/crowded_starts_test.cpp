@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/random_stream.hpp"
+#include "tests/support/test_program.hpp"
 #include "uav_agent/testing/test_world.hpp"
 
 namespace skein::agent {
@@ -85,7 +86,8 @@ Crowd drawn_group_below_a_canopy(std::uint64_t seed) {
 // another one any more, until those that rest make room.
 TEST(CrowdedStarts, EveryUavGetsAwayBelowACanopy) {
   const char* const planners[] = {"star", "flock", "kios"};
-  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+  for (const std::uint64_t seed : {1, 2, 3, 9, 10, 11}) {
+    if (!has_turn(seed / 8, 2)) continue;  // three seeds at each commit, one for each planner
     const Crowd crowd = drawn_group_below_a_canopy(seed);
     TestWorld world(crowd.scene, crowd.fleet, planners[seed % 3], 200.0);
     world.run(150.0);

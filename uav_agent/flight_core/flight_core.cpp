@@ -143,6 +143,7 @@ Steering FlightCore::step(const PlannerInput& in, std::optional<std::vector<Goal
     case Mode::making_room:
       if (!in.tracking.done && seconds(in.tick - since_) < kMakesRoomS) break;
       steering.motion = Hold{};
+      navigator_.want(wanted_);
       enter(Mode::working, in);
       break;
     case Mode::landing:
@@ -215,7 +216,7 @@ bool FlightCore::is_stuck(const PlannerInput& in) {
 
 /// @returns whether the UAV, which rests, flies aside for another one that stands close to it.
 bool FlightCore::begin_making_room(const PlannerInput& in, Steering& steering) {
-  if (filter_.held().by != Held::By::nothing) return false;
+  if (navigator_.current() || filter_.held().by != Held::By::nothing) return false;
   room_W_ = making_room_.place_W(in);
   if (!room_W_) return false;
   navigator_.stop(steering);

@@ -221,5 +221,37 @@ TEST(FlightCore, AUavThatAnotherOneHoldsGoesAway) {
   }
 }
 
+// The strategy sets its goal only once, while the UAV flies aside.
+TEST(FlightCore, AUavThatHasMadeRoomFliesToItsGoal) {
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    RandomStream random(seed, "room", 0);
+    CoreUav uav(HeldInACorridor::two_photographers(), {0.0, 0.0, 10.0});
+    uav.lidar_works = false;
+    uav.boxes = {make_box({60.0, 0.0, 9.0}, {6.0, 6.0, 8.0})};
+    uav.clear({-24.0, -24.0, 2.0}, {24.0, 24.0, 24.0});
+    const double angle = random.uniform(0.0, 6.28), off_m = random.uniform(1.1, 1.5);
+    const Vector3d other_W(off_m * std::cos(angle), off_m * std::sin(angle), 10.0);
+    bool asked = false, reached = false;
+    for (int i = 0; i < 1200; ++i) {
+      uav.peers.update(uav.input().tick, {{node_of_uav(UavIndex(1)), other_W, Vector3d(Vector3d::Zero())}});
+      PlannerInput in = uav.input();
+      uav.core.update(in);
+      in.flight = uav.core.state();
+      for (const Outcome& outcome : in.flight.outcomes) {
+        reached |= outcome.id == 1 && outcome.kind == Outcome::Kind::reached;
+      }
+      std::optional<std::vector<Goal>> goals;
+      if (!asked && i % 30 == 0) goals = {{.id = 100 + i, .way = {{in.tracking.setpoint.p_WB, 3.0}}}};  // it rests
+      if (!asked && uav.core.doing(in).what == Doing::What::makes_room) {
+        goals = {{.id = 1, .way = {{Vector3d(-10.0, random.uniform(-5.0, 5.0), 12.0), 3.0}}}};
+        asked = true;
+      }
+      uav.fly_by(uav.core.step(in, std::move(goals)));
+    }
+    EXPECT_TRUE(asked) << "seed " << seed;
+    EXPECT_TRUE(reached) << "seed " << seed;
+  }
+}
+
 }  // namespace
 }  // namespace skein::agent
