@@ -18,6 +18,8 @@ constexpr double kHeightsM[] = {3.0, 0.0, -3.0, 8.0};
 constexpr int kHeadings = 8, kHeadingStep = 3;  ///< the first heading turns by kHeadingStep from one try to the next
 constexpr double kLongestS = 30.0;
 constexpr double kTrailStepM = 1.0, kBackM = 8.0;
+/// No trail leads lower beside structure: a UAV finds no path from the ground there.
+constexpr double kTrailLowestM = 1.2, kBesideStructureM = 3.0;
 constexpr std::size_t kLongestTrail = 192;
 
 }  // namespace
@@ -27,6 +29,9 @@ Recovery::Recovery(const FlightConfig& config, Navigator& navigator) : config_(c
 void Recovery::update(const PlannerInput& in) {
   if (!in.tracking.airborne) return;
   const Vector3d& here_W = in.tracking.setpoint.p_WB;
+  if (here_W.z() < kTrailLowestM && in.world_map->structure_distance_m(here_W) < kBesideStructureM) {
+    return trail_W_.clear();
+  }
   const auto here = [&](const Vector3d& p_W) { return (here_W - p_W).norm() < kTrailStepM; };
   const auto before = std::ranges::find_if(trail_W_, here);
   if (before != trail_W_.end()) {

@@ -118,6 +118,41 @@ TEST(Recovery, EndsWhereThereIsNowhereToGo) {
 }
 
 // At the end of a shaft, nothing else is known to be free. Each time round it goes back farther.
+// From the ground beside structure, a UAV would find no path any more.
+TEST(Recovery, NoTrailLeadsBackToTheGround) {
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    RandomStream random(seed, "ground", 0);
+    FlownUav uav(one_of(seed % 2 == 0 ? Role::explorer : Role::photographer), {0.0, 0.0, 0.2});
+    uav.lidar_works = false;
+    const double top_m = random.uniform(4.5, 7.5);
+    uav.clear({-4.0, -4.0, 0.0}, {4.0, 4.0, 12.0});
+    uav.build({2.2, -2.0, 0.0}, {2.8, 2.0, 12.0});
+    Recovery recovery{uav.config, uav.navigator};
+    uav.tracker.follow({{{Vector3d(0.0, 0.0, top_m), 1.0}}});
+    for (int i = 0; i < 200; ++i) {
+      uav.navigator.update(uav.input());
+      recovery.update(uav.input());
+      uav.fly({});
+    }
+    ASSERT_NEAR(uav.state.p_WB.z(), top_m, 0.2) << "seed " << seed;
+    double lowest_m = top_m;
+    for (int tries = 0; tries < 10; ++tries) {
+      recovery.begin(uav.input(), {});
+      for (bool over = false; !over;) {
+        const PlannerInput in = uav.input();
+        uav.navigator.update(in);
+        recovery.update(in);
+        Steering steering;
+        over = recovery.step(in, uav.filter.held(), steering);
+        uav.fly(steering);
+        lowest_m = std::min(lowest_m, uav.state.p_WB.z());
+      }
+    }
+    EXPECT_LT(lowest_m, 2.5) << "seed " << seed << ": it goes back";
+    EXPECT_GT(lowest_m, 1.0) << "seed " << seed;
+  }
+}
+
 TEST(Recovery, GoesBackTheWayThatItCame) {
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     RandomStream random(seed, "back", 0);
