@@ -34,6 +34,9 @@ struct FlightConfig {
   double alone_mps = 1.5;   ///< maximum speed of a UAV that assumes that space outside the boxes is free
   double yield_s = 5.0;     ///< so much longer than stall_s, a UAV waits for one with a lower index
 
+  /// A UAV that has been held at one place for so long has looked around, waited for others, and searched other paths.
+  double held_s() const { return stall_s + look_s + yield_s; }
+
   // Reactions to the uncertainty of the odometry, to wind and to the battery (caution.hpp).
   bool reacts = true;            ///< false: no reactions
   double drift_sigmas = 2.0;     ///< standard deviations of the position, added to clearances

@@ -211,7 +211,7 @@ bool FlightCore::is_stuck(const PlannerInput& in) {
     held_s_ = 0.0;
   }
   if (navigator_.current() && filter_.held().by != Held::By::nothing) held_s_ += agent_.exchange_period_s;
-  return held_s_ > config_.stall_s + config_.look_s + config_.yield_s;
+  return held_s_ > config_.held_s();
 }
 
 /// @returns whether the UAV, which rests, flies aside for another one that stands close to it.

@@ -34,20 +34,20 @@ void MakingRoom::update(const PlannerInput& in) {
 double MakingRoom::room_m(const Vector3d& p_W, const PlannerInput& in) const {
   double room_m = kEnoughM;
   for (const Peer& peer : in.peers.all()) {
-    if (!peer.visible) continue;
-    room_m = std::min(room_m, (p_W - peer.p_W).norm() - filter_.apart_m(peer.uav, 0.0, p_W - peer.p_W));
+    if (peer.visible) room_m = std::min(room_m, room_to_m(peer, p_W));
   }
   return room_m;
 }
 
+double MakingRoom::room_to_m(const Peer& peer, const Vector3d& p_W) const {
+  return (p_W - peer.p_W).norm() - filter_.apart_m(peer.uav, 0.0, p_W - peer.p_W);
+}
+
 std::optional<Vector3d> MakingRoom::place_W(const PlannerInput& in) {
-  // So long, the other UAV has tried to look around, to wait for this one and to search other paths.
-  const Tick patience = ticks(config_.stall_s + config_.look_s + config_.yield_s);
+  const Tick patience = ticks(config_.held_s());
   const Vector3d here_W = in.tracking.setpoint.p_WB;
   const bool crowded = std::ranges::any_of(in.peers.all(), [&](const Peer& peer) {
-    const double apart_m = filter_.apart_m(peer.uav, 0.0, here_W - peer.p_W);
-    return peer.visible && in.tick - others_[peer.uav].since > patience &&
-           (here_W - peer.p_W).norm() < apart_m + kCloseM;
+    return peer.visible && in.tick - others_[peer.uav].since > patience && room_to_m(peer, here_W) < kCloseM;
   });
   if (!crowded || in.tick - own_.since <= patience) return std::nullopt;
   own_.since = in.tick;  // if there is no place, try again later

@@ -32,6 +32,7 @@ class MakingRoom {
 
   static void note(const Vector3d& p_W, Tick tick, Stand& stand);
   double room_m(const Vector3d& p_W, const PlannerInput& in) const;
+  double room_to_m(const Peer& peer, const Vector3d& p_W) const;
 
   const FlightConfig& config_;
   const AgentConfig& agent_;

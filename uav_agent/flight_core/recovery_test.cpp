@@ -118,6 +118,22 @@ TEST(Recovery, EndsWhereThereIsNowhereToGo) {
 }
 
 // At the end of a shaft, nothing else is known to be free. Each time round it goes back farther.
+/// Flies one recovery behaviour to its end. @returns the UAV's least height on the way [m].
+double recover_once(FlownUav& uav, Recovery& recovery) {
+  double lowest_m = uav.state.p_WB.z();
+  recovery.begin(uav.input(), {});
+  for (bool over = false; !over;) {
+    const PlannerInput in = uav.input();
+    uav.navigator.update(in);
+    recovery.update(in);
+    Steering steering;
+    over = recovery.step(in, uav.filter.held(), steering);
+    uav.fly(steering);
+    lowest_m = std::min(lowest_m, uav.state.p_WB.z());
+  }
+  return lowest_m;
+}
+
 // From the ground beside structure, a UAV would find no path any more.
 TEST(Recovery, NoTrailLeadsBackToTheGround) {
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
@@ -137,16 +153,7 @@ TEST(Recovery, NoTrailLeadsBackToTheGround) {
     ASSERT_NEAR(uav.state.p_WB.z(), top_m, 0.2) << "seed " << seed;
     double lowest_m = top_m;
     for (int tries = 0; tries < 10; ++tries) {
-      recovery.begin(uav.input(), {});
-      for (bool over = false; !over;) {
-        const PlannerInput in = uav.input();
-        uav.navigator.update(in);
-        recovery.update(in);
-        Steering steering;
-        over = recovery.step(in, uav.filter.held(), steering);
-        uav.fly(steering);
-        lowest_m = std::min(lowest_m, uav.state.p_WB.z());
-      }
+      lowest_m = std::min(lowest_m, recover_once(uav, recovery));
     }
     EXPECT_LT(lowest_m, 2.5) << "seed " << seed << ": it goes back";
     EXPECT_GT(lowest_m, 1.0) << "seed " << seed;
@@ -169,15 +176,7 @@ TEST(Recovery, GoesBackTheWayThatItCame) {
     ASSERT_NEAR(uav.state.p_WB.z(), top_m, 0.2) << "seed " << seed;
     double lowest_m = top_m;
     for (int tries = 0; tries < 10; ++tries) {
-      recovery.begin(uav.input(), {});
-      for (bool over = false; !over;) {
-        const PlannerInput in = uav.input();
-        uav.navigator.update(in);
-        recovery.update(in);
-        Steering steering;
-        over = recovery.step(in, uav.filter.held(), steering);
-        uav.fly(steering);
-      }
+      recover_once(uav, recovery);
       lowest_m = std::min(lowest_m, uav.state.p_WB.z());
       if (tries == 4) {
         EXPECT_LT(lowest_m, top_m - 7.0) << "seed " << seed;
