@@ -25,7 +25,7 @@ FlightCore::FlightCore(const FlightConfig& config, const AgentConfig& agent)
       told_(config, agent),
       navigator_(config, agent, filter_),
       homing_(config, agent),
-      recovery_(config, navigator_),
+      recovery_(config, filter_, navigator_),
       showing_(agent, filter_),
       making_room_(config, agent, filter_),
       landing_(config, agent, filter_, navigator_),

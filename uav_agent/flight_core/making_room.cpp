@@ -1,7 +1,8 @@
 #include "uav_agent/flight_core/making_room.hpp"
 
 #include <algorithm>
-#include <cmath>
+
+#include "uav_agent/flight_core/place_near.hpp"
 
 namespace skein::agent {
 namespace {
@@ -10,7 +11,6 @@ constexpr double kStoodM = 0.5;   ///< a UAV that stays within this distance sta
 constexpr double kCloseM = 0.6;   ///< a UAV is too close at the distance that the safety filter demands, and this
 constexpr double kEnoughM = 2.0;  ///< more room than this is not needed
 constexpr double kBetterM = 0.5;  ///< least gain of room that is worth the flight
-constexpr double kStepsM[] = {1.0, 2.0, 3.0};
 
 }  // namespace
 
@@ -52,20 +52,9 @@ std::optional<Vector3d> MakingRoom::place_W(const PlannerInput& in) {
   if (!crowded || in.tick - own_.since <= patience) return std::nullopt;
   own_.since = in.tick;  // if there is no place, try again later
   const SafetyFilter::Facts facts{in.tick, in.state, *in.world_map, in.boxes, in.peers};
-  double best_m = room_m(here_W, in) + kBetterM;
-  std::optional<Vector3d> best_W;
-  for (const double step_m : kStepsM) {
-    for (int i = 0; i < 27; ++i) {
-      const Vector3d along(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
-      const Vector3d p_W = here_W + along.normalized() * step_m;
-      if (i == 13 || p_W.z() < agent_.me().p_WB_start.z() + config_.floor_m) continue;
-      const double there_m = room_m(p_W, in);
-      if (there_m <= best_m || filter_.would_hold({p_W}, facts).by != Held::By::nothing) continue;
-      best_m = there_m;
-      best_W = p_W;
-    }
-  }
-  return best_W;
+  return best_place_near_W(
+      here_W, agent_.me().p_WB_start.z() + config_.floor_m, room_m(here_W, in) + kBetterM,
+      [&](const Vector3d& p_W) { return room_m(p_W, in); }, filter_, facts);
 }
 
 }  // namespace skein::agent

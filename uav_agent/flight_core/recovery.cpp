@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "uav_agent/flight/path_search.hpp"
+#include "uav_agent/flight_core/place_near.hpp"
 
 namespace skein::agent {
 namespace {
@@ -18,13 +19,16 @@ constexpr double kHeightsM[] = {3.0, 0.0, -3.0, 8.0};
 constexpr int kHeadings = 8, kHeadingStep = 3;  ///< the first heading turns by kHeadingStep from one try to the next
 constexpr double kLongestS = 30.0;
 constexpr double kTrailStepM = 1.0, kBackM = 8.0;
+constexpr double kStayedM = 0.5;    ///< a behaviour that moves the UAV no farther has failed
+constexpr double kMoreRoomM = 0.3;  ///< least gain of distance from structure that is worth a flight aside
 /// No trail leads lower beside structure: a UAV finds no path from the ground there.
 constexpr double kTrailLowestM = 1.2, kBesideStructureM = 3.0;
 constexpr std::size_t kLongestTrail = 192;
 
 }  // namespace
 
-Recovery::Recovery(const FlightConfig& config, Navigator& navigator) : config_(config), navigator_(navigator) {}
+Recovery::Recovery(const FlightConfig& config, SafetyFilter& filter, Navigator& navigator)
+    : config_(config), filter_(filter), navigator_(navigator) {}
 
 void Recovery::update(const PlannerInput& in) {
   if (!in.tracking.airborne) return;
@@ -48,11 +52,16 @@ void Recovery::progress(const PlannerInput& in) {
 
 void Recovery::begin(const PlannerInput& in, const Held& held) {
   const Vector3d here_W = in.tracking.setpoint.p_WB;
+  const bool stayed = (here_W - begun_W_).norm() < kStayedM;
   begun_W_ = here_W;
-  if (!navigator_.open_space(in).free(here_W) && go_back(here_W)) {
-    behaviour_ = Behaviour::back;
-    until_ = in.tick + ticks(kLongestS);
-    return;
+  if (!navigator_.open_space(in).free(here_W)) {
+    // Structure discovered meanwhile may be in the way back, too.
+    const bool fails = behaviour_ == Behaviour::back && stayed;
+    behaviour_ = fails && go_aside(in) ? Behaviour::aside : Behaviour::back;
+    if (behaviour_ == Behaviour::aside || go_back(here_W)) {
+      until_ = in.tick + ticks(kLongestS);
+      return;
+    }
   }
   for (int i = 0; i < kBehaviours; ++i) {
     behaviour_ = kOrder[tries_++ % kBehaviours];
@@ -122,6 +131,20 @@ bool Recovery::go_back(const Vector3d& here_W) {
   return true;
 }
 
+/// Flies straight to where structure is farther away, which needs no path. Forgets the trail, along which the UAV does
+/// not get back. @returns whether there is such a place.
+bool Recovery::go_aside(const PlannerInput& in) {
+  const Vector3d& here_W = in.tracking.setpoint.p_WB;
+  const double enough_m = filter_.tube_m(config_.approach_mps);
+  const auto room_m = [&](const Vector3d& p_W) { return std::min(in.world_map->structure_distance_m(p_W), enough_m); };
+  const auto p_W = best_place_near_W(here_W, config_.floor_m, room_m(here_W) + kMoreRoomM, room_m, filter_,
+                                     {in.tick, in.state, *in.world_map, in.boxes, in.peers});
+  if (!p_W) return false;
+  trail_W_.clear();
+  navigator_.retrace({{*p_W, config_.tight_mps}});
+  return true;
+}
+
 bool Recovery::step(const PlannerInput& in, const Held& held, Steering& steering) {
   if (behaviour_ == Behaviour::look_around) {
     navigator_.look_around(in, steering);
@@ -141,6 +164,7 @@ Doing::What Recovery::doing() const {
     case Behaviour::approach:
       return Doing::What::approaches;
     case Behaviour::elsewhere:
+    case Behaviour::aside:
       return Doing::What::elsewhere;
     case Behaviour::climb:
       return Doing::What::climbs;

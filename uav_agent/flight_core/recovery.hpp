@@ -1,7 +1,8 @@
 // What a UAV does if it can reach none of its goals. The flight core tries an ordered list of recovery behaviours, one
 // after the other, until the UAV reaches a goal again: look around, so that the LiDAR proves more space free; approach
 // the goal that it missed; fly elsewhere; climb; fly back along its own trail. If the UAV's position no longer counts
-// as free, because of structure discovered meanwhile, the UAV flies back at once.
+// as free, because of structure discovered meanwhile, the UAV flies back at once; if that does not move it, straight to
+// where it has more room.
 // Frame W.   Units: SI.   Threads: one.   Deterministic.
 #pragma once
 
@@ -16,8 +17,8 @@ namespace skein::agent {
 
 class Recovery {
  public:
-  /// @param config, navigator  must outlive this.
-  Recovery(const FlightConfig& config, Navigator& navigator);
+  /// @param config, filter, navigator  must outlive this.
+  Recovery(const FlightConfig& config, SafetyFilter& filter, Navigator& navigator);
 
   /// Adds the UAV's position to its trail. Call it once per exchange, before the other functions.
   void update(const PlannerInput& in);
@@ -33,7 +34,7 @@ class Recovery {
   Doing::What doing() const;
 
  private:
-  enum class Behaviour { look_around, approach, elsewhere, climb, back };
+  enum class Behaviour { look_around, approach, elsewhere, climb, back, aside };
 
   static constexpr Behaviour kOrder[] = {Behaviour::look_around, Behaviour::approach, Behaviour::elsewhere,
                                          Behaviour::climb, Behaviour::back};
@@ -41,8 +42,10 @@ class Recovery {
 
   bool set_out(const PlannerInput& in);
   bool go_back(const Vector3d& here_W);
+  bool go_aside(const PlannerInput& in);
 
   const FlightConfig& config_;
+  SafetyFilter& filter_;
   Navigator& navigator_;
   Vector3d begun_W_ = Vector3d::Zero();  ///< where the UAV was at begin()
   int tries_ = 0;                        ///< behaviours tried since progress()

@@ -52,7 +52,7 @@ struct Recovers : FlownUav {
     for (int i = 0; i < 400; ++i) fly({});
     EXPECT_LT((state.p_WB - p_W).norm(), 0.5);
   }
-  Recovery recovery{config, navigator};
+  Recovery recovery{config, filter, navigator};
 };
 
 TEST(Recovery, LooksAroundFirst) {
@@ -143,7 +143,7 @@ TEST(Recovery, NoTrailLeadsBackToTheGround) {
     const double top_m = random.uniform(4.5, 7.5);
     uav.clear({-4.0, -4.0, 0.0}, {4.0, 4.0, 12.0});
     uav.build({2.2, -2.0, 0.0}, {2.8, 2.0, 12.0});
-    Recovery recovery{uav.config, uav.navigator};
+    Recovery recovery{uav.config, uav.filter, uav.navigator};
     uav.tracker.follow({{{Vector3d(0.0, 0.0, top_m), 1.0}}});
     for (int i = 0; i < 200; ++i) {
       uav.navigator.update(uav.input());
@@ -167,7 +167,7 @@ TEST(Recovery, GoesBackTheWayThatItCame) {
     uav.lidar_works = false;
     const double top_m = random.uniform(28.0, 50.0);
     uav.clear({-4.0, -4.0, 0.0}, {4.0, 4.0, top_m + 4.0});
-    Recovery recovery{uav.config, uav.navigator};
+    Recovery recovery{uav.config, uav.filter, uav.navigator};
     uav.navigator.want({{.id = 1, .way = {{Vector3d(0.0, 0.0, top_m), 3.0}}}});
     while (!uav.navigator.idle()) {
       recovery.update(uav.input());
@@ -243,6 +243,32 @@ TEST(Recovery, AUavThatStructureHasShutInGoesBackWhereItCame) {
     EXPECT_LE(uav.state.p_WB.z(), uav.low_m) << "seed " << seed << ": it is out";
     EXPECT_LE(tries, 8) << "seed " << seed;
     EXPECT_GT(least_m, uav.agent.me().body_radius_m + uav.config.tight_halo_m) << "seed " << seed;
+  }
+}
+
+// LiDARs of other UAVs may have taken this UAV for structure, all along the way that it came.
+TEST(Recovery, AUavWhoseWayBackIsTakenForStructureGetsAwayFromIt) {
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    RandomStream random(seed, "taken_for_structure", 0);
+    Recovers uav(seed % 2 == 0 ? Role::explorer : Role::photographer);
+    uav.lidar_works = false;
+    const Vector3d to_W(random.uniform(-6.0, 6.0), random.uniform(-6.0, 6.0), random.uniform(15.0, 18.0));
+    uav.navigator.want({{.id = 1, .way = {{to_W, 3.0}}}});
+    std::vector<Vector3d> way_W;
+    while (!uav.navigator.idle()) {
+      uav.recovery.update(uav.input());
+      uav.navigate();
+      way_W.push_back(uav.state.p_WB);
+    }
+    const double near_m = random.uniform(0.5, 1.2);
+    for (const Vector3d& p_W : way_W) {
+      const double off_m = (p_W - uav.state.p_WB).norm();
+      if (off_m > near_m && off_m < 3.0) uav.build(p_W, p_W);
+    }
+    const Vector3d from_W = uav.state.p_WB;
+    for (int tries = 0; tries < 6; ++tries) uav.recover();
+    EXPECT_GT((uav.state.p_WB - from_W).norm(), 0.9) << "seed " << seed;
+    EXPECT_TRUE(uav.navigator.open_space(uav.input()).free(uav.state.p_WB)) << "seed " << seed;
   }
 }
 
