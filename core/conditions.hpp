@@ -51,14 +51,17 @@ struct OdometryConditions {
 struct BatteryConditions {
   std::string preset = "none";
   std::optional<double> endurance_missions =
-      {};                    ///< endurance in hover in still air, in mission durations; none: no battery
-  double reserve = 0.2;      ///< share of the charge with which a UAV should land
-  double efficiency = 0.55;  ///< ideal rotor power / electric power
-  double avionics_w = 15.0;  ///< constant load: computer, camera, LiDAR
-  double sag = 0.05;         ///< relative voltage drop of the pack under the load of hover
-  int cells = 6;             ///< in series
+      {};                             ///< endurance in hover in still air, in mission durations; none: no battery
+  double reserve = 0.2;               ///< share of the charge with which a UAV should land
+  double efficiency = 0.55;           ///< ideal rotor power / electric power
+  double avionics_w = 15.0;           ///< constant load: computer, camera, LiDAR
+  double sag = 0.05;                  ///< relative voltage drop of the pack under the load of hover
+  int cells = 6;                      ///< in series
+  std::optional<double> swap_s = {};  ///< time on the ground after which a UAV has a full battery; none: never
+  double swap_within_m = 100.0;       ///< greatest horizontal distance from the station at which batteries are swapped
 
   bool on() const { return endurance_missions.has_value(); }
+  bool swaps() const { return on() && swap_s.has_value(); }
 };
 
 /// Lost returns, range errors and false returns of a LiDAR.

@@ -78,6 +78,8 @@ void describe(R& r, BatteryConditions& battery) {
   r.field("avionics_w", battery.avionics_w, within(0.0, 1000.0));
   r.field("sag", battery.sag, within(0.0, 0.2));
   r.field("cells", battery.cells, within(1, 24));
+  r.field("swap_s", battery.swap_s, within(1.0, 3600.0));
+  r.field("swap_within_m", battery.swap_within_m, within(1.0, 10'000.0));
 }
 
 template <class R>

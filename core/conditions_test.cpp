@@ -96,6 +96,7 @@ INSTANTIATE_TEST_SUITE_P(
                       BadValue{"conditions: {odometry: {yaw_sigma_deg: .nan}}\n", "", "odometry.yaw_sigma_deg"},
                       BadValue{"conditions: {battery: {endurance_missions: 0}}\n", "", "endurance_missions: must be"},
                       BadValue{"conditions: {battery: {efficiency: 1.2}}\n", "", "battery.efficiency: must be"},
+                      BadValue{"conditions: {battery: {swap_s: 0}}\n", "", "battery.swap_s: must be"},
                       BadValue{"conditions: {lidar: {clutter_p: 1}}\n", "", "lidar.clutter_p: must be"},
                       BadValue{"conditions: {camera: {exposure_factor: 0}}\n", "", "exposure_factor: must be"},
                       BadValue{"conditions: {radio: {exponent: 9}}\n", "", "radio.exponent: must be"},

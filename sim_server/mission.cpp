@@ -10,7 +10,8 @@ Mission::Mission(const Scenario& scenario, std::vector<double> rest_heights)
       takeoff_timeout_(ticks(scenario.takeoff_timeout_s)),
       takeoff_height_(scenario.rules.takeoff_height_m),
       takeoff_speed_(scenario.rules.takeoff_speed_mps),
-      collision_kills_both_(scenario.rules.collision_kills_both) {
+      collision_kills_both_(scenario.rules.collision_kills_both),
+      batteries_are_swapped_(scenario.conditions.battery.swaps()) {
   for (double height : rest_heights) uavs_.push_back({.rest_height = height});
 }
 
@@ -78,8 +79,9 @@ void Mission::update_phase(Tick tick) {
     if (tick >= takeoff_timeout_) finish(tick, MissionEnd::takeoff_timeout);
     return;
   }
-  const bool nobody = std::all_of(uavs_.begin(), uavs_.end(),
-                                  [](const Member& uav) { return !uav.alive || (uav.has_flown && !uav.airborne); });
+  const bool nobody = std::ranges::all_of(uavs_, [this](const Member& uav) {
+    return !uav.alive || (uav.has_flown && !uav.airborne && !batteries_are_swapped_);
+  });
   if (tick >= *start_tick_ + duration_) {
     finish(tick, MissionEnd::duration);
   } else if (nobody) {

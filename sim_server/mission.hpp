@@ -32,7 +32,7 @@ struct Collision {
 /// An airborne UAV dies when it touches structure or a UAV; if it falls without power, also when it touches the ground.
 /// When two UAVs touch, a grounded one survives, unless `rules.collision_kills_both` is on and the other is airborne.
 /// The mission ends when the time is up, when every UAV is dead or has landed after a flight, or when no UAV took off
-/// in time.
+/// in time. Where batteries are swapped, a UAV that has landed may fly again.
 class Mission {
  public:
   /// @param rest_heights  z of each UAV's centre at rest on the ground, in fleet order [m].
@@ -76,7 +76,7 @@ class Mission {
 
   Tick duration_, takeoff_timeout_;
   double takeoff_height_, takeoff_speed_;
-  bool collision_kills_both_;
+  bool collision_kills_both_, batteries_are_swapped_;
   std::vector<Member> uavs_;
   Phase phase_ = Phase::waiting;
   MissionEnd end_ = MissionEnd::none;

@@ -73,6 +73,22 @@ TEST_F(MissionTest, EndsWhenEveryoneIsDeadOrHasLanded) {
   EXPECT_EQ(m.end(), MissionEnd::nobody_flies);
 }
 
+TEST_F(MissionTest, GoesOnWhereALandedUavGetsAnotherBattery) {
+  scenario_.conditions.battery.endurance_missions = 0.3;
+  scenario_.conditions.battery.swap_s = 30.0;
+  Mission m = mission(2);
+  m.update(1, {flying(), flying()}, {});
+  m.update(2, {resting(), resting()}, {});
+  EXPECT_EQ(m.phase(), Phase::flying);
+  EXPECT_TRUE(m.alive(UavIndex{0}));
+  m.update(3, {flying(), resting()}, {});
+  EXPECT_TRUE(m.airborne(UavIndex{0}));
+  m.take_out(UavIndex{0});
+  m.take_out(UavIndex{1});
+  m.update(4, {resting(), resting()}, {});
+  EXPECT_EQ(m.end(), MissionEnd::nobody_flies);
+}
+
 TEST_F(MissionTest, AFallenUavHasLandedWhereverItsRotorsHoldIt) {
   Mission m = mission(1);
   m.update(1, {flying()}, {});

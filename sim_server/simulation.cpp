@@ -259,7 +259,7 @@ void Simulation::Impl::finish_exchange() {
   for (const UavIndex i : FirstUavs(uavs.size())) {
     UavView& view = uavs[i].view;
     view.state = world.state(i);
-    if (mission.airborne(i)) uavs[i].surroundings.note_flight();
+    if (mission.alive(i)) uavs[i].surroundings.note_place(tick, world.state(i).p_WB, mission.airborne(i));
     tell(i, faulty[i]);
     view.gimbal = uavs[i].vehicle.gimbal();
     view.alive = mission.alive(i);

@@ -10,11 +10,12 @@ namespace skein {
 namespace {
 
 /// Values that are drawn, sized or told to programs when a run begins.
-constexpr std::array kFixedKeys = {std::pair("wind", "from_deg"),        std::pair("odometry", "bias_sigma_m"),
-                                   std::pair("odometry", "latency_s"),   std::pair("odometry", "mean_fix_s"),
-                                   std::pair("odometry", "known_start"), std::pair("battery", "endurance_missions"),
-                                   std::pair("battery", "reserve"),      std::pair("battery", "sag"),
-                                   std::pair("battery", "cells"),        std::pair("radio", "decorrelation_m"),
+constexpr std::array kFixedKeys = {std::pair("wind", "from_deg"),         std::pair("odometry", "bias_sigma_m"),
+                                   std::pair("odometry", "latency_s"),    std::pair("odometry", "mean_fix_s"),
+                                   std::pair("odometry", "known_start"),  std::pair("battery", "endurance_missions"),
+                                   std::pair("battery", "reserve"),       std::pair("battery", "sag"),
+                                   std::pair("battery", "cells"),         std::pair("battery", "swap_s"),
+                                   std::pair("battery", "swap_within_m"), std::pair("radio", "decorrelation_m"),
                                    std::pair("radio", "rate_share")};
 
 /// Reads values onto conditions: a key that is absent stays.

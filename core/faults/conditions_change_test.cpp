@@ -92,6 +92,7 @@ TEST_F(ConditionsChanges, AreRefusedWithTheKeyAndWhatWouldBeRight) {
   refused("conditions: {odometry: {latency_s: 0.2}}",
           "faults[0].conditions.odometry.latency_s: cannot change in a run");
   refused("conditions: {battery: {endurance_missions: 0.2}}", "cannot change in a run");
+  refused("conditions: {battery: {swap_s: 20}}", "cannot change in a run");
   refused("conditions: {radio: {exponent: ~}}", "cannot switch the path loss off");
   refused("fix_loss: raffles", "raffles");
   refused("battery_loss: {uav: changi, charge: 1}", "within [0, 0.999]");

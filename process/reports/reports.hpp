@@ -108,6 +108,7 @@ struct BatteryReport {
   Number empty_s = {};  ///< time at which it became empty
   /// The UAV was on the ground at the end, and had landed with at most a tenth of the charge above its reserve.
   std::optional<bool> grounded = {};
+  Count swaps = {};  ///< none: nobody swaps batteries
 };
 template <class Fields>
 void describe(Fields& f, BatteryReport& battery) {
@@ -117,6 +118,7 @@ void describe(Fields& f, BatteryReport& battery) {
   f.field("energy_wh", battery.energy_wh);
   f.field("grounded", battery.grounded);
   f.field("mean_power_w", battery.mean_power_w);
+  f.field("swaps", battery.swaps);
 }
 
 struct UavReport {

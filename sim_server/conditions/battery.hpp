@@ -22,6 +22,8 @@ class Battery {
   /// Draws power at the terminals for some time. An empty battery gives nothing.
   void draw(double power_w, double time_s);
 
+  /// Puts a full battery in its place.
+  void swap() { left_as_ = capacity_as_; }
   /// Limits the charge to a share of the capacity; the charge above it is lost.
   void limit(double charge) { left_as_ = std::min(left_as_, charge * capacity_as_); }
 
@@ -33,7 +35,8 @@ class Battery {
   double open_voltage_v() const;
 
   double capacity_wh() const;
-  /// Energy delivered at the terminals so far, energy turned into heat inside, and energy left in the cells [J].
+  /// Energy delivered at the terminals so far, energy turned into heat inside (both also by batteries that were swapped
+  /// since), and energy left in the cells [J].
   double given_j() const { return given_j_; }
   double heat_j() const { return heat_j_; }
   double left_j() const;

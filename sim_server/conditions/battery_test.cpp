@@ -4,6 +4,7 @@
 
 #include "core/random_stream.hpp"
 #include "core/vehicle/rotor_power.hpp"
+#include "sim_server/conditions/surroundings.hpp"
 #include "sim_server/testing/test_flight.hpp"
 
 namespace skein::sim {
@@ -70,6 +71,78 @@ TEST(Battery, AnEmptyOneGivesNothing) {
   EXPECT_EQ(battery.charge(), 0.0);
   EXPECT_EQ(battery.status().current_a, 0.0);
 }
+
+/// Drawn flights of one UAV: it stands before its first flight, lands away from the station, then near it, twice.
+class BatterySwap : public testing::TestWithParam<std::uint64_t> {
+ protected:
+  BatterySwap() {
+    scenario_.station_position = {draw_.uniform(-50.0, 50.0), draw_.uniform(-50.0, 50.0), 0.3};
+    scenario_.fleet.push_back({.name = "uav", .vehicle = test::vehicle_named("explorer")});
+    scenario_.conditions.battery.endurance_missions = 0.5;
+    scenario_.conditions.battery.swap_s = swap_s_;
+    scenario_.conditions.battery.swap_within_m = within_m_;
+  }
+  /// The UAV stays for some time. @returns after how long it had a full battery [s]; nullopt: it never had.
+  std::optional<double> stay(double off_m, double time_s, bool airborne) {
+    const Tick from = tick_;
+    std::optional<double> full_s;
+    for (; tick_ < from + ticks(time_s); tick_ += ticks(scenario_.exchange_period_s)) {
+      uav_->suffer(false, most_charge_);
+      uav_->note_place(tick_, scenario_.station_position + Vector3d(off_m, 0.0, airborne ? 9.0 : 0.0), airborne);
+      if (!full_s && uav_->battery()->charge == 1.0) full_s = seconds(tick_ - from);
+    }
+    return full_s;
+  }
+  RandomStream draw_{GetParam(), "battery_swap", 0};
+  const double swap_s_ = draw_.uniform(2.0, 40.0), within_m_ = draw_.uniform(5.0, 60.0);
+  Scenario scenario_;
+  std::optional<Surroundings> uav_;
+  double most_charge_ = 1.0;  ///< by a fault that goes on, see BatteryLoss
+  Tick tick_ = 0;
+};
+
+TEST_P(BatterySwap, GivesAUavThatHasLandedNearTheStationAFullBatteryOnce) {
+  uav_.emplace(scenario_, 1, UavIndex{0});
+  stay(0.0, 2.0 * swap_s_, false);
+  EXPECT_EQ(uav_->battery_use().swaps, 0U) << "it has not flown";
+  for (int flight = 1; flight <= 2; ++flight) {
+    stay(0.0, 5.0, true);
+    most_charge_ = draw_.uniform(0.05, 0.6);
+    EXPECT_FALSE(stay(0.0, 1.5 * swap_s_, true)) << "in flight";
+    EXPECT_FALSE(stay(within_m_ + 1.0, 1.5 * swap_s_, false)) << "too far away";
+    EXPECT_FALSE(stay(within_m_ - 1.0, 0.5 * swap_s_, false)) << "too short";
+    stay(0.0, 1.0, true);
+    const auto full_s = stay(within_m_ - 1.0, 3.5 * swap_s_, false);
+    ASSERT_TRUE(full_s);
+    EXPECT_NEAR(*full_s, swap_s_, 0.06);
+    EXPECT_EQ(uav_->battery_use().swaps, static_cast<std::uint64_t>(flight)) << "once a landing";
+    EXPECT_EQ(uav_->battery_use().last_in_flight, most_charge_);
+    EXPECT_EQ(uav_->battery()->charge, 1.0)
+        << "what a fault took from the battery before, it does not take from this one";
+  }
+}
+
+TEST_P(BatterySwap, NeverComesToAUavWhoseBatteryIsEmpty) {
+  uav_.emplace(scenario_, 1, UavIndex{0});
+  stay(0.0, 5.0, true);
+  test::Flight flight(scenario_.fleet[UavIndex{0}].vehicle);
+  flight.fly(1.0, test::hover_at({0, 0, 50}));
+  uav_->suffer(false, 1e-9);
+  EXPECT_TRUE(uav_->spend(0, flight.vehicle(), flight.state())) << "it is empty now";
+  EXPECT_FALSE(stay(0.0, 3.0 * swap_s_, false));
+  EXPECT_EQ(uav_->battery_use().swaps, 0U);
+}
+
+TEST_P(BatterySwap, NeverComesWhereNobodySwaps) {
+  scenario_.conditions.battery.swap_s.reset();
+  uav_.emplace(scenario_, 1, UavIndex{0});
+  most_charge_ = 0.3;
+  stay(0.0, 5.0, true);
+  EXPECT_FALSE(stay(0.0, 60.0, false));
+  EXPECT_EQ(uav_->battery_use().swaps, std::nullopt);
+}
+
+INSTANTIATE_TEST_SUITE_P(Drawn, BatterySwap, testing::Range<std::uint64_t>(1, 7));
 
 TEST(ElectricPower, OfAHoverIsThatOfMomentumTheory) {
   const VehicleConfig vehicle = test::vehicle_named("explorer");

@@ -13,6 +13,7 @@ constexpr Tick kPowerTicks = 4;              ///< between two draws of power fro
 Surroundings::Surroundings(const Scenario& scenario, std::uint64_t seed, UavIndex uav)
     : conditions_(scenario.conditions),
       vehicle_(scenario.fleet[uav].vehicle),
+      station_W_(scenario.station_position),
       push_(vehicle_),
       latency_(static_cast<std::size_t>(std::lround(conditions_.odometry.latency_s / scenario.exchange_period_s))) {
   if (conditions_.wind.on()) wind_.emplace(conditions_.wind, seed, uav);
@@ -28,7 +29,8 @@ void Surroundings::change(const ConditionsConfig& conditions) {
 
 void Surroundings::suffer(bool fix_lost, double most_charge) {
   if (odometry_) odometry_->jam(fix_lost);
-  if (battery_) battery_->limit(most_charge);
+  if (battery_ && most_charge != limit_before_swap_) battery_->limit(most_charge);
+  limit_ = most_charge;
 }
 
 void Surroundings::begin_exchange() {
@@ -65,8 +67,23 @@ bool Surroundings::spend(Tick tick, const Vehicle& vehicle, const RigidBodyState
   return true;
 }
 
-void Surroundings::note_flight() {
-  if (battery_) last_in_flight_ = battery_->charge();
+void Surroundings::note_place(Tick tick, const Vector3d& p_WB, bool airborne) {
+  if (!battery_) return;
+  if (airborne) {
+    last_in_flight_ = battery_->charge();
+    stands_since_.reset();
+    swapped_ = false;
+    return;
+  }
+  const BatteryConditions& config = conditions_.battery;
+  const bool near = (p_WB - station_W_).head<2>().norm() <= config.swap_within_m;
+  if (!config.swaps() || !near || !last_in_flight_ || swapped_ || empty_) return stands_since_.reset();
+  if (!stands_since_) stands_since_ = tick;
+  if (tick - *stands_since_ < ticks(*config.swap_s)) return;
+  battery_->swap();
+  limit_before_swap_ = limit_;
+  swapped_ = true;
+  ++swaps_;
 }
 
 RigidBodyState Surroundings::believed(const RigidBodyState& truth) const {
@@ -98,8 +115,12 @@ BatteryUse Surroundings::battery_use() const {
   constexpr double kJoulesPerWh = 3600.0;
   if (!battery_) return {};
   const double time_s = battery_->time_s();
-  return {battery_->capacity_wh(), battery_->given_j() / kJoulesPerWh,
-          time_s > 0.0 ? battery_->given_j() / time_s : 0.0, empty_, last_in_flight_};
+  return {battery_->capacity_wh(),
+          battery_->given_j() / kJoulesPerWh,
+          time_s > 0.0 ? battery_->given_j() / time_s : 0.0,
+          empty_,
+          last_in_flight_,
+          conditions_.battery.swaps() ? std::optional(swaps_) : std::nullopt};
 }
 
 }  // namespace skein::sim

@@ -28,6 +28,7 @@ struct BatteryUse {
   double capacity_wh = 0.0, given_wh = 0.0, mean_power_w = 0.0;
   std::optional<Tick> empty;             ///< when it became empty; nullopt: it is not empty
   std::optional<double> last_in_flight;  ///< share of the charge when the UAV was last airborne; nullopt: never
+  std::optional<std::uint64_t> swaps;    ///< number of swaps; nullopt: nobody swaps batteries
 };
 
 class Surroundings {
@@ -51,8 +52,9 @@ class Surroundings {
   /// @returns true once, when the battery becomes empty.
   bool spend(Tick tick, const Vehicle& vehicle, const RigidBodyState& state);
 
-  /// Call it at the end of each exchange in which the UAV is airborne.
-  void note_flight();
+  /// Swaps the battery of a UAV that has stood near the station for long enough after a flight. A UAV whose battery is
+  /// empty has stopped for good. Call it at the end of each exchange of a UAV that has not collided.
+  void note_place(Tick tick, const Vector3d& p_WB, bool airborne);
   /// The state that the UAV's flight controller uses.
   RigidBodyState believed(const RigidBodyState& truth) const;
   /// The states that the UAV would have if it knew its position exactly, and if there were no wind.
@@ -69,15 +71,21 @@ class Surroundings {
  private:
   ConditionsConfig conditions_;
   const VehicleConfig& vehicle_;
+  Vector3d station_W_;
   std::optional<Wind> wind_;
   WindPush push_;  ///< of `wind_`
   std::optional<OdometryError> odometry_;
   std::optional<Battery> battery_;
   std::optional<Tick> empty_;
   std::optional<double> last_in_flight_;  ///< BatteryUse::last_in_flight
-  Vector3d v_WA_ = Vector3d::Zero();      ///< velocity of the air
-  std::size_t latency_;                   ///< exchanges
-  std::deque<ToldState> told_;            ///< the last state that arrived, and those that are still on their way
+  std::optional<Tick> stands_since_;      ///< when it came to stand near the station, with a battery to be swapped
+  bool swapped_ = false;                  ///< since the UAV landed
+  std::uint64_t swaps_ = 0;
+  /// Limit of the charge by a fault, now and when the battery was last swapped: it is that of the battery of that time.
+  double limit_ = 1.0, limit_before_swap_ = 1.0;
+  Vector3d v_WA_ = Vector3d::Zero();  ///< velocity of the air
+  std::size_t latency_;               ///< exchanges
+  std::deque<ToldState> told_;        ///< the last state that arrived, and those that are still on their way
 };
 
 }  // namespace skein::sim

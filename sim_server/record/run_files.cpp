@@ -37,7 +37,8 @@ BatteryReport battery_report(const BatteryStatus& battery, const BatteryUse& use
           .capacity_wh = use.capacity_wh,
           .mean_power_w = use.mean_power_w,
           .empty_s = use.empty ? Number(seconds(*use.empty)) : Number(),
-          .grounded = grounded};
+          .grounded = grounded,
+          .swaps = use.swaps};
 }
 
 nlohmann::json vector_json(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }

@@ -1,8 +1,10 @@
 // Fleets in one process, as a user starts them. fleet_reference_digests_test checks that they fly as over DDS. This
 // file checks what one process must provide to each program: its own log, its own death, its own end.
 #include <algorithm>
+#include <fstream>
 
 #include "fleet_fixture.hpp"
+#include "json_schema.hpp"
 #include "small_scene.hpp"
 #include "tests/support/places.hpp"
 
@@ -79,6 +81,29 @@ TEST_F(OneProcess, LeavesWhatProcessesLeave) {
   }
   EXPECT_EQ(one.result()["processes"].size(), 1U);
   EXPECT_EQ(one.result()["radio"], many.result()["radio"]);
+}
+
+TEST_F(OneProcess, AUavThatGetsAnotherBatteryWorksOn) {
+  std::ofstream(scene_, std::ios::app) << "\nconditions: {battery: {endurance_missions: 0.3, swap_s: 5}}\n";
+  SkeinRun& run = this->run("swapped", flight({"--planner", "patrol"}, "120"));
+  const Json result = run.result();
+  const Json schema = Json::parse(text_of(source_path("docs/result.schema.json")));
+  EXPECT_EQ(schema_errors(result, schema), std::vector<std::string>());
+  EXPECT_EQ(result["mission_time_s"], 120.0);
+  for (const Json& uav : result["uavs"]) {
+    SCOPED_TRACE(uav["name"].get<std::string>());
+    EXPECT_GE(uav["battery"]["swaps"], 1);
+    EXPECT_TRUE(uav["alive"]);
+    double charge = 1.0, highest_m = 0.0;
+    bool swapped = false;
+    for (const auto& row : read_csv(run.dir() / "trajectories.csv")) {
+      if (row.at("uav") != uav["name"]) continue;
+      swapped = swapped || std::stod(row.at("charge")) > charge;
+      charge = std::stod(row.at("charge"));
+      if (swapped) highest_m = std::max(highest_m, std::stod(row.at("z")));
+    }
+    EXPECT_GT(highest_m, 3.0) << "it flies again";
+  }
 }
 
 TEST_F(OneProcess, AnExceptionIsThatMembersDeath) {

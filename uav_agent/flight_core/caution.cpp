@@ -19,6 +19,7 @@ constexpr double kCalmMps = 1.0;  ///< gusts below this are no reason to fly slo
 constexpr double kLeastSpeedShare = 0.5;
 constexpr double kLeastGroundMps = 1.0;
 constexpr double kMarginS = 8.0;
+constexpr double kFullCharge = 0.95;
 
 double square(double x) { return x * x; }
 double in_steps_m(double error_m) { return kErrorStepM * std::ceil(error_m / kErrorStepM - 1e-9); }
@@ -122,6 +123,8 @@ bool Caution::must_land(const PlannerInput& in) const {
   const double needs_s = way_down_s(in.state.p_WB, in.wind_W) + kMarginS;
   return in.battery->charge < agent_.battery.reserve + needs_s * charge_per_s_;
 }
+
+bool Caution::has_full_battery(const PlannerInput& in) const { return in.battery && in.battery->charge > kFullCharge; }
 
 bool Caution::must_sink(const PlannerInput& in) const {
   if (!config_.reacts || !in.battery) return false;

@@ -30,6 +30,8 @@ class Caution {
   bool must_land(const PlannerInput& in) const;
   /// Whether the charge is only just enough to land right here, and not to fly anywhere else.
   bool must_sink(const PlannerInput& in) const;
+  /// Whether the UAV has a full battery, which it can have only before its first flight and after a swap.
+  bool has_full_battery(const PlannerInput& in) const;
   /// Time to fly from p_WB to above the start against the wind, and down to the ground [s].
   double way_down_s(const Vector3d& p_WB, const std::optional<Vector3d>& wind_W) const;
 

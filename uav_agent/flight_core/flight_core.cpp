@@ -147,6 +147,11 @@ Steering FlightCore::step(const PlannerInput& in, std::optional<std::vector<Goal
       enter(Mode::working, in);
       break;
     case Mode::landing:
+      if (Landing::landed(in) && caution_.has_full_battery(in)) {
+        takeoff_.again();
+        enter(Mode::ground, in);
+        break;
+      }
       landing_.step(in, caution_.must_sink(in), steering);
       break;
   }

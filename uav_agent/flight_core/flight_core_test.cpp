@@ -253,5 +253,44 @@ TEST(FlightCore, AUavThatHasMadeRoomFliesToItsGoal) {
   }
 }
 
+// Its battery is low, so it lands, and is given a full one there. The strategy has set its goal meanwhile.
+TEST(FlightCore, WithAFullBatteryAUavThatHasLandedFliesToItsGoal) {
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    RandomStream random(seed, "full_battery", 0);
+    AgentConfig agent = seed % 2 == 0 ? a_lone_explorer() : HeldInACorridor::two_photographers();
+    agent.battery.endurance_missions = 0.5;
+    CoreUav uav(agent, {random.uniform(-8.0, 8.0), random.uniform(-8.0, 8.0), random.uniform(5.0, 15.0)});
+    uav.boxes = {make_box({60.0, 0.0, 9.0}, {6.0, 6.0, 8.0})};
+    uav.clear({-24.0, -24.0, 0.0}, {24.0, 24.0, 24.0});
+    BatteryStatus battery{.charge = random.uniform(0.3, 0.5)};
+    int landed = 0;
+    const int swap = 20 + static_cast<int>(random.bits() % 200);
+    bool asked = false, reached = false;
+    for (int i = 0; i < 4000 && !reached; ++i) {
+      battery.charge -= 0.0004;
+      if (landed > swap) battery.charge = 1.0;
+      PlannerInput in = uav.input();
+      in.battery = battery;
+      uav.core.update(in);
+      in.flight = uav.core.state();
+      for (const Outcome& outcome : in.flight.outcomes) {
+        reached |= outcome.id == 1 && outcome.kind == Outcome::Kind::reached;
+      }
+      std::optional<std::vector<Goal>> goals;
+      if (!asked && uav.core.doing(in).what == Doing::What::lands) {
+        goals = {{.id = 1, .way = {{Vector3d(random.uniform(-10.0, 10.0), 9.0, random.uniform(6.0, 12.0)), 3.0}}}};
+        asked = true;
+      }
+      uav.fly_by(uav.core.step(in, std::move(goals)));
+      uav.state.p_WB.z() = std::max(uav.state.p_WB.z(), 0.1);
+      landed = asked && uav.state.p_WB.z() < 0.11 ? landed + 1 : landed > swap ? landed : 0;
+    }
+    EXPECT_TRUE(asked) << "seed " << seed;
+    EXPECT_GT(landed, swap) << "seed " << seed << ": it stands on the ground";
+    EXPECT_TRUE(reached) << "seed " << seed;
+    EXPECT_EQ(uav.core.filter().trust(), SafetyFilter::Trust::proved) << "seed " << seed;
+  }
+}
+
 }  // namespace
 }  // namespace skein::agent

@@ -40,8 +40,7 @@ void Landing::begin(Steering& steering) {
 }
 
 void Landing::step(const PlannerInput& in, bool must_sink, Steering& steering) {
-  const bool landed = in.tracking.setpoint.p_WB.z() < 0.0;
-  if (must_sink && !landed) filter_.set_trust(SafetyFilter::Trust::all);
+  if (must_sink && !landed(in)) filter_.set_trust(SafetyFilter::Trust::all);
   if (descends_at_W_) {
     sink(in, must_sink, steering);
   } else {
@@ -110,7 +109,7 @@ void Landing::sink(const PlannerInput& in, bool must_sink, Steering& steering) {
     lowest_m_ = setpoint_W.z();
     sank_at_ = in.tick;
   }
-  if (setpoint_W.z() < 0.0) return;
+  if (landed(in)) return;
   const bool held = seconds(in.tick - sank_at_) > kHeldS;
   if (held && !must_sink && lowest_m_ > 0.0) {
     held_above_W_.push_back(*descends_at_W_);

@@ -25,6 +25,8 @@ class Landing {
   void begin(Steering& steering);
   /// Runs one exchange.   @param must_sink  the charge is only just enough to land right here.
   void step(const PlannerInput& in, bool must_sink, Steering& steering);
+  /// Whether the UAV stands on the ground after step().
+  static bool landed(const PlannerInput& in) { return in.tracking.setpoint.p_WB.z() < 0.0; }
   /// Path from the setpoint to a place on the ground; from above kFromM, its last kFromM lead straight down.
   Path down_at(const Vector3d& place_W, const PlannerInput& in) const;
 

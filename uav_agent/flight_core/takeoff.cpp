@@ -34,6 +34,14 @@ Takeoff::Phase Takeoff::step(const PlannerInput& in, Steering& steering) {
   return phase_;
 }
 
+void Takeoff::again() {
+  filter_.set_trust(SafetyFilter::Trust::proved);
+  phase_ = Phase::ground;
+  ready_since_.reset();
+  sinks_back_ = false;
+  gave_way_ = 0;
+}
+
 void Takeoff::stand(const PlannerInput& in, Steering& steering) {
   const Vector3d p_W = in.state.p_WB;
   if (sinks_back_) {

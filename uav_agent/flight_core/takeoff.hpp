@@ -24,6 +24,8 @@ class Takeoff {
   /// @returns the phase afterwards; `over` once the UAV may begin to work, either since it has climbed or since it was
   ///   restarted in flight.
   Phase step(const PlannerInput& in, Steering& steering);
+  /// Prepares another takeoff, of a UAV that has landed.
+  void again();
   /// Where the climb ends; nullopt before the UAV first lifts off.
   const std::optional<Vector3d>& top_W() const { return top_W_; }
   /// Index in the fleet of the UAV for which this UAV waited in the last step().
