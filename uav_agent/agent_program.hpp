@@ -21,7 +21,7 @@ class AgentProgram final : public bus::FleetProgram {
 
  private:
   std::string role_ = "uav";
-  std::string uav_, planner_ = "patrol";
+  std::string uav_, planner_ = "flock";
   std::optional<double> maps_every_s_, pdb_from_s_;
   bool list_ = false;
   const std::shared_ptr<ReadyFrames> frames_;

@@ -132,7 +132,7 @@ TEST_F(Packages, AnInstalledFleetFliesForWhoMayNotWriteThere) {
             " PATH=" + (prefix / "bin").string() + ":$PATH; " + without_root + "sh -c '! touch " +
             (prefix / "bin" / "new").string() + " && skein run towers --duration 20'"});
   if (::geteuid() != 0) done({"chmod", "-R", "u+w", prefix});
-  const Json flown = Json::parse(text_of(home / "runs" / "towers-patrol-0" / "result.json"));
+  const Json flown = Json::parse(text_of(home / "runs" / "towers-flock-0" / "result.json"));
   EXPECT_EQ(flown["status"], "completed");
   EXPECT_EQ(flown["digest"], run("built", {"towers", "--duration", "20"}).digest());
 }

@@ -34,7 +34,7 @@ class Fleet:
 
     metadata: dict[str, Any] = {"name": "skein_v0", "render_modes": ["ansi"], "is_parallelizable": True}
 
-    def __init__(self, scenario: str | os.PathLike[str] = "towers", *, planner: str = "patrol", seed: int = 0,
+    def __init__(self, scenario: str | os.PathLike[str] = "towers", *, planner: str = "flock", seed: int = 0,
                  learners: Iterable[str] = (), step_s: float = 0.05, actions: str = "velocity", safe: bool = True,
                  scans: bool = False, map_window: tuple[int, int, int] = (16, 16, 8), map_cell_m: float = 1.0,
                  detections: int = 256, reward: Reward | None = None, render_mode: str | None = None,
