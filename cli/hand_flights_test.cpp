@@ -54,7 +54,7 @@ TEST(HandFlights, SomebodyMustBeAbleToFly) {
 TEST(HandFlights, AreRepeatedFromWhatWasKept) {
   EXPECT_EQ(repeated_from("kios,bob=star"), "kios,bob=star");
   EXPECT_EQ(repeated_from("kios,bob=hand"), "kios,bob=hand:runs/x/hand-bob.csv");
-  EXPECT_EQ(repeated_from("bob=hand"), "patrol,bob=hand:runs/x/hand-bob.csv");
+  EXPECT_EQ(repeated_from("bob=hand"), "flock,bob=hand:runs/x/hand-bob.csv");
   EXPECT_EQ(repeated_from("kios:speed=1,bob=hand:safe=false,climb_mps=1,gcs=listen"),
             "kios:speed=1,bob=hand:file=runs/x/hand-bob.csv,safe=false,climb_mps=1,gcs=listen");
   EXPECT_EQ(repeated_from("hand@a/b"),

@@ -19,7 +19,7 @@ Options parse(const std::vector<std::string>& arguments) {
 TEST(Options, RunHasDefaults) {
   const auto run = parse<RunOptions>({"run"});
   EXPECT_EQ(run.scenario, "towers");
-  EXPECT_EQ(run.planner, "patrol");
+  EXPECT_EQ(run.planner, "flock");
   EXPECT_EQ(run.seed, 0u);
   EXPECT_EQ(run.dds, "cyclonedds");
   EXPECT_EQ(run.clock, "lockstep");
