@@ -29,8 +29,8 @@ void Surroundings::change(const ConditionsConfig& conditions) {
 
 void Surroundings::suffer(bool fix_lost, double most_charge) {
   if (odometry_) odometry_->jam(fix_lost);
-  if (battery_ && most_charge != limit_before_swap_) battery_->limit(most_charge);
-  limit_ = most_charge;
+  if (battery_ && most_charge != most_charge_) battery_->limit(most_charge);
+  most_charge_ = most_charge;
 }
 
 void Surroundings::begin_exchange() {
@@ -81,7 +81,6 @@ void Surroundings::note_place(Tick tick, const Vector3d& p_WB, bool airborne) {
   if (!stands_since_) stands_since_ = tick;
   if (tick - *stands_since_ < ticks(*config.swap_s)) return;
   battery_->swap();
-  limit_before_swap_ = limit_;
   swapped_ = true;
   ++swaps_;
 }

@@ -81,8 +81,7 @@ class Surroundings {
   std::optional<Tick> stands_since_;      ///< when it came to stand near the station, with a battery to be swapped
   bool swapped_ = false;                  ///< since the UAV landed
   std::uint64_t swaps_ = 0;
-  /// Limit of the charge by a fault, now and when the battery was last swapped: it is that of the battery of that time.
-  double limit_ = 1.0, limit_before_swap_ = 1.0;
+  double most_charge_ = 1.0;          ///< by the last suffer(); it limits the battery that the UAV had when it began
   Vector3d v_WA_ = Vector3d::Zero();  ///< velocity of the air
   std::size_t latency_;               ///< exchanges
   std::deque<ToldState> told_;        ///< the last state that arrived, and those that are still on their way

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
+
 #include "core/random_stream.hpp"
 #include "uav_agent/testing/flown_uav.hpp"
 
@@ -117,10 +119,10 @@ TEST(Recovery, EndsWhereThereIsNowhereToGo) {
   }
 }
 
-// At the end of a shaft, nothing else is known to be free. Each time round it goes back farther.
-/// Flies one recovery behaviour to its end. @returns the UAV's least height on the way [m].
-double recover_once(FlownUav& uav, Recovery& recovery) {
-  double lowest_m = uav.state.p_WB.z();
+/// Flies one recovery behaviour to its end. Calls `watch` after each exchange.
+void recover_once(
+    FlownUav& uav, Recovery& recovery, const std::function<void()>& watch = [] {}) {
+  uav.navigator.update(uav.input());
   recovery.begin(uav.input(), {});
   for (bool over = false; !over;) {
     const PlannerInput in = uav.input();
@@ -129,9 +131,8 @@ double recover_once(FlownUav& uav, Recovery& recovery) {
     Steering steering;
     over = recovery.step(in, uav.filter.held(), steering);
     uav.fly(steering);
-    lowest_m = std::min(lowest_m, uav.state.p_WB.z());
+    watch();
   }
-  return lowest_m;
 }
 
 // From the ground beside structure, a UAV would find no path any more.
@@ -153,13 +154,14 @@ TEST(Recovery, NoTrailLeadsBackToTheGround) {
     ASSERT_NEAR(uav.state.p_WB.z(), top_m, 0.2) << "seed " << seed;
     double lowest_m = top_m;
     for (int tries = 0; tries < 10; ++tries) {
-      lowest_m = std::min(lowest_m, recover_once(uav, recovery));
+      recover_once(uav, recovery, [&] { lowest_m = std::min(lowest_m, uav.state.p_WB.z()); });
     }
     EXPECT_LT(lowest_m, 2.5) << "seed " << seed << ": it goes back";
     EXPECT_GT(lowest_m, 1.0) << "seed " << seed;
   }
 }
 
+// At the end of a shaft, nothing else is known to be free. Each time round it goes back farther.
 TEST(Recovery, GoesBackTheWayThatItCame) {
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     RandomStream random(seed, "back", 0);
@@ -227,18 +229,8 @@ TEST(Recovery, AUavThatStructureHasShutInGoesBackWhereItCame) {
     double least_m = 10.0;
     int tries = 0;
     for (; tries < 12 && uav.state.p_WB.z() > uav.low_m; ++tries) {
-      const PlannerInput in = uav.input();
-      uav.navigator.update(in);
-      uav.recovery.begin(in, {});
-      for (bool over = false; !over;) {
-        const PlannerInput now = uav.input();
-        uav.navigator.update(now);
-        uav.recovery.update(now);
-        Steering steering;
-        over = uav.recovery.step(now, uav.filter.held(), steering);
-        uav.fly(steering);
-        least_m = std::min(least_m, uav.map.structure_distance_m(uav.state.p_WB));
-      }
+      recover_once(uav, uav.recovery,
+                   [&] { least_m = std::min(least_m, uav.map.structure_distance_m(uav.state.p_WB)); });
     }
     EXPECT_LE(uav.state.p_WB.z(), uav.low_m) << "seed " << seed << ": it is out";
     EXPECT_LE(tries, 8) << "seed " << seed;
