@@ -16,9 +16,6 @@ namespace skein::cli {
 /// @throws InputError as ros_command() (ros_command.hpp)
 std::optional<std::string> exec_command(const std::string& spec);
 
-/// The planner of every UAV for which the user named none.
-inline constexpr const char* kDefaultPlanner = "flock";
-
 /// The value of `gcs=` when nothing is to run at the ground station.
 inline constexpr const char* kNoGround = "none";
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "bus/lockstep/fleet_program.hpp"
+#include "core/planners/uav_planner.hpp"
 #include "results/run_folder.hpp"
 #include "uav_agent/api/learner.hpp"
 #include "uav_agent/onboard/ready_frames.hpp"
@@ -21,7 +22,7 @@ class AgentProgram final : public bus::FleetProgram {
 
  private:
   std::string role_ = "uav";
-  std::string uav_, planner_ = "flock";
+  std::string uav_, planner_ = kDefaultPlanner;
   std::optional<double> maps_every_s_, pdb_from_s_;
   bool list_ = false;
   const std::shared_ptr<ReadyFrames> frames_;

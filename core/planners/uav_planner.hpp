@@ -15,6 +15,9 @@ namespace skein {
 inline constexpr std::string_view kExec = "exec:";
 inline constexpr std::string_view kRos = "ros:";
 
+/// The planner of every UAV for which the user named none. python/skein/stepping/fleet.py has it, too.
+inline constexpr const char* kDefaultPlanner = "flock";
+
 /// Spec of a UAV whose agent does not run, because the run replays the agent's recorded output (`skein rerun`).
 inline constexpr const char* kRecorded = "recorded";
 
