@@ -8,6 +8,9 @@ namespace skein::agent {
 namespace {
 
 constexpr Tick kLookEach = kTicksPerSecond;
+constexpr double kGapS = 0.25;  ///< positions farther apart in time are not compared with velocities
+constexpr double kFadeS = 1.0;  ///< time constant; shorter than errors of a position fix that grow step by step
+constexpr double kSigmas = 3.0;
 
 }  // namespace
 
@@ -20,17 +23,34 @@ UavTraces::UavTraces(const AgentConfig& agent, double cell_m, const Config& conf
   }
 }
 
+bool UavTraces::hear(Uav& uav, const Peer& peer) const {
+  const double gap_s = seconds(now_ - uav.heard);
+  const double speed_mps = peer.v_W.norm();
+  const Vector3d v_W = peer.v_W * std::min(1.0, uav.max_speed_mps / std::max(speed_mps, 1e-9));
+  if (uav.heard > 0 && gap_s <= kGapS) {
+    uav.strayed_W *= std::exp(-gap_s / kFadeS);
+    uav.strayed_W += peer.p_W - uav.p_W - 0.5 * gap_s * (v_W + uav.v_W);
+  } else {
+    uav.strayed_W.setZero();
+  }
+  uav.heard = now_;
+  uav.p_W = peer.p_W;
+  uav.v_W = v_W;
+  return uav.strayed_W.norm() <= config_.margin_m + kSigmas * std::numbers::sqrt2 * peer.deviation_m.norm();
+}
+
 void UavTraces::update(Tick now, const Peers& peers) {
   now_ = now;
   for (const Peer& peer : peers.all()) {
     Uav& uav = uavs_[peer.uav];
-    if (!peer.visible) {
-      if (!uav.absence) uav.absence = {uav.heard, uav.p_W, std::nullopt, Vector3d::Zero()};
+    const Absence begins{.lost = uav.heard, .p_lost_W = uav.p_W};
+    const bool wrong = peer.visible && !hear(uav, peer);
+    if (!peer.visible || wrong) {
+      if (!uav.absence) uav.absence = begins;
       uav.absence->found.reset();
+      uav.absence->wrong = uav.absence->wrong || wrong;
       continue;
     }
-    uav.heard = now;
-    uav.p_W = peer.p_W;
     if (uav.absence && !uav.absence->found) {
       uav.absence->found = now;
       uav.absence->p_found_W = peer.p_W;
@@ -85,7 +105,9 @@ void UavTraces::met(const Eigen::Vector3i& cube, bool news) {
     return;
   }
   const Candidate candidate{cube, now_, now_};
-  const auto may_be = [&](const Uav& uav) { return uav.absence && !uav.absence->found && came_to(uav, candidate); };
+  const auto may_be = [&](const Uav& uav) {
+    return uav.absence && (!uav.absence->found || uav.absence->wrong) && came_to(uav, candidate);
+  };
   if (candidates_.size() == config_.most_cubes || std::ranges::none_of(uavs_, may_be)) return;
   candidates_.push_back(candidate);
   place_[grid_key(cube)] = static_cast<std::uint32_t>(candidates_.size());
@@ -129,7 +151,8 @@ void UavTraces::keep(std::vector<Candidate> candidates) {
 
 void UavTraces::doubt(WorldMap& map) {
   const auto due = [&](const Uav& uav) {
-    return uav.absence && uav.absence->found && now_ - *uav.absence->found >= ticks(config_.settle_s);
+    if (!uav.absence || !uav.absence->found) return false;
+    return now_ - *uav.absence->found >= ticks(uav.absence->wrong ? config_.agree_s : config_.settle_s);
   };
   const bool full = candidates_.size() > config_.most_cubes / 2;
   if (!full && (now_ < look_at_ || std::ranges::none_of(uavs_, due))) return;

@@ -1,8 +1,9 @@
 // Finds occupied cubes of the map that may have been a UAV that was not heard, and doubts them once it is heard again.
 //
 // Where a UAV is known to be, its returns are not taken for structure (beam_scan.hpp). A UAV that is not heard enters
-// the map like a wall, and also the maps of those UAVs with which the map is shared. When it is heard again, these
-// cubes are doubted (WorldMap::doubt()): they stay occupied until beams prove anew, from zero evidence, that they are
+// the map like a wall, and also the maps of those UAVs with which the map is shared. So does a UAV that reports wrong
+// positions: it counts as not heard from when its positions contradict its velocities until they have agreed for
+// Config::agree_s. When it is heard again, these cubes are doubted (WorldMap::doubt()): they stay occupied until beams prove anew, from zero evidence, that they are
 // free. So if this rule doubts real structure, no thin member is lost: beams hit it again, or never prove it free. A
 // trace, a set of cubes that touch each other (26 neighbours), is doubted if all of this holds for one UAV:
 //   - each cube became occupied while that UAV was not heard, and touches no occupied cube outside the trace;
@@ -37,6 +38,9 @@ class UavTraces {
     double late_s = 0.15;   ///< greatest age of a hit at the exchange in which it arrives
     /// A UAV that is lost again within this time counts as absent throughout: links may flicker.
     double settle_s = 2.0;
+    /// A UAV that reports positions with a constant offset contradicts itself only when the offset begins and ends. So
+    /// traces of offsets that last longer than this stay in the map.
+    double agree_s = 30.0;
     std::size_t most_cubes = 4096;
   };
   static constexpr std::size_t kMostInTrace = 256;
@@ -60,14 +64,17 @@ class UavTraces {
   struct Absence {
     Tick lost = 0;  ///< when it was heard last
     Vector3d p_lost_W = Vector3d::Zero();
-    std::optional<Tick> found;  ///< when it was heard again
+    std::optional<Tick> found = {};  ///< when it was heard again
     Vector3d p_found_W = Vector3d::Zero();
+    bool wrong = false;  ///< whether it was heard, but reported wrong positions
   };
   struct Uav {
     double body_m = 0.0;  ///< b in the rule above
     double max_speed_mps = 0.0;
     Tick heard = 0;
-    Vector3d p_W = Vector3d::Zero();
+    Vector3d p_W = Vector3d::Zero(), v_W = Vector3d::Zero();
+    /// Motion of the reported positions less that of the reported velocities; older parts fade.
+    Vector3d strayed_W = Vector3d::Zero();
     std::optional<Absence> absence;
   };
   struct Candidate {
@@ -76,6 +83,8 @@ class UavTraces {
   };
 
   Vector3d middle_W(const Eigen::Vector3i& cube) const;
+  /// Takes over what the UAV reports. @returns whether its positions agree with its velocities.
+  bool hear(Uav& uav, const Peer& peer) const;
   /// Whether the UAV can have flown from a_W to b_W in `after` ticks: d <= b + v t.
   bool reaches(const Uav& uav, const Vector3d& a_W, const Vector3d& b_W, Tick after) const;
   bool came_to(const Uav& uav, const Candidate& candidate) const;

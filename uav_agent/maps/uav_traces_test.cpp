@@ -27,11 +27,12 @@ class UavTracesTest : public testing::Test {
     map_.on_met([this](const Eigen::Vector3i& cube, bool news) { traces_.met(cube, news); });
   }
 
-  /// One exchange.   @param p_W  where UAV 1 is heard; nullopt: it is not.
-  void exchange(const std::optional<Vector3d>& p_W, const std::vector<Vector3d>& hits_W = {}) {
+  /// One exchange.   @param p_W, v_W  what UAV 1 reports; nullopt: it is not heard.
+  void exchange(const std::optional<Vector3d>& p_W, const std::vector<Vector3d>& hits_W = {},
+                const Vector3d& v_W = Vector3d::Zero()) {
     now_ += kTraceExchange;
     std::vector<Neighbour> neighbours = {{node_of_uav(UavIndex{2}), {-10.0, 0.0, 0.0}}};
-    if (p_W) neighbours.insert(neighbours.begin(), {node_of_uav(UavIndex{1}), *p_W});
+    if (p_W) neighbours.insert(neighbours.begin(), {node_of_uav(UavIndex{1}), *p_W, v_W});
     peers_.update(now_, neighbours);
     traces_.update(now_, peers_);
     std::vector<Eigen::Vector3f> hits;
@@ -69,6 +70,7 @@ TEST_F(UavTracesTest, WhereAUavFliesUnheardIsDoubtedWhenItIsHeardAgain) {
     map_ = WorldMap(WorldMap::Config());
     map_.on_met([this](const Eigen::Vector3i& cube, bool news) { traces_.met(cube, news); });
     const Vector3d from_W = drawn_place(), to_W = drawn_place();
+    wait(std::nullopt, 1.0);
     wait(from_W, 4.0);
     std::vector<Vector3d> met_W;
     const double speed_mps = random_.uniform(0.0, 6.0), length_m = (to_W - from_W).norm();
@@ -146,6 +148,55 @@ TEST_F(UavTracesTest, AFlickeringLinkIsOneAbsence) {
   }
   wait(p_W, 4.0);
   for (const Vector3d& hit_W : met_W) EXPECT_TRUE(doubted(hit_W));
+}
+
+TEST_F(UavTracesTest, AUavThatReportsWrongPositionsIsDoubted) {
+  for (int drawn = 0; drawn < 40; ++drawn) {
+    map_ = WorldMap(WorldMap::Config());
+    map_.on_met([this](const Eigen::Vector3i& cube, bool news) { traces_.met(cube, news); });
+    const bool stuck = drawn % 2 == 0;
+    const Vector3d direction = Vector3d(random_.normal(), random_.normal(), random_.normal()).normalized();
+    const Vector3d offset_W = direction * random_.uniform(1.5, 4.0);
+    const Vector3d v_W = direction.unitOrthogonal() * random_.uniform(stuck ? 1.5 : 0.0, 4.0);
+    const int wrong_exchanges = static_cast<int>(20.0 * random_.uniform(1.0, stuck ? 4.0 : 25.0));
+    Vector3d p_W = drawn_place();
+    wait(std::nullopt, 1.0);
+    wait(p_W, 4.0);
+    exchange(p_W, {}, v_W);
+    const Vector3d stuck_W = p_W;
+    std::vector<Vector3d> met_W;
+    for (int i = 0; i < wrong_exchanges; ++i) {
+      p_W += v_W * 0.05;
+      const Vector3d told_W = stuck ? stuck_W : Vector3d(p_W + offset_W);
+      // The returns of a body are known for its own near the place that it reports, and are structure elsewhere.
+      const bool taken = (told_W - p_W).norm() > 1.2 && i % 10 == 0;
+      const std::vector<Vector3d> hits_W = taken ? body(p_W) : std::vector<Vector3d>();
+      met_W.insert(met_W.end(), hits_W.begin(), hits_W.end());
+      exchange(told_W, hits_W, v_W);
+    }
+    for (int i = 0; i < 60; ++i) exchange(p_W += v_W * 0.05, {}, v_W);
+    for (const Vector3d& hit_W : met_W) EXPECT_FALSE(doubted(hit_W)) << "it may still report wrong positions";
+    wait(p_W, 35.0);
+    if (map_.counts().occupied > UavTraces::kMostInTrace) continue;
+    for (const Vector3d& hit_W : met_W) EXPECT_TRUE(doubted(hit_W)) << drawn << ": " << hit_W.transpose();
+  }
+}
+
+// Otherwise isolated structure would be doubted wherever UAVs turn, brake, or report with noise.
+TEST_F(UavTracesTest, AUavThatReportsRightPositionsIsHeard) {
+  for (int drawn = 0; drawn < 20; ++drawn) {
+    Vector3d p_W = drawn_place(), v_W = Vector3d::Zero(), to_mps = Vector3d::Zero();
+    wait(std::nullopt, 1.0);
+    wait(p_W, 4.0);
+    for (int i = 0; i < 1200; ++i) {
+      if (i % 40 == 0) to_mps = 5.0 * Vector3d(random_.normal(), random_.normal(), random_.normal()).normalized();
+      const Vector3d v_before = v_W;
+      v_W += std::min(1.0, 6.0 * 0.05 / std::max(1e-9, (to_mps - v_W).norm())) * (to_mps - v_W);
+      p_W += 0.025 * (v_before + v_W);
+      exchange(p_W, body(p_W + Vector3d(8.0, 0.0, 0.0)), v_W);
+    }
+    EXPECT_EQ(traces_.cubes(), 0U) << drawn;
+  }
 }
 
 TEST_F(UavTracesTest, WhatIsToldIsDoubtedAndBelievedOfItsTellerAlone) {
