@@ -165,6 +165,69 @@ TEST(FlightCore, RecoversWhereThereIsNoWayHome) {
   }
 }
 
+// Nobody saw it rise, so it assumed that space outside the boxes is free. What it is told then is far away.
+TEST(FlightCore, APhotographerThatAssumedSpaceToBeFreeFliesToTheSpaceThatItIsTold) {
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    RandomStream random(seed, "told", 0);
+    AgentConfig agent;
+    agent.self = UavIndex(1);
+    agent.fleet = {{.name = "a", .p_WB_start = {0.0, 80.0, 0.0}},
+                   {.name = "b", .role = Role::photographer, .body_radius_m = 0.32}};
+    CoreUav uav(agent, {0.0, 0.0, 4.0});
+    uav.lidar_works = false;
+    uav.map.set_free(uav.state.p_WB, 1.2);
+    uav.boxes = {make_box({0.0, -60.0, 9.0}, {6.0, 6.0, 8.0})};
+    const double turn = random.uniform(0.0, 6.28), off_m = random.uniform(20.0, 45.0);
+    const Vector3d told_W(off_m * std::cos(turn), off_m * std::sin(turn), random.uniform(10.0, 14.0));
+    const auto fly = [&](double time_s) {
+      for (int i = 0; i < time_s * 20.0 && (uav.state.p_WB - told_W).norm() > 0.5; ++i) {
+        PlannerInput in = uav.input();
+        uav.core.update(in);
+        in.flight = uav.core.state();
+        std::optional<std::vector<Goal>> goals;
+        if (i % 30 == 0) goals = {{.id = static_cast<std::int64_t>(uav.k), .way = {{told_W, 3.0}}}};
+        uav.fly_by(uav.core.step(in, std::move(goals)));
+      }
+    };
+    fly(40.0);
+    EXPECT_LT((uav.state.p_WB - Vector3d(0.0, 0.0, 4.0)).norm(), 1.3) << "seed " << seed << ": it is told nothing";
+    fly(5.0 + random.uniform(0.5, 3.0));
+    ASSERT_GT((uav.state.p_WB - told_W).norm(), 15.0) << "seed " << seed;
+    uav.clear(told_W - Vector3d::Constant(10.0), told_W + Vector3d::Constant(10.0));
+    ASSERT_GT(uav.map.regions().size(), 8U);
+    fly(120.0);
+    EXPECT_LT((uav.state.p_WB - told_W).norm(), 0.6) << "seed " << seed << ": it is at " << uav.state.p_WB.transpose();
+  }
+}
+
+// Its strategy's lines follow one another without a break.
+TEST(FlightCore, AnExplorerOnALineShowsAPhotographerItsWayAfterAWhile) {
+  AgentConfig agent = a_lone_explorer();
+  agent.fleet.push_back(
+      {.name = "b", .role = Role::photographer, .p_WB_start = {0.0, 12.0, 0.0}, .body_radius_m = 0.32});
+  CoreUav uav(agent, {0.0, 0.0, 10.0});
+  uav.clear({-24.0, -24.0, 2.0}, {24.0, 24.0, 24.0});
+  uav.boxes = {make_box({60.0, 0.0, 9.0}, {6.0, 6.0, 8.0})};
+  int times = 0;
+  bool shows = false;
+  for (int i = 0; i < 1600; ++i) {
+    PlannerInput in = uav.input();
+    uav.core.update(in);
+    in.flight = uav.core.state();
+    const Vector3d here_W = in.tracking.setpoint.p_WB;
+    std::optional<std::vector<Goal>> goals;
+    if (i % 30 == 0) {
+      goals = {
+          {.id = i,
+           .way = {{here_W, 2.0}, {here_W.y() > 0.0 ? Vector3d(0.0, -8.0, 10.0) : Vector3d(0.0, 8.0, 10.0), 2.0}}}};
+    }
+    uav.fly_by(uav.core.step(in, std::move(goals)));
+    const bool showed = std::exchange(shows, uav.core.doing(in).what == Doing::What::shows_mate);
+    if (shows && !showed) ++times;
+  }
+  EXPECT_GE(times, 2) << "the first time, it has no line yet";
+}
+
 /// A photographer in a neck of a corridor, which another UAV holds: it hovers nearer than the safety filter would have
 /// let it come, and the path search, whose start is not free, leads the way past it. The strategy replaces its goal
 /// every 1.5 s, by another place behind that UAV.

@@ -150,10 +150,7 @@ std::optional<TrajectoryCommand> SafetyFilter::move_on(Tracker& tracker, const F
 }
 
 /// Whether all space around the commanded position that the invariant needs for a UAV at rest is proved free.
-bool SafetyFilter::has_room(const Facts& facts) const {
-  if (assumes_boxes_) return true;
-  return facts.map.ball_free(now_W_, tube_m(0.0), ground_m());
-}
+bool SafetyFilter::has_room(const Facts& facts) const { return assumes_boxes_ || proved_free(now_W_, facts.map); }
 
 /// The part of an acceleration, computed from two velocities, that their noise does not explain.
 Vector3d SafetyFilter::certain_W(const Vector3d& a_W) const {
@@ -261,7 +258,10 @@ bool SafetyFilter::clear_up_to(double height_m, const Facts& facts) {
 }
 
 bool SafetyFilter::proved(const Vector3d& p_W, const WorldMap& map, const std::vector<OrientedBox>& boxes) const {
-  if (assumes_boxes_) return assumed(p_W, tube_m(0.0), map, boxes);
+  return assumes_boxes_ ? assumed(p_W, tube_m(0.0), map, boxes) : proved_free(p_W, map);
+}
+
+bool SafetyFilter::proved_free(const Vector3d& p_W, const WorldMap& map) const {
   return map.ball_free(p_W, tube_m(0.0), ground_m());
 }
 

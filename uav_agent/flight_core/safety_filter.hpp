@@ -83,6 +83,8 @@ class SafetyFilter {
   const Held& held() const { return held_; }
   /// Whether this UAV may rest at p_W (centre): all space about it that the invariant needs is proved free.
   bool proved(const Vector3d& p_W, const WorldMap& map, const std::vector<OrientedBox>& boxes) const;
+  /// The same, whatever the filter assumes.
+  bool proved_free(const Vector3d& p_W, const WorldMap& map) const;
   /// What would hold this UAV if it flew slowly from where it is through some places; nothing, if it could.
   Held would_hold(const std::vector<Vector3d>& corners_W, const Facts& facts);
   /// Whether this UAV, which stands on the ground, could climb straight up to a height [m] without being held.

@@ -22,7 +22,11 @@ void ToldSpace::listen(const PlannerInput& in, bool sees, SafetyFilter& filter) 
   const std::size_t regions = in.world_map->regions().size();
   if (regions != told_regions_ || !told_at_) told_at_ = in.tick;
   told_regions_ = regions;
-  if (told_regions_ > kOwnRegions) return filter.assume_boxes(false);
+  if (told_regions_ > kOwnRegions) {
+    // Otherwise the UAV would be shut in where it is, because nobody proved the space between there and the map.
+    if (filter.assumes_boxes() && !filter.proved_free(in.state.p_WB, *in.world_map)) return;
+    return filter.assume_boxes(false);
+  }
   if (seconds(in.tick - *told_at_) > config_.alone_s) filter.assume_boxes(true);
 }
 

@@ -28,7 +28,8 @@ class OwnSight {
 
 /// A UAV without a working LiDAR learns of free space by radio. If its map holds only the space around its start, and
 /// does not grow for alone_s, its safety filter assumes that space outside the boxes is free, except known structure
-/// (SafetyFilter::assume_boxes()). Does nothing in a fleet without an explorer.
+/// (SafetyFilter::assume_boxes()). It no longer does so once the UAV has received a map and is in its proved space.
+/// Does nothing in a fleet without an explorer.
 class ToldSpace {
  public:
   /// @param config, agent  must outlive this.
