@@ -13,6 +13,7 @@ constexpr double kStaysM = 0.5;   ///< a UAV that moves no farther stays where i
 constexpr std::int64_t kHome = -2;
 constexpr double kMakesRoomS = 10.0;  ///< longest flight aside
 constexpr double kShowCheckS = 5.0;
+constexpr double kLineS = 10.0;  ///< so long, a photographer that waits to be shown its way waits for a line's end
 constexpr std::uint64_t kShowLook = 10;  ///< exchanges between two checks of whether a photographer was shown its way
 
 }  // namespace
@@ -233,7 +234,9 @@ bool FlightCore::begin_making_room(const PlannerInput& in, Steering& steering) {
 
 /// @returns whether the UAV sets out to show a photographer the way up.
 bool FlightCore::begin_showing(const PlannerInput& in) {
-  if (in.tick < show_at_ || navigator_.on_way() || !navigator_.sees()) return false;
+  if (in.tick < show_at_ || !navigator_.sees()) return false;
+  // Better between two goals, but some planners' goals follow one another without a break.
+  if (navigator_.on_way() && in.tick < show_at_ + ticks(kLineS)) return false;
   show_at_ = in.tick + ticks(kShowCheckS);
   auto goal = showing_.next(in, navigator_.space(in));
   if (!goal) return false;

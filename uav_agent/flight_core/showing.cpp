@@ -9,13 +9,16 @@ namespace skein::agent {
 namespace {
 
 constexpr std::int64_t kShowing = -3;
-constexpr double kUpM = 2.5;  ///< a UAV farther than this from its start has risen
+constexpr double kUpM = 2.5, kLowM = 1.0;  ///< a UAV farther from its start, and higher above it, has risen
 constexpr double kColumnTopM = 6.0;
 /// Places to hover, from which a LiDAR sees the column well unless a roof is in between.
 constexpr double kAsideM = 5.0, kAboveM[] = {5.0, 2.5, 8.0, 12.0};
 constexpr int kSides = 8;
-constexpr double kShowMps = 4.0, kAgainS = 20.0;
-constexpr int kMostAttempts = 4;
+constexpr double kShowMps = 4.0;
+constexpr double kAgainS = 20.0;  ///< pause after an attempt; after the first kManyAttempts, it doubles each time
+constexpr int kManyAttempts = 4;
+constexpr double kToldS = 60.0;  ///< a UAV that is low for longer may have received no map of its column
+constexpr double kAsideOfStartM = 0.5;
 /// Before an explorer takes over a photographer, it waits this time for each explorer that starts nearer to it. In
 /// `towers`, `cranes` and `hangar`, photographers rise within 55 s if no UAV is lost.
 constexpr double kTakeOverS = 60.0;
@@ -39,7 +42,8 @@ Showing::Showing(const AgentConfig& agent, const SafetyFilter& filter) : agent_(
 
 bool Showing::has_risen(std::size_t uav, const PlannerInput& in) const {
   return std::ranges::any_of(in.peers.all(), [&](const Peer& peer) {
-    return peer.uav == uav && peer.seen && (peer.p_W - agent_.fleet[uav].p_WB_start).norm() > kUpM;
+    const Vector3d from_start = peer.p_W - agent_.fleet[uav].p_WB_start;
+    return peer.uav == uav && peer.seen && from_start.norm() > kUpM && from_start.z() > kLowM;
   });
 }
 
@@ -50,34 +54,46 @@ bool Showing::is_due(const Charge& charge, const PlannerInput& in) const {
   return std::ranges::any_of(in.peers.all(), [&](const Peer& peer) { return peer.uav == charge.uav && peer.visible; });
 }
 
-bool Showing::column_known(std::size_t uav, const WorldMap& map) const {
+Vector3d Showing::place_W(std::size_t uav, const PlannerInput& in) const {
+  Vector3d place_W = agent_.fleet[uav].p_WB_start;
+  for (const Peer& peer : in.peers.all()) {
+    if (peer.uav != uav || !peer.seen || (peer.p_W - place_W).norm() < kAsideOfStartM) continue;
+    place_W.head<2>() = peer.p_W.head<2>();
+  }
+  return place_W;
+}
+
+bool Showing::column_known(std::size_t uav, const PlannerInput& in) const {
   const double radius_m = filter_.tube_of_told_m(uav);
-  Vector3d low_W = agent_.fleet[uav].p_WB_start, top_W = low_W;
+  Vector3d low_W = place_W(uav, in), top_W = low_W;
   low_W.z() += radius_m + 1.0;
   top_W.z() += kColumnTopM;
-  return map.tube_free(low_W, top_W, radius_m);
+  return in.world_map->tube_free(low_W, top_W, radius_m);
 }
 
 std::optional<Goal> Showing::next(const PlannerInput& in, const FreeSpace& space) {
   if (!since_) since_ = in.tick;
-  std::erase_if(charges_, [&](const Charge& it) { return it.attempts >= kMostAttempts || has_risen(it.uav, in); });
+  std::erase_if(charges_, [&](const Charge& it) { return has_risen(it.uav, in); });
   const Vector3d here_W = in.tracking.setpoint.p_WB;
   const auto off_m = [&](const Charge& it) { return (agent_.fleet[it.uav].p_WB_start - here_W).norm(); };
   std::ranges::stable_sort(charges_, {}, off_m);
   for (Charge& it : charges_) {
-    if (!is_due(it, in) || column_known(it.uav, *in.world_map)) continue;
-    const Vector3d start_W = agent_.fleet[it.uav].p_WB_start;
-    const double heading = std::atan2(here_W.y() - start_W.y(), here_W.x() - start_W.x());
+    if (!is_due(it, in)) continue;
+    const bool known = column_known(it.uav, in);
+    if (known && seconds(in.tick - *since_) < kToldS) continue;
+    const Vector3d low_W = place_W(it.uav, in);
+    const double heading = std::atan2(here_W.y() - low_W.y(), here_W.x() - low_W.x());
     for (std::size_t height = 0; height < std::size(kAboveM); ++height) {
       const double above_m = kAboveM[(height + static_cast<std::size_t>(it.attempts)) % std::size(kAboveM)];
       for (int i = 0; i < kSides; ++i) {
         const int side = i % 2 == 0 ? i / 2 : -(i + 1) / 2;
         const double a = heading + 2.0 * std::numbers::pi * side / kSides;
-        const Vector3d p_W = start_W + Vector3d(kAsideM * std::cos(a), kAsideM * std::sin(a), above_m);
+        const Vector3d p_W = low_W + Vector3d(kAsideM * std::cos(a), kAsideM * std::sin(a), above_m);
         if (!space.free(p_W)) continue;
         mate_ = it.uav;
+        was_known_ = known;
         ++it.attempts;
-        it.not_before = in.tick + ticks(kAgainS);
+        it.not_before = in.tick + ticks(std::ldexp(kAgainS, std::clamp(it.attempts - kManyAttempts, 0, 8)));
         return Goal{.id = kShowing, .way = {{p_W, kShowMps}}};
       }
     }
@@ -85,6 +101,8 @@ std::optional<Goal> Showing::next(const PlannerInput& in, const FreeSpace& space
   return std::nullopt;
 }
 
-bool Showing::shown(const PlannerInput& in) const { return has_risen(mate_, in) || column_known(mate_, *in.world_map); }
+bool Showing::shown(const PlannerInput& in) const {
+  return has_risen(mate_, in) || (!was_known_ && column_known(mate_, in));
+}
 
 }  // namespace skein::agent
