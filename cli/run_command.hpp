@@ -9,7 +9,7 @@ namespace skein::cli {
 
 /// Validates the options, starts the fleet, monitors it until it ends, and writes the result.
 /// @returns the exit code (process/program.hpp). @throws InputError for invalid input, before the fleet's programs have
-///   started; Interrupted before the flight.
+///   started; Interrupted if the user presses Ctrl-C before the flight.
 int run_fleet(const RunOptions& options, const Console& console);
 
 }  // namespace skein::cli

@@ -7,16 +7,16 @@ namespace skein::router {
 namespace {
 
 constexpr const char* kNoWriter =
-    "name: no fitting writer of this topic was found at the asker: create it before asking, RELIABLE and of this type "
-    "(a BEST_EFFORT writer may lose messages, so it has no place in lock-step)";
+    "name: the asking member has no matching writer of this topic: create it before you ask, RELIABLE and of this type "
+    "(a BEST_EFFORT writer may lose messages, which lock-step does not allow)";
 
 constexpr const char* kNoReader =
-    "name: no fitting reader of what arrives on this topic was found at the asker: open it when the reply says so, of "
-    "this type and VOLATILE";
+    "name: the asking member has no matching reader of what arrives on this topic: create it when the reply says that "
+    "the topic is open, of this type and VOLATILE";
 
 constexpr const char* kNoMore =
-    "name: this member has asked three times for topics that it has no fitting ends of; no further request of it is "
-    "considered";
+    "name: this member has asked three times for topics for which it has no matching writer or reader; the router "
+    "refuses all its further requests";
 
 }  // namespace
 
@@ -101,7 +101,7 @@ std::vector<AwaitedRequest> RadioRegistry::awaited() const {
 void RadioRegistry::refuse_unmatched(const Asker& asker, const std::string& topic, const char* reason) {
   ++histories_[asker.source].in_vain;
   decided_by_clock_.push_back(scenario_.node_name(asker.node) + " was refused the radio topic " + topic +
-                              ": none of its own matched in time");
+                              ": no writer or reader of its own matched in time");
   refuse(asker, reason);
 }
 

@@ -8,7 +8,7 @@ struct Overloaded : Cases... {
   using Cases::operator()...;
 };
 
-/// C++20 needs no such guide, but clang-tidy 16 does.
+/// C++20 needs no such deduction guide, but clang-tidy 16 does.
 template <class... Cases>
 Overloaded(Cases...) -> Overloaded<Cases...>;
 

@@ -30,7 +30,7 @@
 namespace skein::one_process {
 namespace {
 
-/// The descriptors for a copy, in the order in which a message has them.
+/// The descriptors for a copy, in their order in a message.
 enum File : std::size_t { kSocketFile, kBlockFile, kLogFile, kFiles };
 
 /// The programs' output is kept to explain failures, for which its newest part is enough: a longer log is emptied.
@@ -78,7 +78,7 @@ SessionPlan read_session_plan(const std::filesystem::path& file) {
 
 Session::Session(SessionPlan plan, int socket, double patience_s)
     : plan_(std::move(plan)), socket_(socket), guard_(patience_s) {
-  ::prctl(PR_SET_PDEATHSIG, 0);        // no signal when the thread ends that started this: it may end before the fleet
+  ::prctl(PR_SET_PDEATHSIG, 0);        // no signal when the starting thread ends, which may be before the fleet's end
   ::prctl(PR_SET_CHILD_SUBREAPER, 1);  // adopts copies whose parent has ended
   std::signal(SIGCHLD, SIG_IGN);       // nobody waits for copies
   std::signal(SIGPIPE, SIG_IGN);
@@ -133,16 +133,17 @@ void Session::answer(const SessionMessage& message) {
     return hello();
   }
   if (what != "result" && what != "scene") {
-    throw std::logic_error("there is no order \"" + what + "\": reset, fork, result or scene would do");
+    throw std::logic_error("there is no order \"" + what + "\"; the orders are reset, fork, result and scene");
   }
-  if (!fleet_ || message.files.empty()) throw std::logic_error("there is no fleet to tell of");
+  if (!fleet_ || message.files.empty()) throw std::logic_error("there is no fleet, or no file for the answer");
   write_to_file(message.files[0], (what == "scene" ? fleet_->scene() : fleet_->result()).dump());
   close_all(message.files);
   socket_.send("k");
 }
 
 bool Session::copy(const SessionMessage& message) {
-  if (message.files.size() != kFiles) throw std::logic_error("a copy needs files of its own");
+  if (message.files.size() != kFiles)
+    throw std::logic_error("a copy needs a socket, a memory block and a log of its own");
   // Copies the block before fork(), since afterwards the parent may change its own.
   if (fleet_) {
     const std::size_t bytes = fleet_->layout().bytes();
@@ -206,10 +207,11 @@ int run_session(int argc, const char* const* argv) {
   double patience_s = 60.0;
   std::string plan;
   const auto add_options = [&](CLI::App& app) {
-    app.description("Skein: home of a fleet that is stepped");
-    app.add_option("--session", socket, "Socket of the program that steps it")->group("Launcher");
-    app.add_option("--plan", plan, "File of the launcher that tells what flies")->group("Launcher");
-    app.add_option("--agent-timeout", patience_s, "wall time that a program may take for one turn [s], 0: for ever")
+    app.description("Skein: process of a fleet that an external program steps");
+    app.add_option("--session", socket, "Descriptor of the socket to the program that steps the fleet")
+        ->group("Launcher");
+    app.add_option("--plan", plan, "File in which the launcher describes the fleet")->group("Launcher");
+    app.add_option("--agent-timeout", patience_s, "Wall time that a program may take for one turn [s]; 0: no limit")
         ->check(CLI::Validator(check_not_negative, "NONNEGATIVE"));
   };
   const auto options = parse_program(programs::kOneProcess, argc, argv, add_options);

@@ -39,7 +39,7 @@ std::optional<SessionMessage> SessionSocket::receive() const {
   if ((head.msg_flags & (MSG_TRUNC | MSG_CTRUNC)) != 0) {  // the kernel has dropped what did not fit
     for (const int file : message.files) ::close(file);
     throw std::length_error("a message of this session is too long: it may have " + std::to_string(kLongest) +
-                            " bytes and " + std::to_string(kMostFiles) + " descriptors");
+                            " bytes and " + std::to_string(kMostFiles) + " descriptors at most");
   }
   return message;
 }

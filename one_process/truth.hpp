@@ -1,5 +1,5 @@
 // The ground truth of a fleet that is stepped: the server's world and the station's tally. The program that steps the
-// fleet gets it under names of their own ("truth."); no UAV gets any of it.
+// fleet receives it in arrays whose names begin with "truth."; no UAV receives any of it.
 // Frame W.   Units: SI and radians.   Threads: one.
 #pragma once
 
@@ -23,7 +23,7 @@ class Truth {
   /// Adds the arrays of the truth to the layout.
   void lay_out(BlockLayout& layout);
 
-  /// Call it in each step: notes its collisions. @param simulation, digest  must live until keep().
+  /// Call it in each step: notes the collisions of that step. @param simulation, digest  must live until keep().
   void follow(const sim::Simulation& simulation, const sim::RunDigest& digest);
   /// Call it before simulation and digest end: result() and scene() keep returning their last values.
   void keep();
@@ -32,7 +32,7 @@ class Truth {
   void write(std::byte* block) const;
   /// Digest, score, and what each UAV has done.
   nlohmann::json result() const;
-  /// Boxes and interest points, with what was delivered of each.
+  /// Boxes and interest points: for each point, the quality delivered and earned, and whether it was ever seen.
   nlohmann::json scene() const;
 
  private:

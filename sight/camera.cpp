@@ -12,7 +12,7 @@ namespace skein::sim {
 namespace {
 
 /// How far a camera may move until the points near it are searched again: far enough for some seconds of flight, but
-/// short beside a search radius.
+/// small compared with the search radius.
 constexpr double kNearSlack_m = 2.0;
 
 /// The first hit of the ray from a camera to a point, or any body or ground before the point.
@@ -45,7 +45,8 @@ bool in_sight_of_reference(const Vector3d& p_WC, const Vector3d& p_W, UavIndex o
 
 namespace {
 
-/// The camera is not part of the collision shape: it may pass through a roof below its body.
+/// Whether structure is between body and camera. The camera is not part of the collision shape, so it can pass through
+/// a roof below its body.
 bool is_through_structure(const Vector3d& p_WB, const Vector3d& p_WC, const RayScene& world) {
   return world.first_hit_distance(p_WB, p_WC, {.ground = false, .uavs = false}).has_value();
 }
@@ -123,7 +124,7 @@ bool Camera::sees(std::uint32_t point, const Vector3d& p_WC, const Vector3d& p_W
 template <class Judge>
 void Camera::for_each_in_view(const View& view, const RayScene& world, const Judge& judge) {
   const Vector3d& p_WC = view.exposure.position();
-  std::optional<bool> blind;  // costs a ray, too
+  std::optional<bool> blind;  // computed only on demand: it costs a ray, too
   for (const std::uint32_t i : near_) {
     const Vector3d p_W = points_[i].p_W.cast<double>();
     const auto p_C = view.exposure.view(p_W);

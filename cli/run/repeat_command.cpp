@@ -12,14 +12,14 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-/// Number of words from `at` on that are `option` and its value; 0: another option is there.
+/// Number of words from `at` on that `option` and its value take; 0: the word at `at` is another option.
 std::size_t option_words(const Words& words, std::size_t at, const std::string& option, bool valued) {
   if (words[at].starts_with(option + "=")) return 1;
   if (words[at] != option) return 0;
   return valued && at + 1 < words.size() ? 2 : 1;
 }
 
-/// Whether a word is an endpoint, which may follow --view or be left out.
+/// Whether a word is an endpoint: the optional value of --view.
 bool is_endpoint(const std::string& word) {
   try {
     view::read_endpoint(word);

@@ -48,8 +48,8 @@ void write_file_atomically(const std::filesystem::path& path, std::string_view c
     if (readers == Readers::no_agents) close_to_agents(temporary);
     if (!file.is_open() || !file.write(content) || !file.sync()) fail("write");
   }
-  if (std::rename(temporary.c_str(), path.c_str()) != 0) fail("put in place");
-  // The new name is durable only after its folder is synced. Some file systems cannot sync folders: this is no failure.
+  if (std::rename(temporary.c_str(), path.c_str()) != 0) fail("rename the temporary file of");
+  // The new name is durable only after its folder is synced. Some file systems cannot sync folders; that is no failure.
   const File folder(path.has_parent_path() ? path.parent_path().string() : ".", O_RDONLY | O_DIRECTORY);
   if (folder.is_open()) static_cast<void>(folder.sync());
 }

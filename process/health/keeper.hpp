@@ -8,9 +8,9 @@ namespace skein {
 
 /// Forks this process into keeper and worker. Call it before any thread is started.
 /// @param lives  number of workers so far; incremented for each worker, in both processes.
-/// @returns nullopt in the worker. In the keeper it returns when a worker has ended and none will follow: the worker's
-///   exit code, or 128 + its signal. The keeper passes on SIGTERM, SIGINT and SIGHUP; after the first of these, it
-///   starts no further worker.
+/// @returns nullopt in the worker. In the keeper, it returns when a worker has ended and no other will follow: the exit
+///   code of that worker, or 128 + its signal. The keeper passes on SIGTERM, SIGINT and SIGHUP; after the first of
+///   these, it starts no further worker.
 /// @throws std::system_error if no process can be forked.
 std::optional<int> keep_alive(int& lives);
 

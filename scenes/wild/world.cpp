@@ -54,7 +54,7 @@ std::optional<World> attempt(const std::string& family, const wild::Dice& dice, 
 
   Scenario& scenario = world.scenario;
   scenario.name = family + "_" + std::to_string(dice.seed);
-  scenario.description = "drawn whole from scene seed " + std::to_string(dice.seed);
+  scenario.description = "a whole world generated from scene seed " + std::to_string(dice.seed);
   scenario.scene = {.family = family, .scene_seed = dice.seed, .meshes = {}, .points = {}, .boxes = {}};
   scenario.duration_s = task.duration_s;
   scenario.desired_mm_per_pixel = task.mm_per_pixel;
@@ -68,7 +68,7 @@ std::optional<World> attempt(const std::string& family, const wild::Dice& dice, 
 }  // namespace
 
 World draw_world(const std::string& family, std::uint64_t scene_seed, const std::filesystem::path& config_dir) {
-  if (!is_drawn_world(family)) throw InputError("there is no world '" + family + "' to be drawn");
+  if (!is_drawn_world(family)) throw InputError("'" + family + "' is no family of generated worlds");
   const std::filesystem::path dir = config_dir.empty() ? default_config_dir() : config_dir;
   const VehicleConfig explorer = load_vehicle("explorer", dir), photographer = load_vehicle("photographer", dir);
   const bool blind = family == kBlindWorld;
@@ -78,7 +78,7 @@ World draw_world(const std::string& family, std::uint64_t scene_seed, const std:
     world->attempt = i;
     return std::move(*world);
   }
-  throw std::runtime_error(family + " " + std::to_string(scene_seed) + ": no draw could be flown");
+  throw std::runtime_error(family + " " + std::to_string(scene_seed) + ": no attempt gave a world that can be flown");
 }
 
 }  // namespace skein::sim

@@ -21,7 +21,7 @@ bool LoginHosts::set_time_of_day(const std::string& name, const std::string& off
   for (const fs::directory_entry& folder : fs::directory_iterator("/usr/lib", none)) {
     const fs::path library = folder.path() / "faketime/libfaketimeMT.so.1";
     if (!fs::exists(library, none)) continue;
-    // Monotonic clocks are not shifted. The library leaves shared memory behind when a program is killed.
+    // Monotonic clocks are not shifted. If a program is killed, the library leaves shared memory behind.
     variables_[name] = " LD_PRELOAD=" + library.string() + " FAKETIME=" + off + " FAKETIME_DONT_FAKE_MONOTONIC=1";
     return true;
   }
@@ -29,7 +29,7 @@ bool LoginHosts::set_time_of_day(const std::string& name, const std::string& off
 }
 
 std::string LoginHosts::set_up(const fs::path& folder) {
-  if (!hosts_.there()) return "network namespaces need root, and a kernel and an `ip` that have them";
+  if (!hosts_.there()) return "network namespaces need root, and support by the kernel and by `ip`";
   if (!fs::exists(kSshd)) return "no sshd here (apt-get install openssh-server)";
   try {
     hosts_.connect(0, names_);
@@ -60,7 +60,7 @@ std::string LoginHosts::set_up(const fs::path& folder) {
 }
 
 /// Starts sshd in the mount namespace that `ip netns exec` creates, with a /run of its own, so that none of its files
-/// stay. Its monotonic clock is a day ahead if the kernel has time namespaces.
+/// remain. Its monotonic clock is a day ahead if the kernel has time namespaces.
 void LoginHosts::start_sshd(const std::string& name) {
   fs::create_directories(temporary(name));
   fs::permissions(temporary(name), fs::perms::all | fs::perms::sticky_bit);

@@ -1,7 +1,8 @@
 // Transfers the world map (world_map.hpp) to a coarser voxel grid, for strategies that plan in larger cubes. A cube of
 // the grid is occupied if it holds an occupied cube of the map; it is free if all space around its centre is free. This
 // class also keeps the mean position of the surface in each cube.
-// Doubted cubes of the map (WorldMap::doubt()) do not count as occupied, because the grid could not take them back.
+// Doubted cubes of the map (WorldMap::doubt()) do not count as occupied, because a cube of the grid cannot become free
+// again.
 // Frame W.   Units: metres.   Threads: one.   Deterministic.
 // Effort: chunks of the map that changed since the last update, and at most max_looks unknown cubes.
 #pragma once
@@ -29,7 +30,7 @@ class WorldVoxels {
   void update(const WorldMap& map, VoxelGrid& grid);
 
   /// Mean position of the map's occupied cubes in a cube of the grid; nullopt if there are none. The grid may still
-  /// call it occupied, by another UAV's message.
+  /// have the cube as occupied, because another UAV reported it.
   std::optional<Vector3d> surface_W(VoxelGrid::Id id) const;
   /// Number of the map's occupied cubes in a cube of the grid.
   int hits(VoxelGrid::Id id) const { return id < hits_.size() ? hits_[id].count : 0; }
@@ -57,7 +58,7 @@ class WorldVoxels {
   BlockTable<Counted> chunks_;
   BlockTable<std::uint64_t> regions_;  ///< by region of the map: region_changed_at() at the last look
   VoxelGrid::Id next_look_ = 0;
-  /// By cube of the grid: 0 if nothing around it has changed since it was found not to be free.
+  /// By cube of the grid: 0 if nothing around the cube has changed since the last look found it not to be free.
   std::vector<std::uint8_t> look_again_;
 };
 
