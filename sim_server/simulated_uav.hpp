@@ -43,7 +43,9 @@ struct SimulatedUav {
     vehicle.damage_rotors(faulty.rotor_shares);
     vehicle.jam_gimbal(!faulty.gimbal_works);
     surroundings.suffer(faulty.fix_lost, faulty.most_charge);
-    if (!faulty.camera_works) triggered = false;
+    if (faulty.camera_works) return;
+    triggered = false;
+    shutter_at.reset();
   }
 
   /// @param conditions  of the ticks that follow.

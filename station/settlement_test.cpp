@@ -57,6 +57,22 @@ TEST_F(Settlement, TheJournalIsTheReport) {
   EXPECT_NE(text("score_timeline.csv").find("2.25,2,1\n"), std::string::npos) << text("score_timeline.csv");
 }
 
+// The station was away when b collided, so its journal does not say so.
+TEST_F(Settlement, ACollisionThatTheStationDidNotHearOfVoidsTheScore) {
+  std::ofstream(folder_ / "scene.json") << R"({"points": [[0,0,0,0,0,1], [1,0,0,0,0,1], [2,0,0,0,0,1]]})";
+  std::ofstream(folder_ / "sim_server.report.json")
+      << R"({"collisions": [{"uav": "b", "time_s": 20.0, "with": "ground", "cause": "battery"}]})";
+  Journal(folder_ / "station.journal")
+      .append(std::vector<TallyRecord>{record(2, UavIndex{0}, 0, 1, 0.5F), record(5, UavIndex{1}, 3, 1, 0.75F),
+                                       record(9, UavIndex{1}, 4, 2, 0.25F)});
+  for (const bool voids : {true, false}) {
+    scenario_.rules.collision_voids_score = voids;
+    settle(folder_, scenario_, RunId::none, nobody_);
+    EXPECT_EQ(report()["score"], voids ? 0.5 : 1.0);
+    EXPECT_EQ(text("captures.csv").find("uav collided") != std::string::npos, voids);
+  }
+}
+
 TEST_F(Settlement, WithoutAnythingDeliveredItIsEmpty) {
   std::ofstream(folder_ / "scene.json") << R"({"points": []})";
   settle(folder_, scenario_, RunId::none, nobody_);

@@ -122,6 +122,18 @@ TEST_P(BatterySwap, GivesAUavThatHasLandedNearTheStationAFullBatteryOnce) {
   }
 }
 
+// Its program may be away, and its controller use the battery on the ground.
+TEST_P(BatterySwap, ComesAgainToAUavThatStandsThereWithALowBattery) {
+  uav_.emplace(scenario_, 1, UavIndex{0});
+  stay(0.0, 5.0, true);
+  for (int swaps = 1; swaps <= 3; ++swaps) {
+    most_charge_ = draw_.uniform(0.1, 0.9);
+    const auto full_s = stay(0.0, 1.5 * swap_s_, false);
+    ASSERT_TRUE(full_s) << swaps;
+    EXPECT_EQ(uav_->battery_use().swaps, static_cast<std::uint64_t>(swaps));
+  }
+}
+
 TEST_P(BatterySwap, NeverComesToAUavWhoseBatteryIsEmpty) {
   uav_.emplace(scenario_, 1, UavIndex{0});
   stay(0.0, 5.0, true);

@@ -6,6 +6,7 @@ namespace skein::sim {
 namespace {
 
 constexpr Tick kErrorTicks = kControlTicks;  ///< between two steps of the odometry's error, as of the controller
+constexpr double kFullCharge = 0.95;         ///< a battery with more charge is not swapped
 constexpr Tick kPowerTicks = 4;              ///< between two draws of power from the battery
 
 }  // namespace
@@ -49,8 +50,10 @@ Wrench Surroundings::fly(Vehicle& vehicle, const RigidBodyState& state) {
   if (odometry_ && vehicle.mode() != ControlMode::idle) odometry_->leave_start();
   vehicle.control_attitude(believed(state));
   Wrench wrench = vehicle.fly(state, v_WA_);
+  const bool flies = vehicle.mode() != ControlMode::idle;
+  if (wind_ && flies && v_WA_.isZero(0.0)) push_.step(Vector3d::Zero(), kTickS);
   // No body drag on a UAV that has not begun to fly, so that it stays in place; nor in still air, as in the reference.
-  if (v_WA_.isZero(0.0) || vehicle.mode() == ControlMode::idle) return wrench;
+  if (v_WA_.isZero(0.0) || !flies) return wrench;
   const Vector3d body_W = body_drag(conditions_.wind.body_drag_area_m2, state.v_WB - v_WA_);
   wrench.force_B += state.q_WB.conjugate() * body_W;
   if (wind_) push_.step(body_W + state.q_WB * vehicle.rotors_pushed_B(state.q_WB.conjugate() * v_WA_), kTickS);
@@ -72,16 +75,15 @@ void Surroundings::note_place(Tick tick, const Vector3d& p_WB, bool airborne) {
   if (airborne) {
     last_in_flight_ = battery_->charge();
     stands_since_.reset();
-    swapped_ = false;
     return;
   }
   const BatteryConditions& config = conditions_.battery;
   const bool near = (p_WB - station_W_).head<2>().norm() <= config.swap_within_m;
-  if (!config.swaps() || !near || !last_in_flight_ || swapped_ || empty_) return stands_since_.reset();
+  const bool full = battery_->charge() > kFullCharge;
+  if (!config.swaps() || !near || !last_in_flight_ || full || empty_) return stands_since_.reset();
   if (!stands_since_) stands_since_ = tick;
   if (tick - *stands_since_ < ticks(*config.swap_s)) return;
   battery_->swap();
-  swapped_ = true;
   ++swaps_;
 }
 

@@ -79,7 +79,6 @@ class Surroundings {
   std::optional<Tick> empty_;
   std::optional<double> last_in_flight_;  ///< BatteryUse::last_in_flight
   std::optional<Tick> stands_since_;      ///< when it came to stand near the station, with a battery to be swapped
-  bool swapped_ = false;                  ///< since the UAV landed
   std::uint64_t swaps_ = 0;
   double most_charge_ = 1.0;          ///< by the last suffer(); it limits the battery that the UAV had when it began
   Vector3d v_WA_ = Vector3d::Zero();  ///< velocity of the air

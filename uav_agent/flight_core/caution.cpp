@@ -20,6 +20,8 @@ constexpr double kLeastSpeedShare = 0.5;
 constexpr double kLeastGroundMps = 1.0;
 constexpr double kMarginS = 8.0;
 constexpr double kFullCharge = 0.95;
+constexpr double kMostPower = 4.0;    ///< of hover; a faster fall of the charge is a loss, which does not go on
+constexpr double kSwapCharge = 0.01;  ///< least rise of the charge that is another battery
 
 double square(double x) { return x * x; }
 double in_steps_m(double error_m) { return kErrorStepM * std::ceil(error_m / kErrorStepM - 1e-9); }
@@ -30,7 +32,8 @@ Caution::Caution(const FlightConfig& config, const AgentConfig& agent)
     : config_(config),
       agent_(agent),
       most_mps_(std::numeric_limits<double>::infinity()),
-      charge_per_s_(agent.battery.on() ? 1.0 / (*agent.battery.endurance_missions * agent.duration_s) : 0.0) {}
+      hover_per_s_(agent.battery.on() ? 1.0 / (*agent.battery.endurance_missions * agent.duration_s) : 0.0),
+      charge_per_s_(hover_per_s_) {}
 
 void Caution::update(const PlannerInput& in) {
   if (!config_.reacts) return;
@@ -100,7 +103,10 @@ void Caution::watch_battery(const PlannerInput& in) {
   const double spent = last_charge_ ? *last_charge_ - in.battery->charge : 0.0;
   last_charge_ = in.battery->charge;
   last_tick_ = in.tick;
+  if (spent < -kSwapCharge) has_another_ = true;
+  if (must_land(in)) has_another_ = false;
   if (spent <= 0.0 || dt_s <= 0.0) return;  // the motors are off
+  if (spent > kMostPower * hover_per_s_ * dt_s) return;
   charge_per_s_ += std::min(1.0, dt_s / kPowerMemoryS) * (spent / dt_s - charge_per_s_);
 }
 
@@ -124,7 +130,9 @@ bool Caution::must_land(const PlannerInput& in) const {
   return in.battery->charge < agent_.battery.reserve + needs_s * charge_per_s_;
 }
 
-bool Caution::has_full_battery(const PlannerInput& in) const { return in.battery && in.battery->charge > kFullCharge; }
+bool Caution::has_full_battery(const PlannerInput& in) const {
+  return in.battery && (in.battery->charge > kFullCharge || has_another_);
+}
 
 bool Caution::must_sink(const PlannerInput& in) const {
   if (!config_.reacts || !in.battery) return false;

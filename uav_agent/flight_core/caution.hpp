@@ -30,7 +30,7 @@ class Caution {
   bool must_land(const PlannerInput& in) const;
   /// Whether the charge is only just enough to land right here, and not to fly anywhere else.
   bool must_sink(const PlannerInput& in) const;
-  /// Whether the UAV has a full battery, which it can have only before its first flight and after a swap.
+  /// Whether the UAV has a full battery, as before its first flight, or another one since it last had to land.
   bool has_full_battery(const PlannerInput& in) const;
   /// Time to fly from p_WB to above the start against the wind, and down to the ground [s].
   double way_down_s(const Vector3d& p_WB, const std::optional<Vector3d>& wind_W) const;
@@ -48,9 +48,11 @@ class Caution {
   double lost2_ = 0.0;  ///< position variance beyond the usual one, while and after the fix is lost [m^2]
   std::optional<Vector3d> mean_wind_W_;  ///< over the last 20 s or so
   double gusts2_ = 0.0;                  ///< mean square deviation from mean_wind_W_ [m^2/s^2]
+  const double hover_per_s_;             ///< share of the capacity that hover in still air uses per second [1/s]
   double charge_per_s_;                  ///< share of the capacity used per second of flight [1/s]
   std::optional<double> last_charge_;
-  Tick last_tick_ = 0;  ///< time of last_charge_
+  Tick last_tick_ = 0;        ///< time of last_charge_
+  bool has_another_ = false;  ///< another battery, since the UAV last had to land
 };
 
 }  // namespace skein::agent

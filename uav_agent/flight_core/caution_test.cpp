@@ -212,6 +212,42 @@ TEST(Caution, ARestartOrAPauseIsNoReasonToGoHome) {
   EXPECT_FALSE(uav.caution.must_land(uav.told()));
 }
 
+TEST(Caution, ALossOfChargeIsNoConsumption) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    RandomStream random(seed, "loss", 0);
+    Told uav;
+    double charge = random.uniform(0.85, 1.0);
+    const auto fly = [&](double time_s) {
+      for (int i = 0; i < time_s * 20.0; ++i, ++uav.k) {
+        uav.battery = BatteryStatus{.charge = charge -= 0.005 * 0.05};
+        uav.caution.update(uav.told());
+        EXPECT_FALSE(uav.caution.must_land(uav.told())) << "seed " << seed << " charge " << charge;
+        EXPECT_FALSE(uav.caution.must_sink(uav.told())) << "seed " << seed;
+      }
+    };
+    fly(20.0);
+    charge = random.uniform(0.55, 0.65);
+    fly(30.0);
+    EXPECT_FALSE(uav.caution.has_full_battery(uav.told()));
+  }
+}
+
+// Its program may have been away while its battery was swapped.
+TEST(Caution, AnotherBatteryCountsUntilTheUavMustLandAgain) {
+  Told uav;
+  const auto told = [&](double charge) {
+    uav.battery = BatteryStatus{.charge = charge};
+    uav.caution.update(uav.told());
+    ++uav.k;
+    return uav.caution.has_full_battery(uav.told());
+  };
+  EXPECT_FALSE(told(0.25));
+  EXPECT_TRUE(told(0.8));
+  EXPECT_TRUE(told(0.79));
+  EXPECT_FALSE(told(0.05));
+  EXPECT_FALSE(told(0.05));
+}
+
 TEST(Caution, CanBeTurnedOff) {
   Told uav(FlightConfig{.reacts = false});
   uav.uncertainty.position_m = {1, 1, 1};
