@@ -35,6 +35,17 @@ TEST(DeliveryPlaces, SeeTheStationAndAreApart) {
   }
 }
 
+TEST(DeliveryPlaces, StayLowInLargeFleets) {
+  const std::vector<OrientedBox> boxes = {tower()};
+  const OccupancyMap map;
+  const FreeSpace space({.clearance_m = 1.8}, boxes, map);
+  for (const std::size_t self : {8U, 60U, 127U}) {
+    const auto places = delivery_places(fleet_beside_station(128, self), space, 12.0);
+    ASSERT_FALSE(places.empty()) << self;
+    for (const Vector3d& place : places) EXPECT_LT(place.z(), 40.0) << self;
+  }
+}
+
 TEST(DeliveryPlaces, LieAboveAStationOnARoof) {
   const std::vector<OrientedBox> boxes = {tower()};
   const OccupancyMap map;

@@ -110,6 +110,7 @@ Steering FlightCore::step(const PlannerInput& in, std::optional<std::vector<Goal
   if (mode_ != Mode::ground) homing_.update(in);
   if (mode_ != Mode::ground && mode_ != Mode::landing && caution_.must_land(in)) {
     landing_.begin(steering);
+    lost_way_home_ = false;
     enter(Mode::landing, in);
   }
   const bool recovers = mode_ == Mode::recovering && !lost_way_home_;
@@ -138,7 +139,7 @@ Steering FlightCore::step(const PlannerInput& in, std::optional<std::vector<Goal
       break;
     case Mode::recovering:
       if (!recovery_.step(in, filter_.held(), steering)) break;
-      lost_way_home_ = false;
+      if (std::exchange(lost_way_home_, false)) navigator_.want(wanted_);
       enter(Mode::working, in);
       break;
     case Mode::making_room:
@@ -293,6 +294,14 @@ void FlightCore::go_home(const PlannerInput& in, Steering& steering) {
   if (at_place_since_ && seconds(in.tick - *at_place_since_) < kNoLinkS) return;
   at_place_since_.reset();
   const std::vector<Vector3d> places_W = homing_.places(in, navigator_.space(in));
+  if (next_place_ > places_W.size()) {
+    homing_.give_up(in);
+    if (!homing_.due(in)) {
+      navigator_.want(wanted_);
+      enter(Mode::working, in);
+      return;
+    }
+  }
   std::vector<Goal> goals;
   for (std::size_t i = 0; i < places_W.size(); ++i) {
     const Vector3d& p_W = places_W[(i + next_place_) % places_W.size()];

@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kNeverLinked = 1.7;  ///< factor on the time to a link, which a UAV that never had one has yet to find
 constexpr double kPlaceLayerM = 3.0;  ///< height difference between the places of two UAVs above all boxes
+constexpr std::size_t kLayers = 8;    ///< different heights of such places; in larger fleets, UAVs share them
 constexpr double kAboveAllM = 6.0;
 constexpr double kLowestM = 6.0;  ///< least height of a delivery place
 constexpr std::size_t kMostPlaces = 8;
@@ -25,6 +26,7 @@ double Homing::way_home_s(const PlannerInput& in) const {
 bool Homing::due(const PlannerInput& in) const {
   if (!in.mission_remaining_s || !link_.begun()) return false;
   if (*in.mission_remaining_s < way_home_s(in) + config_.return_margin_s && !link_.delivers_here(in)) return true;
+  if (given_up_ && seconds(in.tick - *given_up_) < config_.deliver_every_s) return false;
   return link_.waits_for_longer_than(config_.deliver_every_s, in);
 }
 
@@ -40,7 +42,7 @@ std::vector<Vector3d> Homing::places(const PlannerInput& in, const FreeSpace& sp
   for (const Vector3d& p_W : delivery_places(agent_, space, kLowestM)) {
     if (places.size() < kMostPlaces) places.push_back(p_W);
   }
-  const double above_m = top_of(in.boxes) + kAboveAllM + kPlaceLayerM * static_cast<double>(agent_.self);
+  const double above_m = top_of(in.boxes) + kAboveAllM + kPlaceLayerM * static_cast<double>(agent_.self % kLayers);
   places.emplace_back(agent_.station_position.x(), agent_.station_position.y(), above_m);
   return places;
 }

@@ -21,8 +21,11 @@ class Homing {
   /// Notes the link to the station, and whether captures arrive. Call it once per exchange.
   void update(const PlannerInput& in) { link_.update(in); }
   /// Whether the UAV must fly to a link now. Either the remaining time is only just enough for the flight, and captures
-  /// do not arrive from here; or captures have been undelivered for longer than deliver_every_s.
+  /// do not arrive from here; or captures have been undelivered for longer than deliver_every_s, and no flight to a link
+  /// has been given up in this time.
   bool due(const PlannerInput& in) const;
+  /// Call it when none of the places() has a link: the station may be out of reach for long.
+  void give_up(const PlannerInput& in) { given_up_ = in.tick; }
   /// Whether the UAV is linked, all its captures are delivered, and there is enough time to work on.
   bool done(const PlannerInput& in) const;
   /// Whether captures are delivered from where the UAV is (LinkWatch::delivers_here()).
@@ -38,6 +41,7 @@ class Homing {
   const FlightConfig& config_;
   const AgentConfig& agent_;
   LinkWatch link_;
+  std::optional<Tick> given_up_;
 };
 
 }  // namespace skein::agent

@@ -42,6 +42,20 @@ TEST(Homing, IsDueWhenCapturesHaveWaitedForLong) {
   EXPECT_TRUE(uav.homing.due(uav.input()));
 }
 
+TEST(Homing, ThatWasGivenUpIsNotDueAgainAtOnceButInTheEnd) {
+  ComingHome uav({40.0, 0.0, 10.0});
+  uav.undelivered = 3;
+  uav.wait(uav.config.deliver_every_s + 1.0);
+  ASSERT_TRUE(uav.homing.due(uav.input()));
+  uav.homing.give_up(uav.input());
+  EXPECT_FALSE(uav.homing.due(uav.input()));
+  uav.remaining_s = 20.0;
+  EXPECT_TRUE(uav.homing.due(uav.input())) << "it is the last chance";
+  uav.remaining_s = 1e4;
+  uav.wait(uav.config.deliver_every_s + 1.0);
+  EXPECT_TRUE(uav.homing.due(uav.input()));
+}
+
 // The farther off it is, the earlier; and nobody counts on flying faster than approach_mps.
 TEST(Homing, IsDueInTimeForTheWay) {
   for (std::uint64_t seed = 1; seed <= 50; ++seed) {

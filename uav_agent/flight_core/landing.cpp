@@ -30,6 +30,7 @@ void Landing::begin(Steering& steering) {
   navigator_.take_outcomes();
   descends_at_W_.reset();
   sites_W_.clear();
+  held_above_W_.clear();
   double apart_m = 0.0;
   for (std::size_t uav = 0; uav < agent_.fleet.size(); ++uav) {
     if (uav == agent_.self) continue;

@@ -51,6 +51,21 @@ TEST(Landing, AtItsStartIfItCan) {
   }
 }
 
+// An explorer creeps where little is proved ahead. Straight down, only the safety filter limits its speed.
+TEST(Landing, AnExplorerThatMustSinkDoesNotCreepDown) {
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    RandomStream random(seed, "creeps", 0);
+    LandingUav uav(Role::explorer, {0.0, 0.0, random.uniform(20.0, 30.0)});
+    uav.clear({-24.0, -24.0, 0.0}, {4.0, 24.0, 40.0});
+    uav.navigator.want({{.id = 1, .way = {{Vector3d(60.0, 0.0, uav.state.p_WB.z()), 3.0}}}});
+    for (int i = 0; i < 100; ++i) uav.navigate();
+    ASSERT_LT(uav.navigator.pace_mps(), 1.5) << "seed " << seed;
+    const double height_m = uav.state.p_WB.z();
+    ASSERT_TRUE(uav.land(static_cast<int>(20.0 * (Landing::descent_s(height_m, uav.config) + 8.0)), true))
+        << "seed " << seed << ": it is still at " << uav.state.p_WB.transpose();
+  }
+}
+
 TEST(Landing, ElsewhereIfSomethingStandsThere) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     RandomStream random(seed, "landing_elsewhere", 0);

@@ -128,6 +128,7 @@ void Navigator::stop(Steering& steering) {
   goals_.clear();
   path_.clear();
   on_way_ = false;
+  pace_mps_ = std::numeric_limits<double>::infinity();
 }
 
 void Navigator::give_up(const std::string& reason, Steering& steering) {

@@ -182,7 +182,7 @@ std::vector<SafetyFilter::PeerReach> SafetyFilter::reach_of_peers(const Facts& f
     // A UAV that stands on the ground beside it, too, does not come nearer by climbing past its reported height.
     const bool on_ground = stands(peer);
     if (on_ground) p_W.z() = std::min({p_W.z(), agent_.fleet[peer.uav].p_WB_start.z(), now_W_.z()});
-    if (trust_ == Trust::start && is_at_start(peer)) p_W.z() = now_W_.z();
+    if (trust_ == Trust::start && (on_ground || is_at_start(peer))) p_W.z() = now_W_.z();
     const Vector3d soon_W = peer.v_W + kPeerLagS * certain_W(peer.a_W);
     if (peer.visible && soon_W.norm() > v_W.norm()) v_W = soon_W;
     const double speed_mps = v_W.norm();

@@ -79,6 +79,8 @@ class SafetyFilter {
   };
   void set_trust(Trust trust) { trust_ = trust; }
   Trust trust() const { return trust_; }
+  /// Call it before another takeoff: until the UAV has had room in flight again, it needs as little as at its start.
+  void begin_anew() { had_room_ = false; }
   /// What slowed the UAV down in the last step(), or would hold it by the last clear_up_to().
   const Held& held() const { return held_; }
   /// Whether this UAV may rest at p_W (centre): all space about it that the invariant needs is proved free.

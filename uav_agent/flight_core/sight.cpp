@@ -4,6 +4,7 @@ namespace skein::agent {
 namespace {
 
 constexpr double kScanLostS = 3.0;      ///< a LiDAR without a scan for so long has failed; it scans at 10 Hz
+constexpr double kLeftM = 2.5;          ///< a UAV farther than this from its start has left it
 constexpr std::size_t kOwnRegions = 8;  ///< a map with no more regions holds only the space around the UAV's start
 
 }  // namespace
@@ -19,15 +20,18 @@ void OwnSight::update(const PlannerInput& in) {
 void ToldSpace::listen(const PlannerInput& in, bool sees, SafetyFilter& filter) {
   if (!agent_.first_explorer()) return;
   if (sees) return filter.assume_boxes(false);
-  const std::size_t regions = in.world_map->regions().size();
-  if (regions != told_regions_ || !told_at_) told_at_ = in.tick;
-  told_regions_ = regions;
-  if (told_regions_ > kOwnRegions) {
-    // Otherwise the UAV would be shut in where it is, because nobody proved the space between there and the map.
-    if (filter.assumes_boxes() && !filter.proved_free(in.state.p_WB, *in.world_map)) return;
-    return filter.assume_boxes(false);
+  const std::uint64_t changes = in.world_map->changes();
+  if (changes != told_changes_ || !told_at_) told_at_ = in.tick;
+  told_changes_ = changes;
+  has_left_ = has_left_ || (in.state.p_WB - agent_.me().p_WB_start).norm() > kLeftM;
+  const bool told = in.world_map->regions().size() > kOwnRegions;
+  if (filter.assumes_boxes()) {
+    // Where nobody has proved the space between the UAV and the rest of the map, it would be shut in.
+    if (told && has_left_ && filter.proved_free(in.state.p_WB, *in.world_map)) filter.assume_boxes(false);
+    return;
   }
-  if (seconds(in.tick - *told_at_) > config_.alone_s) filter.assume_boxes(true);
+  const bool may_assume = !told || !has_left_;
+  if (may_assume && seconds(in.tick - *told_at_) > config_.alone_s) filter.assume_boxes(true);
 }
 
 }  // namespace skein::agent

@@ -26,10 +26,10 @@ class OwnSight {
   std::optional<Tick> scanned_at_;
 };
 
-/// A UAV without a working LiDAR learns of free space by radio. If its map holds only the space around its start, and
-/// does not grow for alone_s, its safety filter assumes that space outside the boxes is free, except known structure
-/// (SafetyFilter::assume_boxes()). It no longer does so once the UAV has received a map and is in its proved space.
-/// Does nothing in a fleet without an explorer.
+/// A UAV without a working LiDAR learns of free space by radio. If its map does not change for alone_s, and holds only
+/// the space around its start or has not shown the UAV its way up, its safety filter assumes that space outside the
+/// boxes is free, except known structure (SafetyFilter::assume_boxes()). It no longer does so once the UAV has left its
+/// start, and is in proved space of a map that it has received. Does nothing in a fleet without an explorer.
 class ToldSpace {
  public:
   /// @param config, agent  must outlive this.
@@ -40,8 +40,9 @@ class ToldSpace {
  private:
   const FlightConfig& config_;
   const AgentConfig& agent_;
-  std::optional<Tick> told_at_;  ///< when the map's number of regions last changed
-  std::size_t told_regions_ = 0;
+  std::optional<Tick> told_at_;  ///< when the map last changed
+  std::uint64_t told_changes_ = 0;
+  bool has_left_ = false;  ///< the UAV was away from its start once
 };
 
 }  // namespace skein::agent

@@ -36,6 +36,7 @@ Takeoff::Phase Takeoff::step(const PlannerInput& in, Steering& steering) {
 
 void Takeoff::again() {
   filter_.set_trust(SafetyFilter::Trust::proved);
+  filter_.begin_anew();
   phase_ = Phase::ground;
   ready_since_.reset();
   sinks_back_ = false;

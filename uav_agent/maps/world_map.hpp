@@ -113,6 +113,8 @@ class WorldMap {
   /// Number of the map's last change in a chunk, or in a region of 4^3 chunks: 1, 2, ...; 0: nothing was ever known.
   std::uint64_t changed_at(const Eigen::Vector3i& chunk) const;
   std::uint64_t region_changed_at(const Eigen::Vector3i& region) const;
+  /// Number of the map's last change.
+  std::uint64_t changes() const { return changes_; }
   using ChunksChangedAt = std::array<std::uint64_t, kRegionChunks>;
   /// changed_at() of all chunks of a region, in the order of chunk_of(). Valid until the map changes.
   /// @param region  one of regions().

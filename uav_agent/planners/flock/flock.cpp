@@ -166,10 +166,14 @@ void FlockPlanner::carry_on(const PlannerInput& in, PlannerOutput& out) {
   const bool due = seconds(in.tick - planned_at_) >= config_.replan_s;
   const bool taken = !route_.empty() && view_taken(in);
   if (taken) {
-    for (const FlockView::Sight& sight : route_.front().sights) note_picture(sight);
+    for (const FlockView::Sight& sight : route_.front().sights) {
+      note_picture(sight);
+      if (!aimed_since_) surfaces_->leave_out(targets_->all()[sight.target], in.tick);
+    }
     if (route_.front().survey > 0.0) surfaces_->survey().visited(in.state.p_WB, views_.surveyed_m());
     route_.erase(route_.begin());
     there_since_.reset();
+    aimed_since_.reset();
   }
   if (due || route_.empty()) {
     decide(in, out);
@@ -356,15 +360,15 @@ std::optional<Vector3d> FlockPlanner::behind_explorer_W(const PlannerInput& in) 
   return std::nullopt;
 }
 
-/// For a UAV without any view within its reach. It follows an explorer, or lets the flight core search paths to views
-/// that it cannot reach through the cubes of its map; a UAV below a canopy perhaps. If there are none, an explorer
-/// leaves it to the flight core's recovery to see more of the site, and other UAVs hover. With a goal, the flight core
-/// begins no recovery behaviour.
+/// For a UAV without any view within its reach. A photographer follows an explorer. Otherwise, the flight core searches
+/// paths to views that the UAV cannot reach through the cubes of its map; a UAV below a canopy perhaps. If there are
+/// none, an explorer leaves it to the flight core's recovery to see more of the site, and other UAVs hover. With a
+/// goal, the flight core begins no recovery behaviour.
 /// @param sought_W  the best views that are out of reach.
 void FlockPlanner::rest(const PlannerInput& in, std::vector<Vector3d> sought_W, PlannerOutput& out) {
   route_.clear();
   if (!rests_) sought_at_ = in.tick - ticks(kSeekS - kSeekAfterS);
-  const std::optional<Vector3d> behind_W = behind_explorer_W(in);
+  const std::optional<Vector3d> behind_W = has_lidar() ? std::nullopt : behind_explorer_W(in);
   const bool explores = has_lidar() && !surfaces_->survey().gaps().empty();
   const bool may_seek = !behind_W && (!sought_W.empty() || explores);
   const bool seeks = may_seek && seconds(in.tick - sought_at_) >= kSeekS;

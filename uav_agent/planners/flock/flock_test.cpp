@@ -120,6 +120,53 @@ TEST(FlockSurfaces, APointThatGetsNoBetterIsLeftAloneForATime) {
   EXPECT_EQ(known(ticks(600.0)), 2);
 }
 
+/// A picture from so far away does not show a face well enough. What it showed is no longer to be gained, so the same
+/// picture promises nothing a second time; a nearer one does.
+TEST(FlockSurfaces, APoorPictureIsNotPromisedAgain) {
+  BeforeAWall uav;
+  const FlockViews views(uav.flock, uav.agent, kSharpM);
+  const auto gain = [&](double off_m) {
+    const FlockTargets targets(uav.surfaces->targets(0), views.range_m());
+    FlockView view{.p_WB = {2.0 - off_m, 0.0, 10.0}, .aim_W = {2.2, 0.0, 10.0}};
+    views.judge(*uav.surfaces, targets, view);
+    double sum = 0.0;
+    for (const FlockView::Sight& sight : view.sights) {
+      const FlockTarget& target = targets.all()[sight.target];
+      sum += target.points * std::max(0.0, sight.q - target.have);
+    }
+    return sum;
+  };
+  for (const double off_m : {12.5, 13.5, 14.5}) {
+    const double before = gain(off_m), near = gain(6.0);
+    ASSERT_GT(before, 0.5) << off_m;
+    for (int i = 0; i < 3; ++i) uav.surfaces->look_at_picture(uav.facing_it(off_m), 0);
+    EXPECT_LT(gain(off_m), 0.35 * before) << off_m;
+    EXPECT_GT(gain(6.0), 0.3 * near) << off_m;
+    uav.surfaces.emplace(uav.flock, uav.agent, uav.boxes, kSharpM);
+    for (int i = 0; i < 40; ++i) uav.surfaces->look_at_map(uav.map);
+  }
+}
+
+/// The camera cannot be turned to it: this UAV leaves it out for a while, others are not told.
+TEST(FlockSurfaces, WhatTheCameraCannotLookAtIsLeftOutForATime) {
+  BeforeAWall uav;
+  uav.surfaces->detect(std::vector<DetectedPoint>{{{2.2F, 0.0F, 10.0F}, 0.4, 0, {-1.0F, 0.0F, 0.0F}}},
+                       {-4.0, 0.0, 10.0});
+  RandomStream random(1, "left_out", 0);
+  const std::vector<FlockTarget> all = uav.surfaces->targets(0);
+  std::set<std::uint32_t> left;
+  for (const FlockTarget& target : all) {
+    if (!target.known && random.uniform() < 0.7) continue;
+    uav.surfaces->leave_out(target, 0);
+    left.insert(target.id);
+  }
+  ASSERT_GT(left.size(), 5U);
+  EXPECT_EQ(uav.surfaces->targets(0).size(), all.size() - left.size());
+  for (const FlockTarget& target : uav.surfaces->targets(0)) EXPECT_FALSE(left.contains(target.id));
+  EXPECT_EQ(uav.surfaces->targets(ticks(121.0)).size(), all.size());
+  EXPECT_EQ(uav.told_faces(), 0U);
+}
+
 /// Views before the wall: what each shows is what the score's formulas say of that picture, and nothing on the wall's
 /// far side.
 TEST(FlockViews, ShowWhatAPictureFromThereWouldShow) {
@@ -187,6 +234,32 @@ TEST(FlockReach, LeavesWhatItCannotReachForAWhile) {
     in.tick += ticks(60.0);
     reach.update(in.tick);
     EXPECT_FALSE(reach.out_of_reach(there, in));
+    for (int i = 0; i < 200; ++i) {
+      in.tick += ticks(uav.agent.exchange_period_s);
+      EXPECT_FALSE(reach.stalls(in, std::nullopt));
+    }
+    in.tick += ticks(uav.agent.exchange_period_s);
+    EXPECT_FALSE(reach.stalls(in, there)) << "it has only just set out";
+    EXPECT_FALSE(reach.out_of_reach(there, in));
+  }
+}
+
+/// Nobody proves space free in a fleet without a LiDAR: the boxes count as structure, and what is outside as free.
+TEST(Flock, PhotographersWithoutAnExplorerFindWork) {
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    RandomStream random(seed, "photographers", 0);
+    TestScene scene;
+    for (const double x : {random.uniform(-16.0, -10.0), random.uniform(10.0, 16.0)}) {
+      const double width_m = random.uniform(6.0, 9.0), height_m = random.uniform(12.0, 20.0);
+      scene.solids.push_back(make_box({x, 0.0, 0.5 * height_m}, {width_m, width_m, height_m}));
+      scene.boxes.push_back(make_box({x, 0.0, 0.5 * height_m}, {width_m + 1.0, width_m + 1.0, height_m + 1.0}));
+    }
+    const std::vector<TestUav> fleet = {{"a", Role::photographer, {-3.0, -16.0}},
+                                        {"b", Role::photographer, {3.0, -16.0}}};
+    TestWorld world(scene, fleet, "flock", 160.0);
+    world.run(120.0);
+    EXPECT_GT(world.coverage(), 0.1) << "seed " << seed;
+    EXPECT_GT(world.clearance(), kPhotographerRadiusM) << "seed " << seed;
   }
 }
 

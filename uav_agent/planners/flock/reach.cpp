@@ -69,7 +69,7 @@ std::vector<Vector3d> FlockReach::not_taken(const std::vector<FlockView>& views,
 }
 
 bool FlockReach::stalls(const PlannerInput& in, const std::optional<Vector3d>& to_W) {
-  if ((in.state.p_WB - gained_p_W_).norm() > kGainM) {
+  if (!to_W || (in.state.p_WB - gained_p_W_).norm() > kGainM) {
     gained_p_W_ = in.state.p_WB;
     gained_at_ = in.tick;
   }

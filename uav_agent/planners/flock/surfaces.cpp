@@ -18,7 +18,10 @@ constexpr double kPriorM2 = 200.0;      ///< surface with the expected density t
 constexpr double kClearlyBetter = 0.1;  ///< least improvement of quality that counts
 constexpr double kMergeSigmas = 2.0;  ///< detections of a point are this near: standard deviations, relative, per axis
 constexpr double kFacing = 0.17;      ///< least cosine between line of sight and a face's normal
-constexpr double kRangeRatio = 1.6;   ///< most distance of a face, in units of d*: farther ones are not sharp
+constexpr double kLeftOutS = 120.0;
+/// Greatest distance of a face, in units of d*: to count as looked at, since farther ones are not sharp; to be in a
+/// picture at all.
+constexpr double kRangeRatio = 1.6, kPictureRatio = 2.1;
 
 VoxelGrid site_grid(const std::vector<OrientedBox>& boxes, const FlockConfig& config, double sharp_m) {
   double voxel_m = config.voxel_m;
@@ -55,8 +58,9 @@ void FlockSurfaces::look_at_map(const WorldMap& map) {
   for (const Id id : grid_.take_changed()) {
     if (grid_.state(id) != VoxelState::occupied || listed_[id] != 0 || in_site_[id] == 0) continue;
     if (grid_.centre_W(id).z() + 0.5 * grid_.voxel_m() < kLowestM) continue;
-    listed_[id] = 1;
     occupied_.push_back(id);
+    tenths_.emplace_back();
+    listed_[id] = static_cast<std::uint32_t>(occupied_.size());
   }
   faces_ = looked_ = 0;
   for (const Id id : occupied_) {
@@ -71,6 +75,7 @@ void FlockSurfaces::look_at_map(const WorldMap& map) {
 bool FlockSurfaces::exposed(Id id, int face) const {
   const auto next = grid_.neighbour(id, face);
   if (!next || grid_.state(*next) == VoxelState::occupied) return false;
+  if (!agent_.first_explorer()) return true;
   return grid_.state(*next) == VoxelState::free || survey_.seen(grid_.centre_W(*next));
 }
 
@@ -105,21 +110,29 @@ void FlockSurfaces::look_at_faces(const Exposure& exposure) {
   const Vector3d& p_WC = exposure.position();
   const auto here = grid_.at(p_WC);
   if (!here) return;
-  const double range_m = kRangeRatio * sharp_m_;
+  const double range_m = kPictureRatio * sharp_m_;
   grid_.around(*here, static_cast<int>(std::ceil(range_m / grid_.voxel_m())), [&](Id id) {
     if (listed_[id] == 0) return;
     const Vector3d surface = surface_W(id);
+    const double off_m = (p_WC - surface).norm();
     const auto p_C = exposure.view(surface);
     if (!p_C) return;
     bool asked = false;
     for (int face = 0; face < VoxelGrid::kFaces; ++face) {
       if (looked_at(id, face) || !exposed(id, face)) continue;
       const Vector3d n_W = grid_.normal_W(face);
-      if (n_W.dot(p_WC - surface) < kFacing * (p_WC - surface).norm()) continue;
-      const auto score = exposure.score(*p_C, n_W);
-      if (!score || score->score() < config_.looked_q) continue;
+      const double ahead_m = n_W.dot(p_WC - surface);
+      const auto score = ahead_m > 0.0 ? exposure.score(*p_C, n_W) : std::nullopt;
+      if (!score) continue;
+      const bool near = off_m <= kRangeRatio * sharp_m_ && ahead_m >= kFacing * off_m;
+      const bool shown = near && score->score() >= config_.looked_q;
+      std::uint8_t& best = tenths_[listed_[id] - 1][static_cast<std::size_t>(face)];
+      const auto tenths = static_cast<std::uint8_t>(10.0 * score->score());
+      if (!shown && tenths <= best) continue;
       if (!asked && !sees(p_WC, surface)) return;
       asked = true;
+      best = std::max(best, tenths);
+      if (!shown) continue;
       looked_here_[id] = static_cast<std::uint8_t>(looked_here_[id] | 1U << face);
       not_told_.emplace_back(id, face);
     }
@@ -131,18 +144,31 @@ double FlockSurfaces::density() const {
   return (static_cast<double>(points_.all().size()) + config_.density * kPriorM2) / (looked_m2 + kPriorM2);
 }
 
+void FlockSurfaces::leave_out(const FlockTarget& target, Tick now) {
+  std::erase_if(left_out_, [&](const auto& left_out) { return left_out.second <= now; });
+  left_out_[target.id] = now + ticks(kLeftOutS);
+}
+
 std::vector<FlockTarget> FlockSurfaces::targets(Tick now) const {
   std::vector<FlockTarget> targets;
+  const auto add = [&](FlockTarget target) {
+    const auto left_out = left_out_.find(target.id);
+    if (left_out == left_out_.end() || left_out->second <= now) targets.push_back(target);
+  };
   const double expected = density() * voxel_area();
-  for (const Id id : occupied_) {
+  for (std::uint32_t place = 0; place < occupied_.size(); ++place) {
+    const Id id = occupied_[place];
     for (int face = 0; face < VoxelGrid::kFaces; ++face) {
       if (looked_at(id, face) || !exposed(id, face)) continue;
-      targets.push_back({surface_W(id), grid_.normal_W(face), expected, 0.0});
+      const double have = 0.1 * tenths_[place][static_cast<std::size_t>(face)];
+      const auto number = place * VoxelGrid::kFaces + static_cast<std::uint32_t>(face);
+      add({surface_W(id), grid_.normal_W(face), expected, have, false, 2 * number});
     }
   }
-  for (const FlockPoint& point : points_.all()) {
-    if (point.q < config_.good_q && point.not_before <= now)
-      targets.push_back({point.p_W, point.n_W, 1.0, point.q, true});
+  const std::vector<FlockPoint>& points = points_.all();
+  for (std::uint32_t i = 0; i < points.size(); ++i) {
+    if (points[i].q >= config_.good_q || points[i].not_before > now) continue;
+    add({points[i].p_W, points[i].n_W, 1.0, points[i].q, true, 2 * i + 1});
   }
   return targets;
 }

@@ -7,6 +7,8 @@
 // Frames: W world, C camera.   Units: SI and radians.   Threads: one.   Effort: by the number of occupied cubes.
 #pragma once
 
+#include <array>
+#include <map>
 #include <vector>
 
 #include "core/camera_quality.hpp"
@@ -20,9 +22,10 @@ namespace skein::agent {
 /// Something to photograph.
 struct FlockTarget {
   Vector3d p_W = Vector3d::Zero(), n_W = Vector3d::UnitX();
-  double points = 1.0;  ///< known or expected number of interest points
-  double have = 0.0;    ///< quality of the best picture so far, 0 to 1
-  bool known = false;   ///< a detected point; otherwise surface
+  double points = 1.0;   ///< known or expected number of interest points
+  double have = 0.0;     ///< quality of the best picture so far, 0 to 1
+  bool known = false;    ///< a detected point; otherwise surface
+  std::uint32_t id = 0;  ///< of this target among all that ever were
   /// Score that can still be gained [points].
   double open() const { return points * (1.0 - have); }
 };
@@ -48,6 +51,8 @@ class FlockSurfaces {
   /// without one, the camera may have failed.   @param p_WC  position of the camera.
   void detect(std::span<const DetectedPoint> detected, const Vector3d& p_WC);
 
+  /// Leaves this UAV's target out for two minutes: its camera could not be turned to it.
+  void leave_out(const FlockTarget& target, Tick now);
   /// All targets that are worth another picture.
   std::vector<FlockTarget> targets(Tick now) const;
 
@@ -73,11 +78,14 @@ class FlockSurfaces {
   WorldVoxels voxels_;
   FlockSurvey survey_;
   FlockPoints points_;
-  std::vector<Id> occupied_;                  ///< occupied cubes in or near the boxes, in the order of discovery
-  std::vector<std::uint8_t> listed_;          ///< by cube: it is in occupied_
-  std::vector<std::uint8_t> in_site_;         ///< by cube: it is in or near a box
-  std::vector<std::uint8_t> looked_here_;     ///< by cube: a bit for each face that this UAV has looked at
+  std::vector<Id> occupied_;               ///< occupied cubes in or near the boxes, in the order of discovery
+  std::vector<std::uint32_t> listed_;      ///< by cube: its place in occupied_, from 1; 0: it is not there
+  std::vector<std::uint8_t> in_site_;      ///< by cube: it is in or near a box
+  std::vector<std::uint8_t> looked_here_;  ///< by cube: a bit for each face that this UAV has looked at
+  /// By place in occupied_ and face: tenths of the quality that the face had in the best picture so far.
+  std::vector<std::array<std::uint8_t, VoxelGrid::kFaces>> tenths_;
   std::vector<std::pair<Id, int>> not_told_;  ///< faces looked at since the last detection
+  std::map<std::uint32_t, Tick> left_out_;    ///< by FlockTarget::id: until when
   std::size_t faces_ = 0, looked_ = 0;        ///< number of exposed faces; of those that a camera looked at
 };
 

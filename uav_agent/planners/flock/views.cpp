@@ -155,7 +155,7 @@ std::vector<FlockView> FlockViews::find(const FlockSurfaces& surfaces, const Flo
     promising.pop_back();
     FlockView view{.p_WB = vote.p_sum_W / vote.weight, .aim_W = vote.aim_sum_W / vote.weight};
     if (!space.free(view.p_WB)) continue;
-    view.proved = space.cost(view.p_WB) <= 1.0;
+    view.proved = space.config().blind_fleet || space.cost(view.p_WB) <= 1.0;
     if (!view.proved && (!explores || unproved >= most / 2 || !surfaces.survey().seen(view.p_WB))) continue;
     judge(surfaces, targets, view);
     if (view.sights.empty()) continue;
