@@ -11,7 +11,6 @@
 // The flight core does the flying (flight_core/flight_core.hpp); docs/flock.md tells how well it works.
 #include <algorithm>
 #include <cmath>
-#include <deque>
 #include <numeric>
 
 #include "core/euler.hpp"
@@ -23,6 +22,7 @@
 #include "uav_agent/planners/flock/route.hpp"
 #include "uav_agent/planners/flock/surfaces.hpp"
 #include "uav_agent/planners/flock/talk.hpp"
+#include "uav_agent/planners/flock/trail.hpp"
 #include "uav_agent/planners/flock/views.hpp"
 #include "uav_agent/planning/aiming.hpp"
 #include "uav_agent/planning/strips.hpp"
@@ -39,11 +39,9 @@ constexpr double kPatienceS = 2.5;         ///< longest stay at a view, for the 
 constexpr double kRestS = 0.5;             ///< time between two decisions while there is nothing to photograph
 constexpr double kClaimedShare = 0.9;      ///< share of an announced view's quality that counts as photographed
 constexpr std::size_t kMostLegs = 3;
-constexpr int kTries = 4;             ///< most routes tried in a decision, if there is no way to the first view
-constexpr double kAimAheadS = 0.9;    ///< so long before a view, the camera turns to it
-constexpr double kLeastGlance = 0.3;  ///< glances with less gain are left out [points]
-constexpr double kFollowM = 6.0, kTrailM = 2.0;  ///< distance behind an explorer; between two places of its trail
-constexpr std::size_t kMostTrail = 60;
+constexpr int kTries = 4;               ///< most routes tried in a decision, if there is no way to the first view
+constexpr double kAimAheadS = 0.9;      ///< so long before a view, the camera turns to it
+constexpr double kLeastGlance = 0.3;    ///< glances with less gain are left out [points]
 constexpr double kPointsPerS = 1.2;     ///< points that a UAV photographs where there are enough
 constexpr double kGoodRate = 3.0;       ///< gain that a route promises where there are enough points [points/s]
 constexpr double kSeekAfterS = 4.0;     ///< after resting for so long, the flight core searches paths to ...
@@ -69,6 +67,7 @@ class FlockPlanner final : public Planner {
   PlannerOutput plan(const PlannerInput& in) override;
 
  private:
+  void set_up(const PlannerInput& in);
   bool has_lidar() const { return agent_.me().role == Role::explorer; }
   void look_around(const PlannerInput& in);
   void take_note(const Outcome& outcome, const PlannerInput& in);
@@ -81,7 +80,6 @@ class FlockPlanner final : public Planner {
   void count_claims(const PlannerInput& in, FlockTargets& targets) const;
   std::optional<std::vector<Vector3d>> way_W(const PlannerInput& in, const Vector3d& to_W) const;
   void offer(const PlannerInput& in, const std::optional<std::vector<Vector3d>>& way, PlannerOutput& out);
-  std::optional<Vector3d> behind_explorer_W(const PlannerInput& in) const;
   void rest(const PlannerInput& in, std::vector<Vector3d> sought_W, PlannerOutput& out);
   FlockWord own_word() const;
 
@@ -101,13 +99,13 @@ class FlockPlanner final : public Planner {
   Tick planned_at_ = 0, glance_until_ = 0, sought_at_ = 0;
   double rate_ = 0.0, best_rate_ = kGoodRate;  ///< gain that its routes promise: average, and best average [points/s]
   bool glances_ = false;                       ///< the camera looks elsewhere than the route's first view
-  std::deque<Vector3d> trail_W_;               ///< of explorers that it has seen, oldest first
+  FlockTrail trail_;
   Vector3d rest_W_ = Vector3d::Zero();
 };
 
 PlannerOutput FlockPlanner::plan(const PlannerInput& in) {
   PlannerOutput out;
-  if (!in.boxes.empty() && !surfaces_) surfaces_.emplace(config_, agent_, in.boxes, sharp_m_);
+  if (!in.boxes.empty()) set_up(in);
   if (!surfaces_) return out;
   talk_.listen(in, surfaces_->grid(), surfaces_->points());
   look_around(in);
@@ -119,6 +117,16 @@ PlannerOutput FlockPlanner::plan(const PlannerInput& in) {
   }
   talk_.speak(in, surfaces_->grid(), surfaces_->points(), own_word(), out);
   return out;
+}
+
+/// Begins anew if the explorers are lost before they have found any surface for this UAV, and if they come back.
+void FlockPlanner::set_up(const PlannerInput& in) {
+  const bool unknown = !surfaces_ || surfaces_->blind() || surfaces_->surface_m2() == 0.0;
+  const bool blind = unknown && in.space && in.space->config().blind_fleet;
+  if (surfaces_ && surfaces_->blind() == blind) return;
+  surfaces_.emplace(config_, agent_, in.boxes, sharp_m_, blind);
+  targets_.reset();
+  route_.clear();
 }
 
 void FlockPlanner::look_around(const PlannerInput& in) {
@@ -134,8 +142,7 @@ void FlockPlanner::look_around(const PlannerInput& in) {
   for (const Peer& peer : in.peers.all()) {
     if (!peer.visible || agent_.fleet[peer.uav].role != Role::explorer) continue;
     surfaces_->survey().look(surfaces_->grid(), peer.p_W);
-    if (trail_W_.empty() || (trail_W_.back() - peer.p_W).norm() > kTrailM) trail_W_.push_back(peer.p_W);
-    if (trail_W_.size() > kMostTrail) trail_W_.pop_front();
+    trail_.note(peer.p_W);
   }
 }
 
@@ -350,16 +357,6 @@ void FlockPlanner::offer(const PlannerInput& in, const std::optional<std::vector
   out.goals = {std::move(goal)};
 }
 
-/// The newest free place on an explorer's trail. It is proved free, and the explorer opens new work near it.
-std::optional<Vector3d> FlockPlanner::behind_explorer_W(const PlannerInput& in) const {
-  for (auto p_W = trail_W_.rbegin(); p_W != trail_W_.rend(); ++p_W) {
-    const bool taken = std::ranges::any_of(
-        in.peers.all(), [&](const Peer& peer) { return peer.visible && (peer.p_W - *p_W).norm() < kFollowM; });
-    if (!taken && in.space->free(*p_W)) return *p_W;
-  }
-  return std::nullopt;
-}
-
 /// For a UAV without any view within its reach. A photographer follows an explorer. Otherwise, the flight core searches
 /// paths to views that the UAV cannot reach through the cubes of its map; a UAV below a canopy perhaps. If there are
 /// none, an explorer leaves it to the flight core's recovery to see more of the site, and other UAVs hover. With a
@@ -368,12 +365,11 @@ std::optional<Vector3d> FlockPlanner::behind_explorer_W(const PlannerInput& in) 
 void FlockPlanner::rest(const PlannerInput& in, std::vector<Vector3d> sought_W, PlannerOutput& out) {
   route_.clear();
   if (!rests_) sought_at_ = in.tick - ticks(kSeekS - kSeekAfterS);
-  const std::optional<Vector3d> behind_W = has_lidar() ? std::nullopt : behind_explorer_W(in);
+  const std::optional<Vector3d> behind_W = has_lidar() ? std::nullopt : trail_.behind_explorer_W(in);
   const bool explores = has_lidar() && !surfaces_->survey().gaps().empty();
   const bool may_seek = !behind_W && (!sought_W.empty() || explores);
   const bool seeks = may_seek && seconds(in.tick - sought_at_) >= kSeekS;
-  if (rests_ && !seeks && (may_seek || in.flight.goal) && (!behind_W || (*behind_W - rest_W_).norm() < kFollowM))
-    return;
+  if (rests_ && !seeks && (may_seek || in.flight.goal) && (!behind_W || FlockTrail::same(*behind_W, rest_W_))) return;
   rests_ = true;
   out.goals.emplace();
   if (seeks) {

@@ -34,10 +34,11 @@ VoxelGrid site_grid(const std::vector<OrientedBox>& boxes, const FlockConfig& co
 }  // namespace
 
 FlockSurfaces::FlockSurfaces(const FlockConfig& config, const AgentConfig& agent, const std::vector<OrientedBox>& boxes,
-                             double sharp_m)
+                             double sharp_m, bool blind)
     : config_(config),
       agent_(agent),
       sharp_m_(sharp_m),
+      blind_(blind),
       grid_(site_grid(boxes, config, sharp_m)),
       voxels_({.around_m = kFreeAroundM}),
       survey_(boxes, config.survey_m),
@@ -50,7 +51,7 @@ FlockSurfaces::FlockSurfaces(const FlockConfig& config, const AgentConfig& agent
     const Vector3d centre = grid_.centre_W(id);
     in_site_[id] = std::ranges::any_of(boxes, [&](const OrientedBox& box) { return box.contains(centre, margin_m); });
   }
-  if (!agent.first_explorer()) fill_boxes(boxes, grid_);
+  if (blind_) fill_boxes(boxes, grid_);
 }
 
 void FlockSurfaces::look_at_map(const WorldMap& map) {
@@ -75,7 +76,7 @@ void FlockSurfaces::look_at_map(const WorldMap& map) {
 bool FlockSurfaces::exposed(Id id, int face) const {
   const auto next = grid_.neighbour(id, face);
   if (!next || grid_.state(*next) == VoxelState::occupied) return false;
-  if (!agent_.first_explorer()) return true;
+  if (blind_) return true;
   return grid_.state(*next) == VoxelState::free || survey_.seen(grid_.centre_W(*next));
 }
 

@@ -33,8 +33,10 @@ struct FlockTarget {
 class FlockSurfaces {
  public:
   /// @param sharp_m  d*.   @param agent, config  must outlive this.
+  /// @param blind  no LiDAR finds structure for this UAV: the faces of the boxes count as surface.
   FlockSurfaces(const FlockConfig& config, const AgentConfig& agent, const std::vector<OrientedBox>& boxes,
-                double sharp_m);
+                double sharp_m, bool blind = false);
+  bool blind() const { return blind_; }
 
   VoxelGrid& grid() { return grid_; }
   const VoxelGrid& grid() const { return grid_; }
@@ -74,6 +76,7 @@ class FlockSurfaces {
   const FlockConfig& config_;
   const AgentConfig& agent_;
   const double sharp_m_;
+  const bool blind_;
   VoxelGrid grid_;
   WorldVoxels voxels_;
   FlockSurvey survey_;
