@@ -8,16 +8,19 @@
 
 #include "cli/compose/agents_folder.hpp"
 #include "cli/compose/compose_file.hpp"
+#include "cli/compose/compose_header.hpp"
 #include "cli/compose/engine.hpp"
 #include "cli/compose/followers.hpp"
 #include "cli/compose/images.hpp"
 #include "cli/place/placement.hpp"
+#include "cli/run/inputs_outlast.hpp"
 #include "cli/run/live_page.hpp"
 #include "cli/run/preflight.hpp"
 #include "cli/run/results_dir.hpp"
 #include "cli/run_results.hpp"
 #include "cli/secure/security.hpp"
 #include "process/host/environment.hpp"
+#include "process/program.hpp"
 #include "results/run_folder.hpp"
 #include "view/pages.hpp"
 
@@ -30,6 +33,9 @@ namespace fs = std::filesystem;
 constexpr std::uint16_t kPortOfAFile = 8080;
 /// The user under whom the containers' programs run when the launcher is root.
 constexpr UserId kOrdinaryUser{1000, 1000};
+// Files of the launcher in the results folder.
+constexpr const char* kComposeFile = "compose.yaml";
+constexpr const char* kComposeLog = "compose.log";
 
 ComposeLayout layout_of(const ComposeOptions& options) {
   ComposeLayout layout;
@@ -101,6 +107,18 @@ class ContainerFolders {
   const UserId user_;
 };
 
+/// Files and folders of a fleet in containers that no run without containers has. Without --force, a run neither
+/// overwrites nor deletes them, whoever made them. @throws InputError
+void check_no_containers_files(const fs::path& dir) {
+  for (const char* name : {kComposeFile, kComposeLog, kAgentsFolder}) {
+    std::error_code error;
+    if (!fs::exists(fs::symlink_status(dir / name, error))) continue;
+    throw InputError(dir.string() + " holds '" + name +
+                     "', a name that a run in containers uses for a file of its own; overwrite it with --force, or "
+                     "choose another --out");
+  }
+}
+
 /// Writes one folder of keys for each program. @param give  passes a path on to the user of the containers.
 void write_keys(const FleetPlan& plan, int base_domain, const fs::path& folder,
                 const std::function<void(const fs::path&)>& give) {
@@ -154,6 +172,8 @@ int fly(const ComposeOptions& options, const FleetPlan& plan, ComposeLayout layo
   }
   compose_file(plan, layout);  // throws if the file cannot be made
   ResultsDir::check(dir, options.run.force);
+  if (!options.run.force) check_no_containers_files(dir);
+  check_inputs_outlast(plan, dir);
   check_before_flight(plan, layout, console);
   std::optional<LivePage> page;
   if (layout.view) page.emplace(layout.view->published, true);
@@ -177,12 +197,12 @@ int fly(const ComposeOptions& options, const FleetPlan& plan, ComposeLayout layo
   layout.user = folders.user();
   layout.run = std::to_string(run_id);
   layout.status_lines = true;
-  std::ofstream(out.path() / "compose.yaml") << compose_file(plan, layout);
+  std::ofstream(out.path() / kComposeFile) << compose_file(plan, layout);
 
   FleetRun run(plan, console.err, console.terminal);
   {
-    ComposeProject project(out.path() / "compose.yaml", fmt::format("skein-{:08x}", run_id & 0xffffffff),
-                           out.path() / "compose.log", console.err);
+    ComposeProject project(out.path() / kComposeFile, fmt::format("skein-{:08x}", run_id & 0xffffffff),
+                           out.path() / kComposeLog, console.err);
     run.view().message(fmt::format("{}: {} UAVs in containers, planner {}, seed {}, results in {}", plan.scenario.name,
                                    plan.scenario.fleet.size(), options.run.planner, options.run.seed, dir.string()));
     project.up();
@@ -203,6 +223,20 @@ int fly(const ComposeOptions& options, const FleetPlan& plan, ComposeLayout layo
   if (!result) return kExitProcessFailed;
   if (page && !run.facts().interrupted) page->stay_as_replay(out.path(), options.run.view, console);
   return exit_code_of(run, *result);
+}
+
+/// Writes the file for docker-compose. Without `force`, it replaces a file only if that is empty, or `skein compose`
+/// made it. What is no regular file, like /dev/stdout, can be written to. @throws InputError
+void write_compose_file(const fs::path& path, const std::string& text, bool force) {
+  std::error_code error;
+  const bool holds_something = fs::is_regular_file(path, error) && !fs::is_empty(path, error);
+  if (!force && holds_something && !is_compose_file(path)) {
+    throw InputError("--file " + path.string() +
+                     ": is there already, and was not made by `skein compose`; overwrite it with --force, or choose "
+                     "another file");
+  }
+  std::ofstream file(path, std::ios::binary);
+  if (!(file << text << std::flush)) throw InputError("--file " + path.string() + ": cannot be written");
 }
 
 /// The folder beside a docker-compose file with the key of the fleet's page, and with the file that opens the page.
@@ -270,8 +304,7 @@ int compose_fleet(const ComposeOptions& options, const Console& console) {
     console.out << text << std::flush;
     return kExitDone;
   }
-  std::ofstream file(*options.file, std::ios::binary);
-  if (!(file << text << std::flush)) throw InputError("--file " + options.file->string() + ": cannot be written");
+  write_compose_file(*options.file, text, options.run.force);
   if (layout.view) {
     const fs::path folder = view_folder_of(*options.file);
     write_view_folder(folder, layout.view->published);

@@ -74,6 +74,31 @@ TEST_F(ComposeCommand, AFileIsWrittenOrTheReasonTold) {
   EXPECT_THROW(compose_fleet(options, {out_, err_, false}), InputError);
 }
 
+TEST_F(ComposeCommand, OnlyAFileThatSkeinMadeIsReplacedWithoutForce) {
+  auto options = std::get<ComposeOptions>(parse_command_line({"compose", "towers"}));
+  const fs::path file = scratch_.path() / "compose.yaml";
+  options.file = file;
+  write_text(file, "services: {}\n");
+  try {
+    compose_fleet(options, {out_, err_, false});
+    ADD_FAILURE() << "replaced";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("--file " + file.string() + ": is there already"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("--force"), std::string::npos) << error.what();
+  }
+  EXPECT_EQ(read_text(file), "services: {}\n");
+  options.run.force = true;
+  EXPECT_EQ(compose_fleet(options, {out_, err_, false}), kExitDone);
+  const std::string first = read_text(file);
+  options.run.force = false;
+  write_text(file, "");
+  EXPECT_EQ(compose_fleet(options, {out_, err_, false}), kExitDone) << "made by mktemp, say";
+  EXPECT_EQ(read_text(file), first);
+  write_text(file, first + "# and more\n");
+  EXPECT_EQ(compose_fleet(options, {out_, err_, false}), kExitDone) << "the command can be repeated";
+  EXPECT_EQ(read_text(file), first);
+}
+
 TEST_F(ComposeCommand, ThePagesKeyLiesBesideTheFileForItsOwnerAlone) {
   if (!fs::exists(source_path("build/web/live.js"))) GTEST_SKIP() << "web/ is not built: ./skein test does that";
   const auto file_of = [&](const Texts& more) {
@@ -190,6 +215,16 @@ esac
   const std::string path_ = ::getenv("PATH");
   std::ostringstream out_, err_;
 };
+
+TEST_F(ComposeUp, AFolderWithFilesOfTheNamesThatItUsesIsNotTaken) {
+  for (const char* name : {"compose.yaml", "compose.log", "agents"}) {
+    fs::create_directories(programs_.dir() / "out");
+    write_text(programs_.dir() / "out" / name, "mine");
+    EXPECT_THROW(up(), InputError) << name;
+    EXPECT_EQ(read_text(programs_.dir() / "out" / name), "mine");
+    fs::remove_all(programs_.dir() / "out");
+  }
+}
 
 TEST_F(ComposeUp, AnEngineThatGoesAwayIsReportedOnceAndWhatMayBeLeftIsNamed) {
   write_text(programs_.dir() / "server", "touch " + gone().string() + "\n");

@@ -11,6 +11,7 @@
 #include "cli/properties/judge.hpp"
 #include "cli/properties/run_signals.hpp"
 #include "cli/run/preflight.hpp"
+#include "cli/run/results_dir.hpp"
 #include "cli/study/side_by_side.hpp"
 #include "cli/study/spec.hpp"
 #include "cli/test_counts.hpp"
@@ -111,7 +112,7 @@ class FaultTestRun {
     const FaultFlight& flight = flights_.flights[index];
     console_.err << "flying " << flight.name << std::endl;
     const fs::path dir = *flight.options.out;
-    fs::create_directories(dir);
+    if (const std::error_code error = make_results_folder(dir)) throw std::system_error(error, dir);
     fs::remove(dir / run_folder::kResult);  // of an earlier call
     std::vector<std::string> arguments = arguments_of(flight.options);
     arguments.insert(arguments.begin(), program_dir() / "skein");

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <ostream>
 
 #include "cli/compose/agents_folder.hpp"
 #include "cli/run/fleet_plan.hpp"
@@ -14,6 +15,7 @@
 #include "process/host/environment.hpp"
 #include "recording/mcap/reader.hpp"
 #include "results/reported_facts.hpp"
+#include "results/result_file.hpp"
 #include "results/run_folder.hpp"
 
 namespace skein::cli {
@@ -48,10 +50,34 @@ Scenario scenario_of(const RunOptions& run) {
   }
 }
 
-/// If a program died before it wrote its report, starts it again to write the report from its journal (`books`).
+/// Whether there is a report of this program that cannot be read: a truncated one, say.
+bool is_damaged(const fs::path& dir, const std::string& program) {
+  const fs::path report = dir / run_folder::report_file(program);
+  std::error_code error;
+  return fs::exists(fs::symlink_status(report, error)) && !read_json(report).is_object();
+}
+
+/// Without the report, the result would be wrong in silence: a damaged one is not the same as none.
+/// @throws InputError if the report is damaged
+void require_sound(const fs::path& dir, const std::string& program) {
+  if (!is_damaged(dir, program)) return;
+  throw InputError(
+      (dir / run_folder::report_file(program)).string() +
+      ": is damaged: it is no JSON object, and nothing else is there to make it from; copy the file again, "
+      "or delete it to get a result without what " +
+      program + " reported");
+}
+
+/// If a program died before it wrote its report, or the report is damaged, starts it again to write the report from its
+/// journal (`books`). @throws InputError if the report is damaged and there are no books
 void settle(const char* program, const char* books, const RunOptions& run, const FlightReport& flight,
-            const fs::path& dir) {
-  if (fs::exists(dir / run_folder::report_file(program)) || !fs::exists(dir / books)) return;
+            const fs::path& dir, std::ostream& err) {
+  const fs::path report = dir / run_folder::report_file(program);
+  const bool damaged = is_damaged(dir, program);
+  if (!damaged && fs::exists(report)) return;
+  if (!fs::exists(dir / books)) return require_sound(dir, program);
+  if (damaged)
+    err << report.string() << ": is damaged: it is no JSON object; it is made anew from " << books << std::endl;
   std::vector<std::string> argv = {program_dir() / program,
                                    "--settle",
                                    "--scenario",
@@ -63,6 +89,27 @@ void settle(const char* program, const char* books, const RunOptions& run, const
   if (run.uavs) argv.insert(argv.end(), {"--uavs", std::to_string(*run.uavs)});
   if (run.rules) argv.insert(argv.end(), {"--rules", *run.rules});
   run_to_end({program, argv, fleet_environment(false), dir / run_folder::log_file(program), true});
+  require_sound(dir, program);
+}
+
+/// The launcher of a run knows what no report says: the command, processes and memory. Its result must not be lost.
+/// @throws InputError if result.json is undamaged, and the launcher wrote it
+void check_result_in_place(const MergeOptions& options, const fs::path& dir, std::ostream& err) {
+  std::error_code error;
+  if (options.force || !fs::exists(dir / run_folder::kResult, error)) return;
+  Json result;
+  try {
+    result = results::read_result_file(dir);
+  } catch (const InputError& damage) {
+    err << damage.what() << "; it is made anew" << std::endl;
+    return;
+  }
+  const bool of_a_launcher = result.contains("command") || !value_or(result, "processes", Json::object()).empty();
+  if (!of_a_launcher) return;
+  throw InputError(
+      (dir / run_folder::kResult).string() +
+      ": is there already, and undamaged: the launcher of the run wrote it, with values that no report has "
+      "(command, processes, memory_mb); leave it, or replace it with --force");
 }
 
 results::RunFacts facts_of(const RunOptions& run, const Scenario& scenario, const results::Reports& reports,
@@ -74,7 +121,11 @@ results::RunFacts facts_of(const RunOptions& run, const Scenario& scenario, cons
   return facts;
 }
 
-std::string no_server(const MergeOptions& options) {
+std::string no_server(const MergeOptions& options, const fs::path& dir) {
+  if (is_damaged(dir, programs::kSimServer)) {
+    return (options.dir / run_folder::report_file(programs::kSimServer)).string() +
+           ": is damaged: it is no JSON object";
+  }
   return options.dir.string() + ": there is no " + run_folder::report_file(programs::kSimServer) +
          " in it: the run is not over, or its server died";
 }
@@ -83,7 +134,7 @@ std::string no_server(const MergeOptions& options) {
 /// @throws InputError when there is no part.
 int merge_without_server(const MergeOptions& options, const fs::path& dir, const Console& console) {
   const std::vector<fs::path> parts = recording_parts(dir);
-  if (parts.empty()) throw InputError(no_server(options));
+  if (parts.empty()) throw InputError(no_server(options, dir));
   gather_agents(dir);
   const std::string trouble = join_parts(dir, Json::object());
   if (trouble.empty()) {
@@ -103,7 +154,7 @@ int merge_without_server(const MergeOptions& options, const fs::path& dir, const
         parts, [&](const fs::path& part) { return part.filename().string().starts_with(std::string(program) + "."); });
     if (!recorded) console.err << "missing: what " << program << " recorded" << std::endl;
   }
-  console.err << "missing: " << run_folder::kResult << "; " << no_server(options) << std::endl;
+  console.err << "missing: " << run_folder::kResult << "; " << no_server(options, dir) << std::endl;
   return kExitProcessFailed;
 }
 
@@ -113,12 +164,15 @@ int merge_reports(const MergeOptions& options, const Console& console) {
   const fs::path dir = fs::absolute(options.dir);
   const Json server = read_json(dir / run_folder::report_file(programs::kSimServer));
   if (!server.is_object()) return merge_without_server(options, dir, console);
+  check_result_in_place(options, dir, console.err);
   gather_agents(dir);
   const auto sim = struct_of<SimServerReport>(server);
   const RunOptions run = options_of(sim.flight, options, sim.rules);
   const Scenario scenario = scenario_of(run);
-  settle(programs::kStation, run_folder::kJournal, run, sim.flight, dir);
-  settle(programs::kCommRouter, run_folder::kCounts, run, sim.flight, dir);
+  for (const UavConfig& uav : scenario.fleet) require_sound(dir, programs::agent_program(uav.name));
+  require_sound(dir, programs::kGroundAgent);
+  settle(programs::kStation, run_folder::kJournal, run, sim.flight, dir, console.err);
+  settle(programs::kCommRouter, run_folder::kCounts, run, sim.flight, dir, console.err);
   const results::Reports reports = results::read_reports(dir, scenario);
   const results::RunFacts facts = facts_of(run, scenario, reports, dir);
   const RunResults results{

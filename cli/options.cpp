@@ -93,7 +93,7 @@ void add_flight_options(CLI::App* command, RunOptions& run) {
 void add_result_options(CLI::App* command, RunOptions& run) {
   command->add_option("--out", run.out,
                       "Results folder (default runs/<scenario>-<planner>-<seed>, or with -2, -3... if that is taken)");
-  command->add_flag("--force", run.force, "Overwrite an existing result");
+  command->add_flag("--force", run.force, "Overwrite an existing result and other files that are in the way");
   add_record(*command, run.record);
   const std::string keep_maps =
       "Keep each UAV's map in time, for the replay: in maps-UAV.mcap, a snapshot every 10 simulated seconds; =SECONDS: "

@@ -11,9 +11,9 @@
 #include "cli/place/placed_fleet.hpp"
 #include "cli/ros_environment.hpp"
 #include "cli/run/break_event.hpp"
-#include "cli/run/by_hand.hpp"
 #include "cli/run/fleet_plan.hpp"
 #include "cli/run/fleet_run.hpp"
+#include "cli/run/inputs_outlast.hpp"
 #include "cli/run/live_page.hpp"
 #include "cli/run/preflight.hpp"
 #include "cli/run/results_dir.hpp"
@@ -127,6 +127,7 @@ int run_fleet(const RunOptions& given, const Console& console) {
     return kExitDone;
   }
   ResultsDir::check(results_dir_of(options, plan.scenario.name), options.force);
+  check_inputs_outlast(plan, results_dir_of(options, plan.scenario.name));
   std::optional<LivePage> page;
   if (options.view.at) plan.watched = page.emplace(view::read_endpoint(*options.view.at)).watched();
   if (options.check) check_before_flight(plan, console);
@@ -140,7 +141,6 @@ int run_fleet(const RunOptions& given, const Console& console) {
   }
   const int base_domain = domains != nullptr ? domains->base() : kFirstDomain;
   const auto dir = results_dir_of(options, plan.scenario.name);  // again: another run may have taken the name meanwhile
-  check_outlasts(options.faults, dir);
   const ResultsDir out(dir, options.force);
 
   if (options.cores) allow_cores();

@@ -41,10 +41,34 @@ constexpr std::size_t kMostPictured = 20;  ///< a study of more scenes gets no p
 /// Scores over time and deliveries are read for the page only in studies of at most so many flights: more take minutes.
 constexpr std::size_t kMostWithTables = 5000;
 
+/// A study writes only to a folder of its own, unless --force is given.
+/// @throws InputError when the folder holds files, and no study.
+void check_is_of_a_study(const fs::path& out) {
+  std::error_code error;  // ignored: ResultsDir reports what cannot be looked at
+  if (!fs::is_directory(out, error) || fs::exists(out / kSettings, error)) return;
+  if (fs::exists(out / run_folder::kResult, error)) {
+    throw InputError(out.string() + " holds a result already, and no study; choose another --out");
+  }
+  std::string first;  // the least name, so that the message does not depend on the order in the folder
+  for (fs::directory_iterator entry(out, error), end; !error && entry != end; entry.increment(error)) {
+    const std::string name = entry->path().filename();
+    if (first.empty() || name < first) first = name;
+  }
+  if (first.empty()) return;
+  throw InputError("--out " + out.string() + ": '" + first +
+                   "' is there, and is of no study; choose another --out, or write there all the same with --force");
+}
+
 /// @throws InputError when the folder holds a study with other settings, unless --force is given.
 void check_settings(const StudyPlan& plan) {
+  std::error_code error;
+  if (plan.options.force || !fs::exists(plan.out / kSettings, error)) return;
   const Json then = read_json(plan.out / kSettings);
-  if (then.is_null() || plan.options.force) return;
+  if (!then.is_object()) {
+    throw InputError(
+        (plan.out / kSettings).string() +
+        ": damaged: no JSON; choose another --out, or go on there with --force: flights that fit are kept");
+  }
   const std::vector<std::string> differences = differing_settings(then, plan.settings);
   if (differences.empty()) return;
   std::string text = plan.out.string() + " holds a study with other settings:";
@@ -193,7 +217,7 @@ int merge(const StudyPlan& plan, StudyOutcomes outcomes, const Console& console)
 /// Locks the results folder. @returns null if this is the merge job at the end of a detached study, and another program
 /// that follows the study holds the folder.
 std::unique_ptr<ResultsDir> results_dir(const fs::path& dir) try {
-  return std::make_unique<ResultsDir>(dir, false);
+  return std::make_unique<ResultsDir>(dir, Earlier::keep);
 } catch (const InputError&) {
   if (std::getenv(kMergeVariable) == nullptr) throw;
   return nullptr;
@@ -216,6 +240,7 @@ int run_study(const StudyOptions& options, const Console& console) {
   for (const std::string& text : options.requirements) parse_requirement(text);
   const StudyPlan plan = plan_study(options);
   check_settings(plan);
+  if (!options.force) check_is_of_a_study(plan.out);
   const auto out = results_dir(plan.out);
   if (!out) {
     console.out << "another program follows this study, and merges it" << std::endl;

@@ -8,6 +8,7 @@
 #include "cli/testing/fake_programs.hpp"
 #include "core/types.hpp"
 #include "process/program.hpp"
+#include "results/result_file.hpp"
 
 namespace skein::cli {
 namespace {
@@ -101,6 +102,22 @@ TEST_F(StudyCommand, WhatHasFlownIsNotFlownAgain) {
   options_.rank = Rank::worst;
   EXPECT_EQ(run(), kExitDone) << "another ranking needs no flight";
   EXPECT_EQ(flown(), "");
+}
+
+TEST_F(StudyCommand, AResultWithAWrongChecksumIsNamedAndFlownAgain) {
+  ASSERT_EQ(run(), kExitDone);
+  const std::string flights = file("flights.csv");
+  const auto result = *options_.out / "flights/small/hover/seed-2/result.json";
+  std::string text = results::result_text(read_json(result));
+  write_text(result, text);
+  EXPECT_EQ(run(), kExitDone);
+  EXPECT_EQ(flown(), "") << "its checksum is right";
+  text.replace(text.find("\"score\": 20"), 11, "\"score\": 99");
+  write_text(result, text);
+  EXPECT_EQ(run(), kExitDone);
+  EXPECT_EQ(flown(), "hover 2\n");
+  EXPECT_NE(err_.str().find(result.string() + ": is damaged"), std::string::npos) << err_.str();
+  EXPECT_EQ(file("flights.csv"), flights);
 }
 
 TEST_F(StudyCommand, OtherSettingsInTheSameFolderAreRefusedUnlessForced) {
@@ -331,6 +348,35 @@ TEST_F(StudyCommand, AFolderOfARunIsNotTaken) {
   std::filesystem::create_directories(*options_.out);
   write_text(*options_.out / "result.json", "{}");
   EXPECT_NE(refusal().find("holds a result already"), std::string::npos);
+}
+
+TEST_F(StudyCommand, AFolderOfOtherFilesIsLeftAsItIsUnlessForced) {
+  const auto figures = *options_.out / "figures";
+  std::filesystem::create_directories(figures);
+  EXPECT_NE(refusal().find("--out " + options_.out->string() + ": 'figures' is there, and is of no study"),
+            std::string::npos)
+      << refusal();
+  write_text(figures / "mine.svg", "a drawing");
+  write_text(*options_.out / "flights.csv", "mine");
+  EXPECT_NE(refusal().find("--force"), std::string::npos) << refusal();
+  EXPECT_EQ(flown(), "");
+  EXPECT_EQ(file("flights.csv"), "mine");
+  EXPECT_EQ(file("figures/mine.svg"), "a drawing");
+  EXPECT_FALSE(std::filesystem::exists(*options_.out / "study.json"));
+  write_text(*options_.out / "study.json", "{\"planners\": [");
+  EXPECT_NE(refusal().find("study.json: damaged"), std::string::npos) << refusal();
+  std::filesystem::remove(*options_.out / "study.json");
+  write_text(*options_.out / "scene.json", "mine, too");
+  options_.force = true;
+  EXPECT_EQ(run(), kExitDone);
+  EXPECT_EQ(file("scene.json"), "mine, too") << "no file of a study's";
+  options_.force = false;
+  EXPECT_EQ(run(), kExitDone) << "now it is of a study";
+}
+
+TEST_F(StudyCommand, AnEmptyFolderIsTaken) {
+  std::filesystem::create_directories(*options_.out);
+  EXPECT_EQ(run(), kExitDone) << err_.str();
 }
 
 TEST(StudyFlights, DurationsAreReadable) {

@@ -55,9 +55,9 @@ bool is_of_a_run(const std::string& name) {
       "metadata.yaml",  kFleetLog,        kResult,       kScore,         kCaptures, kDigests,     kLosses,
       kEvents,          kCaptureMessages, kTrajectories, kScoreTimeline, kScene,    kPage,        kRecording,
       kRecordingLayout, kTracking,        kWork,         kActivity,      kByHand,   kPlannerFiles};
-  // Reports, logs, the station's journal and the router's counts. If a journal or counts of another run stayed, the
-  // program would continue from them, as after a crash.
-  const bool of_a_program = programs::is_agent(name) ||
+  // Reports, logs (also that of a whole fleet's process), the station's journal and the router's counts. If a journal
+  // or counts of another run stayed, the program would continue from them, as after a crash.
+  const bool of_a_program = programs::is_agent(name) || name.starts_with(std::string(programs::kOneProcess) + ".") ||
                             std::any_of(programs::kServers.begin(), programs::kServers.end(), [&](const char* program) {
                               return name.starts_with(std::string(program) + ".");
                             });

@@ -20,7 +20,7 @@ TEST(RunFolder, KnowsItsFilesAlsoHalfWritten) {
   std::vector<std::string> files = {
       "result.json",          "score.csv",          "losses.csv",   "scene.json",      "trajectories.csv",
       "digests.csv",          "events.csv",         "captures.csv", "station.journal", "comm_router.counts",
-      "capture_messages.csv", "score_timeline.csv", "report.html",  "work.csv"};
+      "capture_messages.csv", "score_timeline.csv", "report.html",  "work.csv",        "one_process.log"};
   for (const char* program : {"sim_server", "station", "comm_router", "uav_agent-jurong", "uav_agent-gcs"}) {
     files.push_back(run_folder::report_file(program));
     files.push_back(run_folder::log_file(program));

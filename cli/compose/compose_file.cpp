@@ -7,6 +7,7 @@
 
 #include "cli/compose/agents_folder.hpp"
 #include "cli/compose/compose_checks.hpp"
+#include "cli/compose/compose_header.hpp"
 #include "cli/compose/compose_yaml.hpp"
 #include "cli/compose/images.hpp"
 #include "cli/compose/stack_parts.hpp"
@@ -149,8 +150,7 @@ class ComposeText {
     if (!layout_.results) add_volumes();
     sent_.add_sources(yaml_);
     yaml_.end_map();
-    return fmt::format("# The fleet of '{}', a container a program (docs/containers.md), made by\n#   {}\n{}\n",
-                       in_comment(plan_.scenario.name), in_comment(layout_.command), yaml_.text());
+    return compose_header(plan_.scenario.name, layout_.command) + yaml_.text() + "\n";
   }
 
  private:

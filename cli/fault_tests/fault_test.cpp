@@ -106,6 +106,7 @@ constexpr const char* kProperties = "properties";
 /// Reads the property file that a test names. Errors in it are reported at the name.
 void read_property_file(const std::string& name, FaultTest& test, ConfigErrors& errors) try {
   const fs::path file = find_config_file("property file", name, {}, test.plan.faults.file.parent_path());
+  test.property_file = file;
   test.property_set = properties::load_properties(file, test.plan.scenario);
   test.entries = properties::load_property_entries(file);
 } catch (const InputError& error) {

@@ -47,6 +47,7 @@ struct FaultTest {
   ConfigDocument document;               ///< the file as it is
   std::optional<CapsuleMark> capsule = {};
   properties::PropertyEntries entries = {};  ///< `properties` as the file spells them
+  std::filesystem::path property_file = {};  ///< that `properties` names; empty: none
 
   bool needs_fault_free() const;  ///< whether judging the test needs the same run without faults
   /// Whether the file says something about this property; otherwise it holds by default.

@@ -8,6 +8,7 @@
 #include "cli/hunt/trial.hpp"
 #include "cli/properties/judge.hpp"
 #include "cli/properties/run_signals.hpp"
+#include "cli/run/inputs_outlast.hpp"
 #include "cli/run/preflight.hpp"
 #include "cli/run/results_dir.hpp"
 #include "cli/run_command.hpp"
@@ -138,6 +139,7 @@ int run_capsule(const RunOptions& options, const Console& console) {
   run.attainable = run.attainable && options.attainable;
   run.force = options.force;
   run.command = options.command;
+  check_outlast({test.file, test.property_file}, *run.out);
   console.err << "first run, the find itself, with its faults" << std::endl;
   const int code = run_fleet(run, console);
   if (code == kExitInterrupted) throw Interrupted{};

@@ -3,11 +3,13 @@
 #include <deque>
 #include <fstream>
 #include <numeric>
+#include <system_error>
 
 #include "cli/fault_tests/flights.hpp"
 #include "cli/options.hpp"
 #include "cli/properties/judge.hpp"
 #include "cli/run/preflight.hpp"
+#include "cli/run/results_dir.hpp"
 #include "cli/study/side_by_side.hpp"
 #include "process/program.hpp"
 #include "results/run_folder.hpp"
@@ -47,7 +49,7 @@ const TrialFlights::Setting* TrialFlights::setting_of(const Trial& trial) {
 
 ProgramSpec TrialFlights::start(const Trial& trial, const fs::path& dir) const {
   remove_folder(dir);
-  fs::create_directories(dir);
+  if (const std::error_code error = make_results_folder(dir)) throw std::system_error(error, dir);
   RunOptions run = trial.run;
   run.out = dir;
   if (!trial.faults.empty()) {

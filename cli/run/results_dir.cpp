@@ -20,19 +20,70 @@ constexpr off_t kRoomForResult = 256 << 10;
 /// The file that reserves this space. run_folder::is_of_a_run() accepts its name, so the next run deletes a stale one.
 const std::string kRoom = std::string(run_folder::kResult) + ".tmp-room";
 
+bool is_folder(const std::filesystem::directory_entry& entry) {
+  return entry.symlink_status().type() == std::filesystem::file_type::directory;
+}
+
+/// Whether an entry of the results folder is in a run's way: the run would write to it, or delete it.
+bool is_in_the_way(const std::filesystem::directory_entry& entry) {
+  const std::filesystem::path name = entry.path().filename();
+  if (!run_folder::is_of_a_run(name)) return false;
+  return !is_folder(entry) || name == run_folder::kPlannerFiles || name.has_extension();
+}
+
 /// Deletes an earlier run's files. Links are removed, not their targets, and no file is opened: opening a named pipe
 /// could block for ever.
 void remove_stale(const std::filesystem::path& dir) {
   for (const auto& entry : std::filesystem::directory_iterator(dir)) {
-    if (!run_folder::is_of_a_run(entry.path().filename())) continue;
-    if (entry.symlink_status().type() != std::filesystem::file_type::directory) {
+    if (!is_in_the_way(entry)) continue;
+    if (!is_folder(entry)) {
       std::filesystem::remove(entry.path());
     } else if (entry.path().filename() == run_folder::kPlannerFiles) {
       std::filesystem::remove_all(entry.path());
-    } else if (entry.path().has_extension()) {
+    } else {
       throw InputError(entry.path().string() + ": a folder is in the way of a file that the run writes");
     }
   }
+}
+
+void check_kind(const std::filesystem::path& dir) {
+  std::error_code error;  // e.g. the name is too long, or links form a circle
+  const auto kind = std::filesystem::status(dir, error).type();
+  if (kind == std::filesystem::file_type::none) {
+    throw InputError("--out " + dir.string() + ": cannot be looked at (" + error.message() +
+                     "); choose another folder");
+  }
+  if (kind != std::filesystem::file_type::directory && kind != std::filesystem::file_type::not_found) {
+    throw InputError("--out " + dir.string() + ": is no folder");
+  }
+}
+
+/// Without --force, a run neither overwrites nor deletes a file, whoever wrote it. @throws InputError
+void check_nothing_in_the_way(const std::filesystem::path& dir) {
+  const auto refuse = [&](const std::string& what) {
+    throw InputError(dir.string() + " holds " + what + "; overwrite it with --force, or choose another --out");
+  };
+  std::error_code error;  // ignored: the constructor reports what cannot be read
+  if (std::filesystem::exists(dir / run_folder::kResult, error)) refuse("a result already");
+  std::string first;  // the least name, so that the message does not depend on the order in the folder
+  for (std::filesystem::directory_iterator entry(dir, error), end; !error && entry != end; entry.increment(error)) {
+    const std::string name = entry->path().filename();
+    if (is_in_the_way(*entry) && (first.empty() || name < first)) first = name;
+  }
+  if (!first.empty()) refuse("'" + first + "', a name that a run uses for a file of its own");
+}
+
+/// Whether a run holds the lock of this folder now.
+bool is_held(const std::filesystem::path& dir) {
+  const int folder = ::open(dir.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (folder < 0) return false;
+  const bool held = ::flock(folder, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  ::close(folder);
+  return held;
+}
+
+[[noreturn]] void tell_of_another_run(const std::filesystem::path& dir) {
+  throw InputError(dir.string() + ": another run is writing there; choose another --out");
 }
 
 }  // namespace
@@ -61,36 +112,39 @@ std::filesystem::path results_dir_of(const RunOptions& run, const std::string& s
   return run.force ? usual : free_results_dir(usual);
 }
 
+std::error_code make_results_folder(const std::filesystem::path& dir) {
+  std::error_code error;
+  if (std::filesystem::is_directory(dir, error)) return {};
+  std::filesystem::create_directories(dir, error);
+  if (!error) close_to_agents(dir);
+  return error;
+}
+
 void ResultsDir::check(const std::filesystem::path& dir, bool force) {
-  std::error_code error;  // e.g. the name is too long, or links form a circle
-  const auto kind = std::filesystem::status(dir, error).type();
-  if (kind == std::filesystem::file_type::none) {
-    throw InputError("--out " + dir.string() + ": cannot be looked at (" + error.message() +
-                     "); choose another folder");
-  }
-  if (kind != std::filesystem::file_type::directory && kind != std::filesystem::file_type::not_found) {
-    throw InputError("--out " + dir.string() + ": is no folder");
-  }
-  if (!force && std::filesystem::exists(dir / run_folder::kResult, error)) {
-    throw InputError(dir.string() + " holds a result already; overwrite it with --force, or choose another --out");
+  check_kind(dir);
+  if (force) return;
+  try {
+    check_nothing_in_the_way(dir);
+  } catch (const InputError&) {
+    if (is_held(dir)) tell_of_another_run(dir);
+    throw;
   }
 }
 
-ResultsDir::ResultsDir(const std::filesystem::path& dir, bool force) : path_(std::filesystem::absolute(dir)) {
-  check(dir, force);
-  std::error_code error;
-  std::filesystem::create_directories(path_, error);
+ResultsDir::ResultsDir(const std::filesystem::path& dir, Earlier earlier) : path_(std::filesystem::absolute(dir)) {
+  check_kind(dir);
+  const std::error_code error = make_results_folder(path_);
   if (!error) lock_ = ::open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (error || lock_ < 0 || ::access(path_.c_str(), W_OK) != 0) {
     throw InputError("--out " + dir.string() + ": cannot be written to");
   }
   if (::flock(lock_, LOCK_EX | LOCK_NB) != 0) {
     ::close(lock_);
-    throw InputError(dir.string() + ": another run is writing there; choose another --out");
+    tell_of_another_run(dir);
   }
-  close_to_agents(path_);
   try {
-    remove_stale(path_);
+    if (earlier == Earlier::refuse) check_nothing_in_the_way(dir);
+    if (earlier == Earlier::remove) remove_stale(path_);
     keep_room();
   } catch (...) {
     ::close(lock_);

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <system_error>
 
 #include "cli/command.hpp"
 
@@ -20,18 +21,32 @@ std::filesystem::path free_results_dir(const std::filesystem::path& base);
 /// The folder that the user names, or else a free one; with --force the usual one. Creates nothing.
 std::filesystem::path results_dir_of(const RunOptions& run, const std::string& scenario);
 
+/// Creates a folder for results, with its parents, if it is missing. If root runs this, agents of secured runs can
+/// never read the new folder (process/files/closed_to_agents.hpp). A folder that exists keeps owner and permissions.
+/// @returns an error; none: the folder is there.
+std::error_code make_results_folder(const std::filesystem::path& dir);
+
+/// What becomes of files with names of a run's files (run_folder::is_of_a_run()) that are in a results folder already.
+enum class Earlier {
+  refuse,  ///< the folder is not taken: the files may be anybody's
+  remove,  ///< they are deleted, so that a stale report does not pass for one of this run (--force)
+  keep,    ///< they stay: a study's folder
+};
+
 /// Holds a results folder for one run: two launchers never write to the same one.
 class ResultsDir {
  public:
   /// Only checks; creates and changes nothing.
-  /// @throws InputError if `dir` holds a result and `force` is not set, or if it is not a folder.
+  /// @throws InputError if `dir` is not a folder, or if it holds a file that a run would write or delete, and `force`
+  ///   is not set. The message names such a file.
   static void check(const std::filesystem::path& dir, bool force);
 
-  /// Checks and locks the folder, creates it if it is missing, and deletes an earlier run's files from it, so that a
-  /// stale report does not pass for one of this run. Other files stay.
-  /// If root runs this, agents of secured runs can never read the folder again (process/files/closed_to_agents.hpp).
+  /// Checks and locks the folder, creates it if it is missing (make_results_folder()), and deletes an earlier run's
+  /// files if `earlier` says so. Other files stay.
   /// @throws InputError as check(), and if another run is writing there or the disk has no room for a result.
-  ResultsDir(const std::filesystem::path& dir, bool force);
+  ResultsDir(const std::filesystem::path& dir, Earlier earlier);
+  ResultsDir(const std::filesystem::path& dir, bool force)
+      : ResultsDir(dir, force ? Earlier::remove : Earlier::refuse) {}
   ~ResultsDir();
   ResultsDir(const ResultsDir&) = delete;
   ResultsDir& operator=(const ResultsDir&) = delete;

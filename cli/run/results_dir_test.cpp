@@ -74,9 +74,53 @@ TEST(ResultsDir, OnlyWhatARunWritesIsRemoved) {
   const auto of_others = {"notes.txt", "my.log", "station-notes.txt", "mine.tmp7"};
   for (const char* name : of_runs) write_text(scratch.path() / name, "x");
   for (const char* name : of_others) write_text(scratch.path() / name, "x");
-  const ResultsDir dir(scratch.path(), false);
+  const ResultsDir dir(scratch.path(), true);
   for (const char* name : of_runs) EXPECT_FALSE(fs::exists(scratch.path() / name)) << name;
   for (const char* name : of_others) EXPECT_TRUE(fs::exists(scratch.path() / name)) << name;
+}
+
+TEST(ResultsDir, WithoutForceAFileThatARunWouldWriteOrDeleteIsKeptAndNamed) {
+  for (const char* name : {"scene.json", "station.log", "hand-bob.csv", "map-x.bt", "uav_agent-alpha.txt"}) {
+    const OutDir scratch;
+    write_text(scratch.path() / name, "mine");
+    const auto refusal = [&](const auto& take) -> std::string {
+      try {
+        take();
+        return "";
+      } catch (const InputError& error) {
+        return error.what();
+      }
+    };
+    for (const std::string& told : {refusal([&] { ResultsDir::check(scratch.path(), false); }),
+                                    refusal([&] { const ResultsDir dir(scratch.path(), false); })}) {
+      EXPECT_NE(told.find(scratch.path().string() + " holds '" + name + "'"), std::string::npos) << told;
+      EXPECT_NE(told.find("--force"), std::string::npos) << told;
+    }
+    EXPECT_EQ(read_text(scratch.path() / name), "mine");
+    EXPECT_EQ(std::distance(fs::directory_iterator(scratch.path()), {}), 1);
+    EXPECT_NO_THROW(ResultsDir(scratch.path(), Earlier::keep));
+    EXPECT_EQ(read_text(scratch.path() / name), "mine");
+  }
+}
+
+TEST(ResultsDir, AFolderWithOtherFilesOnlyIsTakenAndStaysAsOpenAsItIs) {
+  const OutDir scratch;
+  write_text(scratch.path() / "notes.txt", "mine");
+  fs::create_directory(scratch.path() / "uav_agent-sources");
+  fs::permissions(scratch.path(), fs::perms(0755));
+  struct stat before {
+  }, after{};
+  ASSERT_EQ(::stat(scratch.path().c_str(), &before), 0);
+  { const ResultsDir dir(scratch.path(), false); }
+  ASSERT_EQ(::stat(scratch.path().c_str(), &after), 0);
+  EXPECT_EQ(after.st_mode, before.st_mode);
+  EXPECT_EQ(after.st_gid, before.st_gid);
+  EXPECT_EQ(read_text(scratch.path() / "notes.txt"), "mine");
+  if (::geteuid() != 0) GTEST_SKIP() << "only root's agents have users of their own";
+  const fs::path created = scratch.path() / "created";
+  { const ResultsDir dir(created, false); }
+  ASSERT_EQ(::stat(created.c_str(), &after), 0);
+  EXPECT_EQ(after.st_mode & S_IRWXG, 0U) << "closed to agents";
 }
 
 TEST(ResultsDir, TwoRunsNeverShareAFolder) {
@@ -84,6 +128,12 @@ TEST(ResultsDir, TwoRunsNeverShareAFolder) {
   {
     const ResultsDir first(scratch.path(), false);
     EXPECT_THROW(ResultsDir(scratch.path(), false), InputError);
+    try {
+      ResultsDir::check(scratch.path(), false);
+      ADD_FAILURE() << "accepted";
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("another run is writing there"), std::string::npos) << error.what();
+    }
   }
   const ResultsDir second(scratch.path(), false);
 }
@@ -112,12 +162,13 @@ TEST(ResultsDir, WhatBearsTheNameOfAFileAndIsNoneGoesOrIsNamed) {
   write_text(scratch.path() / "mine.txt", "kept");
   fs::create_symlink(scratch.path() / "mine.txt", scratch.path() / "station.journal");
   fs::create_symlink("/dev/full", scratch.path() / "events.csv");
-  { const ResultsDir dir(scratch.path(), false); }
+  EXPECT_THROW(ResultsDir(scratch.path(), false), InputError);
+  { const ResultsDir dir(scratch.path(), true); }
   EXPECT_EQ(std::distance(fs::directory_iterator(scratch.path()), {}), 1);
   EXPECT_EQ(read_text(scratch.path() / "mine.txt"), "kept");
   fs::create_directory(scratch.path() / "sim_server.log");
   try {
-    const ResultsDir dir(scratch.path(), false);
+    const ResultsDir dir(scratch.path(), true);
     ADD_FAILURE() << "accepted";
   } catch (const InputError& error) {
     EXPECT_NE(std::string(error.what()).find("sim_server.log"), std::string::npos) << error.what();

@@ -5,11 +5,16 @@
 #include <chrono>
 #include <cmath>
 #include <deque>
+#include <ostream>
+#include <system_error>
 
 #include "cli/host/supervisor.hpp"
 #include "cli/run/fleet_plan.hpp"
+#include "cli/run/results_dir.hpp"
 #include "cli/study/side_by_side.hpp"
+#include "core/types.hpp"
 #include "process/files/atomic_file.hpp"
+#include "results/result_file.hpp"
 #include "results/run_folder.hpp"
 
 namespace skein::cli {
@@ -23,6 +28,14 @@ using Clock = std::chrono::steady_clock;
 bool went_to_its_end(const Json& result) {
   const Json status = value_or(result, "status", "");
   return status == name_of(RunStatus::completed) || status == name_of(RunStatus::no_takeoff);
+}
+
+Json sound_result(const fs::path& dir, std::ostream* say) try {
+  std::error_code error;
+  return fs::exists(dir / run_folder::kResult, error) ? results::read_result_file(dir) : Json();
+} catch (const InputError& damage) {
+  if (say != nullptr) *say << damage.what() << "; this flight is flown again" << std::endl;
+  return {};
 }
 
 std::string problem_of(const fs::path& dir, const Json& result, const ExitStatus& exit) {
@@ -54,7 +67,7 @@ class StudyRun {
   StudyOutcomes fly() {
     std::deque<std::size_t> waiting;
     for (std::size_t i = 0; i < plan_.flights.size(); ++i) {
-      if (auto outcome = flown_before(plan_.flights[i])) {
+      if (auto outcome = flown_before(plan_.flights[i], &console_.err)) {
         outcomes_.flights[i] = std::move(*outcome);
         ++over_;
       } else {
@@ -73,7 +86,7 @@ class StudyRun {
  private:
   ProgramSpec start(std::size_t index) const {
     const StudyFlight& flight = plan_.flights[index];
-    fs::create_directories(flight.dir);
+    if (const std::error_code error = make_results_folder(flight.dir)) throw std::system_error(error, flight.dir);
     fs::remove(flight.dir / kFlightMark);
     return flight_program(arguments_of(flight_options(plan_, flight)), flight.dir);
   }
@@ -117,12 +130,13 @@ class StudyRun {
 
 }  // namespace
 
-std::optional<StudyOutcome> flown_before(const StudyFlight& flight) {
+std::optional<StudyOutcome> flown_before(const StudyFlight& flight, std::ostream* say) {
   const Json mark = read_json(flight.dir / kFlightMark);
-  const Json result = read_json(flight.dir / run_folder::kResult);
-  const bool same = value_or(mark, "command", nullptr) == flight.command() &&
-                    value_or(mark, "problem", nullptr) == "" && value_or(result, "seed", nullptr) == flight.seed;
-  if (!same || !went_to_its_end(result)) return std::nullopt;
+  if (value_or(mark, "command", nullptr) != flight.command() || value_or(mark, "problem", nullptr) != "") {
+    return std::nullopt;
+  }
+  const Json result = sound_result(flight.dir, say);
+  if (value_or(result, "seed", nullptr) != flight.seed || !went_to_its_end(result)) return std::nullopt;
   return StudyOutcome{figures_of(result), ""};
 }
 

@@ -1,6 +1,7 @@
 // Flies a study. Each flight is a `skein run` in a folder of its own; flights that have a result are not flown again.
 #pragma once
 
+#include <iosfwd>
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,12 +31,16 @@ struct StudyOutcomes {
 /// Whether a flight went to its end: its status is `completed` or `no_takeoff`.
 bool went_to_its_end(const Json& result);
 
+/// The result in a flight's folder; null if there is none. A damaged result, whose checksum is wrong, counts as none.
+/// @param say  gets one line that names the damaged file; null: nobody is told
+Json sound_result(const std::filesystem::path& dir, std::ostream* say);
+
 /// Error message for a flight that failed. @param dir  its folder. @param exit  of its `skein run`
 std::string problem_of(const std::filesystem::path& dir, const Json& result, const ExitStatus& exit);
 
 /// The outcome of an earlier flight with the same StudyFlight::command() that went to its end without a problem.
-/// nullopt: it must be flown.
-std::optional<StudyOutcome> flown_before(const StudyFlight& flight);
+/// nullopt: it must be flown. @param say  as for sound_result()
+std::optional<StudyOutcome> flown_before(const StudyFlight& flight, std::ostream* say);
 
 /// Flies all flights that have no outcome yet, `plan.jobs` at once, with progress on `console.err`. Records a flight
 /// that fails, and flies the others. Ctrl-C ends running flights at their next step, a second Ctrl-C at once.

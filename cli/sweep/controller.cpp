@@ -113,7 +113,7 @@ void SweepController::fly_a_reference(const SweepPlan& plan) {
 void SweepController::close_what_is_flown(std::size_t unit) const {
   std::vector<SweepRow> rows;
   for (const SweepFlight& flight : folder_.unit(unit).flights) {
-    auto row = row_in_place(folder_, flight, here_);
+    auto row = row_in_place(folder_, flight, here_, &say_);
     if (!row) return;
     rows.push_back(std::move(*row));
   }

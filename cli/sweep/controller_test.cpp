@@ -8,6 +8,8 @@
 #include <algorithm>
 
 #include "cli/sweep/testing/made_up_nodes.hpp"
+#include "cli/sweep/unit_run.hpp"
+#include "results/result_file.hpp"
 #include "tests/support/test_program.hpp"
 
 namespace skein::cli {
@@ -249,6 +251,24 @@ TEST(SweepController, AFlightThatSomebodyRemovedIsFlownAgain) {
   fs::remove_all(sweep.world.flight(5).dir);
   ASSERT_TRUE(sweep.control());
   sweep.expect_all(8);
+}
+
+TEST(SweepController, AResultWithAWrongChecksumIsNamedAndCountsAsNone) {
+  Sweep sweep(7, 4, 2, {{"one"}});
+  ASSERT_TRUE(sweep.control());
+  const SweepFolder folder(sweep.world.study());
+  const SweepNode node = sweep.world.node(sweep.here, [] {});
+  const SweepFlight flight = sweep.world.flight(2);
+  const fs::path result = flight.dir / run_folder::kResult;
+  EXPECT_TRUE(row_in_place(folder, flight, node));
+  std::string text = results::result_text(read_json(result));
+  std::ofstream(result) << text;
+  EXPECT_TRUE(row_in_place(folder, flight, node));
+  text.replace(text.find("build 1"), 7, "build 7");
+  std::ofstream(result) << text;
+  std::ostringstream said;
+  EXPECT_FALSE(row_in_place(folder, flight, node, &said));
+  EXPECT_NE(said.str().find(result.string() + ": is damaged"), std::string::npos) << said.str();
 }
 
 TEST(Sweep, OneFlightInAHundredIsCheckedWhateverTheOrder) {

@@ -10,6 +10,7 @@
 
 #include "core/types.hpp"
 #include "process/files/atomic_file.hpp"
+#include "process/files/closed_to_agents.hpp"
 #include "results/run_data.hpp"
 
 namespace skein::cli {
@@ -291,6 +292,7 @@ fs::path SweepFolder::place_in_the_air(const std::string& node) const {
   fs::path place = dir_ / "air" / unique;
   step();
   fs::create_directories(place);
+  close_to_agents(place);
   return place;
 }
 

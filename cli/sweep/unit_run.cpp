@@ -87,7 +87,7 @@ class UnitRun {
   }
 
   SweepRow fly(const SweepFlight& flight) const {
-    if (auto row = row_in_place(folder_, flight, node_)) return std::move(*row);
+    if (auto row = row_in_place(folder_, flight, node_, &say_)) return std::move(*row);
     check_still_wanted();
     const fs::path air = folder_.place_in_the_air(node_.name);
     try {
@@ -181,14 +181,15 @@ void fly_unit(const SweepFolder& folder, std::size_t unit, const SweepNode& node
   UnitRun(folder, unit, node, say).run();
 }
 
-std::optional<SweepRow> row_in_place(const SweepFolder& folder, const SweepFlight& flight, const SweepNode& node) {
+std::optional<SweepRow> row_in_place(const SweepFolder& folder, const SweepFlight& flight, const SweepNode& node,
+                                     std::ostream* say) {
   const Json mark = read_json(flight.dir / kFlightMark);
   if (value_or(mark, "command", nullptr) != flight.made_under || value_or(mark, "problem", nullptr) != "") {
     return std::nullopt;
   }
   const std::string flown_by = text_in(mark, "node");
   if (folder.quarantined(flown_by)) return std::nullopt;
-  const Json result = read_json(flight.dir / run_folder::kResult);
+  const Json result = sound_result(flight.dir, say);
   if (!went_to_its_end(result)) return std::nullopt;
   return SweepRow{flight.index, flown_by, "", node.figures(result)};
 }

@@ -49,7 +49,8 @@ std::string fly_reference(const SweepFolder& folder, const SweepFlight& referenc
 std::string digest_here(const SweepFolder& folder, const SweepFlight& flight, const SweepNode& node);
 
 /// The result in the flight's own folder, if the flight was flown exactly as the sweep was planned, went to its end
-/// without a problem, and comes from a node that is not in quarantine.
-std::optional<SweepRow> row_in_place(const SweepFolder& folder, const SweepFlight& flight, const SweepNode& node);
+/// without a problem, and comes from a node that is not in quarantine. @param say  as for sound_result()
+std::optional<SweepRow> row_in_place(const SweepFolder& folder, const SweepFlight& flight, const SweepNode& node,
+                                     std::ostream* say = nullptr);
 
 }  // namespace skein::cli

@@ -1,0 +1,116 @@
+// `skein merge` of a small fleet's reports: what is damaged is named, and a good result is not replaced by a worse one.
+#include "cli/merge_command.hpp"
+
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "cli/testing/fake_programs.hpp"
+#include "core/types.hpp"
+#include "process/program.hpp"
+#include "results/result_file.hpp"
+#include "results/run_folder.hpp"
+
+namespace skein::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+class MergeCommand : public ::testing::Test {
+ protected:
+  MergeCommand() {
+    fs::create_directories(dir());
+    write_report("sim_server", {{"status", "completed"},
+                                {"sim_time_s", 9.5},
+                                {"flight", {{"scenario", programs_.scenario().string()}, {"seed", 3}}}});
+    write_report("station", {{"score", 2.5}, {"points_detected", 3}});
+    write_report("comm_router", {{"sent", 11}});
+    for (const char* agent : {"uav_agent-alpha", "uav_agent-beta"}) write_report(agent, {{"planner", "hover"}});
+    options_.dir = dir();
+    options_.report = false;
+  }
+
+  fs::path dir() const { return programs_.dir() / "run"; }
+  fs::path report(const std::string& program) const { return dir() / run_folder::report_file(program); }
+  void write_report(const std::string& program, const Json& json) const { write_text(report(program), json.dump()); }
+  void truncate(const std::string& program) const { write_text(report(program), "{\"score\": 2."); }
+  fs::path result_file() const { return dir() / run_folder::kResult; }
+
+  int merge() {
+    err_.str("");
+    return merge_reports(options_, {out_, err_, false});
+  }
+  std::string refusal() try {
+    merge();
+    return "";
+  } catch (const InputError& error) {
+    return error.what();
+  }
+
+  const FakePrograms programs_;
+  MergeOptions options_;
+  std::ostringstream out_, err_;
+};
+
+TEST_F(MergeCommand, WhatItMadeItselfItMakesAgain) {
+  EXPECT_EQ(merge(), kExitDone) << err_.str();
+  const Json result = results::read_result_file(dir());
+  EXPECT_EQ(result["score"], 2.5);
+  EXPECT_EQ(result["seed"], 3);
+  EXPECT_EQ(merge(), kExitDone) << err_.str();
+  EXPECT_EQ(results::read_result_file(dir()), result);
+}
+
+TEST_F(MergeCommand, ADamagedReportIsNamedAndTheResultStays) {
+  ASSERT_EQ(merge(), kExitDone) << err_.str();
+  const std::string result = read_text(result_file());
+  for (const std::string program : {"station", "comm_router", "uav_agent-beta"}) {
+    const std::string whole = read_text(report(program));
+    truncate(program);
+    EXPECT_NE(refusal().find(report(program).string() + ": is damaged"), std::string::npos) << program;
+    EXPECT_EQ(read_text(result_file()), result) << program;
+    write_text(report(program), whole);
+  }
+  truncate("sim_server");
+  EXPECT_NE(refusal().find(report("sim_server").string() + ": is damaged"), std::string::npos) << refusal();
+  EXPECT_EQ(read_text(result_file()), result);
+}
+
+TEST_F(MergeCommand, ADamagedReportIsMadeAnewFromTheBooks) {
+  programs_.script("station", "echo '{\"score\": 2.25}' > \"$out/station.report.json\"\n");
+  truncate("station");
+  write_text(dir() / run_folder::kJournal, "the journal");
+  EXPECT_EQ(merge(), kExitDone) << err_.str();
+  EXPECT_NE(err_.str().find(report("station").string() + ": is damaged"), std::string::npos) << err_.str();
+  EXPECT_EQ(results::read_result_file(dir())["score"], 2.25);
+
+  programs_.script("station", "exit 3\n");
+  truncate("station");
+  EXPECT_NE(refusal().find(report("station").string() + ": is damaged"), std::string::npos) << "the books are, too";
+  EXPECT_EQ(results::read_result_file(dir())["score"], 2.25);
+}
+
+TEST_F(MergeCommand, TheLaunchersResultStaysUnlessForced) {
+  const std::string launchers = results::result_text({{"score", 2.5}, {"command", "skein run small.yaml"}});
+  write_text(result_file(), launchers);
+  EXPECT_NE(refusal().find("--force"), std::string::npos) << refusal();
+  EXPECT_EQ(read_text(result_file()), launchers);
+
+  write_text(result_file(), results::result_text({{"score", 2.5}, {"processes", {{"station", {{"cpu_s", 1}}}}}}));
+  EXPECT_NE(refusal().find(result_file().string()), std::string::npos) << "not started by a user's command";
+
+  options_.force = true;
+  EXPECT_EQ(merge(), kExitDone) << err_.str();
+  EXPECT_FALSE(results::read_result_file(dir()).contains("command"));
+
+  options_.force = false;
+  std::string damaged = launchers;
+  damaged.replace(damaged.find("2.5"), 3, "9.5");
+  write_text(result_file(), damaged);
+  EXPECT_EQ(merge(), kExitDone) << "there is nothing to lose";
+  EXPECT_NE(err_.str().find(result_file().string() + ": is damaged"), std::string::npos) << err_.str();
+  EXPECT_EQ(results::read_result_file(dir())["score"], 2.5);
+}
+
+}  // namespace
+}  // namespace skein::cli
