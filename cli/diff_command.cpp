@@ -8,6 +8,7 @@
 
 #include "core/files/file_bytes.hpp"
 #include "core/text/text.hpp"
+#include "core/types.hpp"
 #include "process/program.hpp"
 #include "recording/mcap/reader.hpp"
 #include "results/diff.hpp"
@@ -67,10 +68,26 @@ void compare_results(const DiffOptions& options, std::vector<std::string>& found
   }
 }
 
+/// "first" or "second", if only that run has this file.
+std::optional<std::string> only_owner(const DiffOptions& options, const char* file) {
+  const bool in_a = fs::exists(options.run_a / file), in_b = fs::exists(options.run_b / file);
+  return in_a == in_b ? std::nullopt : std::optional<std::string>(in_a ? "first" : "second");
+}
+
+std::ifstream opened(const fs::path& file) {
+  std::ifstream in = open_text(file);
+  if (!in) throw InputError(file.string() + ": cannot be read");
+  return in;
+}
+
 /// The first line in which a table of two runs differs.
 void compare_tables(const DiffOptions& options, const char* table, std::vector<std::string>& found) {
-  std::ifstream a = open_text(options.run_a / table), b = open_text(options.run_b / table);
-  if (!a || !b) return;  // a program that died did not write its table
+  if (const auto owner = only_owner(options, table)) {
+    found.push_back(std::string(table) + ": only in the " + *owner + " run");
+    return;
+  }
+  if (!fs::exists(options.run_a / table)) return;  // a program that died did not write its table
+  std::ifstream a = opened(options.run_a / table), b = opened(options.run_b / table);
   std::string one, other;
   for (int line = 1;; ++line) {
     const bool more_a = static_cast<bool>(next_line(a, one, options.run_a / table));
@@ -141,12 +158,14 @@ int diff_runs(const DiffOptions& options, const Console& console) {
   }
   // Options decide how much is recorded, so recordings of two identical runs may differ.
   std::vector<std::string> said;
-  compare_recordings(options, said);
+  const auto recorded = only_owner(options, run_folder::kRecording);
+  if (!recorded) compare_recordings(options, said);
   if (difference) found.insert(found.begin(), said.begin(), said.end());
   if (difference && !found.empty()) console.out << "besides:\n";
   if (!difference && !found.empty()) console.out << "the digests are the same, but not what else the runs left:\n";
   for (const std::string& one : found) console.out << "  " << one << '\n';
   if (!difference && found.empty()) console.out << "the runs are the same\n";
+  if (recorded) console.out << "not compared: recording.mcap, which only the " << *recorded << " run has\n";
   console.out << std::flush;
   return difference || !found.empty() ? kExitCheckFailed : kExitDone;
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace CLI {
 class App;
@@ -18,6 +19,15 @@ std::string check_seed(const std::string& text);
 std::string check_seconds(const std::string& text);
 /// A decimal number of seconds within [1, 3600].
 std::string check_maps_period(const std::string& text);
+
+/// Lets all options of a command, and of its subcommands, that take whole numbers refuse a leading zero and "0x10".
+/// CLI11 would take them for octal and hexadecimal numbers: 010 for 8.
+void refuse_leading_zeros(CLI::App& app);
+
+/// Refuses empty items in the lists of a command's options: CLI11 would leave them out.
+/// @param arguments  the whole command line, which has been parsed
+/// @throws InputError that names the first such option.
+void refuse_empty_items(const CLI::App& app, const std::vector<std::string>& arguments);
 
 /// Refuses options with an empty value, which comes from an unset variable of a script and is never meant.
 /// @throws InputError that names the first such option of a command.

@@ -3,6 +3,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <functional>
 #include <memory>
 #include <utility>
@@ -13,6 +14,7 @@
 #include "cli/tool_options.hpp"
 #include "cli/view_options.hpp"
 #include "core/text/number_checks.hpp"
+#include "core/text/suggestion.hpp"
 #include "core/text/text.hpp"
 #include "core/types.hpp"
 #include "process/manual.hpp"
@@ -321,6 +323,7 @@ class OptionParser {
     list(task, add_bench);
     list(task, add_doctor);
     list(task, add_pack);
+    refuse_leading_zeros(app);
   }
 
   /// The options of the command that was parsed.
@@ -346,6 +349,18 @@ class OptionParser {
   std::vector<std::pair<CLI::App*, std::function<Command(const std::vector<std::string>&)>>> commands_;
 };
 
+/// Refuses a first word that names no command. CLI11 would only say that a command is missing. @throws InputError
+void require_command(const CLI::App& app, const std::vector<std::string>& arguments) {
+  if (arguments.empty() || arguments[0].empty() || arguments[0].starts_with("-")) return;
+  std::vector<std::string> known;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+    known.push_back(command->get_name());
+  }
+  if (std::ranges::find(known, arguments[0]) != known.end()) return;
+  throw InputError("there is no command '" + shortened(arguments[0]) + "'; " + suggestion(arguments[0], known) +
+                   "\nSee `skein --help`.");
+}
+
 }  // namespace
 
 void with_command_line(const std::function<void(const CLI::App&)>& use) { use(OptionParser().app); }
@@ -359,6 +374,7 @@ Command parse_command_line(const std::vector<std::string>& arguments) {
   }
   if (arguments == std::vector<std::string>{"--host"}) return HostOptions{};
   if (!arguments.empty() && arguments[0] == "--unit") return unit_options({arguments.begin() + 1, arguments.end()});
+  require_command(parser.app, arguments);
   const auto is = [&parser](const char* command) { return parser.app.got_subcommand(command); };
   std::vector<std::string> reversed(arguments.rbegin(), arguments.rend());  // as CLI11 wants them
   try {
@@ -372,6 +388,7 @@ Command parse_command_line(const std::vector<std::string>& arguments) {
     throw InputError(std::string(error.what()) + "\nSee `skein --help` or `skein COMMAND --help`.");
   }
   refuse_empty_values(parser.app);
+  refuse_empty_items(parser.app, arguments);
   return parser.take(arguments);
 }
 

@@ -100,9 +100,44 @@ void copy_package(const fs::path& from, const fs::path& to) {
   }
 }
 
+/// The archive as it is made: its parts, and the file before it has its name. Removes both at the end.
+struct Unfinished {
+  explicit Unfinished(const fs::path& archive)
+      : file(archive.string() + ".tmp"), parts(archive.parent_path() / (archive.filename().string() + ".parts")) {
+    remove();
+  }
+  ~Unfinished() { remove(); }
+
+  const fs::path file, parts;
+
+ private:
+  void remove() const {
+    std::error_code ignored;
+    fs::remove(file, ignored);
+    fs::remove_all(parts, ignored);
+  }
+};
+
+/// @throws InputError if no archive can be made there.
+void check_target(const fs::path& archive) {
+  std::error_code none;
+  const fs::file_status status = fs::status(archive, none);
+  if (fs::exists(status) && !fs::is_regular_file(status)) {
+    throw InputError(archive.string() + ": is " + (fs::is_directory(status) ? "a folder" : "no file") +
+                     "; name the archive, as skein.tar.gz");
+  }
+  if (archive.filename().empty()) throw InputError(archive.string() + ": name the archive, as skein.tar.gz");
+  const fs::path folder = archive.parent_path();
+  if (!fs::is_directory(folder, none) && fs::exists(folder, none)) {
+    throw InputError(folder.string() + ": is no folder, so no archive can be made in it");
+  }
+}
+
 }  // namespace
 
 int pack_programs(const PackOptions& options, const Console& console) {
+  const fs::path archive = fs::absolute(options.file);
+  check_target(archive);
   std::vector<fs::path> files;
   for (const char* name : {"skein", programs::kSimServer, programs::kCommRouter, programs::kStation, programs::kAgent,
                            programs::kDoctor}) {
@@ -128,9 +163,8 @@ int pack_programs(const PackOptions& options, const Console& console) {
     add_libraries(file, libraries, loader);
   }
 
-  const fs::path archive = fs::absolute(options.file), unfinished = archive.string() + ".tmp";
-  const fs::path dir = archive.parent_path() / (archive.filename().string() + ".parts"), pack = dir / "skein";
-  fs::remove_all(dir);
+  const Unfinished unfinished(archive);
+  const fs::path pack = unfinished.parts / "skein";
   for (const fs::path& file : files) copy_all(fs::canonical(file), pack / "bin" / file.filename());
   for (const auto& [name, file] : libraries) copy_all(fs::canonical(file), pack / "lib" / name);
   copy_all(default_config_dir(), pack / "share/skein/config");
@@ -140,10 +174,9 @@ int pack_programs(const PackOptions& options, const Console& console) {
   std::ofstream(pack / "skein") << fmt::format(fmt::runtime(kLauncher), loader);
   fs::permissions(pack / "skein", fs::perms::owner_all | fs::perms::group_read | fs::perms::group_exec |
                                       fs::perms::others_read | fs::perms::others_exec);
-  output_of({"/usr/bin/env", "tar", "--create", "--use-compress-program=gzip -1", "--file", unfinished, "--directory",
-             dir, "skein"});
-  fs::rename(unfinished, archive);
-  fs::remove_all(dir);
+  output_of({"/usr/bin/env", "tar", "--create", "--use-compress-program=gzip -1", "--file", unfinished.file,
+             "--directory", unfinished.parts, "skein"});
+  fs::rename(unfinished.file, archive);
   console.out << fmt::format(
       "{}: {} programs, {} libraries, {}{:.0f} MB; unpack it anywhere, and call skein/skein\n", archive.string(),
       files.size() - (with_python ? modules.size() : 0), libraries.size(),

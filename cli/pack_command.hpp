@@ -6,7 +6,8 @@
 
 namespace skein::cli {
 
-/// @returns the exit code. @throws InputError for an agent or library that is not there, or when tar fails.
+/// @returns the exit code. @throws InputError for a target that is a folder, an agent or library that is not there, or
+/// when tar fails.
 int pack_programs(const PackOptions& options, const Console& console);
 
 }  // namespace skein::cli

@@ -24,7 +24,7 @@ void add_sweep(CLI::App& command, SweepOptions& sweep) {
                      "Options of sbatch for --executor slurm: partition=debug,time=30:00,account=mine");
   command.add_flag("--detach", sweep.detach, "With --executor slurm: do not wait; a job at the end writes the report");
   command.add_option("--unit-minutes", sweep.unit_minutes, "About so long a unit flies")
-      ->check(CLI::Range(0.01, 10000.0))
+      ->check(CLI::Validator(number_within(0.01, 10000.0), ""))
       ->capture_default_str();
   command.add_option("--status", sweep.status,
                      "What is there of the study in this folder, what flies, what failed; and its report so far");

@@ -1,20 +1,12 @@
 #include "cli/tool_options.hpp"
 
 #include <CLI/CLI.hpp>
-#include <cstdlib>
 
 #include "cli/option_checks.hpp"
+#include "core/text/number_checks.hpp"
 
 namespace skein::cli {
 namespace {
-
-/// A clearance within [0, 100] m. Unlike CLI::Range it refuses "nan" too.
-std::string check_clearance(const std::string& text) {
-  char* end = nullptr;
-  const double clearance = std::strtod(text.c_str(), &end);
-  const bool fits = end != text.c_str() && *end == '\0' && clearance >= 0.0 && clearance <= 100.0;
-  return fits ? "" : "must be a number within [0, 100], not '" + text + "'";
-}
 
 /// Refuses the options that only `skein doctor net` uses. @throws InputError
 void check_doctor(const DoctorOptions& doctor) {
@@ -248,7 +240,7 @@ void add_oracle(CLI::App& app, OracleOptions& oracle) {
       ->add_option("--clearance", oracle.clearances_m,
                    "Of the cameras from the structure [m] (default 0.5); several as 0.5,0.8,1.2 make a table")
       ->delimiter(',')
-      ->check(CLI::Validator(check_clearance, ""));
+      ->check(CLI::Validator(number_within(0.0, 100.0), ""));
   command->add_flag("--vehicle", oracle.vehicle,
                     "A sphere about body and rotors keeps the clearance (default then 0), not the camera");
   command->add_flag("--outside", oracle.outside_only, "Only what can be had from outside, not through windows");

@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "core/text/number_checks.hpp"
 #include "core/types.hpp"
 #include "view/endpoint.hpp"
 #include "view/time_order.hpp"
@@ -29,9 +30,9 @@ void add_film_options(CLI::App& command, CLI::Option& exported, FilmOptions& fil
       ->needs(&exported);
   CLI::Option* const seconds =
       command.add_option("--seconds", film.seconds, "Of a film: how long it is (default 30)")->needs(&exported);
-  seconds->check(CLI::Range(0.1, 36000.0))->type_name("SECONDS");
+  seconds->check(CLI::Validator(number_within(0.1, 36000.0), ""))->type_name("SECONDS");
   command.add_option("--speed", film.speed, "Of a film: simulated seconds a second, instead of its length")
-      ->check(CLI::Range(0.01, 10000.0))
+      ->check(CLI::Validator(number_within(0.01, 10000.0), ""))
       ->type_name("SPEED")
       ->needs(&exported)
       ->excludes(seconds);
@@ -66,7 +67,7 @@ void add_view_options(CLI::App& command, ViewOptions& view) {
                   "Pause a run that is watched at this simulated time [s], 0: before it begins, until the page lets it "
                   "go on")
       ->type_name("SECONDS")
-      ->check(CLI::Range(0.0, 1e6))
+      ->check(CLI::Validator(number_within(0.0, 1e6), ""))
       ->needs(watched);
   command.add_flag("--view-close", view.close, "The page ends with the run")->needs(watched);
   add_no_browser(command, view.browser);

@@ -48,5 +48,14 @@ TEST(ViewOptions, MapsAreKeptWhereSomebodyAsks) {
   }
 }
 
+TEST(ViewOptions, TimesAndSpeedsAreNumbersInTheirRange) {
+  EXPECT_EQ(read<RunOptions>({"run", "--view", "--pause-at", "0"}).view.pause_at_s, 0.0);
+  for (const char* wrong : {"nan", "-1", "inf", "1e7", "0x10"}) {
+    EXPECT_THROW(parse_command_line({"run", "--view", "--pause-at", wrong}), InputError) << wrong;
+    EXPECT_THROW(parse_command_line({"replay", "a", "--export", "a.mp4", "--seconds", wrong}), InputError) << wrong;
+    EXPECT_THROW(parse_command_line({"replay", "a", "--export", "a.mp4", "--speed", wrong}), InputError) << wrong;
+  }
+}
+
 }  // namespace
 }  // namespace skein::cli

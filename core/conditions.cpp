@@ -1,6 +1,7 @@
 #include "core/conditions.hpp"
 
 #include <algorithm>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -103,11 +104,17 @@ ConditionsConfig chosen_conditions(const std::string& text, const ConditionsConf
   ConditionsConfig chosen = base;
   std::string parts = text;
   std::ranges::replace(parts, '+', ',');  // in a list of presets, a comma stands between two of them
+  std::set<std::string> named;
   for (const std::string& part : split(parts)) {
     const std::size_t equals = part.find('=');
     const std::string preset = equals == std::string::npos ? part : part.substr(equals + 1);
     check_preset(preset);
     if (equals == std::string::npos) {
+      if (!named.empty()) {
+        throw InputError("'" + part + "' is for all sections, so it stands once, and before single ones: '" + preset +
+                         ",wind=harsh', say");
+      }
+      named.insert("");
       chosen = conditions_preset(preset);
       continue;
     }
@@ -119,6 +126,7 @@ ConditionsConfig chosen_conditions(const std::string& text, const ConditionsConf
     if (std::ranges::find(names, section) == names.end()) {
       throw InputError("there is no section '" + section + "' of conditions; " + suggestion(section, names));
     }
+    if (!named.insert(section).second) throw InputError("the section '" + section + "' is named twice; name it once");
   }
   return chosen;
 }

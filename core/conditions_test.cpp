@@ -60,6 +60,11 @@ TEST_F(ConditionsFile, PrintedTheyReadBackToTheSame) {
   EXPECT_EQ(to_yaml(load_scenario(folder_.path() / "again.yaml")), printed);
 }
 
+TEST_F(ConditionsFile, BatteriesThatAPresetHasCanBeSwapped) {
+  EXPECT_TRUE(load("conditions: {preset: breezy, battery: {swap_s: 60}}\n").conditions.battery.swaps());
+  EXPECT_TRUE(load("conditions: {battery: {preset: harsh, swap_s: 60}}\n").conditions.battery.swaps());
+}
+
 TEST_F(ConditionsFile, TheOptionReplacesWholeSections) {
   const std::string file = "conditions: {wind: {mean_mps: 3}, battery: {endurance_missions: 2}}\n";
   EXPECT_EQ(conditions_text(load(file, "none").conditions), "none");
@@ -100,6 +105,10 @@ INSTANTIATE_TEST_SUITE_P(
                       BadValue{"conditions: {lidar: {clutter_p: 1}}\n", "", "lidar.clutter_p: must be"},
                       BadValue{"conditions: {camera: {exposure_factor: 0}}\n", "", "exposure_factor: must be"},
                       BadValue{"conditions: {radio: {exponent: 9}}\n", "", "radio.exponent: must be"},
+                      BadValue{"conditions: {battery: {swap_s: 5}}\n", "", "battery.swap_s: needs endurance_missions"},
+                      BadValue{"", "wind=breezy,wind=harsh", "--conditions: the section 'wind' is named twice"},
+                      BadValue{"", "breezy+harsh", "--conditions: 'harsh' is for all sections"},
+                      BadValue{"", "wind=harsh,breezy", "--conditions: 'breezy' is for all sections"},
                       BadValue{"", "windy", "--conditions: there is no preset 'windy'"},
                       BadValue{"", "wind=", "--conditions: there is no preset ''"},
                       BadValue{"", "rain=harsh", "--conditions: there is no section 'rain'"}));

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "bus/bus.hpp"
+#include "core/text/number_checks.hpp"
 #include "core/topics.hpp"
 #include "doctor/checks_program.hpp"
 #include "doctor/net_program.hpp"
@@ -31,7 +32,8 @@ void add_options(CLI::App& app, Options& options) {
   app.add_flag("--json", options.json, "For programs");
   app.add_option("--as", options.name, "Name of this host (default: its own)");
   app.add_option("--only", options.only, "Domains in which it takes part")->delimiter(',');
-  app.add_option("--seconds", options.seconds, "How long it speaks and listens [s]")->check(CLI::Range(0.1, 36000.0));
+  app.add_option("--seconds", options.seconds, "How long it speaks and listens [s]")
+      ->check(CLI::Validator(number_within(0.1, 36000.0), ""));
   app.add_flag("--until-heard", options.until_heard, "End sooner, once all named peers hear each other");
   app.callback([&] { options.base_given = app.count("--domain") > 0; });
 }

@@ -1,6 +1,7 @@
 #include "properties/property_file.hpp"
 
 #include <algorithm>
+#include <cctype>
 
 #include "core/config/config_files.hpp"
 #include "core/text/suggestion.hpp"
@@ -44,6 +45,13 @@ struct PropertyFile {
     r.required("properties", properties);
   }
 };
+
+/// Whether a text can name a property. Folders and files of hunts and fault tests are named after properties.
+bool is_property_name(const std::string& name) {
+  constexpr std::size_t kLongest = 64;
+  const auto is_part = [](unsigned char c) { return c < 0x80 && (std::isalnum(c) != 0 || c == '_' || c == '-'); };
+  return !name.empty() && name.size() <= kLongest && std::ranges::all_of(name, is_part);
+}
 
 /// Parses a quantity such as "20 s". @throws ExpressionError.
 Quantity quantity_of(const std::string& text) {
@@ -147,6 +155,11 @@ PropertySet parse_properties(const PropertyEntries& entries, const std::string& 
   const std::vector<std::string> ready = ready_property_names();
   for (const auto& [name, entry] : entries) {
     const std::string path = key + "." + name;
+    if (!is_property_name(name)) {
+      errors.check(false, path,
+                   "no property can have this name: letters, digits, '_' and '-' make one, 1 to 64 of them");
+      continue;
+    }
     const std::string* text = std::get_if<std::string>(&entry);
     if (text != nullptr && *text == kOff) {
       errors.check(std::ranges::find(kDefaultProperties, name) != kDefaultProperties.end(), path,

@@ -72,6 +72,16 @@ TEST_F(PropertyFiles, WrongPropertiesAreRefusedWithLineAndColumn) {
   refused("propertis: {}\n", ":1: unknown key 'propertis'");
 }
 
+// Hunts and fault tests name folders and files after properties.
+TEST_F(PropertyFiles, NamesThatCouldBePathsAreRefused) {
+  const std::string longest(64, 'a');
+  for (const std::string& name : std::vector<std::string>{"../../x", "a/b", ".", "a b", "ä", longest + "a"}) {
+    refused("properties:\n  low: always held < 30\n  '" + name + "': always held < 30\n",
+            ":3: properties." + name + ": no property can have this name: letters, digits, '_' and '-'");
+  }
+  EXPECT_EQ(load("properties:\n  " + longest + ": always held < 30\n  A-b_2: always held < 30\n").size(), 2U);
+}
+
 TEST_F(PropertyFiles, EveryReadyPropertyFitsTheShippedScenarios) {
   const std::vector<std::string> names = ready_property_names();
   EXPECT_GE(names.size(), 10U);

@@ -33,8 +33,8 @@ class DigestFile {
     if (!next_line(in_, line, file_)) return std::nullopt;
     ++line_;
     std::vector<std::string> cells = split(line);
-    if (cells.size() == columns_.size() && !in_.eof()) return cells;
-    if (in_.eof() || in_.peek() == std::ifstream::traits_type::eof()) return std::nullopt;
+    if (in_.eof()) return std::nullopt;  // the line has no end
+    if (cells.size() == columns_.size()) return cells;
     throw InputError(file_.string() + ":" + std::to_string(line_) + ": has " + std::to_string(cells.size()) +
                      " columns, must have " + std::to_string(columns_.size()));
   }

@@ -62,6 +62,11 @@ TEST_F(RunDiff, ALineCutShortByAnAbortIsTheEnd) {
   EXPECT_FALSE(difference_to(kRun + "3,dd,1,1,1"));
 }
 
+TEST_F(RunDiff, ALastLineWithItsEndMustBeWhole) {
+  EXPECT_THROW(difference_to(kRun + "3,dd,1\n"), InputError);
+  EXPECT_THROW(difference_to(std::string(kHeader) + "0,aa,1,2,3\n1,bb,4,5,6\n2,cc,7,8\n"), InputError);
+}
+
 TEST_F(RunDiff, OtherColumnsAreADifference) {
   const auto difference = difference_to("k,digest,beta.position,radio\n0,aa,1,3\n");
   ASSERT_TRUE(difference);

@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "core/scenario/scenario_reader.hpp"
+#include "core/text/number_checks.hpp"
 #include "oracle/cache.hpp"
 #include "process/files/atomic_file.hpp"
 #include "process/files/user_cache.hpp"
@@ -31,7 +32,7 @@ void ServerTasks::add_options(CLI::App& app) {
   app.add_option("--oracle", oracle, "write what is attainable in the scenario to this file, then stop");
   app.add_option("--clearance", clearances_m, "with --oracle: of the cameras from the structure [m]")
       ->delimiter(',')
-      ->check(CLI::Range(0.0, 100.0));
+      ->check(CLI::Validator(number_within(0.0, 100.0), ""));
   app.add_flag("--vehicle", vehicle, "with --oracle: the UAVs' bodies keep the clearance, not their cameras");
   app.add_option("--oracle-patience", oracle_patience_s, "with --oracle: no answer that takes longer to compute [s]");
   app.add_flag("--plan", plan, "with --oracle: search, too, for what full knowledge scores in the mission's time");

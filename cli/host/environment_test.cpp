@@ -111,6 +111,11 @@ TEST(Environment, ProgramsInheritOtherVariables) {
   EXPECT_TRUE(environment_warnings().empty());
 }
 
+TEST(Environment, DoesNotWarnOfVariablesThatAreRead) {
+  const Variables set(Values{{"SKEIN_THREADS", "2"}, {"SKEIN_LAUNCHER", "/x/skein"}, {"SKEIN_LOADER", "/x/ld.so"}});
+  EXPECT_TRUE(environment_warnings().empty()) << environment_warnings()[0];
+}
+
 TEST(Environment, WarnsOfUnknownSkeinVariables) {
   const Variables set(Values{{"SKEIN_CHOAS", "3"}});
   ASSERT_EQ(environment_warnings().size(), 1u);

@@ -314,8 +314,11 @@ std::vector<std::string> last_lines(const std::filesystem::path& file, std::size
   std::deque<std::string> tail;
   bool cut = skipped > 0;  // the beginning of the first line is missing
   for (std::string line; std::getline(in, line); cut = false) {
-    if (cut && !in.eof()) continue;
-    if (line.size() > kLongestLogLine) line = line.substr(0, kLongestLogLine) + " ...";
+    if (cut && !in.eof()) {
+      if (in.peek() != std::ifstream::traits_type::eof()) continue;
+      line = "... " + line.substr(line.size() - std::min(line.size(), kLongestLogLine));  // nothing else is there
+    }
+    if (line.size() > kLongestLogLine && !line.starts_with("... ")) line = line.substr(0, kLongestLogLine) + " ...";
     tail.push_back(line);
     if (tail.size() > count) tail.pop_front();
   }

@@ -296,7 +296,11 @@ TEST_F(SupervisorTest, TheEndOfAHugeLogIsShort) {
   std::ofstream(log) << std::string(300000, 'x');
   EXPECT_EQ(last_lines(log, 10).size(), 1U);
   EXPECT_LE(last_lines(log, 10)[0].size(), 1100U);
-  std::ofstream(log, std::ios::app) << "\nlast words\n";
+  std::ofstream(log, std::ios::app) << "yes\n";
+  ASSERT_EQ(last_lines(log, 10).size(), 1U) << "all that the program said is one line";
+  EXPECT_TRUE(last_lines(log, 10)[0].starts_with("... ") && last_lines(log, 10)[0].ends_with("xyes"));
+  EXPECT_LE(last_lines(log, 10)[0].size(), 1100U);
+  std::ofstream(log, std::ios::app) << "last words\n";
   EXPECT_EQ(last_lines(log, 10), std::vector<std::string>{"last words"});
   std::filesystem::resize_file(log, std::uintmax_t{1} << 40);  // a hole
   EXPECT_LE(last_lines(log, 10).size(), 1U);

@@ -87,6 +87,7 @@ FaultMaker::FaultMaker(const Scenario& scenario, FaultSpace space)
     : space_(std::move(space)),
       scenarios_conditions_(scenario.conditions),
       conditions_(scenario.conditions),
+      shortest_s_(std::max(kShortest_s, std::ceil(10.0 * scenario.exchange_period_s - 1e-6) / 10.0)),
       uavs_(scenario.uav_names()),
       nodes_(uavs_),
       ground_programs_{programs::kStation, programs::kCommRouter} {
@@ -227,15 +228,15 @@ void FaultMaker::place(Fault& fault, RandomStream& draw) const {
 }
 
 void FaultMaker::end_in_time(Fault& fault) const {
-  fault.at_s = std::clamp(fault.at_s, 0.0, space_.heal_by_s - kShortest_s);
+  fault.at_s = std::clamp(fault.at_s, 0.0, space_.heal_by_s - shortest_s_);
   if (is_for_good(fault) && is_death(fault)) return;
   if (fault.waits) {
     fault.until_s = space_.heal_by_s;
-    fault.for_s = std::max(kShortest_s, *fault.for_s);
+    fault.for_s = std::max(shortest_s_, *fault.for_s);
     return;
   }
-  const double shortest_s = tenths(fault.at_s + kShortest_s);
-  fault.until_s = std::max(shortest_s, std::min(fault.until_s.value_or(shortest_s), space_.heal_by_s));
+  const double earliest_s = tenths(fault.at_s + shortest_s_);
+  fault.until_s = std::max(earliest_s, std::min(fault.until_s.value_or(earliest_s), space_.heal_by_s));
 }
 
 std::optional<Fault> FaultMaker::any(RandomStream& draw) const {

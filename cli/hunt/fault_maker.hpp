@@ -56,6 +56,7 @@ class FaultMaker {
   const FaultSpace space_;
   const ConditionsConfig scenarios_conditions_;
   ConditionsConfig conditions_;  ///< of the runs
+  double shortest_s_;            ///< shortest duration: an exchange begins in it, so that the fault acts
   std::vector<std::string> uavs_, with_lidar_, nodes_, ground_programs_, topics_;
 };
 

@@ -11,6 +11,7 @@
 #include "cli/hunt/trial.hpp"
 #include "cli/run/preflight.hpp"
 #include "cli/testing/fake_programs.hpp"
+#include "core/faults/fault_check.hpp"
 #include "core/faults/fault_writer.hpp"
 #include "core/scenario/scenario_reader.hpp"
 #include "tests/support/places.hpp"
@@ -77,6 +78,13 @@ TEST_F(FaultMakers, WhatIsDrawnIsAFaultFileAndReadsBackAsItWas) {
       EXPECT_EQ(plan.faults[i].end(), faults[i].end()) << fault_line(faults[i]);
       EXPECT_EQ(plan.faults[i].for_s, faults[i].for_s) << fault_line(faults[i]);
     }
+  });
+}
+
+TEST_F(FaultMakers, EachLastsLongEnoughToActHoweverLongAnExchangeIs) {
+  towers_.exchange_period_s = 0.75;
+  each([&](const std::vector<Fault>& faults) {
+    for (const Fault& fault : faults) EXPECT_TRUE(has_exchange(fault, towers_)) << fault_line(fault);
   });
 }
 

@@ -9,6 +9,7 @@
 #include "cli/hunt/fault_maker.hpp"
 #include "cli/hunt/weather_faults.hpp"
 #include "core/conditions.hpp"
+#include "core/faults/fault_check.hpp"
 #include "core/overloaded.hpp"
 
 namespace skein::cli {
@@ -78,6 +79,8 @@ class Proposals {
 
  private:
   void propose(const std::string& what, Trial trial) {
+    // `skein check` refuses a fault in whose time no exchange begins. Rounded times may make one.
+    if (!std::ranges::all_of(trial.faults, [&](const Fault& fault) { return has_exchange(fault, scenario_); })) return;
     trial.faults = without_contradictions(std::move(trial.faults));
     if (identity(trial) != identity(trial_)) proposals_.push_back({what, std::move(trial)});
   }
@@ -171,8 +174,8 @@ class Proposals {
     if (!trial_.run.conditions) return;
     propose_under("conditions", "none");
     for (const std::string& section : condition_sections()) {
-      const std::string without = *trial_.run.conditions + "," + section + "=none";
-      propose_under("conditions but " + section, conditions_text(chosen_conditions(without, scenario_.conditions)));
+      const ConditionsConfig now = chosen_conditions(*trial_.run.conditions, scenario_.conditions);
+      propose_under("conditions but " + section, conditions_text(chosen_conditions(section + "=none", now)));
     }
   }
 

@@ -9,6 +9,7 @@
 #include "cli/hunt/fault_maker.hpp"
 #include "cli/testing/fake_programs.hpp"
 #include "core/conditions.hpp"
+#include "core/faults/fault_check.hpp"
 #include "core/faults/fault_writer.hpp"
 #include "core/scenario/scenario_reader.hpp"
 #include "tests/support/places.hpp"
@@ -136,6 +137,16 @@ TEST_F(Shrinking, NeverProposesWhatIsNoFaultFile) {
       if (proposal.run.uavs) scenario.fleet.resize(*proposal.run.uavs);
       write_text(scratch.path() / "faults.yaml", proposal.text());
       EXPECT_NO_THROW(load_fault_plan(scratch.path() / "faults.yaml", scenario)) << proposal.text();
+    }
+  }
+}
+
+TEST_F(Shrinking, NeverProposesAFaultThatCannotAct) {
+  towers_.exchange_period_s = 0.75;
+  for (std::uint64_t number = 0; number < 30; ++number) {
+    const Trial trial = drawn(number);
+    for (const auto& [what, proposal] : simpler(trial, outcome_of(trial), "whole", towers_, std::nullopt)) {
+      for (const Fault& fault : proposal.faults) EXPECT_TRUE(has_exchange(fault, towers_)) << fault_line(fault);
     }
   }
 }

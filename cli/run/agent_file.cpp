@@ -11,6 +11,7 @@
 #include "cli/run/preflight.hpp"
 #include "core/planners/python_spec.hpp"
 #include "core/text/suggestion.hpp"
+#include "core/text/text.hpp"
 #include "process/host/environment.hpp"
 #include "process/reports/reports.hpp"
 #include "results/run_folder.hpp"
@@ -63,8 +64,8 @@ void require_known(const UavPlanner& planner, const std::vector<std::string>& kn
   if (python_spec(planner.spec)) return;  // every agent can load Python
   const std::string name = planner.spec.substr(0, planner.spec.find(':'));
   if (std::find(known.begin(), known.end(), name) != known.end()) return;
-  throw InputError("--planner " + written(planner) + ": there is no planner '" + name + "' in it; " +
-                   suggestion(name, known));
+  throw InputError("--planner " + shortened(written(planner)) + ": there is no planner '" + shortened(name) +
+                   "' in it; " + suggestion(name, known));
 }
 
 }  // namespace

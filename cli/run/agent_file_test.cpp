@@ -109,6 +109,19 @@ TEST_F(AgentFile, EachProgramChecksItsOwnPlanners) {
   EXPECT_EQ(check_programs(plan(), programs_.dir()).size(), 2u) << "sim_server, and one UAV for both";
 }
 
+// Before the folder of an earlier run is emptied for this one.
+TEST_F(AgentFile, AWrongNumberOfThreadsIsFoundInThePlan) {
+  write_script(file("uav_agent_fleet"), "");
+  write_script(stock_, kAgent);
+  options_.planner = "hover";
+  options_.one_process = true;
+  ::setenv("SKEIN_THREADS", "x", 1);
+  EXPECT_NE(refusal().find("SKEIN_THREADS: 'x' must be a whole number"), std::string::npos) << refusal();
+  ::setenv("SKEIN_THREADS", "3", 1);
+  EXPECT_EQ(plan().options.threads, 3);
+  ::unsetenv("SKEIN_THREADS");
+}
+
 TEST_F(AgentFile, WhatIsNoAgentIsNamedWithWhatWouldBeRight) {
   write_text(file("text"), "no program");
   write_script(file("other"), "echo two of a kind\nexit 3\n");
@@ -124,6 +137,8 @@ TEST_F(AgentFile, WhatIsNoAgentIsNamedWithWhatWouldBeRight) {
   refused("hover,gcs=hover@" + file("other"), {"skein_add_agent()", "exec:CMD", "two of a kind"});
   refused("hover,beta=orbits:x=1@" + agent("a"),
           {"--planner orbits:x=1@" + file("a") + ": ", "there is no planner 'orbits'", "did you mean 'orbit'?"});
+  refused(std::string(100000, 'a') + "@" + agent("a"), {"there is no planner 'aaa", "...' in it; known are: hover"});
+  EXPECT_LT(refusal().size(), 1000U);
   refused("waypoints:a@b.yaml", {"no such file", "write waypoints:a@b.yaml@" + stock_});
 }
 

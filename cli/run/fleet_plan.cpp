@@ -179,6 +179,8 @@ FleetPlan plan_fleet(const RunOptions& options, const std::filesystem::path& bin
   if (const auto reason = options.one_process ? needs_processes(plan) : std::nullopt) {
     throw InputError(*reason + "; leave out --one-process");
   }
+  // Now, because SKEIN_THREADS may be wrong: later the results folder has been emptied.
+  if (options.one_process) plan.options.threads = threads_of(options.threads, plan.scenario.fleet.size());
   return plan;
 }
 

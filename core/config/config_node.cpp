@@ -40,7 +40,9 @@ class TreeBuilder final : public YAML::EventHandler {
   void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override {
     if (anchor != 0) refuse_anchor(mark);
     ConfigNode node;
-    node.line = mark.line + 1;
+    // yaml-cpp gives the mark of the token that follows, which may stand many lines below: a key's line is its own.
+    const bool has_key = !stack_.empty() && stack_.back().has_key;
+    node.line = has_key ? stack_.back().node.key_lines.back() : mark.line + 1;
     accept(std::move(node));
   }
 

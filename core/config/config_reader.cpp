@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <optional>
 
 #include "core/text/suggestion.hpp"
 #include "core/text/text.hpp"
@@ -27,6 +28,20 @@ bool parse(std::string_view text, T& value) {
 std::string wanted(const std::string& what, const Bounds& bounds) {
   const std::string range = bounds.text();
   return range.empty() ? what : what + " " + range;
+}
+
+/// The key of a map with which a path "a.b[2].c" begins: the longest that fits, because a user's key may have dots
+/// itself.
+std::optional<std::size_t> key_at_beginning(const ConfigNode& map, std::string_view path) {
+  std::optional<std::size_t> longest;
+  for (std::size_t i = 0; i < map.keys.size(); ++i) {
+    const std::string& key = map.keys[i];
+    const bool ends =
+        path.size() == key.size() || (path.size() > key.size() && (path[key.size()] == '.' || path[key.size()] == '['));
+    if (!path.starts_with(key) || !ends) continue;
+    if (!longest || key.size() > map.keys[*longest].size()) longest = i;
+  }
+  return longest;
 }
 
 }  // namespace
@@ -88,14 +103,11 @@ std::pair<int, const ConfigNode*> ConfigErrors::find(const std::string& key_path
       line = node->line;
       at = end + 1;
     } else {
-      const auto end = std::min(key_path.find_first_of(".[", at), key_path.size());
-      const std::string_view key = std::string_view(key_path).substr(at, end - at);
-      const auto found = std::find(node->keys.begin(), node->keys.end(), key);
-      if (found == node->keys.end()) break;
-      const auto i = static_cast<std::size_t>(found - node->keys.begin());
-      line = node->key_lines[i];
-      node = &node->items[i];
-      at = end;
+      const auto i = key_at_beginning(*node, std::string_view(key_path).substr(at));
+      if (!i) break;
+      at += node->keys[*i].size();
+      line = node->key_lines[*i];
+      node = &node->items[*i];
     }
   }
   return {line, node};

@@ -198,6 +198,17 @@ TEST(ConfigReader, AnEmptyOptionalIsNone) {
   EXPECT_FALSE(parse("maybe: ~").maybe.has_value());
 }
 
+// yaml-cpp would give the line of what follows.
+TEST(ConfigReader, AnEmptyValueIsReportedInTheLineOfItsKey) {
+  EXPECT_EQ(complaint("flag: true\nreal:\n\n\n# a comment\nsmall: 3\n"), "test:2: real: must be a number, not nothing");
+  EXPECT_EQ(parse_config_document("part:\n  name:\n\n\nwords: []\n", "test").root.find("part")->find("name")->line, 2);
+}
+
+TEST(ConfigReader, AKeyWithDotsHasItsLine) {
+  EXPECT_EQ(complaint("named:\n  x: 1\n  ../y.z: one\n"), "test:3: named.../y.z: must be a number, not 'one'");
+  EXPECT_EQ(parse("named: {a: 1, a.b: 2}").named.size(), 2U);
+}
+
 TEST(ConfigReader, ReadsAssignmentsOfACommandLine) {
   const auto part = read_config<Part>(parse_assignments("name=wing,length_m=2.5", "--planner"));
   EXPECT_EQ(part.name, "wing");

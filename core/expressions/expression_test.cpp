@@ -198,6 +198,8 @@ TEST_F(Expressions, WrongOnesAreRefusedWhereTheyAreWrong) {
   refused("alive(changi) > 0", 0, "must be a number, and this is a condition");
   refused("result(sim_time_s) > 3", 21, "write a unit");
   refused("held + 1 m > 3", 7, "units do not fit");
+  refused("score ≥ 3", 6, "not '≥'");
+  refused("held > 1 \xE2\x89", 9, "not '\xE2\x89'");
   refused(std::string(500, '(') + "1", 65, "nested too deeply");
 }
 

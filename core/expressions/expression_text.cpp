@@ -15,6 +15,14 @@ bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool begins_word(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_'; }
 bool in_word(char c) { return begins_word(c) || is_digit(c); }
 
+/// Number of bytes of the first letter of a text in UTF-8. A text that is not in UTF-8 has letters of one byte or more.
+std::size_t letter_bytes(std::string_view text) {
+  const auto continues = [](char c) { return (static_cast<unsigned char>(c) & 0xC0) == 0x80; };
+  std::size_t bytes = 1;
+  while (bytes < text.size() && bytes < 4 && continues(text[bytes])) ++bytes;
+  return bytes;
+}
+
 }  // namespace
 
 std::size_t ExpressionText::at() {
@@ -34,7 +42,7 @@ bool ExpressionText::at_number() { return at() < text_.size() && (is_digit(text_
 std::string ExpressionText::next_text() {
   if (at() == text_.size()) return "the end";
   const std::string_view word = peek_word();
-  return "'" + std::string(word.empty() ? text_.substr(next_, 1) : word) + "'";
+  return "'" + std::string(word.empty() ? text_.substr(next_, letter_bytes(text_.substr(next_))) : word) + "'";
 }
 
 bool ExpressionText::accept_mark(std::string_view mark) {

@@ -73,6 +73,10 @@ ConditionsConfig changed_conditions(const FaultPlan& plan, const Scenario& scena
 void check_conditions_change(const ConfigNode& values, const Scenario& scenario, const std::string& path,
                              ConfigErrors& errors) {
   errors.check(!values.keys.empty(), path, "must have values of conditions, as {wind: {mean_mps: 12}}");
+  for (std::size_t i = 0; i < values.items.size(); ++i) {
+    const bool empty = values.items[i].kind == ConfigNode::Kind::map && values.items[i].keys.empty();
+    errors.check(!empty, path + "." + values.keys[i], "changes nothing: give at least one value, or leave it out");
+  }
   for (const auto& [section, key] : kFixedKeys) {
     const ConfigNode* part = values.find(section);
     errors.check(part == nullptr || part->find(key) == nullptr, path + "." + section + "." + key,

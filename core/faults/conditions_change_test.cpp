@@ -86,6 +86,7 @@ TEST_F(ConditionsChanges, APresetLeavesWhatARunBeginsWith) {
 
 TEST_F(ConditionsChanges, AreRefusedWithTheKeyAndWhatWouldBeRight) {
   refused("conditions: {}", "must have values");
+  refused("conditions: {camera: {}}", "faults[0].conditions.camera: changes nothing: give at least one value");
   refused("conditions: {wind: {mean_mps: 99}}", "faults[0].conditions.wind.mean_mps: must be a number within [0, 25]");
   refused("conditions: {wind: {meanmps: 9}}", "mean_mps");
   refused("conditions: {rain: {}}", "rain");

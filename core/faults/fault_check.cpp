@@ -1,6 +1,7 @@
 #include "core/faults/fault_check.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <limits>
 #include <optional>
@@ -12,6 +13,25 @@
 #include "core/text/text.hpp"
 
 namespace skein {
+
+namespace {
+
+/// Whether a link with this effect differs from one without it.
+bool changes_anything(const LinkEffect& effect) {
+  const bool bursts = effect.burst_loss && effect.burst_loss->loss > 0.0;
+  const bool reorders = effect.reordering && effect.reordering->probability > 0.0;
+  const bool loses = effect.loss > 0.0 || bursts || effect.corruption > 0.0;
+  const bool delays = effect.latency_s > 0.0 || effect.jitter_s > 0.0 || effect.bandwidth_bit_s || reorders;
+  return loses || delays || effect.range_m || effect.duplication > 0.0;
+}
+
+}  // namespace
+
+bool has_exchange(const Fault& fault, const Scenario& scenario) {
+  const std::optional<Tick> end = fault.end();
+  const Tick period = scenario.exchange_ticks();
+  return !end || (fault.begin() + period - 1) / period * period < *end;
+}
 
 std::optional<std::string> held_by(const FaultAction& action) {
   using Text = std::optional<std::string>;
@@ -72,6 +92,12 @@ void FaultChecker::check_times(const Fault& longest, const Fault& shortest, cons
   if (!longest.until_s) return;
   errors_.check(shortest.until_s > shortest.at_s, path + ".until_s",
                 "must be later than at_s, " + number_text(shortest.at_s));
+  const double period_s = scenario_.exchange_period_s;
+  const double first_s = std::ceil(longest.at_s / period_s - 1e-6) * period_s;
+  errors_.check(*longest.until_s <= longest.at_s || has_exchange(longest, scenario_), path,
+                "no exchange begins between " + number_text(longest.at_s) + " s and " + number_text(*longest.until_s) +
+                    " s, so the fault would never act: exchanges begin every " + number_text(period_s) +
+                    " s, the next one at " + number_text(first_s) + " s; let it end later");
   errors_.check(*longest.until_s <= latest_s_, path + ".until_s",
                 "is after the end: the mission of '" + scenario_.name + "' lasts " + end +
                     " s; leave the key out for a fault that lasts to the end");
@@ -84,6 +110,14 @@ void FaultChecker::check_name(const std::string& name, const std::vector<std::st
 }
 
 void FaultChecker::check_link(const LinkEffect& effect, const std::string& key) {
+  errors_.check(
+      changes_anything(effect), key,
+      "changes nothing: give at least one of loss, burst_loss, latency_s, jitter_s, bandwidth_bit_s, range_m, "
+      "duplication, reordering, corruption, above 0");
+  const bool is_loop = effect.from == effect.to && effect.from.size() == 1 && effect.from[0] != "all";
+  errors_.check(!is_loop, key + ".to",
+                "no node sends to itself: name another node than '" + (is_loop ? effect.from[0] : std::string()) +
+                    "', or leave one of them out");
   for (const auto& [end, names] : {std::pair("from", &effect.from), std::pair("to", &effect.to)}) {
     const std::string path = key + "." + end;
     errors_.check(!names->empty(), path, "must name at least one node, or be the word all");
@@ -97,6 +131,7 @@ void FaultChecker::check_partition(const Partition& partition, const std::string
   errors_.check(!partition.groups.empty(), key, "must be a list of groups, each a list of nodes");
   std::set<std::string> seen;
   for (const auto& group : partition.groups) {
+    errors_.check(!group.empty(), key, "must have no empty group: leave it out; who is in no group is cut off anyway");
     for (const std::string& name : group) {
       check_name(name, nodes_, key, "node");
       errors_.check(seen.insert(name).second, key, "'" + name + "' is in two groups");

@@ -12,6 +12,9 @@
 
 namespace skein {
 
+/// Whether an exchange begins in [at_s, until_s): otherwise the fault never acts. true for a fault that has no end.
+bool has_exchange(const Fault& fault, const Scenario& scenario);
+
 /// The resource that a fault holds, as a text. Two faults that hold the same resource at the same time contradict each
 /// other. nullopt for a LinkEffect and a ConditionsChange: several may act at once.
 std::optional<std::string> held_by(const FaultAction& action);

@@ -186,6 +186,14 @@ FaultCondition read_condition(const std::string& text, const SignalNames& names,
   return when;
 }
 
+/// A queue holds only what waits for a limited rate. An effect always has a size of queue, so the file is asked.
+void check_queue(const ConfigNode& fault, const std::string& path, ConfigErrors& errors) {
+  const ConfigNode* link = fault.find("link");
+  if (link == nullptr || link->find("queue_bytes") == nullptr) return;
+  errors.check(link->find("bandwidth_bit_s") != nullptr, path + ".link.queue_bytes",
+               "needs bandwidth_bit_s: without it no message waits in a queue");
+}
+
 std::vector<Fault> read_faults(const FaultFile& content, const ConfigDocument& document, const Scenario& scenario,
                                std::uint64_t seed) {
   ConfigErrors errors(document);
@@ -213,6 +221,7 @@ std::vector<Fault> read_faults(const FaultFile& content, const ConfigDocument& d
     if (auto* change = std::get_if<ConditionsChange>(&fault.action)) {
       change->values = *document.root.find("faults")->items[i].find("conditions");
     }
+    check_queue(document.root.find("faults")->items[i], path, errors);
     if (entry.when) fault.when = read_condition(*entry.when, names, path + ".when", errors);
     checker.check(entry.longest(fault.action), entry.shortest(fault.action), path);
   }

@@ -58,6 +58,11 @@ void check_times(const Scenario& scenario, ConfigErrors& errors) {
   errors.check(scenario.station_position.z() >= 0.0, "station.position", "z must be 0 or more: the ground is at 0");
 }
 
+void check_battery(const BatteryConditions& battery, ConfigErrors& errors) {
+  errors.check(battery.on() || !battery.swap_s, "conditions.battery.swap_s",
+               "needs endurance_missions, or a preset that has it (breezy, harsh): otherwise there are no batteries");
+}
+
 void check_names(const ScenarioFile& file, ConfigErrors& errors) {
   // Names of nodes and topics; and of members of the lock-step, which is by name.
   static const std::set<std::string> reserved = {"all", "clock",      "comm_router", "gcs",     "one_process",
@@ -318,6 +323,7 @@ Scenario load_scenario(const std::string& name_or_path, const LoadOptions& optio
   ConfigErrors errors(document);
   if (options.uavs) resize_fleet(*options.uavs, file.fleet);
   check_times(scenario, errors);
+  check_battery(scenario.conditions.battery, errors);
   check_names(file, errors);
   check_scene(scenario.scene, errors);
   apply_overrides(options, scenario);

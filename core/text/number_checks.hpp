@@ -3,6 +3,7 @@
 // with 309 digits, as the upper limit.   Pure.
 #pragma once
 
+#include <functional>
 #include <string>
 
 namespace skein {
@@ -11,5 +12,8 @@ namespace skein {
 std::string check_positive(const std::string& text);
 /// @returns an error message unless the text is a number of at least 0, otherwise an empty text.
 std::string check_not_negative(const std::string& text);
+
+/// A validator of numbers within [least, most]. Unlike CLI::Range it refuses "nan" and "0x10", too.
+std::function<std::string(const std::string&)> number_within(double least, double most);
 
 }  // namespace skein

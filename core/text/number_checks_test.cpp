@@ -15,5 +15,13 @@ TEST(NumberChecks, SayInAFewWordsWhatIsWrong) {
   EXPECT_EQ(check_not_negative("-0.5"), "'-0.5' must be a number of at least 0");
 }
 
+TEST(NumberChecks, ARangeHasOnlyNumbersInDecimalDigits) {
+  const auto check = number_within(0.5, 100.0);
+  for (const char* good : {"0.5", "1", "1e2"}) EXPECT_EQ(check(good), "") << good;
+  for (const char* bad : {"nan", "inf", "0.4", "100.1", "0x10", "", "1x"}) {
+    EXPECT_EQ(check(bad), "'" + std::string(bad) + "' must be a number within [0.5, 100]");
+  }
+}
+
 }  // namespace
 }  // namespace skein

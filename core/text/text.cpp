@@ -105,6 +105,14 @@ std::vector<std::string> shell_words(const std::string& command) {
   return words;
 }
 
+std::string shortened(const std::string& text) {
+  constexpr std::size_t kLongest = 80;
+  if (text.size() <= kLongest) return text;
+  std::size_t end = kLongest;
+  while (end > kLongest - 4 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;  // inside of a letter
+  return text.substr(0, end) + "...";
+}
+
 std::string printable(std::string text) {
   const auto is_forbidden = [](unsigned char c) { return c < 0x20 && c != '\n' && c != '\t'; };
   std::replace_if(text.begin(), text.end(), is_forbidden, '?');

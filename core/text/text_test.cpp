@@ -104,5 +104,11 @@ TEST(Text, ControlCharactersAreShownAsQuestionMarks) {
   EXPECT_EQ(printable(std::string("a\x01\0b\n\tü", 8)), "a??b\n\tü");
 }
 
+TEST(Text, LongTextsAreQuotedShortAndInWholeLetters) {
+  EXPECT_EQ(shortened("orbit"), "orbit");
+  EXPECT_EQ(shortened(std::string(100000, 'a')), std::string(80, 'a') + "...");
+  EXPECT_EQ(shortened(std::string(79, 'a') + "ä" + std::string(9, 'a')), std::string(79, 'a') + "...");
+}
+
 }  // namespace
 }  // namespace skein

@@ -10,6 +10,7 @@
 
 #include "core/config/config_reader.hpp"
 #include "core/text/suggestion.hpp"
+#include "core/text/text.hpp"
 #include "uav_agent/api/agent_config.hpp"
 
 namespace skein::agent {
@@ -45,7 +46,7 @@ class StrategyRegistry {
     const std::string parameters = colon == std::string::npos ? "" : spec.substr(colon + 1);
     const auto found = factories().find(name);
     if (found == factories().end()) {
-      throw InputError("--planner: there is no " + what + " '" + name + "'; " + suggestion(name, names()));
+      throw InputError("--planner: there is no " + what + " '" + shortened(name) + "'; " + suggestion(name, names()));
     }
     const bool is_file = !parameters.empty() && parameters.find('=') == std::string::npos;
     return found->second(

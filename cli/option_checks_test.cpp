@@ -1,0 +1,70 @@
+// Values that no option may have, whatever the command.
+#include "cli/option_checks.hpp"
+
+#include <gtest/gtest.h>
+
+#include "cli/options.hpp"
+#include "core/types.hpp"
+
+namespace skein::cli {
+namespace {
+
+using Arguments = std::vector<std::string>;
+
+std::string said_of(const Arguments& arguments) {
+  try {
+    parse_command_line(arguments);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(OptionChecks, WholeNumbersAreDecimal) {
+  for (const Arguments& numbered :
+       {Arguments{"run", "--seed"}, Arguments{"run", "--scene-seed"}, Arguments{"run", "--uavs"},
+        Arguments{"run", "--lease"}, Arguments{"run", "--domain"}, Arguments{"run", "--one-process", "--threads"},
+        Arguments{"compare", "--uavs"}, Arguments{"compare", "--jobs"}, Arguments{"contest", "--tests"},
+        Arguments{"hunt", "--jobs"}, Arguments{"hunt", "--shrink"}, Arguments{"bench", "--sizes"}}) {
+    for (const char* wrong : {"010", "0x10", "09", "00"}) {
+      Arguments arguments = numbered;
+      arguments.emplace_back(wrong);
+      const std::string said = said_of(arguments);
+      EXPECT_NE(said.find(numbered.back() + ": '" + wrong + "' must be a whole number in decimal"), std::string::npos)
+          << numbered[0] << ": " << said;
+    }
+    Arguments arguments = numbered;
+    arguments.emplace_back("10");
+    EXPECT_EQ(said_of(arguments), "accepted") << numbered[0] << numbered.back();
+  }
+  EXPECT_EQ(std::get<RunOptions>(parse_command_line({"run", "--seed", "0"})).seed, 0U);
+  EXPECT_EQ(std::get<RunOptions>(parse_command_line({"run", "--duration", "010"})).duration_s, 10.0);
+}
+
+TEST(OptionChecks, ListsHaveNoEmptyItems) {
+  for (const Arguments& arguments :
+       {Arguments{"compare", "--uavs", "1,,2"}, Arguments{"compare", "--uavs=1,"}, Arguments{"compare", "--uavs", ",1"},
+        Arguments{"oracle", "towers", "--clearance", "0.5,,1"}, Arguments{"bench", "--sizes", "1", ",2"},
+        Arguments{"hunt", "--without", "a,,b"}, Arguments{"compare", "--scenarios", "towers,", "--uavs", "1"}}) {
+    EXPECT_NE(said_of(arguments).find("is empty; write one comma"), std::string::npos) << said_of(arguments);
+  }
+  for (const Arguments& arguments :
+       {Arguments{"compare", "--uavs", "1,2", "--scenarios", "towers"}, Arguments{"bench", "--sizes", "1,2", "5"},
+        Arguments{"oracle", "--clearance=0.5,1", "towers"}}) {
+    EXPECT_EQ(said_of(arguments), "accepted");
+  }
+}
+
+TEST(OptionChecks, UnitsOfASweepTakeMinutes) {
+  for (const char* wrong : {"nan", "0", "inf"}) {
+    EXPECT_NE(said_of({"compare", "--unit-minutes", wrong}), "accepted") << wrong;
+  }
+}
+
+TEST(OptionChecks, AMistypedCommandIsNamed) {
+  EXPECT_NE(said_of({"rnu", "towers"}).find("there is no command 'rnu'; did you mean 'run'?"), std::string::npos);
+  EXPECT_NE(said_of({"frobnicate"}).find("there is no command 'frobnicate'; known are: "), std::string::npos);
+}
+
+}  // namespace
+}  // namespace skein::cli
