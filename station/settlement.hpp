@@ -9,9 +9,9 @@
 
 namespace skein::station {
 
-/// Writes the station's files into `folder` from the journal there (station_report.hpp), and from the simulator's report,
-/// which has the collisions of the time after the station was killed. captures.csv lists only
-/// captures that were delivered. The score earned is unknown: it is left out, or 0 if the journal is empty.
+/// Writes the station's files into `folder` from the journal there (station_report.hpp), and from the simulator's
+/// report, which has the collisions of the time after the station was killed. captures.csv lists only captures that
+/// were delivered. The score earned is unknown: it is left out, or 0 if the journal is empty.
 /// @throws std::runtime_error when scene.json, which has the points, is missing; or a file cannot be read or written.
 void settle(const std::filesystem::path& folder, const Scenario& scenario, RunId run, StatusPipe& status);
 

@@ -21,8 +21,8 @@ class Homing {
   /// Notes the link to the station, and whether captures arrive. Call it once per exchange.
   void update(const PlannerInput& in) { link_.update(in); }
   /// Whether the UAV must fly to a link now. Either the remaining time is only just enough for the flight, and captures
-  /// do not arrive from here; or captures have been undelivered for longer than deliver_every_s, and no flight to a link
-  /// has been given up in this time.
+  /// do not arrive from here; or captures have been undelivered for longer than deliver_every_s, and no flight to a
+  /// link has been given up in this time.
   bool due(const PlannerInput& in) const;
   /// Call it when none of the places() has a link: the station may be out of reach for long.
   void give_up(const PlannerInput& in) { given_up_ = in.tick; }

@@ -3,9 +3,10 @@
 // Where a UAV is known to be, its returns are not taken for structure (beam_scan.hpp). A UAV that is not heard enters
 // the map like a wall, and also the maps of those UAVs with which the map is shared. So does a UAV that reports wrong
 // positions: it counts as not heard from when its positions contradict its velocities until they have agreed for
-// Config::agree_s. When it is heard again, these cubes are doubted (WorldMap::doubt()): they stay occupied until beams prove anew, from zero evidence, that they are
-// free. So if this rule doubts real structure, no thin member is lost: beams hit it again, or never prove it free. A
-// trace, a set of cubes that touch each other (26 neighbours), is doubted if all of this holds for one UAV:
+// Config::agree_s. When it is heard again, these cubes are doubted (WorldMap::doubt()): they stay occupied until beams
+// prove anew, from zero evidence, that they are free. So if this rule doubts real structure, no thin member is lost:
+// beams hit it again, or never prove it free. A trace, a set of cubes that touch each other (26 neighbours), is doubted
+// if all of this holds for one UAV:
 //   - each cube became occupied while that UAV was not heard, and touches no occupied cube outside the trace;
 //   - at the cube's first hit the UAV may have been there: d <= b + v t, where d and t are distance and time since the
 //     place where it was heard last, v is its greatest speed and b its body with margins: its radius, half of a cube's
