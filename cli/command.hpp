@@ -309,7 +309,6 @@ struct MergeOptions {
   std::optional<std::string> scenario;  ///< instead of the scenario that the server reports
   std::optional<std::filesystem::path> assets;
   bool report = true;  ///< as in RunOptions
-  bool force = false;  ///< replace a result that the launcher of the run wrote
 };
 
 /// `skein ps`: lists the fleets that are flying, with their processes.

@@ -89,27 +89,33 @@ void settle(const char* program, const char* books, const RunOptions& run, const
   if (run.uavs) argv.insert(argv.end(), {"--uavs", std::to_string(*run.uavs)});
   if (run.rules) argv.insert(argv.end(), {"--rules", *run.rules});
   run_to_end({program, argv, fleet_environment(false), dir / run_folder::log_file(program), true});
-  require_sound(dir, program);
+  if (!is_damaged(dir, program)) return;
+  throw InputError(report.string() + ": is damaged, and cannot be made anew from " + books + ": see " + program +
+                   ".log");
 }
 
-/// The launcher of a run knows what no report says: the command, processes and memory. Its result must not be lost.
-/// @throws InputError if result.json is undamaged, and the launcher wrote it
-void check_result_in_place(const MergeOptions& options, const fs::path& dir, std::ostream& err) {
+/// What a launcher has written to result.json and no report has. Null if there is no result, or a damaged one.
+Json launchers_facts(const fs::path& dir, std::ostream& err) try {
   std::error_code error;
-  if (options.force || !fs::exists(dir / run_folder::kResult, error)) return;
-  Json result;
-  try {
-    result = results::read_result_file(dir);
-  } catch (const InputError& damage) {
-    err << damage.what() << "; it is made anew" << std::endl;
-    return;
+  if (!fs::exists(dir / run_folder::kResult, error)) return {};
+  const Json result = results::read_result_file(dir);
+  Json facts;
+  for (const char* key : {"command", "startup_s", "memory_mb", "processes"}) {
+    if (result.contains(key)) facts[key] = result[key];
   }
-  const bool of_a_launcher = result.contains("command") || !value_or(result, "processes", Json::object()).empty();
-  if (!of_a_launcher) return;
-  throw InputError(
-      (dir / run_folder::kResult).string() +
-      ": is there already, and undamaged: the launcher of the run wrote it, with values that no report has "
-      "(command, processes, memory_mb); leave it, or replace it with --force");
+  return facts;
+} catch (const InputError& damage) {
+  err << damage.what() << "; it is made anew" << std::endl;
+  return {};
+}
+
+/// The text of result.json, with these facts.
+std::string with_facts(const std::string& text, const Json& facts) {
+  if (facts.is_null()) return text;
+  Json result = Json::parse(text);
+  result.erase(results::kResultChecksum);
+  result.update(facts);
+  return results::result_text(std::move(result));
 }
 
 results::RunFacts facts_of(const RunOptions& run, const Scenario& scenario, const results::Reports& reports,
@@ -164,7 +170,7 @@ int merge_reports(const MergeOptions& options, const Console& console) {
   const fs::path dir = fs::absolute(options.dir);
   const Json server = read_json(dir / run_folder::report_file(programs::kSimServer));
   if (!server.is_object()) return merge_without_server(options, dir, console);
-  check_result_in_place(options, dir, console.err);
+  const Json facts_of_launcher = launchers_facts(dir, console.err);
   gather_agents(dir);
   const auto sim = struct_of<SimServerReport>(server);
   const RunOptions run = options_of(sim.flight, options, sim.rules);
@@ -175,9 +181,9 @@ int merge_reports(const MergeOptions& options, const Console& console) {
   settle(programs::kCommRouter, run_folder::kCounts, run, sim.flight, dir, console.err);
   const results::Reports reports = results::read_reports(dir, scenario);
   const results::RunFacts facts = facts_of(run, scenario, reports, dir);
-  const RunResults results{
-      run,     facts, scenario,
-      reports, dir,   [&](const std::string& text) { return write_if_possible(dir / run_folder::kResult, text); }};
+  const RunResults results{run, facts, scenario, reports, dir, [&](const std::string& text) {
+                             return write_if_possible(dir / run_folder::kResult, with_facts(text, facts_of_launcher));
+                           }};
   // Damage of the recording does not affect the result, but it must not go unnoticed.
   const std::vector<std::string> damage = recording_damage(dir);
   const auto result = write_results(

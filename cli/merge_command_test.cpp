@@ -90,26 +90,27 @@ TEST_F(MergeCommand, ADamagedReportIsMadeAnewFromTheBooks) {
   EXPECT_EQ(results::read_result_file(dir())["score"], 2.25);
 }
 
-TEST_F(MergeCommand, TheLaunchersResultStaysUnlessForced) {
-  const std::string launchers = results::result_text({{"score", 2.5}, {"command", "skein run small.yaml"}});
-  write_text(result_file(), launchers);
-  EXPECT_NE(refusal().find("--force"), std::string::npos) << refusal();
-  EXPECT_EQ(read_text(result_file()), launchers);
-
-  write_text(result_file(), results::result_text({{"score", 2.5}, {"processes", {{"station", {{"cpu_s", 1}}}}}}));
-  EXPECT_NE(refusal().find(result_file().string()), std::string::npos) << "not started by a user's command";
-
-  options_.force = true;
-  EXPECT_EQ(merge(), kExitDone) << err_.str();
-  EXPECT_FALSE(results::read_result_file(dir()).contains("command"));
-
-  options_.force = false;
-  std::string damaged = launchers;
+TEST_F(MergeCommand, WhatOnlyTheLauncherKnowsStays) {
+  const Json launchers = {{"command", "skein run small.yaml"},
+                          {"startup_s", 0.5},
+                          {"memory_mb", 90.0},
+                          {"processes", {{"station", {{"cpu_s", 1}}}}}};
+  Json before = launchers;
+  before["score"] = 1.5;
+  write_text(result_file(), results::result_text(before));
+  for (int i = 0; i < 2; ++i) {
+    EXPECT_EQ(merge(), kExitDone) << err_.str();
+    const Json result = results::read_result_file(dir());
+    EXPECT_EQ(result["score"], 2.5) << "by the station's report";
+    for (const auto& [key, value] : launchers.items()) EXPECT_EQ(result[key], value) << key;
+  }
+  std::string damaged = read_text(result_file());
   damaged.replace(damaged.find("2.5"), 3, "9.5");
   write_text(result_file(), damaged);
-  EXPECT_EQ(merge(), kExitDone) << "there is nothing to lose";
+  EXPECT_EQ(merge(), kExitDone) << err_.str();
   EXPECT_NE(err_.str().find(result_file().string() + ": is damaged"), std::string::npos) << err_.str();
   EXPECT_EQ(results::read_result_file(dir())["score"], 2.5);
+  EXPECT_FALSE(results::read_result_file(dir()).contains("command"));
 }
 
 }  // namespace

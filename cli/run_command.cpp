@@ -126,8 +126,8 @@ int run_fleet(const RunOptions& given, const Console& console) {
     console.out << place_commands(plan, read_placement(plan)) << std::flush;
     return kExitDone;
   }
-  ResultsDir::check(results_dir_of(options, plan.scenario.name), options.force);
   check_inputs_outlast(plan, results_dir_of(options, plan.scenario.name));
+  ResultsDir::check(results_dir_of(options, plan.scenario.name), options.force);
   std::optional<LivePage> page;
   if (options.view.at) plan.watched = page.emplace(view::read_endpoint(*options.view.at)).watched();
   if (options.check) check_before_flight(plan, console);

@@ -52,6 +52,7 @@ void check_is_of_a_study(const fs::path& out) {
   std::string first;  // the least name, so that the message does not depend on the order in the folder
   for (fs::directory_iterator entry(out, error), end; !error && entry != end; entry.increment(error)) {
     const std::string name = entry->path().filename();
+    if (name.starts_with('.') || name == "lost+found") continue;  // of a file system
     if (first.empty() || name < first) first = name;
   }
   if (first.empty()) return;

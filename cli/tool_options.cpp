@@ -259,7 +259,6 @@ void add_merge(CLI::App& app, MergeOptions& merge) {
                       "What was flown, if the server's own word for it is not known here");
   command->add_option("--assets", merge.assets, "Folder with models/ for scenarios that read files");
   command->add_flag("--no-report{false}", merge.report, "Make no report.html");
-  command->add_flag("--force", merge.force, "Replace a result of the launcher, which knows more than the reports do");
   command->footer("Example:\n  skein merge results");
 }
 

@@ -18,13 +18,15 @@ std::size_t count_points(const std::filesystem::path& scene_file) {
   return scene["points"].size();
 }
 
-/// The collisions in the simulator's report, if it is there.
-std::vector<LedgerEntry> reported_collisions(const std::filesystem::path& folder,
+/// The collisions in the simulator's report, if it is there, and of this run.
+std::vector<LedgerEntry> reported_collisions(const std::filesystem::path& folder, RunId run,
                                              const std::vector<std::string>& uavs) {
   const std::filesystem::path file = folder / run_folder::report_file(programs::kSimServer);
   std::vector<LedgerEntry> entries;
   if (!std::filesystem::exists(file)) return entries;
-  for (const CollisionReport& collision : struct_of<SimServerReport>(read_json(file)).collisions) {
+  const auto report = struct_of<SimServerReport>(read_json(file));
+  if (report.flight.run.value_or(0) != static_cast<std::uint64_t>(run)) return entries;
+  for (const CollisionReport& collision : report.collisions) {
     const auto uav = std::ranges::find(uavs, collision.uav.value_or(""));
     if (uav == uavs.end() || !collision.time_s) continue;
     LedgerEntry& entry = entries.emplace_back();
@@ -43,10 +45,12 @@ void settle(const std::filesystem::path& folder, const Scenario& scenario, RunId
   Scoreboard scoreboard(uavs.size(), count_points(folder / run_folder::kScene), scenario.rules);
   std::vector<TallyRecord> records = journal.replayed();
   std::vector<bool> collided(uavs.size(), false);
-  for (const TallyRecord& record : records)
-    collided[record.entry.uav] = collided[record.entry.uav] || record.entry.collision;
-  for (const LedgerEntry& entry : reported_collisions(folder, uavs)) {
+  for (const TallyRecord& record : records) {
+    if (record.entry.collision && record.entry.uav < uavs.size()) collided[record.entry.uav] = true;
+  }
+  for (const LedgerEntry& entry : reported_collisions(folder, run, uavs)) {
     if (collided[entry.uav]) continue;
+    collided[entry.uav] = true;
     const Tick last = records.empty() ? 0 : records.back().tick;
     records.push_back({std::max(last, entry.tick), entry});
   }

@@ -20,13 +20,13 @@ namespace {
 /// Variables that may be set: those for users, of docker/compose.yaml, of tests, and what Skein's programs set for each
 /// other (SKEIN_SWEEP_MERGES: cli/sweep/slurm.hpp, SKEIN_OTHER_CLOCK_S: process/host/other_clock.hpp).
 const std::vector<std::string> kUserNames = {
-    "SKEIN_AGENT",         "SKEIN_ASSETS",        "SKEIN_BIN_DIR",  "SKEIN_CHAOS",       "SKEIN_CONFIG_DIR",
-    kDurationVariable,     "SKEIN_LOG",           "SKEIN_NETWORK",  kThreadsVariable,    "SKEIN_WEB",
-    "SKEIN_DEBUG_VALUES",  "SKEIN_HASH_SEED",     "SKEIN_IMAGE",    "SKEIN_AGENT_IMAGE", "SKEIN_PYTHON_AGENT_IMAGE",
-    "SKEIN_USER",          "SKEIN_UID",           "SKEIN_GID",      "SKEIN_WITHOUT_WEB", "SKEIN_GOLDEN",
-    "SKEIN_ROS2",          "SKEIN_LONG",          "SKEIN_SANITIZE", "SKEIN_TURN",        "SKEIN_TURNS",
-    "SKEIN_FUZZ_SEED",     "SKEIN_WRITE_DIGESTS", "SKEIN_LAUNCHER", "SKEIN_LOADER",      "SKEIN_SWEEP_MERGES",
-    "SKEIN_OTHER_CLOCK_S", "SKEIN_STEP_ENTERED",  kPinnedVariable};
+    "SKEIN_AGENT",         "SKEIN_ASSETS",        "SKEIN_BIN_DIR",      "SKEIN_CHAOS",       "SKEIN_CONFIG_DIR",
+    kDurationVariable,     "SKEIN_LOG",           "SKEIN_NETWORK",      kThreadsVariable,    "SKEIN_WEB",
+    "SKEIN_DEBUG_VALUES",  "SKEIN_HASH_SEED",     "SKEIN_IMAGE",        "SKEIN_AGENT_IMAGE", "SKEIN_PYTHON_AGENT_IMAGE",
+    "SKEIN_USER",          "SKEIN_UID",           "SKEIN_GID",          "SKEIN_WITHOUT_WEB", "SKEIN_GOLDEN",
+    "SKEIN_ROS2",          "SKEIN_LONG",          "SKEIN_SANITIZE",     "SKEIN_TURN",        "SKEIN_TURNS",
+    "SKEIN_FUZZ_SEED",     "SKEIN_WRITE_DIGESTS", "SKEIN_LAUNCHER",     "SKEIN_LOADER",      "SKEIN_SWEEP_MERGES",
+    "SKEIN_OTHER_CLOCK_S", "SKEIN_RUN",           "SKEIN_STEP_ENTERED", kPinnedVariable};
 
 /// Commands that fly missions with an optional --duration.
 const std::set<std::string> kFlyingCommands = {"run", "compose", "compare", "contest"};

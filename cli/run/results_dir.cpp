@@ -60,17 +60,17 @@ void check_kind(const std::filesystem::path& dir) {
 
 /// Without --force, a run neither overwrites nor deletes a file, whoever wrote it. @throws InputError
 void check_nothing_in_the_way(const std::filesystem::path& dir) {
-  const auto refuse = [&](const std::string& what) {
-    throw InputError(dir.string() + " holds " + what + "; overwrite it with --force, or choose another --out");
+  const auto refuse = [&](const std::string& what, const std::string& lose) {
+    throw InputError(dir.string() + " holds " + what + "; " + lose + " it with --force, or choose another --out");
   };
   std::error_code error;  // ignored: the constructor reports what cannot be read
-  if (std::filesystem::exists(dir / run_folder::kResult, error)) refuse("a result already");
+  if (std::filesystem::exists(dir / run_folder::kResult, error)) refuse("a result already", "overwrite");
   std::string first;  // the least name, so that the message does not depend on the order in the folder
   for (std::filesystem::directory_iterator entry(dir, error), end; !error && entry != end; entry.increment(error)) {
     const std::string name = entry->path().filename();
     if (is_in_the_way(*entry) && (first.empty() || name < first)) first = name;
   }
-  if (!first.empty()) refuse("'" + first + "', a name that a run uses for a file of its own");
+  if (!first.empty()) refuse("'" + first + "', a name that a run uses for files of its own", "delete");
 }
 
 /// Whether a run holds the lock of this folder now.

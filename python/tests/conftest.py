@@ -39,11 +39,11 @@ def root() -> Path:
 
 @pytest.fixture(scope="session")
 def faults(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A fault file: links that lose messages, and a UAV without radio for a time."""
+    """A fault file: links that lose messages, and a UAV without radio in the end."""
     file = tmp_path_factory.mktemp("faults") / "faults.yaml"
     file.write_text("faults:\n"
                     "  - {at_s: 0, until_s: 45, link: {loss: 0.3}}\n"
-                    "  - {at_s: 35, until_s: 40, blackout: raffles}\n")
+                    "  - {at_s: 35, until_s: 50, blackout: raffles}\n")
     return file
 
 

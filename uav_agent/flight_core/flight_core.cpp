@@ -39,7 +39,7 @@ FlightState FlightCore::state() {
   if (state.working && navigator_.current()) {
     state.goal = navigator_.current()->id;
     state.on_way = navigator_.on_way();
-    state.leg = navigator_.leg();
+    state.leg = navigator_.leg() + (cut_id_ == state.goal ? cut_legs_ : 0);
   }
   return state;
 }
@@ -105,7 +105,10 @@ Steering FlightCore::step(const PlannerInput& in, std::optional<std::vector<Goal
   waits_for_.reset();
   no_way_.clear();
   told_.listen(in, navigator_.sees(), filter_);
-  if (goals) wanted_ = std::move(*goals);
+  if (goals) {
+    wanted_ = std::move(*goals);
+    cut_id_.reset();
+  }
   const bool asked = goals.has_value();
   if (mode_ != Mode::ground) homing_.update(in);
   if (mode_ != Mode::ground && mode_ != Mode::landing && caution_.must_land(in)) {
@@ -177,7 +180,8 @@ void FlightCore::take_off(const PlannerInput& in, Steering& steering) {
 /// The navigator's outcomes since the last call. Notes in no_way_ why a goal was not reached.
 std::vector<Outcome> FlightCore::outcomes() {
   std::vector<Outcome> outcomes = navigator_.take_outcomes();
-  for (const Outcome& outcome : outcomes) {
+  for (Outcome& outcome : outcomes) {
+    if (cut_id_ == outcome.id) outcome.leg += cut_legs_;
     if (outcome.kind != Outcome::Kind::reached) no_way_ = outcome.reason;
   }
   return outcomes;
@@ -241,9 +245,21 @@ bool FlightCore::begin_showing(const PlannerInput& in) {
   show_at_ = in.tick + ticks(kShowCheckS);
   auto goal = showing_.next(in, navigator_.space(in));
   if (!goal) return false;
+  cut_wanted();
   navigator_.want({std::move(*goal)});
   enter(Mode::showing, in);
   return true;
+}
+
+/// The line that the UAV flies will go on at the beginning of the present leg.
+void FlightCore::cut_wanted() {
+  if (!navigator_.on_way() || navigator_.leg() < 2) return;
+  const auto line = std::ranges::find(wanted_, navigator_.current()->id, &Goal::id);
+  if (line == wanted_.end()) return;
+  const auto flown = static_cast<std::ptrdiff_t>(std::min(navigator_.leg() - 1, line->way.size() - 1));
+  line->way.erase(line->way.begin(), line->way.begin() + flown);
+  cut_legs_ = static_cast<std::size_t>(flown) + (cut_id_ == line->id ? cut_legs_ : 0);
+  cut_id_ = line->id;
 }
 
 void FlightCore::show(const PlannerInput& in, Steering& steering) {
@@ -273,6 +289,7 @@ void FlightCore::go_home(const PlannerInput& in, Steering& steering) {
   if (in.station_linked && homing_.delivers_here(in)) {
     navigator_.stop(steering);
     at_place_since_.reset();
+    next_place_ = 0;
     return;
   }
   navigator_.step(in, filter_.held(), steering);

@@ -73,6 +73,7 @@ class FlightCore {
   void recover(const PlannerInput& in);
   bool begin_making_room(const PlannerInput& in, Steering& steering);
   bool begin_showing(const PlannerInput& in);
+  void cut_wanted();
   void show(const PlannerInput& in, Steering& steering);
   void go_home(const PlannerInput& in, Steering& steering);
   bool flies_along() const;
@@ -102,6 +103,8 @@ class FlightCore {
   std::optional<Vector3d> room_W_;        ///< where the UAV makes room for another one
   std::vector<Outcome> outcomes_;         ///< outcomes that the planner has not received yet
   std::vector<Goal> wanted_;              ///< the planner's last goals, for when `working` begins again
+  std::optional<std::int64_t> cut_id_;    ///< the goal among them that was interrupted on its way, ...
+  std::size_t cut_legs_ = 0;              ///< ... and lacks the first waypoints, which the UAV has passed
   std::optional<std::size_t> waits_for_;
   std::string no_way_;
 };

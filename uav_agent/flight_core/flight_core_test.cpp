@@ -165,6 +165,45 @@ TEST(FlightCore, RecoversWhereThereIsNoWayHome) {
   }
 }
 
+// It flies no part of its line twice, but for the leg in which it was interrupted, and counts legs as its strategy does.
+TEST(FlightCore, ALineThatWasInterruptedGoesOn) {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    RandomStream random(seed, "line", 0);
+    AgentConfig agent = a_lone_explorer();
+    agent.fleet.push_back(
+        {.name = "b", .role = Role::photographer, .p_WB_start = {0.0, 16.0, 0.0}, .body_radius_m = 0.32});
+    CoreUav uav(agent, {-20.0, -20.0, 10.0});
+    uav.clear({-24.0, -24.0, 2.0}, {24.0, 24.0, 24.0});
+    uav.boxes = {make_box({60.0, 0.0, 9.0}, {6.0, 6.0, 8.0})};
+    std::vector<Waypoint> way;
+    const double speed_mps = random.uniform(0.8, 1.2);
+    for (int i = 0; i <= 10; ++i) way.push_back({{i % 2 == 0 ? -20.0 : 20.0, -20.0 + 3.0 * i, 10.0}, speed_mps});
+    std::size_t leg = 0;
+    int shows = 0, begun_late = 0;
+    bool showed = false, reached = false;
+    for (int i = 0; i < 20 * 2000 && !reached; ++i) {
+      PlannerInput in = uav.input();
+      uav.core.update(in);
+      in.flight = uav.core.state();
+      for (const Outcome& outcome : in.flight.outcomes) reached |= outcome.id == 1;
+      if (in.flight.on_way) {
+        EXPECT_GE(in.flight.leg + 1, leg) << "seed " << seed << ", after " << i << " exchanges";
+        leg = std::max(leg, in.flight.leg);
+      }
+      std::optional<std::vector<Goal>> goals;
+      if (i == 30) goals = {{.id = 1, .way = way}};
+      uav.fly_by(uav.core.step(in, std::move(goals)));
+      const bool now = uav.core.doing(in).what == Doing::What::shows_mate;
+      if (now && !showed) ++shows;
+      if (now && !showed && leg >= 2) ++begun_late;
+      showed = now;
+    }
+    EXPECT_TRUE(reached) << "seed " << seed;
+    EXPECT_GE(leg, way.size() - 1) << "seed " << seed;
+    EXPECT_GE(begun_late, 1) << "seed " << seed << ", " << shows << " shows";
+  }
+}
+
 // Nobody saw it rise, so it assumed that space outside the boxes is free. What it is told then is far away.
 TEST(FlightCore, APhotographerThatAssumedSpaceToBeFreeFliesToTheSpaceThatItIsTold) {
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {

@@ -19,6 +19,7 @@ constexpr double kAgainS = 20.0;  ///< pause after an attempt; after the first k
 constexpr int kManyAttempts = 4;
 constexpr double kToldS = 60.0;  ///< a UAV that is low for longer may have received no map of its column
 constexpr double kAsideOfStartM = 0.5;
+constexpr double kNearM = 14.0;  ///< from here, a UAV at its place is in sight
 /// Before an explorer takes over a photographer, it waits this time for each explorer that starts nearer to it. In
 /// `towers`, `cranes` and `hangar`, photographers rise within 55 s if no UAV is lost.
 constexpr double kTakeOverS = 60.0;
@@ -40,6 +41,10 @@ Showing::Showing(const AgentConfig& agent, const SafetyFilter& filter) : agent_(
   }
 }
 
+bool Showing::is_visible(std::size_t uav, const PlannerInput& in) {
+  return std::ranges::any_of(in.peers.all(), [&](const Peer& peer) { return peer.uav == uav && peer.visible; });
+}
+
 bool Showing::has_risen(std::size_t uav, const PlannerInput& in) const {
   return std::ranges::any_of(in.peers.all(), [&](const Peer& peer) {
     const Vector3d from_start = peer.p_W - agent_.fleet[uav].p_WB_start;
@@ -51,7 +56,7 @@ bool Showing::is_due(const Charge& charge, const PlannerInput& in) const {
   if (in.tick < charge.not_before) return false;
   if (charge.nearer == 0) return true;
   if (seconds(in.tick - *since_) <= kTakeOverS * charge.nearer) return false;
-  return std::ranges::any_of(in.peers.all(), [&](const Peer& peer) { return peer.uav == charge.uav && peer.visible; });
+  return is_visible(charge.uav, in);
 }
 
 Vector3d Showing::place_W(std::size_t uav, const PlannerInput& in) const {
@@ -73,8 +78,11 @@ bool Showing::column_known(std::size_t uav, const PlannerInput& in) const {
 
 std::optional<Goal> Showing::next(const PlannerInput& in, const FreeSpace& space) {
   if (!since_) since_ = in.tick;
-  std::erase_if(charges_, [&](const Charge& it) { return has_risen(it.uav, in); });
   const Vector3d here_W = in.tracking.setpoint.p_WB;
+  // A UAV that is not to be seen from beside its place rose while this one was elsewhere.
+  const bool looked = std::exchange(was_known_, false) && (place_W(mate_, in) - here_W).norm() < kNearM;
+  const bool gone = looked && !is_visible(mate_, in);
+  std::erase_if(charges_, [&](const Charge& it) { return has_risen(it.uav, in) || (gone && it.uav == mate_); });
   const auto off_m = [&](const Charge& it) { return (agent_.fleet[it.uav].p_WB_start - here_W).norm(); };
   std::ranges::stable_sort(charges_, {}, off_m);
   for (Charge& it : charges_) {

@@ -37,6 +37,7 @@ class Showing {
     int attempts = 0;     ///< goals that next() returned for it
     Tick not_before = 0;  ///< earliest time of the next attempt
   };
+  static bool is_visible(std::size_t uav, const PlannerInput& in);
   bool has_risen(std::size_t uav, const PlannerInput& in) const;
   /// Whether it is this UAV's turn to show the way up to this charge, which has not risen yet.
   bool is_due(const Charge& charge, const PlannerInput& in) const;

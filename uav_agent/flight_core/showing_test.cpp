@@ -139,6 +139,31 @@ TEST(Showing, APhotographerThatStaysLowForLongIsShownAgain) {
   }
 }
 
+// It rose while the explorer was elsewhere.
+TEST(Showing, APhotographerThatIsNotWhereItStoodIsForgotten) {
+  for (const bool there : {true, false}) {
+    Shows uav(explorer_and_photographer(), 0);
+    uav.clear({-4.0, -10.0, 0.0}, {16.0, 10.0, 16.0});
+    ASSERT_FALSE(uav.next());
+    uav.k += 1300;
+    const auto goal = uav.next();
+    ASSERT_TRUE(goal) << "its column has been known for a minute";
+    uav.tracker.follow({{{goal->way.front().p_WB, 4.0}}});
+    for (int i = 0; i < 400 && !uav.tracker.tracking().done; ++i) {
+      uav.tracker.step(uav.state, uav.agent.exchange_period_s);
+      uav.state.p_WB = uav.tracker.commanded().p_WB;
+    }
+    int shows = 0;
+    for (int i = 0; i < 100; ++i, uav.k += 400) {
+      if (there) {
+        uav.peers.update(uav.input().tick, {{node_of_uav(UavIndex(1)), Vector3d(6.0, 0.0, 0.2), std::nullopt}});
+      }
+      if (uav.next()) ++shows;
+    }
+    EXPECT_EQ(shows > 0, there);
+  }
+}
+
 TEST(Showing, APhotographerThatWentAsideIsShownItsWayWhereItIs) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     RandomStream random(seed, "aside", 0);

@@ -115,16 +115,19 @@ PlannerOutput FlockPlanner::plan(const PlannerInput& in) {
   } else {
     route_.clear();
   }
-  talk_.speak(in, surfaces_->grid(), surfaces_->points(), own_word(), out);
+  talk_.speak(in, surfaces_->told_grid(), surfaces_->points(), own_word(), out);
   return out;
 }
 
-/// Begins anew if the explorers are lost before they have found any surface for this UAV, and if they come back.
+/// Begins anew when the UAV begins to fly without a map, before it knows any surface, and when it has a map again.
 void FlockPlanner::set_up(const PlannerInput& in) {
   const bool unknown = !surfaces_ || surfaces_->blind() || surfaces_->surface_m2() == 0.0;
   const bool blind = unknown && in.space && in.space->config().blind_fleet;
   if (surfaces_ && surfaces_->blind() == blind) return;
+  std::optional<FlockSurfaces> before = std::move(surfaces_);
   surfaces_.emplace(config_, agent_, in.boxes, sharp_m_, blind);
+  if (before) surfaces_->points() = std::move(before->points());
+  if (before) surfaces_->survey() = std::move(before->survey());
   targets_.reset();
   route_.clear();
 }
@@ -157,6 +160,7 @@ bool FlockPlanner::view_taken(const PlannerInput& in) {
   const FlockView& view = route_.front();
   if ((in.state.p_WB - view.p_WB).norm() > kReachedM) {
     there_since_.reset();
+    aimed_since_.reset();
     return false;
   }
   if (!there_since_) there_since_ = in.tick;

@@ -167,6 +167,25 @@ TEST(FlockSurfaces, WhatTheCameraCannotLookAtIsLeftOutForATime) {
   EXPECT_EQ(uav.told_faces(), 0U);
 }
 
+/// A UAV that takes boxes for structure, because it flies without a map, tells nobody so: others know better. In a fleet
+/// that has no LiDAR at all, all UAVs take them for structure.
+TEST(FlockSurfaces, BoxesTakenForStructureAreNotToldToThoseWhoSee) {
+  BeforeAWall uav;
+  const auto occupied = [](const VoxelGrid& grid) {
+    std::size_t count = 0;
+    for (VoxelGrid::Id id = 0; id < grid.count(); ++id) count += grid.state(id) == VoxelState::occupied;
+    return count;
+  };
+  const FlockSurfaces sees(uav.flock, uav.agent, uav.boxes, kSharpM);
+  EXPECT_EQ(&sees.told_grid(), &sees.grid());
+  const FlockSurfaces blind(uav.flock, uav.agent, uav.boxes, kSharpM, true);
+  EXPECT_GT(occupied(blind.grid()), 100U);
+  EXPECT_EQ(occupied(blind.told_grid()), 0U);
+  for (FleetMember& member : uav.agent.fleet) member.role = Role::photographer;
+  const FlockSurfaces all_blind(uav.flock, uav.agent, uav.boxes, kSharpM, true);
+  EXPECT_EQ(&all_blind.told_grid(), &all_blind.grid());
+}
+
 /// Views before the wall: what each shows is what the score's formulas say of that picture, and nothing on the wall's
 /// far side.
 TEST(FlockViews, ShowWhatAPictureFromThereWouldShow) {

@@ -51,6 +51,7 @@ FlockSurfaces::FlockSurfaces(const FlockConfig& config, const AgentConfig& agent
     const Vector3d centre = grid_.centre_W(id);
     in_site_[id] = std::ranges::any_of(boxes, [&](const OrientedBox& box) { return box.contains(centre, margin_m); });
   }
+  if (blind_ && agent.first_explorer()) nothing_told_ = grid_;
   if (blind_) fill_boxes(boxes, grid_);
 }
 

@@ -9,6 +9,7 @@
 
 #include <array>
 #include <map>
+#include <optional>
 #include <vector>
 
 #include "core/camera_quality.hpp"
@@ -33,13 +34,15 @@ struct FlockTarget {
 class FlockSurfaces {
  public:
   /// @param sharp_m  d*.   @param agent, config  must outlive this.
-  /// @param blind  no LiDAR finds structure for this UAV: the faces of the boxes count as surface.
+  /// @param blind  this UAV knows no structure, and flies without a map: the faces of the boxes count as surface.
   FlockSurfaces(const FlockConfig& config, const AgentConfig& agent, const std::vector<OrientedBox>& boxes,
                 double sharp_m, bool blind = false);
   bool blind() const { return blind_; }
 
   VoxelGrid& grid() { return grid_; }
   const VoxelGrid& grid() const { return grid_; }
+  /// What others are told of the grid. Boxes that only this UAV takes for structure are no knowledge.
+  const VoxelGrid& told_grid() const { return nothing_told_ ? *nothing_told_ : grid_; }
   FlockSurvey& survey() { return survey_; }
   const FlockSurvey& survey() const { return survey_; }
   FlockPoints& points() { return points_; }
@@ -78,6 +81,7 @@ class FlockSurfaces {
   const double sharp_m_;
   const bool blind_;
   VoxelGrid grid_;
+  std::optional<VoxelGrid> nothing_told_;  ///< an empty grid, if this UAV is blind and others may not be
   WorldVoxels voxels_;
   FlockSurvey survey_;
   FlockPoints points_;
