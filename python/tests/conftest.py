@@ -43,7 +43,7 @@ def faults(tmp_path_factory: pytest.TempPathFactory) -> Path:
     file = tmp_path_factory.mktemp("faults") / "faults.yaml"
     file.write_text("faults:\n"
                     "  - {at_s: 0, until_s: 45, link: {loss: 0.3}}\n"
-                    "  - {at_s: 35, until_s: 50, blackout: raffles}\n")
+                    "  - {at_s: 35, blackout: raffles}\n")
     return file
 
 

@@ -77,9 +77,11 @@ def test_the_score_ends_with_what_was_delivered(flown: skein.Run) -> None:
     assert earned.get_ydata()[-1] == pytest.approx(flown.result["score_earned"], abs=1e-6)
     assert delivered.get_xdata()[-1] == earned.get_xdata()[-1] == flown.sim_time_s
     spans = [patch.get_xy()[:, 0] for patch in ax.patches]
+    ends = [flown.sim_time_s if fault["ended_step"] is None else fault["ended_step"] * 0.05
+            for fault in flown.result["faults"]]
     assert [(span.min(), span.max()) for span in spans] == [
-        (pytest.approx(fault["began_step"] * 0.05), pytest.approx(fault["ended_step"] * 0.05))
-        for fault in flown.result["faults"]]
+        (pytest.approx(fault["began_step"] * 0.05), pytest.approx(end))
+        for fault, end in zip(flown.result["faults"], ends, strict=True)]
     assert len(plots.score(flown, earned=False).get_lines()) == 1
 
 
