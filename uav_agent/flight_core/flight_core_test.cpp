@@ -165,7 +165,7 @@ TEST(FlightCore, RecoversWhereThereIsNoWayHome) {
   }
 }
 
-// It flies no part of its line twice, but for the leg in which it was interrupted, and counts legs as its strategy does.
+// It flies no leg of its line twice but the one in which it was interrupted, and counts legs as its strategy does.
 TEST(FlightCore, ALineThatWasInterruptedGoesOn) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     RandomStream random(seed, "line", 0);
