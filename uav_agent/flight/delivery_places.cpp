@@ -10,7 +10,7 @@ namespace {
 constexpr double kDetour = 1.5;         ///< length of the path, in straight distances
 constexpr double kFixedS = 6.0;         ///< to brake, turn and accelerate
 constexpr double kLayerM = 3.0;         ///< height difference between the places of two UAVs
-constexpr std::size_t kLayers = 8;      ///< different heights; in larger fleets, UAVs share them
+constexpr std::size_t kLayers = 8;      ///< different heights of the UAVs' places
 constexpr double kSightRadiusM = 0.8;   ///< radius about the line of sight that must be clear of occupied cells
 constexpr double kStationM = 3.0;       ///< occupied cells nearer to the station do not count: its own surroundings
 constexpr double kAboveStationM = 3.0;  ///< least height above the station: a roof under it may hide it from below
@@ -26,7 +26,7 @@ std::vector<Vector3d> delivery_places(const AgentConfig& agent, const FreeSpace&
   };
   std::vector<Candidate> candidates;
   const double lowest_in_sight_m = std::max(lowest_m, agent.station_position.z() + kAboveStationM);
-  const double height = lowest_in_sight_m + kLayerM * static_cast<double>(agent.self % kLayers);
+  const double height = lowest_in_sight_m + delivery_layer_m(agent);
   const double own_direction =
       2.0 * std::numbers::pi * static_cast<double>(agent.self) / static_cast<double>(agent.fleet.size());
   for (const double outwards : kOutwards) {
@@ -45,6 +45,8 @@ std::vector<Vector3d> delivery_places(const AgentConfig& agent, const FreeSpace&
   for (const Candidate& candidate : candidates) places.push_back(candidate.p_W);
   return places;
 }
+
+double delivery_layer_m(const AgentConfig& agent) { return kLayerM * static_cast<double>(agent.self % kLayers); }
 
 double time_home_s(const Vector3d& from_W, const Vector3d& place_W, double speed_mps) {
   return kDetour * (place_W - from_W).norm() / speed_mps + kFixedS;

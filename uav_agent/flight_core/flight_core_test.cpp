@@ -204,7 +204,8 @@ TEST(FlightCore, ALineThatWasInterruptedGoesOn) {
   }
 }
 
-// Nobody saw it rise, so it assumed that space outside the boxes is free. What it is told then is far away.
+// No explorer saw the photographer rise, so it assumed that space outside the boxes is free. The map that it receives
+// then is of a place far away.
 TEST(FlightCore, APhotographerThatAssumedSpaceToBeFreeFliesToTheSpaceThatItIsTold) {
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
     RandomStream random(seed, "told", 0);

@@ -9,8 +9,6 @@ namespace skein::agent {
 namespace {
 
 constexpr double kNeverLinked = 1.7;  ///< factor on the time to a link, which a UAV that never had one has yet to find
-constexpr double kPlaceLayerM = 3.0;  ///< height difference between the places of two UAVs above all boxes
-constexpr std::size_t kLayers = 8;    ///< different heights of such places; in larger fleets, UAVs share them
 constexpr double kAboveAllM = 6.0;
 constexpr double kLowestM = 6.0;  ///< least height of a delivery place
 constexpr std::size_t kMostPlaces = 8;
@@ -42,7 +40,7 @@ std::vector<Vector3d> Homing::places(const PlannerInput& in, const FreeSpace& sp
   for (const Vector3d& p_W : delivery_places(agent_, space, kLowestM)) {
     if (places.size() < kMostPlaces) places.push_back(p_W);
   }
-  const double above_m = top_of(in.boxes) + kAboveAllM + kPlaceLayerM * static_cast<double>(agent_.self % kLayers);
+  const double above_m = top_of(in.boxes) + kAboveAllM + delivery_layer_m(agent_);
   places.emplace_back(agent_.station_position.x(), agent_.station_position.y(), above_m);
   return places;
 }

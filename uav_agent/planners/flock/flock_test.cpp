@@ -263,7 +263,7 @@ TEST(FlockReach, LeavesWhatItCannotReachForAWhile) {
   }
 }
 
-/// Nobody proves space free in a fleet without a LiDAR: the boxes count as structure, and what is outside as free.
+/// In a fleet without a LiDAR, UAVs take the boxes for structure, and the space outside for free.
 TEST(Flock, PhotographersWithoutAnExplorerFindWork) {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     RandomStream random(seed, "photographers", 0);

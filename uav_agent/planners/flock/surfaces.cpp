@@ -19,9 +19,7 @@ constexpr double kClearlyBetter = 0.1;  ///< least improvement of quality that c
 constexpr double kMergeSigmas = 2.0;  ///< detections of a point are this near: standard deviations, relative, per axis
 constexpr double kFacing = 0.17;      ///< least cosine between line of sight and a face's normal
 constexpr double kLeftOutS = 120.0;
-/// Greatest distance of a face, in units of d*: to count as looked at, since farther ones are not sharp; to be in a
-/// picture at all.
-constexpr double kRangeRatio = 1.6, kPictureRatio = 2.1;
+constexpr double kRangeRatio = 1.6;  ///< most distance of a face, in units of d*: farther ones are not sharp
 
 VoxelGrid site_grid(const std::vector<OrientedBox>& boxes, const FlockConfig& config, double sharp_m) {
   double voxel_m = config.voxel_m;

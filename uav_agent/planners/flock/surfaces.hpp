@@ -33,6 +33,8 @@ struct FlockTarget {
 
 class FlockSurfaces {
  public:
+  static constexpr double kPictureRatio = 2.1;  ///< in units of d*: farther targets are not worth a picture
+
   /// @param sharp_m  d*.   @param agent, config  must outlive this.
   /// @param blind  this UAV knows no structure, and flies without a map: the faces of the boxes count as surface.
   FlockSurfaces(const FlockConfig& config, const AgentConfig& agent, const std::vector<OrientedBox>& boxes,

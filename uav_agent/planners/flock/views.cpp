@@ -12,14 +12,13 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kTargetRange = 2.1;  ///< in units of d*: farther targets are not worth a picture
-constexpr double kTilt = 0.6;         ///< angle of tilted views to the target's normal [rad]
-constexpr double kPlaceM = 2.0;       ///< edge of the cells in which votes for places add up
-constexpr double kPieceM = 4.0;       ///< edge of the pieces of surface that vote as one
-constexpr int kDirections = 3;        ///< cells of directions along each axis
-constexpr double kNearAxis = 1.3;     ///< a component of at least 0.5 / 1.3 counts as along its axis
-constexpr double kLeastOpen = 0.04;   ///< targets with less to gain do not vote [points]
-constexpr double kWayM = 20.0;        ///< a view's votes are divided by its distance plus this
+constexpr double kTilt = 0.6;        ///< angle of tilted views to the target's normal [rad]
+constexpr double kPlaceM = 2.0;      ///< edge of the cells in which votes for places add up
+constexpr double kPieceM = 4.0;      ///< edge of the pieces of surface that vote as one
+constexpr int kDirections = 3;       ///< cells of directions along each axis
+constexpr double kNearAxis = 1.3;    ///< a component of at least 0.5 / 1.3 counts as along its axis
+constexpr double kLeastOpen = 0.04;  ///< targets with less to gain do not vote [points]
+constexpr double kWayM = 20.0;       ///< a view's votes are divided by its distance plus this
 constexpr double kLeastGain = 0.05, kLeastQuality = 0.2;
 constexpr double kGlanceTurn = 0.8, kGlanceFacing = 0.35;  ///< glances: most turn [rad]; least cosine to the normal
 constexpr std::size_t kMostAims = 5;
@@ -78,7 +77,7 @@ struct FlockViews::Vote {
   double weight = 0.0;
 };
 
-double FlockViews::range_m() const { return kTargetRange * sharp_m_; }
+double FlockViews::range_m() const { return FlockSurfaces::kPictureRatio * sharp_m_; }
 
 double FlockViews::surveyed_m() const { return kSurveyShare * config_.survey_m; }
 
