@@ -95,6 +95,31 @@ TEST_F(Wrapper, BuildsWhatACommandNeedsAndHandsItsWordsOn) {
   }
 }
 
+// The pages of a user's first run are interactive, although the scripts must be built first.
+TEST_F(Wrapper, BuildsTheScriptOfReportsBeforeTheFirstReport) {
+  write(root_ / "bin/node", "#!/bin/sh\n", true);
+  const std::string script = (root_ / "build/web/report.js").string(), answer = (root_ / "words").string();
+  write(root_ / "build/release/bin/skein", "#!/bin/sh\n[ -f " + script + " ] && echo there >" + answer + "\n", true);
+  const auto with_npm = [&](const std::string& build) {
+    write(root_ / "bin/npm", "#!/bin/sh\n[ \"$1\" = ci ] || { " + build + "; }\n", true);
+    fs::remove(script);
+    fs::remove(root_ / "build/web/failed");
+  };
+  for (const std::string words : {"run", "run towers --planner kios", "compare --seeds 1", "contest", "merge there"}) {
+    with_npm("touch ../build/web/report.js");
+    EXPECT_EQ(run(words).words, "there") << words;
+  }
+  for (const std::string words : {"check a.yaml", "run --help", "run towers --no-report"}) {
+    with_npm("touch ../build/web/report.js");
+    EXPECT_EQ(run(words).words, "") << words;
+  }
+  with_npm("exit 1");
+  const Outcome without = run("run towers");
+  EXPECT_EQ(without.words, "");
+  EXPECT_NE(without.targets, "") << "the flight does not need the script";
+  EXPECT_NE(without.errors.find("build.log"), std::string::npos) << without.errors;
+}
+
 TEST_F(Wrapper, RefusesAFolderWithoutTests) {
   const Outcome outcome = run("test tests/nowhere");
   EXPECT_EQ(outcome.code, 2);
