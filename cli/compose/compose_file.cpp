@@ -169,6 +169,8 @@ class ComposeText {
       yaml_.key("pids_limit").number(kMostProcesses);
     }
     yaml_.key("stop_grace_period").own("10s");
+    yaml_.key("logging").begin_map().key("driver").own("json-file").key("options").begin_map();
+    yaml_.key("max-size").own("64m").key("max-file").own("2").end_map().end_map();
     if (!layout_.stack) add_health_check();
     yaml_.end_map();
   }

@@ -149,6 +149,7 @@ TEST_F(ComposeFile, EachContainerMayDoLittle) {
       EXPECT_EQ(texts_of(file.of(service, "security_opt")), Texts{"no-new-privileges:true"});
       EXPECT_NE(file.text(service, "user").substr(0, 2), "0:");
       EXPECT_GT(file.of(service, "pids_limit").as<int>(), 0);
+      EXPECT_EQ(file.of(service, "logging")["options"]["max-size"].as<std::string>(""), "64m") << "of the engine's log";
       for (const char* key : {"mem_limit", "healthcheck", "stop_grace_period", "restart", "image"}) {
         EXPECT_TRUE(file.of(service, key).IsDefined()) << service << ' ' << key;
       }

@@ -38,6 +38,7 @@ void SharedProcess::start(const ProgramSpec& spec) {
   }
   running_.insert(spec.name);
   logs_[spec.name] = spec.log;
+  supervisor_.limit_log(spec.log, spec.most_log_bytes);
   supervisor_.send(process_.name,
                    shared_lines::text_of(shared_lines::Start{spec.name, spec.argv, spec.log, spec.append_log}));
 }

@@ -6,6 +6,7 @@
 #include <csignal>
 
 #include "cli/run/preflight.hpp"
+#include "cli/testing/fake_programs.hpp"
 #include "process/host/environment.hpp"
 #include "process/json_text.hpp"
 #include "tests/support/eventually.hpp"
@@ -15,15 +16,20 @@ namespace {
 
 using namespace std::chrono_literals;
 
+constexpr std::uint64_t kMostLog = 2 << 20;
+
 class SharedProcessTest : public testing::Test {
  protected:
   /// @param script  file descriptor 3 is the status pipe, 4 the control pipe.
   void home(const std::string& script) {
     host_.emplace(ProgramSpec{"home", {"/bin/sh", "-c", script}, environment_with({}), folder_.path() / "home.log"});
     for (const char* program : {"a", "b"}) {
-      host_->start({program, {"prog", "--out", "x y"}, {}, folder_.path() / (std::string(program) + ".log")});
+      ProgramSpec spec{program, {"prog", "--out", "x y"}, {}, log_of(program)};
+      spec.most_log_bytes = kMostLog;
+      host_->start(spec);
     }
   }
+  std::filesystem::path log_of(const std::string& program) const { return folder_.path() / (program + ".log"); }
   /// Until nobody runs, or `end` comes.
   std::vector<Event> hear(const std::string& end = "") {
     std::vector<Event> all;
@@ -87,6 +93,22 @@ TEST_F(SharedProcessTest, WhoTookTheProcessAlongIsToBlameAndNobodyElse) {
   for (const std::size_t i : {1U, 2U}) {
     EXPECT_TRUE(ends[i].exit.dragged && !ends[i].exit.ok()) << ends[i].program;
   }
+}
+
+TEST_F(SharedProcessTest, ALogWithoutEndKeepsItsBeginningAndItsEnd) {
+  const std::string log = log_of("a");
+  home(kReadTwo + "echo first >>" + log + "; head -c 30000000 /dev/zero | tr '\\0' x >>" + log + "; echo >>" + log +
+       R"(; echo '{"said_by": "a", "line": {}}' >&3; read line <&4; echo last >>)" + log + "; kill -KILL $$");
+  hear("a");
+  host_->wait(0ms);
+  EXPECT_LE(std::filesystem::file_size(log), kMostLog) << "also while it runs";
+  host_->send("a", "go");
+  hear();
+  EXPECT_EQ(last_lines(log, 1), std::vector<std::string>{"last"});
+  const std::string text = read_text(log);
+  EXPECT_LE(text.size(), kMostLog);
+  EXPECT_TRUE(text.starts_with("first\n"));
+  EXPECT_NE(text.find("\n[skein] what stood here is left out: the log has more than 2 MiB\n"), std::string::npos);
 }
 
 TEST_F(SharedProcessTest, ADeathThatNobodyExplainsIsTheProcesssOwn) {

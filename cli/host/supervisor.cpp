@@ -39,6 +39,30 @@ bool is_ignored(int signal) {
   return ::sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
 }
 
+/// A program that writes without end must not fill the disk: of its log, the first half of the limit and the newest
+/// lines stay. The program appends, so it continues after the cut; what it writes during the cut may be lost.
+void trim_log(int log, std::uint64_t most_bytes) {
+  struct stat file {};
+  if (log < 0 || ::fstat(log, &file) != 0 || static_cast<std::uint64_t>(file.st_size) <= most_bytes) return;
+  std::string end =
+      "\n[skein] what stood here is left out: the log has more than " + std::to_string(most_bytes >> 20) + " MiB\n";
+  const std::size_t note = end.size();
+  end.resize(note + kLogTail);
+  const ssize_t tail = ::pread(log, end.data() + note, kLogTail, file.st_size - static_cast<off_t>(kLogTail));
+  end.resize(note + static_cast<std::size_t>(std::max<ssize_t>(tail, 0)));
+  if (::ftruncate(log, static_cast<off_t>(most_bytes / 2)) == 0) {
+    [[maybe_unused]] const ssize_t written = ::write(log, end.data(), end.size());
+  }
+}
+
+/// The same for a log that only the program has open.
+void trim_log(const std::filesystem::path& log, std::uint64_t most_bytes) {
+  std::error_code none;
+  const std::uintmax_t size = std::filesystem::file_size(log, none);
+  if (none || size <= most_bytes) return;
+  trim_log(Fd(::open(log.c_str(), O_RDWR | O_APPEND | O_CLOEXEC)).get(), most_bytes);
+}
+
 double seconds(const timeval& time) {
   return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
 }
@@ -64,24 +88,6 @@ struct Supervisor::Child : StartedProgram {
   const std::uint64_t most_status_bytes, most_log_bytes;
   std::uint64_t status_bytes = 0;
   std::string partial_line;
-
-  /// A program that writes without end must not fill the disk: of its log, the first half of the limit and the newest
-  /// lines stay. The program appends, so it continues after the cut; what it writes during the cut may be lost.
-  void trim_log() const {
-    struct stat file {};
-    if (log.get() < 0 || ::fstat(log.get(), &file) != 0 || static_cast<std::uint64_t>(file.st_size) <= most_log_bytes) {
-      return;
-    }
-    std::string end = "\n[skein] what stood here is left out: the log has more than " +
-                      std::to_string(most_log_bytes >> 20) + " MiB\n";
-    const std::size_t note = end.size();
-    end.resize(note + kLogTail);
-    const ssize_t tail = ::pread(log.get(), end.data() + note, kLogTail, file.st_size - static_cast<off_t>(kLogTail));
-    end.resize(note + static_cast<std::size_t>(std::max<ssize_t>(tail, 0)));
-    if (::ftruncate(log.get(), static_cast<off_t>(most_log_bytes / 2)) == 0) {
-      [[maybe_unused]] const ssize_t written = ::write(log.get(), end.data(), end.size());
-    }
-  }
 
   /// Takes in what the program wrote to its status pipe; closes the pipe if that was too much.
   void hear(std::string_view text, std::vector<Event>& events) {
@@ -156,11 +162,16 @@ std::vector<Event> Supervisor::wait(std::chrono::milliseconds limit) {
   return events;
 }
 
+void Supervisor::trim_logs() const {
+  for (const auto& [name, child] : children_) trim_log(child->log.get(), child->most_log_bytes);
+  for (const auto& [log, most_bytes] : also_limited_) trim_log(log, most_bytes);
+}
+
 int Supervisor::poll_and_trim(std::vector<pollfd>& polled, std::chrono::milliseconds limit) const {
   while (true) {
     const bool last = limit.count() >= 0 && limit <= kLogLook;
     const int ready = ::poll(polled.data(), polled.size(), static_cast<int>((last ? limit : kLogLook).count()));
-    for (const auto& [name, child] : children_) child->trim_log();
+    trim_logs();
     if (ready != 0 || last) return ready;
     if (limit.count() >= 0) limit -= kLogLook;
   }
@@ -185,7 +196,7 @@ void Supervisor::reap(Child& child, std::vector<Event>& events) {
   // Reads no more than the pipe can hold: a process that has left the group may still write.
   const int left = child.status.get() < 0 ? 0 : ::fcntl(child.status.get(), F_GETPIPE_SZ);
   read_status(child, static_cast<std::size_t>(std::max(left, 0)), events);
-  child.trim_log();
+  trim_logs();
   int status = 0;
   rusage usage{};
   if (::wait4(child.pid, &status, 0, &usage) != child.pid) throw_errno("wait4");

@@ -34,6 +34,8 @@ class Supervisor final : public ProgramHost {
   /// From now on wait() also returns, perhaps without events, if one of these descriptors is readable. Negative
   /// descriptors have no effect.
   void watch_too(std::vector<int> descriptors) { also_watched_ = std::move(descriptors); }
+  /// Also limits this log, to which a part of a program appends (ProgramSpec::most_log_bytes).
+  void limit_log(const std::filesystem::path& log, std::uint64_t most_bytes) { also_limited_[log] = most_bytes; }
   void send(const std::string& program, const std::string& line) override;
   /// Closes the program's control pipe: the program reads end-of-file after the last line.
   void hang_up(const std::string& program);
@@ -51,7 +53,9 @@ class Supervisor final : public ProgramHost {
   struct Child;
   /// Reads about `most` bytes at most: a program that writes without end must not keep the launcher busy.
   void read_status(Child& child, std::size_t most, std::vector<Event>& events);
-  /// poll() that meanwhile trims the programs' logs to their limits.
+  /// Trims the logs to their limits.
+  void trim_logs() const;
+  /// poll() that meanwhile trims the logs.
   int poll_and_trim(std::vector<pollfd>& polled, std::chrono::milliseconds limit) const;
   void reap(Child& child, std::vector<Event>& events);
   static void signal_child(const Child& child, int signal);
@@ -60,6 +64,7 @@ class Supervisor final : public ProgramHost {
 
   std::map<std::string, std::unique_ptr<Child>> children_;
   std::vector<int> also_watched_;
+  std::map<std::filesystem::path, std::uint64_t> also_limited_;
   int signal_fd_ = -1;
   sigset_t former_mask_{};
   struct sigaction former_pipe_action_ {};
