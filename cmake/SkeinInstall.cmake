@@ -79,6 +79,8 @@ endforeach()
 # Packages for ROS 2, as sources: users of ROS 2 build them with colcon (docs/ros2.md).
 install(DIRECTORY ros2 DESTINATION ${CMAKE_INSTALL_DATADIR}/skein COMPONENT dev USE_SOURCE_PERMISSIONS
   PATTERN generate_messages.py EXCLUDE PATTERN __pycache__ EXCLUDE)
+# The types of all messages, for programs of one's own that use DDS without ROS 2.
+install(DIRECTORY idl DESTINATION ${CMAKE_INSTALL_DATADIR}/skein COMPONENT dev FILES_MATCHING PATTERN "*.idl")
 install(FILES uav_agent/testing/planner_contract_test.cpp uav_agent/testing/test_lidar.cpp
   uav_agent/testing/test_world.cpp
   DESTINATION ${installed_contract_dir} COMPONENT dev)

@@ -104,6 +104,9 @@ TEST_F(Packages, EachComponentHasWhatItIsFor) {
   }
   EXPECT_TRUE(runtime.contains("share/bash-completion/completions/skein"));
   EXPECT_TRUE(dev.contains("share/skein/ros2/skein_msgs/msg/Step.msg")) << "for users of ROS 2";
+  for (const std::string& file : files_of(source_path("idl"))) {
+    EXPECT_EQ(dev.contains("share/skein/idl/" + file), file.ends_with(".idl")) << file << ", for programs over DDS";
+  }
   EXPECT_TRUE(dev.contains("include/skein/uav_agent/api/planner.hpp"));
   EXPECT_TRUE(dev.contains("lib/cmake/skein/skeinConfig.cmake"));
   EXPECT_EQ(runtime.contains("share/skein/web/report.js"), fs::exists(source_path("build/web/report.js")));
