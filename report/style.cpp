@@ -32,7 +32,9 @@ p, ul { max-width: 75ch; margin: 0.5em 0; }
 .soft, small { color: var(--soft); }
 code, pre { font: 0.92em ui-monospace, "DejaVu Sans Mono", monospace; }
 pre { background: var(--panel); border: 1px solid var(--line); border-radius: 6px; padding: 10px 12px; white-space: pre-wrap; overflow-wrap: anywhere; }
-.wide { overflow-x: auto; }
+/* A shadow at the right edge says that a table goes on; the end of the table covers it. */
+.wide { overflow-x: auto; background: linear-gradient(to left, var(--page) 40%, transparent) right / 30px 100% no-repeat local,
+  linear-gradient(to left, var(--soft), transparent) right / 10px 100% no-repeat scroll; }
 table { border-collapse: collapse; font-variant-numeric: tabular-nums; }
 th, td { padding: 5px 10px; text-align: right; border-bottom: 1px solid var(--line); white-space: nowrap; vertical-align: top; }
 thead th { color: var(--soft); font-weight: 600; font-size: 0.85em; line-height: 1.25; vertical-align: bottom; white-space: normal; min-width: 5.2em; }
@@ -71,7 +73,7 @@ svg { display: block; width: 100%; height: auto; max-width: 560px; margin: 4px a
   figure, tr { break-inside: avoid; }
   h2, h3 { break-after: avoid; }
   main { max-width: none; padding: 0; }
-  .wide { overflow: visible; }
+  .wide { overflow: visible; background: none; }
   table { font-size: 8pt; }
   th, td { padding: 2px 4px; }
 }

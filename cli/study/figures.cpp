@@ -169,6 +169,12 @@ bool Study::any_problem() const {
   return std::any_of(flights.begin(), flights.end(), [](const FlightEntry& f) { return !f.problem.empty(); });
 }
 
+bool Study::compares_by_share() const {
+  return !contest && scenarios.size() > 1 && std::ranges::all_of(flights, [](const FlightEntry& flight) {
+    return !flight.figures || flight.figures->attainable_percent;
+  });
+}
+
 std::optional<double> total_of(const Study& study, std::size_t planner, std::uint64_t seed,
                                const std::function<std::optional<double>(const FlightEntry&)>& value) {
   double total = 0.0;

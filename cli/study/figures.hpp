@@ -114,6 +114,9 @@ struct Study {
   /// The flight of the cell with the highest score (of equals, the first); null: the cell is empty.
   const FlightEntry* best(std::size_t planner, std::size_t scenario) const;
   bool any_problem() const;
+  /// Whether planners are compared over all scenes by their mean share of the attainable score, in which each scene
+  /// counts the same: in comparisons of several scenes, if it is known of all flights. Else by sums of scores.
+  bool compares_by_share() const;
 };
 
 /// The sum of `value` over a planner's flights with one seed in all scenes; nullopt if a flight lacks figures or value.

@@ -52,7 +52,7 @@ std::string study_card(const std::string& name, const std::string& value, const 
                      escaped(value), escaped(small));
 }
 
-/// A card with the planner in first place: in a contest by its rule, else by the median of the totals.
+/// A card with the planner in first place: in a contest by its rule, else by the median of its shares or totals.
 std::string leader_card(const Study& study) {
   if (study.contest) {
     const std::vector<Standing> all = standings(study);
@@ -65,13 +65,16 @@ std::string leader_card(const Study& study) {
     return study_card("First place", shortened(study.planners[all.front().planner], 24),
                       rank_name(study.rank) + " total " + fixed(*all.front().decides, 1), "main");
   }
+  const bool by_share = study.compares_by_share();
+  const auto figure = [&](const FlightEntry& flight) -> std::optional<double> {
+    return by_share ? flight.figures->attainable_percent : flight.figures->score;
+  };
   std::optional<double> most;
   std::size_t first = 0;
   for (std::size_t p = 0; p < study.planners.size(); ++p) {
     std::vector<double> totals;
     for (const std::uint64_t seed : study.seeds) {
-      if (const auto total = total_of(study, p, seed, [](const FlightEntry& flight) { return flight.figures->score; }))
-        totals.push_back(*total);
+      if (const auto total = total_of(study, p, seed, figure)) totals.push_back(*total);
     }
     const double median = spread_of(totals).median;
     if (totals.empty() || (most && median <= *most)) continue;
@@ -79,7 +82,13 @@ std::string leader_card(const Study& study) {
     first = p;
   }
   if (!most) return study_card("Highest score", "–", "no planner has a flight in every scene", "main");
-  return study_card("Highest score", shortened(study.planners[first], 24),
+  const std::string name = shortened(study.planners[first], 24);
+  const auto scenes = static_cast<double>(study.scenarios.size());
+  if (by_share) {
+    return study_card("Highest share", name,
+                      "median " + fixed(*most / scenes, 1) + " % of attainable, mean of all scenes", "main");
+  }
+  return study_card("Highest score", name,
                     "median " + fixed(*most, 1) + (study.scenarios.size() > 1 ? ", sum over all scenes" : ""), "main");
 }
 

@@ -12,48 +12,44 @@ namespace {
 
 using namespace report;
 
-/// One planner in one scene, or in all of them with the same seed.
+/// One planner in one scene, or in all of them with the same seed: then sums, and means of the shares.
 struct OverviewCell {
   std::vector<double> scores, shares, points, points_total;
 };
 
 OverviewCell overview_of(const Study& study, std::size_t planner, std::optional<std::size_t> scenario) {
   OverviewCell cell;
-  const auto add = [&](double score, double attainable, double points, double points_total) {
+  const auto add = [&](double score, const std::optional<double>& share, double points, double points_total) {
     cell.scores.push_back(score);
-    if (attainable > 0.0) cell.shares.push_back(100.0 * score / attainable);
+    if (share) cell.shares.push_back(*share);
     cell.points.push_back(points);
     cell.points_total.push_back(points_total);
   };
   if (scenario) {
     for (const FlightEntry* flight : study.cell(planner, *scenario)) {
       const FlightFigures& f = *flight->figures;
-      add(f.score, f.attainable.value_or(0.0), f.points_detected, f.points_total);
+      add(f.score, f.attainable_percent, f.points_detected, f.points_total);
     }
     return cell;
   }
   for (const std::uint64_t seed : study.seeds) {
-    bool known = true;  // whether the attainable score of each scene is known
-    const auto total = [&](const std::function<double(const FlightFigures&)>& value) {
+    const auto total = [&](const std::function<std::optional<double>(const FlightFigures&)>& value) {
       return total_of(study, planner, seed, [&](const FlightEntry& flight) { return value(*flight.figures); });
     };
-    const auto attainable = total([&](const FlightFigures& f) {
-      known = known && f.attainable;
-      return f.attainable.value_or(0.0);
-    });
-    if (!attainable) continue;
-    add(*total([](const FlightFigures& f) { return f.score; }), known ? *attainable : 0.0,
-        *total([](const FlightFigures& f) { return f.points_detected; }),
+    const auto score = total([](const FlightFigures& f) { return f.score; });
+    if (!score) continue;
+    auto share = total([](const FlightFigures& f) { return f.attainable_percent; });
+    if (share) *share /= static_cast<double>(study.scenarios.size());
+    add(*score, share, *total([](const FlightFigures& f) { return f.points_detected; }),
         *total([](const FlightFigures& f) { return f.points_total; }));
   }
   return cell;
 }
 
-std::string overview_cell(const OverviewCell& cell, double best) {
+std::string overview_cell(const OverviewCell& cell, bool is_best) {
   if (cell.scores.empty()) return "<td>–</td>";
-  const double score = spread_of(cell.scores).median;
-  std::string html =
-      fmt::format("<td{}><strong>{}</strong>", score > 0.0 && score == best ? " class=\"best\"" : "", fixed(score, 1));
+  std::string html = fmt::format("<td{}><strong>{}</strong>", is_best ? " class=\"best\"" : "",
+                                 fixed(spread_of(cell.scores).median, 1));
   if (!cell.shares.empty()) {
     html += "<small>" + fixed(spread_of(cell.shares).median, 1) + " % of attainable</small>";
   }
@@ -190,21 +186,29 @@ std::string overview_section(const StudyReport& report) {
   if (study.scenarios.size() > 1) where.emplace_back(std::nullopt);
   std::vector<std::vector<OverviewCell>> cells(study.planners.size());
   std::vector<double> best(where.size(), 0.0);
+  const auto measure = [&](std::size_t p, std::size_t i) {
+    const OverviewCell& cell = cells[p][i];
+    return spread_of(!where[i] && study.compares_by_share() ? cell.shares : cell.scores).median;
+  };
   for (std::size_t p = 0; p < study.planners.size(); ++p) {
     for (std::size_t i = 0; i < where.size(); ++i) {
       cells[p].push_back(overview_of(study, p, where[i]));
-      best[i] = std::max(best[i], spread_of(cells[p][i].scores).median);
+      best[i] = std::max(best[i], measure(p, i));
     }
   }
+  const bool with_all = where.size() > study.scenarios.size();
   std::string html =
       "<section id=\"overview\"><h2>Scores at a glance</h2>\n<p>Medians over the seeds: score, its share of what full "
       "knowledge of the scene could score, points detected." +
-      std::string(where.size() > study.scenarios.size() ? " All scenes: sums over the flights of one seed." : "") +
-      "</p>\n<div class=\"wide\"><table data-table=\"overview\">\n" +
-      scene_heads(report, where.size() > study.scenarios.size());
+      std::string(with_all ? " All scenes: sums over the flights of one seed, and the mean of their shares, in which "
+                             "each scene counts the same."
+                           : "") +
+      "</p>\n<div class=\"wide\"><table data-table=\"overview\">\n" + scene_heads(report, with_all);
   for (std::size_t p = 0; p < study.planners.size(); ++p) {
     html += "<tr>" + planner_cell(study, p);
-    for (std::size_t i = 0; i < where.size(); ++i) html += overview_cell(cells[p][i], best[i]);
+    for (std::size_t i = 0; i < where.size(); ++i) {
+      html += overview_cell(cells[p][i], best[i] > 0.0 && measure(p, i) == best[i]);
+    }
     html += "</tr>\n";
   }
   return html + "</tbody></table></div></section>\n";

@@ -314,6 +314,43 @@ TEST(StudyPage, SaysWhoIsAheadAndHowToMakeItAgain) {
   EXPECT_EQ(page_of(a_study(false)).find("Ranking"), std::string::npos);
 }
 
+// Scenes differ in size: whoever has most of a small one and less of a large one must not fall behind by sums.
+TEST(StudyPage, OverAllScenesAComparisonGoesByShares) {
+  const auto page_with = [](bool contest, bool known) {
+    Study study = a_study(contest);
+    study.flights = {};
+    const double scores[2][2] = {{700.0, 10.0}, {550.0, 90.0}};  // by planner and scene
+    for (const std::uint64_t seed : study.seeds) {
+      for (std::size_t p = 0; p < 2; ++p) {
+        for (std::size_t s = 0; s < 2; ++s) {
+          FlightEntry flight{p, s, seed, {}, FlightFigures{}, ""};
+          flight.figures->score = scores[p][s];
+          const double attainable = s == 0 ? 1000.0 : 100.0;
+          if (known) flight.figures->attainable = attainable;
+          if (known) flight.figures->attainable_percent = 100.0 * scores[p][s] / attainable;
+          study.flights.push_back(flight);
+        }
+      }
+    }
+    return page_of(study, false);
+  };
+  const auto leads = [](const std::string& page, const std::string& words) {
+    pugi::xml_document document;
+    document.load_buffer(page.data(), page.size());
+    EXPECT_EQ(std::string(document.select_node("//div[@class='card main']/small").node().text().get()), words);
+    const auto best =
+        document.select_nodes("//table[@data-table='overview']/tbody/tr[td[last()][@class='best']]/td[1]");
+    EXPECT_EQ(best.size(), 1u);
+    return document.select_node("//div[@class='card main']/strong").node().text().get() == std::string("kios") &&
+           best.first().node().select_node(".//span[last()]").node().text().get() == std::string("kios");
+  };
+  const std::string by_share = page_with(false, true);
+  EXPECT_FALSE(leads(by_share, "median 72.5 % of attainable, mean of all scenes"));
+  EXPECT_EQ(rows_of(by_share, "overview")[0].at(3), "710.0|40.0 % of attainable|0 of 0 points");
+  EXPECT_TRUE(leads(page_with(false, false), "median 710.0, sum over all scenes"));
+  EXPECT_TRUE(leads(page_with(true, true), "median total 710.0")) << "a contest goes by totals, as its rules say";
+}
+
 TEST(StudyPage, IsTheSameTwice) {
   const Study study = a_study(true);
   EXPECT_EQ(page_of(study), page_of(study));

@@ -114,6 +114,24 @@ async function checkLive(page, run) {
   expect((await lookAt(browser, await look())).colours < (await lookAt(browser, half)).colours, 'the layers do not go');
 }
 
+/** Checks that a table which is wider than the page shows at its right edge that it goes on, up to its end. */
+async function checkEdge(page) {
+  const wide = await page.$('.wide:has(table[data-table="uavs"])');
+  if (wide === null) return;
+  const most = await wide.evaluate((box) => box.scrollWidth - box.clientWidth);
+  expect(most > 40, 'the table of UAVs is not wider than the page');
+  const edgeAt = async (left) => {
+    await wide.evaluate((box, to) => box.scrollTo({left: to, behavior: 'instant'}), left);
+    const {width, height} = await wide.boundingBox();
+    const png = await wide.screenshot({encoding: 'base64'});
+    return (await lookAt(browser, png, [[Math.floor(width) - 6, 0, 6, Math.floor(height)]]))[0].largest;
+  };
+  const [begin, end] = [await edgeAt(0), await edgeAt(most)];
+  expect(begin < 0.4, `nothing says that the table of UAVs goes on (${begin})`);
+  expect(end > 0.5, `the table of UAVs seems to go on after its end (${end})`);
+  await wide.evaluate((box) => box.scrollTo({left: 0, behavior: 'instant'}));
+}
+
 /** @param thorough  whether to check also every figure, and all that the script adds. */
 async function checkPage(folder, run, live, width, scheme, thorough) {
   where = `${path.basename(folder)}, ${live ? 'live' : 'static'}, ${width} px, ${scheme}`;
@@ -123,6 +141,7 @@ async function checkPage(folder, run, live, width, scheme, thorough) {
   expect(Boolean(await page.$('#static')) !== live, 'the footer does not say how to get the interactive page');
   await checkPixels(page, scheme);
   await checkNumbers(page, run);
+  if (width === 400) await checkEdge(page);
   if (thorough) await checkFigures(page);
   if (thorough && live) await checkLive(page, run);
   for (const complaint of complaints) complain(complaint);
