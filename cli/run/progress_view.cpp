@@ -8,6 +8,7 @@
 #include "core/text/text.hpp"
 #include "results/causes.hpp"
 #include "results/from_nodes.hpp"
+#include "results/run_folder.hpp"
 
 namespace skein::cli {
 namespace {
@@ -135,6 +136,8 @@ void print_summary(std::ostream& out, const Json& result, const std::filesystem:
   for (const Json& warning : result["warnings"])
     out << "warning: " << (warning.is_string() ? warning.get<std::string>() : warning.dump()) << '\n';
   out << "\nresults   " << dir.string() << '\n';
+  const std::filesystem::path page = dir / run_folder::kPage;
+  if (std::filesystem::exists(page)) out << "report    " << page.string() << '\n';
 }
 
 }  // namespace skein::cli

@@ -3,8 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <fstream>
 #include <regex>
 #include <sstream>
+
+#include "cli/run/preflight.hpp"
 
 namespace skein::cli {
 namespace {
@@ -68,6 +71,23 @@ TEST(ProgressView, AnEmptyStatusIsHarmless) {
   view.waiting_for({});
   view.tally({});
   view.finish();
+}
+
+TEST(Summary, NamesThePageThatExplainsTheScoreIfThereIsOne) {
+  const ScratchDir folder;
+  const Json result = {{"status", "completed"},
+                       {"collisions", Json::array()},
+                       {"digest", nullptr},
+                       {"uavs", Json::array()},
+                       {"warnings", Json::array()}};
+  const auto told = [&] {
+    std::ostringstream out;
+    print_summary(out, result, folder.path());
+    return out.str();
+  };
+  EXPECT_TRUE(told().ends_with("results   " + folder.path().string() + "\n")) << told();
+  std::ofstream(folder.path() / "report.html") << "<html/>";
+  EXPECT_TRUE(told().ends_with("report    " + (folder.path() / "report.html").string() + "\n")) << told();
 }
 
 TEST(Summary, TellsHowMuchOfTheAttainableItIs) {
