@@ -55,6 +55,14 @@ struct Lane {
 /// In fleet order.
 std::vector<Lane> lanes_of(const results::RunData& run);
 
+/// What a UAV uses its time for, as its program reports it.
+enum class TimeUse { takes_off, waits, flies, rests, shows, recovers, stands, homing, other };
+inline constexpr std::size_t kTimeUses = 9;
+/// Time by TimeUse [s]. Only times in which the program takes part in the run count.
+using TimeBudget = std::array<double, kTimeUses>;
+/// In fleet order; nullopt: the UAV's program reported nothing. @param lanes  those of `run`.
+std::vector<std::optional<TimeBudget>> time_budgets(const results::RunData& run, const std::vector<Lane>& lanes);
+
 /// Share of the run's time in which a directed link was open, by names of sender and receiver.
 using LinkShares = std::map<std::pair<std::string, std::string>, double>;
 LinkShares link_shares(const results::RunData& run);

@@ -200,6 +200,46 @@ TEST_P(Figures, StillIsSlowWithoutABetterPicture) {
   }
 }
 
+/// In each step, what the UAV reported last counts, if its program takes part.
+TEST_P(Figures, TimeIsUsedForWhatWasReportedLast) {
+  static const std::vector<std::pair<std::string, TimeUse>> kSaid = {{"takes off", TimeUse::takes_off},
+                                                                     {"flies along a line", TimeUse::flies},
+                                                                     {"flies back the way it came", TimeUse::recovers},
+                                                                     {"stands: too near", TimeUse::stands},
+                                                                     {"delivers", TimeUse::homing},
+                                                                     {"waits to be shown its way", TimeUse::waits},
+                                                                     {"sings", TimeUse::other}};
+  run_.events.clear();
+  run_.activities.resize(run_.uavs.size());
+  std::vector<TimeBudget> expected(run_.uavs.size(), TimeBudget{});
+  for (std::size_t uav = 0; uav + 1 < run_.uavs.size(); ++uav) {  // the last one reports nothing
+    bool joined = false;
+    std::optional<TimeUse> use;
+    for (std::size_t k = 0; k < kSteps; ++k) {
+      const double time_s = kStep * static_cast<double>(k);
+      if (below(20) == 0) {
+        joined = !joined;
+        run_.events.push_back({time_s, joined ? "joined" : "left", run_.uavs[uav], ""});
+      }
+      if (k == 10 || below(8) == 0) {
+        const auto& [mode, usual] = kSaid[below(kSaid.size())];
+        const bool waits = below(4) == 0;
+        run_.activities[uav].push_back({time_s, mode, waits});
+        use = waits ? TimeUse::waits : usual;
+      }
+      if (joined && use) expected[uav][static_cast<std::size_t>(*use)] += kStep;
+    }
+  }
+  std::ranges::stable_sort(run_.events, {}, &results::RunEvent::time_s);
+  const auto budgets = time_budgets(run_, lanes_of(run_));
+  ASSERT_EQ(budgets.size(), run_.uavs.size());
+  EXPECT_FALSE(budgets.back());
+  for (std::size_t uav = 0; uav + 1 < run_.uavs.size(); ++uav) {
+    ASSERT_TRUE(budgets[uav]);
+    for (std::size_t i = 0; i < kTimeUses; ++i) EXPECT_NEAR((*budgets[uav])[i], expected[uav][i], 1e-6) << uav << i;
+  }
+}
+
 TEST_P(Figures, UndeliveredIsHandedOutLessAcknowledged) {
   run_.events.clear();
   int waiting = 0;

@@ -48,6 +48,26 @@ std::string uav_table(const RunPage& page) {
   return html + "</tbody></table></div>\n";
 }
 
+/// What the UAVs used their time for; empty if none reported it.
+std::string budget_table(const RunPage& page) {
+  if (std::ranges::none_of(page.budgets, &std::optional<TimeBudget>::has_value)) return "";
+  std::string html =
+      "<h3>Where the time went</h3><p class=\"soft\">Seconds, as each UAV&#39;s program reported what it did, while it "
+      "took part in the run.</p>\n<div class=\"wide\"><table data-table=\"time\">\n" +
+      table_head({"UAV", "Ground, takeoff", "Waits for another UAV", "Flies to goals", "Rests, has no goal",
+                  "Shows another UAV its way up", "Looks for a way, recovers", "Stands", "Brings captures home",
+                  "Other"}) +
+      "<tbody>\n";
+  for (std::size_t i = 0; i < page.run.uavs.size(); ++i) {
+    std::vector<std::string> cells = {escaped(page.run.uavs[i])};
+    for (std::size_t use = 0; use < kTimeUses; ++use) {
+      cells.push_back(page.budgets[i] ? fixed((*page.budgets[i])[use], 1) : "–");
+    }
+    html += table_row(cells);
+  }
+  return html + "</tbody></table></div>\n";
+}
+
 std::vector<std::string> nodes_of(const RunPage& page) {
   std::vector<std::string> nodes = {"gcs"};
   nodes.insert(nodes.end(), page.run.uavs.begin(), page.run.uavs.end());
@@ -140,7 +160,7 @@ std::string fleet_section(const RunPage& page) {
   html += "</ul>\n<figure data-live=\"lanes\">" +
           two_widths([&](double width) { return lanes_svg("What each UAV did when", page.run, page.lanes, width); },
                      1180.0) +
-          "</figure>\n" + uav_table(page);
+          "</figure>\n" + uav_table(page) + budget_table(page);
   if (!page.run.collisions.empty()) {
     html += "<h3>Collisions</h3><div class=\"wide\"><table data-table=\"collisions\">" +
             table_head({"UAV", "With", "At [s]"}) + "<tbody>\n";

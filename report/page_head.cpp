@@ -129,6 +129,7 @@ std::string notes(const RunPage& page) {
 RunPage::RunPage(results::RunData data)
     : run(std::move(data)),
       lanes(lanes_of(run)),
+      budgets(time_budgets(run, lanes)),
       boxes(box_figures(run)),
       earned(earned_over_time(run)),
       links(link_shares(run)),

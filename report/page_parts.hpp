@@ -17,6 +17,7 @@ struct RunPage {
 
   results::RunData run;
   std::vector<Lane> lanes;
+  std::vector<std::optional<TimeBudget>> budgets;  ///< in fleet order
   std::vector<BoxFigures> boxes;
   std::vector<results::RunScore> earned;
   LinkShares links;

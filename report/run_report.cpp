@@ -27,7 +27,7 @@ std::string footer(const results::RunData& run, const std::optional<std::string>
   }
   return html + "<p>Skein " + escaped(text_in(run.result, "skein_version")) +
          ". All figures are from the tables beside this page: result.json, losses.csv, captures.csv, events.csv, "
-         "score_timeline.csv, trajectories.csv and scene.json.</p></footer>\n";
+         "score_timeline.csv, trajectories.csv, activity.csv and scene.json.</p></footer>\n";
 }
 
 }  // namespace

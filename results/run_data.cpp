@@ -42,6 +42,7 @@ RunData read_result(const fs::path& dir) {
     data.explorer.push_back(text_in(uav, "role") == "explorer");
   }
   data.tracks.resize(data.uavs.size());
+  data.activities.resize(data.uavs.size());
   return data;
 }
 
@@ -121,6 +122,16 @@ void read_deliveries(const fs::path& dir, RunData& data) {
 void read_events(const fs::path& dir, RunData& data) {
   each_sound_row<EventCells>(dir, data.missing, [&](const EventCells& row) {
     data.events.push_back({sensible(row.time_s()), row.event(), row.subject(), row.object()});
+  });
+}
+
+/// Runs of earlier versions have no such table.
+void read_activities(const fs::path& dir, RunData& data) {
+  if (!fs::exists(dir / run_folder::kActivity)) return;
+  each_sound_row<ActivityCells>(dir, data.missing, [&](const ActivityCells& row) {
+    const auto uav = data.uav_of(row.uav());
+    const Activity activity = row.activity();
+    if (uav) data.activities[*uav].push_back({sensible(row.time_s()), activity.mode, !activity.waits_for.empty()});
   });
 }
 
@@ -219,6 +230,7 @@ RunData read_run_data(const fs::path& dir) {
   read_tracks(dir, data);
   read_deliveries(dir, data);
   read_events(dir, data);
+  read_activities(dir, data);
   read_scores(dir, data);
   read_maps(dir, data);
   data.end_s = end_of(data);

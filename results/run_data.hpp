@@ -53,6 +53,13 @@ struct ViewAngles {
 /// @param q_WB  attitude of the body. Pure.
 ViewAngles view_angles(const Quaterniond& q_WB, const GimbalState& gimbal);
 
+/// What a UAV did from this time on, as its program reported it.
+struct RunActivity {
+  double time_s = 0.0;
+  std::string mode;    ///< in words: "flies to a goal"
+  bool waits = false;  ///< for another UAV
+};
+
 struct RunPose {
   double time_s = 0.0;
   Vector3d p_WB = Vector3d::Zero();
@@ -93,7 +100,8 @@ struct RunData {
   bool causes_known = false;     ///< there is a losses.csv
   std::vector<RunCapture> captures;
   std::vector<RunEvent> events;
-  std::vector<std::vector<RunPose>> tracks;  ///< by UAV
+  std::vector<std::vector<RunPose>> tracks;          ///< by UAV
+  std::vector<std::vector<RunActivity>> activities;  ///< by UAV; none: its program reports no activity
   std::vector<RunScore> scores;
   std::vector<std::string> maps;  ///< by UAV: bytes of its map (octree_file.hpp); empty: none, or damaged
   std::vector<RunCollision> collisions;

@@ -51,6 +51,7 @@ class OddRun {
     table("captures.csv", captures());
     table("events.csv", events());
     table("score_timeline.csv", timeline());
+    table("activity.csv", activities());
     for (const std::string& name : names_) table(("map-" + name + ".bt").c_str(), results::drawn_map(random_));
   }
 
@@ -176,6 +177,15 @@ class OddRun {
         csv += std::to_string(k) + "," + text(0.05 * static_cast<double>(k)) + "," + kEvents[event] + "," + anybody() +
                "," + (event == 2 || event == 3 ? anybody() : std::to_string(below(9))) + "\n";
       }
+    }
+    return csv;
+  }
+  std::string activities() {
+    static constexpr const char* kModes[] = {"takes off", "flies to a goal", "stands: <b>", "dances", ""};
+    std::string csv = "step,time_s,uav,mode,goal_x,goal_y,goal_z,waits_for,no_way\n";
+    for (std::size_t k = 0; k < steps_; k += 1 + below(9)) {
+      csv += std::to_string(k) + "," + text(0.05 * static_cast<double>(k)) + "," + anybody() + "," + kModes[below(5)] +
+             ",,,," + (one_in(3) ? anybody() : "") + ",\n";
     }
     return csv;
   }

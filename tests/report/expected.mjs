@@ -18,6 +18,7 @@ export function readRun(dir) {
     losses: table('losses.csv'),
     captures: table('captures.csv'),
     events: table('events.csv'),
+    activity: table('activity.csv'),
     map: (uav) => {
       const file = path.join(dir, `map-${uav}.bt`);
       return fs.existsSync(file) ? octree(fs.readFileSync(file)) : null;
@@ -189,6 +190,39 @@ function uavs(run) {
            direct.get(uav.name), relayed.get(uav.name)]);
 }
 
+const kUses = [
+  /^(on the ground|takes off)/, /^waits to be shown/, /^(flies to a (goal|set-point)|flies along|sends commands)/,
+  /^(rests at its goal|holds its place|has no goal)/, /^shows /,
+  /^(looks |flies nearer|tries from elsewhere|climbs to see more|flies back|makes room)/, /^stands: /,
+  /^(returns|delivers|waits for a link|stays where|flies to its landing)/, /^/
+];
+
+/** @returns by UAV, the seconds of each kind of activity while its program takes part. */
+function timeUse({result, events, activity}) {
+  if (!activity?.length) return null;
+  const end = Math.max(result.sim_time_s, Number(events.at(-1).time_s));
+  return result.uavs.map(({name}) => {
+    const said = activity.filter((row) => row.uav === name);
+    if (said.length === 0) return kUses.map(() => null);
+    const sums = kUses.map(() => 0);
+    // Changes of both kinds in order of time; those of a program first.
+    const changes = [
+      ...events.filter(({event, subject}) => subject === name && (event === 'joined' || event === 'left')),
+      ...said.map((row) => ({...row, event: 'said'})), {time_s: end, event: 'end'}
+    ].sort((a, b) => Number(a.time_s) - Number(b.time_s));
+    let since = 0, joined = false, use = null;
+    for (const change of changes) {
+      if (joined && use !== null) sums[use] += Number(change.time_s) - since;
+      since = Number(change.time_s);
+      if (change.event === 'said')
+        use = change.waits_for !== '' ? 1 : kUses.findIndex((words) => words.test(change.mode));
+      else
+        joined = change.event === 'joined';
+    }
+    return sums;
+  });
+}
+
 function links(run) {
   const nodes = ['gcs', ...run.result.uavs.map((uav) => uav.name)];
   const {shares} = contact(run);
@@ -233,6 +267,7 @@ export function expectedTables(run) {
     losses: losses(run),
     boxes: boxes(run),
     uavs: uavs(run),
+    time: timeUse(run),
     links: links(run),
     latency: latency(run),
     maps: maps(run),
