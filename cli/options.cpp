@@ -40,7 +40,7 @@ void add_record(CLI::App& command, std::string& record) {
   command
       .add_flag("--record{all}", record,
                 "Record more than poses, commands, captures, radio and events: all that is read; =clouds: LiDAR clouds "
-                "that nobody reads, too; =run: no more; =messages: only radio; =none: nothing")
+                "that no program reads, too; =run: no more; =messages: only radio; =none: nothing")
       ->check(CLI::IsMember({"none", "messages", "run", "all", "clouds"}))
       ->default_str(record);
 }

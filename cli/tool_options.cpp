@@ -22,7 +22,8 @@ void check_doctor(const DoctorOptions& doctor) {
 }  // namespace
 
 void add_doctor(CLI::App& app, DoctorOptions& doctor) {
-  CLI::App* command = app.add_subcommand("doctor", "What of this machine or network is in a fleet's way, and its mend");
+  CLI::App* command =
+      app.add_subcommand("doctor", "Find what on this machine or network would disturb a fleet, and how to fix it");
   const auto set_net = [&doctor](const std::string&) { doctor.net = true; };
   command
       ->add_option_function<std::string>("WHAT", set_net,
@@ -229,7 +230,7 @@ void add_bench(CLI::App& app, BenchOptions& bench) {
 }
 
 void add_oracle(CLI::App& app, OracleOptions& oracle) {
-  CLI::App* command = app.add_subcommand("oracle", "What could be had of a scenario with full knowledge of its scene");
+  CLI::App* command = app.add_subcommand("oracle", "The score that is attainable with full knowledge of the scene");
   command->add_option("SCENARIO", oracle.scenario, "A name under config/scenarios/ or a YAML file")->required();
   command->add_option("--scene-seed", oracle.scene_seed, "Which scene of a procedural family")
       ->check(CLI::Validator(check_seed, ""));
@@ -243,7 +244,7 @@ void add_oracle(CLI::App& app, OracleOptions& oracle) {
       ->check(CLI::Validator(number_within(0.0, 100.0), ""));
   command->add_flag("--vehicle", oracle.vehicle,
                     "A sphere about body and rotors keeps the clearance (default then 0), not the camera");
-  command->add_flag("--outside", oracle.outside_only, "Only what can be had from outside, not through windows");
+  command->add_flag("--outside", oracle.outside_only, "Only what is attainable from outside, not through windows");
   command->add_flag("--plan", oracle.plan,
                     "What full knowledge scores in the mission's time with this fleet, too: a lower bound found by "
                     "search, flown once to show that it can be");

@@ -112,7 +112,7 @@ Findings judge_clocks(const ClockFacts& clocks) {
   const std::string source = clocks.source.empty() ? "" : ", by " + clocks.source;
   if (clocks.monotonic_s <= 0.0) {
     findings.push_back(failure("monotonic clock", "it stands still" + source,
-                               "mend the host's clock source (/sys/devices/system/clocksource)"));
+                               "repair the host's clock source (/sys/devices/system/clocksource)"));
   } else if (clocks.source == "hpet" || clocks.source == "acpi_pm" || clocks.source == "jiffies") {
     findings.push_back(warning("monotonic clock", "it goes" + source + ", which takes long to read",
                                "clocksource=tsc for the host's kernel, where its processor has a steady one"));

@@ -52,7 +52,7 @@ void print(std::ostream& out, const Meetings& all) {
     if (!meeting.trouble.empty()) out << "  FAIL  " << meeting.trouble << '\n';
     const std::vector<PeerState> states = judge_meeting(all, meeting);
     if (states.empty()) {
-      out << "        nobody was heard, and no other peer is named\n";
+      out << "        it heard no other host, and no other peer is named\n";
     } else {
       print_states(out, meeting, states);
     }

@@ -143,11 +143,11 @@ Findings judge_ports(const PortFacts& ports, const BlockWish& wish) {
   }
   Findings findings = {judge_block(ports, wish, *base)};
   const std::vector<std::string> others = visited(ports, wish, *base);
-  findings.push_back(others.empty()
-                         ? fine("ports", fmt::format("UDP {}..{}: free, but for fleets", ports_of(*base, 1).first,
-                                                     ports_of(*base + wish.size - 1, wish.participants).last))
-                         : warning("ports", "somebody who is no fleet has UDP ports of domains " + joined(others),
-                                   "a ROS 2 node? Another --domain keeps out of its way (`ss -ulpn` shows whose)"));
+  findings.push_back(
+      others.empty() ? fine("ports", fmt::format("UDP {}..{}: free, but for fleets", ports_of(*base, 1).first,
+                                                 ports_of(*base + wish.size - 1, wish.participants).last))
+                     : warning("ports", "programs that belong to no fleet have UDP ports of domains " + joined(others),
+                               "a ROS 2 node? Another --domain keeps out of its way (`ss -ulpn` shows whose)"));
   const int last = ports_of(*base + wish.size - 1, wish.participants).last;
   if (last < ports.first_ephemeral) {
     findings.push_back(fine("client ports", fmt::format("begin at {}, beyond the fleet's", ports.first_ephemeral)));

@@ -205,7 +205,7 @@ std::vector<Property> parse_property(const std::string& name, const std::string&
     reader.variables(names);
     reader.read();
   }
-  if (properties.empty()) ExpressionText::fail(0, "there is nobody in this fleet that it could be about");
+  if (properties.empty()) ExpressionText::fail(0, "no UAV of this fleet is one that it is about");
   return properties;
 }
 

@@ -56,8 +56,8 @@ std::string cards(const RunPage& page) {
   const std::size_t collisions = value_or(result, "collisions", Json::array()).size();
   std::string html = "<div class=\"cards\">\n";
   html += card("Score delivered", "<span id=\"score\">" + cell_of(result, "score", 1) + "</span>",
-               possible ? percent_of(score, *possible) + " of the " + fixed(*possible, 1) + " that could be had"
-                        : "what could be had is not known",
+               possible ? percent_of(score, *possible) + " of the " + fixed(*possible, 1) + " attainable"
+                        : "the attainable score is not known",
                "main");
   html += card("Score earned", cell_of(result, "score_earned", 1), percent_of(score, earned) + " of it delivered");
   html += card("Points detected", cell_of(result, "points_detected", 0),

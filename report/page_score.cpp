@@ -41,7 +41,7 @@ std::string losses_section(const RunPage& page) {
   const auto estimate = number_if_any(attainable, "score");
   std::string html = "<section id=\"why\"><h2>Why this score</h2>\n";
   if (!estimate || !losses.is_object()) {
-    return html + absent("What could be had is not known for this run, so that its losses are not either.") +
+    return html + absent("The attainable score of this run is not known, so its losses are not known either.") +
            "</section>\n";
   }
   double most = std::max({*estimate, number_in(result, "score"), 1e-9}), left = *estimate;
@@ -54,7 +54,7 @@ std::string losses_section(const RunPage& page) {
       "one "
       "cause; the bars add up.</p>\n<div class=\"wide\"><table class=\"waterfall\" data-table=\"losses\">\n" +
       table_head({"", "Score", "Share", "Points", ""}) + "<tbody>\n";
-  html += table_row({"could be had", fixed(*estimate, 1), "100.0 %", cell_of(attainable, "points", 0),
+  html += table_row({"attainable", fixed(*estimate, 1), "100.0 %", cell_of(attainable, "points", 0),
                      bar_cell(0.0, *estimate, most, "whole")},
                     "sum");
   left = *estimate;

@@ -26,7 +26,7 @@ EstimateTask::EstimateTask(const Scenario& scenario, const Scene& scene, OracleR
           for (const std::string& warning : reply.warnings) spdlog::warn("{}", warning);
           answer_ = std::move(reply.summary);
         } catch (const std::exception& error) {
-          spdlog::warn("what could be had is not shown: {}", error.what());
+          spdlog::warn("the attainable score is not shown: {}", error.what());
         }
         done_ = true;
       }) {}

@@ -145,7 +145,7 @@ void ServerProgram::add_options(CLI::App& app) {
       ->check(CLI::Validator(check_not_negative, "NONNEGATIVE"))
       ->needs("--watch")
       ->group("Launcher");
-  app.add_flag("--watch-losses", watch_losses_, "ask the oracle what could be had, for that page")
+  app.add_flag("--watch-losses", watch_losses_, "ask the oracle for the attainable score, for that page")
       ->needs("--watch")
       ->group("Launcher");
   app.add_option("--stand-ins", stand_ins_, "UAVs whose agent hands on what programs outside the lock-step say")

@@ -189,7 +189,7 @@ Json scene_of(const fs::path& dir, const RunData& run) {
     missing.emplace_back("It does not tell which cameras the vehicles had: the usual one is drawn.");
   }
   if (!fs::exists(dir / run_folder::kActivity)) {
-    missing.emplace_back("There is no activity.csv: what UAVs do is told from their motion.");
+    missing.emplace_back("There is no activity.csv: the page derives what UAVs do from their motion.");
   }
   if (report::has_cuts(run)) {
     missing.emplace_back(

@@ -72,7 +72,7 @@ std::string door_page(bool refused) {
       "Skein: the key, please", style_element(),
       "<body>\n<main>\n<h1>The key, please</h1>\n" +
           std::string(refused ? "<p role=\"alert\"><strong>That is not the key of this run.</strong></p>\n" : "") +
-          "<p>Whoever looks at a run, or stops its time, needs its key. Open the file <code>view.html</code> that "
+          "<p>To watch a run, or to pause it, you need its key. Open the file <code>view.html</code> that "
           "<code>skein</code> named when it began, or paste here what <code>view.key</code> beside it holds.</p>\n"
           "<form method=\"post\" action=\"/enter\"><label>Key <input name=\"key\" type=\"password\" "
           "autocomplete=\"off\" autofocus=\"autofocus\" size=\"40\"/></label> <button>Enter</button></form>\n"

@@ -44,7 +44,7 @@ std::vector<std::string> environment_warnings() {
     if (!name.starts_with("SKEIN_") || is_ignored_variable(name) ||
         std::ranges::find(kUserNames, name) != kUserNames.end())
       continue;
-    warnings.push_back("nobody reads the variable " + name + "; " + suggestion(name, kUserNames));
+    warnings.push_back("no program reads the variable " + name + "; " + suggestion(name, kUserNames));
   }
   std::sort(warnings.begin(), warnings.end());
   return warnings;

@@ -175,10 +175,11 @@ std::vector<std::string> PlacedFleet::security_warnings() const {
   std::vector<std::string> warnings;
   for (const auto& there : hosts_) {
     if (there->is_root) continue;
-    warnings.push_back(fmt::format(
-        "--secure on {}: it is not root that logs in there, so {} runs as the user {}: user ids of its own are not to "
-        "be had (docs/security.md)",
-        there->link.name(), joined(there->programs), there->user));
+    warnings.push_back(
+        fmt::format("--secure on {}: the launcher does not log in as root there, so {} runs as the user {}, without a "
+                    "user id of its "
+                    "own (docs/security.md)",
+                    there->link.name(), joined(there->programs), there->user));
   }
   return warnings;
 }

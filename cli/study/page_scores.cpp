@@ -85,7 +85,7 @@ std::string pairs_words(const StudyReport& report) {
   if (tests > 1) {
     html += "Beside it stands the same corrected for all scenes of the pair, or for all pairs of totals (Holm 1979). ";
   }
-  html += fmt::format("Below {} pairs neither is told. ", kFewestPairs);
+  html += fmt::format("Below {} pairs, the table has neither. ", kFewestPairs);
   const std::size_t seeds = report.study.seeds.size();
   if (tests > 0 && seeds < 8) {
     html += fmt::format("With {} pairs <i>p</i> cannot be less than {}, and the interval is rough. ", seeds,

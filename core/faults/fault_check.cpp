@@ -131,7 +131,7 @@ void FaultChecker::check_partition(const Partition& partition, const std::string
   errors_.check(!partition.groups.empty(), key, "must be a list of groups, each a list of nodes");
   std::set<std::string> seen;
   for (const auto& group : partition.groups) {
-    errors_.check(!group.empty(), key, "must have no empty group: leave it out; who is in no group is cut off anyway");
+    errors_.check(!group.empty(), key, "must have no empty group: leave it out; a node in no group is cut off anyway");
     for (const std::string& name : group) {
       check_name(name, nodes_, key, "node");
       errors_.check(seen.insert(name).second, key, "'" + name + "' is in two groups");

@@ -265,7 +265,7 @@ TEST_F(Place, ASecuredAgentWithoutAUserIdOfItsOwnIsNamed) {
                                      "jurong=b", "--ssh", login_.ssh(), "--skein-path", write_as_nobody()}));
   EXPECT_EQ(launcher.wait().code, 0) << launcher.err();
   const std::string warning =
-      "--secure on b: it is not root that logs in there, so uav_agent-jurong runs as the user nobody";
+      "--secure on b: the launcher does not log in as root there, so uav_agent-jurong runs as the user nobody";
   EXPECT_NE(launcher.err().find(warning), std::string::npos) << launcher.err();
   EXPECT_NE(result("run")["warnings"].dump().find(warning), std::string::npos);
 }

@@ -19,7 +19,7 @@ async function checkLosses(page) {
   for (const {points, score} of Object.values(result.losses)) {
     if (points > 0) expect(shown.includes(`${points}\t${(-score).toFixed(1)}`), `the losses lack ${points} points, ${-score}: ${shown}`);
   }
-  expect(shown.includes(result.attainable.score.toFixed(1)), `the losses do not tell what could be had: ${shown}`);
+  expect(shown.includes(result.attainable.score.toFixed(1)), `the losses do not show the attainable score: ${shown}`);
   await checkLossesInTime(page, await lossesOf(page));
 }
 

@@ -89,7 +89,7 @@ export const lossesOf = (page) => page.$eval('#losses', (panel) => (panel.hidden
 
 /** Whether attainable minus lost score is the delivered score, up to the rounding of each row to a tenth. */
 export function addsUp({rows}) {
-  const {'could be had, by estimate': [, could], delivered: [, delivered], ...lost} = rows;
+  const {'attainable, by estimate': [, could], delivered: [, delivered], ...lost} = rows;
   const losses = Object.values(lost);
   return Math.abs(could + losses.reduce((sum, [, score]) => sum + score, 0) - delivered) <= 0.05 * (losses.length + 2) + 1e-9;
 }

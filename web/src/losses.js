@@ -26,7 +26,7 @@ export function lossesPanel(flight, run = 0) {
     cells[0].textContent = String(points);
     cells[1].textContent = score(value);
   };
-  const could = row('', 'could be had, by estimate', 'sum'), delivered = row('', 'delivered', 'sum');
+  const could = row('', 'attainable, by estimate', 'sum'), delivered = row('', 'delivered', 'sum');
   const causes = data.cause_keys.map((key, i) => ({key, ...row(`k${i}`, data.causes[i])}));
   const when = element('th', {scope: 'col'}, '');
   const head = element('tr', {}, when, ...['points', 'score'].map((name) => element('th', {scope: 'col'}, name)));

@@ -337,7 +337,7 @@ class Scene {
     const parts = [`point ${hit.instanceId}`, `score ${p.score.toFixed(3)}`];
     if (data.causes_known)
       parts.push(
-          `could be had ${p.estimate.toFixed(3)}`, p.cause < 0 ? 'nothing lost' : `lost: ${data.causes[p.cause]}`);
+          `attainable ${p.estimate.toFixed(3)}`, p.cause < 0 ? 'nothing lost' : `lost: ${data.causes[p.cause]}`);
     if (p.uav >= 0) parts.push(`by ${data.uavs[p.uav].name} at ${p.taken.toFixed(1)} s`);
     this.tip.textContent = parts.join(' · ');
   }
@@ -466,7 +466,7 @@ export function sceneView(figure) {
   const choice = element('select', {id: 'colour-by', 'aria-label': 'colour of the points'});
   const colours = [
     ['score', 'score'],
-    ...(data.causes_known ? [['cause', 'cause of the loss'], ['estimate', 'what could be had']] : []), ['uav', 'UAV']
+    ...(data.causes_known ? [['cause', 'cause of the loss'], ['estimate', 'attainable score']] : []), ['uav', 'UAV']
   ];
   for (const [value, text] of colours) choice.append(element('option', {value}, text));
   choice.addEventListener('change', () => {
