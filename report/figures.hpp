@@ -55,6 +55,15 @@ struct Lane {
 /// In fleet order.
 std::vector<Lane> lanes_of(const results::RunData& run);
 
+/// The points that were never in a picture, and what they lost: those that a UAV came near, within the range in which
+/// its camera's resolution is sufficient, and the others.
+struct NeverInPicture {
+  std::size_t points_near = 0, points_far = 0;
+  double loss_near = 0.0, loss_far = 0.0;
+};
+/// nullopt: there are no such points, or no camera is known.
+std::optional<NeverInPicture> never_in_picture(const results::RunData& run);
+
 /// What a UAV uses its time for, as its program reports it.
 enum class TimeUse { takes_off, waits, flies, rests, shows, recovers, stands, homing, other };
 inline constexpr std::size_t kTimeUses = 9;

@@ -115,6 +115,40 @@ TEST_P(Figures, BoxesSumUpToAll) {
   EXPECT_NEAR(sum.score, all.score, 1e-9);
 }
 
+TEST_P(Figures, NeverInThePictureAreThosePointsThatUavsCameNearAndTheOthers) {
+  EXPECT_FALSE(never_in_picture(run_)) << "no camera is known";
+  const auto cause = results::cause_of("never_in_picture");
+  for (std::size_t uav = 0; uav < run_.uavs.size(); ++uav) {
+    run_.cameras.push_back(below(4) > 0 ? std::optional(results::RunCamera{60.0, 40.0, number(6.0)}) : std::nullopt);
+    for (std::size_t k = 0; k < 150; ++k) {
+      run_.tracks[uav].push_back({0.1 * static_cast<double>(k), draw_place(), 1.0, k < 100});
+    }
+  }
+  NeverInPicture expected;
+  for (const results::RunPoint& point : run_.points) {
+    if (point.cause != cause) continue;
+    bool near = false;
+    for (std::size_t uav = 0; uav < run_.uavs.size(); ++uav) {
+      for (const results::RunPose& pose : run_.tracks[uav]) {
+        near =
+            near || (pose.alive && run_.cameras[uav] && (pose.p_WB - point.p_W).norm() <= run_.cameras[uav]->range_m);
+      }
+    }
+    ++(near ? expected.points_near : expected.points_far);
+    (near ? expected.loss_near : expected.loss_far) += point.loss;
+  }
+  const auto found = never_in_picture(run_);
+  if (std::ranges::none_of(run_.cameras, [](const auto& camera) { return camera.has_value(); })) {
+    EXPECT_FALSE(found);
+    return;
+  }
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->points_near, expected.points_near);
+  EXPECT_EQ(found->points_far, expected.points_far);
+  EXPECT_NEAR(found->loss_near, expected.loss_near, 1e-9);
+  EXPECT_NEAR(found->loss_far, expected.loss_far, 1e-9);
+}
+
 TEST_P(Figures, WhatWasEarnedIsTheBestPictureOfEachPoint) {
   const std::vector<results::RunScore> earned = earned_over_time(run_);
   for (const results::RunScore& now : earned) {

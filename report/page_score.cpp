@@ -31,6 +31,20 @@ std::string heat(const std::string& text, double share, const std::string& colou
                      fixed(std::clamp(60.0 * share, 0.0, 60.0), 0), colour, text);
 }
 
+/// Whether UAVs came near the points that were never in a picture; empty if there are none, or this is not known.
+std::string never_seen_table(const RunPage& page) {
+  const std::optional<NeverInPicture> sums = never_in_picture(page.run);
+  if (!sums) return "";
+  return "<p class=\"soft\">Points never in the picture: a UAV comes near a point if it is within the range in which "
+         "its "
+         "camera is sharp enough.</p>\n<div class=\"wide\"><table data-table=\"unseen\">\n" +
+         table_head({"", "Lost", "Points"}) + "<tbody>\n" +
+         table_row({"no UAV ever came near", fixed(sums->loss_far, 1), std::to_string(sums->points_far)}) +
+         table_row({"a UAV came near, but did not look, or something was in between", fixed(sums->loss_near, 1),
+                    std::to_string(sums->points_near)}) +
+         "</tbody></table></div>\n";
+}
+
 std::string percent(double part, double whole) { return whole > 0.0 ? fixed(100.0 * part / whole, 1) + " %" : "–"; }
 
 }  // namespace
@@ -69,7 +83,7 @@ std::string losses_section(const RunPage& page) {
   html += table_row({"delivered", cell_of(result, "score", 1), percent(number_in(result, "score"), *estimate),
                      cell_of(result, "points_detected", 0), bar_cell(0.0, number_in(result, "score"), most, "had")},
                     "sum");
-  return html + "</tbody></table></div></section>\n";
+  return html + "</tbody></table></div>\n" + never_seen_table(page) + "</section>\n";
 }
 
 std::string timeline_section(const RunPage& page) {

@@ -19,6 +19,7 @@ export function readRun(dir) {
     captures: table('captures.csv'),
     events: table('events.csv'),
     activity: table('activity.csv'),
+    trajectories: table('trajectories.csv'),
     map: (uav) => {
       const file = path.join(dir, `map-${uav}.bt`);
       return fs.existsSync(file) ? octree(fs.readFileSync(file)) : null;
@@ -223,6 +224,23 @@ function timeUse({result, events, activity}) {
   });
 }
 
+/** @returns lost score and number of the points that were never in a picture: far from all UAVs, and near one. */
+function unseen({scene, losses: lost, trajectories}) {
+  const points = (lost ?? []).filter((row) => row.cause === 'never_in_picture');
+  if (points.length === 0 || !scene.cameras?.length) return null;
+  const ranges = new Map(scene.cameras.map((camera) => [camera.uav, camera.range_m]));
+  const places = trajectories.filter((row) => row.alive !== '0')
+      .map((row) => [Number(row.x), Number(row.y), Number(row.z), ranges.get(row.uav) ?? -1]);
+  const rows = [[0, 0], [0, 0]];
+  for (const row of points) {
+    const [x, y, z] = [Number(row.x), Number(row.y), Number(row.z)];
+    const near = places.some(([a, b, c, range]) => Math.hypot(a - x, b - y, c - z) <= range);
+    rows[near ? 1 : 0][0] += Number(row.loss);
+    rows[near ? 1 : 0][1] += 1;
+  }
+  return rows;
+}
+
 function links(run) {
   const nodes = ['gcs', ...run.result.uavs.map((uav) => uav.name)];
   const {shares} = contact(run);
@@ -268,6 +286,7 @@ export function expectedTables(run) {
     boxes: boxes(run),
     uavs: uavs(run),
     time: timeUse(run),
+    unseen: unseen(run),
     links: links(run),
     latency: latency(run),
     maps: maps(run),
