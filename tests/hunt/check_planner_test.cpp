@@ -63,6 +63,16 @@ TEST_F(CheckPlanner, ASoundOnePassesInAllSurroundings) {
   EXPECT_EQ(told(said.out, "same"), all_but({{}, {}})) << said.out;
   EXPECT_EQ(said.out.find("DIFFERENT"), std::string::npos) << said.out;
   EXPECT_NE(said.out.find("\nrepeatable: all runs are the same\n"), std::string::npos) << said.out;
+  // Before each flight, the command prints its number, the total, and, but for the first, how long the rest takes.
+  const std::size_t all = 2 * (1 + std::size(kSurroundings));
+  static const std::regex flight(R"((?:^|\n)flight (\d+) of (\d+)(, about [^\n]+ left)?(?=\n))");
+  std::size_t flights = 0;
+  for (std::sregex_iterator at(said.out.begin(), said.out.end(), flight), end; at != end; ++at) {
+    EXPECT_EQ((*at)[1], std::to_string(++flights));
+    EXPECT_EQ((*at)[2], std::to_string(all));
+    EXPECT_EQ((*at)[3].matched, flights > 1) << (*at)[0];
+  }
+  EXPECT_EQ(flights, all) << said.out;
 }
 
 TEST_F(CheckPlanner, WhatOutlivesARestartInOneProcessIsNamed) {
