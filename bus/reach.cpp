@@ -12,7 +12,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cstring>
 #include <future>
 #include <memory>
@@ -21,6 +20,7 @@
 
 #include "bus/own_host.hpp"
 #include "core/text/suggestion.hpp"
+#include "core/text/whole_number.hpp"
 #include "core/types.hpp"
 
 namespace skein::bus {
@@ -50,11 +50,9 @@ bool is_meant(const OwnInterface& own, const std::string& text) {
   const std::size_t slash = text.find('/');
   if (slash == std::string::npos) return own.name == text || text_of(own.address) == text;
   const auto subnet = address_in(text.substr(0, slash));
-  unsigned bits = 0;
-  const char* const end = text.data() + text.size();
-  const auto [read, error] = std::from_chars(text.data() + slash + 1, end, bits);
-  if (!subnet || error != std::errc() || read != end || bits > 32) return false;
-  const std::uint32_t mask = bits == 0 ? 0 : ~std::uint32_t{0} << (32 - bits);
+  const auto bits = parse_whole<unsigned>(std::string_view(text).substr(slash + 1));
+  if (!subnet || !bits || *bits > 32) return false;
+  const std::uint32_t mask = *bits == 0 ? 0 : ~std::uint32_t{0} << (32 - *bits);
   return ((ntohl(subnet->s_addr) ^ ntohl(own.address.s_addr)) & mask) == 0;
 }
 

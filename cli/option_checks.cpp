@@ -2,11 +2,11 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <charconv>
 #include <cstdint>
 #include <optional>
 
 #include "core/text/text.hpp"
+#include "core/text/whole_number.hpp"
 #include "core/types.hpp"
 
 namespace skein::cli {
@@ -46,11 +46,7 @@ std::string check_clock(const std::string& text) {
 }
 
 std::string check_seed(const std::string& text) {
-  std::uint64_t seed = 0;
-  const char* end = text.data() + text.size();
-  const auto read = std::from_chars(text.data(), end, seed);
-  const bool good = read.ec == std::errc() && read.ptr == end;
-  return good ? "" : "'" + text + "' must be a whole number within [0, 18446744073709551615]";
+  return parse_whole(text) ? "" : "'" + text + "' must be a whole number within [0, 18446744073709551615]";
 }
 
 std::string check_seconds(const std::string& text) {

@@ -1,12 +1,11 @@
 #include "cli/threads.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cstdlib>
 #include <string>
-#include <string_view>
 
 #include "cli/machine.hpp"
+#include "core/text/whole_number.hpp"
 #include "core/types.hpp"
 
 namespace skein::cli {
@@ -15,13 +14,9 @@ namespace {
 std::optional<int> named_threads() {
   const char* const variable = std::getenv(kThreadsVariable);
   if (variable == nullptr || *variable == '\0') return std::nullopt;
-  const std::string_view text = variable;
-  int threads = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), threads);
-  if (error == std::errc() && end == text.data() + text.size() && threads >= 1 && threads <= kMostThreads) {
-    return threads;
-  }
-  throw InputError(std::string(kThreadsVariable) + ": '" + std::string(text) + "' must be a whole number from 1 to " +
+  const auto threads = parse_whole<int>(variable);
+  if (threads && *threads >= 1 && *threads <= kMostThreads) return threads;
+  throw InputError(std::string(kThreadsVariable) + ": '" + variable + "' must be a whole number from 1 to " +
                    std::to_string(kMostThreads));
 }
 

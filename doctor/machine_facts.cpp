@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <charconv>
 #include <cstdlib>
 #include <cstring>
 #include <ctime>
@@ -18,6 +17,7 @@
 #include <vector>
 
 #include "core/text/text.hpp"
+#include "core/text/whole_number.hpp"
 
 namespace skein::doctor {
 namespace {
@@ -32,20 +32,13 @@ std::string word_in(const fs::path& file) {
   return word;
 }
 
-Limit number_in(const std::string& word) {
-  std::uint64_t value = 0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  const bool whole = error == std::errc() && end == word.data() + word.size();
-  return whole ? Limit(value) : std::nullopt;
-}
-
 /// The number after a key in a file of lines "KEY NUMBER ...".
 Limit entry_in(const fs::path& file, const std::string& key) {
   std::ifstream in(file);
   for (std::string line; std::getline(in, line);) {
     std::istringstream words(line);
     std::string name, value;
-    if (words >> name >> value && name == key) return number_in(value);
+    if (words >> name >> value && name == key) return parse_whole(value);
   }
   return std::nullopt;
 }
@@ -76,13 +69,13 @@ Limit left_of(Limit most, Limit used, Limit cached) {
 /// Reads a folder of cgroup v2.
 void read_unified(const fs::path& folder, CgroupFacts& facts) {
   take_less(facts.memory_left,
-            left_of(number_in(word_in(folder / "memory.max")), number_in(word_in(folder / "memory.current")),
+            left_of(parse_whole(word_in(folder / "memory.max")), parse_whole(word_in(folder / "memory.current")),
                     entry_in(folder / "memory.stat", "inactive_file")));
-  take_less(facts.processes, number_in(word_in(folder / "pids.max")));
+  take_less(facts.processes, parse_whole(word_in(folder / "pids.max")));
   std::ifstream quota(folder / "cpu.max");
   std::string most, period;
   if (!(quota >> most >> period)) return;
-  const Limit time = number_in(most), of = number_in(period);
+  const Limit time = parse_whole(most), of = parse_whole(period);
   if (time && of && *of > 0)
     take_less(facts.cpus, std::optional(static_cast<double>(*time) / static_cast<double>(*of)));
 }
@@ -91,15 +84,15 @@ void read_unified(const fs::path& folder, CgroupFacts& facts) {
 void read_former(const std::string& controller, const fs::path& folder, CgroupFacts& facts) {
   constexpr std::uint64_t kUnlimited = std::uint64_t{1} << 60;
   if (controller == "memory") {
-    Limit most = number_in(word_in(folder / "memory.limit_in_bytes"));
+    Limit most = parse_whole(word_in(folder / "memory.limit_in_bytes"));
     if (most && *most > kUnlimited) most.reset();
-    take_less(facts.memory_left, left_of(most, number_in(word_in(folder / "memory.usage_in_bytes")),
+    take_less(facts.memory_left, left_of(most, parse_whole(word_in(folder / "memory.usage_in_bytes")),
                                          entry_in(folder / "memory.stat", "total_inactive_file")));
   } else if (controller == "pids") {
-    take_less(facts.processes, number_in(word_in(folder / "pids.max")));
+    take_less(facts.processes, parse_whole(word_in(folder / "pids.max")));
   } else if (controller == "cpu") {
-    const Limit time = number_in(word_in(folder / "cpu.cfs_quota_us"));  // -1, which number_in() rejects: no limit
-    const Limit of = number_in(word_in(folder / "cpu.cfs_period_us"));
+    const Limit time = parse_whole(word_in(folder / "cpu.cfs_quota_us"));  // -1, which parse_whole() rejects: no limit
+    const Limit of = parse_whole(word_in(folder / "cpu.cfs_period_us"));
     if (time && of && *of > 0) {
       take_less(facts.cpus, std::optional(static_cast<double>(*time) / static_cast<double>(*of)));
     }
@@ -160,10 +153,10 @@ MachineFacts read_machine() {
   facts.cgroup = read_cgroup();
   facts.open_files = resource(RLIMIT_NOFILE, &rlimit::rlim_cur);
   facts.most_open_files = resource(RLIMIT_NOFILE, &rlimit::rlim_max);
-  facts.kernel_processes = number_in(word_in("/proc/sys/kernel/threads-max"));
+  facts.kernel_processes = parse_whole(word_in("/proc/sys/kernel/threads-max"));
   if (::geteuid() != 0) facts.processes = resource(RLIMIT_NPROC, &rlimit::rlim_cur);  // it does not hold for root
-  facts.receive_buffer = number_in(word_in("/proc/sys/net/core/rmem_max"));
-  facts.send_buffer = number_in(word_in("/proc/sys/net/core/wmem_max"));
+  facts.receive_buffer = parse_whole(word_in("/proc/sys/net/core/rmem_max"));
+  facts.send_buffer = parse_whole(word_in("/proc/sys/net/core/wmem_max"));
   if (const Limit kb = entry_in("/proc/meminfo", "MemAvailable:")) facts.memory = *kb * 1024;
   cpu_set_t cpus;
   if (::sched_getaffinity(0, sizeof cpus, &cpus) == 0) facts.cpus = std::max(1, CPU_COUNT(&cpus));

@@ -1,7 +1,5 @@
 #include "doctor/net_program.hpp"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
 #include <cstdlib>
@@ -18,6 +16,7 @@
 #include "core/text/suggestion.hpp"
 #include "core/types.hpp"
 #include "doctor/greeting_socket.hpp"
+#include "process/host/host_name.hpp"
 
 namespace skein::doctor {
 namespace {
@@ -42,11 +41,6 @@ struct Voice {
 
 double time_of_day_s() {
   return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
-}
-
-std::string host_name() {
-  std::array<char, 256> name{};
-  return ::gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "host";
 }
 
 std::uint32_t drawn_id() {
@@ -76,7 +70,7 @@ class Host {
  public:
   Host(const NetVisit& visit, StopSignal& stop) : visit_(visit), stop_(stop) {
     all_.id = drawn_id();
-    all_.name = visit.name.empty() ? host_name() : visit.name;
+    all_.name = visit.name.empty() ? host_name("host") : visit.name;
     for (const std::string& name : chosen(visit)) {
       const auto place = std::ranges::find(visit.domains, name) - visit.domains.begin();
       bus::check_interface(visit.network.of(name), name);

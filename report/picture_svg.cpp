@@ -5,6 +5,7 @@
 #include <limits>
 #include <map>
 
+#include "core/vectors.hpp"
 #include "report/flight_picture.hpp"
 #include "report/html.hpp"
 #include "results/causes.hpp"
@@ -32,13 +33,6 @@ Vector2d projected(Look look, const Vector3d& p_W) {
   const double right = -std::sin(kAzimuth) * p_W.x() + std::cos(kAzimuth) * p_W.y();
   const double away = -std::cos(kAzimuth) * p_W.x() - std::sin(kAzimuth) * p_W.y();
   return {right, -(std::cos(kElevation) * p_W.z() + std::sin(kElevation) * away)};
-}
-
-double distance_to_segment(const Vector2d& p, const Vector2d& a, const Vector2d& b) {
-  const Vector2d along = b - a;
-  const double length2 = along.squaredNorm();
-  const double share = length2 > 0.0 ? std::clamp((p - a).dot(along) / length2, 0.0, 1.0) : 0.0;
-  return (p - a - share * along).norm();
 }
 
 std::string pair(const Vector2d& p) { return coordinate(p.x()) + " " + coordinate(p.y()); }

@@ -1,10 +1,10 @@
 #include "results/csv_table.hpp"
 
-#include <charconv>
 #include <stdexcept>
 
 #include "core/files/file_bytes.hpp"
 #include "core/text/text.hpp"
+#include "core/text/whole_number.hpp"
 
 namespace skein::results {
 
@@ -41,13 +41,9 @@ std::optional<double> CsvTable::number_if_any(const std::string& column) const {
 
 std::uint64_t CsvTable::count(const std::string& column) const {
   const std::string& cell = text(column);
-  std::uint64_t value = 0;
-  const char* const end = cell.data() + cell.size();
-  const auto read = std::from_chars(cell.data(), end, value);
-  if (read.ec != std::errc() || read.ptr != end) {
-    fail("column '" + column + "': '" + cell + "' is no whole number of at least 0");
-  }
-  return value;
+  const auto value = parse_whole(cell);
+  if (!value) fail("column '" + column + "': '" + cell + "' is no whole number of at least 0");
+  return *value;
 }
 
 std::optional<std::uint64_t> CsvTable::count_if_any(const std::string& column) const {

@@ -4,27 +4,20 @@
 #include <ifaddrs.h>
 #include <netdb.h>
 #include <netinet/in.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <optional>
 #include <tuple>
 
+#include "core/text/whole_number.hpp"
 #include "core/types.hpp"
+#include "process/host/host_name.hpp"
 
 namespace skein::view {
 namespace {
 
 constexpr std::uint16_t kPortOfTheWeb = 80;
-
-std::optional<std::uint16_t> read_port(std::string_view text) {
-  std::uint16_t port = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), port);
-  if (text.empty() || error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return port;
-}
 
 /// The address in the form in which inet_ntop() and browsers write it; empty: it is no address of this family.
 std::string canonical(int family, const std::string& address) {
@@ -52,11 +45,6 @@ std::string small(std::string_view text) {
   std::ranges::transform(letters, letters.begin(),
                          [](char c) { return 'A' <= c && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
   return letters;
-}
-
-std::string own_name() {
-  std::array<char, 256> name{};
-  return ::gethostname(name.data(), name.size() - 1) == 0 ? small(name.data()) : std::string();
 }
 
 std::vector<std::string> interface_addresses() {
@@ -100,7 +88,7 @@ Endpoint read_endpoint(std::string_view text) {
   if (text.find(':') != std::string_view::npos) {
     std::tie(endpoint.address, port_text) = parted(text);
   }
-  const std::optional<std::uint16_t> port = read_port(port_text);
+  const std::optional<std::uint16_t> port = parse_whole<std::uint16_t>(port_text);
   if (!port || endpoint.address.empty()) {
     throw InputError(std::string(text) +
                      ": must be a port (0 to 65535), or an address of this host and a port, such as 8080, "
@@ -113,7 +101,7 @@ Endpoint read_endpoint(std::string_view text) {
 std::vector<std::string> names_of(const Endpoint& endpoint) {
   if (!endpoint.is_any()) return {endpoint.address};
   std::vector<std::string> names = interface_addresses();
-  if (const std::string name = own_name(); !name.empty()) {
+  if (const std::string name = small(host_name()); !name.empty()) {
     names.push_back(name);
     const std::string first = name.substr(0, name.find('.'));
     if (first != name) names.push_back(first);
@@ -136,7 +124,8 @@ HostName read_host(std::string_view text) {
     if (name.find(':') != std::string_view::npos) return {};
   }
   if (port.empty()) return {small(name), kPortOfTheWeb};
-  const std::optional<std::uint16_t> number = port.starts_with(':') ? read_port(port.substr(1)) : std::nullopt;
+  const std::optional<std::uint16_t> number =
+      port.starts_with(':') ? parse_whole<std::uint16_t>(port.substr(1)) : std::nullopt;
   return number && *number != 0 ? HostName{small(name), *number} : HostName{};
 }
 

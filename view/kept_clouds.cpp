@@ -34,7 +34,7 @@ bool has_any(const mcap::Reader& reader, const std::map<std::string, std::size_t
   bool any = !reader.complete();  // cut off: there is no summary
   reader.summary([&](const mcap::RawRecord& record) {
     if (record.opcode != mcap::Opcode::channel) return;
-    const auto channel = mcap::parse_channel(record.content);
+    const auto channel = mcap::parse<mcap::Channel>(record.content);
     any = any || (channel && wanted.contains(channel->topic));
   });
   return any;

@@ -1,7 +1,6 @@
 #include "cli/debug/debuggee.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <filesystem>
 #include <map>
 #include <set>
@@ -9,6 +8,7 @@
 #include "core/config/config_files.hpp"
 #include "core/files/command_file.hpp"
 #include "core/text/text.hpp"
+#include "core/text/whole_number.hpp"
 #include "core/types.hpp"
 
 namespace skein::cli {
@@ -132,9 +132,8 @@ std::optional<int> gdbserver_port(const std::string& value) {
   const std::string prefix = "gdbserver";
   if (value != prefix && !value.starts_with(prefix + ":")) return std::nullopt;
   const std::string text = value == prefix ? "" : value.substr(prefix.size() + 1);
-  int port = 0;
-  const auto read = std::from_chars(text.data(), text.data() + text.size(), port);
-  if (read.ec != std::errc() || read.ptr != text.data() + text.size() || port < 1 || port > kHighestPort) {
+  const auto port = parse_whole<int>(text);
+  if (!port || *port < 1 || *port > kHighestPort) {
     throw InputError("'" + value + "': must be gdbserver:PORT with a port within [1, 65535]");
   }
   return port;

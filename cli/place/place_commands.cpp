@@ -1,14 +1,13 @@
 #include "cli/place/place_commands.hpp"
 
 #include <spdlog/fmt/fmt.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <array>
 
 #include "cli/run/exec_variables.hpp"
 #include "cli/run/results_dir.hpp"
 #include "core/text/text.hpp"
+#include "process/host/host_name.hpp"
 #include "process/program.hpp"
 #include "results/run_folder.hpp"
 
@@ -17,11 +16,6 @@ namespace {
 
 constexpr int kLease_s = 10;  ///< without a launcher, only leases tell which program died
 constexpr int kServerTimeout_s = 60;
-
-std::string own_name() {
-  std::array<char, 256> name{};
-  return ::gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "localhost";
-}
 
 /// The value of --network: the user's; else the domain of each placed program has its host and this one as peers.
 std::string network_text(const FleetPlan& plan, const std::vector<PlacedHost>& hosts, const std::string& own) {
@@ -72,7 +66,7 @@ class Script {
 }  // namespace
 
 std::string place_commands(const FleetPlan& plan, const std::vector<PlacedHost>& hosts) {
-  const std::string own = own_name();
+  const std::string own = host_name("localhost");
   const std::string out = std::filesystem::absolute(
       plan.options.out.value_or(default_results_dir(plan.scenario.name, plan.options.planner, plan.options.seed)));
   const Script script(plan, network_text(plan, hosts, own));

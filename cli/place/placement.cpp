@@ -1,9 +1,6 @@
 #include "cli/place/placement.hpp"
 
-#include <unistd.h>
-
 #include <algorithm>
-#include <array>
 #include <cstdlib>
 #include <set>
 
@@ -13,6 +10,7 @@
 #include "core/text/suggestion.hpp"
 #include "core/text/text.hpp"
 #include "process/host/environment.hpp"
+#include "process/host/host_name.hpp"
 #include "results/run_folder.hpp"
 
 namespace skein::cli {
@@ -56,10 +54,8 @@ Words other_nodes() {
   Words nodes = last_lines(log, kMostNodes);
   if (!exit.ok())
     throw InputError("--place slurm: scontrol show hostnames " + std::string(list) + ": " + joined(nodes));
-  std::array<char, 256> host{};
-  ::gethostname(host.data(), host.size() - 1);
   const char* own = ::getenv("SLURMD_NODENAME");
-  std::erase(nodes, own != nullptr ? own : host.data());
+  std::erase(nodes, own != nullptr ? own : host_name());
   if (nodes.empty()) throw InputError("--place slurm: the allocation has one node, and this is it; leave --place out");
   return nodes;
 }

@@ -1,13 +1,11 @@
 #include "cli/run/live_page.hpp"
 
-#include <unistd.h>
-
-#include <array>
 #include <csignal>
 #include <cstdlib>
 
 #include "cli/host/supervisor.hpp"
 #include "cli/run/browser.hpp"
+#include "process/host/host_name.hpp"
 #include "view/finished_run.hpp"
 #include "view/pages.hpp"
 #include "view/server.hpp"
@@ -25,11 +23,6 @@ void wait_for_interrupt() {
   int signal = 0;
   ::sigwait(&signals, &signal);
   ::sigprocmask(SIG_SETMASK, &former, nullptr);
-}
-
-std::string host_name() {
-  std::array<char, 256> name{};
-  return ::gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "HOST";
 }
 
 }  // namespace
@@ -57,9 +50,9 @@ void LivePage::announce(const std::function<void(const std::string&)>& say, bool
         ", beyond this host: whoever reaches it and has the key may look and give orders, and plain HTTP hides "
         "neither; "
         "ssh -L is safer (docs/view.md). From elsewhere: http://" +
-        (endpoint_.is_any() ? host_name() + ":" + port : endpoint_.text()) + "/, with the key in " + key);
+        (endpoint_.is_any() ? host_name("HOST") + ":" + port : endpoint_.text()) + "/, with the key in " + key);
   } else if (ssh != nullptr && *ssh != '\0') {
-    say("from your own machine: ssh -L " + port + ":" + endpoint_.text() + " " + host_name() +
+    say("from your own machine: ssh -L " + port + ":" + endpoint_.text() + " " + host_name("HOST") +
         ", then http://localhost:" + port + "/ there, with the key in " + key);
   }
   if (!in_browser) return;

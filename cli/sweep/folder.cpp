@@ -4,10 +4,10 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <charconv>
 #include <random>
 #include <system_error>
 
+#include "core/text/whole_number.hpp"
 #include "core/types.hpp"
 #include "process/files/atomic_file.hpp"
 #include "process/files/closed_to_agents.hpp"
@@ -53,9 +53,7 @@ std::vector<std::string> names_in(const fs::path& folder) {
 std::set<std::size_t> numbers_in(const fs::path& folder) {
   std::set<std::size_t> numbers;
   for (const std::string& name : names_in(folder)) {
-    std::size_t number = 0;
-    const auto read = std::from_chars(name.data(), name.data() + name.size(), number);
-    if (read.ec == std::errc() && read.ptr == name.data() + name.size()) numbers.insert(number);
+    if (const auto number = parse_whole<std::size_t>(name)) numbers.insert(*number);
   }
   return numbers;
 }

@@ -1,8 +1,5 @@
 #include "cli/sweep/this_machine.hpp"
 
-#include <unistd.h>
-
-#include <array>
 #include <fstream>
 #include <memory>
 #include <ostream>
@@ -19,6 +16,7 @@
 #include "core/text/suggestion.hpp"
 #include "core/text/text.hpp"
 #include "core/types.hpp"
+#include "process/host/host_name.hpp"
 #include "process/program.hpp"
 #include "results/run_folder.hpp"
 
@@ -77,8 +75,7 @@ std::string node_name() {
   for (const char* variable : {"SKEIN_NODE", "SLURMD_NODENAME"}) {
     if (const char* name = ::getenv(variable); name != nullptr && *name != '\0') return name;
   }
-  std::array<char, 256> name{};
-  return ::gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "host";
+  return host_name("host");
 }
 
 std::vector<std::string> arguments_into(const SweepFlight& flight, const fs::path& out) {

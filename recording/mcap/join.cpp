@@ -21,9 +21,9 @@ std::vector<Packed> packed_of(const Reader& part) {
   std::vector<Packed> chunks;
   part.records([&](const RawRecord& record, std::uint64_t) {
     if (record.opcode == Opcode::chunk) {
-      if (auto chunk = parse_chunk(record.content)) chunks.push_back({std::move(*chunk), {}});
+      if (auto chunk = parse<Chunk>(record.content)) chunks.push_back({std::move(*chunk), {}});
     } else if (record.opcode == Opcode::message_index && !chunks.empty()) {
-      if (auto index = parse_message_index(record.content)) chunks.back().messages.push_back(std::move(*index));
+      if (auto index = parse<MessageIndex>(record.content)) chunks.back().messages.push_back(std::move(*index));
     }
   });
   return chunks;
@@ -31,9 +31,9 @@ std::vector<Packed> packed_of(const Reader& part) {
 
 void learn_name(const RawRecord& record, Summary& summary) {
   if (record.opcode == Opcode::schema) {
-    if (const auto schema = parse_schema(record.content)) summary.add(*schema);
+    if (const auto schema = parse<Schema>(record.content)) summary.add(*schema);
   } else if (record.opcode == Opcode::channel) {
-    if (const auto channel = parse_channel(record.content)) summary.add(*channel);
+    if (const auto channel = parse<Channel>(record.content)) summary.add(*channel);
   }
 }
 

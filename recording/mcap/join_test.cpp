@@ -47,7 +47,7 @@ TEST_F(McapJoin, ChunksStandInTheOrderOfTime) {
   std::uint64_t last = 0;
   Reader(folder_ / "whole").records([&](const RawRecord& record, std::uint64_t) {
     if (record.opcode != Opcode::chunk) return;
-    const std::uint64_t start = parse_chunk(record.content)->start_time;
+    const std::uint64_t start = parse<Chunk>(record.content)->start_time;
     EXPECT_GE(start, last);
     last = start;
   });

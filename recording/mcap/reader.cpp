@@ -40,7 +40,7 @@ std::optional<ChunkFacts> facts_of(const std::optional<Chunk>& chunk) {
     const auto record = take_record(left);
     if (!record) return std::nullopt;
     if (record->opcode != Opcode::message) continue;
-    const auto message = parse_message(record->content);
+    const auto message = parse<Message>(record->content);
     if (!message) return std::nullopt;
     facts.index[message->channel_id].emplace_back(message->log_time, offset);
     facts.start_time = first ? message->log_time : std::min(facts.start_time, message->log_time);
@@ -59,7 +59,7 @@ class DamageSearch {
   void look_at(const RawRecord& record, std::uint64_t offset) {
     if (record.opcode == Opcode::chunk) return look_at_chunk(record, offset);
     if (record.opcode != Opcode::message_index || !chunk_) return;
-    const auto index = parse_message_index(record.content);
+    const auto index = parse<MessageIndex>(record.content);
     const auto found = index ? chunk_->index.find(index->channel_id) : chunk_->index.end();
     if (found != chunk_->index.end() && found->second == index->entries) return;
     damage_.push_back("the index of chunk " + std::to_string(number_) + ", at byte " + std::to_string(offset) +
@@ -72,7 +72,7 @@ class DamageSearch {
  private:
   void look_at_chunk(const RawRecord& record, std::uint64_t offset) {
     ++number_;
-    const auto chunk = parse_chunk(record.content);
+    const auto chunk = parse<Chunk>(record.content);
     chunk_ = facts_of(chunk);
     if (chunk_) {
       last_sound_ = chunk_->end_time;
@@ -222,7 +222,7 @@ void Reader::messages(const std::function<void(const Channel&, const Message&)>&
   records([&](const RawRecord& record, std::uint64_t) {
     if (!sound) return;
     if (record.opcode != Opcode::chunk) return take(record, on_message);
-    const auto chunk = parse_chunk(record.content);
+    const auto chunk = parse<Chunk>(record.content);
     const auto unpacked = chunk ? unpack(*chunk) : std::nullopt;
     sound = unpacked.has_value();
     if (!sound) return;
@@ -233,13 +233,13 @@ void Reader::messages(const std::function<void(const Channel&, const Message&)>&
 
 void Reader::take(const RawRecord& record, const std::function<void(const Channel&, const Message&)>& on_message) {
   if (record.opcode == Opcode::schema) {
-    if (const auto schema = parse_schema(record.content)) schemas_.emplace(schema->id, *schema);
+    if (const auto schema = parse<Schema>(record.content)) schemas_.emplace(schema->id, *schema);
   } else if (record.opcode == Opcode::channel) {
-    if (const auto channel = parse_channel(record.content)) channels_.emplace(channel->id, *channel);
+    if (const auto channel = parse<Channel>(record.content)) channels_.emplace(channel->id, *channel);
   } else if (record.opcode == Opcode::metadata) {
-    if (const auto metadata = parse_metadata(record.content)) metadata_[metadata->name] = metadata->entries;
+    if (const auto metadata = parse<Metadata>(record.content)) metadata_[metadata->name] = metadata->entries;
   } else if (record.opcode == Opcode::message) {
-    const auto message = parse_message(record.content);
+    const auto message = parse<Message>(record.content);
     const auto channel = message ? channels_.find(message->channel_id) : channels_.end();
     if (channel != channels_.end()) on_message(channel->second, *message);
   }
@@ -253,7 +253,7 @@ std::optional<Footer> Reader::footer() const {
   if (!record || record->opcode != Opcode::footer || !std::equal(tail.begin(), tail.end(), std::begin(kMagic))) {
     return std::nullopt;
   }
-  return parse_footer(record->content);
+  return parse<Footer>(record->content);
 }
 
 }  // namespace skein::mcap

@@ -16,10 +16,10 @@ TEST(McapRecords, EachKindReadsBackAsItWasWritten) {
   append(bytes, Metadata{"run", {{"seed", "3"}}});
   append(bytes, MessageIndex{300, {{1, 2}, {~0ULL, 4}}});
   ByteView left(bytes);
-  EXPECT_EQ(parse_schema(take_record(left)->content), schema);
-  EXPECT_EQ(parse_channel(take_record(left)->content), channel);
-  EXPECT_EQ(parse_metadata(take_record(left)->content)->entries.at("seed"), "3");
-  const auto index = parse_message_index(take_record(left)->content);
+  EXPECT_EQ(parse<Schema>(take_record(left)->content), schema);
+  EXPECT_EQ(parse<Channel>(take_record(left)->content), channel);
+  EXPECT_EQ(parse<Metadata>(take_record(left)->content)->entries.at("seed"), "3");
+  const auto index = parse<MessageIndex>(take_record(left)->content);
   EXPECT_EQ(index->entries, (std::vector<std::pair<std::uint64_t, std::uint64_t>>{{1, 2}, {~0ULL, 4}}));
   EXPECT_TRUE(left.empty());
   EXPECT_FALSE(take_record(left));
@@ -53,7 +53,7 @@ TEST(McapRecords, ARecordThatIsCutOffIsNone) {
     EXPECT_FALSE(take_record(left)) << length;
     EXPECT_EQ(left.size(), length);
     if (length < kRecordHead) continue;
-    EXPECT_FALSE(parse_channel(left.subspan(kRecordHead))) << length;
+    EXPECT_FALSE(parse<Channel>(left.subspan(kRecordHead))) << length;
   }
 }
 
@@ -65,12 +65,12 @@ TEST(McapRecords, NoiseIsNoRecordAndNoTrouble) {
     for (std::uint8_t& byte : noise) byte = static_cast<std::uint8_t>(random() % 4 == 0 ? 0xFF : random() % 9);
     ByteView left(noise);
     while (const auto record = take_record(left)) static_cast<void>(record);
-    static_cast<void>(parse_schema(noise));
-    static_cast<void>(parse_channel(noise));
-    static_cast<void>(parse_message(noise));
-    static_cast<void>(parse_chunk(noise));
-    static_cast<void>(parse_metadata(noise));
-    const auto index = parse_message_index(noise);
+    static_cast<void>(parse<Schema>(noise));
+    static_cast<void>(parse<Channel>(noise));
+    static_cast<void>(parse<Message>(noise));
+    static_cast<void>(parse<Chunk>(noise));
+    static_cast<void>(parse<Metadata>(noise));
+    const auto index = parse<MessageIndex>(noise);
     EXPECT_LE(index ? index->entries.size() * 16 : 0, noise.size());
   }
 }

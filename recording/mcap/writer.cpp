@@ -39,7 +39,7 @@ void Summary::add(ChunkIndex index, const std::vector<MessageIndex>& messages) {
 
 void Summary::write(Output& out) const {
   Bytes bytes;
-  append_data_end(bytes, out.crc());
+  append(bytes, DataEnd{out.crc()});
   const std::size_t data_end = bytes.size();
   std::vector<SummaryOffset> groups;
   const auto add_group = [&](Opcode opcode, const auto& append_all) {

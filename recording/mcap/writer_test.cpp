@@ -53,7 +53,7 @@ TEST_F(McapWriter, NoChunkSpansTwoWindowsOfTime) {
   std::size_t chunks = 0;
   Reader(folder_ / "a").records([&](const RawRecord& record, std::uint64_t) {
     if (record.opcode != Opcode::chunk) return;
-    const auto chunk = parse_chunk(record.content);
+    const auto chunk = parse<Chunk>(record.content);
     EXPECT_EQ(chunk->start_time / options.chunk_ns, chunk->end_time / options.chunk_ns);
     ++chunks;
   });
@@ -193,7 +193,8 @@ TEST_F(McapWriter, DamageNamesTheChunkAndWhatIsMissing) {
   const Reader sound(folder_ / "sound");
   std::vector<Place> places;
   sound.records([&](const RawRecord& record, std::uint64_t offset) {
-    if (record.opcode == Opcode::chunk) places.push_back({offset, record.content.size(), *parse_chunk(record.content)});
+    if (record.opcode == Opcode::chunk)
+      places.push_back({offset, record.content.size(), *parse<Chunk>(record.content)});
   });
   ASSERT_GT(places.size(), 5U);
   const std::string bytes = read_file_bytes(folder_ / "sound", 1 << 20);

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <map>
 #include <sstream>
 
+#include "core/text/whole_number.hpp"
 #include "core/types.hpp"
 #include "scenes/files/limits.hpp"
 
@@ -90,12 +90,11 @@ class HeaderParser {
   }
 
   std::size_t number(const std::string& text, const std::string& key, std::size_t most) const {
-    std::size_t value = 0;
-    const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (result.ec != std::errc() || result.ptr != text.data() + text.size() || value > most) {
+    const auto value = parse_whole<std::size_t>(text);
+    if (!value || *value > most) {
       refuse(key, "must be a whole number within [0, " + std::to_string(most) + "], not '" + text + "'");
     }
-    return value;
+    return *value;
   }
 
   void read_fields(PcdHeader& header) const {

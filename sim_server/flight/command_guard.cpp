@@ -6,6 +6,7 @@
 
 #include "core/euler.hpp"
 #include "core/text/text.hpp"
+#include "core/vectors.hpp"
 
 namespace skein::sim {
 namespace {
@@ -22,12 +23,6 @@ std::string beyond(const char* what, double value, double limit, const char* uni
 }
 
 bool given(const Vector3d& v) { return v.norm() >= kGiven; }
-
-/// A vector of the same direction, no longer than `length`.
-Vector3d shortened(const Vector3d& v, double length) {
-  const double norm = v.norm();
-  return norm > length ? Vector3d(v * (length / norm)) : v;
-}
 
 }  // namespace
 

@@ -3,17 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/vectors.hpp"
+
 namespace skein::sim {
-namespace {
-
-double distance_to_segment(const Vector3d& p, const Vector3d& from, const Vector3d& to) {
-  const Vector3d way = to - from;
-  const double length2 = way.squaredNorm();
-  const double share = length2 > 0.0 ? std::clamp((p - from).dot(way) / length2, 0.0, 1.0) : 0.0;
-  return (p - from - share * way).norm();
-}
-
-}  // namespace
 
 double Braking::rest_s() const { return delay_s + v_W.norm() / deceleration_mps2; }
 

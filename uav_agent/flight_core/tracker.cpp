@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/euler.hpp"
+#include "core/vectors.hpp"
 
 namespace skein::agent {
 namespace {
@@ -21,11 +22,6 @@ constexpr double kLongestStepS = 0.05;           ///< of the point mass; a longe
 constexpr std::size_t kMostStoppingSteps = 400;  ///< 20 s at exchanges of 0.05 s: no UAV takes so long to stop
 constexpr double kNoPositionM = 0.02;            ///< the controller takes |p| < 0.01 for "no position"
 constexpr double kAccelerationShare = 0.7;       ///< of the vehicle's limit; the controller corrects with the rest
-
-Vector3d shortened(const Vector3d& v, double length) {
-  const double norm = v.norm();
-  return norm > length ? Vector3d(v * (length / norm)) : v;
-}
 
 /// Cosine of the turn between two legs; 1 if either of them is empty.
 double cosine_between(const Vector3d& in, const Vector3d& out) {

@@ -6,18 +6,13 @@
 #include <stdexcept>
 #include <tuple>
 
+#include "core/vectors.hpp"
+
 namespace skein::agent {
 namespace {
 
 constexpr int kRegionCubeBits = 5;  // a region's edge is 2^5 smallest cubes
 constexpr double kDetour = 0.1;     // weight of the distance from the listener: nearer places on its way come first
-
-double distance_to_segment(const Vector3d& a_W, const Vector3d& b_W, const Vector3d& p_W) {
-  const Vector3d ab = b_W - a_W;
-  const double length2 = ab.squaredNorm();
-  const double part = length2 > 0.0 ? std::clamp((p_W - a_W).dot(ab) / length2, 0.0, 1.0) : 0.0;
-  return (a_W + part * ab - p_W).norm();
-}
 
 Vector3d middle_W(const Eigen::Vector3i& at, double edge_m) {
   return (at.cast<double>() + Vector3d::Constant(0.5)) * edge_m;
@@ -112,7 +107,7 @@ bool ToldChunks::due(const Listener& listener, std::uint32_t chunk, Tick now) {
 }
 
 double ToldChunks::key_m(const Listener& listener, const Vector3d& p_W) const {
-  return distance_to_segment(listener.p_W, listener.going_to_W, p_W) + kDetour * (p_W - listener.p_W).norm();
+  return distance_to_segment(p_W, listener.p_W, listener.going_to_W) + kDetour * (p_W - listener.p_W).norm();
 }
 
 std::optional<double> ToldChunks::key_m(const Region& region, std::span<const Listener> listeners,
