@@ -1,4 +1,4 @@
-#include "cli/bench_command.hpp"
+#include "cli/actions.hpp"
 
 #include <sys/utsname.h>
 
@@ -24,7 +24,6 @@
 #include "cli/machine.hpp"
 #include "cli/run/fleet_plan.hpp"
 #include "cli/run/preflight.hpp"
-#include "cli/run_command.hpp"
 #include "core/types.hpp"
 #include "process/files/atomic_file.hpp"
 #include "process/host/environment.hpp"

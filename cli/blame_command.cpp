@@ -1,4 +1,4 @@
-#include "cli/blame_command.hpp"
+#include "cli/actions.hpp"
 
 #include <spdlog/fmt/fmt.h>
 

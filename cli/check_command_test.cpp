@@ -1,4 +1,4 @@
-#include "cli/check_command.hpp"
+#include "cli/actions.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "cli/check_planner_command.hpp"
+#include "cli/actions.hpp"
 
 #include <sys/wait.h>
 
@@ -13,7 +13,6 @@
 #include "cli/machine.hpp"
 #include "cli/run/fleet_plan.hpp"
 #include "cli/run/preflight.hpp"
-#include "cli/run_command.hpp"
 #include "cli/study/flights.hpp"
 #include "core/planners/python_spec.hpp"
 #include "core/text/suggestion.hpp"

@@ -1,5 +1,6 @@
 // `skein compose` and `skein keys`, with the real programs beside them.
-#include "cli/compose_command.hpp"
+#include "cli/actions.hpp"
+#include "cli/options.hpp"
 
 #include <gtest/gtest.h>
 #include <spdlog/fmt/fmt.h>

@@ -1,4 +1,4 @@
-#include "cli/convert_command.hpp"
+#include "cli/actions.hpp"
 
 #include "cli/fault_tests/conversion.hpp"
 #include "cli/fault_tests/fault_test.hpp"

@@ -1,4 +1,4 @@
-#include "cli/diff_command.hpp"
+#include "cli/actions.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "cli/doctor_command.hpp"
+#include "cli/actions.hpp"
 
 #include "cli/run/fleet_plan.hpp"
 #include "cli/run/preflight.hpp"

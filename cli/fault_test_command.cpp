@@ -1,4 +1,4 @@
-#include "cli/fault_test_command.hpp"
+#include "cli/actions.hpp"
 
 #include <chrono>
 #include <map>
@@ -8,6 +8,7 @@
 #include "cli/fault_tests/flights.hpp"
 #include "cli/fault_tests/report.hpp"
 #include "cli/host/supervisor.hpp"
+#include "cli/options.hpp"
 #include "cli/properties/judge.hpp"
 #include "cli/properties/run_signals.hpp"
 #include "cli/run/preflight.hpp"

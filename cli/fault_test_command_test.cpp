@@ -1,11 +1,10 @@
 // `skein test --faults` with made-up programs: what is flown, what is printed, which exit code.
-#include "cli/fault_test_command.hpp"
+#include "cli/actions.hpp"
 
 #include <gtest/gtest.h>
 
 #include <sstream>
 
-#include "cli/test_command.hpp"
 #include "cli/testing/fake_programs.hpp"
 #include "process/program.hpp"
 #include "report/testing/xml_check.hpp"

@@ -1,4 +1,4 @@
-#include "cli/fleet_command.hpp"
+#include "cli/actions.hpp"
 
 #include <fcntl.h>
 #include <sys/mman.h>

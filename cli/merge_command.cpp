@@ -1,4 +1,4 @@
-#include "cli/merge_command.hpp"
+#include "cli/actions.hpp"
 
 #include <algorithm>
 #include <filesystem>

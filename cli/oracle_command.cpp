@@ -4,6 +4,7 @@
 
 #include <iomanip>
 
+#include "cli/actions.hpp"
 #include "cli/host/supervisor.hpp"
 #include "cli/run/drawn_world.hpp"
 #include "cli/run/fleet_plan.hpp"

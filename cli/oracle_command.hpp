@@ -1,15 +1,13 @@
-// `skein oracle`: the score attainable in a scenario with full knowledge (docs/oracle.md), also for `skein run`.
+// The oracle's answers (docs/oracle.md), for `skein oracle` and `skein run`.
 #pragma once
 
-#include "cli/console.hpp"
-#include "cli/options.hpp"
+#include <ostream>
+#include <string>
+
+#include "cli/command.hpp"
 #include "results/result.hpp"
 
 namespace skein::cli {
-
-/// Prints a table, or JSON. @returns the exit code. @throws InputError for an invalid scenario; std::runtime_error when
-///   sim_server fails; Interrupted.
-int consult_oracle(const OracleOptions& options, const Console& console);
 
 /// What is attainable in a run's scenario.
 struct AttainableAnswer {

@@ -1,5 +1,5 @@
 // Where `skein pack` may write, and what it leaves when it cannot.
-#include "cli/pack_command.hpp"
+#include "cli/actions.hpp"
 
 #include <gtest/gtest.h>
 

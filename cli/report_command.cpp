@@ -1,4 +1,4 @@
-#include "cli/report_command.hpp"
+#include "cli/actions.hpp"
 
 #include "cli/run/recording.hpp"
 #include "process/program.hpp"

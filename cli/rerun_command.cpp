@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <iostream>
 
+#include "cli/actions.hpp"
 #include "cli/hand_flights.hpp"
 #include "cli/options.hpp"
 #include "cli/python_planners.hpp"
 #include "cli/run/fleet_plan.hpp"
 #include "cli/run/results_dir.hpp"
-#include "cli/run_command.hpp"
 #include "core/text/text.hpp"
 #include "process/json_text.hpp"
 #include "process/program.hpp"

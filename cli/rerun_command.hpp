@@ -1,5 +1,4 @@
-// `skein rerun`: replays a recorded run to one UAV's software, without the rest of the fleet's software.
-// `skein fork`: replays a recorded run up to some time, then lets it continue differently.
+// What `skein rerun` and `skein fork` read of a finished run, for other commands that fly it again.
 #pragma once
 
 #include "cli/command.hpp"
@@ -25,13 +24,5 @@ struct ThoughtAgain {
 /// @throws InputError when the run has no whole recording, cannot be repeated, or none of its UAVs keeps maps.
 ThoughtAgain think_again_with_maps(const std::filesystem::path& run, const std::filesystem::path& out,
                                    const Console& console);
-
-/// @returns the exit code: 0 when the software sends the same messages as then and the digest is the same, 1 when not;
-///   else that of the flight. @throws InputError when the run has no whole recording, or cannot be repeated.
-int rerun(const RerunOptions& options, const Console& console);
-
-/// @returns the exit code of the flight.
-/// @throws InputError as rerun(), and when the recorded run ended before options.at_s.
-int fork_run(const ForkOptions& options, const Console& console);
 
 }  // namespace skein::cli

@@ -1,4 +1,4 @@
-#include "cli/run_command.hpp"
+#include "cli/actions.hpp"
 
 #include <algorithm>
 #include <optional>

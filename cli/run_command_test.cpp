@@ -1,4 +1,4 @@
-#include "cli/run_command.hpp"
+#include "cli/actions.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,6 @@
 #include <regex>
 #include <sstream>
 
-#include "cli/report_command.hpp"
 #include "cli/testing/fake_programs.hpp"
 #include "core/types.hpp"
 #include "results/result.hpp"

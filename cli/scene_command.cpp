@@ -1,4 +1,4 @@
-#include "cli/scene_command.hpp"
+#include "cli/actions.hpp"
 
 #include "cli/run/drawn_world.hpp"
 #include "cli/run/fleet_plan.hpp"

@@ -1,4 +1,4 @@
-#include "cli/scene_command.hpp"
+#include "cli/actions.hpp"
 
 #include <gtest/gtest.h>
 

@@ -8,7 +8,9 @@
 #include <memory>
 #include <utility>
 
+#include "cli/actions.hpp"
 #include "cli/machine.hpp"
+#include "cli/options.hpp"
 #include "cli/run/results_dir.hpp"
 #include "cli/study/columns.hpp"
 #include "cli/study/conditions_table.hpp"

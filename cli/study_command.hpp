@@ -1,18 +1,12 @@
-// `skein contest` and `skein compare`: fly a study and write its report.
+// What `skein contest` and `skein compare` gather and print of a study.
 #pragma once
 
-#include "cli/console.hpp"
+#include <ostream>
+
 #include "cli/study/figures.hpp"
 #include "cli/study/flights.hpp"
 
 namespace skein::cli {
-
-/// Flies the flights that are still missing, then writes report.html, flights.csv, summary.csv, pairs.csv, table.tex,
-/// figures/*.svg and, for a contest, totals.csv; also after Ctrl-C and when flights have failed.
-/// @returns the exit code: kExitProcessFailed when a flight failed, kExitCheckFailed when one does not meet a
-///   requirement, kExitInterrupted after Ctrl-C. @throws InputError before anything flies; Interrupted while the input
-///   is checked.
-int run_study(const StudyOptions& options, const Console& console);
 
 /// Gathers the figures of all flights, for the report.
 Study study_of(const StudyPlan& plan, StudyOutcomes outcomes);

@@ -4,6 +4,7 @@
 
 #include <sstream>
 
+#include "cli/actions.hpp"
 #include "cli/study/flights.hpp"
 #include "cli/testing/fake_programs.hpp"
 #include "core/types.hpp"

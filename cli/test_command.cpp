@@ -1,8 +1,7 @@
-#include "cli/test_command.hpp"
+#include "cli/actions.hpp"
 
 #include <thread>
 
-#include "cli/fault_test_command.hpp"
 #include "cli/run/fleet_plan.hpp"
 #include "cli/run/preflight.hpp"
 #include "cli/test_counts.hpp"

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "cli/run_command.hpp"
+#include "cli/actions.hpp"
 #include "results/result.hpp"
 
 namespace skein::cli {

@@ -11,7 +11,6 @@
 #include "cli/bench/report.hpp"
 #include "cli/bench/scenario.hpp"
 #include "cli/run/preflight.hpp"
-#include "cli/run_command.hpp"
 #include "process/files/atomic_file.hpp"
 #include "process/program.hpp"
 #include "results/run_folder.hpp"

@@ -11,7 +11,6 @@
 #include "cli/host/supervisor.hpp"
 #include "cli/run/fleet_plan.hpp"
 #include "cli/run/preflight.hpp"
-#include "cli/run_command.hpp"
 #include "core/config/config_files.hpp"
 #include "core/files/command_file.hpp"
 #include "core/types.hpp"

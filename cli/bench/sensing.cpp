@@ -9,7 +9,6 @@
 #include "cli/host/supervisor.hpp"
 #include "cli/run/fleet_plan.hpp"
 #include "cli/run/preflight.hpp"
-#include "cli/run_command.hpp"
 #include "process/files/atomic_file.hpp"
 #include "process/host/environment.hpp"
 #include "process/program.hpp"

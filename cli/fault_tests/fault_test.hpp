@@ -1,5 +1,5 @@
 // A fault test: a run, what goes wrong in it, and what must hold of it. docs/how-to-test-faults.md explains the files.
-// This file only reads fault tests; fault_test_command.hpp flies them.
+// This file only reads fault tests; fault_test_command.cpp flies them.
 #pragma once
 
 #include <filesystem>

@@ -4,14 +4,15 @@
 #include <set>
 #include <sstream>
 
+#include "cli/actions.hpp"
 #include "cli/fault_tests/fault_test.hpp"
 #include "cli/hunt/trial.hpp"
+#include "cli/options.hpp"
 #include "cli/properties/judge.hpp"
 #include "cli/properties/run_signals.hpp"
 #include "cli/run/inputs_outlast.hpp"
 #include "cli/run/preflight.hpp"
 #include "cli/run/results_dir.hpp"
-#include "cli/run_command.hpp"
 #include "core/config/config_node.hpp"
 #include "core/text/text.hpp"
 #include "process/program.hpp"

@@ -7,7 +7,7 @@
 #include <functional>
 #include <sstream>
 
-#include "cli/run_command.hpp"
+#include "cli/actions.hpp"
 #include "cli/testing/fake_programs.hpp"
 #include "core/types.hpp"
 

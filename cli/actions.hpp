@@ -1,0 +1,130 @@
+// What each command of `skein` does: one function for each struct of cli/command.hpp. Each returns the exit code
+// (process/program.hpp), and throws InputError for invalid input and Interrupted after Ctrl-C, if it can meet them.
+#pragma once
+
+#include "cli/command.hpp"
+#include "cli/console.hpp"
+#include "process/program.hpp"
+
+namespace skein::cli {
+
+/// `skein run`, from the options to result.json: validates the options, starts the fleet, monitors it until it ends, and
+/// writes the result. @throws InputError before the fleet's programs have started; Interrupted if the user presses
+///   Ctrl-C before the flight.
+int run_fleet(const RunOptions& options, const Console& console);
+
+/// `skein compose`: writes a docker-compose file for a fleet in containers, or flies that fleet at once.
+/// @throws InputError; std::runtime_error when the containers cannot be created.
+int compose_fleet(const ComposeOptions& options, const Console& console);
+
+/// `skein keys`: makes the keys of a secured fleet that is started by hand or by other tools.
+/// @throws InputError when the folder exists already or cannot be created; std::system_error when a key cannot be
+///   written.
+int make_keys(const KeysOptions& options, const Console& console);
+
+/// `skein fleet`: a fleet that another program steps, as skein.Fleet does in Python. Plans and checks the flight, then
+/// replaces this process by the one that simulates the whole fleet (one_process/session.hpp); returns only when that
+/// fails. @throws InputError, Interrupted.
+int step_fleet(const FleetOptions& options, const Console& console);
+
+/// `skein ps`: prints a table of the user's running fleets. @returns kExitDone
+int list_fleets(const Console& console);
+
+/// `skein attach`: replaces this process by the debugging tool, attached to one program of a flying fleet; returns only
+/// on failure. @throws InputError when there is no such fleet or program, more than one, or no such tool.
+int attach_to(const AttachOptions& options, const Console& console);
+
+/// `skein report`: writes report.html of finished runs anew. @returns kExitCheckFailed when a recording is damaged.
+/// @throws InputError at the first folder without a result; the pages of the folders before it are written by then.
+int make_reports(const ReportOptions& options, const Console& console);
+
+/// `skein replay`: shows a finished run, or two runs on one clock, on the same page that follows a live run. Serves the
+/// page until the user interrupts, or writes it to a file.
+/// @throws InputError when a folder holds no result, two runs have no scene in common, no page can be served, or the
+///   requested file cannot be written; Interrupted while a film is made.
+int replay_run(const ReplayOptions& options, const Console& console);
+
+/// `skein diff`: when two runs start to differ, and in what. Compares the digests step by step, the radio messages and
+/// commands (if both runs have recordings), the results, and the tables of captures, events, scores and trajectories.
+/// @returns 0 the same, 1 different. @throws InputError when a folder holds no run, or one of its files is damaged.
+int diff_runs(const DiffOptions& options, const Console& console);
+
+/// `skein merge`: writes the files that the launcher would write after a run, for fleets that were started without it.
+/// If the server left no report, only joins the parts of the recording, and prints what is missing.
+/// @returns as `skein run` would: 3 when members were lost or there is no result; 1 when the recording is damaged.
+/// @throws InputError when there is neither a server's report nor a part, or the scenario is not known on this machine.
+int merge_reports(const MergeOptions& options, const Console& console);
+
+/// `skein contest` and `skein compare`: flies the flights that are still missing, then writes report.html, flights.csv,
+/// summary.csv, pairs.csv, table.tex, figures/*.svg and, for a contest, totals.csv; also after Ctrl-C and when flights
+/// have failed. @returns kExitProcessFailed when a flight failed, kExitCheckFailed when one does not meet a requirement,
+///   kExitInterrupted after Ctrl-C. @throws InputError before anything flies; Interrupted while the input is checked.
+int run_study(const StudyOptions& options, const Console& console);
+
+/// `skein oracle`: prints the score attainable in a scenario with full knowledge (docs/oracle.md), as a table or JSON.
+/// @throws InputError for an invalid scenario; std::runtime_error when sim_server fails; Interrupted.
+int consult_oracle(const OracleOptions& options, const Console& console);
+
+/// `skein check-planner`: flies the same missions in changed process surroundings (memory layout, clock, load, ...),
+/// which must not change the result, and reports those that do.
+/// @returns kExitDone when all runs are the same, kExitCheckFailed when one differs. @throws InputError, Interrupted.
+int check_planner(const CheckPlannerOptions& options, const Console& console);
+
+/// `skein rerun`: replays a recorded run to one UAV's software, without the rest of the fleet's software.
+/// @returns 0 when the software sends the same messages as then and the digest is the same, 1 when not; else the code of
+///   the flight. @throws InputError when the run has no whole recording, or cannot be repeated.
+int rerun(const RerunOptions& options, const Console& console);
+
+/// `skein fork`: replays a recorded run up to some time, then lets it continue differently. @returns as the flight does.
+/// @throws InputError as rerun(), and when the recorded run ended before options.at_s.
+int fork_run(const ForkOptions& options, const Console& console);
+
+/// `skein test`: runs the test suite of this build, or with --faults the user's fault tests; the summary is the last
+/// line. @throws InputError when this build has no tests, or for invalid options.
+int run_tests(const TestOptions& options, const Console& console);
+
+/// `skein test --faults`: prints one line per test, PASS or FAIL, with what does not hold below it; the last line is 'N
+/// passed, N failed'. All files are validated before anything flies. A run without faults that several tests compare
+/// with is flown once. With --junit the report exists from the start and grows with each test, so after Ctrl-C it holds
+/// the tests that were flown. @throws InputError when a file is wrong; Interrupted.
+int run_fault_tests(const TestOptions& options, const Console& console);
+
+/// `skein convert`: turns fault tests of earlier versions into those of this one. Prints the converted text of each
+/// file; with `--in-place` rewrites the files that change, and prints their names.
+/// @throws InputError for the first file that cannot be read or converted.
+int convert_files(const ConvertOptions& options, const Console& console);
+
+/// `skein hunt`: searches for faults that break a property, and writes a capsule for each find.
+/// @returns kExitDone when nothing was found, kExitCheckFailed with finds. @throws InputError, Interrupted.
+int run_hunt(const HuntOptions& options, const Console& console);
+
+/// `skein blame`: flies a run again without one of its faults at a time, and on request without one link's messages at a
+/// time, and ranks them by what they cost.
+/// @throws InputError when there is nothing to blame, or the run cannot be repeated; Interrupted.
+int blame(const BlameOptions& options, const Console& console);
+
+/// `skein check`: checks scenario, vehicle and fault files, fault tests, and tables of reference vectors. Prints one
+/// line for each valid file. @returns the exit code of `sim_server --golden` if reference vectors were given, else
+///   kExitDone. @throws InputError for the first invalid file.
+int check_files(const CheckOptions& options, const Console& console);
+
+/// `skein scene`: runs sim_server, which builds the scene, writes it as files in CARIC's layout and prints their names.
+/// @returns its exit code: kExitDone, or kExitBadInput after it has printed what is wrong.
+int export_scene(const SceneOptions& options);
+
+/// `skein bench`: flies and measures speed, memory, and where the time goes, with the same programs that a user's run
+/// starts; prints the tables and writes --json. Takes minutes, with --quick well below one. docs/performance.md explains
+/// the figures. @returns kExitDone when every run reached its end, whether or not it meets the targets; else
+///   kExitProcessFailed, or kExitInterrupted. @throws InputError before anything has started.
+int run_bench(const BenchOptions& options, const Console& console);
+
+/// `skein doctor`: runs the program skein_doctor, which prints settings of this machine or network that would hinder a
+/// fleet. It gets the user's own environment, because it checks that too.
+/// @returns its exit code: kExitDone, kExitCheckFailed, or kExitBadInput after it has printed what is wrong.
+int consult_doctor(const DoctorOptions& options);
+
+/// `skein pack`: the programs with all libraries that they need, in one archive that runs wherever it is unpacked.
+/// @throws InputError for a target that is a folder, an agent or library that is not there, or when tar fails.
+int pack_programs(const PackOptions& options, const Console& console);
+
+}  // namespace skein::cli
