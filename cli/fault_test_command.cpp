@@ -93,8 +93,8 @@ class FaultTestRun {
     write_report();  // before anything flies, so that nobody waits in vain for a report that cannot be written
     std::deque<std::size_t> waiting(flights_.flights.size());
     std::iota(waiting.begin(), waiting.end(), std::size_t{0});
-    SideBySide sky(static_cast<std::size_t>(options_.jobs), console_);
-    const bool all = sky.fly(
+    SideBySide side_by_side(static_cast<std::size_t>(options_.jobs), console_);
+    const bool all = side_by_side.fly(
         std::move(waiting), [this](std::size_t index) { return start(index); },
         [this](std::size_t index, const ExitStatus& exit) { on_exit(index, exit); });
     if (!all) throw Interrupted{};

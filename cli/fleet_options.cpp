@@ -3,7 +3,6 @@
 
 #include "cli/option_checks.hpp"
 #include "cli/tool_options.hpp"
-#include "core/text/number_checks.hpp"
 
 namespace skein::cli {
 

@@ -5,7 +5,6 @@
 #include "core/hand_command.hpp"
 #include "core/planners/hand_spec.hpp"
 #include "core/text/suggestion.hpp"
-#include "core/text/text.hpp"
 #include "core/types.hpp"
 
 namespace skein::cli {

@@ -12,7 +12,6 @@
 #include "cli/run/fleet_plan.hpp"
 #include "cli/run/preflight.hpp"
 #include "core/config/config_files.hpp"
-#include "core/text/text.hpp"
 #include "core/types.hpp"
 #include "process/host/environment.hpp"
 #include "process/program.hpp"

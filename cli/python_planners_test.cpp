@@ -6,7 +6,6 @@
 
 #include "cli/run/preflight.hpp"
 #include "core/types.hpp"
-#include "results/run_folder.hpp"
 
 namespace skein::cli {
 namespace {

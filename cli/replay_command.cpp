@@ -5,7 +5,6 @@
 #include "cli/film/film.hpp"
 #include "cli/maps_in_time.hpp"
 #include "cli/run/live_page.hpp"
-#include "core/text/text.hpp"
 #include "core/types.hpp"
 #include "process/files/atomic_file.hpp"
 #include "process/program.hpp"

@@ -8,7 +8,6 @@
 #include "core/files/file_bytes.hpp"
 #include "core/sha256.hpp"
 #include "core/text/base64.hpp"
-#include "results/run_folder.hpp"
 
 namespace skein::report {
 namespace {

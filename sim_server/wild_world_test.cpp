@@ -13,7 +13,6 @@
 
 #include "core/scenario/drawn_worlds.hpp"
 #include "core/scenario/scenario_reader.hpp"
-#include "core/vehicle/airframe.hpp"
 #include "scenes/mesh_builder.hpp"
 #include "scenes/scene_export.hpp"
 #include "scenes/wild/flyable.hpp"

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/counted_memory.hpp"
-#include "tests/support/eventually.hpp"
 #include "view/testing/server_fixture.hpp"
 
 namespace skein::view {

@@ -21,7 +21,7 @@ namespace {
 
 using agent::Space;
 
-constexpr int kRoomyRays = 16;          // in a box that holds a whole site (agent::is_roomy())
+constexpr int kSiteBoxRays = 16;        // in a box that holds a whole site (agent::is_site_box())
 constexpr double kEdgeM = 0.5;          // edge of a picture's squares
 constexpr double kOffM = 0.5;           // minimum clearance of space that counts as truly free
 constexpr std::size_t kDraws = 60'000;  // sample points in space, all bands together
@@ -38,8 +38,8 @@ class Study {
         explorer_(lone_explorer(site.start), site.scene, seed, planner()) {
     result_.name = site.name;
     result_.stem = site.stem;
-    const bool roomy = std::ranges::any_of(site.scene.boxes, agent::is_roomy);
-    result_.rays = roomy ? kRoomyRays : agent::kProofRays;
+    const bool in_site_box = std::ranges::any_of(site.scene.boxes, agent::is_site_box);
+    result_.rays = in_site_box ? kSiteBoxRays : agent::kProofRays;
   }
 
   SiteStudy fly(const std::vector<double>& times_s) {

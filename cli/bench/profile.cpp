@@ -13,7 +13,6 @@
 #include "cli/run/preflight.hpp"
 #include "process/files/atomic_file.hpp"
 #include "process/program.hpp"
-#include "results/run_folder.hpp"
 
 namespace skein::cli {
 namespace {

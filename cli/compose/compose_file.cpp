@@ -17,7 +17,6 @@
 #include "cli/run/program_files.hpp"
 #include "core/config/config_files.hpp"
 #include "core/planners/python_spec.hpp"
-#include "core/text/text.hpp"
 #include "core/topics.hpp"
 #include "process/files/security_files.hpp"
 #include "results/run_folder.hpp"

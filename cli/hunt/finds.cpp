@@ -6,7 +6,6 @@
 #include <chrono>
 #include <set>
 
-#include "core/text/text.hpp"
 #include "process/files/atomic_file.hpp"
 
 #ifndef SKEIN_VERSION

@@ -12,7 +12,6 @@
 #include "cli/run/results_dir.hpp"
 #include "cli/study/side_by_side.hpp"
 #include "process/program.hpp"
-#include "results/run_folder.hpp"
 
 namespace skein::cli {
 namespace {
@@ -75,24 +74,24 @@ TrialOutcome TrialFlights::read(const Trial& trial, const fs::path& dir, const E
 }
 
 void TrialFlights::fly(const std::vector<std::size_t>& numbers, const Make& make, const Over& over) {
-  std::map<std::size_t, Trial> in_the_air;
-  SideBySide sky(static_cast<std::size_t>(*plan_.options.jobs), console_);
+  std::map<std::size_t, Trial> running;
+  SideBySide side_by_side(static_cast<std::size_t>(*plan_.options.jobs), console_);
   const auto start_one = [&](std::size_t index) -> std::optional<ProgramSpec> {
     std::optional<Trial> trial = make(index);
     if (!trial) return std::nullopt;
     const fs::path dir = dir_of(name_of_trial(index));
     ProgramSpec spec = start(*trial, dir);
-    in_the_air.emplace(index, std::move(*trial));
+    running.emplace(index, std::move(*trial));
     return spec;
   };
   const auto end_one = [&](std::size_t index, const ExitStatus& exit) {
-    const Trial trial = in_the_air.extract(index).mapped();
+    const Trial trial = running.extract(index).mapped();
     const fs::path dir = dir_of(name_of_trial(index));
     TrialOutcome outcome = read(trial, dir, exit);
     remove_folder(dir);
     over(index, std::move(outcome));
   };
-  if (!sky.fly({numbers.begin(), numbers.end()}, start_one, end_one)) throw Interrupted{};
+  if (!side_by_side.fly({numbers.begin(), numbers.end()}, start_one, end_one)) throw Interrupted{};
 }
 
 void TrialFlights::fly_undisturbed(const std::vector<Trial>& trials) {
@@ -109,8 +108,8 @@ void TrialFlights::fly_undisturbed(const std::vector<Trial>& trials) {
   if (missing.empty()) return;
   std::deque<std::size_t> waiting(missing.size());
   std::iota(waiting.begin(), waiting.end(), std::size_t{0});
-  SideBySide sky(static_cast<std::size_t>(*plan_.options.jobs), console_);
-  const bool all = sky.fly(
+  SideBySide side_by_side(static_cast<std::size_t>(*plan_.options.jobs), console_);
+  const bool all = side_by_side.fly(
       std::move(waiting), [&](std::size_t index) { return start(missing[index], dirs[index]); },
       [](std::size_t, const ExitStatus&) {});
   if (!all) throw Interrupted{};
@@ -133,8 +132,8 @@ TrialOutcome TrialFlights::fly_and_keep(const Trial& trial) {
   fly_undisturbed({trial});
   if (setting_of(trial) == nullptr) return {};
   TrialOutcome outcome;
-  SideBySide sky(1, console_);
-  const bool flown = sky.fly(
+  SideBySide side_by_side(1, console_);
+  const bool flown = side_by_side.fly(
       {0}, [&](std::size_t) { return start(trial, *trial.run.out); },
       [&](std::size_t, const ExitStatus& exit) { outcome = read(trial, *trial.run.out, exit); });
   if (!flown) throw Interrupted{};

@@ -9,7 +9,6 @@
 #include "core/config/network_config.hpp"
 #include "core/files/file_bytes.hpp"
 #include "core/text/suggestion.hpp"
-#include "core/text/text.hpp"
 #include "core/topics.hpp"
 #include "process/host/environment.hpp"
 #include "results/run_folder.hpp"

@@ -7,7 +7,6 @@
 
 #include "core/text/suggestion.hpp"
 #include "core/text/text.hpp"
-#include "results/run_folder.hpp"
 
 namespace skein::cli {
 namespace {

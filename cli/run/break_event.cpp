@@ -4,7 +4,6 @@
 
 #include "core/types.hpp"
 #include "results/result_file.hpp"
-#include "results/run_folder.hpp"
 
 namespace skein::cli {
 namespace {

@@ -11,7 +11,6 @@
 #include "core/planners/uav_planner.hpp"
 #include "core/radio/radio_routes.hpp"
 #include "core/text/suggestion.hpp"
-#include "core/text/text.hpp"
 #include "results/run_folder.hpp"
 
 namespace skein::cli {

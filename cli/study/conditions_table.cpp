@@ -6,7 +6,6 @@
 #include <optional>
 #include <ostream>
 
-#include "core/text/text.hpp"
 #include "results/causes.hpp"
 
 namespace skein::cli {

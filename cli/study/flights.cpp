@@ -76,8 +76,8 @@ class StudyRun {
       }
     }
     if (over_ > 0) tell(fmt::format("{} of {} flights are there already", over_, plan_.flights.size()));
-    SideBySide sky(static_cast<std::size_t>(plan_.jobs), console_);
-    outcomes_.interrupted = !sky.fly(
+    SideBySide side_by_side(static_cast<std::size_t>(plan_.jobs), console_);
+    outcomes_.interrupted = !side_by_side.fly(
         std::move(waiting), [this](std::size_t index) { return start(index); },
         [this](std::size_t index, const ExitStatus& exit) { on_exit(index, exit); });
     return std::move(outcomes_);

@@ -17,23 +17,23 @@ ProgramSpec flight_program(std::vector<std::string> arguments, const std::filesy
 
 bool SideBySide::fly(std::deque<std::size_t> waiting, const Start& start, const Over& over) {
   for (;;) {
-    while (!interrupted_ && in_the_air_.size() < at_once_ && !waiting.empty()) {
+    while (!interrupted_ && running_.size() < at_once_ && !waiting.empty()) {
       std::optional<ProgramSpec> program = start(waiting.front());
       if (!program) break;
       program->name = "flight " + std::to_string(waiting.front());
       if (std::getenv(kThreadsVariable) == nullptr) {  // else the flights inherit it
-        const std::size_t beside = std::min(at_once_, in_the_air_.size() + waiting.size());
+        const std::size_t beside = std::min(at_once_, running_.size() + waiting.size());
         program->env.push_back(std::string(kThreadsVariable) + "=" + std::to_string(threads_beside(beside)));
       }
       supervisor_.start(*program);
-      in_the_air_[program->name] = waiting.front();
+      running_[program->name] = waiting.front();
       waiting.pop_front();
     }
-    if (in_the_air_.empty()) return !interrupted_;
+    if (running_.empty()) return !interrupted_;
     for (const Event& event : supervisor_.wait(std::chrono::milliseconds(-1))) {
       if (event.kind == Event::Kind::interrupt) on_interrupt();
       if (event.kind != Event::Kind::exited) continue;
-      const std::size_t index = in_the_air_.extract(event.program).mapped();
+      const std::size_t index = running_.extract(event.program).mapped();
       interrupted_ = interrupted_ || event.exit.code == kExitInterrupted;
       if (!interrupted_ || event.exit.ok()) over(index, event.exit);
     }
@@ -45,7 +45,7 @@ void SideBySide::on_interrupt() {
     console_.err << "ending the flights in the air; press Ctrl-C again to end them at once" << std::endl;
   }
   interrupted_ = true;
-  for (const auto& [name, index] : in_the_air_) supervisor_.signal(name, SIGINT);
+  for (const auto& [name, index] : running_) supervisor_.signal(name, SIGINT);
 }
 
 }  // namespace skein::cli

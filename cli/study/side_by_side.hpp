@@ -41,7 +41,7 @@ class SideBySide {
   const std::size_t at_once_;
   const Console console_;
   Supervisor supervisor_;
-  std::map<std::string, std::size_t> in_the_air_;  ///< index of the flight by program
+  std::map<std::string, std::size_t> running_;  ///< index of the flight by program
   bool interrupted_ = false;
 };
 

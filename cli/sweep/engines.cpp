@@ -27,8 +27,8 @@ class LocalEngine : public SweepEngine {
       : jobs_(jobs), folder_(folder), console_(console) {}
 
   bool fly(const EngineWork& work, const Meanwhile& meanwhile) override {
-    SideBySide sky(static_cast<std::size_t>(jobs_), console_);
-    return sky.fly(
+    SideBySide side_by_side(static_cast<std::size_t>(jobs_), console_);
+    return side_by_side.fly(
         {work.units.begin(), work.units.end()}, [&](std::size_t unit) { return start(unit); },
         [&](std::size_t, const ExitStatus&) { meanwhile.tell(); });
   }
@@ -65,8 +65,8 @@ class ParallelEngine : public SweepEngine {
     std::string lines;
     for (const std::size_t unit : work.units) lines += std::to_string(unit) + "\n";
     write_file_atomically(list, lines);
-    SideBySide sky(1, console_);
-    return sky.fly(
+    SideBySide side_by_side(1, console_);
+    return side_by_side.fly(
         {0}, [&](std::size_t) { return program(list); }, [&](std::size_t, const ExitStatus&) { meanwhile.tell(); });
   }
   std::vector<EngineJob> jobs() override { return {}; }

@@ -89,10 +89,10 @@ SweepNode this_machine(const Console& console) {
   const auto likeness = std::make_shared<Likeness>();
   SweepNode node{node_name(), boot_id(), cpu_model(), {}, {}, {}, {}};
   node.fly = [&console](const SweepFlight& flight, const fs::path& out) {
-    SideBySide sky(1, console);
+    SideBySide side_by_side(1, console);
     ExitStatus end;
     const auto start = [&](std::size_t) { return flight_program(arguments_into(flight, out), out); };
-    if (!sky.fly({0}, start, [&](std::size_t, const ExitStatus& exit) { end = exit; })) throw Interrupted{};
+    if (!side_by_side.fly({0}, start, [&](std::size_t, const ExitStatus& exit) { end = exit; })) throw Interrupted{};
     return end;
   };
   node.unlike = [likeness](const SweepFlight& flight) { return likeness->unlike(flight); };

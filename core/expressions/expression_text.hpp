@@ -44,8 +44,6 @@ class ExpressionText {
   [[noreturn]] static void fail(std::size_t at, const std::string& message) { throw ExpressionError(at, message); }
 
  private:
-  bool next_is(std::string_view marks);
-
   std::string_view text_;
   std::size_t next_ = 0;
 };

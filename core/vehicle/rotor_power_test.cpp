@@ -8,7 +8,6 @@
 
 #include "core/random_stream.hpp"
 #include "core/scenario/scenario_reader.hpp"
-#include "core/vehicle/airframe.hpp"
 
 namespace skein {
 namespace {

@@ -6,8 +6,6 @@
 #include "core/euler.hpp"
 #include "core/scenario/drawn_worlds.hpp"
 #include "core/scenario/scenario_reader.hpp"
-#include "core/text/suggestion.hpp"
-#include "core/vehicle/airframe.hpp"
 #include "scenes/surface_sampling.hpp"
 #include "scenes/wild/flyable.hpp"
 #include "scenes/wild/site.hpp"

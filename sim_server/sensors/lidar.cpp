@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/euler.hpp"
 #include "core/random_stream.hpp"
 #include "core/vehicle/lidar_geometry.hpp"
 

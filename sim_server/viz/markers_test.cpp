@@ -5,7 +5,6 @@
 #include <set>
 
 #include "core/camera_quality.hpp"
-#include "core/euler.hpp"
 #include "core/random_stream.hpp"
 #include "idl/conversions.hpp"
 #include "tests/support/test_scenes.hpp"

@@ -12,7 +12,6 @@
 #include "comm_router/router_node.hpp"
 #include "core/random_stream.hpp"
 #include "core/scenario/scenario_reader.hpp"
-#include "core/text/text.hpp"
 #include "core/view_topics.hpp"
 #include "process/host/environment.hpp"
 #include "process/json_text.hpp"

@@ -5,12 +5,12 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kRoomyM = 45.0, kRoomyHeightM = 20.0;  ///< least horizontal size and height
+constexpr double kSiteM = 45.0, kSiteHeightM = 20.0;  ///< least horizontal size and height
 
 }  // namespace
 
-bool is_roomy(const OrientedBox& box) {
-  return std::min(box.size.x(), box.size.y()) >= kRoomyM && box.size.z() >= kRoomyHeightM;
+bool is_site_box(const OrientedBox& box) {
+  return std::min(box.size.x(), box.size.y()) >= kSiteM && box.size.z() >= kSiteHeightM;
 }
 
 double top_of(const std::vector<OrientedBox>& boxes) {

@@ -21,14 +21,14 @@ TEST(Site, TopIsThatOfTheHighestCornerHoweverABoxIsTurned) {
   EXPECT_NEAR(top_of({low, tilted}), 20.0 + 3.0 * std::sin(0.5) + 4.0 * std::cos(0.5), 1e-9);
 }
 
-TEST(Site, ARoomyBoxIsWideBothWaysAndHigh) {
+TEST(Site, ASiteBoxIsWideBothWaysAndHigh) {
   OrientedBox box;
   box.size = {50.0, 60.0, 30.0};
-  EXPECT_TRUE(is_roomy(box));
+  EXPECT_TRUE(is_site_box(box));
   for (int axis = 0; axis < 3; ++axis) {
     OrientedBox narrow = box;
     narrow.size[axis] = 15.0;
-    EXPECT_FALSE(is_roomy(narrow)) << axis;
+    EXPECT_FALSE(is_site_box(narrow)) << axis;
   }
 }
 

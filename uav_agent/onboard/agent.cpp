@@ -185,7 +185,7 @@ void Agent::Impl::perceive(const AgentInput& input) {
     const KnownBodies bodies(known_bodies(input));
     // An isolated hit may be a UAV out of sight. But from afar it is all that a LiDAR finds of a thin member. Where one
     // box holds a whole site, UAVs fly between members that were only seen from afar, so isolated hits are kept.
-    const bool keep_lone = std::any_of(boxes.begin(), boxes.end(), is_roomy);
+    const bool keep_lone = std::any_of(boxes.begin(), boxes.end(), is_site_box);
     for (const KeyFrame& frame : input.key_frames) {
       auto sound_W = frames->filter(keep_lone).sound(frame.points_W, bodies);
       const std::optional<Vector3d> p_WS = sensor_position(frame, input);

@@ -90,7 +90,7 @@ BlockWork::BlockWork(const Config& config, const AgentConfig& agent, const Camer
                      const std::vector<OrientedBox>& boxes)
     : config_(config), agent_(agent), reach_(reach) {
   for (const OrientedBox& box : boxes) {
-    if (!is_roomy(box)) continue;
+    if (!is_site_box(box)) continue;
     const Vector3d count = (box.size / config.block_m).array().round().max(1.0);
     sites_.push_back({box, count.cast<int>()});
   }

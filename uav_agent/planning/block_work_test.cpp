@@ -61,8 +61,8 @@ TEST(BlockWork, TakesOnlyBoxesThatSayLittle) {
   podium.size = {64.0, 52.0, 17.0};
   const AgentConfig agent = named_fleet(1, 0);
   const CameraReach reach;
-  EXPECT_FALSE(is_roomy(tower) || is_roomy(podium));
-  EXPECT_TRUE(is_roomy(site()));
+  EXPECT_FALSE(is_site_box(tower) || is_site_box(podium));
+  EXPECT_TRUE(is_site_box(site()));
   EXPECT_FALSE(BlockWork({}, agent, reach, {tower, podium}).any());
   EXPECT_TRUE(BlockWork({}, agent, reach, {tower, site()}).any());
 }

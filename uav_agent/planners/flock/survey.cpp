@@ -25,10 +25,7 @@ FlockSurvey::FlockSurvey(const std::vector<OrientedBox>& boxes, double survey_m)
   for (VoxelGrid::Id id = 0; id < cells_.count(); ++id) {
     const Vector3d centre = cells_.centre_W(id);
     const auto holds = [&](const OrientedBox& box) { return box.contains(centre, kMarginM); };
-    if (std::ranges::any_of(boxes, holds)) {
-      wanted_[id] = 1;
-      ++to_survey_;
-    }
+    if (std::ranges::any_of(boxes, holds)) wanted_[id] = 1;
   }
 }
 

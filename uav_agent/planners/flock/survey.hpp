@@ -34,14 +34,13 @@ class FlockSurvey {
   bool seen(const Vector3d& p_W) const;
   /// Cells in and near boxes that were not in sight long enough and have not been given up, in groups.
   std::vector<FlockGap> gaps() const;
-  std::size_t surveyed() const { return surveyed_; }    ///< number of surveyed cells in and near boxes
-  std::size_t to_survey() const { return to_survey_; }  ///< number of all cells in and near boxes
+  std::size_t surveyed() const { return surveyed_; }  ///< number of surveyed cells in and near boxes
 
  private:
   double survey_m_;
   VoxelGrid cells_;
   std::vector<std::uint8_t> wanted_, looks_, visits_;  ///< by cell
-  std::size_t surveyed_ = 0, to_survey_ = 0;
+  std::size_t surveyed_ = 0;
 };
 
 }  // namespace skein::agent

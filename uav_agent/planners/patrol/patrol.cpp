@@ -137,7 +137,7 @@ void PatrolPlanner::share_work(const PlannerInput& in) {
   const BlockWork::Config blocks{.strips = config.strips, .transit_mps = config_.flight.approach_mps};
   blocks_.emplace(blocks, agent_, reach_, blind ? std::vector<OrientedBox>() : in.boxes);
   std::vector<OrientedBox> tight = in.boxes;
-  if (!blind) std::erase_if(tight, is_roomy);
+  if (!blind) std::erase_if(tight, is_site_box);
   strips_ = OwnStrips(team_share(agent_, tight, reach_, kStartHeight * top_of(in.boxes), config));
 }
 
