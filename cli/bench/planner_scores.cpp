@@ -6,7 +6,6 @@
 #include <cmath>
 #include <fstream>
 #include <map>
-#include <sstream>
 #include <tuple>
 
 #include "core/text/text.hpp"
@@ -16,13 +15,6 @@ namespace skein::cli {
 namespace {
 
 constexpr const char* kHeader = "scene,planner,score,points,collisions,frozen_uavs";
-
-std::vector<std::string> cells_of(const std::string& line) {
-  std::vector<std::string> cells;
-  std::istringstream in(line);
-  for (std::string cell; std::getline(in, cell, ',');) cells.push_back(cell);
-  return cells;
-}
 
 /// "wild" of "wild 3".
 std::string kind_of(const std::string& scene) { return scene.substr(0, scene.find(' ')); }
@@ -77,7 +69,7 @@ std::vector<PlannerScore> read_planner_scores(const std::filesystem::path& file)
       if (line != kHeader) refuse("must be '" + std::string(kHeader) + "'");
       continue;
     }
-    const std::vector<std::string> cells = cells_of(line);
+    const std::vector<std::string> cells = split(line);
     std::vector<double> numbers;
     for (std::size_t i = 2; i < cells.size(); ++i) {
       const auto value = parse_number(cells[i]);

@@ -48,6 +48,8 @@ TEST_F(Layers, FunctionsAreShort) { expect_none(check_functions(tree_, long_func
 TEST_F(Layers, LinesAreShort) { expect_none(check_columns(tree_)); }
 TEST_F(Layers, NothingIsMarkedUnfinished) { expect_none(check_marks(tree_)); }
 TEST_F(Layers, FilesThatAreNamedAreThere) { expect_none(check_references(tree_)); }
+TEST_F(Layers, OneHeaderNamesTheFilesOfARun) { expect_none(check_run_files(tree_)); }
+TEST_F(Layers, DecisionsHaveTheirSections) { expect_none(check_decisions(tree_)); }
 TEST_F(Layers, NoMachineIsNamed) { expect_none(check_machine_paths(tree_)); }
 
 TEST_F(Layers, CodeIsFormatted) {

@@ -292,6 +292,26 @@ TEST_F(MadeUpTree, NamesOfFilesThatAreNotThereAreFound) {
                     "core/bad.cpp:4", "docs/bad.md:2", "docs/bad.md:2", "docs/bad.md:2"}));
 }
 
+TEST_F(MadeUpTree, FilesOfARunAreNamedInOnePlace) {
+  file("results/run_folder.hpp", "inline constexpr const char* kScore = \"score.csv\";\n/// \"station.log\"\n");
+  file("cli/good.cpp", "say(\"no score.csv\");  // \"score.csv\"\nopen(\"other.csv\"); open(\"station.log\");\n");
+  file("station/good_test.cpp", "open(\"score.csv\");\n");
+  EXPECT_EQ(check_run_files(tree()), Violations{});
+
+  file("cli/bad.cpp", "\nopen(dir / \"score.csv\");\n");
+  EXPECT_EQ(places(check_run_files(tree())), Places{"cli/bad.cpp:2"});
+}
+
+TEST_F(MadeUpTree, DecisionsWithoutASectionAreFound) {
+  file("docs/decisions/0001-good.md", "# 1.\n## Context\n## Decision: x\n## Consequences\n## Alternatives tried\n");
+  file("docs/decisions/0002-gone.md", "# 2.\n\nSuperseded by [decision 1](0001-good.md).\n");
+  EXPECT_EQ(check_decisions(tree()), Violations{});
+
+  file("docs/decisions/0003-bad.md",
+       "# 3.\n\nSuperseded for x by [decision 1](0001-good.md).\n## Context\n## Decision\n");
+  EXPECT_EQ(places(check_decisions(tree())), (Places{"docs/decisions/0003-bad.md:1", "docs/decisions/0003-bad.md:1"}));
+}
+
 TEST_F(MadeUpTree, ProductsAndLargeFilesAreFoundAmongTheTracked) {
   file("docs/large.png", std::string(11, 'x'));
   file("docs/small.png", std::string(10, 'x'));

@@ -1,0 +1,55 @@
+// The rules for what the tree has in one place or one form: names of a run's files, and decisions.
+#include <algorithm>
+#include <array>
+#include <regex>
+#include <set>
+
+#include "tests/layers/rules.hpp"
+
+namespace skein::layers {
+
+Violations check_run_files(const Tree& tree) {
+  static const std::regex kFile(R"re("[\w.-]+\.[a-z]+")re");
+  const auto files_in = [](const std::string& line) {
+    return std::ranges::subrange(std::sregex_iterator(line.begin(), line.end(), kFile), std::sregex_iterator());
+  };
+  std::set<std::string> names;
+  for (const SourceFile& file : tree) {
+    if (file.path != "results/run_folder.hpp") continue;
+    for (const std::string& line : file.lines) {
+      if (!line.starts_with("inline constexpr")) continue;
+      for (const std::smatch& name : files_in(line)) names.insert(name.str());
+    }
+  }
+  Violations violations;
+  for (const SourceFile& file : tree) {
+    if (!file.is_cpp() || file.is_test() || file.path == "results/run_folder.hpp") continue;
+    for (std::size_t i = 0; i < file.lines.size(); ++i) {
+      for (const std::smatch& name : files_in(file.lines[i])) {
+        const bool in_comment = file.comments[i].find(name.str()) != std::string::npos;
+        if (in_comment || !names.contains(name.str())) continue;
+        violations.push_back(file.path + ":" + std::to_string(i + 1) + ": results/run_folder.hpp has the name of " +
+                             name.str());
+      }
+    }
+  }
+  return violations;
+}
+
+Violations check_decisions(const Tree& tree) {
+  static constexpr std::array kSections = {"## Context", "## Decision", "## Consequences", "## Alternatives"};
+  Violations violations;
+  for (const SourceFile& file : tree) {
+    if (!file.path.starts_with("docs/decisions/")) continue;
+    const auto has = [&](const std::string& begin) {
+      return std::ranges::any_of(file.lines, [&](const std::string& line) { return line.starts_with(begin); });
+    };
+    if (has("Superseded by [decision ")) continue;  // as a whole: the page says what is left of the decision
+    for (const char* section : kSections) {
+      if (!has(section)) violations.push_back(file.path + ":1: has no section '" + section + "'");
+    }
+  }
+  return violations;
+}
+
+}  // namespace skein::layers
