@@ -13,7 +13,7 @@ namespace skein::cli {
 /// station, its UAV's role.
 std::map<std::string, std::string> part_variables(const FleetPlan& plan, const std::string& program);
 
-/// All environment variables of a user's command (README.md). The command joins only the DDS domain SKEIN_DOMAIN.
+/// All environment variables of a user's command (docs/how-to.md). The command joins only the DDS domain SKEIN_DOMAIN.
 std::map<std::string, std::string> exec_variables(const FleetPlan& plan, const std::string& program, int base_domain,
                                                   const std::filesystem::path& out, const SecureFolder& secure);
 

@@ -1,4 +1,4 @@
-// The environment variables that the launcher sets for a program (README.md, docs/ros2.md). Needs no ROS.
+// The environment variables that the launcher sets for a program (docs/how-to.md, docs/ros2.md). Needs no ROS.
 #pragma once
 
 #include <cstdint>
