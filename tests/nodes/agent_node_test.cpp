@@ -46,6 +46,33 @@ class Greeter final : public agent::GroundProgram {
   std::vector<agent::RadioMessage> heard;
 };
 
+/// The server's side of a UAV "a", and its agent with a router.
+struct OneUav {
+  OneUav(const Scenario& of, std::uint64_t steps) : scenario(of), server(*dds, scenario, steps) {
+    server.expect("a", kDomain);
+    server.expect_router();
+    server.open_topics(kDomain, topics::uav_topics(), "a");
+  }
+  bus::CountedWriter& writer(const topics::WireTopic& topic) { return server.writer(kDomain, topic); }
+  /// Flies until the server ends the run, with the turns of others after those of the agent.
+  void fly(
+      std::unique_ptr<agent::Planner> planner, const std::function<void()>& others = [] {}) {
+    agent::AgentNode agent(scenario, kUav, std::move(planner), 0, *dds);
+    router::RouterNode router(scenario, 0, 0, *dds);
+    agent.start();
+    router.start();
+    ASSERT_TRUE(take_turns({[&] { server.poll(); }, [&] { router.poll(); }, [&] { agent.poll(); }, others}, [&] {
+      return server.over();
+    })) << agent.waiting_for();
+  }
+
+  inline static const UavIndex kUav{0};
+  inline static const ToyServer::Domain kDomain = ToyServer::domain_of(kUav);
+  const Scenario scenario;
+  const std::unique_ptr<bus::Bus> dds = bus::make_bus({.vendor = "inproc"});
+  ToyServer server;
+};
+
 TEST(AgentNode, FliesByOdometryAndAnswersTheGroundProgramByRadio) {
   constexpr std::uint64_t kSteps = 20;
   const Scenario scenario = toy_scenario(1);
@@ -93,21 +120,14 @@ TEST(AgentNode, ReadsTheQualityOfItsLinks) {
   constexpr std::uint64_t kSteps = 6;
   Scenario scenario = toy_scenario(2);
   scenario.conditions.radio = conditions_preset("breezy").radio;
-  const auto bus = bus::make_bus({.vendor = "inproc"});
-  ToyServer server(*bus, scenario, kSteps);
-  server.expect("a", ToyServer::domain_of(UavIndex{0}));
-  server.expect_router();
-  server.open_topics(ToyServer::domain_of(UavIndex{0}), topics::uav_topics(), "a");
-  const auto writer = [&](const topics::WireTopic& topic) -> bus::CountedWriter& {
-    return server.writer(ToyServer::domain_of(UavIndex{0}), topic);
-  };
+  OneUav one(scenario, kSteps);
   const auto quality = [](std::uint64_t k) { return LinkQuality{-50.0 - static_cast<double>(k), 1000.0}; };
-  server.before_step = [&](std::uint64_t k) {
+  one.server.before_step = [&](std::uint64_t k) {
     const auto tick = static_cast<Tick>(20 * k);
-    writer(topics::radio_links("a"))
+    one.writer(topics::radio_links("a"))
         .write(to_radio_links(tick, {{Node{2}, quality(k)}, {kStationNode, quality(2 * k)}}));
-    writer(topics::odometry("a")).write(to_odometry(tick, "a", {}));
-    writer(topics::neighbour_odometry("a"))
+    one.writer(topics::odometry("a")).write(to_odometry(tick, "a", {}));
+    one.writer(topics::neighbour_odometry("a"))
         .write(to_cloud(tick, std::vector<NeighbourPoint>{{.node = 0.0F, .qw = 1.0F}, {.node = 2.0F, .qw = 1.0F}}));
   };
   struct Heard {
@@ -126,34 +146,22 @@ TEST(AgentNode, ReadsTheQualityOfItsLinks) {
     std::vector<Heard>& heard_;
   };
   std::vector<Heard> heard;
-  agent::AgentNode agent(scenario, UavIndex{0}, std::make_unique<Listener>(heard), 0, *bus);
-  router::RouterNode router(scenario, 0, 0, *bus);
-  agent.start();
-  router.start();
-  ASSERT_TRUE(take_turns({[&] { server.poll(); }, [&] { router.poll(); }, [&] { agent.poll(); }}, [&] {
-    return server.over();
-  })) << agent.waiting_for();
+  one.fly(std::make_unique<Listener>(heard));
   ASSERT_GE(heard.size(), kSteps - 1);
-  for (const Heard& one : heard) {
-    EXPECT_EQ(one.peer, quality(one.k)) << one.k;
-    EXPECT_EQ(one.station, quality(2 * one.k)) << one.k;
+  for (const auto& [k, peer, station] : heard) {
+    EXPECT_EQ(peer, quality(k)) << k;
+    EXPECT_EQ(station, quality(2 * k)) << k;
   }
 }
 
 TEST(AgentNode, ShowsItsMapWhereSomebodyLooksOn) {
   constexpr std::uint64_t kSteps = 200, kLooksFrom = 100;
-  const Scenario scenario = toy_scenario(1);
-  const UavIndex uav{0};
-  const auto bus = bus::make_bus({.vendor = "inproc"});
-  ToyServer server(*bus, scenario, kSteps);
-  server.expect_uavs(scenario);
-  server.expect_router();
-  server.open_topics(ToyServer::domain_of(uav), topics::uav_topics(), "a");
-  bus::CountedWriter& odometry = server.writer(ToyServer::domain_of(uav), topics::odometry("a"));
-  bus::CountedWriter& key_frames = server.writer(ToyServer::domain_of(uav), topics::neighbour_keyframe("a"));
+  OneUav one(toy_scenario(1), kSteps);
+  bus::CountedWriter& odometry = one.writer(topics::odometry("a"));
+  bus::CountedWriter& key_frames = one.writer(topics::neighbour_keyframe("a"));
   RandomStream random(1, "hits", 0);
   std::vector<Eigen::Vector3f> hits;
-  server.before_step = [&](std::uint64_t k) {
+  one.server.before_step = [&](std::uint64_t k) {
     odometry.write(to_odometry(static_cast<Tick>(20 * k), "a", {}));
     if (k % 7 != 0 || k >= kSteps - 40) return;
     std::vector<Eigen::Vector3f> frame;
@@ -164,23 +172,17 @@ TEST(AgentNode, ShowsItsMapWhereSomebodyLooksOn) {
     hits.insert(hits.end(), frame.begin(), frame.end());
     key_frames.write(to_cloud(static_cast<Tick>(20 * k), frame, 9.0F));
   };
-  const auto viewer = bus->join(uav_domain(0, uav));
+  const auto viewer = one.dds->join(uav_domain(0, OneUav::kUav));
   std::unique_ptr<bus::Reader> reader;
   std::vector<msg::Octomap> shown;
-  agent::AgentNode agent(scenario, uav, std::make_unique<Parrot>(), 0, *bus);
-  router::RouterNode router(scenario, 0, 0, *bus);
-  agent.start();
-  router.start();
   const auto look_on = [&] {
-    if (server.k() < kLooksFrom || reader) return;
+    if (one.server.k() < kLooksFrom || reader) return;
     reader = viewer->create_reader(bus::spec(topics::octomap("a")), [&](bus::Sample&& sample) {
       EXPECT_TRUE(decode(sample.payload, shown.emplace_back()));
     });
     EXPECT_TRUE(shown.empty()) << "was written where nobody read";
   };
-  ASSERT_TRUE(take_turns({[&] { server.poll(); }, [&] { router.poll(); }, [&] { agent.poll(); }, look_on}, [&] {
-    return server.over();
-  })) << agent.waiting_for();
+  one.fly(std::make_unique<Parrot>(), look_on);
   ASSERT_GE(shown.size(), 2U);
   EXPECT_LE(shown.size(), 1 + (kSteps - kLooksFrom) / 20) << "once a second at most";
   double before = 0.0;
@@ -210,38 +212,26 @@ TEST(AgentNode, ShowsItsMapWhereSomebodyLooksOn) {
 // An observer receives the program's diagnostics once per second, and does not change the program's counts.
 TEST(AgentNode, TellsOfItselfWhereSomebodyLooksOn) {
   constexpr std::uint64_t kSteps = 200, kLooksFrom = 100;
-  const Scenario scenario = toy_scenario(1);
-  const UavIndex uav{0};
-  const auto bus = bus::make_bus({.vendor = "inproc"});
-  ToyServer server(*bus, scenario, kSteps);
-  server.expect_uavs(scenario);
-  server.expect_router();
-  server.open_topics(ToyServer::domain_of(uav), topics::uav_topics(), "a");
-  bus::CountedWriter& odometry = server.writer(ToyServer::domain_of(uav), topics::odometry("a"));
-  bus::CountedWriter& neighbours = server.writer(ToyServer::domain_of(uav), topics::neighbour_odometry("a"));
-  server.before_step = [&](std::uint64_t k) {
+  OneUav one(toy_scenario(1), kSteps);
+  bus::CountedWriter& odometry = one.writer(topics::odometry("a"));
+  bus::CountedWriter& neighbours = one.writer(topics::neighbour_odometry("a"));
+  one.server.before_step = [&](std::uint64_t k) {
     const Tick tick = static_cast<Tick>(20 * k);
     odometry.write(to_odometry(tick, "a", {}));
     std::vector<NeighbourPoint> points;
     if (k < 150) points.push_back({.node = 0});  // the station
     neighbours.write(to_cloud(tick, points));
   };
-  const auto viewer = bus->join(uav_domain(0, uav));
+  const auto viewer = one.dds->join(uav_domain(0, OneUav::kUav));
   std::unique_ptr<bus::Reader> reader;
   std::vector<msg::DiagnosticArray> told;
-  agent::AgentNode agent(scenario, uav, std::make_unique<Parrot>(), 0, *bus);
-  router::RouterNode router(scenario, 0, 0, *bus);
-  agent.start();
-  router.start();
   const auto look_on = [&] {
-    if (server.k() < kLooksFrom || reader) return;
+    if (one.server.k() < kLooksFrom || reader) return;
     reader = viewer->create_reader(bus::spec(topics::diagnostics()), [&](bus::Sample&& sample) {
       EXPECT_TRUE(decode(sample.payload, told.emplace_back()));
     });
   };
-  ASSERT_TRUE(take_turns({[&] { server.poll(); }, [&] { router.poll(); }, [&] { agent.poll(); }, look_on}, [&] {
-    return server.over();
-  })) << agent.waiting_for();
+  one.fly(std::make_unique<Parrot>(), look_on);
   ASSERT_GE(told.size(), 4U);
   EXPECT_LE(told.size(), 1 + (kSteps - kLooksFrom) / 20);
   for (const msg::DiagnosticArray& array : told) {
@@ -271,19 +261,14 @@ TEST(AgentNode, RebuildsBeamsForThePlannerThatAsksAndReadsNoScansForAnother) {
   constexpr std::uint64_t kSteps = 20;
   Scenario scenario = toy_scenario(1);
   scenario.fleet[0].vehicle.lidar.emplace();
-  const UavIndex uav{0};
   const RigidBodyState state{.p_WB = {3.0, -2.0, 9.0}};
   const LidarConfig lidar;
   for (const bool asks : {true, false}) {
-    const auto bus = bus::make_bus({.vendor = "inproc"});
-    ToyServer server(*bus, scenario, kSteps);
-    server.expect_uavs(scenario);
-    server.expect_router();
-    server.open_topics(ToyServer::domain_of(uav), topics::uav_topics(), "a");
-    bus::CountedWriter& odometry = server.writer(ToyServer::domain_of(uav), topics::odometry("a"));
-    bus::CountedWriter& cloud = server.writer(ToyServer::domain_of(uav), topics::cloud("a"));
-    bus::CountedWriter& servo = server.writer(ToyServer::domain_of(uav), topics::lidar_servo("a"));
-    server.before_step = [&](std::uint64_t k) {
+    OneUav one(scenario, kSteps);
+    bus::CountedWriter& odometry = one.writer(topics::odometry("a"));
+    bus::CountedWriter& cloud = one.writer(topics::cloud("a"));
+    bus::CountedWriter& servo = one.writer(topics::lidar_servo("a"));
+    one.server.before_step = [&](std::uint64_t k) {
       const Tick tick = static_cast<Tick>(20 * k);
       EXPECT_EQ(cloud.is_wanted(), asks);
       EXPECT_EQ(servo.is_wanted(), asks);
@@ -297,13 +282,7 @@ TEST(AgentNode, RebuildsBeamsForThePlannerThatAsksAndReadsNoScansForAnother) {
     std::vector<agent::BeamScan> seen;
     std::unique_ptr<agent::Planner> planner = std::make_unique<Parrot>();
     if (asks) planner = std::make_unique<Looker>(seen);
-    agent::AgentNode agent(scenario, uav, std::move(planner), 0, *bus);
-    router::RouterNode router(scenario, 0, 0, *bus);
-    agent.start();
-    router.start();
-    ASSERT_TRUE(take_turns({[&] { server.poll(); }, [&] { router.poll(); }, [&] { agent.poll(); }}, [&] {
-      return server.over();
-    })) << agent.waiting_for();
+    one.fly(std::move(planner));
     ASSERT_EQ(seen.size(), asks ? kSteps / 2 : 0U);
     for (const agent::BeamScan& beams : seen) {
       EXPECT_EQ(beams.doubt, agent::ScanDoubt::none);
@@ -317,28 +296,23 @@ TEST(AgentNode, RebuildsBeamsForThePlannerThatAsksAndReadsNoScansForAnother) {
 
 TEST(AgentNode, KeepsCaptureReportsAsTheyCameUntilTheStationHasThem) {
   constexpr std::uint64_t kSteps = 40;
-  const Scenario scenario = toy_scenario(1);
-  const UavIndex uav{0};
-  const auto bus = bus::make_bus({.vendor = "inproc"});
-  ToyServer server(*bus, scenario, kSteps);
-  server.expect_uavs(scenario);
-  server.expect_station();
-  server.expect_router();
-  server.open_topics(ToyServer::domain_of(uav), topics::uav_topics(), "a");
-  bus::CountedWriter& card = server.writer(ToyServer::domain_of(uav), topics::capture());
-  bus::CountedWriter& neighbours = server.writer(ToyServer::domain_of(uav), topics::neighbour_odometry("a"));
+  OneUav one(toy_scenario(1), kSteps);
+  one.server.expect_station();
+  const std::vector<std::string> names = one.scenario.uav_names();
+  bus::CountedWriter& card = one.writer(topics::capture());
+  bus::CountedWriter& neighbours = one.writer(topics::neighbour_odometry("a"));
   std::multiset<std::uint64_t> stored;
-  server.on<msg::CaptureAck>(ToyServer::domain_of(uav), topics::capture_stored(), [&](const msg::CaptureAck& ack) {
+  one.server.on<msg::CaptureAck>(OneUav::kDomain, topics::capture_stored(), [&](const msg::CaptureAck& ack) {
     stored.insert(ack.captures().begin(), ack.captures().end());
   });
   const auto report = [](std::uint64_t n) {
     return CaptureReport{
         UavIndex{0}, n, static_cast<Tick>(n), 7 * n, {{static_cast<std::uint32_t>(n), 0.5F, 0.6F, 0.3F, 0.7F}}};
   };
-  server.before_step = [&](std::uint64_t k) {
+  one.server.before_step = [&](std::uint64_t k) {
     if (k < 10) {  // each report twice, because the server repeats reports
       msg::CaptureReports reports;
-      for (const std::uint64_t n : {k / 2, k}) reports.reports().push_back(to_message(report(n), scenario.uav_names()));
+      for (const std::uint64_t n : {k / 2, k}) reports.reports().push_back(to_message(report(n), names));
       card.write(reports);
     }
     std::vector<NeighbourPoint> linked;
@@ -348,13 +322,13 @@ TEST(AgentNode, KeepsCaptureReportsAsTheyCameUntilTheStationHasThem) {
   // A station that acknowledges a report when it receives it for the second time.
   std::map<std::uint64_t, int> heard;
   std::vector<std::uint64_t> to_acknowledge;
-  ToyMember station(*bus, gcs_domain(0), bus::kStationName);
+  ToyMember station(*one.dds, gcs_domain(0), bus::kStationName);
   station.client().read<msg::CaptureReports>(
       bus::spec(topics::captures_at_station("a")), bus::LockstepClient::Counterpart::router,
       [&](const msg::CaptureReports& reports) {
-        EXPECT_GE(server.k(), 6U) << "without a link nothing is sent";
+        EXPECT_GE(one.server.k(), 6U) << "without a link nothing is sent";
         for (const auto& message : reports.reports()) {
-          EXPECT_EQ(from_message(message, scenario.uav_names()), report(message.capture())) << "as it came";
+          EXPECT_EQ(from_message(message, names), report(message.capture())) << "as it came";
           if (++heard[message.capture()] == 2) to_acknowledge.push_back(message.capture());
         }
       });
@@ -369,14 +343,8 @@ TEST(AgentNode, KeepsCaptureReportsAsTheyCameUntilTheStationHasThem) {
     station.client().write(topics::captures_ack("a").name, damaged);
     station.client().write(topics::captures_ack("a").name, to_capture_ack("a", std::exchange(to_acknowledge, {})));
   };
-  agent::AgentNode agent(scenario, uav, std::make_unique<Parrot>(), 0, *bus);
-  router::RouterNode router(scenario, 0, 0, *bus);
-  agent.start();
   station.start();
-  router.start();
-  ASSERT_TRUE(
-      take_turns({[&] { server.poll(); }, [&] { router.poll(); }, [&] { agent.poll(); }, [&] { station.poll(); }},
-                 [&] { return server.over(); }));
+  one.fly(std::make_unique<Parrot>(), [&] { station.poll(); });
   for (std::uint64_t n = 0; n < 10; ++n) {
     EXPECT_EQ(heard[n], 2) << "report " << n << ": sent again until it is acknowledged, and never after";
     EXPECT_EQ(stored.count(n), 1U) << "the camera may forget " << n;
