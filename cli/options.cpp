@@ -19,10 +19,6 @@
 #include "core/types.hpp"
 #include "process/manual.hpp"
 
-#ifndef SKEIN_VERSION
-#error "SKEIN_VERSION comes from CMake's project()"
-#endif
-
 namespace skein::cli {
 void add_network(CLI::App& command, std::optional<std::string>& network) {
   command

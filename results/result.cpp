@@ -10,10 +10,6 @@
 #include "results/run_folder.hpp"
 #include "results/work.hpp"
 
-#ifndef SKEIN_VERSION
-#error "SKEIN_VERSION comes from CMake's project()"
-#endif
-
 namespace skein::results {
 namespace {
 

@@ -8,9 +8,9 @@
 #include <cmath>
 #include <cstring>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <memory>
-#include <numeric>
 #include <set>
 
 #include "core/scenario/scenario_reader.hpp"
@@ -18,6 +18,7 @@
 #include "scenes/scene_source.hpp"
 #include "sight/ray_scene.hpp"
 #include "tests/support/places.hpp"
+#include "tests/support/test_scenes.hpp"
 
 namespace skein::sim {
 namespace {
@@ -88,41 +89,18 @@ class EveryScene : public testing::TestWithParam<std::tuple<std::string, std::ui
 TEST_P(EveryScene, MeshIsClosedAndSound) {
   const TriangleMesh& mesh = scene_.mesh;
   for (const auto& v : mesh.vertices) ASSERT_TRUE(v.allFinite());
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> edges, opposite;
   for (const auto& t : mesh.triangles) {
     double longest = 0.0;
     for (std::size_t i = 0; i < 3; ++i) {
-      edges.emplace_back(t[i], t[(i + 1) % 3]);
-      opposite.emplace_back(t[(i + 1) % 3], t[i]);
       longest = std::max(longest, (corner(t[i]) - corner(t[(i + 1) % 3])).norm());
     }
     const double height = (corner(t[1]) - corner(t[0])).cross(corner(t[2]) - corner(t[0])).norm() / longest;
     ASSERT_GT(height, 1e-4) << "a sliver at " << corner(t[0]).transpose();
   }
-  std::ranges::sort(edges);
-  std::ranges::sort(opposite);
-  EXPECT_TRUE(std::ranges::adjacent_find(edges) == edges.end()) << "an edge is used twice in one direction";
-  EXPECT_EQ(edges, opposite) << "an open edge";
+  EXPECT_EQ(test::open_edges(mesh), "");
 }
 
-TEST_P(EveryScene, EachPartIsWoundOutwards) {
-  // Parts share no vertices; a closed part that is wound outwards has a positive volume.
-  const TriangleMesh& mesh = scene_.mesh;
-  std::vector<std::uint32_t> part(mesh.vertices.size());
-  std::iota(part.begin(), part.end(), 0u);
-  const auto root = [&](std::uint32_t v) {
-    while (part[v] != v) v = part[v] = part[part[v]];
-    return v;
-  };
-  for (const auto& t : mesh.triangles) part[root(t[1])] = part[root(t[2])] = root(t[0]);
-  std::map<std::uint32_t, double> volume;
-  for (const auto& t : mesh.triangles) {
-    const std::uint32_t r = root(t[0]);
-    const Vector3d a = corner(t[0]) - corner(r), b = corner(t[1]) - corner(r), c = corner(t[2]) - corner(r);
-    volume[r] += a.dot(b.cross(c)) / 6.0;
-  }
-  for (const auto& [r, v] : volume) EXPECT_GT(v, 0.0) << "of the part at " << corner(r).transpose();
-}
+TEST_P(EveryScene, EachPartIsWoundOutwards) { EXPECT_EQ(test::inward_parts(scene_.mesh), ""); }
 
 TEST_P(EveryScene, BoxesAreProperAndHoldAllPoints) {
   std::set<std::string> names;

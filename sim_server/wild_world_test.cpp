@@ -8,7 +8,6 @@
 #include <cstring>
 #include <map>
 #include <memory>
-#include <numeric>
 #include <set>
 
 #include "core/scenario/drawn_worlds.hpp"
@@ -20,6 +19,7 @@
 #include "sim_server/flight/fleet_start.hpp"
 #include "sim_server/simulation.hpp"
 #include "tests/support/places.hpp"
+#include "tests/support/test_scenes.hpp"
 
 namespace skein::sim {
 namespace {
@@ -45,32 +45,8 @@ class EveryWorld : public testing::TestWithParam<std::tuple<std::string, std::ui
 TEST_P(EveryWorld, MeshIsClosedSoundAndWoundOutwards) {
   const TriangleMesh& mesh = scene_.mesh;
   for (const auto& v : mesh.vertices) ASSERT_TRUE(v.allFinite());
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> edges, opposite;
-  std::vector<std::uint32_t> part(mesh.vertices.size());
-  std::iota(part.begin(), part.end(), 0u);
-  const auto root = [&](std::uint32_t v) {
-    while (part[v] != v) v = part[v] = part[part[v]];
-    return v;
-  };
-  for (const auto& t : mesh.triangles) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      edges.emplace_back(t[i], t[(i + 1) % 3]);
-      opposite.emplace_back(t[(i + 1) % 3], t[i]);
-    }
-    part[root(t[1])] = part[root(t[2])] = root(t[0]);
-  }
-  std::ranges::sort(edges);
-  std::ranges::sort(opposite);
-  EXPECT_TRUE(std::ranges::adjacent_find(edges) == edges.end()) << "an edge is used twice in one direction";
-  EXPECT_EQ(edges, opposite) << "an open edge";
-  std::map<std::uint32_t, double> volume;
-  const auto corner = [&](std::uint32_t v) { return Vector3d(mesh.vertices[v].cast<double>()); };
-  for (const auto& t : mesh.triangles) {
-    const std::uint32_t r = root(t[0]);
-    const Vector3d a = corner(t[0]) - corner(r), b = corner(t[1]) - corner(r), c = corner(t[2]) - corner(r);
-    volume[r] += a.dot(b.cross(c)) / 6.0;
-  }
-  for (const auto& [r, v] : volume) EXPECT_GT(v, 0.0) << "of the part at " << corner(r).transpose();
+  EXPECT_EQ(test::open_edges(mesh), "");
+  EXPECT_EQ(test::inward_parts(mesh), "");
 }
 
 TEST_P(EveryWorld, TaskIsWithinItsBounds) {

@@ -19,10 +19,6 @@
 #include "results/run_folder.hpp"
 #include "results/run_record.hpp"
 
-#ifndef SKEIN_VERSION
-#error "SKEIN_VERSION comes from CMake's project()"
-#endif
-
 namespace skein::cli {
 namespace {
 

@@ -8,10 +8,6 @@
 
 #include "process/files/atomic_file.hpp"
 
-#ifndef SKEIN_VERSION
-#error "SKEIN_VERSION comes from CMake's project()"
-#endif
-
 namespace skein::cli {
 namespace {
 

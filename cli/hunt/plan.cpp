@@ -16,10 +16,6 @@
 #include "core/text/suggestion.hpp"
 #include "core/text/text.hpp"
 
-#ifndef SKEIN_VERSION
-#error "SKEIN_VERSION comes from CMake's project()"
-#endif
-
 namespace skein::cli {
 namespace {
 

@@ -27,10 +27,6 @@
 #include "core/text/text.hpp"
 #include "results/run_folder.hpp"
 
-#ifndef SKEIN_VERSION
-#error "SKEIN_VERSION comes from CMake's project()"
-#endif
-
 namespace skein::cli {
 namespace {
 

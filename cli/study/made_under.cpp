@@ -10,10 +10,6 @@
 #include "core/sha256.hpp"
 #include "results/run_folder.hpp"
 
-#ifndef SKEIN_VERSION
-#error "SKEIN_VERSION comes from CMake's project()"
-#endif
-
 namespace skein::cli {
 namespace {
 

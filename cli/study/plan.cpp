@@ -17,10 +17,6 @@
 #include "core/types.hpp"
 #include "results/run_folder.hpp"
 
-#ifndef SKEIN_VERSION
-#error "SKEIN_VERSION comes from CMake's project()"
-#endif
-
 namespace skein::cli {
 namespace {
 

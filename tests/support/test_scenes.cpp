@@ -6,6 +6,10 @@
 #include <cstdlib>
 #include <filesystem>
 #include <limits>
+#include <map>
+#include <numeric>
+#include <sstream>
+#include <utility>
 
 #include "core/euler.hpp"
 #include "scenes/files/mesh_file.hpp"
@@ -149,6 +153,42 @@ double brute_force_clearance(const TriangleMesh& mesh, const Vector3d& p) {
     }
   }
   return nearest;
+}
+
+std::string open_edges(const TriangleMesh& mesh) {
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> edges, opposite;
+  for (const auto& t : mesh.triangles) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      edges.emplace_back(t[i], t[(i + 1) % 3]);
+      opposite.emplace_back(t[(i + 1) % 3], t[i]);
+    }
+  }
+  std::ranges::sort(edges);
+  std::ranges::sort(opposite);
+  if (std::ranges::adjacent_find(edges) != edges.end()) return "an edge is used twice in one direction";
+  return edges == opposite ? "" : "an open edge";
+}
+
+std::string inward_parts(const TriangleMesh& mesh) {
+  std::vector<std::uint32_t> part(mesh.vertices.size());
+  std::iota(part.begin(), part.end(), 0u);
+  const auto root = [&](std::uint32_t v) {
+    while (part[v] != v) v = part[v] = part[part[v]];
+    return v;
+  };
+  for (const auto& t : mesh.triangles) part[root(t[1])] = part[root(t[2])] = root(t[0]);
+  const auto corner = [&](std::uint32_t v) { return Vector3d(mesh.vertices[v].cast<double>()); };
+  std::map<std::uint32_t, double> volume;  // positive for a part that is wound outwards
+  for (const auto& t : mesh.triangles) {
+    const std::uint32_t r = root(t[0]);
+    const Vector3d a = corner(t[0]) - corner(r), b = corner(t[1]) - corner(r), c = corner(t[2]) - corner(r);
+    volume[r] += a.dot(b.cross(c)) / 6.0;
+  }
+  std::ostringstream wrong;
+  for (const auto& [r, v] : volume) {
+    if (!(v > 0.0)) wrong << "the part at " << corner(r).transpose() << " has the volume " << v << "; ";
+  }
+  return wrong.str();
 }
 
 }  // namespace skein::sim::test

@@ -48,4 +48,10 @@ BruteForceHit brute_force_distance(const TriangleMesh& mesh, const TestRay& ray,
 /// Distance to the nearest triangle, by minimising over each triangle's plane and edges.
 double brute_force_clearance(const TriangleMesh& mesh, const Vector3d& p);
 
+/// Whether the mesh is closed: each edge is used once in each direction. @returns what is wrong; empty: nothing.
+std::string open_edges(const TriangleMesh& mesh);
+
+/// Whether all closed parts of the mesh, which share no vertices, are wound outwards. @returns what is wrong.
+std::string inward_parts(const TriangleMesh& mesh);
+
 }  // namespace skein::sim::test
