@@ -55,8 +55,7 @@ void check_with_programs(const CheckOptions& options, const std::string& scenari
 }
 
 /// @returns the name of the scenario that a file was checked with.
-template <class Check>
-std::string checked_with(const CheckOptions& options, const Check& check) {
+std::string checked_with(const CheckOptions& options, const auto& check) {
   LoadOptions load;
   load.assets_dir = options.assets.value_or("");
   load.conditions = options.conditions;

@@ -13,8 +13,7 @@
 namespace skein {
 
 /// Calls `visit` with the name of each section and the member of ConditionsConfig that holds it.
-template <class Visit>
-void for_each_section(const Visit& visit) {
+void for_each_section(const auto& visit) {
   visit("wind", &ConditionsConfig::wind);
   visit("odometry", &ConditionsConfig::odometry);
   visit("battery", &ConditionsConfig::battery);
@@ -39,8 +38,7 @@ void describe_preset(R& r, std::string& preset, const Apply& apply) {
   }
 }
 
-template <class R>
-void describe(R& r, WindConditions& wind) {
+void describe(auto& r, WindConditions& wind) {
   describe_preset(r, wind.preset, [&] { wind = conditions_preset(wind.preset).wind; });
   r.field("mean_mps", wind.mean_mps, within(0.0, 25.0));
   r.field("from_deg", wind.from_deg, within(-360.0, 360.0));
@@ -51,8 +49,7 @@ void describe(R& r, WindConditions& wind) {
   r.field("estimate_time_constant_s", wind.estimate_time_constant_s, within(0.05, 60.0));
 }
 
-template <class R>
-void describe(R& r, OdometryConditions& odometry) {
+void describe(auto& r, OdometryConditions& odometry) {
   describe_preset(r, odometry.preset, [&] { odometry = conditions_preset(odometry.preset).odometry; });
   r.field("horizontal_sigma_m", odometry.horizontal_sigma_m, within(0.0, 20.0));
   r.field("vertical_sigma_m", odometry.vertical_sigma_m, within(0.0, 20.0));
@@ -69,8 +66,7 @@ void describe(R& r, OdometryConditions& odometry) {
   r.field("known_start", odometry.known_start);
 }
 
-template <class R>
-void describe(R& r, BatteryConditions& battery) {
+void describe(auto& r, BatteryConditions& battery) {
   describe_preset(r, battery.preset, [&] { battery = conditions_preset(battery.preset).battery; });
   r.field("endurance_missions", battery.endurance_missions, within(0.01, 100.0));
   r.field("reserve", battery.reserve, within(0.0, 0.9));
@@ -82,8 +78,7 @@ void describe(R& r, BatteryConditions& battery) {
   r.field("swap_within_m", battery.swap_within_m, within(1.0, 10'000.0));
 }
 
-template <class R>
-void describe(R& r, LidarConditions& lidar) {
+void describe(auto& r, LidarConditions& lidar) {
   describe_preset(r, lidar.preset, [&] { lidar = conditions_preset(lidar.preset).lidar; });
   r.field("sigma_per_m", lidar.sigma_per_m, within(0.0, 0.1));
   r.field("reflectivity", lidar.reflectivity, within(0.001, 1.0));
@@ -92,16 +87,14 @@ void describe(R& r, LidarConditions& lidar) {
   r.field("clutter_mean_m", lidar.clutter_mean_m, within(0.1, 50.0));
 }
 
-template <class R>
-void describe(R& r, CameraConditions& camera) {
+void describe(auto& r, CameraConditions& camera) {
   describe_preset(r, camera.preset, [&] { camera = conditions_preset(camera.preset).camera; });
   r.field("exposure_factor", camera.exposure_factor, within(0.1, 100.0));
   r.field("vibration_deg_s", camera.vibration_deg_s, within(0.0, 100.0));
   r.field("shutter_delay_s", camera.shutter_delay_s, within(0.0, 1.0));
 }
 
-template <class R>
-void describe(R& r, RadioConditions& radio) {
+void describe(auto& r, RadioConditions& radio) {
   describe_preset(r, radio.preset, [&] { radio = conditions_preset(radio.preset).radio; });
   r.field("exponent", radio.exponent, within(1.0, 6.0));
   r.field("power_dbm", radio.power_dbm, within(-30.0, 50.0));
@@ -111,8 +104,7 @@ void describe(R& r, RadioConditions& radio) {
   r.field("rate_share", radio.rate_share, Bounds{0.0, 1.0, true});
 }
 
-template <class R>
-void describe(R& r, ConditionsConfig& conditions) {
+void describe(auto& r, ConditionsConfig& conditions) {
   describe_preset(r, conditions.preset, [&] { conditions = conditions_preset(conditions.preset); });
   for_each_section([&](const char* name, auto member) { r.field(name, conditions.*member); });
 }

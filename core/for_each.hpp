@@ -26,8 +26,7 @@ std::vector<T> all_of(const ForEach& for_each, const std::vector<Item>& items, M
 }
 
 /// Calls work(0) ... work(count - 1) in blocks of `at_once` calls; `for_each` runs the blocks.
-template <class Work>
-void in_blocks(const ForEach& for_each, std::size_t count, std::size_t at_once, Work work) {
+void in_blocks(const ForEach& for_each, std::size_t count, std::size_t at_once, auto work) {
   for_each((count + at_once - 1) / at_once, [&](std::size_t block) {
     for (std::size_t i = block * at_once; i < std::min(count, (block + 1) * at_once); ++i) work(i);
   });

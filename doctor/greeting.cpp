@@ -7,8 +7,7 @@
 
 namespace skein::doctor {
 
-template <class Fields>
-void describe(Fields& f, Greeting& greeting) {
+void describe(auto& f, Greeting& greeting) {
   f.field("id", greeting.id);
   f.field("name", greeting.name);
   f.field("domain", greeting.domain);

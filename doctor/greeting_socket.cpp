@@ -53,8 +53,7 @@ struct Message {
   Message& operator=(const Message&) = delete;
 
   /// Gets the ancillary data of one type. @returns false if there is none.
-  template <class Data>
-  bool find(int type, Data& data) {
+  bool find(int type, auto& data) {
     for (cmsghdr* part_of = CMSG_FIRSTHDR(&header); part_of != nullptr; part_of = CMSG_NXTHDR(&header, part_of)) {
       if (part_of->cmsg_level != IPPROTO_IP || part_of->cmsg_type != type) continue;
       std::memcpy(&data, CMSG_DATA(part_of), sizeof data);

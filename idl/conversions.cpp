@@ -11,8 +11,7 @@ constexpr std::int64_t kNsPerTick = 2'500'000;
 constexpr std::int64_t kNsPerSecond = 1'000'000'000;
 constexpr const char* kLidarServoJoint = "lidar_servo";
 
-template <class Message>
-void set_xyz(Message& message, const Vector3d& v) {
+void set_xyz(auto& message, const Vector3d& v) {
   message.x(v.x());
   message.y(v.y());
   message.z(v.z());
@@ -25,10 +24,7 @@ void set_quaternion(msg::Quaternion& message, const Quaterniond& q) {
   message.w(q.w());
 }
 
-template <class Message>
-Vector3d xyz(const Message& message) {
-  return {message.x(), message.y(), message.z()};
-}
+Vector3d xyz(const auto& message) { return {message.x(), message.y(), message.z()}; }
 
 template <class Point>
 const topics::CloudLayout& layout_of();

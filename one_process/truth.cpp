@@ -7,8 +7,7 @@
 namespace skein::one_process {
 namespace {
 
-template <class Vector>
-void put(std::span<double> to, std::size_t row, const Vector& from) {
+void put(std::span<double> to, std::size_t row, const auto& from) {
   const auto size = static_cast<std::size_t>(from.size());
   for (std::size_t i = 0; i < size; ++i) to[row * size + i] = from[static_cast<Eigen::Index>(i)];
 }

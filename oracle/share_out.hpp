@@ -11,8 +11,7 @@ namespace skein::sim {
 /// Calls `work(i)` once for each i < `count`, in any order and on any thread: the calls must not depend on each other,
 /// and must not throw. Returns when all are done.
 /// @param threads  number of threads, including the caller's; 0 counts as 1.
-template <class Work>
-void share_out(std::size_t count, unsigned threads, const Work& work) {
+void share_out(std::size_t count, unsigned threads, const auto& work) {
   std::atomic<std::size_t> next = 0;
   const auto take = [&] {
     for (std::size_t i = next++; i < count; i = next++) work(i);

@@ -4,8 +4,7 @@
 //     int points = 0;
 //     std::optional<double> score;
 //   };
-//   template <class Fields>
-//   void describe(Fields& f, Tally& tally) {
+//   void describe(auto& f, Tally& tally) {
 //     f.field("points", tally.points);
 //     f.field("score", tally.score);  // no key while it is empty; f.nullable(): null
 //   }

@@ -12,10 +12,7 @@ struct Part {
   std::string name;
   bool operator==(const Part&) const = default;
 };
-template <class Fields>
-void describe(Fields& f, Part& part) {
-  f.field("name", part.name);
-}
+void describe(auto& f, Part& part) { f.field("name", part.name); }
 
 struct Whole {
   bool flag = true;
@@ -31,8 +28,7 @@ struct Whole {
   Json raw = Json::object();
   bool operator==(const Whole&) const = default;
 };
-template <class Fields>
-void describe(Fields& f, Whole& whole) {
+void describe(auto& f, Whole& whole) {
   f.field("small", whole.small);
   f.field("flag", whole.flag);
   f.field("big", whole.big);

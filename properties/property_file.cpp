@@ -23,8 +23,7 @@ struct ReadyFile {
   std::vector<std::string> not_with;
   skein::Named<std::string> parameters;
 
-  template <class R>
-  void describe(R& r) {
+  void describe(auto& r) {
     r.field("name", name);
     r.required("description", description);
     r.field("parameters", parameters);
@@ -38,8 +37,7 @@ struct PropertyFile {
   std::string name, description;
   PropertyEntries properties;
 
-  template <class R>
-  void describe(R& r) {
+  void describe(auto& r) {
     r.field("name", name);
     r.field("description", description);
     r.required("properties", properties);

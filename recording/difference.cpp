@@ -12,10 +12,7 @@ namespace {
 
 constexpr std::size_t kLongestText = 160;
 
-template <class Vector>
-std::string text_of_vector(const Vector& v) {
-  return fmt::format("({}, {}, {})", v.x(), v.y(), v.z());
-}
+std::string text_of_vector(const auto& v) { return fmt::format("({}, {}, {})", v.x(), v.y(), v.z()); }
 
 std::string text_of(const msg::Twist& twist) {
   return "linear " + text_of_vector(twist.linear()) + " angular " + text_of_vector(twist.angular());

@@ -53,8 +53,7 @@ std::string table_row(const std::vector<std::string>& cells, const std::string& 
 /// A number of a JSON object as text; a dash if there is none.
 std::string cell_of(const Json& object, const char* key, int digits);
 /// The drawing in two widths, of which CSS shows one: for wide and for narrow windows.
-template <class Draw>
-std::string two_widths(const Draw& draw, double wide) {
+std::string two_widths(const auto& draw, double wide) {
   return "<div class=\"broad\">" + draw(wide) + "</div><div class=\"narrow\">" + draw(380.0) + "</div>\n";
 }
 /// A paragraph that says what a section cannot show. `why` is HTML.

@@ -54,8 +54,7 @@ std::string text(const Vector2d& at, const std::string& anchor, const std::strin
 }
 
 /// Calls `use` with each station, corner of a box, interest point and position of a track.
-template <class Use>
-void each_point(const std::vector<const FlightPicture*>& pictures, const Use& use) {
+void each_point(const std::vector<const FlightPicture*>& pictures, const auto& use) {
   for (const FlightPicture* picture : pictures) {
     if (picture->station) use(*picture->station);
     for (const auto& corners : picture->boxes) std::for_each(corners.begin(), corners.end(), use);

@@ -17,8 +17,7 @@ namespace {
 class CsvCells : public testing::Test {
  protected:
   /// What `read` makes of a table whose third line has this cell.
-  template <class Read>
-  auto read_cell(const std::string& cell, const Read& read) const {
+  auto read_cell(const std::string& cell, const auto& read) const {
     std::ofstream(file_) << "name,value\nfirst,1\nsecond," << cell << "\n";
     CsvTable table(file_);
     table.next();
@@ -32,8 +31,7 @@ class CsvCells : public testing::Test {
     return read_cell(cell, [](const CsvTable& table) { return table.count("value"); });
   }
   /// The error of `read`; "" if there was none.
-  template <class Read>
-  std::string error(const Read& read) const {
+  std::string error(const auto& read) const {
     try {
       static_cast<void>(read());
       return "";

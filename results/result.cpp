@@ -96,8 +96,7 @@ void add_processes(const RunFacts& facts, Json& result) {
 }
 
 /// Calls `look` with each report that is not missing.
-template <class Look>
-void for_each_report(const Reports& reports, const Look& look) {
+void for_each_report(const Reports& reports, const auto& look) {
   if (reports.sim_server) look(*reports.sim_server);
   if (reports.station) look(*reports.station);
   if (reports.comm_router) look(*reports.comm_router);

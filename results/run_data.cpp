@@ -142,8 +142,7 @@ void read_scores(const fs::path& dir, RunData& data) {
 }
 
 /// Calls `entry` with each element of an array in result.json; leaves out elements for which it throws.
-template <class Entry>
-void read_entries(const RunData& data, const char* key, const Entry& entry) {
+void read_entries(const RunData& data, const char* key, const auto& entry) {
   for (const Json& json : value_or(data.result, key, Json::array())) {
     try {
       entry(json);

@@ -6,8 +6,7 @@ namespace skein::results {
 namespace {
 
 /// The best of the captures for which `counts` returns true; of equally good ones the first.
-template <class Counts>
-std::optional<CaptureRow> best_of(const std::vector<CaptureRow>& captures, const Counts& counts) {
+std::optional<CaptureRow> best_of(const std::vector<CaptureRow>& captures, const auto& counts) {
   const CaptureRow* best = nullptr;
   for (const CaptureRow& capture : captures) {
     if (counts(capture) && (best == nullptr || capture.q > best->q)) best = &capture;

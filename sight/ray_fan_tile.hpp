@@ -77,8 +77,7 @@ inline Indices indices(const Ruler& ruler, Float8 low, Float8 high, int first, i
 
 /// Fits a ruler to slopes that grow with the index.   @param index_of  returns the true indices of a row of rays.
 /// @param blur  receives the largest deviation of a slope from the ruler, as a number of index steps.
-template <class IndexOf>
-Ruler fit_ruler(const float (&slopes)[kRays], int last, IndexOf index_of, float& blur) {
+Ruler fit_ruler(const float (&slopes)[kRays], int last, auto index_of, float& blur) {
   Float8 low = load(slopes), high = low;
   for (int i = kLanes; i < kRays; i += kLanes) {
     low = smaller(low, load(&slopes[i]));

@@ -11,8 +11,7 @@ namespace skein::sim {
 namespace {
 
 // Builds a message only if somebody reads it: large unread messages would be the server's greatest cost.
-template <class Make>
-void send(bus::CountedWriter& writer, Make&& make) {
+void send(bus::CountedWriter& writer, auto&& make) {
   if (writer.is_wanted()) {
     writer.write(make());
   } else {

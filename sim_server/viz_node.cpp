@@ -16,8 +16,7 @@ std::unique_ptr<bus::Writer> viz_writer(bus::Participant& world, const topics::T
   return world.create_writer(bus::spec(topics::wire(topic)));
 }
 
-template <class Make>
-void show(bus::Writer& writer, Make&& make) {
+void show(bus::Writer& writer, auto&& make) {
   if (writer.has_readers()) writer.write(encode(make()));
 }
 

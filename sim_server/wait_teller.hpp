@@ -23,8 +23,7 @@ class WaitTeller {
   /// is due (core/run/wait_notice.hpp). The message for the launcher says whether a line is due.
   /// @param awaited  returns the awaited members; called only when there is something to tell.
   /// @returns false until the wait has lasted kTrifle_s.
-  template <class Awaited>
-  bool tell(const Awaited& awaited) {
+  bool tell(const auto& awaited) {
     const auto now = WaitNotice::Clock::now();
     if (notice_.waited_s(now) < kTrifle_s) return false;
     if (now - told_ >= kPeriod) send(awaited(), now);

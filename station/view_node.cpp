@@ -17,8 +17,7 @@ msg::String message_with(const std::string& text) {
 }
 
 /// Passes each text on to `use`, in the thread in which the bus delivers it.
-template <class Use>
-bus::OnSample each_text(const Use& use) {
+bus::OnSample each_text(const auto& use) {
   return [use](bus::Sample&& sample) {
     msg::String message;
     if (decode(sample.payload, message)) use(message.data());

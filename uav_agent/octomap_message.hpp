@@ -8,8 +8,7 @@
 namespace skein::agent {
 
 /// @param bytes  an octree in OctoMap's binary serialisation.
-template <class Bytes>
-msg::Octomap octomap_of(const Bytes& bytes, double resolution_m, Tick tick) {
+msg::Octomap octomap_of(const auto& bytes, double resolution_m, Tick tick) {
   msg::Octomap message;
   message.header(to_header(tick));
   message.binary(true);

@@ -16,8 +16,7 @@ std::string_view trimmed(std::string_view text) {
 }
 
 /// Calls `use` with the parts of a text until it returns true. @returns whether it did.
-template <class Use>
-bool any_part(std::string_view text, char between, const Use& use) {
+bool any_part(std::string_view text, char between, const auto& use) {
   while (true) {
     const std::size_t end = text.find(between);
     if (use(text.substr(0, end))) return true;

@@ -23,8 +23,7 @@ auto place_of(const CubeRun& run) { return std::tuple(run.z, run.y, run.x); }
 /// Cuts a run into pieces where other runs begin or end.
 /// @param others  in order, without overlaps. @param at  index of the first one that may touch this run or a later one;
 /// is moved on. @param use  called with each piece, and with whether one of the others covers it.
-template <class Use>
-void cut(const CubeRun& run, std::span<const CubeRun> others, std::size_t& at, const Use& use) {
+void cut(const CubeRun& run, std::span<const CubeRun> others, std::size_t& at, const auto& use) {
   const auto is_before = [&](const CubeRun& other) {
     const auto row = std::tuple(run.z, run.y), others_row = std::tuple(other.z, other.y);
     return others_row < row || (others_row == row && other.x + other.length <= run.x);

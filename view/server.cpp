@@ -168,8 +168,7 @@ struct Server::Impl {
   }
 
   /// Starts a coroutine. @param last  called when the coroutine ends, also by an exception.
-  template <class Last>
-  void spawn(asio::awaitable<void> work, const Last& last) {
+  void spawn(asio::awaitable<void> work, const auto& last) {
     ++at_work;
     asio::co_spawn(io, std::move(work), [this, last](const std::exception_ptr&) {
       last();

@@ -28,10 +28,7 @@ void pass(const std::stop_token& over, std::chrono::milliseconds time) {
   std::condition_variable_any().wait_for(lock, over, time, [] { return false; });
 }
 
-template <class Choices>
-auto one_of(const Choices& choices, Random& random) {
-  return choices[random() % choices.size()];
-}
+auto one_of(const auto& choices, Random& random) { return choices[random() % choices.size()]; }
 
 std::string noise(Random& random, std::size_t most) {
   std::string bytes(random() % (most + 1), '\0');

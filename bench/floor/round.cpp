@@ -27,9 +27,8 @@ msg::TopicCount count_of(const topics::WireTopic& topic) {
   return count;
 }
 
-template <class Message>
 Flow flow(int domain, const topics::WireTopic& topic, const Seat& writer, std::vector<Seat> readers,
-          const Message& message) {
+          const auto& message) {
   return {domain, bus::spec(topic), writer, std::move(readers), encode(message)};
 }
 

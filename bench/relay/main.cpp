@@ -96,8 +96,7 @@ class Ear {
   std::unique_ptr<skein::bus::Reader> reader_;
 };
 
-template <class Condition>
-void wait_until(const char* what, Condition condition) {
+void wait_until(const char* what, auto condition) {
   const auto deadline = Clock::now() + kPatience;
   while (!condition()) {
     if (Clock::now() > deadline) throw std::runtime_error(std::string("waited in vain for ") + what);

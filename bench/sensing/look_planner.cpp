@@ -9,8 +9,7 @@ class LookPlanner final : public Planner {
     bool beams = false;
     double height_m = 5.0;
 
-    template <class R>
-    void describe(R& r) {
+    void describe(auto& r) {
       r.field("beams", beams);
       r.field("height_m", height_m, within(0.2, 200.0));
     }

@@ -47,8 +47,7 @@ class PackedMessages {
     }
   }
 
-  template <class Send>
-  void release(const Send& send) {
+  void release(const auto& send) {
     for (Datagram& datagram : datagrams_) {
       if (!datagram.bytes.empty()) put_out(datagram, send);
     }
@@ -60,14 +59,12 @@ class PackedMessages {
     std::vector<std::uint8_t> bytes;
   };
 
-  template <class Part>
-  bool fits(const std::vector<std::uint8_t>& bytes, const Part& first, std::size_t size) const {
+  bool fits(const std::vector<std::uint8_t>& bytes, const auto& first, std::size_t size) const {
     // Messages of another participant of this process in the same domain have another RTPS header.
     return bytes.size() + kToAnybody.size() + size - kHeaderSize <= largest_ && first.iov_len >= kHeaderSize &&
            std::equal(bytes.begin(), bytes.begin() + kHeaderSize, static_cast<const std::uint8_t*>(first.iov_base));
   }
-  template <class Send>
-  static void put_out(Datagram& datagram, const Send& send) {
+  static void put_out(Datagram& datagram, const auto& send) {
     send(datagram.destination, datagram.bytes);
     datagram.bytes.clear();
   }

@@ -41,8 +41,7 @@ Entity* created(Entity* entity, const std::string& what) {
 }
 
 /// Records what Fast DDS has reported to a listener: a remote endpoint has been matched, or is no longer matched.
-template <class Status>
-void update(Matches& matches, const dds::InstanceHandle_t& handle, const Status& status) {
+void update(Matches& matches, const dds::InstanceHandle_t& handle, const auto& status) {
   const GUID_t endpoint = eprosima::fastrtps::rtps::iHandle2GUID(handle);
   status.current_count_change > 0 ? matches.begin(endpoint) : matches.end(endpoint);
 }

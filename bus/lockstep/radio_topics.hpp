@@ -53,8 +53,7 @@ class RadioTopics {
     Status status;
   };
 
-  template <class Map>
-  static Status status(const Map& map, const std::string& topic) {
+  static Status status(const auto& map, const std::string& topic) {
     const auto found = map.find(topic);
     return found == map.end() ? Status{} : found->second.status;
   }

@@ -25,8 +25,7 @@ constexpr double kFar = 1000.0;  ///< UAVs, to which the growth is extrapolated
 double steps_of(const Json& result) { return number_in(value_or(result, "timing", Json::object()), "steps"); }
 
 /// The median over results of a measured quantity per exchange.
-template <class Measure>
-double per_exchange(const std::vector<Json>& results, Measure measure) {
+double per_exchange(const std::vector<Json>& results, auto measure) {
   std::vector<double> values;
   for (const Json& result : results) {
     if (const double steps = steps_of(result); steps > 0.0) values.push_back(measure(result) / steps);

@@ -37,8 +37,7 @@ struct Expectations {
   LimitsByName<radio_counters> radio;
   std::vector<Repeat> same_digest;
 
-  template <class R>
-  void describe(R& r) {
+  void describe(auto& r) {
     r.field("status", status);
     read_limits(r, "exit_code", exit_code);
     r.field("deterministic", deterministic);

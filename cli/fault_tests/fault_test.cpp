@@ -30,8 +30,7 @@ struct RunPart {
   std::optional<std::string> conditions;
   Vendor dds = Vendor::cyclonedds;
 
-  template <class R>
-  void describe(R& r) {
+  void describe(auto& r) {
     r.field("scenario", scenario);
     r.field("planner", planner);
     r.field("seed", seed);
@@ -51,8 +50,7 @@ struct TestFile {
   std::optional<CapsuleMark> capsule;
   std::variant<std::string, properties::PropertyEntries> property_entries;  ///< a text: the file that lists them
 
-  template <class R>
-  void describe(R& r) {
+  void describe(auto& r) {
     r.field("name", name);
     r.field("description", description);
     r.field("run", run);

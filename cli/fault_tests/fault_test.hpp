@@ -27,8 +27,7 @@ struct CapsuleMark {
   std::string build;     ///< build that flew it: a digest of its programs, or a commit; empty: not known
   std::string command;   ///< command line of the hunt
 
-  template <class R>
-  void describe(R& r) {
+  void describe(auto& r) {
     r.required("property", property);
     r.field("digest", digest);
     r.field("skein", skein);

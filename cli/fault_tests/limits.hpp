@@ -18,8 +18,7 @@ struct Limits {
   /// "at least 3", "0", "from 3 to 9".
   std::string text() const;
 
-  template <class R>
-  void describe(R& r) {
+  void describe(auto& r) {
     r.field("at_least", at_least);
     r.field("at_most", at_most);
     r.check(at_least || at_most, "at_least", "is missing, and so is at_most: one of them must be there");
@@ -28,8 +27,7 @@ struct Limits {
 };
 
 /// Reads `key`, which has either of the two forms; `limits` is left unchanged when the key is absent.
-template <class R>
-void read_limits(R& r, const std::string& key, std::optional<Limits>& limits) {
+void read_limits(auto& r, const std::string& key, std::optional<Limits>& limits) {
   std::variant<std::string, Limits> given;
   r.field(key, given);
   if (!r.has(key)) return;
@@ -47,8 +45,7 @@ template <auto Names>
 struct LimitsByName {
   std::map<std::string, Limits> limits;
 
-  template <class R>
-  void describe(R& r) {
+  void describe(auto& r) {
     for (const char* name : Names()) {
       std::optional<Limits> given;
       read_limits(r, name, given);

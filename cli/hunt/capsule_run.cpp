@@ -36,8 +36,7 @@ std::optional<double> result_score(const fs::path& dir) {
 
 /// Flies a second run for comparison, in a scratch folder. `look` reads the folder before it is deleted.
 /// @param how  describes the second run to the user, who sees the messages of both runs
-template <class Look>
-void fly_aside(RunOptions run, const std::string& how, const Console& console, const Look& look) {
+void fly_aside(RunOptions run, const std::string& how, const Console& console, const auto& look) {
   const ScratchDir scratch;
   run.out = scratch.path() / "run";
   run.check = run.report = false;

@@ -44,8 +44,7 @@ class FaultMakers : public testing::Test {
   }
 
   /// Schedules and variations of them, as a search makes them.
-  template <class Look>
-  void each(const Look& look) const {
+  void each(const auto& look) const {
     const FaultMaker maker(towers_, space_);
     std::vector<Fault> former;
     for (std::uint64_t i = 0; i < kSchedules; ++i) {

@@ -39,9 +39,8 @@ std::vector<Acknowledged> acknowledged_captures(const results::RunRecord& run, c
 
 /// The sum over all points of the best score so far, whenever it rises: time [s] and sum. Only captures that count.
 /// @param time_of  the time of a capture [s]; nullopt: leave it out
-template <class TimeOf>
 std::vector<std::pair<double, double>> score_steps(const results::RunRecord& run, const Scenario& scenario,
-                                                   const TimeOf& time_of) {
+                                                   const auto& time_of) {
   std::vector<std::pair<double, const results::CaptureRow*>> rows;
   for (const results::CaptureRow& row : run.captures) {
     const std::optional<double> time_s = time_of(row);

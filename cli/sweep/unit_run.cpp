@@ -161,8 +161,7 @@ class UnitRun {
 };
 
 /// Flies a flight in air/, and deletes its folder. @returns what `look` returns for the folder.
-template <class Look>
-auto flown_aside(const SweepFolder& folder, const SweepFlight& flight, const SweepNode& node, const Look& look) {
+auto flown_aside(const SweepFolder& folder, const SweepFlight& flight, const SweepNode& node, const auto& look) {
   const fs::path air = folder.place_in_the_air(node.name);
   try {
     const ExitStatus exit = node.fly(flight, air);

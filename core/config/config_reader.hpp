@@ -4,7 +4,7 @@
 //   struct LinkFault {
 //     std::string from;            ///< node name
 //     double delay_s = 0.0;        ///< [0, 10]
-//     template <class R> void describe(R& r) {
+//     void describe(auto& r) {
 //       r.required("from", from);
 //       r.field("delay_s", delay_s, within(0.0, 10.0));
 //       r.check(from != "nobody", "from", "must be a node");
@@ -12,7 +12,7 @@
 //   };
 //   const auto fault = read_config_file<LinkFault>("fault.yaml");
 //
-// Instead of the member function, a free function `template <class R> void describe(R& r, LinkFault& fault)` in the
+// Instead of the member function, a free function `void describe(auto& r, LinkFault& fault)` in the
 // same namespace also works. Readable types: bool, integers, double, std::string, std::filesystem::path, enums with
 // enum_names() (core/types.hpp), Vector2d and Vector3d, std::array<double, N>, structs, std::vector and
 // std::optional of all these, Named<T> (a map with free keys), std::variant<std::string, T> (a text, else a T).

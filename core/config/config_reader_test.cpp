@@ -18,8 +18,7 @@ struct Part {
   std::string name;
   double length_m = 1.0;
 
-  template <class R>
-  void describe(R& r) {
+  void describe(auto& r) {
     r.required("name", name);
     r.field("length_m", length_m, above(0.0));
   }
@@ -44,8 +43,7 @@ struct Everything {
   std::variant<std::string, Part> either = std::string("word");
   Named<double> named = {};
 
-  template <class R>
-  void describe(R& r) {
+  void describe(auto& r) {
     r.field("flag", flag);
     r.field("small", small, within(0, 10));
     r.field("whole", whole);

@@ -20,8 +20,7 @@ ConfigDocument document_of(const std::string& text) {
 
 }  // namespace
 
-template <class R>
-void describe(R& r, DomainNetwork& network) {
+void describe(auto& r, DomainNetwork& network) {
   r.field("interface", network.interface);
   r.field("peers", network.peers);
   const bool unnamed = std::ranges::any_of(network.peers, &std::string::empty);

@@ -18,10 +18,7 @@ Margin compared(bool holds, double distance) { return std::isnan(distance) ? kUn
 double quotient(double a, double b) { return b == 0.0 ? std::numeric_limits<double>::quiet_NaN() : a / b; }
 
 /// @param choose  std::min or std::max, which lose an undefined number.
-template <class Choose>
-double chosen(double a, double b, const Choose& choose) {
-  return std::isnan(a) || std::isnan(b) ? a + b : choose(a, b);
-}
+double chosen(double a, double b, const auto& choose) { return std::isnan(a) || std::isnan(b) ? a + b : choose(a, b); }
 
 /// Numbers that are equal, infinite ones too, are no way apart.
 double difference(double a, double b) { return a == b ? 0.0 : a - b; }

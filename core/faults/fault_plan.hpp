@@ -56,8 +56,7 @@ struct OdometryJump {
   std::string uav;
   Vector3d offset_m = Vector3d::Zero();  ///< in W
 
-  template <class R>
-  void describe(R& r) {
+  void describe(auto& r) {
     r.required("uav", uav);
     r.required("offset_m", offset_m, within(-1000.0, 1000.0));
     r.check(!offset_m.isZero(0.0), "offset_m", "must not be zero");
@@ -73,8 +72,7 @@ struct MotorFailure {
   int rotor = 0;        ///< 0..5; rotor i is at 30 + 60 i degrees from body x towards y
   double thrust = 0.0;  ///< remaining share, [0, 1)
 
-  template <class R>
-  void describe(R& r) {
+  void describe(auto& r) {
     r.required("uav", uav);
     r.required("rotor", rotor, within(0, 5));
     r.field("thrust", thrust, within(0.0, 0.999));
@@ -85,8 +83,7 @@ struct Gust {
   std::string uav;
   Vector3d velocity_mps = Vector3d::Zero();  ///< added velocity of the air, in W
 
-  template <class R>
-  void describe(R& r) {
+  void describe(auto& r) {
     r.required("uav", uav);
     r.required("velocity_mps", velocity_mps, within(-50.0, 50.0));
     r.check(!velocity_mps.isZero(0.0), "velocity_mps", "must not be zero");
@@ -101,8 +98,7 @@ struct BatteryLoss {
   std::string uav;
   double charge = 0.0;  ///< share of the capacity, [0, 1)
 
-  template <class R>
-  void describe(R& r) {
+  void describe(auto& r) {
     r.required("uav", uav);
     r.required("charge", charge, within(0.0, 0.999));
   }
@@ -117,8 +113,7 @@ struct CommandDelay {
   std::string uav;
   int exchanges = 0;
 
-  template <class R>
-  void describe(R& r) {
+  void describe(auto& r) {
     r.required("uav", uav);
     r.required("exchanges", exchanges, within(1, 1200));
   }

@@ -29,8 +29,7 @@ struct TimeRange {
 };
 
 /// `8`, or `[8, 12]`; `time` stays what it is when the key is absent.
-template <class R>
-void read_time(R& r, const std::string& key, const Bounds& bounds, std::optional<TimeRange>& time,
+void read_time(auto& r, const std::string& key, const Bounds& bounds, std::optional<TimeRange>& time,
                bool required = false) {
   std::variant<std::string, std::array<double, 2>> given;
   required ? r.required(key, given, bounds) : r.field(key, given, bounds);
@@ -62,8 +61,7 @@ struct FaultEntry {
   std::optional<BatteryLoss> battery_loss;
   std::optional<ConditionsConfig> conditions;  ///< read_faults() takes the values that the file has
 
-  template <class R>
-  void describe(R& r) {
+  void describe(auto& r) {
     r.field("when", when);
     read_time(r, "at_s", within(0.0, 36000.0), at_s, !when);
     read_time(r, "until_s", Bounds{0.0, 36000.0, true}, until_s);
@@ -145,8 +143,7 @@ struct FaultFile {
   bool by_hand = false;  ///< of a run that is flown: its times may go on as long as that run may
   std::variant<std::string, std::vector<FaultEntry>> faults;  ///< a text: the file that lists them
 
-  template <class R>
-  void describe(R& r) {
+  void describe(auto& r) {
     r.field("name", name);
     r.field("description", description);
     r.field("by_hand", by_hand);

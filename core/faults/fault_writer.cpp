@@ -12,10 +12,7 @@ namespace {
 
 ConfigNode time_node(double time_s) { return ConfigNode::make_scalar(shortest(time_s)); }
 
-template <class T>
-ConfigNode written(const T& value) {
-  return ConfigWriter::node_of(value).value_or(ConfigNode{});
-}
+ConfigNode written(const auto& value) { return ConfigWriter::node_of(value).value_or(ConfigNode{}); }
 
 /// An effect without the keys that say what would be so without them.
 ConfigNode link_node(const LinkEffect& effect) {

@@ -25,8 +25,7 @@ class FileBytes : public testing::Test {
   }
   ~FileBytes() override { fs::remove_all(folder_); }
 
-  template <class Read>
-  std::string complaint(Read read) {
+  std::string complaint(auto read) {
     try {
       read();
     } catch (const InputError& error) {

@@ -22,8 +22,7 @@ struct BurstLoss {
   double mean_good_s = 10.0, mean_burst_s = 1.0;  ///< mean duration of the good and of the bad state
   double loss = 1.0;                              ///< loss probability of a message sent in the bad state, [0, 1]
 
-  template <class R>
-  void describe(R& r) {
+  void describe(auto& r) {
     r.required("mean_good_s", mean_good_s, within(0.05, 36000.0));
     r.required("mean_burst_s", mean_burst_s, within(0.05, 36000.0));
     r.field("loss", loss, within(0.0, 1.0));
@@ -34,8 +33,7 @@ struct BurstLoss {
 struct Reordering {
   double probability = 0.0, delay_s = 0.0;
 
-  template <class R>
-  void describe(R& r) {
+  void describe(auto& r) {
     r.required("probability", probability, within(0.0, 1.0));
     r.required("delay_s", delay_s, Bounds{0.0, 60.0, true});
   }
@@ -55,8 +53,7 @@ struct LinkEffect {
   double corruption = 0.0;                    ///< probability that some bits of a message are flipped
   std::vector<std::string> topics = {"all"};  ///< topics to which the effect applies, or {"all"}; see names_topic()
 
-  template <class R>
-  void describe(R& r) {
+  void describe(auto& r) {
     describe_names(r, "from", from);
     describe_names(r, "to", to);
     r.field("range_m", range_m, Bounds{0.0, 1e6, true});
@@ -81,8 +78,7 @@ struct LinkEffect {
   bool names_every_topic() const { return std::find(topics.begin(), topics.end(), "all") != topics.end(); }
 
   /// A list of names, or the single word `all`; `all` when the key is absent.
-  template <class R>
-  static void describe_names(R& r, const std::string& key, std::vector<std::string>& list) {
+  static void describe_names(auto& r, const std::string& key, std::vector<std::string>& list) {
     std::variant<std::string, std::vector<std::string>> names = list;
     if (list.size() == 1) names = list[0];
     r.field(key, names);

@@ -95,8 +95,7 @@ class RadioTable::Builder {
     throw InputError(where_ + key + ": " + what);
   }
 
-  template <class Work>
-  std::string checked(const std::string& key, Work work) const {
+  std::string checked(const std::string& key, auto work) const {
     try {
       return work();
     } catch (const InputError& error) {

@@ -21,8 +21,7 @@
 
 namespace skein {
 
-template <class R>
-void describe(R& r, CameraConfig& camera) {
+void describe(auto& r, CameraConfig& camera) {
   r.field("hfov_deg", camera.hfov_deg, within(1.0, 170.0));
   r.field("vfov_deg", camera.vfov_deg, within(1.0, 170.0));
   r.field("exposure_s", camera.exposure_s, within(0.0, 1.0));
@@ -32,22 +31,19 @@ void describe(R& r, CameraConfig& camera) {
   r.field("p_BC", camera.p_BC, within(-10.0, 10.0));
 }
 
-template <class R>
-void describe(R& r, GimbalConfig& gimbal) {
+void describe(auto& r, GimbalConfig& gimbal) {
   r.field("pitch_limit_deg", gimbal.pitch_limit_deg, within(0.0, 180.0));
   r.field("yaw_limit_deg", gimbal.yaw_limit_deg, within(0.0, 180.0));
   r.field("rate_limit_deg_s", gimbal.rate_limit_deg_s, within(0.0, 3600.0));
 }
 
-template <class R>
-void describe(R& r, DroppedSectors& sectors) {
+void describe(auto& r, DroppedSectors& sectors) {
   r.required("share", sectors.share, within(0.0, 0.5));
   r.required("width_deg", sectors.width_deg, Bounds{0.0, 360.0, true});
   r.required("hold_s", sectors.hold_s, within(kTickS, 36000.0));
 }
 
-template <class R>
-void describe(R& r, LidarConfig& lidar) {
+void describe(auto& r, LidarConfig& lidar) {
   r.field("rings", lidar.rings, within(1, 128));
   r.field("columns", lidar.columns, within(1, 4096));
   r.field("vertical_fov_deg", lidar.vertical_fov_deg, within(0.0, 170.0));
@@ -64,8 +60,7 @@ void describe(R& r, LidarConfig& lidar) {
   r.check(lidar.range_min_m < lidar.range_max_m, "range_min_m", "must be less than range_max_m");
 }
 
-template <class R>
-void describe(R& r, PositionControlConfig& control) {
+void describe(auto& r, PositionControlConfig& control) {
   r.field("omega_xy", control.omega_xy, within(0.0, 100.0));
   r.field("omega_z", control.omega_z, within(0.0, 100.0));
   r.field("zeta_xy", control.zeta_xy, within(0.0, 100.0));
@@ -76,16 +71,14 @@ void describe(R& r, PositionControlConfig& control) {
   r.field("max_tilt_deg", control.max_tilt_deg, within(1.0, 89.0));
 }
 
-template <class R>
-void describe(R& r, AttitudeControlConfig& control) {
+void describe(auto& r, AttitudeControlConfig& control) {
   r.field("inertia_kg_m2", control.inertia, within(1e-6, 1e4));
   r.field("p_gain", control.p_gain, within(0.0, 1e4));
   r.field("q_gain", control.q_gain, within(0.0, 1e4));
   r.field("r_gain", control.r_gain, within(0.0, 1e4));
 }
 
-template <class R>
-void describe(R& r, VehicleLink& link) {
+void describe(auto& r, VehicleLink& link) {
   r.required("name", link.name);
   r.required("mass_kg", link.mass_kg, within(0.0, 1000.0));
   r.field("inertia_kg_m2", link.inertia, within(0.0, 1e4));
@@ -94,8 +87,7 @@ void describe(R& r, VehicleLink& link) {
 }
 
 /// Adds an error for values that no real vehicle has, and with which the integration in steps of one tick is unstable.
-template <class R>
-void check_plausible(R& r, const VehicleConfig& vehicle) {
+void check_plausible(auto& r, const VehicleConfig& vehicle) {
   constexpr double kMostThrust = 50.0, kMostTurn = 5000.0, kMostLoss = 0.1;  // see the messages
   const MassProperties whole = mass_properties(vehicle);
   const double inertia = whole.I_BBcm_B.diagonal().minCoeff();
@@ -112,8 +104,7 @@ void check_plausible(R& r, const VehicleConfig& vehicle) {
           "at 1 m/s it would turn the vehicle by more than 0.1 rad/s in a tick of 2.5 ms");
 }
 
-template <class R>
-void describe(R& r, VehicleConfig& vehicle) {
+void describe(auto& r, VehicleConfig& vehicle) {
   r.required("name", vehicle.name);
   r.required("role", vehicle.role);
   r.field("mass_kg", vehicle.mass_kg, within(0.01, 1000.0));
@@ -188,16 +179,14 @@ void describe(R& r, RulesConfig& rules) {
 /// Nodes of a radio topic: a list of names, or the single word `all`.
 using NodeNames = std::variant<std::string, std::vector<std::string>>;
 
-template <class R>
-void describe_nodes(R& r, const std::string& key, std::vector<std::string>& nodes) {
+void describe_nodes(auto& r, const std::string& key, std::vector<std::string>& nodes) {
   NodeNames names = nodes;
   if (nodes.size() == 1 && nodes[0] == "all") names = std::string("all");
   r.required(key, names);
   nodes = names.index() == 0 ? std::vector<std::string>{std::get<0>(names)} : std::get<1>(names);
 }
 
-template <class R>
-void describe(R& r, RadioTopicConfig& topic) {
+void describe(auto& r, RadioTopicConfig& topic) {
   r.required("name", topic.name);
   r.required("type", topic.type);
   describe_nodes(r, "sources", topic.sources);
@@ -211,8 +200,7 @@ struct FleetEntry {
   std::optional<Vector2d> start;  ///< x, y in W [m]; none: the start that the procedural scene has for this UAV
   std::optional<double> start_yaw_deg;
 
-  template <class R>
-  void describe(R& r) {
+  void describe(auto& r) {
     r.required("name", name);
     r.required("vehicle", vehicle);
     r.field("start", start, within(-1e4, 1e4));
@@ -223,8 +211,7 @@ struct FleetEntry {
 struct StationKeys {
   Scenario& scenario;
 
-  template <class R>
-  void describe(R& r) {
+  void describe(auto& r) {
     r.field("position", scenario.station_position, within(-1e4, 1e4));
     r.field("antenna_offset_m", scenario.station_antenna_offset_m, within(0.0, 10.0));
   }
@@ -233,8 +220,7 @@ struct StationKeys {
 struct RadioKeys {
   Scenario& scenario;
 
-  template <class R>
-  void describe(R& r) {
+  void describe(auto& r) {
     r.field("topics", scenario.radio);
     r.field("links", scenario.links);
   }

@@ -36,8 +36,7 @@ bool is_ros_word(const std::string& text) {
 }
 
 /// What `reject` throws as an InputError, or nothing.
-template <class Reject>
-std::string complaint(const Reject& reject) {
+std::string complaint(const auto& reject) {
   try {
     reject();
   } catch (const InputError& error) {

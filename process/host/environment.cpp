@@ -34,8 +34,7 @@ constexpr std::array<std::string_view, 10> kToldNames = {
     "SKEIN_DDS",  "SKEIN_DOMAIN", "SKEIN_OUT",      "SKEIN_RADIO_HEARS", "SKEIN_RADIO_SENDS",
     kRunVariable, "SKEIN_ROLE",   "SKEIN_SCENARIO", "SKEIN_SECURITY",    "SKEIN_UAV"};
 
-template <class Names>
-bool listed(const Names& names, std::string_view name) {
+bool listed(const auto& names, std::string_view name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 

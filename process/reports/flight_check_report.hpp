@@ -13,8 +13,7 @@ struct TrackingReport {
   Count samples = {};
   Number p50 = {}, p99 = {}, p9999 = {}, max = {};
 };
-template <class Fields>
-void describe(Fields& f, TrackingReport& tracking) {
+void describe(auto& f, TrackingReport& tracking) {
   f.field("from_mps", tracking.from_mps);
   f.field("max", tracking.max);
   f.field("p50", tracking.p50);
@@ -31,8 +30,7 @@ struct FlightFindingReport {
   std::optional<std::array<double, 3>> position = {};  ///< of the UAV in W [m], at the least distance
   std::optional<double> distance_m = {};               ///< distance between the surfaces there; below 0
 };
-template <class Fields>
-void describe(Fields& f, FlightFindingReport& finding) {
+void describe(auto& f, FlightFindingReport& finding) {
   f.field("distance_m", finding.distance_m);
   f.field("position", finding.position);
   f.field("time_s", finding.time_s);
@@ -50,8 +48,7 @@ struct FlightCheckReport {
   std::vector<TrackingReport> tracking_by_speed = {};
   std::vector<FlightFindingReport> first = {};
 };
-template <class Fields>
-void describe(Fields& f, FlightCheckReport& check) {
+void describe(auto& f, FlightCheckReport& check) {
   f.field("braking_hits", check.braking_hits);
   f.field("braking_meets", check.braking_meets);
   f.field("exchanges", check.exchanges);

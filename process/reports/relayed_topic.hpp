@@ -15,8 +15,7 @@ struct RelayedTopic {
   Count refused = {};      ///< not valid for the topic's type, or handed on and rejected by sim_server
   Count other_clock = {};  ///< stamps that are not of simulated time
 };
-template <class Fields>
-void describe(Fields& f, RelayedTopic& relayed) {
+void describe(auto& f, RelayedTopic& relayed) {
   f.field("handed_on", relayed.handed_on);
   f.field("late", relayed.late);
   f.field("lost", relayed.lost);

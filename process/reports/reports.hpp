@@ -24,8 +24,7 @@ struct CollisionReport {
   Text cause = {};  ///< "battery": the UAV fell because its battery was empty; otherwise missing
   std::optional<std::array<double, 3>> position = {};
 };
-template <class Fields>
-void describe(Fields& f, CollisionReport& collision) {
+void describe(auto& f, CollisionReport& collision) {
   f.field("cause", collision.cause);
   f.field("position", collision.position);
   f.field("time_s", collision.time_s);
@@ -41,8 +40,7 @@ struct FaultReport {
   Text when = {};                          ///< the condition for which it waited
   std::optional<bool> by_hand = {};        ///< true: added by a viewer; empty: from the fault file
 };
-template <class Fields>
-void describe(Fields& f, FaultReport& fault) {
+void describe(auto& f, FaultReport& fault) {
   f.nullable("at_s", fault.at_s);
   f.nullable("began_step", fault.began_step);
   f.field("by_hand", fault.by_hand);
@@ -60,8 +58,7 @@ struct LostMember {
   Text reason = {};
   Number back_at_s = {};  ///< time at which it joined again; none: it did not
 };
-template <class Fields>
-void describe(Fields& f, LostMember& lost) {
+void describe(auto& f, LostMember& lost) {
   f.nullable("back_at_s", lost.back_at_s);
   f.field("member", lost.member);
   f.field("reason", lost.reason);
@@ -76,8 +73,7 @@ struct TimingReport {
   Count scans = {}, exposures = {}, steps = {};
   Number lidar_ms_per_scan = {};
 };
-template <class Fields>
-void describe(Fields& f, TimingReport& timing) {
+void describe(auto& f, TimingReport& timing) {
   f.field("camera_s", timing.camera_s);
   f.field("cpu_s", timing.cpu_s);
   f.field("exposures", timing.exposures);
@@ -95,8 +91,7 @@ struct WorkReport {
   std::string open = {};          ///< one letter per second, as in WorkTrack
   std::vector<Amount> done = {};  ///< in least amounts
 };
-template <class Fields>
-void describe(Fields& f, WorkReport& work) {
+void describe(auto& f, WorkReport& work) {
   f.field("done", work.done);
   f.field("open", work.open);
 }
@@ -110,8 +105,7 @@ struct BatteryReport {
   std::optional<bool> grounded = {};
   Count swaps = {};  ///< none: nobody swaps batteries
 };
-template <class Fields>
-void describe(Fields& f, BatteryReport& battery) {
+void describe(auto& f, BatteryReport& battery) {
   f.field("capacity_wh", battery.capacity_wh);
   f.field("charge", battery.charge);
   f.field("empty_s", battery.empty_s);
@@ -134,8 +128,7 @@ struct UavReport {
   std::optional<WorkReport> work = {};
   std::optional<BatteryReport> battery = {};
 };
-template <class Fields>
-void describe(Fields& f, UavReport& uav) {
+void describe(auto& f, UavReport& uav) {
   f.field("alive", uav.alive);
   f.field("battery", uav.battery);
   f.field("captures", uav.captures);
@@ -156,8 +149,7 @@ struct HandReport {
   Text file = {};       ///< file in the run's folder with the hand commands
   Count commands = {};  ///< number of commands in the file
 };
-template <class Fields>
-void describe(Fields& f, HandReport& hand) {
+void describe(auto& f, HandReport& hand) {
   f.field("commands", hand.commands);
   f.field("file", hand.file);
   f.field("uav", hand.uav);
@@ -170,8 +162,7 @@ struct FlightReport {
   Number duration_s = {};
   Text clock = {}, dds = {};
 };
-template <class Fields>
-void describe(Fields& f, FlightReport& flight) {
+void describe(auto& f, FlightReport& flight) {
   f.field("clock", flight.clock);
   f.field("dds", flight.dds);
   f.field("duration_s", flight.duration_s);
@@ -208,8 +199,7 @@ struct SimServerReport {
   Texts unwritten = {};  ///< files that could not be written, one sentence each
   std::optional<Texts> differences = {};  ///< differences from the run that this run repeats, one sentence each
 };
-template <class Fields>
-void describe(Fields& f, SimServerReport& report) {
+void describe(auto& f, SimServerReport& report) {
   f.field("collisions", report.collisions);
   f.field("conditions", report.conditions);
   f.field("deterministic", report.deterministic);
@@ -246,8 +236,7 @@ struct ScoredPointReport {
   Text uav = {};
   Count capture = {};
 };
-template <class Fields>
-void describe(Fields& f, ScoredPointReport& point) {
+void describe(auto& f, ScoredPointReport& point) {
   f.field("index", point.index);
   f.field("score", point.score);
   f.field("uav", point.uav);
@@ -265,8 +254,7 @@ struct StationReport {
   Text dds = {};
   Texts unwritten = {};
 };
-template <class Fields>
-void describe(Fields& f, StationReport& report) {
+void describe(auto& f, StationReport& report) {
   f.field("points_detected", report.points_detected);
   f.field("score", report.score);
   f.field("score_earned", report.score_earned);
@@ -289,8 +277,7 @@ struct RadioCounts {
   Count corrupted = {};
   Count sent_bytes = {}, delivered_bytes = {};
 };
-template <class Fields>
-void describe_fates(Fields& f, RadioCounts& counts) {
+void describe_fates(auto& f, RadioCounts& counts) {
   f.field("corrupted", counts.corrupted);
   f.field("delivered", counts.delivered);
   f.field("delivered_bytes", counts.delivered_bytes);
@@ -299,8 +286,7 @@ void describe_fates(Fields& f, RadioCounts& counts) {
   f.field("dropped_overflow", counts.dropped_overflow);
   f.field("duplicated", counts.duplicated);
 }
-template <class Fields>
-void describe_sent(Fields& f, RadioCounts& counts) {
+void describe_sent(auto& f, RadioCounts& counts) {
   f.field("sent", counts.sent);
   f.field("sent_bytes", counts.sent_bytes);
 }
@@ -309,8 +295,7 @@ struct LinkReport {
   Text from = {}, to = {};
   RadioCounts counts = {};
 };
-template <class Fields>
-void describe(Fields& f, LinkReport& link) {
+void describe(auto& f, LinkReport& link) {
   describe_fates(f, link.counts);
   f.field("from", link.from);
   describe_sent(f, link.counts);
@@ -327,8 +312,7 @@ struct RouterReport {
   Texts warnings = {}, unwritten = {};
   std::optional<Texts> differences = {};  ///< as in SimServerReport
 };
-template <class Fields>
-void describe(Fields& f, RouterReport& report) {
+void describe(auto& f, RouterReport& report) {
   f.field("dds", report.dds);
   f.field("differences", report.differences);
   describe_fates(f, report.total);
@@ -348,8 +332,7 @@ struct WaitReport {
   Number from_s = {}, until_s = {};
   Text uav = {};
 };
-template <class Fields>
-void describe(Fields& f, WaitReport& wait) {
+void describe(auto& f, WaitReport& wait) {
   f.field("from_s", wait.from_s);
   f.field("uav", wait.uav);
   f.field("until_s", wait.until_s);
@@ -367,8 +350,7 @@ struct AgentReport {
   Text dds = {};
   std::optional<Texts> unwritten = {};
 };
-template <class Fields>
-void describe(Fields& f, AgentReport& report) {
+void describe(auto& f, AgentReport& report) {
   f.field("dds", report.dds);
   f.field("from_nodes", report.from_nodes);
   f.field("malformed", report.malformed);
@@ -388,8 +370,7 @@ void describe(Fields& f, AgentReport& report) {
 struct StrategyList {
   Texts planners = {}, ground_programs = {};
 };
-template <class Fields>
-void describe(Fields& f, StrategyList& list) {
+void describe(auto& f, StrategyList& list) {
   f.field("planners", list.planners);
   f.field("ground_programs", list.ground_programs);
 }

@@ -49,8 +49,7 @@ const char* const kAgent = R"({
   "waits": [{"from_s": 1.5, "uav": "alpha", "until_s": 3.0}]})";
 
 /// Calls `check` with the place of each value below this one.
-template <class Check>
-void for_each_place(const Json& json, const Json::json_pointer& here, const Check& check) {
+void for_each_place(const Json& json, const Json::json_pointer& here, const auto& check) {
   if (!here.empty()) check(here);
   if (!json.is_structured()) return;
   for (const auto& [key, value] : json.items()) {

@@ -4,41 +4,33 @@
 
 namespace skein::shared_lines {
 
-template <class Fields>
-void describe(Fields& f, Said& said) {
+void describe(auto& f, Said& said) {
   f.field("said_by", said.program);
   f.field("line", said.line);
 }
 
-template <class Fields>
-void describe(Fields& f, Ended& ended) {
+void describe(auto& f, Ended& ended) {
   f.field("ended", ended.program);
   f.field("code", ended.code);
   f.field("signal", ended.signal);
   f.field("fatal", ended.fatal);
 }
 
-template <class Fields>
-void describe(Fields& f, Stopped& stopped) {
-  f.field("stopped", stopped.program);
-}
+void describe(auto& f, Stopped& stopped) { f.field("stopped", stopped.program); }
 
-template <class Fields>
-void describe(Fields& f, Start& start) {
+void describe(auto& f, Start& start) {
   f.field("start", start.program);
   f.field("argv", start.argv);
   f.field("log", start.log);
   f.field("append_log", start.append_log);
 }
 
-template <class Fields>
-void describe(Fields& f, Tell& tell) {
+void describe(auto& f, Tell& tell) {
   f.field("tell", tell.program);
   f.field("line", tell.line);
 }
 
-template <class Fields>
-void describe(Fields& f, Signal& signal) {
+void describe(auto& f, Signal& signal) {
   f.field("signal_to", signal.program);
   f.field("signal", signal.signal);
 }

@@ -6,8 +6,7 @@
 
 namespace skein::status {
 
-template <class Fields>
-void describe(Fields& f, Progress& progress) {
+void describe(auto& f, Progress& progress) {
   f.field("t", progress.time_s);
   f.field("mission_s", progress.mission_s);
   f.field("phase", progress.phase);
@@ -17,15 +16,13 @@ void describe(Fields& f, Progress& progress) {
   f.field("lost", progress.lost);
 }
 
-template <class Fields>
-void describe(Fields& f, Tally& tally) {
+void describe(auto& f, Tally& tally) {
   f.field("points", tally.points);
   f.field("score", tally.score);
   f.field("earned", tally.earned);
 }
 
-template <class Fields>
-void describe(Fields& f, WaitingFor& wait) {
+void describe(auto& f, WaitingFor& wait) {
   f.field("members", wait.members);
   f.field("missing", wait.missing);
   f.field("what", wait.what);
@@ -33,33 +30,22 @@ void describe(Fields& f, WaitingFor& wait) {
   f.field("due", wait.due);
 }
 
-template <class Fields>
-void describe(Fields& f, Order& order) {
+void describe(auto& f, Order& order) {
   f.field("member", order.member);
   f.field("order", order.order);
   f.field("t", order.time_s);
 }
 
-template <class Fields>
-void describe(Fields& f, Warning& warning) {
-  f.field("text", warning.text);
-}
+void describe(auto& f, Warning& warning) { f.field("text", warning.text); }
 
-template <class Fields>
-void describe(Fields& f, Rejoined& rejoined) {
-  f.field("member", rejoined.member);
-}
+void describe(auto& f, Rejoined& rejoined) { f.field("member", rejoined.member); }
 
-template <class Fields>
-void describe(Fields& f, Ended& ended) {
+void describe(auto& f, Ended& ended) {
   f.field("status", ended.status);
   f.field("stalled", ended.stalled);
 }
 
-template <class Fields>
-void describe(Fields& f, Report& report) {
-  f.field("report", report.report);
-}
+void describe(auto& f, Report& report) { f.field("report", report.report); }
 
 namespace {
 

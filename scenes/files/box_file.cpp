@@ -53,8 +53,7 @@ struct BoxEntry {
     return R;
   }
 
-  template <class Reader>
-  void describe(Reader& r) {
+  void describe(auto& r) {
     r.required("center", center, within(-kFarthest, kFarthest));
     r.required("size", size, within(1e-3, kFarthest));
     r.required("orientation", orientation, within(-kFarthest, kFarthest));

@@ -19,8 +19,7 @@ const std::vector<Triangle> kTriangles = {{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}},
                                           {{{0, 0, 1.5F}, {1, 0, -2.25F}, {0, 1, 1e-3F}}},
                                           {{{10, 20, 30}, {11, 20, 30}, {10, 21, 30}}}};
 
-template <class T>
-void append_bytes(std::string& bytes, const T& value) {
+void append_bytes(std::string& bytes, const auto& value) {
   bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
 }
 

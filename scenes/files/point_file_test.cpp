@@ -58,8 +58,7 @@ std::string ascii(const std::string& first_number = "0") {
   return text.str();
 }
 
-template <class T>
-void append_field(std::string& bytes, const T& value) {
+void append_field(std::string& bytes, const auto& value) {
   bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
 }
 

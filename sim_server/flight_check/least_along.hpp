@@ -17,8 +17,7 @@ struct Least {
 /// @param most  values above it are ignored.   @param tolerance  above 0.
 /// @returns a value of f within `tolerance` of the minimum, and its argument; {most, 0} when no value below `most` was
 ///          found: then the minimum is at least `most` - `tolerance`.
-template <class F>
-Least least_along(const F& f, double length, double slope, double most, double tolerance) {
+Least least_along(const auto& f, double length, double slope, double most, double tolerance) {
   struct Part {
     Least from, to;
   };

@@ -50,8 +50,7 @@ void damage(RandomStream& random, std::string& text) {
 }
 
 /// Calls `load`, which may throw only InputError.
-template <class Load>
-void expect_harmless(const std::string& text, const Load& load) {
+void expect_harmless(const std::string& text, const auto& load) {
   try {
     load(parse_config_document(text, "damaged"));
   } catch (const InputError& error) {
@@ -61,8 +60,7 @@ void expect_harmless(const std::string& text, const Load& load) {
   }
 }
 
-template <class Load>
-void fuzz(const fs::path& file, const Load& load) {
+void fuzz(const fs::path& file, const auto& load) {
   constexpr int kRounds = 1500;
   const std::string original = text_of(file);
   ASSERT_FALSE(original.empty());

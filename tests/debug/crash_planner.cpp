@@ -12,8 +12,7 @@ class CrashPlanner final : public Planner {
     bool reckless = false;  ///< instead of crashing, it asks for more speed than the UAV can fly
     bool rams = false;      ///< instead of both, it flies into the block of the small scene
 
-    template <class R>
-    void describe(R& r) {
+    void describe(auto& r) {
       r.field("at_s", at_s, within(0.0, 100.0));
       r.field("reckless", reckless);
       r.field("rams", rams);

@@ -37,8 +37,7 @@ Json example_of(const Json& schema) {
 }
 
 /// Calls `use` with each object within a value, and with the value itself if it is an object.
-template <class Use>
-void each_object(Json& value, const Use& use) {
+void each_object(Json& value, const auto& use) {
   if (value.is_object()) use(value);
   for (Json& part : value) {
     if (part.is_structured()) each_object(part, use);

@@ -15,8 +15,7 @@ class ProbePlanner final : public Planner {
     double east_m = 0.0;  // length of the path to the east
     double up_m = 3.0;    // length of the path upwards
 
-    template <class R>
-    void describe(R& r) {
+    void describe(auto& r) {
       r.field("east_m", east_m, within(0.0, 100.0));
       r.field("up_m", up_m, within(0.0, 100.0));
     }

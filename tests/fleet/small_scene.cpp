@@ -11,8 +11,7 @@ namespace {
 
 std::ofstream open(const std::filesystem::path& file) { return std::ofstream(file, std::ios::binary); }
 
-template <class Numbers>
-std::string list_of(const Numbers& numbers) {
+std::string list_of(const auto& numbers) {
   std::ostringstream text;
   for (const double value : numbers) {
     const bool whole = value == std::trunc(value);

@@ -24,10 +24,7 @@ namespace msg = skein::msg;
 
 double stamp_of(const msg::Time& time) { return time.sec() + 1e-9 * time.nanosec(); }
 
-template <class Message>
-Json xyz(const Message& p) {
-  return {p.x(), p.y(), p.z()};
-}
+Json xyz(const auto& p) { return {p.x(), p.y(), p.z()}; }
 
 Json json_of(const msg::Marker& marker) {
   Json points = Json::array();

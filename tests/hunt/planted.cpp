@@ -95,10 +95,7 @@ class PlantedPlanner final : public Planner {
   struct Config {
     Defect defect = Defect::none;
 
-    template <class R>
-    void describe(R& r) {
-      r.field("defect", defect);
-    }
+    void describe(auto& r) { r.field("defect", defect); }
   };
 
   PlantedPlanner(const Config& config, const AgentConfig& agent)

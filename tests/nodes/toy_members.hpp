@@ -150,8 +150,7 @@ class ToyMember final : public bus::ClientNode {
 };
 
 /// Calls all `turns` in order, round after round, until `done`. @returns false when it is not done after `rounds`.
-template <class Done>
-bool take_turns(const std::vector<std::function<void()>>& turns, const Done& done, int rounds = 20000) {
+bool take_turns(const std::vector<std::function<void()>>& turns, const auto& done, int rounds = 20000) {
   for (int round = 0; round < rounds && !done(); ++round) {
     for (const auto& turn : turns) turn();
   }

@@ -74,8 +74,7 @@ class NastyPlanner final : public Planner {
     Nastiness how = Nastiness::none;
     double at_s = 3.0;
 
-    template <class R>
-    void describe(R& r) {
+    void describe(auto& r) {
       r.field("how", how);
       r.field("at_s", at_s, within(0.0, 1000.0));
     }

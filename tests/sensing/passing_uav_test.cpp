@@ -122,8 +122,7 @@ class Passing {
     return false;
   }
 
-  template <class Take>
-  std::vector<Eigen::Vector3i> occupied_about(const Take& take) const {
+  std::vector<Eigen::Vector3i> occupied_about(const auto& take) const {
     std::vector<Eigen::Vector3i> cubes;
     const agent::WorldMap& map = mapper_.map();
     const Eigen::Vector3i middle = map.cube_of({0.0, 0.0, kHeightM});

@@ -33,8 +33,7 @@ class Wire {
     return until([](const std::string&) { return false; });
   }
   /// Reads until `enough` of all bytes received so far, or until the server closes. @returns these bytes
-  template <class Enough>
-  std::string until(const Enough& enough) {
+  std::string until(const auto& enough) {
     while (!enough(heard_) && read()) continue;
     return heard_;
   }

@@ -10,8 +10,7 @@ constexpr double kSampleM = 0.5;      ///< between the samples of a segment
 constexpr double kSeenAroundM = 1.0;  ///< distance around a place at which space must be known to be free, too
 constexpr double kNearerM = 0.3;      ///< a way out may come so much nearer to structure: the map's cubes are coarse
 
-template <class Test>
-bool all_along(const Vector3d& a, const Vector3d& b, const Test& test) {
+bool all_along(const Vector3d& a, const Vector3d& b, const auto& test) {
   const int steps = std::max(1, static_cast<int>(std::ceil((b - a).norm() / kSampleM)));
   for (int i = 0; i <= steps; ++i) {
     if (!test(a + (b - a) * (static_cast<double>(i) / steps))) return false;

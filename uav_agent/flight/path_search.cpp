@@ -77,8 +77,7 @@ class Search {
   };
 
   /// Expands cells in the order of A*. @returns the first one for which `last` is true; nullopt if none was found.
-  template <class Test>
-  std::optional<Cell> search(const Test& last) {
+  std::optional<Cell> search(const auto& last) {
     const auto start = start_cell();
     if (!start) return std::nullopt;
     open(*start, 0.0, *start);

@@ -48,8 +48,7 @@ struct FlightConfig {
   double deliver_every_s = 240.0;  ///< longest time for which a UAV works on with undelivered captures
   double return_margin_s = 12.0;   ///< time to spare between the arrival at a link and the end of the mission
 
-  template <class R>
-  void describe(R& r) {
+  void describe(auto& r) {
     r.field("error_m", error_m, within(0.0, 2.0));
     r.field("light_error_m", light_error_m, within(0.0, 2.0));
     r.field("error_per_mps_s", error_per_mps_s, within(0.0, 1.0));

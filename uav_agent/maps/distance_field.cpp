@@ -39,8 +39,7 @@ void lower(Row& squares, const Row& others, int by) {
   }
 }
 
-template <class Visit>
-void for_each_about(const DistanceField::Cell& block, const Visit& visit) {
+void for_each_about(const DistanceField::Cell& block, const auto& visit) {
   for (int i = 0; i < 27; ++i) visit(block + DistanceField::Cell(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1));
 }
 

@@ -76,8 +76,7 @@ double BeamEvidence::unseen_probability(const FreeCriterion& criterion) const {
 }
 
 /// The argument at which a decreasing function falls to `value`, approached from below.
-template <class Function>
-double falls_to(const Function& function, double value, double low, double high) {
+double falls_to(const auto& function, double value, double low, double high) {
   for (int step = 0; step < 60; ++step) {
     const double middle = 0.5 * (low + high);
     (function(middle) > value ? low : high) = middle;

@@ -16,8 +16,7 @@ std::uint64_t region_key(const Eigen::Vector3i& block) {
 }
 
 /// Divides the blocks lo to hi along one axis by regions: calls `use` with the first and the last block in each region.
-template <class Use>
-void each_region(int lo, int hi, const Use& use) {
+void each_region(int lo, int hi, const auto& use) {
   for (int from = lo; from <= hi; from = (from | (kHitBlockEdge - 1)) + 1) {
     use(from, std::min(hi, from | (kHitBlockEdge - 1)));
   }

@@ -46,8 +46,7 @@ octomap::OcTreeNode* cell_node(octomap::OcTree& tree, octomap::OcTreeNode* block
 }
 
 /// Calls `use` with the centre of each cell of this size in a cube; if the cube is smaller, with the cube's centre.
-template <class Use>
-void each_cell(const KnownCube& cube, double cell_m, const Use& use) {
+void each_cell(const KnownCube& cube, double cell_m, const auto& use) {
   const long count = std::max(1L, std::lround(cube.edge_m / cell_m));
   const double edge_m = cube.edge_m / static_cast<double>(count);
   for (long x = 0; x < count; ++x) {
@@ -143,8 +142,7 @@ class JoinedTree {
 
   /// Writes an inner node, unless all its children are leaves of the same kind.
   /// @param kind_of  writes the i-th child and returns its kind.
-  template <class KindOf>
-  Kind inner(const KindOf& kind_of) {
+  Kind inner(const auto& kind_of) {
     const std::size_t begin = bytes_.size();
     bytes_.append(2, 0);
     std::array<Kind, kChildren> kinds;

@@ -112,8 +112,7 @@ class Search {
 
   bool passable(Id id) { return steps_.passable(id); }
 
-  template <class ToGo>
-  void open(Id id, double cost, Id parent, const ToGo& to_go) {
+  void open(Id id, double cost, Id parent, const auto& to_go) {
     Node& node = nodes_[id];
     if (node.closed || node.cost <= cost) return;
     node.cost = cost;
@@ -133,8 +132,7 @@ class Search {
     return std::nullopt;
   }
 
-  template <class ToGo>
-  void expand(Id id, const ToGo& to_go) {
+  void expand(Id id, const auto& to_go) {
     const double cost = nodes_[id].cost;
     steps_.from(
         id, [this](Id next) { return !nodes_[next].closed; },

@@ -26,8 +26,7 @@ struct Facade {
 };
 
 /// Hits on a wall y = depth(z).
-template <class Depth>
-void add_wall(OccupancyMap& map, const Depth& depth, std::optional<Vector3d> seen_from) {
+void add_wall(OccupancyMap& map, const auto& depth, std::optional<Vector3d> seen_from) {
   std::vector<Eigen::Vector3f> hits;
   for (double x = -9.0; x <= 9.0; x += 0.4) {
     for (double z = 11.0; z <= 49.0; z += 0.4) hits.emplace_back(Vector3d(x, depth(z), z).cast<float>());

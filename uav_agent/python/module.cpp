@@ -23,8 +23,7 @@ class PlannerFailure : public std::runtime_error {
 };
 
 /// Runs a user's code before the flight: what goes wrong is bad input. @param what  for people.
-template <class Work>
-auto as_input(const Order& order, const std::string& what, const Work& work) {
+auto as_input(const Order& order, const std::string& what, const auto& work) {
   const std::string head = "--planner " + text_of(order.planner) + ": " + what;
   try {
     return work();

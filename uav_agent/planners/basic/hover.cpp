@@ -9,8 +9,7 @@ class HoverPlanner final : public Planner {
     double height_m = 3.0;  ///< above the start
     double climb_mps = 1.0;
 
-    template <class R>
-    void describe(R& r) {
+    void describe(auto& r) {
       r.field("height_m", height_m, within(0.2, 200.0));
       r.field("climb_mps", climb_mps, within(0.1, 5.0));
     }

@@ -14,8 +14,7 @@ class Listen final : public GroundProgram {
   struct Config {
     int longest_text = 80;
 
-    template <class R>
-    void describe(R& r) {
+    void describe(auto& r) {
       r.field("longest_text", longest_text, within(0, 10000));  // most characters of a message in the log
     }
   };

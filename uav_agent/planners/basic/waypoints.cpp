@@ -25,8 +25,7 @@ class WaypointsPlanner final : public Planner {
     std::optional<double> yaw_deg;    ///< body yaw in W, from the start of this leg on; without it, as before
     std::optional<Vector3d> look_at;  ///< target of the camera, from the start of this leg on; without it, as before
 
-    template <class R>
-    void describe(R& r) {
+    void describe(auto& r) {
       r.required("position", position);
       r.field("speed_mps", speed_mps, within(0.1, 20.0));
       r.field("stay_s", stay_s, within(0.0, 3600.0));
@@ -40,8 +39,7 @@ class WaypointsPlanner final : public Planner {
     bool repeat = false;             ///< begin again after the last stop
     Named<std::vector<Stop>> paths;  ///< by name of the UAV
 
-    template <class R>
-    void describe(R& r) {
+    void describe(auto& r) {
       r.field("repeat", repeat);
       r.required("paths", paths);
     }

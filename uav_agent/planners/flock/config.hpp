@@ -27,8 +27,7 @@ struct FlockConfig {
   double survey_m = 30.0;    ///< a LiDAR finds all structure within this distance
   FlightConfig flight = {};
 
-  template <class R>
-  void describe(R& r) {
+  void describe(auto& r) {
     r.field("voxel_m", voxel_m, within(0.0, 10.0));
     r.field("max_voxels", max_voxels, within(1000, 2'000'000));
     r.field("density", density, within(0.001, 100.0));

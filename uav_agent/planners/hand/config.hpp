@@ -15,8 +15,7 @@ struct HandConfig {
   bool safe = true;          ///< the safety filter may override the commands
   FlightConfig flight = {};  ///< approach_mps and climb_mps limit the commanded velocity
 
-  template <class R>
-  void describe(R& r) {
+  void describe(auto& r) {
     r.field("file", file);
     r.field("safe", safe);
     flight.describe(r);

@@ -35,8 +35,7 @@ struct KiosConfig {
 
   KiosConfig resolved() const;
 
-  template <class R>
-  void describe(R& r) {
+  void describe(auto& r) {
     r.field("voxel_m", voxel_m, within(0.0, 20.0));
     r.field("lanes", lanes, within(1, 16));
     r.field("min_hits", min_hits, within(1, 100));

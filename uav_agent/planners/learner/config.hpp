@@ -28,8 +28,7 @@ struct LearnerConfig {
 
   HandConfig by_velocity() const { return {.file = {}, .safe = safe, .flight = flight}; }
 
-  template <class R>
-  void describe(R& r) {
+  void describe(auto& r) {
     r.field("flies", flies);
     r.field("safe", safe);
     r.field("detections", detections, within(0, 100000));

@@ -14,8 +14,7 @@ constexpr std::int8_t kUnknown = -1, kFree = 0, kOccupied = 1;  // values of a m
 constexpr std::int8_t kNoGoal = 0, kFlying = 1, kReached = 2, kNoWay = 3, kBlocked = 4;
 constexpr double kNever = -1.0;  ///< age of something that has not happened yet
 
-template <class Vector>
-void put(std::span<double> to, const Vector& from) {
+void put(std::span<double> to, const auto& from) {
   for (std::size_t i = 0; i < to.size(); ++i) to[i] = from[static_cast<Eigen::Index>(i)];
 }
 

@@ -15,8 +15,7 @@ struct PatrolConfig {
   double speed_gain = 1.0;         ///< in units of the greatest speed without blur
   FlightConfig flight = {};
 
-  template <class R>
-  void describe(R& r) {
+  void describe(auto& r) {
     r.field("top", top);
     r.field("bottom", bottom);
     r.field("standoff_ratio", standoff_ratio, within(0.3, 1.5));

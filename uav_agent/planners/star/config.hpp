@@ -53,8 +53,7 @@ struct StarConfig {
 
   StarConfig resolved() const;
 
-  template <class R>
-  void describe(R& r) {
+  void describe(auto& r) {
     r.field("voxel_m", voxel_m, within(0.0, 20.0));
     r.field("max_voxels", max_voxels, within(1000, 2'000'000));
     r.field("volume_weight", volume_weight, within(0.0, 1.0));

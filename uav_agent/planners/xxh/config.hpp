@@ -90,8 +90,7 @@ struct XxhConfig {
 
   XxhConfig resolved() const;
 
-  template <class R>
-  void describe(R& r) {
+  void describe(auto& r) {
     r.field("freeze_s", freeze_s, within(0.0, 55.0));
     r.field("reported_only", reported_only);
     r.field("assign_every_s", assign_every_s, within(0.05, 10.0));

@@ -24,8 +24,7 @@ struct Asked : FlownUav {
   Asked() : FlownUav(second_of_three(), {0.0, 0.0, 10.0}) { flight.working = true; }
 
   /// One exchange.   @param decide  what the planner does in it.
-  template <class Decide>
-  void exchange(const Decide& decide) {
+  void exchange(const auto& decide) {
     PlannerInput in = input();
     in.flight = std::exchange(flight, {.working = true});
     in.space = &space;

@@ -43,8 +43,7 @@ std::vector<XxhStart> draw_starts(Draws& draw, std::size_t uavs, std::size_t exp
 }
 
 /// Every combination of 1 to 8 UAVs, of which some explore, and 1 to 15 boxes.
-template <class Check>
-void for_many_sites(const Check& check) {
+void for_many_sites(const auto& check) {
   for (std::size_t uavs = 1; uavs <= 8; ++uavs) {
     for (std::size_t explorers = 0; explorers <= uavs; explorers += 1 + uavs / 3) {
       for (int boxes = 1; boxes <= 15; ++boxes) {
