@@ -99,7 +99,7 @@ TEST_F(Windy, WindPushesAUavDownwindUntilItLeansIntoIt) {
   EXPECT_GT(most_off_m, 0.15) << "to the west";
   ASSERT_TRUE(sim.uav(UavIndex{0}).airborne);
   // In balance the thrust's share across is the drag of rotors and body in that air.
-  const Vector3d v_A(mean_wind(scenario_.conditions.wind, 8.0), 0, 0);
+  const Vector3d v_A(WindProfile(scenario_.conditions.wind).mean(8.0), 0, 0);
   const double body_n = body_drag(scenario_.conditions.wind.body_drag_area_m2, v_A).norm();
   const VehicleConfig& vehicle = scenario_.fleet[UavIndex{0}].vehicle;
   const double weight_n = mass_properties(vehicle).mass_kg * kWorldGravity;

@@ -27,9 +27,6 @@ Vector3d blown_to(double from) { return {-std::cos(from), -std::sin(from), 0.0};
 
 }  // namespace
 
-double mean_wind(const WindConditions& wind, double height_m) { return WindProfile(wind).mean(height_m); }
-GustScales gust_scales(const WindConditions& wind, double height_m) { return WindProfile(wind).gusts(height_m); }
-
 WindProfile::WindProfile(const WindConditions& wind)
     : mean_mps_(wind.mean_mps),
       roughness_length_m_(wind.roughness_length_m),

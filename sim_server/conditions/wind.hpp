@@ -18,20 +18,17 @@
 
 namespace skein::sim {
 
-/// Mean wind speed at a height by the logarithmic law [m/s]; 0 at the roughness length and below.
-double mean_wind(const WindConditions& wind, double height_m);
-
 /// Standard deviations and length scales of the gusts at a height.
 struct GustScales {
   double sigma_across_mps = 0.0, sigma_up_mps = 0.0;  ///< `across`: v and also u
   double length_across_m = 0.0, length_up_m = 0.0;
 };
-GustScales gust_scales(const WindConditions& wind, double height_m);
 
-/// mean_wind() and gust_scales() of a wind at many heights: computes only once what does not depend on the height.
+/// A wind at many heights: computes only once what does not depend on the height.
 class WindProfile {
  public:
   explicit WindProfile(const WindConditions& wind);
+  /// Mean wind speed at a height by the logarithmic law [m/s]; 0 at the roughness length and below.
   double mean(double height_m) const;
   const GustScales& gusts(double height_m);
 

@@ -73,26 +73,27 @@ TEST(Gusts, HaveDrydensSpectra) {
 
 TEST(MeanWind, FollowsTheLogarithmicLaw) {
   const WindConditions wind{.mean_mps = 8.0, .from_deg = {}, .roughness_length_m = 0.1};
-  EXPECT_DOUBLE_EQ(mean_wind(wind, 10.0), 8.0);
-  EXPECT_NEAR(mean_wind(wind, 40.0) - mean_wind(wind, 20.0), 8.0 * std::log(2.0) / std::log(100.0), 1e-12);
-  EXPECT_EQ(mean_wind(wind, 0.1), 0.0);
-  EXPECT_EQ(mean_wind(wind, -3.0), 0.0);
+  EXPECT_DOUBLE_EQ(WindProfile(wind).mean(10.0), 8.0);
+  EXPECT_NEAR(WindProfile(wind).mean(40.0) - WindProfile(wind).mean(20.0), 8.0 * std::log(2.0) / std::log(100.0),
+              1e-12);
+  EXPECT_EQ(WindProfile(wind).mean(0.1), 0.0);
+  EXPECT_EQ(WindProfile(wind).mean(-3.0), 0.0);
 }
 
 TEST(GustScales, AreThoseOfMilF8785C) {
   const WindConditions wind{.mean_mps = 10.0, .from_deg = {}, .turbulence = 1.0};
-  const double w20 = mean_wind(wind, 6.096);
+  const double w20 = WindProfile(wind).mean(6.096);
   // At 1000 feet the base is 1: all deviations and lengths agree.
-  const GustScales high = gust_scales(wind, 304.8);
+  const GustScales high = WindProfile(wind).gusts(304.8);
   EXPECT_NEAR(high.sigma_up_mps, 0.1 * w20, 1e-12);
   EXPECT_NEAR(high.sigma_across_mps, 0.1 * w20, 1e-3);
   EXPECT_NEAR(high.length_across_m, 304.8, 0.5);
   EXPECT_NEAR(high.length_up_m, 304.8, 1e-9);
   // At 100 feet: 0.2593^-0.4 = 1.716, 100 / 0.2593^1.2 = 505 feet.
-  const GustScales low = gust_scales(wind, 30.48);
+  const GustScales low = WindProfile(wind).gusts(30.48);
   EXPECT_NEAR(low.sigma_across_mps / low.sigma_up_mps, 1.716, 2e-3);
   EXPECT_NEAR(low.length_across_m, 505.1 * 0.3048, 0.5);
-  EXPECT_EQ(gust_scales({.mean_mps = 10.0, .from_deg = {}, .turbulence = 0.0}, 30.0).sigma_across_mps, 0.0);
+  EXPECT_EQ(WindProfile({.mean_mps = 10.0, .from_deg = {}, .turbulence = 0.0}).gusts(30.0).sigma_across_mps, 0.0);
 }
 
 struct Moments {
@@ -120,9 +121,9 @@ TEST(Wind, HasItsMeanAndItsVariancesHoveringAndFlying) {
   const WindConditions conditions{.mean_mps = 7.0, .from_deg = {}, .turbulence = 1.5};
   for (const Vector3d& v_WB : {Vector3d(0, 0, 0), Vector3d(4, -2, 1)}) {
     for (const double height_m : {8.0, 40.0}) {
-      const GustScales scales = gust_scales(conditions, height_m);
+      const GustScales scales = WindProfile(conditions).gusts(height_m);
       const Moments m = moments(conditions, height_m, v_WB, [](const Wind& wind) { return wind.velocity_W(); });
-      EXPECT_NEAR(m.mean.x(), mean_wind(conditions, height_m), 0.15 * scales.sigma_across_mps);
+      EXPECT_NEAR(m.mean.x(), WindProfile(conditions).mean(height_m), 0.15 * scales.sigma_across_mps);
       EXPECT_NEAR(m.mean.y(), 0.0, 0.15 * scales.sigma_across_mps);
       EXPECT_NEAR(m.mean.z(), 0.0, 0.1 * scales.sigma_up_mps);
       const double across2 = scales.sigma_across_mps * scales.sigma_across_mps;

@@ -205,13 +205,4 @@ std::optional<std::vector<bool>> voxels_in_reach(const VoxelGrid& grid, Id from,
   return reached;
 }
 
-double voxel_path_length(const VoxelGrid& grid, Id from, const std::vector<Id>& path) {
-  double length = 0.0;
-  for (const Id id : path) {
-    length += (grid.centre_W(id) - grid.centre_W(from)).norm();
-    from = id;
-  }
-  return length;
-}
-
 }  // namespace skein::agent

@@ -32,7 +32,4 @@ std::optional<std::vector<VoxelGrid::Id>> find_voxel_path(const VoxelGrid& grid,
 std::optional<std::vector<bool>> voxels_in_reach(const VoxelGrid& grid, VoxelGrid::Id from, const Passable& passable,
                                                  std::size_t max_cubes = 20'000);
 
-/// Length of the path along the cubes' centres [m].
-double voxel_path_length(const VoxelGrid& grid, VoxelGrid::Id from, const std::vector<VoxelGrid::Id>& path);
-
 }  // namespace skein::agent

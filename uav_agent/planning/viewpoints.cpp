@@ -57,25 +57,6 @@ std::vector<std::vector<std::size_t>> visibility_clusters(const VoxelGrid& grid,
   return clusters;
 }
 
-std::vector<std::size_t> cover(const std::vector<std::vector<std::size_t>>& seen, std::size_t targets,
-                               std::size_t min_gain) {
-  std::vector<bool> covered(targets, false);
-  std::vector<std::size_t> chosen;
-  while (true) {
-    std::size_t best = 0, best_gain = 0;
-    for (std::size_t i = 0; i < seen.size(); ++i) {
-      const auto gain = static_cast<std::size_t>(
-          std::ranges::count_if(seen[i], [&](std::size_t target) { return !covered[target]; }));
-      if (gain <= best_gain) continue;
-      best = i;
-      best_gain = gain;
-    }
-    if (best_gain == 0 || best_gain < min_gain) return chosen;
-    chosen.push_back(best);
-    for (const std::size_t target : seen[best]) covered[target] = true;
-  }
-}
-
 std::vector<std::size_t> shortest_through(const Vector3d& from_W, const std::vector<std::vector<Vector3d>>& options) {
   std::vector<Vector3d> before = {from_W};
   std::vector<double> length = {0.0};

@@ -37,12 +37,6 @@ std::vector<std::size_t> visible_targets(const VoxelGrid& grid, const Vector3d& 
 std::vector<std::vector<std::size_t>> visibility_clusters(const VoxelGrid& grid, const std::vector<Vector3d>& places_W,
                                                           double radius_m);
 
-/// Greedy set cover: always chooses the candidate that sees most targets that no chosen one sees, until no candidate
-/// sees at least `min_gain` (and one) of them. Ties go to the lower index.
-/// @param seen  indices of targets, by candidate.   @returns candidates in the order of choice.
-std::vector<std::size_t> cover(const std::vector<std::vector<std::size_t>>& seen, std::size_t targets,
-                               std::size_t min_gain);
-
 /// Chooses one place for each stop, so that the path from `from_W` through all stops is shortest. Source: FUEL's
 /// refinement of the next viewpoints: Dijkstra in a layered graph, here as dynamic programming over the layers.
 /// @param options  places by stop; none may be empty.   @returns an index for each stop; ties go to the lower one.

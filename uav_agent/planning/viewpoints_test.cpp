@@ -102,13 +102,6 @@ TEST(Viewpoints, ClustersAreNearAndSeeTheirFirst) {
   EXPECT_LT(clusters.size(), places.size());
 }
 
-TEST(Viewpoints, CoverTakesTheBestAndLeavesNothingThatIsWorthIt) {
-  const std::vector<std::vector<std::size_t>> seen = {{0, 1}, {1, 2, 3}, {4}, {0, 1, 2}, {}};
-  EXPECT_EQ(cover(seen, 5, 1), (std::vector<std::size_t>{1, 0, 2}));
-  EXPECT_EQ(cover(seen, 5, 2), std::vector<std::size_t>{1});
-  EXPECT_TRUE(cover({}, 5, 1).empty());
-}
-
 /// Every combination, one after the other.
 double shortest_by_force(const Vector3d& from_W, const std::vector<std::vector<Vector3d>>& options, std::size_t stop) {
   if (stop == options.size()) return 0.0;
