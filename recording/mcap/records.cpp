@@ -23,9 +23,9 @@ void put_sized(Bytes& out, Body body) {
 }
 
 /// Appends the fields of a record.
-class Writer {
+class FieldWriter {
  public:
-  explicit Writer(Bytes& out) : out_(out) {}
+  explicit FieldWriter(Bytes& out) : out_(out) {}
 
   void operator()(const auto&... fields) { (put(fields), ...); }
   void rest(ByteView bytes) { out_.insert(out_.end(), bytes.begin(), bytes.end()); }
@@ -54,9 +54,9 @@ class Writer {
 };
 
 /// Reads values from the front of the bytes. After an incomplete value, good() is false and all values are empty.
-class Parser {
+class FieldParser {
  public:
-  explicit Parser(ByteView bytes) : left_(bytes) {}
+  explicit FieldParser(ByteView bytes) : left_(bytes) {}
 
   void operator()(auto&... fields) { (get(fields), ...); }
   void rest(ByteView& bytes) { bytes = std::exchange(left_, {}); }
@@ -84,7 +84,7 @@ class Parser {
   /// A map or a list of pairs. Of entries with the same key, a map keeps the last.
   template <class Entries>
   void get(Entries& entries) {
-    Parser parser(take(number<std::uint32_t>()));
+    FieldParser parser(take(number<std::uint32_t>()));
     while (parser.good_ && !parser.left_.empty()) {
       std::pair<std::remove_const_t<typename Entries::value_type::first_type>,
                 typename Entries::value_type::second_type>
@@ -114,14 +114,14 @@ class Parser {
 
 template <class Record>
 void append(Bytes& out, const Record& record) {
-  Writer writer(out);
+  FieldWriter writer(out);
   writer(Record::kOpcode);
   put_sized<std::uint64_t>(out, [&] { Record::each_field(writer, record); });
 }
 
 template <class Record>
 std::optional<Record> parse(ByteView content) {
-  Parser parser(content);
+  FieldParser parser(content);
   Record record;
   Record::each_field(parser, record);
   return parser.good() ? std::optional(std::move(record)) : std::nullopt;
@@ -149,7 +149,7 @@ template std::optional<MessageIndex> parse(ByteView);
 template std::optional<Metadata> parse(ByteView);
 
 std::optional<RawRecord> take_record(ByteView& bytes) {
-  Parser parser(bytes);
+  FieldParser parser(bytes);
   RawRecord record{static_cast<Opcode>(parser.number<std::uint8_t>()), {}};
   parser.sized(record.content);
   if (!parser.good()) return std::nullopt;
