@@ -170,8 +170,8 @@ class NewProperties {
       return given == nullptr ? std::string(usual) : given->scalar;
     };
     const std::string uav = text("uav", ""), within_s = text("within_s", "30"), points = text("points", "1");
-    add(uav + "_taken_over", "whenever rises(in_hand(" + uav + ")), eventually taken_over(" + uav + ") >= " + points +
-                                 " within " + within_s + " s");
+    add(uav + "_taken_over", "whenever rises(work_at_failure(" + uav + ")), eventually taken_over(" + uav +
+                                 ") >= " + points + " within " + within_s + " s");
   }
 
   void add_window(const ConfigNode& window) {

@@ -67,7 +67,7 @@ TEST_F(Converted, EachKeyHasItsProperty) {
        "  left: finally leaves(alpha) >= 1 and leaves(station) >= 1 and leaves == leaves(alpha) + leaves(station)\n"},
       {"rejoined: []", "  rejoined: always restarts == 0\n"},
       {"taken_over: {uav: alpha, within_s: 20, points: 5}",
-       "  alpha_taken_over: whenever rises(in_hand(alpha)), eventually taken_over(alpha) >= 5 within 20 s\n"},
+       "  alpha_taken_over: whenever rises(work_at_failure(alpha)), eventually taken_over(alpha) >= 5 within 20 s\n"},
       {"custody: exact", "  custody_exact: ready\n"},
       {"custody: none", "  custody_kept: off\n  score_adds_up: off\n"},
   };

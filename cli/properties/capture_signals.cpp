@@ -156,8 +156,8 @@ FolderSignals::Values FolderSignals::of_custody(const SignalUse& signal) {
   }
   for (const Acknowledged& one : acknowledged_captures(run_, uav)) {
     const auto found = delivered.find(one.capture);
-    const bool is_kept = found != delivered.end() && found->second <= one.told;
-    if (signal.is("acknowledged_kept") ? is_kept : has_path(one.capture.first, one.taken, one.told)) {
+    const bool is_delivered = found != delivered.end() && found->second <= one.told;
+    if (signal.is("acknowledged_and_delivered") ? is_delivered : has_path(one.capture.first, one.taken, one.told)) {
       exchanges.push_back(one.told);
     }
   }
@@ -219,14 +219,14 @@ FolderSignals::Values FolderSignals::of_work(const SignalUse& signal) {
   const std::optional<double> failed = failed_s(uav);
   if (!failed) return constant(0.0);
   const double from_s = *failed;
-  std::set<int> in_hand = work_before(without, uav, from_s);
-  if (signal.is("in_hand")) return counted(std::vector<std::size_t>(in_hand.size(), exchange_at(from_s)));
+  std::set<int> remaining = work_before(without, uav, from_s);
+  if (signal.is("work_at_failure")) return counted(std::vector<std::size_t>(remaining.size(), exchange_at(from_s)));
   std::vector<std::size_t> exchanges;
   std::vector<const results::CaptureRow*> rows;
   for (const results::CaptureRow& row : run_.captures) rows.push_back(&row);
   std::ranges::stable_sort(rows, {}, [](const results::CaptureRow* row) { return row->time_s; });
   for (const results::CaptureRow* row : rows) {
-    if (row->uav != uav && row->time_s >= from_s && in_hand.erase(row->point) > 0) {
+    if (row->uav != uav && row->time_s >= from_s && remaining.erase(row->point) > 0) {
       exchanges.push_back(exchange_at(row->time_s));
     }
   }

@@ -15,13 +15,13 @@ namespace skein::cli {
 /// UAV and number of the capture.
 using CaptureKey = std::pair<std::string, std::uint64_t>;
 
-/// In which step each capture of the ledger reaches the station; those that never do are left out. This is the rule
-/// of Skein's own on-board software (uav_agent/onboard/uplink.hpp): from the step on in which the camera handed a
-/// report out, it is sent while there is a direct link to the station, again ten steps later as long as it is not
-/// acknowledged; what is sent in one step arrives in the next. It needs the router in the step of sending and, for its
-/// word of it, in that of arrival, the station in the step of arrival and the one before, and a link that does not lose
-/// it. Who is killed forgets; its camera hands out again what was not acknowledged when it is back. Who is paused
-/// remembers.
+/// The step in which each capture of the ledger reaches the station; captures that never reach it are left out. Skein's
+/// own on-board software (uav_agent/onboard/uplink.hpp) delivers by these rules: a UAV's program sends a report from the
+/// step on in which the camera handed it out, while there is a direct link to the station, and again every ten steps
+/// until the report is acknowledged. What is sent in one step arrives in the next. For this, the router must take part
+/// in the step of sending and in all later ones up to the arrival, the station in the step of arrival and in the one
+/// before, and the link must not lose the message. A killed program loses its reports; when it is back, its camera hands
+/// out again all reports that were not acknowledged. A paused program keeps its reports.
 std::map<CaptureKey, std::uint64_t> derived_deliveries(const results::RunRecord& run, const Scenario& scenario,
                                                        const FaultPlan& plan);
 

@@ -58,7 +58,7 @@ FolderSignals::Values FolderSignals::of_messages(const SignalUse& signal) {
   for (const RadioArrival& arrival : radio().arrivals) {
     if (!is_meant(arrival.stream, arrival.target)) continue;
     if (signal.is("arrived_once") && arrival.again) continue;
-    if (signal.is("arrived_by_link") && !was_open(arrival)) continue;
+    if (signal.is("arrived_over_open_link") && !was_open(arrival)) continue;
     exchanges.push_back(arrival.arrives);
   }
   return counted(exchanges);

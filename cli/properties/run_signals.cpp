@@ -57,7 +57,7 @@ const std::vector<double>& FolderSignals::values(const SignalUse& signal) {
 }
 
 bool is_comparison(const SignalUse& signal) {
-  return signal.info->name.starts_with("undisturbed_") || signal.is("in_hand") || signal.is("taken_over") ||
+  return signal.info->name.starts_with("undisturbed_") || signal.is("work_at_failure") || signal.is("taken_over") ||
          signal.is("missed");
 }
 
@@ -72,7 +72,7 @@ FolderSignals::Values FolderSignals::work_out(const SignalUse& signal) {
   for (const char* name : {"x", "y", "z", "speed", "distance", "clearance", "charge", "alive"}) {
     if (signal.is(name)) return of_fleet(signal);
   }
-  for (const char* name : {"sent", "arrived", "arrived_once", "arrived_by_link", "in_flight"}) {
+  for (const char* name : {"sent", "arrived", "arrived_once", "arrived_over_open_link", "in_flight"}) {
     if (signal.is(name)) return of_messages(signal);
   }
   if (signal.is("undisturbed_distance")) return way_flown(tracks_of(undisturbed(signal)), signal.argument(0));

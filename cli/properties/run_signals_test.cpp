@@ -132,13 +132,13 @@ TEST_F(RunSignalsTest, CapturesAreCountedWhenTheyAreTakenDeliveredAndAcknowledge
   EXPECT_EQ(number("held(a)"), steps({{2, 1}, {4, 2}, {12, 1}}));
   EXPECT_EQ(number("delivered"), steps({{10, 1}, {12, 2}}));
   EXPECT_EQ(number("acknowledged"), steps({{12, 1}}));
-  EXPECT_EQ(number("acknowledged_kept"), steps({{12, 1}}));
+  EXPECT_EQ(number("acknowledged_and_delivered"), steps({{12, 1}}));
   EXPECT_EQ(number("score"), steps({{10, 1}, {40, 1.5}}));
   EXPECT_EQ(number("points"), steps({{10, 2}, {40, 3}}));
   EXPECT_EQ(number("earned"), steps({{2, 1}, {4, 1.3}}));
   EXPECT_EQ(number("delivered_score"), steps({{10, 1}}));
   run_.captures[0].delivered_at_s = run_.captures[1].delivered_at_s = 0.65;
-  EXPECT_EQ(number("acknowledged_kept"), steps({})) << "acknowledged before it was there";
+  EXPECT_EQ(number("acknowledged_and_delivered"), steps({})) << "acknowledged before it was there";
 }
 
 TEST_F(RunSignalsTest, LostAndLateMessagesAreCountedWhenTheyAreSent) {
@@ -210,7 +210,7 @@ TEST_F(RunSignalsTest, APathIsALinkThereAndThenOneBack) {
                     on["station"][r] && on["router"][r] && on["a"][r + 1];
       }
     }
-    EXPECT_EQ(number("acknowledged_by_path").back(), expected ? 1.0 : 0.0) << round;
+    EXPECT_EQ(number("acknowledged_with_path").back(), expected ? 1.0 : 0.0) << round;
     ++(expected ? with_path : without);
   }
   EXPECT_GT(with_path, 30);
@@ -225,13 +225,13 @@ TEST_F(RunSignalsTest, WorkThatIsTakenOverIsWhatNobodyElseWouldHaveDone) {
   run_.events = {{0, "joined", "a", ""}, {10, "left", "a", ""}};
   run_.captures = {capture("a", 0, 0.1, {}, 0), capture("b", 0, 0.2, {}, 1), capture("b", 1, 1.0, {}, 2),
                    capture("b", 2, 1.5, {}, 1), capture("b", 3, 1.6, {}, 0), capture("b", 4, 1.7, {}, 3)};
-  EXPECT_EQ(number("in_hand(a)", &undisturbed), steps({{10, 2}})) << "points 1 and 2";
+  EXPECT_EQ(number("work_at_failure(a)", &undisturbed), steps({{10, 2}})) << "points 1 and 2";
   EXPECT_EQ(number("taken_over(a)", &undisturbed), steps({{20, 1}, {30, 2}}));
   EXPECT_EQ(number("taken_over(b)", &undisturbed), steps({})) << "it is still there";
   run_.events.pop_back();
-  EXPECT_EQ(number("in_hand(a)", &undisturbed), steps({})) << "it never failed";
+  EXPECT_EQ(number("work_at_failure(a)", &undisturbed), steps({})) << "it never failed";
   run_.result["faults"] = Json::array({{{"target", "b"}, {"began_step", 4}}, {{"target", "a"}, {"began_step", 21}}});
-  EXPECT_EQ(number("in_hand(a)", &undisturbed), steps({{21, 1}})) << "point 2, from its fault on";
+  EXPECT_EQ(number("work_at_failure(a)", &undisturbed), steps({{21, 1}})) << "point 2, from its fault on";
   EXPECT_EQ(number("taken_over(a)", &undisturbed), steps({}));
   EXPECT_EQ(number("undisturbed_score", &undisturbed)[0], 9.0);
   EXPECT_THROW(number("undisturbed_score"), InputError);
@@ -303,7 +303,7 @@ TEST_F(RunSignalsTest, MessagesAreCountedByLinkAndTopic) {
   EXPECT_EQ(number("arrived(a, gcs, /plan)"), steps({{3, 1}, {13, 2}, {21, 3}}));
   EXPECT_EQ(number("arrived_once(a, gcs, /plan)"), steps({{3, 1}, {21, 2}}))
       << "a second time at 13, another life at 21";
-  EXPECT_EQ(number("arrived_by_link(a, b)"), steps({{3, 1}})) << "the second was sent while the link was down";
+  EXPECT_EQ(number("arrived_over_open_link(a, b)"), steps({{3, 1}})) << "the second was sent while the link was down";
   EXPECT_EQ(number("in_flight(a, gcs)"), steps({{3, 1}, {4, 2}, {9, 1}, {13, 0}}));
 }
 
