@@ -13,17 +13,17 @@ import skein
 
 # Groups of the activities in docs/view.md, by the first words of the activities.
 GROUPS = {
-    "waits on the ground until an explorer has proved its way up": ("waits to be shown", "is shown"),
+    "waits on the ground until an explorer has proved the space above it free": ("waits to be shown", "is shown"),
     "is on the ground, or takes off": ("on the ground", "takes off"),
-    "stands too near to structure to move": ("stands: too near",),
-    "stands because another UAV is in the way": ("stands: another UAV",),
-    "stands before space that is not proved free": ("stands: what is ahead",),
+    "is stopped, too near to structure": ("stands: too near",),
+    "is stopped, because another UAV is in the way": ("stands: another UAV",),
+    "is stopped, before space that is not proved free": ("stands: what is ahead",),
     "rests at its goal, or has none": ("rests at its goal", "has no goal"),
     "finds no path to its goals": ("looks for a way",),
     "flies to goals without work": ("flies to a goal", "flies along"),
     "recovers: flies back, looks around, tries from elsewhere, climbs": (
         "looks around", "flies nearer", "tries from elsewhere", "climbs to see", "flies back", "makes room"),
-    "shows another UAV its way up": ("shows",),
+    "proves the space above another UAV free": ("shows",),
     "delivers, or looks for a link": ("returns", "delivers", "waits for a link", "stays where"),
 }
 
@@ -57,5 +57,5 @@ for name in dict.fromkeys([*GROUPS, *(name for seconds in by_planner.values() fo
     shares = [100.0 * seconds[name] / max(1, seconds.total()) for seconds in by_planner.values()]
     if max(shares) >= 0.5:
         print(f"| {name} |", " | ".join(f"{share:.0f} %" for share in shares), "|")
-print("| seconds of a flight, all UAVs |",
+print("| sum per flight over all UAVs [s] |",
       " | ".join(f"{seconds.total() / flights[planner]:.0f}" for planner, seconds in by_planner.items()), "|")
