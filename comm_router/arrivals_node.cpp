@@ -51,15 +51,16 @@ std::size_t Arrivals::find_or_open(const RadioTarget& target, const std::string&
   return number;
 }
 
-bool Arrivals::reaches(const RadioTarget& target, bus::ParticipantId source) const {
+bool Arrivals::reaches(const RadioTarget& target, bus::ParticipantId participant) const {
   const auto arrival = find(target);
-  return arrival != arrivals_.end() && arrival->writer && arrival->writer->matches(source);
+  return arrival != arrivals_.end() && arrival->writer && arrival->writer->matches(participant);
 }
 
-std::string Arrivals::unmatched(Node node, const std::vector<std::string>& reads, bus::ParticipantId source) const {
+std::string Arrivals::unmatched(Node node, const std::vector<std::string>& reads,
+                                bus::ParticipantId participant) const {
   for (const Arrival& arrival : arrivals_) {
     const bool read = arrival.node == node && arrival.writer && std::ranges::find(reads, arrival.topic) != reads.end();
-    if (read && !arrival.writer->matches(source)) return arrival.topic;
+    if (read && !arrival.writer->matches(participant)) return arrival.topic;
   }
   return "";
 }

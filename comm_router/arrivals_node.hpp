@@ -16,33 +16,37 @@
 
 namespace skein::router {
 
-/// A radio topic in the domain of one node. @param sources  how many nodes may send on it.
+/// A radio topic in the domain of one node. @param sources  number of nodes that may send on it.
 bus::TopicSpec radio_spec(const std::string& topic, const std::string& type, std::size_t sources = 1);
 
 class Arrivals {
  public:
   using Participants = std::vector<std::unique_ptr<bus::Participant>>;  ///< by node
 
-  /// Both must outlive this.
+  /// @param scenario, nodes  must outlive this.
   Arrivals(const Scenario& scenario, const Participants& nodes) : scenario_(scenario), nodes_(nodes) {}
 
-  /// Has `tap` record what arrives. Call it before any route is opened. `tap` must outlive this.
+  /// Makes `tap` record the messages of all routes, but no replies. Call it before any route is opened. `tap` must
+  /// outlive this.
   void record_with(bus::Tap& tap) { tap_ = &tap; }
-  /// Opens the topic with the replies to a node's radio requests. Call it once for each node, in their order.
+  /// Opens the topic for replies to a node's radio requests. Call it once for each node, in the order of the nodes.
   void open_replies(Node node);
-  /// Opens the arrival topics of a route, at those of its targets where it has not done so yet.
+  /// Opens the arrival topics of a route at those targets that are new since the last call for this route.
+  /// @param number  of the route: of one that was opened before, or the next number.
   void open_route(std::size_t number, const RadioRoute& route);
-  /// Closes the arrival topics of a route that no other route needs.
+  /// Closes those arrival topics of a route that no other route uses.
   void close_route(std::size_t number);
 
-  /// Whether the writer of this arrival topic is matched with a reader of the participant `source`.
-  bool reaches(const RadioTarget& target, bus::ParticipantId source) const;
-  /// The first topic of `reads` at this node that is not matched with the participant `source` yet; empty: all are.
-  std::string unmatched(Node node, const std::vector<std::string>& reads, bus::ParticipantId source) const;
+  /// Whether the writer of this arrival topic is matched with a reader of the participant.
+  bool reaches(const RadioTarget& target, bus::ParticipantId participant) const;
+  /// The first open topic of this node that is in `reads`, and is not matched with a reader of the participant yet;
+  /// empty: there is none.
+  std::string unmatched(Node node, const std::vector<std::string>& reads, bus::ParticipantId participant) const;
 
+  /// Writes a message to a target of a route, both by their numbers; write_reply() writes a reply to a node's request.
   void write(std::size_t route, std::size_t target, std::span<const std::uint8_t> payload);
   void write_reply(Node node, std::span<const std::uint8_t> payload);
-  /// Ends a step. @returns the total counts of the topics on which something arrived in this step, by node.
+  /// Ends a step. @returns by node, for each topic that got a message in this step, the number of its messages so far.
   std::vector<msg::NodeCounts> take_delivered();
 
  private:
@@ -60,9 +64,9 @@ class Arrivals {
   const Participants& nodes_;
   bus::Tap* tap_ = nullptr;
   std::vector<Arrival> arrivals_;
-  std::vector<std::vector<std::size_t>> of_route_;                  ///< by route, target: index into arrivals_
+  std::vector<std::vector<std::size_t>> of_route_;                  ///< by route and target: index into arrivals_
   std::vector<std::size_t> replies_of_;                             ///< by node: index into arrivals_
-  std::map<Node, std::map<std::size_t, std::uint64_t>> delivered_;  ///< in this step, by index into arrivals_: total
+  std::map<Node, std::map<std::size_t, std::uint64_t>> delivered_;  ///< topics of this step, as above: count so far
 };
 
 }  // namespace skein::router

@@ -12,13 +12,13 @@
 namespace skein::one_process {
 namespace {
 
-constexpr std::size_t kLongest = 4096, kMostFiles = 4;
+constexpr std::size_t kMaxBytes = 4096, kMaxDescriptors = 4;  // of a message
 
 }  // namespace
 
 std::optional<SessionMessage> SessionSocket::receive() const {
-  std::array<char, kLongest> text{};
-  alignas(cmsghdr) std::array<char, CMSG_SPACE(kMostFiles * sizeof(int))> control{};
+  std::array<char, kMaxBytes> text{};
+  alignas(cmsghdr) std::array<char, CMSG_SPACE(kMaxDescriptors * sizeof(int))> control{};
   iovec part{text.data(), text.size()};
   msghdr head{};
   head.msg_iov = &part;
@@ -38,8 +38,8 @@ std::optional<SessionMessage> SessionSocket::receive() const {
   }
   if ((head.msg_flags & (MSG_TRUNC | MSG_CTRUNC)) != 0) {  // the kernel has dropped what did not fit
     for (const int file : message.files) ::close(file);
-    throw std::length_error("a message of this session is too long: it may have " + std::to_string(kLongest) +
-                            " bytes and " + std::to_string(kMostFiles) + " descriptors at most");
+    throw std::length_error("a message of this session is too long: it must have at most " + std::to_string(kMaxBytes) +
+                            " bytes and " + std::to_string(kMaxDescriptors) + " descriptors");
   }
   return message;
 }

@@ -1,4 +1,4 @@
-// The simulated time in the lines of an agent's log.   Threads: any.
+// Puts the simulated time into the lines of an agent's log.   Threads: any.
 #pragma once
 
 #include <memory>
@@ -9,10 +9,10 @@ class logger;
 
 namespace skein {
 
-/// Sets the simulated time [s] that loggers with show_log_time() add to the lines of this process from now on.
+/// Sets the simulated time [s] that all loggers of this process write from now on, if show_log_time() has set them up.
 void set_log_time(double simulated_s);
 
-/// Makes a logger write "[NAME 12.35] level text" once a time is set; before, it writes "[NAME] level text".
+/// Makes a logger write lines as "[NAME 12.35] level text", or as "[NAME] level text" as long as no time is set.
 void show_log_time(spdlog::logger& log);
 
 }  // namespace skein

@@ -19,14 +19,14 @@ std::vector<std::string> warnings_of_free_nodes(const Json& uavs) {
     if (!uav.contains(kFromNodes)) continue;
     const auto name = uav["name"].get<std::string>();
     if (uav[kFromNodes].empty()) {
-      warnings.push_back(name + ": no ROS 2 node said anything; `skein run --ros-env " + name +
-                         "` prints what the shell of a node needs");
+      warnings.push_back(name + ": no ROS 2 node sent anything; `skein run --ros-env " + name +
+                         "` prints the environment that a node needs");
     }
     for (const Json& topic : uav[kFromNodes]) {
       if (count(topic, "other_clock") == 0) continue;
       warnings.push_back(
-          fmt::format("{}: {} of {} messages on {} have stamps that are not of simulated time; nodes need "
-                      "use_sim_time",
+          fmt::format("{}: {} of {} messages on {} have time stamps from another clock; start the nodes with "
+                      "use_sim_time:=true",
                       name, count(topic, "other_clock"), count(topic, "received"), topic["topic"].get<std::string>()));
     }
   }

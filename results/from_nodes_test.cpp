@@ -24,8 +24,8 @@ TEST(FromNodes, IsToldByTopic) {
             "from ROS 2 nodes              received   handed on    late    lost   refused\n"
             "/jurong/command/trajectory         100          90       3       7         4\n");
   EXPECT_THAT(warnings_of_free_nodes(uavs),
-              ElementsAre(HasSubstr("2 of 100 messages on /jurong/command/trajectory have stamps that are not"),
-                          HasSubstr("sentosa: no ROS 2 node said anything")));
+              ElementsAre(HasSubstr("2 of 100 messages on /jurong/command/trajectory have time stamps from"),
+                          HasSubstr("sentosa: no ROS 2 node sent anything")));
 }
 
 TEST(FromNodes, IsNothingWhereThereAreNone) {

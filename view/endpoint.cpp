@@ -17,9 +17,9 @@
 namespace skein::view {
 namespace {
 
-constexpr std::uint16_t kPortOfTheWeb = 80;
+constexpr std::uint16_t kHttpPort = 80;
 
-/// The address in the form in which inet_ntop() and browsers write it; empty: it is no address of this family.
+/// The address in the form in which inet_ntop() and browsers write it; empty if it is not an address of this family.
 std::string canonical(int family, const std::string& address) {
   std::array<char, INET6_ADDRSTRLEN> text{};
   in6_addr bytes{};  // large enough for IPv4, too
@@ -28,8 +28,9 @@ std::string canonical(int family, const std::string& address) {
   return text.data();
 }
 
-/// Splits a text at its last colon into address and port; IPv6 addresses have brackets. Empty address: it is invalid.
-std::pair<std::string, std::string_view> parted(std::string_view text) {
+/// Splits a text at its last colon into address and port. An IPv6 address must be in brackets. The address is empty if
+/// it is invalid.
+std::pair<std::string, std::string_view> split_endpoint(std::string_view text) {
   const std::size_t colon = text.rfind(':');
   const std::string name(text.substr(0, colon));
   const std::string_view port = text.substr(colon + 1);
@@ -40,7 +41,7 @@ std::pair<std::string, std::string_view> parted(std::string_view text) {
   return {canonical(AF_INET, name), port};
 }
 
-std::string small(std::string_view text) {
+std::string lower_case(std::string_view text) {
   std::string letters(text);
   std::ranges::transform(letters, letters.begin(),
                          [](char c) { return 'A' <= c && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
@@ -59,7 +60,7 @@ std::vector<std::string> interface_addresses() {
     const socklen_t size = family == AF_INET ? sizeof(sockaddr_in) : sizeof(sockaddr_in6);
     if (::getnameinfo(one->ifa_addr, size, text.data(), text.size(), nullptr, 0, NI_NUMERICHOST) != 0) continue;
     const std::string address = text.data();
-    if (address.find('%') == std::string::npos) addresses.push_back(address);  // browsers accept no scope
+    if (address.find('%') == std::string::npos) addresses.push_back(address);  // browsers accept no scope ("%eth0")
   }
   ::freeifaddrs(all);
   return addresses;
@@ -86,7 +87,7 @@ Endpoint read_endpoint(std::string_view text) {
   Endpoint endpoint;
   std::string_view port_text = text;
   if (text.find(':') != std::string_view::npos) {
-    std::tie(endpoint.address, port_text) = parted(text);
+    std::tie(endpoint.address, port_text) = split_endpoint(text);
   }
   const std::optional<std::uint16_t> port = parse_whole<std::uint16_t>(port_text);
   if (!port || endpoint.address.empty()) {
@@ -101,7 +102,7 @@ Endpoint read_endpoint(std::string_view text) {
 std::vector<std::string> names_of(const Endpoint& endpoint) {
   if (!endpoint.is_any()) return {endpoint.address};
   std::vector<std::string> names = interface_addresses();
-  if (const std::string name = small(host_name()); !name.empty()) {
+  if (const std::string name = lower_case(host_name()); !name.empty()) {
     names.push_back(name);
     const std::string first = name.substr(0, name.find('.'));
     if (first != name) names.push_back(first);
@@ -123,10 +124,10 @@ HostName read_host(std::string_view text) {
     port = text.substr(colon);
     if (name.find(':') != std::string_view::npos) return {};
   }
-  if (port.empty()) return {small(name), kPortOfTheWeb};
+  if (port.empty()) return {lower_case(name), kHttpPort};
   const std::optional<std::uint16_t> number =
       port.starts_with(':') ? parse_whole<std::uint16_t>(port.substr(1)) : std::nullopt;
-  return number && *number != 0 ? HostName{small(name), *number} : HostName{};
+  return number && *number != 0 ? HostName{lower_case(name), *number} : HostName{};
 }
 
 }  // namespace skein::view

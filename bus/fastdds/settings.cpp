@@ -21,8 +21,8 @@ using eprosima::fastrtps::rtps::Locator_t;
 namespace {
 
 constexpr const char* kLoopback = "127.0.0.1";
-constexpr std::uint32_t kSocketBuffer = 4 * 1024 * 1024;
-constexpr int kAllocatedSamples = 16;  // at first; more are allocated as they are needed
+constexpr std::uint32_t kSocketBufferBytes = 4 * 1024 * 1024;
+constexpr int kAllocatedSamples = 16;  // initially; Fast DDS allocates more when it needs them
 
 Locator_t locator_of(const std::string& ipv4, std::uint32_t port) {
   Locator_t locator;
@@ -34,23 +34,24 @@ Locator_t locator_of(const std::string& ipv4, std::uint32_t port) {
 
 Duration_t milliseconds(std::uint32_t ms) { return {static_cast<std::int32_t>(ms / 1000), ms % 1000 * 1'000'000}; }
 
-/// Sets the ports on which a participant listens and the peers to which it announces itself, without multicast.
-/// The ports are explicit, because Fast DDS would derive them from the number of participants that this process has
-/// ever had, in any domain; they would soon leave the range to which peers announce themselves. From these first ports
-/// on, Fast DDS takes the next free ones. Without a multicast locator, a unicast locator keeps discovery off multicast.
-/// @param most  number of participants per host that can be discovered.
-void discover_without_groups(DomainParticipantQos& qos, int domain, const std::string& own_address,
-                             const std::vector<std::string>& peers, int most) {
+/// Configures discovery without multicast: the ports on which a participant listens, and the peers to which it
+/// announces itself. The ports are explicit, because Fast DDS would otherwise derive them from the number of
+/// participants that this process has ever created in any domain. These ports would soon be outside the range to which
+/// peers announce themselves. If a port is in use, Fast DDS tries the following ones. It uses no multicast for
+/// discovery if a unicast locator is set and no multicast locator.
+/// @param max_participants  number of participants per host that can be discovered.
+void discover_by_unicast(DomainParticipantQos& qos, int domain, const std::string& own_address,
+                         const std::vector<std::string>& peers, int max_participants) {
   auto& wire = qos.wire_protocol();
   const auto domain_id = static_cast<std::uint32_t>(domain);
   const std::uint32_t first_port = wire.port.getUnicastPort(domain_id, 0);
   for (const std::string& peer : peers) {
-    wire.builtin.initialPeersList.push_back(locator_of(peer, 0));  // 0: RTPS's ports for this domain
+    wire.builtin.initialPeersList.push_back(locator_of(peer, 0));  // port 0: the RTPS ports of this domain
   }
   wire.builtin.metatrafficUnicastLocatorList.push_back(locator_of(own_address, first_port));
   wire.default_unicast_locator_list.push_back(
       locator_of(own_address, first_port + wire.port.offsetd3 - wire.port.offsetd1));
-  wire.builtin.mutation_tries = static_cast<std::uint32_t>(most - 1);
+  wire.builtin.mutation_tries = static_cast<std::uint32_t>(max_participants - 1);
 }
 
 }  // namespace
@@ -59,14 +60,14 @@ DomainParticipantQos participant_qos(int domain, const BusConfig& config, const 
   DomainParticipantQos qos = PARTICIPANT_QOS_DEFAULT;
   const bool meets_default = meets_default_nodes(config, reach);
 
-  // UDP only: shared memory leaves segments behind when a process is killed.
+  // UDP only: a process that is killed would leave its shared-memory segments behind.
   auto udp = std::make_shared<eprosima::fastdds::rtps::UDPv4TransportDescriptor>();
-  udp->sendBufferSize = udp->receiveBufferSize = kSocketBuffer;
+  udp->sendBufferSize = udp->receiveBufferSize = kSocketBufferBytes;
   const std::string address = reach.host_only ? kLoopback : reach.address;
   if (!address.empty()) udp->interfaceWhiteList.push_back(address);
   if (reach.host_only) {
     udp->maxInitialPeersRange = kMaxLocalParticipants;
-    discover_without_groups(qos, domain, address, {kLoopback}, kMaxLocalParticipants);
+    discover_by_unicast(qos, domain, address, {kLoopback}, kMaxLocalParticipants);
     if (meets_default && multicast_on_loopback()) {
       auto& wire = qos.wire_protocol();
       const Locator_t group = locator_of("239.255.0.1", wire.port.getMulticastPort(static_cast<std::uint32_t>(domain)));
@@ -75,7 +76,7 @@ DomainParticipantQos participant_qos(int domain, const BusConfig& config, const 
     }
   } else {
     udp->maxInitialPeersRange = kMaxPeerParticipants;
-    if (reach.by_peers()) discover_without_groups(qos, domain, address, reach.peers, kMaxPeerParticipants);
+    if (reach.by_peers()) discover_by_unicast(qos, domain, address, reach.peers, kMaxPeerParticipants);
   }
   qos.transport().use_builtin_transports = false;
   auto& transports = qos.transport().user_transports;
@@ -84,8 +85,8 @@ DomainParticipantQos participant_qos(int domain, const BusConfig& config, const 
   } else if (reach.host_only) {
     transports.push_back(udp);
   } else {
-    // With security, datagrams may exceed a packet: Fast DDS does not fragment the messages of a handshake, which
-    // contain certificate and permissions.
+    // In a secured fleet, datagrams may be larger than a packet: handshake messages contain a certificate and
+    // permissions, and Fast DDS does not fragment these messages.
     transports.push_back(config.security.empty() ? packet_transport(udp, reach.largest_datagram) : udp);
   }
 
@@ -115,12 +116,13 @@ DataWriterQos writer_qos(const Qos& qos, bool one_host) {
   dds.endpoint().history_memory_policy = eprosima::fastrtps::rtps::DYNAMIC_REUSABLE_MEMORY_MODE;
   dds.data_sharing().off();
   dds.publish_mode().kind = SYNCHRONOUS_PUBLISH_MODE;
-  // A reader detects a lost sample by the next heartbeat; the default period of 3 s would stall a lock-step round for
-  // that time. On one host, samples are lost only when a buffer overflows, and a heartbeat with its answer costs two
-  // datagrams: hence the longer period. Latched samples reach a late joiner by a heartbeat: hence the shorter one.
+  // A reader notices a lost sample when the next heartbeat arrives, so the default period of 3 s would stall a
+  // lock-step round for up to 3 s. The period is longer if all programs are on one host: there, samples are lost only
+  // when a buffer overflows, and each heartbeat costs two datagrams with its answer. It is always short for latched
+  // topics, because a reader that joins late receives the latched sample only after a heartbeat.
   dds.reliable_writer_qos().times.heartbeatPeriod = milliseconds(one_host && !qos.latched ? 200 : 20);
   dds.reliable_writer_qos().times.nackResponseDelay = milliseconds(1);
-  // No reader monitors liveliness; this kind lets FastWriter send heartbeats (fastdds_bus.cpp).
+  // No reader monitors liveliness. With this kind, FastWriter (fastdds_bus.cpp) can have a heartbeat sent at any time.
   dds.liveliness().kind = MANUAL_BY_TOPIC_LIVELINESS_QOS;
   return dds;
 }
@@ -129,8 +131,8 @@ DataReaderQos reader_qos(const Qos& qos) {
   DataReaderQos dds = DATAREADER_QOS_DEFAULT;
   dds.reliability().kind = qos.reliable ? RELIABLE_RELIABILITY_QOS : BEST_EFFORT_RELIABILITY_QOS;
   dds.durability().kind = qos.latched ? TRANSIENT_LOCAL_DURABILITY_QOS : VOLATILE_DURABILITY_QOS;
-  // The listener takes each sample as it arrives, so the history contains only samples that wait for an earlier, lost
-  // one. If it were limited to `depth` for all writers together, samples of one writer could evict those of another.
+  // The listener takes each sample when it arrives, so the history contains only samples that wait for an earlier one
+  // that was lost. A limit of `depth` would apply to all writers together: samples of one could evict those of another.
   dds.history().kind = KEEP_ALL_HISTORY_QOS;
   dds.resource_limits().max_instances = 1;
   dds.resource_limits().max_samples = dds.resource_limits().max_samples_per_instance = LENGTH_UNLIMITED;

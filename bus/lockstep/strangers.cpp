@@ -4,10 +4,10 @@ namespace skein::bus {
 
 namespace {
 
-/// Limit of one program: very many participants must not fill the memory.
+/// Maximum number of writers that one program stores, so that very many participants cannot exhaust its memory.
 constexpr std::size_t kMaxWriters = 256;
 
-/// "/x" of "rt/x".
+/// The ROS name of a DDS topic: "/x" for "rt/x".
 std::string ros_name(const std::string& topic) { return topic.starts_with("rt/") ? topic.substr(2) : topic; }
 
 }  // namespace

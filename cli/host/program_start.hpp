@@ -1,5 +1,6 @@
 // Starts a child process, from fork to exec: sets up its file descriptors, user and minder, and reports errors to the
-// launcher. Linux.   Threads: one, which must live as long as the programs (the kernel ties PR_SET_PDEATHSIG to it).
+// launcher. Linux.   Threads: one, which must live as long as the programs: when it ends, the kernel kills them
+// (PR_SET_PDEATHSIG).
 #pragma once
 
 #include <sys/types.h>
@@ -11,7 +12,7 @@
 
 namespace skein::cli {
 
-/// A file descriptor that closes itself.
+/// Owns a file descriptor, and closes it in its destructor.
 class Fd {
  public:
   Fd() = default;
@@ -31,24 +32,25 @@ class Fd {
   int fd_ = -1;
 };
 
-/// @throws std::system_error for the present errno; `what` begins its message.
+/// @throws std::system_error for the current value of errno. @param what  begins its message.
 [[noreturn]] void throw_errno(const std::string& what);
 
 struct StartedProgram {
   pid_t pid = -1;           ///< the launcher's child: the program, or its minder
-  pid_t program = -1;       ///< process id of the program, which leads a process group
-  bool foreground = false;  ///< its group got the terminal, which the launcher had
+  pid_t program = -1;       ///< process id of the program, which leads a process group of its own
+  bool foreground = false;  ///< the program's group has the terminal, which the launcher had before
   Fd pidfd;                 ///< of `pid`
   Fd status, control;       ///< the launcher's ends of the pipes, non-blocking
-  Fd log;                   ///< to which the program appends; none: it has the launcher's output
+  Fd log;  ///< file to which the program appends; none: the program has the launcher's stdout and stderr
 };
 
 /// Whether stdin is a terminal whose foreground process group is the launcher's.
 bool owns_terminal();
-/// Makes `group` the terminal's foreground process group: from now on it gets Ctrl-C and what the user types.
+/// Makes `group` the terminal's foreground process group: from then on, it receives Ctrl-C and what the user types.
 void give_terminal_to(pid_t group);
 
-/// Starts a program in a process group of its own, with both pipes. Its stdin is /dev/null, or the launcher's (`here`).
+/// Starts a program in a process group of its own, with a status and a control pipe. Its stdin is /dev/null, or that of
+/// the launcher (`here`).
 /// @throws std::system_error if the log cannot be opened, or the binary cannot be started or watched.
 StartedProgram start_program(const ProgramSpec& spec);
 

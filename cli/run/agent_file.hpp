@@ -1,4 +1,4 @@
-// Finds the agent programs of a fleet, and asks them for the strategies that they have.
+// Finds the agent programs of a fleet, and asks them which strategies they have.
 #pragma once
 
 #include <filesystem>
@@ -11,22 +11,24 @@
 namespace skein::cli {
 
 /// The fleet's agent program: `chosen` (--agent), else SKEIN_AGENT, else the uav_agent beside the launcher.
-/// @returns its absolute path; nullopt: that uav_agent, also if the user named it.
-/// @throws InputError if there is no such program, or it is not an agent program.
+/// @returns its absolute path; nullopt if it is the uav_agent beside the launcher, even if the user named that file.
+/// @throws InputError if the file does not exist, cannot be executed, or is not an agent program.
 std::optional<std::filesystem::path> own_agent(const std::optional<std::filesystem::path>& chosen);
 
-/// Finds the agent programs of planners NAME@AGENT, relative to the working directory, and makes their paths absolute.
-/// Removes an AGENT that is the fleet's uav_agent anyway, unless the planner's own spec contains an '@'.
+/// Finds the agent programs of planners NAME@AGENT. Makes their paths absolute; relative paths count from the working
+/// directory. If the fleet's agent program is uav_agent, removes an AGENT that is uav_agent, too, unless the planner's
+/// own spec contains an '@'.
 /// @param own  the fleet's agent program; nullopt: uav_agent.
-/// @throws InputError if a program does not exist, is not an agent program, or does not have a UAV's planner.
+/// @throws InputError if a file does not exist, cannot be executed, is not an agent program, or does not have the
+///   planner of a UAV.
 void find_agents(Planners& planners, const std::optional<std::filesystem::path>& own);
 
 /// Names of an agent program's strategies for UAVs, in the order in which it lists them.
-/// @returns none if the program is missing or prints no list.
+/// @returns an empty list if the program is missing or prints no list.
 std::vector<std::string> planners_of(const std::filesystem::path& agent);
 
 /// Names of an agent program's strategies that have a program at the ground station.
-/// @returns none if the program is missing or prints no list.
+/// @returns an empty list if the program is missing or prints no list.
 std::vector<std::string> ground_programs_of(const std::filesystem::path& agent);
 
 }  // namespace skein::cli

@@ -1,4 +1,4 @@
-// Faults that change the scenario's conditions for a time: wind that freshens, rain, less light.  Pure.
+// Faults that change the scenario's conditions for some time, for example to more wind, rain or less light.  Pure.
 #pragma once
 
 #include <cstddef>
@@ -14,14 +14,16 @@ namespace skein {
 /// Indices of the faults that change conditions in the exchange at a tick, in the file's order.
 std::vector<std::size_t> active_changes(const FaultPlan& plan, Tick tick);
 
-/// The scenario's conditions with the changes of these faults. It reads their values anew: call it when they differ.
-/// @param plan  checked: load_fault_plan() returns no other.   @param faults  as active_changes() returns them.
+/// The scenario's conditions with the changes of these faults, in their order. The function parses the values of the
+/// faults, so call it only when the set of active faults has changed.
+/// @param plan  from load_fault_plan(), which has checked it.   @param faults  as active_changes() returns them.
 ConditionsConfig changed_conditions(const FaultPlan& plan, const Scenario& scenario,
                                     const std::vector<std::size_t>& faults);
 
-/// Adds an error for each key of a ConditionsChange that cannot change in a run, and for each part that the scenario
-/// has switched off and the change would switch on. The keys themselves and their ranges are checked by the reader.
-/// @param path  of the change in its file.
+/// Adds an error for each key of a ConditionsChange that cannot change during a run, for each empty section, and for
+/// each section that cannot be switched on (wind, odometry, battery, radio) or off (radio) during a run. The reader of
+/// fault files checks the names and ranges of the keys.
+/// @param path  key path of the change in its file: "faults[2].conditions".
 void check_conditions_change(const ConfigNode& values, const Scenario& scenario, const std::string& path,
                              ConfigErrors& errors);
 

@@ -1,6 +1,6 @@
-// A named lock that one process of the host holds at a time. The lock is the name of an abstract Unix socket: the
-// kernel releases it when its holder ends in any way, it leaves no file, and it is valid for all users of the same
-// network namespace. Linux.   Threads: any.
+// A named lock that only one process of a network namespace can hold, whichever user starts it. The holder has an
+// abstract Unix socket of this name. So there is no lock file, and the kernel releases the lock however the holder
+// ends. Linux.   Threads: any.
 #pragma once
 
 #include <sys/types.h>
@@ -12,9 +12,12 @@ namespace skein {
 
 class HostLock {
  public:
-  /// @returns nullopt if a process, perhaps this one, holds the lock. @throws std::system_error for any other failure.
+  /// Takes the lock until the returned object is destroyed.
+  /// @returns nullopt if a process, perhaps this one, holds the lock.
+  /// @throws std::invalid_argument if the name is longer than 107 bytes; std::system_error for any other failure.
   static std::optional<HostLock> try_take(const std::string& name);
-  /// The process that holds the lock; nullopt if there is none, or this process cannot see it (in another container).
+  /// The process that holds the lock; nullopt if there is none, or if it is in another PID namespace, such as that of a
+  /// container.
   static std::optional<pid_t> holder(const std::string& name);
 
   HostLock(HostLock&& other) noexcept;
@@ -27,7 +30,7 @@ class HostLock {
   int fd_ = -1;
 };
 
-/// Name of the lock that a fleet takes for a DDS domain, so that no other fleet of the host uses the domain.
+/// Name of the lock that a fleet holds for each of its DDS domains, so that no other fleet uses the same domain.
 std::string domain_lock_name(int domain);
 
 }  // namespace skein

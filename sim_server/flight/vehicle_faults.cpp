@@ -6,7 +6,7 @@
 namespace skein::sim {
 namespace {
 
-/// Applies the faults of vehicles, and ignores all others.
+/// Enters the faults of vehicles into their conditions, and ignores all other faults.
 class Applier {
  public:
   Applier(const std::vector<std::string>& uavs, std::vector<VehicleCondition>& conditions)
@@ -24,8 +24,8 @@ class Applier {
   void operator()(const Gust& fault) const { of(fault.uav).gust_W = fault.velocity_mps; }
   void operator()(const FixLoss& fault) const { of(fault.uav).fix_lost = true; }
   void operator()(const BatteryLoss& fault) const { of(fault.uav).most_charge = fault.charge; }
-  template <class OfSomethingElse>
-  void operator()(const OfSomethingElse&) const {}
+  template <class OtherFault>
+  void operator()(const OtherFault&) const {}
 
  private:
   VehicleCondition& of(const std::string& uav) const {

@@ -1,6 +1,6 @@
-// LiDAR beams whose return is lost, whatever they hit: each beam independently with the probability `no_return_p`, and
-// all beams in the columns of `dropped_sectors`.
-// Units: SI, degrees where a name says so.   Threads: one.
+// Draws which beams of a LiDAR return nothing, whatever they hit: each beam independently with the probability
+// `no_return_p`, and all beams in the columns of `dropped_sectors`.
+// Units: SI; degrees where a name says so.   Threads: one.
 #pragma once
 
 #include <cstdint>
@@ -13,18 +13,18 @@ namespace skein::sim {
 
 class LostReturns {
  public:
-  /// @param uav   fleet index: it keys the draws.
-  /// @param seed  0: no return is lost. Otherwise they are drawn from streams keyed by (seed, "lidar_no_return", uav,
-  ///              scan number), with one draw for each beam, whether or not it hits something, and by (seed,
-  ///              "lidar_dropped_sectors", uav, hold number). A hold is the time `hold_s` in which the sectors stay.
+  /// @param uav   index in the fleet; part of the keys of the random streams.
+  /// @param seed  0: no return is lost. Otherwise the stream (seed, "lidar_no_return", uav, scan number) has one draw
+  ///              for each beam of the scan, whether or not the beam hits something. The stream (seed,
+  ///              "lidar_dropped_sectors", uav, hold number) draws the sectors; they stay for a hold of `hold_s`.
   LostReturns(const LidarConfig& config, UavIndex uav, std::uint64_t seed);
 
   /// Whether any beam of any scan may lose its return.
   bool any() const { return seed_ != 0 && (config_.no_return_p > 0.0 || config_.dropped_sectors.has_value()); }
 
-  /// Which beams of the scan at a tick lose their returns, ring by ring. All columns of a scan have the sectors of the
-  /// scan's tick, even if the scan takes longer than `hold_s`.
-  /// @param tick  >= 0.   @returns a flag per beam, valid until the next call.
+  /// Which beams of the scan at a tick lose their returns, ring by ring. The sectors at this tick apply to the whole
+  /// scan, even if it takes longer than `hold_s`.
+  /// @param tick  >= 0.   @returns a flag for each beam, valid until the next call.
   const std::vector<bool>& of(Tick tick);
 
  private:

@@ -166,7 +166,7 @@ class NoNodes : public FleetTest {};
 TEST_F(NoNodes, AreToldOf) {
   SkeinRun& fleet = run("fleet", {"towers", "--planner", "hover,jurong=ros", "--clock", "realtime:20", "--duration",
                                   "10", "--no-oracle"});
-  EXPECT_NE(fleet.out().find("jurong: no ROS 2 node said anything; `skein run --ros-env jurong`"), std::string::npos)
+  EXPECT_NE(fleet.out().find("jurong: no ROS 2 node sent anything; `skein run --ros-env jurong`"), std::string::npos)
       << fleet.out();
   EXPECT_EQ(fleet.result()["uavs"][0]["from_nodes"], Json::array());
   EXPECT_FALSE(fleet.result()["uavs"][1].contains("from_nodes"));

@@ -163,7 +163,7 @@ void shorten(std::vector<Visit>& tour, const std::vector<Strip>& strips, const V
 
 std::vector<std::vector<Visit>> share_strips(const std::vector<Strip>& strips, const std::vector<double>& work_s,
                                              const std::vector<Vector3d>& p_W_start, double transit_mps,
-                                             const std::vector<double>& hands) {
+                                             const std::vector<double>& team_size) {
   std::vector<std::vector<Visit>> tours(p_W_start.size());
   std::vector<Vector3d> at = p_W_start;
   std::vector<double> free_at(p_W_start.size(), 0.0);
@@ -185,7 +185,7 @@ std::vector<std::vector<Visit>> share_strips(const std::vector<Strip>& strips, c
     tours[uav].push_back(next);
     at[uav] = next.reversed ? strips[next.strip].begin_W : strips[next.strip].end_W;
     const double taken_s = nearest / transit_mps + work_s[next.strip] + kTurnS;
-    free_at[uav] += hands.empty() ? taken_s : taken_s / hands[uav];
+    free_at[uav] += team_size.empty() ? taken_s : taken_s / team_size[uav];
   }
   for (std::size_t uav = 0; uav < tours.size(); ++uav) shorten(tours[uav], strips, p_W_start[uav], transit_mps);
   return tours;

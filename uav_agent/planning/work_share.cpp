@@ -67,18 +67,18 @@ WorkShare team_share(const AgentConfig& agent, const std::vector<OrientedBox>& b
   AllStrips all = all_strips(boxes, reach, config);
   const std::vector<std::vector<UavIndex>> teams = teams_of(agent.fleet);
   std::vector<Vector3d> starts;
-  std::vector<double> hands;
+  std::vector<double> team_size;
   std::size_t own = 0, rank = 0;
   for (std::size_t i = 0; i < teams.size(); ++i) {
     const Vector3d start = agent.fleet[teams[i].front()].p_WB_start;
     starts.emplace_back(start.x(), start.y(), middle_height_m);
-    hands.push_back(static_cast<double>(teams[i].size()));
+    team_size.push_back(static_cast<double>(teams[i].size()));
     const auto me = std::ranges::find(teams[i], agent.self);
     if (me == teams[i].end()) continue;
     own = i;
     rank = static_cast<std::size_t>(me - teams[i].begin());
   }
-  const std::vector<Visit> tour = share_strips(all.strips, all.work_s, starts, config.transit_mps, hands)[own];
+  const std::vector<Visit> tour = share_strips(all.strips, all.work_s, starts, config.transit_mps, team_size)[own];
   WorkShare share{.strips = std::move(all.strips), .tour = {}};
   // The explorer, which is the first of its team, gets the second strip of each n: of three, the middle one.
   const std::size_t size = teams[own].size();

@@ -7,9 +7,9 @@ namespace skein::agent {
 namespace {
 
 constexpr std::string_view kWordName = "xxh/1", kPlanName = "xxh-gcs/1";
-constexpr double kApartM = 2.2;         ///< least distance between a UAV and another one's announced trajectory
-constexpr double kWayStepM = 2.0;       ///< distance between two spheres of a trajectory
-constexpr std::size_t kMostPlaces = 8;  ///< most spheres of a trajectory: what is farther ahead will change
+constexpr double kTrajectoryGapM = 2.2;  ///< gap between this UAV's body and a body on an announced trajectory
+constexpr double kSpacingM = 2.0;        ///< maximum distance between the centres of two spheres of a trajectory
+constexpr std::size_t kMaxSpheres = 8;   ///< per trajectory; the part beyond them will change before it is flown
 
 }  // namespace
 
@@ -96,8 +96,8 @@ double XxhTalk::silent_s(std::size_t uav, Tick now) const {
   return seconds(now - (last ? last->heard : Tick{0}));
 }
 
-/// Whether a UAV has priority over this one: explorers first, then by index in the fleet.
-bool XxhTalk::goes_first(std::size_t uav) const {
+/// Whether another UAV has priority over this one: explorers before photographers, then by index in the fleet.
+bool XxhTalk::has_priority(std::size_t uav) const {
   const bool explores = agent_.fleet[uav].role == Role::explorer;
   const bool i_explore = agent_.me().role == Role::explorer;
   return explores != i_explore ? explores : uav < agent_.self;
@@ -107,19 +107,19 @@ std::vector<Sphere> XxhTalk::trajectories(const PlannerInput& in) const {
   std::vector<Sphere> spheres;
   const Vector3d here = in.tracking.setpoint.p_WB;
   for (const auto& [uav, word] : words_) {
-    const bool valid = (config_.all_give_way || goes_first(uav)) && seconds(in.tick - word.heard) < config_.claim_s;
+    const bool valid = (config_.all_give_way || has_priority(uav)) && seconds(in.tick - word.heard) < config_.claim_s;
     if (!valid || word.way_W.empty()) continue;
-    const double radius = agent_.me().body_radius_m + agent_.fleet[uav].body_radius_m + kApartM;
-    std::size_t places = 0;
+    const double radius = agent_.me().body_radius_m + agent_.fleet[uav].body_radius_m + kTrajectoryGapM;
+    std::size_t count = 0;
     const auto add = [&](const Vector3d& p) {
-      // A sphere around this UAV's own place is left out: a path cannot begin in space that is not free.
-      if (++places <= kMostPlaces && (p - here).norm() > radius) spheres.push_back({p, radius});
+      // Leaves out a sphere that contains this UAV itself: a path must begin in free space.
+      if (++count <= kMaxSpheres && (p - here).norm() > radius) spheres.push_back({p, radius});
     };
     add(word.way_W.front());
     for (std::size_t i = 0; i + 1 < word.way_W.size(); ++i) {
       const Vector3d leg = word.way_W[i + 1] - word.way_W[i];
-      const int steps = static_cast<int>(leg.norm() / kWayStepM) + 1;
-      for (int s = 1; s <= steps && places < kMostPlaces; ++s) add(word.way_W[i] + leg * s / steps);
+      const int steps = static_cast<int>(leg.norm() / kSpacingM) + 1;
+      for (int s = 1; s <= steps && count < kMaxSpheres; ++s) add(word.way_W[i] + leg * s / steps);
     }
   }
   return spheres;

@@ -77,7 +77,7 @@ class XxhTalk {
     MapExchange exchange;
   };
 
-  bool goes_first(std::size_t uav) const;
+  bool has_priority(std::size_t uav) const;
 
   const Config config_;
   const AgentConfig& agent_;
