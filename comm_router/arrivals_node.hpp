@@ -64,9 +64,10 @@ class Arrivals {
   const Participants& nodes_;
   bus::Tap* tap_ = nullptr;
   std::vector<Arrival> arrivals_;
-  std::vector<std::vector<std::size_t>> of_route_;                  ///< by route and target: index into arrivals_
-  std::vector<std::size_t> replies_of_;                             ///< by node: index into arrivals_
-  std::map<Node, std::map<std::size_t, std::uint64_t>> delivered_;  ///< topics of this step, as above: count so far
+  std::vector<std::vector<std::size_t>> of_route_;  ///< by route and target: index into arrivals_
+  std::vector<std::size_t> replies_of_;             ///< by node: index into arrivals_
+  /// By node and index into arrivals_, for the topics that got a message in this step: number of messages so far.
+  std::map<Node, std::map<std::size_t, std::uint64_t>> delivered_;
 };
 
 }  // namespace skein::router

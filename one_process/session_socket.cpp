@@ -31,10 +31,10 @@ std::optional<SessionMessage> SessionSocket::receive() const {
   } while (size < 0 && errno == EINTR);
   if (size <= 0) return std::nullopt;
   SessionMessage message{{text.data(), static_cast<std::size_t>(size)}, {}};
-  for (cmsghdr* note = CMSG_FIRSTHDR(&head); note != nullptr; note = CMSG_NXTHDR(&head, note)) {
-    if (note->cmsg_level != SOL_SOCKET || note->cmsg_type != SCM_RIGHTS) continue;
-    message.files.resize((note->cmsg_len - CMSG_LEN(0)) / sizeof(int));
-    std::memcpy(message.files.data(), CMSG_DATA(note), message.files.size() * sizeof(int));
+  for (cmsghdr* cmsg = CMSG_FIRSTHDR(&head); cmsg != nullptr; cmsg = CMSG_NXTHDR(&head, cmsg)) {
+    if (cmsg->cmsg_level != SOL_SOCKET || cmsg->cmsg_type != SCM_RIGHTS) continue;
+    message.files.resize((cmsg->cmsg_len - CMSG_LEN(0)) / sizeof(int));
+    std::memcpy(message.files.data(), CMSG_DATA(cmsg), message.files.size() * sizeof(int));
   }
   if ((head.msg_flags & (MSG_TRUNC | MSG_CTRUNC)) != 0) {  // the kernel has dropped what did not fit
     for (const int file : message.files) ::close(file);

@@ -37,8 +37,8 @@ Duration_t milliseconds(std::uint32_t ms) { return {static_cast<std::int32_t>(ms
 /// Configures discovery without multicast: the ports on which a participant listens, and the peers to which it
 /// announces itself. The ports are explicit, because Fast DDS would otherwise derive them from the number of
 /// participants that this process has ever created in any domain. These ports would soon be outside the range to which
-/// peers announce themselves. If a port is in use, Fast DDS tries the following ones. It uses no multicast for
-/// discovery if a unicast locator is set and no multicast locator.
+/// peers announce themselves. If a port is in use, Fast DDS tries the following ones. Since discovery has a unicast
+/// locator but no multicast locator, Fast DDS uses no multicast.
 /// @param max_participants  number of participants per host that can be discovered.
 void discover_by_unicast(DomainParticipantQos& qos, int domain, const std::string& own_address,
                          const std::vector<std::string>& peers, int max_participants) {
@@ -122,7 +122,7 @@ DataWriterQos writer_qos(const Qos& qos, bool one_host) {
   // topics, because a reader that joins late receives the latched sample only after a heartbeat.
   dds.reliable_writer_qos().times.heartbeatPeriod = milliseconds(one_host && !qos.latched ? 200 : 20);
   dds.reliable_writer_qos().times.nackResponseDelay = milliseconds(1);
-  // No reader monitors liveliness. With this kind, FastWriter (fastdds_bus.cpp) can have a heartbeat sent at any time.
+  // No reader monitors liveliness. This kind lets FastWriter (fastdds_bus.cpp) request a heartbeat at any time.
   dds.liveliness().kind = MANUAL_BY_TOPIC_LIVELINESS_QOS;
   return dds;
 }

@@ -20,7 +20,7 @@ struct WatchedPair {
 
 /// {"pairs", "cpu_ratio", "first_picture_ms", "script_ms", "thread_ms", "draw_calls", "pictures"}: the number of pairs,
 /// and a figure() over the pairs (report.hpp) for each other key; null if no pair has the value. `cpu_ratio` is the
-/// fleet's CPU time from the first step to the last, with the browser divided by without.
+/// fleet's CPU time with a browser, from the first step to the last, divided by that without a browser.
 Json watching_entry(const std::vector<WatchedPair>& pairs);
 
 /// Prints the figures next to their targets.

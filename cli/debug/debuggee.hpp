@@ -15,7 +15,7 @@ struct Debuggee {
   enum class How {
     by_hand,    ///< the user starts the program with a command that Skein prints
     gdb,        ///< gdb in this terminal
-    inside,     ///< gdb in this terminal and in the program's container; the program waits for gdb
+    inside,     ///< gdb in this terminal, run in the program's container; the program waits for it
     pdb,        ///< Python's debugger in this terminal; the program itself starts it
     gdbserver,  ///< gdbserver on `port` of this host
     wait,       ///< the program stops before its first step until a debugger attaches or SIGCONT arrives

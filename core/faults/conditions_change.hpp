@@ -1,4 +1,4 @@
-// Faults that change the scenario's conditions for some time, for example to more wind, rain or less light.  Pure.
+// Faults that change the scenario's conditions for some time: more wind, rain or less light, for example.  Pure.
 #pragma once
 
 #include <cstddef>
@@ -20,9 +20,9 @@ std::vector<std::size_t> active_changes(const FaultPlan& plan, Tick tick);
 ConditionsConfig changed_conditions(const FaultPlan& plan, const Scenario& scenario,
                                     const std::vector<std::size_t>& faults);
 
-/// Adds an error for each key of a ConditionsChange that cannot change during a run, for each empty section, and for
-/// each section that cannot be switched on (wind, odometry, battery, radio) or off (radio) during a run. The reader of
-/// fault files checks the names and ranges of the keys.
+/// Adds an error if the values of a ConditionsChange, or one of their sections, are empty; for each key that cannot
+/// change during a run; and for each section that the change would switch on (wind, odometry, battery, radio) or off
+/// (radio), which is impossible during a run. The reader of fault files checks the names and ranges of the keys.
 /// @param path  key path of the change in its file: "faults[2].conditions".
 void check_conditions_change(const ConfigNode& values, const Scenario& scenario, const std::string& path,
                              ConfigErrors& errors);

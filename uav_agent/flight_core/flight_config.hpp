@@ -13,14 +13,14 @@ struct FlightConfig {
   double error_m = 0.33;          ///< tracking error of an explorer at rest; docs/flight-safety.md has the measurement
   double light_error_m = 0.23;    ///< the same for a photographer
   double error_per_mps_s = 0.03;  ///< additional tracking error per m/s of speed
-  /// Replaces kHaloM at a start with less room, on the UAV's own trail, and for a UAV that would fall otherwise.
+  /// Replaces kHaloM at a start with less room, on the UAV's own trail, and for a UAV that must land at once.
   double tight_halo_m = 0.35;
   double tight_mps = 0.8;  ///< maximum speed at such a start and on the trail
   double ground_m = 1.0;   ///< the map need not prove space below this height: the ground is level, at z = 0
   /// Lowest height of a planned path. If the UAV is lower, its own height, but at least half of floor_m.
   double floor_m = 2.0;
   double peer_margin_m = 0.6;   ///< distance between the bodies of two UAVs that have both braked
-  double peer_memory_s = 20.0;  ///< time for which a UAV out of sight is still avoided, as if it had braked
+  double peer_memory_s = 20.0;  ///< time for which this UAV still avoids one out of sight, as if that one had braked
 
   // Motion.
   double approach_mps = 5.0;  ///< speed on the path to a goal; lower where only little space ahead is proved free
@@ -37,7 +37,7 @@ struct FlightConfig {
   double alone_mps = 1.5;   ///< maximum speed of a UAV that assumes that space outside the boxes is free
   double yield_s = 5.0;     ///< time beyond stall_s for which a UAV waits for one with a lower index in its way
 
-  /// After being stopped at one place for this time, a UAV has looked around, waited for others, and searched other
+  /// A UAV that has been stopped at one place for this time has looked around, waited for others, and searched other
   /// paths.
   double held_s() const { return stall_s + look_s + yield_s; }
 

@@ -42,7 +42,7 @@ struct StripConfig {
   double overlap = 0.2;            ///< of neighbouring strips, as a share of a picture's extent across the strip
   double min_length_m = 2.0;       ///< a face with a shorter edge gets no strip
   double max_length_m = 60.0;      ///< longer strips are cut into pieces, which different UAVs can take
-  double lowest_m = 2.0;           ///< a bottom face gets strips only if UAVs below it stay well above this height
+  double lowest_m = 2.0;           ///< a bottom face gets strips only if UAVs fly at least 3 m above this height there
   bool top = true, bottom = true;  ///< whether top and bottom faces get strips
 };
 
