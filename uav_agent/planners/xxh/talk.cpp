@@ -71,8 +71,8 @@ void XxhTalk::listen(const PlannerInput& in, VoxelGrid* grid) {
       words_[sender] = std::move(word);
       PayloadReader reader(map);
       if (grid && same_map && !map.empty()) map_->exchange.read(sender, in.tick, *grid, reader);
-    } else if (const auto said = open_payload(message, kPlanName, agent_.fleet.size() + 1); said && !plan_) {
-      PayloadReader reader(said->bytes);
+    } else if (const auto payload = open_payload(message, kPlanName, agent_.fleet.size() + 1); payload && !plan_) {
+      PayloadReader reader(payload->bytes);
       if (!in.boxes.empty()) plan_ = read_plan(reader, agent_.fleet.size(), in.boxes.size());
     }
   }
