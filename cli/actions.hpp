@@ -46,6 +46,7 @@ int replay_run(const ReplayOptions& options, const Console& console);
 
 /// `skein diff`: when two runs start to differ, and in what. Compares the digests step by step, the radio messages and
 /// commands (if both runs have recordings), the results, and the tables of captures, events, scores and trajectories.
+/// That only one run has a recording is a difference, unless the other one was told to record nothing.
 /// @returns 0 the same, 1 different. @throws InputError when a folder holds no run, or one of its files is damaged.
 int diff_runs(const DiffOptions& options, const Console& console);
 

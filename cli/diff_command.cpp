@@ -5,6 +5,7 @@
 #include <fstream>
 #include <map>
 #include <optional>
+#include <ranges>
 
 #include "core/files/file_bytes.hpp"
 #include "core/text/text.hpp"
@@ -30,6 +31,10 @@ constexpr std::array kSettledOfUavs = {"name",     "role",   "alive",    "distan
                                        "captures", "idle_s", "frozen_s", "commands_rejected"};
 constexpr std::array kTables = {run_folder::kCaptures, run_folder::kEvents, run_folder::kScore,
                                 run_folder::kScoreTimeline, run_folder::kTrajectories};
+
+/// Files that every run has. Only whether they are there is compared.
+constexpr std::array kOtherFiles = {run_folder::kActivity, run_folder::kCaptureMessages, run_folder::kScene,
+                                    run_folder::kTracking};
 
 std::string shown(const Json& value) {
   constexpr std::size_t kLongest = 80;
@@ -72,6 +77,29 @@ void compare_results(const DiffOptions& options, std::vector<std::string>& found
 std::optional<std::string> only_owner(const DiffOptions& options, const char* file) {
   const bool in_a = fs::exists(options.run_a / file), in_b = fs::exists(options.run_b / file);
   return in_a == in_b ? std::nullopt : std::optional<std::string>(in_a ? "first" : "second");
+}
+
+/// Whether a run's command line told it to record nothing. A run without a command line should have a recording.
+bool records_nothing(const fs::path& run) try {
+  const std::vector<std::string> words = shell_words(text_in(result_of(run).value_or(Json()), "command"));
+  for (const std::string& word : words | std::views::reverse) {  // the last one counts
+    if (word == "--record" || word.starts_with("--record=")) return word == "--record=none";
+  }
+  return false;
+} catch (const InputError&) {  // no words of a shell
+  return false;
+}
+
+/// Options decide how much is recorded, so recordings of two identical runs may differ, and one of them may have none.
+/// But the recording of a run that was told to record must be there.
+void compare_owners_of_recordings(const DiffOptions& options, std::vector<std::string>& found,
+                                  std::vector<std::string>& notes) {
+  const auto owner = only_owner(options, run_folder::kRecording);
+  if (!owner) return;
+  const bool chosen = records_nothing(*owner == "first" ? options.run_b : options.run_a);
+  chosen ? notes.push_back(std::string("not compared: ") + run_folder::kRecording + ", which only the " + *owner +
+                           " run has; the other one was told to record nothing")
+         : found.push_back(std::string(run_folder::kRecording) + ": only in the " + *owner + " run");
 }
 
 std::ifstream opened(const fs::path& file) {
@@ -149,23 +177,27 @@ void compare_recordings(const DiffOptions& options, std::vector<std::string>& fo
 
 int diff_runs(const DiffOptions& options, const Console& console) {
   const std::optional<results::RunDifference> difference = results::first_difference(options.run_a, options.run_b);
-  std::vector<std::string> found;
+  std::vector<std::string> found, notes;
   compare_results(options, found);
   for (const char* table : kTables) compare_tables(options, table, found);
+  for (const char* file : kOtherFiles) {
+    if (const auto owner = only_owner(options, file)) {
+      found.push_back(std::string(file) + ": only in the " + *owner + " run");
+    }
+  }
+  compare_owners_of_recordings(options, found, notes);
   if (difference) {
     console.out << "first difference at step " << difference->step << " (" << difference->time_s << " s):\n";
     for (const std::string& field : difference->fields) console.out << "  " << field << '\n';
   }
-  // Options decide how much is recorded, so recordings of two identical runs may differ.
   std::vector<std::string> said;
-  const auto recorded = only_owner(options, run_folder::kRecording);
-  if (!recorded) compare_recordings(options, said);
+  compare_recordings(options, said);
   if (difference) found.insert(found.begin(), said.begin(), said.end());
   if (difference && !found.empty()) console.out << "besides:\n";
   if (!difference && !found.empty()) console.out << "the digests are the same, but not what else the runs left:\n";
   for (const std::string& one : found) console.out << "  " << one << '\n';
   if (!difference && found.empty()) console.out << "the runs are the same\n";
-  if (recorded) console.out << "not compared: recording.mcap, which only the " << *recorded << " run has\n";
+  for (const std::string& note : notes) console.out << note << '\n';
   console.out << std::flush;
   return difference || !found.empty() ? kExitCheckFailed : kExitDone;
 }

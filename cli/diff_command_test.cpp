@@ -39,10 +39,15 @@ class DiffCommand : public ::testing::Test {
   std::ostringstream out_;
 };
 
-TEST_F(DiffCommand, NamesEachTableThatOnlyOneRunHas) {
+TEST_F(DiffCommand, NamesEachFileThatOnlyOneRunHas) {
   EXPECT_EQ(diff(), kExitDone);
   EXPECT_EQ(out_.str(), "the runs are the same\n");
-  for (const char* table : kTables) {
+  std::vector<const char*> files(std::begin(kTables), std::end(kTables));
+  for (const char* file : {"activity.csv", "capture_messages.csv", "scene.json", "tracking.csv"}) {
+    files.push_back(file);
+    for (const std::string run : {"a", "b"}) write(run, file, "");
+  }
+  for (const char* table : files) {
     for (const std::string run : {"a", "b"}) {
       std::filesystem::remove(folder_.path() / run / table);
       EXPECT_EQ(diff(), kExitCheckFailed) << table;
@@ -59,10 +64,39 @@ TEST_F(DiffCommand, ATableThatNeitherRunHasIsNoDifference) {
   EXPECT_EQ(diff(), kExitDone) << out_.str();
 }
 
-TEST_F(DiffCommand, ARunMayHaveNoRecording) {
-  write("b", "recording.mcap", "never read");
-  EXPECT_EQ(diff(), kExitDone);
-  EXPECT_EQ(out_.str(), "the runs are the same\nnot compared: recording.mcap, which only the second run has\n");
+// Whoever compares the folder of a run that has lost its recording with a whole one must learn that something is gone.
+TEST_F(DiffCommand, ARunThatHasLostItsRecordingIsNotTheSame) {
+  for (const std::string run : {"a", "b"}) {
+    const std::string owner = run == "a" ? "first" : "second";
+    write(run, "recording.mcap", "never read");
+    for (const std::string command :
+         {"", "skein run towers", "skein run towers --record=messages", "skein run --no-such",
+          "skein compose towers --record=all", "skein 'run", "skein"}) {
+      for (const std::string one : {"a", "b"}) write(one, "result.json", "{\"command\": \"" + command + "\"}");
+      EXPECT_EQ(diff(), kExitCheckFailed) << command;
+      EXPECT_NE(out_.str().find("  recording.mcap: only in the " + owner + " run\n"), std::string::npos) << out_.str();
+    }
+    for (const std::string one : {"a", "b"}) std::filesystem::remove(folder_.path() / one / "result.json");
+    EXPECT_EQ(diff(), kExitCheckFailed) << "nothing says that it was to record nothing";
+    std::filesystem::remove(folder_.path() / run / "recording.mcap");
+  }
+  EXPECT_EQ(diff(), kExitDone) << "neither has one";
+}
+
+TEST_F(DiffCommand, ARunThatWasToldToRecordNothingHasNoRecording) {
+  for (const std::string run : {"a", "b"}) {
+    const std::string other = run == "a" ? "b" : "a", owner = run == "a" ? "first" : "second";
+    write(run, "recording.mcap", "never read");
+    write(run, "result.json", R"({"command": "skein run towers"})");
+    for (const std::string command :
+         {"run towers --record=none", "run --record --record=none x", "compose --record=none --no-such"}) {
+      write(other, "result.json", R"({"command": "skein )" + command + "\"}");
+      EXPECT_EQ(diff(), kExitDone) << out_.str();
+      EXPECT_EQ(out_.str(), "the runs are the same\nnot compared: recording.mcap, which only the " + owner +
+                                " run has; the other one was told to record nothing\n");
+    }
+    std::filesystem::remove(folder_.path() / run / "recording.mcap");
+  }
 }
 
 }  // namespace

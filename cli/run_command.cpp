@@ -140,8 +140,8 @@ int run_fleet(const RunOptions& given, const Console& console) {
     domains = &own_domains.emplace(options.domain, domain_count(plan));
   }
   const int base_domain = domains != nullptr ? domains->base() : kFirstDomain;
-  const auto dir = results_dir_of(options, plan.scenario.name);  // again: another run may have taken the name meanwhile
-  const ResultsDir out(dir, options.force);
+  const auto out = ResultsDir::take(options, plan.scenario.name);
+  const std::filesystem::path& dir = out->given();
 
   if (options.cores) allow_cores();
   FleetRun run(plan, console.err, console.terminal);
@@ -154,12 +154,12 @@ int run_fleet(const RunOptions& given, const Console& console) {
   warn_of_surroundings(domains, run);
   std::optional<SecureRun> secure;
   if (options.secure) {
-    secure.emplace(plan, base_domain, out.path());
+    secure.emplace(plan, base_domain, out->path());
     warn_of_exposure(plan, placed.get(), run);
   }
-  run.fly(base_domain, out.path(), secure ? secure->folders() : SecureFolders{}, std::move(placed));
+  run.fly(base_domain, out->path(), secure ? secure->folders() : SecureFolders{}, std::move(placed));
 
-  const results::Reports reports = results::read_reports(out.path(), plan.scenario, run.reports());
+  const results::Reports reports = results::read_reports(out->path(), plan.scenario, run.reports());
   const auto collect = [&] {
     std::vector<std::string> warnings;
     if (secure) warnings = secure->collect();
@@ -167,11 +167,11 @@ int run_fleet(const RunOptions& given, const Console& console) {
     return warnings;
   };
   const RunResults results{options, run.facts(), plan.scenario,
-                           reports, out.path(),  [&](const std::string& text) { return out.write_result(text); }};
+                           reports, out->path(), [&](const std::string& text) { return out->write_result(text); }};
   const auto result = write_results(results, dir, collect, console);
   if (!result) return kExitProcessFailed;
   // A user who has interrupted the run does not want to see its replay.
-  if (page && !run.facts().interrupted) page->stay_as_replay(out.path(), options.view, console);
+  if (page && !run.facts().interrupted) page->stay_as_replay(out->path(), options.view, console);
   return exit_code_of(run, *result);
 }
 

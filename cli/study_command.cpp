@@ -44,19 +44,14 @@ constexpr std::size_t kMostPictured = 20;  ///< a study of more scenes gets no p
 constexpr std::size_t kMostWithTables = 5000;
 
 /// A study writes only to a folder of its own, unless --force is given.
-/// @throws InputError when the folder holds files, and no study.
+/// @throws InputError when the folder holds files that are neither of a study nor logs.
 void check_is_of_a_study(const fs::path& out) {
   std::error_code error;  // ignored: ResultsDir reports what cannot be looked at
   if (!fs::is_directory(out, error) || fs::exists(out / kSettings, error)) return;
   if (fs::exists(out / run_folder::kResult, error)) {
     throw InputError(out.string() + " holds a result already, and no study; choose another --out");
   }
-  std::string first;  // the least name, so that the message does not depend on the order in the folder
-  for (fs::directory_iterator entry(out, error), end; !error && entry != end; entry.increment(error)) {
-    const std::string name = entry->path().filename();
-    if (name.starts_with('.') || name == "lost+found") continue;  // of a file system
-    if (first.empty() || name < first) first = name;
-  }
+  const std::string first = foreign_entry(out);
   if (first.empty()) return;
   throw InputError("--out " + out.string() + ": '" + first +
                    "' is there, and is of no study; choose another --out, or write there all the same with --force");
@@ -221,7 +216,7 @@ int merge(const StudyPlan& plan, StudyOutcomes outcomes, const Console& console)
 /// that follows the study holds the folder.
 std::unique_ptr<ResultsDir> results_dir(const fs::path& dir) try {
   return std::make_unique<ResultsDir>(dir, Earlier::keep);
-} catch (const InputError&) {
+} catch (const FolderInUse&) {
   if (std::getenv(kMergeVariable) == nullptr) throw;
   return nullptr;
 }

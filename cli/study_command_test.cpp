@@ -6,6 +6,7 @@
 
 #include "cli/actions.hpp"
 #include "cli/study/flights.hpp"
+#include "cli/sweep/slurm.hpp"
 #include "cli/testing/fake_programs.hpp"
 #include "core/types.hpp"
 #include "process/program.hpp"
@@ -375,16 +376,24 @@ TEST_F(StudyCommand, AFolderOfOtherFilesIsLeftAsItIsUnlessForced) {
   EXPECT_EQ(run(), kExitDone) << "now it is of a study";
 }
 
-TEST_F(StudyCommand, AnEmptyFolderIsTaken) {
+// Slurm opens the log of a job before the job begins; a launcher that was killed has left its reserved space.
+TEST_F(StudyCommand, AnEmptyFolderAndOneWithTheLogOfItsJobAreTaken) {
+  const std::vector<std::string> logs = {"slurm-17.out", "slurm-17_3.out", "job.log", "job.err"};
   std::filesystem::create_directories(*options_.out);
   EXPECT_EQ(run(), kExitDone) << err_.str();
+  options_.out = programs_.dir() / "logs";
+  std::filesystem::create_directories(*options_.out);
+  for (const std::string& log : logs) write_text(*options_.out / log, "mine");
+  write_text(*options_.out / "result.json.tmp-room", "");
+  EXPECT_EQ(run(), kExitDone) << err_.str();
+  for (const std::string& log : logs) EXPECT_EQ(file(log), "mine") << log;
 }
 
-TEST(StudyFlights, DurationsAreReadable) {
-  EXPECT_EQ(duration_text(0.2), "0 s");
-  EXPECT_EQ(duration_text(89.0), "89 s");
-  EXPECT_EQ(duration_text(600.0), "10 min");
-  EXPECT_EQ(duration_text(12000.0), "3 h 20 min");
+TEST_F(StudyCommand, TheJobThatMergesSaysSoIfItCannot) {
+  write_text(*options_.out, "a file");
+  ::setenv(kMergeVariable, "1", 1);
+  EXPECT_NE(refusal().find("is no folder"), std::string::npos) << out_.str();
+  ::unsetenv(kMergeVariable);
 }
 
 }  // namespace

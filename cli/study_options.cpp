@@ -1,10 +1,10 @@
 // The command lines of studies, and the options for flying them beyond one process.
 #include <CLI/CLI.hpp>
+#include <charconv>
 
 #include "cli/option_checks.hpp"
 #include "cli/tool_options.hpp"
 #include "core/text/number_checks.hpp"
-#include "core/text/text.hpp"
 #include "core/types.hpp"
 
 namespace skein::cli {
@@ -38,9 +38,12 @@ void check_sweep(const SweepOptions& sweep) {
 }
 
 UnitOptions unit_options(const std::vector<std::string>& words) {
-  const auto number = words.size() == 2 ? parse_number(words[1]) : std::nullopt;
-  if (!number || *number < 0.0) throw InputError("--unit is for engines: --unit STUDY N");
-  return {words[0], static_cast<std::size_t>(*number)};
+  std::size_t unit = 0;
+  const std::string number = words.size() == 2 ? words[1] : "";
+  const char* const end = number.data() + number.size();
+  const auto read = std::from_chars(number.data(), end, unit);
+  if (read.ec != std::errc() || read.ptr != end) throw InputError("--unit is for engines: --unit STUDY N");
+  return {words[0], unit};
 }
 
 void add_pack(CLI::App& app, PackOptions& pack) {

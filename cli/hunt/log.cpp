@@ -1,10 +1,11 @@
 #include "cli/hunt/log.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include "core/types.hpp"
 #include "process/files/atomic_file.hpp"
-#include "process/files/closed_to_agents.hpp"
+#include "results/run_folder.hpp"
 
 namespace skein::cli {
 namespace {
@@ -15,6 +16,8 @@ constexpr const char* kSettingsFile = "hunt.json";
 constexpr const char* kLogFile = "log.jsonl";
 constexpr std::size_t kMostCases = 10'000'000;
 constexpr const char* kFindsFolder = "finds";
+/// Files and folders of a hunt that it deletes when it begins anew.
+constexpr std::array kHuntParts = {kLogFile, kFindsFolder, "flights"};
 
 std::string differing_keys(const Json& then, const Json& now) {
   std::string keys;
@@ -22,6 +25,23 @@ std::string differing_keys(const Json& then, const Json& now) {
     if (value_or(then, key.c_str(), nullptr) != value) keys += (keys.empty() ? "" : ", ") + key;
   }
   return keys;
+}
+
+/// @returns `dir`. @throws InputError if it holds files, and no hunt: without `force` any but logs, with it those that
+/// a hunt would overwrite or delete.
+const fs::path& folder_for_hunt(const fs::path& dir, bool force) {
+  std::error_code error;  // ignored: ResultsDir reports what cannot be looked at
+  if (!fs::is_directory(dir, error) || fs::exists(dir / kSettingsFile, error)) return dir;
+  std::vector<std::string> names(kHuntParts.begin(), kHuntParts.end());
+  names.insert(names.end(), {HuntLog::kEarlier, "sweep", run_folder::kPage});
+  for (const std::string& name : names) {
+    if (!fs::exists(fs::symlink_status(dir / name, error))) continue;
+    throw InputError("--out " + dir.string() + ": '" + name + "' is there, and is of no hunt; choose another --out");
+  }
+  const std::string first = force ? "" : foreign_entry(dir);
+  if (first.empty()) return dir;
+  throw InputError("--out " + dir.string() + ": '" + first +
+                   "' is there, and is of no hunt; choose another --out, or write there all the same with --force");
 }
 
 /// A new folder in kEarlier for the finds of an earlier hunt: the first free number.
@@ -41,8 +61,9 @@ std::vector<fs::path> HuntLog::keep_finds(const fs::path& dir) {
   const fs::path kept = kept_folder(dir);
   fs::create_directories(kept);
   fs::rename(dir / kFindsFolder, kept / kFindsFolder);
-  fs::rename(dir / kSettingsFile, kept / kSettingsFile);
   if (fs::exists(dir / kLogFile)) fs::rename(dir / kLogFile, kept / kLogFile);
+  // The original stays until the new settings replace it: a hunt that is killed before must still be known as one.
+  fs::copy_file(dir / kSettingsFile, kept / kSettingsFile);
   for (const auto& entry : fs::directory_iterator(kept / kFindsFolder)) {
     if (entry.path().extension() == ".yaml") capsules.push_back(entry.path());
   }
@@ -50,11 +71,8 @@ std::vector<fs::path> HuntLog::keep_finds(const fs::path& dir) {
   return capsules;
 }
 
-HuntLog::HuntLog(const fs::path& dir, const Json& settings, bool force) : file_(dir / kLogFile) {
-  std::error_code error;
-  fs::create_directories(dir, error);
-  if (error) throw InputError("--out " + dir.string() + ": " + error.message());
-  close_to_agents(dir);
+HuntLog::HuntLog(const fs::path& dir, const Json& settings, bool force)
+    : dir_(folder_for_hunt(dir, force), Earlier::keep), file_(dir / kLogFile) {
   const Json then = read_json(dir / kSettingsFile);
   if (then.is_null() && fs::exists(dir / kSettingsFile) && !force) {
     throw InputError((dir / kSettingsFile).string() +
@@ -64,15 +82,9 @@ HuntLog::HuntLog(const fs::path& dir, const Json& settings, bool force) : file_(
     throw InputError(dir.string() + " holds another hunt, which differs in " + differing_keys(then, settings) +
                      "; choose another --out, or begin anew there with --force");
   }
-  const std::initializer_list<const char*> parts = {kLogFile, kFindsFolder, "flights"};
-  for (const char* part : parts) {
-    if (then.is_null() && !fs::exists(dir / kSettingsFile) && fs::exists(dir / part)) {
-      throw InputError("--out " + dir.string() + ": '" + part + "' is there, and is of no hunt; choose another --out");
-    }
-  }
   if (then.is_null() || force) {
     if (fs::exists(dir / kSettingsFile)) kept_ = keep_finds(dir);
-    for (const char* part : parts) fs::remove_all(dir / part);
+    for (const char* part : kHuntParts) fs::remove_all(dir / part);
     write_file_atomically(dir / kSettingsFile, settings.dump(2) + "\n");
   }
   read_lines();
@@ -113,6 +125,7 @@ void HuntLog::add(std::size_t index, const std::string& flown, TrialOutcome outc
   lines_ << Json{{"case", index}, {"flown", flown}, {"outcome", outcome.to_json()}}.dump(-1, ' ', false,
                                                                                          Json::error_handler_t::replace)
          << std::endl;
+  if (!lines_) throw std::runtime_error(file_.string() + ": cannot be written; the same command goes on from there");
   keep(index, flown, std::move(outcome));
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cli/hunt/trial.hpp"
+#include "cli/run/results_dir.hpp"
 
 namespace skein::cli {
 
@@ -16,11 +17,14 @@ class HuntLog {
   /// Subfolder of a hunt's folder that keeps the finds and logs of earlier hunts there, in numbered folders.
   static constexpr const char* kEarlier = "earlier";
 
-  /// Continues the hunt in `dir` if it has the same settings; begins one if the folder holds none.
+  /// Continues the hunt in `dir` if it has the same settings; begins one if the folder holds none. Locks the folder:
+  /// two hunts never write to the same one. A folder that exists keeps owner and permissions.
   /// @param settings  everything on which the search depends. @param force  begins anew. The finds of the earlier hunt
-  ///   are never deleted: they move into kEarlier, with its log.
-  /// @throws InputError if the folder holds another hunt or cannot be written, or a line of the log is damaged. An
-  ///   incomplete last line, as after a kill, is removed.
+  ///   are never deleted: they move into kEarlier, with its log. Also takes a folder of other files, unless one of them
+  ///   has the name of a file of a hunt.
+  /// @throws InputError if the folder holds another hunt or other files (foreign_entry()), if it cannot be written, or
+  ///   if a line of the log is damaged; FolderInUse if another hunt writes there. An incomplete last line, as after a
+  ///   kill, is removed.
   HuntLog(const std::filesystem::path& dir, const Json& settings, bool force);
 
   /// Capsules of an earlier hunt that the constructor has moved into kEarlier, sorted by name.
@@ -29,6 +33,7 @@ class HuntLog {
   const std::vector<std::optional<TrialOutcome>>& outcomes() const { return outcomes_; }
   /// @param flown  text of the case. @throws InputError if the log has another case with this number.
   void check(std::size_t index, const std::string& flown) const;
+  /// @throws std::runtime_error if the log cannot be written, as on a full disk.
   void add(std::size_t index, const std::string& flown, TrialOutcome outcome);
 
  private:
@@ -36,6 +41,7 @@ class HuntLog {
   static std::vector<std::filesystem::path> keep_finds(const std::filesystem::path& dir);
   void keep(std::size_t index, const std::string& flown, TrialOutcome outcome);
 
+  const ResultsDir dir_;  ///< the folder, locked
   const std::filesystem::path file_;
   std::vector<std::optional<TrialOutcome>> outcomes_;
   std::vector<std::string> flown_;

@@ -2,8 +2,13 @@
 #include "cli/hunt/log.hpp"
 
 #include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <fstream>
 #include <random>
 #include <sstream>
@@ -126,11 +131,13 @@ TEST_F(HuntLogs, BeginningAnewKeepsAndNamesTheFindsOfEveryHuntBefore) {
   find("separation-3");
   find("all_fly_on-17");
   EXPECT_THROW(HuntLog(dir_, other_, false), InputError);
-  const HuntLog second(dir_, other_, true);
-  EXPECT_TRUE(second.outcomes().empty());
-  EXPECT_EQ(second.kept(), (std::vector<fs::path>{dir_ / "earlier/1/finds/all_fly_on-17.yaml",
-                                                  dir_ / "earlier/1/finds/separation-3.yaml"}));
-  EXPECT_EQ(text_in(second.kept().front()), "name: all_fly_on-17\n");
+  {
+    const HuntLog second(dir_, other_, true);
+    EXPECT_TRUE(second.outcomes().empty());
+    ASSERT_EQ(second.kept(), (std::vector<fs::path>{dir_ / "earlier/1/finds/all_fly_on-17.yaml",
+                                                    dir_ / "earlier/1/finds/separation-3.yaml"}));
+    EXPECT_EQ(text_in(second.kept().front()), "name: all_fly_on-17\n");
+  }
   EXPECT_TRUE(fs::is_directory(dir_ / "earlier/1/finds/separation-3")) << "the results folder of the find";
   EXPECT_NE(text_in(dir_ / "earlier/1/log.jsonl").find("\"first\""), std::string::npos);
   EXPECT_EQ(parse_json(text_in(dir_ / "earlier/1/hunt.json")), one_);
@@ -139,8 +146,83 @@ TEST_F(HuntLogs, BeginningAnewKeepsAndNamesTheFindsOfEveryHuntBefore) {
   const HuntLog third(dir_, other_, true);
   EXPECT_EQ(third.kept(), std::vector<fs::path>{dir_ / "earlier/2/finds/separation-3.yaml"})
       << "the same settings, too";
-  EXPECT_EQ(second.kept().size(), 2U);
   EXPECT_TRUE(fs::exists(dir_ / "earlier/1/finds/separation-3.yaml"));
+}
+
+TEST_F(HuntLogs, TakeNoFolderOfOtherFilesAndChangeNothingThere) {
+  fs::permissions(dir_, fs::perms(0755));
+  struct stat before {
+  }, after{};
+  ASSERT_EQ(::stat(dir_.c_str(), &before), 0);
+  const auto refusal = [&](bool force) -> std::string {
+    try {
+      HuntLog(dir_, one_, force);
+      return "";
+    } catch (const InputError& error) {
+      return error.what();
+    }
+  };
+  // The reports of a run and of a study have the name of a hunt's; a study with --executor has a folder `sweep`, too.
+  for (const std::string name : {"report.html", "log.jsonl", "finds", "flights", "earlier", "sweep"}) {
+    write_text(dir_ / name, "mine");
+    for (const bool force : {false, true}) {
+      EXPECT_NE(refusal(force).find("'" + name + "' is there, and is of no hunt"), std::string::npos) << name;
+      EXPECT_EQ(read_text(dir_ / name), "mine");
+    }
+    fs::remove(dir_ / name);
+  }
+  for (const std::string name : {"result.json", "notes.txt", "study.json"}) {
+    write_text(dir_ / name, "mine");
+    EXPECT_NE(refusal(false).find("'" + name + "' is there, and is of no hunt"), std::string::npos) << refusal(false);
+    EXPECT_NE(refusal(false).find("--force"), std::string::npos) << refusal(false);
+    EXPECT_EQ(std::distance(fs::directory_iterator(dir_), {}), 1) << "nothing is written";
+    EXPECT_EQ(refusal(true), "");
+    EXPECT_EQ(read_text(dir_ / name), "mine");
+    fs::remove_all(dir_);
+    fs::create_directory(dir_);
+    ASSERT_EQ(::chmod(dir_.c_str(), 0755), 0);
+  }
+  write_text(dir_ / "slurm-17.out", "of the job that hunts");
+  EXPECT_EQ(refusal(false), "");
+  ASSERT_EQ(::stat(dir_.c_str(), &after), 0);
+  EXPECT_EQ(after.st_mode, before.st_mode) << "a folder that the user made stays as open as it is";
+  EXPECT_EQ(after.st_gid, before.st_gid);
+}
+
+TEST_F(HuntLogs, NeverShareAFolder) {
+  HuntLog first(dir_, one_, false);
+  first.add(0, "first", {.digest = "ab"});
+  for (const bool force : {false, true}) {
+    EXPECT_THROW(HuntLog(dir_, one_, force), FolderInUse);
+    EXPECT_THROW(HuntLog(dir_, other_, force), FolderInUse);
+  }
+  first.add(1, "second", {.digest = "cd"});
+  EXPECT_EQ(first.outcomes().size(), 2U);
+  EXPECT_EQ(std::ranges::count(read_text(dir_ / "log.jsonl"), '\n'), 2);
+}
+
+// Otherwise the hunt would go on for hours, and the same command would fly all of it again.
+TEST_F(HuntLogs, ALogThatCannotBeWrittenEndsTheHunt) {
+  const pid_t child = ::fork();
+  if (child == 0) {
+    ::signal(SIGXFSZ, SIG_IGN);
+    HuntLog log(dir_, one_, false);
+    log.add(0, "first", {.digest = "ab"});
+    const rlim_t most = fs::file_size(dir_ / "log.jsonl") + 10;
+    const rlimit limit{most, most};
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+    int code = 1;
+    try {
+      log.add(1, "second", {.digest = "cd"});
+    } catch (const std::runtime_error& error) {
+      code = std::string(error.what()).find("log.jsonl: cannot be written") != std::string::npos ? 0 : 2;
+    }
+    ::_exit(code);
+  }
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  EXPECT_EQ(status, 0);
+  EXPECT_EQ(HuntLog(dir_, one_, false).outcomes().size(), 1U) << "the incomplete line goes";
 }
 
 TEST_F(HuntLogs, ThatGoOnKeepFindsWhereTheyAre) {

@@ -2,9 +2,11 @@
 
 #include <fcntl.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <thread>
 
 #include "cli/planner_spec.hpp"
 #include "core/types.hpp"
@@ -73,7 +75,8 @@ void check_nothing_in_the_way(const std::filesystem::path& dir) {
   if (!first.empty()) refuse("'" + first + "', a name that a run uses for files of its own", "delete");
 }
 
-/// Whether a run holds the lock of this folder now.
+/// Whether a run holds the lock of this folder now. To find out, this function takes the lock for a moment, shared:
+/// take_lock() does not mistake that for a run.
 bool is_held(const std::filesystem::path& dir) {
   const int folder = ::open(dir.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (folder < 0) return false;
@@ -82,8 +85,48 @@ bool is_held(const std::filesystem::path& dir) {
   return held;
 }
 
+/// Takes the lock of an open folder for a run. @returns 0, or the reason: EWOULDBLOCK if another run holds it.
+int take_lock(int folder) {
+  // A shared lock can be had beside the momentary ones of is_held(), but not beside that of a run. Each try takes about
+  // a microsecond, so all of them last longer than is_held() does even when it is preempted.
+  constexpr int kMostTries = 100'000;
+  for (int i = 0; i < kMostTries; ++i) {
+    if (::flock(folder, LOCK_EX | LOCK_NB) == 0) return 0;
+    if (errno != EWOULDBLOCK || ::flock(folder, LOCK_SH | LOCK_NB) != 0) return errno;
+    ::flock(folder, LOCK_UN);
+    std::this_thread::yield();
+  }
+  return EWOULDBLOCK;
+}
+
 [[noreturn]] void tell_of_another_run(const std::filesystem::path& dir) {
-  throw InputError(dir.string() + ": another run is writing there; choose another --out");
+  throw FolderInUse(dir.string() + ": another run is writing there; choose another --out");
+}
+
+/// Whether a run may take this name if the user names no folder: nothing is there, or an empty folder.
+bool is_free(const std::filesystem::path& dir) {
+  std::error_code error;  // ignored: ResultsDir reports what cannot be read
+  const auto kind = std::filesystem::symlink_status(dir, error).type();
+  if (kind == std::filesystem::file_type::none || kind == std::filesystem::file_type::not_found) return true;
+  return kind == std::filesystem::file_type::directory && std::filesystem::is_empty(dir, error) && !error;
+}
+
+/// `base`, `base`-2, `base`-3, ...
+std::filesystem::path numbered_dir(const std::filesystem::path& base, int number) {
+  return number == 1 ? base : std::filesystem::path(base.string() + "-" + std::to_string(number));
+}
+
+/// Whether a file is a log, which nobody's results depend on.
+bool is_log(const std::filesystem::path& file) {
+  struct stat entry {};
+  if (::lstat(file.c_str(), &entry) != 0 || !S_ISREG(entry.st_mode)) return false;
+  const auto is_printed_to = [&](int fd) {
+    struct stat printed {};
+    return ::fstat(fd, &printed) == 0 && printed.st_dev == entry.st_dev && printed.st_ino == entry.st_ino;
+  };
+  const std::filesystem::path extension = file.extension();
+  return extension == ".log" || extension == ".out" || extension == ".err" || is_printed_to(STDOUT_FILENO) ||
+         is_printed_to(STDERR_FILENO);
 }
 
 }  // namespace
@@ -95,15 +138,9 @@ std::filesystem::path default_results_dir(const std::string& scenario, const std
 }
 
 std::filesystem::path free_results_dir(const std::filesystem::path& base) {
-  const auto is_free = [](const std::filesystem::path& dir) {
-    std::error_code error;  // ignored: ResultsDir reports what cannot be read
-    const auto kind = std::filesystem::symlink_status(dir, error).type();
-    if (kind == std::filesystem::file_type::none || kind == std::filesystem::file_type::not_found) return true;
-    return kind == std::filesystem::file_type::directory && std::filesystem::is_empty(dir, error) && !error;
-  };
-  std::filesystem::path dir = base;
-  for (int number = 2; !is_free(dir); ++number) dir = base.string() + "-" + std::to_string(number);
-  return dir;
+  int number = 1;
+  while (!is_free(numbered_dir(base, number))) ++number;
+  return numbered_dir(base, number);
 }
 
 std::filesystem::path results_dir_of(const RunOptions& run, const std::string& scenario) {
@@ -120,6 +157,17 @@ std::error_code make_results_folder(const std::filesystem::path& dir) {
   return error;
 }
 
+std::string foreign_entry(const std::filesystem::path& dir) {
+  std::string first;  // the least name, so that messages do not depend on the order in the folder
+  std::error_code error;
+  for (std::filesystem::directory_iterator entry(dir, error), end; !error && entry != end; entry.increment(error)) {
+    const std::string name = entry->path().filename();
+    if (name.starts_with('.') || name == "lost+found" || name == kRoom || is_log(entry->path())) continue;
+    if (first.empty() || name < first) first = name;
+  }
+  return first;
+}
+
 void ResultsDir::check(const std::filesystem::path& dir, bool force) {
   check_kind(dir);
   if (force) return;
@@ -131,16 +179,20 @@ void ResultsDir::check(const std::filesystem::path& dir, bool force) {
   }
 }
 
-ResultsDir::ResultsDir(const std::filesystem::path& dir, Earlier earlier) : path_(std::filesystem::absolute(dir)) {
+ResultsDir::ResultsDir(const std::filesystem::path& dir, Earlier earlier)
+    : given_(dir), path_(std::filesystem::absolute(dir)) {
   check_kind(dir);
   const std::error_code error = make_results_folder(path_);
   if (!error) lock_ = ::open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (error || lock_ < 0 || ::access(path_.c_str(), W_OK) != 0) {
+    if (lock_ >= 0) ::close(lock_);
     throw InputError("--out " + dir.string() + ": cannot be written to");
   }
-  if (::flock(lock_, LOCK_EX | LOCK_NB) != 0) {
+  if (const int reason = take_lock(lock_); reason != 0) {
     ::close(lock_);
-    tell_of_another_run(dir);
+    if (reason == EWOULDBLOCK) tell_of_another_run(dir);
+    throw InputError("--out " + dir.string() + ": cannot be locked (" + std::generic_category().message(reason) +
+                     "); choose another folder");
   }
   try {
     if (earlier == Earlier::refuse) check_nothing_in_the_way(dir);
@@ -149,6 +201,18 @@ ResultsDir::ResultsDir(const std::filesystem::path& dir, Earlier earlier) : path
   } catch (...) {
     ::close(lock_);
     throw;
+  }
+}
+
+std::unique_ptr<ResultsDir> ResultsDir::take(const RunOptions& run, const std::string& scenario) {
+  if (run.out || run.force) return std::make_unique<ResultsDir>(results_dir_of(run, scenario), run.force);
+  const std::filesystem::path usual = default_results_dir(scenario, run.planner, run.seed);
+  for (int number = 1;; ++number) {
+    if (!is_free(numbered_dir(usual, number))) continue;
+    try {
+      return std::make_unique<ResultsDir>(numbered_dir(usual, number), false);
+    } catch (const FolderInUse&) {  // another run has taken it just now
+    }
   }
 }
 

@@ -3,11 +3,13 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <system_error>
 
 #include "cli/command.hpp"
+#include "core/types.hpp"
 
 namespace skein::cli {
 
@@ -26,11 +28,23 @@ std::filesystem::path results_dir_of(const RunOptions& run, const std::string& s
 /// @returns an error; none: the folder is there.
 std::error_code make_results_folder(const std::filesystem::path& dir);
 
+/// An entry that keeps a study or a hunt from taking an existing folder as a new folder of its own: the first by name.
+/// Not counted are hidden files and lost+found, what a launcher that was killed has left of its reserved space, and
+/// logs: files with the extension .log, .out or .err, and the file that this process prints to, as a job of Slurm does.
+/// @returns its name; empty: there is none, no such folder, or a folder that cannot be read, as ResultsDir will report.
+std::string foreign_entry(const std::filesystem::path& dir);
+
 /// What becomes of files with names of a run's files (run_folder::is_of_a_run()) that are in a results folder already.
 enum class Earlier {
   refuse,  ///< the folder is not taken: the files may be anybody's
   remove,  ///< they are deleted, so that a stale report does not pass for one of this run (--force)
   keep,    ///< they stay: a study's folder
+};
+
+/// Another launcher holds the folder now.
+class FolderInUse : public InputError {
+ public:
+  using InputError::InputError;
 };
 
 /// Holds a results folder for one run: two launchers never write to the same one.
@@ -43,7 +57,8 @@ class ResultsDir {
 
   /// Checks and locks the folder, creates it if it is missing (make_results_folder()), and deletes an earlier run's
   /// files if `earlier` says so. Other files stay.
-  /// @throws InputError as check(), and if another run is writing there or the disk has no room for a result.
+  /// @throws InputError as check(), and if the disk has no room for a result; FolderInUse if another run is writing
+  ///   there.
   ResultsDir(const std::filesystem::path& dir, Earlier earlier);
   ResultsDir(const std::filesystem::path& dir, bool force)
       : ResultsDir(dir, force ? Earlier::remove : Earlier::refuse) {}
@@ -51,7 +66,12 @@ class ResultsDir {
   ResultsDir(const ResultsDir&) = delete;
   ResultsDir& operator=(const ResultsDir&) = delete;
 
-  const std::filesystem::path& path() const { return path_; }  ///< absolute
+  /// The folder of results_dir_of(), locked. If the user names no folder, and other runs take free ones at the same
+  /// time, this is the first one that they leave. @throws as the constructor
+  static std::unique_ptr<ResultsDir> take(const RunOptions& run, const std::string& scenario);
+
+  const std::filesystem::path& path() const { return path_; }    ///< absolute
+  const std::filesystem::path& given() const { return given_; }  ///< as the constructor got it, for messages
 
   /// Writes result.json into disk space that the constructor has reserved: a run that fills the disk has a result, too.
   /// @returns an error message; empty: the file is written.
@@ -61,7 +81,7 @@ class ResultsDir {
   void keep_room() const;
   void give_room() const;
 
-  std::filesystem::path path_;
+  std::filesystem::path given_, path_;
   int lock_ = -1;
 };
 

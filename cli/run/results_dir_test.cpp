@@ -1,5 +1,6 @@
 #include "cli/run/results_dir.hpp"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/resource.h>
@@ -7,7 +8,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <functional>
+#include <thread>
 
 #include "cli/testing/fake_programs.hpp"
 #include "core/types.hpp"
@@ -136,6 +139,84 @@ TEST(ResultsDir, TwoRunsNeverShareAFolder) {
     }
   }
   const ResultsDir second(scratch.path(), false);
+}
+
+// A command that only asks whether a run writes to a folder takes the folder's lock for a moment. This must not keep
+// another command from taking the folder.
+TEST(ResultsDir, AQuestionWhetherAFolderIsInUseKeepsNobodyOut) {
+  const OutDir scratch;
+  write_text(scratch.path() / "result.json", "{}");
+  std::atomic<bool> over = false;
+  std::size_t asked = 0;
+  std::thread asking([&] {
+    while (!over) {
+      try {
+        ResultsDir::check(scratch.path(), false);
+      } catch (const InputError&) {  // there is a result, or the folder is in use
+        ++asked;
+      }
+    }
+  });
+  int refused = 0;
+  for (int i = 0; i < 2000; ++i) {
+    try {
+      const ResultsDir dir(scratch.path(), Earlier::keep);
+    } catch (const FolderInUse&) {
+      ++refused;
+    }
+  }
+  over = true;
+  asking.join();
+  EXPECT_EQ(refused, 0);
+  EXPECT_GT(asked, 0U);
+}
+
+TEST(ResultsDir, RunsWithoutAFolderOfTheirsThatBeginAtOnceAllGetOne) {
+  const OutDir scratch;
+  const fs::path before = fs::current_path();
+  fs::current_path(scratch.path());
+  const RunOptions run;
+  const auto first = ResultsDir::take(run, "towers");
+  fs::remove(first->path() / "result.json.tmp-room");  // as if it had only just locked the folder
+  const auto second = ResultsDir::take(run, "towers");
+  EXPECT_EQ(second->given(), first->given().string() + "-2");
+  RunOptions forced, named;
+  forced.force = true;
+  named.out = first->given();
+  EXPECT_THROW(ResultsDir::take(forced, "towers"), FolderInUse);
+  EXPECT_THROW(ResultsDir::take(named, "towers"), FolderInUse);
+  fs::current_path(before);
+}
+
+TEST(ResultsDir, LogsAndWhatAFileSystemHasAreNoForeignEntries) {
+  const OutDir scratch;
+  EXPECT_EQ(foreign_entry(scratch.path()), "");
+  EXPECT_EQ(foreign_entry(scratch.path() / "none"), "");
+  for (const char* name : {"slurm-17.out", "job.log", "job.err", ".hidden", "result.json.tmp-room"}) {
+    write_text(scratch.path() / name, "x");
+  }
+  fs::create_directory(scratch.path() / "lost+found");
+  EXPECT_EQ(foreign_entry(scratch.path()), "");
+  fs::create_directory(scratch.path() / "log.log");
+  EXPECT_EQ(foreign_entry(scratch.path()), "log.log") << "a folder is no log";
+  write_text(scratch.path() / "a.json", "x");
+  EXPECT_EQ(foreign_entry(scratch.path()), "a.json");
+  fs::remove(scratch.path() / "a.json");
+  fs::remove(scratch.path() / "log.log");
+
+  const fs::path printed = scratch.path() / "output of job 17";
+  write_text(printed, "");
+  EXPECT_EQ(foreign_entry(scratch.path()), printed.filename());
+  for (const int fd : {STDOUT_FILENO, STDERR_FILENO}) {
+    const pid_t child = ::fork();
+    if (child == 0) {
+      ::dup2(::open(printed.c_str(), O_WRONLY | O_APPEND), fd);
+      ::_exit(foreign_entry(scratch.path()).empty() ? 0 : 1);
+    }
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    EXPECT_EQ(status, 0) << fd;
+  }
 }
 
 TEST(ResultsDir, AFileIsNoFolder) {

@@ -1,9 +1,8 @@
 #include "cli/study/spec.hpp"
 
 #include <algorithm>
-#include <cstring>
+#include <charconv>
 #include <filesystem>
-#include <limits>
 #include <set>
 
 #include "cli/planner_spec.hpp"
@@ -19,14 +18,18 @@ constexpr std::size_t kMostSeeds = 1000;
 
 /// @throws InputError that quotes the whole text.
 std::uint64_t whole_number(const std::string& digits, const std::string& text) {
-  constexpr std::size_t kMostDigits = std::numeric_limits<std::uint64_t>::digits10;
-  const bool fits =
-      !digits.empty() && digits.size() <= kMostDigits && digits.find_first_not_of("0123456789") == std::string::npos;
-  if (!fits) {
+  std::uint64_t number = 0;
+  const char* const end = digits.data() + digits.size();
+  const auto read = std::from_chars(digits.data(), end, number);
+  if (read.ec != std::errc() || read.ptr != end) {
     throw InputError(text + ": '" + digits +
                      "' is no seed; write one (5), a list (3,5,8) or a range (0-4 for five of them)");
   }
-  return std::stoull(digits);
+  // As for --seed and all other whole numbers (refuse_leading_zeros()).
+  if (digits.size() > 1 && digits.front() == '0') {
+    throw InputError(text + ": '" + digits + "' must be a whole number in decimal digits, without a zero before it");
+  }
+  return number;
 }
 
 void append_range(std::uint64_t first, std::uint64_t last, const std::string& text, std::vector<std::uint64_t>& seeds) {
@@ -34,7 +37,7 @@ void append_range(std::uint64_t first, std::uint64_t last, const std::string& te
   if (last - first >= kMostSeeds - seeds.size()) {
     throw InputError(text + ": more than " + std::to_string(kMostSeeds) + " seeds");
   }
-  for (std::uint64_t seed = first; seed <= last; ++seed) seeds.push_back(seed);
+  for (std::uint64_t i = 0; i <= last - first; ++i) seeds.push_back(first + i);  // `last` may be the greatest seed
 }
 
 /// "a/agent" are the last two names of "/teams/a/agent".

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "cli/study/flights.hpp"
 #include "core/types.hpp"
 
 namespace skein::cli {
@@ -53,12 +54,31 @@ TEST(StudySpec, SeedsAreAListAndANumberIsOneOfThem) {
   EXPECT_EQ(parse_seeds("7-7"), Seeds{7});
   EXPECT_EQ(parse_seeds("0,4-6"), (Seeds{0, 4, 5, 6}));
   EXPECT_EQ(parse_seeds("0-999").size(), 1000u);
+  EXPECT_EQ(parse_seeds("18446744073709551615"), Seeds{18446744073709551615U}) << "as for --seed";
+  EXPECT_EQ(parse_seeds("18446744073709551613-18446744073709551615").size(), 3u);
 }
 
 TEST(StudySpec, WhatIsNoSeedIsRefused) {
   for (const char* text : {"", "x", "-1", "1-", "-", "5-1", "1.5", "3,3", "1-4,2", "1,,2", "0-1000", "1--2",
-                           "99999999999999999999999", "0-18446744073709551615"}) {
+                           "99999999999999999999999", "0-18446744073709551615", "18446744073709551616", "+1", " 1"}) {
     EXPECT_THROW(parse_seeds(text), InputError) << text;
+  }
+}
+
+// `--seed 010` is refused, too: many programs read it as 8.
+TEST(StudySpec, SeedsHaveNoZerosBeforeThem) {
+  for (const std::string text : {"010", "00", "1,02", "01-3", "1-03", "0,1,2-010"}) {
+    for (const std::string option : {"--seeds", "--scene-seeds"}) {
+      try {
+        parse_seeds(text, option);
+        ADD_FAILURE() << "accepted: " << text;
+      } catch (const InputError& error) {
+        const std::string said = error.what();
+        EXPECT_EQ(said.find(option + " " + text + ": '"), 0U) << said;
+        EXPECT_NE(said.find("' must be a whole number in decimal digits, without a zero before it"), std::string::npos)
+            << said;
+      }
+    }
   }
 }
 
@@ -85,6 +105,13 @@ TEST(StudySpec, FoldersAreDistinctAndSafe) {
     EXPECT_EQ(names[i].find('/'), std::string::npos);
     EXPECT_EQ(std::count(names.begin(), names.end(), names[i]), 1) << names[i];
   }
+}
+
+TEST(StudyFlights, DurationsAreReadable) {
+  EXPECT_EQ(duration_text(0.2), "0 s");
+  EXPECT_EQ(duration_text(89.0), "89 s");
+  EXPECT_EQ(duration_text(600.0), "10 min");
+  EXPECT_EQ(duration_text(12000.0), "3 h 20 min");
 }
 
 }  // namespace

@@ -47,15 +47,16 @@ bool is_checked(std::size_t index, std::size_t flights) {
 void SweepController::plan(const SweepPlan& plan, bool anew) {
   const std::string digest = digest_of(plan);
   const auto former = folder_.settings();
-  if (former && former->plan == digest) {
+  if (former && former->plan == digest && former->sizes.flights == plan.flights) {
     settings_ = *former;
     if (settings_.command != plan.command || settings_.working_folder != plan.working_folder) {
       settings_.command = plan.command;
       settings_.working_folder = plan.working_folder;
       folder_.write_settings(settings_);
     }
+    mend_units(plan);
+    reopen_what_must_fly(anew);
     if (!anew) return;
-    reopen_what_must_fly(plan);
     folder_.write_tries({});
     folder_.forget_sick();
     return;
@@ -84,13 +85,8 @@ void SweepController::begin(const SweepPlan& plan, const std::string& digest_of_
   }
   settings_.sizes = plan.unit_sizes(settings_.reference_s);
   folder_.forget_sick();
-  folder_.begin(settings_, proved, [&](std::size_t number) {
-    SweepUnit unit;
-    const std::size_t end = settings_.sizes.first(number + 1);
-    for (std::size_t i = settings_.sizes.first(number); i < end; ++i) unit.flights.push_back(plan.flight(i));
-    return unit;
-  });
-  for (std::size_t number = 0; number < settings_.units(); ++number) close_what_is_flown(number);
+  folder_.begin(settings_, proved, [&](std::size_t number) { return planned_unit(plan, number); });
+  for (std::size_t number = 0; number < settings_.units(); ++number) close_what_is_flown(number, &say_);
 }
 
 /// Tries the candidates in order, so that a planner that always fails does not prevent the sweep.
@@ -106,30 +102,6 @@ void SweepController::fly_a_reference(const SweepPlan& plan) {
     settings_.reference = flight;
     settings_.reference_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
     return;
-  }
-}
-
-/// Marks a unit as over if all its flights have results already, from a study flown without a sweep or only in part.
-void SweepController::close_what_is_flown(std::size_t unit) const {
-  std::vector<SweepRow> rows;
-  for (const SweepFlight& flight : folder_.unit(unit).flights) {
-    auto row = row_in_place(folder_, flight, here_, &say_);
-    if (!row) return;
-    rows.push_back(std::move(*row));
-  }
-  folder_.write_done(settings_.token, unit, rows);
-}
-
-/// Reopens units with failed flights, or with flights whose results somebody has removed.
-void SweepController::reopen_what_must_fly(const SweepPlan& plan) const {
-  for (const std::size_t unit : folder_.done(settings_.token)) {
-    const auto rows = folder_.rows(settings_.token, unit);
-    if (unit >= settings_.units()) continue;
-    const bool whole = rows && std::ranges::all_of(*rows, [&](const SweepRow& row) {
-                         return row.problem.empty() && row.index < plan.flights &&
-                                fs::exists(plan.flight(row.index).dir / run_folder::kResult);
-                       });
-    if (!whole) folder_.reopen(settings_.token, unit);
   }
 }
 

@@ -40,7 +40,8 @@ class SweepController {
   SweepController(SweepFolder& folder, SweepEngine& engine, const SweepNode& here, std::ostream& say)
       : folder_(folder), engine_(engine), here_(here), say_(say) {}
 
-  /// Begins the sweep; if the folder already holds the same one, continues it.
+  /// Begins the sweep; if the folder already holds the same one, continues it: reads the results of finished units
+  /// again, and opens the units that have lost one.
   /// @param anew  the user started this: failed units get all their tries again
   void plan(const SweepPlan& plan, bool anew = true);
   /// Reads the settings of an existing sweep, to report on it. @throws InputError if the folder holds none.
@@ -49,7 +50,10 @@ class SweepController {
   /// for the engine (--detach).
   bool fly();
 
-  /// Calls `take` with the result of each flight that is over, in no particular order.
+  /// Flights of finished units whose results are missing or damaged, by index, each with what is wrong. Reads the
+  /// results of all finished units.
+  std::map<std::size_t, std::string> lost() const;
+  /// Calls `take` with the result of each flight that is over, in no particular order. Believes finished units.
   void collect(const std::function<void(SweepRow row)>& take) const;
 
   const SweepSettings& settings() const { return settings_; }
@@ -61,8 +65,10 @@ class SweepController {
  private:
   void begin(const SweepPlan& plan, const std::string& digest_of_plan);
   void fly_a_reference(const SweepPlan& plan);
-  void close_what_is_flown(std::size_t unit) const;
-  void reopen_what_must_fly(const SweepPlan& plan) const;
+  SweepUnit planned_unit(const SweepPlan& plan, std::size_t number) const;
+  void close_what_is_flown(std::size_t unit, std::ostream* say) const;
+  void mend_units(const SweepPlan& plan) const;
+  void reopen_what_must_fly(bool failed_too) const;
   std::set<std::string> nodes_to_avoid() const;
   std::vector<std::size_t> open_units() const;
   std::vector<std::size_t> within_tries(const std::vector<std::size_t>& units) const;

@@ -4,6 +4,7 @@
 #include "cli/sweep/controller.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 
@@ -251,6 +252,74 @@ TEST(SweepController, AFlightThatSomebodyRemovedIsFlownAgain) {
   fs::remove_all(sweep.world.flight(5).dir);
   ASSERT_TRUE(sweep.control());
   sweep.expect_all(8);
+}
+
+ino_t inode(const fs::path& file) {
+  struct stat status {};
+  return ::stat(file.c_str(), &status) == 0 ? status.st_ino : 0;
+}
+
+/// What may happen to a finished unit while nobody flies. @returns the damaged file of the flight, which must be named;
+/// empty: only files of the sweep were damaged, and nothing need be flown again.
+fs::path damage(const Sweep& sweep, std::size_t index, std::size_t kind) {
+  const SweepFolder folder(sweep.world.study());
+  const SweepSettings settings = folder.settings().value();
+  const std::string unit = folder.log_of(settings.sizes.unit_of(index)).stem().string() + ".json";
+  const fs::path dir = sweep.world.flight(index).dir, result = dir / run_folder::kResult;
+  const auto write = [](const fs::path& file, const std::string& text) { std::ofstream(file) << text; };
+  std::string text = results::result_text(read_json(result));
+  switch (kind) {
+    case 0:
+      return fs::remove(result) ? dir : fs::path();
+    case 1:
+      write(result, text.substr(0, text.size() / 2));
+      return result;
+    case 2:
+      write(result, text.replace(text.find("build 1"), 7, "build 7"));
+      return result;
+    case 3:
+      return fs::remove(dir / kFlightMark) ? dir : fs::path();
+    case 4:
+      write(folder.dir() / "done" / settings.token / unit, "{\"flights\": [{\"ind");
+      return {};
+    case 5:
+      write(folder.dir() / "done" / settings.token / unit, "{}");
+      return {};
+    default:
+      write(folder.dir() / "units" / unit, "{\"flights\": []}");
+      return {};
+  }
+}
+
+// A finished unit has recorded the results of its flights, but a study must not count results that are gone.
+TEST(SweepController, FinishedUnitsAreReadAgainAndWhatIsDamagedIsFlownAgain) {
+  for (std::uint64_t order = 1; order <= 70; ++order) {
+    SCOPED_TRACE("order " + std::to_string(order));
+    RandomStream draw(order, "damage", 0);
+    const auto flights = 1 + static_cast<std::size_t>(9.0 * draw.uniform());
+    Sweep sweep(order, flights, 1 + static_cast<std::size_t>(4.0 * draw.uniform()), {{"one"}, {"two"}});
+    ASSERT_TRUE(sweep.control());
+    const auto index = std::min(static_cast<std::size_t>(draw.uniform() * static_cast<double>(flights)), flights - 1);
+    const fs::path named = damage(sweep, index, order % 7);
+    {
+      SweepFolder folder(sweep.world.study());
+      const SweepNode node = sweep.world.node(sweep.here, [] {});
+      SweepController status(folder, sweep.engine, node, sweep.said);
+      status.look();
+      EXPECT_EQ(status.lost().contains(index), !named.empty());
+    }
+    std::map<std::size_t, ino_t> before;  // a flight that is flown again has a new folder
+    for (std::size_t i = 0; i < flights; ++i) before[i] = inode(sweep.world.flight(i).dir);
+    ASSERT_TRUE(sweep.control());
+    sweep.expect_all(flights);
+    EXPECT_EQ(sweep.said.str().find("flown again") != std::string::npos, !named.empty()) << sweep.said.str();
+    EXPECT_NE(sweep.said.str().find(named.string()), std::string::npos) << sweep.said.str();
+    for (std::size_t i = 0; i < flights; ++i) {
+      const bool again = inode(sweep.world.flight(i).dir) != before[i];
+      EXPECT_EQ(again, i == index && !named.empty()) << i;
+    }
+    if (::testing::Test::HasFailure()) return;
+  }
 }
 
 TEST(SweepController, AResultWithAWrongChecksumIsNamedAndCountsAsNone) {

@@ -87,11 +87,13 @@ Json to_json(const SweepFlight& flight) {
           {"made_under", flight.made_under}};
 }
 
-SweepFlight sweep_flight_of(const Json& json) {
+SweepFlight sweep_flight_of(const Json& json, const fs::path& file) {
   SweepFlight flight{number_in(json, "index"), text_in(json, "dir"), texts_in(json, "arguments"),
                      value_or(json, "made_under", nullptr)};
-  if (flight.dir.empty() || flight.arguments.empty())
-    throw InputError("a flight of the sweep is damaged: " + json.dump());
+  if (flight.dir.empty() || flight.arguments.empty()) {
+    throw InputError(file.string() + ": damaged: " + json.dump() +
+                     " is no flight; delete this file, and the same command goes on with the flights that are there");
+  }
   return flight;
 }
 
@@ -120,7 +122,7 @@ std::optional<SweepSettings> SweepFolder::settings() const {
       texts_in(json, "command"),
       text_in(json, "working_folder"),
       0.0};
-  settings.reference = sweep_flight_of(value_or(json, "reference", Json::object()));
+  settings.reference = sweep_flight_of(value_or(json, "reference", Json::object()), dir_ / kSettings);
   settings.reference_s = value_or(json, "reference_s", 0.0).get<double>();
   return settings;
 }
@@ -167,12 +169,18 @@ SweepUnit SweepFolder::unit(std::size_t number) const {
   const Json json = read_json(file);
   if (!json.is_object()) throw InputError(file.string() + ": there is no such unit of a sweep");
   SweepUnit unit;
-  for (const Json& flight : value_or(json, "flights", Json::array())) unit.flights.push_back(sweep_flight_of(flight));
+  for (const Json& flight : value_or(json, "flights", Json::array()))
+    unit.flights.push_back(sweep_flight_of(flight, file));
   unit.again = value_or(json, "again", false).get<bool>();
   return unit;
 }
 
 std::set<std::size_t> SweepFolder::done(const std::string& token) const { return numbers_in(dir_ / "done" / token); }
+
+fs::file_time_type SweepFolder::done_changed(const std::string& token) const {
+  std::error_code none;  // no unit is over yet
+  return fs::last_write_time(dir_ / "done" / token, none);
+}
 
 bool SweepFolder::is_done(const std::string& token, std::size_t unit) const {
   return fs::exists(file_of(fs::path("done") / token, numbered(unit)));

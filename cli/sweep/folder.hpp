@@ -98,6 +98,8 @@ class SweepFolder {
   // Results are stored by the sweep's token, because a program of an earlier sweep may still write one before it ends.
   /// Numbers of the units that are over.
   std::set<std::size_t> done(const std::string& token) const;
+  /// When a unit was last marked as over or reopened, by the file system's clock: two changes may have the same time.
+  std::filesystem::file_time_type done_changed(const std::string& token) const;
   bool is_done(const std::string& token, std::size_t unit) const;
   void write_done(const std::string& token, std::size_t unit, const std::vector<SweepRow>& rows) const;
   /// Results of a unit; nullopt: it is not over.
@@ -160,7 +162,7 @@ class SweepFolder {
 };
 
 Json to_json(const SweepFlight& flight);
-/// @throws InputError when the JSON is no complete flight.
-SweepFlight sweep_flight_of(const Json& json);
+/// @param file  of which the JSON is a part. @throws InputError that names it, when the JSON is no complete flight.
+SweepFlight sweep_flight_of(const Json& json, const std::filesystem::path& file);
 
 }  // namespace skein::cli

@@ -302,13 +302,18 @@ class SlurmEngine : public SweepEngine {
   void wait_for_next_look(Supervisor& signals, const std::vector<std::size_t>& units, std::chrono::milliseconds look) {
     using Clock = std::chrono::steady_clock;
     const auto begin = Clock::now(), until = begin + look;
+    auto changed = folder_.done_changed(token_);  // to list a folder of many files twice a second costs too much
     const std::size_t done = done_of(units);
+    std::size_t now = done;
     for (auto left = look; left.count() > 0;
          left = std::chrono::ceil<std::chrono::milliseconds>(until - Clock::now())) {
       for (const Event& event : signals.wait(std::min(left, kGlance))) {
         if (event.kind == Event::Kind::interrupt) throw Interrupted{};
       }
-      const std::size_t now = done_of(units);
+      if (const auto latest = folder_.done_changed(token_); latest != changed) {
+        changed = latest;
+        now = done_of(units);
+      }
       if (now != done && (now == units.size() || Clock::now() - begin > kLeastLook)) return;
     }
   }

@@ -46,7 +46,9 @@ TEST(SweepOptions, NeedTheirExecutor) {
   EXPECT_NE(refusal({"contest", "--executor", "local", "--detach"}).find("--executor slurm"), std::string::npos);
   EXPECT_NE(refusal({"hunt", "--executor", "slurm", "--detach"}).find("of studies"), std::string::npos);
   EXPECT_NE(refusal({"compare", "--executor", "condor"}).find("slurm"), std::string::npos);
-  EXPECT_NE(refusal({"--unit", "folder", "x"}).find("--unit STUDY N"), std::string::npos);
+  for (const char* unit : {"x", "1.5", "-1", ""}) {
+    EXPECT_NE(refusal({"--unit", "folder", unit}).find("--unit STUDY N"), std::string::npos) << unit;
+  }
   const Command command = parse_command_line(
       {"compare", "--executor", "parallel", "--sshlogin", "4/a,b", "--sshlogin", ":", "--unit-minutes", "2"});
   const SweepOptions& sweep = std::get<StudyOptions>(command).sweep;

@@ -134,6 +134,10 @@ StudyOutcomes tell_sweep(const StudyPlan& plan, const Console& console) {
   SweepController controller(folder, *engine, here, console.err);
   controller.look();
   StudyOutcomes outcomes = outcomes_of(plan, controller);
+  for (const auto& [index, what] : controller.lost()) {
+    if (index < outcomes.flights.size())
+      outcomes.flights[index] = {std::nullopt, what + "; flown again when the study goes on"};
+  }
   const std::vector<EngineJob> jobs = engine->jobs();
   std::set<std::size_t> held;
   for (const EngineJob& job : jobs) held.insert(job.unit);
