@@ -50,6 +50,31 @@ TEST(RadioRate, WhatDoesNotFitTheQueueIsLostAndTheOtherDirectionIsFree) {
   EXPECT_EQ(stages.fate(0, back, kFrom, of(0, 60'000)).loss, LinkLoss::none);
 }
 
+// A program that was killed receives nothing, but its UAV hovers on in sight, so messages to it still pass its link.
+TEST(RadioRate, WhatIsSentToOneReceiverDelaysNothingToTheOthers) {
+  constexpr Node kOther = Node{3};
+  for (const bool path_loss : {true, false}) {
+    Scenario scenario = with_radio(0.001);
+    scenario.fleet.push_back({.name = "c", .vehicle = {}});
+    if (!path_loss) {
+      scenario.conditions.radio.exponent.reset();
+      scenario.links.push_back({.bandwidth_bit_s = 1e5});
+    }
+    LinkStages busy(scenario, {}, 1), idle(scenario, {}, 1);
+    for (LinkStages* stages : {&busy, &idle}) stages->begin_step(Links(4, std::uint8_t{1}));
+    std::size_t overflows = 0;
+    for (std::uint64_t k = 0; k < 40; ++k) {
+      for (std::uint64_t n = 0; n < 3; ++n) {
+        overflows += busy.fate(k, kWay, kTo, of(3 * k + n, 4'000)).loss == LinkLoss::overflow;
+      }
+      const LinkFate beside = busy.fate(k, kWay, kOther, of(k, 400)), alone = idle.fate(k, kWay, kOther, of(k, 400));
+      EXPECT_EQ(beside.loss, LinkLoss::none);
+      EXPECT_EQ(beside.delay_steps, alone.delay_steps) << k;
+    }
+    EXPECT_GT(overflows, 20U) << "the link to the first receiver is full";
+  }
+}
+
 TEST(RadioRate, WithoutPathLossALinkIsIdeal) {
   Scenario scenario = with_radio(0.001);
   scenario.conditions.radio.exponent.reset();

@@ -21,12 +21,18 @@ constexpr const char* kNoMore =
 }  // namespace
 
 RadioRegistry::RadioRegistry(const Scenario& scenario, RadioTable& table, RadioEndpoints endpoints)
-    : scenario_(scenario), table_(table), endpoints_(std::move(endpoints)) {}
+    : scenario_(scenario), table_(table), endpoints_(std::move(endpoints)), declared_(table.routes().size()) {}
 
 void RadioRegistry::begin_step(const std::vector<RadioRequest>& requests) {
   forget_the_lost();
   decided_by_clock_.clear();
-  for (const RadioRequest& request : requests) {
+  std::vector<RadioRequest> due = std::exchange(put_off_, {});
+  due.insert(due.end(), requests.begin(), requests.end());
+  for (const RadioRequest& request : due) {
+    if (awaits_type(request)) {
+      put_off_.push_back(request);
+      continue;
+    }
     try {
       if (histories_[request.asker.source].in_vain >= kMaxVain) throw InputError(kNoMore);
       request.listen ? listen(request) : send(request);
@@ -40,7 +46,31 @@ void RadioRegistry::forget_the_lost() {
   const auto lost = [&](const auto& entry) { return endpoints_.lost(entry.asker.source); };
   std::erase_if(sendings_, lost);
   std::erase_if(listenings_, lost);
+  std::erase_if(put_off_, lost);
   std::erase_if(histories_, [&](const auto& entry) { return endpoints_.lost(entry.first); });
+}
+
+/// Whether the request contradicts the type in another request of this step that may yet be refused, because no writer
+/// of its asker has matched. Nobody loses a topic to a mistake of another member, so the next step decides.
+bool RadioRegistry::awaits_type(const RadioRequest& request) const {
+  bool contradicts = false;
+  for (std::size_t route = 0; route < table_.routes().size(); ++route) {
+    const RadioRoute& known = table_.routes()[route];
+    if (known.ros_topic != request.name || known.targets.empty()) continue;
+    if (route < declared_ || used_.contains(route)) return false;  // the type is settled
+    contradicts = contradicts || known.ros_type != request.type;
+  }
+  return contradicts;
+}
+
+/// @throws InputError for another type than that in the earlier request of a listener for this topic.
+void RadioRegistry::check_type(const RadioRequest& request) const {
+  for (const Listening& other : listenings_) {
+    const bool replaced = request.listen && other.asker.source == request.asker.source;
+    if (replaced || other.ros_topic != request.name || other.ros_type == request.type) continue;
+    throw InputError("type: '" + scenario_.node_name(other.asker.node) + "' asked for '" + request.name + "' as " +
+                     other.ros_type + " before; a topic has one type");
+  }
 }
 
 void RadioRegistry::send(const RadioRequest& request) {
@@ -54,6 +84,7 @@ void RadioRegistry::send(const RadioRequest& request) {
   if (asked.size() >= kMaxTopics && std::ranges::none_of(asked, known)) {
     throw InputError("name: a member may ask to send on " + std::to_string(kMaxTopics) + " registered topics at most");
   }
+  check_type(request);
   const std::size_t route = table_.open(request.asker.node, request.name, request.type, request.targets);
   asked.insert(route);
   endpoints_.open(route);
@@ -64,6 +95,7 @@ void RadioRegistry::send(const RadioRequest& request) {
 
 void RadioRegistry::listen(const RadioRequest& request) {
   const RadioTarget arrival = table_.arrival(request.asker.node, request.name, request.type);
+  check_type(request);
   const auto by_asker = [&](const Listening& l) { return l.asker.source == request.asker.source; };
   std::erase_if(listenings_, [&](const Listening& l) { return by_asker(l) && l.arrival.topic == arrival.topic; });
   if (std::ranges::count_if(listenings_, by_asker) >= static_cast<std::ptrdiff_t>(kMaxTopics)) {
@@ -135,21 +167,28 @@ void RadioRegistry::settle_sendings() {
     }
     if (sending.state == State::asked) endpoints_.admit(sending.route, sending.asker.source);
     sending.state = State::open;
+    if (sending.route >= declared_) used_.insert(sending.route);
     for (const RadioTarget& target : table_.routes()[sending.route].targets) {
       if (!heard(target)) reply.unheard.push_back(scenario_.node_name(target.node));
     }
     tell(reply, sending.told);
   }
-  std::vector<std::size_t> given_up;
-  std::erase_if(sendings_, [&](const Sending& sending) {
-    if (sending.state == State::refused) given_up.push_back(sending.route);
-    return sending.state == State::refused;
-  });
-  for (const std::size_t route : given_up) {
-    if (std::ranges::find(sendings_, route, &Sending::route) == sendings_.end()) endpoints_.close(route);
+  std::erase_if(sendings_, [](const Sending& sending) { return sending.state == State::refused; });
+  close_unused_routes();
+}
+
+/// Closes the routes whose askers were all refused or lost, so that they decide neither a topic's type nor who may use
+/// a name. A route on which a member could send stays: messages may be under way on it, and their counts go on.
+void RadioRegistry::close_unused_routes() {
+  for (std::size_t route = declared_; route < table_.routes().size(); ++route) {
+    if (used_.contains(route) || table_.routes()[route].targets.empty()) continue;
+    if (std::ranges::find(sendings_, route, &Sending::route) != sendings_.end()) continue;
+    endpoints_.close(route);
+    table_.close(route);
   }
 }
 
+// The type of a route is that of its listeners: begin_step() refuses every other.
 void RadioRegistry::settle_listenings() {
   for (Listening& listening : listenings_) {
     if (listening.state != State::asked) continue;  // open, or refused already
@@ -157,14 +196,8 @@ void RadioRegistry::settle_listenings() {
       return route.ros_topic == listening.ros_topic &&
              std::ranges::find(route.targets, listening.asker.node, &RadioTarget::node) != route.targets.end();
     };
-    const auto route = std::ranges::find_if(table_.routes(), arrives);
-    RadioReply reply{.asker = listening.asker, .open = route != table_.routes().end()};
+    const RadioReply reply{.asker = listening.asker, .open = std::ranges::any_of(table_.routes(), arrives)};
     if (reply.open) listening.state = State::open;
-    if (reply.open && route->ros_type != listening.ros_type) {
-      listening.state = State::refused;
-      reply.open = false;
-      reply.reason = "type: '" + listening.ros_topic + "' is of type " + route->ros_type;
-    }
     tell(reply, listening.told);
   }
   std::erase_if(listenings_, [](const Listening& listening) { return listening.state == State::refused; });

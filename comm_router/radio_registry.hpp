@@ -1,7 +1,7 @@
 // Radio topics that members register during the run (docs/radio.md): which members may send on them, to which nodes,
 // which members listen, and which replies they get. A request takes effect in the step in which it was made, however
 // long discovery takes: the router completes that step only when both ends have matched, or when it has waited too long
-// and refuses the request.
+// and refuses the request. The first request for a topic decides its type; a request that is refused decides nothing.
 // Pure; no bus. Not thread-safe.
 #pragma once
 
@@ -48,7 +48,7 @@ struct RadioReply {
 struct RadioEndpoints {
   /// A route is new or has new targets: opens the reader and writers that it lacks.
   std::function<void(std::size_t route)> open;
-  /// No member sends on this route, because the only one that asked was refused: closes what open() opened.
+  /// No message ever passed on this route, and no member may send on it: closes what open() opened.
   std::function<void(std::size_t route)> close;
   /// Whether the router's reader of this route is matched with the member's writer.
   std::function<bool(std::size_t route, SourceId)> hears;
@@ -115,6 +115,9 @@ class RadioRegistry {
   };
 
   void forget_the_lost();
+  bool awaits_type(const RadioRequest& request) const;
+  void check_type(const RadioRequest& request) const;
+  void close_unused_routes();
   void refuse_unmatched(const Asker& asker, const std::string& topic, const char* reason);
   void send(const RadioRequest& request);
   void listen(const RadioRequest& request);
@@ -129,6 +132,9 @@ class RadioRegistry {
   const Scenario& scenario_;
   RadioTable& table_;
   const RadioEndpoints endpoints_;
+  const std::size_t declared_;         ///< number of the scenario's routes, which come first
+  std::set<std::size_t> used_;         ///< registered routes on which a member may send, or could once
+  std::vector<RadioRequest> put_off_;  ///< to the next step: see awaits_type()
   std::vector<Sending> sendings_;      ///< in the order of asking
   std::vector<Listening> listenings_;  ///< likewise
   std::map<SourceId, History> histories_;

@@ -9,7 +9,7 @@ namespace skein::router {
 namespace {
 
 constexpr SourceId kFirst = 11, kSecond = 12, kStation = 10;
-const std::string kType = "some/msg/Type";
+const std::string kType = "some/msg/Type", kOtherType = "other/msg/Type";
 
 class Registry : public testing::Test {
  protected:
@@ -23,13 +23,14 @@ class Registry : public testing::Test {
     return scenario;
   }
 
-  static RadioRequest sending(SourceId source, std::uint32_t id, std::vector<std::string> targets = {"all"}) {
+  static RadioRequest sending(SourceId source, std::uint32_t id, std::vector<std::string> targets = {"all"},
+                              const std::string& type = kType) {
     return {.asker = {source, node(source), id},
             .listen = false,
             .source = three_nodes().node_name(node(source)),
             .targets = std::move(targets),
             .name = "/x",
-            .type = kType};
+            .type = type};
   }
   static RadioRequest listening(SourceId source, std::uint32_t id, const std::string& type = kType) {
     return {
@@ -125,11 +126,99 @@ TEST_F(Registry, DeclaredReadersHear) {
   EXPECT_TRUE(step({sending(kFirst, 1)}).at(0).unheard.empty());
 }
 
-TEST_F(Registry, ListenerOfAnotherTypeIsRefused) {
-  EXPECT_TRUE(step({listening(kSecond, 1, "other/msg/Type")}).at(0).reason.empty()) << "it may still become right";
-  const auto replies = step({sending(kFirst, 1), listening(kStation, 1, "other/msg/Type")});
-  ASSERT_EQ(replies.size(), 3U);
-  for (const RadioReply& reply : replies) EXPECT_EQ(reply.open, reply.asker.source == kFirst) << reply.asker.source;
+TEST_F(Registry, AListenerOfAnotherTypeThanTheSendersIsRefused) {
+  EXPECT_TRUE(step({sending(kFirst, 1)}).at(0).open);
+  const auto replies = step({listening(kSecond, 1, kOtherType), listening(kStation, 1)});
+  ASSERT_EQ(replies.size(), 2U);
+  EXPECT_EQ(replies[0].reason, "type: '/x' was declared as some/msg/Type before; a topic has one type");
+  EXPECT_TRUE(replies[1].open);
+}
+
+TEST_F(Registry, AnotherTypeThanThatOfAnEarlierListenerIsRefusedAndTheListenerStays) {
+  step({listening(kSecond, 1)});
+  const auto wrong = step({sending(kFirst, 1, {"all"}, kOtherType), listening(kStation, 1, kOtherType)});
+  ASSERT_EQ(wrong.size(), 2U);
+  for (const RadioReply& reply : wrong) {
+    EXPECT_NE(reply.asker.source, kSecond);
+    EXPECT_EQ(reply.reason, "type: 'b' asked for '/x' as some/msg/Type before; a topic has one type");
+  }
+  EXPECT_TRUE(opened_.empty());
+  const auto replies = step({sending(kFirst, 2)});
+  ASSERT_EQ(replies.size(), 2U);
+  EXPECT_TRUE(replies[0].open && replies[1].open);
+  EXPECT_EQ(replies[1].asker.source, kSecond);
+  EXPECT_EQ(step().at(0).unheard, std::vector<std::string>{"gcs"}) << "b hears";
+}
+
+TEST_F(Registry, AListenerMayCorrectItsOwnType) {
+  step({listening(kSecond, 1, kOtherType)});
+  EXPECT_TRUE(step({listening(kSecond, 2)}).at(0).reason.empty());
+  EXPECT_TRUE(step({sending(kFirst, 1)}).at(0).open);
+}
+
+/// A sender without a writer asks with another type than all others, and is refused or lost.
+TEST_F(Registry, ARefusedRequestDecidesNoType) {
+  for (const bool in_the_same_step : {false, true}) {
+    for (const bool is_lost : {false, true}) {
+      RadioTable table(scenario_);
+      std::set<SourceId> gone;
+      std::vector<std::size_t> open;
+      RadioRegistry registry(scenario_, table,
+                             {.open = [&](std::size_t route) { open.push_back(route); },
+                              .close = [&](std::size_t route) { std::erase(open, route); },
+                              .hears = [](std::size_t, SourceId source) { return source != kFirst; },
+                              .reaches = [](const RadioTarget&, SourceId) { return true; },
+                              .declared = [](const RadioTarget&) { return false; },
+                              .admit = [](std::size_t, SourceId) {},
+                              .lost = [&](SourceId source) { return gone.contains(source); }});
+      const RadioRequest wrong = sending(kFirst, 1, {"all"}, kOtherType);
+      const std::vector<RadioRequest> right = {listening(kStation, 1), sending(kSecond, 1)};
+      std::vector<RadioRequest> first = {wrong};
+      if (in_the_same_step) first.insert(first.end(), right.begin(), right.end());
+      registry.begin_step(first);
+      EXPECT_TRUE(registry.waiting());
+      if (is_lost) gone.insert(kFirst);
+      auto replies = registry.end_step();
+      ASSERT_EQ(replies.size(), is_lost ? 0U : 1U);
+      if (!is_lost) {
+        EXPECT_EQ(replies[0].asker.source, kFirst);
+        EXPECT_NE(replies[0].reason.find("no matching writer"), std::string::npos) << replies[0].reason;
+      }
+      EXPECT_TRUE(open.empty());
+      registry.begin_step(in_the_same_step ? std::vector<RadioRequest>() : right);
+      EXPECT_FALSE(registry.waiting());
+      replies = registry.end_step();
+      ASSERT_EQ(replies.size(), 2U) << in_the_same_step << is_lost;
+      for (const RadioReply& reply : replies) EXPECT_TRUE(reply.open) << reply.asker.source << ": " << reply.reason;
+      EXPECT_EQ(open.size(), 1U);
+    }
+  }
+}
+
+TEST_F(Registry, AContradictionIsRefusedOnceTheFirstTypeIsSettled) {
+  hears_.clear();
+  registry_.begin_step({sending(kFirst, 1), listening(kSecond, 1, kOtherType)});
+  hears_ = {kFirst};
+  EXPECT_EQ(registry_.end_step().size(), 1U) << "the second waits for the next step";
+  const auto replies = step();
+  ASSERT_EQ(replies.size(), 1U);
+  EXPECT_EQ(replies[0].asker.source, kSecond);
+  EXPECT_EQ(replies[0].reason, "type: '/x' was declared as some/msg/Type before; a topic has one type");
+}
+
+TEST_F(Registry, ARouteOnWhichMessagesMayBeUnderWayStaysOpen) {
+  step({sending(kFirst, 1)});
+  ASSERT_EQ(opened_.size(), 1U);
+  lost_ = {kFirst};
+  hears_.clear();
+  const SourceId successor = kFirst + 100;
+  RadioRequest again = sending(kFirst, 2);
+  again.asker.source = successor;
+  const auto replies = step({again});
+  ASSERT_EQ(replies.size(), 1U);
+  EXPECT_FALSE(replies[0].open);
+  EXPECT_EQ(opened_.size(), 1U) << "what the lost member sent may still arrive";
+  EXPECT_FALSE(table_.routes().back().targets.empty());
 }
 
 TEST_F(Registry, TheLostAreForgotten) {

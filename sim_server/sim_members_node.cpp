@@ -16,6 +16,22 @@ void SimNode::take_losses() {
   }
 }
 
+/// Call it after take_losses(). @param step  the first one in which those that have joined again take part.
+void SimNode::take_returns(std::uint64_t step) {
+  for (const std::string& name : server_.take_rejoined()) {
+    spdlog::info("{} joined again at step {}", name, step);
+    status_.send_surely(status::line_json(status::Rejoined{name}));
+    for (LostProcess& lost : summary_.lost) {
+      if (lost.name == name && !lost.back) lost.back = simulation_.tick();
+    }
+    const auto uav = std::find(uav_names_.begin(), uav_names_.end(), name);
+    if (uav == uav_names_.end()) continue;
+    const UavIndex i{static_cast<std::size_t>(uav - uav_names_.begin())};
+    uavs_[i]->resend_captures();
+    hand_.resend(i);
+  }
+}
+
 // Whether a stand-in relays the UAV's commands. It relays all of them while it is a member, and at its start also those
 // that were sent before the first step.
 bool SimNode::has_stand_in(const std::string& uav) const {

@@ -188,6 +188,7 @@ bool SimNode::join_members() {
     return false;
   }
   take_losses();
+  take_returns(simulation_.step());
   started_ = Clock::now();
   cpu_before_s_ = thread_cpu_s();
   simulation_.watch(&clock_);
@@ -246,19 +247,8 @@ bool SimNode::let_in_members() {
     if (patience_.over()) give_up_awaited("did not finish joining");
     return false;
   }
-  for (const std::string& name : server_.take_rejoined()) {
-    spdlog::info("{} joined again at step {}", name, simulation_.step() + 1);
-    status_.send_surely(status::line_json(status::Rejoined{name}));
-    for (LostProcess& lost : summary_.lost) {
-      if (lost.name == name && !lost.back) lost.back = simulation_.tick();
-    }
-    const auto uav = std::find(uav_names_.begin(), uav_names_.end(), name);
-    if (uav == uav_names_.end()) continue;
-    const UavIndex i{static_cast<std::size_t>(uav - uav_names_.begin())};
-    uavs_[i]->resend_captures();
-    hand_.resend(i);
-  }
   take_losses();
+  take_returns(simulation_.step() + 1);
   state_ = State::pacing;
   return true;
 }

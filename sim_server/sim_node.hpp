@@ -99,6 +99,7 @@ class SimNode final : public bus::LockstepNode {
   Clock::time_point due() const;
   void finish_step();
   void take_losses();
+  void take_returns(std::uint64_t step);
   bool has_stand_in(const std::string& uav) const;
   void tell_of_strangers(std::uint64_t patience);
   bool is_last_step() const;

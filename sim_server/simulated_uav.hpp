@@ -42,7 +42,7 @@ struct SimulatedUav {
     condition = faulty;
     vehicle.damage_rotors(faulty.rotor_shares);
     vehicle.jam_gimbal(!faulty.gimbal_works);
-    surroundings.suffer(faulty.fix_lost, faulty.most_charge);
+    surroundings.suffer(faulty.fix_lost, faulty.most_charge, faulty.charge_lost);
     if (faulty.camera_works) return;
     triggered = false;
     shutter_at.reset();

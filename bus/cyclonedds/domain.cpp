@@ -77,8 +77,8 @@ void add_discovery(pugi::xml_node domain, const BusConfig& config, const Reach& 
 /// Watermarks: a writer blocks while its unacknowledged bytes exceed WhcHigh. The KEEP_LAST history bounds these bytes
 /// already, so WhcHigh is set out of reach, and a stopped reader blocks no writer.
 /// Heartbeats: each requests an answer from all readers. On one host a datagram is lost only when a buffer overflows,
-/// so the period is longer: in a large fleet, whose rounds take about as long as the shorter period, the answers would
-/// be a tenth of all work.
+/// so the period is longer: in a fleet of 100 UAVs, whose rounds take about as long as the shorter period, heartbeats
+/// and their answers took an eighth of the time (docs/decisions/0044-what-made-it-fast.md).
 void add_internals(pugi::xml_node domain, bool one_host) {
   pugi::xml_node internal = domain.append_child("Internal");
   pugi::xml_node watermarks = internal.append_child("Watermarks");

@@ -5,6 +5,7 @@
 #include <fastdds/dds/topic/TopicDataType.hpp>
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 

@@ -53,6 +53,7 @@ void LockstepClient::start() {
 void LockstepClient::on_resync(const msg::Resync& resync, ParticipantId source) {
   if (phase_ != Phase::hello || resync.source() != participant_.id()) return;
   server_ = source;
+  if (resync.epoch() > 0) invited_after_ = resync.k();
   for (const auto& base : resync.base()) base_.push_back({base.topic(), base.source(), base.count()});
   create_endpoints();
   phase_ = Phase::matching;
@@ -131,7 +132,8 @@ void LockstepClient::say_ready(std::uint32_t revision) {
 }
 
 void LockstepClient::on_step(msg::Step& step, ParticipantId source) {
-  if ((phase_ != Phase::declared && phase_ != Phase::member) || source != server_) return;
+  const bool joining = phase_ == Phase::matching || phase_ == Phase::declared;
+  if ((!joining && phase_ != Phase::member) || source != server_) return;
   if (step_ && step.k() == step_->k() && !handed_out_) {  // amended or repeated, but answered already
     answer_again_();
     return;
@@ -146,7 +148,10 @@ void LockstepClient::on_step(msg::Step& step, ParticipantId source) {
   const bool ours = std::any_of(members.begin(), members.end(),
                                 [&](const auto& m) { return m.source() == participant_.id() && m.name() == member_; });
   if (!ours) {
-    if (phase_ == Phase::member) phase_ = Phase::dropped;
+    // The server pauses from the invitation until this program has joined, or until it gives the program up.
+    const bool given_up = joining && (!invited_after_ || step.k() > *invited_after_);
+    if (given_up) spdlog::error("{}: sim_server gave this program up while it joined; start it again", member_);
+    if (given_up || phase_ == Phase::member) phase_ = Phase::dropped;
     return;
   }
   phase_ = Phase::member;

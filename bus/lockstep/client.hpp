@@ -3,6 +3,7 @@
 // so that a test can try all orders of events.   Threads: all calls from the thread that dispatches the inbox.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <optional>
 
@@ -18,7 +19,7 @@ class LockstepClient {
   enum class Event {
     none,     ///< nothing to do yet
     think,    ///< step() is complete, handlers have run: think, write, then call done()
-    dropped,  ///< the server has removed this member and continues without it
+    dropped,  ///< the server has removed this member, or given it up while it joined, and continues without it
     resumed,  ///< a fault that stopped this program is over: join again, with a new participant and a new client
   };
   /// The server's order to this program because of a fault (docs/lockstep.md).
@@ -129,6 +130,7 @@ class LockstepClient {
   Inbox& inbox_;
   std::string member_;
   Phase phase_ = Phase::created;
+  std::optional<std::uint64_t> invited_after_;  ///< the last step before the invitation; nullopt: there was none
   ParticipantId server_ = 0, router_ = 0;
   ParticipantId matched_router_ = 0;  ///< router that has matched all topics; avoids a check in every step
   std::vector<Reading> readings_;

@@ -15,9 +15,9 @@ class ClientNode : public LockstepNode {
   void turn(bool arrived) override;
   std::optional<NodeEnd> end() const override { return end_; }
   Rest rest() override;
-  /// Whether the run ended before this program could join. Then it must not report: after a restart, its earlier work
-  /// is already in its records.
-  bool came_too_late() const { return end_ == NodeEnd::finished && !was_member_; }
+  /// Whether the run ended before this program could join, or the server gave it up before. Then it must not report:
+  /// after a restart, its earlier work is already in its records.
+  bool came_too_late() const { return (end_ == NodeEnd::finished || end_ == NodeEnd::dropped) && !was_member_; }
   /// Describes, for people, what the program waits for.
   virtual std::string waiting_for() { return client().waiting_for(); }
 

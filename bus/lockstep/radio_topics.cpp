@@ -37,6 +37,7 @@ void RadioTopics::send(const std::string& topic, const std::string& type, const 
   entry->second.request = make_request(client_.run(), topic, type);
   entry->second.request.source(node_);
   entry->second.request.targets(targets);
+  entry->second.status.refusal.clear();
   ask(entry->second.request);
 }
 
@@ -60,14 +61,16 @@ void RadioTopics::ask(msg::RadioRequest& request) {
 void RadioTopics::begin_step() {
   if (client_.router() == router_) return;
   router_ = client_.router();
-  for (auto& [topic, sending] : sendings_) {
-    sending.status = {};
-    ask(sending.request);
-  }
-  for (auto& [topic, listening] : listenings_) {
-    listening.status = {};
-    ask(listening.request);
-  }
+  const auto ask_anew = [this](auto& registrations) {
+    for (auto& [topic, registration] : registrations) {
+      // A request that was refused could win now against those that made the former router refuse it.
+      if (!registration.status.refusal.empty()) continue;
+      registration.status = {};
+      ask(registration.request);
+    }
+  };
+  ask_anew(sendings_);
+  ask_anew(listenings_);
 }
 
 void RadioTopics::on_reply(const msg::RadioReply& reply) {

@@ -33,7 +33,8 @@ class RadioTopics {
   /// @param handler  gets each sample, as with LockstepClient::read()
   /// @throws InputError when topic or type is malformed
   void listen(const std::string& topic, const std::string& type, CountedQueues::Handler handler);
-  /// Call this first in each step: repeats all requests to a router that has come back, because it does not know them.
+  /// Call this first in each step: repeats all requests, except those that were refused, to a router that has come
+  /// back, because it does not know them.
   void begin_step();
 
   /// Sends a message by radio. Call it while thinking.

@@ -316,6 +316,8 @@ void LockstepServer::leave(Place& place, const std::string& reason) {
   }
   const bool was_cut_off = place.unheard && is_heard(place);
   lost_.push_back({place.name, k_, was_cut_off ? reason + kCutOff : reason});
+  place.was_lost = true;
+  std::erase(rejoined_, place.name);
   if (place.source != 0) gone_.insert(place.source);
   place.awaited = false;
   place.order.reset();

@@ -3,6 +3,7 @@
 // members. Threads: all calls from the thread that dispatches the inbox.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <set>
@@ -103,7 +104,9 @@ class LockstepServer {
   std::vector<LostMember> take_lost();
 
   bool is_member(const std::string& name) const;
-  /// Members that have joined again since the last call, after a loss or a fault.
+  /// Members that have joined since the last call, after a loss or a fault, and are members now. A program that was
+  /// given up before it had joined is among them if it, or another under its name, joins later. If the caller also
+  /// calls take_lost() now, those losses came before.
   std::vector<std::string> take_rejoined();
   /// Programs that have not answered, or not joined, without those that only wait for others; for messages and
   /// time-outs. Never empty while at_boundary() or answered() is false.
@@ -137,6 +140,7 @@ class LockstepServer {
     std::size_t door = 0;
     bool awaited = false;  ///< at_boundary() waits for it
     bool member = false, was_member = false;
+    bool was_lost = false;            ///< also when the server gave up a program that had not joined yet
     std::optional<msg::Order> order;  ///< set while a fault has taken the member out: a program that joins has to wait
     ParticipantId source = 0;         ///< of the member, or of a program that is joining
     bool invited = false, declared = false;

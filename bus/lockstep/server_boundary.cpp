@@ -108,7 +108,7 @@ bool LockstepServer::at_boundary() {
     domains_[place->domain]->newcomer = true;
     place->awaited = false;
     membership_changed_ = true;
-    if (place->was_member) rejoined_.push_back(place->name);
+    if (place->was_member || place->was_lost) rejoined_.push_back(place->name);
     place->was_member = true;
   }
   return closed && router_attached_all();

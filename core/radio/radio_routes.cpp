@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <utility>
 
 namespace skein {
 namespace {
@@ -39,6 +40,7 @@ class RadioTable::Builder {
       reserve(node, topics::lockstep_topics());
       reserve(node, topics::score_topics());
     }
+    reserved_ = uses_;
   }
 
   /// @param member  who alone may send on it; empty: any program of a source
@@ -74,6 +76,22 @@ class RadioTable::Builder {
       uses_ = uses;
       throw;
     }
+  }
+
+  void close(std::size_t number) {
+    RadioRoute& route = routes_[number];
+    release(route.source, route.topic);
+    for (const RadioTarget& target : std::exchange(route.targets, {})) {
+      const auto arrives_there = [&](const RadioRoute& other) {
+        return std::ranges::any_of(
+            other.targets, [&](const RadioTarget& t) { return t.node == target.node && t.topic == target.topic; });
+      };
+      if (std::ranges::none_of(routes_, arrives_there)) release(target.node, target.topic);
+    }
+    const auto has_topic = [&](const RadioRoute& other) {
+      return !other.targets.empty() && other.ros_topic == route.ros_topic;
+    };
+    if (std::ranges::none_of(routes_, has_topic)) types_.erase(route.ros_topic);
   }
 
   RadioTarget arrival(Node node, const std::string& ros_topic, const std::string& ros_type) {
@@ -184,18 +202,24 @@ class RadioTable::Builder {
     }
     const auto same = [&](const RadioRoute& r) { return r.source == source && r.ros_topic == ros_topic; };
     const auto known = std::ranges::find_if(routes_, same);
-    const bool fresh = known == routes_.end();
-    if (!fresh) route = *known;
+    const bool is_open = known != routes_.end() && !known->targets.empty();
+    if (is_open) route = *known;
     route.source = source;
     add_targets(route, targets);
     if (route.targets.empty()) fail("targets", "there is no other node than '" + name(source) + "'");
-    if (fresh) occupy_source(route);
+    if (!is_open) occupy_source(route);
     occupy_targets(route);
     types_.emplace(ros_topic, ros_type);
     const auto number = static_cast<std::size_t>(known - routes_.begin());
-    if (fresh) routes_.emplace_back();
+    if (known == routes_.end()) routes_.emplace_back();
     routes_[number] = std::move(route);
     return number;
+  }
+
+  /// Frees a name for other uses, except those of Skein's own topics.
+  void release(Node node, const std::string& topic) {
+    uses_[node].erase(topic);
+    if (const auto own = reserved_[node].find(topic); own != reserved_[node].end()) uses_[node].insert(*own);
   }
 
   /// Enters the name that a route uses in the domain of its source.
@@ -247,9 +271,10 @@ class RadioTable::Builder {
   }
 
   const Scenario& scenario_;
-  std::string where_;                             ///< what is being read: prefix of messages
-  std::map<std::string, std::string> types_;      ///< ROS topic to ROS type
-  std::vector<std::map<std::string, Use>> uses_;  ///< by node: wire topic to its use
+  std::string where_;                                 ///< what is being read: prefix of messages
+  std::map<std::string, std::string> types_;          ///< ROS topic to ROS type
+  std::vector<std::map<std::string, Use>> uses_;      ///< by node: wire topic to its use
+  std::vector<std::map<std::string, Use>> reserved_;  ///< likewise, of the standard topics alone
   std::vector<RadioRoute> routes_;
 };
 
@@ -278,6 +303,8 @@ std::size_t RadioTable::open(Node source, const std::string& ros_topic, const st
                              const std::vector<std::string>& targets) {
   return builder_->open(source, ros_topic, ros_type, targets);
 }
+
+void RadioTable::close(std::size_t route) { builder_->close(route); }
 
 RadioTarget RadioTable::arrival(Node node, const std::string& ros_topic, const std::string& ros_type) const {
   return builder_->arrival(node, ros_topic, ros_type);

@@ -40,7 +40,7 @@ struct RadioRoute {
 std::vector<RadioRoute> radio_routes(const Scenario& scenario);
 
 /// The routes of a run. Nodes may add routes during the run (docs/radio.md). The table rejects names that are in use.
-/// Routes are never removed and keep their numbers. Not thread-safe.
+/// Routes keep their numbers; one that was closed has no targets. Not thread-safe.
 class RadioTable {
  public:
   /// @param scenario  must outlive this. @throws InputError as radio_routes() does.
@@ -56,6 +56,9 @@ class RadioTable {
   ///   either end.
   std::size_t open(Node source, const std::string& ros_topic, const std::string& ros_type,
                    const std::vector<std::string>& targets);
+  /// Closes a route that open() added and on which no message passed. Its names, and the topic's type unless another
+  /// route has the topic, are free again. open() may open it again, under the same number.
+  void close(std::size_t route);
   /// The target entry (node and DDS name) for a topic's arrivals at a node. The topic need not exist yet.
   /// @throws InputError for a malformed name or type, for another type than the topic has, and for a taken name.
   RadioTarget arrival(Node node, const std::string& ros_topic, const std::string& ros_type) const;

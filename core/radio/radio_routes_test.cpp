@@ -239,5 +239,33 @@ TEST(RadioTable, RefusalsSayWhyAndChangeNothing) {
   EXPECT_NO_THROW(table.arrival(Node{1}, "/not_yet", "some/msg/Other"));
 }
 
+TEST(RadioTable, ARouteThatIsClosedFreesItsNamesAndType) {
+  const Scenario scenario = three_uavs();
+  RadioTable table(scenario);
+  const std::size_t note = table.open(Node{1}, "/note", "some/msg/Note", {"sentosa", "gcs"});
+  EXPECT_NE(refusal(table, Node{3}, "/note/sentosa", "some/msg/Note", {"gcs"}), "") << "what arrives has this name";
+  table.close(note);
+  EXPECT_TRUE(table.routes()[note].targets.empty());
+  EXPECT_EQ(refusal(table, Node{3}, "/note/sentosa", "some/msg/Note", {"gcs"}), "");
+  EXPECT_NO_THROW(table.arrival(Node{2}, "/note", "some/msg/Other"));
+  EXPECT_EQ(table.open(Node{1}, "/note", "some/msg/Other", {"raffles"}), note) << "it keeps its number";
+  EXPECT_EQ(table.routes()[note].type, "some::msg::dds_::Other_");
+  EXPECT_EQ(arrivals(table.routes()[note]), std::vector<std::string>{"rt/note/raffles"});
+}
+
+TEST(RadioTable, WhatOtherRoutesNeedStaysWhenOneIsClosed) {
+  const Scenario scenario = three_uavs();
+  RadioTable table(scenario);
+  const std::size_t closed = table.open(Node{1}, "/note", "some/msg/Note", {"sentosa", "gcs"});
+  table.open(Node{2}, "/note", "some/msg/Note", {"sentosa"});
+  table.close(closed);
+  EXPECT_NE(refusal(table, Node{1}, "/note", "some/msg/Other", {"gcs"}), "") << "the topic has its type";
+  EXPECT_NE(refusal(table, Node{3}, "/note/sentosa", "some/msg/Note", {"gcs"}), "") << "the name is in use";
+  EXPECT_EQ(refusal(table, Node{0}, "/note/gcs", "some/msg/Note", {"jurong"}), "") << "this one is not";
+  const std::string own = "/jurong/command/trigger";
+  table.close(table.open(Node{1}, own, "skein_msgs/msg/BoolStamped", {"gcs"}));
+  EXPECT_NE(refusal(table, Node{1}, own, "some/msg/Note", {"gcs"}).find("standard topic"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace skein

@@ -87,7 +87,7 @@ class BatterySwap : public testing::TestWithParam<std::uint64_t> {
     const Tick from = tick_;
     std::optional<double> full_s;
     for (; tick_ < from + ticks(time_s); tick_ += ticks(scenario_.exchange_period_s)) {
-      uav_->suffer(false, most_charge_);
+      uav_->suffer(false, most_charge_, charge_lost_);
       uav_->note_place(tick_, scenario_.station_position + Vector3d(off_m, 0.0, airborne ? 9.0 : 0.0), airborne);
       if (!full_s && uav_->battery()->charge == 1.0) full_s = seconds(tick_ - from);
     }
@@ -98,6 +98,7 @@ class BatterySwap : public testing::TestWithParam<std::uint64_t> {
   Scenario scenario_;
   std::optional<Surroundings> uav_;
   double most_charge_ = 1.0;  ///< by a fault that goes on, see BatteryLoss
+  Tick charge_lost_ = 0;      ///< when this fault began
   Tick tick_ = 0;
 };
 
@@ -134,12 +135,26 @@ TEST_P(BatterySwap, ComesAgainToAUavThatStandsThereWithALowBattery) {
   }
 }
 
+// The next fault begins when the last one ends, so there is no exchange without a limit between them.
+TEST_P(BatterySwap, EachOfTwoEqualFaultsTakesTheChargeOfTheBatteryThatIsThereOnce) {
+  uav_.emplace(scenario_, 1, UavIndex{0});
+  stay(0.0, 5.0, true);
+  most_charge_ = draw_.uniform(0.1, 0.9);
+  for (int faults = 1; faults <= 3; ++faults) {
+    charge_lost_ = tick_;
+    stay(0.0, 0.5 * swap_s_, true);
+    EXPECT_DOUBLE_EQ(uav_->battery()->charge, most_charge_) << "fault " << faults;
+    EXPECT_TRUE(stay(0.0, 1.5 * swap_s_, false)) << "a full battery, of which the fault takes nothing";
+    EXPECT_EQ(uav_->battery()->charge, 1.0);
+  }
+}
+
 TEST_P(BatterySwap, NeverComesToAUavWhoseBatteryIsEmpty) {
   uav_.emplace(scenario_, 1, UavIndex{0});
   stay(0.0, 5.0, true);
   test::Flight flight(scenario_.fleet[UavIndex{0}].vehicle);
   flight.fly(1.0, test::hover_at({0, 0, 50}));
-  uav_->suffer(false, 1e-9);
+  uav_->suffer(false, 1e-9, 0);
   EXPECT_TRUE(uav_->spend(0, flight.vehicle(), flight.state())) << "it is empty now";
   EXPECT_FALSE(stay(0.0, 3.0 * swap_s_, false));
   EXPECT_EQ(uav_->battery_use().swaps, 0U);

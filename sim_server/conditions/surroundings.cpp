@@ -28,10 +28,12 @@ void Surroundings::change(const ConditionsConfig& conditions) {
   if (odometry_) odometry_->change(conditions.odometry);
 }
 
-void Surroundings::suffer(bool fix_lost, double most_charge) {
+void Surroundings::suffer(bool fix_lost, double most_charge, Tick charge_lost) {
   if (odometry_) odometry_->jam(fix_lost);
-  if (battery_ && most_charge != most_charge_) battery_->limit(most_charge);
+  const bool is_new = most_charge != most_charge_ || charge_lost != charge_lost_;
+  if (battery_ && is_new) battery_->limit(most_charge);
   most_charge_ = most_charge;
+  charge_lost_ = charge_lost;
 }
 
 void Surroundings::begin_exchange() {

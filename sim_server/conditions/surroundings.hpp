@@ -41,8 +41,9 @@ class Surroundings {
   /// Call it before the first tick of an exchange.
   void begin_exchange();
   /// Applies the faults of an exchange. @param fix_lost  the UAV has no position fix. @param most_charge  upper limit
-  /// of the battery's charge, as a share of its capacity.
-  void suffer(bool fix_lost, double most_charge);
+  /// of the battery's charge, as a share of its capacity. @param charge_lost  when the fault with this limit began:
+  /// each such fault takes charge once, from the battery that the UAV then has.
+  void suffer(bool fix_lost, double most_charge, Tick charge_lost);
   /// Call it before each tick. @param gust_W  velocity that a fault adds to the wind [m/s].
   void begin_tick(Tick tick, const RigidBodyState& state, const Vector3d& gust_W);
   /// Steps the attitude loop, with the believed state, and the motors. @param state  the true one.
@@ -81,6 +82,7 @@ class Surroundings {
   std::optional<Tick> stands_since_;      ///< when it came to stand near the station, with a battery to be swapped
   std::uint64_t swaps_ = 0;
   double most_charge_ = 1.0;          ///< by the last suffer(); it limits the battery that the UAV had when it began
+  Tick charge_lost_ = 0;              ///< likewise
   Vector3d v_WA_ = Vector3d::Zero();  ///< velocity of the air
   std::size_t latency_;               ///< exchanges
   std::deque<ToldState> told_;        ///< the last state that arrived, and those that are still on their way

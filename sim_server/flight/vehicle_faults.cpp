@@ -9,8 +9,9 @@ namespace {
 /// Enters the faults of vehicles into their conditions, and ignores all other faults.
 class Applier {
  public:
-  Applier(const std::vector<std::string>& uavs, std::vector<VehicleCondition>& conditions)
-      : uavs_(uavs), conditions_(conditions) {}
+  /// @param begin  of the fault.
+  Applier(const std::vector<std::string>& uavs, std::vector<VehicleCondition>& conditions, Tick begin)
+      : uavs_(uavs), conditions_(conditions), begin_(begin) {}
 
   void operator()(const LidarFailure& fault) const { of(fault.uav).lidar_works = false; }
   void operator()(const CameraFailure& fault) const { of(fault.uav).camera_works = false; }
@@ -23,7 +24,10 @@ class Applier {
   void operator()(const StuckGimbal& fault) const { of(fault.uav).gimbal_works = false; }
   void operator()(const Gust& fault) const { of(fault.uav).gust_W = fault.velocity_mps; }
   void operator()(const FixLoss& fault) const { of(fault.uav).fix_lost = true; }
-  void operator()(const BatteryLoss& fault) const { of(fault.uav).most_charge = fault.charge; }
+  void operator()(const BatteryLoss& fault) const {
+    of(fault.uav).most_charge = fault.charge;
+    of(fault.uav).charge_lost = begin_;
+  }
   template <class OtherFault>
   void operator()(const OtherFault&) const {}
 
@@ -35,6 +39,7 @@ class Applier {
 
   const std::vector<std::string>& uavs_;
   std::vector<VehicleCondition>& conditions_;
+  const Tick begin_;
 };
 
 }  // namespace
@@ -42,9 +47,8 @@ class Applier {
 std::vector<VehicleCondition> vehicle_conditions(const FaultPlan& plan, const std::vector<std::string>& uavs,
                                                  Tick tick) {
   std::vector<VehicleCondition> conditions(uavs.size());
-  const Applier apply(uavs, conditions);
   for (const Fault& fault : plan.faults) {
-    if (fault.active(tick)) std::visit(apply, fault.action);
+    if (fault.active(tick)) std::visit(Applier(uavs, conditions, fault.begin()), fault.action);
   }
   return conditions;
 }

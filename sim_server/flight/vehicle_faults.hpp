@@ -21,6 +21,7 @@ struct VehicleCondition {
   Vector3d gust_W = Vector3d::Zero();             ///< added to the wind at the UAV [m/s]
   bool fix_lost = false;                          ///< no position fix
   double most_charge = 1.0;                       ///< upper limit of the battery's charge, as a share of its capacity
+  Tick charge_lost = 0;                           ///< when the fault with this limit began; 0 if there is none
   int command_delay = 0;                          ///< exchanges, in addition to the UAV's own latency
 
   VehicleCondition() { rotor_shares.fill(1.0); }

@@ -46,6 +46,17 @@ TEST(VehicleConditions, HoldWhileTheFaultDoesAndForItsUavOnly) {
   EXPECT_TRUE(at(100.0)[0].camera_works);
 }
 
+TEST(VehicleConditions, TellTwoEqualBatteryLossesWithoutAGapApart) {
+  const FaultPlan faults = plan({fault(1.0, 2.0, BatteryLoss{"a", 0.3}), fault(2.0, 3.0, BatteryLoss{"a", 0.3})});
+  const auto at = [&](double t) { return vehicle_conditions(faults, {"a", "b"}, ticks(t))[0]; };
+  EXPECT_EQ(at(0.95).most_charge, 1.0);
+  for (const double t : {1.0, 1.95, 2.0, 2.95}) {
+    EXPECT_EQ(at(t).most_charge, 0.3);
+    EXPECT_EQ(at(t).charge_lost, ticks(t < 2.0 ? 1.0 : 2.0)) << t;
+  }
+  EXPECT_EQ(at(3.0).charge_lost, 0);
+}
+
 TEST(FaultTimeline, TellsEachBeginningAndEndOnce) {
   const FaultPlan faults = plan({fault(0.1, 0.2, LidarFailure{"a"}), fault(0.2, std::nullopt, CameraFailure{"b"}),
                                  fault(9.0, std::nullopt, Blackout{"a"})});

@@ -12,7 +12,8 @@ namespace skein::test {
 namespace {
 
 const Arguments kMinute = {"towers", "--planner", "patrol", "--duration", "60"};
-const std::vector<std::string> kVictims = {"comm_router", "station", "sentosa", "changi", "nanyang", "jurong"};
+const std::vector<std::string> kVictims = {"comm_router", "station", "sentosa", "changi",
+                                           "nanyang",     "jurong",  "raffles"};
 
 std::string program_of(const std::string& member) {
   return member == "comm_router" || member == "station" ? member : "uav_agent-" + member;

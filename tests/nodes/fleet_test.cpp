@@ -61,10 +61,7 @@ class Fleet {
                                            *bus_, status_));
     add(std::make_unique<router::RouterNode>(scenario_, flight.seed, 0, *bus_));
     station_ = add(std::make_unique<station::StationNode>(scenario_, 0, *bus_, folder_, status_));
-    for (const UavIndex uav : scenario_.uavs()) {
-      add(std::make_unique<agent::AgentNode>(
-          scenario_, uav, agent::make_planner(flight.planner, agent::agent_config(scenario_, uav)), 0, *bus_));
-    }
+    for (const UavIndex uav : scenario_.uavs()) add(agent_of(uav, flight.planner));
     if (has_ground_program(flight.planner)) {
       auto program = agent::make_ground_program(flight.planner, agent::ground_config(scenario_));
       add(std::make_unique<agent::GroundNode>(scenario_, std::move(program), 0, *bus_));
@@ -88,6 +85,11 @@ class Fleet {
   void kill(UavIndex uav) {
     nodes_[3 + uav].reset();
     server_->report_lost(scenario_.fleet[uav].name);
+  }
+  /// Starts another program in place of a UAV's that was killed.
+  void start(UavIndex uav, const std::string& planner) {
+    nodes_[3 + uav] = agent_of(uav, planner);
+    nodes_[3 + uav]->start();
   }
   sim::SimNode& server() { return *server_; }
   /// The messages that the viewer has received.
@@ -128,6 +130,11 @@ class Fleet {
       if (!events.empty()) return network_->happen(events[random_.bits() % events.size()]);
     }
     if (const auto& node = nodes_[random_.bits() % nodes_.size()]) node->poll();
+  }
+
+  std::unique_ptr<bus::LockstepNode> agent_of(UavIndex uav, const std::string& planner) {
+    return std::make_unique<agent::AgentNode>(
+        scenario_, uav, agent::make_planner(planner, agent::agent_config(scenario_, uav)), 0, *bus_);
   }
 
   template <class Node>
@@ -218,6 +225,21 @@ TEST(FleetInOneProcess, GoesOnWithoutWhoIsLost) {
   EXPECT_FALSE(summary.deterministic);
   ASSERT_EQ(summary.lost.size(), 1U);
   EXPECT_EQ(summary.lost[0].name, "raffles");
+}
+
+TEST(FleetInOneProcess, WhoIsLostBeforeItHasJoinedMayComeLater) {
+  for (const int turns : {0, 2000}) {
+    Fleet fleet({.stop_at_s = 4.0}, 4);
+    fleet.kill(UavIndex{1});
+    fleet.fly_on(turns);
+    EXPECT_EQ(fleet.server().summary().lost.size(), turns > 0 ? 1U : 0U);
+    fleet.start(UavIndex{1}, "hover");
+    ASSERT_TRUE(fleet.fly());
+    const sim::RunSummary& summary = fleet.server().summary();
+    ASSERT_EQ(summary.lost.size(), 1U);
+    ASSERT_TRUE(summary.lost[0].back) << "after " << turns << " turns";
+    EXPECT_EQ(*summary.lost[0].back > 0, turns > 0);
+  }
 }
 
 TEST(FleetInOneProcess, EndsAtTheNextStepWhenTheUserSaysSo) {

@@ -7,6 +7,7 @@
 #include <map>
 #include <random>
 
+#include "bus/lockstep/radio_topics.hpp"
 #include "core/radio/radio_routes.hpp"
 #include "idl/type_names.hpp"
 #include "tests/nodes/toy_members.hpp"
@@ -98,6 +99,55 @@ TEST(RouterNode, GoesOnWithoutWhomTheServerGivesUp) {
   EXPECT_NE(router.waiting_for().find("b: done"), std::string::npos) << router.waiting_for();
   server.lockstep().lost("b", "given up");
   EXPECT_TRUE(take_turns(without_b, [&] { return server.over(); }));
+}
+
+/// The message of a member that is lost is still on a slow link when its successor asks for the same topic in vain.
+TEST(RouterNode, WhatIsUnderWayOnARegisteredTopicArrivesAlthoughItsTopicIsRefusedToTheNextProgram) {
+  constexpr std::uint64_t kSent = 4, kAsked = 8, kSteps = 30;
+  Scenario scenario = toy_scenario(2);
+  scenario.links.push_back({.latency_s = 0.5, .topics = {"/note"}});
+  const auto bus = bus::make_bus({.vendor = "inproc"});
+  ToyServer server(*bus, scenario, kSteps);
+  server.expect_uavs(scenario);
+  server.expect_router();
+  router::RouterNode router(scenario, 0, 0, *bus);
+  router.set_patience(0.0, 1.0);
+  auto a = std::make_unique<ToyMember>(*bus, uav_domain(0, UavIndex{0}), "a");
+  ToyMember b(*bus, uav_domain(0, UavIndex{1}), "b"), next(*bus, uav_domain(0, UavIndex{0}), "a");
+  auto radio = std::make_unique<bus::RadioTopics>(a->client(), "a");
+  bool sent = false, asked = false;
+  a->on_step = [&](const msg::Step& step) {
+    radio->begin_step();
+    if (step.k() == 0) radio->send("/note", "std_msgs/msg/String", {"all"});
+    if (step.k() == kSent) sent = radio->write("/note", encode(msg::String()));
+  };
+  const bus::TopicSpec requests = bus::spec(topics::radio_request());
+  next.client().declare_writer(requests, bus::LockstepClient::Counterpart::router);
+  next.on_step = [&](const msg::Step& step) {
+    if (step.k() < kAsked || std::exchange(asked, true)) return;
+    auto request = bus::message_of<msg::RadioRequest>(bus->run());
+    request.source("a");
+    request.targets({"all"});
+    request.name("/note");
+    request.type("std_msgs/msg/String");
+    next.client().write(requests.name, request);
+  };
+  std::vector<std::function<void()>> turns = {[&] { server.poll(); }, [&] { router.poll(); }, [&] { b.poll(); },
+                                              [&] { a->poll(); }};
+  router.start();
+  a->start();
+  b.start();
+  ASSERT_TRUE(take_turns(turns, [&] { return server.k() == kSent + 1; })) << router.waiting_for();
+  EXPECT_TRUE(sent);
+  server.lockstep().lost("a", "killed");
+  radio.reset();
+  a.reset();
+  turns.back() = [&] { next.poll(); };
+  next.start();
+  ASSERT_TRUE(take_turns(turns, [&] { return server.over(); })) << router.waiting_for();
+  EXPECT_TRUE(asked);
+  EXPECT_EQ(router.gate().total().sent, 2U) << "to b and gcs";
+  EXPECT_EQ(router.gate().total().delivered, 2U);
 }
 
 TEST(RouterNode, TellsForWhomItWaitsBeforeItsRadioIsOpen) {

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 #include <spdlog/fmt/fmt.h>
 
+#include <functional>
+
 #include "bus/lockstep/names.hpp"
 #include "bus/lockstep/radio_topics.hpp"
 #include "bus/lockstep/server.hpp"

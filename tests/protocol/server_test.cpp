@@ -106,5 +106,69 @@ TEST_F(OneMember, WhoIsLostWhileItIsOutIsNotLetBack) {
   EXPECT_TRUE(server_.at_boundary());
 }
 
+/// The second member hangs after its hello, or before its declaration, and the server gives it up: before the first
+/// step, or after some steps.
+class GivenUp : public OneMember, public testing::WithParamInterface<std::tuple<bool, std::uint64_t>> {
+ protected:
+  GivenUp() {
+    const auto [matching, steps] = GetParam();
+    while (k_ < steps) step();
+    other_.start();
+    server_inbox_.dispatch(kNow);
+    EXPECT_FALSE(server_.at_boundary()) << "the second member is invited";
+    if (matching) client_inbox_.dispatch(kNow);
+    server_.lost("b", "did not join in time");
+  }
+};
+
+TEST_P(GivenUp, ItLearnsThatTheFleetGoesOnWithoutIt) {
+  ASSERT_EQ(server_.take_lost().size(), 1U);
+  EXPECT_TRUE(boundary()) << "the server does not wait for it";
+  EXPECT_TRUE(server_.awaited().empty());
+  step();
+  step();
+  EXPECT_EQ(other_.poll(), bus::LockstepClient::Event::dropped) << other_.waiting_for();
+  EXPECT_TRUE(boundary());
+  EXPECT_FALSE(server_.is_member("b")) << "the same participant never joins again";
+  EXPECT_TRUE(server_.take_lost().empty()) << "it is lost once";
+  EXPECT_TRUE(server_.take_rejoined().empty());
+}
+
+TEST_P(GivenUp, AProgramThatIsStartedInItsPlaceJoinsLikeARestartedOne) {
+  ASSERT_EQ(server_.take_lost().size(), 1U);
+  ASSERT_TRUE(boundary());
+  step();
+  const auto anew = bus_->join(7);
+  bus::LockstepClient successor(*anew, client_inbox_, "b");
+  successor.start();
+  bool closed = false;
+  for (int turn = 0; turn < 20; ++turn) {
+    closed = boundary();
+    successor.poll();
+  }
+  EXPECT_TRUE(closed);
+  EXPECT_TRUE(server_.is_member("b"));
+  EXPECT_EQ(server_.take_rejoined(), std::vector<std::string>{"b"}) << "so that its loss is over";
+  EXPECT_TRUE(server_.take_lost().empty());
+  server_.lost("b", "its process ended");
+  EXPECT_EQ(server_.take_lost().size(), 1U);
+}
+
+TEST_P(GivenUp, WhoJoinsAndIsLostAtOneBoundaryHasNotComeBack) {
+  const auto anew = bus_->join(7);
+  bus::LockstepClient successor(*anew, client_inbox_, "b");
+  successor.start();
+  for (int turn = 0; turn < 20; ++turn) {
+    boundary();
+    successor.poll();
+  }
+  ASSERT_TRUE(server_.is_member("b"));
+  server_.lost("b", "its process ended");
+  EXPECT_EQ(server_.take_lost().size(), 2U);
+  EXPECT_TRUE(server_.take_rejoined().empty());
+}
+
+INSTANTIATE_TEST_SUITE_P(Cases, GivenUp, testing::Combine(testing::Bool(), testing::Values(0, 1, 5)));
+
 }  // namespace
 }  // namespace skein::test

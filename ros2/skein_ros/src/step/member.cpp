@@ -113,6 +113,7 @@ bool Member::take_invitation() {
     server_ = writers_.of(resyncs_, info);
     base_.clear();  // an earlier invitation may have come before its writer was known
     for (const auto& count : resync.base) base_.push_back({count.topic, {count.source, count.count}});
+    invited_after_ = resync.epoch > 0 ? std::optional(resync.k) : std::nullopt;
     now_ns_ = static_cast<std::int64_t>(resync.k) * kExchange_ns;
     return server_ != 0;
   }
@@ -228,6 +229,8 @@ void Member::on_step(skein_msgs::msg::Step step) {
                                 [&](const auto& other) { return other.source == self_ && other.name == setup_.uav; });
   if (!ours) {
     if (member_) fail("sim_server goes on without this node");
+    // The server pauses from the invitation until this node has joined, or until it gives the node up.
+    if (!invited_after_ || step.k > *invited_after_) fail("sim_server gave this node up while it joined");
     return;
   }
   member_ = true;

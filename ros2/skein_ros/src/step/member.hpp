@@ -109,6 +109,7 @@ class Member {
   std::vector<std::unique_ptr<Incoming>> incomings_;
   std::vector<std::unique_ptr<Outgoing>> outgoings_;
   std::vector<std::pair<std::string, std::pair<Source, std::uint64_t>>> base_;
+  std::optional<std::uint64_t> invited_after_;  ///< the last step before the invitation; none: there was no step
   std::optional<skein_msgs::msg::Step> pending_, step_;
   std::optional<skein_msgs::msg::Done> last_done_;
 
