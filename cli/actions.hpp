@@ -8,8 +8,8 @@
 
 namespace skein::cli {
 
-/// `skein run`, from the options to result.json: validates the options, starts the fleet, monitors it until it ends, and
-/// writes the result. @throws InputError before the fleet's programs have started; Interrupted if the user presses
+/// `skein run`, from the options to result.json: validates the options, starts the fleet, monitors it until it ends,
+/// and writes the result. @throws InputError before the fleet's programs have started; Interrupted if the user presses
 ///   Ctrl-C before the flight.
 int run_fleet(const RunOptions& options, const Console& console);
 
@@ -58,8 +58,9 @@ int merge_reports(const MergeOptions& options, const Console& console);
 
 /// `skein contest` and `skein compare`: flies the flights that are still missing, then writes report.html, flights.csv,
 /// summary.csv, pairs.csv, table.tex, figures/*.svg and, for a contest, totals.csv; also after Ctrl-C and when flights
-/// have failed. @returns kExitProcessFailed when a flight failed, kExitCheckFailed when one does not meet a requirement,
-///   kExitInterrupted after Ctrl-C. @throws InputError before anything flies; Interrupted while the input is checked.
+/// have failed. @returns kExitProcessFailed when a flight failed, kExitCheckFailed when one does not meet a
+///   requirement, kExitInterrupted after Ctrl-C. @throws InputError before anything flies; Interrupted while the input
+///   is checked.
 int run_study(const StudyOptions& options, const Console& console);
 
 /// `skein oracle`: prints the score attainable in a scenario with full knowledge (docs/oracle.md), as a table or JSON.
@@ -72,11 +73,12 @@ int consult_oracle(const OracleOptions& options, const Console& console);
 int check_planner(const CheckPlannerOptions& options, const Console& console);
 
 /// `skein rerun`: replays a recorded run to one UAV's software, without the rest of the fleet's software.
-/// @returns 0 when the software sends the same messages as then and the digest is the same, 1 when not; else the code of
-///   the flight. @throws InputError when the run has no whole recording, or cannot be repeated.
+/// @returns 0 when the software sends the same messages as then and the digest is the same, 1 when not; else the code
+///   of the flight. @throws InputError when the run has no whole recording, or cannot be repeated.
 int rerun(const RerunOptions& options, const Console& console);
 
-/// `skein fork`: replays a recorded run up to some time, then lets it continue differently. @returns as the flight does.
+/// `skein fork`: replays a recorded run up to some time, then lets it continue differently. @returns as the flight
+/// does.
 /// @throws InputError as rerun(), and when the recorded run ended before options.at_s.
 int fork_run(const ForkOptions& options, const Console& console);
 
@@ -99,8 +101,8 @@ int convert_files(const ConvertOptions& options, const Console& console);
 /// @returns kExitDone when nothing was found, kExitCheckFailed with finds. @throws InputError, Interrupted.
 int run_hunt(const HuntOptions& options, const Console& console);
 
-/// `skein blame`: flies a run again without one of its faults at a time, and on request without one link's messages at a
-/// time, and ranks them by what they cost.
+/// `skein blame`: flies a run again without one of its faults at a time, and on request without one link's messages at
+/// a time, and ranks them by what they cost.
 /// @throws InputError when there is nothing to blame, or the run cannot be repeated; Interrupted.
 int blame(const BlameOptions& options, const Console& console);
 
@@ -114,8 +116,8 @@ int check_files(const CheckOptions& options, const Console& console);
 int export_scene(const SceneOptions& options);
 
 /// `skein bench`: flies and measures speed, memory, and where the time goes, with the same programs that a user's run
-/// starts; prints the tables and writes --json. Takes minutes, with --quick well below one. docs/performance.md explains
-/// the figures. @returns kExitDone when every run reached its end, whether or not it meets the targets; else
+/// starts; prints the tables and writes --json. Takes minutes, with --quick well below one. docs/performance.md
+/// explains the figures. @returns kExitDone when every run reached its end, whether or not it meets the targets; else
 ///   kExitProcessFailed, or kExitInterrupted. @throws InputError before anything has started.
 int run_bench(const BenchOptions& options, const Console& console);
 

@@ -20,6 +20,8 @@ struct PoseUncertainty {
 };
 
 struct BatteryStatus {
+  static constexpr double kFullCharge = 0.95;  ///< a battery with more charge counts as full, and is not swapped
+
   double charge = 1.0;       ///< remaining share of the capacity, [0, 1]
   double capacity_ah = 0.0;  ///< of a full battery
   double voltage_v = 0.0;    ///< at the terminals

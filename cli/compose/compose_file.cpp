@@ -253,8 +253,7 @@ class ComposeText {
   }
 
   Texts arguments_of(const std::string& program) const {
-    Texts texts;
-    Texts arguments = program_arguments(plan_, program, kComposeBaseDomain);
+    Texts texts, arguments = program_arguments(plan_, program, kComposeBaseDomain);
     for (const fs::path& path : {plan_.scenario.file, plan_.faults.file, plan_.options.assets.value_or("")}) {
       if (!path.empty()) std::ranges::replace(arguments, fs::absolute(path).string(), in_container(path).string());
     }

@@ -9,8 +9,8 @@
 
 namespace skein {
 
-/// Parses the whole text as a decimal number of this type. @returns nullopt if it is none or does not fit the type. A "+"
-/// and blanks are not accepted, and a "-" only by signed types.
+/// Parses the whole text as a decimal number of this type. @returns nullopt if it is none or does not fit the type. A
+/// "+" and blanks are not accepted, and a "-" only by signed types.
 template <std::integral Number = std::uint64_t>
 std::optional<Number> parse_whole(std::string_view text) {
   Number value = 0;

@@ -6,7 +6,6 @@ namespace skein::sim {
 namespace {
 
 constexpr Tick kErrorTicks = kControlTicks;  ///< between two steps of the odometry's error, as of the controller
-constexpr double kFullCharge = 0.95;         ///< a battery with more charge is not swapped
 constexpr Tick kPowerTicks = 4;              ///< between two draws of power from the battery
 
 }  // namespace
@@ -81,7 +80,7 @@ void Surroundings::note_place(Tick tick, const Vector3d& p_WB, bool airborne) {
   }
   const BatteryConditions& config = conditions_.battery;
   const bool near = (p_WB - station_W_).head<2>().norm() <= config.swap_within_m;
-  const bool full = battery_->charge() > kFullCharge;
+  const bool full = battery_->charge() > BatteryStatus::kFullCharge;
   if (!config.swaps() || !near || !last_in_flight_ || full || empty_) return stands_since_.reset();
   if (!stands_since_) stands_since_ = tick;
   if (tick - *stands_since_ < ticks(*config.swap_s)) return;

@@ -88,8 +88,8 @@ Violations check_references(const Tree& tree);
 /// Only results/run_folder.hpp names the files of a run's folder; tests may, too.
 Violations check_run_files(const Tree& tree);
 
-/// Each decision has the sections Context, Decision, Consequences and Alternatives, unless another one supersedes it as a
-/// whole.
+/// Each decision has the sections Context, Decision, Consequences and Alternatives, unless another one supersedes it as
+/// a whole.
 Violations check_decisions(const Tree& tree);
 
 /// No build products and no large files among `tracked` (paths below the root).

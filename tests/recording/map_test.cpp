@@ -28,8 +28,8 @@ Cell cell_of(const Vector3d& p_W, double cell_m) {
           static_cast<int>(std::floor(p_W.z() / cell_m))};
 }
 
-/// A simple map: cells with hits, and for each coarse cell the number of rays that passed it. It traces the rays itself,
-/// from the crossings of each ray with the borders of cells.
+/// A simple map: cells with hits, and for each coarse cell the number of rays that passed it. It traces the rays
+/// itself, from the crossings of each ray with the borders of cells.
 struct PlainMap {
   static constexpr std::size_t kTracedRays = 400;                          ///< of a key frame, evenly picked
   static constexpr double kFarthest_m = 30.0, kShortOfHit_m = kFreeCellM;  ///< where rays end

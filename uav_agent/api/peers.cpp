@@ -39,6 +39,17 @@ Peers::Peers(const AgentConfig& config) : odometry_(config.odometry) {
   }
 }
 
+std::optional<std::size_t> Peers::place_of(std::size_t uav) const {
+  const auto found = std::ranges::lower_bound(peers_, uav, {}, [](const Peer& peer) { return std::size_t{peer.uav}; });
+  if (found == peers_.end() || found->uav != uav) return std::nullopt;
+  return static_cast<std::size_t>(found - peers_.begin());
+}
+
+const Peer* Peers::find(std::size_t uav) const {
+  const std::optional<std::size_t> place = place_of(uav);
+  return place ? &peers_[*place] : nullptr;
+}
+
 void Peers::update(Tick tick, const std::vector<Neighbour>& neighbours, const LinkQualities& links) {
   station_visible_ = false;
   station_link_.reset();
@@ -54,13 +65,12 @@ void Peers::update(Tick tick, const std::vector<Neighbour>& neighbours, const Li
       station_link_ = quality;
       continue;
     }
-    const UavIndex uav = *uav_of_node(neighbour.node);
-    const auto found =
-        std::ranges::lower_bound(peers_, std::size_t{uav}, {}, [](const Peer& peer) { return std::size_t{peer.uav}; });
-    if (found == peers_.end() || found->uav != uav) continue;
-    Peer& peer = *found;
+    const std::optional<std::size_t> place = place_of(*uav_of_node(neighbour.node));
+    if (!place) continue;
+    Peer& peer = peers_[*place];
     const double gap_s = peer.seen ? seconds(tick - *peer.seen) : kMaxGapS + 1.0;
     const Vector3d v_before_W = peer.v_W;
+    peer.v_told = neighbour.v_W.has_value();
     if (neighbour.v_W) {
       peer.v_W = *neighbour.v_W;
     } else if (gap_s > kMaxGapS) {

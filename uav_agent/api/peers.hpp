@@ -23,6 +23,7 @@ struct Peer {
   Vector3d deviation_m = Vector3d::Zero();
   /// Radio link to it in this exchange; nullopt: it is not in line of sight, or the scenario has no path loss.
   std::optional<LinkQuality> link = {};
+  bool v_told = false;  ///< v_W is what the UAV reported when it was last seen (Neighbour::v_W)
 };
 
 /// Usual standard deviation of a UAV's position in flight, along each axis [m]; larger while the fix is lost.
@@ -40,6 +41,8 @@ class Peers {
 
   /// All other UAVs, in fleet order.
   const std::vector<Peer>& all() const { return peers_; }
+  /// The other UAV with this index in the fleet; nullptr: there is none, or it is this UAV itself.
+  const Peer* find(std::size_t uav) const;
   /// Whether the ground station was in line of sight in the last update().
   bool station_visible() const { return station_visible_; }
   /// Radio link to the ground station in the last update(); nullopt as for Peer::link.
@@ -52,6 +55,8 @@ class Peers {
     bool left = false;               ///< whether its UAV was seen to leave it
   };
   double grown(const Start& start, Tick tick) const;
+  /// Index of a UAV in peers_; nullopt: it is not there.
+  std::optional<std::size_t> place_of(std::size_t uav) const;
 
   const OdometryConditions odometry_;
   std::vector<Peer> peers_;

@@ -26,6 +26,19 @@ TEST(Peers, AreAllOthersAtTheirStartsUntilSeen) {
   EXPECT_FALSE(peers.station_visible());
 }
 
+TEST(Peers, AreFoundByIndex) {
+  for (std::size_t self = 0; self < 5; ++self) {
+    const Peers peers(fleet_in_a_row(5, self));
+    for (std::size_t uav = 0; uav < 7; ++uav) {
+      const Peer* const found = peers.find(uav);
+      EXPECT_EQ(found != nullptr, uav < 5 && uav != self) << uav << " for " << self;
+      if (found != nullptr) {
+        EXPECT_EQ(std::size_t{found->uav}, uav);
+      }
+    }
+  }
+}
+
 TEST(Peers, TakeVelocityFromSuccessivePositionsAndForgetItAfterAGap) {
   Peers peers(fleet_in_a_row(2, 0));
   Vector3d p(0.0, 0.0, 5.0);
@@ -34,10 +47,12 @@ TEST(Peers, TakeVelocityFromSuccessivePositionsAndForgetItAfterAGap) {
     p += Vector3d(0.1, 0.0, -0.05);
   }
   EXPECT_NEAR((peers.all()[0].v_W - Vector3d(2.0, 0.0, -1.0)).norm(), 0.0, 0.01);
+  EXPECT_FALSE(peers.all()[0].v_told);
   peers.update(1000, {{.node = Node{2}, .p_W = p}});
   EXPECT_EQ(peers.all()[0].v_W, Vector3d::Zero());
   peers.update(1020, {{.node = Node{2}, .p_W = p, .v_W = Vector3d(0.0, 3.0, 0.0)}});
   EXPECT_EQ(peers.all()[0].v_W, Vector3d(0.0, 3.0, 0.0)) << "what is told counts";
+  EXPECT_TRUE(peers.all()[0].v_told);
   EXPECT_NEAR((peers.all()[0].a_W - Vector3d(0.0, 60.0, 0.0)).norm(), 0.0, 1e-9) << "3 m/s more in 0.05 s";
   peers.update(1040, {{.node = Node{2}, .p_W = p, .v_W = Vector3d(0.0, 3.0, 0.0)}});
   EXPECT_EQ(peers.all()[0].a_W, Vector3d::Zero());

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "uav_agent/flight/site.hpp"
+
 namespace skein::agent {
 namespace {
 
@@ -50,6 +52,8 @@ bool FreeSpace::free(const Vector3d& p_W) const {
 
 bool FreeSpace::near_box(const Vector3d& p_W) const {
   const double margin = std::max(config_.clearance_m, config_.jut_m);
+  const std::optional<Vector3d>& out_W = config_.way_out_W;
+  if (config_.blind_fleet && out_W && is_above_start(p_W, *out_W) && p_W.z() <= out_W->z()) return false;
   return std::any_of(boxes_.begin(), boxes_.end(), [&](const OrientedBox& box) { return box.contains(p_W, margin); });
 }
 

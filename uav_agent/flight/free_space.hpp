@@ -5,6 +5,7 @@
 // Frame W.   Units: metres.   Pure; threads: any, as long as the map does not change.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "uav_agent/flight/body_fit.hpp"
@@ -34,7 +35,8 @@ class FreeSpace {
     const BodyFit* fit = nullptr;  ///< where the body fits in proved space; must outlive this
     /// Excludes unproved space, for a UAV that cannot prove space itself. Needs `fit`.
     bool proved_only = false;
-    bool blind_fleet = false;  ///< with `world`: keeps clear of all boxes, because no map proves space free
+    bool blind_fleet = false;  ///< with `world`: keeps clear of all boxes, because no map proves space free, ...
+    std::optional<Vector3d> way_out_W = {};  ///< ... but not straight below this place: there, the UAV leaves a box
   };
 
   /// @param boxes, map  must outlive this.

@@ -2,6 +2,7 @@
 // Frame W.   Units: metres.   Pure.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "core/types.hpp"
@@ -14,5 +15,13 @@ bool is_site_box(const OrientedBox& box);
 
 /// z in W of the highest point of all boxes, at least 0; 0 without boxes.
 double top_of(const std::vector<OrientedBox>& boxes);
+
+/// Whether p is straight above a UAV's start, within 1 m.
+bool is_above_start(const Vector3d& p_W, const Vector3d& start_W);
+
+/// z in W at which a UAV that climbs straight up from p_W has left the box in which p_W is, and those that it gets into
+/// on its way out.
+/// @param margin_m  least distance to a box outside.   @returns nullopt if p_W is in no box.
+std::optional<double> way_out_m(const std::vector<OrientedBox>& boxes, const Vector3d& p_W, double margin_m);
 
 }  // namespace skein::agent

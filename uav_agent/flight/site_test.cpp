@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
+#include "core/random_stream.hpp"
 #include "uav_agent/api/agent_config.hpp"
 
 namespace skein::agent {
@@ -30,6 +32,39 @@ TEST(Site, ASiteBoxIsWideBothWaysAndHigh) {
     narrow.size[axis] = 15.0;
     EXPECT_FALSE(is_site_box(narrow)) << axis;
   }
+}
+
+TEST(Site, TheWayOutLeadsThroughAllBoxesThatFollowOneAnother) {
+  int more = 0, none = 0;
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    RandomStream random(seed, "way_out", 0);
+    std::vector<OrientedBox> boxes(1 + random.bits() % 6);
+    for (OrientedBox& box : boxes) {
+      box.center = Vector3d(random.uniform(-4.0, 4.0), random.uniform(-4.0, 4.0), random.uniform(0.0, 40.0));
+      box.size = Vector3d(random.uniform(2.0, 14.0), random.uniform(2.0, 14.0), random.uniform(2.0, 14.0));
+      const Vector3d axis_W(random.normal(), random.normal(), random.normal());
+      if (random.bits() % 2 == 0) {
+        box.R_WO = Eigen::AngleAxisd(random.uniform(0.0, 1.5), axis_W.normalized()).toRotationMatrix();
+      }
+    }
+    const auto in_any = [&](double z, double margin_m) {
+      return std::ranges::any_of(boxes, [&](const OrientedBox& box) { return box.contains({0.0, 0.0, z}, margin_m); });
+    };
+    const double margin_m = random.uniform(0.0, 2.0), from_m = random.uniform(0.0, 10.0);
+    const std::optional<double> out_m = way_out_m(boxes, {0.0, 0.0, from_m}, margin_m);
+    ASSERT_EQ(out_m.has_value(), in_any(from_m, 0.0)) << "seed " << seed;
+    none += out_m ? 0 : 1;
+    if (!out_m) continue;
+    EXPECT_FALSE(in_any(*out_m, margin_m)) << "seed " << seed;
+    for (double z = from_m; z < *out_m - 0.01; z += 0.05)
+      EXPECT_TRUE(in_any(z, margin_m)) << "seed " << seed << ", " << z;
+    const auto starts_in = [&](const OrientedBox& box) { return box.contains({0.0, 0.0, from_m}); };
+    more += std::ranges::none_of(boxes, [&](const OrientedBox& box) {
+      return starts_in(box) && box.contains({0.0, 0.0, *out_m - 0.01}, margin_m);
+    });
+  }
+  EXPECT_GT(none, 10);
+  EXPECT_GT(more, 10) << "it gets into further boxes";
 }
 
 TEST(Due, OncePerPeriodAndInAnotherExchangeWithAnotherOffset) {

@@ -19,7 +19,6 @@ constexpr double kCalmMps = 1.0;  ///< gusts below this are no reason to fly slo
 constexpr double kLeastSpeedShare = 0.5;
 constexpr double kLeastGroundMps = 1.0;
 constexpr double kMarginS = 8.0;
-constexpr double kFullCharge = 0.95;
 constexpr double kMostPower = 4.0;    ///< of hover; a faster fall of the charge is a loss, which does not go on
 constexpr double kSwapCharge = 0.01;  ///< least rise of the charge that is another battery
 
@@ -131,7 +130,7 @@ bool Caution::must_land(const PlannerInput& in) const {
 }
 
 bool Caution::has_full_battery(const PlannerInput& in) const {
-  return in.battery && (in.battery->charge > kFullCharge || has_another_);
+  return in.battery && (in.battery->charge > BatteryStatus::kFullCharge || has_another_);
 }
 
 bool Caution::must_sink(const PlannerInput& in) const {

@@ -282,6 +282,7 @@ void FlightCore::go_home(const PlannerInput& in, Steering& steering) {
   if (homing_.done(in)) {
     navigator_.stop(steering);
     outcomes();
+    missed_home_ = 0;
     navigator_.want(wanted_);
     enter(Mode::working, in);
     return;
@@ -289,7 +290,7 @@ void FlightCore::go_home(const PlannerInput& in, Steering& steering) {
   if (in.station_linked && homing_.delivers_here(in)) {
     navigator_.stop(steering);
     at_place_since_.reset();
-    next_place_ = 0;
+    next_place_ = missed_home_ = 0;
     return;
   }
   navigator_.step(in, filter_.held(), steering);
@@ -304,6 +305,7 @@ void FlightCore::go_home(const PlannerInput& in, Steering& steering) {
   if (!navigator_.idle() && !shut_in) return;
   if (missed) {
     navigator_.stop(steering);
+    if (gives_up_home(++missed_home_, homing_.places(in, navigator_.space(in)).size(), in)) return;
     lost_way_home_ = true;
     recover(in);
     return;
@@ -311,14 +313,7 @@ void FlightCore::go_home(const PlannerInput& in, Steering& steering) {
   if (at_place_since_ && seconds(in.tick - *at_place_since_) < kNoLinkS) return;
   at_place_since_.reset();
   const std::vector<Vector3d> places_W = homing_.places(in, navigator_.space(in));
-  if (next_place_ > places_W.size()) {
-    homing_.give_up(in);
-    if (!homing_.due(in)) {
-      navigator_.want(wanted_);
-      enter(Mode::working, in);
-      return;
-    }
-  }
+  if (gives_up_home(next_place_, places_W.size(), in)) return;
   std::vector<Goal> goals;
   for (std::size_t i = 0; i < places_W.size(); ++i) {
     const Vector3d& p_W = places_W[(i + next_place_) % places_W.size()];
@@ -326,6 +321,18 @@ void FlightCore::go_home(const PlannerInput& in, Steering& steering) {
   }
   ++next_place_;
   navigator_.want(std::move(goals));
+}
+
+/// @param tries  flights to places without a link, or searches that found no way to any place.
+/// @returns whether the UAV goes back to work, because there were more tries than places.
+bool FlightCore::gives_up_home(std::size_t tries, std::size_t places, const PlannerInput& in) {
+  if (tries <= places) return false;
+  homing_.give_up(in);
+  if (homing_.due(in)) return false;
+  missed_home_ = 0;
+  navigator_.want(wanted_);
+  enter(Mode::working, in);
+  return true;
 }
 
 }  // namespace skein::agent

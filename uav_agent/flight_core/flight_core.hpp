@@ -76,6 +76,7 @@ class FlightCore {
   void cut_wanted();
   void show(const PlannerInput& in, Steering& steering);
   void go_home(const PlannerInput& in, Steering& steering);
+  bool gives_up_home(std::size_t tries, std::size_t places, const PlannerInput& in);
   bool flies_along() const;
   Doing::What doing_home(const PlannerInput& in) const;
   void enter(Mode mode, const PlannerInput& in);
@@ -99,7 +100,8 @@ class FlightCore {
   std::size_t next_place_ = 0;            ///< index of the place that homing tries first
   Vector3d held_p_W_ = Vector3d::Zero();  ///< where the safety filter held the UAV on its way to goals, ...
   double held_s_ = 0.0;                   ///< ... and for how long since it was last 0.5 m away or reached a goal
-  bool lost_way_home_ = false;            ///< the UAV recovers because homing could not reach its places
+  std::size_t missed_home_ = 0;           ///< how often homing found no way since captures were last delivered
+  bool lost_way_home_ = false;            ///< the UAV recovers because of that
   std::optional<Vector3d> room_W_;        ///< where the UAV makes room for another one
   std::vector<Outcome> outcomes_;         ///< outcomes that the planner has not received yet
   std::vector<Goal> wanted_;              ///< the planner's last goals, for when `working` begins again

@@ -6,7 +6,7 @@
 #include <set>
 
 #include "core/random_stream.hpp"
-#include "uav_agent/testing/flown_uav.hpp"
+#include "uav_agent/testing/core_uav.hpp"
 #include "uav_agent/testing/test_world.hpp"
 
 namespace skein::agent {
@@ -17,22 +17,6 @@ AgentConfig a_lone_explorer() {
   agent.fleet = {{.name = "a"}};
   return agent;
 }
-
-/// A UAV that a whole flight core flies.
-struct CoreUav : FlownUav {
-  using FlownUav::FlownUav;
-  /// Executes the steering of this exchange, and moves the UAV on by one exchange.
-  void fly_by(const Steering& steering) {
-    if (steering.yaw) tracker.turn_to(*steering.yaw);
-    if (const auto* path = std::get_if<Path>(&steering.motion)) tracker.follow(*path);
-    if (std::holds_alternative<Hold>(steering.motion)) tracker.hold();
-    core.move(tracker, {.tick = input().tick, .state = state, .map = map, .boxes = boxes, .peers = peers});
-    state.p_WB = tracker.commanded().p_WB;
-    state.v_WB = tracker.commanded().v_WB;
-    ++k;
-  }
-  FlightCore core{config, agent};
-};
 
 /// A strategy that wants one place after the other: most of them inside structure, or where nobody proves anything.
 struct WantsOnePlaceAfterTheOther : CoreUav {

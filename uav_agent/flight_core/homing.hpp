@@ -24,7 +24,7 @@ class Homing {
   /// do not arrive from here; or captures have been undelivered for longer than deliver_every_s, and no flight to a
   /// link has been given up in this time.
   bool due(const PlannerInput& in) const;
-  /// Call it when none of the places() has a link: the station may be out of reach for long.
+  /// Call it when none of the places() has a link, or can be reached: the station may be out of reach for long.
   void give_up(const PlannerInput& in) { given_up_ = in.tick; }
   /// Whether the UAV is linked, all its captures are delivered, and there is enough time to work on.
   bool done(const PlannerInput& in) const;

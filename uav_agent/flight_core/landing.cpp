@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "uav_agent/flight/site.hpp"
 #include "uav_agent/flight_core/landing_place.hpp"
 
 namespace skein::agent {
@@ -66,10 +67,14 @@ void Landing::fly_to_site(const PlannerInput& in, bool must_sink, Steering& stee
   if (!navigator_.idle()) return;
   if (!sites_W_.empty() && !navigator_.sees() && !must_sink) filter_.set_trust(SafetyFilter::Trust::unknown);
   find_sites(in);
+  // Into the box in which it started, a UAV gets on the way on which it left it.
+  const std::optional<Vector3d> out_W = filter_.way_out_W(in.boxes);
   std::vector<Goal> goals;
   for (std::size_t i = 0; i < sites_W_.size(); ++i) {
     const Vector3d above_W(sites_W_[i].x(), sites_W_[i].y(), kFromM);
-    goals.push_back({.id = -1 - static_cast<std::int64_t>(i), .way = {{above_W, config_.approach_mps}}});
+    Goal goal{.id = -1 - static_cast<std::int64_t>(i), .way = {{above_W, config_.approach_mps}}};
+    if (out_W && is_above_start(above_W, *out_W)) goal.way.insert(goal.way.begin(), {*out_W, config_.approach_mps});
+    goals.push_back(std::move(goal));
   }
   navigator_.want(std::move(goals));
 }

@@ -62,6 +62,7 @@ FreeSpace::Config Navigator::space_config(const PlannerInput& in) const {
   config.fit = &fit_;
   config.unknown_cost = config_.unknown_cost;
   config.blind_fleet = filter_.assumes_boxes();
+  config.way_out_W = filter_.way_out_W(in.boxes);
   config.proved_only = !sees() && !filter_.assumes_boxes() && filter_.trust() == SafetyFilter::Trust::proved;
   return config;
 }

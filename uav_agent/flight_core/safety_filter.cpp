@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "uav_agent/flight/site.hpp"
+
 namespace skein::agent {
 namespace {
 
@@ -26,6 +28,7 @@ constexpr double kClimbsMps = 1.0;  ///< speed for which clear_up_to() checks a 
 /// known state, because its reported velocity lags by half of kPeerSmoothS. Measured over random flights: up to 0.48 m.
 constexpr double kUnheardM = 0.5;
 constexpr double kAboveStartM = 30.0, kStartM = 1.0;
+constexpr double kOutOfBoxM = 0.2;   ///< so far beyond what the filter demands, a UAV is out of a box
 constexpr double kOnGroundM = 0.25;  ///< a slow UAV whose centre is no higher above its start stands on the ground
 
 /// Vector to p from the nearest point of a segment.
@@ -265,16 +268,28 @@ bool SafetyFilter::proved_free(const Vector3d& p_W, const WorldMap& map) const {
   return map.ball_free(p_W, tube_m(0.0), ground_m());
 }
 
+/// A UAV starts in a box if the box is within the room that it needs at its start (halo_m_), above it.
+std::optional<Vector3d> SafetyFilter::way_out_W(const std::vector<OrientedBox>& boxes) const {
+  if (!assumes_boxes_) return std::nullopt;
+  Vector3d p_W = agent_.me().p_WB_start + Vector3d(0.0, 0.0, tube_m(0.0, config_.tight_halo_m));
+  const std::optional<double> out_m = way_out_m(boxes, p_W, tube_m(config_.alone_mps) + kOutOfBoxM);
+  if (!out_m) return std::nullopt;
+  p_W.z() = *out_m;
+  return p_W;
+}
+
 bool SafetyFilter::assumed(const Vector3d& p_W, double radius_m, const WorldMap& map,
                            const std::vector<OrientedBox>& boxes) const {
   const bool above_start = (p_W - agent_.me().p_WB_start).head<2>().norm() < kStartM && p_W.z() < kAboveStartM;
   const double room_m = above_start ? 0.5 * radius_m : radius_m;
-  return map.structure_distance_m(p_W) >= room_m && std::ranges::none_of(boxes, [&](const OrientedBox& box) {
-           // A UAV that was put down in a box, or below one, has no other way out than straight up.
-           const bool about_start = above_start && box.contains(agent_.me().p_WB_start, radius_m);
-           return !about_start && off_box_m(box, p_W) <= room_m &&
-                  off_box_m(box, p_W) < off_box_m(box, now_W_) - nearer_m_;
-         });
+  if (map.structure_distance_m(p_W) < room_m) return false;
+  const std::optional<Vector3d> out_W = way_out_W(boxes);
+  if (out_W && is_above_start(p_W, *out_W) && p_W.z() <= out_W->z()) return true;
+  return std::ranges::none_of(boxes, [&](const OrientedBox& box) {
+    // A UAV that was put down in a box, or below one, has no other way out than straight up.
+    const bool about_start = above_start && box.contains(agent_.me().p_WB_start, radius_m);
+    return !about_start && off_box_m(box, p_W) <= room_m && off_box_m(box, p_W) < off_box_m(box, now_W_) - nearer_m_;
+  });
 }
 
 }  // namespace skein::agent

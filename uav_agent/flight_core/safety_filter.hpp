@@ -14,7 +14,8 @@
 // Two UAVs that both keep the invariant never meet: either may brake at any time, and neither relies on the other.
 // A UAV that must get down, since it would fall otherwise, requires less (Trust).
 // In a fleet without a LiDAR, no UAV can prove space free; nor can a UAV without a working LiDAR that receives no map.
-// Such a UAV assumes that space is free outside all boxes and away from known structure (assume_boxes()).
+// Such a UAV assumes that space is free outside all boxes and away from known structure (assume_boxes()). If it starts
+// in a box, it has no other way out than straight up, so it assumes that this way is free, too.
 // Frame W.   Units: SI.   Threads: one.   Deterministic.
 #pragma once
 
@@ -70,6 +71,9 @@ class SafetyFilter {
   /// Whether space outside all boxes is assumed to be free from now on.
   void assume_boxes(bool assume) { assumes_boxes_ = assume; }
   bool assumes_boxes() const { return assumes_boxes_; }
+  /// Place straight above the start at which this UAV has left the boxes in which it starts; nullopt: it starts in no
+  /// box, or does not assume_boxes().
+  std::optional<Vector3d> way_out_W(const std::vector<OrientedBox>& boxes) const;
   /// What the filter assumes for a UAV that must get down: its battery is nearly empty, or it gave up a takeoff.
   enum class Trust : std::uint8_t {
     proved,   ///< the usual rules

@@ -42,14 +42,15 @@ Showing::Showing(const AgentConfig& agent, const SafetyFilter& filter) : agent_(
 }
 
 bool Showing::is_visible(std::size_t uav, const PlannerInput& in) {
-  return std::ranges::any_of(in.peers.all(), [&](const Peer& peer) { return peer.uav == uav && peer.visible; });
+  const Peer* const peer = in.peers.find(uav);
+  return peer != nullptr && peer->visible;
 }
 
 bool Showing::has_risen(std::size_t uav, const PlannerInput& in) const {
-  return std::ranges::any_of(in.peers.all(), [&](const Peer& peer) {
-    const Vector3d from_start = peer.p_W - agent_.fleet[uav].p_WB_start;
-    return peer.uav == uav && peer.seen && from_start.norm() > kUpM && from_start.z() > kLowM;
-  });
+  const Peer* const peer = in.peers.find(uav);
+  if (peer == nullptr || !peer->seen) return false;
+  const Vector3d from_start = peer->p_W - agent_.fleet[uav].p_WB_start;
+  return from_start.norm() > kUpM && from_start.z() > kLowM;
 }
 
 bool Showing::is_due(const Charge& charge, const PlannerInput& in) const {
@@ -61,10 +62,9 @@ bool Showing::is_due(const Charge& charge, const PlannerInput& in) const {
 
 Vector3d Showing::place_W(std::size_t uav, const PlannerInput& in) const {
   Vector3d place_W = agent_.fleet[uav].p_WB_start;
-  for (const Peer& peer : in.peers.all()) {
-    if (peer.uav != uav || !peer.seen || (peer.p_W - place_W).norm() < kAsideOfStartM) continue;
-    place_W.head<2>() = peer.p_W.head<2>();
-  }
+  const Peer* const peer = in.peers.find(uav);
+  const bool aside = peer != nullptr && peer->seen && (peer->p_W - place_W).norm() >= kAsideOfStartM;
+  if (aside) place_W.head<2>() = peer->p_W.head<2>();
   return place_W;
 }
 

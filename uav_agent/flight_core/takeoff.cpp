@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "uav_agent/flight/site.hpp"
 #include "uav_agent/flight_core/place_aside.hpp"
 
 namespace skein::agent {
@@ -58,8 +59,8 @@ void Takeoff::stand(const PlannerInput& in, Steering& steering) {
   if (in.tick < stands_until_) return;
   waits_for_ = lifts_off_after(in);
   if (waits_for_ || may_drift_into_neighbours(in)) return;
-  const double layer_m = kClimbLayerM * neighbours_after();
-  top_W_ = Vector3d(p_W.x(), p_W.y(), p_W.z() + kLowestTopM + layer_m);
+  top_W_ = Vector3d(p_W.x(), p_W.y(), p_W.z() + kLowestTopM + kClimbLayerM * neighbours_after());
+  raise_top(in);
   steering.motion = Path{{{*top_W_, config_.climb_mps}}};
   steering.gimbal = GimbalCommand{GimbalMode::angle, 0.0, 0.0};
   climbed_m_ = p_W.z();
@@ -67,6 +68,17 @@ void Takeoff::stand(const PlannerInput& in, Steering& steering) {
   aside_ = false;
   climbed_at_ = in.tick;
   phase_ = Phase::climbs;
+}
+
+/// Raises top_W_ out of the boxes in which the UAV starts, if it assumes that the boxes are structure: it would find no
+/// path out of them. @returns whether it was lower.
+bool Takeoff::raise_top(const PlannerInput& in) {
+  const std::optional<Vector3d> out_W = filter_.way_out_W(in.boxes);
+  if (!out_W || !is_above_start(*top_W_, *out_W)) return false;
+  const double top_m = out_W->z() + kClimbLayerM * neighbours_after();
+  if (top_W_->z() >= top_m) return false;
+  top_W_->z() = top_m;
+  return true;
 }
 
 /// Number of UAVs with a higher index that start near by, from which each UAV derives a height of its own to climb to.
@@ -111,6 +123,11 @@ bool Takeoff::may_drift_into_neighbours(const PlannerInput& in) {
 
 /// Climbs as high as space is proved free; the UAV begins to work where the climb ends.
 void Takeoff::climb(const PlannerInput& in, Steering& steering) {
+  if (raise_top(in)) {  // it has received no map for so long that it assumes the boxes only now
+    steering.motion = Path{{{*top_W_, config_.climb_mps}}};
+    climbed_at_ = in.tick;
+    return;
+  }
   const double height_m = in.tracking.setpoint.p_WB.z();
   if (height_m > climbed_m_ + kClimbGainM) {
     climbed_m_ = height_m;

@@ -1,7 +1,8 @@
 // Takeoff: lifts off after the UAVs that stand near by, and climbs to a height of its own where the planner's work
-// begins. A UAV that is held in the climb tries an ordered list of recovery behaviours: climb from a place beside the
-// structure that holds it; step aside from space that its LiDAR cannot prove free; sink back to the ground and try
-// again later, if its position drifts meanwhile; wait to be shown the way up, if it has no LiDAR.
+// begins. A UAV that starts in a box, and assumes boxes to be structure, climbs straight up out of it. A UAV that is
+// held in the climb tries an ordered list of recovery behaviours: climb from a place beside the structure that holds
+// it; step aside from space that its LiDAR cannot prove free; sink back to the ground and try again later, if its
+// position drifts meanwhile; wait to be shown the way up, if it has no LiDAR.
 // Frame W.   Units: SI.   Threads: one.   Deterministic.
 #pragma once
 
@@ -34,6 +35,7 @@ class Takeoff {
  private:
   void stand(const PlannerInput& in, Steering& steering);
   void climb(const PlannerInput& in, Steering& steering);
+  bool raise_top(const PlannerInput& in);
   bool climbs_aside(const PlannerInput& in, Steering& steering);
   bool recovers_from_drift(const PlannerInput& in, Steering& steering);
   bool gives_way(const PlannerInput& in, Steering& steering);

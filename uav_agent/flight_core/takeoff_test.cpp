@@ -7,6 +7,7 @@
 #include <cmath>
 #include <set>
 
+#include "core/random_stream.hpp"
 #include "uav_agent/testing/flown_uav.hpp"
 #include "uav_agent/testing/test_world.hpp"
 
@@ -36,6 +37,7 @@ struct StandingUav : FlownUav {
   std::optional<double> takes_until(Takeoff::Phase phase, double most_s) {
     const std::uint64_t began = k;
     while (static_cast<double>(k - began) * agent.exchange_period_s < most_s) {
+      if (beside_W) peers.update(input().tick, {{node_of_uav(UavIndex(1)), *beside_W, Vector3d(Vector3d::Zero())}});
       PlannerInput in = input();
       in.uncertainty = uncertainty;
       navigator.update(in);
@@ -52,6 +54,7 @@ struct StandingUav : FlownUav {
   Landing landing{config, agent, filter, navigator};
   Takeoff takeoff{config, agent, filter, navigator, landing};
   PoseUncertainty uncertainty;
+  std::optional<Vector3d> beside_W;  ///< where UAV 1 is seen to stand; nullopt: it is not seen
   std::set<std::size_t> waited_for;
   double farthest_m = 0.0;  ///< from the start, horizontally
 };
@@ -92,6 +95,26 @@ TEST(Takeoff, AnExplorerThatDriftsSinksBackAndClimbsOnceSpaceIsProved) {
   uav.clear({-10.0, -10.0, 0.0}, {10.0, 10.0, 20.0});
   EXPECT_TRUE(uav.takes_until(Takeoff::Phase::over, 60.0));
   EXPECT_GT(uav.state.p_WB.z(), kStandsM + 3.0);
+}
+
+// The UAV that stands below it went aside from its start before, and landed there.
+TEST(Takeoff, AUavSinksBackCloseAboveOneThatStandsAsideOfItsStart) {
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    RandomStream random(seed, "sinks_back", 0);
+    StandingUav uav(standing_fleet(2, 0, 0));
+    uav.clear({-20.0, -20.0, 0.0}, {20.0, 20.0, 4.0});
+    uav.build({-20.0, -20.0, 3.0}, {19.9, 19.9, 3.4});  // a canopy
+    const double off_m = random.uniform(1.35, 1.9), turn = random.uniform(-0.5, 0.5);
+    uav.beside_W = Vector3d(off_m * std::cos(turn), off_m * std::sin(turn), kStandsM);
+    ASSERT_GT((*uav.beside_W - uav.agent.fleet[1].p_WB_start).norm(), 1.0);
+    ASSERT_TRUE(uav.takes_until(Takeoff::Phase::climbs, 30.0)) << "seed " << seed;
+    ASSERT_TRUE(uav.takes_until(Takeoff::Phase::ground, 60.0)) << "seed " << seed;
+    const double height_m = uav.state.p_WB.z();
+    ASSERT_GT(height_m, 0.8) << "seed " << seed;
+    uav.takes_until(Takeoff::Phase::over, 7.0);
+    EXPECT_LE(uav.tracker.tracking().setpoint.p_WB.z(), kStandsM) << "seed " << seed << ", from " << height_m << " m";
+    EXPECT_LT(uav.farthest_m, 0.05) << "seed " << seed << ": it comes no nearer to the other one's side";
+  }
 }
 
 TEST(Takeoff, AUavWithoutDriftHoldsInItsClimbUntilSpaceIsProved) {

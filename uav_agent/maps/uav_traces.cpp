@@ -25,11 +25,17 @@ UavTraces::UavTraces(const AgentConfig& agent, double cell_m, const Config& conf
 
 bool UavTraces::hear(Uav& uav, const Peer& peer) const {
   const double gap_s = seconds(now_ - uav.heard);
-  const double speed_mps = peer.v_W.norm();
-  const Vector3d v_W = peer.v_W * std::min(1.0, uav.max_speed_mps / std::max(speed_mps, 1e-9));
+  const auto at_most = [](const Vector3d& along, double most) {
+    return Vector3d(along * std::min(1.0, most / std::max(along.norm(), 1e-9)));
+  };
+  std::optional<Vector3d> v_W;
+  if (peer.v_told) v_W = at_most(peer.v_W, uav.max_speed_mps);
   if (uav.heard > 0 && gap_s <= kGapS) {
+    const Vector3d moved_W = peer.p_W - uav.p_W;
+    Vector3d told_W = at_most(moved_W, gap_s * uav.max_speed_mps);
+    if (v_W && uav.v_W) told_W = 0.5 * gap_s * (*v_W + *uav.v_W);
     uav.strayed_W *= std::exp(-gap_s / kFadeS);
-    uav.strayed_W += peer.p_W - uav.p_W - 0.5 * gap_s * (v_W + uav.v_W);
+    uav.strayed_W += moved_W - told_W;
   } else {
     uav.strayed_W.setZero();
   }

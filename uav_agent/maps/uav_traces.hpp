@@ -3,10 +3,13 @@
 // Where a UAV is known to be, its returns are not taken for structure (beam_scan.hpp). A UAV that is not heard enters
 // the map like a wall, and also the maps of those UAVs with which the map is shared. So does a UAV that reports wrong
 // positions: it counts as not heard from when its positions contradict its velocities until they have agreed for
-// Config::agree_s. When it is heard again, these cubes are doubted (WorldMap::doubt()): they stay occupied until beams
-// prove anew, from zero evidence, that they are free. So if this rule doubts real structure, no thin member is lost:
-// beams hit it again, or never prove it free. A trace, a set of cubes that touch each other (26 neighbours), is doubted
-// if all of this holds for one UAV:
+// Config::agree_s. Only velocities that it reports count: a velocity that is estimated from its positions lags behind
+// them, most of all after a gap. A UAV that reports none contradicts itself if it moves faster than it can fly.
+//
+// When the UAV is heard again, these cubes are doubted (WorldMap::doubt()): they stay occupied until beams prove anew,
+// from zero evidence, that they are free. So if this rule doubts real structure, no thin member is lost: beams hit it
+// again, or never prove it free. A trace, a set of cubes that touch each other (26 neighbours), is doubted if all of
+// this holds for one UAV:
 //   - each cube became occupied while that UAV was not heard, and touches no occupied cube outside the trace;
 //   - at the cube's first hit the UAV may have been there: d <= b + v t, where d and t are distance and time since the
 //     place where it was heard last, v is its greatest speed and b its body with margins: its radius, half of a cube's
@@ -73,8 +76,10 @@ class UavTraces {
     double body_m = 0.0;  ///< b in the rule above
     double max_speed_mps = 0.0;
     Tick heard = 0;
-    Vector3d p_W = Vector3d::Zero(), v_W = Vector3d::Zero();
-    /// Motion of the reported positions less that of the reported velocities; older parts fade.
+    Vector3d p_W = Vector3d::Zero();
+    std::optional<Vector3d> v_W = {};  ///< nullopt: it reported no velocity
+    /// Motion of the reported positions less that of the reported velocities, or, without these, less what the greatest
+    /// speed allows; older parts fade.
     Vector3d strayed_W = Vector3d::Zero();
     std::optional<Absence> absence;
   };

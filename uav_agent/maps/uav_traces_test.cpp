@@ -27,9 +27,9 @@ class UavTracesTest : public testing::Test {
     map_.on_met([this](const Eigen::Vector3i& cube, bool news) { traces_.met(cube, news); });
   }
 
-  /// One exchange.   @param p_W, v_W  what UAV 1 reports; nullopt: it is not heard.
+  /// One exchange.   @param p_W, v_W  what UAV 1 reports; nullopt: it is not heard, or reports no velocity.
   void exchange(const std::optional<Vector3d>& p_W, const std::vector<Vector3d>& hits_W = {},
-                const Vector3d& v_W = Vector3d::Zero()) {
+                const std::optional<Vector3d>& v_W = Vector3d(Vector3d::Zero())) {
     now_ += kTraceExchange;
     std::vector<Neighbour> neighbours = {{node_of_uav(UavIndex{2}), {-10.0, 0.0, 0.0}}};
     if (p_W) neighbours.insert(neighbours.begin(), {node_of_uav(UavIndex{1}), *p_W, v_W});
@@ -196,6 +196,41 @@ TEST_F(UavTracesTest, AUavThatReportsRightPositionsIsHeard) {
       exchange(p_W, body(p_W + Vector3d(8.0, 0.0, 0.0)), v_W);
     }
     EXPECT_EQ(traces_.cubes(), 0U) << drawn;
+  }
+}
+
+// Its velocity is estimated from its positions, from zero on after each gap.
+TEST_F(UavTracesTest, AUavThatReportsNoVelocitiesIsHeardAfterAGapHoweverFastItIs) {
+  for (int drawn = 0; drawn < 30; ++drawn) {
+    Vector3d p_W = drawn_place();
+    const Vector3d direction(random_.normal(), random_.normal(), random_.normal());
+    const Vector3d v_W = direction.normalized() * (drawn % 3 == 0 ? 6.0 : random_.uniform(0.0, 6.0));
+    wait(std::nullopt, 1.0);
+    for (int gaps = 0; gaps < 3; ++gaps) {
+      for (int i = 0; i < 60; ++i) exchange(p_W += v_W * 0.05, body(p_W + Vector3d(8.0, 0.0, 0.0)), std::nullopt);
+      EXPECT_EQ(traces_.cubes(), 0U) << drawn << ": at " << v_W.norm() << " m/s";
+      const double gap_s = random_.uniform(0.3, 2.0);
+      wait(std::nullopt, gap_s);
+      p_W += v_W * gap_s;
+    }
+    wait(p_W, 4.0);
+  }
+}
+
+// Nobody flies so fast.
+TEST_F(UavTracesTest, AUavThatReportsNoVelocitiesAndJumpsIsDoubted) {
+  for (int drawn = 0; drawn < 10; ++drawn) {
+    map_ = WorldMap(WorldMap::Config());
+    map_.on_met([this](const Eigen::Vector3i& cube, bool news) { traces_.met(cube, news); });
+    const Vector3d p_W = drawn_place();
+    const Vector3d jump_W = Vector3d(random_.normal(), random_.normal(), random_.normal()).normalized() * 3.0;
+    const std::vector<Vector3d> hits_W = body(p_W);
+    for (int i = 0; i < 80; ++i) exchange(p_W, {}, std::nullopt);
+    for (int i = 0; i < 40; ++i) {
+      exchange(p_W + jump_W, i == 20 ? hits_W : std::vector<Vector3d>(), std::nullopt);
+    }
+    for (int i = 0; i < 35 * 20; ++i) exchange(p_W, {}, std::nullopt);
+    for (const Vector3d& hit_W : hits_W) EXPECT_TRUE(doubted(hit_W)) << drawn;
   }
 }
 

@@ -1,8 +1,8 @@
-// Strips for site boxes (is_site_box() in flight/site.hpp): one box around a whole site, most of it empty. The box is cut
-// into blocks. The occupied cells of a block get a tight box, whose faces are flown as strips. So the strips follow the
-// structure as far as it is known, and their number rises as the map grows. A block's number determines which UAV owns
-// it: all UAVs agree on the owners, however much their maps differ. A UAV prefers its own blocks, and then helps with
-// the others.
+// Strips for site boxes (is_site_box() in flight/site.hpp): one box around a whole site, most of it empty. The box is
+// cut into blocks. The occupied cells of a block get a tight box, whose faces are flown as strips. So the strips follow
+// the structure as far as it is known, and their number rises as the map grows. A block's number determines which UAV
+// owns it: all UAVs agree on the owners, however much their maps differ. A UAV prefers its own blocks, and then helps
+// with the others.
 // Frame W.   Units: SI.   Threads: one.   Effort: one pass over all occupied cells at most every look_again_s.
 #pragma once
 

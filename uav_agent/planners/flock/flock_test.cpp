@@ -282,6 +282,21 @@ TEST(Flock, PhotographersWithoutAnExplorerFindWork) {
   }
 }
 
+/// One box holds the site and the starts: the photographers climb out of it, and photograph what they see from there.
+TEST(Flock, PhotographersThatStartInABoxFindWorkOutsideIt) {
+  RandomStream random(1, "in_a_box", 0);
+  TestScene scene;
+  const double width_m = random.uniform(6.0, 9.0), height_m = random.uniform(12.0, 16.0);
+  scene.solids = {make_box({0.0, 0.0, 0.5 * height_m}, {width_m, width_m, height_m})};
+  scene.boxes = {make_box({0.0, -4.0, 0.5 * height_m}, {width_m + 4.0, 30.0, height_m + 1.0})};
+  const std::vector<TestUav> fleet = {{"a", Role::photographer, {-3.0, -16.0}},
+                                      {"b", Role::photographer, {3.0, -15.0}}};
+  TestWorld world(scene, fleet, "flock", 160.0);
+  world.run(120.0);
+  EXPECT_GT(world.coverage(), 0.1);
+  EXPECT_GT(world.clearance(), kPhotographerRadiusM);
+}
+
 /// Drawn views of drawn targets: a route of one view is the best by gain a second, and a longer one counts what two of
 /// its views show only once.
 TEST(FlockRoute, TakesWhatBringsMostASecondAndCountsNothingTwice) {

@@ -183,6 +183,10 @@ void FlockPoints::write(const Peers& peers, Tick now, std::size_t room, PayloadW
     });
     if (lacks) lacking.push_back(it);
   }
+  // A region that is sent in slices goes first, until all of it is sent. Its place among the regions may have changed.
+  const auto sliced = std::ranges::find_if(lacking, [&](const auto& region) { return region->first == sliced_; });
+  if (sliced != lacking.end()) next_ = static_cast<std::size_t>(sliced - lacking.begin());
+  sliced_.reset();
   PayloadWriter chosen;
   std::uint16_t count = 0;
   for (std::size_t i = 0; i < lacking.size(); ++i) {
@@ -195,28 +199,33 @@ void FlockPoints::write(const Peers& peers, Tick now, std::size_t room, PayloadW
       }
       break;
     }
-    write_region(cell, region, 0, region.points.size(), chosen);
+    write_region(cell, region.points.begin(), region.points.size(), chosen);
     ++count;
   }
-  if (slice_ == 0) next_ += count;
+  if (!sliced_) next_ += count;
   writer.u16(count);
   writer.bytes(chosen.data());
 }
 
-/// The next `most` points of a region that has more than fit in one message.
+/// The next `most` points of a region that has more than fit in one message. Its slices follow one another by place,
+/// whatever points the region gains or loses meanwhile.
 void FlockPoints::write_slice(const Cell& cell, const Region& region, std::size_t most, PayloadWriter& writer) const {
-  if (slice_ >= region.points.size()) slice_ = 0;  // it was that of another region
-  const std::size_t count = std::min(most, region.points.size() - slice_);
-  write_region(cell, region, slice_, count, writer);
-  slice_ = slice_ + count < region.points.size() ? slice_ + count : 0;
+  auto first = region.points.lower_bound(region.next_slice);
+  if (first == region.points.end()) first = region.points.begin();
+  const auto left = static_cast<std::size_t>(std::distance(first, region.points.end()));
+  const std::size_t count = std::min(most, left);
+  write_region(cell, first, count, writer);
+  region.next_slice = {};
+  if (count == left) return;
+  region.next_slice = std::next(first, static_cast<std::ptrdiff_t>(count))->first;
+  sliced_ = cell;
 }
 
-void FlockPoints::write_region(const Cell& cell, const Region& region, std::size_t first, std::size_t count,
+void FlockPoints::write_region(const Cell& cell, std::map<Place, std::size_t>::const_iterator first, std::size_t count,
                                PayloadWriter& writer) const {
   for (const std::int16_t along : cell) writer.u16(static_cast<std::uint16_t>(along));
   writer.u16(static_cast<std::uint16_t>(count));
-  auto next = std::next(region.points.begin(), static_cast<std::ptrdiff_t>(first));
-  for (std::size_t i = 0; i < count; ++i, ++next) {
+  for (auto next = first; count > 0; --count, ++next) {
     const auto& [place, index] = *next;
     for (const std::uint16_t cm : place) writer.u16(cm);
     const FlockPoint& point = points_[index];

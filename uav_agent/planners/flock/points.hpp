@@ -62,6 +62,7 @@ class FlockPoints {
 
   struct Region {
     std::map<Place, std::size_t> points;  ///< indices into points_
+    mutable Place next_slice = {};        ///< where its next slice begins
     mutable std::uint16_t hash = 0;
     mutable bool changed = true;  ///< since the hash was computed
   };
@@ -92,7 +93,7 @@ class FlockPoints {
   void move(std::size_t point, const Spot& to, const Vector3d& p_W);
   std::uint16_t hash_of(const Region& region) const;
   void write_slice(const Cell& cell, const Region& region, std::size_t most, PayloadWriter& writer) const;
-  void write_region(const Cell& cell, const Region& region, std::size_t first, std::size_t count,
+  void write_region(const Cell& cell, std::map<Place, std::size_t>::const_iterator first, std::size_t count,
                     PayloadWriter& writer) const;
   bool read_region(PayloadReader& reader);
 
@@ -104,7 +105,7 @@ class FlockPoints {
   std::map<Cell, Region> regions_;
   std::map<std::size_t, Account> accounts_;  ///< by sender: the hashes that it has sent
   mutable std::size_t next_ = 0;             ///< regions to send take turns
-  mutable std::size_t slice_ = 0;            ///< first point of the next slice of a region; 0: no slice is due
+  mutable std::optional<Cell> sliced_;       ///< the region of which the next slice is due; nullopt: none
 };
 
 }  // namespace skein::agent

@@ -143,6 +143,51 @@ TEST(FlockPoints, DenseRegionsGoOutInSlices) {
   }
 }
 
+/// The points of a dense region take turns in slices, and other regions, more or fewer of them each time, always have
+/// news. Every point is told all the same, and so are the others' news.
+TEST(FlockPoints, NoSliceStarvesWhateverElseChanges) {
+  constexpr std::size_t kRoom = 1500, kPointsInRoom = kRoom / 10;
+  for (std::uint64_t seed = 1; seed <= 30; ++seed) {
+    RandomStream random(seed, "slices", 0);
+    const int count = 160 + static_cast<int>(random.bits() % 600),
+              most_others = 1 + static_cast<int>(random.bits() % 6);
+    std::vector<DetectedPoint> dense = drawn_points(random, count, 7.9);
+    const bool goes_last = random.bits() % 3 != 0;  // of the regions, in the order of their cells
+    const float x = goes_last ? 72.0F : -200.0F;
+    for (DetectedPoint& point : dense) point.p_W += Eigen::Vector3f(x, 8.0F, 8.0F);
+    FlockPoints sender, receiver;
+    sender.detect(dense, Vector3d::Zero());
+    const auto told_dense = [&](const FlockPoints& points) {
+      return std::ranges::count_if(points.all(),
+                                   [&](const FlockPoint& point) { return std::abs(point.p_W.x() - x) < 8.0; });
+    };
+    const std::size_t slices = static_cast<std::size_t>(count) / kPointsInRoom + 1;
+    const std::size_t rounds = 2 * (slices + 2) * static_cast<std::size_t>(most_others + 1);
+    int others = 1, next_change = 0;
+    Tick now = 0;
+    for (std::size_t round = 0; round < rounds; ++round, now += 200) {
+      if (next_change-- == 0) {  // from now on, news in so many regions in each round
+        others = 1 + static_cast<int>(random.bits() % static_cast<std::uint64_t>(most_others));
+        next_change = static_cast<int>(random.bits() % 12);
+      }
+      std::vector<DetectedPoint> news = drawn_points(random, others, 7.9);
+      for (int i = 0; i < others; ++i) {
+        news[static_cast<std::size_t>(i)].p_W += Eigen::Vector3f(-104.0F + 16.0F * static_cast<float>(i), 8.0F, 8.0F);
+      }
+      sender.detect(news, Vector3d::Zero());
+      PayloadWriter hashes, told;
+      receiver.write(all_in_sight(three_uavs(1)), now, 0, hashes);
+      PayloadReader asked(hashes.data());
+      ASSERT_TRUE(sender.read(1, now, asked));
+      sender.write(all_in_sight(three_uavs(0)), now, kRoom, told);
+      PayloadReader heard(told.data());
+      ASSERT_TRUE(receiver.read(0, now, heard));
+    }
+    EXPECT_EQ(told_dense(receiver), told_dense(sender)) << "seed " << seed;
+    EXPECT_GT(receiver.all().size() + 60, sender.all().size()) << "seed " << seed;
+  }
+}
+
 /// Whatever arrives, nothing but points comes of it.
 TEST(FlockPoints, DamagedMessagesDoNoHarm) {
   RandomStream random(11, "damage", 0);
