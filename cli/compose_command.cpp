@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <set>
 
 #include "cli/compose/agents_folder.hpp"
 #include "cli/compose/compose_file.hpp"
@@ -164,6 +165,28 @@ void tell_who_waits(const FleetPlan& plan, const std::map<std::string, std::stri
   }
 }
 
+/// Completes the logs of containers that somebody has started again. Results matter more: Ctrl-C leaves it out.
+void add_later_logs(const std::map<std::string, std::string>& containers,
+                    const std::map<std::string, std::string>& starts, const ComposeLayout& layout,
+                    const fs::path& out) try {
+  std::set<std::string> foreign;
+  for (const auto& [program, id] : containers) {
+    if (layout.images.contains(programs::member_name(program))) foreign.insert(program);
+  }
+  ComposeProject::add_later_logs(containers, starts, out, foreign);
+} catch (const Interrupted&) {
+}
+
+/// Flies the fleet of a project that is up.
+void fly_in(const ComposeProject& project, const FleetPlan& plan, const ComposeLayout& layout, const fs::path& out,
+            FleetRun& run) {
+  const std::map<std::string, std::string> containers = project.containers();
+  const std::map<std::string, std::string> starts = ComposeProject::starts(containers);
+  tell_who_waits(plan, containers, out, run.view());
+  run.fly_in_containers(followers(containers, plan, layout, out), out);
+  add_later_logs(containers, starts, layout, out);
+}
+
 int fly(const ComposeOptions& options, const FleetPlan& plan, ComposeLayout layout, const Console& console) {
   const fs::path dir = results_dir_of(options.run, plan.scenario.name);
   for (const auto& [program, vendor] : dds_vendors(plan)) {
@@ -210,9 +233,7 @@ int fly(const ComposeOptions& options, const FleetPlan& plan, ComposeLayout layo
       page->announce([&](const std::string& text) { run.view().message(text); },
                      options.run.view.browser && console.terminal);
     }
-    const std::map<std::string, std::string> containers = project.containers();
-    tell_who_waits(plan, containers, out.path(), run.view());
-    run.fly_in_containers(followers(containers, plan, layout, out.path()), out.path());
+    fly_in(project, plan, layout, out.path(), run);
   }
   gather_agents(out.path());
   const results::Reports reports = results::read_reports(out.path(), plan.scenario, run.reports());

@@ -198,6 +198,9 @@ case "$*" in
   "ps --all"*) for name in sim_server comm_router station uav_agent-alpha uav_agent-beta; do echo "$name id-$name"; done ;;
   "logs --follow id-sim_server") . "$folder/server" ;;
   "logs --follow"*) until [ -e "$gone" ] || [ -e "$folder/over" ]; do sleep 0.01; done ;;
+  inspect*alpha) if [ -e "$folder/again" ]; then echo 2026-02-03T04:05:06.7Z; else echo 2026-01-01T00:00:00Z; fi ;;
+  inspect*) echo 2026-01-01T00:00:00Z ;;
+  "logs --since 2026-02-03T04:05:06.7Z id-uav_agent-alpha") echo "for the launcher"; echo "its second life" >&2 ;;
   "wait id-sim_server") if [ -e "$gone" ]; then echo "no engine" >&2; exit 1; fi; echo 12 ;;
   wait*) if [ -e "$gone" ]; then echo "no engine" >&2; exit 1; fi; echo 0 ;;
 esac
@@ -237,6 +240,18 @@ TEST_F(ComposeUp, AnEngineThatGoesAwayIsReportedOnceAndWhatMayBeLeftIsNamed) {
   EXPECT_NE(err.find("docker compose --project-name skein-"), std::string::npos) << err;
   EXPECT_NE(err.find("compose.yaml down --volumes"), std::string::npos) << err;
   EXPECT_EQ(read_json(programs_.dir() / "out" / "result.json")["status"], "aborted");
+}
+
+TEST_F(ComposeUp, WhatAContainerWritesAfterItWasStartedAgainIsInItsLog) {
+  const std::string folder = programs_.dir().string();
+  write_text(programs_.dir() / "server", "touch " + folder + "/again " + folder + "/over\n");
+  EXPECT_EQ(up(), kExitProcessFailed) << err_.str();
+  const auto log_of = [&](const std::string& name) { return read_text(programs_.dir() / "out" / (name + ".log")); };
+  EXPECT_TRUE(log_of("uav_agent-alpha")
+                  .ends_with("[skein] the container was started again at 2026-02-03T04:05:06.7Z; what it wrote since "
+                             "then:\nits second life\n"))
+      << log_of("uav_agent-alpha");
+  EXPECT_EQ(log_of("uav_agent-beta").find("started again"), std::string::npos) << log_of("uav_agent-beta");
 }
 
 // A container may end with any number.

@@ -11,6 +11,7 @@
 #include "core/text/text.hpp"
 #include "core/types.hpp"
 #include "process/host/environment.hpp"
+#include "results/run_folder.hpp"
 
 namespace skein::cli {
 namespace {
@@ -89,6 +90,34 @@ void ComposeProject::up() {
                                       "\"default-address-pools\" in its daemon.json, or name one with --subnet)"
                                     : "") +
                            "; the end of " + log_.string() + ":" + last_lines_below(log_, kLastLines));
+}
+
+std::map<std::string, std::string> ComposeProject::starts(const std::map<std::string, std::string>& containers) {
+  const ScratchDir scratch;
+  const fs::path said = scratch.path() / "started";
+  std::map<std::string, std::string> starts;
+  for (const auto& [service, id] : containers) {
+    const int code = shell("docker inspect --format '{{.State.StartedAt}}' " + id, said);
+    std::ifstream in(said);
+    std::string started;
+    if (code == 0 && in >> started) starts[id] = started;
+  }
+  return starts;
+}
+
+void ComposeProject::add_later_logs(const std::map<std::string, std::string>& containers,
+                                    const std::map<std::string, std::string>& starts, const fs::path& folder,
+                                    const std::set<std::string>& foreign) {
+  const std::map<std::string, std::string> last = ComposeProject::starts(containers);
+  for (const auto& [service, id] : containers) {
+    const auto before = starts.find(id), now = last.find(id);
+    if (before == starts.end() || now == last.end() || before->second == now->second) continue;
+    const fs::path log = folder / run_folder::log_file(service);
+    std::ofstream(log, std::ios::app) << "[skein] the container was started again at " << now->second
+                                      << "; what it wrote since then:\n";
+    const std::string into = " 2>>" + shell_word(log) + (foreign.contains(service) ? " >&2)" : ")");
+    shell("(docker logs --since " + shell_word(now->second) + " " + id + into);
+  }
 }
 
 std::map<std::string, std::string> ComposeProject::containers() const {

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <iosfwd>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,13 @@ class ComposeProject {
   void up();
   /// Container ids, by service.
   std::map<std::string, std::string> containers() const;
+  /// When each container was last started, by its id; empty if the engine does not say it.
+  static std::map<std::string, std::string> starts(const std::map<std::string, std::string>& containers);
+  /// Appends to the logs of containers that were started again since `starts` what they wrote after that, which
+  /// nothing follows. @param folder  of the logs. @param foreign  services whose stdout belongs to the log, too
+  static void add_later_logs(const std::map<std::string, std::string>& containers,
+                             const std::map<std::string, std::string>& starts, const std::filesystem::path& folder,
+                             const std::set<std::string>& foreign);
 
  private:
   /// The command line of a docker-compose command for this project.

@@ -12,7 +12,6 @@
 #include "core/random_stream.hpp"
 #include "core/sha256.hpp"
 #include "core/types.hpp"
-#include "results/run_folder.hpp"
 
 namespace skein::cli {
 namespace {

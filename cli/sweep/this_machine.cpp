@@ -1,5 +1,6 @@
 #include "cli/sweep/this_machine.hpp"
 
+#include <cstdlib>
 #include <fstream>
 #include <memory>
 #include <ostream>

@@ -70,6 +70,7 @@ TEST_F(FromOutside, WhoIsKilledAndStartedAgainWorksAgain) {
   EXPECT_TRUE(all_are_back(result)) << result["lost_members"];
   expect_complete_result(run);
   EXPECT_TRUE(delivers_after(run, "changi", returned["changi"]));
+  EXPECT_NE(log_of(run, "uav_agent-changi").find("the container was started again"), std::string::npos);
   for (const char* uav : {"sentosa", "nanyang"}) {
     EXPECT_TRUE(delivers_after(run, uav, std::ranges::max(returned["station"], returned["comm_router"]))) << uav;
   }

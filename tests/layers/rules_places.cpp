@@ -1,6 +1,7 @@
 // The rules for what the tree has in one place or one form: names of a run's files, and decisions.
 #include <algorithm>
 #include <array>
+#include <ranges>
 #include <regex>
 #include <set>
 
