@@ -149,6 +149,7 @@ std::string number_of(std::size_t count) { return std::to_string(count) + (count
 
 /// Reports the differences of the recordings at the first time at which they differ.
 void compare_recordings(const DiffOptions& options, std::vector<std::string>& found) {
+  if (only_owner(options, run_folder::kRecording)) return;
   const auto a = messages_of(options.run_a), b = messages_of(options.run_b);
   if (!a || !b) return;
   static const std::map<std::string, std::vector<mcap::Bytes>> kNothing;

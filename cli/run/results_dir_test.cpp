@@ -31,6 +31,18 @@ class OutDir {
   const fs::path path_ = scratch_.path() / "out";
 };
 
+/// While it lives, this is the current folder.
+class CurrentFolder {
+ public:
+  explicit CurrentFolder(const fs::path& folder) { fs::current_path(folder); }
+  ~CurrentFolder() { fs::current_path(before_); }
+  CurrentFolder(const CurrentFolder&) = delete;
+  CurrentFolder& operator=(const CurrentFolder&) = delete;
+
+ private:
+  const fs::path before_ = fs::current_path();
+};
+
 TEST(ResultsDir, DefaultNameTellsTheRun) {
   EXPECT_EQ(default_results_dir("towers", "patrol", 3), "runs/towers-patrol-3");
   EXPECT_EQ(default_results_dir("towers", "a=b:c/d", 0), "runs/towers-a_b_c_d-0");
@@ -173,8 +185,7 @@ TEST(ResultsDir, AQuestionWhetherAFolderIsInUseKeepsNobodyOut) {
 
 TEST(ResultsDir, RunsWithoutAFolderOfTheirsThatBeginAtOnceAllGetOne) {
   const OutDir scratch;
-  const fs::path before = fs::current_path();
-  fs::current_path(scratch.path());
+  const CurrentFolder current(scratch.path());
   const RunOptions run;
   const auto first = ResultsDir::take(run, "towers");
   fs::remove(first->path() / "result.json.tmp-room");  // as if it had only just locked the folder
@@ -185,7 +196,6 @@ TEST(ResultsDir, RunsWithoutAFolderOfTheirsThatBeginAtOnceAllGetOne) {
   named.out = first->given();
   EXPECT_THROW(ResultsDir::take(forced, "towers"), FolderInUse);
   EXPECT_THROW(ResultsDir::take(named, "towers"), FolderInUse);
-  fs::current_path(before);
 }
 
 TEST(ResultsDir, LogsAndWhatAFileSystemHasAreNoForeignEntries) {
