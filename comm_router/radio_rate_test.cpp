@@ -58,7 +58,7 @@ TEST(RadioRate, WhatIsSentToOneReceiverDelaysNothingToTheOthers) {
     scenario.fleet.push_back({.name = "c", .vehicle = {}});
     if (!path_loss) {
       scenario.conditions.radio.exponent.reset();
-      scenario.links.push_back({.bandwidth_bit_s = 1e5});
+      scenario.links.emplace_back().bandwidth_bit_s = 1e5;
     }
     LinkStages busy(scenario, {}, 1), idle(scenario, {}, 1);
     for (LinkStages* stages : {&busy, &idle}) stages->begin_step(Links(4, std::uint8_t{1}));

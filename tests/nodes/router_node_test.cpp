@@ -105,7 +105,9 @@ TEST(RouterNode, GoesOnWithoutWhomTheServerGivesUp) {
 TEST(RouterNode, WhatIsUnderWayOnARegisteredTopicArrivesAlthoughItsTopicIsRefusedToTheNextProgram) {
   constexpr std::uint64_t kSent = 4, kAsked = 8, kSteps = 30;
   Scenario scenario = toy_scenario(2);
-  scenario.links.push_back({.latency_s = 0.5, .topics = {"/note"}});
+  LinkEffect& slow = scenario.links.emplace_back();
+  slow.latency_s = 0.5;
+  slow.topics = {"/note"};
   const auto bus = bus::make_bus({.vendor = "inproc"});
   ToyServer server(*bus, scenario, kSteps);
   server.expect_uavs(scenario);
