@@ -113,7 +113,7 @@ TEST(RouterNode, WhatIsUnderWayOnARegisteredTopicArrivesAlthoughItsTopicIsRefuse
   server.expect_uavs(scenario);
   server.expect_router();
   router::RouterNode router(scenario, 0, 0, *bus);
-  router.set_patience(0.0, 1.0);
+  router.set_patience(1e-9, 1.0);
   auto a = std::make_unique<ToyMember>(*bus, uav_domain(0, UavIndex{0}), "a");
   ToyMember b(*bus, uav_domain(0, UavIndex{1}), "b"), next(*bus, uav_domain(0, UavIndex{0}), "a");
   auto radio = std::make_unique<bus::RadioTopics>(a->client(), "a");
