@@ -32,19 +32,20 @@ class Arrivals {
   /// Opens the topic for replies to a node's radio requests. Call it once for each node, in the order of the nodes.
   void open_replies(Node node);
   /// Opens the arrival topics of a route at those targets that are new since the last call for this route.
-  /// @param number  of the route: of one that was opened before, or the next number.
+  /// @param number  the route's number: either that of a route that was opened before, or the next unused number.
   void open_route(std::size_t number, const RadioRoute& route);
   /// Closes those arrival topics of a route that no other route uses.
   void close_route(std::size_t number);
 
-  /// Whether the writer of this arrival topic is matched with a reader of the participant.
+  /// Whether the target's arrival topic is open, and its writer is matched with a reader of the participant.
   bool reaches(const RadioTarget& target, bus::ParticipantId participant) const;
-  /// The first open topic of this node that is in `reads`, and is not matched with a reader of the participant yet;
-  /// empty: there is none.
+  /// The first open topic of this node that is in `reads`, and whose writer is not yet matched with a reader of the
+  /// participant; empty: there is none.
   std::string unmatched(Node node, const std::vector<std::string>& reads, bus::ParticipantId participant) const;
 
-  /// Writes a message to a target of a route, both by their numbers; write_reply() writes a reply to a node's request.
+  /// Writes a message to a target of a route. @param target  index into the route's targets.
   void write(std::size_t route, std::size_t target, std::span<const std::uint8_t> payload);
+  /// Writes a reply to a node's radio request.
   void write_reply(Node node, std::span<const std::uint8_t> payload);
   /// Ends a step. @returns by node, for each topic that got a message in this step, the number of its messages so far.
   std::vector<msg::NodeCounts> take_delivered();

@@ -7,7 +7,8 @@
 namespace skein::results {
 namespace {
 
-constexpr const char* kFromNodes = "from_nodes";  // key of a UAV that ROS 2 nodes fly; other UAVs lack it
+/// Key in a UAV's entry of result.json; only UAVs that ROS 2 nodes fly in real time have it.
+constexpr const char* kFromNodes = "from_nodes";
 
 std::uint64_t count(const Json& topic, const char* key) { return value_or(topic, key, Json(0)).get<std::uint64_t>(); }
 

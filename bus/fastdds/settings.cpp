@@ -85,7 +85,7 @@ DomainParticipantQos participant_qos(int domain, const BusConfig& config, const 
   } else if (reach.host_only) {
     transports.push_back(udp);
   } else {
-    // In a secured fleet, datagrams may be larger than a packet: handshake messages contain a certificate and
+    // In a secured fleet, datagrams may be larger than a network packet: handshake messages contain a certificate and
     // permissions, and Fast DDS does not fragment these messages.
     transports.push_back(config.security.empty() ? packet_transport(udp, reach.largest_datagram) : udp);
   }
@@ -117,12 +117,13 @@ DataWriterQos writer_qos(const Qos& qos, bool one_host) {
   dds.data_sharing().off();
   dds.publish_mode().kind = SYNCHRONOUS_PUBLISH_MODE;
   // A reader notices a lost sample when the next heartbeat arrives, so the default period of 3 s would stall a
-  // lock-step round for up to 3 s. The period is longer if all programs are on one host: there, samples are lost only
-  // when a buffer overflows, and each heartbeat costs two datagrams with its answer. It is always short for latched
-  // topics, because a reader that joins late receives the latched sample only after a heartbeat.
+  // lock-step round for up to 3 s. If all programs are on one host, 200 ms is short enough: there, samples are lost
+  // only when a buffer overflows, and a heartbeat and its answer cost two datagrams. Latched topics always need the
+  // short period, because a reader that joins late receives the latched sample only after a heartbeat.
   dds.reliable_writer_qos().times.heartbeatPeriod = milliseconds(one_host && !qos.latched ? 200 : 20);
   dds.reliable_writer_qos().times.nackResponseDelay = milliseconds(1);
-  // No reader monitors liveliness. This kind lets FastWriter (fastdds_bus.cpp) request a heartbeat at any time.
+  // No reader monitors liveliness. But with this kind, FastWriter (fastdds_bus.cpp) can assert liveliness at any time,
+  // which makes Fast DDS send a heartbeat.
   dds.liveliness().kind = MANUAL_BY_TOPIC_LIVELINESS_QOS;
   return dds;
 }

@@ -1,5 +1,6 @@
-// `skein bench --view`: compares the CPU time of a run whose live page a browser shows with that of a run without a
-// browser, and measures what the page costs the browser. docs/performance.md has the results.
+// `skein bench --view`: flies pairs of runs, one with its live page open in a browser, and one without a browser.
+// Compares the CPU times of the two runs, and measures what the page costs the browser. docs/performance.md has the
+// results.
 #pragma once
 
 #include <ostream>
@@ -19,8 +20,8 @@ struct WatchedPair {
 };
 
 /// {"pairs", "cpu_ratio", "first_picture_ms", "script_ms", "thread_ms", "draw_calls", "pictures"}: the number of pairs,
-/// and a figure() over the pairs (report.hpp) for each other key; null if no pair has the value. `cpu_ratio` is the
-/// fleet's CPU time with a browser, from the first step to the last, divided by that without a browser.
+/// and for each other key the figure() (report.hpp) of the pairs' values, or null if no pair has a value.
+/// `cpu_ratio` is the fleet's CPU time with a browser, from the first step to the last, divided by that without one.
 Json watching_entry(const std::vector<WatchedPair>& pairs);
 
 /// Prints the figures next to their targets.

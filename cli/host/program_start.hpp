@@ -50,7 +50,7 @@ bool owns_terminal();
 void give_terminal_to(pid_t group);
 
 /// Starts a program in a process group of its own, with a status and a control pipe. Its stdin is /dev/null, or that of
-/// the launcher (`here`).
+/// the launcher (ProgramSpec::here).
 /// @throws std::system_error if the log cannot be opened, or the binary cannot be started or watched.
 StartedProgram start_program(const ProgramSpec& spec);
 

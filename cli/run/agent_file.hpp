@@ -17,7 +17,7 @@ std::optional<std::filesystem::path> own_agent(const std::optional<std::filesyst
 
 /// Finds the agent programs of planners NAME@AGENT. Makes their paths absolute; relative paths count from the working
 /// directory. If the fleet's agent program is uav_agent, removes an AGENT that names the same program, unless the
-/// planner's own spec contains an '@'.
+/// planner's own spec contains an '@': without AGENT, the text after this '@' would be read as an AGENT.
 /// @param own  the fleet's agent program; nullopt: uav_agent.
 /// @throws InputError if a file does not exist, cannot be executed, is not an agent program, or does not have the
 ///   planner of a UAV.

@@ -16,7 +16,8 @@ std::vector<std::size_t> active_changes(const FaultPlan& plan, Tick tick);
 
 /// The scenario's conditions with the changes of these faults, in their order. The function parses the values of the
 /// faults, so call it only when the set of active faults has changed.
-/// @param plan  from load_fault_plan(), which has checked it.   @param faults  as active_changes() returns them.
+/// @param plan  its faults are from load_fault_plan() and read_faults_by_hand(), which have checked their values.
+/// @param faults  as active_changes() returns them.
 ConditionsConfig changed_conditions(const FaultPlan& plan, const Scenario& scenario,
                                     const std::vector<std::size_t>& faults);
 

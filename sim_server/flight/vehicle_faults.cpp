@@ -6,10 +6,10 @@
 namespace skein::sim {
 namespace {
 
-/// Enters the faults of vehicles into their conditions, and ignores all other faults.
+/// Enters a fault of a vehicle into that vehicle's VehicleCondition, and ignores all other faults.
 class Applier {
  public:
-  /// @param begin  of the fault.
+  /// @param begin  tick at which the fault began.
   Applier(const std::vector<std::string>& uavs, std::vector<VehicleCondition>& conditions, Tick begin)
       : uavs_(uavs), conditions_(conditions), begin_(begin) {}
 

@@ -14,7 +14,7 @@ ActivityLog::ActivityLog(const std::filesystem::path& folder, const Scenario& sc
 }
 
 bool ActivityLog::add(const Simulation& simulation, UavIndex uav, const Activity& activity) {
-  Activity logged = activity;  // without the values that the table does not have
+  Activity logged = activity;  // without the values for which the table has no column
   logged.speed_mps = logged.cpu_s = 0.0;
   logged.undelivered = 0;
   std::optional<Activity>& last = last_[uav];

@@ -16,7 +16,7 @@ class LostReturns {
   /// @param uav   index in the fleet; part of the keys of the random streams.
   /// @param seed  0: no return is lost. Otherwise the stream (seed, "lidar_no_return", uav, scan number) has one draw
   ///              for each beam of the scan, whether or not the beam hits something. The stream (seed,
-  ///              "lidar_dropped_sectors", uav, hold number) draws the sectors; they stay for a hold of `hold_s`.
+  ///              "lidar_dropped_sectors", uav, period number) draws the sectors for a period of `hold_s`.
   LostReturns(const LidarConfig& config, UavIndex uav, std::uint64_t seed);
 
   /// Whether any beam of any scan may lose its return.
@@ -33,7 +33,7 @@ class LostReturns {
   LidarConfig config_;
   UavIndex uav_;
   std::uint64_t seed_;
-  std::optional<std::uint64_t> hold_;  ///< the hold for which dropped_ was drawn
+  std::optional<std::uint64_t> hold_;  ///< number of the period for which dropped_ was drawn
   std::vector<bool> dropped_;          ///< by column
   std::vector<bool> lost_;             ///< by beam
 };

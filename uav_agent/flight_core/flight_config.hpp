@@ -1,5 +1,5 @@
-// Parameters of the flight core. Every strategy that uses it has the same ones. Users set them together with the
-// planner's own parameters (--planner patrol:approach_mps=3), so `skein compare` can sweep them.
+// Parameters of the flight core. Every strategy that uses the flight core accepts all of them. Users set them together
+// with the planner's own parameters (--planner patrol:approach_mps=3), so `skein compare` can sweep them.
 // Units: SI and radians unless the name says otherwise.
 #pragma once
 
@@ -15,12 +15,13 @@ struct FlightConfig {
   double error_per_mps_s = 0.03;  ///< additional tracking error per m/s of speed
   /// Replaces kHaloM at a start with less room, on the UAV's own trail, and for a UAV that must land at once.
   double tight_halo_m = 0.35;
-  double tight_mps = 0.8;  ///< maximum speed at such a start and on the trail
+  double tight_mps = 0.8;  ///< maximum speed at such a start, on the trail, and while a UAV moves aside
   double ground_m = 1.0;   ///< the map need not prove space below this height: the ground is level, at z = 0
-  /// Lowest height of a planned path. If the UAV is lower, its own height, but at least half of floor_m.
+  /// Lowest height of a planned path. For a UAV below it, the limit is the UAV's own height, but at least floor_m / 2.
   double floor_m = 2.0;
-  double peer_margin_m = 0.6;   ///< distance between the bodies of two UAVs that have both braked
-  double peer_memory_s = 20.0;  ///< time for which this UAV still avoids one out of sight, as if that one had braked
+  double peer_margin_m = 0.6;  ///< minimum gap between the bodies of two UAVs after both have braked
+  /// Time for which this UAV avoids a UAV that is out of sight, as if that UAV had braked when it was last seen.
+  double peer_memory_s = 20.0;
 
   // Motion.
   double approach_mps = 5.0;  ///< speed on the path to a goal; lower where only little space ahead is proved free
@@ -30,27 +31,32 @@ struct FlightConfig {
   double unknown_cost = 1.5;  ///< cost of a metre through unproved space, in metres through proved space
 
   // When something fails.
-  double stall_s = 4.0;     ///< time without progress after which the UAV looks around, replans, or ends the goal
+  double stall_s = 4.0;     ///< time without progress after which the UAV looks around, replans, or gives up its goal
   double look_s = 8.0;      ///< duration of looking around: one period of the LiDAR's servo
   double refused_s = 40.0;  ///< time for which paths avoid a place where structure or unproved space stopped the UAV
-  double alone_s = 45.0;    ///< time for which a UAV without a working LiDAR waits for map updates (sight.hpp)
-  double alone_mps = 1.5;   ///< maximum speed of a UAV that assumes that space outside the boxes is free
-  double yield_s = 5.0;     ///< time beyond stall_s for which a UAV waits for one with a lower index in its way
+  /// Time for which a UAV without a working LiDAR waits for map updates before it assumes that space outside the boxes
+  /// is free (sight.hpp).
+  double alone_s = 45.0;
+  double alone_mps = 1.5;  ///< maximum speed of a UAV that assumes this
+  /// Additional time, after stall_s, for which a UAV waits for a UAV with a lower index that is in its way.
+  double yield_s = 5.0;
 
   /// A UAV that has been stopped at one place for this time has looked around, waited for others, and searched other
   /// paths.
   double held_s() const { return stall_s + look_s + yield_s; }
 
   // Reactions to the uncertainty of the odometry, to wind and to the battery (caution.hpp).
-  bool reacts = true;            ///< false: no reactions
-  double drift_sigmas = 2.0;     ///< number of standard deviations of the position that is added to clearances
-  double wind_error_s = 0.03;    ///< additional tracking error per m/s of mean wind
-  double gust_slows_s_m = 0.15;  ///< share of approach_mps by which a UAV is slower per m/s of gusts beyond 1 m/s
-  double land_mps = 1.0;         ///< vertical speed of a landing
+  bool reacts = true;          ///< false: no reactions
+  double drift_sigmas = 2.0;   ///< clearances grow by this number of standard deviations of the position
+  double wind_error_s = 0.03;  ///< additional tracking error per m/s of mean wind
+  /// Per m/s of gusts above 1 m/s, the speed limit drops by this share of approach_mps, but never below half of it.
+  double gust_slows_s_m = 0.15;
+  double land_mps = 1.0;  ///< vertical speed of a landing
 
   // Return to the station, to deliver captures (homing.hpp).
   double deliver_every_s = 240.0;  ///< maximum time for which a UAV continues its work with undelivered captures
-  double return_margin_s = 12.0;   ///< planned time between the arrival at a link and the end of the mission
+  /// Planned time between the arrival at a place with a link and the end of the mission.
+  double return_margin_s = 12.0;
 
   void describe(auto& r) {
     r.field("error_m", error_m, within(0.0, 2.0));

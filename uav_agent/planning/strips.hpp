@@ -10,16 +10,16 @@
 
 namespace skein::agent {
 
-/// What a camera resolves, computed from its data sheet.
+/// What a camera resolves, computed from its data sheet and the desired resolution r_des.
 struct CameraReach {
-  double sharp_distance_m = 7.36;   ///< d*: distance at which a perpendicular wall has the desired resolution
+  double sharp_distance_m = 7.36;   ///< d*: distance at which a picture of a perpendicular wall has that resolution
   double half_width_slope = 0.84;   ///< half of the width of a picture, per metre of distance
   double half_height_slope = 0.58;  ///< the same for its height
   double blur_speed_mps = 2.0;      ///< maximum sideways speed without blur at d*; proportional to the distance
 };
 
-/// d* = r_des f / (1000 pixel), with r_des in mm per pixel. A picture is without blur if a point moves by at most one
-/// pixel during the exposure.
+/// d* = r_des f / (1000 p), with r_des in mm per pixel, the focal length f and the pixel size p. A picture is without
+/// blur if a point moves by at most one pixel during the exposure.
 CameraReach camera_reach(const CameraConfig& camera, double desired_mm_per_pixel);
 
 enum class FaceKind { side, top, bottom };
@@ -38,11 +38,12 @@ struct Strip {
 };
 
 struct StripConfig {
-  double standoff_ratio = 0.92;    ///< distance to the surface, in units of d*
-  double overlap = 0.2;            ///< of neighbouring strips, as a share of a picture's extent across the strip
-  double min_length_m = 2.0;       ///< a face with a shorter edge gets no strip
-  double max_length_m = 60.0;      ///< longer strips are cut into pieces, which different UAVs can take
-  double lowest_m = 2.0;           ///< a bottom face gets strips only if UAVs fly at least 3 m above this height there
+  double standoff_ratio = 0.92;  ///< distance to the surface, in units of d*
+  double overlap = 0.2;          ///< of neighbouring strips, as a share of a picture's extent across the strip
+  double min_length_m = 2.0;     ///< a face with a shorter edge gets no strip
+  double max_length_m = 60.0;    ///< longer strips are cut into pieces, which different UAVs can take
+  /// A bottom face gets strips only if a UAV that photographs it from below is at least 3 m above this height.
+  double lowest_m = 2.0;
   bool top = true, bottom = true;  ///< whether top and bottom faces get strips
 };
 
@@ -57,7 +58,7 @@ struct Visit {
 };
 
 /// Assigns the strips to tours, and orders them: the tour that would end first gets the remaining strip that is nearest
-/// to its end. Then 2-opt shortens each tour by reversing parts of it. Each tour is that of a UAV, or of a team.
+/// to its end. Then 2-opt shortens each tour by reversing parts of it. Each tour belongs to one UAV or team.
 /// @param p_W_start  where each tour begins.
 /// @param work_s     time that one UAV needs for each strip.   @param transit_mps  speed between strips.
 /// @param team_size  by tour: number of UAVs that share it, by which its time is divided; empty: 1 for all.

@@ -8,8 +8,8 @@ namespace {
 
 constexpr std::string_view kWordName = "xxh/1", kPlanName = "xxh-gcs/1";
 constexpr double kTrajectoryGapM = 2.2;  ///< gap between this UAV's body and a body on an announced trajectory
-constexpr double kSpacingM = 2.0;        ///< maximum distance between the centres of two spheres of a trajectory
-constexpr std::size_t kMaxSpheres = 8;   ///< per trajectory; the part beyond them will change before it is flown
+constexpr double kSpacingM = 2.0;        ///< maximum distance between the centres of successive spheres
+constexpr std::size_t kMaxSpheres = 8;   ///< per trajectory; the UAV will probably change the rest before it flies it
 
 }  // namespace
 
