@@ -123,6 +123,7 @@ async function checkEdge(page) {
   const edgeAt = async (left) => {
     await wide.evaluate((box, to) => box.scrollTo({left: to, behavior: 'instant'}), left);
     const {width, height} = await wide.boundingBox();
+    await page.bringToFront();  // behind another tab, as after the first lookAt(), it would never be drawn
     const png = await wide.screenshot({encoding: 'base64'});
     return (await lookAt(browser, png, [[Math.floor(width) - 6, 0, 6, Math.floor(height)]]))[0].largest;
   };
