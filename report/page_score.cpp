@@ -36,8 +36,7 @@ std::string never_seen_table(const RunPage& page) {
   const std::optional<NeverInPicture> sums = never_in_picture(page.run);
   if (!sums) return "";
   return "<p class=\"soft\">Points never in the picture: a UAV comes near a point if it is within the range in which "
-         "its "
-         "camera is sharp enough.</p>\n<div class=\"wide\"><table data-table=\"unseen\">\n" +
+         "its camera is sharp enough.</p>\n<div class=\"wide\"><table class=\"words\" data-table=\"unseen\">\n" +
          table_head({"", "Lost", "Points"}) + "<tbody>\n" +
          table_row({"no UAV ever came near", fixed(sums->loss_far, 1), std::to_string(sums->points_far)}) +
          table_row({"a UAV came near, but did not look, or something was in between", fixed(sums->loss_near, 1),

@@ -38,6 +38,7 @@ body.run main { max-width: 1560px; }
 .halves { display: grid; grid-template-columns: minmax(0, 1fr); gap: 0 36px; align-items: start; }
 @media (min-width: 1180px) { .pair { grid-template-columns: minmax(0, 5fr) minmax(0, 6fr); } .halves { grid-template-columns: repeat(2, minmax(0, 1fr)); } }
 .run td:first-child, .run th:first-child { background: var(--page); }
+.words td:first-child { white-space: normal; }
 .waterfall { width: 100%; }
 .waterfall th:last-child, .waterfall td:last-child { width: 100%; min-width: 80px; padding: 3px 0 3px 10px; vertical-align: middle; }
 .run svg.fall { max-width: none; width: 100%; height: 18px; margin: 0; }
