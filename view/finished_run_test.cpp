@@ -82,8 +82,12 @@ TEST_F(FinishedRun, TellsWhatUavsDid) {
   EXPECT_EQ(activities[0]["m"], "on the ground");
   EXPECT_EQ(activities[0]["g"], nullptr);
   EXPECT_EQ(activities[1], Json::parse(line));
-  const auto lacks = [this] { return told_["scene"]["missing"].dump().find("activity.csv") != std::string::npos; };
+  const auto names = [this](const char* text) {
+    return told_["scene"]["missing"].dump().find(text) != std::string::npos;
+  };
+  const auto lacks = [&] { return names("There is no activity.csv"); };
   EXPECT_FALSE(lacks());
+  EXPECT_TRUE(names("activity.csv")) << "its last row is cut off";
   fs::remove(folder_.path() / "activity.csv");  // an older run
   tell();
   EXPECT_EQ(lines("activity").size(), 0U);

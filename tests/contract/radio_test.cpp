@@ -275,14 +275,11 @@ TEST_P(Radio, NoiseOfStrangersIsCountedAndChangesNothing) {
 
 TEST_P(Radio, SaysWhyARequestMakesNoSense) {
   ASSERT_NO_FATAL_FAILURE(fly());
-  const std::map<std::string, std::string> reasons = {{"/itself", "'b' is the source itself"},
-                                                      {"/nobody", "there is no node 'nowhere'"},
-                                                      {"/skein/mine", "names under /skein/"},
-                                                      {"/captures/x", "carry the score"},
-                                                      {"/score_eval", "is the station's own"},
-                                                      {"/empty", "name at least one node"},
-                                                      {kLater, "'/later' was declared as " + kLaterType},
-                                                      {"/blob/b", "is taken by what arrives of /blob"}};
+  const std::map<std::string, std::string> reasons = {
+      {"/itself", "'b' is the source itself"},         {"/nobody", "there is no node 'nowhere'"},
+      {"/skein/mine", "names under /skein/"},          {"/captures/x", "carry the score"},
+      {"/score_eval", "is the station's own"},         {"/empty", "name at least one node"},
+      {kLater, "asked for '/later' as " + kLaterType}, {"/blob/b", "is taken by what arrives of /blob"}};
   for (const auto& [topic, reason] : reasons) {
     const auto status = members_[2]->sending(topic);
     EXPECT_NE(status.refusal.find(reason), std::string::npos) << topic << ": " << status.refusal;

@@ -89,9 +89,9 @@ TEST_F(Sweep, AFullDiskCostsNothingButTime) {
 TEST_F(Sweep, SlurmIsAsThePlainStudyAndGetsWhatItWants) {
   const Environment with = slurm("n1\nn2\n", "5");
   ChildProcess& study =
-      fly("slurm", {"--executor", "slurm", "--jobs", "2", "--slurm", "partition=debug,account=mine,yours"}, with);
+      fly("by_slurm", {"--executor", "slurm", "--jobs", "2", "--slurm", "partition=debug,account=mine,yours"}, with);
   ASSERT_EQ(study.wait().code, 0) << study.err();
-  expect_as_plain("slurm");
+  expect_as_plain("by_slurm");
   ASSERT_TRUE(eventually([&] { return slurm_is_idle(); }));
   const std::string calls = text_of(folder() / "slurm" / "calls");
   EXPECT_NE(calls.find("--array=0-4%2"), std::string::npos) << "cut to MaxArraySize: " << calls;
