@@ -66,6 +66,8 @@ if(SKEIN_SANITIZE)
   endif()
   # Without the options after the first, each program has 110 MB; with them, less than half of that.
   add_link_options(-fsanitize=${sanitizers} -no-pie -Wl,--compress-debug-sections=zlib)
+  # Sanitizers do not notice when an empty std::optional is read, or a vector beyond its size and within its capacity.
+  add_compile_definitions(_GLIBCXX_ASSERTIONS=1)
   # Debian's libpcl frees memory with plain free() that Eigen allocates here. This definition makes Eigen use malloc().
   add_compile_definitions(EIGEN_MALLOC_ALREADY_ALIGNED=1)
 endif()

@@ -203,7 +203,7 @@ TEST(KiosPatience, WhoComesBackBelievesPhotographersThatWork) {
       KiosPatience patience(listener, hears);
       patience.begin(ticks(60.0));
       if (came_back) patience.came_back();
-      EXPECT_EQ(patience.is_over(input({}), {}), works && came_back);
+      EXPECT_EQ(patience.is_over(input({}), KiosConfig{}.resolved()), works && came_back);
     }
   }
 }
