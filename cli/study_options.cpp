@@ -13,7 +13,7 @@ void add_sweep(CLI::App& command, SweepOptions& sweep) {
   command
       .add_option("--executor", sweep.executor,
                   "Fly it in units of some minutes: local, here; parallel, by GNU parallel over ssh; slurm, as a job "
-                  "array (docs/beyond-one-machine.md)")
+                  "array (docs/sweeps.md)")
       ->check(CLI::IsMember({"local", "parallel", "slurm"}));
   command
       .add_option("--sshlogin", sweep.logins,
@@ -51,7 +51,7 @@ void add_pack(CLI::App& app, PackOptions& pack) {
       app.add_subcommand("pack", "Write the programs with all their libraries into one archive, for other machines");
   command->add_option("FILE", pack.file, "The archive: skein.tar.gz")->required();
   command->add_option("--agent", pack.agents, "Agent program of yours, to be packed, too")->allow_extra_args(false);
-  command->footer("Example:\n  skein pack skein.tar.gz\n\ndocs/beyond-one-machine.md has more.");
+  command->footer("Example:\n  skein pack skein.tar.gz\n\ndocs/sweeps.md has more.");
 }
 
 namespace {
