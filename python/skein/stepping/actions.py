@@ -21,7 +21,7 @@ _FAR_M, _HIGH_M = 300.0, 150.0
 
 
 def action_space(actions: str) -> spaces.Space:
-    """The space of actions, with their usual keys only. docs/how-to-python.md lists all keys."""
+    """The space of actions, with their usual keys only. docs/python.md lists all keys."""
     motion: dict[str, spaces.Space]
     if actions == "velocity":
         most = np.array([_MOST_MPS, _MOST_MPS, _MOST_CLIMB_MPS])

@@ -1,7 +1,7 @@
 // The observation of a learner, as arrays in a memory block shared with the program that steps the fleet. It holds no
 // ground truth, only what the UAV's own software received or computed (api/planner.hpp).
 // Frame W, angular_velocity B; quaternions w, x, y, z; ages -1: never.   Units: SI and radians.   Threads: one.
-// Deterministic.   Shapes and meaning of all arrays: docs/how-to-python.md.
+// Deterministic.   Shapes and meaning of all arrays: docs/python.md.
 #pragma once
 
 #include <cstddef>
