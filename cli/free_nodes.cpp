@@ -19,7 +19,7 @@ void check_free_nodes(const std::vector<UavPlanner>& planners, const std::string
   throw InputError("--planner " + uavs.front() +
                    "=ros: nothing waits for free-running ROS 2 nodes, so they need --clock realtime; to have a node "
                    "take part in the lock-step, write " +
-                   uavs.front() + "=ros:PACKAGE/EXECUTABLE (docs/ros2.md)");
+                   uavs.front() + "=ros:PACKAGE/EXECUTABLE (docs/how-to-ros2.md)");
 }
 
 }  // namespace skein::cli

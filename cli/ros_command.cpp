@@ -30,7 +30,7 @@ std::vector<fs::path> prefixes(const std::string& spec) {
   if (path == nullptr || *path == '\0') {
     throw InputError("--planner " + spec +
                      ": no ROS 2 here: AMENT_PREFIX_PATH is not set; source the setup file of a " +
-                     "workspace with skein_ros (docs/ros2.md)");
+                     "workspace with skein_ros (docs/how-to-ros2.md)");
   }
   std::vector<fs::path> result;
   for (const std::string& prefix : split(path, ':')) result.emplace_back(prefix);
@@ -77,7 +77,7 @@ fs::path find_skein_ros(const std::string& spec) {
     if (fs::exists(prefix / kStepLibrary)) return prefix;
   }
   throw InputError("--planner " + spec + ": AMENT_PREFIX_PATH has no package skein_ros, which takes a node into the " +
-                   "lock-step; build it beside your packages (docs/ros2.md)");
+                   "lock-step; build it beside your packages (docs/how-to-ros2.md)");
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Planners that are ROS 2 nodes: `ros:PACKAGE/EXECUTABLE ARGUMENTS` as a shell command (docs/ros2.md).
+// Planners that are ROS 2 nodes: `ros:PACKAGE/EXECUTABLE ARGUMENTS` as a shell command (docs/how-to-ros2.md).
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,5 @@
 // The environment of a shell in which a user starts a UAV's ROS 2 nodes by hand: `eval "$(skein run --ros-env jurong)"`
-// (docs/ros2.md).
+// (docs/how-to-ros2.md).
 #pragma once
 
 #include <string>

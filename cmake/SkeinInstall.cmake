@@ -76,7 +76,7 @@ foreach(folder api maps flight flight_core planning)
   install(DIRECTORY uav_agent/${folder} DESTINATION include/skein/uav_agent COMPONENT dev
     FILES_MATCHING PATTERN "*.hpp")
 endforeach()
-# Packages for ROS 2, as sources: users of ROS 2 build them with colcon (docs/ros2.md).
+# Packages for ROS 2, as sources: users of ROS 2 build them with colcon (docs/how-to-ros2.md).
 install(DIRECTORY ros2 DESTINATION ${CMAKE_INSTALL_DATADIR}/skein COMPONENT dev USE_SOURCE_PERMISSIONS
   PATTERN generate_messages.py EXCLUDE PATTERN __pycache__ EXCLUDE)
 # The types of all messages, for programs of one's own that use DDS without ROS 2.

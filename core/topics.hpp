@@ -239,7 +239,7 @@ std::span<const TopicInfo> gcs_topics();
 /// The station's member name in the lock-step. Its radio node is "gcs", which it may share with a user's program.
 inline constexpr std::string_view kStationMember = "station";
 
-// ---- the world domain, for viewers: RViz 2 (docs/ros2.md) ---------------------------------------------------------
+// ---- the world domain, for viewers: RViz 2 (docs/how-to-ros2.md) --------------------------------------------------
 // No program of the fleet reads these topics, and the lock-step does not count them. Written only while they have
 // readers, at 10 Hz at most.
 

@@ -1,6 +1,6 @@
 // A UAV's member of the lock-step on behalf of ROS 2 nodes that run freely in the UAV's DDS domain and know nothing of
 // Skein. It relays their messages on the UAV's command and radio topics with the next step, and counts them. For runs
-// in real time: no step waits for the nodes, so the same nodes may fly differently in each run (docs/ros2.md).
+// in real time: no step waits for the nodes, so the same nodes may fly differently in each run (docs/how-to-ros2.md).
 // Everything happens on the thread that drives it.
 #pragma once
 

@@ -1,4 +1,4 @@
-// The planner `ros`: ROS 2 nodes fly the UAV in real time, outside of the lock-step (docs/ros2.md).
+// The planner `ros`: ROS 2 nodes fly the UAV in real time, outside of the lock-step (docs/how-to-ros2.md).
 #pragma once
 
 #include <string_view>

@@ -129,7 +129,7 @@ TEST_P(RosPageTyped, IsFollowed) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Pages, RosPageTyped,
-                         testing::Values(Page("docs/ros2.md", 5), Page("docs/porting-from-caric.md", 2)),
+                         testing::Values(Page("docs/how-to-ros2.md", 5), Page("docs/porting-from-caric.md", 2)),
                          [](const auto& page) { return page.index == 0 ? "ros2" : "porting"; });
 
 }  // namespace

@@ -287,7 +287,7 @@ INSTANTIATE_TEST_SUITE_P(Middlewares, RosMessages, testing::ValuesIn(kMiddleware
                          [](const auto& middleware) { return std::string(middleware.param); });
 
 TEST(RosPage, HasThePlannersThatFly) {
-  const std::string page = text_of(source_path("docs/ros2.md"));
+  const std::string page = text_of(source_path("docs/how-to-ros2.md"));
   for (const char* file : {"circle.cpp", "climb.py"}) {
     const std::string text = text_of(source_path("ros2/skein_ros_examples/src/") + file);
     ASSERT_FALSE(text.empty()) << file;

@@ -1,4 +1,4 @@
-"""RViz 2 in the domain of one UAV of a running fleet (docs/ros2.md of Skein).
+"""RViz 2 in the domain of one UAV of a running fleet (docs/how-to-ros2.md of Skein).
 
     ros2 launch skein_ros rviz.launch.py uav:=jurong domain:=42
 """
