@@ -49,7 +49,7 @@ void LivePage::announce(const std::function<void(const std::string&)>& say, bool
     say("warning: the page is served at " + endpoint_.text() +
         ", beyond this host: whoever reaches it and has the key may look and give orders, and plain HTTP hides "
         "neither; "
-        "ssh -L is safer (docs/view.md). From elsewhere: http://" +
+        "ssh -L is safer (docs/how-to-watch.md). From elsewhere: http://" +
         (endpoint_.is_any() ? host_name("HOST") + ":" + port : endpoint_.text()) + "/, with the key in " + key);
   } else if (ssh != nullptr && *ssh != '\0') {
     say("from your own machine: ssh -L " + port + ":" + endpoint_.text() + " " + host_name("HOST") +
