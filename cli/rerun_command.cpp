@@ -99,8 +99,9 @@ std::vector<std::string> with_other_planner(const RunOptions& then, const RunOpt
 /// Says, for the user, how the digest has changed; empty if it is the same, or a run has none.
 std::string other_digest(const Json& then, const Json& now) {
   if (!then["digest"].is_string() || !now["digest"].is_string() || then["digest"] == now["digest"]) return {};
-  return "the world itself is another one: its digest was " + then["digest"].get<std::string>() + ", and is " +
-         now["digest"].get<std::string>() + "; another version, build or scenario file?";
+  return "the simulated world differs from that of the recorded run: its digest was " +
+         then["digest"].get<std::string>() + ", and is now " + now["digest"].get<std::string>() +
+         "; has the version, the build or a scenario file changed?";
 }
 
 /// UAVs that an agent flies, not a program of the user's own.
@@ -155,7 +156,7 @@ int rerun(const RerunOptions& options, const Console& console) {
   if (const std::string other = other_digest(then, now); !other.empty()) console.out << other << '\n';
   const std::vector<std::string> differences = differences_of(now);
   for (const std::string& difference : differences) console.out << difference << '\n';
-  if (differences.empty()) console.out << options.uav << " says what it said then\n";
+  if (differences.empty()) console.out << options.uav << ": the output is the recorded one\n";
   console.out << std::flush;
   return differences.empty() && then["digest"] == now["digest"] ? kExitDone : kExitCheckFailed;
 }
@@ -202,7 +203,7 @@ int fork_run(const ForkOptions& options, const Console& console) {
   if (!now.is_object()) return code;
   for (const std::string& difference : differences_of(now)) console.out << difference << '\n';
   const auto score = [](const Json& result) { return value_or(result, "score", 0.0).get<double>(); };
-  console.out << "score " << score(now) << ", " << score(then) << " in the run that it was\n";
+  console.out << "score " << score(now) << "; the recorded run scored " << score(then) << "\n";
   if (then["digest"] == now["digest"] && then["digest"].is_string()) {
     console.out << "the fork is the same run: its digest did not change\n";
   }

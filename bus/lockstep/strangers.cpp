@@ -52,7 +52,7 @@ std::uint64_t Strangers::unheard(const std::string& node) const {
 }
 
 std::string describe(const Strangers::Notice& notice) {
-  return notice.node + ": " + ros_name(notice.topic) + " gets samples " + kUnheardReason;
+  return notice.node + ": samples on " + ros_name(notice.topic) + " are " + kUnheardReason;
 }
 
 }  // namespace skein::bus

@@ -15,7 +15,8 @@
 namespace skein::bus {
 
 /// Reason why such a sample has no effect, for the user.
-inline constexpr const char* kUnheardReason = "from outside the lock-step: ignored; see docs/ros2.md";
+inline constexpr const char* kUnheardReason =
+    "ignored: the sender does not take part in the lock-step; see docs/ros2.md";
 
 class Strangers {
  public:

@@ -33,7 +33,8 @@ TEST(Strangers, WhoJoinsInTimeIsNone) {
   const auto notices = strangers.take_notices(20, 20, is_stranger);
   ASSERT_EQ(notices.size(), 1U);
   EXPECT_EQ(describe(notices[0]),
-            "ada: /ada/command/trajectory gets samples from outside the lock-step: ignored; see docs/ros2.md");
+            "ada: samples on /ada/command/trajectory are ignored: the sender does not take part in the lock-step; see "
+            "docs/ros2.md");
   EXPECT_EQ(strangers.unheard("ada"), 1U);  // the member's early one is not counted
 }
 

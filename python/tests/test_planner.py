@@ -82,7 +82,7 @@ def test_what_flew_is_kept_and_flown_again(tmp_path: Path, wanderer: str) -> Non
     assert (run.path / kept["kept"]).with_name("steps.py").exists()
     rerun = [skein.find_launcher(), "rerun", str(run.path), "--uav", "jurong", "--force"]
     said = subprocess.run(rerun, capture_output=True, text=True)
-    assert said.returncode == 0 and "says what it said then" in said.stdout, said.stdout + said.stderr
+    assert said.returncode == 0 and "the output is the recorded one" in said.stdout, said.stdout + said.stderr
     (tmp_path / "mine/steps.py").write_text("def step():\n    return 0.0, 0.0\n")
     said = subprocess.run(rerun, capture_output=True, text=True)
     assert said.returncode == 0 and "has changed since that run" in said.stderr, said.stdout + said.stderr

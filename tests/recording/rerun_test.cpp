@@ -67,7 +67,7 @@ TEST_F(Rerun, EachAgentSaysWhatItSaidThen) {
       const std::string out = uav + std::to_string(round);
       ChildProcess& process = again("rerun", run, out, {"--uav", uav});
       EXPECT_EQ(process.wait().code, 0) << process.out() << process.err();
-      EXPECT_NE(process.out().find(uav + " says what it said then"), std::string::npos) << process.out();
+      EXPECT_NE(process.out().find(uav + ": the output is the recorded one"), std::string::npos) << process.out();
       EXPECT_EQ(result_in(out)["digest"], run.result()["digest"]) << uav;
     }
   }

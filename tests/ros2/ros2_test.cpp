@@ -99,7 +99,8 @@ TEST_P(Ros2, NodesWithDefaultSettingsHearAUavAndAreToldWhenTheyAreNotHeard) {
 
   EXPECT_GT(result["uavs"][0]["commands_unheard"], 0);
   EXPECT_EQ(result["uavs"][1]["commands_unheard"], 0);
-  const std::string word = kUav + ": /" + kUav + "/command/trajectory gets samples from outside the lock-step";
+  const std::string word =
+      kUav + ": samples on /" + kUav + "/command/trajectory are ignored: the sender does not take part";
   EXPECT_NE(fleet.err().find(word), std::string::npos) << "while it flies";
   const auto told = [&](const std::string& text) {
     return std::count_if(result["warnings"].begin(), result["warnings"].end(),
@@ -107,7 +108,7 @@ TEST_P(Ros2, NodesWithDefaultSettingsHearAUavAndAreToldWhenTheyAreNotHeard) {
   };
   EXPECT_EQ(told(word), 1) << "once, however many there were";
   EXPECT_GT(result["radio"]["unheard"], 0);
-  EXPECT_EQ(told(kUav + ": /plan gets samples from outside the lock-step"), 1);
+  EXPECT_EQ(told(kUav + ": samples on /plan are ignored: the sender does not take part"), 1);
   EXPECT_NE(text_of(folder() / "rejections").find(" 1\n"), std::string::npos) << "command_rejected";
 }
 

@@ -51,7 +51,7 @@ TEST_F(FlownByHand, RepeatsFromWhatWasKept) {
   ChildProcess& rerun =
       skein({"rerun", flown.dir().string(), "--uav", "jurong", "--out", (folder() / "rerun").string()});
   EXPECT_EQ(rerun.wait().code, 0) << rerun.out() << rerun.err();
-  EXPECT_NE(rerun.out().find("jurong says what it said then"), std::string::npos) << rerun.out();
+  EXPECT_NE(rerun.out().find("jurong: the output is the recorded one"), std::string::npos) << rerun.out();
   ChildProcess& fork = skein({"fork", flown.dir().string(), "--at", "20", "--out", (folder() / "fork").string()});
   EXPECT_EQ(fork.wait().code, 0) << fork.out() << fork.err();
   EXPECT_NE(fork.out().find("the fork is the same run"), std::string::npos) << fork.out();
