@@ -91,7 +91,7 @@ TEST(Help, ListsEachCommandOnceUnderItsTask) {
     EXPECT_NE(task, "Subcommands") << command << " is of no task";
   }
   EXPECT_EQ(task_of["run"], "Fly a fleet");
-  EXPECT_EQ(task_of["replay"], "Look at what was flown");
+  EXPECT_EQ(task_of["replay"], "Examine runs");
   EXPECT_EQ(task_of["contest"], "Compare planners");
   EXPECT_EQ(task_of["hunt"], "Find faults");
   EXPECT_EQ(task_of["bench"], "Scenarios and machines");

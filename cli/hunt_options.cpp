@@ -21,20 +21,21 @@ void add_hunt(CLI::App& app, HuntOptions& hunt) {
   command->add_option("SCENARIO", run.scenario, "A name under config/scenarios/ or a YAML file")->capture_default_str();
   command->add_option("--planner", run.planner, "As for `skein run`")->capture_default_str();
   command->add_option("--agent", run.agent, "Agent program with planners of your own, as for `skein run`");
-  command->add_option("--scene-seed", run.scene_seed, "Which scene of a procedural family")->check(seed);
+  command->add_option("--scene-seed", run.scene_seed, "Number of the variant of a procedural scenario")->check(seed);
   command->add_option("--uavs", run.uavs, "Fleet size, as for `skein run`")
       ->check(CLI::Validator(check_positive, "POSITIVE"));
-  command->add_option("--assets", run.assets, "Folder with models/ for scenarios that read files");
+  command->add_option("--assets", run.assets,
+                      "Folder of data files (with models/) for scenarios that need them, such as mbs");
   command->add_option("--duration", run.duration_s, "Mission time [s]")->check(seconds)->capture_default_str();
   command
       ->add_option("--dds", hunt.dds,
-                   "Fly processes over this DDS vendor: cyclonedds, fastdds or mixed (default: one process where it "
-                   "can be, and each find over DDS, too)")
+                   "Fly as processes over this DDS vendor: cyclonedds, fastdds or mixed (default: in one process where "
+                   "possible, and each find again over DDS)")
       ->check(CLI::IsMember({"cyclonedds", "fastdds", "mixed"}));
   command->add_option("--properties", hunt.properties,
-                      "What must hold: a file of properties (default: the ready ones, docs/properties.md)");
-  command->add_option("--without", hunt.without, "Properties that are not asked, with commas between")->delimiter(',');
-  command->add_option("--faults", hunt.faults, "Kinds of faults to draw from, with commas between (default: all)")
+                      "File of the properties that must hold (default: the ready properties in docs/properties.md)");
+  command->add_option("--without", hunt.without, "Properties to leave out, separated by commas")->delimiter(',');
+  command->add_option("--faults", hunt.faults, "Kinds of faults to draw, separated by commas (default: all)")
       ->delimiter(',');
   command
       ->add_option("--conditions", hunt.conditions,
@@ -43,84 +44,90 @@ void add_hunt(CLI::App& app, HuntOptions& hunt) {
       ->delimiter(',')
       ->allow_extra_args(false);
   CLI::Option* runs =
-      command->add_option("--runs", hunt.runs, "So many runs (default 200)")->check(CLI::Range(1, 1'000'000));
-  command->add_option("--minutes", hunt.minutes, "Search for so long, instead of a number of runs")
+      command->add_option("--runs", hunt.runs, "Number of runs (default 200)")->check(CLI::Range(1, 1'000'000));
+  command->add_option("--minutes", hunt.minutes, "Time limit [min], instead of a number of runs")
       ->check(CLI::Validator(check_positive, "POSITIVE"))
       ->excludes(runs);
-  command->add_flag("--first", hunt.first, "End the search with the first find");
-  command->add_option("--shrink", hunt.shrink, "Flights that it may take to make a find small")
+  command->add_flag("--first", hunt.first, "Stop at the first find");
+  command->add_option("--shrink", hunt.shrink, "Number of flights allowed for minimising a find")
       ->check(CLI::Range(0, 10'000))
       ->capture_default_str();
-  command->add_option("--seed", hunt.seed, "What is drawn; the same seed is the same search")
+  command->add_option("--seed", hunt.seed, "Seed of the search; the same seed gives the same search")
       ->check(seed)
       ->capture_default_str();
   command
-      ->add_option("--jobs", hunt.jobs,
-                   "Flights at once; finds do not depend on it (default: as many as cores, over DDS one)")
+      ->add_option(
+          "--jobs", hunt.jobs,
+          "Number of simultaneous flights; the finds do not depend on it (default: the number of cores; over DDS 1)")
       ->check(CLI::Range(1, 16));
   command
       ->add_option("--round", hunt.round,
-                   "So many cases are fixed before what came of the first of them is looked at: they can fly at once; "
-                   "another number is another search")
+                   "Number of cases in a round, which can fly at the same time: Skein uses the results of a round only "
+                   "for later rounds, so another number gives another search")
       ->check(CLI::Range(1, 10'000))
       ->capture_default_str();
   add_sweep(*command, hunt.sweep);
-  command->add_option("--out", hunt.out, "Folder of the search and its finds (default runs/hunt-<scenario>-<planner>)");
-  command->add_flag("--force", hunt.force, "Begin anew where another hunt was; its finds move into earlier/");
+  command->add_option("--out", hunt.out, "Folder of the hunt and its finds (default runs/hunt-<scenario>-<planner>)");
+  command->add_flag("--force", hunt.force,
+                    "Start a new hunt in the folder of another one, whose finds move to earlier/");
   command->add_option("--junit", hunt.junit, "Report for CI servers (JUnit XML)");
   command->footer(
       "Examples:\n"
       "  skein hunt towers --planner patrol --runs 500\n"
       "  skein hunt towers --planner orbit --agent build/my_agent --properties mine.yaml --minutes 30 --junit "
       "hunt.xml\n\n"
-      "The same command again goes on where it was stopped. Exit codes: 0 nothing found, 1 finds. "
-      "docs/how-to-hunt.md has more.");
+      "The same command continues a hunt that was stopped. Exit codes: 0 nothing found, 1 finds. "
+      "See docs/how-to-hunt.md.");
 }
 
 void add_blame(CLI::App& app, BlameOptions& blame) {
-  CLI::App* command = app.add_subcommand("blame", "What each fault of a run cost: take it away, and fly again");
+  CLI::App* command =
+      app.add_subcommand("blame", "Show what each fault of a run cost: fly again without it, and compare");
   command->add_option("RUN", blame.what, "Results folder of a run with faults, or a capsule of `skein hunt`")
       ->required();
   command->add_option("--agent", blame.agent, "Agent program with planners of your own, as for `skein run`");
-  command->add_option("--assets", blame.assets, "Folder with models/ for scenarios that read files");
+  command->add_option("--assets", blame.assets,
+                      "Folder of data files (with models/) for scenarios that need them, such as mbs");
   command
       ->add_option("--dds", blame.dds,
-                   "Fly processes over this DDS vendor: cyclonedds, fastdds or mixed (default: one process where it "
-                   "can be)")
+                   "Fly as processes over this DDS vendor: cyclonedds, fastdds or mixed (default: in one process where "
+                   "possible)")
       ->check(CLI::IsMember({"cyclonedds", "fastdds", "mixed"}));
   command
       ->add_option("--messages", blame.messages,
-                   "FROM UNTIL [s]: also take away what each link carries in that time, one link after the other")
+                   "FROM UNTIL [s]: also fly without the messages of this time, one link after the other")
       ->expected(2);
   command->add_option("--out", blame.out, "Folder of the flights (default: blame in RUN, or runs/blame)");
   command->footer(
       "Examples:\n"
       "  skein blame runs/towers-kios-0\n"
       "  skein blame runs/hunt-towers-patrol/finds/all_fly_on-17.yaml --messages 12 14\n\n"
-      "docs/how-to-hunt.md has more.");
+      "See docs/how-to-hunt.md.");
 }
 
 void add_check_planner(CLI::App& app, CheckPlannerOptions& check) {
-  CLI::App* command = app.add_subcommand(
-      "check-planner", "Is a planner repeatable? Fly the same in other surroundings, and name the first difference");
+  CLI::App* command = app.add_subcommand("check-planner",
+                                         "Check that a planner is repeatable: fly the same under other conditions of "
+                                         "the machine, and name the first difference");
   constexpr double kShortMission_s = 40.0;
   const CLI::Validator seed(check_seed, ""), seconds(check_seconds, "");
   RunOptions& run = check.run;
   run.duration_s = kShortMission_s;
   run.seed = 1;
-  command->add_option("PLANNER", run.planner, "As --planner of `skein run`")->required();
+  command->add_option("PLANNER", run.planner, "As --planner for `skein run`")->required();
   command->add_option("--scenario", run.scenario, "A name under config/scenarios/ or a YAML file")
       ->capture_default_str();
   command->add_option("--agent", run.agent, "Agent program with planners of your own, as for `skein run`");
-  command->add_option("--assets", run.assets, "Folder with models/ for scenarios that read files");
+  command->add_option("--assets", run.assets,
+                      "Folder of data files (with models/) for scenarios that need them, such as mbs");
   command->add_option("--uavs", run.uavs, "Fleet size, as for `skein run`")
       ->check(CLI::Validator(check_positive, "POSITIVE"));
   command->add_option("--duration", run.duration_s, "Mission time [s]")->check(seconds)->capture_default_str();
   command->add_option("--seed", run.seed, "As for `skein run`")->check(seed)->capture_default_str();
-  command->add_option("--out", check.out, "Folder for the flights (default: they are not kept)");
+  command->add_option("--out", check.out, "Folder for the flights (default: Skein deletes them)");
   command->footer(
       "Example:\n  skein check-planner orbit --agent build/my_agent\n\n"
-      "Exit codes: 0 all runs are the same, 1 one is not. docs/how-to-hunt.md has more.");
+      "Exit codes: 0 all runs are the same, 1 a run differs. See docs/how-to-hunt.md.");
 }
 
 }  // namespace skein::cli

@@ -24,8 +24,8 @@ void add_network(CLI::App& command, std::optional<std::string>& network) {
   command
       .add_option(
           "--network", network,
-          "Let other hosts take part, by this network interface, all, or domain by domain: a YAML file, or its text "
-          "in braces (default: nothing leaves this host)")
+          "Let programs on other hosts take part: over this interface, over those that the DDS vendor chooses (all), "
+          "or as a YAML file (or its text in braces) says for each domain (default: nothing leaves this host)")
       ->envname("SKEIN_NETWORK")
       ->type_name("[IFACE|all|FILE]")
       ->expected(0, 1)
@@ -35,22 +35,26 @@ void add_network(CLI::App& command, std::optional<std::string>& network) {
 void add_record(CLI::App& command, std::string& record) {
   command
       .add_flag("--record{all}", record,
-                "Record more than poses, commands, captures, radio and events: all that is read; =clouds: LiDAR clouds "
-                "that no program reads, too; =run: no more; =messages: only radio; =none: nothing")
+                "What recording.mcap has. run: poses, commands, captures, radio messages and events; all (or --record "
+                "alone): also every topic that a program reads; clouds: also LiDAR clouds that no program reads; "
+                "messages: only radio messages and debug values; none: no recording")
       ->check(CLI::IsMember({"none", "messages", "run", "all", "clouds"}))
       ->default_str(record);
 }
 
 void add_mission(CLI::App& command, RunOptions& run, const std::string& faults_but) {
   const CLI::Validator seed(check_seed, ""), seconds(check_seconds, "");
-  command.add_option("--scene-seed", run.scene_seed, "Which scene of a procedural family")->check(seed);
-  command.add_option("--uavs", run.uavs, "Fleet size: the scenario's first UAVs, or more of the same in its places")
+  command.add_option("--scene-seed", run.scene_seed, "Number of the variant of a procedural scenario")->check(seed);
+  command
+      .add_option("--uavs", run.uavs, "Fleet size N: the scenario's first N UAVs; if it has fewer, also copies of them")
       ->check(CLI::Validator(check_positive, "POSITIVE"));
-  command.add_option("--assets", run.assets, "Folder with models/ for scenarios that read files");
+  command.add_option("--assets", run.assets,
+                     "Folder of data files (with models/) for scenarios that need them, such as mbs");
   command.add_option("--duration", run.duration_s, "Mission time [s], instead of the scenario's")->check(seconds);
   command.add_option("--rules", run.rules, "Preset of rules, instead of the scenario's: contest, paper or reference");
-  command.add_option("--conditions", run.conditions,
-                     "Wind, odometry errors, batteries: none, breezy or harsh for all, or by part: wind=harsh");
+  command.add_option(
+      "--conditions", run.conditions,
+      "Wind, odometry errors, batteries and so on: none, breezy or harsh for all parts, or by part: wind=harsh");
   command.add_option("--faults", run.faults, "Fault file (YAML): what goes wrong, and when" + faults_but);
 }
 
@@ -62,16 +66,20 @@ void add_flight_options(CLI::App* command, RunOptions& run) {
   command
       ->add_option(
           "--planner", run.planner,
-          "NAME, or UAV=NAME,... for some UAVs; NAME@AGENT: of that agent program; exec:CMD: a program of yours; "
-          "ros:PACKAGE/EXECUTABLE: a ROS 2 node")
+          "Planner of all UAVs, and UAV=NAME,... for single UAVs; NAME@AGENT: a planner of this agent program; "
+          "py:FILE: a planner in Python; exec:CMD: a program of yours; ros:PACKAGE/EXECUTABLE: a ROS 2 node")
       ->capture_default_str();
   const CLI::Validator seed(check_seed, ""), seconds(check_seconds, "");
-  command->add_option("--seed", run.seed, "What chance draws; 0 draws nothing")->check(seed)->capture_default_str();
+  command
+      ->add_option("--seed", run.seed,
+                   "Seed of the random effects; with 0, starts, command latency and LiDARs have none")
+      ->check(seed)
+      ->capture_default_str();
   add_mission(*command, run);
   command->add_option("--dds", run.dds, "DDS vendor: cyclonedds, fastdds or mixed")
       ->check(CLI::IsMember({"cyclonedds", "fastdds", "mixed"}))
       ->capture_default_str();
-  command->add_option("--clock", run.clock, "lockstep, or realtime[:FACTOR]")
+  command->add_option("--clock", run.clock, "lockstep (repeatable), or realtime[:FACTOR]")
       ->check(CLI::Validator(check_clock, "CLOCK"))
       ->capture_default_str();
   command
@@ -79,9 +87,10 @@ void add_flight_options(CLI::App* command, RunOptions& run) {
                    "Wall time to wait for a program's answer before it counts as lost [s] (default 60)")
       ->check(seconds);
   command
-      ->add_option("--lease", run.lease_s,
-                   "Silence after which DDS counts a program as gone [s]: as long as a cut of the network may last "
-                   "(default: 10 in containers and by hand, longer than any wait under this launcher)")
+      ->add_option(
+          "--lease", run.lease_s,
+          "Time of silence after which DDS counts a program as gone [s]; must be longer than any interruption of the "
+          "network (default: 10 in containers and for programs that you start by hand; otherwise longer than any wait)")
       ->check(CLI::Range(1, kLongestLease_s));
   command->add_flag("--secure", run.secure, "Enforce the isolation of agents: certificates, encryption, user ids");
   command->add_option("--stop-at", run.stop_at_s, "End the run at this simulated time [s]")->check(seconds);
@@ -94,13 +103,13 @@ void add_result_options(CLI::App* command, RunOptions& run) {
   command->add_flag("--force", run.force, "Overwrite an existing result and other files that are in the way");
   add_record(*command, run.record);
   const std::string keep_maps =
-      "Keep each UAV's map in time, for the replay: in maps-UAV.mcap, a snapshot every 10 simulated seconds; =SECONDS: "
-      "every so many, from 1 to 3600";
+      "Keep each UAV's map over time for the replay, in maps-UAV.mcap: a snapshot every 10 s of simulated time, or "
+      "with =SECONDS at this interval, from 1 to 3600";
   command->add_flag("--keep-maps{10}", keep_maps)
       ->check(CLI::Validator(check_maps_period, ""))
       ->each([&run](const std::string& seconds) { run.keep_maps_s = parse_number(seconds); });
-  command->add_flag("--no-oracle{false}", run.attainable, "Do not ask after the run what could have been had");
-  command->add_flag("--no-report{false}", run.report, "Make no report.html");
+  command->add_flag("--no-oracle{false}", run.attainable, "Do not compute the attainable score");
+  command->add_flag("--no-report{false}", run.report, "Do not write report.html");
 }
 
 void add_run(CLI::App& app, RunOptions& run) {
@@ -110,49 +119,52 @@ void add_run(CLI::App& app, RunOptions& run) {
                       "Agent program with planners of your own (default: SKEIN_AGENT, else uav_agent)");
   command
       ->add_flag("--one-process", run.one_process,
-                 "All programs in one process, without DDS: the same result, and sooner")
+                 "Run all programs in one process, without DDS: the same result in less time")
       ->excludes("--dds");
   command
       ->add_option("--threads", run.threads,
-                   "Threads of that process; results do not depend on it (default: SKEIN_THREADS, else the cores that "
-                   "it may use, at most one for each UAV)")
+                   "Number of threads with --one-process; results do not depend on it (default: SKEIN_THREADS, else "
+                   "the available cores, at most one per UAV)")
       ->needs("--one-process")
       ->check(CLI::Range(1, kMostThreads));
   command
       ->add_option("--debug", run.debug,
-                   "Look into this program while the fleet waits: UAV (or gcs, sim_server, comm_router, station), with "
-                   "=gdb (or =pdb, of a planner in Python) in this terminal, =gdbserver:PORT, =wait until you attach, "
-                   "or =CMD before its command line (default: gdb; without a terminal a command for you to start)")
+                   "Debug this program while the fleet waits: a UAV, gcs, sim_server, comm_router or station. TOOL: "
+                   "gdb, or pdb for a planner in Python, in this terminal; gdbserver:PORT; wait (until you attach a "
+                   "debugger); or a command that Skein puts before the program's command line (default: gdb; without a "
+                   "terminal, Skein prints a command for you to start)")
       ->type_name("UAV[=TOOL]")
       ->allow_extra_args(false)
       ->excludes("--agent-timeout");  // with --debug the fleet waits until Ctrl-C, or until the debugged program ends
   command
       ->add_option("--break-at", run.break_at_s,
-                   "Stop the debugged programs in their debugger, in the exchange before this simulated time [s]")
+                   "Stop the debugged programs in the exchange before this simulated time [s]")
       ->check(CLI::Validator(check_seconds, ""))
       ->needs("--debug");
   command
       ->add_option("--break-on", run.break_on,
-                   "The same, before that first happens to the first UAV of --debug; the fleet is flown once before, "
-                   "quietly, to see when")
+                   "Like --break-at, before this event first happens to the first UAV of --debug; to find the time, "
+                   "Skein flies the fleet once beforehand")
       ->check(CLI::IsMember(std::vector<std::string>(kBreakEvents.begin(), kBreakEvents.end())))
       ->needs("--debug")
       ->excludes("--break-at");
-  command->add_option("--break-from", run.break_from, "Results folder of the same flight, instead of flying it before")
+  command
+      ->add_option("--break-from", run.break_from,
+                   "Results folder of the same flight, in which Skein looks up the time instead of flying beforehand")
       ->needs("--break-on");
   command
-      ->add_option(
-          "--log", run.log,
-          "UAV=LEVEL: how much this program logs (or gcs, sim_server...): trace, debug, info, warn, error, off")
+      ->add_option("--log", run.log,
+                   "How much a program (UAV, gcs, sim_server, ...) logs: UAV=trace, debug, info, warn, error or off")
       ->allow_extra_args(false);
-  command->add_flag("--no-check{false}", run.check, "Do not ask the programs first whether they can fly this");
-  command->add_flag("--cores", run.cores, "A program that crashes leaves its core in the results folder, for gdb");
+  command->add_flag("--no-check{false}", run.check, "Do not ask the programs beforehand whether they can fly this");
+  command->add_flag("--cores", run.cores, "Keep the core file of a crashed program in the results folder");
   command->add_flag("--native", run.native, "Let libm use this CPU's fastest code (the digest is then this CPU's own)");
-  command->add_option("--domain", run.domain, "First DDS domain; a free block is taken by default");
+  command->add_option("--domain", run.domain, "First DDS domain of the fleet (default: the first free block)");
   command
-      ->add_option("--ros-env", run.ros_env,
-                   "Fly nothing: print what a shell of this UAV's ROS 2 nodes needs, for eval; of the fleet that flies "
-                   "(in --out, if there are several), or with --domain of one that will")
+      ->add_option(
+          "--ros-env", run.ros_env,
+          "Do not fly: print settings for a shell with this UAV's ROS 2 nodes, for eval. They are for the fleet that "
+          "flies now (select one of several by --out), or with --domain for a fleet that you start later")
       ->type_name("UAV");
   add_network(*command, run.network);
   add_place_options(*command, run.place);
@@ -173,30 +185,35 @@ void add_run(CLI::App& app, RunOptions& run) {
 
 void add_compose(CLI::App& app, ComposeOptions& compose) {
   CLI::App* command =
-      app.add_subcommand("compose", "A fleet in containers: write a file for docker-compose, or fly it");
+      app.add_subcommand("compose", "Write a docker-compose file for a fleet in containers, or fly this fleet");
   add_flight_options(command, compose.run);
-  CLI::Option* up = command->add_flag("--up", compose.up, "Bring the fleet up, follow the run, and take it down again");
+  CLI::Option* up = command->add_flag("--up", compose.up,
+                                      "Start the containers, follow the run, and remove the containers at its end");
   command->add_option("--file", compose.file, "File to write (default: standard output)")->excludes(up);
-  CLI::Option* const stack = command
-                                 ->add_flag("--stack", compose.stack,
-                                            "A file for `docker stack`, which spreads the fleet over several engines")
-                                 ->excludes(up);
-  command->add_option("--place", compose.run.place.at, "Of --stack: UAV=NODE,...: where these UAVs fly")
+  CLI::Option* const stack =
+      command
+          ->add_flag("--stack", compose.stack,
+                     "Write a file for `docker stack`, which spreads the fleet over several engines")
+          ->excludes(up);
+  command
+      ->add_option("--place", compose.run.place.at,
+                   "With --stack: UAV=NODE,...: the swarm nodes on which these UAVs fly")
       ->type_name("UAV=NODE,...")
       ->needs(stack);
-  command->add_option("--image", compose.images, "UAV=IMAGE: your own in the place of that UAV's agent")
+  command->add_option("--image", compose.images, "UAV=IMAGE: run this image of yours instead of the UAV's agent")
       ->allow_extra_args(false);
   command->add_option("--subnet", compose.subnet,
-                      "IPv4 network to divide, as 172.30.0.0/20 (default: the engine's address pools)");
+                      "IPv4 network that Skein divides among the fleet's networks, such as 172.30.0.0/20 (default: the "
+                      "engine's address pools)");
   command
       ->add_option("--debug", compose.run.debug,
-                   "This program (UAV, gcs or a server) stands before its first step, the fleet waits: with =gdb for "
-                   "gdb in this terminal and its container (with --up), with =wait until a debugger is attached "
+                   "Stop this program (UAV, gcs or a server) before its first step while the fleet waits: gdb opens "
+                   "gdb in its container, in this terminal (needs --up); wait waits until you attach a debugger "
                    "(default: gdb with --up in a terminal)")
       ->type_name("UAV[=gdb|wait]")
       ->allow_extra_args(false)
       ->excludes("--agent-timeout");
-  command->add_option("--build-folder", compose.build, "Fly the programs of this build instead of the images'");
+  command->add_option("--build-folder", compose.build, "Fly the programs of this build, not those of the images");
   add_result_options(command, compose.run);
   add_view_options(*command, compose.run.view);
   command->footer(
@@ -205,7 +222,7 @@ void add_compose(CLI::App& app, ComposeOptions& compose) {
       "  skein compose towers --planner kios --view 8080 --up\n"
       "  skein compose towers --planner kios --file compose.yaml\n"
       "  skein compose towers --planner hover,jurong=orbit --image jurong=my-agent --up\n\n"
-      "docs/containers.md tells how images are built, and what each part of the file is for.");
+      "See docs/containers.md for how to build images, and for each part of the file.");
 }
 
 void add_keys(CLI::App& app, KeysOptions& keys) {
@@ -223,21 +240,9 @@ void check_one_process(const RunOptions& run) {
     if (given) throw InputError(option + " needs processes: " + why + "; leave out --one-process");
   };
   refuse(!run.debug.empty(), "--debug", "the program that you debug is one of its own");
-  refuse(run.cores, "--cores", "the core would be that of all");
+  refuse(run.cores, "--cores", "there would be one core file for all programs");
   refuse(run.domain.has_value(), "--domain", "a fleet in one process uses no DDS domain");
   refuse(run.place.at.has_value(), "--place", "they run on several hosts");
-}
-
-void add_ps(CLI::App& app, PsOptions& /*none*/) {
-  app.add_subcommand("ps", "List the fleets that fly, with their processes");
-}
-
-void add_diff(CLI::App& app, DiffOptions& diff) {
-  CLI::App* command = app.add_subcommand(
-      "diff", "First step, entity and field in which two runs differ, and what else differs in what they left");
-  command->add_option("RUN_A", diff.run_a, "A results folder")->required();
-  command->add_option("RUN_B", diff.run_b, "Another one")->required();
-  command->footer("Example:\n  skein diff runs/towers-kios-0 runs/again");
 }
 
 /// Checks and completes a command's options once they are parsed. @param arguments  the whole command line
@@ -288,14 +293,14 @@ class OptionParser {
     app.require_subcommand(1);
     app.set_version_flag("--version", "skein " SKEIN_VERSION);
     app.failure_message(CLI::FailureMessage::simple);
-    app.footer("Example:\n  skein run towers --planner kios\n\n`skein COMMAND --help` has the options of a command.");
+    app.footer("Example:\n  skein run towers --planner kios\n\n`skein COMMAND --help` shows the options of a command.");
     const char* task = "Fly a fleet";
     list(task, add_run);
     list(task, add_compose);
     list(task, add_keys);
     list(task, add_fleet);
     list(task, add_ps);
-    task = "Look at what was flown";
+    task = "Examine runs";
     list(task, add_report);
     list(task, add_replay);
     list(task, add_diff);

@@ -8,17 +8,19 @@ void add_place_options(CLI::App& command, PlaceOptions& place) {
   CLI::Option* const at =
       command
           .add_option("--place", place.at,
-                      "UAV=HOST,...: fly these UAVs' programs on other hosts, over ssh (gcs: the program at the ground "
-                      "station); slurm: on the nodes of the allocation that this is in")
+                      "UAV=HOST,...: run the programs of these UAVs on other hosts, over ssh (gcs: the program at the "
+                      "ground station); slurm: distribute the UAVs over the other nodes of this Slurm allocation")
           ->type_name("UAV=HOST,...");
-  command.add_option("--ssh", place.ssh, "Of --place: the command that logs in, with options of its own if any")
+  command.add_option("--ssh", place.ssh, "With --place: the command that logs in, with its options")
       ->capture_default_str()
       ->needs(at);
   command
       .add_option("--skein-path", place.skein,
-                  "Of --place: the skein of those hosts (default: where this one is on this host)")
+                  "With --place: path of skein on those hosts (default: the path on this host)")
       ->needs(at);
-  command.add_flag("--print", place.print, "Of --place: print the commands that start the programs by hand, and end")
+  command
+      .add_flag("--print", place.print,
+                "With --place: print the commands with which you start the programs by hand, and do not fly")
       ->needs(at);
 }
 

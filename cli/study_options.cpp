@@ -12,22 +12,25 @@ namespace skein::cli {
 void add_sweep(CLI::App& command, SweepOptions& sweep) {
   command
       .add_option("--executor", sweep.executor,
-                  "Fly it in units of some minutes: local, here; parallel, by GNU parallel over ssh; slurm, as a job "
-                  "array (docs/sweeps.md)")
+                  "Divide the flights into units of some minutes, and fly these on this machine (local), on other "
+                  "hosts by GNU parallel over ssh (parallel), or on a cluster (slurm); see docs/sweeps.md")
       ->check(CLI::IsMember({"local", "parallel", "slurm"}));
   command
       .add_option("--sshlogin", sweep.logins,
-                  "Hosts of --executor parallel, with commas between: [N/][USER@]HOST, and : for this one")
+                  "Hosts of --executor parallel, separated by commas: [N/][USER@]HOST, where N is the number of "
+                  "simultaneous units, and : for this machine")
       ->delimiter(',')
       ->allow_extra_args(false);
   command.add_option("--slurm", sweep.slurm,
-                     "Options of sbatch for --executor slurm: partition=debug,time=30:00,account=mine");
-  command.add_flag("--detach", sweep.detach, "With --executor slurm: do not wait; a job at the end writes the report");
-  command.add_option("--unit-minutes", sweep.unit_minutes, "About so long a unit flies")
+                     "Options of sbatch for --executor slurm, such as partition=debug,time=30:00,account=mine");
+  command.add_flag("--detach", sweep.detach,
+                   "With --executor slurm: do not wait for the jobs; a final job writes the report");
+  command.add_option("--unit-minutes", sweep.unit_minutes, "Approximate time that a unit flies [min]")
       ->check(CLI::Validator(number_within(0.01, 10000.0), ""))
       ->capture_default_str();
   command.add_option("--status", sweep.status,
-                     "What is there of the study in this folder, what flies, what failed; and its report so far");
+                     "Show how much of the study in this folder is complete, what flies now and what failed, and write "
+                     "its report so far");
 }
 
 void check_sweep(const SweepOptions& sweep) {
@@ -47,11 +50,11 @@ UnitOptions unit_options(const std::vector<std::string>& words) {
 }
 
 void add_pack(CLI::App& app, PackOptions& pack) {
-  CLI::App* command =
-      app.add_subcommand("pack", "Write the programs with all their libraries into one archive, for other machines");
-  command->add_option("FILE", pack.file, "The archive: skein.tar.gz")->required();
-  command->add_option("--agent", pack.agents, "Agent program of yours, to be packed, too")->allow_extra_args(false);
-  command->footer("Example:\n  skein pack skein.tar.gz\n\ndocs/sweeps.md has more.");
+  CLI::App* command = app.add_subcommand(
+      "pack", "Write the programs with all their libraries into one archive, for machines without Skein");
+  command->add_option("FILE", pack.file, "Archive to write: skein.tar.gz")->required();
+  command->add_option("--agent", pack.agents, "Pack this agent program of yours, too")->allow_extra_args(false);
+  command->footer("Example:\n  skein pack skein.tar.gz\n\nSee docs/sweeps.md.");
 }
 
 namespace {
@@ -59,24 +62,28 @@ namespace {
 /// Adds the options that `skein contest` and `skein compare` have in common.
 void add_study_options(CLI::App& command, StudyOptions& study) {
   const CLI::Validator seconds(check_seconds, "");
-  command.add_option("--planners", study.planner_lists, "A,B,... with parameters if any: kios,xxh:faithful=true,star")
-      ->allow_extra_args(false);
-  command.add_option("--planner", study.planners, "One more, as for `skein run`: fleets of several, any command")
+  command
+      .add_option(
+          "--planners", study.planner_lists,
+          "Planners to compare, separated by commas, each with parameters if you like: kios,xxh:faithful=true,star")
       ->allow_extra_args(false);
   command
-      .add_option("--scenarios", study.scenarios, "Names under config/scenarios/ or YAML files, with commas between")
+      .add_option("--planner", study.planners,
+                  "One more planner as for `skein run`, such as a fleet of several planners: patrol,jurong=hover")
+      ->allow_extra_args(false);
+  command
+      .add_option("--scenarios", study.scenarios, "Names under config/scenarios/ or YAML files, separated by commas")
       ->delimiter(',')
       ->allow_extra_args(false);
-  command.add_option("--assets", study.assets, "Folder with models/ for scenarios that read files");
+  command.add_option("--assets", study.assets,
+                     "Folder of data files (with models/) for scenarios that need them, such as mbs");
   command.add_option("--duration", study.duration_s, "Mission time [s], instead of the scenarios'")->check(seconds);
   command
       .add_option("--agent-timeout", study.agent_timeout_s,
                   "Wall time to wait for a program's answer before it counts as lost [s] (default 60)")
       ->check(seconds);
   command.add_option("--rules", study.rules, "Preset of rules, instead of the scenarios': contest, paper or reference");
-  command
-      .add_option("--uavs", study.uavs,
-                  "Fly each scenario with each of these fleet sizes: 1,2,5,10; as for `skein run`")
+  command.add_option("--uavs", study.uavs, "Fly each scenario with each of these fleet sizes: 1,2,5,10")
       ->check(CLI::Validator(check_positive, "POSITIVE"))
       ->delimiter(',')
       ->allow_extra_args(false);
@@ -88,30 +95,32 @@ void add_study_options(CLI::App& command, StudyOptions& study) {
   command
       .add_option("--dds", study.dds,
                   "Fly as processes over this DDS vendor: cyclonedds, fastdds or mixed (default: each fleet in one "
-                  "process where it can; the results are the same)")
+                  "process where possible; the results are the same)")
       ->check(CLI::IsMember({"cyclonedds", "fastdds", "mixed"}));
   add_network(command, study.network);
   command.add_option("--agent", study.agent, "Agent program with planners of your own, as for `skein run`");
   add_record(command, study.record);
   command.add_option("--out", study.out, "Folder of flights and report (default runs/" + command.get_name() + ")");
   command
-      .add_option("--jobs", study.jobs,
-                  "Flights at once; results do not depend on it (default: as many as cores, over DDS one)")
+      .add_option(
+          "--jobs", study.jobs,
+          "Number of simultaneous flights; results do not depend on it (default: the number of cores; over DDS 1)")
       ->check(CLI::Range(1, 64));
   add_sweep(command, study.sweep);
-  command.add_flag("--force", study.force, "Go on in a folder of other settings; flights that fit are kept");
+  command.add_flag("--force", study.force,
+                   "Use a folder that has a study with other settings, and keep the flights that fit");
   const bool contest = command.get_name() == "contest";
   command.footer(std::string("Example:\n  skein ") +
                  (contest ? "contest --planners kios,xxh,star --tests 3\n\n"
                           : "compare --planners kios,patrol --scenarios towers,cranes --seeds 1-5\n\n") +
-                 "The same command again goes on where it was stopped. docs/how-to-compare-planners.md has more.");
+                 "The same command continues a study that was stopped. See docs/how-to-compare-planners.md.");
 }
 
 }  // namespace
 
 void add_contest(CLI::App& app, StudyOptions& contest) {
-  CLI::App* command =
-      app.add_subcommand("contest", "The contest's protocol: tests of all scenes, totals and a ranking");
+  CLI::App* command = app.add_subcommand(
+      "contest", "Compare planners by the contest's protocol: tests in all scenes, totals and a ranking");
   contest.contest = true;
   contest.seeds = "1-5";
   add_study_options(*command, contest);
@@ -123,25 +132,28 @@ void add_contest(CLI::App& app, StudyOptions& contest) {
     contest.rank = by == "max" ? Rank::maximum : by == "median" ? Rank::median : Rank::worst;
   };
   command
-      ->add_option_function<std::string>("--rank", set_rank,
-                                         "By the greatest total of a test (max), the median or the worst")
+      ->add_option_function<std::string>(
+          "--rank", set_rank, "Rank planners by their greatest total of a test (max), by the median or by the worst")
       ->check(CLI::IsMember({"max", "median", "worst"}))
       ->default_str("max");
 }
 
 void add_compare(CLI::App& app, StudyOptions& study) {
-  CLI::App* command = app.add_subcommand("compare", "Planners side by side over any scenes and seeds");
+  CLI::App* command = app.add_subcommand("compare", "Compare planners over any scenes and seeds");
   add_study_options(*command, study);
-  command->add_option("--seeds", study.seeds, "Which seeds: 0-4, 3,5,8 or one, such as 7")->capture_default_str();
-  CLI::Option* const one = command->add_option("--scene-seed", study.scene_seed, "Which scene of a procedural family");
+  command->add_option("--seeds", study.seeds, "Seeds: a range 0-4, a list 3,5,8, or a single seed 7")
+      ->capture_default_str();
+  CLI::Option* const one =
+      command->add_option("--scene-seed", study.scene_seed, "Number of the variant of a procedural scenario");
   one->check(CLI::Validator(check_seed, ""));
-  command->add_option("--scene-seeds", study.scene_seeds, "Many scenes of a family, as --seeds has them: 0-99")
+  command->add_option("--scene-seeds", study.scene_seeds, "Numbers of variants, written as for --seeds: 0-99")
       ->excludes(one);
-  command->add_option("--faults", study.faults, "Fault file: what goes wrong in every flight");
-  command->add_flag("--secure", study.secure, "DDS Security, as for `skein run`");
+  command->add_option("--faults", study.faults, "Fault file (YAML) for every flight");
+  command->add_flag("--secure", study.secure, "Enforce the isolation of agents, as for `skein run`");
   command
-      ->add_option("--require", study.requirements,
-                   "What every flight must keep: collisions==0, attainable_percent>=5, ...")
+      ->add_option(
+          "--require", study.requirements,
+          "Condition that every flight must meet: collisions==0, attainable_percent>=5, ... (else exit code 1)")
       ->allow_extra_args(false);
 }
 

@@ -43,5 +43,7 @@ void add_hunt(CLI::App& app, HuntOptions& hunt);
 void add_fleet(CLI::App& app, FleetOptions& fleet);
 void add_blame(CLI::App& app, BlameOptions& blame);
 void add_check_planner(CLI::App& app, CheckPlannerOptions& check);
+void add_ps(CLI::App& app, PsOptions& none);
+void add_diff(CLI::App& app, DiffOptions& diff);
 
 }  // namespace skein::cli

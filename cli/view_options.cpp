@@ -21,24 +21,25 @@ std::string check_endpoint(const std::string& text) {
 }
 
 void add_no_browser(CLI::App& command, bool& browser) {
-  command.add_flag("--no-browser{false}", browser, "Do not open the user's browser, where there is one");
+  command.add_flag("--no-browser{false}", browser, "Do not open a browser");
 }
 
 void add_film_options(CLI::App& command, CLI::Option& exported, FilmOptions& film) {
-  command.add_option("--fps", film.fps, "Of a film: pictures a second (default 25)")
+  command.add_option("--fps", film.fps, "Film: frames per second (default 25)")
       ->check(CLI::Range(1, 120))
       ->needs(&exported);
   CLI::Option* const seconds =
-      command.add_option("--seconds", film.seconds, "Of a film: how long it is (default 30)")->needs(&exported);
+      command.add_option("--seconds", film.seconds, "Film: its length [s] (default 30)")->needs(&exported);
   seconds->check(CLI::Validator(number_within(0.1, 36000.0), ""))->type_name("SECONDS");
-  command.add_option("--speed", film.speed, "Of a film: simulated seconds a second, instead of its length")
+  command.add_option("--speed", film.speed, "Film: simulated seconds per second of the film, instead of --seconds")
       ->check(CLI::Validator(number_within(0.01, 10000.0), ""))
       ->type_name("SPEED")
       ->needs(&exported)
       ->excludes(seconds);
   command
       .add_option("--from-address", film.address,
-                  "Of a film: what it shows, as the address of the page has it behind its #; t is where it begins")
+                  "Film: what it shows, written as the page's address after its #; t is the simulated time at which "
+                  "the film begins")
       ->type_name("ADDRESS")
       ->needs(&exported);
 }
@@ -50,26 +51,26 @@ void add_view_options(CLI::App& command, ViewOptions& view) {
       command
           .add_option(
               "--view", view.at,
-              "Serve a page that follows the run in a browser, and its replay afterwards, until Ctrl-C, on this "
-              "port of 127.0.0.1 (default: a free one), or of an address that others reach, too: 0.0.0.0:8080")
+              "Serve a page that follows the run in a browser, and then its replay until Ctrl-C: on this port of "
+              "127.0.0.1 (default: a free port), or at an address that other hosts reach, such as 0.0.0.0:8080")
           ->type_name("[[ADDRESS:]PORT]")
           ->check(CLI::Validator(check_endpoint, ""))
           ->expected(0, 1)
           ->default_str("0");
   command
       .add_option("--speed", view.speed,
-                  "Simulated seconds a second of a run that is watched, from 0.1 to 1000, or max (default 8; 1 where "
-                  "somebody flies by hand)")
+                  "With --view: simulated seconds per second, from 0.1 to 1000, or max (default 8; 1 if somebody flies "
+                  "by hand)")
       ->type_name("SPEED")
       ->needs(watched);
   command
       .add_option("--pause-at", view.pause_at_s,
-                  "Pause a run that is watched at this simulated time [s], 0: before it begins, until the page lets it "
-                  "go on")
+                  "With --view: pause the run at this simulated time [s] until you resume it on the page; 0: before "
+                  "its first step")
       ->type_name("SECONDS")
       ->check(CLI::Validator(number_within(0.0, 1e6), ""))
       ->needs(watched);
-  command.add_flag("--view-close", view.close, "The page ends with the run")->needs(watched);
+  command.add_flag("--view-close", view.close, "With --view: end the page when the run ends")->needs(watched);
   add_no_browser(command, view.browser);
 }
 
@@ -77,22 +78,21 @@ void add_replay(CLI::App& app, ReplayOptions& replay) {
   CLI::App* command = app.add_subcommand("replay", "Show a finished run in a browser, with a slider over its time");
   command->add_option("RUN", replay.run, "A results folder")->required();
   CLI::Option* const other = command->add_option(
-      "OTHER", replay.other, "Another one of the same scene: both on one clock, with where they part");
-  CLI::Option* const served =
-      command->add_option("--view", replay.at, "Port of 127.0.0.1 (default: a free one), or of another address");
+      "OTHER", replay.other, "A second run of the same scene: show both on one clock, and where they first differ");
+  CLI::Option* const served = command->add_option(
+      "--view", replay.at, "Port of 127.0.0.1 (default: a free port), or another address with a port");
   served->type_name("[ADDRESS:]PORT")->check(CLI::Validator(check_endpoint, ""));
   add_no_browser(*command, replay.browser);
   CLI::Option* const exported =
       command->add_option("--export", replay.exported,
-                          "Write a file instead: FILE.html, the page with its flight, to be opened anywhere; or "
-                          "FILE.mp4, a film of it, by chromium and ffmpeg");
+                          "Write a file instead: FILE.html, the page with its flight, which opens in any browser; or "
+                          "FILE.mp4, a film (needs chromium and ffmpeg)");
   exported->type_name("FILE")->excludes(served);
-  command->add_flag("--force", replay.force, "Overwrite it")->needs(exported);
+  command->add_flag("--force", replay.force, "Overwrite the file of --export")->needs(exported);
   command
-      ->add_flag(
-          "--maps", replay.maps,
-          "Show each UAV's map in time: where the run did not keep it (skein run --keep-maps), fly the run again "
-          "from its recording, without the oracle and the report, to have it; RUN keeps it then")
+      ->add_flag("--maps", replay.maps,
+                 "Show each UAV's map over time. If the run did not keep these maps (skein run --keep-maps), Skein "
+                 "flies it again from its recording, without oracle and report, and stores the maps in RUN")
       ->excludes(other);
   add_film_options(*command, *exported, replay.film);
   command->footer(
@@ -100,7 +100,7 @@ void add_replay(CLI::App& app, ReplayOptions& replay) {
       "  skein replay runs/towers-kios-0 --maps\n"
       "  skein replay runs/towers-kios-0 --export flight.html\n"
       "  skein replay runs/towers-kios-0 --export flight.mp4 --from-address '#uav=changi&view=camera'\n\n"
-      "docs/view.md tells what the page shows.");
+      "See docs/how-to-watch.md.");
 }
 
 void check_view(const RunOptions& run) {
