@@ -149,10 +149,10 @@ class RouterMember final : public bus::FleetMember {
 }  // namespace
 
 void RouterProgram::add_options(CLI::App& app) {
-  app.description("Skein: passes radio messages on between the UAVs of a fleet");
+  app.description("Skein: delivers radio messages between the UAVs of a fleet");
   app.add_flag("--settle", settle_only_, "Write the report of a router that died in this folder, then stop")
       ->group("Launcher");
-  app.add_option("--stand-ins", stand_ins_, "UAVs whose agent hands on what programs outside the lock-step say")
+  app.add_option("--stand-ins", stand_ins_, "UAVs whose agent passes on the messages of programs outside the lock-step")
       ->delimiter(',');
   recording::add_replay_options(app, replay_);
 }

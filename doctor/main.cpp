@@ -28,13 +28,14 @@ struct Options {
 };
 
 void add_options(CLI::App& app, Options& options) {
-  app.add_flag(kNet, options.net, "Who hears whom, instead of what the machine grants");
-  app.add_flag("--json", options.json, "For programs");
-  app.add_option("--as", options.name, "Name of this host (default: its own)");
-  app.add_option("--only", options.only, "Domains in which it takes part")->delimiter(',');
-  app.add_option("--seconds", options.seconds, "How long it speaks and listens [s]")
+  app.add_flag(kNet, options.net,
+               "Test which hosts receive each other's messages, instead of the limits of this machine");
+  app.add_flag("--json", options.json, "Print JSON, for programs");
+  app.add_option("--as", options.name, "Name under which this host reports (default: its host name)");
+  app.add_option("--only", options.only, "Domains in which this host takes part")->delimiter(',');
+  app.add_option("--seconds", options.seconds, "How long to send and receive [s]")
       ->check(CLI::Validator(number_within(0.1, 36000.0), ""));
-  app.add_flag("--until-heard", options.until_heard, "End sooner, once all named peers hear each other");
+  app.add_flag("--until-heard", options.until_heard, "End sooner, once all named peers receive each other's messages");
   app.callback([&] { options.base_given = app.count("--domain") > 0; });
 }
 

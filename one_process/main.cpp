@@ -62,13 +62,15 @@ int main(int argc, char** argv) {
   std::string turn_page;
   int threads = 1;
   const auto add_options = [&](CLI::App& app) {
-    app.description("Skein: home of a whole fleet in one process");
-    app.add_option("--agent-timeout", patience_s, "wall time that a program may take for one turn [s], 0: for ever")
+    app.description("Skein: a whole fleet in one process");
+    app.add_option("--agent-timeout", patience_s, "Wall time that a program may take for one step [s], 0: no limit")
         ->check(CLI::Validator(check_not_negative, "NONNEGATIVE"));
-    app.add_option("--threads", threads, "Threads, of which one is the fleet's; results do not depend on it")
+    app.add_option("--threads", threads, "Number of threads; results do not depend on it")
         ->check(CLI::Range(1, static_cast<int>(TurnPage::kSeats)))
         ->capture_default_str();
-    app.add_option("--turn-page", turn_page, "File of the launcher that takes whose turn it is")->group("Launcher");
+    app.add_option("--turn-page", turn_page,
+                   "File of the launcher in which this process notes which program computes now")
+        ->group("Launcher");
   };
   const int code =
       run_program(programs::kOneProcess, argc, argv, add_options, [&](const ProgramOptions& options, StopSignal& stop) {

@@ -211,7 +211,7 @@ int run_session(int argc, const char* const* argv) {
     app.add_option("--session", socket, "Descriptor of the socket to the program that steps the fleet")
         ->group("Launcher");
     app.add_option("--plan", plan, "File in which the launcher describes the fleet")->group("Launcher");
-    app.add_option("--agent-timeout", patience_s, "Wall time that a program may take for one turn [s]; 0: no limit")
+    app.add_option("--agent-timeout", patience_s, "Wall time that a program may take for one step [s], 0: no limit")
         ->check(CLI::Validator(check_not_negative, "NONNEGATIVE"));
   };
   const auto options = parse_program(programs::kOneProcess, argc, argv, add_options);

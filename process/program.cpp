@@ -91,7 +91,8 @@ void add_common_options(CLI::App& app, ProgramOptions& options) {
       ->capture_default_str()
       ->check(CLI::Range(kFirstDomain, kLastDomain));
   app.add_option("--out", options.out, "Folder for what the program writes")->capture_default_str();
-  app.add_option("--seed", options.seed, "Seed of all random draws; 0 draws nothing")
+  app.add_option("--seed", options.seed,
+                 "Seed of the random effects; with 0, starts, command latency and LiDARs have none")
       ->capture_default_str()
       ->check(CLI::Validator(check_not_negative, "NONNEGATIVE"));
   app.add_option("--scene-seed", options.scene_seed, "Seed of a procedural scene, instead of the scenario's")
@@ -99,41 +100,41 @@ void add_common_options(CLI::App& app, ProgramOptions& options) {
   app.add_option("--uavs", options.uavs, "Fleet size, instead of the scenario's")
       ->check(CLI::Validator(check_positive, "POSITIVE"));
   app.add_option("--duration", options.duration_s, "Mission time [s], instead of the scenario's");
-  app.add_option("--rules", options.rules, "Preset of rules, instead of what the scenario says of them");
+  app.add_option("--rules", options.rules, "Preset of rules, instead of the scenario's");
   app.add_option("--conditions", options.conditions, "Presets of conditions, instead of the scenario's");
   app.add_option("--record", options.record, "What goes into recording.mcap: none, messages, run, all or clouds")
       ->check(CLI::IsMember({"none", "messages", "run", "all", "clouds"}))
       ->capture_default_str();
   app.add_option("--faults", options.faults, "Fault file: what goes wrong, and when");
-  app.add_flag("--check", options.check_only, "Validate the input, then stop");
+  app.add_flag("--check", options.check_only, "Check the input, then stop");
   app.add_option("--status-fd", options.status_fd, "File descriptor for status lines")->group("Launcher");
   app.add_option("--control-fd", options.control_fd, "File descriptor with orders")->group("Launcher");
   app.add_option("--security", options.security, "Folder with the process's key, certificate and permissions")
       ->group("Launcher");
-  app.add_option(
-         "--server-timeout", options.server_timeout_s,
-         "Wall time to wait for sim_server to appear [s], 0: for ever; one that was started again waits 8 s at most")
+  app.add_option("--server-timeout", options.server_timeout_s,
+                 "Wall time to wait for sim_server to appear [s], 0: no limit; a program that was started again waits "
+                 "at most 8 s")
       ->capture_default_str()
       ->check(CLI::Validator(check_not_negative, "NONNEGATIVE"));
-  app.add_option("--health", options.health, "File that is touched as long as the program takes its turns");
+  app.add_option("--health", options.health,
+                 "File whose modification time the program updates while it makes progress, for health checks");
   app.add_option("--break-at", options.break_at_s, "Stop the debugger in the exchange before this simulated time [s]");
   app.add_flag("--wait-for-debugger", options.wait_for_debugger,
-               "Stand before the first step until a debugger is attached, or SIGCONT comes");
+               "Wait before the first step until a debugger is attached, or SIGCONT arrives");
   app.add_flag("--keep", options.keep, "Start the program again whenever it has been killed");
   app.add_option("--log-level", options.log_level, "trace, debug, info, warn, error or off (default: SKEIN_LOG)");
-  app.add_option(
-         "--network", options.network,
-         "Other hosts take part: by this network interface, by those that the DDS vendor chooses (all), or domain "
-         "by domain: a YAML file, or its text in braces")
+  app.add_option("--network", options.network,
+                 "Let programs on other hosts take part: over this interface, over those that the DDS vendor chooses "
+                 "(all), or as a YAML file (or its text in braces) says for each domain")
       ->envname("SKEIN_NETWORK")
       ->expected(0, 1)
       ->default_str("all");
-  app.add_option("--lease", options.lease_s, "Who gives no sign of life for so long is taken for dead [s]")
+  app.add_option("--lease", options.lease_s, "Time of silence after which a program counts as dead [s]")
       ->capture_default_str()
       ->check(CLI::Range(1, 3600));
   app.add_option_function<std::uint64_t>(
          "--run", [&options](std::uint64_t run) { options.run = RunId{run}; },
-         "Number of the run: programs of other runs are not listened to")
+         "Number of the run; the program ignores messages of other runs")
       ->envname(kRunVariable)
       ->group("Launcher");
 }

@@ -126,31 +126,30 @@ class ServerMember final : public bus::FleetMember {
 void ServerProgram::add_options(CLI::App& app) {
   app.description("Skein: the world of a fleet (physics, sensors, radio links, referee, clock)");
   app.add_option("--clock", clock_, "lockstep, realtime or realtime:FACTOR");
-  app.add_option("--stop-at", stop_at_s_, "end at this simulated time [s]")
+  app.add_option("--stop-at", stop_at_s_, "End at this simulated time [s]")
       ->check(CLI::Validator(check_positive, "POSITIVE"));
-  app.add_option("--agent-timeout", agent_timeout_s_, "wall time to wait for a member [s], 0: for ever")
+  app.add_option("--agent-timeout", agent_timeout_s_, "Wall time to wait for a member's answer [s], 0: no limit")
       ->check(CLI::Validator(check_not_negative, "NONNEGATIVE"));
-  app.add_option(
-         "--startup-timeout", startup_timeout_s_,
-         "wall time to wait for all to join [s], 0: for ever (default: 20 and 2 for each UAV, or --agent-timeout "
-         "if that is more)")
+  app.add_option("--startup-timeout", startup_timeout_s_,
+                 "Wall time to wait until all programs have joined [s], 0: no limit (default: 20 and 2 for each UAV, "
+                 "or --agent-timeout if that is more)")
       ->check(CLI::Validator(check_not_negative, "NONNEGATIVE"));
-  app.add_flag("--ground-program", ground_program_, "wait for a program at the ground station before the start");
+  app.add_flag("--ground-program", ground_program_, "Wait for a program at the ground station before the start");
   app.add_option(
          "--watch", watch_speed_,
-         "tell the station what a page needs, and fly at this speed, SPEED or max, until the page says otherwise")
+         "Send the station the data for the live page, and fly at this speed (SPEED or max) until the page changes it")
       ->group("Launcher");
   app.add_option("--watch-pause-at", watch_pause_at_s_,
-                 "pause at this simulated time [s], until that page says otherwise")
+                 "Pause at this simulated time [s] until the page resumes the run")
       ->check(CLI::Validator(check_not_negative, "NONNEGATIVE"))
       ->needs("--watch")
       ->group("Launcher");
-  app.add_flag("--watch-losses", watch_losses_, "ask the oracle for the attainable score, for that page")
+  app.add_flag("--watch-losses", watch_losses_, "Ask the oracle for the attainable score, for the page")
       ->needs("--watch")
       ->group("Launcher");
-  app.add_option("--stand-ins", stand_ins_, "UAVs whose agent hands on what programs outside the lock-step say")
+  app.add_option("--stand-ins", stand_ins_, "UAVs whose agent passes on the messages of programs outside the lock-step")
       ->delimiter(',');
-  app.add_option("--by-hand", by_hand_, "UAVs that somebody flies from that page")
+  app.add_option("--by-hand", by_hand_, "UAVs that somebody flies by hand on the page")
       ->delimiter(',')
       ->needs("--watch")
       ->group("Launcher");

@@ -24,18 +24,19 @@
 namespace skein::sim {
 
 void ServerTasks::add_options(CLI::App& app) {
-  app.add_option("--golden", golden, "run reference vectors through the production code, then stop");
-  app.add_option("--export-scene", export_scene, "write the scene's files to this folder, then stop");
-  app.add_option("--scene-picture", scene_picture, "draw the scene into this folder, then stop");
-  app.add_option("--draw-world", draw_world, "with --export-scene: of this drawn world, not of the scenario");
-  app.add_flag("--overwrite-export", overwrite_export, "replace the files of an earlier export");
-  app.add_option("--oracle", oracle, "write what is attainable in the scenario to this file, then stop");
-  app.add_option("--clearance", clearances_m, "with --oracle: of the cameras from the structure [m]")
+  app.add_option("--golden", golden, "Compare reference vectors with what the code computes, then stop");
+  app.add_option("--export-scene", export_scene, "Write the scene's files to this folder, then stop");
+  app.add_option("--scene-picture", scene_picture, "Draw the scene into this folder, then stop");
+  app.add_option("--draw-world", draw_world, "With --export-scene: write this drawn world, not the scenario's");
+  app.add_flag("--overwrite-export", overwrite_export, "Replace the files of an earlier export");
+  app.add_option("--oracle", oracle, "Write the attainable score of the scenario to this file, then stop");
+  app.add_option("--clearance", clearances_m, "With --oracle: least distance of the cameras from the structure [m]")
       ->delimiter(',')
       ->check(CLI::Validator(number_within(0.0, 100.0), ""));
-  app.add_flag("--vehicle", vehicle, "with --oracle: the UAVs' bodies keep the clearance, not their cameras");
-  app.add_option("--oracle-patience", oracle_patience_s, "with --oracle: no answer that takes longer to compute [s]");
-  app.add_flag("--plan", plan, "with --oracle: search, too, for what full knowledge scores in the mission's time");
+  app.add_flag("--vehicle", vehicle, "With --oracle: apply the clearance to the UAVs' bodies, not to their cameras");
+  app.add_option("--oracle-patience", oracle_patience_s,
+                 "With --oracle: give no answer if its computation takes longer than this [s]");
+  app.add_flag("--plan", plan, "With --oracle: also search for what full knowledge scores in the mission's time");
 }
 
 int ServerTasks::check_golden() const {

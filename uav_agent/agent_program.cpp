@@ -157,8 +157,9 @@ void AgentProgram::add_options(CLI::App& app) {
   app.add_option("--uav", uav_, "UAV whose software this is (default: the first of the fleet)");
   app.add_option("--planner", planner_, "NAME or NAME:key=value,... or NAME:file.yaml; NAME may be py:FILE[:CLASS]");
   app.add_option("--maps-every", maps_every_s_,
-                 "Keep the map that it flies on in maps-UAV.mcap, a snapshot every so many simulated seconds [s]");
-  app.add_option("--pdb", pdb_from_s_, "Python's debugger has this terminal, and stops from this simulated time on [s]")
+                 "Keep the UAV's map in maps-UAV.mcap: interval of the snapshots in simulated time [s]");
+  app.add_option("--pdb", pdb_from_s_,
+                 "Run Python's debugger in this terminal, which stops from this simulated time on [s]")
       ->group("Launcher");
   app.add_flag("--list-planners", list_, "Print the strategies' names as JSON, then stop");
 }
