@@ -7,6 +7,7 @@
 
 #include "cli/actions.hpp"
 #include "cli/completion.hpp"
+#include "cli/duration_variable.hpp"
 #include "cli/host/environment.hpp"
 #include "cli/host/program_start.hpp"
 #include "cli/hunt/capsule_run.hpp"

@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <stdexcept>
+
 #include "cli/test_folders.hpp"
 #include "cli/testing/fake_programs.hpp"
+#include "core/types.hpp"
 
 namespace skein::cli {
 namespace {

@@ -6,6 +6,7 @@
 
 #include "cli/bench/report.hpp"
 #include "cli/host/supervisor.hpp"
+#include "cli/run/fleet_plan.hpp"
 #include "cli/run/preflight.hpp"
 #include "core/files/command_file.hpp"
 #include "core/types.hpp"

@@ -7,11 +7,10 @@
 #include <algorithm>
 #include <csignal>
 #include <cstdlib>
-#include <set>
 
-#include "cli/option_checks.hpp"
 #include "cli/threads.hpp"
 #include "core/text/suggestion.hpp"
+#include "core/text/whole_number.hpp"
 #include "core/types.hpp"
 
 namespace skein::cli {
@@ -21,15 +20,12 @@ namespace {
 /// other (SKEIN_SWEEP_MERGES: cli/sweep/slurm.hpp, SKEIN_OTHER_CLOCK_S: process/host/other_clock.hpp).
 const std::vector<std::string> kUserNames = {
     "SKEIN_AGENT",         "SKEIN_ASSETS",        "SKEIN_BIN_DIR",      "SKEIN_CHAOS",       "SKEIN_CONFIG_DIR",
-    kDurationVariable,     "SKEIN_LOG",           "SKEIN_NETWORK",      kThreadsVariable,    "SKEIN_WEB",
+    "SKEIN_DURATION",      "SKEIN_LOG",           "SKEIN_NETWORK",      kThreadsVariable,    "SKEIN_WEB",
     "SKEIN_DEBUG_VALUES",  "SKEIN_HASH_SEED",     "SKEIN_IMAGE",        "SKEIN_AGENT_IMAGE", "SKEIN_PYTHON_AGENT_IMAGE",
     "SKEIN_USER",          "SKEIN_UID",           "SKEIN_GID",          "SKEIN_WITHOUT_WEB", "SKEIN_GOLDEN",
     "SKEIN_ROS2",          "SKEIN_LONG",          "SKEIN_SANITIZE",     "SKEIN_TURN",        "SKEIN_TURNS",
     "SKEIN_FUZZ_SEED",     "SKEIN_WRITE_DIGESTS", "SKEIN_LAUNCHER",     "SKEIN_LOADER",      "SKEIN_SWEEP_MERGES",
     "SKEIN_OTHER_CLOCK_S", "SKEIN_RUN",           "SKEIN_STEP_ENTERED", kPinnedVariable};
-
-/// Commands that fly missions with an optional --duration.
-const std::set<std::string> kFlyingCommands = {"run", "compose", "compare", "contest"};
 
 }  // namespace
 
@@ -52,21 +48,9 @@ std::vector<std::string> environment_warnings() {
 
 void check_environment() {
   const char* chaos = std::getenv("SKEIN_CHAOS");
-  if (chaos != nullptr && !check_seed(chaos).empty()) {
+  if (chaos != nullptr && !parse_whole(chaos)) {
     throw InputError(std::string("SKEIN_CHAOS=") + chaos + ": must be a whole number, or not set");
   }
-}
-
-std::vector<std::string> with_duration_of_environment(std::vector<std::string> arguments) {
-  const char* const duration = std::getenv(kDurationVariable);
-  if (duration == nullptr || arguments.empty() || !kFlyingCommands.contains(arguments.front())) return arguments;
-  const auto is_told = [](const std::string& word) { return word == "--duration" || word.starts_with("--duration="); };
-  if (std::ranges::any_of(arguments, is_told)) return arguments;
-  if (const std::string problem = check_seconds(duration); !problem.empty()) {
-    throw InputError(std::string(kDurationVariable) + ": " + problem + ", or not set");
-  }
-  arguments.insert(arguments.end(), {"--duration", duration});
-  return arguments;
 }
 
 std::string fleet_environment_prefix(bool native) {

@@ -15,14 +15,6 @@ std::vector<std::string> environment_warnings();
 /// @throws InputError if SKEIN_CHAOS, which the programs read, is set and not a whole number.
 void check_environment();
 
-/// Mission duration [s] of `skein run`, `compose`, `compare` and `contest` without --duration.
-inline constexpr const char* kDurationVariable = "SKEIN_DURATION";
-
-/// Appends `--duration` with the value of kDurationVariable to the arguments of such a command without --duration. So
-/// the command that a result records repeats the run without the variable.
-/// @throws InputError if the variable is needed and not a valid duration.
-std::vector<std::string> with_duration_of_environment(std::vector<std::string> arguments);
-
 /// A prefix for a command that the user types in a shell, to give a program the environment of a fleet: `env -u NAME `
 /// for variables that it must not inherit, then `NAME=VALUE ` for those that the launcher would set.
 std::string fleet_environment_prefix(bool native);

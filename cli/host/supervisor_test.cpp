@@ -4,6 +4,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
+
 #include "cli/testing/fake_programs.hpp"
 #include "process/host/environment.hpp"
 

@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "cli/host/supervisor.hpp"
+#include "cli/run/fleet_plan.hpp"
 #include "cli/run/preflight.hpp"
 #include "core/scenario/drawn_worlds.hpp"
 #include "core/types.hpp"

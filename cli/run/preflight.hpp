@@ -1,9 +1,12 @@
 // Checks before a run: lets programs validate their input, and runs helper programs to their end.
 #pragma once
 
+#include <filesystem>
 #include <functional>
+#include <string>
+#include <vector>
 
-#include "cli/run/fleet_plan.hpp"
+#include "cli/host/program_host.hpp"
 
 namespace skein::cli {
 
