@@ -9,11 +9,11 @@
 #include <system_error>
 
 #include "cli/debug/debuggee.hpp"
-#include "cli/host/fleets.hpp"
-#include "cli/host/proc_table.hpp"
 #include "core/text/suggestion.hpp"
 #include "core/text/text.hpp"
 #include "core/types.hpp"
+#include "host/fleets.hpp"
+#include "host/proc_table.hpp"
 #include "process/program.hpp"
 #include "results/run_folder.hpp"
 

@@ -5,9 +5,9 @@
 
 #include "cli/fault_tests/fault_test.hpp"
 #include "cli/run/fleet_plan.hpp"
-#include "cli/run/preflight.hpp"
 #include "core/config/config_node.hpp"
 #include "core/scenario/scenario_reader.hpp"
+#include "host/preflight.hpp"
 #include "process/host/environment.hpp"
 #include "process/program.hpp"
 #include "properties/property_file.hpp"

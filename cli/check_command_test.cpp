@@ -4,8 +4,8 @@
 
 #include <sstream>
 
-#include "cli/testing/fake_programs.hpp"
 #include "core/types.hpp"
+#include "host/testing/fake_programs.hpp"
 #include "process/program.hpp"
 
 namespace skein::cli {

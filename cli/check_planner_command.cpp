@@ -9,14 +9,14 @@
 #include <fstream>
 #include <sstream>
 
-#include "cli/host/program_start.hpp"
-#include "cli/machine.hpp"
 #include "cli/run/fleet_plan.hpp"
-#include "cli/run/preflight.hpp"
 #include "cli/study/flights.hpp"
 #include "core/planners/python_spec.hpp"
 #include "core/text/suggestion.hpp"
 #include "core/text/text.hpp"
+#include "host/machine.hpp"
+#include "host/preflight.hpp"
+#include "host/program_start.hpp"
 #include "process/host/other_clock.hpp"
 #include "process/json_text.hpp"
 #include "process/program.hpp"

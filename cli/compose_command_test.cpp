@@ -10,8 +10,8 @@
 #include <set>
 #include <sstream>
 
-#include "cli/run/preflight.hpp"
-#include "cli/testing/fake_programs.hpp"
+#include "host/preflight.hpp"
+#include "host/testing/fake_programs.hpp"
 #include "process/files/security_files.hpp"
 #include "process/json_text.hpp"
 #include "process/program.hpp"

@@ -1,9 +1,9 @@
 #include "cli/actions.hpp"
 
 #include "cli/run/fleet_plan.hpp"
-#include "cli/run/preflight.hpp"
 #include "core/text/suggestion.hpp"
 #include "core/text/text.hpp"
+#include "host/preflight.hpp"
 #include "process/host/environment.hpp"
 #include "process/program.hpp"
 #include "results/run_folder.hpp"

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "cli/testing/fake_programs.hpp"
+#include "host/testing/fake_programs.hpp"
 #include "process/program.hpp"
 
 namespace skein::cli {

@@ -5,7 +5,7 @@
 
 #include <sstream>
 
-#include "cli/testing/fake_programs.hpp"
+#include "host/testing/fake_programs.hpp"
 #include "process/program.hpp"
 #include "report/testing/xml_check.hpp"
 #include "tests/support/places.hpp"

@@ -13,10 +13,10 @@
 #include <vector>
 
 #include "cli/run/fleet_plan.hpp"
-#include "cli/run/preflight.hpp"
 #include "core/files/write_whole.hpp"
 #include "core/text/text.hpp"
 #include "core/types.hpp"
+#include "host/preflight.hpp"
 #include "process/files/nowhere.hpp"
 
 namespace skein::cli {

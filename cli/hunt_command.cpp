@@ -12,10 +12,10 @@
 #include "cli/hunt/finds.hpp"
 #include "cli/hunt/log.hpp"
 #include "cli/hunt/report.hpp"
-#include "cli/run/preflight.hpp"
 #include "cli/study/flights.hpp"
 #include "core/faults/fault_writer.hpp"
 #include "core/text/text.hpp"
+#include "host/preflight.hpp"
 #include "process/program.hpp"
 
 namespace skein::cli {

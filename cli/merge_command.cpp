@@ -6,11 +6,11 @@
 
 #include "cli/compose/agents_folder.hpp"
 #include "cli/run/fleet_plan.hpp"
-#include "cli/run/preflight.hpp"
 #include "cli/run/recording.hpp"
 #include "cli/run_results.hpp"
 #include "core/scenario/scenario_reader.hpp"
 #include "core/text/text.hpp"
+#include "host/preflight.hpp"
 #include "process/files/atomic_file.hpp"
 #include "process/host/environment.hpp"
 #include "recording/mcap/reader.hpp"

@@ -5,8 +5,8 @@
 
 #include <sstream>
 
-#include "cli/testing/fake_programs.hpp"
 #include "core/types.hpp"
+#include "host/testing/fake_programs.hpp"
 #include "process/program.hpp"
 #include "results/result_file.hpp"
 #include "results/run_folder.hpp"

@@ -10,13 +10,13 @@
 
 #include "cli/option_checks.hpp"
 #include "cli/place_options.hpp"
-#include "cli/threads.hpp"
 #include "cli/tool_options.hpp"
 #include "cli/view_options.hpp"
 #include "core/text/number_checks.hpp"
 #include "core/text/suggestion.hpp"
 #include "core/text/text.hpp"
 #include "core/types.hpp"
+#include "host/threads.hpp"
 #include "process/manual.hpp"
 
 namespace skein::cli {

@@ -5,12 +5,12 @@
 #include <iomanip>
 
 #include "cli/actions.hpp"
-#include "cli/host/supervisor.hpp"
 #include "cli/run/drawn_world.hpp"
 #include "cli/run/fleet_plan.hpp"
-#include "cli/run/preflight.hpp"
 #include "core/text/text.hpp"
 #include "core/types.hpp"
+#include "host/preflight.hpp"
+#include "host/supervisor.hpp"
 #include "process/host/environment.hpp"
 #include "process/program.hpp"
 #include "results/run_folder.hpp"

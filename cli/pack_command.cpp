@@ -8,11 +8,11 @@
 #include <set>
 #include <sstream>
 
-#include "cli/host/supervisor.hpp"
 #include "cli/run/fleet_plan.hpp"
-#include "cli/run/preflight.hpp"
 #include "core/config/config_files.hpp"
 #include "core/types.hpp"
+#include "host/preflight.hpp"
+#include "host/supervisor.hpp"
 #include "process/host/environment.hpp"
 #include "process/program.hpp"
 #include "report/web_bundle.hpp"

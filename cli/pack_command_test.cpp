@@ -6,8 +6,8 @@
 #include <fstream>
 #include <sstream>
 
-#include "cli/testing/fake_programs.hpp"
 #include "core/types.hpp"
+#include "host/testing/fake_programs.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 namespace skein::cli {

@@ -4,8 +4,8 @@
 
 #include <fstream>
 
-#include "cli/run/preflight.hpp"
 #include "core/types.hpp"
+#include "host/preflight.hpp"
 
 namespace skein::cli {
 namespace {

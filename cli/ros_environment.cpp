@@ -2,7 +2,6 @@
 
 #include <spdlog/fmt/fmt.h>
 
-#include "cli/host/fleets.hpp"
 #include "cli/ros_command.hpp"
 #include "cli/run/fleet_plan.hpp"
 #include "core/config/network_config.hpp"
@@ -10,6 +9,7 @@
 #include "core/text/suggestion.hpp"
 #include "core/text/text.hpp"
 #include "core/topics.hpp"
+#include "host/fleets.hpp"
 #include "results/run_folder.hpp"
 
 namespace skein::cli {

@@ -5,8 +5,6 @@
 #include <sstream>
 
 #include "cli/debug/core_file.hpp"
-#include "cli/host/domain_block.hpp"
-#include "cli/host/environment.hpp"
 #include "cli/place/place_commands.hpp"
 #include "cli/place/placed_fleet.hpp"
 #include "cli/ros_environment.hpp"
@@ -15,11 +13,13 @@
 #include "cli/run/fleet_run.hpp"
 #include "cli/run/inputs_outlast.hpp"
 #include "cli/run/live_page.hpp"
-#include "cli/run/preflight.hpp"
 #include "cli/run/results_dir.hpp"
 #include "cli/run_results.hpp"
 #include "cli/secure/security.hpp"
 #include "core/text/text.hpp"
+#include "host/domain_block.hpp"
+#include "host/environment.hpp"
+#include "host/preflight.hpp"
 #include "results/run_folder.hpp"
 
 namespace skein::cli {

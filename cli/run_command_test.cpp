@@ -6,8 +6,8 @@
 #include <regex>
 #include <sstream>
 
-#include "cli/testing/fake_programs.hpp"
 #include "core/types.hpp"
+#include "host/testing/fake_programs.hpp"
 #include "results/result.hpp"
 #include "tests/support/places.hpp"
 

@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "cli/actions.hpp"
-#include "cli/machine.hpp"
 #include "cli/options.hpp"
 #include "cli/run/results_dir.hpp"
 #include "cli/study/columns.hpp"
@@ -26,6 +25,7 @@
 #include "core/text/suggestion.hpp"
 #include "core/text/text.hpp"
 #include "core/types.hpp"
+#include "host/machine.hpp"
 #include "process/files/atomic_file.hpp"
 #include "process/program.hpp"
 #include "report/html.hpp"

@@ -7,8 +7,8 @@
 #include "cli/actions.hpp"
 #include "cli/study/flights.hpp"
 #include "cli/sweep/slurm.hpp"
-#include "cli/testing/fake_programs.hpp"
 #include "core/types.hpp"
+#include "host/testing/fake_programs.hpp"
 #include "process/program.hpp"
 #include "results/result_file.hpp"
 

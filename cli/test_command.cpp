@@ -3,9 +3,9 @@
 #include <thread>
 
 #include "cli/run/fleet_plan.hpp"
-#include "cli/run/preflight.hpp"
 #include "cli/test_counts.hpp"
 #include "cli/test_folders.hpp"
+#include "host/preflight.hpp"
 #include "process/host/environment.hpp"
 #include "process/program.hpp"
 

@@ -13,7 +13,7 @@
 
 namespace skein::test {
 
-/// Reserves consecutive domain ids for its lifetime, by the launcher's locks (cli/host/domain_block.hpp), so that no
+/// Reserves consecutive domain ids for its lifetime, by the launcher's locks (host/domain_block.hpp), so that no
 /// fleet takes them. The locks end with the process, however it ends. Domains below kFirst are left to users.
 class FreeDomains {
  public:

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "cli/bench/report.hpp"
-#include "cli/run/preflight.hpp"
+#include "host/preflight.hpp"
 #include "process/program.hpp"
 #include "results/run_folder.hpp"
 

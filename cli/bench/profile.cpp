@@ -10,7 +10,7 @@
 #include "cli/bench/flown.hpp"
 #include "cli/bench/report.hpp"
 #include "cli/bench/scenario.hpp"
-#include "cli/run/preflight.hpp"
+#include "host/preflight.hpp"
 #include "process/files/atomic_file.hpp"
 #include "process/program.hpp"
 

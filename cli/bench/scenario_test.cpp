@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "cli/testing/fake_programs.hpp"
 #include "core/scenario/scenario_reader.hpp"
+#include "host/testing/fake_programs.hpp"
 #include "tests/support/places.hpp"
 
 namespace skein::cli {

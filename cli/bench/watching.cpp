@@ -5,11 +5,11 @@
 #include <string>
 
 #include "cli/bench/report.hpp"
-#include "cli/host/supervisor.hpp"
 #include "cli/run/fleet_plan.hpp"
-#include "cli/run/preflight.hpp"
 #include "core/files/command_file.hpp"
 #include "core/types.hpp"
+#include "host/preflight.hpp"
+#include "host/supervisor.hpp"
 #include "process/files/atomic_file.hpp"
 #include "process/host/environment.hpp"
 #include "process/program.hpp"

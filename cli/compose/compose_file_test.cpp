@@ -11,12 +11,12 @@
 #include <random>
 #include <set>
 
-#include "cli/host/supervisor.hpp"
 #include "cli/run/exec_variables.hpp"
 #include "cli/testing/compose_programs.hpp"
 #include "cli/testing/compose_reader.hpp"
-#include "cli/testing/fake_programs.hpp"
 #include "core/config/network_config.hpp"
+#include "host/supervisor.hpp"
+#include "host/testing/fake_programs.hpp"
 #include "process/host/environment.hpp"
 #include "results/run_folder.hpp"
 #include "tests/support/places.hpp"

@@ -8,11 +8,11 @@
 #include <random>
 
 #include "cli/compose/compose_file.hpp"
-#include "cli/host/supervisor.hpp"
 #include "cli/testing/compose_programs.hpp"
-#include "cli/testing/fake_programs.hpp"
 #include "core/text/text.hpp"
 #include "core/types.hpp"
+#include "host/supervisor.hpp"
+#include "host/testing/fake_programs.hpp"
 #include "process/host/environment.hpp"
 
 namespace skein::cli {

@@ -5,11 +5,11 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "cli/host/environment.hpp"
-#include "cli/host/supervisor.hpp"
-#include "cli/run/preflight.hpp"
 #include "core/text/text.hpp"
 #include "core/types.hpp"
+#include "host/environment.hpp"
+#include "host/preflight.hpp"
+#include "host/supervisor.hpp"
 #include "process/host/environment.hpp"
 #include "results/run_folder.hpp"
 

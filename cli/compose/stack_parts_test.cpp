@@ -8,9 +8,9 @@
 #include <random>
 
 #include "cli/compose/compose_file.hpp"
-#include "cli/host/supervisor.hpp"
 #include "cli/testing/compose_reader.hpp"
-#include "cli/testing/fake_programs.hpp"
+#include "host/supervisor.hpp"
+#include "host/testing/fake_programs.hpp"
 #include "process/files/security_files.hpp"
 #include "process/host/environment.hpp"
 #include "results/run_folder.hpp"

@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "cli/debug/core_file.hpp"
-#include "cli/host/supervisor.hpp"
 #include "core/text/text.hpp"
+#include "host/supervisor.hpp"
 #include "process/health/crash_notes.hpp"
 
 namespace skein::cli {

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-#include "cli/host/program_host.hpp"
+#include "host/program_host.hpp"
 
 namespace skein::cli {
 

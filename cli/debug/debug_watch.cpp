@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "cli/host/proc_table.hpp"
+#include "host/proc_table.hpp"
 #include "results/run_folder.hpp"
 
 extern "C" {  // missing in glibc 2.36's header

@@ -11,8 +11,8 @@
 #include "cli/fault_tests/fault_test.hpp"
 #include "cli/properties/judge.hpp"
 #include "cli/properties/run_signals.hpp"
-#include "cli/testing/fake_programs.hpp"
 #include "core/text/text.hpp"
+#include "host/testing/fake_programs.hpp"
 
 namespace skein::cli {
 namespace {

@@ -7,7 +7,7 @@
 #include <set>
 
 #include "cli/fault_tests/conversion.hpp"
-#include "cli/testing/fake_programs.hpp"
+#include "host/testing/fake_programs.hpp"
 
 namespace skein::cli {
 namespace {

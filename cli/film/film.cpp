@@ -3,10 +3,10 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "cli/host/supervisor.hpp"
-#include "cli/run/preflight.hpp"
 #include "core/files/command_file.hpp"
 #include "core/types.hpp"
+#include "host/preflight.hpp"
+#include "host/supervisor.hpp"
 #include "process/files/atomic_file.hpp"
 #include "process/host/environment.hpp"
 #include "process/json_text.hpp"

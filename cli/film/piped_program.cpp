@@ -8,8 +8,8 @@
 #include <cerrno>
 #include <stdexcept>
 
-#include "cli/host/supervisor.hpp"
-#include "cli/run/preflight.hpp"
+#include "host/preflight.hpp"
+#include "host/supervisor.hpp"
 
 namespace skein::cli {
 namespace {

@@ -8,8 +8,8 @@
 #include <string>
 #include <string_view>
 
-#include "cli/host/program_host.hpp"
-#include "cli/host/program_start.hpp"
+#include "host/program_host.hpp"
+#include "host/program_start.hpp"
 
 namespace skein::cli {
 

@@ -9,11 +9,11 @@
 #include <set>
 
 #include "cli/hunt/trial.hpp"
-#include "cli/run/preflight.hpp"
-#include "cli/testing/fake_programs.hpp"
 #include "core/faults/fault_check.hpp"
 #include "core/faults/fault_writer.hpp"
 #include "core/scenario/scenario_reader.hpp"
+#include "host/preflight.hpp"
+#include "host/testing/fake_programs.hpp"
 #include "tests/support/places.hpp"
 
 namespace skein::cli {

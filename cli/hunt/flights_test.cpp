@@ -5,7 +5,7 @@
 #include <sstream>
 
 #include "cli/options.hpp"
-#include "cli/testing/fake_programs.hpp"
+#include "host/testing/fake_programs.hpp"
 
 namespace skein::cli {
 namespace {

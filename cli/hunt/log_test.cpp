@@ -13,9 +13,9 @@
 #include <random>
 #include <sstream>
 
-#include "cli/run/preflight.hpp"
-#include "cli/testing/fake_programs.hpp"
 #include "core/types.hpp"
+#include "host/preflight.hpp"
+#include "host/testing/fake_programs.hpp"
 
 namespace skein::cli {
 namespace {

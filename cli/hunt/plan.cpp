@@ -5,9 +5,7 @@
 #include <set>
 
 #include "cli/hunt/weather_faults.hpp"
-#include "cli/machine.hpp"
 #include "cli/run/agent_file.hpp"
-#include "cli/run/preflight.hpp"
 #include "core/conditions.hpp"
 #include "core/config/config_writer.hpp"
 #include "core/faults/fault_writer.hpp"
@@ -15,6 +13,8 @@
 #include "core/sha256.hpp"
 #include "core/text/suggestion.hpp"
 #include "core/text/text.hpp"
+#include "host/machine.hpp"
+#include "host/preflight.hpp"
 
 namespace skein::cli {
 namespace {

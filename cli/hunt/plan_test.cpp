@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "cli/hunt/capsule_run.hpp"
-#include "cli/testing/fake_programs.hpp"
 #include "core/faults/fault_writer.hpp"
+#include "host/testing/fake_programs.hpp"
 
 namespace skein::cli {
 namespace {

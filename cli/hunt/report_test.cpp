@@ -6,7 +6,7 @@
 #include <fstream>
 #include <pugixml.hpp>
 
-#include "cli/testing/fake_programs.hpp"
+#include "host/testing/fake_programs.hpp"
 
 namespace skein::cli {
 namespace {

@@ -3,7 +3,6 @@
 #include <fstream>
 
 #include "cli/hunt/flights.hpp"
-#include "cli/machine.hpp"
 #include "cli/options.hpp"
 #include "cli/study/flights.hpp"
 #include "cli/study/made_under.hpp"
@@ -11,6 +10,7 @@
 #include "cli/sweep/engines.hpp"
 #include "cli/sweep/this_machine.hpp"
 #include "core/types.hpp"
+#include "host/machine.hpp"
 #include "process/files/atomic_file.hpp"
 
 namespace skein::cli {

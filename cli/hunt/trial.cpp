@@ -4,13 +4,13 @@
 #include <cmath>
 #include <set>
 
-#include "cli/host/supervisor.hpp"
 #include "cli/hunt/fault_maker.hpp"
 #include "cli/properties/judge.hpp"
 #include "cli/properties/run_signals.hpp"
 #include "core/faults/fault_writer.hpp"
 #include "core/sha256.hpp"
 #include "core/text/text.hpp"
+#include "host/supervisor.hpp"
 #include "results/result.hpp"
 #include "results/run_folder.hpp"
 #include "results/run_record.hpp"

@@ -9,9 +9,9 @@
 
 #include "cli/command.hpp"
 #include "cli/fault_tests/fault_test.hpp"
-#include "cli/host/program_host.hpp"
 #include "core/faults/fault_plan.hpp"
 #include "core/scenario.hpp"
+#include "host/program_host.hpp"
 #include "process/json_text.hpp"
 #include "properties/evaluation.hpp"
 #include "properties/property_file.hpp"

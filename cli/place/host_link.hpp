@@ -8,9 +8,9 @@
 #include <string>
 #include <string_view>
 
-#include "cli/host/program_start.hpp"
 #include "cli/place/frames.hpp"
 #include "cli/place/placement.hpp"
+#include "host/program_start.hpp"
 
 namespace skein::cli {
 

@@ -15,16 +15,16 @@
 #include <memory>
 #include <optional>
 
-#include "cli/host/domain_block.hpp"
-#include "cli/host/supervisor.hpp"
 #include "cli/place/frames.hpp"
 #include "cli/run/fleet_plan.hpp"
-#include "cli/run/preflight.hpp"
 #include "cli/secure/user_ids.hpp"
 #include "core/config/config_files.hpp"
 #include "core/files/file_bytes.hpp"
 #include "core/sha256.hpp"
 #include "core/text/text.hpp"
+#include "host/domain_block.hpp"
+#include "host/preflight.hpp"
+#include "host/supervisor.hpp"
 #include "results/run_folder.hpp"
 
 namespace skein::cli {

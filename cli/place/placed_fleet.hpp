@@ -12,12 +12,12 @@
 #include <string>
 #include <vector>
 
-#include "cli/host/domain_block.hpp"
-#include "cli/host/supervisor.hpp"
 #include "cli/place/host_link.hpp"
 #include "cli/place/placed_paths.hpp"
 #include "cli/place/placement.hpp"
-#include "cli/run/preflight.hpp"
+#include "host/domain_block.hpp"
+#include "host/preflight.hpp"
+#include "host/supervisor.hpp"
 
 namespace skein::cli {
 

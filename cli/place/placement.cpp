@@ -4,11 +4,11 @@
 #include <cstdlib>
 #include <set>
 
-#include "cli/host/supervisor.hpp"
-#include "cli/run/preflight.hpp"
 #include "cli/sweep/engines.hpp"
 #include "core/text/suggestion.hpp"
 #include "core/text/text.hpp"
+#include "host/preflight.hpp"
+#include "host/supervisor.hpp"
 #include "process/host/environment.hpp"
 #include "process/host/host_name.hpp"
 #include "results/run_folder.hpp"

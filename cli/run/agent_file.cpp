@@ -6,12 +6,12 @@
 #include <cstdlib>
 #include <map>
 
-#include "cli/host/supervisor.hpp"
 #include "cli/run/fleet_plan.hpp"
-#include "cli/run/preflight.hpp"
 #include "core/planners/python_spec.hpp"
 #include "core/text/suggestion.hpp"
 #include "core/text/text.hpp"
+#include "host/preflight.hpp"
+#include "host/supervisor.hpp"
 #include "process/host/environment.hpp"
 #include "process/reports/reports.hpp"
 #include "results/run_folder.hpp"

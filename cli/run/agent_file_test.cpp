@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "cli/run/fleet_plan.hpp"
-#include "cli/testing/fake_programs.hpp"
 #include "core/types.hpp"
+#include "host/testing/fake_programs.hpp"
 #include "results/run_folder.hpp"
 
 namespace skein::cli {

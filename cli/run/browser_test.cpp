@@ -5,8 +5,8 @@
 #include <cstdlib>
 #include <map>
 
-#include "cli/run/preflight.hpp"
-#include "cli/testing/fake_programs.hpp"
+#include "host/preflight.hpp"
+#include "host/testing/fake_programs.hpp"
 #include "tests/support/eventually.hpp"
 
 namespace skein::cli {

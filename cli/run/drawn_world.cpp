@@ -2,11 +2,11 @@
 
 #include <filesystem>
 
-#include "cli/host/supervisor.hpp"
 #include "cli/run/fleet_plan.hpp"
-#include "cli/run/preflight.hpp"
 #include "core/scenario/drawn_worlds.hpp"
 #include "core/types.hpp"
+#include "host/preflight.hpp"
+#include "host/supervisor.hpp"
 #include "process/files/user_cache.hpp"
 #include "process/host/environment.hpp"
 #include "process/program.hpp"

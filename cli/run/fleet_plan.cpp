@@ -10,7 +10,6 @@
 
 #include "cli/free_nodes.hpp"
 #include "cli/hand_flights.hpp"
-#include "cli/host/environment.hpp"
 #include "cli/python_planners.hpp"
 #include "cli/run/agent_file.hpp"
 #include "cli/run/debug_plan.hpp"
@@ -18,7 +17,6 @@
 #include "cli/run/exec_variables.hpp"
 #include "cli/run/ground_program.hpp"
 #include "cli/run/watch_arguments.hpp"
-#include "cli/threads.hpp"
 #include "core/config/config_files.hpp"
 #include "core/config/network_config.hpp"
 #include "core/planners/free_nodes.hpp"
@@ -26,6 +24,8 @@
 #include "core/text/suggestion.hpp"
 #include "core/text/text.hpp"
 #include "core/topics.hpp"
+#include "host/environment.hpp"
+#include "host/threads.hpp"
 #include "results/run_folder.hpp"
 
 namespace skein::cli {

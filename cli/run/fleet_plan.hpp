@@ -8,11 +8,11 @@
 #include <vector>
 
 #include "cli/debug/debuggee.hpp"
-#include "cli/host/program_host.hpp"
 #include "cli/options.hpp"
 #include "cli/planner_spec.hpp"
 #include "core/faults/fault_plan.hpp"
 #include "core/scenario/scenario_reader.hpp"
+#include "host/program_host.hpp"
 
 namespace skein::cli {
 

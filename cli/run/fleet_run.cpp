@@ -8,11 +8,11 @@
 #include <variant>
 
 #include "cli/debug/crash_trace.hpp"
-#include "cli/host/shared_process.hpp"
-#include "cli/host/supervisor.hpp"
 #include "cli/python_planners.hpp"
 #include "core/text/suggestion.hpp"
 #include "core/text/text.hpp"
+#include "host/shared_process.hpp"
+#include "host/supervisor.hpp"
 #include "results/run_folder.hpp"
 
 namespace skein::cli {

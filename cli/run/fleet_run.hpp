@@ -13,13 +13,13 @@
 #include <string>
 #include <vector>
 
-#include "cli/host/process_orders.hpp"
-#include "cli/host/program_host.hpp"
 #include "cli/run/debug_session.hpp"
 #include "cli/run/fleet_plan.hpp"
 #include "cli/run/leave_deadline.hpp"
 #include "cli/run/progress_view.hpp"
 #include "core/run/wait_notice.hpp"
+#include "host/process_orders.hpp"
+#include "host/program_host.hpp"
 #include "process/status/status_lines.hpp"
 #include "results/result.hpp"
 

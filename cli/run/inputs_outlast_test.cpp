@@ -8,8 +8,8 @@
 #include <sstream>
 
 #include "cli/actions.hpp"
-#include "cli/testing/fake_programs.hpp"
 #include "core/types.hpp"
+#include "host/testing/fake_programs.hpp"
 
 namespace skein::cli {
 namespace {

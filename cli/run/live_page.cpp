@@ -3,8 +3,8 @@
 #include <csignal>
 #include <cstdlib>
 
-#include "cli/host/supervisor.hpp"
 #include "cli/run/browser.hpp"
+#include "host/supervisor.hpp"
 #include "process/host/host_name.hpp"
 #include "view/finished_run.hpp"
 #include "view/pages.hpp"

@@ -10,7 +10,7 @@
 
 #include "cli/console.hpp"
 #include "cli/run/fleet_plan.hpp"
-#include "cli/run/preflight.hpp"
+#include "host/preflight.hpp"
 #include "view/feed.hpp"
 #include "view/key.hpp"
 #include "view/listener.hpp"

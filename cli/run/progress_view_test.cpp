@@ -7,7 +7,7 @@
 #include <regex>
 #include <sstream>
 
-#include "cli/run/preflight.hpp"
+#include "host/preflight.hpp"
 
 namespace skein::cli {
 namespace {

@@ -12,8 +12,8 @@
 #include <functional>
 #include <thread>
 
-#include "cli/testing/fake_programs.hpp"
 #include "core/types.hpp"
+#include "host/testing/fake_programs.hpp"
 
 namespace skein::cli {
 namespace {

@@ -6,9 +6,9 @@
 #include <algorithm>
 
 #include "cli/secure/keys.hpp"
-#include "cli/testing/fake_programs.hpp"
 #include "core/topics.hpp"
 #include "core/view_topics.hpp"
+#include "host/testing/fake_programs.hpp"
 
 namespace skein::cli {
 namespace {

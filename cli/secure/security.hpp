@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "cli/run/fleet_plan.hpp"
-#include "cli/run/preflight.hpp"
 #include "cli/secure/user_ids.hpp"
+#include "host/preflight.hpp"
 
 namespace skein::cli {
 

@@ -12,8 +12,8 @@
 #include <set>
 #include <string>
 
-#include "cli/host/proc_table.hpp"
 #include "core/types.hpp"
+#include "host/proc_table.hpp"
 
 extern "C" {  // missing in glibc 2.36's header
 #include <sys/pidfd.h>

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "cli/host/supervisor.hpp"
+#include "host/supervisor.hpp"
 #include "process/host/host_lock.hpp"
 
 namespace skein::cli {

@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <csignal>
 
-#include "cli/host/proc_table.hpp"
 #include "core/types.hpp"
+#include "host/proc_table.hpp"
 
 namespace skein::cli {
 namespace {

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "cli/console.hpp"
-#include "cli/host/program_host.hpp"
 #include "cli/study/figures.hpp"
 #include "cli/study/plan.hpp"
+#include "host/program_host.hpp"
 
 namespace skein::cli {
 

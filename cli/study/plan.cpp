@@ -7,7 +7,6 @@
 
 #include "cli/run/agent_file.hpp"
 #include "cli/run/fleet_plan.hpp"
-#include "cli/run/preflight.hpp"
 #include "cli/study/made_under.hpp"
 #include "cli/study/spec.hpp"
 #include "core/planners/python_spec.hpp"
@@ -15,6 +14,7 @@
 #include "core/text/suggestion.hpp"
 #include "core/text/text.hpp"
 #include "core/types.hpp"
+#include "host/preflight.hpp"
 #include "results/run_folder.hpp"
 
 namespace skein::cli {

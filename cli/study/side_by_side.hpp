@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "cli/console.hpp"
-#include "cli/host/supervisor.hpp"
+#include "host/supervisor.hpp"
 
 namespace skein::cli {
 
@@ -29,7 +29,7 @@ class SideBySide {
 
   SideBySide(std::size_t at_once, const Console& console) : at_once_(at_once), console_(console) {}
 
-  /// Flies these flights in order, each with its share of the cores (cli/threads.hpp). Returns when none is running.
+  /// Flies these flights in order, each with its share of the cores (host/threads.hpp). Returns when none is running.
   /// Ctrl-C ends running flights at their next step, a second Ctrl-C at once. Then no more flights start, and `over` is
   /// only called for flights with exit code 0.
   /// @returns false if it was interrupted, also if only one of the flights was interrupted.

@@ -7,11 +7,11 @@
 #include <ostream>
 #include <random>
 
-#include "cli/host/supervisor.hpp"
 #include "cli/study/flights.hpp"
 #include "core/random_stream.hpp"
 #include "core/sha256.hpp"
 #include "core/types.hpp"
+#include "host/supervisor.hpp"
 
 namespace skein::cli {
 namespace {

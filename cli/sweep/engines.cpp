@@ -4,14 +4,14 @@
 
 #include <fstream>
 
-#include "cli/machine.hpp"
 #include "cli/run/fleet_plan.hpp"
-#include "cli/run/preflight.hpp"
 #include "cli/study/side_by_side.hpp"
 #include "cli/sweep/slurm.hpp"
-#include "cli/threads.hpp"
 #include "core/text/text.hpp"
 #include "core/types.hpp"
+#include "host/machine.hpp"
+#include "host/preflight.hpp"
+#include "host/threads.hpp"
 #include "process/files/atomic_file.hpp"
 #include "process/host/environment.hpp"
 

@@ -6,12 +6,12 @@
 #include <fstream>
 #include <sstream>
 
-#include "cli/host/supervisor.hpp"
-#include "cli/run/preflight.hpp"
 #include "cli/sweep/engines.hpp"
 #include "core/text/suggestion.hpp"
 #include "core/text/text.hpp"
 #include "core/types.hpp"
+#include "host/preflight.hpp"
+#include "host/supervisor.hpp"
 #include "process/files/atomic_file.hpp"
 #include "process/host/environment.hpp"
 

@@ -8,8 +8,8 @@
 
 #include "cli/options.hpp"
 #include "cli/sweep/engines.hpp"
-#include "cli/testing/fake_programs.hpp"
 #include "core/types.hpp"
+#include "host/testing/fake_programs.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 namespace skein::cli {

@@ -6,7 +6,6 @@
 #include <cstdlib>
 #include <ostream>
 
-#include "cli/machine.hpp"
 #include "cli/options.hpp"
 #include "cli/study/figures_json.hpp"
 #include "cli/sweep/controller.hpp"
@@ -14,6 +13,7 @@
 #include "cli/sweep/slurm.hpp"
 #include "cli/sweep/this_machine.hpp"
 #include "core/types.hpp"
+#include "host/machine.hpp"
 
 namespace skein::cli {
 namespace {

@@ -5,10 +5,8 @@
 #include <memory>
 #include <ostream>
 
-#include "cli/machine.hpp"
 #include "cli/options.hpp"
 #include "cli/run/fleet_plan.hpp"
-#include "cli/run/preflight.hpp"
 #include "cli/study/figures.hpp"
 #include "cli/study/figures_json.hpp"
 #include "cli/study/flights.hpp"
@@ -17,6 +15,8 @@
 #include "core/text/suggestion.hpp"
 #include "core/text/text.hpp"
 #include "core/types.hpp"
+#include "host/machine.hpp"
+#include "host/preflight.hpp"
 #include "process/host/host_name.hpp"
 #include "process/program.hpp"
 #include "results/run_folder.hpp"

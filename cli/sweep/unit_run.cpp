@@ -2,9 +2,9 @@
 
 #include <ostream>
 
-#include "cli/run/preflight.hpp"
 #include "cli/study/flights.hpp"
 #include "core/types.hpp"
+#include "host/preflight.hpp"
 #include "process/files/atomic_file.hpp"
 #include "results/run_data.hpp"
 #include "results/run_folder.hpp"

@@ -9,8 +9,8 @@
 #include <iosfwd>
 #include <string>
 
-#include "cli/host/program_host.hpp"
 #include "cli/sweep/folder.hpp"
+#include "host/program_host.hpp"
 
 namespace skein::cli {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/run/preflight.hpp"
+#include "host/preflight.hpp"
 #include "process/host/environment.hpp"
 
 namespace skein::cli {

@@ -39,7 +39,7 @@ std::optional<News> read_news(const std::string& text);
 
 // ---- from the launcher -------------------------------------------------------------------------------------------
 
-/// Starts a program, with the same data as for a process of its own (cli/host/supervisor.hpp).
+/// Starts a program, with the same data as for a process of its own (host/supervisor.hpp).
 struct Start {
   std::string program = {};
   std::vector<std::string> argv = {};

@@ -6,9 +6,9 @@
 #include <map>
 #include <string>
 
-#include "cli/host/domain_block.hpp"
 #include "core/topics.hpp"
 #include "fleet_fixture.hpp"
+#include "host/domain_block.hpp"
 
 namespace skein::test {
 

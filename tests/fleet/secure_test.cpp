@@ -6,12 +6,12 @@
 #include <fstream>
 #include <sstream>
 
-#include "cli/host/proc_table.hpp"
 #include "cli/secure/keys.hpp"
 #include "cli/secure/rules.hpp"
 #include "cli/secure/security.hpp"
 #include "core/topics.hpp"
 #include "fleet_fixture.hpp"
+#include "host/proc_table.hpp"
 #include "process/files/closed_to_agents.hpp"
 #include "process/files/security_files.hpp"
 #include "results/run_folder.hpp"

@@ -15,8 +15,8 @@ namespace skein::layers {
 using Tree = std::vector<SourceFile>;
 using Violations = std::vector<std::string>;
 
-/// core <- process, idl, recording/mcap, sight <- results, oracle <- bus, report, scenes <- view, recording <-
-/// applications <- one_process, and no application includes another.
+/// core <- process, idl, recording/mcap, properties, sight <- results, oracle <- bus, host, report, scenes <- view,
+/// recording <- applications <- one_process. No application includes another, and only the launcher includes host.
 /// tests/ may include everything, and only test code may include tests/.
 Violations check_layers(const Tree& tree);
 

@@ -10,10 +10,10 @@
 #include <sstream>
 #include <thread>
 
-#include "cli/run/preflight.hpp"
 #include "cli/study/flights.hpp"
 #include "cli/sweep/controller.hpp"
 #include "core/random_stream.hpp"
+#include "host/preflight.hpp"
 #include "results/run_folder.hpp"
 #include "tests/support/scratch_folder.hpp"
 

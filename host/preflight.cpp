@@ -1,4 +1,4 @@
-#include "cli/run/preflight.hpp"
+#include "host/preflight.hpp"
 
 #include <fcntl.h>
 #include <spdlog/fmt/fmt.h>
@@ -10,10 +10,10 @@
 #include <map>
 #include <stdexcept>
 
-#include "cli/host/supervisor.hpp"
 #include "core/run/wait_notice.hpp"
 #include "core/text/suggestion.hpp"
 #include "core/types.hpp"
+#include "host/supervisor.hpp"
 #include "process/log_lines.hpp"
 #include "process/program.hpp"
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/host/program_host.hpp"
+#include "host/program_host.hpp"
 
 namespace skein::cli {
 

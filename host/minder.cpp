@@ -1,4 +1,4 @@
-#include "cli/host/minder.hpp"
+#include "host/minder.hpp"
 
 #include <sys/prctl.h>
 #include <sys/resource.h>
@@ -7,7 +7,7 @@
 
 #include <csignal>
 
-#include "cli/host/proc_table.hpp"
+#include "host/proc_table.hpp"
 
 namespace skein::cli {
 namespace {

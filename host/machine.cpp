@@ -1,4 +1,4 @@
-#include "cli/machine.hpp"
+#include "host/machine.hpp"
 
 #include <sched.h>
 #include <unistd.h>

@@ -1,12 +1,12 @@
-#include "cli/threads.hpp"
+#include "host/threads.hpp"
 
 #include <algorithm>
 #include <cstdlib>
 #include <string>
 
-#include "cli/machine.hpp"
 #include "core/text/whole_number.hpp"
 #include "core/types.hpp"
+#include "host/machine.hpp"
 
 namespace skein::cli {
 namespace {

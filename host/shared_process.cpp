@@ -1,4 +1,4 @@
-#include "cli/host/shared_process.hpp"
+#include "host/shared_process.hpp"
 
 #include <spdlog/fmt/fmt.h>
 
@@ -9,7 +9,7 @@
 #include <utility>
 #include <variant>
 
-#include "cli/host/proc_table.hpp"
+#include "host/proc_table.hpp"
 #include "process/status/shared_lines.hpp"
 
 namespace skein::cli {

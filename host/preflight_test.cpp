@@ -1,4 +1,4 @@
-#include "cli/run/preflight.hpp"
+#include "host/preflight.hpp"
 
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -10,7 +10,7 @@
 #include <optional>
 #include <random>
 
-#include "cli/testing/fake_programs.hpp"
+#include "host/testing/fake_programs.hpp"
 
 namespace skein::cli {
 namespace {

@@ -1,15 +1,15 @@
-#include "cli/host/fleets.hpp"
+#include "host/fleets.hpp"
 
 #include <unistd.h>
 
 #include <algorithm>
 #include <system_error>
 
-#include "cli/host/proc_table.hpp"
-#include "cli/host/supervisor.hpp"
 #include "core/text/suggestion.hpp"
 #include "core/text/text.hpp"
 #include "core/types.hpp"
+#include "host/proc_table.hpp"
+#include "host/supervisor.hpp"
 #include "process/host/host_lock.hpp"
 #include "results/run_folder.hpp"
 

@@ -1,12 +1,12 @@
 // The launcher's side of a process that is home to a fleet, with a shell script for that process.
-#include "cli/host/shared_process.hpp"
+#include "host/shared_process.hpp"
 
 #include <gtest/gtest.h>
 
 #include <csignal>
 
-#include "cli/run/preflight.hpp"
-#include "cli/testing/fake_programs.hpp"
+#include "host/preflight.hpp"
+#include "host/testing/fake_programs.hpp"
 #include "process/host/environment.hpp"
 #include "process/json_text.hpp"
 #include "tests/support/eventually.hpp"

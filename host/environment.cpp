@@ -1,4 +1,4 @@
-#include "cli/host/environment.hpp"
+#include "host/environment.hpp"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -8,10 +8,10 @@
 #include <csignal>
 #include <cstdlib>
 
-#include "cli/threads.hpp"
 #include "core/text/suggestion.hpp"
 #include "core/text/whole_number.hpp"
 #include "core/types.hpp"
+#include "host/threads.hpp"
 
 namespace skein::cli {
 namespace {

@@ -1,4 +1,4 @@
-#include "cli/host/proc_table.hpp"
+#include "host/proc_table.hpp"
 
 #include <dirent.h>
 

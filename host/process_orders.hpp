@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/host/program_host.hpp"
+#include "host/program_host.hpp"
 
 namespace skein::cli {
 

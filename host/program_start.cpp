@@ -1,4 +1,4 @@
-#include "cli/host/program_start.hpp"
+#include "host/program_start.hpp"
 
 #include <fcntl.h>
 #include <grp.h>
@@ -13,7 +13,7 @@
 #include <optional>
 #include <system_error>
 
-#include "cli/host/minder.hpp"
+#include "host/minder.hpp"
 #include "process/files/closed_to_agents.hpp"
 
 extern "C" {  // missing in glibc 2.36's header

@@ -1,4 +1,4 @@
-#include "cli/host/process_orders.hpp"
+#include "host/process_orders.hpp"
 
 #include <algorithm>
 #include <csignal>

@@ -1,4 +1,4 @@
-#include "cli/host/supervisor.hpp"
+#include "host/supervisor.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-#include "cli/testing/fake_programs.hpp"
+#include "host/testing/fake_programs.hpp"
 #include "process/host/environment.hpp"
 
 namespace skein::cli {

@@ -1,4 +1,4 @@
-#include "cli/host/environment.hpp"
+#include "host/environment.hpp"
 
 #include <gtest/gtest.h>
 

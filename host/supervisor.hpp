@@ -1,5 +1,5 @@
 // Starts programs, watches them and ends them. No program outlives the launcher, nor do the children of a program under
-// a minder (cli/host/minder.hpp). The launcher notices a program's death at once (by pidfd, not SIGCHLD). The
+// a minder (host/minder.hpp). The launcher notices a program's death at once (by pidfd, not SIGCHLD). The
 // terminal's Ctrl-C reaches only the launcher, unless a program has the terminal; the launcher decides what follows.
 // Threads: one for all calls; it must live as long as the programs (the kernel ties PR_SET_PDEATHSIG to the thread).
 #pragma once
@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/host/program_host.hpp"
+#include "host/program_host.hpp"
 
 namespace skein::cli {
 

@@ -1,4 +1,4 @@
-#include "cli/host/supervisor.hpp"
+#include "host/supervisor.hpp"
 
 #include <fcntl.h>
 #include <sys/resource.h>
@@ -18,7 +18,7 @@
 #include <system_error>
 #include <utility>
 
-#include "cli/host/program_start.hpp"
+#include "host/program_start.hpp"
 
 namespace skein::cli {
 namespace {

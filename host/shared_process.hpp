@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/host/supervisor.hpp"
+#include "host/supervisor.hpp"
 #include "process/status/turn_page.hpp"
 
 namespace skein::cli {

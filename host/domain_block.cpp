@@ -1,4 +1,4 @@
-#include "cli/host/domain_block.hpp"
+#include "host/domain_block.hpp"
 
 #include <utility>
 

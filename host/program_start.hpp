@@ -8,7 +8,7 @@
 
 #include <utility>
 
-#include "cli/host/supervisor.hpp"
+#include "host/supervisor.hpp"
 
 namespace skein::cli {
 

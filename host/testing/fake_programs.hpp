@@ -6,7 +6,7 @@
 #include <fstream>
 #include <string>
 
-#include "cli/run/preflight.hpp"
+#include "host/preflight.hpp"
 #include "tests/support/places.hpp"
 
 namespace skein::cli {

@@ -1,11 +1,11 @@
-#include "cli/host/process_orders.hpp"
+#include "host/process_orders.hpp"
 
 #include <gtest/gtest.h>
 
 #include <csignal>
 
-#include "cli/host/supervisor.hpp"
-#include "cli/testing/fake_programs.hpp"
+#include "host/supervisor.hpp"
+#include "host/testing/fake_programs.hpp"
 #include "process/host/environment.hpp"
 
 namespace skein::cli {
