@@ -8,10 +8,10 @@
 #include <filesystem>
 #include <system_error>
 
-#include "cli/debug/debuggee.hpp"
 #include "core/text/suggestion.hpp"
 #include "core/text/text.hpp"
 #include "core/types.hpp"
+#include "debug/debuggee.hpp"
 #include "host/fleets.hpp"
 #include "host/proc_table.hpp"
 #include "process/program.hpp"

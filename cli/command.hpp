@@ -67,7 +67,7 @@ struct RunOptions {
   std::string dds = "cyclonedds";                   ///< a vendor or "mixed"
   std::string clock = "lockstep";                   ///< "lockstep", "realtime" or "realtime:FACTOR"
   std::optional<std::filesystem::path> agent;       ///< program that flies in the place of uav_agent
-  std::vector<std::string> debug;                   ///< UAV[=TOOL], see cli/debug/debuggee.hpp
+  std::vector<std::string> debug;                   ///< UAV[=TOOL], see debug/debuggee.hpp
   std::optional<double> break_at_s;                 ///< debugged programs stop before that simulated time
   std::optional<std::string> break_on;              ///< they stop before the first of them first meets this event
   std::optional<std::filesystem::path> break_from;  ///< results of the same flight, which give the event's time

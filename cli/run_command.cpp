@@ -4,7 +4,6 @@
 #include <optional>
 #include <sstream>
 
-#include "cli/debug/core_file.hpp"
 #include "cli/place/place_commands.hpp"
 #include "cli/place/placed_fleet.hpp"
 #include "cli/ros_environment.hpp"
@@ -17,6 +16,7 @@
 #include "cli/run_results.hpp"
 #include "cli/secure/security.hpp"
 #include "core/text/text.hpp"
+#include "debug/core_file.hpp"
 #include "host/domain_block.hpp"
 #include "host/environment.hpp"
 #include "host/preflight.hpp"

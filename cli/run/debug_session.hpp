@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "cli/debug/debug_watch.hpp"
 #include "cli/run/fleet_plan.hpp"
 #include "cli/run/progress_view.hpp"
+#include "debug/debug_watch.hpp"
 
 namespace skein::cli {
 

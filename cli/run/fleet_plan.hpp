@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "cli/debug/debuggee.hpp"
 #include "cli/options.hpp"
 #include "cli/planner_spec.hpp"
 #include "core/faults/fault_plan.hpp"
 #include "core/scenario/scenario_reader.hpp"
+#include "debug/debuggee.hpp"
 #include "host/program_host.hpp"
 
 namespace skein::cli {

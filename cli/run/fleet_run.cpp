@@ -7,10 +7,10 @@
 #include <fstream>
 #include <variant>
 
-#include "cli/debug/crash_trace.hpp"
 #include "cli/python_planners.hpp"
 #include "core/text/suggestion.hpp"
 #include "core/text/text.hpp"
+#include "debug/crash_trace.hpp"
 #include "host/shared_process.hpp"
 #include "host/supervisor.hpp"
 #include "results/run_folder.hpp"

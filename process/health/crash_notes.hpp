@@ -1,4 +1,4 @@
-// Writes the call stack of a crashed program, as addresses, to its log; cli/debug/crash_trace.hpp translates the
+// Writes the call stack of a crashed program, as addresses, to its log; debug/crash_trace.hpp translates the
 // addresses to names. Linux.
 #pragma once
 

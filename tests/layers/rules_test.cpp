@@ -75,14 +75,15 @@ TEST_F(MadeUpTree, IsReadWithoutBuildTreesAndBinaries) {
 TEST_F(MadeUpTree, LayersMayOnlyLookDown) {
   for (const char* path : {"core/a.hpp", "idl/a.hpp", "bus/a.hpp", "sim_server/a.hpp", "uav_agent/a.hpp",
                            "report/a.hpp", "recording/a.hpp", "recording/mcap/a.hpp", "results/a.hpp", "process/a.hpp",
-                           "scenes/a.hpp", "host/a.hpp", "one_process/a.hpp", "tests/a.hpp"}) {
+                           "scenes/a.hpp", "host/a.hpp", "debug/a.hpp", "one_process/a.hpp", "tests/a.hpp"}) {
     file(path, "\n");
   }
   file("bus/good.cpp", include("core/a.hpp") + include("idl/a.hpp") + include("bus/a.hpp"));
   file("one_process/good.cpp", include("sim_server/a.hpp") + include("uav_agent/a.hpp") + include("bus/a.hpp"));
   file("tests/good.cpp", include("sim_server/a.hpp") + include("uav_agent/a.hpp") + include("tests/a.hpp"));
   file("station/good_test.cpp", include("tests/a.hpp"));
-  file("cli/good.cpp", include("report/a.hpp") + include("host/a.hpp"));
+  file("cli/good.cpp", include("report/a.hpp") + include("host/a.hpp") + include("debug/a.hpp"));
+  file("debug/good.cpp", include("host/a.hpp"));
   file("host/good.cpp", include("process/a.hpp") + include("results/a.hpp"));
   file("results/good.cpp", include("process/a.hpp"));
   file("report/good.cpp", include("results/a.hpp"));
@@ -92,7 +93,7 @@ TEST_F(MadeUpTree, LayersMayOnlyLookDown) {
   EXPECT_EQ(check_layers(tree()), Violations{});
 
   file("core/bad.cpp", std::string("\n") + include("idl/a.hpp"));
-  file("host/bad.cpp", include("results/a.hpp") + include("cli/good.cpp"));
+  file("host/bad.cpp", include("results/a.hpp") + include("debug/a.hpp"));
   file("idl/bad.cpp", include("core/a.hpp") + include("bus/a.hpp"));
   file("bus/bad.hpp", include_system("sim_server/a.hpp"));
   file("cli/bad.cpp", std::string("// ") + include("uav_agent/a.hpp") + include("../uav_agent/a.hpp"));

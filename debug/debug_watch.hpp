@@ -9,7 +9,7 @@
 #include <filesystem>
 #include <string>
 
-#include "cli/debug/debuggee.hpp"
+#include "debug/debuggee.hpp"
 
 namespace skein::cli {
 

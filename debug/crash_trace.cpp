@@ -1,4 +1,4 @@
-#include "cli/debug/crash_trace.hpp"
+#include "debug/crash_trace.hpp"
 
 #include <algorithm>
 #include <cstdio>
@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
-#include "cli/debug/core_file.hpp"
 #include "core/text/text.hpp"
+#include "debug/core_file.hpp"
 #include "host/supervisor.hpp"
 #include "process/health/crash_notes.hpp"
 

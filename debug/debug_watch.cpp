@@ -1,4 +1,4 @@
-#include "cli/debug/debug_watch.hpp"
+#include "debug/debug_watch.hpp"
 
 #include <poll.h>
 #include <unistd.h>

@@ -1,4 +1,4 @@
-#include "cli/debug/debuggee.hpp"
+#include "debug/debuggee.hpp"
 
 #include <gtest/gtest.h>
 

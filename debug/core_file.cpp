@@ -1,4 +1,4 @@
-#include "cli/debug/core_file.hpp"
+#include "debug/core_file.hpp"
 
 #include <fnmatch.h>
 #include <sys/resource.h>
