@@ -180,6 +180,14 @@ PropertySet parse_properties(const PropertyEntries& entries, const std::string& 
   return set;
 }
 
+PropertySet parse_properties(const PropertyEntries& entries, const Scenario& scenario) {
+  const ConfigDocument document{"properties", ConfigNode::make_map()};
+  ConfigErrors errors(document);
+  PropertySet set = parse_properties(entries, "properties", scenario, errors);
+  errors.throw_if_any();
+  return set;
+}
+
 PropertyEntries load_property_entries(const std::filesystem::path& file) {
   return read_config_file<PropertyFile>(file).properties;
 }

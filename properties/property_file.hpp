@@ -39,6 +39,8 @@ using PropertySet = std::vector<NamedProperty>;
 /// @throws InputError if the file of a ready property is wrong.
 PropertySet parse_properties(const PropertyEntries& entries, const std::string& key, const Scenario& scenario,
                              ConfigErrors& errors);
+/// The same for entries of no particular document. @throws InputError if one is wrong or does not fit the scenario.
+PropertySet parse_properties(const PropertyEntries& entries, const Scenario& scenario);
 
 /// The entries of a property file, unparsed. @throws InputError if the file is wrong.
 PropertyEntries load_property_entries(const std::filesystem::path& file);

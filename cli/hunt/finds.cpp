@@ -24,7 +24,7 @@ std::multiset<std::string> kinds_in(const std::vector<Fault>& faults) {
 /// matter, as for a collision, which counts whenever it happens; a property with a deadline needs the time.
 std::optional<double> after_s(const std::string& property, const HuntPlan& plan) {
   using When = properties::Property::Kind;
-  const properties::PropertySet set = properties_of(plan.entries, plan.fleet.scenario);
+  const properties::PropertySet set = properties::parse_properties(plan.entries, plan.fleet.scenario);
   const auto found = std::ranges::find(set, property, &properties::NamedProperty::name);
   const bool at_any_time = found == set.end() || std::ranges::all_of(found->cases, [](const properties::Property& one) {
                              return (one.kind == When::always || one.kind == When::never) && !one.whenever &&

@@ -37,7 +37,7 @@ const TrialFlights::Setting* TrialFlights::setting_of(const Trial& trial) {
   if (is_new) {
     try {
       Scenario scenario = load_scenario(trial.run.scenario, load_options(trial.run));
-      properties::PropertySet set = properties_of(plan_.entries, scenario);
+      properties::PropertySet set = properties::parse_properties(plan_.entries, scenario);
       found->second.emplace(Setting{std::move(scenario), std::move(set)});
     } catch (const InputError&) {
       found->second.reset();

@@ -68,7 +68,7 @@ std::string coverage_section(const HuntSummary& summary) {
 report::TimeCurve margin_curve(const HuntSummary& summary, const Find& find) {
   report::TimeCurve curve{"margin of " + find.broke, "delivered", {}};
   const Scenario scenario = load_scenario(find.trial.run.scenario, load_options(find.trial.run));
-  const properties::PropertySet set = properties_of(summary.plan.entries, scenario);
+  const properties::PropertySet set = properties::parse_properties(summary.plan.entries, scenario);
   const auto property = std::ranges::find(set, find.broke, &properties::NamedProperty::name);
   if (property == set.end() || needs_undisturbed({*property})) return curve;
   const results::RunRecord run = results::read_run(find.run);

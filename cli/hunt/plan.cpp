@@ -38,7 +38,7 @@ PropertyEntries usual_entries(const Scenario& scenario) {
     if (!properties::load_ready_property(name).in_hunts) continue;
     const PropertyEntries one = {{name, PropertyEntry("ready")}};
     try {
-      properties_of(one, scenario);
+      properties::parse_properties(one, scenario);
     } catch (const InputError&) {
       continue;  // it needs more UAVs, or a longer mission
     }
@@ -134,14 +134,6 @@ std::string build_of(const HuntPlan& plan) {
   return plan.settings.at("programs").get<std::string>().substr(0, kBuildLetters);
 }
 
-properties::PropertySet properties_of(const PropertyEntries& entries, const Scenario& scenario) {
-  const ConfigDocument document{"properties", ConfigNode::make_map()};
-  ConfigErrors errors(document);
-  properties::PropertySet set = properties::parse_properties(entries, "properties", scenario, errors);
-  errors.throw_if_any();
-  return set;
-}
-
 double longest_deadline_s(const properties::PropertySet& set) {
   double longest_s = 0.0;
   for (const properties::NamedProperty& property : set) {
@@ -168,7 +160,7 @@ HuntPlan plan_hunt(const HuntOptions& options) {
   check_kinds(options, plan.fleet.scenario);
   plan.space.ground_program = plan.fleet.ground.has_value();
   const double duration_s = plan.fleet.scenario.duration_s;
-  const double deadline_s = longest_deadline_s(properties_of(plan.entries, plan.fleet.scenario));
+  const double deadline_s = longest_deadline_s(properties::parse_properties(plan.entries, plan.fleet.scenario));
   plan.space.heal_by_s = std::floor(duration_s - deadline_s - kAfterDeadline_s);
   if (plan.space.heal_by_s < kLeastForFaults_s) {
     throw InputError("--duration: a mission of " + number_text(duration_s) +

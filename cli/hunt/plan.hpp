@@ -34,9 +34,6 @@ std::string programs_digest(const FleetPlan& fleet);
 /// The first letters of that digest, by which capsules name the build that flew them.
 std::string build_of(const HuntPlan& plan);
 
-/// The properties for the fleet of a scenario. @throws InputError if one does not fit the scenario.
-properties::PropertySet properties_of(const properties::PropertyEntries& entries, const Scenario& scenario);
-
 /// The longest deadline of a property that must hold after the last fault [simulated s]; 0: none has one. A mission
 /// must go on for at least that long after its last fault.
 double longest_deadline_s(const properties::PropertySet& set);

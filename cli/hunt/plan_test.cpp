@@ -114,7 +114,7 @@ TEST_F(HuntPlans, RefusesWhatMakesNoSense) {
 
 TEST_F(HuntPlans, FaultsSilenceWhatSaysNothingWithThem) {
   const HuntPlan plan = plan_hunt(options());
-  const properties::PropertySet set = properties_of(plan.entries, plan.fleet.scenario);
+  const properties::PropertySet set = properties::parse_properties(plan.entries, plan.fleet.scenario);
   const auto asked = [&](const std::vector<Fault>& faults, const std::string& name) {
     const properties::PropertySet rest = asked_of(faults, set);
     return std::ranges::find(rest, name, &properties::NamedProperty::name) != rest.end();

@@ -2,7 +2,6 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "cli/hunt/plan.hpp"
 #include "cli/properties/judge.hpp"
 #include "cli/properties/run_signals_fixture.hpp"
 #include "tests/support/places.hpp"
@@ -36,7 +35,7 @@ class MissedWork : public RunSignalsTest {
     ::setenv("SKEIN_CONFIG_DIR", source_path("config").c_str(), 1);
     FolderSignals signals(run_, scenario_, &undisturbed_);
     const properties::PropertyEntries entries = {{property, properties::PropertyEntry("ready")}};
-    return judge_properties(properties_of(entries, scenario_), signals).at(0).verdict.outcome;
+    return judge_properties(properties::parse_properties(entries, scenario_), signals).at(0).verdict.outcome;
   }
   void fly(double speed_mps) {
     run_.positions.clear();
