@@ -9,7 +9,6 @@
 #include "cli/fault_tests/fault_test.hpp"
 #include "cli/hunt/capsule_run.hpp"
 #include "cli/hunt/flights.hpp"
-#include "cli/properties/radio_log.hpp"
 #include "cli/rerun_command.hpp"
 #include "core/faults/fault_writer.hpp"
 #include "core/text/suggestion.hpp"
@@ -17,6 +16,7 @@
 #include "process/program.hpp"
 #include "results/diff.hpp"
 #include "results/run_record.hpp"
+#include "signals/radio_log.hpp"
 
 namespace skein::cli {
 namespace {

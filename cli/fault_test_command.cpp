@@ -8,8 +8,6 @@
 #include "cli/fault_tests/flights.hpp"
 #include "cli/fault_tests/report.hpp"
 #include "cli/options.hpp"
-#include "cli/properties/judge.hpp"
-#include "cli/properties/run_signals.hpp"
 #include "cli/run/results_dir.hpp"
 #include "cli/study/side_by_side.hpp"
 #include "cli/study/spec.hpp"
@@ -20,6 +18,8 @@
 #include "process/host/environment.hpp"
 #include "process/program.hpp"
 #include "results/run_folder.hpp"
+#include "signals/judge.hpp"
+#include "signals/run_signals.hpp"
 
 namespace skein::cli {
 namespace {

@@ -1,5 +1,5 @@
 // Values of the signals (core/expressions/signal_table.hpp) that the server knows during a run, for the conditions that
-// faults wait for. Readers of the run's folder get the same values later (cli/properties/run_signals.hpp).
+// faults wait for. Readers of the run's folder get the same values later (signals/run_signals.hpp).
 // Threads: one.   Pure: knows no bus.
 #pragma once
 

@@ -9,10 +9,10 @@
 #include <set>
 
 #include "cli/fault_tests/fault_test.hpp"
-#include "cli/properties/judge.hpp"
-#include "cli/properties/run_signals.hpp"
 #include "core/text/text.hpp"
 #include "host/testing/fake_programs.hpp"
+#include "signals/judge.hpp"
+#include "signals/run_signals.hpp"
 
 namespace skein::cli {
 namespace {

@@ -4,12 +4,12 @@
 
 #include "cli/fault_tests/columns.hpp"
 #include "cli/fault_tests/conversion.hpp"
-#include "cli/properties/judge.hpp"
 #include "core/conditions.hpp"
 #include "core/config/config_files.hpp"
 #include "core/config/config_reader.hpp"
 #include "core/scenario/scenario_reader.hpp"
 #include "core/text/suggestion.hpp"
+#include "signals/judge.hpp"
 
 namespace skein::cli {
 namespace {

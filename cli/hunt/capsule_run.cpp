@@ -8,8 +8,6 @@
 #include "cli/fault_tests/fault_test.hpp"
 #include "cli/hunt/trial.hpp"
 #include "cli/options.hpp"
-#include "cli/properties/judge.hpp"
-#include "cli/properties/run_signals.hpp"
 #include "cli/run/inputs_outlast.hpp"
 #include "cli/run/results_dir.hpp"
 #include "core/config/config_node.hpp"
@@ -18,6 +16,8 @@
 #include "process/program.hpp"
 #include "results/run_folder.hpp"
 #include "results/run_record.hpp"
+#include "signals/judge.hpp"
+#include "signals/run_signals.hpp"
 
 namespace skein::cli {
 namespace {

@@ -7,11 +7,11 @@
 
 #include "cli/fault_tests/flights.hpp"
 #include "cli/options.hpp"
-#include "cli/properties/judge.hpp"
 #include "cli/run/results_dir.hpp"
 #include "cli/study/side_by_side.hpp"
 #include "host/preflight.hpp"
 #include "process/program.hpp"
+#include "signals/judge.hpp"
 
 namespace skein::cli {
 namespace {

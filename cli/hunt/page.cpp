@@ -5,14 +5,14 @@
 #include <set>
 
 #include "cli/hunt/report.hpp"
-#include "cli/properties/judge.hpp"
-#include "cli/properties/run_signals.hpp"
 #include "core/faults/fault_writer.hpp"
 #include "report/html.hpp"
 #include "report/page_parts.hpp"
 #include "report/style.hpp"
 #include "report/time_chart.hpp"
 #include "results/run_record.hpp"
+#include "signals/judge.hpp"
+#include "signals/run_signals.hpp"
 
 namespace skein::cli {
 namespace {

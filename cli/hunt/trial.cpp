@@ -5,8 +5,6 @@
 #include <set>
 
 #include "cli/hunt/fault_maker.hpp"
-#include "cli/properties/judge.hpp"
-#include "cli/properties/run_signals.hpp"
 #include "core/faults/fault_writer.hpp"
 #include "core/sha256.hpp"
 #include "core/text/text.hpp"
@@ -14,6 +12,8 @@
 #include "results/result.hpp"
 #include "results/run_folder.hpp"
 #include "results/run_record.hpp"
+#include "signals/judge.hpp"
+#include "signals/run_signals.hpp"
 
 namespace skein::cli {
 namespace {

@@ -34,9 +34,9 @@ const std::set<std::string>& launcher() {
 /// Lower layers have lower numbers. All applications share one layer; one_process, which combines them, is above it.
 std::optional<int> layer_of(const std::string& folder) {
   static const std::map<std::string, int> kLayers = {
-      {"core", 0},   {"process", 1}, {"idl", 1},       {"recording/mcap", 1}, {"properties", 1}, {"sight", 1},
-      {"oracle", 2}, {"results", 2}, {"bus", 3},       {"host", 3},           {"report", 3},     {"scenes", 3},
-      {"debug", 4},  {"view", 4},    {"recording", 4}, {"one_process", 6}};
+      {"core", 0},    {"process", 1}, {"idl", 1},  {"recording/mcap", 1}, {"properties", 1}, {"sight", 1},
+      {"oracle", 2},  {"results", 2}, {"bus", 3},  {"host", 3},           {"report", 3},     {"scenes", 3},
+      {"signals", 3}, {"debug", 4},   {"view", 4}, {"recording", 4},      {"one_process", 6}};
   if (applications().contains(folder)) return 5;
   const auto found = kLayers.find(folder);
   return found == kLayers.end() ? std::nullopt : std::optional(found->second);

@@ -1,5 +1,5 @@
 // What must have become of capture reports, by hand-made accounts of the server.
-#include "cli/properties/custody.hpp"
+#include "signals/custody.hpp"
 
 #include <gtest/gtest.h>
 

@@ -9,11 +9,11 @@
 #include <string>
 #include <vector>
 
-#include "cli/properties/radio_log.hpp"
 #include "core/faults/fault_plan.hpp"
 #include "core/scenario.hpp"
 #include "properties/evaluation.hpp"
 #include "results/run_record.hpp"
+#include "signals/radio_log.hpp"
 
 namespace skein::cli {
 

@@ -1,4 +1,4 @@
-#include "cli/properties/run_signals.hpp"
+#include "signals/run_signals.hpp"
 
 #include <algorithm>
 #include <cmath>

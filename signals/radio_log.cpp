@@ -1,4 +1,4 @@
-#include "cli/properties/radio_log.hpp"
+#include "signals/radio_log.hpp"
 
 #include <algorithm>
 #include <bit>

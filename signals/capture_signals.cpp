@@ -4,9 +4,9 @@
 #include <optional>
 #include <set>
 
-#include "cli/properties/custody.hpp"
-#include "cli/properties/run_signals.hpp"
 #include "results/run_folder.hpp"
+#include "signals/custody.hpp"
+#include "signals/run_signals.hpp"
 
 namespace skein::cli {
 namespace {

@@ -1,4 +1,4 @@
-#include "cli/properties/judge.hpp"
+#include "signals/judge.hpp"
 
 #include <algorithm>
 #include <cmath>

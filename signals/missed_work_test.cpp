@@ -2,8 +2,8 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "cli/properties/judge.hpp"
-#include "cli/properties/run_signals_fixture.hpp"
+#include "signals/judge.hpp"
+#include "signals/run_signals_fixture.hpp"
 #include "tests/support/places.hpp"
 
 namespace skein::cli {

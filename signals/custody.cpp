@@ -1,4 +1,4 @@
-#include "cli/properties/custody.hpp"
+#include "signals/custody.hpp"
 
 #include <algorithm>
 #include <cmath>

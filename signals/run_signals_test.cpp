@@ -1,5 +1,5 @@
 // The signals of a run that is put together by hand: each against what it is meant to be.
-#include "cli/properties/run_signals.hpp"
+#include "signals/run_signals.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,12 +7,12 @@
 #include <limits>
 #include <random>
 
-#include "cli/properties/run_signals_fixture.hpp"
 #include "core/radio/radio_routes.hpp"
 #include "idl/cdr.hpp"
 #include "idl/type_names.hpp"
 #include "recording/mcap/writer.hpp"
 #include "results/run_folder.hpp"
+#include "signals/run_signals_fixture.hpp"
 
 namespace skein::cli {
 namespace {

@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <set>
 
-#include "cli/properties/run_signals.hpp"
 #include "core/radio/link_effect.hpp"
 #include "core/radio/radio_routes.hpp"
+#include "signals/run_signals.hpp"
 
 namespace skein::cli {
 namespace {

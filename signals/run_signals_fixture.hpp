@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "cli/properties/run_signals.hpp"
 #include "core/expressions/expression_parser.hpp"
+#include "signals/run_signals.hpp"
 
 namespace skein::cli {
 
