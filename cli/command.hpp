@@ -1,7 +1,6 @@
 // The commands and options of `skein`, as plain structs. cli/options.hpp parses a command line into them.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -9,7 +8,7 @@
 #include <variant>
 #include <vector>
 
-#include "cli/planner_spec.hpp"
+#include "cli/run/run_options.hpp"
 
 namespace skein::cli {
 
@@ -20,82 +19,6 @@ struct FilmOptions {
   std::optional<double> speed;    ///< or: simulated seconds per second of the film
   std::string address;            ///< what the page shows: the fragment (after #) of its URL; t is the film's start
   int width = 1280, height = 720;
-};
-
-/// A recorded run that is flown again (recording/replay.hpp).
-struct ReplayOf {
-  std::filesystem::path recording;
-  std::optional<double> until_s;   ///< from this time on, the programs' own messages count instead of the recorded ones
-  std::vector<std::string> only;   ///< UAVs whose programs run, or "gcs"; empty: all
-  std::vector<std::string> other;  ///< UAVs whose software differs from the recorded one: messages not compared
-};
-
-/// The longest lease that DDS accepts: Cyclone DDS's limit [s].
-inline constexpr int kLongestLease_s = 3600;
-
-/// The events that --break-on accepts.
-inline constexpr std::array kBreakEvents = {"collision", "rejected", "lost", "fault"};
-
-/// How the page of a run is served to browsers.
-struct ViewOptions {
-  std::optional<std::string> at;     ///< endpoint, as view::read_endpoint() reads it; none: no page is served
-  std::optional<std::string> speed;  ///< pace of a watched flight, as view::read_speed() reads it
-  std::optional<double> pause_at_s;  ///< simulated time at which the flight pauses until the page says otherwise
-  bool close = false;                ///< the page ends with the run, instead of staying as its replay
-  bool browser = true;               ///< open the user's browser, if there is one
-};
-
-/// `skein run --place`: programs on other hosts (cli/place/).
-struct PlaceOptions {
-  std::optional<std::string> at;               ///< UAV=HOST,... or "slurm"; none: all programs run on this host
-  std::string ssh = "ssh";                     ///< the command that logs in, with options of its own if any
-  std::optional<std::filesystem::path> skein;  ///< path of skein on those hosts; none: the same path as on this host
-  bool print = false;                          ///< print commands that start the programs by hand, instead of flying
-};
-
-struct RunOptions {
-  std::string scenario = "towers";  ///< a name under config/scenarios/ or a YAML file
-  std::string planner = kDefaultPlanner;
-  std::uint64_t seed = 0;
-  std::optional<std::uint64_t> scene_seed;
-  std::optional<std::size_t> uavs;  ///< size of the fleet, instead of the scenario's
-  std::optional<std::filesystem::path> assets;
-  std::optional<double> duration_s;
-  std::optional<std::string> rules;                 ///< a preset, instead of the scenario's
-  std::optional<std::string> conditions;            ///< presets, instead of the scenario's
-  std::optional<std::filesystem::path> faults;      ///< fault file
-  std::string dds = "cyclonedds";                   ///< a vendor or "mixed"
-  std::string clock = "lockstep";                   ///< "lockstep", "realtime" or "realtime:FACTOR"
-  std::optional<std::filesystem::path> agent;       ///< program that flies in the place of uav_agent
-  std::vector<std::string> debug;                   ///< UAV[=TOOL], see debug/debuggee.hpp
-  std::optional<double> break_at_s;                 ///< debugged programs stop before that simulated time
-  std::optional<std::string> break_on;              ///< they stop before the first of them first meets this event
-  std::optional<std::filesystem::path> break_from;  ///< results of the same flight, which give the event's time
-  std::vector<std::string> log;                     ///< UAV=LEVEL
-  bool cores = false;                               ///< programs that crash leave a core dump
-  bool one_process = false;                         ///< all programs in one process, without DDS
-  std::optional<int> threads;                       ///< number of threads of that process
-  bool stepped = false;  ///< with one_process: another program steps the fleet and commands the learners
-  bool native = false;
-  bool secure = false;  ///< DDS Security, agents under user ids of their own where possible
-  std::optional<int> domain;
-  std::optional<std::string> ros_env;  ///< do not fly: print the environment for a shell of this UAV's ROS 2 nodes
-  std::optional<std::string> network;  ///< the network for other hosts: an interface, "all", or a YAML file
-  PlaceOptions place;
-  std::optional<double> stop_at_s;
-  std::optional<int> lease_s;             ///< silence after which DDS considers a program gone
-  std::optional<double> agent_timeout_s;  ///< wall time to wait for a program's answer, instead of a minute
-  std::optional<std::filesystem::path> out;
-  bool force = false;
-  std::string record = "run";         ///< how much goes into the recording: none, messages, run, all or clouds
-  std::optional<double> keep_maps_s;  ///< period of snapshots of UAVs' maps, in simulated seconds; none: no snapshots
-  std::optional<ReplayOf> replay;
-  ViewOptions view;
-  bool check = true;       ///< first ask the programs whether they can fly this
-  bool attainable = true;  ///< after the run, ask the oracle for the attainable score
-  bool report = true;      ///< make report.html of the run
-  double patience = 1.0;   ///< for tests: scales how long the launcher waits for programs to leave
-  std::string command;     ///< command line as the user typed it; empty: there was none
 };
 
 struct TestOptions {

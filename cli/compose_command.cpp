@@ -242,7 +242,7 @@ int fly(const ComposeOptions& options, const FleetPlan& plan, ComposeLayout layo
   const auto result = write_results(
       results, dir, [] { return std::vector<std::string>(); }, console);
   if (!result) return kExitProcessFailed;
-  if (page && !run.facts().interrupted) page->stay_as_replay(out.path(), options.run.view, console);
+  if (page && !run.facts().interrupted) page->stay_as_replay(out.path(), options.run.view, console.err);
   return exit_code_of(run, *result);
 }
 

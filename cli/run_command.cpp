@@ -171,7 +171,7 @@ int run_fleet(const RunOptions& given, const Console& console) {
   const auto result = write_results(results, dir, collect, console);
   if (!result) return kExitProcessFailed;
   // A user who has interrupted the run does not want to see its replay.
-  if (page && !run.facts().interrupted) page->stay_as_replay(out->path(), options.view, console);
+  if (page && !run.facts().interrupted) page->stay_as_replay(out->path(), options.view, console.err);
   return exit_code_of(run, *result);
 }
 

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "cli/command.hpp"
 #include "cli/fault_tests/fault_test.hpp"
 
 namespace skein::cli {

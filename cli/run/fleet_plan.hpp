@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "cli/options.hpp"
 #include "cli/planner_spec.hpp"
+#include "cli/run/run_options.hpp"
 #include "core/faults/fault_plan.hpp"
 #include "core/scenario/scenario_reader.hpp"
 #include "debug/debuggee.hpp"

@@ -5,9 +5,8 @@
 
 #include <filesystem>
 #include <functional>
-#include <sstream>
+#include <string>
 
-#include "cli/actions.hpp"
 #include "core/types.hpp"
 #include "host/testing/fake_programs.hpp"
 
@@ -82,19 +81,6 @@ TEST_F(InputsOutlast, AllFilesOfAPlanAreLookedAt) {
   refused(plan([&](RunOptions& options) { options.planner = "hover:" + (dir_ / "metadata.yaml").string(); }));
   write_text(dir_ / "station.yaml", kSmallScenario);
   refused(plan([&](RunOptions& options) { options.scenario = dir_ / "station.yaml"; }));
-}
-
-TEST_F(InputsOutlast, ARunThatWouldDeleteThemDoesNotStart) {
-  RunOptions options;
-  options.scenario = programs_.scenario();
-  options.planner = "hover";
-  options.out = dir_;
-  options.force = true;
-  options.replay = ReplayOf{dir_ / "recording.mcap", {}, {}, {}};
-  std::ostringstream out, err;
-  EXPECT_THROW(run_fleet(options, {out, err, false}), InputError);
-  EXPECT_EQ(read_text(dir_ / "recording.mcap"), "x\n");
-  EXPECT_TRUE(fs::exists(dir_ / "hand-alpha.csv")) << "nothing was deleted";
 }
 
 }  // namespace

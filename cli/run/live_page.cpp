@@ -66,13 +66,13 @@ void LivePage::replay(const fs::path& run) {
   show(feed, view::title_of_run(run));
 }
 
-void LivePage::stay_as_replay(const std::filesystem::path& run, const ViewOptions& options, const Console& console) {
+void LivePage::stay_as_replay(const std::filesystem::path& run, const ViewOptions& options, std::ostream& err) {
   if (options.close) return;
-  console.err << "the page shows the replay now; Ctrl-C ends it" << std::endl;
+  err << "the page shows the replay now; Ctrl-C ends it" << std::endl;
   try {
     replay(run);
   } catch (const InputError& error) {  // e.g. another program took the port that the Docker engine released
-    console.err << error.what() << std::endl;
+    err << error.what() << std::endl;
   }
 }
 

@@ -6,9 +6,9 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <ostream>
 #include <string>
 
-#include "cli/console.hpp"
 #include "cli/run/fleet_plan.hpp"
 #include "host/preflight.hpp"
 #include "view/feed.hpp"
@@ -35,7 +35,8 @@ class LivePage {
   /// @throws InputError if the folder holds no result, or another program has taken the port.
   void replay(const std::filesystem::path& run);
   /// The same for the run that the page has shown, unless `options.close`. Only prints an InputError, never throws it.
-  void stay_as_replay(const std::filesystem::path& run, const ViewOptions& options, const Console& console);
+  /// @param err  receives the messages
+  void stay_as_replay(const std::filesystem::path& run, const ViewOptions& options, std::ostream& err);
   /// The same for a feed that already holds a run.
   void show(view::Feed& feed, const std::string& title);
 

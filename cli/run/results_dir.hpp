@@ -8,7 +8,7 @@
 #include <string>
 #include <system_error>
 
-#include "cli/command.hpp"
+#include "cli/run/run_options.hpp"
 #include "core/types.hpp"
 
 namespace skein::cli {
