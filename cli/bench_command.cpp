@@ -19,7 +19,6 @@
 #include "cli/bench/table.hpp"
 #include "cli/bench/tracking.hpp"
 #include "cli/bench/watching.hpp"
-#include "cli/run/fleet_plan.hpp"
 #include "core/types.hpp"
 #include "host/domain_block.hpp"
 #include "host/machine.hpp"
@@ -29,6 +28,7 @@
 #include "process/host/environment.hpp"
 #include "process/program.hpp"
 #include "results/run_folder.hpp"
+#include "run/fleet_plan.hpp"
 
 namespace skein::cli {
 namespace {

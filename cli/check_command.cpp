@@ -4,7 +4,6 @@
 #include <map>
 
 #include "cli/fault_tests/fault_test.hpp"
-#include "cli/run/fleet_plan.hpp"
 #include "core/config/config_node.hpp"
 #include "core/scenario/scenario_reader.hpp"
 #include "host/preflight.hpp"
@@ -12,6 +11,7 @@
 #include "process/program.hpp"
 #include "properties/property_file.hpp"
 #include "results/run_folder.hpp"
+#include "run/fleet_plan.hpp"
 
 namespace skein::cli {
 namespace {

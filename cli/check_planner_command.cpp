@@ -9,7 +9,6 @@
 #include <fstream>
 #include <sstream>
 
-#include "cli/run/fleet_plan.hpp"
 #include "cli/study/flights.hpp"
 #include "core/planners/python_spec.hpp"
 #include "core/text/suggestion.hpp"
@@ -22,6 +21,7 @@
 #include "process/program.hpp"
 #include "results/diff.hpp"
 #include "results/run_folder.hpp"
+#include "run/fleet_plan.hpp"
 
 namespace skein::cli {
 namespace {

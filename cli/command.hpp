@@ -8,7 +8,7 @@
 #include <variant>
 #include <vector>
 
-#include "cli/run/run_options.hpp"
+#include "run/run_options.hpp"
 
 namespace skein::cli {
 

@@ -14,15 +14,15 @@
 #include "cli/compose/followers.hpp"
 #include "cli/compose/images.hpp"
 #include "cli/place/placement.hpp"
-#include "cli/run/inputs_outlast.hpp"
-#include "cli/run/live_page.hpp"
-#include "cli/run/results_dir.hpp"
 #include "cli/run_results.hpp"
 #include "cli/secure/security.hpp"
 #include "host/preflight.hpp"
 #include "process/host/environment.hpp"
 #include "process/program.hpp"
 #include "results/run_folder.hpp"
+#include "run/inputs_outlast.hpp"
+#include "run/live_page.hpp"
+#include "run/results_dir.hpp"
 #include "view/pages.hpp"
 
 namespace skein::cli {

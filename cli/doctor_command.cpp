@@ -1,12 +1,12 @@
 #include "cli/actions.hpp"
 
-#include "cli/run/fleet_plan.hpp"
 #include "core/text/suggestion.hpp"
 #include "core/text/text.hpp"
 #include "host/preflight.hpp"
 #include "process/host/environment.hpp"
 #include "process/program.hpp"
 #include "results/run_folder.hpp"
+#include "run/fleet_plan.hpp"
 
 namespace skein::cli {
 

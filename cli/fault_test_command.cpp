@@ -8,7 +8,6 @@
 #include "cli/fault_tests/flights.hpp"
 #include "cli/fault_tests/report.hpp"
 #include "cli/options.hpp"
-#include "cli/run/results_dir.hpp"
 #include "cli/study/side_by_side.hpp"
 #include "cli/study/spec.hpp"
 #include "cli/test_counts.hpp"
@@ -18,6 +17,7 @@
 #include "process/host/environment.hpp"
 #include "process/program.hpp"
 #include "results/run_folder.hpp"
+#include "run/results_dir.hpp"
 #include "signals/judge.hpp"
 #include "signals/run_signals.hpp"
 

@@ -12,12 +12,12 @@
 #include <variant>
 #include <vector>
 
-#include "cli/run/fleet_plan.hpp"
 #include "core/files/write_whole.hpp"
 #include "core/text/text.hpp"
 #include "core/types.hpp"
 #include "host/preflight.hpp"
 #include "process/files/nowhere.hpp"
+#include "run/fleet_plan.hpp"
 
 namespace skein::cli {
 namespace {

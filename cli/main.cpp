@@ -11,8 +11,6 @@
 #include "cli/hunt/capsule_run.hpp"
 #include "cli/options.hpp"
 #include "cli/place/host_service.hpp"
-#include "cli/run/agent_file.hpp"
-#include "cli/run/fleet_plan.hpp"
 #include "cli/sweep/this_machine.hpp"
 #include "core/config/config_files.hpp"
 #include "core/scenario/drawn_worlds.hpp"
@@ -22,6 +20,8 @@
 #include "host/preflight.hpp"
 #include "host/program_start.hpp"
 #include "results/run_folder.hpp"
+#include "run/agent_file.hpp"
+#include "run/fleet_plan.hpp"
 
 namespace skein::cli {
 namespace {

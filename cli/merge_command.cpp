@@ -5,8 +5,6 @@
 #include <ostream>
 
 #include "cli/compose/agents_folder.hpp"
-#include "cli/run/fleet_plan.hpp"
-#include "cli/run/recording.hpp"
 #include "cli/run_results.hpp"
 #include "core/scenario/scenario_reader.hpp"
 #include "core/text/text.hpp"
@@ -17,6 +15,8 @@
 #include "results/reported_facts.hpp"
 #include "results/result_file.hpp"
 #include "results/run_folder.hpp"
+#include "run/fleet_plan.hpp"
+#include "run/recording.hpp"
 
 namespace skein::cli {
 namespace {

@@ -5,8 +5,6 @@
 #include <iomanip>
 
 #include "cli/actions.hpp"
-#include "cli/run/drawn_world.hpp"
-#include "cli/run/fleet_plan.hpp"
 #include "core/text/text.hpp"
 #include "core/types.hpp"
 #include "host/preflight.hpp"
@@ -14,6 +12,8 @@
 #include "process/host/environment.hpp"
 #include "process/program.hpp"
 #include "results/run_folder.hpp"
+#include "run/drawn_world.hpp"
+#include "run/fleet_plan.hpp"
 
 namespace skein::cli {
 namespace {

@@ -8,7 +8,6 @@
 #include <set>
 #include <sstream>
 
-#include "cli/run/fleet_plan.hpp"
 #include "core/config/config_files.hpp"
 #include "core/types.hpp"
 #include "host/preflight.hpp"
@@ -17,6 +16,7 @@
 #include "process/program.hpp"
 #include "report/web_bundle.hpp"
 #include "results/run_folder.hpp"
+#include "run/fleet_plan.hpp"
 
 namespace skein::cli {
 namespace {

@@ -4,11 +4,11 @@
 
 #include "cli/film/film.hpp"
 #include "cli/maps_in_time.hpp"
-#include "cli/run/live_page.hpp"
 #include "core/types.hpp"
 #include "process/files/atomic_file.hpp"
 #include "process/program.hpp"
 #include "results/diff.hpp"
+#include "run/live_page.hpp"
 #include "view/finished_run.hpp"
 #include "view/pages.hpp"
 #include "view/two_runs.hpp"

@@ -1,9 +1,9 @@
 #include "cli/actions.hpp"
 
-#include "cli/run/recording.hpp"
 #include "process/program.hpp"
 #include "report/run_report.hpp"
 #include "results/run_folder.hpp"
+#include "run/recording.hpp"
 
 namespace skein::cli {
 

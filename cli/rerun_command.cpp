@@ -4,17 +4,17 @@
 #include <iostream>
 
 #include "cli/actions.hpp"
-#include "cli/hand_flights.hpp"
 #include "cli/options.hpp"
-#include "cli/python_planners.hpp"
-#include "cli/run/fleet_plan.hpp"
-#include "cli/run/results_dir.hpp"
 #include "core/text/text.hpp"
 #include "process/json_text.hpp"
 #include "process/program.hpp"
 #include "recording/mcap/reader.hpp"
 #include "results/result_file.hpp"
 #include "results/run_folder.hpp"
+#include "run/fleet_plan.hpp"
+#include "run/hand_flights.hpp"
+#include "run/python_planners.hpp"
+#include "run/results_dir.hpp"
 
 namespace skein::cli {
 namespace {

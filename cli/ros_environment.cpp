@@ -2,8 +2,6 @@
 
 #include <spdlog/fmt/fmt.h>
 
-#include "cli/ros_command.hpp"
-#include "cli/run/fleet_plan.hpp"
 #include "core/config/network_config.hpp"
 #include "core/scenario/scenario_reader.hpp"
 #include "core/text/suggestion.hpp"
@@ -11,6 +9,8 @@
 #include "core/topics.hpp"
 #include "host/fleets.hpp"
 #include "results/run_folder.hpp"
+#include "run/fleet_plan.hpp"
+#include "run/ros_command.hpp"
 
 namespace skein::cli {
 namespace {

@@ -7,12 +7,6 @@
 #include "cli/place/place_commands.hpp"
 #include "cli/place/placed_fleet.hpp"
 #include "cli/ros_environment.hpp"
-#include "cli/run/break_event.hpp"
-#include "cli/run/fleet_plan.hpp"
-#include "cli/run/fleet_run.hpp"
-#include "cli/run/inputs_outlast.hpp"
-#include "cli/run/live_page.hpp"
-#include "cli/run/results_dir.hpp"
 #include "cli/run_results.hpp"
 #include "cli/secure/security.hpp"
 #include "core/text/text.hpp"
@@ -21,6 +15,12 @@
 #include "host/environment.hpp"
 #include "host/preflight.hpp"
 #include "results/run_folder.hpp"
+#include "run/break_event.hpp"
+#include "run/fleet_plan.hpp"
+#include "run/fleet_run.hpp"
+#include "run/inputs_outlast.hpp"
+#include "run/live_page.hpp"
+#include "run/results_dir.hpp"
 
 namespace skein::cli {
 namespace {

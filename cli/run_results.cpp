@@ -2,17 +2,17 @@
 
 #include <utility>
 
-#include "cli/hand_flights.hpp"
 #include "cli/oracle_command.hpp"
-#include "cli/run/progress_view.hpp"
-#include "cli/run/recording.hpp"
-#include "cli/run/repeat_command.hpp"
 #include "core/run/run_state.hpp"
 #include "report/run_report.hpp"
 #include "results/losses.hpp"
 #include "results/result_file.hpp"
 #include "results/run_folder.hpp"
 #include "results/work.hpp"
+#include "run/hand_flights.hpp"
+#include "run/progress_view.hpp"
+#include "run/recording.hpp"
+#include "run/repeat_command.hpp"
 
 namespace skein::cli {
 namespace {

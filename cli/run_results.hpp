@@ -9,8 +9,8 @@
 
 #include "cli/console.hpp"
 #include "cli/options.hpp"
-#include "cli/run/fleet_run.hpp"
 #include "results/result.hpp"
+#include "run/fleet_run.hpp"
 
 namespace skein::cli {
 

@@ -1,11 +1,11 @@
 #include "cli/actions.hpp"
 
-#include "cli/run/drawn_world.hpp"
-#include "cli/run/fleet_plan.hpp"
 #include "host/preflight.hpp"
 #include "process/host/environment.hpp"
 #include "process/program.hpp"
 #include "results/run_folder.hpp"
+#include "run/drawn_world.hpp"
+#include "run/fleet_plan.hpp"
 
 namespace skein::cli {
 

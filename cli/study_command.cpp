@@ -10,7 +10,6 @@
 
 #include "cli/actions.hpp"
 #include "cli/options.hpp"
-#include "cli/run/results_dir.hpp"
 #include "cli/study/columns.hpp"
 #include "cli/study/conditions_table.hpp"
 #include "cli/study/csv.hpp"
@@ -30,6 +29,7 @@
 #include "process/program.hpp"
 #include "report/html.hpp"
 #include "results/run_folder.hpp"
+#include "run/results_dir.hpp"
 
 namespace skein::cli {
 namespace {

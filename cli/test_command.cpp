@@ -2,12 +2,12 @@
 
 #include <thread>
 
-#include "cli/run/fleet_plan.hpp"
 #include "cli/test_counts.hpp"
 #include "cli/test_folders.hpp"
 #include "host/preflight.hpp"
 #include "process/host/environment.hpp"
 #include "process/program.hpp"
+#include "run/fleet_plan.hpp"
 
 namespace skein::cli {
 

@@ -9,7 +9,7 @@
 namespace skein::bus {
 namespace {
 
-/// Environment variable that only a user's own command has (cli/run/exec_variables.cpp).
+/// Environment variable that only a user's own command has (run/exec_variables.cpp).
 constexpr const char* kExecVariable = "SKEIN_UAV";
 
 SelfSignals& instead() {

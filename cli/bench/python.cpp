@@ -8,7 +8,6 @@
 
 #include "cli/bench/flown.hpp"
 #include "cli/bench/report.hpp"
-#include "cli/run/fleet_plan.hpp"
 #include "core/config/config_files.hpp"
 #include "core/files/command_file.hpp"
 #include "core/types.hpp"
@@ -18,6 +17,7 @@
 #include "process/host/environment.hpp"
 #include "process/program.hpp"
 #include "results/run_folder.hpp"
+#include "run/fleet_plan.hpp"
 
 namespace skein::cli {
 namespace {

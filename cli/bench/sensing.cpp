@@ -6,13 +6,13 @@
 #include "cli/bench/flown.hpp"
 #include "cli/bench/report.hpp"
 #include "cli/bench/scenario.hpp"
-#include "cli/run/fleet_plan.hpp"
 #include "host/preflight.hpp"
 #include "host/supervisor.hpp"
 #include "process/files/atomic_file.hpp"
 #include "process/host/environment.hpp"
 #include "process/program.hpp"
 #include "results/run_folder.hpp"
+#include "run/fleet_plan.hpp"
 
 namespace skein::cli {
 namespace {

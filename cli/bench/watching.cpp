@@ -5,7 +5,6 @@
 #include <string>
 
 #include "cli/bench/report.hpp"
-#include "cli/run/fleet_plan.hpp"
 #include "core/files/command_file.hpp"
 #include "core/types.hpp"
 #include "host/preflight.hpp"
@@ -14,6 +13,7 @@
 #include "process/host/environment.hpp"
 #include "process/program.hpp"
 #include "results/run_folder.hpp"
+#include "run/fleet_plan.hpp"
 #include "view/pages.hpp"
 
 namespace skein::cli {

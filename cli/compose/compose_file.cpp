@@ -11,15 +11,15 @@
 #include "cli/compose/compose_yaml.hpp"
 #include "cli/compose/images.hpp"
 #include "cli/compose/stack_parts.hpp"
-#include "cli/python_planners.hpp"
-#include "cli/run/exec_variables.hpp"
-#include "cli/run/live_page.hpp"
-#include "cli/run/program_files.hpp"
 #include "core/config/config_files.hpp"
 #include "core/planners/python_spec.hpp"
 #include "core/topics.hpp"
 #include "process/files/security_files.hpp"
 #include "results/run_folder.hpp"
+#include "run/exec_variables.hpp"
+#include "run/live_page.hpp"
+#include "run/program_files.hpp"
+#include "run/python_planners.hpp"
 
 namespace skein::cli {
 namespace {

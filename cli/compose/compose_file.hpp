@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/run/fleet_plan.hpp"
+#include "run/fleet_plan.hpp"
 #include "view/endpoint.hpp"
 
 namespace skein::cli {

@@ -11,7 +11,6 @@
 #include <random>
 #include <set>
 
-#include "cli/run/exec_variables.hpp"
 #include "cli/testing/compose_programs.hpp"
 #include "cli/testing/compose_reader.hpp"
 #include "core/config/network_config.hpp"
@@ -19,6 +18,7 @@
 #include "host/testing/fake_programs.hpp"
 #include "process/host/environment.hpp"
 #include "results/run_folder.hpp"
+#include "run/exec_variables.hpp"
 #include "tests/support/places.hpp"
 
 namespace skein::cli {

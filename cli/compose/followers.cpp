@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <limits>
 
-#include "cli/run/fleet_run.hpp"
 #include "core/text/text.hpp"
 #include "process/host/environment.hpp"
 #include "results/run_folder.hpp"
+#include "run/fleet_run.hpp"
 
 namespace skein::cli {
 namespace {

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "cli/compose/compose_file.hpp"
-#include "cli/run/fleet_plan.hpp"
 #include "host/program_host.hpp"
+#include "run/fleet_plan.hpp"
 
 namespace skein::cli {
 

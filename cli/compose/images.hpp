@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "cli/run/fleet_plan.hpp"
+#include "run/fleet_plan.hpp"
 
 namespace skein::cli {
 

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "cli/fault_tests/expectations.hpp"
-#include "cli/run/fleet_plan.hpp"
 #include "properties/property_file.hpp"
+#include "run/fleet_plan.hpp"
 
 namespace skein::cli {
 

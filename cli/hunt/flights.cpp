@@ -7,10 +7,10 @@
 
 #include "cli/fault_tests/flights.hpp"
 #include "cli/options.hpp"
-#include "cli/run/results_dir.hpp"
 #include "cli/study/side_by_side.hpp"
 #include "host/preflight.hpp"
 #include "process/program.hpp"
+#include "run/results_dir.hpp"
 #include "signals/judge.hpp"
 
 namespace skein::cli {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "cli/hunt/trial.hpp"
-#include "cli/run/results_dir.hpp"
+#include "run/results_dir.hpp"
 
 namespace skein::cli {
 

@@ -5,7 +5,6 @@
 #include <set>
 
 #include "cli/hunt/weather_faults.hpp"
-#include "cli/run/agent_file.hpp"
 #include "core/conditions.hpp"
 #include "core/config/config_writer.hpp"
 #include "core/faults/fault_writer.hpp"
@@ -15,6 +14,7 @@
 #include "core/text/text.hpp"
 #include "host/machine.hpp"
 #include "host/preflight.hpp"
+#include "run/agent_file.hpp"
 
 namespace skein::cli {
 namespace {

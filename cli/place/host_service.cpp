@@ -16,7 +16,6 @@
 #include <optional>
 
 #include "cli/place/frames.hpp"
-#include "cli/run/fleet_plan.hpp"
 #include "cli/secure/user_ids.hpp"
 #include "core/config/config_files.hpp"
 #include "core/files/file_bytes.hpp"
@@ -26,6 +25,7 @@
 #include "host/preflight.hpp"
 #include "host/supervisor.hpp"
 #include "results/run_folder.hpp"
+#include "run/fleet_plan.hpp"
 
 namespace skein::cli {
 namespace {

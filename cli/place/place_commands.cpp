@@ -4,12 +4,12 @@
 
 #include <algorithm>
 
-#include "cli/run/exec_variables.hpp"
-#include "cli/run/results_dir.hpp"
 #include "core/text/text.hpp"
 #include "process/host/host_name.hpp"
 #include "process/program.hpp"
 #include "results/run_folder.hpp"
+#include "run/exec_variables.hpp"
+#include "run/results_dir.hpp"
 
 namespace skein::cli {
 namespace {

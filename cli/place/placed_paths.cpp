@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
-#include "cli/run/program_files.hpp"
 #include "core/planners/python_spec.hpp"
 #include "process/host/environment.hpp"
 #include "results/run_folder.hpp"
+#include "run/program_files.hpp"
 
 namespace skein::cli {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/run/fleet_plan.hpp"
+#include "run/fleet_plan.hpp"
 
 namespace skein::cli {
 

@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "cli/run/fleet_plan.hpp"
 #include "cli/secure/user_ids.hpp"
 #include "host/preflight.hpp"
+#include "run/fleet_plan.hpp"
 
 namespace skein::cli {
 

@@ -8,14 +8,14 @@
 #include <ostream>
 #include <system_error>
 
-#include "cli/run/fleet_plan.hpp"
-#include "cli/run/results_dir.hpp"
 #include "cli/study/side_by_side.hpp"
 #include "core/types.hpp"
 #include "host/supervisor.hpp"
 #include "process/files/atomic_file.hpp"
 #include "results/result_file.hpp"
 #include "results/run_folder.hpp"
+#include "run/fleet_plan.hpp"
+#include "run/results_dir.hpp"
 
 namespace skein::cli {
 namespace {

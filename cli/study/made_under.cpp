@@ -2,13 +2,13 @@
 
 #include <vector>
 
-#include "cli/python_planners.hpp"
 #include "core/files/file_bytes.hpp"
 #include "core/planners/python_spec.hpp"
 #include "core/scenario/drawn_worlds.hpp"
 #include "core/scenario/scenario_reader.hpp"
 #include "core/sha256.hpp"
 #include "results/run_folder.hpp"
+#include "run/python_planners.hpp"
 
 namespace skein::cli {
 namespace {

@@ -6,8 +6,8 @@
 #include <map>
 #include <string>
 
-#include "cli/run/fleet_plan.hpp"
 #include "process/json_text.hpp"
+#include "run/fleet_plan.hpp"
 
 namespace skein::cli {
 

@@ -5,8 +5,6 @@
 #include <set>
 #include <thread>
 
-#include "cli/run/agent_file.hpp"
-#include "cli/run/fleet_plan.hpp"
 #include "cli/study/made_under.hpp"
 #include "cli/study/spec.hpp"
 #include "core/planners/python_spec.hpp"
@@ -16,6 +14,8 @@
 #include "core/types.hpp"
 #include "host/preflight.hpp"
 #include "results/run_folder.hpp"
+#include "run/agent_file.hpp"
+#include "run/fleet_plan.hpp"
 
 namespace skein::cli {
 namespace {

@@ -5,9 +5,9 @@
 #include <filesystem>
 #include <set>
 
-#include "cli/planner_spec.hpp"
 #include "core/text/text.hpp"
 #include "core/types.hpp"
+#include "run/planner_spec.hpp"
 
 namespace skein::cli {
 namespace {

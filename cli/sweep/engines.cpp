@@ -4,7 +4,6 @@
 
 #include <fstream>
 
-#include "cli/run/fleet_plan.hpp"
 #include "cli/study/side_by_side.hpp"
 #include "cli/sweep/slurm.hpp"
 #include "core/text/text.hpp"
@@ -14,6 +13,7 @@
 #include "host/threads.hpp"
 #include "process/files/atomic_file.hpp"
 #include "process/host/environment.hpp"
+#include "run/fleet_plan.hpp"
 
 namespace skein::cli {
 namespace {

@@ -6,7 +6,6 @@
 #include <ostream>
 
 #include "cli/options.hpp"
-#include "cli/run/fleet_plan.hpp"
 #include "cli/study/figures.hpp"
 #include "cli/study/figures_json.hpp"
 #include "cli/study/flights.hpp"
@@ -20,6 +19,7 @@
 #include "process/host/host_name.hpp"
 #include "process/program.hpp"
 #include "results/run_folder.hpp"
+#include "run/fleet_plan.hpp"
 
 namespace skein::cli {
 namespace {

@@ -27,7 +27,7 @@ const std::set<std::string>& applications() {
 
 /// The launcher: its own folder, and folders that serve only it.
 const std::set<std::string>& launcher() {
-  static const std::set<std::string> kNames = {"cli", "debug", "host"};
+  static const std::set<std::string> kNames = {"cli", "debug", "host", "run"};
   return kNames;
 }
 
@@ -36,8 +36,8 @@ std::optional<int> layer_of(const std::string& folder) {
   static const std::map<std::string, int> kLayers = {
       {"core", 0},    {"process", 1}, {"idl", 1},  {"recording/mcap", 1}, {"properties", 1}, {"sight", 1},
       {"oracle", 2},  {"results", 2}, {"bus", 3},  {"host", 3},           {"report", 3},     {"scenes", 3},
-      {"signals", 3}, {"debug", 4},   {"view", 4}, {"recording", 4},      {"one_process", 6}};
-  if (applications().contains(folder)) return 5;
+      {"signals", 3}, {"debug", 4},   {"view", 4}, {"recording", 4},      {"run", 5},        {"one_process", 7}};
+  if (applications().contains(folder)) return 6;
   const auto found = kLayers.find(folder);
   return found == kLayers.end() ? std::nullopt : std::optional(found->second);
 }
@@ -156,7 +156,8 @@ Violations check_circles(const Tree& tree) {
 Violations check_bus_users(const Tree& tree) {
   Violations violations;
   for (const SourceFile& file : tree) {
-    if (!applications().contains(file.folder()) || may_use_bus(file.path)) continue;
+    const bool is_of_an_application = applications().contains(file.folder()) || launcher().contains(file.folder());
+    if (!is_of_an_application || may_use_bus(file.path)) continue;
     for (const Include& include : file.includes) {
       const bool of_a_node = include.path.starts_with(file.folder() + "/") && may_use_bus(include.path);
       if (!include.path.starts_with("bus/") && !of_a_node) continue;

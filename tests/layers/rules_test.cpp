@@ -76,19 +76,20 @@ TEST_F(MadeUpTree, LayersMayOnlyLookDown) {
   for (const char* path :
        {"core/a.hpp", "idl/a.hpp", "bus/a.hpp", "sim_server/a.hpp", "uav_agent/a.hpp", "report/a.hpp",
         "recording/a.hpp", "recording/mcap/a.hpp", "results/a.hpp", "process/a.hpp", "scenes/a.hpp", "host/a.hpp",
-        "debug/a.hpp", "signals/a.hpp", "one_process/a.hpp", "tests/a.hpp"}) {
+        "debug/a.hpp", "signals/a.hpp", "run/a.hpp", "one_process/a.hpp", "tests/a.hpp"}) {
     file(path, "\n");
   }
   file("bus/good.cpp", include("core/a.hpp") + include("idl/a.hpp") + include("bus/a.hpp"));
   file("one_process/good.cpp", include("sim_server/a.hpp") + include("uav_agent/a.hpp") + include("bus/a.hpp"));
   file("tests/good.cpp", include("sim_server/a.hpp") + include("uav_agent/a.hpp") + include("tests/a.hpp"));
   file("station/good_test.cpp", include("tests/a.hpp"));
-  file("cli/good.cpp", include("report/a.hpp") + include("host/a.hpp") + include("debug/a.hpp"));
+  file("cli/good.cpp", include("report/a.hpp") + include("host/a.hpp") + include("run/a.hpp"));
   file("debug/good.cpp", include("host/a.hpp"));
   file("host/good.cpp", include("process/a.hpp") + include("results/a.hpp"));
   file("results/good.cpp", include("process/a.hpp"));
   file("report/good.cpp", include("results/a.hpp"));
   file("recording/good.cpp", include("recording/mcap/a.hpp") + include("bus/a.hpp"));
+  file("run/good.cpp", include("debug/a.hpp") + include("host/a.hpp") + include("recording/a.hpp"));
   file("sim_server/good.cpp", include("scenes/a.hpp") + include("signals/a.hpp"));
   file("signals/good.cpp", include("results/a.hpp") + include("recording/mcap/a.hpp"));
   file("view/good.cpp", include("recording/mcap/a.hpp"));
@@ -102,16 +103,17 @@ TEST_F(MadeUpTree, LayersMayOnlyLookDown) {
   file("report/bad.cpp", include("core/a.hpp") + include("bus/a.hpp") + include("sim_server/a.hpp"));
   file("recording/mcap/bad.cpp", include("core/a.hpp") + include("recording/a.hpp") + include("bus/a.hpp"));
   file("results/bad.cpp", include("process/a.hpp") + include("report/a.hpp") + include("bus/a.hpp"));
+  file("run/bad.cpp", include("view/a.hpp") + include("cli/good.cpp"));
   file("scenes/bad.cpp", include("core/a.hpp") + include("sim_server/a.hpp") + include("bus/a.hpp"));
   file("signals/bad.cpp", include("results/a.hpp") + include("sim_server/a.hpp"));
   file("station/bad.cpp", include("tests/a.hpp"));
-  file("uav_agent/bad.cpp", include("sim_server/a.hpp") + include("one_process/a.hpp") + include("host/a.hpp"));
-  EXPECT_EQ(
-      places(check_layers(tree())),
-      (Places{"bus/bad.hpp:1", "cli/bad.cpp:2", "core/bad.cpp:2", "host/bad.cpp:2", "idl/bad.cpp:2",
-              "recording/mcap/bad.cpp:2", "recording/mcap/bad.cpp:3", "report/bad.cpp:2", "report/bad.cpp:3",
-              "results/bad.cpp:2", "results/bad.cpp:3", "scenes/bad.cpp:2", "scenes/bad.cpp:3", "signals/bad.cpp:2",
-              "station/bad.cpp:1", "uav_agent/bad.cpp:1", "uav_agent/bad.cpp:2", "uav_agent/bad.cpp:3"}));
+  file("uav_agent/bad.cpp", include("sim_server/a.hpp") + include("one_process/a.hpp") + include("run/a.hpp"));
+  EXPECT_EQ(places(check_layers(tree())),
+            (Places{"bus/bad.hpp:1", "cli/bad.cpp:2", "core/bad.cpp:2", "host/bad.cpp:2", "idl/bad.cpp:2",
+                    "recording/mcap/bad.cpp:2", "recording/mcap/bad.cpp:3", "report/bad.cpp:2", "report/bad.cpp:3",
+                    "results/bad.cpp:2", "results/bad.cpp:3", "run/bad.cpp:2", "scenes/bad.cpp:2", "scenes/bad.cpp:3",
+                    "signals/bad.cpp:2", "station/bad.cpp:1", "uav_agent/bad.cpp:1", "uav_agent/bad.cpp:2",
+                    "uav_agent/bad.cpp:3"}));
 }
 
 TEST_F(MadeUpTree, OnlyNodesUseTheBus) {
@@ -127,8 +129,9 @@ TEST_F(MadeUpTree, OnlyNodesUseTheBus) {
   file("station/journal.cpp", include("bus/bus.hpp"));
   file("station/tally.cpp", include("station_node.hpp"));
   file("sim_server/node_list.cpp", include("bus/bus.hpp"));
+  file("run/fleet.cpp", include("bus/bus.hpp"));
   EXPECT_EQ(places(check_bus_users(tree())),
-            (Places{"sim_server/node_list.cpp:1", "station/journal.cpp:1", "station/tally.cpp:1"}));
+            (Places{"run/fleet.cpp:1", "sim_server/node_list.cpp:1", "station/journal.cpp:1", "station/tally.cpp:1"}));
 }
 
 TEST_F(MadeUpTree, DdsIsForItsVendorsFolder) {

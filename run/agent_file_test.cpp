@@ -1,0 +1,146 @@
+#include "run/agent_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "core/types.hpp"
+#include "host/testing/fake_programs.hpp"
+#include "results/run_folder.hpp"
+#include "run/fleet_plan.hpp"
+
+namespace skein::cli {
+namespace {
+
+/// An agent program that knows two planners, one of them at the ground station too.
+constexpr const char* kAgent =
+    "[ \"$1\" != --list-planners ] || echo '{\"planners\":[\"hover\",\"orbit\"],\"ground_programs\":[\"orbit\"]}'\n";
+
+class AgentFile : public ::testing::Test {
+ protected:
+  AgentFile() { options_.scenario = programs_.scenario(); }
+
+  std::string file(const std::string& name) const { return programs_.dir() / name; }
+  std::string agent(const std::string& name) const {
+    write_script(file(name), kAgent);
+    return file(name);
+  }
+  FleetPlan plan() const { return plan_fleet(options_, program_dir()); }
+  std::vector<ProgramSpec> flown() const { return fleet_programs(plan(), 1, programs_.dir()); }
+
+  /// Who runs a member's software, and which planner it is told.
+  static std::string software(const std::vector<ProgramSpec>& programs, const std::string& program) {
+    for (const ProgramSpec& spec : programs) {
+      if (spec.name != program) continue;
+      const auto option = std::find(spec.argv.begin(), spec.argv.end(), "--planner");
+      return spec.argv.front() + " " + *std::next(option);
+    }
+    return "";
+  }
+  static bool is_minded(const std::vector<ProgramSpec>& programs, const std::string& program) {
+    return std::ranges::any_of(programs, [&](const ProgramSpec& spec) { return spec.name == program && spec.minded; });
+  }
+  std::string refusal() const try {
+    plan();
+    return "";
+  } catch (const InputError& error) {
+    return error.what();
+  }
+
+  FakePrograms programs_;
+  RunOptions options_;
+  const std::string alpha_ = programs::agent_program("alpha"), beta_ = programs::agent_program("beta"),
+                    gcs_ = programs::kGroundAgent, stock_ = file("uav_agent");
+};
+
+TEST_F(AgentFile, EachPlannerFliesInTheProgramThatItNames) {
+  const std::string a = agent("a"), b = agent("b");
+  options_.planner = "orbit:x=1@" + a + ",beta=hover@" + b;
+  const auto programs = flown();
+  EXPECT_EQ(software(programs, alpha_), a + " orbit:x=1");
+  EXPECT_EQ(software(programs, beta_), b + " hover");
+  EXPECT_EQ(software(programs, gcs_), a + " orbit:x=1") << "of who flies the UAVs that are not named";
+  for (const std::string& program : {alpha_, beta_, gcs_}) EXPECT_TRUE(is_minded(programs, program)) << program;
+  EXPECT_FALSE(is_minded(programs, programs::kSimServer));
+  EXPECT_FALSE(plan().agent);
+  EXPECT_EQ(agent_files(plan()), (std::vector<std::filesystem::path>{a, b}));
+  options_.debug = {"beta"};
+  EXPECT_NE(debug_command(plan(), beta_, 1, programs_.dir()).find("gdb --args " + b + " "), std::string::npos);
+}
+
+TEST_F(AgentFile, WhoNamesNoneFliesInTheFleets) {
+  const std::string a = agent("a"), b = agent("b");
+  options_.planner = "hover,beta=orbit@" + a + ",gcs=orbit@" + b;
+  EXPECT_EQ(software(flown(), alpha_), stock_ + " hover");
+  EXPECT_EQ(software(flown(), beta_), a + " orbit");
+  EXPECT_EQ(software(flown(), gcs_), b + " orbit");
+  EXPECT_FALSE(is_minded(flown(), alpha_)) << "it is ours";
+  options_.agent = b;
+  EXPECT_EQ(software(flown(), alpha_), b + " hover");
+  EXPECT_EQ(software(flown(), beta_), a + " orbit");
+}
+
+TEST_F(AgentFile, TheStockProgramIsAsGoodAsNone) {
+  options_.planner = "hover@" + file("../" + programs_.dir().filename().string() + "/uav_agent");
+  std::filesystem::create_symlink(stock_, file("link"));
+  for (const std::string& planner : {options_.planner, "hover@" + file("link")}) {
+    options_.planner = planner;
+    EXPECT_EQ(written(plan().planners[0]), "hover");
+    EXPECT_EQ(software(flown(), alpha_), stock_ + " hover");
+    EXPECT_FALSE(is_minded(flown(), alpha_));
+  }
+  options_.agent = agent("a");
+  EXPECT_EQ(software(flown(), alpha_), stock_ + " hover") << "but not where the fleet's is another";
+  EXPECT_EQ(written(plan().planners[0]), "hover@" + stock_) << "and then it must be told";
+  options_.agent.reset();
+  options_.planner = "waypoints:a@b.yaml@" + stock_;
+  EXPECT_EQ(written(plan().planners[0]), options_.planner) << "it would not read back without";
+  EXPECT_EQ(software(flown(), alpha_), stock_ + " waypoints:a@b.yaml");
+}
+
+TEST_F(AgentFile, EachProgramChecksItsOwnPlanners) {
+  const std::string a = agent("a"), b = agent("b");
+  options_.planner = "orbit@" + a + ",beta=orbit@" + b + ",gcs=orbit@" + b;
+  const auto programs = check_programs(plan(), programs_.dir());
+  EXPECT_EQ(software(programs, alpha_), a + " orbit");
+  EXPECT_EQ(software(programs, beta_), b + " orbit") << "another one of this name";
+  EXPECT_EQ(software(programs, gcs_), b + " orbit");
+  options_.planner = "orbit@" + a + ",gcs=none";
+  EXPECT_EQ(check_programs(plan(), programs_.dir()).size(), 2u) << "sim_server, and one UAV for both";
+}
+
+// Before the folder of an earlier run is emptied for this one.
+TEST_F(AgentFile, AWrongNumberOfThreadsIsFoundInThePlan) {
+  write_script(file("uav_agent_fleet"), "");
+  write_script(stock_, kAgent);
+  options_.planner = "hover";
+  options_.one_process = true;
+  ::setenv("SKEIN_THREADS", "x", 1);
+  EXPECT_NE(refusal().find("SKEIN_THREADS: 'x' must be a whole number"), std::string::npos) << refusal();
+  ::setenv("SKEIN_THREADS", "3", 1);
+  EXPECT_EQ(plan().options.threads, 3);
+  ::unsetenv("SKEIN_THREADS");
+}
+
+TEST_F(AgentFile, WhatIsNoAgentIsNamedWithWhatWouldBeRight) {
+  write_text(file("text"), "no program");
+  write_script(file("other"), "echo two of a kind\nexit 3\n");
+  const auto refused = [&](const std::string& planner, const std::vector<std::string>& parts) {
+    options_.planner = planner;
+    const std::string message = refusal();
+    for (const std::string& part : parts) {
+      EXPECT_NE(message.find(part), std::string::npos) << "no '" << part << "' in: " << message;
+    }
+  };
+  refused("hover@" + file("missing"), {"--planner hover@" + file("missing") + ": ", "no such file"});
+  refused("hover,beta=hover@" + file("text"), {"--planner hover@" + file("text") + ": ", "cannot be executed"});
+  refused("hover,gcs=hover@" + file("other"), {"skein_add_agent()", "exec:CMD", "two of a kind"});
+  refused("hover,beta=orbits:x=1@" + agent("a"),
+          {"--planner orbits:x=1@" + file("a") + ": ", "there is no planner 'orbits'", "did you mean 'orbit'?"});
+  refused(std::string(100000, 'a') + "@" + agent("a"), {"there is no planner 'aaa", "...' in it; known are: hover"});
+  EXPECT_LT(refusal().size(), 1000U);
+  refused("waypoints:a@b.yaml", {"no such file", "write waypoints:a@b.yaml@" + stock_});
+}
+
+}  // namespace
+}  // namespace skein::cli

@@ -1,0 +1,143 @@
+#include "run/progress_view.hpp"
+
+#include <algorithm>
+#include <iomanip>
+
+#include "core/planners/python_spec.hpp"
+#include "core/text/suggestion.hpp"
+#include "core/text/text.hpp"
+#include "results/causes.hpp"
+#include "results/from_nodes.hpp"
+#include "results/run_folder.hpp"
+
+namespace skein::cli {
+namespace {
+
+/// A measured number, or "-" if there is none.
+std::string cell(const Json& object, const char* key, int digits) {
+  const auto found = object.find(key);
+  return found != object.end() && found->is_number() ? fixed(found->get<double>(), digits) : "-";
+}
+
+std::string uav_state(const Json& uav) {
+  const auto alive = uav.find("alive");
+  if (alive == uav.end() || !alive->is_boolean()) return "-";
+  if (!alive->get<bool>()) return "collided";
+  return value_or(uav, "program_lost", false).get<bool>() ? "lost" : "alive";
+}
+
+/// Prints the losses of attainable score: a row for each cause that has any.
+void print_losses(std::ostream& out, const Json& losses) {
+  const char* head = "lost      ";
+  for (const auto& [cause, text] : results::kCauses) {
+    const Json sum = value_or(losses, std::string(cause).c_str(), Json::object());
+    if (number_in(sum, "points") <= 0.0) continue;
+    out << head << std::left << std::setw(24) << text << std::right << std::setw(10)
+        << fixed(number_in(sum, "score"), 3) << std::setw(8) << cell(sum, "points", 0) << " points\n";
+    head = "          ";
+  }
+}
+
+}  // namespace
+
+void ProgressView::progress(const status::Progress& progress, double wall_s) {
+  if (first_wall_s_ < 0.0) {
+    first_sim_s_ = progress.time_s;
+    first_wall_s_ = wall_s;
+  }
+  const double speed = wall_s > first_wall_s_ ? (progress.time_s - first_sim_s_) / (wall_s - first_wall_s_) : 0.0;
+  // A UAV whose program is lost still hovers, perhaps in line of sight of the station, but is not in contact.
+  std::vector<std::string> in_contact = progress.in_contact;
+  std::erase_if(in_contact, [&](const std::string& uav) {
+    return std::find(progress.lost.begin(), progress.lost.end(), uav) != progress.lost.end();
+  });
+  std::string text = "simulated " + fixed(progress.time_s, 1) + " s";
+  text += progress.phase == Phase::waiting
+              ? ", before take-off"
+              : ", mission " + fixed(progress.mission_s, 0) + " of " + fixed(progress.duration_s, 0) + " s";
+  text += ", x" + fixed(speed, 1) + ", points " + std::to_string(tally_.points) + ", score " + fixed(tally_.score, 1) +
+          ", in contact: " + (in_contact.empty() ? "none" : joined(in_contact)) +
+          (progress.lost.empty() ? "" : ", lost: " + joined(progress.lost));
+  if (terminal_) return show(text);
+  const int tenths = progress.duration_s > 0.0 ? static_cast<int>(10.0 * progress.mission_s / progress.duration_s) : 0;
+  if (tenths <= tenths_shown_) return;
+  tenths_shown_ = tenths;
+  show(text);
+}
+
+void ProgressView::waiting_for(const status::WaitingFor& wait) {
+  if (!terminal_ && !wait.due) return;
+  show("waiting for " + joined(wait.members) + " " + wait.what + " (" + fixed(wait.seconds, 0) + " s)" +
+       (wait.missing.empty() ? "" : ": " + joined(wait.missing)));
+}
+
+void ProgressView::write_to(std::ostream& out, bool terminal) {
+  finish();
+  out_ = &out;
+  terminal_ = terminal;
+}
+
+void ProgressView::message(const std::string& text) {
+  finish();
+  *out_ << text << std::endl;
+}
+
+void ProgressView::finish() {
+  if (!shown_.empty()) *out_ << std::endl;
+  shown_.clear();
+}
+
+void ProgressView::show(const std::string& text) {
+  if (!terminal_) {
+    *out_ << text << std::endl;
+    return;
+  }
+  const std::size_t blanks = shown_.size() > text.size() ? shown_.size() - text.size() : 0;
+  *out_ << '\r' << text << std::string(blanks, ' ') << std::flush;
+  shown_ = text;
+}
+
+void print_summary(std::ostream& out, const Json& result, const std::filesystem::path& dir) {
+  const double score = number_in(result, "score"), earned = number_in(result, "score_earned");
+  const Json attainable = value_or(result, "attainable", Json::object());
+  const double possible = number_in(attainable, "score");
+  out << '\n'
+      << "score     " << fixed(score, 3) << " of " << fixed(earned, 3) << " earned"
+      << (earned > 0.0 ? " (" + fixed(100.0 * score / earned, 1) + " % delivered)" : "")
+      << (possible > 0.0 ? ", " + fixed(100.0 * score / possible, 1) + " % of attainable" : "") << '\n'
+      << "points    " << cell(result, "points_detected", 0) << " of " << cell(result, "points_total", 0)
+      << (possible > 0.0 ? ", " + cell(attainable, "points", 0) + " attainable" : "") << '\n';
+  print_losses(out, value_or(result, "losses", Json::object()));
+  out << "status    " << result["status"].get<std::string>() << ", mission " << cell(result, "mission_time_s", 1)
+      << " s, " << result["collisions"].size() << " collision" << (result["collisions"].size() == 1 ? "" : "s") << '\n'
+      << "speed     x" << cell(result, "real_time_factor", 1) << " (" << cell(result, "sim_time_s", 1)
+      << " s simulated in " << cell(result, "wall_time_s", 1) << " s), "
+      << (number_in(result, "memory_mb") > 0.0 ? "memory " + cell(result, "memory_mb", 0) + " MB, "
+                                               : "")  // measured by the launcher
+      << "LiDAR " << cell(result.contains("timing") ? result["timing"] : result, "lidar_ms_per_scan", 2)
+      << " ms a scan\n"
+      << "digest    " << (result["digest"].is_string() ? result["digest"].get<std::string>() : "none") << "\n\n";
+  std::size_t width = 3;
+  for (const Json& uav : result["uavs"]) width = std::max(width, uav["name"].get<std::string>().size());
+  const auto row = [&](const std::string& name, std::initializer_list<std::string> cells) {
+    out << std::left << std::setw(static_cast<int>(width)) << name << std::right;
+    for (const std::string& text : cells) out << std::setw(14) << text;
+    out << '\n';
+  };
+  row("UAV", {"role", "planner", "state", "score", "captures", "distance [m]", "idle [s]"});
+  for (const Json& uav : result["uavs"]) {
+    const std::string name = uav["name"];
+    std::string planner = without_folders(result["planner"][name]);
+    if (planner.size() > 12) planner = planner.substr(0, 10) + "..";
+    row(name, {uav["role"], planner, uav_state(uav), cell(result["score_by_uav"], name.c_str(), 3),
+               cell(uav, "captures", 0), cell(uav, "distance_m", 1), cell(uav, "idle_s", 1)});
+  }
+  if (const std::string nodes = results::free_nodes_table(result["uavs"]); !nodes.empty()) out << '\n' << nodes;
+  for (const Json& warning : result["warnings"])
+    out << "warning: " << (warning.is_string() ? warning.get<std::string>() : warning.dump()) << '\n';
+  out << "\nresults   " << dir.string() << '\n';
+  const std::filesystem::path page = dir / run_folder::kPage;
+  if (std::filesystem::exists(page)) out << "report    " << page.string() << '\n';
+}
+
+}  // namespace skein::cli

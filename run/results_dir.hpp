@@ -1,0 +1,88 @@
+// The folder that a run writes its results to.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <system_error>
+
+#include "core/types.hpp"
+#include "run/run_options.hpp"
+
+namespace skein::cli {
+
+/// Where a run goes when the user names no folder: runs/<scenario>-<planner>-<seed> below the current folder.
+std::filesystem::path default_results_dir(const std::string& scenario, const std::string& planner, std::uint64_t seed);
+
+/// The first of `base`, `base`-2, `base`-3, ... that is not there yet, or is an empty folder: where a run goes if the
+/// user names no folder, so that a command can be repeated. Creates nothing.
+std::filesystem::path free_results_dir(const std::filesystem::path& base);
+
+/// The folder that the user names, or else a free one; with --force the usual one. Creates nothing.
+std::filesystem::path results_dir_of(const RunOptions& run, const std::string& scenario);
+
+/// Creates a folder for results, with its parents, if it is missing. If root runs this, agents of secured runs can
+/// never read the new folder (process/files/closed_to_agents.hpp). A folder that exists keeps owner and permissions.
+/// @returns an error; none: the folder is there.
+std::error_code make_results_folder(const std::filesystem::path& dir);
+
+/// An entry that keeps a study or a hunt from taking an existing folder as a new folder of its own: the first by name.
+/// Not counted are hidden files and lost+found, what a launcher that was killed has left of its reserved space, and
+/// logs: files with the extension .log, .out or .err, and the file that this process prints to, as a job of Slurm does.
+/// @returns its name; empty: there is none, no such folder, or a folder that cannot be read, as ResultsDir will report.
+std::string foreign_entry(const std::filesystem::path& dir);
+
+/// What becomes of files with names of a run's files (run_folder::is_of_a_run()) that are in a results folder already.
+enum class Earlier {
+  refuse,  ///< the folder is not taken: the files may be anybody's
+  remove,  ///< they are deleted, so that a stale report does not pass for one of this run (--force)
+  keep,    ///< they stay: a study's folder
+};
+
+/// Another launcher holds the folder now.
+class FolderInUse : public InputError {
+ public:
+  using InputError::InputError;
+};
+
+/// Holds a results folder for one run: two launchers never write to the same one.
+class ResultsDir {
+ public:
+  /// Only checks; creates and changes nothing.
+  /// @throws InputError if `dir` is not a folder, or if it holds a file that a run would write or delete, and `force`
+  ///   is not set. The message names such a file.
+  static void check(const std::filesystem::path& dir, bool force);
+
+  /// Checks and locks the folder, creates it if it is missing (make_results_folder()), and deletes an earlier run's
+  /// files if `earlier` says so. Other files stay.
+  /// @throws InputError as check(), and if the disk has no room for a result; FolderInUse if another run is writing
+  ///   there.
+  ResultsDir(const std::filesystem::path& dir, Earlier earlier);
+  ResultsDir(const std::filesystem::path& dir, bool force)
+      : ResultsDir(dir, force ? Earlier::remove : Earlier::refuse) {}
+  ~ResultsDir();
+  ResultsDir(const ResultsDir&) = delete;
+  ResultsDir& operator=(const ResultsDir&) = delete;
+
+  /// The folder of results_dir_of(), locked. If the user names no folder, and other runs take free ones at the same
+  /// time, this is the first one that they leave. @throws as the constructor
+  static std::unique_ptr<ResultsDir> take(const RunOptions& run, const std::string& scenario);
+
+  const std::filesystem::path& path() const { return path_; }    ///< absolute
+  const std::filesystem::path& given() const { return given_; }  ///< as the constructor got it, for messages
+
+  /// Writes result.json into disk space that the constructor has reserved: a run that fills the disk has a result, too.
+  /// @returns an error message; empty: the file is written.
+  std::string write_result(const std::string& text) const;
+
+ private:
+  void keep_room() const;
+  void give_room() const;
+
+  std::filesystem::path given_, path_;
+  int lock_ = -1;
+};
+
+}  // namespace skein::cli
