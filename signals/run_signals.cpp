@@ -11,8 +11,6 @@
 namespace skein::cli {
 namespace {
 
-constexpr double kFarClearance_m = 100.0;  ///< the largest that sim_server reports
-
 std::size_t exchanges_of(const results::RunRecord& run, const Scenario& scenario) {
   const double end_s = value_or(run.result, "sim_time_s", 0.0);
   return static_cast<std::size_t>(std::llround(end_s / scenario.exchange_period_s)) + 1;

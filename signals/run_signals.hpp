@@ -1,6 +1,14 @@
-// The signals (core/expressions/signal_table.hpp) of a finished run, computed from its folder, each when it is first
-// requested. A signal that sim_server also computes during the run (sim_server/live_signals.hpp) has the same values
-// there. Not thread-safe.
+// The signals of a run. Everything about signals is in this folder, but for the table that fault files need, too:
+//
+//   core/expressions/signal_table.cpp  the signals that exist, with arguments, unit and meaning (docs/properties.md)
+//   live_signals.cpp                   values during the run, as far as the server knows them; it shows the world to
+//                                      them by sim_server/simulated_world.hpp, and begins faults by them
+//   run_signals.cpp                    values in a finished run, computed from its folder, each when it is first
+//                                      requested; those of captures are in capture_signals.cpp, those of radio messages
+//                                      in message_signals.cpp
+//   judge.cpp                          verdicts on properties about the signals of a finished run
+//
+// A signal with values during the run has the same values afterwards. Not thread-safe.
 #pragma once
 
 #include <map>

@@ -21,7 +21,8 @@ FaultNode::FaultNode(const Scenario& scenario, Simulation& simulation, bus::Lock
       folder_(folder),
       period_(scenario.exchange_ticks()),
       planned_(simulation.faults().faults.size()),
-      signals_(scenario, simulation),
+      world_(simulation),
+      signals_(scenario, world_),
       timeline_(simulation.faults()),
       processes_(simulation.faults()),
       hand_(scenario, simulation.faults()) {}

@@ -13,15 +13,18 @@
 #include "process/status/status_lines.hpp"
 #include "process/status/status_pipe.hpp"
 #include "recording/replay.hpp"
+#include "signals/live_signals.hpp"
 #include "sim_server/hand_faults.hpp"
-#include "sim_server/live_signals.hpp"
 #include "sim_server/process_faults.hpp"
 #include "sim_server/record/fault_timeline.hpp"
+#include "sim_server/simulated_world.hpp"
 #include "sim_server/simulation.hpp"
 #include "view/fault_order.hpp"
 #include "view/story.hpp"
 
 namespace skein::sim {
+
+using signals::LiveSignals;
 
 class FaultNode {
  public:
@@ -29,6 +32,8 @@ class FaultNode {
   /// flown again. @param folder  of the run; by-hand.yaml is written there.
   FaultNode(const Scenario& scenario, Simulation& simulation, bus::LockstepServer& server, StatusPipe& status,
             const recording::ReplayOptions& replay, const std::filesystem::path& folder);
+  FaultNode(const FaultNode&) = delete;  // signals_ refers to world_
+  FaultNode& operator=(const FaultNode&) = delete;
 
   /// Call it when a step begins. @returns a line for people for each fault that begins or ends with the step. It also
   /// writes these lines to the log.
@@ -74,6 +79,7 @@ class FaultNode {
   const std::filesystem::path folder_;
   const Tick period_;
   const std::size_t planned_;  ///< number of faults in the fault file
+  const SimulatedWorld world_;
   LiveSignals signals_;
   FaultTimeline timeline_;
   ProcessFaults processes_;

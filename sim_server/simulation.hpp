@@ -33,9 +33,6 @@
 
 namespace skein::sim {
 
-/// Larger clearances are reported as this value.
-inline constexpr double kFarClearance_m = 100.0;
-
 /// A scan; all its points are of the instant `scan.tick`, unless the scenario has `motion_distortion` (lidar.hpp).
 struct LidarEvent {
   UavIndex uav = {};

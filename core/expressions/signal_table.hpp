@@ -1,6 +1,6 @@
 // The table of all signals that expressions in fault files (`when`) and in properties may name, with units and
-// meaning. A signal is a step function of simulated time: it has one value in each exchange. docs/properties.md lists
-// the signals for users; a test compares the two lists. Pure.
+// meaning. A signal is a step function of simulated time: it has one value in each exchange. signals/ computes the
+// values. docs/properties.md lists the signals for users; a test compares the two lists. Pure.
 #pragma once
 
 #include <compare>
@@ -38,6 +38,9 @@ struct SignalInfo {
 };
 
 const std::vector<SignalInfo>& signal_table();
+
+/// The largest value of the signal `clearance` [m], also of UAVs that are farther from all structure.
+inline constexpr double kFarClearance_m = 100.0;
 
 /// A signal as an expression names it, with the run's names as arguments.
 struct SignalUse {

@@ -1,5 +1,5 @@
-// Values of the signals (core/expressions/signal_table.hpp) that the server knows during a run, for the conditions that
-// faults wait for. Readers of the run's folder get the same values later (signals/run_signals.hpp).
+// Values of the signals that the server knows during a run, for the conditions that faults wait for. run_signals.hpp says
+// where everything about signals is.
 // Threads: one.   Pure: knows no bus.
 #pragma once
 
@@ -11,15 +11,37 @@
 
 #include "core/expressions/signal_table.hpp"
 #include "core/faults/fault_plan.hpp"
+#include "core/ids.hpp"
 #include "core/scenario.hpp"
-#include "sim_server/simulation.hpp"
+#include "core/types.hpp"
 
-namespace skein::sim {
+namespace skein::signals {
+
+/// What signals see of the world in the present exchange; sim_server/simulated_world.hpp implements it.
+class LiveWorld {
+ public:
+  struct Uav {
+    RigidBodyState state;
+    double charge = 1.0;  ///< of its battery; 1: it is full, or the UAV has none
+    bool alive = true;
+  };
+
+  virtual ~LiveWorld() = default;
+  virtual Tick tick() const = 0;
+  virtual Uav uav(UavIndex i) const = 0;
+  /// Distance from a body's centre to the structure [m], kFarClearance_m at most.
+  virtual double clearance(UavIndex i) const = 0;
+  /// Whether the link is open: there is line of sight, and no blackout, outage or partition cuts it.
+  virtual bool is_open(Node from, Node to) const = 0;
+  virtual const std::vector<Fault>& faults() const = 0;
+  /// The UAV of each capture that entered the ledger in this exchange.
+  virtual std::vector<UavIndex> captures() const = 0;
+};
 
 class LiveSignals {
  public:
   /// Both must outlive this.
-  LiveSignals(const Scenario& scenario, const Simulation& simulation);
+  LiveSignals(const Scenario& scenario, const LiveWorld& world);
 
   /// Call it once per step, when the step is answered. @param is_member  whether the program of this name is a member.
   void end_step(const std::function<bool(const std::string&)>& is_member);
@@ -48,10 +70,10 @@ class LiveSignals {
   double sum(const SignalUse& signal, const std::function<double(const Captures&)>& of) const;
 
   const Scenario& scenario_;
-  const Simulation& simulation_;
+  const LiveWorld& world_;
   std::map<std::string, Member> members_;
   std::vector<Captures> captures_;                               ///< by UAV
   std::map<std::pair<std::size_t, std::string>, double> debug_;  ///< by UAV and name
 };
 
-}  // namespace skein::sim
+}  // namespace skein::signals

@@ -1,13 +1,13 @@
-#include "sim_server/live_signals.hpp"
+#include "signals/live_signals.hpp"
 
 #include <algorithm>
 #include <limits>
 #include <stdexcept>
 
-namespace skein::sim {
+namespace skein::signals {
 
-LiveSignals::LiveSignals(const Scenario& scenario, const Simulation& simulation)
-    : scenario_(scenario), simulation_(simulation), captures_(scenario.fleet.size()) {
+LiveSignals::LiveSignals(const Scenario& scenario, const LiveWorld& world)
+    : scenario_(scenario), world_(world), captures_(scenario.fleet.size()) {
   for (const std::string& name : SignalNames(scenario).programs) members_.emplace(name, Member());
 }
 
@@ -19,13 +19,11 @@ void LiveSignals::end_step(const std::function<bool(const std::string&)>& is_mem
     member.present = present;
     member.was_present = member.was_present || present;
   }
-  for (const CaptureEvent& event : simulation_.events().captures) {
-    if (event.report) ++captures_[event.uav].taken;
-  }
+  for (const UavIndex uav : world_.captures()) ++captures_[uav].taken;
 }
 
 double LiveSignals::value(const SignalUse& signal) const {
-  if (signal.is("time")) return seconds(simulation_.tick());
+  if (signal.is("time")) return seconds(world_.tick());
   if (signal.is("separation")) return separation(signal);
   if (signal.is("clearance")) return clearance(signal);
   if (signal.is("member")) return members_.at(signal.argument(0)).present ? 1.0 : 0.0;
@@ -33,8 +31,8 @@ double LiveSignals::value(const SignalUse& signal) const {
   if (signal.is("leaves")) return changes(signal.argument(0), &Member::leaves);
   if (signal.is("link")) return linked(signal) ? 1.0 : 0.0;
   if (signal.is("faults")) {
-    return static_cast<double>(std::ranges::count_if(
-        simulation_.faults().faults, [&](const Fault& fault) { return fault.active(simulation_.tick()); }));
+    return static_cast<double>(
+        std::ranges::count_if(world_.faults(), [&](const Fault& fault) { return fault.active(world_.tick()); }));
   }
   if (signal.is("captures")) return sum(signal, [](const Captures& one) { return one.taken; });
   if (signal.is("acknowledged")) return sum(signal, [](const Captures& one) { return one.released; });
@@ -47,12 +45,12 @@ double LiveSignals::value(const SignalUse& signal) const {
 }
 
 double LiveSignals::of_uav(const SignalUse& signal) const {
-  const UavView& uav = simulation_.uav(uav_of(signal));
+  const LiveWorld::Uav uav = world_.uav(uav_of(signal));
   if (signal.is("x")) return uav.state.p_WB.x();
   if (signal.is("y")) return uav.state.p_WB.y();
   if (signal.is("z")) return uav.state.p_WB.z();
   if (signal.is("speed")) return uav.state.v_WB.norm();
-  if (signal.is("charge")) return uav.battery ? uav.battery->charge : 1.0;
+  if (signal.is("charge")) return uav.charge;
   if (signal.is("alive")) return uav.alive ? 1.0 : 0.0;
   throw std::logic_error("no live signal: " + signal.text());
 }
@@ -64,23 +62,23 @@ UavIndex LiveSignals::uav_of(const SignalUse& signal, std::size_t place) const {
 double LiveSignals::separation(const SignalUse& signal) const {
   const std::string one = signal.argument(0), other = signal.argument(1);
   double least_m = std::numeric_limits<double>::infinity();
-  for (const UavIndex a : FirstUavs(simulation_.size())) {
+  for (const UavIndex a : scenario_.uavs()) {
     for (const UavIndex b : FirstUavs(a)) {
       const std::string &name_a = scenario_.fleet[a].name, &name_b = scenario_.fleet[b].name;
       const auto concerns = [&](const std::string& name) { return name.empty() || name == name_a || name == name_b; };
-      const UavView &view_a = simulation_.uav(a), &view_b = simulation_.uav(b);
-      if (!concerns(one) || !concerns(other) || !view_a.alive || !view_b.alive) continue;
-      least_m = std::min(least_m, (view_a.state.p_WB - view_b.state.p_WB).norm());
+      const LiveWorld::Uav uav_a = world_.uav(a), uav_b = world_.uav(b);
+      if (!concerns(one) || !concerns(other) || !uav_a.alive || !uav_b.alive) continue;
+      least_m = std::min(least_m, (uav_a.state.p_WB - uav_b.state.p_WB).norm());
     }
   }
   return least_m;
 }
 
 double LiveSignals::clearance(const SignalUse& signal) const {
-  if (!signal.argument(0).empty()) return simulation_.clearance(uav_of(signal));
+  if (!signal.argument(0).empty()) return world_.clearance(uav_of(signal));
   double least_m = kFarClearance_m;
-  for (const UavIndex i : FirstUavs(simulation_.size())) {
-    if (simulation_.uav(i).alive) least_m = std::min(least_m, simulation_.clearance(i));
+  for (const UavIndex i : scenario_.uavs()) {
+    if (world_.uav(i).alive) least_m = std::min(least_m, world_.clearance(i));
   }
   return least_m;
 }
@@ -95,7 +93,7 @@ bool LiveSignals::linked(const SignalUse& signal) const {
   const auto node = [&](const std::string& name) {
     return name == scenario_.node_name(kStationNode) ? kStationNode : node_of_uav(scenario_.uav_index(name));
   };
-  return simulation_.open_links().at(node(signal.argument(0)), node(signal.argument(1))) != 0;
+  return world_.is_open(node(signal.argument(0)), node(signal.argument(1)));
 }
 
 double LiveSignals::sum(const SignalUse& signal, const std::function<double(const Captures&)>& of) const {
@@ -105,4 +103,4 @@ double LiveSignals::sum(const SignalUse& signal, const std::function<double(cons
   return total;
 }
 
-}  // namespace skein::sim
+}  // namespace skein::signals

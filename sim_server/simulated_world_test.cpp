@@ -1,5 +1,5 @@
 // What faults may wait for: signals that the server knows while a run goes on.
-#include "sim_server/live_signals.hpp"
+#include "sim_server/simulated_world.hpp"
 
 #include <gtest/gtest.h>
 
@@ -34,7 +34,8 @@ class LiveSignalsTest : public testing::Test {
 
   void fly(double duration_s, const std::function<void()>& watch) {
     simulation_ = std::make_unique<Simulation>(scenario_, scene_, 0, faults_);
-    signals_ = std::make_unique<LiveSignals>(scenario_, *simulation_);
+    world_ = std::make_unique<SimulatedWorld>(*simulation_);
+    signals_ = std::make_unique<signals::LiveSignals>(scenario_, *world_);
     for (int k = 0; seconds(20 * k) < duration_s; ++k) {
       const double t = seconds(20 * k);
       simulation_->command_trajectory(UavIndex{0}, {.p_WB = {6, 3.0 * std::sin(0.5 * t), 5}});
@@ -51,7 +52,8 @@ class LiveSignalsTest : public testing::Test {
   FaultPlan faults_;
   std::set<std::string> away_;
   std::unique_ptr<Simulation> simulation_;
-  std::unique_ptr<LiveSignals> signals_;
+  std::unique_ptr<SimulatedWorld> world_;
+  std::unique_ptr<signals::LiveSignals> signals_;
 };
 
 TEST_F(LiveSignalsTest, AreWhatTheWorldIs) {
