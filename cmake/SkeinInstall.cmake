@@ -60,7 +60,7 @@ install(FILES python/examples/compare.ipynb python/examples/listen.py python/exa
   DESTINATION ${CMAKE_INSTALL_DOCDIR}/python COMPONENT python)
 
 set(libraries core process results report view idl mcap bag bus lockstep recording agent agent_nodes agent_main
-  sight oracle scenes sim sim_node router router_node station station_node one_process one_process_main)
+  sight oracle scenes live_signals sim sim_node router router_node station station_node one_process one_process_main)
 foreach(library ${libraries})
   set_target_properties(skein_${library} PROPERTIES EXPORT_NAME ${library})
   install(TARGETS skein_${library} EXPORT skeinTargets
