@@ -35,11 +35,11 @@ void add_span(Spans& spans, double from_s, double until_s) {
 /// The open links at one time, and which UAVs reach the station over them.
 class Mesh {
  public:
-  explicit Mesh(const results::RunData& run) : uavs_(run.uavs.size()), run_(run) {
+  explicit Mesh(const results::RunRecord& run) : uavs_(run.uavs.size()), run_(run) {
     hears_.assign(uavs_ + 1, std::vector<bool>(uavs_ + 1, false));
   }
 
-  void set(const results::RunEvent& event) {
+  void set(const results::EventRow& event) {
     const auto from = node_of(event.subject), to = node_of(event.object);
     if (from && to) hears_[*to][*from] = event.event == run_tables::kLinkUp;
   }
@@ -68,18 +68,18 @@ class Mesh {
   }
 
   std::size_t uavs_;  ///< also the station's node
-  const results::RunData& run_;
+  const results::RunRecord& run_;
   std::vector<std::vector<bool>> hears_;  ///< by receiver and sender
 };
 
-bool is_link(const results::RunEvent& event) {
+bool is_link(const results::EventRow& event) {
   return event.event == run_tables::kLinkUp || event.event == run_tables::kLinkDown;
 }
 
-void add_links(const results::RunData& run, std::vector<Lane>& lanes) {
+void add_links(const results::RunRecord& run, std::vector<Lane>& lanes) {
   Mesh mesh(run);
   double since_s = 0.0;
-  for (const results::RunEvent& event : run.events) {
+  for (const results::EventRow& event : run.events) {
     if (!is_link(event)) continue;
     if (event.time_s > since_s) mesh.account(since_s, event.time_s, lanes);
     since_s = event.time_s;
@@ -89,10 +89,10 @@ void add_links(const results::RunData& run, std::vector<Lane>& lanes) {
 }
 
 /// Adds to the lanes when programs joined and left, and the number of captures that wait for acknowledgement.
-void add_members(const results::RunData& run, std::vector<Lane>& lanes) {
+void add_members(const results::RunRecord& run, std::vector<Lane>& lanes) {
   std::vector<std::optional<double>> joined(run.uavs.size());
   std::vector<int> waiting(run.uavs.size(), 0);
-  for (const results::RunEvent& event : run.events) {
+  for (const results::EventRow& event : run.events) {
     const auto uav = is_link(event) ? std::nullopt : run.uav_of(event.subject);
     if (!uav) continue;
     Lane& lane = lanes[*uav];
@@ -118,30 +118,33 @@ void add_members(const results::RunData& run, std::vector<Lane>& lanes) {
 }
 
 /// One entry per capture, with its time and its delivery, by UAV and number of the capture.
-std::map<std::pair<std::size_t, std::uint64_t>, results::RunCapture> whole_captures(const results::RunData& run) {
-  std::map<std::pair<std::size_t, std::uint64_t>, results::RunCapture> captures;
-  for (const results::RunCapture& line : run.captures) {
-    results::RunCapture& capture = captures.try_emplace({line.uav, line.capture}, line).first->second;
+std::map<std::pair<std::size_t, std::uint64_t>, results::CaptureRow> whole_captures(const results::RunRecord& run) {
+  std::map<std::pair<std::size_t, std::uint64_t>, results::CaptureRow> captures;
+  for (const results::CaptureRow& line : run.captures) {
+    const auto uav = run.uav_of(line.uav);
+    if (!uav) continue;
+    results::CaptureRow& capture = captures.try_emplace({*uav, line.capture}, line).first->second;
     if (!capture.delivered_at_s) capture.delivered_at_s = line.delivered_at_s;
   }
   return captures;
 }
 
-Spans still_spans(const std::vector<results::RunPose>& track, const std::vector<double>& captures_s) {
+Spans still_spans(const std::vector<const results::PoseRow*>& track, const std::vector<double>& captures_s) {
   Spans still;
   auto next = captures_s.begin();
   double last_capture_s = -kIdleAfterS;
   for (std::size_t i = 0; i + 1 < track.size(); ++i) {
-    for (; next != captures_s.end() && *next <= track[i].time_s; ++next) last_capture_s = *next;
-    const bool waits = track[i].alive && track[i].speed < kStillMps && track[i].time_s - last_capture_s >= kIdleAfterS;
-    if (waits) add_span(still, track[i].time_s, track[i + 1].time_s);
+    const results::PoseRow& pose = *track[i];
+    for (; next != captures_s.end() && *next <= pose.time_s; ++next) last_capture_s = *next;
+    const bool waits = pose.alive && pose.v_W.norm() < kStillMps && pose.time_s - last_capture_s >= kIdleAfterS;
+    if (waits) add_span(still, pose.time_s, track[i + 1]->time_s);
   }
   return still;
 }
 
 }  // namespace
 
-std::vector<BoxFigures> box_figures(const results::RunData& run) {
+std::vector<BoxFigures> box_figures(const results::RunRecord& run) {
   std::vector<BoxFigures> rows;
   for (const results::RunBox& box : run.boxes) rows.push_back({box.name, 0, 0, 0, 0.0, 0.0, {}});
   BoxFigures outside{"outside all boxes", 0, 0, 0, 0.0, 0.0, {}}, all{"all", 0, 0, 0, 0.0, 0.0, {}};
@@ -156,20 +159,20 @@ std::vector<BoxFigures> box_figures(const results::RunData& run) {
   return rows;
 }
 
-std::vector<results::RunScore> earned_over_time(const results::RunData& run) {
-  std::vector<const results::RunCapture*> captures;
-  for (const results::RunCapture& capture : run.captures) {
-    if (!capture.voided && capture.q >= kDetected) captures.push_back(&capture);
+std::vector<results::ScoreRow> earned_over_time(const results::RunRecord& run) {
+  std::vector<const results::CaptureRow*> captures;
+  for (const results::CaptureRow& capture : run.captures) {
+    if (!capture.voided() && capture.q >= kDetected) captures.push_back(&capture);
   }
   std::stable_sort(captures.begin(), captures.end(), [](auto a, auto b) { return a->time_s < b->time_s; });
   std::map<std::size_t, double> best;
-  std::vector<results::RunScore> earned = {{0.0, 0.0, 0.0}};
-  for (const results::RunCapture* capture : captures) {
+  std::vector<results::ScoreRow> earned = {{0.0, 0.0, 0.0}};
+  for (const results::CaptureRow* capture : captures) {
     double& q = best[capture->point];
     if (capture->q <= q) continue;
     const double more = capture->q - q;
     q = capture->q;
-    const results::RunScore now{capture->time_s, static_cast<double>(best.size()), earned.back().score + more};
+    const results::ScoreRow now{capture->time_s, earned.back().score + more, static_cast<double>(best.size())};
     if (earned.back().time_s == now.time_s) {
       earned.back() = now;
     } else {
@@ -185,12 +188,13 @@ double length_of(const Spans& spans) {
   return sum;
 }
 
-std::vector<Lane> lanes_of(const results::RunData& run) {
+std::vector<Lane> lanes_of(const results::RunRecord& run) {
   std::vector<Lane> lanes(run.uavs.size());
   for (const auto& [key, capture] : whole_captures(run)) lanes[key.first].captures_s.push_back(capture.time_s);
+  const auto tracks = run.by_uav(run.poses);
   for (std::size_t uav = 0; uav < lanes.size(); ++uav) {
     std::sort(lanes[uav].captures_s.begin(), lanes[uav].captures_s.end());
-    lanes[uav].still = still_spans(run.tracks[uav], lanes[uav].captures_s);
+    lanes[uav].still = still_spans(tracks[uav], lanes[uav].captures_s);
   }
   add_links(run, lanes);
   add_members(run, lanes);
@@ -201,10 +205,10 @@ std::vector<Lane> lanes_of(const results::RunData& run) {
   return lanes;
 }
 
-LinkShares link_shares(const results::RunData& run) {
+LinkShares link_shares(const results::RunRecord& run) {
   LinkShares sums;
   std::map<std::pair<std::string, std::string>, double> up_since;
-  for (const results::RunEvent& event : run.events) {
+  for (const results::EventRow& event : run.events) {
     if (!is_link(event)) continue;
     const std::pair link(event.subject, event.object);
     if (event.event == run_tables::kLinkUp) {
@@ -224,9 +228,9 @@ double Latency::quantile(double share) const {
   return delays_s[static_cast<std::size_t>(std::clamp(rank, 1.0, static_cast<double>(delays_s.size()))) - 1];
 }
 
-Latency latency_of(const results::RunData& run) { return merged(latency_by_uav(run)); }
+Latency latency_of(const results::RunRecord& run) { return merged(latency_by_uav(run)); }
 
-std::vector<Latency> latency_by_uav(const results::RunData& run) {
+std::vector<Latency> latency_by_uav(const results::RunRecord& run) {
   std::vector<Latency> by_uav(run.uavs.size());
   for (const auto& [key, capture] : whole_captures(run)) {
     Latency& latency = by_uav[key.first];

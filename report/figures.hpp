@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "results/causes.hpp"
-#include "results/run_data.hpp"
+#include "results/run_record.hpp"
 
 namespace skein::report {
 
@@ -26,10 +26,10 @@ struct BoxFigures {
 
 /// One entry per box, in the order of scene.json; a point in several boxes counts in the first. Then an entry for the
 /// points outside all boxes, if there are any. The last entry is the total.
-std::vector<BoxFigures> box_figures(const results::RunData& run);
+std::vector<BoxFigures> box_figures(const results::RunRecord& run);
 
 /// The earned score at each time when it rose: of all captures, delivered or not, except of UAVs that collided.
-std::vector<results::RunScore> earned_over_time(const results::RunData& run);
+std::vector<results::ScoreRow> earned_over_time(const results::RunRecord& run);
 
 struct Span {
   double from_s = 0.0, until_s = 0.0;
@@ -53,7 +53,7 @@ struct Lane {
   std::optional<double> collided_s;
 };
 /// In fleet order.
-std::vector<Lane> lanes_of(const results::RunData& run);
+std::vector<Lane> lanes_of(const results::RunRecord& run);
 
 /// The points that were never in a picture, and what they lost: those that a UAV came near, within the range in which
 /// its camera's resolution is sufficient, and the others.
@@ -62,7 +62,7 @@ struct NeverInPicture {
   double loss_near = 0.0, loss_far = 0.0;
 };
 /// nullopt: there are no such points, or no camera is known.
-std::optional<NeverInPicture> never_in_picture(const results::RunData& run);
+std::optional<NeverInPicture> never_in_picture(const results::RunRecord& run);
 
 /// What a UAV uses its time for, as its program reports it.
 enum class TimeUse { takes_off, waits, flies, rests, shows, recovers, stands, homing, other };
@@ -70,11 +70,11 @@ inline constexpr std::size_t kTimeUses = 9;
 /// Time by TimeUse [s]. Only times in which the program takes part in the run count.
 using TimeBudget = std::array<double, kTimeUses>;
 /// In fleet order; nullopt: the UAV's program reported nothing. @param lanes  those of `run`.
-std::vector<std::optional<TimeBudget>> time_budgets(const results::RunData& run, const std::vector<Lane>& lanes);
+std::vector<std::optional<TimeBudget>> time_budgets(const results::RunRecord& run, const std::vector<Lane>& lanes);
 
 /// Share of the run's time in which a directed link was open, by names of sender and receiver.
 using LinkShares = std::map<std::pair<std::string, std::string>, double>;
-LinkShares link_shares(const results::RunData& run);
+LinkShares link_shares(const results::RunRecord& run);
 
 /// Delay between exposure and delivery, over all captures that improved a point.
 struct Latency {
@@ -84,9 +84,9 @@ struct Latency {
   /// The smallest delay that at least `share` of the delivered captures do not exceed [s]; 0 if none was delivered.
   double quantile(double share) const;
 };
-Latency latency_of(const results::RunData& run);
+Latency latency_of(const results::RunRecord& run);
 /// The same for each UAV, in fleet order.
-std::vector<Latency> latency_by_uav(const results::RunData& run);
+std::vector<Latency> latency_by_uav(const results::RunRecord& run);
 /// The captures of all parts together.
 Latency merged(const std::vector<Latency>& parts);
 
@@ -97,7 +97,7 @@ struct MapFigures {
   std::optional<double> known_share;
 };
 /// In fleet order; nullopt: the UAV left no map.
-std::vector<std::optional<MapFigures>> map_figures(const results::RunData& run);
+std::vector<std::optional<MapFigures>> map_figures(const results::RunRecord& run);
 
 /// Mean number of processors that the programs kept busy; nullopt if the result has no CPU or wall time.
 std::optional<double> processors_of(const Json& result);

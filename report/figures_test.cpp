@@ -18,7 +18,6 @@ class Figures : public testing::TestWithParam<unsigned> {
   Figures() : random_(GetParam()) {
     for (std::size_t i = 0; i < 1 + below(6); ++i) run_.uavs.push_back("u" + std::to_string(i));
     run_.explorer.resize(run_.uavs.size());
-    run_.tracks.resize(run_.uavs.size());
     run_.end_s = kStep * kSteps;
     for (std::size_t i = 0; i < 3; ++i) {
       run_.boxes.push_back({"b" + std::to_string(i), draw_place(), Vector3d(10.0, 12.0, 14.0),
@@ -34,15 +33,16 @@ class Figures : public testing::TestWithParam<unsigned> {
       run_.points.push_back(point);
     }
     for (std::size_t i = 0; i < 400; ++i) {
-      results::RunCapture capture{below(run_.uavs.size()), below(40), 0.0, number(1.0), below(50)};
-      capture.time_s = static_cast<double>(capture.capture) + 0.1 * static_cast<double>(capture.uav);
+      const std::size_t uav = below(run_.uavs.size());
+      results::CaptureRow capture{.uav = run_.uavs[uav], .capture = below(40), .point = below(50), .q = number(1.0)};
+      capture.time_s = static_cast<double>(capture.capture) + 0.1 * static_cast<double>(uav);
       if (capture.capture % 3 > 0) capture.delivered_at_s = capture.time_s + static_cast<double>(capture.capture % 7);
-      capture.voided = capture.uav == 0;
+      if (uav == 0) capture.reason = run_tables::kUavCollided;
       run_.captures.push_back(capture);
     }
     for (std::size_t k = 0; k < kSteps; ++k) {
       for (std::size_t i = below(3); i > 0; --i) {
-        run_.events.push_back({kStep * static_cast<double>(k), below(2) > 0 ? "link_up" : "link_down", node(), node()});
+        add_event(k, below(2) > 0 ? "link_up" : "link_down", node(), node());
       }
     }
   }
@@ -51,6 +51,9 @@ class Figures : public testing::TestWithParam<unsigned> {
   std::size_t below(std::size_t limit) { return random_() % limit; }
   double number(double most) { return most * static_cast<double>(below(1001)) / 1000.0; }
   Vector3d draw_place() { return {number(30.0), number(30.0), number(30.0)}; }
+  void add_event(std::size_t k, const std::string& event, const std::string& subject, const std::string& object) {
+    run_.events.push_back({k, event, subject, object, kStep * static_cast<double>(k)});
+  }
   std::string node() {
     const std::size_t i = below(run_.uavs.size() + 1);
     return i < run_.uavs.size() ? run_.uavs[i] : "gcs";
@@ -58,7 +61,7 @@ class Figures : public testing::TestWithParam<unsigned> {
   /// The links in step k, by brute force: sender, receiver.
   std::set<std::pair<std::string, std::string>> links_in(std::size_t k) const {
     std::set<std::pair<std::string, std::string>> up;
-    for (const results::RunEvent& event : run_.events) {
+    for (const results::EventRow& event : run_.events) {
       if (event.time_s > kStep * (static_cast<double>(k) + 0.5)) break;
       if (event.event == "link_up") {
         up.insert({event.subject, event.object});
@@ -74,7 +77,7 @@ class Figures : public testing::TestWithParam<unsigned> {
   }
 
   std::mt19937 random_;
-  results::RunData run_;
+  results::RunRecord run_;
 };
 
 TEST_P(Figures, ABoxHoldsWhatIsBetweenItsFaces) {
@@ -121,18 +124,17 @@ TEST_P(Figures, NeverInThePictureAreThosePointsThatUavsCameNearAndTheOthers) {
   for (std::size_t uav = 0; uav < run_.uavs.size(); ++uav) {
     run_.cameras.push_back(below(4) > 0 ? std::optional(results::RunCamera{60.0, 40.0, number(6.0)}) : std::nullopt);
     for (std::size_t k = 0; k < 150; ++k) {
-      run_.tracks[uav].push_back({0.1 * static_cast<double>(k), draw_place(), 1.0, k < 100});
+      const Vector3d p_W = draw_place();
+      run_.poses.push_back({0.1 * static_cast<double>(k), run_.uavs[uav], p_W, Vector3d::UnitX(), k < 100});
     }
   }
   NeverInPicture expected;
   for (const results::RunPoint& point : run_.points) {
     if (point.cause != cause) continue;
     bool near = false;
-    for (std::size_t uav = 0; uav < run_.uavs.size(); ++uav) {
-      for (const results::RunPose& pose : run_.tracks[uav]) {
-        near =
-            near || (pose.alive && run_.cameras[uav] && (pose.p_WB - point.p_W).norm() <= run_.cameras[uav]->range_m);
-      }
+    for (const results::PoseRow& pose : run_.poses) {
+      const auto& camera = run_.cameras[*run_.uav_of(pose.uav)];
+      near = near || (pose.alive && camera && (pose.p_W - point.p_W).norm() <= camera->range_m);
     }
     ++(near ? expected.points_near : expected.points_far);
     (near ? expected.loss_near : expected.loss_far) += point.loss;
@@ -150,11 +152,11 @@ TEST_P(Figures, NeverInThePictureAreThosePointsThatUavsCameNearAndTheOthers) {
 }
 
 TEST_P(Figures, WhatWasEarnedIsTheBestPictureOfEachPoint) {
-  const std::vector<results::RunScore> earned = earned_over_time(run_);
-  for (const results::RunScore& now : earned) {
+  const std::vector<results::ScoreRow> earned = earned_over_time(run_);
+  for (const results::ScoreRow& now : earned) {
     std::map<std::size_t, double> best;
-    for (const results::RunCapture& capture : run_.captures) {
-      if (capture.voided || capture.q < kDetected || capture.time_s > now.time_s) continue;
+    for (const results::CaptureRow& capture : run_.captures) {
+      if (capture.voided() || capture.q < kDetected || capture.time_s > now.time_s) continue;
       best[capture.point] = std::max(best[capture.point], capture.q);
     }
     double sum = 0.0;
@@ -200,8 +202,8 @@ TEST_P(Figures, SharesOfLinksAreStepsWithALink) {
 
 TEST_P(Figures, LatencyIsThatOfEachCaptureOnce) {
   const Latency latency = latency_of(run_);
-  std::map<std::pair<std::size_t, std::uint64_t>, std::optional<double>> captures;
-  for (const results::RunCapture& line : run_.captures) {
+  std::map<std::pair<std::string, std::uint64_t>, std::optional<double>> captures;
+  for (const results::CaptureRow& line : run_.captures) {
     captures[{line.uav, line.capture}] =
         line.delivered_at_s ? std::optional(*line.delivered_at_s - line.time_s) : std::nullopt;
   }
@@ -219,17 +221,17 @@ TEST_P(Figures, LatencyIsThatOfEachCaptureOnce) {
 }
 
 TEST_P(Figures, StillIsSlowWithoutABetterPicture) {
-  std::vector<results::RunPose>& track = run_.tracks[0];
   for (std::size_t i = 0; i < 600; ++i) {
-    track.push_back({0.1 * static_cast<double>(i), Vector3d::Zero(), (i / 40) % 2 == below(2) ? 1.0 : 0.0, i < 500});
+    const Vector3d v_W((i / 40) % 2 == below(2) ? 1.0 : 0.0, 0.0, 0.0);
+    run_.poses.push_back({0.1 * static_cast<double>(i), run_.uavs[0], Vector3d::Zero(), v_W, i < 500});
   }
+  const std::vector<results::PoseRow>& track = run_.poses;
   const std::vector<Lane> lanes = lanes_of(run_);
   for (std::size_t i = 0; i + 1 < track.size(); ++i) {
-    const auto recent = [&](const results::RunCapture& capture) {
-      return capture.uav == 0 && capture.time_s <= track[i].time_s && capture.time_s > track[i].time_s - 5.0;
+    const auto recent = [&](const results::CaptureRow& capture) {
+      return capture.uav == run_.uavs[0] && capture.time_s <= track[i].time_s && capture.time_s > track[i].time_s - 5.0;
     };
-    const bool still =
-        track[i].alive && track[i].speed < 0.1 && std::none_of(run_.captures.begin(), run_.captures.end(), recent);
+    const bool still = track[i].alive && track[i].v_W.norm() < 0.1 && std::ranges::none_of(run_.captures, recent);
     EXPECT_EQ(within(lanes[0].still, track[i].time_s + 0.05), still) << track[i].time_s;
   }
 }
@@ -244,7 +246,6 @@ TEST_P(Figures, TimeIsUsedForWhatWasReportedLast) {
                                                                      {"waits to be shown its way", TimeUse::waits},
                                                                      {"sings", TimeUse::other}};
   run_.events.clear();
-  run_.activities.resize(run_.uavs.size());
   std::vector<TimeBudget> expected(run_.uavs.size(), TimeBudget{});
   for (std::size_t uav = 0; uav + 1 < run_.uavs.size(); ++uav) {  // the last one reports nothing
     bool joined = false;
@@ -253,18 +254,18 @@ TEST_P(Figures, TimeIsUsedForWhatWasReportedLast) {
       const double time_s = kStep * static_cast<double>(k);
       if (below(20) == 0) {
         joined = !joined;
-        run_.events.push_back({time_s, joined ? "joined" : "left", run_.uavs[uav], ""});
+        add_event(k, joined ? "joined" : "left", run_.uavs[uav], "");
       }
       if (k == 10 || below(8) == 0) {
         const auto& [mode, usual] = kSaid[below(kSaid.size())];
         const bool waits = below(4) == 0;
-        run_.activities[uav].push_back({time_s, mode, waits});
+        run_.activities.push_back({time_s, run_.uavs[uav], {.mode = mode, .waits_for = waits ? "another" : ""}});
         use = waits ? TimeUse::waits : usual;
       }
       if (joined && use) expected[uav][static_cast<std::size_t>(*use)] += kStep;
     }
   }
-  std::ranges::stable_sort(run_.events, {}, &results::RunEvent::time_s);
+  std::ranges::stable_sort(run_.events, {}, &results::EventRow::time_s);
   const auto budgets = time_budgets(run_, lanes_of(run_));
   ASSERT_EQ(budgets.size(), run_.uavs.size());
   EXPECT_FALSE(budgets.back());
@@ -283,7 +284,7 @@ TEST_P(Figures, UndeliveredIsHandedOutLessAcknowledged) {
     for (std::size_t i = below(4); i > 0; --i) {
       const bool out = waiting == 0 || below(2) > 0;
       waiting += out ? 1 : -1;
-      run_.events.push_back({time_s, out ? "captured" : "released", run_.uavs[0], "1"});
+      add_event(k, out ? "captured" : "released", run_.uavs[0], "1");
       expected[time_s] = waiting;
     }
   }

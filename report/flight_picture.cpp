@@ -1,50 +1,6 @@
 #include "report/flight_picture.hpp"
 
-#include <map>
-#include <stdexcept>
-
-#include "process/json_text.hpp"
-#include "results/run_folder.hpp"
-#include "results/run_rows.hpp"
-
 namespace skein::report {
-namespace {
-
-/// @throws Json::exception if `numbers` is not an array of at least three numbers.
-Vector3d json_vector(const Json& numbers) {
-  return {numbers.at(0).get<double>(), numbers.at(1).get<double>(), numbers.at(2).get<double>()};
-}
-
-std::array<Vector3d, 8> box_corners(const Json& box) {
-  Eigen::Matrix3d R_WB;
-  for (int row = 0; row < 3; ++row) R_WB.row(row) = json_vector(box.at("rotation").at(row)).transpose();
-  return corners_of(json_vector(box.at("center")), json_vector(box.at("size")), R_WB);
-}
-
-void read_tracks(const std::filesystem::path& dir, FlightPicture& picture) {
-  std::map<std::string, std::size_t> index;
-  const Json uavs = value_or(read_json(dir / run_folder::kResult), "uavs", Json::array());
-  for (const Json& uav : uavs) {
-    const std::string name = value_or(uav, "name", "");
-    index[name] = picture.tracks.size();
-    picture.tracks.push_back({name, value_or(uav, "role", "") == Json("explorer"), {}});
-  }
-  results::each_row<results::PoseCells>(dir, [&](const results::PoseCells& row) {
-    const auto found = index.find(row.uav());
-    if (found != index.end()) picture.tracks[found->second].p_WB.push_back(row.p_W());
-  });
-}
-
-/// Calls `read` and ignores damage. What it has read before the damage stays: if a flight was aborted, the last line of
-/// a table may be incomplete.
-template <class Read>
-void read_what_is_there(const Read& read) try {
-  read();
-} catch (const std::runtime_error&) {
-} catch (const Json::exception&) {
-}
-
-}  // namespace
 
 std::array<Vector3d, 8> corners_of(const Vector3d& center, const Vector3d& size, const Eigen::Matrix3d& R_WB) {
   std::array<Vector3d, 8> corners;
@@ -55,19 +11,22 @@ std::array<Vector3d, 8> corners_of(const Vector3d& center, const Vector3d& size,
   return corners;
 }
 
-FlightPicture read_picture(const std::filesystem::path& dir) {
+FlightPicture shape_of(const results::RunRecord& run) {
   FlightPicture picture;
-  read_what_is_there([&] {
-    const Json boxes = value_or(read_json(dir / run_folder::kScene), "boxes", Json::array());
-    for (const Json& box : boxes) picture.boxes.push_back(box_corners(box));
-  });
-  read_what_is_there([&] {
-    results::each_row<results::PointCells>(dir, [&](const results::PointCells& row) {
-      picture.points.push_back({row.p_W(), row.score()});
-    });
-  });
-  read_what_is_there([&] { read_tracks(dir, picture); });
+  for (const results::RunBox& box : run.boxes) picture.boxes.push_back(corners_of(box.center, box.size, box.R_WB));
+  for (const results::RunPoint& point : run.points) picture.points.push_back({point.p_W, point.score, point.cause});
+  const auto tracks = run.by_uav(run.poses);
+  for (std::size_t uav = 0; uav < run.uavs.size(); ++uav) {
+    picture.tracks.push_back({run.uavs[uav], run.explorer[uav], {}});
+    for (const results::PoseRow* pose : tracks[uav]) picture.tracks.back().p_WB.push_back(pose->p_W);
+  }
   return picture;
+}
+
+FlightPicture read_picture(const std::filesystem::path& dir) try {
+  return shape_of(results::read_sound_files(dir, {run_folder::kScene, run_folder::kScore, run_folder::kTrajectories}));
+} catch (const InputError&) {
+  return {};
 }
 
 }  // namespace skein::report

@@ -1,4 +1,4 @@
-// Reads boxes, interest points and tracks of a flight from its results folder, and draws them as SVG.
+// Boxes, interest points and tracks of a flight, from its results folder, drawn as SVG.
 // Frame W (ENU); metres.   Pure, except for read_picture(); any thread.
 #pragma once
 
@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/types.hpp"
+#include "results/run_record.hpp"
 
 namespace skein::report {
 
@@ -35,8 +36,11 @@ struct FlightPicture {
 /// Corners of a box in W. Bits of the index: 0 the box's x axis, 1 y, 2 z. @param size  full edge lengths.
 std::array<Vector3d, 8> corners_of(const Vector3d& center, const Vector3d& size, const Eigen::Matrix3d& R_WB);
 
-/// Reads result.json, scene.json, score.csv and trajectories.csv. A missing file contributes nothing; of a damaged
-/// table, the rows before the damage count. Reads neither causes of losses, nor the station, nor collisions.
+/// The boxes, points and tracks of a run, without its station and its collisions.
+FlightPicture shape_of(const results::RunRecord& run);
+
+/// The same of a results folder, without causes of losses; empty without result.json. Another missing file contributes
+/// nothing; of a damaged table, the rows before the damage count.
 FlightPicture read_picture(const std::filesystem::path& dir);
 
 /// Below this score a point is not detected.

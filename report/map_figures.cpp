@@ -63,7 +63,7 @@ class BoxVolume {
 
 }  // namespace
 
-std::vector<std::optional<MapFigures>> map_figures(const results::RunData& run) {
+std::vector<std::optional<MapFigures>> map_figures(const results::RunRecord& run) {
   std::vector<std::optional<MapFigures>> figures(run.uavs.size());
   const BoxVolume boxes(run.boxes);
   std::optional<double> whole;

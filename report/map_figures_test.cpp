@@ -17,7 +17,7 @@ const std::string kMostOfTheWorld =
     "# Octomap OcTree binary file\n# comment\n#\nid OcTree\nsize 7\nres 0.5\ndata\n" + std::string("\x64\x54", 2);
 
 TEST(MapFigures, ShareOfTheBoxesIsThatOfTheirVolume) {
-  results::RunData run;
+  results::RunRecord run;
   run.uavs = {"a", "b"};
   run.maps = {kMostOfTheWorld, ""};
   results::RunBox box;
@@ -34,10 +34,9 @@ TEST(MapFigures, ShareOfTheBoxesIsThatOfTheirVolume) {
 
 // The colours divide at least one metre, also where all is lower: so must the legend.
 TEST(MapsSection, TheLegendEndsWithTheGreatestHeightOfTheColours) {
-  results::RunData run;
+  results::RunRecord run;
   run.uavs = {"a"};
   run.explorer = {true};
-  run.tracks.resize(1);
   run.maps = {kMostOfTheWorld};
   for (const double height_m : {0.1, 0.3, 1.0, 2.0, 8.0, 40.0}) {
     results::RunBox box;

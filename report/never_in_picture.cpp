@@ -12,14 +12,14 @@ struct Stretch {
 };
 
 /// The places at which a UAV was alive, in stretches of some seconds.
-std::vector<Stretch> stretches_of(const std::vector<results::RunPose>& track) {
+std::vector<Stretch> stretches_of(const std::vector<const results::PoseRow*>& track) {
   constexpr std::size_t kLongest = 50;
   std::vector<Stretch> stretches;
-  for (const results::RunPose& pose : track) {
-    if (!pose.alive) continue;
+  for (const results::PoseRow* pose : track) {
+    if (!pose->alive) continue;
     if (stretches.empty() || stretches.back().places_W.size() == kLongest) stretches.emplace_back();
-    stretches.back().box.extend(pose.p_WB);
-    stretches.back().places_W.push_back(pose.p_WB);
+    stretches.back().box.extend(pose->p_W);
+    stretches.back().places_W.push_back(pose->p_W);
   }
   return stretches;
 }
@@ -35,11 +35,12 @@ bool comes_near(const std::vector<Stretch>& stretches, const Vector3d& p_W, doub
 
 }  // namespace
 
-std::optional<NeverInPicture> never_in_picture(const results::RunData& run) {
+std::optional<NeverInPicture> never_in_picture(const results::RunRecord& run) {
   constexpr std::optional<std::size_t> kCause = results::cause_of("never_in_picture");
   std::vector<std::pair<std::vector<Stretch>, double>> cameras;  // where each was, and its range
-  for (std::size_t uav = 0; uav < std::min(run.cameras.size(), run.tracks.size()); ++uav) {
-    if (run.cameras[uav]) cameras.emplace_back(stretches_of(run.tracks[uav]), run.cameras[uav]->range_m);
+  const auto tracks = run.by_uav(run.poses);
+  for (std::size_t uav = 0; uav < std::min(run.cameras.size(), tracks.size()); ++uav) {
+    if (run.cameras[uav]) cameras.emplace_back(stretches_of(tracks[uav]), run.cameras[uav]->range_m);
   }
   if (cameras.empty()) return std::nullopt;
   NeverInPicture sums;

@@ -25,18 +25,20 @@ long milliradians(double angle) { return std::isfinite(angle) ? std::lround(1e3 
 
 /// Times in hundredths of a second, positions in cm, camera angles in mrad. Each number is the difference from the
 /// previous one, which keeps the text short.
-Json track_json(const std::vector<results::RunPose>& track, double each_s) {
+Json track_json(const std::vector<const results::PoseRow*>& track, double each_s) {
   static constexpr std::array kColumns = {"t", "x", "y", "z", "yaw", "pitch"};
   std::array<Json, kColumns.size()> columns;
   columns.fill(Json::array());
   std::array<long, kColumns.size()> last{};
   double next_s = -1e9;
   for (std::size_t i = 0; i < track.size(); ++i) {
-    if (track[i].time_s < next_s && i + 1 < track.size()) continue;
-    next_s = track[i].time_s + each_s - 1e-6;
-    const std::array<long, kColumns.size()> now = {
-        std::lround(100.0 * track[i].time_s), centimetres(track[i].p_WB.x()),  centimetres(track[i].p_WB.y()),
-        centimetres(track[i].p_WB.z()),       milliradians(track[i].view.yaw), milliradians(track[i].view.pitch)};
+    const results::PoseRow& pose = *track[i];
+    if (pose.time_s < next_s && i + 1 < track.size()) continue;
+    next_s = pose.time_s + each_s - 1e-6;
+    const results::ViewAngles view = results::view_angles(pose.q_WB, pose.gimbal);
+    const std::array<long, kColumns.size()> now = {std::lround(100.0 * pose.time_s), centimetres(pose.p_W.x()),
+                                                   centimetres(pose.p_W.y()),        centimetres(pose.p_W.z()),
+                                                   milliradians(view.yaw),           milliradians(view.pitch)};
     for (std::size_t k = 0; k < now.size(); ++k) {
       columns[k].push_back(now[k] - last[k]);
       last[k] = now[k];
@@ -48,7 +50,7 @@ Json track_json(const std::vector<results::RunPose>& track, double each_s) {
 }
 
 /// Times in ms, scores in thousandths.
-Json curve_json(const std::vector<results::RunScore>& scores) {
+Json curve_json(const std::vector<results::ScoreRow>& scores) {
   Json t = Json::array(), v = Json::array();
   const std::size_t step = scores.size() / kMostChanges + 1;
   for (std::size_t i = 0; i < scores.size(); ++i) {
@@ -70,7 +72,7 @@ Json spans_json(const Spans& spans) {
 
 /// A flat array with nine numbers per point: x, y, z in cm, the normal's x, y, z in hundredths, score and estimate in
 /// thousandths, cause (-1: none).
-Json points_json(const results::RunData& run) {
+Json points_json(const results::RunRecord& run) {
   Json flat = Json::array();
   for (const results::RunPoint& point : run.points) {
     for (const long value : {centimetres(point.p_W.x()), centimetres(point.p_W.y()), centimetres(point.p_W.z()),
@@ -85,16 +87,17 @@ Json points_json(const results::RunData& run) {
 
 /// A flat array with two numbers per point: the UAV whose capture determines the score (-1: none), and the capture's
 /// time in ms. It is the best delivered capture; of equally good ones the earliest.
-Json best_json(const results::RunData& run) {
-  std::vector<const results::RunCapture*> best(run.points.size(), nullptr);
-  for (const results::RunCapture& capture : run.captures) {
-    if (!capture.delivered_at_s || capture.voided || capture.point >= best.size() || capture.q < kDetected) continue;
-    const results::RunCapture*& now = best[capture.point];
+Json best_json(const results::RunRecord& run) {
+  std::vector<const results::CaptureRow*> best(run.points.size(), nullptr);
+  for (const results::CaptureRow& capture : run.captures) {
+    if (!capture.delivered_at_s || capture.voided() || capture.point >= best.size() || capture.q < kDetected) continue;
+    const results::CaptureRow*& now = best[capture.point];
     if (now == nullptr || capture.q > now->q || (capture.q == now->q && capture.time_s < now->time_s)) now = &capture;
   }
   Json flat = Json::array();
-  for (const results::RunCapture* capture : best) {
-    flat.push_back(capture != nullptr ? static_cast<int>(capture->uav) : -1);
+  for (const results::CaptureRow* capture : best) {
+    const auto uav = capture != nullptr ? run.uav_of(capture->uav) : std::nullopt;
+    flat.push_back(uav ? static_cast<int>(*uav) : -1);
     flat.push_back(capture != nullptr ? std::lround(1e3 * capture->time_s) : 0L);
   }
   return flat;
@@ -117,7 +120,7 @@ Json waiting_json(const std::vector<Waiting>& changes, std::size_t most) {
 
 /// `l`: the states of all links as digits of LinkState, valid from the times `t` [ms] on. Null for a large fleet, where
 /// they would be most of the page.
-Json links_json(const results::RunData& run) {
+Json links_json(const results::RunRecord& run) {
   constexpr std::size_t kMostDigits = 600'000;
   Json t = Json::array(), l = Json::array();
   const auto links = recorded_links(run);
@@ -149,9 +152,10 @@ Json each_second(const std::vector<double>& times_s, double end_s) {
 }  // namespace
 
 Json page_data(const RunPage& page) {
-  const results::RunData& run = page.run;
+  const results::RunRecord& run = page.run;
+  const auto tracks = run.by_uav(run.poses);
   std::size_t poses = 0;
-  for (const auto& track : run.tracks) poses += track.empty() ? 0 : static_cast<std::size_t>(run.end_s / kEachS);
+  for (const auto& track : tracks) poses += track.empty() ? 0 : static_cast<std::size_t>(run.end_s / kEachS);
   const double each_s = kEachS * std::max(1.0, std::ceil(static_cast<double>(poses) / kMostPoses));
   Json data = {{"end", run.end_s}, {"delivered", curve_json(run.scores)}, {"earned", curve_json(page.earned)}};
   data["uavs"] = Json::array();
@@ -159,7 +163,7 @@ Json page_data(const RunPage& page) {
     const Lane& lane = page.lanes[uav];
     data["uavs"].push_back({{"name", run.uavs[uav]},
                             {"explorer", static_cast<bool>(run.explorer[uav])},
-                            {"track", track_json(run.tracks[uav], each_s)},
+                            {"track", track_json(tracks[uav], each_s)},
                             {"camera", uav < run.cameras.size() ? camera_json(run.cameras[uav]) : Json()},
                             {"captures", each_second(lane.captures_s, run.end_s)},
                             {"waiting", waiting_json(lane.undelivered, kMostWaiting / run.uavs.size() + 1)},
@@ -174,7 +178,7 @@ Json page_data(const RunPage& page) {
   return data;
 }
 
-Json scene_data(const results::RunData& run) {
+Json scene_data(const results::RunRecord& run) {
   Json data = Json::object();
   data["points"] = points_json(run);
   data["causes"] = Json::array();

@@ -9,6 +9,6 @@ namespace skein::report {
 /// All data of a run's page. web/src/report.js reads its keys.
 Json page_data(const RunPage& page);
 /// The part without time series: points, boxes, station, collisions, causes, faults.
-Json scene_data(const results::RunData& run);
+Json scene_data(const results::RunRecord& run);
 
 }  // namespace skein::report

@@ -12,14 +12,8 @@
 namespace skein::report {
 namespace {
 
-FlightPicture picture_of(const results::RunData& run) {
-  FlightPicture picture;
-  for (const results::RunBox& box : run.boxes) picture.boxes.push_back(corners_of(box.center, box.size, box.R_WB));
-  for (const results::RunPoint& point : run.points) picture.points.push_back({point.p_W, point.score, point.cause});
-  for (std::size_t uav = 0; uav < run.uavs.size(); ++uav) {
-    picture.tracks.push_back({run.uavs[uav], run.explorer[uav], {}});
-    for (const results::RunPose& pose : run.tracks[uav]) picture.tracks.back().p_WB.push_back(pose.p_WB);
-  }
+FlightPicture picture_of(const results::RunRecord& run) {
+  FlightPicture picture = shape_of(run);
   picture.station = run.station;
   for (const results::RunCollision& collision : run.collisions) {
     if (collision.p_W) picture.collisions.push_back(*collision.p_W);
@@ -126,7 +120,7 @@ std::string notes(const RunPage& page) {
 
 }  // namespace
 
-RunPage::RunPage(results::RunData data)
+RunPage::RunPage(results::RunRecord data)
     : run(std::move(data)),
       lanes(lanes_of(run)),
       budgets(time_budgets(run, lanes)),

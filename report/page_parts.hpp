@@ -13,13 +13,13 @@ namespace skein::report {
 
 /// A run with all figures that the sections use.
 struct RunPage {
-  explicit RunPage(results::RunData data);
+  explicit RunPage(results::RunRecord data);
 
-  results::RunData run;
+  results::RunRecord run;
   std::vector<Lane> lanes;
   std::vector<std::optional<TimeBudget>> budgets;  ///< in fleet order
   std::vector<BoxFigures> boxes;
-  std::vector<results::RunScore> earned;
+  std::vector<results::ScoreRow> earned;
   LinkShares links;
   Latency latency;
   std::vector<std::optional<MapFigures>> maps;  ///< in fleet order

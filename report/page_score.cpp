@@ -88,8 +88,8 @@ std::string losses_section(const RunPage& page) {
 std::string timeline_section(const RunPage& page) {
   std::string html = "<section id=\"time\"><h2>Score over time</h2>\n";
   TimeCurve delivered{"delivered", "delivered", {}}, earned{"earned", "earned", {}};
-  for (const results::RunScore& score : page.run.scores) delivered.changes.emplace_back(score.time_s, score.score);
-  for (const results::RunScore& score : page.earned) earned.changes.emplace_back(score.time_s, score.score);
+  for (const results::ScoreRow& score : page.run.scores) delivered.changes.emplace_back(score.time_s, score.score);
+  for (const results::ScoreRow& score : page.earned) earned.changes.emplace_back(score.time_s, score.score);
   const std::string title = "Score over time: " + cell_of(page.run.result, "score", 1) + " at the end";
   html +=
       "<ul class=\"legend\"><li><span class=\"swatch line\" style=\"background:var(--c0)\"></span>delivered</li>"

@@ -15,13 +15,13 @@ bool cuts(const results::RunFault& fault) {
 }
 
 /// Number of a radio node: 1, 2, ... for UAVs in fleet order; 0 for the station and any other name.
-std::size_t node_of(const results::RunData& run, const std::string& name) {
+std::size_t node_of(const results::RunRecord& run, const std::string& name) {
   const auto uav = run.uav_of(name);
   return uav ? *uav + 1 : 0;
 }
 
 /// Number of each node's group in a partition like "gcs jurong | raffles". A node that is in no group forms its own.
-std::vector<std::size_t> groups_of(const results::RunData& run, const std::string& partition) {
+std::vector<std::size_t> groups_of(const results::RunRecord& run, const std::string& partition) {
   std::vector<std::size_t> groups(run.uavs.size() + 1);
   for (std::size_t node = 0; node < groups.size(); ++node) groups[node] = node;
   std::size_t group = groups.size();
@@ -37,7 +37,7 @@ std::vector<std::size_t> groups_of(const results::RunData& run, const std::strin
 /// A fault that cuts links, and which pairs of nodes it separates.
 class Cut {
  public:
-  Cut(const results::RunData& run, const results::RunFault& fault)
+  Cut(const results::RunRecord& run, const results::RunFault& fault)
       : fault_(fault),
         groups_(fault.kind == "partition" ? groups_of(run, fault.target) : std::vector<std::size_t>()),
         silent_(node_of(run, fault.kind == "blackout" ? fault.target : "")) {}
@@ -56,7 +56,7 @@ class Cut {
 
 class Links {
  public:
-  explicit Links(const results::RunData& run)
+  explicit Links(const results::RunRecord& run)
       : nodes_(run.uavs.size() + 1), up_(nodes_ * nodes_), dead_s_(nodes_, 1e12) {
     for (const results::RunFault& fault : run.faults) {
       if (cuts(fault)) cuts_.emplace_back(run, fault);
@@ -101,15 +101,15 @@ class Links {
   std::vector<Cut> cuts_;
 };
 
-bool is_of_a_link(const results::RunEvent& event) {
+bool is_of_a_link(const results::EventRow& event) {
   return event.event == run_tables::kLinkUp || event.event == run_tables::kLinkDown;
 }
 
 }  // namespace
 
-std::vector<std::pair<double, LinkStates>> recorded_links(const results::RunData& run) {
-  std::multimap<double, const results::RunEvent*> changes;
-  for (const results::RunEvent& event : run.events) {
+std::vector<std::pair<double, LinkStates>> recorded_links(const results::RunRecord& run) {
+  std::multimap<double, const results::EventRow*> changes;
+  for (const results::EventRow& event : run.events) {
     if (is_of_a_link(event)) changes.emplace(event.time_s, &event);
   }
   std::vector<std::pair<double, LinkStates>> told;
@@ -135,6 +135,6 @@ std::string digits_of(const LinkStates& row_major) {
   return digits;
 }
 
-bool has_cuts(const results::RunData& run) { return std::ranges::any_of(run.faults, cuts); }
+bool has_cuts(const results::RunRecord& run) { return std::ranges::any_of(run.faults, cuts); }
 
 }  // namespace skein::report

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "results/run_data.hpp"
+#include "results/run_record.hpp"
 
 namespace skein::report {
 
@@ -22,9 +22,9 @@ using LinkStates = std::vector<LinkState>;
 std::string digits_of(const LinkStates& row_major);
 
 /// The states of all links, each valid from its time on [s], ascending; empty if the run has no events about links.
-std::vector<std::pair<double, LinkStates>> recorded_links(const results::RunData& run);
+std::vector<std::pair<double, LinkStates>> recorded_links(const results::RunRecord& run);
 
 /// Whether a fault of this run cut links, so that the difference between `cut` and `blocked` is a guess.
-bool has_cuts(const results::RunData& run);
+bool has_cuts(const results::RunRecord& run);
 
 }  // namespace skein::report

@@ -8,30 +8,30 @@ namespace skein::report {
 namespace {
 
 /// Two UAVs; all links are up from 0 on.
-results::RunData two_uavs() {
-  results::RunData run;
+results::RunRecord two_uavs() {
+  results::RunRecord run;
   run.uavs = {"a", "b"};
   const std::vector<std::string> nodes = {"gcs", "a", "b"};
   for (const std::string& from : nodes) {
     for (const std::string& to : nodes) {
-      if (from != to) run.events.push_back({0.0, run_tables::kLinkUp, from, to});
+      if (from != to) run.events.push_back({0, run_tables::kLinkUp, from, to});
     }
   }
   run.end_s = 60.0;
   return run;
 }
 
-void all_down(results::RunData& run, double time_s, const std::string& node, bool up = false) {
+void all_down(results::RunRecord& run, double time_s, const std::string& node, bool up = false) {
   for (const std::string other : {"gcs", "a", "b"}) {
     if (other == node) continue;
     for (const auto& [from, to] : {std::pair(node, other), std::pair(other, node)}) {
-      run.events.push_back({time_s, up ? run_tables::kLinkUp : run_tables::kLinkDown, from, to});
+      run.events.push_back({0, up ? run_tables::kLinkUp : run_tables::kLinkDown, from, to, time_s});
     }
   }
 }
 
 /// As a line has it.
-std::string digits(const results::RunData& run, double time_s) {
+std::string digits(const results::RunRecord& run, double time_s) {
   std::string found;
   for (const auto& [from_s, links] : recorded_links(run)) {
     if (from_s > time_s) break;
@@ -43,7 +43,7 @@ std::string digits(const results::RunData& run, double time_s) {
 TEST(RecordedLinks, AreNoneWhereNothingIsRecorded) { EXPECT_TRUE(recorded_links({}).empty()); }
 
 TEST(RecordedLinks, AreBlockedWithoutAFault) {
-  results::RunData run = two_uavs();
+  results::RunRecord run = two_uavs();
   run.events.push_back({5.0, run_tables::kLinkDown, "a", "gcs"});
   EXPECT_EQ(digits(run, 4.0), "011101110");
   EXPECT_EQ(digits(run, 5.0), "011001110");
@@ -51,7 +51,7 @@ TEST(RecordedLinks, AreBlockedWithoutAFault) {
 }
 
 TEST(RecordedLinks, AreCutWhereAFaultSilencesANode) {
-  results::RunData run = two_uavs();
+  results::RunRecord run = two_uavs();
   run.faults = {{"blackout", "b", 10.0, 20.0}};
   all_down(run, 10.0, "b");
   all_down(run, 25.0, "b", true);
@@ -63,7 +63,7 @@ TEST(RecordedLinks, AreCutWhereAFaultSilencesANode) {
 }
 
 TEST(RecordedLinks, AreCutBetweenTheGroupsOfAPartition) {
-  results::RunData run = two_uavs();
+  results::RunRecord run = two_uavs();
   run.faults = {{"partition", "gcs a | b", 10.0, 20.0}, {"kill", "a", 30.0, 40.0}};
   all_down(run, 10.0, "b");
   EXPECT_EQ(digits(run, 12.0), "012102220");
@@ -74,14 +74,14 @@ TEST(RecordedLinks, AreCutBetweenTheGroupsOfAPartition) {
 }
 
 TEST(RecordedLinks, AreCutOfAStationThatIsOut) {
-  results::RunData run = two_uavs();
+  results::RunRecord run = two_uavs();
   run.faults = {{"station_outage", "gcs", 10.0, 20.0}};
   all_down(run, 10.0, "gcs");
   EXPECT_EQ(digits(run, 12.0), "022201210");
 }
 
 TEST(RecordedLinks, AreDeadOfAUavThatCollided) {
-  results::RunData run = two_uavs();
+  results::RunRecord run = two_uavs();
   run.collisions = {{10.0, "a", "structure", {}}};
   all_down(run, 10.05, "a");
   EXPECT_EQ(digits(run, 9.0), "011101110");

@@ -17,7 +17,7 @@ std::string policy(const std::optional<std::string>& bundle) {
          (bundle ? "; script-src '" + script_hash(*bundle) + "'" : std::string());
 }
 
-std::string footer(const results::RunData& run, const std::optional<std::string>& bundle) {
+std::string footer(const results::RunRecord& run, const std::optional<std::string>& bundle) {
   std::string html = "<footer class=\"soft\">";
   if (!bundle) {
     html +=
@@ -32,7 +32,7 @@ std::string footer(const results::RunData& run, const std::optional<std::string>
 
 }  // namespace
 
-std::string run_page(results::RunData data, const std::optional<std::string>& bundle) {
+std::string run_page(results::RunRecord data, const std::optional<std::string>& bundle) {
   const RunPage page(std::move(data));
   const std::string title = text_in(page.run.result, "scenario") + " by " + planners_of(page.run.result);
   std::string html =
@@ -55,7 +55,7 @@ std::string run_page(results::RunData data, const std::optional<std::string>& bu
 }
 
 void write_run_report(const std::filesystem::path& dir) {
-  write_file_atomically(dir / run_folder::kPage, run_page(results::read_run_data(dir), web_bundle()));
+  write_file_atomically(dir / run_folder::kPage, run_page(results::read_sound_run(dir), web_bundle()));
 }
 
 }  // namespace skein::report

@@ -6,12 +6,12 @@
 #include <optional>
 #include <string>
 
-#include "results/run_data.hpp"
+#include "results/run_record.hpp"
 
 namespace skein::report {
 
 /// The page's HTML. @param bundle  the script that makes it interactive; nullopt: a page with static drawings.
-std::string run_page(results::RunData run, const std::optional<std::string>& bundle);
+std::string run_page(results::RunRecord run, const std::optional<std::string>& bundle);
 
 /// Writes report.html into the results folder `dir`.
 /// @throws InputError when there is no result in it, std::runtime_error when the file cannot be written.

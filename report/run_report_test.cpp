@@ -37,7 +37,7 @@ TEST_P(OddRuns, GiveASoundPage) {
     SCOPED_TRACE(trial);
     const results::Scratch scratch;
     OddRun(random).write(scratch.path());
-    const results::RunData run = results::read_run_data(scratch.path());
+    const results::RunRecord run = results::read_sound_run(scratch.path());
     const std::string page = run_page(run, std::nullopt);
     ASSERT_NO_THROW(xml_elements(page));
     EXPECT_EQ(page, run_page(run, std::nullopt)) << "the same folder gives the same page";
@@ -64,31 +64,33 @@ INSTANTIATE_TEST_SUITE_P(Drawn, OddRuns, testing::Range(1U, 9U));
 TEST(PageData, NamesWhoDeliveredTheBestPictureOfEachPoint) {
   std::mt19937 random(11);
   for (int trial = 0; trial < 40; ++trial) {
-    results::RunData run;
+    results::RunRecord run;
     run.uavs = {"a", "b", "c"};
     run.explorer = {true, false, false};
     run.points.resize(6);
-    run.tracks.resize(run.uavs.size());
     run.maps.resize(run.uavs.size());
     for (std::uint64_t i = 0; i < 30; ++i) {
-      results::RunCapture capture{random() % 3, i, 0.5 * static_cast<double>(random() % 40),
-                                  kDetected * (0.5 + 0.5 * static_cast<double>(random() % 4)), random() % 7};
+      results::CaptureRow capture{.uav = run.uavs[random() % 3],
+                                  .capture = i,
+                                  .time_s = 0.5 * static_cast<double>(random() % 40),
+                                  .point = random() % 7,
+                                  .q = kDetected * (0.5 + 0.5 * static_cast<double>(random() % 4))};
       if (random() % 4 != 0) capture.delivered_at_s = capture.time_s + 1.0;
-      capture.voided = random() % 8 == 0;
+      if (random() % 8 == 0) capture.reason = run_tables::kUavCollided;
       run.captures.push_back(capture);
     }
     const Json best = page_data(RunPage(run)).at("best");
     ASSERT_EQ(best.size(), 2 * run.points.size());
     for (std::size_t point = 0; point < run.points.size(); ++point) {
-      std::vector<results::RunCapture> all;
-      for (const results::RunCapture& capture : run.captures) {
-        const bool counts = capture.delivered_at_s && !capture.voided && capture.q >= kDetected;
+      std::vector<results::CaptureRow> all;
+      for (const results::CaptureRow& capture : run.captures) {
+        const bool counts = capture.delivered_at_s && !capture.voided() && capture.q >= kDetected;
         if (capture.point == point && counts) all.push_back(capture);
       }
-      std::ranges::stable_sort(all, [](const results::RunCapture& a, const results::RunCapture& b) {
+      std::ranges::stable_sort(all, [](const results::CaptureRow& a, const results::CaptureRow& b) {
         return a.q != b.q ? a.q > b.q : a.time_s < b.time_s;
       });
-      EXPECT_EQ(best[2 * point], all.empty() ? -1 : static_cast<int>(all.front().uav));
+      EXPECT_EQ(best[2 * point], all.empty() ? -1 : static_cast<int>(*run.uav_of(all.front().uav)));
       EXPECT_EQ(best[2 * point + 1], all.empty() ? 0L : std::lround(1e3 * all.front().time_s));
     }
   }
@@ -122,7 +124,7 @@ TEST(RunReport, ANumberOutOfAllBoundsEndsItsTable) {
     const std::string row = ",1,2,0,0,1,0.5,";
     results::write_text(scratch.path() / "score.csv",
                         "x,y,z,nx,ny,nz,score,index\n0" + row + "0\n" + number + row + "1\n3" + row + "2\n");
-    const results::RunData run = results::read_run_data(scratch.path());
+    const results::RunRecord run = results::read_sound_run(scratch.path());
     EXPECT_EQ(run.points.size(), 1u) << number;
     EXPECT_NE(run_page(run, std::nullopt).find("score.csv makes sense for 1 rows only"), std::string::npos);
   }
@@ -131,7 +133,7 @@ TEST(RunReport, ANumberOutOfAllBoundsEndsItsTable) {
 TEST(RunReport, TheCommandIsAsItWasTypedOrRepeatsTheRun) {
   const std::string typed = "skein run towers --faults 'my faults.yaml'";
   const auto page_of = [](const Json& result) {
-    results::RunData run;
+    results::RunRecord run;
     run.result = result;
     return run_page(run, std::nullopt);
   };

@@ -32,8 +32,8 @@ constexpr std::pair<std::string_view, TimeUse> kBegins[] = {{"on the ground", Ti
                                                             {"stays where", TimeUse::homing},
                                                             {"flies to its landing", TimeUse::homing}};
 
-TimeUse use_of(const results::RunActivity& activity) {
-  if (activity.waits) return TimeUse::waits;
+TimeUse use_of(const Activity& activity) {
+  if (!activity.waits_for.empty()) return TimeUse::waits;
   for (const auto& [words, use] : kBegins) {
     if (activity.mode.starts_with(words)) return use;
   }
@@ -50,15 +50,17 @@ double common_s(const Spans& spans, double from_s, double until_s) {
 
 }  // namespace
 
-std::vector<std::optional<TimeBudget>> time_budgets(const results::RunData& run, const std::vector<Lane>& lanes) {
+std::vector<std::optional<TimeBudget>> time_budgets(const results::RunRecord& run, const std::vector<Lane>& lanes) {
   std::vector<std::optional<TimeBudget>> budgets(run.uavs.size());
-  for (std::size_t uav = 0; uav < run.activities.size(); ++uav) {
-    const std::vector<results::RunActivity>& said = run.activities[uav];
+  const auto activities = run.by_uav(run.activities);
+  for (std::size_t uav = 0; uav < budgets.size(); ++uav) {
+    const std::vector<const results::ActivityRow*>& said = activities[uav];
     if (said.empty()) continue;
     TimeBudget& budget = budgets[uav].emplace();
     for (std::size_t i = 0; i < said.size(); ++i) {
-      const double until_s = i + 1 < said.size() ? said[i + 1].time_s : run.end_s;
-      budget[static_cast<std::size_t>(use_of(said[i]))] += common_s(lanes[uav].taking_part, said[i].time_s, until_s);
+      const double until_s = i + 1 < said.size() ? said[i + 1]->time_s : run.end_s;
+      const auto use = static_cast<std::size_t>(use_of(said[i]->activity));
+      budget[use] += common_s(lanes[uav].taking_part, said[i]->time_s, until_s);
     }
   }
   return budgets;

@@ -93,7 +93,7 @@ std::string staircase(const std::vector<std::pair<double, double>>& changes, con
   return data.empty() ? "" : data + "H" + coordinate(time.at(end_s));
 }
 
-std::string faults_svg(const results::RunData& run, const TimeScale& time, double top, double bottom) {
+std::string faults_svg(const results::RunRecord& run, const TimeScale& time, double top, double bottom) {
   std::string svg;
   for (const results::RunFault& fault : run.faults) {
     const std::string words =
@@ -159,8 +159,8 @@ bool concerns(const results::RunFault& fault, const std::string& uav) {
   return false;
 }
 
-std::string time_chart_svg(const std::string& title, const std::vector<TimeCurve>& curves, const results::RunData& run,
-                           const std::vector<Lane>& lanes, double width) {
+std::string time_chart_svg(const std::string& title, const std::vector<TimeCurve>& curves,
+                           const results::RunRecord& run, const std::vector<Lane>& lanes, double width) {
   const std::size_t rugs = lanes.size() <= kMostRugs ? lanes.size() : 0;
   const double left = 66.0, bottom = kChartTop + kCurves;
   const double all = bottom + (rugs > 0 ? 6.0 + kRug * static_cast<double>(rugs) : 0.0);
@@ -187,7 +187,7 @@ std::string time_chart_svg(const std::string& title, const std::vector<TimeCurve
   return svg + "</svg>\n";
 }
 
-std::string lanes_svg(const std::string& title, const results::RunData& run, const std::vector<Lane>& lanes,
+std::string lanes_svg(const std::string& title, const results::RunRecord& run, const std::vector<Lane>& lanes,
                       double width) {
   const double strip = lanes.size() <= 20 ? 10.0 : 4.0, each = 4.0 * (strip + kGap) + (lanes.size() <= 20 ? 12.0 : 6.0);
   const double left = width < 500.0 ? 70.0 : 150.0, bottom = kChartTop + each * static_cast<double>(lanes.size());
@@ -199,7 +199,7 @@ std::string lanes_svg(const std::string& title, const results::RunData& run, con
   std::string svg = open_svg(title, width, bottom + 32.0) + time.grid(kChartTop, bottom);
   for (std::size_t uav = 0; uav < lanes.size(); ++uav) {
     const double top = kChartTop + each * static_cast<double>(uav) + 4.0;
-    results::RunData own;
+    results::RunRecord own;
     for (const results::RunFault& fault : run.faults) {
       if (concerns(fault, run.uavs[uav])) own.faults.push_back(fault);
     }

@@ -18,11 +18,11 @@ struct TimeCurve {
 
 /// Curves over time, with faults behind them and, below, the captures of each UAV.
 /// @param width  of the drawing, in its own units; letters always have the same size in these units.
-std::string time_chart_svg(const std::string& title, const std::vector<TimeCurve>& curves, const results::RunData& run,
-                           const std::vector<Lane>& lanes, double width);
+std::string time_chart_svg(const std::string& title, const std::vector<TimeCurve>& curves,
+                           const results::RunRecord& run, const std::vector<Lane>& lanes, double width);
 
 /// A lane for each UAV: when it flew or stood still, its links to the station, its captures, and undelivered captures.
-std::string lanes_svg(const std::string& title, const results::RunData& run, const std::vector<Lane>& lanes,
+std::string lanes_svg(const std::string& title, const results::RunRecord& run, const std::vector<Lane>& lanes,
                       double width);
 
 /// Histogram of delivery delays: a bar for each range of delays, and one for captures that were never delivered.

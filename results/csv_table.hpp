@@ -31,9 +31,10 @@ class CsvTable {
   std::uint64_t count(const std::string& column) const;
   std::optional<std::uint64_t> count_if_any(const std::string& column) const;
 
- private:
+  /// @throws std::runtime_error, with file and line of this row, and `what` is wrong with it.
   [[noreturn]] void fail(const std::string& what) const;
 
+ private:
   std::filesystem::path file_;
   std::ifstream in_;
   std::map<std::string, std::size_t> columns_;

@@ -4,7 +4,7 @@
 
 #include "process/files/atomic_file.hpp"
 #include "results/run_folder.hpp"
-#include "results/run_record.hpp"
+#include "results/run_rows.hpp"
 #include "results/score_losses.hpp"
 
 namespace skein::results {
@@ -37,10 +37,9 @@ std::optional<std::vector<PointRecord>> point_records(const std::filesystem::pat
     if (index >= count) return std::nullopt;
     points[index].score = static_cast<float>(point.score.value_or(0.0));
   }
-  for (CaptureRow& row : read_captures(dir)) {
-    const auto index = static_cast<std::size_t>(row.point);
-    if (index >= count) return std::nullopt;
-    points[index].captures.push_back(std::move(row));
+  for (CaptureRow& row : read_rows<CaptureRow>(dir)) {
+    if (row.point >= count) return std::nullopt;
+    points[row.point].captures.push_back(std::move(row));
   }
   return points;
 }

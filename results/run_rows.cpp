@@ -1,5 +1,7 @@
 #include "results/run_rows.hpp"
 
+#include <cmath>
+
 namespace skein::results {
 namespace {
 
@@ -8,84 +10,100 @@ constexpr const char* kTime = "time_s";
 constexpr const char* kUav = "uav";
 constexpr const char* kStep = "step";
 constexpr const char* kScoreColumn = "score";
-constexpr const char* kAlive = "alive";
 
-}  // namespace
+double bounded(const CsvTable& table, const char* column) {
+  const double value = table.number(column);
+  if (std::abs(value) > kFarthest) {
+    table.fail(std::string("column '") + column + "': '" + table.text(column) + "' is out of all bounds");
+  }
+  return value;
+}
 
-Vector3d RunRow::vector(const char* x, const char* y, const char* z) const {
-  const double first = table_.number(x), second = table_.number(y), third = table_.number(z);
+/// nullopt: the cell is empty.
+std::optional<double> bounded_if_any(const CsvTable& table, const char* column) {
+  return table.text(column).empty() ? std::nullopt : std::optional(bounded(table, column));
+}
+
+/// 0: the table has no such column.
+double bounded_or_zero(const CsvTable& table, const char* column) {
+  return table.has(column) ? bounded(table, column) : 0.0;
+}
+
+Vector3d vector(const CsvTable& table, const char* x, const char* y, const char* z) {
+  const double first = bounded(table, x), second = bounded(table, y), third = bounded(table, z);
   return {first, second, third};
 }
 
-const std::string& CaptureCells::uav() const { return table_.text(kUav); }
-std::uint64_t CaptureCells::capture() const { return table_.count("capture"); }
-double CaptureCells::time_s() const { return table_.number(kTime); }
-std::uint64_t CaptureCells::point() const { return table_.count("point"); }
-double CaptureCells::q() const { return table_.number("q"); }
-double CaptureCells::q_blur() const { return table_.number("q_blur"); }
-double CaptureCells::q_res() const { return table_.number("q_res"); }
-double CaptureCells::q_distance() const { return table_.number("q_distance"); }
-std::optional<double> CaptureCells::delivered_at_s() const { return table_.number_if_any("delivered_at_s"); }
-const std::string& CaptureCells::reason() const { return table_.text("reason"); }
+}  // namespace
 
-std::uint64_t EventCells::step() const { return table_.count(kStep); }
-double EventCells::time_s() const { return table_.number(kTime); }
-const std::string& EventCells::event() const { return table_.text("event"); }
-const std::string& EventCells::subject() const { return table_.text("subject"); }
-const std::string& EventCells::object() const { return table_.text("object"); }
-
-std::uint64_t MessageCells::step() const { return table_.count(kStep); }
-const std::string& MessageCells::uav() const { return table_.text(kUav); }
-std::optional<std::uint64_t> MessageCells::arrives() const { return table_.count_if_any("arrives"); }
-
-double PoseCells::time_s() const { return table_.number(kTime); }
-const std::string& PoseCells::uav() const { return table_.text(kUav); }
-Vector3d PoseCells::p_W() const { return vector("x", "y", "z"); }
-Quaterniond PoseCells::q_WB() const {
-  const double w = table_.number("qw");
-  const Vector3d xyz = vector("qx", "qy", "qz");
-  return {w, xyz.x(), xyz.y(), xyz.z()};
-}
-Vector3d PoseCells::v_W() const { return vector("vx", "vy", "vz"); }
-GimbalState PoseCells::gimbal() const {
-  GimbalState gimbal;
-  gimbal.pitch = table_.number("gimbal_pitch");
-  gimbal.yaw = table_.number("gimbal_yaw");
-  return gimbal;
-}
-bool PoseCells::alive() const { return table_.text(kAlive) != "0"; }
-bool PoseCells::alive_beyond_doubt() const { return table_.number(kAlive) != 0.0; }
-std::optional<double> PoseCells::clearance_m() const { return table_.number_if_any("clearance"); }
-std::optional<double> PoseCells::charge() const {
-  return table_.has("charge") ? table_.number_if_any("charge") : std::nullopt;
+CaptureRow CaptureRow::read(const CsvTable& table) {
+  return {.uav = table.text(kUav),
+          .capture = table.count("capture"),
+          .time_s = bounded(table, kTime),
+          .point = table.count("point"),
+          .q = bounded(table, "q"),
+          .delivered_at_s = bounded_if_any(table, "delivered_at_s"),
+          .reason = table.text("reason"),
+          .q_blur = bounded_or_zero(table, "q_blur"),
+          .q_res = bounded_or_zero(table, "q_res"),
+          .q_distance = bounded_or_zero(table, "q_distance")};
 }
 
-double ScoreCells::time_s() const { return table_.number(kTime); }
-double ScoreCells::points() const { return table_.number("points"); }
-double ScoreCells::score() const { return table_.number(kScoreColumn); }
+EventRow EventRow::read(const CsvTable& table) {
+  return {.step = table.count(kStep),
+          .event = table.text("event"),
+          .subject = table.text("subject"),
+          .object = table.text("object"),
+          .time_s = bounded(table, kTime)};
+}
 
-Vector3d PointCells::p_W() const { return vector("x", "y", "z"); }
-Vector3d PointCells::normal_W() const { return vector("nx", "ny", "nz"); }
-double PointCells::score() const { return table_.number(kScoreColumn); }
+MessageRow MessageRow::read(const CsvTable& table) {
+  return {.step = table.count(kStep), .uav = table.text(kUav), .arrives = table.count_if_any("arrives")};
+}
 
-std::uint64_t LossCells::index() const { return table_.count("index"); }
-double LossCells::estimate() const { return table_.number("estimate"); }
-double LossCells::loss() const { return table_.number("loss"); }
-const std::string& LossCells::cause() const { return table_.text("cause"); }
-
-double WorkCells::time_s() const { return table_.number(kTime); }
-const std::string& WorkCells::uav() const { return table_.text(kUav); }
-double WorkCells::without_work_s() const { return table_.number("without_work_s"); }
-
-double ActivityCells::time_s() const { return table_.number(kTime); }
-const std::string& ActivityCells::uav() const { return table_.text(kUav); }
-Activity ActivityCells::activity() const {
-  Activity activity{
-      .mode = table_.text("mode"), .waits_for = table_.text("waits_for"), .no_way = table_.text("no_way")};
-  if (const auto x = table_.number_if_any("goal_x")) {
-    activity.goal_W = Vector3d(*x, table_.number("goal_y"), table_.number("goal_z"));
+PoseRow PoseRow::read(const CsvTable& table) {
+  PoseRow row{.time_s = bounded(table, kTime), .uav = table.text(kUav), .p_W = vector(table, "x", "y", "z")};
+  if (table.has("vx")) row.v_W = vector(table, "vx", "vy", "vz");
+  if (table.has("alive")) row.alive = bounded(table, "alive") != 0.0;
+  if (table.has("clearance")) row.clearance_m = bounded_if_any(table, "clearance");
+  if (table.has("charge")) row.charge = bounded_if_any(table, "charge");
+  if (table.has("qw")) {
+    row.q_WB.w() = bounded(table, "qw");
+    row.q_WB.vec() = vector(table, "qx", "qy", "qz");
   }
-  return activity;
+  row.gimbal.pitch = bounded_or_zero(table, "gimbal_pitch");
+  row.gimbal.yaw = bounded_or_zero(table, "gimbal_yaw");
+  return row;
+}
+
+ScoreRow ScoreRow::read(const CsvTable& table) {
+  return {.time_s = bounded(table, kTime), .score = bounded(table, kScoreColumn), .points = bounded(table, "points")};
+}
+
+PointRow PointRow::read(const CsvTable& table) {
+  return {.p_W = vector(table, "x", "y", "z"),
+          .normal_W = vector(table, "nx", "ny", "nz"),
+          .score = bounded(table, kScoreColumn)};
+}
+
+LossRow LossRow::read(const CsvTable& table) {
+  return {.point = table.count("index"),
+          .estimate = bounded(table, "estimate"),
+          .loss = bounded(table, "loss"),
+          .cause = table.text("cause")};
+}
+
+WorkRow WorkRow::read(const CsvTable& table) {
+  return {.time_s = bounded(table, kTime), .uav = table.text(kUav), .without_work_s = bounded(table, "without_work_s")};
+}
+
+ActivityRow ActivityRow::read(const CsvTable& table) {
+  ActivityRow row{.time_s = bounded(table, kTime), .uav = table.text(kUav)};
+  row.activity.mode = table.text("mode");
+  row.activity.waits_for = table.text("waits_for");
+  row.activity.no_way = table.text("no_way");
+  if (!table.text("goal_x").empty()) row.activity.goal_W = vector(table, "goal_x", "goal_y", "goal_z");
+  return row;
 }
 
 std::string no_file(const char* file) { return std::string("There is no ") + file + "."; }

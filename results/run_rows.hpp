@@ -1,7 +1,8 @@
-// Typed access to the rows of a run's tables, except digests.csv (diff.hpp) and tracking.csv (tracking_table.hpp). This
-// is the one place where readers name columns and go on or stop at an invalid row. A cell is parsed when a reader asks
-// for it, so that tables of an earlier version may lack columns that a reader does not use.
-// Frame W (ENU), metres, simulated seconds. docs/results.md describes the columns.   Threads: any.
+// The rows of a run's tables, except digests.csv (diff.hpp) and tracking.csv (tracking_table.hpp). This is the one
+// place where readers name columns and go on or stop at an invalid row. A member whose column does not exist in a table
+// of an earlier version keeps its default, if it has one here.
+// Frame W (ENU), metres, metres per second, simulated seconds and steps. docs/results.md describes the columns.
+// Threads: any.
 #pragma once
 
 #include <cstdint>
@@ -9,154 +10,152 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/activity.hpp"
 #include "core/types.hpp"
 #include "results/csv_table.hpp"
 #include "results/run_folder.hpp"
+#include "results/run_tables.hpp"
 
 namespace skein::results {
 
-/// The present row of a table; valid until the table goes to the next one. Access to an invalid or missing cell throws
-/// std::runtime_error, with file and line.
-class RunRow {
- public:
-  explicit RunRow(const CsvTable& table) : table_(table) {}
+/// Bound of plausible values [m, s, ...]: no run exceeds it, and a drawing of a larger number would be endless.
+inline constexpr double kFarthest = 1e7;
 
- protected:
-  Vector3d vector(const char* x, const char* y, const char* z) const;
-
-  const CsvTable& table_;
-};
+// The function read() of each type reads the present row of its table. It throws std::runtime_error, with file and
+// line, if a cell is invalid, or a number is beyond kFarthest.
 
 /// One point of a capture in the referee's ledger, with its delivery as the station knew it at the end.
-class CaptureCells : public RunRow {
- public:
+struct CaptureRow {
   static constexpr const char* kTable = run_folder::kCaptures;
-  using RunRow::RunRow;
-  const std::string& uav() const;
-  std::uint64_t capture() const;
-  double time_s() const;
-  std::uint64_t point() const;
-  double q() const;
-  double q_blur() const;
-  double q_res() const;
-  double q_distance() const;
-  std::optional<double> delivered_at_s() const;
-  const std::string& reason() const;  ///< why it does not count; empty: it counts
+  static CaptureRow read(const CsvTable& table);
+
+  std::string uav;
+  std::uint64_t capture = 0;
+  double time_s = 0.0;
+  std::size_t point = 0;
+  double q = 0.0;
+  std::optional<double> delivered_at_s = {};
+  std::string reason = {};  ///< why it does not count; empty: it counts
+  double q_blur = 0.0, q_res = 0.0, q_distance = 0.0;
+
+  bool voided() const { return reason == run_tables::kUavCollided; }
 };
 
 /// One event that sim_server recorded; it takes effect in its step.
-class EventCells : public RunRow {
- public:
+struct EventRow {
   static constexpr const char* kTable = run_folder::kEvents;
-  using RunRow::RunRow;
-  std::uint64_t step() const;
-  double time_s() const;
-  const std::string& event() const;  ///< one of the events in run_tables.hpp
-  const std::string& subject() const;
-  const std::string& object() const;
+  static EventRow read(const CsvTable& table);
+
+  std::uint64_t step = 0;
+  std::string event;            ///< one of the events in run_tables.hpp
+  std::string subject, object;  ///< of a link: sender, receiver; else: member, number of the capture
+  double time_s = 0.0;          ///< of the step
 };
 
 /// A message with capture reports that was lost or late on a link with faults.
-class MessageCells : public RunRow {
- public:
+struct MessageRow {
   static constexpr const char* kTable = run_folder::kCaptureMessages;
-  using RunRow::RunRow;
-  std::uint64_t step() const;
-  const std::string& uav() const;
-  std::optional<std::uint64_t> arrives() const;  ///< step; nullopt: lost
+  static MessageRow read(const CsvTable& table);
+
+  std::uint64_t step = 0;  ///< in which it was sent
+  std::string uav;
+  std::optional<std::uint64_t> arrives;  ///< step; nullopt: lost
 };
 
 /// Pose and velocity of a UAV, and the angles of its gimbal.
-class PoseCells : public RunRow {
- public:
+struct PoseRow {
   static constexpr const char* kTable = run_folder::kTrajectories;
-  using RunRow::RunRow;
-  double time_s() const;
-  const std::string& uav() const;
-  Vector3d p_W() const;
-  Quaterniond q_WB() const;
-  Vector3d v_W() const;
-  GimbalState gimbal() const;
-  bool alive() const;               ///< true unless the cell is "0"
-  bool alive_beyond_doubt() const;  ///< throws if the cell is not a number
-  std::optional<double> clearance_m() const;
-  std::optional<double> charge() const;
+  static PoseRow read(const CsvTable& table);
+
+  double time_s = 0.0;
+  std::string uav;
+  Vector3d p_W;
+  Vector3d v_W = Vector3d::Zero();
+  bool alive = true;
+  std::optional<double> clearance_m = {};  ///< to the structure
+  std::optional<double> charge = {};       ///< of the battery, as a share of its capacity
+  Quaterniond q_WB = Quaterniond::Identity();
+  GimbalState gimbal = {};
 };
 
 /// The delivered score from a time on, and the number of points in it.
-class ScoreCells : public RunRow {
- public:
+struct ScoreRow {
   static constexpr const char* kTable = run_folder::kScoreTimeline;
-  using RunRow::RunRow;
-  double time_s() const;
-  double points() const;
-  double score() const;
+  static ScoreRow read(const CsvTable& table);
+
+  double time_s = 0.0, score = 0.0, points = 0.0;
 };
 
 /// An interest point.
-class PointCells : public RunRow {
- public:
+struct PointRow {
   static constexpr const char* kTable = run_folder::kScore;
-  using RunRow::RunRow;
-  Vector3d p_W() const;
-  Vector3d normal_W() const;
-  double score() const;
+  static PointRow read(const CsvTable& table);
+
+  Vector3d p_W = Vector3d::Zero(), normal_W = Vector3d::Zero();
+  double score = 0.0;
 };
 
 /// The loss of a point: by how much it scored less than its estimate, and why.
-class LossCells : public RunRow {
- public:
+struct LossRow {
   static constexpr const char* kTable = run_folder::kLosses;
-  using RunRow::RunRow;
-  std::uint64_t index() const;  ///< of the point in score.csv
-  double estimate() const;
-  double loss() const;
-  const std::string& cause() const;  ///< a key of causes.hpp, or "none"
+  static LossRow read(const CsvTable& table);
+
+  std::size_t point = 0;  ///< index in score.csv
+  double estimate = 0.0, loss = 0.0;
+  std::string cause;  ///< a key of causes.hpp, or "none"
 };
 
 /// How long a UAV had been without work, at the end of a second.
-class WorkCells : public RunRow {
- public:
+struct WorkRow {
   static constexpr const char* kTable = run_folder::kWork;
-  using RunRow::RunRow;
-  double time_s() const;
-  const std::string& uav() const;
-  double without_work_s() const;
+  static WorkRow read(const CsvTable& table);
+
+  double time_s = 0.0;
+  std::string uav;
+  double without_work_s = 0.0;
 };
 
-/// What a UAV did, as its agent reported.
-class ActivityCells : public RunRow {
- public:
+/// What a UAV did from this time on, as its agent reported: all of an Activity but its numbers.
+struct ActivityRow {
   static constexpr const char* kTable = run_folder::kActivity;
-  using RunRow::RunRow;
-  double time_s() const;
-  const std::string& uav() const;
-  Activity activity() const;
+  static ActivityRow read(const CsvTable& table);
+
+  double time_s = 0.0;
+  std::string uav;
+  Activity activity = {};
 };
 
-/// Calls `on_row` with each row of the table that `Row` reads; a missing table has no rows.
-/// @throws what `on_row` throws: std::runtime_error, with file and line, for an invalid cell.
+/// Calls `on_row` with each row of the table of `Row`; a missing table has no rows.
+/// @throws std::runtime_error, with file and line, at an invalid row, and what `on_row` throws.
 template <class Row, class OnRow>
 void each_row(const std::filesystem::path& dir, const OnRow& on_row) {
-  for (CsvTable table(dir / Row::kTable); table.next();) on_row(Row(table));
+  for (CsvTable table(dir / Row::kTable); table.next();) on_row(Row::read(table));
+}
+
+/// The rows of a table. @throws like each_row()
+template <class Row>
+std::vector<Row> read_rows(const std::filesystem::path& dir) {
+  std::vector<Row> rows;
+  each_row<Row>(dir, [&](Row row) { rows.push_back(std::move(row)); });
+  return rows;
 }
 
 /// The sentences that each_sound_row() adds to `missing`.
 std::string no_file(const char* file);
 std::string damaged_table(const std::filesystem::path& dir, const char* table, std::size_t rows, const char* what);
 
-/// The same, but stops at the first row for which `on_row` throws. Adds a sentence to `missing` if this happens or the
-/// table is missing.
+/// Like each_row(), but stops at the first row that is invalid or for which `on_row` throws. Adds a sentence to
+/// `missing` if this happens or the table is missing.
 template <class Row, class OnRow>
 void each_sound_row(const std::filesystem::path& dir, std::vector<std::string>& missing, const OnRow& on_row) {
   std::size_t rows = 0;
   try {
     if (!std::filesystem::exists(dir / Row::kTable)) return missing.push_back(no_file(Row::kTable));
-    each_row<Row>(dir, [&](const Row& row) {
-      on_row(row);
+    each_row<Row>(dir, [&](Row row) {
+      on_row(std::move(row));
       ++rows;
     });
   } catch (const std::exception& error) {

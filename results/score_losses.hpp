@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "results/causes.hpp"
-#include "results/run_record.hpp"
+#include "results/run_rows.hpp"
 
 namespace skein::results {
 

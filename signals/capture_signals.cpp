@@ -47,7 +47,7 @@ std::vector<std::pair<double, double>> score_steps(const results::RunRecord& run
     if (time_s && !row.voided() && row.q >= scenario.rules.min_point_score) rows.emplace_back(*time_s, &row);
   }
   std::ranges::stable_sort(rows, {}, [](const auto& row) { return row.first; });
-  std::map<int, double> best;
+  std::map<std::size_t, double> best;
   std::vector<std::pair<double, double>> steps;
   double sum = 0.0;
   for (const auto& [time_s, row] : rows) {
@@ -65,12 +65,12 @@ std::vector<std::pair<double, double>> earned_steps(const results::RunRecord& ru
 }
 
 /// Points that this UAV photographs from `from_s` on, but not before, and that no other UAV ever photographs.
-std::set<int> work_before(const results::RunRecord& run, const std::string& uav, double from_s) {
-  std::set<int> own, others;
+std::set<std::size_t> work_before(const results::RunRecord& run, const std::string& uav, double from_s) {
+  std::set<std::size_t> own, others;
   for (const results::CaptureRow& row : run.captures) {
     (row.uav == uav && row.time_s >= from_s ? own : others).insert(row.point);
   }
-  std::erase_if(own, [&](int point) { return others.contains(point); });
+  std::erase_if(own, [&](std::size_t point) { return others.contains(point); });
   return own;
 }
 
@@ -78,7 +78,7 @@ std::set<int> work_before(const results::RunRecord& run, const std::string& uav,
 /// [s], ascending. Only captures that count.
 std::vector<double> left_undone_s(const results::RunRecord& without, const std::string& uav, const Scenario& scenario,
                                   const results::RunRecord& run) {
-  std::map<int, double> first_s;
+  std::map<std::size_t, double> first_s;
   for (const results::CaptureRow& row : without.captures) {
     if (row.uav != uav || row.voided() || row.q < scenario.rules.min_point_score) continue;
     const auto [found, is_new] = first_s.try_emplace(row.point, row.time_s);
@@ -219,7 +219,7 @@ FolderSignals::Values FolderSignals::of_work(const SignalUse& signal) {
   const std::optional<double> failed = failed_s(uav);
   if (!failed) return constant(0.0);
   const double from_s = *failed;
-  std::set<int> remaining = work_before(without, uav, from_s);
+  std::set<std::size_t> remaining = work_before(without, uav, from_s);
   if (signal.is("work_at_failure")) return counted(std::vector<std::size_t>(remaining.size(), exchange_at(from_s)));
   std::vector<std::size_t> exchanges;
   std::vector<const results::CaptureRow*> rows;

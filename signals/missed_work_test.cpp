@@ -38,10 +38,10 @@ class MissedWork : public RunSignalsTest {
     return judge_properties(properties::parse_properties(entries, scenario_), signals).at(0).verdict.outcome;
   }
   void fly(double speed_mps) {
-    run_.positions.clear();
+    run_.poses.clear();
     for (int tenth = 0; tenth <= 800; ++tenth) {
       const double t = 0.1 * tenth;
-      run_.positions.push_back({t, "a", {speed_mps * t, 0, 1}, {speed_mps, 0, 0}, true, 5.0});
+      run_.poses.push_back({t, "a", {speed_mps * t, 0, 1}, {speed_mps, 0, 0}, true, 5.0});
     }
   }
 

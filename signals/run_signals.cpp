@@ -109,7 +109,7 @@ std::map<std::string, FolderSignals::Track> FolderSignals::tracks_of(const resul
   }
   const double end_s = (static_cast<double>(exchanges_) - 0.5) * period_s();  // another run may have lasted longer
   std::map<std::string, std::size_t> next;                                    // first exchange without values
-  for (const results::PositionRow& row : run.positions) {
+  for (const results::PoseRow& row : run.poses) {
     const auto track = tracks.find(row.uav);
     if (track == tracks.end() || row.time_s > end_s) continue;
     const std::size_t exchange = exchange_at(row.time_s);

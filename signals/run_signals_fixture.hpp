@@ -60,7 +60,7 @@ class RunSignalsTest : public testing::Test {
 
 /// A row of the table of captures.
 inline results::CaptureRow capture(const std::string& uav, std::uint64_t number, double time_s,
-                                   std::optional<double> delivered_at_s, int point = 0, double q = 0.5) {
+                                   std::optional<double> delivered_at_s, std::size_t point = 0, double q = 0.5) {
   return {uav, number, time_s, point, q, delivered_at_s, "", 1.0, q, q};
 }
 

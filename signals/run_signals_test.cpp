@@ -20,8 +20,8 @@ namespace {
 TEST_F(RunSignalsTest, TheFleetIsWhereItsTableSays) {
   for (std::size_t tenth = 0; tenth <= 20; ++tenth) {
     const double t = 0.1 * static_cast<double>(tenth);
-    run_.positions.push_back({t, "a", {3.0 * t, 0, 1}, {3, 0, 0}, true, 10.0 - t, 1.0 - 0.25 * t});
-    run_.positions.push_back({t, "b", {0, 4.0, 1}, {0, 0, 0}, t < 1.0, 5.0});
+    run_.poses.push_back({t, "a", {3.0 * t, 0, 1}, {3, 0, 0}, true, 10.0 - t, 1.0 - 0.25 * t});
+    run_.poses.push_back({t, "b", {0, 4.0, 1}, {0, 0, 0}, t < 1.0, 5.0});
   }
   const std::vector<double> x = number("x(a)"), separation = number("separation"), clearance = number("clearance");
   for (std::size_t k = 0; k < kExchanges; ++k) {
@@ -50,7 +50,7 @@ TEST_F(RunSignalsTest, TheRunWithoutFaultsIsAsLongAsItWas) {
     results::RunRecord undisturbed = run_;
     for (std::size_t tenth = 0; 0.1 * static_cast<double>(tenth) < end_s + 0.05; ++tenth) {
       const double t = 0.1 * static_cast<double>(tenth);
-      undisturbed.positions.push_back({t, "a", {0, 2.0 * t, 1}, {0, 2, 0}, true, 5.0});
+      undisturbed.poses.push_back({t, "a", {0, 2.0 * t, 1}, {0, 2, 0}, true, 5.0});
     }
     const std::vector<double> flown = number("undisturbed_distance(a)", &undisturbed);
     for (std::size_t k = 0; k < kExchanges; ++k) {
@@ -170,7 +170,7 @@ TEST_F(RunSignalsTest, ADeliveryThatDoesNotFollowFromTheRecordIsADifference) {
 }
 
 TEST_F(RunSignalsTest, ACollisionIsKnownWhereverItsRowIs) {
-  run_.positions = {{0.0, "a", {0, 0, 1}}, {1.9, "a", {1, 0, 1}}};
+  run_.poses = {{0.0, "a", {0, 0, 1}}, {1.9, "a", {1, 0, 1}}};
   run_.result["collisions"] = Json::array({{{"uav", "a"}, {"with", "ground"}, {"time_s", 1.96}}});
   EXPECT_EQ(values("alive(a)").at(39), 1.0);
   EXPECT_EQ(values("alive(a)").at(40), 0.0);

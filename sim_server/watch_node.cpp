@@ -22,8 +22,8 @@ const Tick kPosePeriod = ticks(view::kTrailPeriod_s);
 const Tick kLinksPeriod = ticks(0.25);
 
 /// The scene as of the start of a run, when no point has been seen.
-results::RunData scene_of(const Scenario& scenario, const Scene& scene) {
-  results::RunData run;
+results::RunRecord scene_of(const Scenario& scenario, const Scene& scene) {
+  results::RunRecord run;
   for (const UavConfig& uav : scenario.fleet) {
     run.uavs.push_back(uav.name);
     run.explorer.push_back(uav.vehicle.role == Role::explorer);

@@ -10,8 +10,8 @@
 #include "report/page_parts.hpp"
 #include "report/recorded_links.hpp"
 #include "results/causes.hpp"
+#include "results/result_file.hpp"
 #include "results/run_folder.hpp"
-#include "results/run_rows.hpp"
 #include "results/run_tables.hpp"
 #include "view/story.hpp"
 
@@ -19,26 +19,14 @@ namespace skein::view {
 namespace {
 
 namespace fs = std::filesystem;
-using results::ActivityCells;
-using results::CaptureCells;
-using results::PoseCells;
-using results::RunData;
+using results::RunRecord;
 
-/// Reads the rows of a table up to the first one that is damaged; read_run_data() has reported the damage.
-template <class Row, class OnRow>
-void rows_of(const fs::path& dir, const OnRow& on_row) {
-  try {
-    results::each_row<Row>(dir, on_row);
-  } catch (const std::runtime_error&) {
-  }
-}
-
-ShownUav pose_of(const PoseCells& row) {
+ShownUav pose_of(const results::PoseRow& row) {
   ShownUav uav;
-  uav.body.p_WB = row.p_W();
-  uav.body.q_WB = row.q_WB();
-  uav.gimbal = row.gimbal();
-  uav.alive = row.alive();
+  uav.body.p_WB = row.p_W;
+  uav.body.q_WB = row.q_WB;
+  uav.gimbal = row.gimbal;
+  uav.alive = row.alive;
   return uav;
 }
 
@@ -59,7 +47,7 @@ class Story {
 
 /// Adds the fleet's poses; in the table, those of one time follow each other. @param heights  is filled. @returns the
 /// last poses.
-std::vector<ShownUav> tell_poses(const fs::path& dir, const RunData& run, Story& story, Heights& heights) {
+std::vector<ShownUav> tell_poses(const RunRecord& run, Story& story, Heights& heights) {
   heights.resize(run.uavs.size());
   std::vector<ShownUav> fleet(run.uavs.size());
   std::optional<double> time_s;
@@ -69,24 +57,23 @@ std::vector<ShownUav> tell_poses(const fs::path& dir, const RunData& run, Story&
     story.add(*time_s, pose_line(*time_s, fleet));
     due_s = *time_s + kTrailPeriod_s - 1e-6;
   };
-  rows_of<PoseCells>(dir, [&](const PoseCells& row) {
-    const auto uav = run.uav_of(row.uav());
-    if (!uav) return;
-    const double now_s = row.time_s();
-    if (time_s && now_s > *time_s) tell(false);
+  for (const results::PoseRow& row : run.poses) {
+    const auto uav = run.uav_of(row.uav);
+    if (!uav) continue;
+    if (time_s && row.time_s > *time_s) tell(false);
     fleet[*uav] = pose_of(row);
-    heights[*uav][now_s] = fleet[*uav].body.p_WB.z();
-    time_s = now_s;
-  });
+    heights[*uav][row.time_s] = row.p_W.z();
+    time_s = row.time_s;
+  }
   tell(true);
   return fleet;
 }
 
 /// Adds all events but captures, which come from captures.csv: that table has more details.
-void tell_events(const RunData& run, Story& story) {
+void tell_events(const RunRecord& run, Story& story) {
   static const std::array kToldOtherwise = {run_tables::kLinkUp, run_tables::kLinkDown, run_tables::kCaptured,
                                             run_tables::kReleased};
-  for (const results::RunEvent& event : run.events) {
+  for (const results::EventRow& event : run.events) {
     if (std::ranges::find(kToldOtherwise, event.event) != kToldOtherwise.end()) continue;
     story.add(event.time_s, event_line(event.time_s, event.event, event.subject, event.object));
   }
@@ -94,23 +81,20 @@ void tell_events(const RunData& run, Story& story) {
 }
 
 /// Adds the activities that the UAVs' programs reported.
-void tell_activities(const fs::path& dir, const RunData& run, Story& story) {
-  rows_of<ActivityCells>(dir, [&](const ActivityCells& row) {
-    const auto uav = run.uav_of(row.uav());
-    if (!uav) return;
-    const Activity activity = row.activity();
-    const double time_s = row.time_s();
-    story.add(time_s, activity_line(time_s, *uav, activity));
-  });
+void tell_activities(const RunRecord& run, Story& story) {
+  for (const results::ActivityRow& row : run.activities) {
+    const auto uav = run.uav_of(row.uav);
+    if (uav) story.add(row.time_s, activity_line(row.time_s, *uav, row.activity));
+  }
 }
 
 /// Whether a collision voided this UAV's captures.
-bool is_void(const RunData& run, std::size_t uav) {
-  return std::ranges::any_of(
-      run.captures, [uav](const results::RunCapture& capture) { return capture.uav == uav && capture.voided; });
+bool is_void(const RunRecord& run, const std::string& uav) {
+  return std::ranges::any_of(run.captures,
+                             [&](const results::CaptureRow& row) { return row.uav == uav && row.voided(); });
 }
 
-void tell_incidents(const RunData& run, Story& story) {
+void tell_incidents(const RunRecord& run, Story& story) {
   for (std::size_t i = 0; i < run.faults.size(); ++i) {
     const results::RunFault& fault = run.faults[i];
     const ToldFault told{i, fault.by_hand, fault.kind, fault.target};
@@ -121,12 +105,12 @@ void tell_incidents(const RunData& run, Story& story) {
   for (const results::RunCollision& collision : run.collisions) {
     story.add(collision.time_s, event_line(collision.time_s, "collision", collision.uav, collision.with));
     const auto uav = run.uav_of(collision.uav);
-    if (uav && is_void(run, *uav)) story.add(collision.time_s, void_line(collision.time_s, *uav));
+    if (uav && is_void(run, collision.uav)) story.add(collision.time_s, void_line(collision.time_s, *uav));
   }
 }
 
 /// Adds the attainable quality, if it is known. Points with the cause "out_of_reach" are marked as not flyable.
-void tell_estimate(const RunData& run, Story& story) {
+void tell_estimate(const RunRecord& run, Story& story) {
   if (!run.causes_known) return;
   constexpr std::size_t kOutOfReach = *results::cause_of("out_of_reach");
   std::vector<float> q;
@@ -144,18 +128,18 @@ struct TakenCapture {
   std::vector<CapturePoint> points;
 };
 
-void tell_captures(const fs::path& dir, const RunData& run, Story& story) {
+void tell_captures(const RunRecord& run, Story& story) {
   std::map<std::pair<std::size_t, std::uint64_t>, TakenCapture> captures;
-  rows_of<CaptureCells>(dir, [&](const CaptureCells& row) {
-    const auto uav = run.uav_of(row.uav());
-    if (!uav) return;
-    TakenCapture& capture = captures[{*uav, row.capture()}];
-    capture.time_s = row.time_s();
-    capture.delivered_s = row.delivered_at_s();
-    capture.points.push_back({static_cast<std::uint32_t>(row.point()), static_cast<float>(row.q_blur()),
-                              static_cast<float>(row.q_res()), static_cast<float>(row.q()),
-                              static_cast<float>(row.q_distance())});
-  });
+  for (const results::CaptureRow& row : run.captures) {
+    const auto uav = run.uav_of(row.uav);
+    if (!uav) continue;
+    TakenCapture& capture = captures[{*uav, row.capture}];
+    capture.time_s = row.time_s;
+    capture.delivered_s = row.delivered_at_s;
+    capture.points.push_back({static_cast<std::uint32_t>(row.point), static_cast<float>(row.q_blur),
+                              static_cast<float>(row.q_res), static_cast<float>(row.q),
+                              static_cast<float>(row.q_distance)});
+  }
   std::map<double, std::vector<ShownDelivery>> deliveries;
   for (const auto& [key, capture] : captures) {
     story.add(capture.time_s, capture_line(capture.time_s, key.first, key.second, capture.points));
@@ -165,8 +149,8 @@ void tell_captures(const fs::path& dir, const RunData& run, Story& story) {
 }
 
 /// The last line has the score of the result, with all its digits.
-void tell_scores(const RunData& run, Story& story) {
-  for (const results::RunScore& score : run.scores) {
+void tell_scores(const RunRecord& run, Story& story) {
+  for (const results::ScoreRow& score : run.scores) {
     story.add(score.time_s, score_line(score.time_s, static_cast<std::size_t>(score.points), score.score));
   }
   const auto score = number_if_any(run.result, "score");
@@ -174,7 +158,7 @@ void tell_scores(const RunData& run, Story& story) {
   if (score) story.add(run.end_s, score_line(run.end_s, static_cast<std::size_t>(points), *score));
 }
 
-Json scene_of(const fs::path& dir, const RunData& run) {
+Json scene_of(const RunRecord& run) {
   std::vector<CameraConfig> cameras(run.uavs.size());
   std::vector<double> range_m(run.uavs.size(), resolution_distance(CameraConfig{}, Scenario{}.desired_mm_per_pixel));
   std::vector<std::string> missing = run.missing;
@@ -188,7 +172,7 @@ Json scene_of(const fs::path& dir, const RunData& run) {
   if (!std::ranges::all_of(run.cameras, [](const auto& camera) { return camera.has_value(); })) {
     missing.emplace_back("It does not tell which cameras the vehicles had: the usual one is drawn.");
   }
-  if (!fs::exists(dir / run_folder::kActivity)) {
+  if (!fs::exists(run.dir / run_folder::kActivity)) {
     missing.emplace_back("There is no activity.csv: the page derives what UAVs do from their motion.");
   }
   if (report::has_cuts(run)) {
@@ -214,26 +198,26 @@ Json scene_of(const fs::path& dir, const RunData& run) {
 }  // namespace
 
 std::string title_of_run(const fs::path& dir) {
-  const Json result = results::read_run_deliveries(dir).result;
+  const Json result = results::read_result_file(dir);
   return text_in(result, "scenario") + " by " + report::planners_of(result);
 }
 
-ToldRun told_run(const fs::path& dir, const RunData& run) {
+ToldRun told_run(const RunRecord& run) {
   Story story;
   Heights heights;
-  std::vector<ShownUav> last = tell_poses(dir, run, story, heights);
+  std::vector<ShownUav> last = tell_poses(run, story, heights);
   tell_estimate(run, story);
   tell_events(run, story);
-  tell_activities(dir, run, story);
-  tell_captures(dir, run, story);
+  tell_activities(run, story);
+  tell_captures(run, story);
   tell_incidents(run, story);
   tell_scores(run, story);
-  return {scene_of(dir, run), story.in_order(), std::move(last), std::move(heights)};
+  return {scene_of(run), story.in_order(), std::move(last), std::move(heights)};
 }
 
 void tell_finished_run(const fs::path& dir, Feed& feed) {
-  const RunData run = results::read_run_data(dir);
-  ToldRun told = told_run(dir, run);
+  const RunRecord run = results::read_sound_run(dir);
+  ToldRun told = told_run(run);
   const KeptClouds clouds(dir, run, told.heights);
   told.scene["clouds"] = {{"lidar", clouds.lidar}, {"maps", clouds.maps}, {"missing", clouds.missing}};
   feed.set_scene(told.scene.dump(-1, ' ', false, Json::error_handler_t::replace));

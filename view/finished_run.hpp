@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "results/run_data.hpp"
+#include "results/run_record.hpp"
 #include "view/feed.hpp"
 #include "view/kept_clouds.hpp"
 #include "view/story.hpp"
@@ -20,8 +20,8 @@ struct ToldRun {
   Heights heights;
 };
 
-/// @param run  the contents of the folder `dir`. The scene's "missing" names what the folder lacks.
-ToldRun told_run(const std::filesystem::path& dir, const results::RunData& run);
+/// @param run  of read_sound_run(). The scene's "missing" names what the folder lacks.
+ToldRun told_run(const results::RunRecord& run);
 
 /// Fills a feed with the run of a results folder. The scene's "missing" names what the folder lacks.
 /// @throws InputError when the folder has no result.

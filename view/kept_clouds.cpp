@@ -71,7 +71,7 @@ class Gathered {
 
 }  // namespace
 
-KeptClouds::KeptClouds(const std::filesystem::path& dir, const results::RunData& run, const Heights& heights)
+KeptClouds::KeptClouds(const std::filesystem::path& dir, const results::RunRecord& run, const Heights& heights)
     : run_(run), points_(run.uavs.size()), in_time_(run.uavs.size()) {
   try {
     read_recording(dir / run_folder::kRecording);

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "results/run_data.hpp"
+#include "results/run_record.hpp"
 #include "view/feed.hpp"
 #include "view/map_steps.hpp"
 #include "view/scan_points.hpp"
@@ -27,7 +27,7 @@ class KeptClouds {
 
   /// Reads the folder; damaged files count as missing. @param run  of this folder; must outlive this.
   /// @param heights  of the whole run: the levels at which free space of the maps over time is shown.
-  KeptClouds(const std::filesystem::path& dir, const results::RunData& run, const Heights& heights = {});
+  KeptClouds(const std::filesystem::path& dir, const results::RunRecord& run, const Heights& heights = {});
 
   /// Adds all points and maps to the feed. @param last  the fleet at the end of the run: its heights are the levels at
   /// which free space of maps without time is shown.
@@ -41,7 +41,7 @@ class KeptClouds {
   void read_recording(const std::filesystem::path& file);
   void say_what_is_missing(const std::filesystem::path& dir);
 
-  const results::RunData& run_;
+  const results::RunRecord& run_;
   std::vector<std::vector<PointsStep>> points_;    ///< by UAV
   std::vector<std::optional<MapInTime>> in_time_;  ///< by UAV
 };

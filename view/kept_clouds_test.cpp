@@ -57,7 +57,7 @@ class KeptCloudsTest : public testing::Test {
 
   const ScratchFolder scratch_;
   const fs::path& folder_ = scratch_.path();
-  results::RunData run_;
+  results::RunRecord run_;
 };
 
 TEST_F(KeptCloudsTest, PointsComeOnceByTheirTime) {

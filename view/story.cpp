@@ -34,7 +34,7 @@ std::string quoted(const std::string& text) {
 
 }  // namespace
 
-Json scene_json(const results::RunData& run, std::span<const CameraConfig> cameras, std::span<const double> range_m) {
+Json scene_json(const results::RunRecord& run, std::span<const CameraConfig> cameras, std::span<const double> range_m) {
   Json scene = report::scene_data(run);
   scene["uavs"] = Json::array();
   for (std::size_t i = 0; i < run.uavs.size(); ++i) {

@@ -15,7 +15,7 @@
 #include "core/scoring/score_table.hpp"
 #include "process/json_text.hpp"
 #include "report/recorded_links.hpp"
-#include "results/run_data.hpp"
+#include "results/run_record.hpp"
 
 namespace skein::view {
 
@@ -41,7 +41,7 @@ struct ShownNumbers {
 /// The data that do not change with time: "uavs" with their cameras, points, boxes, station; for a finished run also
 /// its collisions, faults and causes of loss.
 /// @param run  as far as it is known. @param cameras, range_m  by UAV: its camera, and how far the camera sees.
-Json scene_json(const results::RunData& run, std::span<const CameraConfig> cameras, std::span<const double> range_m);
+Json scene_json(const results::RunRecord& run, std::span<const CameraConfig> cameras, std::span<const double> range_m);
 
 /// k: pose. "u": by UAV x, y, z, yaw and pitch of the camera's view (down is positive), 1 if the UAV is alive, else 0.
 std::string pose_line(double time_s, std::span<const ShownUav> uavs);

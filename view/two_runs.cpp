@@ -10,18 +10,18 @@ namespace skein::view {
 namespace {
 
 namespace fs = std::filesystem;
-using results::RunData;
+using results::RunRecord;
 
 /// Points that are nearer to each other than this are the same; tables are rounded to millimetres.
 constexpr double kSamePlace_m = 0.002;
 
-bool same_scene(const RunData& a, const RunData& b) {
+bool same_scene(const RunRecord& a, const RunRecord& b) {
   return std::ranges::equal(a.points, b.points, [](const results::RunPoint& one, const results::RunPoint& other) {
     return (one.p_W - other.p_W).norm() < kSamePlace_m;
   });
 }
 
-std::string scene_name(const RunData& run) {
+std::string scene_name(const RunRecord& run) {
   const auto seed = number_if_any(run.result, "scene_seed");
   return text_in(run.result, "scenario") + (seed ? " with scene seed " + std::to_string(std::lround(*seed)) : "") +
          ", " + std::to_string(run.points.size()) + " points";
@@ -40,12 +40,12 @@ Json parting_json(const Parting& parting) {
 }  // namespace
 
 void tell_two_runs(const fs::path& a, const fs::path& b, const Parting& parting, Feed& feed) {
-  const RunData first = results::read_run_data(a), second = results::read_run_data(b);
+  const RunRecord first = results::read_sound_run(a), second = results::read_sound_run(b);
   if (!same_scene(first, second)) {
     throw InputError(a.string() + " and " + b.string() + " were flown in different scenes (" + scene_name(first) +
                      "; " + scene_name(second) + "): two runs on one page must have the same interest points");
   }
-  ToldRun told = told_run(a, first), other = told_run(b, second);
+  ToldRun told = told_run(first), other = told_run(second);
   told.scene["difference"] = parting_json(parting);
   told.scene["fleets_differ"] = first.uavs != second.uavs || first.explorer != second.explorer;
   for (const Json& missing : other.scene["missing"])

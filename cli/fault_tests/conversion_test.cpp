@@ -141,7 +141,7 @@ struct Drawn {
       for (std::uint64_t k = 0; k <= 1206; k += 2) {
         const double step_m = static_cast<double>(below(2));
         x_m += step_m;
-        run.positions.push_back({0.05 * static_cast<double>(k), name, {x_m, 0.0, 1.0}});
+        run.poses.push_back({0.05 * static_cast<double>(k), name, {x_m, 0.0, 1.0}});
         if (k > 0) events.push_back({"distance_m", name, k, step_m});
       }
     }
@@ -155,8 +155,8 @@ struct Drawn {
     const std::uint64_t number = run.captures.size();
     const bool is_delivered = below(2) > 0, is_acknowledged = below(2) > 0, is_lost = below(2) > 0;
     const auto time_s = [](std::uint64_t step) { return 0.05 * static_cast<double>(step); };
-    run.captures.push_back({uav, number, time_s(k), static_cast<int>(number), 0.5,
-                            is_delivered ? std::optional(time_s(k + 5)) : std::nullopt, ""});
+    run.captures.push_back(
+        {uav, number, time_s(k), number, 0.5, is_delivered ? std::optional(time_s(k + 5)) : std::nullopt, ""});
     run.events.push_back({k, run_tables::kCaptured, uav, std::to_string(number)});
     if (is_acknowledged) run.events.push_back({k + 7, run_tables::kReleased, uav, std::to_string(number)});
     run.messages.push_back({k, uav, is_lost ? std::nullopt : std::optional(k + 3)});

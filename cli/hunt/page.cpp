@@ -65,13 +65,12 @@ std::string coverage_section(const HuntSummary& summary) {
 }
 
 /// Margin over time of the property that failed; empty if that property compares with a run without faults.
-report::TimeCurve margin_curve(const HuntSummary& summary, const Find& find) {
+report::TimeCurve margin_curve(const HuntSummary& summary, const Find& find, const results::RunRecord& run) {
   report::TimeCurve curve{"margin of " + find.broke, "delivered", {}};
   const Scenario scenario = load_scenario(find.trial.run.scenario, load_options(find.trial.run));
   const properties::PropertySet set = properties::parse_properties(summary.plan.entries, scenario);
   const auto property = std::ranges::find(set, find.broke, &properties::NamedProperty::name);
   if (property == set.end() || needs_undisturbed({*property})) return curve;
-  const results::RunRecord run = results::read_run(find.run);
   FaultPlan plan;
   plan.faults = find.trial.faults;
   FolderSignals signals(run, scenario, nullptr, &plan);
@@ -91,9 +90,9 @@ report::TimeCurve margin_curve(const HuntSummary& summary, const Find& find) {
 }
 
 std::string chart(const HuntSummary& summary, const Find& find) try {
-  const results::RunData run = results::read_run_data(find.run);
+  const results::RunRecord run = results::read_run(find.run);
   return "<figure>" +
-         report::time_chart_svg("Margin of " + find.broke + " over time", {margin_curve(summary, find)}, run, {},
+         report::time_chart_svg("Margin of " + find.broke + " over time", {margin_curve(summary, find, run)}, run, {},
                                 kChartWidth) +
          "<figcaption>margin over time, with the faults behind it</figcaption></figure>\n";
 } catch (const std::exception& error) {  // the find is valid without its chart

@@ -14,7 +14,7 @@ namespace {
 /// The last change at or before a time, looked for one by one.
 double slow_score(const FlightTables& tables, double time_s) {
   double score = 0.0;
-  for (const results::RunScore& change : tables.scores) {
+  for (const results::ScoreRow& change : tables.scores) {
     if (change.time_s <= time_s) score = change.score;
   }
   return score;

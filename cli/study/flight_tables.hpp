@@ -9,7 +9,7 @@
 namespace skein::cli {
 
 struct FlightTables {
-  std::vector<results::RunScore> scores;   ///< at each change; empty: not known
+  std::vector<results::ScoreRow> scores;   ///< at each change; empty: not known
   double end_s = 0.0;                      ///< end of the flight [simulated s]
   std::vector<report::Latency> latencies;  ///< by UAV, of captures that improved a point; empty: not known
 

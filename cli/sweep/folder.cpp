@@ -11,7 +11,6 @@
 #include "core/types.hpp"
 #include "process/files/atomic_file.hpp"
 #include "process/files/closed_to_agents.hpp"
-#include "results/run_data.hpp"
 
 namespace skein::cli {
 namespace {

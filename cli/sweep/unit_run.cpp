@@ -6,7 +6,6 @@
 #include "core/types.hpp"
 #include "host/preflight.hpp"
 #include "process/files/atomic_file.hpp"
-#include "results/run_data.hpp"
 #include "results/run_folder.hpp"
 
 namespace skein::cli {

@@ -50,7 +50,7 @@ inline Study odd_study(std::mt19937& random, bool contest) {
         tables.end_s = 100.0 + static_cast<double>(below(50));
         double score = 0.0, time_s = 0.0;
         for (std::size_t i = below(30); i > 0; --i) {
-          tables.scores.push_back({time_s, 0.0, score});
+          tables.scores.push_back({time_s, score, 0.0});
           time_s += static_cast<double>(below(50)) / 10.0;
           score += (figures.score - score) * 0.3;
         }

@@ -57,7 +57,7 @@ bool in_sight(const Vector3d& a, const Vector3d& b) {
 }  // namespace
 
 MadeUpFlight::MadeUpFlight(MadeUpSize size, view::Feed& feed) : size_(size), feed_(feed), fleet_(size.uavs) {
-  results::RunData run;
+  results::RunRecord run;
   const std::size_t each = size.points / kTowers, around = 50;
   const double levels = std::ceil(static_cast<double>(each) / around);
   for (std::size_t i = 0; i < each * kTowers; ++i) {
