@@ -72,15 +72,11 @@ class Mesh {
   std::vector<std::vector<bool>> hears_;  ///< by receiver and sender
 };
 
-bool is_link(const results::EventRow& event) {
-  return event.event == run_tables::kLinkUp || event.event == run_tables::kLinkDown;
-}
-
 void add_links(const results::RunRecord& run, std::vector<Lane>& lanes) {
   Mesh mesh(run);
   double since_s = 0.0;
   for (const results::EventRow& event : run.events) {
-    if (!is_link(event)) continue;
+    if (!event.is_of_a_link()) continue;
     if (event.time_s > since_s) mesh.account(since_s, event.time_s, lanes);
     since_s = event.time_s;
     mesh.set(event);
@@ -93,7 +89,7 @@ void add_members(const results::RunRecord& run, std::vector<Lane>& lanes) {
   std::vector<std::optional<double>> joined(run.uavs.size());
   std::vector<int> waiting(run.uavs.size(), 0);
   for (const results::EventRow& event : run.events) {
-    const auto uav = is_link(event) ? std::nullopt : run.uav_of(event.subject);
+    const auto uav = event.is_of_a_link() ? std::nullopt : run.uav_of(event.subject);
     if (!uav) continue;
     Lane& lane = lanes[*uav];
     const auto count = [&](int more) {
@@ -209,7 +205,7 @@ LinkShares link_shares(const results::RunRecord& run) {
   LinkShares sums;
   std::map<std::pair<std::string, std::string>, double> up_since;
   for (const results::EventRow& event : run.events) {
-    if (!is_link(event)) continue;
+    if (!event.is_of_a_link()) continue;
     const std::pair link(event.subject, event.object);
     if (event.event == run_tables::kLinkUp) {
       up_since.try_emplace(link, event.time_s);

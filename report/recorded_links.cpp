@@ -101,16 +101,12 @@ class Links {
   std::vector<Cut> cuts_;
 };
 
-bool is_of_a_link(const results::EventRow& event) {
-  return event.event == run_tables::kLinkUp || event.event == run_tables::kLinkDown;
-}
-
 }  // namespace
 
 std::vector<std::pair<double, LinkStates>> recorded_links(const results::RunRecord& run) {
   std::multimap<double, const results::EventRow*> changes;
   for (const results::EventRow& event : run.events) {
-    if (is_of_a_link(event)) changes.emplace(event.time_s, &event);
+    if (event.is_of_a_link()) changes.emplace(event.time_s, &event);
   }
   std::vector<std::pair<double, LinkStates>> told;
   if (changes.empty()) return told;

@@ -53,6 +53,8 @@ struct EventRow {
   std::string event;            ///< one of the events in run_tables.hpp
   std::string subject, object;  ///< of a link: sender, receiver; else: member, number of the capture
   double time_s = 0.0;          ///< of the step
+
+  bool is_of_a_link() const { return event == run_tables::kLinkUp || event == run_tables::kLinkDown; }
 };
 
 /// A message with capture reports that was lost or late on a link with faults.

@@ -51,8 +51,8 @@ class Timeline {
     for (const results::EventRow& row : run.events) {
       if (row.event == run_tables::kJoined || row.event == run_tables::kLeft)
         present_[row.subject].set(row.step, row.event == run_tables::kJoined);
-      const bool link = row.event == run_tables::kLinkUp || row.event == run_tables::kLinkDown;
-      if (link && row.object == station) linked_[row.subject].set(row.step, row.event == run_tables::kLinkUp);
+      if (row.is_of_a_link() && row.object == station)
+        linked_[row.subject].set(row.step, row.event == run_tables::kLinkUp);
       if (row.event == run_tables::kCaptured) captured_[row.subject][row.step].push_back(std::stoull(row.object));
       if (row.event == run_tables::kReleased) released_[{row.subject, std::stoull(row.object)}] = row.step;
     }
