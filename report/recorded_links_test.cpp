@@ -44,7 +44,7 @@ TEST(RecordedLinks, AreNoneWhereNothingIsRecorded) { EXPECT_TRUE(recorded_links(
 
 TEST(RecordedLinks, AreBlockedWithoutAFault) {
   results::RunRecord run = two_uavs();
-  run.events.push_back({5.0, run_tables::kLinkDown, "a", "gcs"});
+  run.events.push_back({0, run_tables::kLinkDown, "a", "gcs", 5.0});
   EXPECT_EQ(digits(run, 4.0), "011101110");
   EXPECT_EQ(digits(run, 5.0), "011001110");
   EXPECT_FALSE(has_cuts(run));
@@ -68,7 +68,7 @@ TEST(RecordedLinks, AreCutBetweenTheGroupsOfAPartition) {
   all_down(run, 10.0, "b");
   EXPECT_EQ(digits(run, 12.0), "012102220");
   run.faults[0].target = "a | b";
-  run.events.push_back({10.0, run_tables::kLinkDown, "a", "gcs"});
+  run.events.push_back({0, run_tables::kLinkDown, "a", "gcs", 10.0});
   EXPECT_EQ(digits(run, 12.0), "012202220") << "who is in no group is in one of its own";
   EXPECT_EQ(digits(run, 35.0), "010000000") << "a killed program cuts no link";
 }

@@ -1,6 +1,6 @@
-// Reads the folder of a finished run: result.json, the rows of the tables beside it (run_rows.hpp), scene.json and maps.
-// Code that judges a run reads it with read_run(), which refuses damage; pages read it with read_sound_run(), which
-// reads each table up to the first damaged row.
+// Reads the folder of a finished run: result.json, the rows of the tables beside it (run_rows.hpp), scene.json and
+// maps. Code that judges a run reads it with read_run(), which refuses damage; pages read it with read_sound_run(),
+// which reads each table up to the first damaged row.
 // Frame W (ENU), metres, metres per second, simulated seconds and steps.
 #pragma once
 

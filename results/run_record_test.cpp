@@ -1,4 +1,5 @@
-// Both ways to read the folder of a drawn run: of a sound folder they give the same; damage is refused, or ends a table.
+// Both ways to read the folder of a drawn run: of a sound folder they give the same; damage is refused, or ends the
+// table.
 #include "results/run_record.hpp"
 
 #include <gtest/gtest.h>

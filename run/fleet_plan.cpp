@@ -23,7 +23,7 @@
 #include "run/drawn_world.hpp"
 #include "run/exec_variables.hpp"
 #include "run/free_nodes.hpp"
-#include "run/ground_program.hpp"
+#include "run/ground_agent.hpp"
 #include "run/hand_flights.hpp"
 #include "run/python_planners.hpp"
 #include "run/watch_arguments.hpp"

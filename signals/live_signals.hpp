@@ -1,5 +1,5 @@
-// Values of the signals that the server knows during a run, for the conditions that faults wait for. run_signals.hpp says
-// where everything about signals is.
+// Values of the signals that the server knows during a run, for the conditions that faults wait for. run_signals.hpp
+// says where everything about signals is.
 // Threads: one.   Pure: knows no bus.
 #pragma once
 

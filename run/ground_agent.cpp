@@ -1,4 +1,4 @@
-#include "run/ground_program.hpp"
+#include "run/ground_agent.hpp"
 
 #include <algorithm>
 
