@@ -9,9 +9,9 @@
 #include "host/preflight.hpp"
 #include "process/host/environment.hpp"
 #include "process/program.hpp"
-#include "properties/property_file.hpp"
 #include "results/run_folder.hpp"
 #include "run/fleet_plan.hpp"
+#include "signals/properties/property_file.hpp"
 
 namespace skein::cli {
 namespace {

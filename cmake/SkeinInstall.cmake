@@ -46,8 +46,8 @@ install(FILES cli/completion/skein.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fis
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT license)  # Debian packages have a copyright file
 
 # The folder in which config/gdb/skein_printers.py looks for sources.
-install(DIRECTORY bus cli comm_router core debug doctor host one_process oracle process properties recording report
-  results run scenes sight signals sim_server station uav_agent view DESTINATION src/skein COMPONENT source
+install(DIRECTORY bus cli comm_router core debug doctor host one_process oracle process recording report results
+  run scenes sight signals sim_server station uav_agent view DESTINATION src/skein COMPONENT source
   FILES_MATCHING PATTERN "*.cpp" PATTERN "*.hpp" PATTERN testing EXCLUDE)
 
 # The package for Python, in the folder where Debian's Python finds it if the prefix is /usr.

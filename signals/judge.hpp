@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "core/faults/fault_plan.hpp"
-#include "properties/evaluation.hpp"
-#include "properties/property_file.hpp"
+#include "signals/properties/evaluation.hpp"
+#include "signals/properties/property_file.hpp"
 
 namespace skein::cli {
 

@@ -19,8 +19,8 @@
 
 #include "core/faults/fault_plan.hpp"
 #include "core/scenario.hpp"
-#include "properties/evaluation.hpp"
 #include "results/run_record.hpp"
+#include "signals/properties/evaluation.hpp"
 #include "signals/radio_log.hpp"
 
 namespace skein::cli {

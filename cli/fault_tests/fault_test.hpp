@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "cli/fault_tests/expectations.hpp"
-#include "properties/property_file.hpp"
 #include "run/fleet_plan.hpp"
+#include "signals/properties/property_file.hpp"
 
 namespace skein::cli {
 

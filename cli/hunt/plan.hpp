@@ -10,8 +10,8 @@
 #include "cli/fault_tests/fault_test.hpp"
 #include "cli/hunt/fault_maker.hpp"
 #include "cli/hunt/trial.hpp"
-#include "properties/property_file.hpp"
 #include "run/fleet_plan.hpp"
+#include "signals/properties/property_file.hpp"
 
 namespace skein::cli {
 

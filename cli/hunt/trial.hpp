@@ -13,8 +13,8 @@
 #include "core/scenario.hpp"
 #include "host/program_host.hpp"
 #include "process/json_text.hpp"
-#include "properties/evaluation.hpp"
-#include "properties/property_file.hpp"
+#include "signals/properties/evaluation.hpp"
+#include "signals/properties/property_file.hpp"
 
 namespace skein::cli {
 

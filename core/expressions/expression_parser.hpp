@@ -8,7 +8,7 @@
 //   min(a, b)  max(a, b)  abs(a)  gain(a)  rises(a)  falls(a)
 //   (anything)
 // Units must fit: an expression may only compare or add numbers of the same dimension. The parser of a language
-// that contains expressions (properties/property_parser.hpp) also reads its own words with this class.  Pure.
+// that contains expressions (signals/properties/property_parser.hpp) also reads its own words with this class.  Pure.
 #pragma once
 
 #include <map>

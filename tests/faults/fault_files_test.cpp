@@ -10,7 +10,7 @@
 #include "core/expressions/signal_table.hpp"
 #include "core/scenario/scenario_reader.hpp"
 #include "core/text/suggestion.hpp"
-#include "properties/property_file.hpp"
+#include "signals/properties/property_file.hpp"
 #include "tests/support/places.hpp"
 
 namespace skein::cli {

@@ -15,9 +15,13 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// The folder that has a layer: a folder at the root, or recording/mcap, the file format, which depends on no messages.
+/// The folder that has a layer: a folder at the root, or one of two that depend on less than the folder above them: the
+/// file format of recordings, which knows no messages, and the language of properties, which knows no runs.
 std::string layer_folder(const std::string& path) {
-  return path.starts_with("recording/mcap/") ? "recording/mcap" : path.substr(0, path.find('/'));
+  for (const char* folder : {"recording/mcap", "signals/properties"}) {
+    if (path.starts_with(std::string(folder) + "/")) return folder;
+  }
+  return path.substr(0, path.find('/'));
 }
 
 const std::set<std::string>& applications() {
@@ -31,15 +35,20 @@ const std::set<std::string>& launcher() {
   return kNames;
 }
 
-/// Lower layers have lower numbers. All applications share one layer; one_process, which combines them, is above it.
+/// The number of a folder's layer, from the lowest. All applications share one layer; one_process, which combines them,
+/// is above it.
 std::optional<int> layer_of(const std::string& folder) {
-  static const std::map<std::string, int> kLayers = {
-      {"core", 0},    {"process", 1}, {"idl", 1},  {"recording/mcap", 1}, {"properties", 1}, {"sight", 1},
-      {"oracle", 2},  {"results", 2}, {"bus", 3},  {"host", 3},           {"report", 3},     {"scenes", 3},
-      {"signals", 3}, {"debug", 4},   {"view", 4}, {"recording", 4},      {"run", 5},        {"one_process", 7}};
-  if (applications().contains(folder)) return 6;
-  const auto found = kLayers.find(folder);
-  return found == kLayers.end() ? std::nullopt : std::optional(found->second);
+  static const std::vector<std::set<std::string>> kLayers = {
+      {"core"},
+      {"process", "idl", "recording/mcap", "signals/properties", "sight"},
+      {"oracle", "results"},
+      {"bus", "host", "report", "scenes", "signals"},
+      {"debug", "view", "recording"},
+      {"run"},
+      applications(),
+      {"one_process"}};
+  const auto found = std::ranges::find_if(kLayers, [&](const auto& layer) { return layer.contains(folder); });
+  return found == kLayers.end() ? std::nullopt : std::optional(static_cast<int>(found - kLayers.begin()));
 }
 
 std::string at(const SourceFile& file, std::size_t line, const std::string& what) {

@@ -15,9 +15,9 @@ namespace skein::layers {
 using Tree = std::vector<SourceFile>;
 using Violations = std::vector<std::string>;
 
-/// core <- process, idl, recording/mcap, properties, sight <- results, oracle <- bus, host, report, scenes, signals <-
-/// debug, view, recording <- run <- applications <- one_process. No application includes another, and only the launcher
-/// includes host, debug and run.
+/// core <- process, idl, recording/mcap, signals/properties, sight <- results, oracle <- bus, host, report, scenes,
+/// signals <- debug, view, recording <- run <- applications <- one_process. No application includes another, and only
+/// the launcher includes host, debug and run.
 /// tests/ may include everything, and only test code may include tests/.
 Violations check_layers(const Tree& tree);
 

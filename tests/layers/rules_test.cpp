@@ -76,7 +76,7 @@ TEST_F(MadeUpTree, LayersMayOnlyLookDown) {
   for (const char* path :
        {"core/a.hpp", "idl/a.hpp", "bus/a.hpp", "sim_server/a.hpp", "uav_agent/a.hpp", "report/a.hpp",
         "recording/a.hpp", "recording/mcap/a.hpp", "results/a.hpp", "process/a.hpp", "scenes/a.hpp", "host/a.hpp",
-        "debug/a.hpp", "signals/a.hpp", "run/a.hpp", "one_process/a.hpp", "tests/a.hpp"}) {
+        "debug/a.hpp", "signals/a.hpp", "signals/properties/a.hpp", "run/a.hpp", "one_process/a.hpp", "tests/a.hpp"}) {
     file(path, "\n");
   }
   file("bus/good.cpp", include("core/a.hpp") + include("idl/a.hpp") + include("bus/a.hpp"));
@@ -91,7 +91,7 @@ TEST_F(MadeUpTree, LayersMayOnlyLookDown) {
   file("recording/good.cpp", include("recording/mcap/a.hpp") + include("bus/a.hpp"));
   file("run/good.cpp", include("debug/a.hpp") + include("host/a.hpp") + include("recording/a.hpp"));
   file("sim_server/good.cpp", include("scenes/a.hpp") + include("signals/a.hpp"));
-  file("signals/good.cpp", include("results/a.hpp") + include("recording/mcap/a.hpp"));
+  file("signals/good.cpp", include("signals/properties/a.hpp") + include("recording/mcap/a.hpp"));
   file("view/good.cpp", include("recording/mcap/a.hpp"));
   EXPECT_EQ(check_layers(tree()), Violations{});
 
@@ -106,14 +106,30 @@ TEST_F(MadeUpTree, LayersMayOnlyLookDown) {
   file("run/bad.cpp", include("view/a.hpp") + include("cli/good.cpp"));
   file("scenes/bad.cpp", include("core/a.hpp") + include("sim_server/a.hpp") + include("bus/a.hpp"));
   file("signals/bad.cpp", include("results/a.hpp") + include("sim_server/a.hpp"));
+  file("signals/properties/bad.cpp", include("core/a.hpp") + include("signals/a.hpp"));
   file("station/bad.cpp", include("tests/a.hpp"));
   file("uav_agent/bad.cpp", include("sim_server/a.hpp") + include("one_process/a.hpp") + include("run/a.hpp"));
-  EXPECT_EQ(places(check_layers(tree())),
-            (Places{"bus/bad.hpp:1", "cli/bad.cpp:2", "core/bad.cpp:2", "host/bad.cpp:2", "idl/bad.cpp:2",
-                    "recording/mcap/bad.cpp:2", "recording/mcap/bad.cpp:3", "report/bad.cpp:2", "report/bad.cpp:3",
-                    "results/bad.cpp:2", "results/bad.cpp:3", "run/bad.cpp:2", "scenes/bad.cpp:2", "scenes/bad.cpp:3",
-                    "signals/bad.cpp:2", "station/bad.cpp:1", "uav_agent/bad.cpp:1", "uav_agent/bad.cpp:2",
-                    "uav_agent/bad.cpp:3"}));
+  const Places expected = {"bus/bad.hpp:1",
+                           "cli/bad.cpp:2",
+                           "core/bad.cpp:2",
+                           "host/bad.cpp:2",
+                           "idl/bad.cpp:2",
+                           "recording/mcap/bad.cpp:2",
+                           "recording/mcap/bad.cpp:3",
+                           "report/bad.cpp:2",
+                           "report/bad.cpp:3",
+                           "results/bad.cpp:2",
+                           "results/bad.cpp:3",
+                           "run/bad.cpp:2",
+                           "scenes/bad.cpp:2",
+                           "scenes/bad.cpp:3",
+                           "signals/bad.cpp:2",
+                           "signals/properties/bad.cpp:2",
+                           "station/bad.cpp:1",
+                           "uav_agent/bad.cpp:1",
+                           "uav_agent/bad.cpp:2",
+                           "uav_agent/bad.cpp:3"};
+  EXPECT_EQ(places(check_layers(tree())), expected);
 }
 
 TEST_F(MadeUpTree, OnlyNodesUseTheBus) {

@@ -1,4 +1,4 @@
-#include "properties/evaluation.hpp"
+#include "signals/properties/evaluation.hpp"
 
 #include <algorithm>
 #include <cmath>

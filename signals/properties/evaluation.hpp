@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "properties/property.hpp"
+#include "signals/properties/property.hpp"
 
 namespace skein::properties {
 

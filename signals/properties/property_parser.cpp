@@ -1,4 +1,4 @@
-#include "properties/property_parser.hpp"
+#include "signals/properties/property_parser.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,11 +1,11 @@
-#include "properties/property_file.hpp"
+#include "signals/properties/property_file.hpp"
 
 #include <algorithm>
 #include <cctype>
 
 #include "core/config/config_files.hpp"
 #include "core/text/suggestion.hpp"
-#include "properties/property_parser.hpp"
+#include "signals/properties/property_parser.hpp"
 
 namespace skein::properties {
 namespace {

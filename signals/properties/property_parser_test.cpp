@@ -1,5 +1,5 @@
 // Properties as people write them: what is read, for whom, and what is said of wrong ones.
-#include "properties/property_parser.hpp"
+#include "signals/properties/property_parser.hpp"
 
 #include <gtest/gtest.h>
 

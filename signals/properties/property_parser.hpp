@@ -11,7 +11,7 @@
 
 #include "core/expressions/expression_parser.hpp"
 #include "core/scenario.hpp"
-#include "properties/property.hpp"
+#include "signals/properties/property.hpp"
 
 namespace skein::properties {
 

@@ -1,5 +1,5 @@
 // Property files, and the ready properties that Skein ships.
-#include "properties/property_file.hpp"
+#include "signals/properties/property_file.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Whether properties held, by how much, and what says nothing: against a second, naive reading of the definitions.
-#include "properties/evaluation.hpp"
+#include "signals/properties/evaluation.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <map>
 #include <random>
 
-#include "properties/property_parser.hpp"
+#include "signals/properties/property_parser.hpp"
 
 namespace skein::properties {
 namespace {

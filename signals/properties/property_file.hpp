@@ -9,7 +9,7 @@
 
 #include "core/config/config_reader.hpp"
 #include "core/scenario.hpp"
-#include "properties/property.hpp"
+#include "signals/properties/property.hpp"
 
 namespace skein::properties {
 
