@@ -88,7 +88,7 @@ void check_window(const std::vector<double>& window_s, double duration_s) {
 std::set<std::pair<std::string, std::string>> links_used(const fs::path& dir, const Scenario& scenario,
                                                          const std::vector<double>& window_s) {
   std::set<std::pair<std::string, std::string>> links;
-  for (const RadioArrival& arrival : read_radio_log(dir, scenario).arrivals) {
+  for (const signals::RadioArrival& arrival : signals::read_radio_log(dir, scenario).arrivals) {
     const double sent_s = static_cast<double>(arrival.sent) * scenario.exchange_period_s;
     if (sent_s >= window_s[0] && sent_s < window_s[1]) links.emplace(arrival.stream.source, arrival.target);
   }

@@ -177,8 +177,8 @@ class FaultTestRun {
                                   const results::RunRecord* fault_free, FaultVerdict& verdict) {
     if (test.property_set.empty()) return;
     using Outcome = properties::Verdict::Outcome;
-    FolderSignals signals(own, test.plan.scenario, fault_free, &test.plan.faults);
-    for (const PropertyFinding& finding : judge_properties(test.property_set, signals)) {
+    signals::FolderSignals signals(own, test.plan.scenario, fault_free, &test.plan.faults);
+    for (const signals::PropertyFinding& finding : signals::judge_properties(test.property_set, signals)) {
       const Outcome outcome = finding.verdict.outcome;
       // A default property that the file does not mention need not have anything to judge.
       const bool is_quiet = outcome == Outcome::holds || (outcome == Outcome::vacuous && !test.states(finding.name));

@@ -8,7 +8,7 @@
 #include "signals/custody.hpp"
 #include "signals/run_signals.hpp"
 
-namespace skein::cli {
+namespace skein::signals {
 namespace {
 
 /// Allowance for the flight of a UAV whose program comes back: from its position then to its start, and from there to
@@ -266,4 +266,4 @@ FolderSignals::Values FolderSignals::missed(const std::string& uav, const result
   return values;
 }
 
-}  // namespace skein::cli
+}  // namespace skein::signals

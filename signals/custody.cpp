@@ -8,7 +8,7 @@
 #include "results/run_folder.hpp"
 #include "results/run_tables.hpp"
 
-namespace skein::cli {
+namespace skein::signals {
 namespace {
 
 /// True from `step` on, or false.
@@ -172,4 +172,4 @@ std::map<CaptureKey, std::uint64_t> derived_deliveries(const results::RunRecord&
   return delivered;
 }
 
-}  // namespace skein::cli
+}  // namespace skein::signals

@@ -10,7 +10,7 @@
 #include "core/faults/fault_plan.hpp"
 #include "results/run_record.hpp"
 
-namespace skein::cli {
+namespace skein::signals {
 
 /// UAV and number of the capture.
 using CaptureKey = std::pair<std::string, std::uint64_t>;
@@ -25,4 +25,4 @@ using CaptureKey = std::pair<std::string, std::uint64_t>;
 std::map<CaptureKey, std::uint64_t> derived_deliveries(const results::RunRecord& run, const Scenario& scenario,
                                                        const FaultPlan& plan);
 
-}  // namespace skein::cli
+}  // namespace skein::signals

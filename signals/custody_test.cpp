@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace skein::cli {
+namespace skein::signals {
 namespace {
 
 using Deliveries = std::map<CaptureKey, std::uint64_t>;
@@ -131,4 +131,4 @@ TEST_F(CustodyTest, AFaultThatWaitedActsFromItsBeginningOn) {
 }
 
 }  // namespace
-}  // namespace skein::cli
+}  // namespace skein::signals

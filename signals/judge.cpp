@@ -5,7 +5,7 @@
 
 #include "core/text/text.hpp"
 
-namespace skein::cli {
+namespace skein::signals {
 
 using properties::NamedProperty;
 using properties::Property;
@@ -55,4 +55,4 @@ void check_against_plan(const properties::PropertySet& set, const FaultPlan& pla
   }
 }
 
-}  // namespace skein::cli
+}  // namespace skein::signals

@@ -8,7 +8,7 @@
 #include "signals/properties/evaluation.hpp"
 #include "signals/properties/property_file.hpp"
 
-namespace skein::cli {
+namespace skein::signals {
 
 struct PropertyFinding {
   std::string name;
@@ -29,4 +29,4 @@ bool needs_undisturbed(const properties::PropertySet& set);
 void check_against_plan(const properties::PropertySet& set, const FaultPlan& plan, const Scenario& scenario,
                         const std::string& key, ConfigErrors& errors);
 
-}  // namespace skein::cli
+}  // namespace skein::signals

@@ -6,7 +6,7 @@
 #include "core/radio/radio_routes.hpp"
 #include "signals/run_signals.hpp"
 
-namespace skein::cli {
+namespace skein::signals {
 namespace {
 
 /// Target nodes of each stream: those of the scenario's routes, and those at which messages arrived.
@@ -70,4 +70,4 @@ const std::vector<double>& FolderSignals::use(const std::string& name, std::vect
   return values({&*info, std::move(arguments)});
 }
 
-}  // namespace skein::cli
+}  // namespace skein::signals

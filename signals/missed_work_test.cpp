@@ -6,7 +6,7 @@
 #include "signals/run_signals_fixture.hpp"
 #include "tests/support/places.hpp"
 
-namespace skein::cli {
+namespace skein::signals {
 namespace {
 
 using Outcome = properties::Verdict::Outcome;
@@ -133,4 +133,4 @@ TEST_F(MissedWork, WorksAgainSaysNothingWhereNobodyWasAway) {
 }
 
 }  // namespace
-}  // namespace skein::cli
+}  // namespace skein::signals

@@ -12,7 +12,7 @@
 #include "recording/mcap/reader.hpp"
 #include "results/run_folder.hpp"
 
-namespace skein::cli {
+namespace skein::signals {
 namespace {
 
 constexpr const char* kArrivals = "/skein/arrivals";
@@ -168,4 +168,4 @@ RadioLog read_radio_log(const std::filesystem::path& dir, const Scenario& scenar
   return LogReader(file, scenario).read();
 }
 
-}  // namespace skein::cli
+}  // namespace skein::signals

@@ -11,7 +11,7 @@
 
 #include "core/scenario.hpp"
 
-namespace skein::cli {
+namespace skein::signals {
 
 /// Messages of one node on one topic.
 struct RadioStream {
@@ -42,4 +42,4 @@ struct RadioLog {
 /// @throws InputError when there is no recording, or it is damaged: a run flown with `--record=none` has none.
 RadioLog read_radio_log(const std::filesystem::path& dir, const Scenario& scenario);
 
-}  // namespace skein::cli
+}  // namespace skein::signals

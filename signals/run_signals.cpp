@@ -8,7 +8,7 @@
 #include "core/text/suggestion.hpp"
 #include "core/text/text.hpp"
 
-namespace skein::cli {
+namespace skein::signals {
 namespace {
 
 std::size_t exchanges_of(const results::RunRecord& run, const Scenario& scenario) {
@@ -307,4 +307,4 @@ const RadioLog& FolderSignals::radio() {
   return *radio_;
 }
 
-}  // namespace skein::cli
+}  // namespace skein::signals

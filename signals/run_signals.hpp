@@ -23,7 +23,7 @@
 #include "signals/properties/evaluation.hpp"
 #include "signals/radio_log.hpp"
 
-namespace skein::cli {
+namespace skein::signals {
 
 /// Whether a signal compares the run with the same one without faults.
 bool is_comparison(const SignalUse& signal);
@@ -87,4 +87,4 @@ class FolderSignals final : public properties::RunSignals {
   std::map<std::string, Track> tracks_;
 };
 
-}  // namespace skein::cli
+}  // namespace skein::signals

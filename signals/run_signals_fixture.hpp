@@ -11,7 +11,7 @@
 #include "core/expressions/expression_parser.hpp"
 #include "signals/run_signals.hpp"
 
-namespace skein::cli {
+namespace skein::signals {
 
 inline constexpr std::size_t kExchanges = 41;  // 2 s
 
@@ -64,4 +64,4 @@ inline results::CaptureRow capture(const std::string& uav, std::uint64_t number,
   return {uav, number, time_s, point, q, delivered_at_s, "", 1.0, q, q};
 }
 
-}  // namespace skein::cli
+}  // namespace skein::signals

@@ -14,7 +14,7 @@
 #include "results/run_folder.hpp"
 #include "signals/run_signals_fixture.hpp"
 
-namespace skein::cli {
+namespace skein::signals {
 namespace {
 
 TEST_F(RunSignalsTest, TheFleetIsWhereItsTableSays) {
@@ -339,4 +339,4 @@ TEST_F(RunSignalsTest, EverySignalOfTheTableIsKnown) {
 }
 
 }  // namespace
-}  // namespace skein::cli
+}  // namespace skein::signals

@@ -208,9 +208,9 @@ TEST_F(Converted, PropertiesJudgeADrawnRunAsTheOldKeysDid) {
     Drawn drawn(seed);
     const std::string expect = "expect: {custody: none, during: [" + drawn.window() + ", " + drawn.window() + "]}\n";
     const FaultTest test = load(text_of(kFlown + expect));
-    FolderSignals signals(drawn.run, test.plan.scenario, nullptr, &test.plan.faults);
-    const auto findings = judge_properties(test.property_set, signals);
-    const bool holds = std::ranges::none_of(findings, [](const PropertyFinding& finding) {
+    signals::FolderSignals signals(drawn.run, test.plan.scenario, nullptr, &test.plan.faults);
+    const auto findings = signals::judge_properties(test.property_set, signals);
+    const bool holds = std::ranges::none_of(findings, [](const signals::PropertyFinding& finding) {
       return finding.verdict.outcome == properties::Verdict::Outcome::fails;
     });
     EXPECT_EQ(holds, drawn.holds) << seed << ": " << expect << test.document.text;

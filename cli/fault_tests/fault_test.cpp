@@ -121,7 +121,7 @@ void read_properties(const std::variant<std::string, properties::PropertyEntries
   } else if (file == nullptr) {
     test.entries = std::get<properties::PropertyEntries>(given);
     test.property_set = properties::parse_properties(test.entries, kProperties, scenario, errors);
-    check_against_plan(test.property_set, test.plan.faults, scenario, kProperties, errors);
+    signals::check_against_plan(test.property_set, test.plan.faults, scenario, kProperties, errors);
   }
   if (test.capsule) return;
   const auto usual =
@@ -175,7 +175,7 @@ FaultTest read_fault_test(const fs::path& file, const ConfigDocument& document, 
 
 }  // namespace
 
-bool FaultTest::needs_fault_free() const { return needs_undisturbed(property_set); }
+bool FaultTest::needs_fault_free() const { return signals::needs_undisturbed(property_set); }
 
 bool FaultTest::states(const std::string& property) const {
   return std::ranges::any_of(entries, [&](const auto& entry) { return entry.first == property; });

@@ -55,15 +55,15 @@ struct Replayed {
 Replayed judge_property(const FaultTest& test, const fs::path& dir, const Console& console) {
   const results::RunRecord run = results::read_run(dir);
   std::optional<results::RunRecord> without;
-  if (needs_undisturbed(test.property_set)) {
+  if (signals::needs_undisturbed(test.property_set)) {
     RunOptions undisturbed = test.plan.options;
     undisturbed.faults.reset();
     fly_aside(undisturbed, "without the faults", console,
               [&](const fs::path& aside) { without = results::read_run(aside); });
   }
-  FolderSignals signals(run, test.plan.scenario, without ? &*without : nullptr, &test.plan.faults);
+  signals::FolderSignals signals(run, test.plan.scenario, without ? &*without : nullptr, &test.plan.faults);
   Replayed verdict{false, "nothing is asked"};
-  for (const PropertyFinding& found : judge_properties(test.property_set, signals)) {
+  for (const signals::PropertyFinding& found : signals::judge_properties(test.property_set, signals)) {
     if (found.name != test.capsule->property) continue;
     verdict = {found.verdict.outcome == properties::Verdict::Outcome::fails, found.text()};
   }

@@ -99,7 +99,7 @@ void TrialFlights::fly_undisturbed(const std::vector<Trial>& trials) {
   std::vector<fs::path> dirs;
   for (const Trial& trial : trials) {
     const Setting* setting = setting_of(trial);
-    if (setting == nullptr || !needs_undisturbed(asked(setting->set))) continue;
+    if (setting == nullptr || !signals::needs_undisturbed(asked(setting->set))) continue;
     const fs::path dir = dir_of("without-faults-" + std::to_string(undisturbed_.size() + 1));
     if (!undisturbed_.emplace(what_is_flown(trial.run), dir).second) continue;
     missing.push_back({trial.run, {}});

@@ -70,10 +70,10 @@ report::TimeCurve margin_curve(const HuntSummary& summary, const Find& find, con
   const Scenario scenario = load_scenario(find.trial.run.scenario, load_options(find.trial.run));
   const properties::PropertySet set = properties::parse_properties(summary.plan.entries, scenario);
   const auto property = std::ranges::find(set, find.broke, &properties::NamedProperty::name);
-  if (property == set.end() || needs_undisturbed({*property})) return curve;
+  if (property == set.end() || signals::needs_undisturbed({*property})) return curve;
   FaultPlan plan;
   plan.faults = find.trial.faults;
-  FolderSignals signals(run, scenario, nullptr, &plan);
+  signals::FolderSignals signals(run, scenario, nullptr, &plan);
   std::vector<double> worst;
   for (const properties::Property& one : property->cases) {
     const std::vector<double> margins = margins_over_time(one, signals);

@@ -49,7 +49,7 @@ TrialFinding completes(const std::filesystem::path& dir, const ExitStatus& exit,
   return finding;
 }
 
-TrialFinding finding_of(const PropertyFinding& found) {
+TrialFinding finding_of(const signals::PropertyFinding& found) {
   const Verdict& verdict = found.verdict;
   TrialFinding finding{found.name, verdict.outcome, {}, verdict.at_s, found.text()};
   if (verdict.outcome != Outcome::vacuous && std::isfinite(verdict.margin)) finding.margin = verdict.margin;
@@ -218,8 +218,8 @@ TrialOutcome read_outcome(const std::filesystem::path& dir, const ExitStatus& ex
   if (undisturbed) without = results::read_run(*undisturbed);
   FaultPlan plan;
   plan.faults = trial.faults;
-  FolderSignals signals(run, scenario, without ? &*without : nullptr, &plan);
-  for (const PropertyFinding& found : judge_properties(asked_of(trial.faults, set), signals)) {
+  signals::FolderSignals signals(run, scenario, without ? &*without : nullptr, &plan);
+  for (const signals::PropertyFinding& found : signals::judge_properties(asked_of(trial.faults, set), signals)) {
     outcome.findings.push_back(finding_of(found));
   }
   outcome.states = states_of(signals, scenario, trial.faults, outcome);
