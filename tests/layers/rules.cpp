@@ -165,10 +165,10 @@ Violations check_circles(const Tree& tree) {
 Violations check_bus_users(const Tree& tree) {
   Violations violations;
   for (const SourceFile& file : tree) {
-    const bool is_of_an_application = applications().contains(file.folder()) || launcher().contains(file.folder());
-    if (!is_of_an_application || may_use_bus(file.path)) continue;
+    const bool has_nodes = applications().contains(file.folder());
+    if (has_nodes ? may_use_bus(file.path) : !launcher().contains(file.folder())) continue;
     for (const Include& include : file.includes) {
-      const bool of_a_node = include.path.starts_with(file.folder() + "/") && may_use_bus(include.path);
+      const bool of_a_node = has_nodes && include.path.starts_with(file.folder() + "/") && may_use_bus(include.path);
       if (!include.path.starts_with("bus/") && !of_a_node) continue;
       violations.push_back(
           at(file, include.line, "only main.cpp, *_node.* and *_program.* may include " + include.path));

@@ -25,7 +25,8 @@ Violations check_layers(const Tree& tree);
 /// folders. A file beside the folders (its header and source together) counts as a folder of its own.
 Violations check_circles(const Tree& tree);
 
-/// In an application only main.cpp, *_node.* and *_program.* include bus/, and no other file includes their headers.
+/// In an application only main.cpp, *_node.* and *_program.* include bus/, and no other file includes their headers. No
+/// file of host, debug and run includes bus/.
 Violations check_bus_users(const Tree& tree);
 
 /// Only bus/<vendor>/ includes a DDS vendor's headers; tests/ may use raw DDS, to check Skein from outside.

@@ -140,14 +140,16 @@ TEST_F(MadeUpTree, OnlyNodesUseTheBus) {
         "station/station_program.hpp", "station/station_program.cpp"}) {
     file(path, include("bus/bus.hpp"));
   }
+  file("run/ground_program.hpp", "\n");
+  file("run/plan.cpp", include("run/ground_program.hpp"));
   EXPECT_EQ(check_bus_users(tree()), Violations{});
 
   file("station/journal.cpp", include("bus/bus.hpp"));
   file("station/tally.cpp", include("station_node.hpp"));
   file("sim_server/node_list.cpp", include("bus/bus.hpp"));
-  file("run/fleet.cpp", include("bus/bus.hpp"));
-  EXPECT_EQ(places(check_bus_users(tree())),
-            (Places{"run/fleet.cpp:1", "sim_server/node_list.cpp:1", "station/journal.cpp:1", "station/tally.cpp:1"}));
+  file("run/ground_program.cpp", include("bus/bus.hpp"));
+  EXPECT_EQ(places(check_bus_users(tree())), (Places{"run/ground_program.cpp:1", "sim_server/node_list.cpp:1",
+                                                     "station/journal.cpp:1", "station/tally.cpp:1"}));
 }
 
 TEST_F(MadeUpTree, DdsIsForItsVendorsFolder) {
