@@ -17,6 +17,7 @@
 #include "cli/run_results.hpp"
 #include "cli/secure/security.hpp"
 #include "host/preflight.hpp"
+#include "process/files/private_file.hpp"
 #include "process/host/environment.hpp"
 #include "process/program.hpp"
 #include "results/run_folder.hpp"
@@ -266,7 +267,7 @@ fs::path view_folder_of(const fs::path& file) { return fs::path(file).replace_ex
 void write_view_folder(const fs::path& folder, const view::Endpoint& published) {
   const view::Key key = view::Key::draw();
   write_for_station(folder, key);
-  view::write_private_file(folder / kViewDoor, view::key_file_page(published.from_here().text(), key, true));
+  write_private_file(folder / kViewDoor, view::key_file_page(published.from_here().text(), key, true));
   ContainerFolders(folder).give_all(folder);
 }
 

@@ -143,7 +143,7 @@ TEST_F(ComposeCommand, EachProgramGetsAFolderOfKeysThatOnlyItsOwnerReads) {
       EXPECT_EQ(mode_of(folder / program), 0700u);
       EXPECT_EQ(names_in(folder / program),
                 std::set<std::string>(security_files::kAll.begin(), security_files::kAll.end()));
-      for (const char* file : security_files::kAll) EXPECT_EQ(mode_of(folder / program / file), 0400u) << file;
+      for (const char* file : security_files::kAll) EXPECT_EQ(mode_of(folder / program / file), 0600u) << file;
       private_keys.insert(read_text(folder / program / security_files::kKey));
     }
     EXPECT_EQ(private_keys.size(), programs.size());

@@ -4,6 +4,7 @@
 #include <cstdlib>
 
 #include "host/supervisor.hpp"
+#include "process/files/private_file.hpp"
 #include "process/host/host_name.hpp"
 #include "run/browser.hpp"
 #include "view/finished_run.hpp"
@@ -33,9 +34,8 @@ LivePage::LivePage(const view::Endpoint& endpoint, bool in_container)
       endpoint_(listener_->endpoint()),
       key_(view::Key::draw()) {
   if (in_container) listener_.reset();
-  view::write_private_file(folder_.path() / kViewKey, key_.text() + "\n");
-  view::write_private_file(folder_.path() / kViewDoor,
-                           view::key_file_page(endpoint_.from_here().text(), key_, in_container));
+  write_private_file(folder_.path() / kViewKey, key_.text() + "\n");
+  write_private_file(folder_.path() / kViewDoor, view::key_file_page(endpoint_.from_here().text(), key_, in_container));
 }
 
 WatchedBy LivePage::watched() const { return {listener_ ? listener_->fd() : -1, folder_.path() / kViewKey, script_}; }
@@ -86,7 +86,7 @@ void write_for_station(const fs::path& folder, const view::Key& key) {
   const fs::path script = view::find_script();
   fs::create_directories(folder);
   fs::permissions(folder, fs::perms::owner_all);
-  view::write_private_file(folder / kViewKey, key.text() + "\n");
+  write_private_file(folder / kViewKey, key.text() + "\n");
   fs::copy_file(script, folder / kViewScript, fs::copy_options::overwrite_existing);
 }
 

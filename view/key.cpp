@@ -1,9 +1,7 @@
 #include "view/key.hpp"
 
-#include <fcntl.h>
 #include <sys/random.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include <array>
 #include <cerrno>
@@ -11,7 +9,6 @@
 #include <stdexcept>
 
 #include "core/files/file_bytes.hpp"
-#include "core/files/write_whole.hpp"
 #include "core/types.hpp"
 
 namespace skein::view {
@@ -55,15 +52,6 @@ bool Key::opens(std::string_view given) const {
     differences = static_cast<unsigned char>(differences | (given[i] ^ text_[i]));
   }
   return differences == 0;
-}
-
-void write_private_file(const std::filesystem::path& file, std::string_view text) {
-  ::unlink(file.c_str());
-  const int fd = ::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, S_IRUSR | S_IWUSR);
-  const bool written = fd >= 0 && write_whole(fd, text);
-  const int reason = errno;
-  if (fd >= 0) ::close(fd);
-  if (!written) throw std::runtime_error(file.string() + ": " + std::strerror(reason));
 }
 
 }  // namespace skein::view

@@ -12,7 +12,8 @@ class Key {
  public:
   /// A new key of 256 random bits. @throws std::runtime_error when the system provides none.
   static Key draw();
-  /// Reads a key from a file. @throws InputError when the file has no key, or when other users may access it.
+  /// Reads a key from a file (process/files/private_file.hpp writes it). @throws InputError when the file has no key, or
+  /// when other users may access it.
   static Key read_from(const std::filesystem::path& file);
 
   const std::string& text() const { return text_; }
@@ -24,9 +25,5 @@ class Key {
 
   std::string text_;  ///< 64 hexadecimal digits
 };
-
-/// Creates a file of mode 0600. Removes a former file of this name first, and follows no link.
-/// @throws std::runtime_error with the system's reason.
-void write_private_file(const std::filesystem::path& file, std::string_view text);
 
 }  // namespace skein::view

@@ -16,10 +16,10 @@
 #include "cli/secure/keys.hpp"
 #include "cli/secure/rules.hpp"
 #include "core/config/config_files.hpp"
-#include "core/files/write_whole.hpp"
 #include "core/topics.hpp"
 #include "core/types.hpp"
 #include "process/files/closed_to_agents.hpp"
+#include "process/files/private_file.hpp"
 #include "process/files/security_files.hpp"
 #include "results/run_folder.hpp"
 
@@ -123,14 +123,6 @@ bool copy_from(const fs::path& from, const fs::path& to, UserId owner, std::uint
 }
 
 }  // namespace
-
-void write_private_file(const fs::path& file, const std::string& text) {
-  const int fd = ::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0400);
-  const bool written = fd >= 0 && write_whole(fd, text);
-  const int reason = errno;
-  if (fd >= 0) ::close(fd);
-  if (!written) throw std::system_error(reason, std::generic_category(), file.string());
-}
 
 std::map<std::string, SecurityFiles> security_of(const FleetPlan& plan, int base_domain) {
   // Two authorities, so that no participant's certificate counts as one that may sign permissions.

@@ -23,9 +23,6 @@ using SecurityFiles = std::map<std::string, std::string>;
 /// governance. @throws std::runtime_error when OpenSSL fails.
 std::map<std::string, SecurityFiles> security_of(const FleetPlan& plan, int base_domain);
 
-/// Creates a file that only its owner can read (mode 0400). @throws std::system_error, also if the file exists.
-void write_private_file(const std::filesystem::path& file, const std::string& text);
-
 /// Checks, before anything starts, that agents with user ids of their own can read what they need.
 /// @returns one such id, for the agents' own checks (--check); null: agents run as the launcher's user.
 /// @throws InputError when they cannot read a program, an input file or the configuration, with path and remedy.

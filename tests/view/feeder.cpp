@@ -14,6 +14,7 @@
 #include <thread>
 
 #include "made_up_flight.hpp"
+#include "process/files/private_file.hpp"
 #include "view/key.hpp"
 #include "view/listener.hpp"
 #include "view/pages.hpp"
@@ -33,7 +34,7 @@ int main(int argc, char** argv) try {
   view::Feed feed;
   test::MadeUpFlight flight(size, feed);
   const view::Server server(listener.fd(), key, view::site_of("made up", script), feed);
-  view::write_private_file(door, view::key_file_page(listener.endpoint().from_here().text(), key));
+  write_private_file(door, view::key_file_page(listener.endpoint().from_here().text(), key));
   std::cout << "open " << door.string() << std::endl;
   for (std::string line; std::getline(std::cin, line);) {
     std::istringstream words(line);
