@@ -1,5 +1,6 @@
 #include "leaving.hpp"
 
+#include <dlfcn.h>
 #include <sys/syscall.h>
 #include <unistd.h>
 
@@ -23,12 +24,20 @@ bool is_secured() {
   return enabled != nullptr && std::string(enabled) == "true";
 }
 
-/// Runs before exit handlers that were registered earlier. In a secured fleet, the last participant of Fast DDS is
-/// destroyed with the static objects, when OpenSSL has gone, and would still encrypt what it sends: so end at once.
-void forgive(int code, void*) {
-  if (code == 1) exit_at_once(0);
-  if (is_secured()) exit_at_once(code);
+/// Whether this program runs an interpreter of Python, which exports this function of its API.
+bool is_python() {
+  const auto initialized = reinterpret_cast<int (*)()>(::dlsym(RTLD_DEFAULT, "Py_IsInitialized"));
+  return initialized != nullptr && initialized() != 0;
 }
+
+/// The exit code of a Python program with an exception that nobody caught, as that of rclpy.spin() at the run's end.
+void forgive_exception(int code, void*) {
+  if (code == 1) exit_at_once(0);
+}
+
+/// In a secured fleet, the last participant of Fast DDS is destroyed with the static objects, when OpenSSL has gone, and
+/// would still encrypt what it sends.
+void end_before_static_objects(int code, void*) { exit_at_once(code); }
 
 }  // namespace
 
@@ -41,7 +50,9 @@ void end_node() {
   struct sigaction action = {};
   ::sigaction(SIGTERM, nullptr, &action);
   if (action.sa_handler == SIG_DFL) exit_at_once(0);
-  ::on_exit(forgive, nullptr);
+  // The handler that is registered last runs first, and before those that were registered earlier.
+  if (is_secured()) ::on_exit(end_before_static_objects, nullptr);
+  if (is_python()) ::on_exit(forgive_exception, nullptr);
   ::raise(SIGTERM);
 }
 
