@@ -44,12 +44,13 @@ const fs::path& folder_for_hunt(const fs::path& dir, bool force) {
                    "' is there, and is of no hunt; choose another --out, or write there all the same with --force");
 }
 
-/// A new folder in kEarlier for the finds of an earlier hunt: the first free number.
+/// The folder in kEarlier for the finds of an earlier hunt: the first number without finds. A launcher that was killed
+/// before it could move them has left such a folder.
 fs::path kept_folder(const fs::path& dir) {
   const fs::path all = dir / HuntLog::kEarlier;
   for (std::size_t number = 1;; ++number) {
     fs::path one = all / std::to_string(number);
-    if (!fs::exists(one)) return one;
+    if (!fs::exists(one / kFindsFolder)) return one;
   }
 }
 
@@ -60,10 +61,12 @@ std::vector<fs::path> HuntLog::keep_finds(const fs::path& dir) {
   if (!fs::exists(dir / kFindsFolder) || fs::is_empty(dir / kFindsFolder)) return capsules;
   const fs::path kept = kept_folder(dir);
   fs::create_directories(kept);
+  // Whatever happens in between, the finds are in one place with their log and their settings: these are copied before,
+  // and the originals stay until all finds have moved.
+  for (const char* name : {kLogFile, kSettingsFile}) {
+    if (fs::exists(dir / name)) fs::copy_file(dir / name, kept / name, fs::copy_options::overwrite_existing);
+  }
   fs::rename(dir / kFindsFolder, kept / kFindsFolder);
-  if (fs::exists(dir / kLogFile)) fs::rename(dir / kLogFile, kept / kLogFile);
-  // The original stays until the new settings replace it: a hunt that is killed before must still be known as one.
-  fs::copy_file(dir / kSettingsFile, kept / kSettingsFile);
   for (const auto& entry : fs::directory_iterator(kept / kFindsFolder)) {
     if (entry.path().extension() == ".yaml") capsules.push_back(entry.path());
   }

@@ -20,8 +20,9 @@ class HuntLog {
   /// Continues the hunt in `dir` if it has the same settings; begins one if the folder holds none. Locks the folder:
   /// two hunts never write to the same one. A folder that exists keeps owner and permissions.
   /// @param settings  everything on which the search depends. @param force  begins anew. The finds of the earlier hunt
-  ///   are never deleted: they move into kEarlier, with its log. Also takes a folder of other files, unless one of them
-  ///   has the name of a file of a hunt.
+  ///   are never deleted: they move into kEarlier, with its log and settings; if that fails, the earlier hunt stays as
+  ///   it was. A hunt without finds is deleted. Also takes a folder of other files, unless one of them has the name of
+  ///   a file of a hunt.
   /// @throws InputError if the folder holds another hunt or other files (foreign_entry()), if it cannot be written, or
   ///   if a line of the log is damaged; FolderInUse if another hunt writes there. An incomplete last line, as after a
   ///   kill, is removed.

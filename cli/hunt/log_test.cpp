@@ -225,6 +225,39 @@ TEST_F(HuntLogs, ALogThatCannotBeWrittenEndsTheHunt) {
   EXPECT_EQ(HuntLog(dir_, one_, false).outcomes().size(), 1U) << "the incomplete line goes";
 }
 
+// Finds are of little use without the log and the settings of their hunt.
+TEST_F(HuntLogs, WhoseFindsCannotBeKeptWithTheirSettingsStayAsTheyWere) {
+  constexpr std::size_t kLimit = 300 << 10;  // on the size of files, which is to a program what a full disk is
+  const Json large{{"seed", 1}, {"text", std::string(2 * kLimit, 'x')}};
+  HuntLog(dir_, large, false).add(0, "first", {.digest = "ab"});
+  find("separation-3");
+  const std::string log = read_text(dir_ / "log.jsonl"), settings = read_text(dir_ / "hunt.json");
+  const pid_t child = ::fork();
+  if (child == 0) {
+    ::signal(SIGXFSZ, SIG_IGN);
+    const rlimit limit{kLimit, kLimit};
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+    int code = 1;
+    try {
+      HuntLog(dir_, other_, true);
+    } catch (const std::runtime_error&) {
+      code = 0;
+    }
+    ::_exit(code);
+  }
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  ASSERT_EQ(status, 0) << "the settings cannot be kept";
+  EXPECT_TRUE(fs::exists(dir_ / "finds/separation-3.yaml"));
+  EXPECT_EQ(read_text(dir_ / "log.jsonl"), log);
+  EXPECT_EQ(read_text(dir_ / "hunt.json"), settings);
+
+  const HuntLog second(dir_, other_, true);
+  EXPECT_EQ(second.kept(), std::vector<fs::path>{dir_ / "earlier/1/finds/separation-3.yaml"});
+  EXPECT_EQ(read_text(dir_ / "earlier/1/log.jsonl"), log);
+  EXPECT_EQ(read_text(dir_ / "earlier/1/hunt.json"), settings);
+}
+
 TEST_F(HuntLogs, ThatGoOnKeepFindsWhereTheyAre) {
   HuntLog(dir_, one_, false).add(0, "first", {.digest = "ab"});
   find("separation-3");
