@@ -13,6 +13,15 @@ namespace skein::cli {
 ///   Ctrl-C before the flight.
 int run_fleet(const RunOptions& options, const Console& console);
 
+/// How a run ended, and where its results are.
+struct RunEnd {
+  int code = 0;                    ///< exit code, as of run_fleet()
+  std::filesystem::path dir = {};  ///< empty: the options asked for something else than a flight
+};
+
+/// As run_fleet(), for a caller that does not know which free folder the run takes.
+RunEnd fly_fleet(const RunOptions& options, const Console& console);
+
 /// `skein compose`: writes a docker-compose file for a fleet in containers, or flies that fleet at once.
 /// @throws InputError; std::runtime_error when the containers cannot be created.
 int compose_fleet(const ComposeOptions& options, const Console& console);

@@ -3,6 +3,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
+#include <memory>
 #include <set>
 #include <utility>
 
@@ -10,6 +11,7 @@
 #include "cli/hunt/capsule_run.hpp"
 #include "cli/hunt/flights.hpp"
 #include "cli/rerun_command.hpp"
+#include "cli/run/results_dir.hpp"
 #include "core/faults/fault_writer.hpp"
 #include "core/text/suggestion.hpp"
 #include "core/text/text.hpp"
@@ -63,9 +65,12 @@ HuntPlan plan_of(const BlameOptions& options, const Subject& subject) {
   plan.one_process = !options.dds && !needs_processes(plan.fleet);
   plan.fleet.options.one_process = plan.one_process;
   plan.fleet.options.duration_s = plan.fleet.scenario.duration_s;
-  const bool is_folder = fs::is_directory(options.what);
-  plan.out = options.out.value_or(is_folder ? options.what / "blame" : fs::path("runs") / "blame");
   return plan;
+}
+
+std::unique_ptr<ResultsDir> take_folder(const BlameOptions& options) {
+  const fs::path runs = fs::is_directory(options.what) ? options.what : fs::path("runs");
+  return ResultsDir::take_for_flights(options.out, runs / "blame", options.force);
 }
 
 /// One flight from which one cause is removed.
@@ -178,15 +183,17 @@ int blame(const BlameOptions& options, const Console& console) {
     throw InputError(options.what.string() +
                      ": it has no faults to blame; --messages FROM UNTIL takes away what links carry");
   }
-  const HuntPlan plan = plan_of(options, subject);
+  HuntPlan plan = plan_of(options, subject);
   check_window(options.messages, plan.fleet.scenario.duration_s);
+  const std::unique_ptr<ResultsDir> out = take_folder(options);
+  plan.out = out->given();
   TrialFlights flights(plan, console);
   Trial as_it_was{plan.fleet.options, subject.faults};
-  as_it_was.run.out = fs::absolute(plan.out) / "as-it-was";
+  as_it_was.run.out = out->path() / "as-it-was";
   const TrialOutcome outcome = flights.fly_and_keep(as_it_was);
   std::vector<Without> all = flights_without(plan, subject, options, *as_it_was.run.out);
   for (std::size_t i = 0; i < all.size(); ++i) {
-    all[i].trial.run.out = fs::absolute(plan.out) / ("without-" + std::to_string(i));
+    all[i].trial.run.out = out->path() / ("without-" + std::to_string(i));
     console.err << i + 1 << " of " << all.size() << ": flying without " << all[i].what << std::endl;
     all[i].outcome = flights.fly_and_keep(all[i].trial);
     if (all[i].outcome.findings.empty() || all[i].outcome.fails(kCompletes)) {

@@ -7,6 +7,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <fstream>
+#include <memory>
 #include <sstream>
 
 #include "cli/study/flights.hpp"
@@ -22,6 +23,7 @@
 #include "results/diff.hpp"
 #include "results/run_folder.hpp"
 #include "run/fleet_plan.hpp"
+#include "run/results_dir.hpp"
 
 namespace skein::cli {
 namespace {
@@ -139,8 +141,9 @@ class PlannerCheck {
 
   int run() {
     const ScratchDir scratch;
-    out_ = options_.out ? fs::absolute(*options_.out) : scratch.path();
-    fs::create_directories(out_);
+    std::unique_ptr<ResultsDir> kept;
+    if (options_.out) kept = ResultsDir::take_for_flights(options_.out, {}, options_.force);
+    out_ = kept ? kept->path() : scratch.path();
     for (const Surroundings& one : all_surroundings(program_dir(), python_)) {
       if (!is_as_first(one)) surroundings_.push_back(one);
     }

@@ -94,12 +94,14 @@ struct BlameOptions {
   std::optional<std::string> dds;  ///< a vendor or "mixed"; none: in one process where possible
   std::vector<double> messages;    ///< begin and end [s]: also remove each link's messages of that time, link by link
   std::optional<std::filesystem::path> out;
+  bool force = false;  ///< write to a folder that is not empty
 };
 
 /// `skein check-planner`: whether a planner's runs stay the same when the surroundings of its process change.
 struct CheckPlannerOptions {
   RunOptions run;
   std::optional<std::filesystem::path> out;  ///< folder in which the flights are kept
+  bool force = false;                        ///< write to a folder that is not empty
 };
 
 struct CheckOptions {

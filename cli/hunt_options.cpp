@@ -97,7 +97,9 @@ void add_blame(CLI::App& app, BlameOptions& blame) {
       ->add_option("--messages", blame.messages,
                    "FROM UNTIL [s]: also fly without the messages of this time, one link after the other")
       ->expected(2);
-  command->add_option("--out", blame.out, "Folder of the flights (default: blame in RUN, or runs/blame)");
+  command->add_option("--out", blame.out,
+                      "Folder of the flights (default: a new one, blame in RUN or, of a capsule, runs/blame)");
+  command->add_flag("--force", blame.force, "Write to a folder that is not empty; flights there are replaced");
   command->footer(
       "Examples:\n"
       "  skein blame runs/towers-kios-0\n"
@@ -124,7 +126,9 @@ void add_check_planner(CLI::App& app, CheckPlannerOptions& check) {
       ->check(CLI::Validator(check_positive, "POSITIVE"));
   command->add_option("--duration", run.duration_s, "Mission time [s]")->check(seconds)->capture_default_str();
   command->add_option("--seed", run.seed, "As for `skein run`")->check(seed)->capture_default_str();
-  command->add_option("--out", check.out, "Folder for the flights (default: Skein deletes them)");
+  CLI::Option* out = command->add_option("--out", check.out, "Folder for the flights (default: Skein deletes them)");
+  command->add_flag("--force", check.force, "Write to a folder that is not empty; flights there are replaced")
+      ->needs(out);
   command->footer(
       "Example:\n  skein check-planner orbit --agent build/my_agent\n\n"
       "Exit codes: 0 all runs are the same, 1 a run differs. See docs/how-to-hunt.md.");

@@ -14,7 +14,6 @@
 #include "run/fleet_plan.hpp"
 #include "run/hand_flights.hpp"
 #include "run/python_planners.hpp"
-#include "run/results_dir.hpp"
 
 namespace skein::cli {
 namespace {
@@ -73,12 +72,6 @@ void choose_processes(const Reflight& reflight, RunOptions& options) {
   options.force = reflight.force;
   if (reflight.dds || !reflight.debug.empty()) return;
   options.one_process = !needs_processes(plan_fleet(options, program_dir())).has_value();
-}
-
-/// The results folder of the new flight: the one that the user names, else a new one in the run's folder.
-fs::path folder_of(const Reflight& reflight, const std::string& name) {
-  if (reflight.out) return *reflight.out;
-  return reflight.force ? reflight.run / name : free_results_dir(reflight.run / name);
 }
 
 /// Members whose planner has changed. @param then, now  options of the two runs.
@@ -149,10 +142,11 @@ int rerun(const RerunOptions& options, const Console& console) {
   if (options.planner) run.planner += "," + options.uav + "=" + *options.planner;
   run.attainable = run.report = false;
   choose_processes(options.reflight, run);
-  run.out = folder_of(options.reflight, "rerun-" + options.uav);
-  const int code = run_fleet(run, console);
-  if (code != kExitDone) return code;
-  const Json now = results::read_result_file(*run.out);
+  run.out = options.reflight.out;
+  run.usual_out = options.reflight.run / ("rerun-" + options.uav);
+  const RunEnd end = fly_fleet(run, console);
+  if (end.code != kExitDone) return end.code;
+  const Json now = results::read_result_file(end.dir);
   if (const std::string other = other_digest(then, now); !other.empty()) console.out << other << '\n';
   const std::vector<std::string> differences = differences_of(now);
   for (const std::string& difference : differences) console.out << difference << '\n';
@@ -197,10 +191,11 @@ int fork_run(const ForkOptions& options, const Console& console) {
   if (options.planner) replay.other = with_other_planner(as_it_was, run);
   run.replay = std::move(replay);
   choose_processes(options.reflight, run);
-  run.out = folder_of(options.reflight, "fork");
-  const int code = run_fleet(run, console);
-  const Json now = read_json(*run.out / run_folder::kResult);
-  if (!now.is_object()) return code;
+  run.out = options.reflight.out;
+  run.usual_out = options.reflight.run / "fork";
+  const RunEnd end = fly_fleet(run, console);
+  const Json now = read_json(end.dir / run_folder::kResult);
+  if (!now.is_object()) return end.code;
   for (const std::string& difference : differences_of(now)) console.out << difference << '\n';
   const auto score = [](const Json& result) { return value_or(result, "score", 0.0).get<double>(); };
   console.out << "score " << score(now) << "; the recorded run scored " << score(then) << "\n";
@@ -208,7 +203,7 @@ int fork_run(const ForkOptions& options, const Console& console) {
     console.out << "the fork is the same run: its digest did not change\n";
   }
   console.out << std::flush;
-  return code;
+  return end.code;
 }
 
 }  // namespace skein::cli

@@ -114,17 +114,19 @@ void find_break(RunOptions& options, const Console& console) {
 
 }  // namespace
 
-int run_fleet(const RunOptions& given, const Console& console) {
+int run_fleet(const RunOptions& options, const Console& console) { return fly_fleet(options, console).code; }
+
+RunEnd fly_fleet(const RunOptions& given, const Console& console) {
   if (given.ros_env) {
     console.out << ros_environment(given) << std::flush;
-    return kExitDone;
+    return {kExitDone};
   }
   RunOptions options = with_debugger(given, console);
   find_break(options, console);
   FleetPlan plan = plan_fleet(options, program_dir());
   if (options.place.print) {
     console.out << place_commands(plan, read_placement(plan)) << std::flush;
-    return kExitDone;
+    return {kExitDone};
   }
   check_inputs_outlast(plan, results_dir_of(options, plan.scenario.name));
   ResultsDir::check(results_dir_of(options, plan.scenario.name), options.force);
@@ -169,10 +171,10 @@ int run_fleet(const RunOptions& given, const Console& console) {
   const RunResults results{options, run.facts(), plan.scenario,
                            reports, out->path(), [&](const std::string& text) { return out->write_result(text); }};
   const auto result = write_results(results, dir, collect, console);
-  if (!result) return kExitProcessFailed;
+  if (!result) return {kExitProcessFailed, dir};
   // A user who has interrupted the run does not want to see its replay.
   if (page && !run.facts().interrupted) page->stay_as_replay(out->path(), options.view, console.err);
-  return exit_code_of(run, *result);
+  return {exit_code_of(run, *result), dir};
 }
 
 }  // namespace skein::cli

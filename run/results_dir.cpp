@@ -116,6 +116,10 @@ std::filesystem::path numbered_dir(const std::filesystem::path& base, int number
   return number == 1 ? base : std::filesystem::path(base.string() + "-" + std::to_string(number));
 }
 
+std::filesystem::path usual_dir_of(const RunOptions& run, const std::string& scenario) {
+  return run.usual_out.value_or(default_results_dir(scenario, run.planner, run.seed));
+}
+
 /// Whether a file is a log, which nobody's results depend on.
 bool is_log(const std::filesystem::path& file) {
   struct stat entry {};
@@ -145,7 +149,7 @@ std::filesystem::path free_results_dir(const std::filesystem::path& base) {
 
 std::filesystem::path results_dir_of(const RunOptions& run, const std::string& scenario) {
   if (run.out) return *run.out;
-  const std::filesystem::path usual = default_results_dir(scenario, run.planner, run.seed);
+  const std::filesystem::path usual = usual_dir_of(run, scenario);
   return run.force ? usual : free_results_dir(usual);
 }
 
@@ -206,11 +210,24 @@ ResultsDir::ResultsDir(const std::filesystem::path& dir, Earlier earlier)
 
 std::unique_ptr<ResultsDir> ResultsDir::take(const RunOptions& run, const std::string& scenario) {
   if (run.out || run.force) return std::make_unique<ResultsDir>(results_dir_of(run, scenario), run.force);
-  const std::filesystem::path usual = default_results_dir(scenario, run.planner, run.seed);
+  return take_free(usual_dir_of(run, scenario));
+}
+
+std::unique_ptr<ResultsDir> ResultsDir::take_for_flights(const std::optional<std::filesystem::path>& out,
+                                                         const std::filesystem::path& usual, bool force) {
+  if (!out && !force) return take_free(usual);
+  auto dir = std::make_unique<ResultsDir>(out.value_or(usual), Earlier::keep);
+  const std::string first = force ? "" : foreign_entry(dir->path());
+  if (first.empty()) return dir;
+  throw InputError("--out " + dir->given().string() + ": '" + first +
+                   "' is there; choose another --out, or write there all the same with --force");
+}
+
+std::unique_ptr<ResultsDir> ResultsDir::take_free(const std::filesystem::path& base) {
   for (int number = 1;; ++number) {
-    if (!is_free(numbered_dir(usual, number))) continue;
+    if (!is_free(numbered_dir(base, number))) continue;
     try {
-      return std::make_unique<ResultsDir>(numbered_dir(usual, number), false);
+      return std::make_unique<ResultsDir>(numbered_dir(base, number), false);
     } catch (const FolderInUse&) {  // another run has taken it just now
     }
   }

@@ -20,7 +20,8 @@ std::filesystem::path default_results_dir(const std::string& scenario, const std
 /// user names no folder, so that a command can be repeated. Creates nothing.
 std::filesystem::path free_results_dir(const std::filesystem::path& base);
 
-/// The folder that the user names, or else a free one; with --force the usual one. Creates nothing.
+/// The folder that the user names, or else a free one; with --force the usual one. Creates nothing. Another launcher
+/// may take a free one at the same time: ResultsDir::take() finds out.
 std::filesystem::path results_dir_of(const RunOptions& run, const std::string& scenario);
 
 /// Creates a folder for results, with its parents, if it is missing. If root runs this, agents of secured runs can
@@ -70,6 +71,12 @@ class ResultsDir {
   /// time, this is the first one that they leave. @throws as the constructor
   static std::unique_ptr<ResultsDir> take(const RunOptions& run, const std::string& scenario);
 
+  /// A folder for the flights of one command, each in a folder of its own below it: `out`, else a free one as take()
+  /// finds it, with `force` `usual` itself. The flights replace what is in their folders.
+  /// @throws as the constructor; InputError if the folder holds anything but logs (foreign_entry()), without `force`.
+  static std::unique_ptr<ResultsDir> take_for_flights(const std::optional<std::filesystem::path>& out,
+                                                      const std::filesystem::path& usual, bool force);
+
   const std::filesystem::path& path() const { return path_; }    ///< absolute
   const std::filesystem::path& given() const { return given_; }  ///< as the constructor got it, for messages
 
@@ -78,6 +85,7 @@ class ResultsDir {
   std::string write_result(const std::string& text) const;
 
  private:
+  static std::unique_ptr<ResultsDir> take_free(const std::filesystem::path& base);
   void keep_room() const;
   void give_room() const;
 

@@ -198,6 +198,48 @@ TEST(ResultsDir, RunsWithoutAFolderOfTheirsThatBeginAtOnceAllGetOne) {
   EXPECT_THROW(ResultsDir::take(named, "towers"), FolderInUse);
 }
 
+TEST(ResultsDir, AlsoThoseThatACommandPutsElsewhere) {
+  const OutDir scratch;
+  RunOptions run;
+  run.usual_out = scratch.path() / "fork";
+  EXPECT_EQ(results_dir_of(run, "towers"), scratch.path() / "fork");
+  const auto first = ResultsDir::take(run, "towers");
+  fs::remove(first->path() / "result.json.tmp-room");  // as if it had only just locked the folder
+  EXPECT_EQ(results_dir_of(run, "towers"), first->given()) << "it seems to be free";
+  EXPECT_EQ(ResultsDir::take(run, "towers")->given(), scratch.path() / "fork-2");
+  run.force = true;
+  EXPECT_THROW(ResultsDir::take(run, "towers"), FolderInUse);
+  run.out = scratch.path() / "named";
+  EXPECT_EQ(ResultsDir::take(run, "towers")->given(), *run.out);
+}
+
+TEST(ResultsDir, OfSeveralFlightsIsEmptyOrForced) {
+  const OutDir scratch;
+  const fs::path usual = scratch.path() / "blame", named = scratch.path() / "named", mine = named / "as-it-was/mine";
+  fs::create_directories(mine.parent_path());
+  write_text(mine, "mine");
+  try {
+    ResultsDir::take_for_flights(named, usual, false);
+    ADD_FAILURE() << "accepted";
+  } catch (const InputError& error) {
+    const std::string told = error.what();
+    EXPECT_NE(told.find(named.string() + ": 'as-it-was' is there"), std::string::npos) << told;
+    EXPECT_NE(told.find("--force"), std::string::npos) << told;
+  }
+  EXPECT_EQ(std::distance(fs::directory_iterator(named), {}), 1);
+  EXPECT_EQ(ResultsDir::take_for_flights(named, usual, true)->given(), named);
+  EXPECT_EQ(read_text(mine), "mine") << "the flights that need the place delete it";
+
+  fs::create_directory(scratch.path() / "new");
+  write_text(scratch.path() / "new/job.log", "of the job that flies");
+  EXPECT_EQ(ResultsDir::take_for_flights(scratch.path() / "new", usual, false)->given(), scratch.path() / "new");
+  const auto first = ResultsDir::take_for_flights(std::nullopt, usual, false);
+  EXPECT_EQ(first->given(), usual);
+  EXPECT_EQ(ResultsDir::take_for_flights(std::nullopt, usual, false)->given(), usual.string() + "-2");
+  EXPECT_THROW(ResultsDir::take_for_flights(std::nullopt, usual, true), FolderInUse);
+  EXPECT_THROW(ResultsDir::take_for_flights(usual, usual, true), FolderInUse);
+}
+
 TEST(ResultsDir, LogsAndWhatAFileSystemHasAreNoForeignEntries) {
   const OutDir scratch;
   EXPECT_EQ(foreign_entry(scratch.path()), "");

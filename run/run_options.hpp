@@ -77,6 +77,9 @@ struct RunOptions {
   std::optional<int> lease_s;             ///< silence after which DDS considers a program gone
   std::optional<double> agent_timeout_s;  ///< wall time to wait for a program's answer, instead of a minute
   std::optional<std::filesystem::path> out;
+  /// Where the run goes if `out` names no folder, with a number behind it if that one is not free; none: as
+  /// default_results_dir() of run/results_dir.hpp.
+  std::optional<std::filesystem::path> usual_out;
   bool force = false;
   std::string record = "run";         ///< how much goes into the recording: none, messages, run, all or clouds
   std::optional<double> keep_maps_s;  ///< period of snapshots of UAVs' maps, in simulated seconds; none: no snapshots

@@ -127,7 +127,8 @@ int run_capsule(const RunOptions& options, const Console& console) {
   FaultTest test = load_fault_test(options.scenario, options.assets, options.agent, options.one_process);
   RunOptions& run = test.plan.options;
   run.dds = options.dds;
-  run.out = options.out.value_or(free_results_dir(fs::path("runs") / test.name));
+  run.out = options.out;
+  run.usual_out = fs::path("runs") / test.name;
   run.record = options.record == "none" ? "run" : options.record;  // properties may be about messages
   run.report = options.report;
   run.check = options.check;
@@ -135,23 +136,22 @@ int run_capsule(const RunOptions& options, const Console& console) {
   run.attainable = run.attainable && options.attainable;
   run.force = options.force;
   run.command = options.command;
-  check_outlast({test.file, test.property_file}, *run.out);
+  check_outlast({test.file, test.property_file}, results_dir_of(run, test.plan.scenario.name));
   console.err << "first run, the find itself, with its faults" << std::endl;
-  const int code = run_fleet(run, console);
+  const auto [code, dir] = fly_fleet(run, console);
   if (code == kExitInterrupted) throw Interrupted{};
   const CapsuleMark& mark = *test.capsule;
   Replayed verdict{code != kExitDone, "skein run ended with exit code " + std::to_string(code)};
   if (mark.property == kSameDigest) {
-    verdict = judge_digest(test, *run.out, console);
+    verdict = judge_digest(test, dir, console);
   } else if (mark.property != kCompletes) {
-    verdict = judge_property(test, *run.out, console);
+    verdict = judge_property(test, dir, console);
   }
-  if (result_score(*run.out)) {
-    console.out << "this run, with its faults: score " << fixed(*result_score(*run.out), 3) << ", results in "
-                << run.out->string() << '\n';
+  if (const auto score = result_score(dir)) {
+    console.out << "this run, with its faults: score " << fixed(*score, 3) << ", results in " << dir.string() << '\n';
   }
   console.out << mark.property << (verdict.fails ? " fails: " : " holds: ") << verdict.text << '\n';
-  console.out << comparison_text(mark, digest_in(*run.out)) << std::endl;
+  console.out << comparison_text(mark, digest_in(dir)) << std::endl;
   return verdict.fails ? kExitCheckFailed : kExitDone;
 }
 

@@ -1,5 +1,5 @@
 // A hunt and related commands as a user runs them: output files, Ctrl-C, a user's own programs (`exec:`), a repeated
-// capsule, and `skein blame`.
+// capsule, folders of other files, and `skein blame`.
 #include <csignal>
 #include <fstream>
 #include <pugixml.hpp>
@@ -235,6 +235,21 @@ TEST_F(HuntCommands, AProgramOfOnesOwnIsHuntedOverDds) {
                                 "--uavs", "2", "--duration", "50", "--seed", seed[1], "--faults",
                                 write("faults.yaml", flown.substr(flown.find('\n') + 1))});
   EXPECT_EQ(same.digest(), lines[1]["outcome"]["digest"].get<std::string>());
+}
+
+// ---- folders ----------------------------------------------------------------------------------------------------
+
+TEST_F(HuntCommands, BlameAndCheckPlannerRefuseAFolderThatIsNotEmpty) {
+  const std::string capsule = source_path("config/faults/found/patrol_restart_in_its_climb.yaml");
+  const fs::path mine = folder() / "mine/as-it-was/mine";
+  fs::create_directories(mine.parent_path());
+  std::ofstream(mine) << "mine";
+  for (const Arguments& command : {Arguments{"blame", capsule}, Arguments{"check-planner", "hover"}}) {
+    const Said said = call(joined(command, {"--out", folder() / "mine"}));
+    EXPECT_EQ(said.code, 2) << said.err;
+    EXPECT_NE(said.err.find("'as-it-was' is there; choose another --out"), std::string::npos) << said.err;
+    EXPECT_EQ(text_of(mine), "mine");
+  }
 }
 
 // ---- blame ------------------------------------------------------------------------------------------------------

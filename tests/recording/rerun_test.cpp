@@ -145,6 +145,22 @@ TEST_F(Rerun, ASecondTimeGoesToAFolderOfItsOwn) {
   }
 }
 
+TEST_F(Rerun, SeveralAtOnceGoToFoldersOfTheirOwn) {
+  SkeinRun& run = this->run("run", {"towers", "--planner", "hover", "--duration", "2", "--one-process"});
+  for (const auto& [name, more] : {std::pair<std::string, Arguments>{"rerun-jurong", {"--uav", "jurong"}},
+                                   std::pair<std::string, Arguments>{"fork", {"--at", "1"}}}) {
+    const std::string command = name.substr(0, name.find('-'));
+    Arguments words = {program("skein"), command, run.dir()};
+    words.insert(words.end(), more.begin(), more.end());
+    ChildProcess &one = start_program(name, words), &other = start_program(name + "-2", words);
+    EXPECT_EQ(one.wait().code, 0) << one.err();
+    EXPECT_EQ(other.wait().code, 0) << other.err();
+    for (const std::string& folder : {name, name + "-2"}) {
+      EXPECT_TRUE(fs::exists(run.dir() / folder / run_folder::kResult)) << folder;
+    }
+  }
+}
+
 /// Commands read a run in which one bit of a file is flipped.
 class DamagedRun : public Rerun {
  protected:
