@@ -25,16 +25,20 @@ constexpr const char* kCycloneDdsLoopback =
     "<Discovery><ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>31</MaxAutoParticipantIndex>"
     "<Peers><Peer address=\"127.0.0.1\"/></Peers></Discovery>";
 
-std::vector<fs::path> prefixes(const std::string& spec) {
+/// The install prefixes of AMENT_PREFIX_PATH, of which the first that has a package counts.
+std::vector<fs::path> prefixes() {
   const char* const path = std::getenv("AMENT_PREFIX_PATH");
-  if (path == nullptr || *path == '\0') {
-    throw InputError("--planner " + spec +
-                     ": no ROS 2 here: AMENT_PREFIX_PATH is not set; source the setup file of a " +
-                     "workspace with skein_ros (docs/how-to-ros2.md)");
-  }
   std::vector<fs::path> result;
-  for (const std::string& prefix : split(path, ':')) result.emplace_back(prefix);
+  for (const std::string& prefix : split(path == nullptr ? "" : path, ':')) {
+    if (!prefix.empty()) result.emplace_back(prefix);
+  }
   return result;
+}
+
+void require_ros(const std::string& spec) {
+  if (!prefixes().empty()) return;
+  throw InputError("--planner " + spec + ": no ROS 2 here: AMENT_PREFIX_PATH is not set; source the setup file of a " +
+                   "workspace with skein_ros (docs/how-to-ros2.md)");
 }
 
 std::vector<std::string> executables_in(const fs::path& folder) {
@@ -51,7 +55,7 @@ std::vector<std::string> executables_in(const fs::path& folder) {
 
 fs::path find_executable(const std::string& spec, const std::string& package, const std::string& name) {
   std::set<std::string> packages;
-  for (const fs::path& prefix : prefixes(spec)) {
+  for (const fs::path& prefix : prefixes()) {
     std::error_code error;
     for (const auto& entry : fs::directory_iterator(prefix / "share/ament_index/resource_index/packages", error)) {
       packages.insert(entry.path().filename());
@@ -73,9 +77,7 @@ fs::path find_executable(const std::string& spec, const std::string& package, co
 
 /// Install prefix of the package skein_ros. @throws InputError when AMENT_PREFIX_PATH has none
 fs::path find_skein_ros(const std::string& spec) {
-  for (const fs::path& prefix : prefixes(spec)) {
-    if (fs::exists(prefix / kStepLibrary)) return prefix;
-  }
+  if (const auto prefix = skein_ros_prefix()) return *prefix;
   throw InputError("--planner " + spec + ": AMENT_PREFIX_PATH has no package skein_ros, which takes a node into the " +
                    "lock-step; build it beside your packages (docs/how-to-ros2.md)");
 }
@@ -91,6 +93,7 @@ std::optional<std::string> ros_command(const std::string& spec) {
   if (slash == std::string::npos || slash == 0 || slash + 1 == node.size()) {
     throw InputError("--planner " + spec + ": write ros:PACKAGE/EXECUTABLE, such as ros:my_package/my_node");
   }
+  require_ros(spec);
   const fs::path executable = find_executable(spec, node.substr(0, slash), node.substr(slash + 1));
   const fs::path skein_ros = find_skein_ros(spec);
   return "if [ -n \"${SKEIN_SECURITY-}\" ]; then " + enclave_command("\"$SKEIN_SECURITY\"") +
@@ -125,11 +128,10 @@ void check_secure_middleware(const std::string& dds) {
 }
 
 std::optional<std::filesystem::path> skein_ros_prefix() {
-  const char* const path = std::getenv("AMENT_PREFIX_PATH");
-  for (const std::string& prefix : split(path == nullptr ? "" : path, ':')) {
-    if (fs::exists(fs::path(prefix) / kFastDdsProfile)) return prefix;
-  }
-  return std::nullopt;
+  const std::vector<fs::path> all = prefixes();
+  const auto found =
+      std::ranges::find_if(all, [](const fs::path& prefix) { return fs::exists(prefix / kStepLibrary); });
+  return found == all.end() ? std::nullopt : std::optional(*found);
 }
 
 std::filesystem::path fastdds_profile(const std::filesystem::path& prefix) { return prefix / kFastDdsProfile; }

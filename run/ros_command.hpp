@@ -25,7 +25,7 @@ void check_secure_middleware(const std::string& dds);
 /// @param prefix  install prefix of the package skein_ros
 std::string loopback_command(const std::filesystem::path& prefix);
 
-/// Install prefix of the package skein_ros; nullopt if AMENT_PREFIX_PATH has none.
+/// Install prefix of the package skein_ros, the first with libskein_step.so; nullopt if AMENT_PREFIX_PATH has none.
 std::optional<std::filesystem::path> skein_ros_prefix();
 
 /// The Fast DDS profile for nodes in the package skein_ros. It disables shared memory, because a killed node leaves
