@@ -47,7 +47,7 @@ struct Capture {
 /// States that the camera's body would have at the same instant without one of the conditions of the flight.
 struct OtherStates {
   std::optional<RigidBodyState> exact;  ///< if the UAV knew its position exactly; nullopt: it does
-  std::optional<RigidBodyState> calm;   ///< if there were no wind; nullopt: there is none
+  std::optional<RigidBodyState> calm;   ///< if there were no wind; nullopt: there was none
 };
 
 class Camera {

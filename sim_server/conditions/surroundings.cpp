@@ -51,13 +51,14 @@ Wrench Surroundings::fly(Vehicle& vehicle, const RigidBodyState& state) {
   if (odometry_ && vehicle.mode() != ControlMode::idle) odometry_->leave_start();
   vehicle.control_attitude(believed(state));
   Wrench wrench = vehicle.fly(state, v_WA_);
-  const bool flies = vehicle.mode() != ControlMode::idle;
-  if (wind_ && flies && v_WA_.isZero(0.0)) push_.step(Vector3d::Zero(), kTickS);
+  const bool flies = vehicle.mode() != ControlMode::idle, still = v_WA_.isZero(0.0);
+  if (was_pushed_ && flies && still) push_.step(Vector3d::Zero(), kTickS);
   // No body drag on a UAV that has not begun to fly, so that it stays in place; nor in still air, as in the reference.
-  if (v_WA_.isZero(0.0) || !flies) return wrench;
+  if (still || !flies) return wrench;
+  was_pushed_ = true;
   const Vector3d body_W = body_drag(conditions_.wind.body_drag_area_m2, state.v_WB - v_WA_);
   wrench.force_B += state.q_WB.conjugate() * body_W;
-  if (wind_) push_.step(body_W + state.q_WB * vehicle.rotors_pushed_B(state.q_WB.conjugate() * v_WA_), kTickS);
+  push_.step(body_W + state.q_WB * vehicle.rotors_pushed_B(state.q_WB.conjugate() * v_WA_), kTickS);
   return wrench;
 }
 
@@ -95,7 +96,7 @@ RigidBodyState Surroundings::believed(const RigidBodyState& truth) const {
 OtherStates Surroundings::other_states(const RigidBodyState& truth) const {
   OtherStates other;
   if (odometry_) other.exact = odometry_->believed(truth);
-  if (wind_) {
+  if (wind_ || was_pushed_) {
     other.calm = truth;
     other.calm->p_WB -= push_.offset_W();
     other.calm->v_WB -= push_.velocity_W();

@@ -58,7 +58,8 @@ class Surroundings {
   void note_place(Tick tick, const Vector3d& p_WB, bool airborne);
   /// The state that the UAV's flight controller uses.
   RigidBodyState believed(const RigidBodyState& truth) const;
-  /// The states that the UAV would have if it knew its position exactly, and if there were no wind.
+  /// The states that the UAV would have if it knew its position exactly, and if there were neither wind nor gusts by
+  /// faults.
   OtherStates other_states(const RigidBodyState& truth) const;
   /// Transform from W to the frame `told` of the UAV's odometry; nullopt: W itself.
   std::optional<Isometry3d> X_told_W(const RigidBodyState& truth) const;
@@ -74,7 +75,8 @@ class Surroundings {
   const VehicleConfig& vehicle_;
   Vector3d station_W_;
   std::optional<Wind> wind_;
-  WindPush push_;  ///< of `wind_`
+  WindPush push_;            ///< of `wind_` and of gusts by faults
+  bool was_pushed_ = false;  ///< it has flown in moving air
   std::optional<OdometryError> odometry_;
   std::optional<Battery> battery_;
   std::optional<Tick> empty_;

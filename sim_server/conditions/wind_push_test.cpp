@@ -21,9 +21,11 @@ class Flown {
     world_.add_uav(vehicle, Isometry3d(Eigen::Translation3d(0.0, 0.0, 20.0)));
   }
 
-  void fly_to(Tick end, const std::function<TrajectoryCommand(double)>& pilot) {
+  /// @param gust_W  velocity that a fault adds to the wind
+  void fly_to(Tick end, const std::function<TrajectoryCommand(double)>& pilot,
+              const Vector3d& gust_W = Vector3d::Zero()) {
     for (; tick_ < end; ++tick_) {
-      surroundings_.begin_tick(tick_, state(), Vector3d::Zero());
+      surroundings_.begin_tick(tick_, state(), gust_W);
       if (tick_ % kControlTicks == 0) vehicle_.control(tick_, state(), pilot(seconds(tick_)), std::nullopt);
       const RigidBodyState before = state();
       const Wrench wrench = surroundings_.fly(vehicle_, before);
@@ -76,6 +78,31 @@ TEST(WindPush, IsTheDifferenceToTheSameFlightWithoutWind) {
   }
   EXPECT_LT(std::sqrt(missed_m2), 0.25 * std::sqrt(off_m2)) << "17 % in the mean of squares, 3 cm";
   EXPECT_LT(std::sqrt(missed_mps2), 0.5 * std::sqrt(off_mps2)) << "43 %, 3 cm/s: the attitude loop's lag in gusts";
+}
+
+TEST(WindPush, IsThatOfAGustByAFaultToo) {
+  double off_m2 = 0.0, missed_m2 = 0.0;
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    RandomStream random(seed, "wind_push_test_gust", 0);
+    const VehicleConfig vehicle = test::vehicle_named(random.uniform() < 0.5 ? "explorer" : "photographer");
+    const Vector3d gust_W(random.uniform(2.0, 8.0), random.uniform(-8.0, 8.0), 0.0);
+    const auto pilot = [](double) { return TrajectoryCommand{.p_WB = Vector3d(0.1, 0.0, 20.0)}; };
+    Flown pushed(vehicle, {}, seed), calm(vehicle, {}, seed);
+    for (int k = 1; k <= 100; ++k) {  // 10 s, with a gust from 3 to 6 s
+      const Tick end = k * ticks(0.1);
+      const bool blows = k > 30 && k <= 60;
+      pushed.fly_to(end, pilot, blows ? gust_W : Vector3d(Vector3d::Zero()));
+      calm.fly_to(end, pilot);
+      EXPECT_FALSE(calm.other_states().calm);
+      const auto told = pushed.other_states().calm;
+      ASSERT_EQ(told.has_value(), k > 30) << "there was no gust before";
+      if (!told) continue;
+      off_m2 += (pushed.state().p_WB - calm.state().p_WB).squaredNorm();
+      missed_m2 += (told->p_WB - calm.state().p_WB).squaredNorm();
+    }
+  }
+  EXPECT_GT(off_m2, 0.0);
+  EXPECT_LT(std::sqrt(missed_m2), 0.5 * std::sqrt(off_m2));
 }
 
 }  // namespace
