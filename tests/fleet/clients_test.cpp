@@ -209,7 +209,9 @@ TEST_P(Lying, ClientIsDroppedAndTheRunGoesOn) {
         << reason;
     EXPECT_EQ(sent, announced + 1);
   }
-  EXPECT_EQ(fleet_.at("uav_agent-sentosa")->wait().code, 3);
+  ChildProcess& client = *fleet_.at("uav_agent-sentosa");
+  EXPECT_EQ(client.wait().code, 3);
+  EXPECT_NE(client.err().find("sim_server gave this program up"), std::string::npos) << client.err();
 }
 
 INSTANTIATE_TEST_SUITE_P(Clients, Lying, testing::Values("smuggle", "boast"),

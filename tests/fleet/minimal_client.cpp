@@ -1,11 +1,11 @@
 // The smallest program that takes part in the lock-step, written from docs/lockstep.md alone: it shares no lock-step
 // code with Skein, only the messages and the bus. Its UAV climbs 3 m and hovers there.
 //   skein run --planner hover,UAV=exec:minimal_client
-// The launcher sets SKEIN_RUN, SKEIN_DOMAIN, SKEIN_UAV and SKEIN_DDS. The exit code is 0 after the last step, and 3 if
-// before that the server dropped the program or left the domain. For tests of broken clients, an argument makes the
-// program misbehave from step kFirstLie on: "hang" stops answering; "boast" announces one command more than it sends,
-// "smuggle" one less; "forge" sends the station reports of captures that no camera has taken. With "tell", it behaves
-// correctly, and also publishes its activity.
+// The launcher sets SKEIN_RUN, SKEIN_DOMAIN, SKEIN_UAV and SKEIN_DDS. The exit code is 0 after the last step, and 3,
+// with a message, if before that the server dropped the program, gave it up while it joined, or left. For tests of
+// broken clients, an argument makes the program misbehave from step kFirstLie on: "hang" stops answering; "boast"
+// announces one command more than it sends, "smuggle" one less; "forge" sends the station reports of captures that no
+// camera has taken. With "tell", it behaves correctly, and also publishes its activity.
 #include <algorithm>
 #include <condition_variable>
 #include <cstdlib>
@@ -100,12 +100,12 @@ class Client {
   int run() {
     say_ready(0);
     wait_for_invitation();
-    wait_for_matches();
+    if (!wait_for_matches()) return fail(kGivenUp);
     say_ready(1);
-    for (bool member = false;;) {
+    for (;;) {
       const auto step = steps_.take();
       if (!step) {
-        if (!steps_.matches(server_)) return 3;
+        if (!steps_.matches(server_)) return fail(kServerGone);
         continue;
       }
       if (step->first != server_ || step->second.run() != run_) continue;
@@ -114,17 +114,16 @@ class Client {
         continue;
       }
       if (!lists_us(step->second)) {
-        if (member) return 3;
-        continue;  // a step from before this client became a member
+        if (gives_us_up(step->second)) return fail(kGivenUp);
+        continue;
       }
-      member = true;
       for (const auto& other : step->second.members()) {
         while (other.name() == "comm_router" && !Queue<msg::Step>::contains(done_->matched(), other.source())) {
-          if (!steps_.matches(server_)) return 3;
+          if (!steps_.matches(server_)) return fail(kServerGone);
           resyncs_.take();  // waits, 50 ms at most
         }
       }
-      if (!answer(step->second)) return 3;
+      if (!answer(step->second)) return fail(kServerGone);
       if (step->second.final_step()) break;
     }
     while (steps_.matches(server_)) steps_.take();  // leaving at once could lose the last answer
@@ -132,6 +131,13 @@ class Client {
   }
 
  private:
+  static constexpr const char *kGivenUp = "sim_server gave this program up", *kServerGone = "sim_server has gone";
+
+  int fail(const char* why) const {
+    std::cerr << "minimal_client of " << uav_ << ": " << why << std::endl;
+    return 3;
+  }
+
   void say_ready(std::uint32_t revision) {
     msg::Ready ready;
     ready.run(run_);
@@ -151,6 +157,7 @@ class Client {
       const auto resync = resyncs_.take();
       if (!resync || resync->second.run() != run_ || resync->second.source() != participant_.id()) continue;
       server_ = resync->first;
+      if (resync->second.epoch() > 0) invited_after_ = resync->second.k();
       odometry_ = std::make_unique<Queue<msg::Odometry>>(participant_, uav_ + "/ground_truth/odometry", kStateQos);
       commands_ =
           participant_.create_writer(topic<msg::MultiDOFJointTrajectory>(uav_ + "/command/trajectory", kCommandQos));
@@ -165,14 +172,22 @@ class Client {
     }
   }
 
-  void wait_for_matches() {
+  /// @returns false if the server has given this program up.
+  bool wait_for_matches() {
     const auto heard = [&](const skein::bus::Writer& writer) {
       return Queue<msg::Step>::contains(writer.matched(), server_);
     };
     while (!odometry_->matches(server_) || !steps_.matches(server_) || !heard(*commands_) || !heard(*done_) ||
            (reports_ && !reports_->has_readers()) || (activities_ && !heard(*activities_))) {
-      resyncs_.take();  // waits, 50 ms at most
+      const auto step = steps_.take();  // waits, 50 ms at most
+      if (step && step->first == server_ && step->second.run() == run_ && gives_us_up(step->second)) return false;
     }
+    return true;
+  }
+
+  /// Whether a step is one without this program, and not from before its invitation.
+  bool gives_us_up(const msg::Step& step) const {
+    return !lists_us(step) && (!invited_after_ || step.k() > *invited_after_);
   }
 
   bool lists_us(const msg::Step& step) const {
@@ -286,6 +301,7 @@ class Client {
   std::unique_ptr<Queue<msg::Odometry>> odometry_;
   ParticipantId server_ = 0;
   std::uint64_t received_ = 0, expected_ = 0, commands_sent_ = 0, reports_sent_ = 0, activities_sent_ = 0;
+  std::optional<std::uint64_t> invited_after_;  ///< the step before the invitation; none: invited before the first
   std::optional<std::uint64_t> answered_;
   msg::Done last_done_;
   std::optional<msg::Point> goal_;
