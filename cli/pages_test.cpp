@@ -1,10 +1,13 @@
-// The commands that our pages show are commands.
+// The commands that our pages show are commands, and the changelog is that of this version.
 #include <gtest/gtest.h>
 
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <regex>
 #include <set>
+#include <sstream>
+#include <variant>
 
 #include "cli/options.hpp"
 #include "core/text/text.hpp"
@@ -92,6 +95,23 @@ TEST(Pages, ShowParametersThatThereAre) {
     }
   }
   EXPECT_GT(read, 10u);
+}
+
+// A development version has the number of the release that it becomes.
+TEST(Pages, TheNewestVersionOfTheChangelogIsThisOne) {
+  std::ifstream file(source_path("CHANGELOG.md"));
+  const std::string changelog{std::istreambuf_iterator<char>(file), {}};
+  std::istringstream said(std::get<HelpText>(parse_command_line({"--version"})).text);
+  std::string name, version;
+  said >> name >> version;
+  const std::size_t suffix = version.find("-dev"), first = changelog.find("\n## [");
+  const std::string number = version.substr(0, suffix), released = "\n## [" + number + "]";
+  if (suffix == std::string::npos) {
+    EXPECT_EQ(changelog.find(released), first) << version;
+  } else {
+    EXPECT_EQ(changelog.find("\n## [Unreleased]\n\nThis will be " + number + "."), first) << version;
+    EXPECT_EQ(changelog.find(released), std::string::npos) << version << ": this version is released already";
+  }
 }
 
 }  // namespace

@@ -16,6 +16,8 @@ set(SKEIN_MAINTAINER "Skein maintainers <maintainers@skein.invalid>" CACHE STRIN
 set(CPACK_PACKAGE_CONTACT ${SKEIN_MAINTAINER})
 set(CPACK_PACKAGE_VENDOR Skein)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+string(REPLACE "-" "~" SKEIN_DEBIAN_VERSION ${SKEIN_VERSION})  # for dpkg, 0.2.0~dev is before 0.2.0
+set(CPACK_DEBIAN_PACKAGE_VERSION ${SKEIN_DEBIAN_VERSION})
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 
 set(about "Skein simulates a fleet of inspection UAVs: each a process of its own, in a
@@ -33,7 +35,7 @@ small container images.")
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_NAME skein)
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_RUNTIME_PACKAGE_PROVIDES "skein-agent (= ${PROJECT_VERSION})")  # it has all its files
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_PROVIDES "skein-agent (= ${SKEIN_DEBIAN_VERSION})")  # it has all its files
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_CONFLICTS skein-agent)
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_REPLACES skein-agent)
 set(CPACK_COMPONENT_RUNTIME_DESCRIPTION "distributed simulator of inspection UAVs
@@ -46,7 +48,7 @@ radio's router, the ground station and the UAVs' on-board software.")
 set(CPACK_DEBIAN_DEV_PACKAGE_NAME skein-dev)
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
 string(JOIN ", " CPACK_DEBIAN_DEV_PACKAGE_DEPENDS
-  "skein (= ${PROJECT_VERSION})" g++ cmake make pkg-config
+  "skein (= ${SKEIN_DEBIAN_VERSION})" g++ cmake make pkg-config
   libfastrtps-dev libfastcdr-dev cyclonedds-dev libbullet-dev libembree-dev liboctomap-dev libeigen3-dev libassimp-dev
   liblzf-dev libzstd-dev zlib1g-dev libpcl-common1.13 libpcl-filters1.13 libcli11-dev libspdlog-dev libyaml-cpp-dev
   libpugixml-dev nlohmann-json3-dev libssl-dev)
@@ -69,7 +71,7 @@ set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-skein)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
 # The image of an agent with planners in Python has skein-agent, not skein.
 string(JOIN ", " CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
-  "skein (= ${PROJECT_VERSION}) | skein-agent (= ${PROJECT_VERSION})"
+  "skein (= ${SKEIN_DEBIAN_VERSION}) | skein-agent (= ${SKEIN_DEBIAN_VERSION})"
   "python3 (>= 3.11)" "python3 (<< 3.12)" python3-numpy)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "python3-pandas, python3-matplotlib")
