@@ -11,16 +11,16 @@ import contextlib
 import json
 import os
 import random
-import signal
 import sys
 import tempfile
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 import skein
+from interrupts import Interrupts
 from skein import client
 
 UAV = "jurong"
@@ -142,39 +142,11 @@ def in_a_copy(fleet: skein.Fleet) -> int:
     return os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
 
 
-class Interrupts:
-    """Raises SIGINT at a chosen line of the package's code."""
-
-    def __init__(self, draw: Draw) -> None:
-        self._draw, self._left, self.lines = draw, 0, 0
-        self._package = os.path.dirname(skein.__file__)
-
-    @contextlib.contextmanager
-    def at_line(self, number: int) -> Iterator[None]:
-        """Raises SIGINT at the `number`-th line of the package that is executed within the context (0: never). Counts
-        these lines."""
-        self._left, self.lines = number, 0
-        sys.settrace(self._trace)
-        try:
-            yield
-        finally:
-            sys.settrace(None)
-
-    def _trace(self, frame: Any, event: str, argument: Any) -> Any:
-        if not frame.f_code.co_filename.startswith(self._package) or frame.f_code.co_name in ("__del__", "_end"):
-            return None
-        if event == "line":
-            self.lines += 1
-            if self.lines == self._left:
-                sys.settrace(None)
-                signal.raise_signal(signal.SIGINT)
-        return self._trace
-
-
 def fuzz_interrupts(draw: Draw) -> None:
-    """After an interrupt at any line, the next step() of a fleet either flies exactly one step, or is refused with a
-    message that names reset() or end_step(). After reset(), the fleet flies as before."""
-    interrupts, struck, stood = Interrupts(draw), 0, 0
+    """After an interrupt at any instruction, the next step() of a fleet either flies exactly one step and returns what
+    the learner sees then, or is refused with a message that names reset() or end_step(). After reset(), the fleet flies
+    as before."""
+    interrupts, struck, stood = Interrupts(), 0, 0
     up = {UAV: {"velocity": (0.3, 0, 1)}}
     with skein.Fleet("towers", learners=[UAV], duration=30, no_check=True) as fleet:
         def episode() -> str:
@@ -190,19 +162,22 @@ def fuzz_interrupts(draw: Draw) -> None:
         for number in range(30):
             call = draw.random.choice(list(calls.values()))
             fleet.reset(seed=5)
-            with interrupts.at_line(0):
+            with interrupts.at_instruction(0):
                 call()
             fleet.reset(seed=5)
             fleet.step(up)
             try:
-                with interrupts.at_line(draw.random.randrange(1, interrupts.lines + 1)):
+                with interrupts.at_instruction(draw.random.randrange(1, interrupts.instructions + 1)):
                     call()
             except KeyboardInterrupt:
                 struck += 1
             try:
                 step = fleet.truth.step
-                fleet.step()
-                assert fleet.truth.step == step + 1, "the answer to one call was taken for that to another"
+                times_s = []
+                for flown in (1, 2):
+                    times_s.append(fleet.step()[0][UAV]["time_s"])
+                    assert fleet.truth.step == step + flown, "the answer to one call was taken for that to another"
+                assert times_s[0] < times_s[1], "the observations are those of an earlier mission"
                 stood += 1
             except skein.InputError as error:
                 assert "reset" in str(error) or "end_step" in str(error), error

@@ -1,9 +1,11 @@
-"""After Ctrl-C, or the end of the program that flies a fleet, no process remains, and the results so far are there."""
+"""After Ctrl-C, or the end of the program that flies a fleet, no process remains, and the results so far are there. A
+fleet that is flown step by step can be used again, or says that it cannot."""
 
 from __future__ import annotations
 
 import os
 import signal
+import socket
 import subprocess
 import sys
 from pathlib import Path
@@ -12,7 +14,9 @@ from typing import Any
 import pytest
 
 import skein
+from interrupts import Interrupts
 from processes import PATIENCE_S, Watch, processes_in
+from skein.stepping import worker
 
 _FLIGHT = """
 import sys
@@ -121,3 +125,55 @@ def test_ctrl_c_while_the_launcher_starts_reaches_it(tmp_path: Path, monkeypatch
     with pytest.raises(KeyboardInterrupt):
         skein.run(launcher=program)
     assert children and children[0].poll() is not None
+
+
+def interrupted(interrupts: Interrupts, number: int, call: Any) -> bool:
+    """Interrupts a call at an instruction. Returns whether the call has so many."""
+    try:
+        with interrupts.at_instruction(number):
+            call()
+    except KeyboardInterrupt:
+        return True
+    return False
+
+
+def open_files() -> set[str]:
+    return set(os.listdir("/proc/self/fd"))
+
+
+def test_letting_a_process_go_can_be_interrupted_at_any_instruction_and_repeated() -> None:
+    interrupts, number, goes_on = Interrupts(), 0, True
+    before = open_files()
+    while goes_on:
+        number += 1
+        ours, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
+        theirs.setblocking(False)
+        process = worker._Process(ours, worker._memory_file("log"))
+        goes_on = interrupted(interrupts, number, process.let_go)
+        assert process.closed == (ours.fileno() < 0), f"instruction {number}"
+        with open(os.devnull, "rb") as other:  # it may get the number of a file that is closed now
+            process.let_go()
+            process.let_go()
+            assert process.closed and other.read() == b"", f"instruction {number}"
+        assert theirs.recv(1) == b"", "the process at the other end does not end"
+        theirs.close()
+        assert open_files() == before, f"instruction {number}"
+    assert number > 10, "nothing was interrupted"
+
+
+def test_a_fleet_whose_reset_was_interrupted_sees_its_own_mission_or_refuses() -> None:
+    interrupts = Interrupts()
+    with skein.Fleet("towers", learners=["jurong"], duration=10, no_check=True) as fleet:
+        fleet.reset(seed=1)
+        interrupted(interrupts, 0, lambda: fleet.reset(seed=1))
+        count = interrupts.instructions
+        struck, flown, refused = 0, 0, 0
+        for number in range(count // 3, count, count // 45):  # most of these come when the new process is there
+            struck += interrupted(interrupts, number, lambda: fleet.reset(seed=1))
+            try:
+                times_s = [fleet.step()[0]["jurong"]["time_s"] for _ in range(2)]
+                assert times_s[0] < times_s[1], f"instruction {number} of {count}: an earlier mission is seen"
+                flown += 1
+            except skein.InputError:
+                refused += 1
+    assert struck > 20 and flown > 0 and refused > 0, (struck, flown, refused)

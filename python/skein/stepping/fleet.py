@@ -307,18 +307,19 @@ class Fleet:
         if self._worker is not None:
             self._worker.let_go()
             self._worker = None
+        worker = self._family(self._scene()).worker(seed)
         self._log = {}
-        self._take(self._family(self._scene()).worker(seed))
         self._started = (seed, self._scene())
         self._over = False
-        self._score = float(self._running().views["truth.score"][()])
+        self._score = float(worker.views["truth.score"][()])
         self.agents = list(self.possible_agents)
+        self._take(worker)
 
     def _take(self, worker: Worker) -> None:
-        self._worker = worker
         self._flying = False
         self._observations = {uav: Observations(uav, worker.fields, worker.block) for uav in self.possible_agents}
         self._orders = {uav: Orders(uav, self._actions, worker.views) for uav in self.possible_agents}
+        self._worker = worker  # last: if Ctrl-C comes before, the fleet refuses to fly with the arrays of two processes
 
     def _give_up(self) -> None:
         """Ends the fleet if it flies. Otherwise, its reply to this step would count as the reply to the next one."""

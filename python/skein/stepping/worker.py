@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import contextlib
 import fcntl
+import io
 import json
 import mmap
 import os
@@ -45,20 +46,26 @@ def _forget_all() -> None:
 os.register_at_fork(after_in_child=_forget_all)
 
 
-def _memory_file(name: str) -> int:
-    return os.memfd_create(name, os.MFD_CLOEXEC)
+def _memory_file(name: str) -> io.FileIO:
+    return io.FileIO(os.memfd_create(name, os.MFD_CLOEXEC), "r+")
 
 
-def _content(file: int) -> bytes:
-    size = os.fstat(file).st_size
-    return os.pread(file, size, 0)
+def _content(file: io.FileIO) -> bytes:
+    size = os.fstat(file.fileno()).st_size
+    return os.pread(file.fileno(), size, 0)
 
 
 class _Process:
-    """This program's end of the socket of a fleet's process, and the output of that process."""
+    """This program's end of the socket of a fleet's process, and the output of that process.
 
-    def __init__(self, ours: socket.socket, log: int) -> None:
-        self._socket: socket.socket | None = ours
+    Ctrl-C may interrupt each method at any instruction. At any time, this end is closed, or no reply is due, or one is
+    due for which the caller of begin_steps() will wait: who is interrupted between a message and its reply closes this
+    end. The socket itself is the only record of whether this end is closed, so an interrupted let_go() leaves it closed
+    or open, and a further call completes it.
+    """
+
+    def __init__(self, ours: socket.socket, log: io.FileIO) -> None:
+        self._socket = ours
         self._log = log
         self._owner = os.getpid()
         self.pid = 0
@@ -69,20 +76,19 @@ class _Process:
 
     @property
     def closed(self) -> bool:
-        return self._socket is None
+        return self._socket.fileno() < 0
 
     def let_go(self) -> None:
-        """Closes this end of the socket; the process at the other end then ends."""
-        if self._socket is not None:
-            self._socket.close()
-            os.close(self._log)
-            self._socket = None
+        """Closes this end of the socket; the process at the other end then ends. May be called again, and completes
+        what an interrupted call has left."""
+        self._socket.close()
+        self._log.close()
 
     def __del__(self) -> None:
         self.let_go()
 
     def _open(self) -> socket.socket:
-        if self._socket is None:
+        if self.closed:
             if os.getpid() != self._owner:
                 raise InputError("this Python program is a copy (os.fork, multiprocessing), and the fleet is that of "
                                  "the one that it was copied from: make a fleet here")
@@ -152,7 +158,6 @@ class _Process:
 
     def _last_words(self) -> dict[str, Any]:
         with contextlib.suppress(OSError, ValueError):
-            assert self._socket is not None
             words = json.loads(self._socket.recv(_LONGEST_ANSWER, socket.MSG_DONTWAIT) or b"{}")
             return words if isinstance(words, dict) else {}
         return {}
@@ -212,14 +217,12 @@ class Family:
             raise
 
     def _greet(self, child: subprocess.Popen[bytes]) -> dict[str, Any]:
-        log = os.dup(self._root._log)
-        try:
-            return self._root.hello()
-        except ProcessError as error:  # the launcher refused
-            finished = Finished("", _content(log).decode(errors="replace"), child.wait(_PATIENCE_S))
-            raise finished.error() or error from None
-        finally:
-            os.close(log)
+        with io.FileIO(os.dup(self._root._log.fileno())) as log:
+            try:
+                return self._root.hello()
+            except ProcessError as error:  # the launcher refused
+                finished = Finished("", _content(log).decode(errors="replace"), child.wait(_PATIENCE_S))
+                raise finished.error() or error from None
 
     @property
     def closed(self) -> bool:
@@ -263,16 +266,16 @@ class Worker(_Process):
         self.patience_s = original.patience_s
         block = _memory_file("skein-fleet")
         try:
-            original.exchange(json.dumps(order), (theirs.fileno(), block, log))
+            original.exchange(json.dumps(order), (theirs.fileno(), block.fileno(), log.fileno()))
             theirs.close()
             told = self.hello()
-            self.block = mmap.mmap(block, int(told["bytes"]))
+            self.block = mmap.mmap(block.fileno(), int(told["bytes"]))
         except BaseException:
             self.let_go()
             raise
         finally:
             theirs.close()
-            os.close(block)
+            block.close()
         self._family = family
         self.fields = fields or told["fields"]
         self.views: dict[str, Any] = {name: np.ndarray(shape, kind, self.block, offset)
@@ -290,9 +293,6 @@ class Worker(_Process):
         return self.receive() == b"e"
 
     def ask(self, what: str) -> Any:
-        file = _memory_file("skein-fleet-answer")
-        try:
-            self.exchange(json.dumps({"do": what}), (file,))
+        with _memory_file("skein-fleet-answer") as file:
+            self.exchange(json.dumps({"do": what}), (file.fileno(),))
             return json.loads(_content(file))
-        finally:
-            os.close(file)
