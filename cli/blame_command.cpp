@@ -11,13 +11,13 @@
 #include "cli/hunt/capsule_run.hpp"
 #include "cli/hunt/flights.hpp"
 #include "cli/rerun_command.hpp"
-#include "cli/run/results_dir.hpp"
 #include "core/faults/fault_writer.hpp"
 #include "core/text/suggestion.hpp"
 #include "core/text/text.hpp"
 #include "process/program.hpp"
 #include "results/diff.hpp"
 #include "results/run_record.hpp"
+#include "run/results_dir.hpp"
 #include "signals/radio_log.hpp"
 
 namespace skein::cli {

@@ -8,9 +8,9 @@
 #include <optional>
 #include <string>
 
-#include "run/ros_environment.hpp"
-#include "run/testing/fake_programs.hpp"
+#include "cli/ros_environment.hpp"
 #include "core/types.hpp"
+#include "host/testing/fake_programs.hpp"
 
 namespace skein::cli {
 namespace {
