@@ -56,8 +56,9 @@ OpenSpace::OpenSpace(const RayScene& world, const Eigen::AlignedBox3d& structure
 }
 
 Vector3d OpenSpace::on_line(std::size_t line, double x) const {
-  return {x, grid_.low.y() + static_cast<double>(line % grid_.lines_y) * grid_.step,
-          grid_.low.z() + static_cast<double>(line / grid_.lines_y) * grid_.step};
+  const std::size_t iy = line % grid_.lines_y, iz = line / grid_.lines_y;
+  return {x, grid_.low.y() + static_cast<double>(iy) * grid_.step,
+          grid_.low.z() + static_cast<double>(iz) * grid_.step};
 }
 
 /// Whether a line is at a side or at the top of the grid, and so open. The bottom is no border: lines on the ground may

@@ -96,7 +96,9 @@ class Spire {
     const Polygon polygon = plan(tier_radius(tier), 0.0);
     std::vector<Face> all;
     for (std::size_t i = 0; i < polygon.size(); ++i) {
-      const Vector2d a = polygon[i], b = polygon[(i + 1) % polygon.size()], middle = 0.5 * (a + b);
+      const Vector2d& a = polygon[i];
+      const Vector2d& b = polygon[(i + 1) % polygon.size()];
+      const Vector2d middle = 0.5 * (a + b);
       Face face;
       face.length = (b - a).norm();
       const double heading = std::atan2((b - a).y(), (b - a).x());

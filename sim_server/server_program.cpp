@@ -199,7 +199,7 @@ std::variant<int, std::unique_ptr<bus::FleetMember>> ServerProgram::prepare(cons
   auto bus = bus::make_bus(options, *scenario);
   if (options.check_only) {
     for (const std::string& warning : scene_warnings(scene)) spdlog::warn("{}", warning);
-    Simulation(*scenario, std::move(scene), options.seed);  // checks that the starts are free
+    const Simulation checked(*scenario, std::move(scene), options.seed);  // checks that the starts are free
     return kExitDone;
   }
   return std::make_unique<ServerMember>(std::move(scenario), std::move(scene), node_options, std::move(bus), status,

@@ -25,9 +25,9 @@ std::string bench_scenario(const BenchFleet& fleet) {
       fleet.uavs, fleet.duration_s, fleet.exchange_period_s);
   const auto side = static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(fleet.uavs))));
   for (std::size_t i = 0; i < fleet.uavs; ++i) {
-    const auto row = static_cast<double>(i / side), column = static_cast<double>(i % side);
-    const double x = kNearestX - kSpacingM * column;
-    const double y = kMiddleY + kSpacingM * (row - 0.5 * static_cast<double>(side - 1));
+    const std::size_t row = i / side, column = i % side;
+    const double x = kNearestX - kSpacingM * static_cast<double>(column);
+    const double y = kMiddleY + kSpacingM * (static_cast<double>(row) - 0.5 * static_cast<double>(side - 1));
     yaml += fmt::format("  - {{name: uav{:03}, vehicle: {}, start: [{}, {}]}}\n", i,
                         i % 5 < 2 ? "explorer" : "photographer", x, y);
   }

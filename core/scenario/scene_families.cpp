@@ -18,10 +18,12 @@ void vary(std::vector<StartPlace>& places, const std::vector<Vector2d>& nominal,
     std::swap(places[i - 1], places[static_cast<std::size_t>(random.uniform() * static_cast<double>(i))]);
   }
   if (random.uniform() >= kCrowded) return;
-  const Vector2d middle = nominal[static_cast<std::size_t>(random.uniform() * static_cast<double>(nominal.size()))];
-  for (std::size_t i = 0; i < places.size(); ++i) {  // two rows
-    const auto column = static_cast<double>(i / 2) - 0.5 * static_cast<double>((places.size() - 1) / 2);
-    places[i].p_W = middle + kCrowdStep * Vector2d(column, static_cast<double>(i % 2) - 0.5);
+  const Vector2d& middle = nominal[static_cast<std::size_t>(random.uniform() * static_cast<double>(nominal.size()))];
+  const std::size_t last_column = (places.size() - 1) / 2;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const std::size_t column = i / 2, row = i % 2;
+    places[i].p_W = middle + kCrowdStep * Vector2d(static_cast<double>(column) - 0.5 * static_cast<double>(last_column),
+                                                   static_cast<double>(row) - 0.5);
   }
 }
 

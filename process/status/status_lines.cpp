@@ -1,7 +1,5 @@
 #include "process/status/status_lines.hpp"
 
-#include <utility>
-
 #include "process/json_fields.hpp"
 
 namespace skein::status {
@@ -70,7 +68,7 @@ nlohmann::json line_json(const Line& line) {
       [](const auto& what) {
         Json json = skein::json_of(what);
         json[kTypeKey] = what.kType;
-        return nlohmann::json(std::move(json));
+        return nlohmann::json(json);
       },
       line);
 }

@@ -52,7 +52,7 @@ FlightCheckReport FlightReview::report() const {
     TrackingReport row = report_of(found.tracking.quantiles(
         [&](const results::TrackingTable::Bin& bin) { return bin.speed_mps() >= from && bin.speed_mps() < to; }));
     row.from_mps = from;
-    if (row.samples > 0U) report.tracking_by_speed.push_back(std::move(row));
+    if (row.samples > 0U) report.tracking_by_speed.push_back(row);
   }
   for (const FlightFinding& finding : found.first) {
     const Vector3d& p = finding.p_W;

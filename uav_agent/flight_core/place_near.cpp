@@ -8,7 +8,7 @@ std::optional<Vector3d> best_place_near_W(const Vector3d& p_W, double lowest_m, 
   std::optional<Vector3d> best_W;
   for (const double step_m : {1.0, 2.0, 3.0}) {
     for (int i = 0; i < 27; ++i) {
-      const Vector3d along(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
+      const Vector3d along = Eigen::Vector3i(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1).cast<double>();
       const Vector3d place_W = p_W + along.normalized() * step_m;
       if (along.isZero() || place_W.z() < lowest_m) continue;
       const double its_value = value(place_W);

@@ -58,7 +58,7 @@ std::pair<int, int> rows_of(const VoxelGrid& volume, const std::vector<OrientedB
 
 std::vector<Lane> all_lanes(const VoxelGrid& volume, const std::vector<OrientedBox>& boxes, double lowest_m,
                             int count) {
-  const VoxelGrid::Cell dims = volume.dims();
+  const VoxelGrid::Cell& dims = volume.dims();
   int along = 0;
   dims.maxCoeff(&along);
   const int across = along == 0 ? 1 : 0, other = 3 - along - across;
@@ -69,10 +69,10 @@ std::vector<Lane> all_lanes(const VoxelGrid& volume, const std::vector<OrientedB
   ends = {ends.first + inset, ends.second - inset};
   std::vector<Lane> lanes;
   for (int i = 0; i < count; ++i) {
-    const int side = i % 2 == 0 ? -1 : 1;
+    const int level = i / 2, side = i % 2 == 0 ? -1 : 1;
     VoxelGrid::Cell cell;
     cell[along] = 0;
-    cell[other] = static_cast<int>(dims[other] * (i / 2 + (other == 2 ? kHeight : 0.5)) / levels);
+    cell[other] = static_cast<int>(dims[other] * (level + (other == 2 ? kHeight : 0.5)) / levels);
     // Begins halfway between middle and rim of the boxes, and moves outwards until the lane keeps clear of them.
     const int first = static_cast<int>(std::lround(0.5 * (low_row + high_row) + side * 0.25 * (high_row - low_row)));
     for (cell[across] = first; cell[across] > 0 && cell[across] + 1 < dims[across]; cell[across] += side) {
