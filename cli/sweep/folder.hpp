@@ -77,7 +77,7 @@ struct SweepSettings {
 class SweepFolder {
  public:
   /// @param study  the folder of the study, absolute
-  explicit SweepFolder(std::filesystem::path study) : dir_(std::move(study) / "sweep") {}
+  explicit SweepFolder(const std::filesystem::path& study) : dir_(study / "sweep") {}
 
   const std::filesystem::path& dir() const { return dir_; }
   std::filesystem::path log_of(std::size_t unit) const;
