@@ -12,8 +12,8 @@ class Key {
  public:
   /// A new key of 256 random bits. @throws std::runtime_error when the system provides none.
   static Key draw();
-  /// Reads a key from a file (process/files/private_file.hpp writes it). @throws InputError when the file has no key, or
-  /// when other users may access it.
+  /// Reads a key from a file (process/files/private_file.hpp writes it). @throws InputError when the file has no key,
+  /// or when other users may access it.
   static Key read_from(const std::filesystem::path& file);
 
   const std::string& text() const { return text_; }

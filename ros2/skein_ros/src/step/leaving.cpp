@@ -35,8 +35,8 @@ void forgive_exception(int code, void*) {
   if (code == 1) exit_at_once(0);
 }
 
-/// In a secured fleet, the last participant of Fast DDS is destroyed with the static objects, when OpenSSL has gone, and
-/// would still encrypt what it sends.
+/// In a secured fleet, the last participant of Fast DDS is destroyed with the static objects, when OpenSSL has gone,
+/// and would still encrypt what it sends.
 void end_before_static_objects(int code, void*) { exit_at_once(code); }
 
 }  // namespace
