@@ -17,6 +17,7 @@
 #include "results/run_folder.hpp"
 #include "run/fleet_plan.hpp"
 #include "run/recording.hpp"
+#include "run/results_dir.hpp"
 
 namespace skein::cli {
 namespace {
@@ -136,6 +137,16 @@ std::string no_server(const MergeOptions& options, const fs::path& dir) {
          " in it: the run is not over, or its server died";
 }
 
+/// Prevents a launcher, or another merge, from using the folder at the same time: to join the parts of a recording
+/// deletes them, also if a flying fleet still writes to them. @throws InputError if the folder is in use, or is none
+FolderLock lock_of(const fs::path& dir) try {
+  std::error_code error;
+  if (!fs::is_directory(dir, error)) throw InputError(dir.string() + ": there is no such folder");
+  return FolderLock(dir);
+} catch (const FolderInUse&) {
+  throw InputError(dir.string() + ": a launcher is writing there now; it makes the result itself when the run ends");
+}
+
 /// A run whose server left no report has no result, but the parts that its programs recorded can still be joined.
 /// @throws InputError when there is no part.
 int merge_without_server(const MergeOptions& options, const fs::path& dir, const Console& console) {
@@ -168,6 +179,7 @@ int merge_without_server(const MergeOptions& options, const fs::path& dir, const
 
 int merge_reports(const MergeOptions& options, const Console& console) {
   const fs::path dir = fs::absolute(options.dir);
+  const FolderLock lock = lock_of(options.dir);
   const Json server = read_json(dir / run_folder::report_file(programs::kSimServer));
   if (!server.is_object()) return merge_without_server(options, dir, console);
   const Json facts_of_launcher = launchers_facts(dir, console.err);

@@ -10,6 +10,7 @@
 #include "process/program.hpp"
 #include "results/result_file.hpp"
 #include "results/run_folder.hpp"
+#include "run/results_dir.hpp"
 
 namespace skein::cli {
 namespace {
@@ -88,6 +89,20 @@ TEST_F(MergeCommand, ADamagedReportIsMadeAnewFromTheBooks) {
   truncate("station");
   EXPECT_NE(refusal().find(report("station").string() + ": is damaged"), std::string::npos) << "the books are, too";
   EXPECT_EQ(results::read_result_file(dir())["score"], 2.25);
+}
+
+// Joining the parts of a recording deletes them. The programs of a flying fleet would go on to write to deleted files.
+TEST_F(MergeCommand, TheFolderOfAFleetThatFliesIsLeftAlone) {
+  fs::remove(report("sim_server"));
+  write_text(dir() / "sim_server.mcap", "unfinished");
+  {
+    const ResultsDir launcher(dir(), Earlier::keep);
+    EXPECT_NE(refusal().find(dir().string() + ": a launcher is writing there now"), std::string::npos) << refusal();
+  }
+  EXPECT_EQ(read_text(dir() / "sim_server.mcap"), "unfinished");
+  options_.dir = dir() / "nowhere";
+  EXPECT_NE(refusal().find("there is no such folder"), std::string::npos) << refusal();
+  EXPECT_FALSE(fs::exists(options_.dir));
 }
 
 TEST_F(MergeCommand, WhatOnlyTheLauncherKnowsStays) {

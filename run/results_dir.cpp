@@ -75,10 +75,12 @@ void check_nothing_in_the_way(const std::filesystem::path& dir) {
   if (!first.empty()) refuse("'" + first + "', a name that a run uses for files of its own", "delete");
 }
 
+int open_folder(const std::filesystem::path& dir) { return ::open(dir.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC); }
+
 /// Whether a run holds the lock of this folder now. To find out, this function takes the lock for a moment, shared:
 /// take_lock() does not mistake that for a run.
 bool is_held(const std::filesystem::path& dir) {
-  const int folder = ::open(dir.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  const int folder = open_folder(dir);
   if (folder < 0) return false;
   const bool held = ::flock(folder, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
   ::close(folder);
@@ -183,29 +185,27 @@ void ResultsDir::check(const std::filesystem::path& dir, bool force) {
   }
 }
 
+FolderLock::FolderLock(const std::filesystem::path& dir) : folder_(open_folder(dir)) {
+  const int reason = folder_ < 0 ? errno : take_lock(folder_);
+  if (reason == 0) return;
+  if (folder_ >= 0) ::close(folder_);
+  if (reason == EWOULDBLOCK) tell_of_another_run(dir);
+  throw InputError(dir.string() + ": cannot be locked (" + std::generic_category().message(reason) +
+                   "); choose another folder");
+}
+
+FolderLock::~FolderLock() { ::close(folder_); }
+
 ResultsDir::ResultsDir(const std::filesystem::path& dir, Earlier earlier)
     : given_(dir), path_(std::filesystem::absolute(dir)) {
   check_kind(dir);
-  const std::error_code error = make_results_folder(path_);
-  if (!error) lock_ = ::open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (error || lock_ < 0 || ::access(path_.c_str(), W_OK) != 0) {
-    if (lock_ >= 0) ::close(lock_);
+  if (make_results_folder(path_) || ::access(path_.c_str(), R_OK | W_OK) != 0) {
     throw InputError("--out " + dir.string() + ": cannot be written to");
   }
-  if (const int reason = take_lock(lock_); reason != 0) {
-    ::close(lock_);
-    if (reason == EWOULDBLOCK) tell_of_another_run(dir);
-    throw InputError("--out " + dir.string() + ": cannot be locked (" + std::generic_category().message(reason) +
-                     "); choose another folder");
-  }
-  try {
-    if (earlier == Earlier::refuse) check_nothing_in_the_way(dir);
-    if (earlier == Earlier::remove) remove_stale(path_);
-    keep_room();
-  } catch (...) {
-    ::close(lock_);
-    throw;
-  }
+  lock_.emplace(dir);
+  if (earlier == Earlier::refuse) check_nothing_in_the_way(dir);
+  if (earlier == Earlier::remove) remove_stale(path_);
+  keep_room();
 }
 
 std::unique_ptr<ResultsDir> ResultsDir::take(const RunOptions& run, const std::string& scenario) {
@@ -231,11 +231,6 @@ std::unique_ptr<ResultsDir> ResultsDir::take_free(const std::filesystem::path& b
     } catch (const FolderInUse&) {  // another run has taken it just now
     }
   }
-}
-
-ResultsDir::~ResultsDir() {
-  give_room();
-  ::close(lock_);
 }
 
 void ResultsDir::keep_room() const {

@@ -48,6 +48,19 @@ class FolderInUse : public InputError {
   using InputError::InputError;
 };
 
+/// Holds an existing results folder for one process. The kernel releases it when the process ends.
+class FolderLock {
+ public:
+  /// @throws FolderInUse if a launcher holds the folder; InputError if the folder cannot be locked
+  explicit FolderLock(const std::filesystem::path& dir);
+  ~FolderLock();
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
+
+ private:
+  int folder_ = -1;
+};
+
 /// Holds a results folder for one run: two launchers never write to the same one.
 class ResultsDir {
  public:
@@ -63,7 +76,7 @@ class ResultsDir {
   ResultsDir(const std::filesystem::path& dir, Earlier earlier);
   ResultsDir(const std::filesystem::path& dir, bool force)
       : ResultsDir(dir, force ? Earlier::remove : Earlier::refuse) {}
-  ~ResultsDir();
+  ~ResultsDir() { give_room(); }
   ResultsDir(const ResultsDir&) = delete;
   ResultsDir& operator=(const ResultsDir&) = delete;
 
@@ -90,7 +103,7 @@ class ResultsDir {
   void give_room() const;
 
   std::filesystem::path given_, path_;
-  int lock_ = -1;
+  std::optional<FolderLock> lock_;
 };
 
 }  // namespace skein::cli
