@@ -3,6 +3,7 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "core/files/file_bytes.hpp"
 #include "core/sha256.hpp"
 #include "process/files/atomic_file.hpp"
 
@@ -18,7 +19,7 @@ std::string answer_hash(const std::string& key, const nlohmann::ordered_json& an
 std::optional<nlohmann::ordered_json> kept_answer(const std::filesystem::path& file, const std::string& key) {
   std::error_code unknown;
   if (!std::filesystem::exists(file, unknown)) return std::nullopt;
-  std::ifstream in(file, std::ios::binary);
+  std::ifstream in = open_text(file);  // a named pipe must not keep us waiting
   const auto json = nlohmann::ordered_json::parse(in);
   if (json.at("sha256") != answer_hash(key, json.at("answer"))) throw std::runtime_error("its check sum is wrong");
   return json.at("answer");

@@ -8,6 +8,7 @@
 #include <map>
 #include <tuple>
 
+#include "core/files/file_bytes.hpp"
 #include "core/text/text.hpp"
 #include "core/types.hpp"
 
@@ -57,11 +58,11 @@ std::string planner_scores_csv(const std::vector<PlannerScore>& scores) {
 }
 
 std::vector<PlannerScore> read_planner_scores(const std::filesystem::path& file) {
-  std::ifstream in(file);
+  std::ifstream in = open_text(file);
   if (!in) throw InputError(file.string() + ": cannot be read");
   std::vector<PlannerScore> scores;
   std::string line;
-  for (int number = 1; std::getline(in, line); ++number) {
+  for (int number = 1; next_line(in, line, file); ++number) {
     const auto refuse = [&](const std::string& why) {
       throw InputError(fmt::format("{}: line {}: {}", file.string(), number, why));
     };

@@ -1,6 +1,7 @@
 #include "cli/bench/planner_scores.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <fstream>
 #include <random>
@@ -47,6 +48,15 @@ TEST(PlannerScores, DamagedTablesAreNamedByLine) {
     } catch (const InputError& error) {
       EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
     }
+  }
+}
+
+TEST(PlannerScores, WhatIsNoRegularFileIsRefusedAtOnce) {
+  const ScratchDir folder;
+  const auto pipe = folder.path() / "pipe";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  for (const std::filesystem::path& file : {pipe, std::filesystem::path("/dev/zero"), folder.path()}) {
+    EXPECT_THROW(read_planner_scores(file), InputError) << file;
   }
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "core/files/file_bytes.hpp"
 #include "core/types.hpp"
 #include "process/files/atomic_file.hpp"
 #include "results/run_folder.hpp"
@@ -96,7 +97,7 @@ HuntLog::HuntLog(const fs::path& dir, const Json& settings, bool force)
 }
 
 void HuntLog::read_lines() {
-  std::ifstream in(file_, std::ios::binary);
+  std::ifstream in = open_text(file_);
   std::string line;
   std::uintmax_t whole = 0;
   for (std::size_t number = 1; std::getline(in, line) && !in.eof(); ++number) {
