@@ -23,7 +23,7 @@ std::vector<std::string> with_duration_of_environment(std::vector<std::string> a
   if (const std::string problem = check_seconds(duration); !problem.empty()) {
     throw InputError(std::string(kDurationVariable) + ": " + problem + ", or not set");
   }
-  arguments.insert(arguments.end(), {"--duration", duration});
+  arguments.insert(arguments.begin() + 1, {"--duration", duration});  // at the end, it could come after "--"
   return arguments;
 }
 

@@ -19,6 +19,8 @@ TEST(DurationVariable, AppliesToFlightsWithoutTheOption) {
       EXPECT_EQ(with_duration_of_environment(told), told);
     }
   }
+  EXPECT_EQ(with_duration_of_environment({"run", "--", "towers"}),
+            (Words{"run", "--duration", "12.5", "--", "towers"}));
   for (const Words& other : {Words{}, Words{"hunt", "towers"}, Words{"--complete", "run"}, Words{"rerun", "run"}}) {
     EXPECT_EQ(with_duration_of_environment(other), other);
   }
