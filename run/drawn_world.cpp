@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "core/scenario/drawn_worlds.hpp"
+#include "core/scenario/scenario_reader.hpp"
 #include "core/types.hpp"
 #include "host/preflight.hpp"
 #include "host/supervisor.hpp"
@@ -28,13 +29,23 @@ fs::path folder_of(const std::string& world) {
   return *cache / "worlds" / ("grammar-" + std::to_string(kWorldGrammar)) / world;
 }
 
+/// Whether the cache has the world with all its files: a user, or a tool that cleans caches, may have deleted some.
+bool is_kept(const fs::path& scenario) try {
+  std::error_code error;
+  if (!fs::is_regular_file(scenario, error)) return false;
+  load_scenario(scenario);
+  return true;
+} catch (const InputError&) {
+  return false;
+}
+
 }  // namespace
 
 std::string scenario_source(const std::string& scenario, const std::optional<std::uint64_t>& scene_seed) {
   if (!is_drawn_world(scenario)) return scenario;
   const std::string seed = std::to_string(scene_seed.value_or(0)), world = scenario + "_" + seed;
   const fs::path folder = folder_of(world), file = folder / (world + ".yaml");
-  if (fs::is_regular_file(file)) return file;  // written last: the folder is complete
+  if (is_kept(file)) return file;
   const ScratchDir scratch;
   const fs::path log = scratch.path() / "draw.log";
   // sim_server gets the environment of a run, so that the libm of runs draws the world. A concurrent process writes the

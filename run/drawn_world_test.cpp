@@ -1,0 +1,77 @@
+#include "run/drawn_world.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <optional>
+
+#include "host/testing/fake_programs.hpp"
+
+namespace skein::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Writes a world of two UAVs, and a line in the log: sim_server --draw-world W --scene-seed S --export-scene FOLDER.
+constexpr const char* kDraw = R"(
+echo "$2_$4" >> "$(dirname "$0")/drawn.log"
+mkdir -p "$6/models"
+for name in m.stl p.pcd b.yaml; do echo x > "$6/models/$name"; done
+cat > "$6/$2_$4.yaml" <<END
+desired_mm_per_pixel: 2.0
+scene: {family: wild, scene_seed: $4, meshes: [./models/m.stl], points: ./models/p.pcd, boxes: ./models/b.yaml}
+fleet:
+  - {name: alpha, vehicle: {name: x, role: explorer, lidar: {}}, start: [0, 0]}
+  - {name: beta, vehicle: {name: p, role: photographer}, start: [5, 0]}
+END
+)";
+
+class DrawnWorld : public ::testing::Test {
+ protected:
+  DrawnWorld() {
+    if (const char* usual = std::getenv("XDG_CACHE_HOME")) usual_cache_ = usual;
+    ::setenv("XDG_CACHE_HOME", cache().c_str(), 1);
+    write_script(programs_.dir() / "sim_server", kDraw);
+  }
+  ~DrawnWorld() override {
+    usual_cache_ ? ::setenv("XDG_CACHE_HOME", usual_cache_->c_str(), 1) : ::unsetenv("XDG_CACHE_HOME");
+  }
+
+  fs::path cache() const { return programs_.dir() / "cache"; }
+  std::size_t drawn() const { return static_cast<std::size_t>(std::ranges::count(read_text(log()), '\n')); }
+  fs::path log() const { return programs_.dir() / "drawn.log"; }
+
+  const FakePrograms programs_;
+
+ private:
+  std::optional<std::string> usual_cache_;
+};
+
+TEST_F(DrawnWorld, IsDrawnOnce) {
+  EXPECT_EQ(scenario_source("towers", 3), "towers");
+  const fs::path file = scenario_source("wild", 3);
+  EXPECT_EQ(file.filename(), "wild_3.yaml");
+  EXPECT_TRUE(fs::is_regular_file(file));
+  EXPECT_EQ(scenario_source("wild", 3), file);
+  EXPECT_EQ(drawn(), 1U);
+  EXPECT_NE(scenario_source("wild", {}), file);
+  EXPECT_EQ(drawn(), 2U);
+}
+
+TEST_F(DrawnWorld, IsDrawnAgainIfAFileOfItIsMissing) {
+  const fs::path file = scenario_source("wild", 3);
+  std::size_t draws = 1;
+  for (const char* name : {"models/m.stl", "models/p.pcd", "models/b.yaml", "models", "wild_3.yaml"}) {
+    fs::remove_all(file.parent_path() / name);
+    EXPECT_EQ(scenario_source("wild", 3), file) << name;
+    EXPECT_TRUE(fs::exists(file.parent_path() / name)) << name;
+    EXPECT_EQ(drawn(), ++draws) << name;
+  }
+  write_text(file, "name: [");
+  EXPECT_EQ(scenario_source("wild", 3), file);
+  EXPECT_EQ(drawn(), ++draws) << "a damaged scenario";
+}
+
+}  // namespace
+}  // namespace skein::cli
