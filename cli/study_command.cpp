@@ -244,7 +244,7 @@ int run_study(const StudyOptions& options, const Console& console) {
     console.out << "another program follows this study, and merges it" << std::endl;
     return kExitDone;
   }
-  write_file_atomically(plan.out / kSettings, plan.settings.dump(2) + "\n");
+  write_file_atomically(plan.out / kSettings, json_text(plan.settings, 2) + "\n");
   console.err << plan.flights.size() << " flights, results in " << plan.out.string() << std::endl;
 
   StudyOutcomes outcomes = options.sweep.executor ? fly_sweep(plan, console) : fly_study(plan, console);

@@ -260,7 +260,7 @@ TEST_F(StudyCommand, AChangedParameterFileMakesANewFlight) {
 TEST_F(StudyCommand, AFlightThatFailsIsNotedAndTheOthersGoOn) {
   hook(
       "if [ $seed = 2 ] && [ $planner = hover ]; then code=3; echo 'uav_agent-alpha failed: exit code 9' >&2; fi\n"
-      "if [ $seed = 3 ] && [ $planner = patrol ]; then echo no result >&2; exit 3; fi\n");
+      "if [ $seed = 3 ] && [ $planner = patrol ]; then printf 'pas de r\\351sultat' >&2; exit 3; fi\n");  // no UTF-8
   EXPECT_EQ(run(), kExitProcessFailed);
   EXPECT_EQ(std::ranges::count(flown(), '\n'), 6);
   EXPECT_NE(file("report.html").find("uav_agent-alpha failed: exit code 9"), std::string::npos);

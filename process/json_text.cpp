@@ -36,6 +36,10 @@ Json parse_json(const std::string& text) {
   return json.is_discarded() ? Json() : json;
 }
 
+std::string json_text(const Json& json, int indent) {
+  return json.dump(indent, ' ', false, Json::error_handler_t::replace);
+}
+
 Json read_json(const std::filesystem::path& file) {
   constexpr std::uintmax_t kMostBytes = 256 << 20;
   try {

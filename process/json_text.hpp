@@ -1,5 +1,5 @@
 // Reads JSON that another process wrote. It may be damaged, or come from another version of Skein or from a user's
-// program: reading never throws, whatever the JSON contains.   Threads: any.
+// program: reading never throws, whatever the JSON contains. Writes JSON.   Threads: any.
 #pragma once
 
 #include <filesystem>
@@ -24,6 +24,10 @@ std::string text_in(const Json& object, const char* key);
 /// Parses JSON. @returns null if the text is not JSON. Leaves out values that are nested deeper than any that Skein
 /// writes: copying them could overflow the stack.
 Json parse_json(const std::string& text);
+
+/// The text of JSON on one line or, with `indent` >= 0, on several. Replaces bytes that are not UTF-8, which a text may
+/// have if it comes from a user's program: they must not end a run or a study.
+std::string json_text(const Json& json, int indent = -1);
 
 /// Parses a JSON file. @returns null if the file does not exist, is not a regular file, is too large, or is not JSON.
 Json read_json(const std::filesystem::path& file);

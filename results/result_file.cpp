@@ -7,20 +7,16 @@
 namespace skein::results {
 namespace {
 
-std::string text_of(const Json& json, int indent) {
-  return json.dump(indent, ' ', false, Json::error_handler_t::replace);
-}
-
-std::string checksum_of(const Json& result) { return Sha256().add(text_of(result, -1)).hex(); }
+std::string checksum_of(const Json& result) { return Sha256().add(json_text(result)).hex(); }
 
 }  // namespace
 
 std::string result_text(Json result) {
   result.erase(kResultChecksum);
   // The checksum must cover the values that a reader gets: invalid UTF-8 is replaced, numbers like NaN become null.
-  result = parse_json(text_of(result, -1));
+  result = parse_json(json_text(result));
   result[kResultChecksum] = checksum_of(result);
-  return text_of(result, 2) + "\n";
+  return json_text(result, 2) + "\n";
 }
 
 Json read_result_file(const std::filesystem::path& run) {

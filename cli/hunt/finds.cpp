@@ -155,7 +155,7 @@ void Finds::write(const Find& find, const std::string& of) const {
                         capsule_text(find.name, find.trial, mark, find.property + ": " + find.told, plan_.entries));
   Json notes = find.to_json();
   notes["of"] = of;
-  write_file_atomically(notes_of(find), notes.dump(2) + "\n");
+  write_file_atomically(notes_of(find), json_text(notes, 2) + "\n");
 }
 
 }  // namespace skein::cli

@@ -89,7 +89,7 @@ HuntLog::HuntLog(const fs::path& dir, const Json& settings, bool force)
   if (then.is_null() || force) {
     if (fs::exists(dir / kSettingsFile)) kept_ = keep_finds(dir);
     for (const char* part : kHuntParts) fs::remove_all(dir / part);
-    write_file_atomically(dir / kSettingsFile, settings.dump(2) + "\n");
+    write_file_atomically(dir / kSettingsFile, json_text(settings, 2) + "\n");
   }
   read_lines();
   lines_.open(file_, std::ios::app);
@@ -126,9 +126,7 @@ void HuntLog::check(std::size_t index, const std::string& flown) const {
 }
 
 void HuntLog::add(std::size_t index, const std::string& flown, TrialOutcome outcome) {
-  lines_ << Json{{"case", index}, {"flown", flown}, {"outcome", outcome.to_json()}}.dump(-1, ' ', false,
-                                                                                         Json::error_handler_t::replace)
-         << std::endl;
+  lines_ << json_text({{"case", index}, {"flown", flown}, {"outcome", outcome.to_json()}}) << std::endl;
   if (!lines_) throw std::runtime_error(file_.string() + ": cannot be written; the same command goes on from there");
   keep(index, flown, std::move(outcome));
 }

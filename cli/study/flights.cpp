@@ -98,7 +98,7 @@ class StudyRun {
     if (!exit.ok() || !went_to_its_end(result)) outcome.problem = problem_of(flight.dir, result, exit);
     if (went_to_its_end(result)) outcome.figures = figures_of(result);
     write_file_atomically(flight.dir / kFlightMark,
-                          Json{{"command", flight.command()}, {"problem", outcome.problem}}.dump(2) + "\n");
+                          json_text({{"command", flight.command()}, {"problem", outcome.problem}}, 2) + "\n");
     ++over_;
     flown_s_ += flight.mission_s;
     left_s_ -= flight.mission_s;

@@ -113,7 +113,7 @@ class UnitRun {
                        {"problem", row.problem},
                        {"node", row.node},
                        {"exit", {{"code", exit.code}, {"signal", exit.signal}}}};
-    write_file_atomically(air / kFlightMark, mark.dump(2) + "\n");
+    write_file_atomically(air / kFlightMark, json_text(mark, 2) + "\n");
     check_still_wanted();
     put_in_place(flight, air, text_in(result, "digest"), row);
     say_ << flight.dir.string() << ": " << (row.problem.empty() ? "flown" : row.problem) << std::endl;

@@ -34,6 +34,13 @@ TEST_F(ProgramReport, GoesToTheLauncherAndToAFile) {
   EXPECT_EQ(nlohmann::json::parse(std::ifstream(file_)), (nlohmann::json{{"score", 7}}));
 }
 
+TEST_F(ProgramReport, NeedNotBeUtf8) {
+  StatusPipe status(pipe_[1]);
+  hand_in_report({{"name", "caf\xe9"}}, file_, status);
+  EXPECT_EQ(line()["report"]["name"], "caf\xef\xbf\xbd");
+  EXPECT_EQ(nlohmann::json::parse(std::ifstream(file_))["name"], "caf\xef\xbf\xbd");
+}
+
 TEST_F(ProgramReport, ReachesTheLauncherWhereItCannotBeWritten) {
   StatusPipe status(pipe_[1]);
   hand_in_report({{"score", 7}, {"unwritten", {"x"}}}, file_ / "below", status);

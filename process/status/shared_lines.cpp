@@ -64,7 +64,7 @@ std::optional<News> read_news(const std::string& text) { return read_shared(text
 
 std::string text_of(const Order& order) {
   const Json json = std::visit([](const auto& line) { return json_of(line); }, order);
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return json_text(json);
 }
 
 std::optional<Order> read_order(const std::string& text) {
