@@ -4,6 +4,7 @@
 #include <csignal>
 #include <exception>
 #include <iostream>
+#include <stdexcept>
 
 #include "cli/actions.hpp"
 #include "cli/completion.hpp"
@@ -19,6 +20,7 @@
 #include "host/environment.hpp"
 #include "host/preflight.hpp"
 #include "host/program_start.hpp"
+#include "process/files/standard_output.hpp"
 #include "results/run_folder.hpp"
 #include "run/agent_file.hpp"
 #include "run/fleet_plan.hpp"
@@ -98,7 +100,9 @@ Command command_of(const std::vector<std::string>& arguments) {
 }
 
 int execute(const std::vector<std::string>& arguments, const Console& console) try {
-  return std::visit(Execute{console}, command_of(arguments));
+  const int code = std::visit(Execute{console}, command_of(arguments));
+  if (const std::string lost = lost_output(); code == kExitDone && !lost.empty()) throw std::runtime_error(lost);
+  return code;
 } catch (const InputError& error) {
   console.err << error.what() << std::endl;
   return kExitBadInput;
