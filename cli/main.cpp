@@ -10,6 +10,7 @@
 #include "cli/completion.hpp"
 #include "cli/duration_variable.hpp"
 #include "cli/hunt/capsule_run.hpp"
+#include "cli/option_checks.hpp"
 #include "cli/options.hpp"
 #include "cli/place/host_service.hpp"
 #include "cli/sweep/this_machine.hpp"
@@ -20,6 +21,7 @@
 #include "host/environment.hpp"
 #include "host/preflight.hpp"
 #include "host/program_start.hpp"
+#include "process/files/path_error.hpp"
 #include "process/files/standard_output.hpp"
 #include "results/run_folder.hpp"
 #include "run/agent_file.hpp"
@@ -100,7 +102,11 @@ Command command_of(const std::vector<std::string>& arguments) {
 }
 
 int execute(const std::vector<std::string>& arguments, const Console& console) try {
-  const int code = std::visit(Execute{console}, command_of(arguments));
+  const Command command = command_of(arguments);
+  if (!std::holds_alternative<HelpText>(command) && !std::holds_alternative<CompletionOptions>(command)) {
+    check_paths(arguments);
+  }
+  const int code = std::visit(Execute{console}, command);
   if (const std::string lost = lost_output(); code == kExitDone && !lost.empty()) throw std::runtime_error(lost);
   return code;
 } catch (const InputError& error) {
@@ -108,6 +114,9 @@ int execute(const std::vector<std::string>& arguments, const Console& console) t
   return kExitBadInput;
 } catch (const Interrupted&) {
   return kExitInterrupted;
+} catch (const std::filesystem::filesystem_error& error) {
+  console.err << "skein: " << path_error_text(error) << std::endl;
+  return is_wrong_path(error) ? kExitBadInput : kExitProcessFailed;
 } catch (const std::exception& error) {
   console.err << "skein: " << error.what() << std::endl;
   return kExitProcessFailed;

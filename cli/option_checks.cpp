@@ -3,9 +3,11 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 
 #include "core/text/text.hpp"
+#include "core/text/utf8.hpp"
 #include "core/text/whole_number.hpp"
 #include "core/types.hpp"
 
@@ -79,6 +81,18 @@ void refuse_empty_items(const CLI::App& app, const std::vector<std::string>& arg
     }
   }
   for (const CLI::App* command : app.get_subcommands()) refuse_empty_items(*command, arguments);
+}
+
+void check_paths(const std::vector<std::string>& arguments) {
+  for (const std::string& argument : arguments) {
+    if (is_utf8(argument)) continue;
+    throw InputError("the argument " + shell_word(argument) +
+                     " is not in UTF-8, as what Skein writes is; rename the file or folder, or convert the text");
+  }
+  std::error_code error;
+  const std::filesystem::path here = std::filesystem::current_path(error);
+  if (error) throw InputError("the current folder cannot be found: " + error.message() + "; change to another one");
+  if (!is_utf8(here)) throw InputError(here.string() + ": the name of the current folder is not in UTF-8; rename it");
 }
 
 void refuse_empty_values(const CLI::App& app) {

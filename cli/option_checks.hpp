@@ -29,6 +29,10 @@ void refuse_leading_zeros(CLI::App& app);
 /// @throws InputError that names the first such option.
 void refuse_empty_items(const CLI::App& app, const std::vector<std::string>& arguments);
 
+/// Refuses arguments, and a current folder, that are not in UTF-8: programs in one process get their command lines as
+/// JSON, and results and pages name these paths. Refuses a current folder that has been deleted. @throws InputError
+void check_paths(const std::vector<std::string>& arguments);
+
 /// Refuses options with an empty value, which comes from an unset variable of a script and is never meant.
 /// @throws InputError that names the first such option of a command.
 void refuse_empty_values(const CLI::App& app);

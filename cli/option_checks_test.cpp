@@ -5,6 +5,7 @@
 
 #include "cli/options.hpp"
 #include "core/types.hpp"
+#include "host/preflight.hpp"
 
 namespace skein::cli {
 namespace {
@@ -67,6 +68,30 @@ TEST(OptionChecks, UnitsOfASweepTakeMinutes) {
 TEST(OptionChecks, AMistypedCommandIsNamed) {
   EXPECT_NE(said_of({"rnu", "towers"}).find("there is no command 'rnu'; did you mean 'run'?"), std::string::npos);
   EXPECT_NE(said_of({"frobnicate"}).find("there is no command 'frobnicate'; known are: "), std::string::npos);
+}
+
+TEST(OptionChecks, PathsAreInUtf8) {
+  const auto said = [](const Arguments& arguments) -> std::string {
+    try {
+      check_paths(arguments);
+      return "";
+    } catch (const InputError& error) {
+      return error.what();
+    }
+  };
+  EXPECT_EQ(said({"run", "--out", "caf\xc3\xa9 'x'\n"}), "");
+  EXPECT_NE(said({"run", "--out=caf\xe9"}).find("--out=caf\xe9"), std::string::npos) << "Latin-1";
+}
+
+TEST(OptionChecks, TheCurrentFolderExists) {
+  const ScratchDir scratch;
+  const std::filesystem::path before = std::filesystem::current_path(), gone = scratch.path() / "gone";
+  std::filesystem::create_directory(gone);
+  std::filesystem::current_path(gone);
+  std::filesystem::remove(gone);
+  EXPECT_THROW(check_paths({"run"}), InputError);
+  std::filesystem::current_path(before);
+  EXPECT_NO_THROW(check_paths({"run"}));
 }
 
 }  // namespace

@@ -18,6 +18,7 @@
 
 #include "core/text/number_checks.hpp"
 #include "core/text/suggestion.hpp"
+#include "process/files/path_error.hpp"
 #include "process/health/crash_notes.hpp"
 #include "process/health/keeper.hpp"
 #include "process/host/environment.hpp"
@@ -212,6 +213,9 @@ int guarded(const std::string& name, const std::function<int()>& work) {
   } catch (const InputError& error) {
     std::cerr << name << ": " << error.what() << '\n';
     return kExitBadInput;
+  } catch (const std::filesystem::filesystem_error& error) {
+    std::cerr << name << ": " << path_error_text(error) << '\n';
+    return is_wrong_path(error) ? kExitBadInput : kExitProcessFailed;
   } catch (const std::exception& error) {
     std::cerr << name << ": failed: " << error.what() << '\n';
     return kExitProcessFailed;

@@ -49,6 +49,22 @@ TEST(Program, OtherFailuresAreCodeThree) {
   EXPECT_EQ(outcome.error, "tester: failed: disk full\n");
 }
 
+TEST(Program, APathThatCannotBeIsCodeTwo) {
+  const auto look_at = [](const std::filesystem::path& path) {
+    return run({}, [&](const ProgramOptions&, StopSignal&) -> int { return std::filesystem::exists(path) ? 0 : 1; });
+  };
+  const std::string name(300, 'x');
+  const Outcome too_long = look_at(name);
+  EXPECT_EQ(too_long.code, kExitBadInput);
+  EXPECT_EQ(too_long.error, "tester: " + name + ": File name too long\n");
+  EXPECT_EQ(look_at("nowhere").code, kExitCheckFailed) << "no error";
+  const Outcome full = run({}, [](const ProgramOptions&, StopSignal&) -> int {
+    throw std::filesystem::filesystem_error("write", "runs/x", std::make_error_code(std::errc::no_space_on_device));
+  });
+  EXPECT_EQ(full.code, kExitProcessFailed);
+  EXPECT_EQ(full.error, "tester: runs/x: No space left on device\n");
+}
+
 TEST(Program, AWrongCommandLineIsCodeTwoWithAHint) {
   for (const std::vector<const char*>& arguments : std::vector<std::vector<const char*>>{
            {"--no-such-option"}, {"--seed", "-1"}, {"--seed", "x"}, {"--domain", "201"}, {"--duration"}}) {

@@ -9,27 +9,11 @@
 #include <stdexcept>
 
 #include "core/text/text.hpp"
+#include "core/text/utf8.hpp"
 #include "core/types.hpp"
 
 namespace skein::cli {
 namespace {
-
-/// The code point at `at` in a UTF-8 text; moves `at` behind it. -1: this is no valid character.
-std::int64_t next_character(const std::string& text, std::size_t& at) {
-  const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u; };
-  const unsigned first = byte(at);
-  const std::size_t length = first < 0x80 ? 1 : first < 0xc2 ? 0 : first < 0xe0 ? 2 : first < 0xf0 ? 3 : 4;
-  if (length == 0 || first > 0xf4) return -1;
-  std::int64_t character = length == 1 ? first : first & (0x7fu >> length);
-  for (std::size_t i = 1; i < length; ++i) {
-    if ((byte(at + i) & 0xc0u) != 0x80u) return -1;
-    character = character << 6 | (byte(at + i) & 0x3fu);
-  }
-  constexpr std::int64_t kLeast[] = {0, 0, 0x80, 0x800, 0x10000};
-  const bool surrogate = character >= 0xd800 && character <= 0xdfff;
-  at += length;
-  return character < kLeast[length] || character > 0x10ffff || surrogate ? -1 : character;
-}
 
 /// Whether readers of YAML 1.1 and 1.2 find the same text in double quotes. The library escapes the control characters
 /// of ASCII and Latin-1, but not DEL, nor the line and paragraph separators that YAML 1.1 takes for line breaks.

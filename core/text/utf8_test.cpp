@@ -1,0 +1,34 @@
+#include "core/text/utf8.hpp"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <random>
+
+namespace skein {
+namespace {
+
+/// Whether the library that writes Skein's files can represent the text.
+bool json_holds(const std::string& text) try {
+  return !nlohmann::json(text).dump().empty();
+} catch (const nlohmann::json::exception&) {
+  return false;
+}
+
+TEST(Utf8, IsWhatJsonHolds) {
+  const std::vector<std::string> parts = {"a",        "\xe9",         "\xc3\xa9",         "\xff",     "\xe2\x80\xa8",
+                                          "\xc0\x80", "\xed\xa0\x80", "\xf0\x9f\x98\x80", "\xf4\x90", "\x80"};
+  std::mt19937 draw(1);
+  int valid = 0;
+  for (int i = 0; i < 2000; ++i) {
+    std::string text;
+    for (std::size_t length = draw() % 4; length > 0; --length) text += parts[draw() % parts.size()];
+    EXPECT_EQ(is_utf8(text), json_holds(text)) << ::testing::PrintToString(text);
+    valid += is_utf8(text) ? 1 : 0;
+  }
+  EXPECT_GT(valid, 200);
+  EXPECT_LT(valid, 1800);
+}
+
+}  // namespace
+}  // namespace skein
