@@ -18,8 +18,7 @@ std::string read_file_bytes(const std::filesystem::path& file, std::uintmax_t mo
   const int fd = ::open(file.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
   if (fd < 0) {
     const int reason = errno;
-    std::error_code error;
-    if (!std::filesystem::exists(file, error)) throw refuse("no such file");
+    if (reason == ENOENT || reason == ENOTDIR) throw refuse("no such file");
     throw refuse(reason == ENXIO ? "not a regular file"
                                  : "cannot be read (" + std::generic_category().message(reason) + ")");
   }

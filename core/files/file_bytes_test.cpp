@@ -43,6 +43,11 @@ TEST_F(FileBytes, WhatIsNoFileIsRefusedAtOnceAndNamed) {
   }
   EXPECT_EQ(complaint([&] { read_file_bytes(folder_ / "none", 100); }), (folder_ / "none").string() + ": no such file");
   EXPECT_FALSE(open_text(folder_ / "none"));
+  const fs::path loop = folder_ / "loop", below = folder_ / "text/below";
+  fs::create_symlink(loop, loop);
+  EXPECT_EQ(complaint([&] { read_file_bytes(loop, 100); }),
+            loop.string() + ": cannot be read (Too many levels of symbolic links)");
+  EXPECT_EQ(complaint([&] { read_file_bytes(below, 100); }), below.string() + ": no such file");
 }
 
 TEST_F(FileBytes, WhatIsTooLargeIsRefusedBeforeItIsRead) {
