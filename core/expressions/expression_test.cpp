@@ -203,6 +203,19 @@ TEST_F(Expressions, WrongOnesAreRefusedWhereTheyAreWrong) {
   refused(std::string(500, '(') + "1", 65, "nested too deeply");
 }
 
+/// A chain is a tree as deep as the chain is long; a longer one would overflow the stack.
+TEST_F(Expressions, LongChainsAreReadAndLongerOnesRefused) {
+  const auto chain = [](const std::string& link, std::size_t letters) {
+    std::string text = "held > 1";
+    while (text.size() + link.size() <= letters) text += link;
+    return text;
+  };
+  for (const std::string link : {" or held>1", " and held>1", "+1", "*1"}) {
+    EXPECT_EQ(margin(chain(link, 4000), 0.0).holds, false) << link;
+    refused(chain(link, 1'000'000), 4000, "too long");
+  }
+}
+
 TEST_F(Expressions, WhileARunGoesOnOnlyWhatIsKnownThenMayBeNamed) {
   scope_.live_only = true;
   for (const SignalInfo& info : signal_table()) {

@@ -23,7 +23,17 @@ std::size_t letter_bytes(std::string_view text) {
   return bytes;
 }
 
+/// Greatest length of an expression [bytes]. A chain of operators ("a or b or c ...") becomes a tree that is as deep as
+/// the chain is long, and the functions that evaluate and destroy the tree are recursive.
+constexpr std::size_t kLongest = 4000;
+
 }  // namespace
+
+ExpressionText::ExpressionText(std::string_view text) : text_(text) {
+  if (text.size() <= kLongest) return;
+  fail(kLongest, "the expression is too long: it has " + std::to_string(text.size()) + " letters, and may have " +
+                     std::to_string(kLongest));
+}
 
 std::size_t ExpressionText::at() {
   while (next_ < text_.size() && std::isspace(static_cast<unsigned char>(text_[next_])) != 0) ++next_;

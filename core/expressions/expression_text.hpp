@@ -18,8 +18,8 @@ struct ExpressionError : std::runtime_error {
 
 class ExpressionText {
  public:
-  /// @param text  must outlive this.
-  explicit ExpressionText(std::string_view text) : text_(text) {}
+  /// @param text  must outlive this. @throws ExpressionError if it is longer than any sensible expression.
+  explicit ExpressionText(std::string_view text);
 
   /// Index in the text at which the next token begins.
   std::size_t at();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 #include "core/text/suggestion.hpp"
@@ -12,6 +13,10 @@ namespace {
 
 /// A variable and the UAV to which it is bound.
 using Binding = std::pair<std::string, std::string>;
+
+/// Most bindings of a property's variables: enough for all pairs in the largest fleet. Each binding becomes a property
+/// of its own, so with several variables a large fleet would fill the memory.
+constexpr std::size_t kMostBindings = 20'000;
 
 const std::vector<std::string> kSets = {"uavs", "explorers", "photographers"};
 
@@ -26,7 +31,8 @@ std::vector<std::string> members_of(const std::string& set, const Scenario& scen
 
 bool is_name_of_something(const std::string& word, const SignalNames& names) {
   const auto among = [&](const std::vector<std::string>& list) { return std::ranges::find(list, word) != list.end(); };
-  return among(names.programs) || std::ranges::any_of(kUnitNames, [&](const UnitName& u) { return u.name == word; });
+  return word == "all" || among(names.programs) ||
+         std::ranges::any_of(kUnitNames, [&](const UnitName& u) { return u.name == word; });
 }
 
 /// Parses one text with one binding of its variables.
@@ -147,6 +153,13 @@ class Reader {
       ExpressionText::fail(at, "the interval is upside down: it ends at " + number_text(*window.until_s) +
                                    " s and begins at " + number_text(window.from_s) + " s");
     }
+    const double period_s = scenario_.exchange_period_s;
+    const double first_s = std::ceil(window.from_s / period_s - 1e-6) * period_s;
+    if (first_s > *window.until_s + 1e-6 * period_s) {
+      ExpressionText::fail(at, "no exchange is between " + number_text(window.from_s) + " s and " +
+                                   number_text(*window.until_s) + " s: they come every " + number_text(period_s) +
+                                   " s, the next one at " + number_text(first_s) + " s; let the interval end later");
+    }
   }
 
   double time(const std::string& what) {
@@ -178,6 +191,10 @@ std::vector<std::vector<Binding>> bindings(
         if (std::ranges::any_of(one, [&](const Binding& other) { return other.second == value; })) continue;
         longer.push_back(one);
         longer.back().emplace_back(name, value);
+      }
+      if (longer.size() > kMostBindings) {
+        ExpressionText::fail(0, "there are more than " + std::to_string(kMostBindings) +
+                                    " ways to choose UAVs of this fleet for the variables; use fewer variables");
       }
     }
     all = std::move(longer);

@@ -95,6 +95,33 @@ TEST(PropertyParser, WrongOnesAreRefusedWhereTheyAreWrong) {
   refused("always held < 3 and", 19, "not the end");
 }
 
+TEST(PropertyParser, AnIntervalNeedsAnExchange) {
+  refused("always held < 3 from 5.01 s to 5.04 s", 29, "the next one at 5.05 s; let the interval end later");
+  EXPECT_EQ(parse("always held < 3 from 5.01 s to 5.05 s").size(), 1U);
+  EXPECT_EQ(parse("always held < 3 from 5.05 s to 5.06 s").size(), 1U);
+}
+
+TEST(PropertyParser, AVariableIsNotCalledAll) {
+  // held(all) is the sum over the fleet, whatever a variable of this name stands for.
+  refused("for all in uavs, always held(all) < 3", 4, "'all' means something else already");
+}
+
+TEST(PropertyParser, VariablesHaveABoundedNumberOfChoices) {
+  Scenario scenario = parser_fleet();
+  while (scenario.fleet.size() < 128) {
+    scenario.fleet.push_back(scenario.fleet.back());
+    scenario.fleet.back().name = "u" + std::to_string(scenario.fleet.size());
+  }
+  const std::string pairs = "for a in uavs, for b in uavs, ", condition = "always separation(a, b) > 1 m";
+  EXPECT_EQ(parse_property("it", pairs + condition, scenario).size(), 128U * 127U);
+  try {
+    parse_property("it", pairs + "for c in uavs, for d in uavs, " + condition, scenario);
+    ADD_FAILURE();
+  } catch (const ExpressionError& error) {
+    EXPECT_NE(std::string(error.what()).find("use fewer variables"), std::string::npos) << error.what();
+  }
+}
+
 TEST(PropertyParser, ASetMayBeEmpty) {
   Scenario scenario = parser_fleet();
   scenario.fleet.erase(scenario.fleet.begin());
