@@ -173,11 +173,13 @@ def seed(number: int, uav: str) -> None:
 
 
 def explain(error: BaseException, frames: types.TracebackType | None) -> str:
-    """The traceback as text, without this package's frames before the first frame of the user's code."""
+    """The traceback as text that UTF-8 can encode, without this package's frames before the first frame of the user's
+    code."""
     while frames is not None and _is_ours(frames.tb_frame.f_code.co_filename) and frames.tb_next is not None:
         frames = frames.tb_next
     linecache.checkcache()
-    return "".join(traceback.format_exception(type(error), error, frames)).rstrip("\n")
+    text = "".join(traceback.format_exception(type(error), error, frames)).rstrip("\n")
+    return text.encode(errors="backslashreplace").decode()  # a message may hold half of a surrogate pair
 
 
 def _is_ours(file: str) -> bool:

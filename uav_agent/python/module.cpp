@@ -106,7 +106,7 @@ class PythonPlanner final : public Planner {
     rules_.flown = flight_.has_value();
     as_input(order_, "debug_names()", [&] {
       for (const py::handle name : interpreter().embedded.attr("names_of")(planner_.attr("debug_names")())) {
-        rules_.debug_names.push_back(name.cast<std::string>());
+        rules_.debug_names.push_back(read_text(name, Place("debug_names()")));
       }
     });
   }

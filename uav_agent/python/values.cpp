@@ -87,9 +87,11 @@ Vector3d read_vector(py::handle value, const Place& place) {
     } else if (array.ndim() == 1 && array.shape(0) == 3 && is_real(array)) {
       for (py::ssize_t i = 0; i < 3; ++i) vector[i] = number_in(array[py::int_(i)]);
     }
-  } else if ((PyTuple_Check(value.ptr()) != 0 || PyList_Check(value.ptr()) != 0) && py::len(value) == 3) {
-    const auto items = py::reinterpret_steal<py::tuple>(PySequence_Tuple(value.ptr()));
-    for (std::size_t i = 0; i < 3; ++i) vector[static_cast<Eigen::Index>(i)] = number_in(items[i]);
+  } else if (PyTuple_Check(value.ptr()) != 0 || PyList_Check(value.ptr()) != 0) {
+    const py::tuple items = read_list(value, place, kWanted);
+    for (std::size_t i = 0; items.size() == 3 && i < 3; ++i) {
+      vector[static_cast<Eigen::Index>(i)] = number_in(items[i]);
+    }
   }
   if (!vector.allFinite()) place.refuse(kWanted, value);
   return vector;
