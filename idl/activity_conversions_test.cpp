@@ -41,5 +41,13 @@ TEST(ActivityConversions, WhatAnyProgramSaysFitsIntoATable) {
   EXPECT_EQ(read.cpu_s, 0.0);
 }
 
+TEST(ActivityConversions, WhatAnyProgramSaysIsUtf8) {
+  const Activity odd{.mode = "caf\xe9", .waits_for = "caf\xc3\xa9", .no_way = std::string(400, '\xc3')};
+  const Activity read = travelled(odd);
+  EXPECT_EQ(read.mode, "caf?");
+  EXPECT_EQ(read.waits_for, "caf\xc3\xa9");
+  EXPECT_EQ(read.no_way, std::string(160, '?'));
+}
+
 }  // namespace
 }  // namespace skein

@@ -8,7 +8,9 @@
 #include <charconv>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
+#include "core/text/utf8.hpp"
 #include "core/types.hpp"
 
 namespace skein {
@@ -116,7 +118,7 @@ std::string shortened(const std::string& text) {
 std::string printable(std::string text) {
   const auto is_forbidden = [](unsigned char c) { return c < 0x20 && c != '\n' && c != '\t'; };
   std::replace_if(text.begin(), text.end(), is_forbidden, '?');
-  return text;
+  return as_utf8(std::move(text));
 }
 
 }  // namespace skein

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <random>
 
+#include "core/text/utf8.hpp"
 #include "core/types.hpp"
 
 namespace skein {
@@ -102,6 +103,21 @@ TEST(Text, WordsOfAShellReadBackAsTheyWere) {
 
 TEST(Text, ControlCharactersAreShownAsQuestionMarks) {
   EXPECT_EQ(printable(std::string("a\x01\0b\n\tü", 8)), "a??b\n\tü");
+}
+
+TEST(Text, WhatIsNoUtf8IsShownAsQuestionMarks) {
+  for (const char* text : {"", "plain", "\u00e4\u20ac\U0001f681", "\x7f\xc2\x80", "\xef\xbf\xbf\xf4\x8f\xbf\xbf"}) {
+    EXPECT_EQ(as_utf8(text), text);
+    EXPECT_TRUE(is_utf8(text)) << text;
+  }
+  for (const auto& [text, shown] :
+       {std::pair("caf\xe9.yaml", "caf?.yaml"), std::pair("\xe4\xb8", "??"), std::pair("\xc0\x80", "??"),
+        std::pair("\xed\xa0\x80", "???"), std::pair("\xf4\x90\x80\x80", "????"),
+        std::pair("a\x80\xc3\xa4\xff", "a?\xc3\xa4?")}) {
+    EXPECT_EQ(as_utf8(text), shown);
+    EXPECT_EQ(printable(text), shown);
+    EXPECT_FALSE(is_utf8(text)) << shown;
+  }
 }
 
 TEST(Text, LongTextsAreQuotedShortAndInWholeLetters) {

@@ -25,4 +25,16 @@ bool is_utf8(const std::string& text) {
   return true;
 }
 
+std::string as_utf8(std::string text) {
+  for (std::size_t at = 0; at < text.size();) {
+    std::size_t behind = at;
+    if (next_character(text, behind) < 0) {
+      text[at] = '?';
+      behind = at + 1;
+    }
+    at = behind;
+  }
+  return text;
+}
+
 }  // namespace skein

@@ -12,4 +12,7 @@ std::int64_t next_character(const std::string& text, std::size_t& at);
 
 bool is_utf8(const std::string& text);
 
+/// Replaces each byte that is no part of a valid character by '?'.
+std::string as_utf8(std::string text);
+
 }  // namespace skein

@@ -50,6 +50,14 @@ TEST_F(ProgramReport, ReachesTheLauncherWhereItCannotBeWritten) {
   EXPECT_NE(report["unwritten"][1].get<std::string>().find(file_.string()), std::string::npos);
 }
 
+TEST_F(ProgramReport, MayHaveTextsThatAreNoUtf8) {
+  StatusPipe status(pipe_[1]);
+  hand_in_report({{"no_way", {"no way: \xff"}}}, file_, status);
+  const nlohmann::json told = line()["report"], written = nlohmann::json::parse(std::ifstream(file_));
+  EXPECT_EQ(told, written);
+  EXPECT_EQ(written["no_way"][0], "no way: \xef\xbf\xbd");
+}
+
 TEST_F(ProgramReport, WithoutALauncherItIsAnErrorNotASilentLoss) {
   StatusPipe nobody(-1);
   EXPECT_THROW(hand_in_report({{"score", 7}}, file_ / "below", nobody), std::runtime_error);
