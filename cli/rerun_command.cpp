@@ -8,12 +8,12 @@
 #include "core/text/text.hpp"
 #include "process/json_text.hpp"
 #include "process/program.hpp"
-#include "recording/mcap/reader.hpp"
 #include "results/result_file.hpp"
 #include "results/run_folder.hpp"
 #include "run/fleet_plan.hpp"
 #include "run/hand_flights.hpp"
 #include "run/python_planners.hpp"
+#include "run/recording.hpp"
 
 namespace skein::cli {
 namespace {
@@ -22,11 +22,11 @@ namespace fs = std::filesystem;
 
 /// The options as the user gave them then, without those that only that run needed: output, debugging, view, security.
 RunOptions options_of(const fs::path& run, const Json& result) {
-  const std::string command = value_or(result, "command", "").get<std::string>();
-  if (command.empty()) {
+  const std::string command = text_in(result, "command");
+  std::vector<std::string> words = shell_words(command);
+  if (words.empty()) {
     throw InputError(run.string() + ": its result does not say how it was started, so it cannot be flown again");
   }
-  std::vector<std::string> words = shell_words(command);
   words.erase(words.begin());
   const Command parsed = parse_command_line(words);
   const auto* flown = std::get_if<RunOptions>(&parsed);
@@ -55,12 +55,17 @@ RunOptions options_of(const fs::path& run, const Json& result) {
   return options;
 }
 
-ReplayOf replay_of(const fs::path& run) {
+/// @param result  of the run, which must be the one that was recorded. @throws InputError
+ReplayOf replay_of(const fs::path& run, const Json& result) {
   const fs::path recording = fs::absolute(run / run_folder::kRecording);
   if (!fs::exists(recording)) {
     throw InputError(run.string() + ": there is no " + run_folder::kRecording + " in it (`skein run` leaves one)");
   }
-  mcap::Reader::whole(recording);
+  const std::string recorded = recorded_digest(mcap::Reader::whole(recording)), digest = text_in(result, "digest");
+  if (!recorded.empty() && !digest.empty() && recorded != digest) {
+    throw InputError(recording.string() + ": is the recording of another run: its digest is " + recorded +
+                     ", and that in " + run_folder::kResult + " is " + digest);
+  }
   return {recording, std::nullopt, {}, {}};
 }
 
@@ -91,10 +96,10 @@ std::vector<std::string> with_other_planner(const RunOptions& then, const RunOpt
 
 /// Says, for the user, how the digest has changed; empty if it is the same, or a run has none.
 std::string other_digest(const Json& then, const Json& now) {
-  if (!then["digest"].is_string() || !now["digest"].is_string() || then["digest"] == now["digest"]) return {};
-  return "the simulated world differs from that of the recorded run: its digest was " +
-         then["digest"].get<std::string>() + ", and is now " + now["digest"].get<std::string>() +
-         "; has the version, the build or a scenario file changed?";
+  const std::string before = text_in(then, "digest"), after = text_in(now, "digest");
+  if (before.empty() || after.empty() || before == after) return {};
+  return "the simulated world differs from that of the recorded run: its digest was " + before + ", and is now " +
+         after + "; has the version, the build or a scenario file changed?";
 }
 
 /// UAVs that an agent flies, not a program of the user's own.
@@ -137,7 +142,7 @@ RunOptions options_of_run(const fs::path& run) { return options_of(run, results:
 int rerun(const RerunOptions& options, const Console& console) {
   const Json then = results::read_result_file(options.reflight.run);
   RunOptions run = options_of(options.reflight.run, then);
-  run.replay = replay_of(options.reflight.run);
+  run.replay = replay_of(options.reflight.run, then);
   run.replay->only = {options.uav};
   if (options.planner) run.planner += "," + options.uav + "=" + *options.planner;
   run.attainable = run.report = false;
@@ -152,14 +157,14 @@ int rerun(const RerunOptions& options, const Console& console) {
   for (const std::string& difference : differences) console.out << difference << '\n';
   if (differences.empty()) console.out << options.uav << ": the output is the recorded one\n";
   console.out << std::flush;
-  return differences.empty() && then["digest"] == now["digest"] ? kExitDone : kExitCheckFailed;
+  return differences.empty() && text_in(then, "digest") == text_in(now, "digest") ? kExitDone : kExitCheckFailed;
 }
 
 ThoughtAgain think_again_with_maps(const fs::path& run, const fs::path& out, const Console& console) {
   constexpr double kUsualPeriod_s = 10.0;
   const Json then = results::read_result_file(run);
   RunOptions options = options_of(run, then);
-  options.replay = replay_of(run);
+  options.replay = replay_of(run, then);
   options.replay->only = uavs_with_agents(options);
   if (options.replay->only.empty()) {
     throw InputError(run.string() + ": programs of your own flew all its UAVs, and they keep no maps");
@@ -184,7 +189,7 @@ int fork_run(const ForkOptions& options, const Console& console) {
   require_within(options.at_s, then);
   RunOptions run = options_of(options.reflight.run, then);
   const RunOptions as_it_was = run;
-  ReplayOf replay = replay_of(options.reflight.run);
+  ReplayOf replay = replay_of(options.reflight.run, then);
   replay.until_s = options.at_s;
   if (options.planner) run.planner += "," + *options.planner;
   run.agent = options.reflight.agent ? options.reflight.agent : run.agent;
@@ -199,7 +204,7 @@ int fork_run(const ForkOptions& options, const Console& console) {
   for (const std::string& difference : differences_of(now)) console.out << difference << '\n';
   const auto score = [](const Json& result) { return value_or(result, "score", 0.0).get<double>(); };
   console.out << "score " << score(now) << "; the recorded run scored " << score(then) << "\n";
-  if (then["digest"] == now["digest"] && then["digest"].is_string()) {
+  if (const std::string digest = text_in(then, "digest"); !digest.empty() && digest == text_in(now, "digest")) {
     console.out << "the fork is the same run: its digest did not change\n";
   }
   console.out << std::flush;

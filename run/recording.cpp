@@ -7,7 +7,6 @@
 #include "process/files/atomic_file.hpp"
 #include "recording/bag.hpp"
 #include "recording/mcap/join.hpp"
-#include "recording/mcap/reader.hpp"
 #include "results/run_folder.hpp"
 #include "run/viewer_layout.hpp"
 
@@ -16,10 +15,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* kMetadata = "skein";
+constexpr const char* kDigest = "digest";
+
 /// Only entries that stay the same when the run is repeated, so that its recording stays the same, too.
 mcap::Metadata metadata_of(const Json& result) {
-  mcap::Metadata metadata{"skein", {}};
-  for (const char* key : {"skein_version", "scenario", "seed", "scene_seed", "planner", "clock", "rules", "digest"}) {
+  mcap::Metadata metadata{kMetadata, {}};
+  for (const char* key : {"skein_version", "scenario", "seed", "scene_seed", "planner", "clock", "rules", kDigest}) {
     const auto found = result.find(key);
     if (found == result.end() || found->is_null()) continue;
     metadata.entries[key] = found->is_string() ? found->get<std::string>() : found->dump();
@@ -28,6 +30,17 @@ mcap::Metadata metadata_of(const Json& result) {
 }
 
 }  // namespace
+
+std::string recorded_digest(const mcap::Reader& recording) {
+  std::string digest;
+  recording.records([&](const mcap::RawRecord& record, std::uint64_t) {
+    if (record.opcode != mcap::Opcode::metadata) return;
+    const auto metadata = mcap::parse<mcap::Metadata>(record.content);
+    if (!metadata || metadata->name != kMetadata) return;
+    if (const auto found = metadata->entries.find(kDigest); found != metadata->entries.end()) digest = found->second;
+  });
+  return digest;
+}
 
 std::vector<fs::path> recording_parts(const fs::path& dir) {
   std::vector<fs::path> parts;

@@ -7,12 +7,16 @@
 
 #include "core/scenario.hpp"
 #include "process/json_text.hpp"
+#include "recording/mcap/reader.hpp"
 
 namespace skein::cli {
 
 /// @returns a sentence for each damage of a run's recording or its parts: file, chunk, and what is missing. A part that
 /// was cut off, because its program was killed, is not damaged.
 std::vector<std::string> recording_damage(const std::filesystem::path& dir);
+
+/// The digest of the run that a recording is of, by its metadata; empty: it says none.
+std::string recorded_digest(const mcap::Reader& recording);
 
 /// The parts in a run's folder that are not empty.
 std::vector<std::filesystem::path> recording_parts(const std::filesystem::path& dir);

@@ -127,6 +127,16 @@ TEST_F(Rerun, WhatCannotBeFlownAgainIsSaid) {
   refused("rerun", whole, {"--uav", "nobody"}, "nobody");
   refused("fork", whole, {"--at", "1", "--planner", "jurong=nothing"}, "nothing");
   refused("fork", whole, {"--at", "500"}, "the run ended at ");
+  SkeinRun& other = this->run("other", {"towers", "--planner", "hover", "--duration", "2", "--seed", "3"});
+  fs::copy_file(other.dir() / run_folder::kRecording, whole.dir() / run_folder::kRecording,
+                fs::copy_options::overwrite_existing);
+  refused("rerun", whole, {"--uav", "jurong"}, "is the recording of another run");
+  refused("fork", whole, {"--at", "1"}, "is the recording of another run");
+  Json unknown = Json::parse(text_of(other.dir() / run_folder::kResult));
+  unknown.erase("checksum");
+  unknown["command"] = "  ";
+  write("other/result.json", unknown.dump());
+  refused("rerun", other, {"--uav", "jurong"}, "does not say how it was started");
   fs::resize_file(whole.dir() / run_folder::kRecording, fs::file_size(whole.dir() / run_folder::kRecording) / 2);
   refused("rerun", whole, {"--uav", "jurong"}, "cut off");
 }
