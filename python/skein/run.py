@@ -320,9 +320,10 @@ class Run:
         captures = self.captures
         good = captures[(captures["q"] >= 0.2) & (captures["reason"] != "uav collided")]
         good = good[np.argsort(good["time_s"], kind="stable")]
-        best = np.zeros(int(good["point"].max(initial=-1)) + 1)
+        _, points = np.unique(good["point"], return_inverse=True)  # a damaged table may have any index
+        best = np.zeros(len(good))
         gains = np.zeros(len(good))
-        for i, (point, quality) in enumerate(zip(good["point"], good["q"])):
+        for i, (point, quality) in enumerate(zip(points, good["q"])):
             gains[i] = max(quality - best[point], 0.0)
             best[point] += gains[i]
         rows = gains > 0.0

@@ -69,6 +69,18 @@ def test_links_that_cannot_be_are_damage(flown: skein.Run, tmp_path: Path) -> No
         skein.Run(tmp_path).links
 
 
+def test_any_index_of_a_point_may_be_damage(flown: skein.Run, tmp_path: Path) -> None:
+    shutil.copy(flown.path / "result.json", tmp_path)
+    header, *rows = (flown.path / "captures.csv").read_text().splitlines()
+    place = header.split(",").index("point")
+    for row in range(0, len(rows), 7):
+        cells = rows[row].split(",")
+        cells[place] = str((2**62, -3)[row % 2])
+        rows[row] = ",".join(cells)
+    (tmp_path / "captures.csv").write_text("\n".join([header, *rows, ""]))
+    assert (np.diff(skein.Run(tmp_path).earned()["score"]) > 0).all()
+
+
 @pytest.mark.parametrize("name", [*columns.RUN_TABLES, "links"])
 def test_a_frame_has_the_same_rows(flown: skein.Run, name: str) -> None:
     array, frame = flown.table(name), flown.frame(name)

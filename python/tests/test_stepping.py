@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import copy
+import pickle
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -80,6 +82,14 @@ def test_an_episode_from_reset_to_its_end(fleet: skein.Fleet) -> None:
     assert fleet.agents == LEARNERS and not fleet.over
 
 
+@pytest.mark.parametrize("step_s", [1e9, 1.8e19 * 0.05, 1e300])
+def test_a_step_beyond_the_end_ends_at_it(fleet: skein.Fleet, step_s: float) -> None:
+    fleet.reset(seed=5)
+    fleet.step({})
+    truncations = fleet.step({}, step_s=step_s)[3]
+    assert fleet.over and truncations == dict.fromkeys(LEARNERS, True)
+
+
 def test_a_seed_says_all(fleet: skein.Fleet) -> None:
     flights = []
     for seed in (11, 12, 11, None):
@@ -118,6 +128,15 @@ def test_whoever_collides_terminates_and_the_others_go_on() -> None:
         time_s = fleet.truth.time_s
         fleet.step({})
         assert fleet.truth.time_s > time_s, "others fly on"
+
+
+def test_only_fork_copies_a_fleet(fleet: skein.Fleet) -> None:
+    """Two objects with the same process would read each other's replies."""
+    for copied in (copy.copy, copy.deepcopy, pickle.dumps):
+        with pytest.raises(skein.InputError, match=r"fork\(\)"):
+            copied(fleet)
+    with fleet.fork() as other:
+        assert other.truth.step == fleet.truth.step
 
 
 def test_render(fleet: skein.Fleet) -> None:

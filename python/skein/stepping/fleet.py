@@ -22,6 +22,7 @@ from .worker import Family, Worker
 Observation = dict[str, Any]
 Reward = Callable[["Fleet", str], float]
 _ACTIONS = {"velocity": "velocity", "goal": "way"}  # value of the parameter `flies` of the planner `learner`
+_MOST_STEPS = 1 << 40  # every run ends sooner; the process counts with 64 bits
 _STATE = ("position", "velocity", "attitude", "angular_velocity", "gimbal")  # parts of Fleet.state(), by learner
 
 
@@ -247,6 +248,9 @@ class Fleet:
         copy._take(worker.fork())
         return copy
 
+    def __reduce_ex__(self, protocol: Any) -> Any:
+        raise InputError("a fleet is a process, which the modules copy and pickle cannot copy: fork() does")
+
     def result(self) -> dict[str, Any]:
         """Digest, score, and the work of each UAV, up to now. Writes no files."""
         result: dict[str, Any] = self._running().ask("result")
@@ -345,7 +349,7 @@ class Fleet:
         if steps < 0.5 or abs(steps - round(steps)) > 1e-6:
             raise InputError(f"step_s must be a multiple of {self._period_s:g} s, the exchange's period, "
                              f"not {step_s!r:.80}")
-        return round(steps)
+        return min(round(steps), _MOST_STEPS)
 
     def _info(self) -> dict[str, Any]:
         return {"seed": self._started[0], "step": int(self._running().views["truth.step"])}
