@@ -7,6 +7,7 @@
 #include <fstream>
 #include <set>
 
+#include "core/faults/fault_writer.hpp"
 #include "tests/support/places.hpp"
 
 namespace skein {
@@ -250,6 +251,15 @@ TEST_F(FaultFile, ContradictionsAreRefused) {
   refused("faults: [{at_s: 5, blackout: jurong}, {at_s: 100, until_s: 110, blackout: jurong}]", "the radio of jurong");
   EXPECT_NO_THROW(load("faults: [" + kill + ", {at_s: 20, until_s: 25, pause: changi}, {at_s: 12, kill: jurong}]"));
   EXPECT_NO_THROW(load("faults: [{at_s: 1, link: {loss: 0.1}}, {at_s: 1, link: {loss: 0.2}}]"));
+}
+
+TEST_F(FaultFile, AnyNameIsReadAsItIsWritten) {
+  Scenario scenario = fleet();
+  for (const char* name : {"null", "true", "12", "a-b_c"}) {
+    scenario.fleet[1].name = name;
+    std::ofstream(file_) << by_hand_text("any name", {fault_line({1.0, std::nullopt, Blackout{name}})});
+    EXPECT_EQ(std::get<Blackout>(load_fault_plan(file_, scenario).faults.at(0).action).uav, name);
+  }
 }
 
 TEST_F(FaultFile, CutLinksFollowThePlan) {

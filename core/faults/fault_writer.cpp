@@ -42,7 +42,8 @@ std::string flow_scalar(const ConfigNode& node) {
   const auto is_plain = [](char c) {
     return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '/' || c == '.' || c == '-' || c == '+';
   };
-  const bool plain = !node.scalar.empty() && std::all_of(node.scalar.begin(), node.scalar.end(), is_plain);
+  const bool plain =
+      !node.scalar.empty() && node.scalar != "null" && std::all_of(node.scalar.begin(), node.scalar.end(), is_plain);
   if (plain && !node.quoted) return node.scalar;
   std::string text = "'";
   for (const char c : node.scalar) text += c == '\'' ? std::string("''") : std::string(1, c);
