@@ -47,9 +47,20 @@ PropertyEntries usual_entries(const Scenario& scenario) {
   return entries;
 }
 
+/// The properties of the user's file. @throws InputError if one has the name of a finding that every hunt has: their
+/// outcomes would be mistaken for each other.
+PropertyEntries entries_in(const fs::path& file) {
+  PropertyEntries entries = properties::load_property_entries(file);
+  for (const auto& [name, entry] : entries) {
+    if (name != kCompletes && name != kSameDigest) continue;
+    throw InputError(file.string() + ": properties." + name +
+                     ": every hunt has a finding of this name; give the property another one");
+  }
+  return entries;
+}
+
 PropertyEntries entries_of(const HuntOptions& options, const Scenario& scenario) {
-  PropertyEntries entries =
-      options.properties ? properties::load_property_entries(*options.properties) : usual_entries(scenario);
+  PropertyEntries entries = options.properties ? entries_in(*options.properties) : usual_entries(scenario);
   std::vector<std::string> names;
   for (const auto& [name, entry] : entries) names.push_back(name);
   for (const std::string& name : options.without) {

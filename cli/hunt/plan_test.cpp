@@ -112,6 +112,15 @@ TEST_F(HuntPlans, RefusesWhatMakesNoSense) {
   refused(hunt, "mine.yaml:2:15: properties.low: there is no signal 'hold'; did you mean 'held'?");
 }
 
+TEST_F(HuntPlans, PropertiesHaveOtherNamesThanTheFindingsOfEveryHunt) {
+  for (const char* name : {kCompletes, kSameDigest}) {
+    HuntOptions hunt = options();
+    hunt.properties = programs_.dir() / "properties.yaml";
+    write_text(*hunt.properties, std::string("properties:\n  ") + name + ": always held < 3\n");
+    refused(hunt, std::string("properties.") + name + ": every hunt has a finding of this name");
+  }
+}
+
 TEST_F(HuntPlans, FaultsSilenceWhatSaysNothingWithThem) {
   const HuntPlan plan = plan_hunt(options());
   const properties::PropertySet set = properties::parse_properties(plan.entries, plan.fleet.scenario);
