@@ -1,5 +1,5 @@
 // Planners in Python that return objects of their own classes, or texts that UTF-8 cannot encode.
-#include "uav_agent/python/python_planner_fixture.hpp"
+#include "uav_agent/testing/python_planner_fixture.hpp"
 
 namespace skein::agent {
 namespace {

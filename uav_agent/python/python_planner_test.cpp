@@ -2,7 +2,7 @@
 #include "uav_agent/python/python_planner.hpp"
 
 #include "uav_agent/flight_core/flight_config.hpp"
-#include "uav_agent/python/python_planner_fixture.hpp"
+#include "uav_agent/testing/python_planner_fixture.hpp"
 
 namespace skein::agent {
 namespace {

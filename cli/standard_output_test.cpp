@@ -1,4 +1,4 @@
-#include "process/files/standard_output.hpp"
+#include "cli/standard_output.hpp"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 #include <csignal>
 #include <iostream>
 
-namespace skein {
+namespace skein::cli {
 namespace {
 
 /// What lost_output() says in a process that prints `text` to this descriptor: whether anything was lost.
@@ -47,4 +47,4 @@ TEST(StandardOutput, WithoutAReaderIsNotLost) {
 }
 
 }  // namespace
-}  // namespace skein
+}  // namespace skein::cli

@@ -3,10 +3,10 @@
 
 #include <string>
 
-namespace skein {
+namespace skein::cli {
 
 /// Flushes std::cout. @returns an error message if some output was lost; empty: all of it has arrived, or the reader of
 /// a pipe has left without reading all, as `head` does.
 std::string lost_output();
 
-}  // namespace skein
+}  // namespace skein::cli

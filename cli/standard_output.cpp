@@ -1,11 +1,11 @@
-#include "process/files/standard_output.hpp"
+#include "cli/standard_output.hpp"
 
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <iostream>
 
-namespace skein {
+namespace skein::cli {
 
 std::string lost_output() {
   std::cout.flush();
@@ -16,4 +16,4 @@ std::string lost_output() {
   return "standard output: cannot be written; what was printed there is incomplete";
 }
 
-}  // namespace skein
+}  // namespace skein::cli
