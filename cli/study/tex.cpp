@@ -4,6 +4,7 @@
 
 #include "cli/study/columns.hpp"
 #include "core/text/text.hpp"
+#include "core/text/utf8.hpp"
 
 namespace skein::cli {
 namespace {
@@ -47,22 +48,6 @@ std::string tex_character(char c) {
     default:
       return std::string(1, c);
   }
-}
-
-/// Bytes of the UTF-8 character that begins at `at`; 0: none begins there.
-std::size_t utf8_length(const std::string& text, std::size_t at) {
-  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-  const std::size_t length = byte(at) < 0x80   ? 1
-                             : byte(at) < 0xC2 ? 0
-                             : byte(at) < 0xE0 ? 2
-                             : byte(at) < 0xF0 ? 3
-                             : byte(at) < 0xF5 ? 4
-                                               : 0;
-  if (length == 0 || at + length > text.size()) return 0;
-  for (std::size_t i = 1; i < length; ++i) {
-    if ((byte(at + i) & 0xC0) != 0x80) return 0;
-  }
-  return length;
 }
 
 /// A number, with a minus sign instead of a hyphen.
@@ -143,9 +128,9 @@ std::string tex_escaped(const std::string& text) {
   const std::string plain = printable(text);
   std::string tex;
   for (std::size_t at = 0; at < plain.size();) {
-    const std::size_t length = utf8_length(plain, at);
-    tex += length == 0 ? "?" : length == 1 ? tex_character(plain[at]) : plain.substr(at, length);
-    at += std::max<std::size_t>(length, 1);
+    const std::size_t begin = at;
+    next_character(plain, at);  // valid, because printable() gives valid UTF-8
+    tex += at == begin + 1 ? tex_character(plain[begin]) : plain.substr(begin, at - begin);
   }
   return tex;
 }

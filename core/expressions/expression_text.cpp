@@ -25,14 +25,14 @@ std::size_t letter_bytes(std::string_view text) {
 
 /// Greatest length of an expression [bytes]. A chain of operators ("a or b or c ...") becomes a tree that is as deep as
 /// the chain is long, and the functions that evaluate and destroy the tree are recursive.
-constexpr std::size_t kLongest = 4000;
+constexpr std::size_t kLongestExpression = 4000;
 
 }  // namespace
 
 ExpressionText::ExpressionText(std::string_view text) : text_(text) {
-  if (text.size() <= kLongest) return;
-  fail(kLongest, "the expression is too long: it has " + std::to_string(text.size()) + " letters, and may have " +
-                     std::to_string(kLongest));
+  if (text.size() <= kLongestExpression) return;
+  fail(kLongestExpression, "the expression is too long: it has " + std::to_string(text.size()) +
+                               " letters, and may have " + std::to_string(kLongestExpression));
 }
 
 std::size_t ExpressionText::at() {

@@ -96,7 +96,7 @@ TEST(PropertyParser, WrongOnesAreRefusedWhereTheyAreWrong) {
 }
 
 TEST(PropertyParser, AnIntervalNeedsAnExchange) {
-  refused("always held < 3 from 5.01 s to 5.04 s", 29, "the next one at 5.05 s; let the interval end later");
+  refused("always held < 3 from 5.01 s to 5.04 s", 31, "the next one at 5.05 s; let the interval end later");
   EXPECT_EQ(parse("always held < 3 from 5.01 s to 5.05 s").size(), 1U);
   EXPECT_EQ(parse("always held < 3 from 5.05 s to 5.06 s").size(), 1U);
 }

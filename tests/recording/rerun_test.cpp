@@ -135,7 +135,7 @@ TEST_F(Rerun, WhatCannotBeFlownAgainIsSaid) {
   Json unknown = Json::parse(text_of(other.dir() / run_folder::kResult));
   unknown.erase("checksum");
   unknown["command"] = "  ";
-  write("other/result.json", unknown.dump());
+  std::ofstream(other.dir() / run_folder::kResult) << unknown.dump();
   refused("rerun", other, {"--uav", "jurong"}, "does not say how it was started");
   fs::resize_file(whole.dir() / run_folder::kRecording, fs::file_size(whole.dir() / run_folder::kRecording) / 2);
   refused("rerun", whole, {"--uav", "jurong"}, "cut off");
