@@ -19,7 +19,7 @@ void add_fleet(CLI::App& app, FleetOptions& fleet) {
   command
       ->add_option("--agent-timeout", run.agent_timeout_s,
                    "Wall time that a program may take for one step; then Skein ends the fleet [s] (default 60)")
-      ->check(seconds);
+      ->check(CLI::Validator(check_timeout, ""));
   command->add_option("--agent", run.agent,
                       "Agent program with planners of your own (default: SKEIN_AGENT, else uav_agent)");
   command

@@ -14,7 +14,7 @@
 namespace skein::cli {
 namespace {
 
-constexpr double kLongestS = 36000.0, kLeastFactor = 0.001, kGreatestFactor = 1000.0;
+constexpr double kLongestS = 36000.0, kLeastTimeoutS = 0.1, kLeastFactor = 0.001, kGreatestFactor = 1000.0;
 constexpr double kLeastMapsPeriodS = 1.0, kGreatestMapsPeriodS = 3600.0;
 
 /// "Whole number" in decimal digits, as far as its beginning tells.
@@ -55,6 +55,12 @@ std::string check_seconds(const std::string& text) {
   const auto value = parse_number(text);
   const bool good = value && *value > 0.0 && *value <= kLongestS;
   return good ? "" : "'" + text + "' must be a number of seconds above 0 and at most 36000";
+}
+
+std::string check_timeout(const std::string& text) {
+  const auto value = parse_number(text);
+  const bool good = value && *value >= kLeastTimeoutS && *value <= kLongestS;
+  return good ? "" : "'" + text + "' must be a number of seconds from 0.1 to 36000";
 }
 
 std::string check_maps_period(const std::string& text) {

@@ -17,6 +17,8 @@ std::string check_clock(const std::string& text);
 std::string check_seed(const std::string& text);
 /// A decimal number of seconds, above 0 and at most ten hours, the longest mission: 1e18 would overflow the ticks.
 std::string check_seconds(const std::string& text);
+/// A decimal number of seconds of wall time within [0.1, 36000]: a program of the fleet cannot answer much sooner.
+std::string check_timeout(const std::string& text);
 /// A decimal number of seconds within [1, 3600].
 std::string check_maps_period(const std::string& text);
 

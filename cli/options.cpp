@@ -85,7 +85,7 @@ void add_flight_options(CLI::App* command, RunOptions& run) {
   command
       ->add_option("--agent-timeout", run.agent_timeout_s,
                    "Wall time to wait for a program's answer before it counts as lost [s] (default 60)")
-      ->check(seconds);
+      ->check(CLI::Validator(check_timeout, ""));
   command
       ->add_option(
           "--lease", run.lease_s,

@@ -54,7 +54,7 @@ TEST(Options, RunReadsAll) {
 TEST(Options, TheTimeToWaitForAnAgentIsANumberOfSeconds) {
   EXPECT_FALSE(parse<RunOptions>({"run"}).agent_timeout_s);
   EXPECT_EQ(parse<RunOptions>({"run", "--agent-timeout", "2.5"}).agent_timeout_s, 2.5);
-  for (const char* wrong : {"0", "-1", "nan", "inf", "soon", "0x10", "1e9", ""}) {
+  for (const char* wrong : {"0", "-1", "nan", "inf", "soon", "0x10", "1e9", "", "1e-300", "0.09"}) {
     EXPECT_THROW(parse<RunOptions>({"run", "--agent-timeout", wrong}), InputError) << wrong;
   }
   EXPECT_THROW(parse<RunOptions>({"run", "--agent-timeout", "3", "--debug", "jurong"}), InputError);

@@ -81,7 +81,7 @@ void add_study_options(CLI::App& command, StudyOptions& study) {
   command
       .add_option("--agent-timeout", study.agent_timeout_s,
                   "Wall time to wait for a program's answer before it counts as lost [s] (default 60)")
-      ->check(seconds);
+      ->check(CLI::Validator(check_timeout, ""));
   command.add_option("--rules", study.rules, "Preset of rules, instead of the scenarios': contest, paper or reference");
   command.add_option("--uavs", study.uavs, "Fly each scenario with each of these fleet sizes: 1,2,5,10")
       ->check(CLI::Validator(check_positive, "POSITIVE"))

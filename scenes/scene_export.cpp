@@ -79,7 +79,6 @@ ExportedFile scene_picture_file(const Scenario& scenario, const Scene& scene) {
 }
 
 void write_export(const std::vector<ExportedFile>& files, const fs::path& folder, bool overwrite) {
-  std::error_code error;
   for (const ExportedFile& file : files) {
     if (!overwrite && is_in_the_way(folder / file.path, file.content)) {
       throw InputError((folder / file.path).string() +
@@ -89,9 +88,9 @@ void write_export(const std::vector<ExportedFile>& files, const fs::path& folder
   for (const ExportedFile& file : files) {
     const fs::path path = folder / file.path;
     const bool is_scenario = file.path.extension() == ".yaml" && !file.path.has_parent_path();
-    fs::create_directories(path.parent_path(), error);
-    close_to_agents(folder / run_folder::kSceneFiles);
     try {
+      fs::create_directories(path.parent_path());
+      close_to_agents(folder / run_folder::kSceneFiles);
       write_file_atomically(path, file.content, is_scenario ? Readers::all : Readers::no_agents);
     } catch (const std::exception& reason) {
       throw InputError("--out " + folder.string() + ": cannot be written to: " + reason.what());

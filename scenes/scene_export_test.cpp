@@ -105,6 +105,17 @@ TEST_F(SceneExport, HasTheBenchmarksLayout) {
                                              "models/a_b_c/bounding_boxes/box1.stl", "a_b_c.yaml"}));
 }
 
+TEST_F(SceneExport, AFileWhereAFolderMustBeIsNamed) {
+  write("x", "a file");
+  try {
+    write_export({{"x/a", "", "new"}}, folder_, true);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("cannot be written to"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("Not a directory"), std::string::npos) << error.what();
+  }
+}
+
 TEST_F(SceneExport, AnEarlierExportStaysUnlessToldOtherwise) {
   const std::vector<ExportedFile> files = {{"x/a", "", "new"}, {"b", "", "new"}};
   write("b", "old");
