@@ -104,9 +104,9 @@ std::string with_python_files_of(const std::string& text, const std::vector<std:
   const Json flown = value_or(result, "planner", Json::object());
   std::map<std::string, std::string> files;  // key: the file that flew; value: the file to fly now
   for (const Json& one : value_or(result, "planner_files", Json::array())) {
-    const std::string file = value_or(one, "file", "").get<std::string>();
-    const fs::path copy = run / value_or(one, "kept", "").get<std::string>();
-    const bool same = fs::is_regular_file(file) && python_digest(file) == value_or(one, "sha256", "");
+    const std::string file = text_in(one, "file");
+    const fs::path copy = run / text_in(one, "kept");
+    const bool same = fs::is_regular_file(file) && python_digest(file) == text_in(one, "sha256");
     files[file] = same || !fs::is_regular_file(copy) ? file : fs::absolute(copy).string();
     if (files[file] != file) tell(file + " has changed since that run: its copy in the run's folder flies");
   }

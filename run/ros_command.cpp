@@ -120,7 +120,7 @@ void check_secure_middleware(const std::string& dds) {
   const char* const variable = std::getenv("RMW_IMPLEMENTATION");
   const std::string chosen = variable == nullptr ? "" : variable;
   const std::string wanted = dds == "fastdds" ? "rmw_fastrtps_cpp" : "rmw_cyclonedds_cpp";
-  if (chosen.substr(0, chosen.find("_", 4)) == wanted.substr(0, wanted.find("_", 4))) return;
+  if (chosen.substr(0, chosen.find('_', 4)) == wanted.substr(0, wanted.find('_', 4))) return;
   throw InputError("--secure --dds " + dds +
                    ": the vendors' security does not work together reliably, so ROS 2 nodes " +
                    "need RMW_IMPLEMENTATION=" + wanted + " (it is " + (chosen.empty() ? "not set" : chosen) +

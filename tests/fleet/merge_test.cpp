@@ -136,17 +136,17 @@ TEST_F(Merge, DamagedReportsEndInAMessage) {
 }
 
 TEST_F(Merge, WithoutAServersReportThereIsNothingToMerge) {
-  const auto expect_refused = [&] {
+  const auto expect_refused = [&](const char* reason) {
     ChildProcess& process = merge();
     EXPECT_EQ(process.wait().code, 2);
-    EXPECT_NE(process.err().find("sim_server.report.json"), std::string::npos) << process.err();
+    EXPECT_NE(process.err().find(reason), std::string::npos) << process.err();
     EXPECT_FALSE(fs::exists(dir_ / run_folder::kResult));
   };
-  expect_refused();
+  expect_refused("sim_server.report.json");
   std::ofstream(report("sim_server")) << "[]";
-  expect_refused();
+  expect_refused("sim_server.report.json");
   fs::remove_all(dir_);
-  expect_refused();
+  expect_refused("there is no such folder");
 }
 
 // The files of a launcher that was killed with all its programs.
