@@ -47,7 +47,7 @@ class Timeline {
       : scenario_(scenario),
         plan_(as_flown(plan, run.result, scenario)),
         last_step_(step_of(value_or(run.result, "sim_time_s", 0.0), scenario)) {
-    const std::string station = scenario.node_name(kStationNode);
+    const std::string& station = scenario.node_name(kStationNode);
     for (const results::EventRow& row : run.events) {
       if (row.event == run_tables::kJoined || row.event == run_tables::kLeft)
         present_[row.subject].set(row.step, row.event == run_tables::kJoined);

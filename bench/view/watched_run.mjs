@@ -7,7 +7,7 @@ import {spawn} from 'node:child_process';
 import {readFileSync} from 'node:fs';
 import path from 'node:path';
 
-import {openBrowser} from '../../tests/report/browser.mjs';
+import {endBrowser, openBrowser} from '../../tests/report/browser.mjs';
 import {openRun, sleep, stateOf} from '../../tests/view/page.mjs';
 
 const [web, chromium, who, run, ...command] = process.argv.slice(2);
@@ -52,7 +52,7 @@ async function look() {
 
 const {picture, ...seen} = who === 'page' ? await look() : {};
 const code = await ended;
-await browser?.close();
+if (browser !== null) await endBrowser(browser);
 if (code !== 0) process.stderr.write(said);
 else if (picture !== undefined) {
   const {startup_s: startup} = JSON.parse(readFileSync(path.join(run, 'result.json'), 'utf8'));

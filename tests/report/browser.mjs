@@ -50,8 +50,20 @@ export async function openBrowser(web, executablePath) {
     headless: true,
     timeout: 0,
     protocolTimeout: 0,
+    pipe: true,  // Chromium ends with this script, also if the script is killed
     args: [...asRoot, '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--disable-dev-shm-usage'],
   });
+}
+
+/**
+ * Ends the browser and all its processes. A busy Chromium may not answer the request to close, so it is not asked.
+ * @returns once its main process has ended.
+ */
+export async function endBrowser(browser) {
+  const chromium = browser.process();
+  const ended = new Promise((resolve) => chromium.once('exit', resolve));
+  process.kill(-chromium.pid, 'SIGKILL');  // puppeteer starts it as the leader of a process group
+  await ended;
 }
 
 /** Opens a file. @returns the page, and its complaints (the list grows): errors, and requests for anything else. */

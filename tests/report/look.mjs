@@ -4,7 +4,7 @@
 import {execFileSync} from 'node:child_process';
 import path from 'node:path';
 
-import {lookAt, openBrowser, openPage} from './browser.mjs';
+import {endBrowser, lookAt, openBrowser, openPage} from './browser.mjs';
 import {expectedTables, kWords, numbersOf, readRun} from './expected.mjs';
 
 const [web, chromium, skein, bundle, ...folders] = process.argv.slice(2);
@@ -162,4 +162,4 @@ for (const folder of folders) {
     }
   }
 }
-await browser.close();
+await endBrowser(browser);

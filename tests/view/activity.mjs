@@ -4,7 +4,7 @@
 import {readFileSync} from 'node:fs';
 import path from 'node:path';
 
-import {letGo, openRun, pausedByItself, sleep, stateOf, until} from './page.mjs';
+import {endBrowser, letGo, openRun, pausedByItself, sleep, stateOf, until} from './page.mjs';
 
 const [web, chromium, door, run, uav, pid] = process.argv.slice(2);
 const {browser, page, complaints} = await openRun([web, chromium, door]);
@@ -76,4 +76,4 @@ const others = await page.evaluate(() => globalThis.skein.figures().otherModes);
 expect(others.length === 0, `of no kind: ${others}`);
 expect((await page.$$('#modes li')).length > 4, 'the lanes have no legend');
 for (const complaint of complaints) console.log(complaint);
-await browser.close();
+await endBrowser(browser);

@@ -4,7 +4,7 @@
 import {readFileSync} from 'node:fs';
 import path from 'node:path';
 
-import {letGo, openRun, pausedByItself, stateOf, until, waitUntil} from './page.mjs';
+import {endBrowser, letGo, openRun, pausedByItself, stateOf, until, waitUntil} from './page.mjs';
 
 const [web, chromium, door, run] = process.argv.slice(2);
 const {browser, page, complaints} = await openRun([web, chromium, door]);
@@ -92,4 +92,4 @@ expect(await page.$('#faults button') === null, 'a replay can be broken');
 expect((await look(cell(4, 0))).disabled, 'a link of a replay can be cut');
 expect(told.some((text) => text.includes('camera fails')), `the replay lists ${told}`);
 for (const complaint of complaints) console.log(complaint);
-await browser.close();
+await endBrowser(browser);

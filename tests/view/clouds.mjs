@@ -1,7 +1,7 @@
 // Requests LiDAR points and a map on the page of a live run, ends the request, and requests the map in the replay.
 // Prints each problem as a line; prints nothing if all is well.
 // usage: node clouds.mjs WEB CHROMIUM DOOR RUN
-import {lookAt} from '../report/browser.mjs';
+import {endBrowser, lookAt} from '../report/browser.mjs';
 import {letGo, openRun, pausedByItself, sleep, until, waitUntil} from './page.mjs';
 
 const [web, chromium, door] = process.argv.slice(2);
@@ -130,4 +130,4 @@ await eventually(async () => /jurong: /.test(await note()), 'the map in the repl
 const after = await stage();
 expect(before.png !== after.png, 'the map of the replay is not to be seen');
 for (const complaint of complaints) console.log(complaint);
-await browser.close();
+await endBrowser(browser);

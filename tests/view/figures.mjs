@@ -2,7 +2,7 @@
 // for each figure beyond its bound; prints nothing if all is well. If FIGURES is in the environment, prints all figures
 // to stderr.
 // usage: node figures.mjs WEB CHROMIUM DOOR FEEDER
-import {lookAt} from '../report/browser.mjs';
+import {endBrowser, lookAt} from '../report/browser.mjs';
 import {makeUp} from './made_up.mjs';
 import {openRun, waitUntil} from './page.mjs';
 
@@ -98,5 +98,5 @@ expect(early === 0, `${early} pictures were begun before the one before was fini
 const growth = after.hour.memory / after.tenMinutes.memory;
 expect(growth <= kMostGrowth, `after an hour the page takes ${growth.toFixed(2)} times the memory of ten minutes`);
 for (const complaint of complaints) console.log(complaint);
-await browser.close();
+await endBrowser(browser);
 await flight.end();

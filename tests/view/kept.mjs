@@ -5,7 +5,7 @@ import {readFileSync} from 'node:fs';
 import path from 'node:path';
 
 import {barsOf} from '../../web/src/steps.js';
-import {lookAt, openBrowser, openPage} from '../report/browser.mjs';
+import {endBrowser, lookAt, openBrowser, openPage} from '../report/browser.mjs';
 import {addsUp, findPoint, lossesOf, sleep, stateOf, until} from './page.mjs';
 
 const [web, chromium, file, run] = process.argv.slice(2);
@@ -131,4 +131,4 @@ expect(new Set(fast).size > 4, 'nothing moves in the film');
 
 for (const complaint of complaints)
   expect(complaint.startsWith('asks for file://'), complaint);  // the page's own address, with another part after #
-await browser.close();
+await endBrowser(browser);

@@ -4,7 +4,7 @@
 import {readFileSync} from 'node:fs';
 
 import {unpackedRuns} from '../../web/src/packed.js';
-import {openBrowser, openPage} from '../report/browser.mjs';
+import {endBrowser, openBrowser, openPage} from '../report/browser.mjs';
 import {openRun, sleep, until, waitUntil} from './page.mjs';
 
 const [web, chromium, file, run] = process.argv.slice(2);
@@ -78,4 +78,4 @@ await page.select('#map-of', kUav);
 await sleep(300);
 expect(await stage() === withMap, 'the map is another one when it is chosen again');
 for (const complaint of complaints) console.log(complaint);
-await browser.close();
+await endBrowser(browser);

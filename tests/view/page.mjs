@@ -2,9 +2,9 @@
 // hosts.
 import {readFileSync} from 'node:fs';
 
-import {openBrowser, openTab, sleep, waitUntil} from '../report/browser.mjs';
+import {endBrowser, openBrowser, openTab, sleep, waitUntil} from '../report/browser.mjs';
 
-export {sleep, waitUntil};
+export {endBrowser, sleep, waitUntil};
 
 /**
  * @param known  a browser to use; null: opens one. @param webgl  false: emulates a browser without WebGL.

@@ -3,7 +3,7 @@
 import {readFileSync} from 'node:fs';
 import path from 'node:path';
 
-import {openBrowser, openPage} from '../report/browser.mjs';
+import {endBrowser, openBrowser, openPage} from '../report/browser.mjs';
 import {sleep, stateOf, until} from './page.mjs';
 
 const [web, chromium, file, a, b, time] = process.argv.slice(2);
@@ -56,4 +56,4 @@ await page.select('#points-of', '1');
 await sleep(300);
 expect((await stage() !== pictures[0]) === (time !== 'same'), 'the points of B look like those of A, or the same ones do not');
 for (const complaint of complaints) expect(false, complaint);
-await browser.close();
+await endBrowser(browser);

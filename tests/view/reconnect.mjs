@@ -3,7 +3,7 @@
 import {readFileSync} from 'node:fs';
 import path from 'node:path';
 
-import {letGo, openRun, pausedByItself, stateOf, until, waitUntil} from './page.mjs';
+import {endBrowser, letGo, openRun, pausedByItself, stateOf, until, waitUntil} from './page.mjs';
 
 const [web, chromium, door, run] = process.argv.slice(2);
 const {browser, page} = await openRun([web, chromium, door]);
@@ -27,4 +27,4 @@ await until(page, ({state, live}) => state === 'replay' && live === 'yes', 'its 
 const {score} = await stateOf(page);
 const result = JSON.parse(readFileSync(path.join(run, 'result.json'), 'utf8'));
 expect(score === result.score, `the score is ${score}, and in result.json ${result.score}`);
-await browser.close();
+await endBrowser(browser);

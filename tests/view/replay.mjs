@@ -4,7 +4,7 @@
 import {readFileSync} from 'node:fs';
 import path from 'node:path';
 
-import {lookAt} from '../report/browser.mjs';
+import {endBrowser, lookAt} from '../report/browser.mjs';
 import {findPoint, openRun, sleep, stateOf, until} from './page.mjs';
 
 const [web, chromium, door, run] = process.argv.slice(2);
@@ -105,4 +105,4 @@ await sleep(300);
 expect((await stateOf(page)).score === 0, 'the slider does not go to the begin');
 expect(await page.$('#fleet tbody tr') !== null, 'the fleet is missing');
 for (const complaint of complaints) expect(false, complaint);
-await browser.close();
+await endBrowser(browser);

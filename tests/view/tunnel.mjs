@@ -6,7 +6,7 @@ import {readFileSync} from 'node:fs';
 import net from 'node:net';
 import path from 'node:path';
 
-import {openBrowser, openTab} from '../report/browser.mjs';
+import {endBrowser, openBrowser, openTab} from '../report/browser.mjs';
 import {until} from './page.mjs';
 
 const [web, chromium, door] = process.argv.slice(2);
@@ -42,5 +42,5 @@ for (const host of [`localhost:${port}`, `127.0.0.1:${port}`]) {
   for (const complaint of complaints) console.log(complaint);
   await page.close();
 }
-await browser.close();
+await endBrowser(browser);
 tunnel.close();
