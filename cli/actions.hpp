@@ -1,5 +1,6 @@
-// What each command of `skein` does: one function for each struct of cli/command.hpp. Each returns the exit code
-// (process/program.hpp), and throws InputError for invalid input and Interrupted after Ctrl-C, if it can meet them.
+// What each command of `skein` does: one function for each struct of cli/command.hpp; cli/command_table.cpp names them.
+// Each returns the exit code (process/program.hpp), and throws InputError for invalid input and Interrupted after
+// Ctrl-C, if it can meet them.
 #pragma once
 
 #include "cli/command.hpp"
@@ -37,7 +38,7 @@ int make_keys(const KeysOptions& options, const Console& console);
 int step_fleet(const FleetOptions& options, const Console& console);
 
 /// `skein ps`: prints a table of the user's running fleets. @returns kExitDone
-int list_fleets(const Console& console);
+int list_fleets(const PsOptions& options, const Console& console);
 
 /// `skein attach`: replaces this process by the debugging tool, attached to one program of a flying fleet; returns only
 /// on failure. @throws InputError when there is no such fleet or program, more than one, or no such tool.

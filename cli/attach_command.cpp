@@ -68,7 +68,7 @@ std::vector<std::string> tool_words(const std::string& how, pid_t pid, const std
 
 }  // namespace
 
-int list_fleets(const Console& console) {
+int list_fleets(const PsOptions& /*options*/, const Console& console) {
   const std::vector<RunningFleet> fleets = running_fleets(::geteuid());
   if (fleets.empty()) console.err << "no fleet of yours is flying" << std::endl;
   for (const RunningFleet& fleet : fleets) {

@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "run/run_options.hpp"
@@ -293,11 +292,5 @@ struct HelpText {
 struct CompletionOptions {
   std::vector<std::string> words;
 };
-
-using Command = std::variant<RunOptions, TestOptions, CheckOptions, SceneOptions, BenchOptions, OracleOptions,
-                             DiffOptions, StudyOptions, DoctorOptions, ComposeOptions, HuntOptions, BlameOptions,
-                             CheckPlannerOptions, KeysOptions, ConvertOptions, MergeOptions, ReportOptions,
-                             ReplayOptions, RerunOptions, ForkOptions, FleetOptions, PsOptions, AttachOptions,
-                             UnitOptions, HostOptions, PackOptions, HelpText, CompletionOptions>;
 
 }  // namespace skein::cli

@@ -23,7 +23,7 @@ const KnownNames kKnown{[] { return Words{"cranes", "sail", "spire"}; }, [] { re
 
 Words offered(const Words& words) { return completions(words, kKnown); }
 
-std::string text_of(const Words& arguments) { return std::get<HelpText>(parse_command_line(arguments)).text; }
+std::string text_of(const Words& arguments) { return parse_command_line(arguments).get<HelpText>().text; }
 
 /// Commands of --help and their tasks, the headings over them, in its order.
 std::vector<std::pair<std::string, std::string>> tasks_of_help() {

@@ -36,7 +36,7 @@ class ComposeCommand : public testing::Test {
   int keys(const Texts& arguments) {
     Texts all = {"keys"};
     all.insert(all.end(), arguments.begin(), arguments.end());
-    return make_keys(std::get<KeysOptions>(parse_command_line(all)), {out_, err_, false});
+    return make_keys(parse_command_line(all).get<KeysOptions>(), {out_, err_, false});
   }
   static mode_t mode_of(const fs::path& path) {
     struct stat status {};
@@ -54,7 +54,7 @@ class ComposeCommand : public testing::Test {
 
 TEST_F(ComposeCommand, TheShippedFileIsWhatItWrites) {
   const Texts words = {"compose", "towers", "--planner", "kios", "--file", "docker/compose.yaml"};
-  auto options = std::get<ComposeOptions>(parse_command_line(words));
+  auto options = parse_command_line(words).get<ComposeOptions>();
   options.file.reset();
   EXPECT_EQ(compose_fleet(options, {out_, err_, false}), kExitDone);
   EXPECT_EQ(out_.str(), read_text(source_path("docker/compose.yaml")))
@@ -62,7 +62,7 @@ TEST_F(ComposeCommand, TheShippedFileIsWhatItWrites) {
 }
 
 TEST_F(ComposeCommand, AFileIsWrittenOrTheReasonTold) {
-  auto options = std::get<ComposeOptions>(parse_command_line({"compose", "towers"}));
+  auto options = parse_command_line({"compose", "towers"}).get<ComposeOptions>();
   options.file = scratch_.path() / "compose.yaml";
   EXPECT_EQ(compose_fleet(options, {out_, err_, false}), kExitDone);
   EXPECT_EQ(out_.str(), "");
@@ -76,7 +76,7 @@ TEST_F(ComposeCommand, AFileIsWrittenOrTheReasonTold) {
 }
 
 TEST_F(ComposeCommand, OnlyAFileThatSkeinMadeIsReplacedWithoutForce) {
-  auto options = std::get<ComposeOptions>(parse_command_line({"compose", "towers"}));
+  auto options = parse_command_line({"compose", "towers"}).get<ComposeOptions>();
   const fs::path file = scratch_.path() / "compose.yaml";
   options.file = file;
   write_text(file, "services: {}\n");
@@ -105,7 +105,7 @@ TEST_F(ComposeCommand, ThePagesKeyLiesBesideTheFileForItsOwnerAlone) {
   const auto file_of = [&](const Texts& more) {
     Texts all = {"compose", "towers"};
     all.insert(all.end(), more.begin(), more.end());
-    return compose_fleet(std::get<ComposeOptions>(parse_command_line(all)), {out_, err_, false});
+    return compose_fleet(parse_command_line(all).get<ComposeOptions>(), {out_, err_, false});
   };
   const fs::path file = scratch_.path() / "fleet.yaml", folder = scratch_.path() / "fleet.view";
   EXPECT_EQ(file_of({"--view", "--file", file}), kExitDone);
@@ -167,7 +167,7 @@ TEST_F(ComposeCommand, WhoIsDebuggedStandsAndNobodyIsTakenForDead) {
     Texts all = {"compose", "towers", "--planner", "kios"};
     all.insert(all.end(), more.begin(), more.end());
     out_.str("");
-    compose_fleet(std::get<ComposeOptions>(parse_command_line(all)), {out_, err_, false});
+    compose_fleet(parse_command_line(all).get<ComposeOptions>(), {out_, err_, false});
     return out_.str();
   };
   const auto count = [](const std::string& text, const std::string& part) {
@@ -212,7 +212,7 @@ esac
   int up() {
     const Texts words = {"compose", programs_.scenario(),   "--planner", "hover", "--up",
                          "--out",   programs_.dir() / "out"};
-    return compose_fleet(std::get<ComposeOptions>(parse_command_line(words)), {out_, err_, false});
+    return compose_fleet(parse_command_line(words).get<ComposeOptions>(), {out_, err_, false});
   }
 
   const FakePrograms programs_;

@@ -4,6 +4,8 @@
 #include "cli/option_checks.hpp"
 #include "cli/tool_options.hpp"
 #include "core/text/number_checks.hpp"
+#include "core/text/text.hpp"
+#include "core/types.hpp"
 
 namespace skein::cli {
 namespace {
@@ -78,6 +80,15 @@ void add_hunt(CLI::App& app, HuntOptions& hunt) {
       "hunt.xml\n\n"
       "The same command continues a hunt that was stopped. Exit codes: 0 nothing found, 1 finds. "
       "See docs/how-to-hunt.md.");
+}
+
+void finish_hunt(HuntOptions& hunt, const std::vector<std::string>& arguments) {
+  hunt.run.command = "skein " + shell_line(arguments);
+  check_sweep(hunt.sweep);
+  if (hunt.sweep.detach || hunt.sweep.status) {
+    throw InputError("--detach and --status are of studies: a hunt decides after each round what flies next");
+  }
+  hunt.sweep.command = arguments;
 }
 
 void add_blame(CLI::App& app, BlameOptions& blame) {

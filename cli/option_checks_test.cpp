@@ -41,8 +41,8 @@ TEST(OptionChecks, WholeNumbersAreDecimal) {
   for (const Arguments& list : {Arguments{"compare", "--uavs", "2,010"}, Arguments{"bench", "--sizes", "1,010,20"}}) {
     EXPECT_NE(said_of(list).find("'010' must be a whole number in decimal"), std::string::npos) << said_of(list);
   }
-  EXPECT_EQ(std::get<RunOptions>(parse_command_line({"run", "--seed", "0"})).seed, 0U);
-  EXPECT_EQ(std::get<RunOptions>(parse_command_line({"run", "--duration", "010"})).duration_s, 10.0);
+  EXPECT_EQ(parse_command_line({"run", "--seed", "0"}).get<RunOptions>().seed, 0U);
+  EXPECT_EQ(parse_command_line({"run", "--duration", "010"}).get<RunOptions>().duration_s, 10.0);
 }
 
 TEST(OptionChecks, ListsHaveNoEmptyItems) {

@@ -5,11 +5,15 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <functional>
-#include <memory>
+#include <optional>
 #include <utility>
 
+#include "cli/command_table.hpp"
+#include "cli/help.hpp"
 #include "cli/option_checks.hpp"
+#include "cli/place/host_service.hpp"
 #include "cli/place_options.hpp"
+#include "cli/sweep/this_machine.hpp"
 #include "cli/tool_options.hpp"
 #include "cli/view_options.hpp"
 #include "core/text/number_checks.hpp"
@@ -112,6 +116,20 @@ void add_result_options(CLI::App* command, RunOptions& run) {
   command->add_flag("--no-report{false}", run.report, "Do not write report.html");
 }
 
+/// Refuses the options that need separate processes. @throws InputError
+void check_one_process(const RunOptions& run) {
+  if (!run.one_process) return;
+  const auto refuse = [](bool given, const std::string& option, const std::string& why) {
+    if (given) throw InputError(option + " needs processes: " + why + "; leave out --one-process");
+  };
+  refuse(!run.debug.empty(), "--debug", "the program that you debug is one of its own");
+  refuse(run.cores, "--cores", "there would be one core file for all programs");
+  refuse(run.domain.has_value(), "--domain", "a fleet in one process uses no DDS domain");
+  refuse(run.place.at.has_value(), "--place", "they run on several hosts");
+}
+
+}  // namespace
+
 void add_run(CLI::App& app, RunOptions& run) {
   CLI::App* command = app.add_subcommand("run", "Fly a fleet through a scenario and write its results");
   add_flight_options(command, run);
@@ -183,6 +201,12 @@ void add_run(CLI::App& app, RunOptions& run) {
       "  skein run towers --planner kios --place jurong=host1,raffles=host2");
 }
 
+void finish_run(RunOptions& run, const std::vector<std::string>& arguments) {
+  check_one_process(run);
+  check_view(run);
+  run.command = "skein " + shell_line(arguments);
+}
+
 void add_compose(CLI::App& app, ComposeOptions& compose) {
   CLI::App* command =
       app.add_subcommand("compose", "Write a docker-compose file for a fleet in containers, or fly this fleet");
@@ -225,6 +249,11 @@ void add_compose(CLI::App& app, ComposeOptions& compose) {
       "See docs/containers.md for how to build images, and for each part of the file.");
 }
 
+void finish_compose(ComposeOptions& compose, const std::vector<std::string>& arguments) {
+  check_view(compose.run);
+  compose.run.command = "skein " + shell_line(arguments);
+}
+
 void add_keys(CLI::App& app, KeysOptions& keys) {
   CLI::App* command = app.add_subcommand("keys", "Make the certificates and permissions of a secured fleet");
   add_flight_options(command, keys.run);
@@ -233,59 +262,9 @@ void add_keys(CLI::App& app, KeysOptions& keys) {
   command->footer("Example:\n  skein keys towers --out keys");
 }
 
-/// Refuses the options that need separate processes. @throws InputError
-void check_one_process(const RunOptions& run) {
-  if (!run.one_process) return;
-  const auto refuse = [](bool given, const std::string& option, const std::string& why) {
-    if (given) throw InputError(option + " needs processes: " + why + "; leave out --one-process");
-  };
-  refuse(!run.debug.empty(), "--debug", "the program that you debug is one of its own");
-  refuse(run.cores, "--cores", "there would be one core file for all programs");
-  refuse(run.domain.has_value(), "--domain", "a fleet in one process uses no DDS domain");
-  refuse(run.place.at.has_value(), "--place", "they run on several hosts");
-}
+namespace {
 
-/// Checks and completes a command's options once they are parsed. @param arguments  the whole command line
-template <class Options>
-Command finished(Options& options, const std::vector<std::string>& /*arguments*/) {
-  return options;
-}
-
-Command finished(RunOptions& run, const std::vector<std::string>& arguments) {
-  check_one_process(run);
-  check_view(run);
-  run.command = "skein " + shell_line(arguments);
-  return run;
-}
-
-Command finished(ComposeOptions& compose, const std::vector<std::string>& arguments) {
-  check_view(compose.run);
-  compose.run.command = "skein " + shell_line(arguments);
-  return compose;
-}
-
-Command finished(HuntOptions& hunt, const std::vector<std::string>& arguments) {
-  hunt.run.command = "skein " + shell_line(arguments);
-  check_sweep(hunt.sweep);
-  if (hunt.sweep.detach || hunt.sweep.status) {
-    throw InputError("--detach and --status are of studies: a hunt decides after each round what flies next");
-  }
-  hunt.sweep.command = arguments;
-  return hunt;
-}
-
-Command finished(StudyOptions& study, const std::vector<std::string>& arguments) {
-  check_sweep(study.sweep);
-  study.sweep.command = arguments;
-  return study;
-}
-
-Command finished(CheckOptions& check, const std::vector<std::string>& /*arguments*/) {
-  if (check.files.empty() && check.golden.empty()) throw InputError("check: give files, or --golden FILE.csv");
-  return check;
-}
-
-/// All commands by task, as `skein --help` lists them, and the structs that CLI11 fills. New commands get a line here.
+/// The command line with all commands, and the structs that CLI11 fills.
 class OptionParser {
  public:
   OptionParser()
@@ -294,43 +273,19 @@ class OptionParser {
     app.set_version_flag("--version", "skein " SKEIN_VERSION);
     app.failure_message(CLI::FailureMessage::simple);
     app.footer("Example:\n  skein run towers --planner kios\n\n`skein COMMAND --help` shows the options of a command.");
-    const char* task = "Fly a fleet";
-    list(task, add_run);
-    list(task, add_compose);
-    list(task, add_keys);
-    list(task, add_fleet);
-    list(task, add_ps);
-    task = "Examine runs";
-    list(task, add_report);
-    list(task, add_replay);
-    list(task, add_diff);
-    list(task, add_merge);
-    task = "Compare planners";
-    list(task, add_compare);
-    list(task, add_contest);
-    list(task, add_oracle);
-    list(task, add_check_planner);
-    task = "Find faults";
-    list(task, add_attach);
-    list(task, add_rerun);
-    list(task, add_fork);
-    list(task, add_test);
-    list(task, add_convert);
-    list(task, add_hunt);
-    list(task, add_blame);
-    task = "Scenarios and machines";
-    list(task, add_check);
-    list(task, add_scene);
-    list(task, add_bench);
-    list(task, add_doctor);
-    list(task, add_pack);
+    for (const CommandEntry& entry : command_table()) {
+      TakeCommand take = entry.add(app);
+      CLI::App* added = app.get_subcommands([](const CLI::App*) { return true; }).back();
+      added->group(entry.task);
+      commands_.emplace_back(added, std::move(take));
+    }
     refuse_leading_zeros(app);
   }
 
-  /// The options of the command that was parsed.
+  /// The command that was parsed, with its options.
   Command take(const std::vector<std::string>& arguments) {
-    for (const auto& [command, its_options] : commands_) {
-      if (command->parsed()) return its_options(arguments);
+    for (const auto& [command, take] : commands_) {
+      if (command->parsed()) return take(arguments);
     }
     throw InputError("no command was given");
   }
@@ -338,17 +293,23 @@ class OptionParser {
   CLI::App app;
 
  private:
-  template <class Options>
-  void list(const char* task, void (*add)(CLI::App&, Options&)) {
-    const auto options = std::make_shared<Options>();
-    add(app, *options);
-    CLI::App* command = app.get_subcommands([](const CLI::App*) { return true; }).back();
-    command->group(task);
-    commands_.emplace_back(command, [options](const auto& arguments) { return finished(*options, arguments); });
-  }
-
-  std::vector<std::pair<CLI::App*, std::function<Command(const std::vector<std::string>&)>>> commands_;
+  std::vector<std::pair<CLI::App*, TakeCommand>> commands_;
 };
+
+Command help(std::string text, bool names_planners = false) {
+  return {HelpText{std::move(text), names_planners}, print_help};
+}
+
+/// The commands that programs call, not users: --complete is for shells, --host for a launcher on another host, --unit
+/// for engines of sweeps.
+std::optional<Command> internal_command(const std::vector<std::string>& arguments) {
+  if (arguments.empty()) return {};
+  const std::vector<std::string> rest(arguments.begin() + 1, arguments.end());
+  if (arguments[0] == "--complete") return Command(CompletionOptions{rest}, print_completions);
+  if (arguments[0] == "--unit") return Command(unit_options(rest), run_unit);
+  if (arguments[0] != "--host" || !rest.empty()) return {};
+  return Command(HostOptions{}, [](const HostOptions&, const Console&) { return serve_host(); });
+}
 
 /// Refuses a first word that names no command. CLI11 would only say that a command is missing. @throws InputError
 void require_command(const CLI::App& app, const std::vector<std::string>& arguments) {
@@ -369,12 +330,8 @@ void with_command_line(const std::function<void(const CLI::App&)>& use) { use(Op
 Command parse_command_line(const std::vector<std::string>& arguments) {
   OptionParser parser;
   // Not for users: --manual is the source of the manual page, and a shell calls --complete.
-  if (arguments == std::vector<std::string>{"--manual"}) return HelpText{manual_of(parser.app, "skein")};
-  if (!arguments.empty() && arguments[0] == "--complete") {
-    return CompletionOptions{{arguments.begin() + 1, arguments.end()}};
-  }
-  if (arguments == std::vector<std::string>{"--host"}) return HostOptions{};
-  if (!arguments.empty() && arguments[0] == "--unit") return unit_options({arguments.begin() + 1, arguments.end()});
+  if (arguments == std::vector<std::string>{"--manual"}) return help(manual_of(parser.app, "skein"));
+  if (const auto command = internal_command(arguments)) return *command;
   require_command(parser.app, arguments);
   const auto is = [&parser](const char* command) { return parser.app.got_subcommand(command); };
   std::vector<std::string> reversed(arguments.rbegin(), arguments.rend());  // as CLI11 wants them
@@ -382,9 +339,9 @@ Command parse_command_line(const std::vector<std::string>& arguments) {
     parser.app.parse(std::move(reversed));
   } catch (const CLI::CallForHelp&) {
     // The help of the command that was named, or else the general help.
-    return HelpText{parser.app.help(), is("run") || is("compose") || is("contest") || is("compare")};
+    return help(parser.app.help(), is("run") || is("compose") || is("contest") || is("compare"));
   } catch (const CLI::CallForVersion& version) {
-    return HelpText{std::string(version.what()) + "\n"};
+    return help(std::string(version.what()) + "\n");
   } catch (const CLI::ParseError& error) {
     throw InputError(std::string(error.what()) + "\nSee `skein --help` or `skein COMMAND --help`.");
   }

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <any>
 #include <iterator>
 #include <set>
 #include <sstream>
@@ -13,7 +14,7 @@ namespace {
 
 template <class Options>
 Options parse(const std::vector<std::string>& arguments) {
-  return std::get<Options>(parse_command_line(arguments));
+  return parse_command_line(arguments).get<Options>();
 }
 
 TEST(Options, RunHasDefaults) {
@@ -172,6 +173,14 @@ TEST(Options, OtherCommands) {
   EXPECT_EQ(parse<HelpText>({"--version"}).text.find("skein "), 0u);
 }
 
+TEST(Options, ACommandHasTheOptionsOfItsOwnType) {
+  const Command command = parse_command_line({"diff", "x", "y"});
+  ASSERT_NE(command.get_if<DiffOptions>(), nullptr);
+  EXPECT_EQ(command.get_if<DiffOptions>()->run_a, "x");
+  EXPECT_EQ(command.get_if<RunOptions>(), nullptr);
+  EXPECT_THROW(command.get<RunOptions>(), std::bad_any_cast);
+}
+
 TEST(Options, OracleReadsAll) {
   const auto oracle = parse<OracleOptions>(
       {"oracle", "towers", "--scene-seed", "4", "--assets", "data", "--clearance", "0.75", "--outside", "--json"});
@@ -326,7 +335,7 @@ TEST(Options, WhatDoesNotFitIsRefused) {
 TEST(Options, OfARunCanBeWrittenAsArguments) {
   RunOptions run;
   const auto same = [](const RunOptions& given) {
-    const auto again = std::get<RunOptions>(parse_command_line(arguments_of(given)));
+    const auto again = parse_command_line(arguments_of(given)).get<RunOptions>();
     EXPECT_EQ(arguments_of(again), arguments_of(given));
     return again;
   };

@@ -7,7 +7,6 @@
 #include <regex>
 #include <set>
 #include <sstream>
-#include <variant>
 
 #include "cli/options.hpp"
 #include "core/text/text.hpp"
@@ -101,7 +100,7 @@ TEST(Pages, ShowParametersThatThereAre) {
 TEST(Pages, TheNewestVersionOfTheChangelogIsThisOne) {
   std::ifstream file(source_path("CHANGELOG.md"));
   const std::string changelog{std::istreambuf_iterator<char>(file), {}};
-  std::istringstream said(std::get<HelpText>(parse_command_line({"--version"})).text);
+  std::istringstream said(parse_command_line({"--version"}).get<HelpText>().text);
   std::string name, version;
   said >> name >> version;
   const std::size_t suffix = version.find("-dev"), first = changelog.find("\n## [");

@@ -29,8 +29,8 @@ RunOptions options_of(const fs::path& run, const Json& result) {
   }
   words.erase(words.begin());
   const Command parsed = parse_command_line(words);
-  const auto* flown = std::get_if<RunOptions>(&parsed);
-  const auto* in_containers = std::get_if<ComposeOptions>(&parsed);
+  const auto* flown = parsed.get_if<RunOptions>();
+  const auto* in_containers = parsed.get_if<ComposeOptions>();
   if (flown == nullptr && in_containers == nullptr) throw InputError(run.string() + ": it was no run: " + command);
   RunOptions options = flown != nullptr ? *flown : in_containers->run;
   options.out.reset();

@@ -224,7 +224,7 @@ std::unique_ptr<ResultsDir> results_dir(const fs::path& dir) try {
 /// `--status`: prints the progress of a study, and merges the flights so far.
 int tell_status(const fs::path& folder, const Console& console) {
   const Command command = parse_command_line(enter_sweep(folder));
-  const auto* options = std::get_if<StudyOptions>(&command);
+  const auto* options = command.get_if<StudyOptions>();
   if (options == nullptr) throw InputError("--status " + folder.string() + ": this is no study");
   const StudyPlan plan = plan_study(*options, AskPrograms::no);
   check_settings(plan);

@@ -157,4 +157,9 @@ void add_compare(CLI::App& app, StudyOptions& study) {
       ->allow_extra_args(false);
 }
 
+void finish_study(StudyOptions& study, const std::vector<std::string>& arguments) {
+  check_sweep(study.sweep);
+  study.sweep.command = arguments;
+}
+
 }  // namespace skein::cli

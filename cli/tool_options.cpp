@@ -143,6 +143,10 @@ void add_check(CLI::App& app, CheckOptions& check) {
       "  skein check my_faults.yaml --scenario cranes");
 }
 
+void finish_check(CheckOptions& check, const std::vector<std::string>& /*arguments*/) {
+  if (check.files.empty() && check.golden.empty()) throw InputError("check: give files, or --golden FILE.csv");
+}
+
 void add_convert(CLI::App& app, ConvertOptions& convert) {
   CLI::App* command = app.add_subcommand("convert", "Convert fault tests of earlier versions for this version");
   command->add_option("FILE", convert.files, "Fault test, or a folder of them")->required();

@@ -24,6 +24,9 @@ UnitOptions unit_options(const std::vector<std::string>& words);
 void add_network(CLI::App& command, std::optional<std::string>& network);
 
 // Each of these adds a sub-command, whose options CLI11 parses into the second argument.
+void add_run(CLI::App& app, RunOptions& run);
+void add_compose(CLI::App& app, ComposeOptions& compose);
+void add_keys(CLI::App& app, KeysOptions& keys);
 void add_test(CLI::App& app, TestOptions& test);
 void add_check(CLI::App& app, CheckOptions& check);
 void add_scene(CLI::App& app, SceneOptions& scene);
@@ -45,5 +48,13 @@ void add_blame(CLI::App& app, BlameOptions& blame);
 void add_check_planner(CLI::App& app, CheckPlannerOptions& check);
 void add_ps(CLI::App& app, PsOptions& none);
 void add_diff(CLI::App& app, DiffOptions& diff);
+
+// Each of these checks and completes a command's options once they are parsed. @param arguments  the whole command line
+// @throws InputError for options that do not go together.
+void finish_run(RunOptions& run, const std::vector<std::string>& arguments);
+void finish_compose(ComposeOptions& compose, const std::vector<std::string>& arguments);
+void finish_hunt(HuntOptions& hunt, const std::vector<std::string>& arguments);
+void finish_study(StudyOptions& study, const std::vector<std::string>& arguments);
+void finish_check(CheckOptions& check, const std::vector<std::string>& arguments);
 
 }  // namespace skein::cli

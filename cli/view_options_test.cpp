@@ -11,7 +11,7 @@ namespace {
 
 template <class Options>
 Options read(const std::vector<std::string>& arguments) {
-  return std::get<Options>(parse_command_line(arguments));
+  return parse_command_line(arguments).get<Options>();
 }
 
 TEST(ViewOptions, ReplayReadsAll) {

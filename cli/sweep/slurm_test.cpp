@@ -51,7 +51,7 @@ TEST(SweepOptions, NeedTheirExecutor) {
   }
   const Command command = parse_command_line(
       {"compare", "--executor", "parallel", "--sshlogin", "4/a,b", "--sshlogin", ":", "--unit-minutes", "2"});
-  const SweepOptions& sweep = std::get<StudyOptions>(command).sweep;
+  const SweepOptions sweep = command.get<StudyOptions>().sweep;
   EXPECT_EQ(sweep.logins, (Words{"4/a", "b", ":"}));
   EXPECT_EQ(sweep.unit_minutes, 2.0);
   EXPECT_EQ(sweep.command.front(), "compare");

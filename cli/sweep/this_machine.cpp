@@ -36,7 +36,7 @@ std::string boot_id() {
 
 RunOptions run_of(const SweepFlight& flight) {
   const Command command = parse_command_line(flight.arguments);
-  if (const auto* run = std::get_if<RunOptions>(&command)) return *run;
+  if (const auto* run = command.get_if<RunOptions>()) return *run;
   throw InputError("no flight: skein " + shell_line(flight.arguments));
 }
 
