@@ -37,34 +37,11 @@ int make_keys(const KeysOptions& options, const Console& console);
 /// fails. @throws InputError, Interrupted.
 int step_fleet(const FleetOptions& options, const Console& console);
 
-/// `skein ps`: prints a table of the user's running fleets. @returns kExitDone
-int list_fleets(const PsOptions& options, const Console& console);
-
-/// `skein attach`: replaces this process by the debugging tool, attached to one program of a flying fleet; returns only
-/// on failure. @throws InputError when there is no such fleet or program, more than one, or no such tool.
-int attach_to(const AttachOptions& options, const Console& console);
-
-/// `skein report`: writes report.html of finished runs anew. @returns kExitCheckFailed when a recording is damaged.
-/// @throws InputError at the first folder without a result; the pages of the folders before it are written by then.
-int make_reports(const ReportOptions& options, const Console& console);
-
 /// `skein replay`: shows a finished run, or two runs on one clock, on the same page that follows a live run. Serves the
 /// page until the user interrupts, or writes it to a file.
 /// @throws InputError when a folder holds no result, two runs have no scene in common, no page can be served, or the
 ///   requested file cannot be written; Interrupted while a film is made.
 int replay_run(const ReplayOptions& options, const Console& console);
-
-/// `skein diff`: when two runs start to differ, and in what. Compares the digests step by step, the radio messages and
-/// commands (if both runs have recordings), the results, and the tables of captures, events, scores and trajectories.
-/// That only one run has a recording is a difference, unless the other one was told to record nothing.
-/// @returns 0 the same, 1 different. @throws InputError when a folder holds no run, or one of its files is damaged.
-int diff_runs(const DiffOptions& options, const Console& console);
-
-/// `skein merge`: writes the files that the launcher would write after a run, for fleets that were started without it.
-/// If the server left no report, only joins the parts of the recording, and prints what is missing.
-/// @returns as `skein run` would: 3 when members were lost or there is no result; 1 when the recording is damaged.
-/// @throws InputError when there is neither a server's report nor a part, or the scenario is not known on this machine.
-int merge_reports(const MergeOptions& options, const Console& console);
 
 /// `skein contest` and `skein compare`: flies the flights that are still missing, then writes report.html, flights.csv,
 /// summary.csv, pairs.csv, table.tex, figures/*.svg and, for a contest, totals.csv; also after Ctrl-C and when flights
@@ -102,11 +79,6 @@ int run_tests(const TestOptions& options, const Console& console);
 /// the tests that were flown. @throws InputError when a file is wrong; Interrupted.
 int run_fault_tests(const TestOptions& options, const Console& console);
 
-/// `skein convert`: turns fault tests of earlier versions into those of this one. Prints the converted text of each
-/// file; with `--in-place` rewrites the files that change, and prints their names.
-/// @throws InputError for the first file that cannot be read or converted.
-int convert_files(const ConvertOptions& options, const Console& console);
-
 /// `skein hunt`: searches for faults that break a property, and writes a capsule for each find.
 /// @returns kExitDone when nothing was found, kExitCheckFailed with finds. @throws InputError, Interrupted.
 int run_hunt(const HuntOptions& options, const Console& console);
@@ -116,28 +88,10 @@ int run_hunt(const HuntOptions& options, const Console& console);
 /// @throws InputError when there is nothing to blame, or the run cannot be repeated; Interrupted.
 int blame(const BlameOptions& options, const Console& console);
 
-/// `skein check`: checks scenario, vehicle and fault files, fault tests, and tables of reference vectors. Prints one
-/// line for each valid file. @returns the exit code of `sim_server --golden` if reference vectors were given, else
-///   kExitDone. @throws InputError for the first invalid file.
-int check_files(const CheckOptions& options, const Console& console);
-
-/// `skein scene`: runs sim_server, which builds the scene, writes it as files in CARIC's layout and prints their names.
-/// @returns its exit code: kExitDone, or kExitBadInput after it has printed what is wrong.
-int export_scene(const SceneOptions& options);
-
 /// `skein bench`: flies and measures speed, memory, and where the time goes, with the same programs that a user's run
 /// starts; prints the tables and writes --json. Takes minutes, with --quick well below one. docs/performance.md
 /// explains the figures. @returns kExitDone when every run reached its end, whether or not it meets the targets; else
 ///   kExitProcessFailed, or kExitInterrupted. @throws InputError before anything has started.
 int run_bench(const BenchOptions& options, const Console& console);
-
-/// `skein doctor`: runs the program skein_doctor, which prints settings of this machine or network that would hinder a
-/// fleet. It gets the user's own environment, because it checks that too.
-/// @returns its exit code: kExitDone, kExitCheckFailed, or kExitBadInput after it has printed what is wrong.
-int consult_doctor(const DoctorOptions& options);
-
-/// `skein pack`: the programs with all libraries that they need, in one archive that runs wherever it is unpacked.
-/// @throws InputError for a target that is a folder, an agent or library that is not there, or when tar fails.
-int pack_programs(const PackOptions& options, const Console& console);
 
 }  // namespace skein::cli

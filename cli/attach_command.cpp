@@ -1,8 +1,9 @@
-#include "cli/actions.hpp"
+#include "cli/attach_command.hpp"
 
 #include <spdlog/fmt/fmt.h>
 #include <unistd.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cerrno>
 #include <filesystem>
@@ -67,6 +68,27 @@ std::vector<std::string> tool_words(const std::string& how, pid_t pid, const std
 }
 
 }  // namespace
+
+void add_ps(CLI::App& app, PsOptions& /*none*/) {
+  app.add_subcommand("ps", "List the fleets that fly now, with their processes");
+}
+
+void add_attach(CLI::App& app, AttachOptions& attach) {
+  CLI::App* command =
+      app.add_subcommand("attach", "Attach a debugger to one program of a flying fleet; the fleet waits meanwhile");
+  command
+      ->add_option("UAV", attach.what,
+                   "UAV, gcs, sim_server, comm_router or station. TOOL: gdb (default), gdbserver:PORT, or a command "
+                   "that takes a process id as its last argument")
+      ->required()
+      ->type_name("UAV[=TOOL]");
+  command->add_option("--run", attach.run, "Results folder of the fleet (default: the only fleet that flies)");
+  command->footer(
+      "Examples:\n"
+      "  skein attach jurong\n"
+      "  skein attach jurong='strace -f -p' --run runs/towers-kios-0\n\n"
+      "`skein ps` lists the fleets that fly. See docs/how-to-debug.md.");
+}
 
 int list_fleets(const PsOptions& /*options*/, const Console& console) {
   const std::vector<RunningFleet> fleets = running_fleets(::geteuid());

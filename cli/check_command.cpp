@@ -1,11 +1,13 @@
-#include "cli/actions.hpp"
+#include "cli/check_command.hpp"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <map>
 
 #include "cli/fault_tests/fault_test.hpp"
 #include "core/config/config_node.hpp"
 #include "core/scenario/scenario_reader.hpp"
+#include "core/types.hpp"
 #include "host/preflight.hpp"
 #include "process/host/environment.hpp"
 #include "process/program.hpp"
@@ -103,6 +105,29 @@ int check_golden(const std::string& file) {
 }
 
 }  // namespace
+
+void add_check(CLI::App& app, CheckOptions& check) {
+  CLI::App* command = app.add_subcommand(
+      "check", "Check scenarios, vehicles, fault files and fault tests, or compare reference vectors with the code");
+  command->add_option("FILE", check.files, "YAML files of these kinds");
+  command->add_option("--golden", check.golden, "Compare these reference vectors (CSV) with what the code computes");
+  command->add_option("--assets", check.assets,
+                      "Folder of data files (with models/) for scenarios that need them, such as mbs");
+  command->add_option("--agent", check.agent,
+                      "Agent program with planners of your own (default: SKEIN_AGENT, else uav_agent)");
+  command->add_option("--scenario", check.scenario, "Scenario of fault files that do not name one")
+      ->capture_default_str();
+  command->add_option("--conditions", check.conditions,
+                      "Conditions of fault files that do not name a scenario: none, breezy, harsh, ...");
+  command->footer(
+      "Examples:\n"
+      "  skein check my_scenario.yaml my_vehicle.yaml my_faults.yaml\n"
+      "  skein check my_faults.yaml --scenario cranes");
+}
+
+void finish_check(CheckOptions& check, const std::vector<std::string>& /*arguments*/) {
+  if (check.files.empty() && check.golden.empty()) throw InputError("check: give files, or --golden FILE.csv");
+}
 
 int check_files(const CheckOptions& options, const Console& console) {
   for (const std::string& file : options.files) {

@@ -103,24 +103,6 @@ struct CheckPlannerOptions {
   bool force = false;                        ///< write to a folder that is not empty
 };
 
-struct CheckOptions {
-  std::vector<std::string> files;
-  std::vector<std::string> golden;  ///< CSV files of reference vectors
-  std::optional<std::filesystem::path> assets;
-  std::optional<std::filesystem::path> agent = {};  ///< as in RunOptions
-  std::string scenario = "towers";                  ///< for fault files that name no scenario themselves
-  std::optional<std::string> conditions = {};       ///< conditions for such files, instead of the scenario's
-};
-
-struct SceneOptions {
-  std::string scenario;
-  std::optional<std::uint64_t> scene_seed;
-  std::optional<std::filesystem::path> out;  ///< folder for the scene's files
-  bool picture = false;                      ///< write a drawing to `out`, or to the current folder
-  std::optional<std::filesystem::path> assets;
-  bool force = false;
-};
-
 struct BenchOptions {
   bool quick = false;
   bool hour = false;                   ///< memory over an hour of simulated time too
@@ -153,24 +135,6 @@ struct OracleOptions {
   bool json = false;
 };
 
-struct DoctorOptions {
-  bool net = false;  ///< test which hosts receive each other's messages, instead of this machine's settings
-  std::string scenario = "towers";
-  std::optional<std::filesystem::path> assets;
-  std::string dds = "cyclonedds";  ///< a vendor or "mixed"
-  std::optional<int> domain;
-  std::optional<std::string> network;  ///< as in RunOptions
-  std::filesystem::path out = "runs";  ///< folder in which results would be written
-  bool json = false;
-  std::optional<std::string> name;  ///< name of this host
-  std::vector<std::string> only;    ///< domains to test; empty: all that reach other hosts
-  std::optional<double> seconds;    ///< how long to send and listen [s]
-};
-
-struct DiffOptions {
-  std::filesystem::path run_a, run_b;
-};
-
 /// `skein compose`: a fleet in containers.
 struct ComposeOptions {
   RunOptions run;
@@ -180,10 +144,6 @@ struct ComposeOptions {
   std::optional<std::filesystem::path> build;  ///< folder of a build; its programs fly, not the images'
   bool up = false;                             ///< fly the fleet now
   bool stack = false;                          ///< a file for `docker stack`: several engines that form one swarm
-};
-
-struct ReportOptions {
-  std::vector<std::filesystem::path> runs;
 };
 
 /// Options that `skein rerun` and `skein fork` share.
@@ -211,37 +171,9 @@ struct ForkOptions {
 /// This process starts a fleet's programs for a launcher on another host (cli/place/host_service.hpp).
 struct HostOptions {};
 
-/// `skein pack`: an archive of the programs with their libraries.
-struct PackOptions {
-  std::filesystem::path file;
-  std::vector<std::filesystem::path> agents;  ///< the user's own agent programs, packed too
-};
-
 struct KeysOptions {
   RunOptions run;
   std::filesystem::path out;
-};
-
-/// `skein convert`: fault tests of earlier versions.
-struct ConvertOptions {
-  std::vector<std::filesystem::path> files;  ///< fault tests, or folders of them
-  bool in_place = false;                     ///< rewrite the files, instead of printing their new text
-};
-
-struct MergeOptions {
-  std::filesystem::path dir;
-  std::optional<std::string> scenario;  ///< instead of the scenario that the server reports
-  std::optional<std::filesystem::path> assets;
-  bool report = true;  ///< as in RunOptions
-};
-
-/// `skein ps`: lists the fleets that are flying, with their processes.
-struct PsOptions {};
-
-/// `skein attach`: attaches a debugger to one program of a flying fleet.
-struct AttachOptions {
-  std::string what;                          ///< UAV[=TOOL], as for --debug
-  std::optional<std::filesystem::path> run;  ///< results folder of its fleet; none: the only fleet that is flying
 };
 
 /// `skein --unit`: an engine runs this on a node, to fly one unit of a sweep.

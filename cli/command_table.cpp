@@ -3,7 +3,16 @@
 #include <memory>
 
 #include "cli/actions.hpp"
+#include "cli/attach_command.hpp"
+#include "cli/check_command.hpp"
+#include "cli/convert_command.hpp"
+#include "cli/diff_command.hpp"
+#include "cli/doctor_command.hpp"
 #include "cli/hunt/capsule_run.hpp"
+#include "cli/merge_command.hpp"
+#include "cli/pack_command.hpp"
+#include "cli/report_command.hpp"
+#include "cli/scene_command.hpp"
 #include "cli/tool_options.hpp"
 #include "cli/view_options.hpp"
 

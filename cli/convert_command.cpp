@@ -1,4 +1,6 @@
-#include "cli/actions.hpp"
+#include "cli/convert_command.hpp"
+
+#include <CLI/CLI.hpp>
 
 #include "cli/fault_tests/conversion.hpp"
 #include "cli/fault_tests/fault_test.hpp"
@@ -20,6 +22,17 @@ void convert_file(const std::filesystem::path& file, bool in_place, const Consol
 }
 
 }  // namespace
+
+void add_convert(CLI::App& app, ConvertOptions& convert) {
+  CLI::App* command = app.add_subcommand("convert", "Convert fault tests of earlier versions for this version");
+  command->add_option("FILE", convert.files, "Fault test, or a folder of them")->required();
+  command->add_flag("--in-place", convert.in_place, "Rewrite the files (default: print their new text)");
+  command->footer(
+      "Examples:\n"
+      "  skein convert my_tests/outage.yaml\n"
+      "  skein convert --in-place my_tests\n\n"
+      "Keys of `expect` that became properties are converted (docs/how-to-test-faults.md).");
+}
 
 int convert_files(const ConvertOptions& options, const Console& console) {
   for (const std::filesystem::path& path : options.files) {

@@ -1,5 +1,6 @@
-#include "cli/actions.hpp"
+#include "cli/diff_command.hpp"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <fstream>
@@ -175,6 +176,14 @@ void compare_recordings(const DiffOptions& options, std::vector<std::string>& fo
 }
 
 }  // namespace
+
+void add_diff(CLI::App& app, DiffOptions& diff) {
+  CLI::App* command = app.add_subcommand(
+      "diff", "Show the first step, entity and field in which two runs differ, and which of their files differ");
+  command->add_option("RUN_A", diff.run_a, "Results folder")->required();
+  command->add_option("RUN_B", diff.run_b, "Results folder to compare with it")->required();
+  command->footer("Example:\n  skein diff runs/towers-kios-0 runs/again");
+}
 
 int diff_runs(const DiffOptions& options, const Console& console) {
   const std::optional<results::RunDifference> difference = results::first_difference(options.run_a, options.run_b);

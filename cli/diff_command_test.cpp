@@ -1,5 +1,5 @@
 // What `skein diff` says of two folders, beside their digests.
-#include "cli/actions.hpp"
+#include "cli/diff_command.hpp"
 
 #include <gtest/gtest.h>
 

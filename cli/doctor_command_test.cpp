@@ -1,4 +1,4 @@
-#include "cli/actions.hpp"
+#include "cli/doctor_command.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,6 @@
-#include "cli/actions.hpp"
+#include "cli/merge_command.hpp"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
 #include <ostream>
@@ -11,6 +12,7 @@
 #include "host/preflight.hpp"
 #include "process/files/atomic_file.hpp"
 #include "process/host/environment.hpp"
+#include "process/program.hpp"
 #include "recording/mcap/reader.hpp"
 #include "results/reported_facts.hpp"
 #include "results/result_file.hpp"
@@ -176,6 +178,18 @@ int merge_without_server(const MergeOptions& options, const fs::path& dir, const
 }
 
 }  // namespace
+
+void add_merge(CLI::App& app, MergeOptions& merge) {
+  CLI::App* command =
+      app.add_subcommand("merge", "Make result.json from the reports of programs that ran without the launcher");
+  command->add_option("DIR", merge.dir, "Folder with the reports")->required();
+  command->add_option("--scenario", merge.scenario,
+                      "Scenario that was flown, if the name in the server's report is unknown on this host");
+  command->add_option("--assets", merge.assets,
+                      "Folder of data files (with models/) for scenarios that need them, such as mbs");
+  command->add_flag("--no-report{false}", merge.report, "Do not write report.html");
+  command->footer("Example:\n  skein merge results");
+}
 
 int merge_reports(const MergeOptions& options, const Console& console) {
   const fs::path dir = fs::absolute(options.dir);

@@ -1,5 +1,5 @@
 // `skein merge` of a small fleet's reports: what is damaged is named, and a good result is not replaced by a worse one.
-#include "cli/actions.hpp"
+#include "cli/merge_command.hpp"
 
 #include <gtest/gtest.h>
 

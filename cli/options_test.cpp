@@ -7,6 +7,11 @@
 #include <set>
 #include <sstream>
 
+#include "cli/check_command.hpp"
+#include "cli/diff_command.hpp"
+#include "cli/doctor_command.hpp"
+#include "cli/merge_command.hpp"
+#include "cli/scene_command.hpp"
 #include "core/types.hpp"
 
 namespace skein::cli {

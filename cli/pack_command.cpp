@@ -1,7 +1,8 @@
-#include "cli/actions.hpp"
+#include "cli/pack_command.hpp"
 
 #include <spdlog/fmt/fmt.h>
 
+#include <CLI/CLI.hpp>
 #include <fstream>
 #include <map>
 #include <optional>
@@ -133,6 +134,14 @@ void check_target(const fs::path& archive) {
 }
 
 }  // namespace
+
+void add_pack(CLI::App& app, PackOptions& pack) {
+  CLI::App* command = app.add_subcommand(
+      "pack", "Write the programs with all their libraries into one archive, for machines without Skein");
+  command->add_option("FILE", pack.file, "Archive to write: skein.tar.gz")->required();
+  command->add_option("--agent", pack.agents, "Pack this agent program of yours, too")->allow_extra_args(false);
+  command->footer("Example:\n  skein pack skein.tar.gz\n\nSee docs/sweeps.md.");
+}
 
 int pack_programs(const PackOptions& options, const Console& console) {
   const fs::path archive = fs::absolute(options.file);

@@ -1,5 +1,5 @@
 // Where `skein pack` may write, and what it leaves when it cannot.
-#include "cli/actions.hpp"
+#include "cli/pack_command.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,6 @@
-#include "cli/actions.hpp"
+#include "cli/report_command.hpp"
+
+#include <CLI/CLI.hpp>
 
 #include "process/program.hpp"
 #include "report/run_report.hpp"
@@ -6,6 +8,12 @@
 #include "run/recording.hpp"
 
 namespace skein::cli {
+
+void add_report(CLI::App& app, ReportOptions& report) {
+  CLI::App* command = app.add_subcommand("report", "Write report.html of finished runs again");
+  command->add_option("RUN", report.runs, "Results folders")->required();
+  command->footer("Example:\n  skein report runs/towers-kios-0\n\nSee docs/report.md.");
+}
 
 int make_reports(const ReportOptions& options, const Console& console) {
   int code = kExitDone;

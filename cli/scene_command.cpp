@@ -1,5 +1,9 @@
-#include "cli/actions.hpp"
+#include "cli/scene_command.hpp"
 
+#include <CLI/CLI.hpp>
+
+#include "cli/option_checks.hpp"
+#include "core/types.hpp"
 #include "host/preflight.hpp"
 #include "process/host/environment.hpp"
 #include "process/program.hpp"
@@ -8,6 +12,28 @@
 #include "run/fleet_plan.hpp"
 
 namespace skein::cli {
+
+void add_scene(CLI::App& app, SceneOptions& scene) {
+  CLI::App* command = app.add_subcommand("scene", "Write a scene as STL, PCD and boxes, with a scenario that flies it");
+  command->add_option("SCENARIO", scene.scenario, "A name under config/scenarios/ or a YAML file")->required();
+  command->add_option("--scene-seed", scene.scene_seed, "Number of the variant of a procedural scenario")
+      ->check(CLI::Validator(check_seed, ""));
+  command->add_option("--out", scene.out, "Folder to write to");
+  command->add_flag("--picture", scene.picture,
+                    "Draw the scene as SCENARIO.svg, in the folder of --out or the current one");
+  command->add_option("--assets", scene.assets,
+                      "Folder of data files (with models/) for scenarios that need them, such as mbs");
+  command->add_flag("--force", scene.force, "Overwrite an earlier export");
+  command->callback([&scene] {
+    if (!scene.out && !scene.picture) {
+      throw InputError("scene: give --out FOLDER to write the scene, --picture to draw it, or both");
+    }
+  });
+  command->footer(
+      "Examples:\n"
+      "  skein scene towers --scene-seed 3 --out my_scene\n"
+      "  skein scene wild --scene-seed 7 --picture");
+}
 
 int export_scene(const SceneOptions& options) {
   std::vector<std::string> argv = {program_dir() / programs::kSimServer, "--scenario",

@@ -49,14 +49,6 @@ UnitOptions unit_options(const std::vector<std::string>& words) {
   return {words[0], unit};
 }
 
-void add_pack(CLI::App& app, PackOptions& pack) {
-  CLI::App* command = app.add_subcommand(
-      "pack", "Write the programs with all their libraries into one archive, for machines without Skein");
-  command->add_option("FILE", pack.file, "Archive to write: skein.tar.gz")->required();
-  command->add_option("--agent", pack.agents, "Pack this agent program of yours, too")->allow_extra_args(false);
-  command->footer("Example:\n  skein pack skein.tar.gz\n\nSee docs/sweeps.md.");
-}
-
 namespace {
 
 /// Adds the options that `skein contest` and `skein compare` have in common.

@@ -6,76 +6,6 @@
 #include "core/text/number_checks.hpp"
 
 namespace skein::cli {
-namespace {
-
-/// Refuses the options that only `skein doctor net` uses. @throws InputError
-void check_doctor(const DoctorOptions& doctor) {
-  if (doctor.net) return;
-  const auto refuse = [](bool given, const std::string& option) {
-    if (given) throw InputError(option + ": only `skein doctor net` takes this option");
-  };
-  refuse(doctor.name.has_value(), "--as");
-  refuse(!doctor.only.empty(), "--only");
-  refuse(doctor.seconds.has_value(), "--seconds");
-}
-
-}  // namespace
-
-void add_doctor(CLI::App& app, DoctorOptions& doctor) {
-  CLI::App* command = app.add_subcommand(
-      "doctor", "Find problems of this machine or network that would disturb a fleet, and how to fix them");
-  const auto set_net = [&doctor](const std::string&) { doctor.net = true; };
-  command
-      ->add_option_function<std::string>(
-          "WHAT", set_net,
-          "net: test which hosts receive each other's messages; run this command on all of them at the same time")
-      ->check(CLI::IsMember({"net"}));
-  add_network(*command, doctor.network);
-  command
-      ->add_option("--scenario", doctor.scenario,
-                   "Scenario of the fleet: a name under config/scenarios/ or a YAML file")
-      ->capture_default_str();
-  command->add_option("--assets", doctor.assets,
-                      "Folder of data files (with models/) for scenarios that need them, such as mbs");
-  command->add_option("--domain", doctor.domain, "First DDS domain of the fleet");
-  command->add_option("--dds", doctor.dds, "DDS vendor: cyclonedds, fastdds or mixed")
-      ->check(CLI::IsMember({"cyclonedds", "fastdds", "mixed"}))
-      ->capture_default_str();
-  command->add_option("--out", doctor.out, "Folder for results, to check that a run can write there")
-      ->capture_default_str();
-  command->add_flag("--json", doctor.json, "Print JSON, for programs");
-  command->add_option("--as", doctor.name, "net: name under which this host reports (default: its host name)");
-  command
-      ->add_option(
-          "--only", doctor.only,
-          "net: domains in which this host takes part: world,gcs,UAV,... (default: all domains that leave the host)")
-      ->delimiter(',');
-  command->add_option("--seconds", doctor.seconds, "net: how long to send and receive [s] (default 5)")
-      ->check(CLI::Validator(check_seconds, ""));
-  command->callback([&doctor] { check_doctor(doctor); });
-  command->footer(
-      "Examples:\n"
-      "  skein doctor --scenario towers\n"
-      "  skein doctor net --network network.yaml --only world,gcs --seconds 30\n\n"
-      "Exit codes: 0 all checks pass, 1 a check fails, or no message of a peer arrived. See docs/doctor.md.");
-}
-
-void add_attach(CLI::App& app, AttachOptions& attach) {
-  CLI::App* command =
-      app.add_subcommand("attach", "Attach a debugger to one program of a flying fleet; the fleet waits meanwhile");
-  command
-      ->add_option("UAV", attach.what,
-                   "UAV, gcs, sim_server, comm_router or station. TOOL: gdb (default), gdbserver:PORT, or a command "
-                   "that takes a process id as its last argument")
-      ->required()
-      ->type_name("UAV[=TOOL]");
-  command->add_option("--run", attach.run, "Results folder of the fleet (default: the only fleet that flies)");
-  command->footer(
-      "Examples:\n"
-      "  skein attach jurong\n"
-      "  skein attach jurong='strace -f -p' --run runs/towers-kios-0\n\n"
-      "`skein ps` lists the fleets that fly. See docs/how-to-debug.md.");
-}
 
 void add_test(CLI::App& app, TestOptions& test) {
   CLI::App* command =
@@ -122,68 +52,6 @@ void add_test(CLI::App& app, TestOptions& test) {
       "  skein test --faults my_tests --agent build/my_agent --seeds 1-20 --jobs 2 --junit faults.xml\n\n"
       "A fault test is described in docs/how-to-test-faults.md; config/faults/ has examples.\n"
       "Exit codes: 0 all passed, 1 one failed, 2 a file is wrong.");
-}
-
-void add_check(CLI::App& app, CheckOptions& check) {
-  CLI::App* command = app.add_subcommand(
-      "check", "Check scenarios, vehicles, fault files and fault tests, or compare reference vectors with the code");
-  command->add_option("FILE", check.files, "YAML files of these kinds");
-  command->add_option("--golden", check.golden, "Compare these reference vectors (CSV) with what the code computes");
-  command->add_option("--assets", check.assets,
-                      "Folder of data files (with models/) for scenarios that need them, such as mbs");
-  command->add_option("--agent", check.agent,
-                      "Agent program with planners of your own (default: SKEIN_AGENT, else uav_agent)");
-  command->add_option("--scenario", check.scenario, "Scenario of fault files that do not name one")
-      ->capture_default_str();
-  command->add_option("--conditions", check.conditions,
-                      "Conditions of fault files that do not name a scenario: none, breezy, harsh, ...");
-  command->footer(
-      "Examples:\n"
-      "  skein check my_scenario.yaml my_vehicle.yaml my_faults.yaml\n"
-      "  skein check my_faults.yaml --scenario cranes");
-}
-
-void finish_check(CheckOptions& check, const std::vector<std::string>& /*arguments*/) {
-  if (check.files.empty() && check.golden.empty()) throw InputError("check: give files, or --golden FILE.csv");
-}
-
-void add_convert(CLI::App& app, ConvertOptions& convert) {
-  CLI::App* command = app.add_subcommand("convert", "Convert fault tests of earlier versions for this version");
-  command->add_option("FILE", convert.files, "Fault test, or a folder of them")->required();
-  command->add_flag("--in-place", convert.in_place, "Rewrite the files (default: print their new text)");
-  command->footer(
-      "Examples:\n"
-      "  skein convert my_tests/outage.yaml\n"
-      "  skein convert --in-place my_tests\n\n"
-      "Keys of `expect` that became properties are converted (docs/how-to-test-faults.md).");
-}
-
-void add_scene(CLI::App& app, SceneOptions& scene) {
-  CLI::App* command = app.add_subcommand("scene", "Write a scene as STL, PCD and boxes, with a scenario that flies it");
-  command->add_option("SCENARIO", scene.scenario, "A name under config/scenarios/ or a YAML file")->required();
-  command->add_option("--scene-seed", scene.scene_seed, "Number of the variant of a procedural scenario")
-      ->check(CLI::Validator(check_seed, ""));
-  command->add_option("--out", scene.out, "Folder to write to");
-  command->add_flag("--picture", scene.picture,
-                    "Draw the scene as SCENARIO.svg, in the folder of --out or the current one");
-  command->add_option("--assets", scene.assets,
-                      "Folder of data files (with models/) for scenarios that need them, such as mbs");
-  command->add_flag("--force", scene.force, "Overwrite an earlier export");
-  command->callback([&scene] {
-    if (!scene.out && !scene.picture) {
-      throw InputError("scene: give --out FOLDER to write the scene, --picture to draw it, or both");
-    }
-  });
-  command->footer(
-      "Examples:\n"
-      "  skein scene towers --scene-seed 3 --out my_scene\n"
-      "  skein scene wild --scene-seed 7 --picture");
-}
-
-void add_report(CLI::App& app, ReportOptions& report) {
-  CLI::App* command = app.add_subcommand("report", "Write report.html of finished runs again");
-  command->add_option("RUN", report.runs, "Results folders")->required();
-  command->footer("Example:\n  skein report runs/towers-kios-0\n\nSee docs/report.md.");
 }
 
 void add_bench(CLI::App& app, BenchOptions& bench) {
@@ -281,30 +149,6 @@ void add_oracle(CLI::App& app, OracleOptions& oracle) {
                     "found by search, which Skein flies once as proof");
   command->add_flag("--json", oracle.json, "Print all figures as JSON, for programs");
   command->footer("Example:\n  skein oracle towers --clearance 0.5,0.8,1.2");
-}
-
-void add_merge(CLI::App& app, MergeOptions& merge) {
-  CLI::App* command =
-      app.add_subcommand("merge", "Make result.json from the reports of programs that ran without the launcher");
-  command->add_option("DIR", merge.dir, "Folder with the reports")->required();
-  command->add_option("--scenario", merge.scenario,
-                      "Scenario that was flown, if the name in the server's report is unknown on this host");
-  command->add_option("--assets", merge.assets,
-                      "Folder of data files (with models/) for scenarios that need them, such as mbs");
-  command->add_flag("--no-report{false}", merge.report, "Do not write report.html");
-  command->footer("Example:\n  skein merge results");
-}
-
-void add_ps(CLI::App& app, PsOptions& /*none*/) {
-  app.add_subcommand("ps", "List the fleets that fly now, with their processes");
-}
-
-void add_diff(CLI::App& app, DiffOptions& diff) {
-  CLI::App* command = app.add_subcommand(
-      "diff", "Show the first step, entity and field in which two runs differ, and which of their files differ");
-  command->add_option("RUN_A", diff.run_a, "Results folder")->required();
-  command->add_option("RUN_B", diff.run_b, "Results folder to compare with it")->required();
-  command->footer("Example:\n  skein diff runs/towers-kios-0 runs/again");
 }
 
 }  // namespace skein::cli

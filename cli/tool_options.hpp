@@ -28,26 +28,16 @@ void add_run(CLI::App& app, RunOptions& run);
 void add_compose(CLI::App& app, ComposeOptions& compose);
 void add_keys(CLI::App& app, KeysOptions& keys);
 void add_test(CLI::App& app, TestOptions& test);
-void add_check(CLI::App& app, CheckOptions& check);
-void add_scene(CLI::App& app, SceneOptions& scene);
 void add_bench(CLI::App& app, BenchOptions& bench);
-void add_attach(CLI::App& app, AttachOptions& attach);
-void add_doctor(CLI::App& app, DoctorOptions& doctor);
 void add_oracle(CLI::App& app, OracleOptions& oracle);
-void add_convert(CLI::App& app, ConvertOptions& convert);
-void add_merge(CLI::App& app, MergeOptions& merge);
-void add_report(CLI::App& app, ReportOptions& report);
 void add_rerun(CLI::App& app, RerunOptions& rerun);
 void add_fork(CLI::App& app, ForkOptions& fork);
-void add_pack(CLI::App& app, PackOptions& pack);
 void add_contest(CLI::App& app, StudyOptions& contest);
 void add_compare(CLI::App& app, StudyOptions& study);
 void add_hunt(CLI::App& app, HuntOptions& hunt);
 void add_fleet(CLI::App& app, FleetOptions& fleet);
 void add_blame(CLI::App& app, BlameOptions& blame);
 void add_check_planner(CLI::App& app, CheckPlannerOptions& check);
-void add_ps(CLI::App& app, PsOptions& none);
-void add_diff(CLI::App& app, DiffOptions& diff);
 
 // Each of these checks and completes a command's options once they are parsed. @param arguments  the whole command line
 // @throws InputError for options that do not go together.
@@ -55,6 +45,5 @@ void finish_run(RunOptions& run, const std::vector<std::string>& arguments);
 void finish_compose(ComposeOptions& compose, const std::vector<std::string>& arguments);
 void finish_hunt(HuntOptions& hunt, const std::vector<std::string>& arguments);
 void finish_study(StudyOptions& study, const std::vector<std::string>& arguments);
-void finish_check(CheckOptions& check, const std::vector<std::string>& arguments);
 
 }  // namespace skein::cli
