@@ -1,6 +1,6 @@
-// What each command of `skein` does: one function for each struct of cli/command.hpp; cli/command_table.cpp names them.
-// Each returns the exit code (process/program.hpp), and throws InputError for invalid input and Interrupted after
-// Ctrl-C, if it can meet them.
+// What the commands of cli/command.hpp do; the other commands have headers of their own, such as cli/scene_command.hpp.
+// Each function returns the exit code (process/program.hpp), and throws InputError for invalid input and Interrupted
+// after Ctrl-C, if it can meet them.
 #pragma once
 
 #include "cli/command.hpp"
@@ -32,11 +32,6 @@ int compose_fleet(const ComposeOptions& options, const Console& console);
 ///   written.
 int make_keys(const KeysOptions& options, const Console& console);
 
-/// `skein fleet`: a fleet that another program steps, as skein.Fleet does in Python. Plans and checks the flight, then
-/// replaces this process by the one that simulates the whole fleet (one_process/session.hpp); returns only when that
-/// fails. @throws InputError, Interrupted.
-int step_fleet(const FleetOptions& options, const Console& console);
-
 /// `skein replay`: shows a finished run, or two runs on one clock, on the same page that follows a live run. Serves the
 /// page until the user interrupts, or writes it to a file.
 /// @throws InputError when a folder holds no result, two runs have no scene in common, no page can be served, or the
@@ -49,25 +44,6 @@ int replay_run(const ReplayOptions& options, const Console& console);
 ///   requirement, kExitInterrupted after Ctrl-C. @throws InputError before anything flies; Interrupted while the input
 ///   is checked.
 int run_study(const StudyOptions& options, const Console& console);
-
-/// `skein oracle`: prints the score attainable in a scenario with full knowledge (docs/oracle.md), as a table or JSON.
-/// @throws InputError for an invalid scenario; std::runtime_error when sim_server fails; Interrupted.
-int consult_oracle(const OracleOptions& options, const Console& console);
-
-/// `skein check-planner`: flies the same missions in changed process surroundings (memory layout, clock, load, ...),
-/// which must not change the result, and reports those that do.
-/// @returns kExitDone when all runs are the same, kExitCheckFailed when one differs. @throws InputError, Interrupted.
-int check_planner(const CheckPlannerOptions& options, const Console& console);
-
-/// `skein rerun`: replays a recorded run to one UAV's software, without the rest of the fleet's software.
-/// @returns 0 when the software sends the same messages as then and the digest is the same, 1 when not; else the code
-///   of the flight. @throws InputError when the run has no whole recording, or cannot be repeated.
-int rerun(const RerunOptions& options, const Console& console);
-
-/// `skein fork`: replays a recorded run up to some time, then lets it continue differently. @returns as the flight
-/// does.
-/// @throws InputError as rerun(), and when the recorded run ended before options.at_s.
-int fork_run(const ForkOptions& options, const Console& console);
 
 /// `skein test`: runs the test suite of this build, or with --faults the user's fault tests; the summary is the last
 /// line. @throws InputError when this build has no tests, or for invalid options.
@@ -82,11 +58,6 @@ int run_fault_tests(const TestOptions& options, const Console& console);
 /// `skein hunt`: searches for faults that break a property, and writes a capsule for each find.
 /// @returns kExitDone when nothing was found, kExitCheckFailed with finds. @throws InputError, Interrupted.
 int run_hunt(const HuntOptions& options, const Console& console);
-
-/// `skein blame`: flies a run again without one of its faults at a time, and on request without one link's messages at
-/// a time, and ranks them by what they cost.
-/// @throws InputError when there is nothing to blame, or the run cannot be repeated; Interrupted.
-int blame(const BlameOptions& options, const Console& console);
 
 /// `skein bench`: flies and measures speed, memory, and where the time goes, with the same programs that a user's run
 /// starts; prints the tables and writes --json. Takes minutes, with --quick well below one. docs/performance.md

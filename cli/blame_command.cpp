@@ -1,7 +1,8 @@
-#include "cli/actions.hpp"
+#include "cli/blame_command.hpp"
 
 #include <spdlog/fmt/fmt.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
 #include <set>
@@ -176,6 +177,33 @@ void print(const std::vector<Without>& all, const TrialOutcome& outcome, const S
 }
 
 }  // namespace
+
+void add_blame(CLI::App& app, BlameOptions& blame) {
+  CLI::App* command =
+      app.add_subcommand("blame", "Show what each fault of a run cost: fly again without it, and compare");
+  command->add_option("RUN", blame.what, "Results folder of a run with faults, or a capsule of `skein hunt`")
+      ->required();
+  command->add_option("--agent", blame.agent, "Agent program with planners of your own, as for `skein run`");
+  command->add_option("--assets", blame.assets,
+                      "Folder of data files (with models/) for scenarios that need them, such as mbs");
+  command
+      ->add_option("--dds", blame.dds,
+                   "Fly as processes over this DDS vendor: cyclonedds, fastdds or mixed (default: in one process where "
+                   "possible)")
+      ->check(CLI::IsMember({"cyclonedds", "fastdds", "mixed"}));
+  command
+      ->add_option("--messages", blame.messages,
+                   "FROM UNTIL [s]: also fly without the messages of this time, one link after the other")
+      ->expected(2);
+  command->add_option("--out", blame.out,
+                      "Folder of the flights (default: a new one, blame in RUN or, of a capsule, runs/blame)");
+  command->add_flag("--force", blame.force, "Write to a folder that is not empty; flights there are replaced");
+  command->footer(
+      "Examples:\n"
+      "  skein blame runs/towers-kios-0\n"
+      "  skein blame runs/hunt-towers-patrol/finds/all_fly_on-17.yaml --messages 12 14\n\n"
+      "See docs/how-to-hunt.md.");
+}
 
 int blame(const BlameOptions& options, const Console& console) {
   const Subject subject = subject_of(options);

@@ -1,7 +1,8 @@
-#include "cli/actions.hpp"
+#include "cli/check_planner_command.hpp"
 
 #include <sys/wait.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
 #include <csignal>
@@ -10,8 +11,11 @@
 #include <memory>
 #include <sstream>
 
+#include "cli/actions.hpp"
+#include "cli/option_checks.hpp"
 #include "cli/study/flights.hpp"
 #include "core/planners/python_spec.hpp"
+#include "core/text/number_checks.hpp"
 #include "core/text/suggestion.hpp"
 #include "core/text/text.hpp"
 #include "host/machine.hpp"
@@ -260,6 +264,33 @@ class PlannerCheck {
 };
 
 }  // namespace
+
+void add_check_planner(CLI::App& app, CheckPlannerOptions& check) {
+  CLI::App* command = app.add_subcommand("check-planner",
+                                         "Check that a planner is repeatable: fly the same under other conditions of "
+                                         "the machine, and name the first difference");
+  constexpr double kShortMission_s = 40.0;
+  const CLI::Validator seed(check_seed, ""), seconds(check_seconds, "");
+  RunOptions& run = check.run;
+  run.duration_s = kShortMission_s;
+  run.seed = 1;
+  command->add_option("PLANNER", run.planner, "As --planner for `skein run`")->required();
+  command->add_option("--scenario", run.scenario, "A name under config/scenarios/ or a YAML file")
+      ->capture_default_str();
+  command->add_option("--agent", run.agent, "Agent program with planners of your own, as for `skein run`");
+  command->add_option("--assets", run.assets,
+                      "Folder of data files (with models/) for scenarios that need them, such as mbs");
+  command->add_option("--uavs", run.uavs, "Fleet size, as for `skein run`")
+      ->check(CLI::Validator(check_positive, "POSITIVE"));
+  command->add_option("--duration", run.duration_s, "Mission time [s]")->check(seconds)->capture_default_str();
+  command->add_option("--seed", run.seed, "As for `skein run`")->check(seed)->capture_default_str();
+  CLI::Option* out = command->add_option("--out", check.out, "Folder for the flights (default: Skein deletes them)");
+  command->add_flag("--force", check.force, "Write to a folder that is not empty; flights there are replaced")
+      ->needs(out);
+  command->footer(
+      "Example:\n  skein check-planner orbit --agent build/my_agent\n\n"
+      "Exit codes: 0 all runs are the same, 1 a run differs. See docs/how-to-hunt.md.");
+}
 
 int check_planner(const CheckPlannerOptions& options, const Console& console) {
   return PlannerCheck(options, console).run();

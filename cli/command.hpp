@@ -1,4 +1,5 @@
-// The commands and options of `skein`, as plain structs. cli/options.hpp parses a command line into them.
+// Commands and options of `skein`, as plain structs into which cli/options.hpp parses a command line: those that files
+// of several folders read. Any other command has its struct in a header of its own, such as cli/scene_command.hpp.
 #pragma once
 
 #include <cstdint>
@@ -48,12 +49,6 @@ struct ReplayOptions {
   bool maps = false;  ///< first compute the snapshots of UAVs' maps, if the folder has none (maps_in_time.hpp)
 };
 
-/// `skein fleet`: a fleet that another program steps.
-struct FleetOptions {
-  RunOptions run;
-  int session = -1;  ///< file descriptor of the socket to that program
-};
-
 /// Which engine flies a study or a hunt when this process does not fly it alone: cli/sweep/.
 struct SweepOptions {
   std::optional<std::string> executor;  ///< local, parallel or slurm; none: flights are children of this process
@@ -85,24 +80,6 @@ struct HuntOptions {
   SweepOptions sweep;
 };
 
-/// `skein blame`: what each fault of a run cost.
-struct BlameOptions {
-  std::filesystem::path what;                  ///< a results folder, or a capsule
-  std::optional<std::filesystem::path> agent;  ///< as in RunOptions; so is the next member
-  std::optional<std::filesystem::path> assets;
-  std::optional<std::string> dds;  ///< a vendor or "mixed"; none: in one process where possible
-  std::vector<double> messages;    ///< begin and end [s]: also remove each link's messages of that time, link by link
-  std::optional<std::filesystem::path> out;
-  bool force = false;  ///< write to a folder that is not empty
-};
-
-/// `skein check-planner`: whether a planner's runs stay the same when the surroundings of its process change.
-struct CheckPlannerOptions {
-  RunOptions run;
-  std::optional<std::filesystem::path> out;  ///< folder in which the flights are kept
-  bool force = false;                        ///< write to a folder that is not empty
-};
-
 struct BenchOptions {
   bool quick = false;
   bool hour = false;                   ///< memory over an hour of simulated time too
@@ -123,18 +100,6 @@ struct BenchOptions {
   std::optional<std::filesystem::path> write;    ///< file for the new table; with `sensing`, a folder
 };
 
-struct OracleOptions {
-  std::string scenario;
-  std::optional<std::uint64_t> scene_seed;
-  std::optional<std::filesystem::path> assets;
-  std::optional<std::string> rules;  ///< a preset, instead of the scenario's
-  std::vector<double> clearances_m;  ///< instead of the oracle's default
-  bool vehicle = false;              ///< measure clearance from a sphere about body and rotors, not from the camera
-  bool outside_only = false;
-  bool plan = false;  ///< also compute the score that a plan with full knowledge reaches in the mission time
-  bool json = false;
-};
-
 /// `skein compose`: a fleet in containers.
 struct ComposeOptions {
   RunOptions run;
@@ -144,28 +109,6 @@ struct ComposeOptions {
   std::optional<std::filesystem::path> build;  ///< folder of a build; its programs fly, not the images'
   bool up = false;                             ///< fly the fleet now
   bool stack = false;                          ///< a file for `docker stack`: several engines that form one swarm
-};
-
-/// Options that `skein rerun` and `skein fork` share.
-struct Reflight {
-  std::filesystem::path run;                   ///< results folder of the recorded run
-  std::optional<std::filesystem::path> agent;  ///< as in RunOptions
-  std::optional<std::string> dds;              ///< a vendor or "mixed"; none: in one process where possible
-  std::vector<std::string> debug;              ///< as in RunOptions
-  std::optional<std::filesystem::path> out;    ///< none: a new folder in `run`
-  bool force = false;                          ///< overwrite an existing result
-};
-
-struct RerunOptions {
-  Reflight reflight;
-  std::string uav;
-  std::optional<std::string> planner;  ///< instead of the planner that flew
-};
-
-struct ForkOptions {
-  Reflight reflight;
-  double at_s = 0.0;
-  std::optional<std::string> planner;  ///< "UAV=NAME,..."
 };
 
 /// This process starts a fleet's programs for a launcher on another host (cli/place/host_service.hpp).

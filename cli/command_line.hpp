@@ -32,7 +32,7 @@ class Command {
     return std::any_cast<Options>(options_);
   }
 
-  /// @returns the exit code. @throws what the function of the command throws (cli/actions.hpp).
+  /// @returns the exit code. @throws what the action throws: InputError, Interrupted and others.
   int execute(const Console& console) const { return action_(options_, console); }
 
  private:

@@ -1,22 +1,25 @@
-#include "cli/actions.hpp"
+#include "cli/fleet_command.hpp"
 
 #include <fcntl.h>
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include <CLI/CLI.hpp>
 #include <cerrno>
 #include <csignal>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <system_error>
-#include <variant>
 #include <vector>
 
+#include "cli/option_checks.hpp"
+#include "cli/tool_options.hpp"
 #include "core/files/write_whole.hpp"
 #include "core/text/text.hpp"
 #include "core/types.hpp"
 #include "host/preflight.hpp"
 #include "process/files/nowhere.hpp"
+#include "process/program.hpp"
 #include "run/fleet_plan.hpp"
 
 namespace skein::cli {
@@ -74,6 +77,33 @@ std::string file_with(const std::string& text) {
 }
 
 }  // namespace
+
+void add_fleet(CLI::App& app, FleetOptions& fleet) {
+  RunOptions& run = fleet.run;
+  CLI::App* command = app.add_subcommand(
+      "fleet", "Fly a fleet that another program advances step by step; skein.Fleet in Python starts this command");
+  command->add_option("SCENARIO", run.scenario, "A name under config/scenarios/ or a YAML file")->capture_default_str();
+  command->add_option("--planner", run.planner, "As for `skein run`; UAV=learner: the other program commands this UAV")
+      ->capture_default_str();
+  const CLI::Validator seconds(check_seconds, "");
+  add_mission(*command, run, "; kill and pause are refused");
+  command->add_option("--stop-at", run.stop_at_s, "End the run at this simulated time [s]")->check(seconds);
+  command
+      ->add_option("--agent-timeout", run.agent_timeout_s,
+                   "Wall time that a program may take for one step; then Skein ends the fleet [s] (default 60)")
+      ->check(CLI::Validator(check_timeout, ""));
+  command->add_option("--agent", run.agent,
+                      "Agent program with planners of your own (default: SKEIN_AGENT, else uav_agent)");
+  command
+      ->add_option("--log", run.log,
+                   "How much a program (UAV, gcs, sim_server, ...) logs: UAV=trace, debug, info, warn, error or off")
+      ->allow_extra_args(false);
+  command->add_flag("--no-check{false}", run.check, "Do not ask the programs beforehand whether they can fly this");
+  command->add_flag("--native", run.native, "Let libm use this CPU's fastest code (the digest is then this CPU's own)");
+  command->add_option("--session", fleet.session, "Descriptor of the open socket to the program that steps the fleet")
+      ->required();
+  command->footer("See docs/how-to-python.md.");
+}
 
 int step_fleet(const FleetOptions& options, const Console& console) {
   if (options.session <= STDERR_FILENO || ::fcntl(options.session, F_GETFD) < 0) {

@@ -1,4 +1,4 @@
-// The command lines of the commands that search for faults.
+// The command line of `skein hunt`.
 #include <CLI/CLI.hpp>
 
 #include "cli/option_checks.hpp"
@@ -89,60 +89,6 @@ void finish_hunt(HuntOptions& hunt, const std::vector<std::string>& arguments) {
     throw InputError("--detach and --status are of studies: a hunt decides after each round what flies next");
   }
   hunt.sweep.command = arguments;
-}
-
-void add_blame(CLI::App& app, BlameOptions& blame) {
-  CLI::App* command =
-      app.add_subcommand("blame", "Show what each fault of a run cost: fly again without it, and compare");
-  command->add_option("RUN", blame.what, "Results folder of a run with faults, or a capsule of `skein hunt`")
-      ->required();
-  command->add_option("--agent", blame.agent, "Agent program with planners of your own, as for `skein run`");
-  command->add_option("--assets", blame.assets,
-                      "Folder of data files (with models/) for scenarios that need them, such as mbs");
-  command
-      ->add_option("--dds", blame.dds,
-                   "Fly as processes over this DDS vendor: cyclonedds, fastdds or mixed (default: in one process where "
-                   "possible)")
-      ->check(CLI::IsMember({"cyclonedds", "fastdds", "mixed"}));
-  command
-      ->add_option("--messages", blame.messages,
-                   "FROM UNTIL [s]: also fly without the messages of this time, one link after the other")
-      ->expected(2);
-  command->add_option("--out", blame.out,
-                      "Folder of the flights (default: a new one, blame in RUN or, of a capsule, runs/blame)");
-  command->add_flag("--force", blame.force, "Write to a folder that is not empty; flights there are replaced");
-  command->footer(
-      "Examples:\n"
-      "  skein blame runs/towers-kios-0\n"
-      "  skein blame runs/hunt-towers-patrol/finds/all_fly_on-17.yaml --messages 12 14\n\n"
-      "See docs/how-to-hunt.md.");
-}
-
-void add_check_planner(CLI::App& app, CheckPlannerOptions& check) {
-  CLI::App* command = app.add_subcommand("check-planner",
-                                         "Check that a planner is repeatable: fly the same under other conditions of "
-                                         "the machine, and name the first difference");
-  constexpr double kShortMission_s = 40.0;
-  const CLI::Validator seed(check_seed, ""), seconds(check_seconds, "");
-  RunOptions& run = check.run;
-  run.duration_s = kShortMission_s;
-  run.seed = 1;
-  command->add_option("PLANNER", run.planner, "As --planner for `skein run`")->required();
-  command->add_option("--scenario", run.scenario, "A name under config/scenarios/ or a YAML file")
-      ->capture_default_str();
-  command->add_option("--agent", run.agent, "Agent program with planners of your own, as for `skein run`");
-  command->add_option("--assets", run.assets,
-                      "Folder of data files (with models/) for scenarios that need them, such as mbs");
-  command->add_option("--uavs", run.uavs, "Fleet size, as for `skein run`")
-      ->check(CLI::Validator(check_positive, "POSITIVE"));
-  command->add_option("--duration", run.duration_s, "Mission time [s]")->check(seconds)->capture_default_str();
-  command->add_option("--seed", run.seed, "As for `skein run`")->check(seed)->capture_default_str();
-  CLI::Option* out = command->add_option("--out", check.out, "Folder for the flights (default: Skein deletes them)");
-  command->add_flag("--force", check.force, "Write to a folder that is not empty; flights there are replaced")
-      ->needs(out);
-  command->footer(
-      "Example:\n  skein check-planner orbit --agent build/my_agent\n\n"
-      "Exit codes: 0 all runs are the same, 1 a run differs. See docs/how-to-hunt.md.");
 }
 
 }  // namespace skein::cli

@@ -11,6 +11,7 @@
 #include "cli/diff_command.hpp"
 #include "cli/doctor_command.hpp"
 #include "cli/merge_command.hpp"
+#include "cli/oracle_command.hpp"
 #include "cli/scene_command.hpp"
 #include "core/types.hpp"
 

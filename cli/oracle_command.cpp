@@ -2,9 +2,11 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include <CLI/CLI.hpp>
 #include <iomanip>
 
-#include "cli/actions.hpp"
+#include "cli/option_checks.hpp"
+#include "core/text/number_checks.hpp"
 #include "core/text/text.hpp"
 #include "core/types.hpp"
 #include "host/preflight.hpp"
@@ -139,6 +141,34 @@ void print_several(std::ostream& out, const Json& answers, bool outside_only) {
 }
 
 }  // namespace
+
+void add_oracle(CLI::App& app, OracleOptions& oracle) {
+  CLI::App* command =
+      app.add_subcommand("oracle", "Compute the score that is attainable with full knowledge of the scene");
+  command->add_option("SCENARIO", oracle.scenario, "A name under config/scenarios/ or a YAML file")->required();
+  command->add_option("--scene-seed", oracle.scene_seed, "Number of the variant of a procedural scenario")
+      ->check(CLI::Validator(check_seed, ""));
+  command->add_option("--assets", oracle.assets,
+                      "Folder of data files (with models/) for scenarios that need them, such as mbs");
+  command->add_option("--rules", oracle.rules,
+                      "Preset of rules, instead of the scenario's: contest, paper or reference");
+  command
+      ->add_option("--clearance", oracle.clearances_m,
+                   "Least distance of the cameras from the structure [m] (default 0.5); several values, such as "
+                   "0.5,0.8,1.2, give a table")
+      ->delimiter(',')
+      ->check(CLI::Validator(number_within(0.0, 100.0), ""));
+  command->add_flag(
+      "--vehicle", oracle.vehicle,
+      "Apply the clearance to a sphere around body and rotors, not to the camera (default of --clearance then 0)");
+  command->add_flag("--outside", oracle.outside_only,
+                    "Count only what is attainable from outside the structure, not through windows");
+  command->add_flag("--plan", oracle.plan,
+                    "Also compute what this fleet could score in the mission's time with full knowledge: a lower bound "
+                    "found by search, which Skein flies once as proof");
+  command->add_flag("--json", oracle.json, "Print all figures as JSON, for programs");
+  command->footer("Example:\n  skein oracle towers --clearance 0.5,0.8,1.2");
+}
 
 Json attainable_from(const Json& answer) {
   const Json reachable = value_or(answer, "reachable", nullptr);

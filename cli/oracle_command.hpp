@@ -1,13 +1,41 @@
 // The oracle's answers (docs/oracle.md), for `skein oracle` and `skein run`.
 #pragma once
 
+#include <cstdint>
+#include <filesystem>
+#include <optional>
 #include <ostream>
 #include <string>
+#include <vector>
 
-#include "cli/command.hpp"
+#include "cli/console.hpp"
 #include "results/result.hpp"
+#include "run/run_options.hpp"
+
+namespace CLI {
+class App;
+}
 
 namespace skein::cli {
+
+struct OracleOptions {
+  std::string scenario;
+  std::optional<std::uint64_t> scene_seed;
+  std::optional<std::filesystem::path> assets;
+  std::optional<std::string> rules;  ///< a preset, instead of the scenario's
+  std::vector<double> clearances_m;  ///< instead of the oracle's default
+  bool vehicle = false;              ///< measure clearance from a sphere about body and rotors, not from the camera
+  bool outside_only = false;
+  bool plan = false;  ///< also compute the score that a plan with full knowledge reaches in the mission time
+  bool json = false;
+};
+
+/// Adds the command `oracle`, whose options CLI11 parses into the second argument.
+void add_oracle(CLI::App& app, OracleOptions& oracle);
+
+/// `skein oracle`: prints the score attainable in a scenario with full knowledge (docs/oracle.md), as a table or JSON.
+/// @throws InputError for an invalid scenario; std::runtime_error when sim_server fails; Interrupted.
+int consult_oracle(const OracleOptions& options, const Console& console);
 
 /// What is attainable in a run's scenario.
 struct AttainableAnswer {

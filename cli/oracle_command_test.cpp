@@ -4,7 +4,6 @@
 
 #include <sstream>
 
-#include "cli/actions.hpp"
 #include "core/types.hpp"
 #include "host/testing/fake_programs.hpp"
 

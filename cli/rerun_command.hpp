@@ -1,11 +1,58 @@
-// What `skein rerun` and `skein fork` read of a finished run, for other commands that fly it again.
+// `skein rerun` and `skein fork`, and what they read of a finished run, for other commands that fly it again.
 #pragma once
 
-#include "cli/command.hpp"
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
 #include "cli/console.hpp"
 #include "process/json_text.hpp"
+#include "run/run_options.hpp"
+
+namespace CLI {
+class App;
+}
 
 namespace skein::cli {
+
+/// Options that `skein rerun` and `skein fork` share.
+struct Reflight {
+  std::filesystem::path run;                   ///< results folder of the recorded run
+  std::optional<std::filesystem::path> agent;  ///< as in RunOptions
+  std::optional<std::string> dds;              ///< a vendor or "mixed"; none: in one process where possible
+  std::vector<std::string> debug;              ///< as in RunOptions
+  std::optional<std::filesystem::path> out;    ///< none: a new folder in `run`
+  bool force = false;                          ///< overwrite an existing result
+};
+
+struct RerunOptions {
+  Reflight reflight;
+  std::string uav;
+  std::optional<std::string> planner;  ///< instead of the planner that flew
+};
+
+struct ForkOptions {
+  Reflight reflight;
+  double at_s = 0.0;
+  std::optional<std::string> planner;  ///< "UAV=NAME,..."
+};
+
+/// Adds the command `rerun`, whose options CLI11 parses into the second argument.
+void add_rerun(CLI::App& app, RerunOptions& rerun);
+
+/// Adds the command `fork`, whose options CLI11 parses into the second argument.
+void add_fork(CLI::App& app, ForkOptions& fork);
+
+/// `skein rerun`: replays a recorded run to one UAV's software, without the rest of the fleet's software.
+/// @returns 0 when the software sends the same messages as then and the digest is the same, 1 when not; else the code
+///   of the flight. @throws InputError when the run has no whole recording, or cannot be repeated.
+int rerun(const RerunOptions& options, const Console& console);
+
+/// `skein fork`: replays a recorded run up to some time, then lets it continue differently. @returns as the flight
+/// does.
+/// @throws InputError as rerun(), and when the recorded run ended before options.at_s.
+int fork_run(const ForkOptions& options, const Console& console);
 
 /// The names of the UAVs in a result.json, in its order.
 std::vector<std::string> fleet_of(const Json& result);

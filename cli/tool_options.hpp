@@ -29,15 +29,9 @@ void add_compose(CLI::App& app, ComposeOptions& compose);
 void add_keys(CLI::App& app, KeysOptions& keys);
 void add_test(CLI::App& app, TestOptions& test);
 void add_bench(CLI::App& app, BenchOptions& bench);
-void add_oracle(CLI::App& app, OracleOptions& oracle);
-void add_rerun(CLI::App& app, RerunOptions& rerun);
-void add_fork(CLI::App& app, ForkOptions& fork);
 void add_contest(CLI::App& app, StudyOptions& contest);
 void add_compare(CLI::App& app, StudyOptions& study);
 void add_hunt(CLI::App& app, HuntOptions& hunt);
-void add_fleet(CLI::App& app, FleetOptions& fleet);
-void add_blame(CLI::App& app, BlameOptions& blame);
-void add_check_planner(CLI::App& app, CheckPlannerOptions& check);
 
 // Each of these checks and completes a command's options once they are parsed. @param arguments  the whole command line
 // @throws InputError for options that do not go together.
