@@ -1,7 +1,8 @@
-#include "cli/actions.hpp"
+#include "cli/bench_command.hpp"
 
 #include <sys/utsname.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdlib>
 #include <map>
@@ -19,6 +20,7 @@
 #include "cli/bench/table.hpp"
 #include "cli/bench/tracking.hpp"
 #include "cli/bench/watching.hpp"
+#include "cli/option_checks.hpp"
 #include "core/types.hpp"
 #include "host/domain_block.hpp"
 #include "host/machine.hpp"
@@ -268,6 +270,75 @@ class Bench {
 };
 
 }  // namespace
+
+void add_bench(CLI::App& app, BenchOptions& bench) {
+  CLI::App* command = app.add_subcommand("bench", "Measure speed, scale and memory on this machine");
+  command->add_flag("--quick", bench.quick, "Measure less of everything, in less than a minute");
+  command->add_flag("--hour", bench.hour,
+                    "Also measure memory over an hour of simulated time; takes some minutes more");
+  command->add_option("--scenario", bench.scenarios,
+                      "Scenarios of the speed runs (default: towers; mbs with --assets)");
+  command->add_option("--assets", bench.assets,
+                      "Folder of data files (with models/) for scenarios that need them, such as mbs");
+  command->add_option("--dds", bench.dds, "DDS vendor: cyclonedds or fastdds")
+      ->check(CLI::IsMember({"cyclonedds", "fastdds"}))
+      ->capture_default_str();
+  command->add_option("--sizes", bench.sizes, "Fleet sizes, such as 1,5,20")->delimiter(',')->check(CLI::Range(1, 128));
+  command->add_option("--repeat", bench.repeats, "Runs of each kind; medians are reported")->check(CLI::Range(1, 100));
+  command
+      ->add_option("--duration", bench.duration_s,
+                   "Mission time of the speed runs, or of --tracking, --view or --python [s], instead of the usual one")
+      ->check(CLI::Validator(check_seconds, ""));
+  command->add_option("--json", bench.json, "File for all figures");
+  CLI::Option* planners =
+      command->add_flag("--planners", bench.planners,
+                        "Measure the scores of all planners in a fixed set of scenes, and compare them with a table");
+  command->add_option("--against", bench.against, "Table to compare with (default: config/planner_scores.csv)")
+      ->needs(planners);
+  CLI::Option* sensing =
+      command
+          ->add_flag("--sensing", bench.sensing,
+                     "Measure what an explorer knows of the space around it: the tables of docs/sensing.md")
+          ->excludes(planners);
+  CLI::Option* tracking = command
+                              ->add_flag("--tracking", bench.tracking,
+                                         "Measure how far UAVs are from their setpoints, by speed and acceleration: "
+                                         "the table of docs/flight-safety.md")
+                              ->excludes(planners)
+                              ->excludes(sensing);
+  command
+      ->add_flag("--view", bench.view,
+                 "Measure what the live page costs the fleet, and what the page itself needs; needs Chromium and a "
+                 "source tree")
+      ->excludes(planners)
+      ->excludes(sensing)
+      ->excludes(tracking);
+  CLI::Option* profile = command
+                             ->add_flag("--profile", bench.profile,
+                                        "Measure the CPU time of an exchange by stage and planner for each fleet size "
+                                        "(--sizes), and its growth; in one process")
+                             ->excludes(planners)
+                             ->excludes(sensing)
+                             ->excludes(tracking);
+  command
+      ->add_flag("--python", bench.python,
+                 "Measure what planners in Python cost compared with C++, and what stepping, resetting and copying a "
+                 "fleet cost; needs a source tree")
+      ->excludes(planners)
+      ->excludes(sensing)
+      ->excludes(tracking)
+      ->excludes(profile);
+  command
+      ->add_option("--write", bench.write,
+                   "File for the new table of --planners; folder for pictures and page of --sensing")
+      ->each([planners, sensing](const std::string&) {
+        if (planners->empty() && sensing->empty()) throw CLI::RequiresError("--write", "--planners or --sensing");
+      });
+  command->footer(
+      "Examples:\n  skein bench --quick --json bench.json\n  skein bench --planners --write scores.csv\n"
+      "  skein bench --sensing --write docs\n  skein bench --tracking --quick\n  skein bench --view\n"
+      "  skein bench --profile --sizes 1,5,20\n  skein bench --python --assets DIR");
+}
 
 int run_bench(const BenchOptions& options, const Console& console) {
   if (options.planners) return bench_planners(options, console);

@@ -1,5 +1,5 @@
-// Commands and options of `skein`, as plain structs into which cli/options.hpp parses a command line: those that files
-// of several folders read. Any other command has its struct in a header of its own, such as cli/scene_command.hpp.
+// Commands and options of `skein`, as plain structs into which cli/options.hpp parses a command line: those of fleets,
+// studies and hunts. Any other command has its struct in a header of its own, such as cli/scene_command.hpp.
 #pragma once
 
 #include <cstdint>
@@ -11,43 +11,6 @@
 #include "run/run_options.hpp"
 
 namespace skein::cli {
-
-/// Options of a film of a run (`skein replay --export FILE.mp4`).
-struct FilmOptions {
-  int fps = 25;
-  std::optional<double> seconds;  ///< length of the film
-  std::optional<double> speed;    ///< or: simulated seconds per second of the film
-  std::string address;            ///< what the page shows: the fragment (after #) of its URL; t is the film's start
-  int width = 1280, height = 720;
-};
-
-struct TestOptions {
-  bool long_tests = false;
-  std::vector<std::string> folders;             ///< only tests in or below these: "sim_server", "tests/fleet"
-  std::optional<std::filesystem::path> faults;  ///< a fault test, or a folder of them, instead of the suite
-  std::vector<std::string> repeat;              ///< further runs of each fault test: names of enum Repeat
-  bool rotate = false;                          ///< only one of `repeat` for each test, in turn
-  std::filesystem::path out = "runs/faults";    ///< results of fault tests
-  std::optional<std::filesystem::path> assets;
-  std::optional<std::filesystem::path> agent;  ///< as in RunOptions
-  bool one_process = false;                    ///< as in RunOptions
-  std::optional<std::string> seeds;            ///< fly each test with each of these seeds; format as in StudyOptions
-  std::optional<std::filesystem::path> junit;  ///< file for a report of the fault tests as JUnit XML
-  int jobs = 1;                                ///< flights at once
-  bool verbose = false;                        ///< also print what was seen of what holds
-};
-
-/// `skein replay`: shows a finished run in a browser, or two runs on one clock; or writes a file that shows them.
-struct ReplayOptions {
-  std::filesystem::path run;
-  std::optional<std::filesystem::path> other;
-  std::string at = "0";  ///< endpoint of the page, as in ViewOptions; so is the next member
-  bool browser = true;
-  std::optional<std::filesystem::path> exported;  ///< .html or .mp4, instead of a page that is served
-  bool force = false;                             ///< overwrite the exported file
-  FilmOptions film;
-  bool maps = false;  ///< first compute the snapshots of UAVs' maps, if the folder has none (maps_in_time.hpp)
-};
 
 /// Which engine flies a study or a hunt when this process does not fly it alone: cli/sweep/.
 struct SweepOptions {
@@ -78,26 +41,6 @@ struct HuntOptions {
   bool force = false;      ///< start over in the folder of another hunt
   std::size_t round = 16;  ///< number of cases that are drawn before the outcome of the first of them is evaluated
   SweepOptions sweep;
-};
-
-struct BenchOptions {
-  bool quick = false;
-  bool hour = false;                   ///< memory over an hour of simulated time too
-  std::vector<std::string> scenarios;  ///< scenarios of the speed runs; empty: towers, and mbs with --assets
-  std::optional<std::filesystem::path> assets;
-  std::string dds = "cyclonedds";
-  std::vector<std::size_t> sizes;  ///< sizes of the fleets; empty: the default ones
-  std::optional<int> repeats;
-  std::optional<double> duration_s;  ///< mission time of the speed runs, or of the runs of `tracking`
-  std::optional<std::filesystem::path> json;
-  bool planners = false;                         ///< measure the scores of all planners, not the machine
-  bool sensing = false;                          ///< measure only what an explorer's map knows of space
-  bool tracking = false;                         ///< measure only how far UAVs are from their set-points
-  bool view = false;                             ///< measure only the cost of a page that follows a run
-  bool python = false;                           ///< measure only the cost of planners in Python
-  bool profile = false;                          ///< the cost of each stage and planner, by the size of the fleet
-  std::optional<std::filesystem::path> against;  ///< the table of scores to compare with; none: the shipped one
-  std::optional<std::filesystem::path> write;    ///< file for the new table; with `sensing`, a folder
 };
 
 /// `skein compose`: a fleet in containers.

@@ -4,6 +4,7 @@
 
 #include "cli/actions.hpp"
 #include "cli/attach_command.hpp"
+#include "cli/bench_command.hpp"
 #include "cli/blame_command.hpp"
 #include "cli/check_command.hpp"
 #include "cli/check_planner_command.hpp"
@@ -15,11 +16,12 @@
 #include "cli/merge_command.hpp"
 #include "cli/oracle_command.hpp"
 #include "cli/pack_command.hpp"
+#include "cli/replay_command.hpp"
 #include "cli/report_command.hpp"
 #include "cli/rerun_command.hpp"
 #include "cli/scene_command.hpp"
+#include "cli/test_command.hpp"
 #include "cli/tool_options.hpp"
-#include "cli/view_options.hpp"
 
 namespace skein::cli {
 namespace {

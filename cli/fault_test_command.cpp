@@ -1,4 +1,4 @@
-#include "cli/actions.hpp"
+#include "cli/test_command.hpp"
 
 #include <chrono>
 #include <map>

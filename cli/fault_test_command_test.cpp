@@ -1,5 +1,5 @@
 // `skein test --faults` with made-up programs: what is flown, what is printed, which exit code.
-#include "cli/actions.hpp"
+#include "cli/test_command.hpp"
 
 #include <gtest/gtest.h>
 

@@ -7,12 +7,14 @@
 #include <set>
 #include <sstream>
 
+#include "cli/bench_command.hpp"
 #include "cli/check_command.hpp"
 #include "cli/diff_command.hpp"
 #include "cli/doctor_command.hpp"
 #include "cli/merge_command.hpp"
 #include "cli/oracle_command.hpp"
 #include "cli/scene_command.hpp"
+#include "cli/test_command.hpp"
 #include "core/types.hpp"
 
 namespace skein::cli {

@@ -1,9 +1,10 @@
-#include "cli/actions.hpp"
+#include "cli/replay_command.hpp"
 
 #include <spdlog/fmt/fmt.h>
 
 #include "cli/film/film.hpp"
 #include "cli/maps_in_time.hpp"
+#include "core/text/suggestion.hpp"
 #include "core/types.hpp"
 #include "process/files/atomic_file.hpp"
 #include "process/program.hpp"

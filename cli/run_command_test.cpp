@@ -6,6 +6,7 @@
 #include <regex>
 #include <sstream>
 
+#include "cli/report_command.hpp"
 #include "core/types.hpp"
 #include "host/testing/fake_programs.hpp"
 #include "results/result.hpp"

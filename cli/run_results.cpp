@@ -4,6 +4,7 @@
 
 #include "cli/oracle_command.hpp"
 #include "core/run/run_state.hpp"
+#include "process/program.hpp"
 #include "report/run_report.hpp"
 #include "results/losses.hpp"
 #include "results/result_file.hpp"

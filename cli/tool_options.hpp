@@ -27,8 +27,6 @@ void add_network(CLI::App& command, std::optional<std::string>& network);
 void add_run(CLI::App& app, RunOptions& run);
 void add_compose(CLI::App& app, ComposeOptions& compose);
 void add_keys(CLI::App& app, KeysOptions& keys);
-void add_test(CLI::App& app, TestOptions& test);
-void add_bench(CLI::App& app, BenchOptions& bench);
 void add_contest(CLI::App& app, StudyOptions& contest);
 void add_compare(CLI::App& app, StudyOptions& study);
 void add_hunt(CLI::App& app, HuntOptions& hunt);

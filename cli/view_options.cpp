@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "cli/replay_command.hpp"
 #include "core/text/number_checks.hpp"
 #include "core/types.hpp"
 #include "view/endpoint.hpp"

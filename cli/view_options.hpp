@@ -1,7 +1,7 @@
-// The options of `skein run` and `skein replay` for the page that is served to a browser.
+// The options of `skein run` and `skein compose` for the page that is served to a browser.
 #pragma once
 
-#include "cli/command.hpp"
+#include "run/run_options.hpp"
 
 namespace CLI {
 class App;
@@ -11,8 +11,6 @@ namespace skein::cli {
 
 /// Adds --view, --speed, --pause-at, --view-close and --no-browser, of run and compose.
 void add_view_options(CLI::App& command, ViewOptions& view);
-/// Adds the command `replay`.
-void add_replay(CLI::App& app, ReplayOptions& replay);
 /// @throws InputError for an invalid --speed, and for --speed or --pause-at without --clock lockstep.
 void check_view(const RunOptions& run);
 

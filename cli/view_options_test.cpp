@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "cli/options.hpp"
+#include "cli/replay_command.hpp"
 #include "core/types.hpp"
 
 namespace skein::cli {

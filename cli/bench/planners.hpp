@@ -1,8 +1,8 @@
 // `skein bench --planners`: every planner flies a fixed set of scenes; its scores are shown beside those of a table.
 #pragma once
 
+#include "cli/bench_command.hpp"
 #include "cli/console.hpp"
-#include "cli/options.hpp"
 
 namespace skein::cli {
 

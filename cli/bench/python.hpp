@@ -5,8 +5,8 @@
 #include <ostream>
 #include <vector>
 
+#include "cli/bench_command.hpp"
 #include "cli/console.hpp"
-#include "cli/options.hpp"
 #include "results/result.hpp"
 
 namespace skein::cli {

@@ -2,8 +2,8 @@
 // beams: the tables and pictures of docs/sensing.md.
 #pragma once
 
+#include "cli/bench_command.hpp"
 #include "cli/console.hpp"
-#include "cli/options.hpp"
 
 namespace skein::cli {
 

@@ -6,8 +6,8 @@
 #include <ostream>
 #include <string>
 
+#include "cli/bench_command.hpp"
 #include "cli/console.hpp"
-#include "cli/options.hpp"
 #include "results/tracking_table.hpp"
 
 namespace skein::cli {

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "cli/command.hpp"
 #include "cli/fault_tests/fault_test.hpp"
+#include "cli/test_command.hpp"
 
 namespace skein::cli {
 

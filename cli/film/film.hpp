@@ -5,9 +5,9 @@
 #include <filesystem>
 #include <string>
 
-#include "cli/command.hpp"
 #include "cli/console.hpp"
 #include "cli/film/browser.hpp"
+#include "cli/replay_command.hpp"
 
 namespace skein::cli {
 

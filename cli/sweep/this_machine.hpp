@@ -1,6 +1,7 @@
 // The machine that this program runs on, as a node of a sweep: it flies each flight as a `skein run` of its own.
 #pragma once
 
+#include "cli/command.hpp"
 #include "cli/console.hpp"
 #include "cli/sweep/unit_run.hpp"
 
