@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "core/text/utf8.hpp"
 #include "idl/conversions.hpp"
@@ -13,13 +12,8 @@ namespace {
 constexpr std::size_t kLongestText = 160;
 
 /// Valid UTF-8, cut off between two characters.
-std::string cell_of(std::string text) {
-  if (text.size() > kLongestText) {
-    std::size_t end = kLongestText;
-    while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;
-    text.resize(end);
-  }
-  text = as_utf8(std::move(text));
+std::string cell_of(const std::string& whole) {
+  std::string text = as_utf8(first_bytes(whole, kLongestText));
   std::ranges::replace(text, ',', ';');
   std::ranges::replace_if(
       text, [](unsigned char c) { return c < 0x20 || c == 0x7F; }, ' ');

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/text/utf8.hpp"
+
 namespace skein::report {
 namespace {
 
@@ -48,15 +50,11 @@ std::string fixed(const std::optional<double>& value, int digits) { return value
 std::string coordinate(double value) { return fixed_at_most(value, 1); }
 
 std::string shortened(const std::string& text, std::size_t most) {
-  const auto begins_character = [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; };
-  if (static_cast<std::size_t>(std::count_if(text.begin(), text.end(), begins_character)) <= most) return text;
-  std::string out;
-  std::size_t characters = 0;
-  for (const char c : text) {
-    if (begins_character(c) && ++characters == most) break;
-    out += c;
+  std::size_t characters = 0, end = 0;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (!continues_character(text[i]) && ++characters == most) end = i;
   }
-  return out + "…";
+  return characters <= most ? text : text.substr(0, end) + "…";
 }
 
 std::string figure(const std::string& caption, const std::string& small, const std::string& svg) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/text/suggestion.hpp"
+#include "core/text/utf8.hpp"
 
 namespace skein {
 namespace {
@@ -17,9 +18,8 @@ bool in_word(char c) { return begins_word(c) || is_digit(c); }
 
 /// Number of bytes of the first letter of a text in UTF-8. A text that is not in UTF-8 has letters of one byte or more.
 std::size_t letter_bytes(std::string_view text) {
-  const auto continues = [](char c) { return (static_cast<unsigned char>(c) & 0xC0) == 0x80; };
   std::size_t bytes = 1;
-  while (bytes < text.size() && bytes < 4 && continues(text[bytes])) ++bytes;
+  while (bytes < text.size() && bytes < 4 && continues_character(text[bytes])) ++bytes;
   return bytes;
 }
 

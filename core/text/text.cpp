@@ -110,9 +110,7 @@ std::vector<std::string> shell_words(const std::string& command) {
 std::string shortened(const std::string& text) {
   constexpr std::size_t kLongest = 80;
   if (text.size() <= kLongest) return text;
-  std::size_t end = kLongest;
-  while (end > kLongest - 4 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;  // inside of a letter
-  return text.substr(0, end) + "...";
+  return first_bytes(text, kLongest) + "...";
 }
 
 std::string printable(std::string text) {

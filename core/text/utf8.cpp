@@ -9,13 +9,20 @@ std::int64_t next_character(const std::string& text, std::size_t& at) {
   if (length == 0 || first > 0xf4) return -1;
   std::int64_t character = length == 1 ? first : first & (0x7fu >> length);
   for (std::size_t i = 1; i < length; ++i) {
-    if ((byte(at + i) & 0xc0u) != 0x80u) return -1;
+    if (!continues_character(static_cast<char>(byte(at + i)))) return -1;
     character = character << 6 | (byte(at + i) & 0x3fu);
   }
   constexpr std::int64_t kLeast[] = {0, 0, 0x80, 0x800, 0x10000};
   const bool surrogate = character >= 0xd800 && character <= 0xdfff;
   at += length;
   return character < kLeast[length] || character > 0x10ffff || surrogate ? -1 : character;
+}
+
+std::string first_bytes(const std::string& text, std::size_t most) {
+  if (text.size() <= most) return text;
+  std::size_t end = most;
+  while (end > 0 && most - end < 3 && continues_character(text[end])) --end;
+  return text.substr(0, end);
 }
 
 bool is_utf8(const std::string& text) {

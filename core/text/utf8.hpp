@@ -7,8 +7,15 @@
 
 namespace skein {
 
-/// The code point at `at` in a UTF-8 text; moves `at` behind it. -1: this is no valid character.
+/// The code point at `at` in a UTF-8 text; moves `at` behind it.
+/// -1: there is no valid character, or the text ends; then `at` may stay where it is, so do not continue from there.
 std::int64_t next_character(const std::string& text, std::size_t& at);
+
+/// Whether a byte of a UTF-8 text is not the first one of its character.
+inline bool continues_character(char byte) { return (static_cast<unsigned char>(byte) & 0xc0u) == 0x80u; }
+
+/// The first `most` bytes of a UTF-8 text, or up to 3 fewer, so that no character is cut through.
+std::string first_bytes(const std::string& text, std::size_t most);
 
 bool is_utf8(const std::string& text);
 

@@ -30,5 +30,14 @@ TEST(Utf8, IsWhatJsonHolds) {
   EXPECT_LT(valid, 1800);
 }
 
+TEST(Utf8, FirstBytesCutThroughNoCharacter) {
+  const std::string text = "a\xc3\xa9\xf0\x9f\x98\x80";  // of 1, 2 and 4 bytes
+  const std::vector<std::size_t> lengths = {0, 1, 1, 3, 3, 3, 3, 7, 7};
+  for (std::size_t most = 0; most < lengths.size(); ++most) {
+    EXPECT_EQ(first_bytes(text, most), text.substr(0, lengths[most])) << most;
+  }
+  EXPECT_EQ(first_bytes(std::string(9, '\x80'), 5), std::string(2, '\x80')) << "at most 3 bytes fewer";
+}
+
 }  // namespace
 }  // namespace skein
