@@ -4,7 +4,6 @@
 #include <cmath>
 #include <set>
 
-#include "report/flight_picture.hpp"
 #include "results/run_tables.hpp"
 
 namespace skein::report {
@@ -153,29 +152,6 @@ std::vector<BoxFigures> box_figures(const results::RunRecord& run) {
   if (outside.points > 0) rows.push_back(std::move(outside));
   rows.push_back(std::move(all));
   return rows;
-}
-
-std::vector<results::ScoreRow> earned_over_time(const results::RunRecord& run) {
-  std::vector<const results::CaptureRow*> captures;
-  for (const results::CaptureRow& capture : run.captures) {
-    if (!capture.voided() && capture.q >= kDetected) captures.push_back(&capture);
-  }
-  std::stable_sort(captures.begin(), captures.end(), [](auto a, auto b) { return a->time_s < b->time_s; });
-  std::map<std::size_t, double> best;
-  std::vector<results::ScoreRow> earned = {{0.0, 0.0, 0.0}};
-  for (const results::CaptureRow* capture : captures) {
-    double& q = best[capture->point];
-    if (capture->q <= q) continue;
-    const double more = capture->q - q;
-    q = capture->q;
-    const results::ScoreRow now{capture->time_s, earned.back().score + more, static_cast<double>(best.size())};
-    if (earned.back().time_s == now.time_s) {
-      earned.back() = now;
-    } else {
-      earned.push_back(now);
-    }
-  }
-  return earned;
 }
 
 double length_of(const Spans& spans) {

@@ -28,9 +28,6 @@ struct BoxFigures {
 /// points outside all boxes, if there are any. The last entry is the total.
 std::vector<BoxFigures> box_figures(const results::RunRecord& run);
 
-/// The earned score at each time when it rose: of all captures, delivered or not, except of UAVs that collided.
-std::vector<results::ScoreRow> earned_over_time(const results::RunRecord& run);
-
 struct Span {
   double from_s = 0.0, until_s = 0.0;
 };

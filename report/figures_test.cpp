@@ -6,6 +6,7 @@
 #include <random>
 
 #include "report/flight_picture.hpp"
+#include "results/score_steps.hpp"
 
 namespace skein::report {
 namespace {
@@ -152,8 +153,7 @@ TEST_P(Figures, NeverInThePictureAreThosePointsThatUavsCameNearAndTheOthers) {
 }
 
 TEST_P(Figures, WhatWasEarnedIsTheBestPictureOfEachPoint) {
-  const std::vector<results::ScoreRow> earned = earned_over_time(run_);
-  for (const results::ScoreRow& now : earned) {
+  for (const auto& now : score_steps(run_.captures, kDetected, results::Counts::when_taken)) {
     std::map<std::size_t, double> best;
     for (const results::CaptureRow& capture : run_.captures) {
       if (capture.voided() || capture.q < kDetected || capture.time_s > now.time_s) continue;

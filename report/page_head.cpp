@@ -8,6 +8,7 @@
 #include "core/text/text.hpp"
 #include "report/html.hpp"
 #include "report/page_parts.hpp"
+#include "results/score_steps.hpp"
 
 namespace skein::report {
 namespace {
@@ -125,7 +126,7 @@ RunPage::RunPage(results::RunRecord data)
       lanes(lanes_of(run)),
       budgets(time_budgets(run, lanes)),
       boxes(box_figures(run)),
-      earned(earned_over_time(run)),
+      earned(score_steps(run.captures, kDetected, results::Counts::when_taken)),
       links(link_shares(run)),
       latency(latency_of(run)),
       maps(map_figures(run)),

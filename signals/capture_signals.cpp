@@ -5,6 +5,7 @@
 #include <set>
 
 #include "results/run_folder.hpp"
+#include "results/score_steps.hpp"
 #include "signals/custody.hpp"
 #include "signals/run_signals.hpp"
 
@@ -35,33 +36,6 @@ std::vector<Acknowledged> acknowledged_captures(const results::RunRecord& run, c
     }
   }
   return all;
-}
-
-/// The sum over all points of the best score so far, whenever it rises: time [s] and sum. Only captures that count.
-/// @param time_of  the time of a capture [s]; nullopt: leave it out
-std::vector<std::pair<double, double>> score_steps(const results::RunRecord& run, const Scenario& scenario,
-                                                   const auto& time_of) {
-  std::vector<std::pair<double, const results::CaptureRow*>> rows;
-  for (const results::CaptureRow& row : run.captures) {
-    const std::optional<double> time_s = time_of(row);
-    if (time_s && !row.voided() && row.q >= scenario.rules.min_point_score) rows.emplace_back(*time_s, &row);
-  }
-  std::ranges::stable_sort(rows, {}, [](const auto& row) { return row.first; });
-  std::map<std::size_t, double> best;
-  std::vector<std::pair<double, double>> steps;
-  double sum = 0.0;
-  for (const auto& [time_s, row] : rows) {
-    double& standing = best[row->point];
-    if (row->q <= standing) continue;
-    sum += row->q - standing;
-    standing = row->q;
-    steps.emplace_back(time_s, sum);
-  }
-  return steps;
-}
-
-std::vector<std::pair<double, double>> earned_steps(const results::RunRecord& run, const Scenario& scenario) {
-  return score_steps(run, scenario, [](const results::CaptureRow& row) { return std::optional(row.time_s); });
 }
 
 /// Points that this UAV photographs from `from_s` on, but not before, and that no other UAV ever photographs.
@@ -102,11 +76,11 @@ FolderSignals::Values FolderSignals::of_captures(const SignalUse& signal) {
     }
     return counted(exchanges);
   };
-  const auto stepped = [&](const std::vector<std::pair<double, double>>& steps) {
+  const auto stepped = [&](const std::vector<results::ScoreRow>& steps, double results::ScoreRow::*value) {
     Values values = constant(0.0);
-    for (const auto& [time_s, value] : steps) {
-      if (time_s > end_s() + 1e-6) break;
-      std::fill(values.begin() + static_cast<std::ptrdiff_t>(exchange_at(time_s)), values.end(), value);
+    for (const results::ScoreRow& step : steps) {
+      if (step.time_s > end_s() + 1e-6) break;
+      std::fill(values.begin() + static_cast<std::ptrdiff_t>(exchange_at(step.time_s)), values.end(), step.*value);
     }
     return values;
   };
@@ -118,17 +92,13 @@ FolderSignals::Values FolderSignals::of_captures(const SignalUse& signal) {
     for (std::size_t k = 0; k < exchanges_; ++k) held[k] -= released[k];
     return held;
   }
-  if (signal.is("score") || signal.is("points")) {
-    std::vector<std::pair<double, double>> steps;
-    for (const results::ScoreRow& row : run_.scores) {
-      steps.emplace_back(row.time_s, signal.is("score") ? row.score : row.points);
-    }
-    return stepped(steps);
-  }
-  if (signal.is("earned")) return stepped(earned_steps(run_, scenario_));
-  if (signal.is("delivered_score")) {
-    return stepped(score_steps(run_, scenario_, [](const results::CaptureRow& row) { return row.delivered_at_s; }));
-  }
+  const auto derived = [&](results::Counts counts) {
+    return stepped(score_steps(run_.captures, scenario_.rules.min_point_score, counts), &results::ScoreRow::score);
+  };
+  if (signal.is("score")) return stepped(run_.scores, &results::ScoreRow::score);
+  if (signal.is("points")) return stepped(run_.scores, &results::ScoreRow::points);
+  if (signal.is("earned")) return derived(results::Counts::when_taken);
+  if (signal.is("delivered_score")) return derived(results::Counts::when_delivered);
   if (signal.is("lost") || signal.is("late")) {
     std::vector<std::size_t> exchanges;
     for (const results::MessageRow& row : run_.messages) {
