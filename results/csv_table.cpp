@@ -35,10 +35,6 @@ double CsvTable::number(const std::string& column) const {
   return *value;
 }
 
-std::optional<double> CsvTable::number_if_any(const std::string& column) const {
-  return text(column).empty() ? std::nullopt : std::optional(number(column));
-}
-
 std::uint64_t CsvTable::count(const std::string& column) const {
   const std::string& cell = text(column);
   const auto value = parse_whole(cell);

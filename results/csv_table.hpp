@@ -25,10 +25,9 @@ class CsvTable {
   const std::string& text(const std::string& column) const;
   /// @throws std::runtime_error also if the cell is not a finite number.
   double number(const std::string& column) const;
-  /// nullopt: the cell is empty.
-  std::optional<double> number_if_any(const std::string& column) const;
   /// @throws std::runtime_error also if the cell is not a whole number from 0 to 2^64 - 1.
   std::uint64_t count(const std::string& column) const;
+  /// nullopt: the cell is empty.
   std::optional<std::uint64_t> count_if_any(const std::string& column) const;
 
   /// @throws std::runtime_error, with file and line of this row, and `what` is wrong with it.
