@@ -176,18 +176,23 @@ void append(TriangleMesh& all, const TriangleMesh& part) {
   for (const auto& t : part.triangles) all.triangles.push_back({t[0] + shift, t[1] + shift, t[2] + shift});
 }
 
+OrientedBox box_of_extent(const std::string& name, const Eigen::AlignedBox3d& extent_O, const Matrix3d& R_WO,
+                          double margin) {
+  OrientedBox box;
+  box.name = name;
+  box.center = R_WO * extent_O.center();
+  box.size = extent_O.sizes() + Vector3d::Constant(2.0 * margin);
+  box.R_WO = R_WO;
+  return box;
+}
+
 OrientedBox enclosing_box(const std::string& name, const TriangleMesh& mesh, std::size_t first_vertex,
                           const Matrix3d& R_WO, double margin) {
   Eigen::AlignedBox3d extent;  // in O
   for (std::size_t i = first_vertex; i < mesh.vertices.size(); ++i) {
     extent.extend(Vector3d(R_WO.transpose() * mesh.vertices[i].cast<double>()));
   }
-  OrientedBox box;
-  box.name = name;
-  box.center = R_WO * extent.center();
-  box.size = extent.sizes() + Vector3d::Constant(2.0 * margin);
-  box.R_WO = R_WO;
-  return box;
+  return box_of_extent(name, extent, R_WO, margin);
 }
 
 }  // namespace skein::sim

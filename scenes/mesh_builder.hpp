@@ -72,6 +72,9 @@ class MeshBuilder {
 /// Appends a mesh to another one, with its vertex indices shifted.
 void append(TriangleMesh& all, const TriangleMesh& part);
 
+/// The box with the given axes around an extent along them.  @param margin  added on all sides [m].
+OrientedBox box_of_extent(const std::string& name, const Eigen::AlignedBox3d& extent_O, const Matrix3d& R_WO,
+                          double margin);
 /// Smallest box with the given axes around the vertices of a mesh from `first_vertex` on. Pure.
 /// @param margin  added on all sides [m].
 OrientedBox enclosing_box(const std::string& name, const TriangleMesh& mesh, std::size_t first_vertex,

@@ -11,6 +11,7 @@
 #include "core/euler.hpp"
 #include "core/random_stream.hpp"
 #include "core/scenario/scene_families.hpp"
+#include "scenes/mesh_builder.hpp"
 
 namespace skein::sim {
 namespace {
@@ -31,12 +32,7 @@ OrientedBox box_around(const std::string& name, std::span<const OrientedBox> box
       extent.extend(Vector3d(R_WO.transpose() * (box.center + box.R_WO * sign.cwiseProduct(box.size))));
     }
   }
-  OrientedBox around;
-  around.name = name;
-  around.center = R_WO * extent.center();
-  around.size = extent.sizes() + Vector3d::Constant(2.0 * margin);
-  around.R_WO = R_WO;
-  return around;
+  return box_of_extent(name, extent, R_WO, margin);
 }
 
 /// Replaces two boxes by one around both: the pair for which this adds the least volume.
