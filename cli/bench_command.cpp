@@ -8,7 +8,6 @@
 #include <map>
 #include <set>
 #include <stdexcept>
-#include <utility>
 
 #include "cli/bench/flown.hpp"
 #include "cli/bench/planners.hpp"
@@ -224,12 +223,7 @@ class Bench {
   /// One `skein run`. @returns its result.json.
   Json fly(const RunOptions& run, const std::string& what, int repeat) {
     tell(what + ", run " + std::to_string(repeat + 1) + " of " + std::to_string(effort_.repeats));
-    Flown flown = cli::fly(run);
-    if (!flown.well) {
-      failed_ = true;
-      tell(what + " did not go well:\n" + flown.said);
-    }
-    return std::move(flown.result);
+    return cli::fly(run, what, console_.err, failed_);
   }
 
   /// Computes the production LiDAR's scans at all poses of the run that was just flown.

@@ -1,7 +1,6 @@
 #include "cli/bench/flown.hpp"
 
 #include <sstream>
-#include <utility>
 
 #include "cli/bench/report.hpp"
 #include "host/preflight.hpp"
@@ -10,13 +9,16 @@
 
 namespace skein::cli {
 
-Flown fly(const RunOptions& run) {
-  std::ostringstream out, err;
-  const int code = run_fleet(run, {out, err, false});
+Json fly(const RunOptions& run, const std::string& what, std::ostream& err, bool& failed) {
+  std::ostringstream out, said;
+  const int code = run_fleet(run, {out, said, false});
   if (code == kExitInterrupted) throw Interrupted{};
   Json result = read_json(*run.out / run_folder::kResult);
-  const bool well = code == kExitDone && ran_to_the_end(result);
-  return {std::move(result), well, err.str()};
+  if (code != kExitDone || !ran_to_the_end(result)) {
+    failed = true;
+    err << "bench: " << what << " did not go well:\n" << said.str() << std::endl;
+  }
+  return result;
 }
 
 }  // namespace skein::cli

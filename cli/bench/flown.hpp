@@ -1,6 +1,7 @@
 // Flies one flight of a benchmark as `skein run` does, but prints nothing on the console.
 #pragma once
 
+#include <iosfwd>
 #include <string>
 
 #include "cli/actions.hpp"
@@ -8,14 +9,11 @@
 
 namespace skein::cli {
 
-struct Flown {
-  Json result;       ///< its result.json
-  bool well = true;  ///< it flew to its end and lost no program
-  std::string said;  ///< its messages
-};
-
-/// @param run  must name the results folder.
+/// @param run  must name the results folder
+/// @param what  names the flight if it does not reach its end, or loses a program: then `failed` becomes true, and the
+///   flight's messages are printed on `err`
+/// @returns its result.json
 /// @throws Interrupted after Ctrl-C, std::runtime_error if it left no result.
-Flown fly(const RunOptions& run);
+Json fly(const RunOptions& run, const std::string& what, std::ostream& err, bool& failed);
 
 }  // namespace skein::cli

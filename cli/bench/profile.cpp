@@ -147,12 +147,9 @@ int bench_profile(const BenchOptions& options, const Console& console) {
       run.attainable = run.report = false;
       std::vector<Json> results;
       for (int i = 0; i < repeats; ++i) {
-        console.err << fmt::format("bench: {}, {} UAVs, run {} of {}", planner, uavs, i + 1, repeats) << std::endl;
-        Flown flown = fly(run);
-        results.push_back(std::move(flown.result));
-        if (flown.well) continue;
-        failed = true;
-        console.err << "bench: that did not go well:\n" << flown.said << std::endl;
+        const std::string what = fmt::format("{}, {} UAVs, run {} of {}", planner, uavs, i + 1, repeats);
+        console.err << "bench: " << what << std::endl;
+        results.push_back(fly(run, what, console.err, failed));
       }
       entries.push_back(profile_entry(planner, uavs, results));
       report["profile"].push_back(entries.back());

@@ -4,7 +4,6 @@
 
 #include <optional>
 #include <string>
-#include <utility>
 
 #include "cli/bench/flown.hpp"
 #include "cli/bench/report.hpp"
@@ -108,12 +107,7 @@ class PythonBench {
     run.out = scratch_.path() / "run";
     run.force = true;
     run.attainable = run.report = false;
-    Flown flown = cli::fly(run);
-    if (!flown.well) {
-      failed_ = true;
-      console_.err << "bench: " << planner << " did not go well:\n" << flown.said << std::endl;
-    }
-    return std::move(flown.result);
+    return cli::fly(run, planner, console_.err, failed_);
   }
 
   /// @returns the lists of stepping.py, or an empty object when it failed.

@@ -1,7 +1,6 @@
 #include "cli/bench/sensing.hpp"
 
 #include <fstream>
-#include <utility>
 
 #include "cli/bench/flown.hpp"
 #include "cli/bench/report.hpp"
@@ -58,7 +57,8 @@ class SensingBench {
   }
 
   Json fly(const std::string& scenario, const std::string& vendor, const std::string& planner) {
-    console_.err << "bench: " << planner << " over " << vendor << std::endl;
+    const std::string what = planner + " over " + vendor;
+    console_.err << "bench: " << what << std::endl;
     RunOptions run;
     run.scenario = scenario;
     run.planner = planner;
@@ -68,12 +68,7 @@ class SensingBench {
     run.out = scratch_.path() / "run";
     run.force = true;
     run.attainable = run.report = false;
-    Flown flown = cli::fly(run);
-    if (!flown.well) {
-      failed_ = true;
-      console_.err << "bench: " << planner << " over " << vendor << " did not go well:\n" << flown.said << std::endl;
-    }
-    return std::move(flown.result);
+    return cli::fly(run, what, console_.err, failed_);
   }
 
   const BenchOptions& options_;
