@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "core/text/utf8.hpp"
+#include "report/style.hpp"
+#include "report/web_bundle.hpp"
 
 namespace skein::report {
 namespace {
@@ -55,6 +57,17 @@ std::string shortened(const std::string& text, std::size_t most) {
     if (!continues_character(text[i]) && ++characters == most) end = i;
   }
   return characters <= most ? text : text.substr(0, end) + "…";
+}
+
+std::string page_begin(const std::string& title, const std::optional<std::string>& script, const std::string& classes,
+                       std::string_view css) {
+  return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n"
+         "<meta http-equiv=\"Content-Security-Policy\" content=\"" +
+         escaped(policy_of_file(script)) +
+         "\"/>\n"
+         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n<title>Skein: " +
+         escaped(title) + "</title>\n<style>\n" + std::string(base_style()) + std::string(drawing_style()) +
+         std::string(run_style()) + std::string(css) + "</style>\n</head>\n<body class=\"" + classes + "\">\n<main>\n";
 }
 
 std::string figure(const std::string& caption, const std::string& small, const std::string& svg) {

@@ -23,6 +23,13 @@ std::string coordinate(double value);
 /// Shortens text to at most `most` characters of UTF-8. If it cuts something off, the last character is an ellipsis.
 std::string shortened(const std::string& text, std::size_t most);
 
+/// The beginning of a page that is a file, up to <main>, with the styles of drawings and runs. Escapes the title.
+/// @param script  the only script that the page may run (policy_of_file())
+/// @param classes  CSS classes of the body
+/// @param css  more styles
+std::string page_begin(const std::string& title, const std::optional<std::string>& script, const std::string& classes,
+                       std::string_view css = {});
+
 /// A <figure> with a caption and, if not empty, a smaller line below the caption. Escapes these two, but not `svg`.
 std::string figure(const std::string& caption, const std::string& small, const std::string& svg);
 

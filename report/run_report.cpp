@@ -4,18 +4,11 @@
 #include "report/html.hpp"
 #include "report/page_data.hpp"
 #include "report/page_parts.hpp"
-#include "report/style.hpp"
 #include "report/web_bundle.hpp"
 #include "results/run_folder.hpp"
 
 namespace skein::report {
 namespace {
-
-/// Content-Security-Policy of the page: it loads nothing, and runs no script except the bundle.
-std::string policy(const std::optional<std::string>& bundle) {
-  return "default-src 'none'; style-src 'unsafe-inline'; img-src data: blob:; base-uri 'none'; form-action 'none'" +
-         (bundle ? "; script-src '" + script_hash(*bundle) + "'" : std::string());
-}
 
 std::string footer(const results::RunRecord& run, const std::optional<std::string>& bundle) {
   std::string html = "<footer class=\"soft\">";
@@ -35,14 +28,7 @@ std::string footer(const results::RunRecord& run, const std::optional<std::strin
 std::string run_page(results::RunRecord data, const std::optional<std::string>& bundle) {
   const RunPage page(std::move(data));
   const std::string title = text_in(page.run.result, "scenario") + " by " + planners_of(page.run.result);
-  std::string html =
-      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n"
-      "<meta http-equiv=\"Content-Security-Policy\" content=\"" +
-      escaped(policy(bundle)) +
-      "\"/>\n"
-      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n<title>Skein: " +
-      escaped(title) + "</title>\n<style>\n" + std::string(base_style()) + std::string(drawing_style()) +
-      std::string(run_style()) + "</style>\n</head>\n<body class=\"run\">\n<main>\n";
+  std::string html = page_begin(title, bundle, "run");
   html += head_section(page) + "<div class=\"pair\">" + losses_section(page) + timeline_section(page) + "</div>\n" +
           views_section(page) + places_section(page) + maps_section(page) + boxes_section(page) + fleet_section(page) +
           radio_section(page) + machine_section(page) + footer(page.run, bundle) + "</main>\n";

@@ -57,6 +57,11 @@ std::string script_hash(std::string_view script) {
   return "sha256-" + base64(Sha256().add(bytes).digest());
 }
 
+std::string policy_of_file(const std::optional<std::string>& script) {
+  return "default-src 'none'; style-src 'unsafe-inline'; img-src data: blob:; base-uri 'none'; form-action 'none'" +
+         (script ? "; script-src '" + script_hash(*script) + "'" : std::string());
+}
+
 std::string script_json(std::string json) {
   std::string out;
   out.reserve(json.size());

@@ -23,6 +23,9 @@ std::optional<std::string> web_bundle(std::string_view name = kReportScript);
 /// The hash by which a page's Content-Security-Policy allows this script and no other: "sha256-...".
 std::string script_hash(std::string_view script);
 
+/// Content-Security-Policy of a page that is a file: it loads nothing, and runs no script except this one.
+std::string policy_of_file(const std::optional<std::string>& script);
+
 /// Escapes JSON for a <script type="application/json">, so that no text in it ends the element or begins another.
 std::string script_json(std::string json);
 

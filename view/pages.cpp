@@ -51,12 +51,8 @@ std::string kept_page(const std::string& title, const Feed& flight, std::size_t 
   const auto script = report::web_bundle(report::kLiveScript);
   if (!script) find_script();
   if (!script) throw InputError("the page's script live.js is damaged: it cannot stand in a page");
-  const std::string policy =
-      "default-src 'none'; style-src 'unsafe-inline'; img-src data: blob:; base-uri 'none'; "
-      "form-action 'none'; script-src '" +
-      report::script_hash(*script) + "'";
-  const std::string head = "<meta http-equiv=\"Content-Security-Policy\" content=\"" + report::escaped(policy) +
-                           "\"/>\n" + run_style_element();
+  const std::string head = "<meta http-equiv=\"Content-Security-Policy\" content=\"" +
+                           report::escaped(report::policy_of_file(script)) + "\"/>\n" + run_style_element();
   constexpr std::size_t kElements = 1000;
   const std::size_t own = head.size() + script->size() + kElements;
   const std::size_t room = most_bytes > own ? most_bytes - own : std::min<std::size_t>(most_bytes, 1);

@@ -8,7 +8,6 @@
 #include "core/faults/fault_writer.hpp"
 #include "report/html.hpp"
 #include "report/page_parts.hpp"
-#include "report/style.hpp"
 #include "report/time_chart.hpp"
 #include "results/run_record.hpp"
 #include "signals/judge.hpp"
@@ -124,14 +123,7 @@ std::string finds_table(const HuntSummary& summary) {
 }  // namespace
 
 std::string hunt_page(const HuntSummary& summary) {
-  std::string html =
-      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n"
-      "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src &#39;none&#39;; style-src "
-      "&#39;unsafe-inline&#39;; base-uri &#39;none&#39;; form-action &#39;none&#39;\"/>\n"
-      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n<title>Skein: "
-      "hunt</title>\n<style>\n" +
-      std::string(report::base_style()) + std::string(report::drawing_style()) + std::string(report::run_style()) +
-      "</style>\n</head>\n<body class=\"run\">\n<main>\n";
+  std::string html = report::page_begin("hunt", std::nullopt, "run");
   html += head(summary) + finds_table(summary) + properties_section(summary) + coverage_section(summary);
   for (const Find& find : summary.finds) html += find_section(summary, find);
   return html + "</main>\n</body>\n</html>\n";

@@ -9,7 +9,6 @@
 #include "cli/study/spec.hpp"
 #include "core/text/suggestion.hpp"
 #include "report/html.hpp"
-#include "report/style.hpp"
 
 namespace skein::cli {
 namespace {
@@ -208,14 +207,7 @@ StudyReport::StudyReport(const Study& of, StudyPictures drawn)
 
 std::string study_page(const StudyReport& report) {
   const Study& study = report.study;
-  std::string html =
-      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n"
-      "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src &#39;none&#39;; style-src "
-      "&#39;unsafe-inline&#39;; base-uri &#39;none&#39;; form-action &#39;none&#39;\"/>\n"
-      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n<title>Skein: " +
-      escaped(joined(study.planners)) + "</title>\n<style>\n" + std::string(base_style()) +
-      std::string(drawing_style()) + std::string(run_style()) + kStudyStyle +
-      "</style>\n</head>\n<body class=\"run study\">\n<main>\n";
+  std::string html = page_begin(joined(study.planners), std::nullopt, "run study", kStudyStyle);
   html += study_head(report);
   if (study.contest) html += ranking_section(report);
   html += overview_section(report) + spread_section(report) + pairs_section(report) + delivery_section(report);
