@@ -92,14 +92,7 @@ void add_fleet(CLI::App& app, FleetOptions& fleet) {
       ->add_option("--agent-timeout", run.agent_timeout_s,
                    "Wall time that a program may take for one step; then Skein ends the fleet [s] (default 60)")
       ->check(CLI::Validator(check_timeout, ""));
-  command->add_option("--agent", run.agent,
-                      "Agent program with planners of your own (default: SKEIN_AGENT, else uav_agent)");
-  command
-      ->add_option("--log", run.log,
-                   "How much a program (UAV, gcs, sim_server, ...) logs: UAV=trace, debug, info, warn, error or off")
-      ->allow_extra_args(false);
-  command->add_flag("--no-check{false}", run.check, "Do not ask the programs beforehand whether they can fly this");
-  command->add_flag("--native", run.native, "Let libm use this CPU's fastest code (the digest is then this CPU's own)");
+  add_programs(*command, run);
   command->add_option("--session", fleet.session, "Descriptor of the open socket to the program that steps the fleet")
       ->required();
   command->footer("See docs/how-to-python.md.");

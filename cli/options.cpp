@@ -46,6 +46,17 @@ void add_record(CLI::App& command, std::string& record) {
       ->default_str(record);
 }
 
+void add_programs(CLI::App& command, RunOptions& run) {
+  command.add_option("--agent", run.agent,
+                     "Agent program with planners of your own (default: SKEIN_AGENT, else uav_agent)");
+  command
+      .add_option("--log", run.log,
+                  "How much a program (UAV, gcs, sim_server, ...) logs: UAV=trace, debug, info, warn, error or off")
+      ->allow_extra_args(false);
+  command.add_flag("--no-check{false}", run.check, "Do not ask the programs beforehand whether they can fly this");
+  command.add_flag("--native", run.native, "Let libm use this CPU's fastest code (the digest is then this CPU's own)");
+}
+
 void add_mission(CLI::App& command, RunOptions& run, const std::string& faults_but) {
   const CLI::Validator seed(check_seed, ""), seconds(check_seconds, "");
   command.add_option("--scene-seed", run.scene_seed, "Number of the variant of a procedural scenario")->check(seed);
@@ -133,8 +144,7 @@ void check_one_process(const RunOptions& run) {
 void add_run(CLI::App& app, RunOptions& run) {
   CLI::App* command = app.add_subcommand("run", "Fly a fleet through a scenario and write its results");
   add_flight_options(command, run);
-  command->add_option("--agent", run.agent,
-                      "Agent program with planners of your own (default: SKEIN_AGENT, else uav_agent)");
+  add_programs(*command, run);
   command
       ->add_flag("--one-process", run.one_process,
                  "Run all programs in one process, without DDS: the same result in less time")
@@ -170,13 +180,7 @@ void add_run(CLI::App& app, RunOptions& run) {
       ->add_option("--break-from", run.break_from,
                    "Results folder of the same flight, in which Skein looks up the time instead of flying beforehand")
       ->needs("--break-on");
-  command
-      ->add_option("--log", run.log,
-                   "How much a program (UAV, gcs, sim_server, ...) logs: UAV=trace, debug, info, warn, error or off")
-      ->allow_extra_args(false);
-  command->add_flag("--no-check{false}", run.check, "Do not ask the programs beforehand whether they can fly this");
   command->add_flag("--cores", run.cores, "Keep the core file of a crashed program in the results folder");
-  command->add_flag("--native", run.native, "Let libm use this CPU's fastest code (the digest is then this CPU's own)");
   command->add_option("--domain", run.domain, "First DDS domain of the fleet (default: the first free block)");
   command
       ->add_option(

@@ -12,6 +12,8 @@ namespace skein::cli {
 /// Adds the options of run, compose, keys and fleet that change a scenario's mission: scene seed, UAVs, assets,
 /// duration, rules, conditions, faults.  @param faults_but  for the help: the faults that a fault file may not have
 void add_mission(CLI::App& command, RunOptions& run, const std::string& faults_but = "");
+/// Adds the options of run and fleet about the programs: which agent flies, what they log, checks, and their libm.
+void add_programs(CLI::App& command, RunOptions& run);
 /// Adds --record, of run, compose and the commands that fly many runs.
 void add_record(CLI::App& command, std::string& record);
 /// Adds the options for flying a study or a hunt beyond one process.
