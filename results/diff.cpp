@@ -15,8 +15,7 @@ namespace {
 /// Reads digests.csv row by row.
 class DigestFile {
  public:
-  explicit DigestFile(const std::filesystem::path& run) : file_(run / run_folder::kDigests), in_(open_text(file_)) {
-    if (!in_) throw InputError(run.string() + ": no digests.csv there; give a folder that `skein run` wrote");
+  explicit DigestFile(const std::filesystem::path& run) : file_(run / run_folder::kDigests), in_(opened(run)) {
     std::string line;
     next_line(in_, line, file_);
     columns_ = split(line);
@@ -48,6 +47,15 @@ class DigestFile {
   }
 
  private:
+  static std::ifstream opened(const std::filesystem::path& run) {
+    if (!run_folder::has_file(run, run_folder::kDigests)) {
+      throw InputError(run.string() + ": no digests.csv there; give a folder that `skein run` wrote");
+    }
+    std::ifstream in = open_text(run / run_folder::kDigests);
+    if (!in) throw InputError((run / run_folder::kDigests).string() + ": cannot be read");
+    return in;
+  }
+
   std::filesystem::path file_;
   std::ifstream in_;
   std::vector<std::string> columns_;

@@ -18,7 +18,7 @@ struct RunDifference {
 /// Compares the `digests.csv` of two run folders line by line.
 /// @returns the first difference, or nullopt when the runs are the same.
 /// A last line without its end, as an aborted run leaves it, counts as the end of the file.
-/// @throws InputError when a folder holds no digests.csv, or the file is not valid.
+/// @throws InputError when a folder holds no digests.csv, or the file cannot be read or is not valid.
 std::optional<RunDifference> first_difference(const std::filesystem::path& run_a, const std::filesystem::path& run_b);
 
 }  // namespace skein::results

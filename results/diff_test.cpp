@@ -82,5 +82,22 @@ TEST_F(RunDiff, WhatIsNoRunIsRefused) {
   EXPECT_THROW(difference_to(std::string(kHeader) + "0,aa,1,2\n1,bb,4,5,6\n2,cc,7,8,9\n"), InputError);
 }
 
+TEST_F(RunDiff, TheCauseForWhichARunCannotBeReadIsSaid) {
+  const auto complaint = [&](const std::filesystem::path& b) -> std::string {
+    try {
+      first_difference(a_, b);
+      return "";
+    } catch (const InputError& error) {
+      return error.what();
+    }
+  };
+  const std::filesystem::path circle = scratch_.path() / "circle";
+  std::filesystem::create_symlink(circle, circle);
+  EXPECT_EQ(complaint(circle),
+            (circle / "digests.csv").string() + ": cannot be read (Too many levels of symbolic links)");
+  EXPECT_EQ(complaint(scratch_.path() / "none"), (scratch_.path() / "none").string() + ": there is no such folder");
+  EXPECT_NE(complaint(b_).find("no digests.csv there"), std::string::npos) << complaint(b_);
+}
+
 }  // namespace
 }  // namespace skein::results

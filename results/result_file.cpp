@@ -1,11 +1,16 @@
 #include "results/result_file.hpp"
 
+#include <cstdint>
+
+#include "core/files/file_bytes.hpp"
 #include "core/sha256.hpp"
 #include "core/types.hpp"
 #include "results/run_folder.hpp"
 
 namespace skein::results {
 namespace {
+
+constexpr std::uintmax_t kMostBytes = 256 << 20;
 
 std::string checksum_of(const Json& result) { return Sha256().add(json_text(result)).hex(); }
 
@@ -21,11 +26,11 @@ std::string result_text(Json result) {
 
 Json read_result_file(const std::filesystem::path& run) {
   const std::filesystem::path file = run / run_folder::kResult;
-  std::error_code error;
-  if (!std::filesystem::exists(file, error)) {
+  if (!run_folder::has_file(run, run_folder::kResult)) {
     throw InputError(run.string() + ": there is no " + run_folder::kResult + " in it");
   }
-  Json result = read_json(file);
+  // Not read_json(), for which a file that cannot be read is the same as a damaged one.
+  Json result = parse_json(read_file_bytes(file, kMostBytes));
   if (!result.is_object()) throw InputError(file.string() + ": is damaged: it is no JSON object");
   const Json told = value_or(result, kResultChecksum, nullptr);
   if (told.is_null()) return result;

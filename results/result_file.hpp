@@ -16,7 +16,7 @@ inline constexpr const char* kResultChecksum = "checksum";
 std::string result_text(Json result);
 
 /// Reads the result in a run's folder. Accepts a file without a checksum: earlier versions wrote none.
-/// @throws InputError if there is no file, it is not a JSON object, or its checksum is wrong.
+/// @throws InputError if there is no file, it cannot be read, it is not a JSON object, or its checksum is wrong.
 Json read_result_file(const std::filesystem::path& run);
 
 }  // namespace skein::results

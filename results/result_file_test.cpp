@@ -91,5 +91,45 @@ TEST_F(ResultFile, WhatIsMissingOrNoObjectIsSaid) {
   EXPECT_NE(complaint().find("damaged"), std::string::npos);
 }
 
+/// The cause lies in the path to the file: a circle of links, or a folder that is none. It is not that a run left no
+/// result. Permissions, the usual cause, do not bind root, who may run this test.
+TEST_F(ResultFile, TheCauseForWhichItCannotBeReadIsSaid) {
+  const auto complaint = [](const std::filesystem::path& run) {
+    try {
+      read_result_file(run);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  const std::filesystem::path circle = run_ / "circle", file = run_ / "file";
+  std::filesystem::create_symlink(circle, circle);
+  std::ofstream(file) << "x";
+  EXPECT_EQ(complaint(circle),
+            (circle / run_folder::kResult).string() + ": cannot be read (Too many levels of symbolic links)");
+  EXPECT_EQ(complaint(file), file.string() + ": is no folder");
+  EXPECT_EQ(complaint(run_ / "none"), (run_ / "none").string() + ": there is no such folder");
+  EXPECT_NE(complaint(run_ / std::string(300, 'x')).find("cannot be read (File name too long)"), std::string::npos);
+  std::filesystem::create_symlink(circle, run_ / run_folder::kResult);
+  EXPECT_EQ(complaint(run_),
+            (run_ / run_folder::kResult).string() + ": cannot be read (Too many levels of symbolic links)");
+  std::filesystem::remove(run_ / run_folder::kResult);
+  std::filesystem::create_directory(run_ / run_folder::kResult);
+  EXPECT_EQ(complaint(run_), (run_ / run_folder::kResult).string() + ": not a regular file");
+}
+
+TEST_F(ResultFile, AFolderThatMayNotBeSearchedIsNamed) {
+  if (::geteuid() == 0) GTEST_SKIP() << "root may search every folder";
+  write(result_text(some_result()));
+  std::filesystem::permissions(run_, std::filesystem::perms::none);
+  try {
+    read_result_file(run_);
+    ADD_FAILURE() << "read";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("cannot be read (Permission denied)"), std::string::npos) << error.what();
+  }
+  std::filesystem::permissions(run_, std::filesystem::perms::owner_all);
+}
+
 }  // namespace
 }  // namespace skein::results

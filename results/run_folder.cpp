@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <string_view>
+#include <system_error>
+
+#include "core/types.hpp"
 
 namespace skein {
 namespace programs {
@@ -67,6 +70,20 @@ bool is_of_a_run(const std::string& name) {
       (whole.starts_with("map-") && whole.ends_with(".bt")) || (whole.starts_with("maps-") && whole.ends_with(".mcap"));
   const bool is_of_a_hand = whole.starts_with("hand-") && whole.ends_with(".csv");
   return of_a_program || is_map || is_of_a_hand || std::find(kTables.begin(), kTables.end(), whole) != kTables.end();
+}
+
+bool has_file(const std::filesystem::path& run, const std::string& name) {
+  namespace fs = std::filesystem;
+  const auto exists = [](const fs::path& path) {
+    std::error_code error;
+    const fs::file_type type = fs::status(path, error).type();
+    if (type == fs::file_type::none) throw InputError(path.string() + ": cannot be read (" + error.message() + ")");
+    return type != fs::file_type::not_found;
+  };
+  if (exists(run / name)) return true;
+  if (!exists(run)) throw InputError(run.string() + ": there is no such folder");
+  if (!fs::is_directory(run)) throw InputError(run.string() + ": is no folder");
+  return false;
 }
 
 }  // namespace run_folder

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <filesystem>
 #include <string>
 
 namespace skein {
@@ -82,6 +83,10 @@ std::string recording_part(const std::string& program, int life);
 
 /// Whether a run writes a file of this name, or a study its page. True also for the temporary name of such a file.
 bool is_of_a_run(const std::string& name);
+
+/// Whether a run's folder has a file of this name. @param run  a folder that the user named.
+/// @throws InputError with the cause if this cannot be told: there is no such folder, or it may not be searched.
+bool has_file(const std::filesystem::path& run, const std::string& name);
 
 }  // namespace run_folder
 }  // namespace skein
