@@ -283,7 +283,7 @@ void add_bench(CLI::App& app, BenchOptions& bench) {
       ->add_option("--duration", bench.duration_s,
                    "Mission time of the speed runs, or of --tracking, --view or --python [s], instead of the usual one")
       ->check(CLI::Validator(check_seconds, ""));
-  command->add_option("--json", bench.json, "File for all figures");
+  command->add_option("--json", bench.json, "File for all figures")->check(CLI::Validator(check_file_to_write, ""));
   CLI::Option* planners =
       command->add_flag("--planners", bench.planners,
                         "Measure the scores of all planners in a fixed set of scenes, and compare them with a table");

@@ -4,8 +4,8 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <fstream>
 #include <set>
+#include <system_error>
 
 #include "cli/compose/agents_folder.hpp"
 #include "cli/compose/compose_file.hpp"
@@ -13,10 +13,12 @@
 #include "cli/compose/engine.hpp"
 #include "cli/compose/followers.hpp"
 #include "cli/compose/images.hpp"
+#include "cli/option_checks.hpp"
 #include "cli/place/placement.hpp"
 #include "cli/run_results.hpp"
 #include "cli/secure/security.hpp"
 #include "host/preflight.hpp"
+#include "process/files/atomic_file.hpp"
 #include "process/files/private_file.hpp"
 #include "process/host/environment.hpp"
 #include "process/program.hpp"
@@ -221,7 +223,7 @@ int fly(const ComposeOptions& options, const FleetPlan& plan, ComposeLayout layo
   layout.user = folders.user();
   layout.run = std::to_string(run_id);
   layout.status_lines = true;
-  std::ofstream(out.path() / kComposeFile) << compose_file(plan, layout);
+  write_file_atomically(out.path() / kComposeFile, compose_file(plan, layout));
 
   FleetRun run(plan, console.err, console.terminal);
   {
@@ -247,9 +249,10 @@ int fly(const ComposeOptions& options, const FleetPlan& plan, ComposeLayout layo
   return exit_code_of(run, *result);
 }
 
-/// Writes the file for docker-compose. Without `force`, it replaces a file only if that is empty, or `skein compose`
-/// made it. What is no regular file, like /dev/stdout, can be written to. @throws InputError
-void write_compose_file(const fs::path& path, const std::string& text, bool force) {
+/// Writes the file for docker-compose, or leaves the former one as it is. Without `force`, it replaces a file only if
+/// that is empty, or `skein compose` made it. @throws InputError
+void write_compose_file(const fs::path& path, const std::string& text, bool force) try {
+  if (const std::string wrong = check_file_to_write(path); !wrong.empty()) throw InputError("--file: " + wrong);
   std::error_code error;
   const bool holds_something = fs::is_regular_file(path, error) && !fs::is_empty(path, error);
   if (!force && holds_something && !is_compose_file(path)) {
@@ -257,8 +260,11 @@ void write_compose_file(const fs::path& path, const std::string& text, bool forc
                      ": is there already, and was not made by `skein compose`; overwrite it with --force, or choose "
                      "another file");
   }
-  std::ofstream file(path, std::ios::binary);
-  if (!(file << text << std::flush)) throw InputError("--file " + path.string() + ": cannot be written");
+  const fs::path behind_links = fs::weakly_canonical(path, error);  // a link stays, and leads to the new file
+  if (error) throw std::system_error(error);
+  write_file_atomically(behind_links, text);
+} catch (const std::system_error& error) {
+  throw InputError("--file " + path.string() + ": cannot be written: " + error.code().message());
 }
 
 /// The folder beside a docker-compose file with the key of the fleet's page, and with the file that opens the page.
@@ -345,7 +351,12 @@ int make_keys(const KeysOptions& options, const Console& console) {
     throw InputError("--out " + options.out.string() + ": " +
                      (error ? error.message() : "is there already; keys are never overwritten"));
   }
-  write_keys(plan, run.domain.value_or(kComposeBaseDomain), options.out, [](const fs::path&) {});
+  try {
+    write_keys(plan, run.domain.value_or(kComposeBaseDomain), options.out, [](const fs::path&) {});
+  } catch (...) {  // a full disk, say: a part of the keys must not pass for all of them
+    fs::remove_all(options.out, error);
+    throw;
+  }
   console.out << "keys of " << domain_count(plan) + 1 << " programs in " << options.out.string()
               << "; whoever has a folder is that program" << std::endl;
   return kExitDone;

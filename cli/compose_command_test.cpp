@@ -4,11 +4,14 @@
 
 #include <gtest/gtest.h>
 #include <spdlog/fmt/fmt.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 
+#include <csignal>
 #include <cstdlib>
 #include <set>
 #include <sstream>
+#include <system_error>
 
 #include "host/preflight.hpp"
 #include "host/testing/fake_programs.hpp"
@@ -50,6 +53,27 @@ class ComposeCommand : public testing::Test {
 
   const ScratchDir scratch_;
   std::ostringstream out_, err_;
+};
+
+/// While it lives, no file of this process or its children can grow beyond 2500 bytes, as on a full disk: the file for
+/// docker-compose is longer, and so are some files of keys, but not the first of them.
+class FullDisk {
+ public:
+  FullDisk() : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
+    ::getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit limit{2500, before_.rlim_max};
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  ~FullDisk() {
+    ::setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, handler_);
+  }
+  FullDisk(const FullDisk&) = delete;
+  FullDisk& operator=(const FullDisk&) = delete;
+
+ private:
+  rlimit before_{};
+  const sighandler_t handler_;
 };
 
 TEST_F(ComposeCommand, TheShippedFileIsWhatItWrites) {
@@ -98,6 +122,45 @@ TEST_F(ComposeCommand, OnlyAFileThatSkeinMadeIsReplacedWithoutForce) {
   write_text(file, first + "# and more\n");
   EXPECT_EQ(compose_fleet(options, {out_, err_, false}), kExitDone) << "the command can be repeated";
   EXPECT_EQ(read_text(file), first);
+}
+
+TEST_F(ComposeCommand, AFullDiskLeavesTheFormerFile) {
+  auto options = std::get<ComposeOptions>(parse_command_line({"compose", "towers"}));
+  const fs::path file = scratch_.path() / "compose.yaml", link = scratch_.path() / "link.yaml";
+  fs::create_symlink(file, link);
+  for (const fs::path& name : {file, link}) {
+    options.file = name;
+    EXPECT_EQ(compose_fleet(options, {out_, err_, false}), kExitDone);
+    const std::string before = read_text(file);
+    const FullDisk full;
+    try {
+      compose_fleet(options, {out_, err_, false});
+      ADD_FAILURE() << "written";
+    } catch (const InputError& error) {
+      EXPECT_EQ(error.what(), "--file " + name.string() + ": cannot be written: File too large");
+    }
+    EXPECT_EQ(read_text(file), before);
+  }
+  EXPECT_TRUE(fs::is_symlink(link)) << "it leads to the file that was written";
+  EXPECT_EQ(names_in(scratch_.path()), (std::set<std::string>{"compose.yaml", "link.yaml"}));
+}
+
+TEST_F(ComposeCommand, OnlyARegularFileIsWrittenTo) {
+  auto options = std::get<ComposeOptions>(parse_command_line({"compose", "towers"}));
+  const fs::path pipe = scratch_.path() / "pipe", circle = scratch_.path() / "circle";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  fs::create_symlink(circle, circle);
+  options.run.force = true;
+  for (const fs::path& wrong : {pipe, scratch_.path(), fs::path("/dev/null"), circle}) {
+    options.file = wrong;
+    try {
+      compose_fleet(options, {out_, err_, false});
+      ADD_FAILURE() << wrong;
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find(wrong.string()), std::string::npos) << error.what();
+    }
+  }
+  EXPECT_EQ(names_in(scratch_.path()), (std::set<std::string>{"circle", "pipe"}));
 }
 
 TEST_F(ComposeCommand, ThePagesKeyLiesBesideTheFileForItsOwnerAlone) {
@@ -160,6 +223,21 @@ TEST_F(ComposeCommand, KeysAreNeverOverwritten) {
   write_text(scratch_.path() / "file", "");
   EXPECT_THROW(keys({"towers", "--out", scratch_.path() / "file" / "keys"}), InputError);
   EXPECT_THROW(parse_command_line({"keys", "towers"}), InputError) << "where?";
+}
+
+TEST_F(ComposeCommand, AFullDiskLeavesNoPartOfTheKeys) {
+  const fs::path folder = scratch_.path() / "keys";
+  {
+    const FullDisk full;
+    try {
+      keys({"towers", "--out", folder});
+      ADD_FAILURE() << "written";
+    } catch (const std::system_error& error) {
+      EXPECT_NE(std::string(error.what()).find(folder.string()), std::string::npos) << error.what();
+    }
+  }
+  EXPECT_FALSE(fs::exists(folder));
+  EXPECT_EQ(keys({"towers", "--out", folder}), kExitDone) << "the command can be repeated";
 }
 
 TEST_F(ComposeCommand, WhoIsDebuggedStandsAndNobodyIsTakenForDead) {

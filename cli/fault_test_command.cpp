@@ -222,8 +222,9 @@ void check_places(const TestOptions& options) {
   std::error_code error;
   fs::create_directories(options.out, error);
   if (error) throw InputError("--out " + options.out.string() + ": " + error.message());
-  if (options.junit && fs::exists(*options.junit, error) && !fs::is_regular_file(*options.junit, error)) {
-    throw InputError("--junit " + options.junit->string() + ": this is no file");
+  if (!options.junit) return;
+  if (const std::string wrong = check_file_to_write(*options.junit); !wrong.empty()) {
+    throw InputError("--junit: " + wrong);
   }
 }
 

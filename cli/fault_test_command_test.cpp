@@ -226,9 +226,9 @@ TEST_F(FaultTestCommand, ABadReportOrSeedIsToldBeforeAnythingFlies) {
   options.junit = programs_.dir() / "none" / "report.xml";
   refused(options, "--junit: ");
   options.junit = programs_.dir();
-  refused(options, "this is no file");
+  refused(options, "is not a regular file");
   options.junit = "/dev/null";
-  refused(options, "this is no file");
+  refused(options, "is not a regular file");
   options.junit.reset();
   options.seeds = "3-x";
   refused(options, "is no seed");

@@ -72,7 +72,8 @@ void add_hunt(CLI::App& app, HuntOptions& hunt) {
   command->add_option("--out", hunt.out, "Folder of the hunt and its finds (default runs/hunt-<scenario>-<planner>)");
   command->add_flag("--force", hunt.force,
                     "Start a new hunt in the folder of another one, whose finds move to earlier/");
-  command->add_option("--junit", hunt.junit, "Report for CI servers (JUnit XML)");
+  command->add_option("--junit", hunt.junit, "Report for CI servers (JUnit XML)")
+      ->check(CLI::Validator(check_file_to_write, ""));
   command->footer(
       "Examples:\n"
       "  skein hunt towers --planner patrol --runs 500\n"

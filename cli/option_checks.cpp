@@ -24,6 +24,10 @@ std::string check_decimal(const std::string& text) {
   return "'" + text + "' must be a whole number in decimal digits, without a zero before it";
 }
 
+[[noreturn]] void refuse_empty(const std::string& option) {
+  throw InputError(option + ": must not be empty; leave it out, or say what is meant");
+}
+
 /// The words that follow an option on the command line: the one behind its '=', or those up to the next option.
 std::vector<std::string> values_behind(const CLI::Option& option, const std::vector<std::string>& arguments) {
   const std::string name = option.get_name();
@@ -69,6 +73,13 @@ std::string check_maps_period(const std::string& text) {
   return good ? "" : "'" + text + "' must be a number of seconds from 1 to 3600";
 }
 
+std::string check_file_to_write(const std::string& text) {
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(text, error);
+  if (!std::filesystem::exists(status) || std::filesystem::is_regular_file(status)) return {};
+  return "'" + text + "' is not a regular file; name a new file, or one that can be replaced";
+}
+
 void refuse_leading_zeros(CLI::App& app) {
   for (CLI::Option* option : app.get_options([](const CLI::Option*) { return true; })) {
     const std::string type = option->get_type_name();
@@ -103,11 +114,21 @@ void check_paths(const std::vector<std::string>& arguments) {
 
 void refuse_empty_values(const CLI::App& app) {
   for (const CLI::Option* option : app.get_options()) {
-    if (std::ranges::any_of(option->results(), &std::string::empty)) {
-      throw InputError(option->get_name() + ": must not be empty; leave it out, or say what is meant");
-    }
+    if (std::ranges::any_of(option->results(), &std::string::empty)) refuse_empty(option->get_name());
   }
   for (const CLI::App* command : app.get_subcommands()) refuse_empty_values(*command);
+}
+
+void refuse_empty_assignments(const CLI::App& app, const std::vector<std::string>& arguments) {
+  if (arguments.empty()) return;
+  const auto commands = app.get_subcommands([&](const CLI::App* one) { return one->get_name() == arguments[0]; });
+  if (commands.empty()) return;
+  for (const std::string& argument : arguments) {
+    if (argument == "--") return;
+    if (!argument.starts_with("--") || !argument.ends_with("=")) continue;
+    const std::string name = argument.substr(0, argument.size() - 1);
+    if (commands[0]->get_option_no_throw(name) != nullptr) refuse_empty(name);
+  }
 }
 
 }  // namespace skein::cli

@@ -21,6 +21,9 @@ std::string check_seconds(const std::string& text);
 std::string check_timeout(const std::string& text);
 /// A decimal number of seconds within [1, 3600].
 std::string check_maps_period(const std::string& text);
+/// A file that a command can write: a new one, or a regular file. A pipe without a reader would keep the command waiting
+/// without end, and a device would be replaced by a file.
+std::string check_file_to_write(const std::string& text);
 
 /// Lets all options of a command, and of its subcommands, that take whole numbers refuse a leading zero and "0x10".
 /// CLI11 would take them for octal and hexadecimal numbers: 010 for 8.
@@ -38,5 +41,9 @@ void check_paths(const std::vector<std::string>& arguments);
 /// Refuses options with an empty value, which comes from an unset variable of a script and is never meant.
 /// @throws InputError that names the first such option of a command.
 void refuse_empty_values(const CLI::App& app);
+
+/// The same for `--option=`, before a command's arguments are parsed: CLI11 would read `--keep-maps=` as `--keep-maps`,
+/// and would take the next argument for the value of `--out=`.
+void refuse_empty_assignments(const CLI::App& app, const std::vector<std::string>& arguments);
 
 }  // namespace skein::cli

@@ -2,6 +2,9 @@
 #include "cli/option_checks.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <fstream>
 
 #include "cli/options.hpp"
 #include "core/types.hpp"
@@ -56,6 +59,35 @@ TEST(OptionChecks, ListsHaveNoEmptyItems) {
        {Arguments{"compare", "--uavs", "1,2", "--scenarios", "towers"}, Arguments{"bench", "--sizes", "1,2", "5"},
         Arguments{"oracle", "--clearance=0.5,1", "towers"}}) {
     EXPECT_EQ(said_of(arguments), "accepted");
+  }
+}
+
+TEST(OptionChecks, NoOptionHasAnEmptyValue) {
+  for (const Arguments& arguments :
+       {Arguments{"run", "--keep-maps="}, Arguments{"run", "--keep-maps=", "towers"}, Arguments{"run", "--record="},
+        Arguments{"run", "--view="}, Arguments{"run", "--network="}, Arguments{"run", "--force="},
+        Arguments{"run", "--out=", "towers"}, Arguments{"run", "--seed=", "towers"}, Arguments{"run", "--out", ""},
+        Arguments{"compose", "--up="}, Arguments{"hunt", "--junit=", "towers"}, Arguments{"bench", "--json="},
+        Arguments{"doctor", "--json="}, Arguments{"replay", "a", "--maps="}}) {
+    EXPECT_NE(said_of(arguments).find(": must not be empty"), std::string::npos)
+        << arguments[0] << ' ' << arguments[1] << ": " << said_of(arguments);
+  }
+  EXPECT_EQ(said_of({"run", "--keep-maps", "towers"}), "accepted");
+  EXPECT_EQ(said_of({"run", "--planner", "exec:fly --height="}), "accepted") << "it belongs to a program's command";
+}
+
+TEST(OptionChecks, OnlyARegularFileIsWrittenTo) {
+  const ScratchDir scratch;
+  const std::string file = scratch.path() / "file", pipe = scratch.path() / "pipe";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_EQ(check_file_to_write(file), "");
+  std::ofstream(file) << "x";
+  EXPECT_EQ(check_file_to_write(file), "");
+  for (const std::string& wrong : {pipe, scratch.path().string(), std::string("/dev/null")}) {
+    EXPECT_NE(check_file_to_write(wrong).find("'" + wrong + "' is not a regular file"), std::string::npos);
+    for (const Arguments& arguments : {Arguments{"bench", "--json", wrong}, Arguments{"hunt", "--junit", wrong}}) {
+      EXPECT_NE(said_of(arguments).find("is not a regular file"), std::string::npos) << said_of(arguments);
+    }
   }
 }
 

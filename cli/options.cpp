@@ -337,6 +337,7 @@ Command parse_command_line(const std::vector<std::string>& arguments) {
   if (arguments == std::vector<std::string>{"--manual"}) return help(manual_of(parser.app, "skein"));
   if (const auto command = internal_command(arguments)) return *command;
   require_command(parser.app, arguments);
+  refuse_empty_assignments(parser.app, arguments);
   const auto is = [&parser](const char* command) { return parser.app.got_subcommand(command); };
   std::vector<std::string> reversed(arguments.rbegin(), arguments.rend());  // as CLI11 wants them
   try {

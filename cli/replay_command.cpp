@@ -4,6 +4,7 @@
 
 #include "cli/film/film.hpp"
 #include "cli/maps_in_time.hpp"
+#include "cli/option_checks.hpp"
 #include "core/text/suggestion.hpp"
 #include "core/types.hpp"
 #include "process/files/atomic_file.hpp"
@@ -67,6 +68,7 @@ bool check_export(const ReplayOptions& options) {
     throw InputError("--export " + file.string() +
                      (fs::is_directory(file) ? ": is a folder" : ": is there already; --force overwrites it"));
   }
+  if (const std::string wrong = check_file_to_write(file); !wrong.empty()) throw InputError("--export: " + wrong);
   const fs::path folder = file.has_parent_path() ? file.parent_path() : ".";
   if (!fs::is_directory(folder))
     throw InputError("--export " + file.string() + ": there is no folder " + folder.string());

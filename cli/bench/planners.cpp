@@ -1,8 +1,10 @@
 #include "cli/bench/planners.hpp"
 
 #include "cli/bench/planner_scores.hpp"
+#include "cli/option_checks.hpp"
 #include "cli/study_command.hpp"
 #include "core/config/config_files.hpp"
+#include "core/types.hpp"
 #include "process/files/atomic_file.hpp"
 #include "process/program.hpp"
 
@@ -35,6 +37,9 @@ std::vector<StudyOptions> studies(const BenchOptions& options) {
 }  // namespace
 
 int bench_planners(const BenchOptions& options, const Console& console) {
+  if (const std::string wrong = options.write ? check_file_to_write(*options.write) : ""; !wrong.empty()) {
+    throw InputError("--write: " + wrong);
+  }
   const std::filesystem::path table = options.against.value_or(default_config_dir() / "planner_scores.csv");
   const std::vector<PlannerScore> before = read_planner_scores(table);
   std::vector<PlannerScore> now;

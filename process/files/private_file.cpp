@@ -17,6 +17,7 @@ void write_private_file(const std::filesystem::path& file, std::string_view text
   const bool written = fd >= 0 && write_whole(fd, text);
   const int reason = errno;
   if (fd >= 0) ::close(fd);
+  if (fd >= 0 && !written) ::unlink(file.c_str());
   if (!written) throw std::system_error(reason, std::generic_category(), file.string());
 }
 

@@ -49,6 +49,7 @@ TEST_F(PrivateFile, TellsTheSystemsReasonWhenItIsWrittenInPart) {
   for (const rlim_t room : {0U, 1U, 63U}) {
     errno = ENOENT;  // of another call, long ago
     EXPECT_EQ(complaint_with_room(room, file_, text), file_.string() + ": " + std::strerror(EFBIG)) << room;
+    EXPECT_FALSE(fs::exists(file_)) << "a part of a key, with " << room << " bytes of room";
   }
   EXPECT_EQ(complaint_with_room(64, file_, text), std::nullopt);
   EXPECT_EQ(fs::file_size(file_), 64U);
