@@ -5,6 +5,7 @@
 #include <exception>
 #include <iostream>
 #include <stdexcept>
+#include <system_error>
 
 #include "cli/duration_variable.hpp"
 #include "cli/hunt/capsule_run.hpp"
@@ -16,6 +17,7 @@
 #include "host/preflight.hpp"
 #include "host/program_start.hpp"
 #include "process/files/path_error.hpp"
+#include "process/host/open_files.hpp"
 #include "process/program.hpp"
 
 namespace skein::cli {
@@ -43,8 +45,11 @@ int execute(const std::vector<std::string>& arguments, const Console& console) t
 } catch (const Interrupted&) {
   return kExitInterrupted;
 } catch (const std::filesystem::filesystem_error& error) {
-  console.err << "skein: " << path_error_text(error) << std::endl;
+  console.err << "skein: " << path_error_text(error) << open_files_hint(error.code()) << std::endl;
   return is_wrong_path(error) ? kExitBadInput : kExitProcessFailed;
+} catch (const std::system_error& error) {
+  console.err << "skein: " << error.what() << open_files_hint(error.code()) << std::endl;
+  return kExitProcessFailed;
 } catch (const std::exception& error) {
   console.err << "skein: " << error.what() << std::endl;
   return kExitProcessFailed;

@@ -20,6 +20,7 @@
 #include "run/fleet_run.hpp"
 #include "run/inputs_outlast.hpp"
 #include "run/live_page.hpp"
+#include "run/open_files.hpp"
 #include "run/results_dir.hpp"
 
 namespace skein::cli {
@@ -32,6 +33,14 @@ void check_before_flight(const FleetPlan& plan, const Console& console) {
              [&](const std::string& waiting) { console.err << waiting << std::endl; });
 }
 
+/// @returns a warning of a limit that may be too low; empty: none. @throws InputError
+std::string check_results_dir_and_limits(const RunOptions& options, const FleetPlan& plan) {
+  const std::filesystem::path dir = results_dir_of(options, plan.scenario.name);
+  check_inputs_outlast(plan, dir);
+  ResultsDir::check(dir, options.force);
+  return check_open_files(plan);
+}
+
 /// @param domains  null: all programs in one process, without DDS.
 std::string start_line(const FleetPlan& plan, const DomainBlock* domains, const std::filesystem::path& out) {
   const std::string place =
@@ -42,9 +51,11 @@ std::string start_line(const FleetPlan& plan, const DomainBlock* domains, const 
          out.string();
 }
 
-/// Warns the user of settings of the environment that may affect the run.
-void warn_of_surroundings(const DomainBlock* domains, FleetRun& run) {
-  for (const std::string& warning : environment_warnings()) {
+/// Warns the user of settings of the environment that may affect the run, and of the limit of open files.
+void warn_of_surroundings(const DomainBlock* domains, const std::string& open_files, FleetRun& run) {
+  std::vector<std::string> warnings = environment_warnings();
+  if (!open_files.empty()) warnings.push_back(open_files);
+  for (const std::string& warning : warnings) {
     run.view().message("warning: " + warning);
     run.facts().warnings.push_back(warning);
   }
@@ -128,8 +139,7 @@ RunEnd fly_fleet(const RunOptions& given, const Console& console) {
     console.out << place_commands(plan, read_placement(plan)) << std::flush;
     return {kExitDone};
   }
-  check_inputs_outlast(plan, results_dir_of(options, plan.scenario.name));
-  ResultsDir::check(results_dir_of(options, plan.scenario.name), options.force);
+  const std::string open_files = check_results_dir_and_limits(options, plan);
   std::optional<LivePage> page;
   if (options.view.at) plan.watched = page.emplace(view::read_endpoint(*options.view.at)).watched();
   if (options.check) check_before_flight(plan, console);
@@ -153,7 +163,7 @@ RunEnd fly_fleet(const RunOptions& given, const Console& console) {
     page->announce([&](const std::string& text) { run.view().message(text); },
                    options.view.browser && console.terminal);
   }
-  warn_of_surroundings(domains, run);
+  warn_of_surroundings(domains, open_files, run);
   std::optional<SecureRun> secure;
   if (options.secure) {
     secure.emplace(plan, base_domain, out->path());

@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "process/host/open_files.hpp"
+
 namespace skein::doctor {
 
 struct FleetNeeds {
@@ -12,8 +14,8 @@ struct FleetNeeds {
 
   /// Number of DDS domains: the world's, the ground station's, and one per UAV.
   std::uint64_t domains() const { return uavs + 2; }
-  /// Open files of the server, which joins all domains; no program has more.
-  std::uint64_t open_files() const { return 16 + 9 * domains(); }
+  /// Open files of the server.
+  std::uint64_t open_files() const { return ample_open_files(domains()); }
   /// Threads of all programs; the kernel's limits count each thread as a process. The server and the router have six
   /// threads each per domain.
   std::uint64_t threads() const { return 32 + 12 * domains() + 9 * uavs; }

@@ -18,6 +18,7 @@
 
 #include "core/text/text.hpp"
 #include "core/text/whole_number.hpp"
+#include "process/host/open_files.hpp"
 
 namespace skein::doctor {
 namespace {
@@ -151,7 +152,7 @@ MachineFacts read_machine() {
   MachineFacts facts;
   facts.container = container_sign();
   facts.cgroup = read_cgroup();
-  facts.open_files = resource(RLIMIT_NOFILE, &rlimit::rlim_cur);
+  facts.open_files = open_files_limit();
   facts.most_open_files = resource(RLIMIT_NOFILE, &rlimit::rlim_max);
   facts.kernel_processes = parse_whole(word_in("/proc/sys/kernel/threads-max"));
   if (::geteuid() != 0) facts.processes = resource(RLIMIT_NPROC, &rlimit::rlim_cur);  // it does not hold for root

@@ -14,6 +14,7 @@
 #include <iostream>
 #include <memory>
 #include <stdexcept>
+#include <system_error>
 #include <vector>
 
 #include "core/text/number_checks.hpp"
@@ -22,6 +23,7 @@
 #include "process/health/crash_notes.hpp"
 #include "process/health/keeper.hpp"
 #include "process/host/environment.hpp"
+#include "process/host/open_files.hpp"
 #include "process/log_lines.hpp"
 #include "process/manual.hpp"
 
@@ -214,8 +216,11 @@ int guarded(const std::string& name, const std::function<int()>& work) {
     std::cerr << name << ": " << error.what() << '\n';
     return kExitBadInput;
   } catch (const std::filesystem::filesystem_error& error) {
-    std::cerr << name << ": " << path_error_text(error) << '\n';
+    std::cerr << name << ": " << path_error_text(error) << open_files_hint(error.code()) << '\n';
     return is_wrong_path(error) ? kExitBadInput : kExitProcessFailed;
+  } catch (const std::system_error& error) {
+    std::cerr << name << ": failed: " << error.what() << open_files_hint(error.code()) << '\n';
+    return kExitProcessFailed;
   } catch (const std::exception& error) {
     std::cerr << name << ": failed: " << error.what() << '\n';
     return kExitProcessFailed;
