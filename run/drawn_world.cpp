@@ -1,12 +1,17 @@
 #include "run/drawn_world.hpp"
 
+#include <cstdint>
 #include <filesystem>
+#include <vector>
 
+#include "core/files/file_bytes.hpp"
 #include "core/scenario/drawn_worlds.hpp"
 #include "core/scenario/scenario_reader.hpp"
+#include "core/sha256.hpp"
 #include "core/types.hpp"
 #include "host/preflight.hpp"
 #include "host/supervisor.hpp"
+#include "process/files/atomic_file.hpp"
 #include "process/files/user_cache.hpp"
 #include "process/host/environment.hpp"
 #include "process/program.hpp"
@@ -29,14 +34,33 @@ fs::path folder_of(const std::string& world) {
   return *cache / "worlds" / ("grammar-" + std::to_string(kWorldGrammar)) / world;
 }
 
-/// Whether the cache has the world with all its files: a user, or a tool that cleans caches, may have deleted some.
+constexpr std::uintmax_t kMostBytes = 1 << 30;
+
+/// The file beside a world's scenario with the checksum of its files.
+fs::path checksum_file(const fs::path& scenario) { return fs::path(scenario).replace_extension(".sha256"); }
+
+/// A line with a SHA-256 over the scenario and the files of its scene. @throws InputError when one is missing.
+std::string checksum_of(const fs::path& scenario) {
+  const SceneConfig scene = load_scenario(scenario).scene;
+  std::vector<fs::path> files = scene.meshes;
+  files.insert(files.end(), {scenario, scene.points, scene.boxes});
+  Sha256 hash;
+  for (const fs::path& file : files) hash.add(read_file_bytes(file, kMostBytes));
+  return hash.hex() + "\n";
+}
+
+/// Whether the cache has the world with all its files, as they were drawn: a user, or a tool that cleans caches, may
+/// have deleted some, and a disk may have cut some short.
 bool is_kept(const fs::path& scenario) try {
-  std::error_code error;
-  if (!fs::is_regular_file(scenario, error)) return false;
-  load_scenario(scenario);
-  return true;
+  return read_file_bytes(checksum_file(scenario), kMostBytes) == checksum_of(scenario);
 } catch (const InputError&) {
   return false;
+}
+
+/// Without a checksum, for example of a world that an earlier version drew, the world is drawn again the next time.
+void keep_checksum(const fs::path& scenario) try {
+  static_cast<void>(write_if_possible(checksum_file(scenario), checksum_of(scenario)));
+} catch (const InputError&) {  // the run will say which file is missing
 }
 
 }  // namespace
@@ -55,7 +79,10 @@ std::string scenario_source(const std::string& scenario, const std::optional<std
                                        seed, "--export-scene", folder, "--overwrite-export"},
                                       fleet_environment(false),
                                       log});
-  if (exit.ok()) return file;
+  if (exit.ok()) {
+    keep_checksum(file);
+    return file;
+  }
   std::string said;
   for (const std::string& line : last_lines(log, 20)) said += "\n" + line;
   if (exit.code == kExitBadInput) throw InputError(scenario + " " + seed + ":" + said);

@@ -8,7 +8,7 @@
 namespace skein::cli {
 
 /// The scenario argument that programs get: for a generated world its file in the cache, which sim_server generates now
-/// if it is missing; any other scenario unchanged.
+/// if it is missing or damaged; any other scenario unchanged.
 /// @throws InputError when there is no cache folder, or sim_server reports bad input; std::runtime_error when it fails
 ///   otherwise; Interrupted.
 std::string scenario_source(const std::string& scenario, const std::optional<std::uint64_t>& scene_seed);

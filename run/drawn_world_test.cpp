@@ -68,9 +68,32 @@ TEST_F(DrawnWorld, IsDrawnAgainIfAFileOfItIsMissing) {
     EXPECT_TRUE(fs::exists(file.parent_path() / name)) << name;
     EXPECT_EQ(drawn(), ++draws) << name;
   }
+  fs::remove(file.parent_path() / "wild_3.sha256");
+  EXPECT_EQ(scenario_source("wild", 3), file);
+  EXPECT_EQ(drawn(), ++draws) << "a world of an earlier version";
   write_text(file, "name: [");
   EXPECT_EQ(scenario_source("wild", 3), file);
   EXPECT_EQ(drawn(), ++draws) << "a damaged scenario";
+}
+
+TEST_F(DrawnWorld, IsDrawnAgainIfAFileOfItIsDamaged) {
+  const fs::path file = scenario_source("wild", 3);
+  std::size_t draws = 1;
+  for (const char* name : {"models/m.stl", "models/p.pcd", "models/b.yaml", "wild_3.yaml", "wild_3.sha256"}) {
+    const fs::path damaged = file.parent_path() / name;
+    const std::string sound = read_text(damaged);
+    ASSERT_FALSE(sound.empty());
+    std::string flipped = sound;
+    flipped.back() = static_cast<char>(flipped.back() ^ 1);
+    for (const std::string& bad : {sound.substr(0, sound.size() - 1), std::string(), flipped}) {
+      write_text(damaged, bad);
+      EXPECT_EQ(scenario_source("wild", 3), file) << name;
+      EXPECT_EQ(read_text(damaged), sound) << name;
+      EXPECT_EQ(drawn(), ++draws) << name;
+    }
+  }
+  EXPECT_EQ(scenario_source("wild", 3), file);
+  EXPECT_EQ(drawn(), draws) << "a sound world is used";
 }
 
 }  // namespace
