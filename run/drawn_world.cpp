@@ -34,7 +34,7 @@ fs::path folder_of(const std::string& world) {
   return *cache / "worlds" / ("grammar-" + std::to_string(kWorldGrammar)) / world;
 }
 
-constexpr std::uintmax_t kMostBytes = 1 << 30;
+constexpr std::uintmax_t kMostOfAWorldFile = 1 << 30;
 
 /// The file beside a world's scenario with the checksum of its files.
 fs::path checksum_file(const fs::path& scenario) { return fs::path(scenario).replace_extension(".sha256"); }
@@ -45,22 +45,22 @@ std::string checksum_of(const fs::path& scenario) {
   std::vector<fs::path> files = scene.meshes;
   files.insert(files.end(), {scenario, scene.points, scene.boxes});
   Sha256 hash;
-  for (const fs::path& file : files) hash.add(read_file_bytes(file, kMostBytes));
+  for (const fs::path& file : files) hash.add(read_file_bytes(file, kMostOfAWorldFile));
   return hash.hex() + "\n";
 }
 
 /// Whether the cache has the world with all its files, as they were drawn: a user, or a tool that cleans caches, may
 /// have deleted some, and a disk may have cut some short.
 bool is_kept(const fs::path& scenario) try {
-  return read_file_bytes(checksum_file(scenario), kMostBytes) == checksum_of(scenario);
+  return read_file_bytes(checksum_file(scenario), kMostOfAWorldFile) == checksum_of(scenario);
 } catch (const InputError&) {
   return false;
 }
 
-/// Without a checksum, for example of a world that an earlier version drew, the world is drawn again the next time.
+/// Without a checksum, for example if an earlier version drew it, a world is drawn again the next time.
 void keep_checksum(const fs::path& scenario) try {
-  static_cast<void>(write_if_possible(checksum_file(scenario), checksum_of(scenario)));
-} catch (const InputError&) {  // the run will say which file is missing
+  write_file_atomically(checksum_file(scenario), checksum_of(scenario), Readers::no_agents);
+} catch (const std::exception&) {  // a file is missing, as the run will say, or the disk is full: the world is whole
 }
 
 }  // namespace
