@@ -7,7 +7,6 @@
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
-#include <fstream>
 #include <memory>
 #include <sstream>
 
@@ -21,6 +20,7 @@
 #include "host/machine.hpp"
 #include "host/preflight.hpp"
 #include "host/program_start.hpp"
+#include "process/files/atomic_file.hpp"
 #include "process/host/other_clock.hpp"
 #include "process/json_text.hpp"
 #include "process/program.hpp"
@@ -162,8 +162,8 @@ class PlannerCheck {
   /// A fault file that kills and restarts an agent: the restart reveals state that outlives the process.
   fs::path restart_file() const {
     const fs::path file = out_ / "restart.yaml";
-    std::ofstream(file) << "faults:\n  - {at_s: " << shortest(std::floor(duration_s_ / 3.0))
-                        << ", for_s: 3, kill: " << first_uav_ << "}\n";
+    write_file_atomically(file, "faults:\n  - {at_s: " + shortest(std::floor(duration_s_ / 3.0)) +
+                                    ", for_s: 3, kill: " + first_uav_ + "}\n");
     return file;
   }
 

@@ -13,6 +13,7 @@
 #include "core/types.hpp"
 #include "host/preflight.hpp"
 #include "host/supervisor.hpp"
+#include "process/files/atomic_file.hpp"
 #include "process/host/environment.hpp"
 #include "process/program.hpp"
 #include "report/web_bundle.hpp"
@@ -179,7 +180,7 @@ int pack_programs(const PackOptions& options, const Console& console) {
   if (const auto script = find_web_bundle(report::kReportScript)) copy_all(*script, pack / "share/skein/web/report.js");
   if (const auto script = find_web_bundle(report::kLiveScript)) copy_all(*script, pack / "share/skein/web/live.js");
   if (with_python) copy_package(*package, pack / "share/skein/python/skein");
-  std::ofstream(pack / "skein") << fmt::format(fmt::runtime(kLauncher), loader);
+  write_file_atomically(pack / "skein", fmt::format(fmt::runtime(kLauncher), loader));
   fs::permissions(pack / "skein", fs::perms::owner_all | fs::perms::group_read | fs::perms::group_exec |
                                       fs::perms::others_read | fs::perms::others_exec);
   output_of({"/usr/bin/env", "tar", "--create", "--use-compress-program=gzip -1", "--file", unfinished.file,

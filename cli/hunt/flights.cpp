@@ -1,7 +1,6 @@
 #include "cli/hunt/flights.hpp"
 
 #include <deque>
-#include <fstream>
 #include <numeric>
 #include <system_error>
 
@@ -9,6 +8,7 @@
 #include "cli/options.hpp"
 #include "cli/study/side_by_side.hpp"
 #include "host/preflight.hpp"
+#include "process/files/atomic_file.hpp"
 #include "process/program.hpp"
 #include "run/results_dir.hpp"
 #include "signals/judge.hpp"
@@ -53,7 +53,7 @@ ProgramSpec TrialFlights::start(const Trial& trial, const fs::path& dir) const {
   run.out = dir;
   if (!trial.faults.empty()) {
     run.faults = dir / kFaultFile;
-    std::ofstream(*run.faults) << trial.text();
+    write_file_atomically(*run.faults, trial.text());
   }
   return flight_program(arguments_of(run), dir);
 }
