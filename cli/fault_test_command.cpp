@@ -7,6 +7,7 @@
 
 #include "cli/fault_tests/flights.hpp"
 #include "cli/fault_tests/report.hpp"
+#include "cli/option_checks.hpp"
 #include "cli/options.hpp"
 #include "cli/study/side_by_side.hpp"
 #include "cli/study/spec.hpp"

@@ -21,8 +21,8 @@ std::string check_seconds(const std::string& text);
 std::string check_timeout(const std::string& text);
 /// A decimal number of seconds within [1, 3600].
 std::string check_maps_period(const std::string& text);
-/// A file that a command can write: a new one, or a regular file. A pipe without a reader would keep the command waiting
-/// without end, and a device would be replaced by a file.
+/// A file that a command can write: a new one, or a regular file. A pipe without a reader would keep the command
+/// waiting without end, and a device would be replaced by a file.
 std::string check_file_to_write(const std::string& text);
 
 /// Lets all options of a command, and of its subcommands, that take whole numbers refuse a leading zero and "0x10".
