@@ -1,7 +1,6 @@
 #include "core/faults/fault_check.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <limits>
 #include <optional>
@@ -92,15 +91,26 @@ void FaultChecker::check_times(const Fault& longest, const Fault& shortest, cons
   if (!longest.until_s) return;
   errors_.check(shortest.until_s > shortest.at_s, path + ".until_s",
                 "must be later than at_s, " + number_text(shortest.at_s));
-  const double period_s = scenario_.exchange_period_s;
-  const double first_s = std::ceil(longest.at_s / period_s - 1e-6) * period_s;
-  errors_.check(*longest.until_s <= longest.at_s || has_exchange(longest, scenario_), path,
-                "no exchange begins between " + number_text(longest.at_s) + " s and " + number_text(*longest.until_s) +
-                    " s, so the fault would never act: exchanges begin every " + number_text(period_s) +
-                    " s, the next one at " + number_text(first_s) + " s; let it end later");
+  if (*longest.until_s > longest.at_s && !has_exchange(longest, scenario_)) add_never_acts(longest, path);
   errors_.check(*longest.until_s <= latest_s_, path + ".until_s",
                 "is after the end: the mission of '" + scenario_.name + "' lasts " + end +
                     " s; leave the key out for a fault that lasts to the end");
+}
+
+void FaultChecker::add_never_acts(const Fault& fault, const std::string& path) {
+  const Tick period = scenario_.exchange_ticks(), since_exchange = fault.begin() % period;
+  const std::string begin = number_text(fault.at_s);
+  if (since_exchange == 0) {
+    errors_.check(false, path + ".until_s",
+                  "must be at least " + number_text(kTickS) + " s, one tick of simulated time, later than at_s, " +
+                      begin + ": a shorter fault never acts");
+    return;
+  }
+  errors_.check(false, path,
+                "no exchange begins between " + begin + " s and " + number_text(*fault.until_s) +
+                    " s, so the fault would never act: exchanges begin every " +
+                    number_text(scenario_.exchange_period_s) + " s, the next one at " +
+                    number_text(seconds(fault.begin() - since_exchange + period)) + " s; let it end later");
 }
 
 void FaultChecker::check_name(const std::string& name, const std::vector<std::string>& known, const std::string& key,

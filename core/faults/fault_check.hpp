@@ -30,6 +30,8 @@ class FaultChecker {
 
  private:
   void check_times(const Fault& longest, const Fault& shortest, const std::string& path);
+  /// Adds the error of a fault that ends before an exchange begins.
+  void add_never_acts(const Fault& fault, const std::string& path);
   void check_name(const std::string& name, const std::vector<std::string>& known, const std::string& key,
                   const std::string& what);
   void check_uav(const std::string& name, const std::string& key) { check_name(name, uavs_, key, "UAV"); }

@@ -168,6 +168,15 @@ TEST_F(FaultFile, FaultsThatCanNeverActAreRefused) {
   refused("faults: [{at_s: 10.01, until_s: 10.04, blackout: changi}]", "the next one at 10.05 s");
   refused("faults: [{at_s: 10.01, for_s: 0.02, blackout: changi}]", "no exchange begins");
   refused("faults: [{when: held > 1, at_s: 10.01, until_s: 10.04, blackout: changi}]", "no exchange begins");
+  for (const char* at : {"at_s: 0", "at_s: 10", "when: held > 1"}) {
+    refused("faults:\n  - {" + std::string(at) + ", for_s: 1e-9, blackout: changi}",
+            ":2: faults[0].for_s: must be at least 0.0025 s, one tick of simulated time");
+    EXPECT_NO_THROW(load("faults: [{" + std::string(at) + ", for_s: 0.0025, blackout: changi}]"));
+  }
+  refused("faults: [{at_s: 0, for_s: [1e-9, 1], blackout: changi}]", "faults[0].for_s: must be at least 0.0025 s");
+  refused("faults:\n  - {at_s: 0, until_s: 1e-9, blackout: changi}",
+          ":2: faults[0].until_s: must be at least 0.0025 s, one tick of simulated time, later than at_s, 0");
+  refused("faults: [{at_s: 1e-9, until_s: 2e-9, blackout: changi}]", "faults[0].until_s: must be at least 0.0025 s");
   EXPECT_NO_THROW(load("faults: [{at_s: 10, until_s: 10.01, blackout: changi}]"));
   EXPECT_NO_THROW(load("faults: [{at_s: 10.04, until_s: 10.06, blackout: changi}]"));
   EXPECT_NO_THROW(load("faults: [{when: held > 1, for_s: 0.01, blackout: changi}]")) << "it begins with an exchange";

@@ -66,6 +66,8 @@ struct FaultEntry {
     read_time(r, "at_s", within(0.0, 36000.0), at_s, !when);
     read_time(r, "until_s", Bounds{0.0, 36000.0, true}, until_s);
     read_time(r, "for_s", Bounds{0.0, 36000.0, true}, for_s);
+    r.check(!for_s || for_s->earliest_s >= kTickS, "for_s",
+            "must be at least " + number_text(kTickS) + " s, one tick of simulated time");
     r.check(when || !for_s || !until_s, "for_s", "cannot stand beside until_s: both say when it ends");
     r.field("link", link);
     r.field("partition", partition);
