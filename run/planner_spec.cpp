@@ -35,11 +35,24 @@ void check_spec(const std::string& text, const std::string& spec) {
   }
 }
 
+/// Parameters may be left out, but not behind a colon: "hover:" and "hover" would be two texts of one planner.
+void check_parameters(const std::string& text, const std::string& spec) {
+  if (!spec.ends_with(':')) return;
+  const auto python = python_spec(spec);
+  const bool has_none = python ? python->parameters.empty() : spec.find(':') == spec.size() - 1;
+  if (!has_none) return;
+  const std::string name = spec.substr(0, spec.size() - 1);
+  throw wrong(text, "parameters must follow '" + spec + "', such as " + spec + "KEY=VALUE; without any, write " + name);
+}
+
 /// @param spec  the complete text of the planner: with all parameters, and the agent's path if any.
 UavPlanner read_planner(const std::string& text, const std::string& node, const std::string& spec) {
-  const std::size_t at = exec_command(spec) ? std::string::npos : spec.rfind(kAt);
+  if (exec_command(spec)) return {node, spec};
+  const std::size_t at = spec.rfind(kAt);
+  const std::string name = spec.substr(0, at);
+  check_parameters(text, name);
   if (at == std::string::npos) return {node, spec};
-  const std::string name = spec.substr(0, at), agent = spec.substr(at + 1);
+  const std::string agent = spec.substr(at + 1);
   if (agent.empty()) {
     throw wrong(text, "the file of an agent program must follow '@', such as " + spec + "build/my_agent");
   }

@@ -35,7 +35,8 @@ struct Planners {
 /// `jurong=kios:voxel=4,reserve=2@team/agent`. The last '@' counts: parameters may contain '@' (then an AGENT must
 /// follow, if only the stock uav_agent); the path of an AGENT may contain neither '@' nor a comma.
 /// @param fleet names of all UAVs.
-/// @throws InputError for an unknown UAV, an empty name, command or AGENT, or two planners for one UAV.
+/// @throws InputError for an unknown UAV, an empty name, command or AGENT, a colon without parameters after it, or two
+/// planners for one UAV.
 Planners parse_planners(const std::string& text, const std::vector<std::string>& fleet);
 
 /// The value of --planner for the same fleet with other planners for some UAVs; `text` itself if nothing changes.

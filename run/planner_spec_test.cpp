@@ -67,7 +67,6 @@ TEST(PlannerSpec, WhatFollowsTheLastAtIsAnAgentProgram) {
   for (const auto& [spec, name, agent] : {Case{"kios@a", "kios", "a"},
                                           {"kios@../a=b/c:d", "kios", "../a=b/c:d"},
                                           {"kios:voxel_m=4,lanes=3@a/b", "kios:voxel_m=4,lanes=3", "a/b"},
-                                          {"kios:@a", "kios:", "a"},
                                           {"waypoints:a@b.yaml,speed=2@c", "waypoints:a@b.yaml,speed=2", "c"},
                                           {"waypoints:a@b.yaml", "waypoints:a", "b.yaml"},
                                           {"x:a=@b,c=d", "x:a=", "b,c=d"}}) {
@@ -95,6 +94,23 @@ TEST(PlannerSpec, APlannerInPythonHasItsParametersBehindAnotherColon) {
   for (const char* text : {"py:a.py,x=1", "py:a.py:B,x=1", "py:a.py,juron=hover", "py:a.py@team/agent,x=1"}) {
     EXPECT_THROW(parse_planners(text, kFleet), InputError) << text;
   }
+}
+
+TEST(PlannerSpec, AColonWithoutParametersIsRefused) {
+  for (const std::string spec : {"hover:", "kios:@a", "py:a.py:", "py:a.py:B:"}) {
+    for (const std::string& text : {spec, "jurong=" + spec, "hover,gcs=" + spec}) {
+      try {
+        parse_planners(text, kFleet);
+        ADD_FAILURE() << "accepted: " << text;
+      } catch (const InputError& error) {
+        const std::string said = error.what(), named = spec.substr(0, spec.find('@'));
+        EXPECT_EQ(said.find("--planner " + text + ": parameters must follow '" + named + "'"), 0U) << said;
+        EXPECT_NE(said.find("write " + named.substr(0, named.size() - 1)), std::string::npos) << said;
+      }
+    }
+  }
+  EXPECT_EQ(specs("exec:./mine --at:").front(), "exec:./mine --at:") << "a command may end with any character";
+  EXPECT_EQ(specs("hover:label=a:").front(), "hover:label=a:") << "a value, too";
 }
 
 TEST(PlannerSpec, ACommandKeepsItsAts) {
