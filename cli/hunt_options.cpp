@@ -1,6 +1,7 @@
 // The command line of `skein hunt`.
 #include <CLI/CLI.hpp>
 
+#include "cli/hunt/search.hpp"
 #include "cli/option_checks.hpp"
 #include "cli/tool_options.hpp"
 #include "core/text/number_checks.hpp"
@@ -66,7 +67,7 @@ void add_hunt(CLI::App& app, HuntOptions& hunt) {
       ->add_option("--round", hunt.round,
                    "Number of cases in a round, which can fly at the same time: Skein uses the results of a round only "
                    "for later rounds, so another number gives another search")
-      ->check(CLI::Range(1, 10'000))
+      ->check(CLI::Range(std::size_t{1}, HuntSearch::kMostLag))
       ->capture_default_str();
   add_sweep(*command, hunt.sweep);
   command->add_option("--out", hunt.out, "Folder of the hunt and its finds (default runs/hunt-<scenario>-<planner>)");

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "cli/hunt/search.hpp"
 #include "core/files/file_bytes.hpp"
 #include "core/types.hpp"
 #include "process/files/atomic_file.hpp"
@@ -15,7 +16,6 @@ namespace fs = std::filesystem;
 
 constexpr const char* kSettingsFile = "hunt.json";
 constexpr const char* kLogFile = "log.jsonl";
-constexpr std::size_t kMostCases = 10'000'000;
 constexpr const char* kFindsFolder = "finds";
 /// Files and folders of a hunt that it deletes when it begins anew.
 constexpr std::array kHuntParts = {kLogFile, kFindsFolder, "flights"};
@@ -106,7 +106,9 @@ void HuntLog::read_lines() {
     const Json json = parse_json(line);
     const Json index = value_or(json, "case", nullptr), flown = value_or(json, "flown", nullptr);
     auto outcome = TrialOutcome::from_json(value_or(json, "outcome", nullptr));
-    if (!index.is_number_unsigned() || index.get<std::uint64_t>() >= kMostCases || !flown.is_string() || !outcome) {
+    // A case flies only when the log has the cases up to `lag` before it, so the lines above bound its number.
+    const std::size_t end = number + HuntSearch::kMostLag;
+    if (!index.is_number_unsigned() || index.get<std::uint64_t>() >= end || !flown.is_string() || !outcome) {
       throw InputError(file_.string() + ":" + std::to_string(number) +
                        ": damaged: no case of this hunt is to be read there; take the line out, and its case is flown "
                        "again, or begin anew with --force");

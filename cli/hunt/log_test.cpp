@@ -10,9 +10,11 @@
 
 #include <algorithm>
 #include <fstream>
+#include <limits>
 #include <random>
 #include <sstream>
 
+#include "cli/hunt/search.hpp"
 #include "core/types.hpp"
 #include "host/preflight.hpp"
 #include "host/testing/fake_programs.hpp"
@@ -45,6 +47,9 @@ class HuntLogFile : public testing::Test {
     const HuntLog log(dir_, kHuntSettings, false);
     return log.outcomes().size();
   }
+  static std::string of_case(std::uint64_t index) {
+    return json_text({{"case", index}, {"flown", "x"}, {"outcome", some_outcome(1.0).to_json()}});
+  }
   std::string refusal() const {
     try {
       HuntLog(dir_, kHuntSettings, false);
@@ -76,6 +81,11 @@ TEST_F(HuntLogFile, WhatAKillCutOffAtTheEndGoesAndTheRestStays) {
   EXPECT_EQ(cases(), kCases);
 }
 
+TEST_F(HuntLogFile, CasesOfALongRoundMayComeInAnyOrder) {
+  write_text(file_, of_case(HuntSearch::kMostLag - 1) + "\n" + of_case(0) + "\n");
+  EXPECT_EQ(cases(), HuntSearch::kMostLag);
+}
+
 // A build that draws other cases must not take the outcomes of these for theirs.
 TEST_F(HuntLogFile, ACaseThatIsAnotherOneNowIsRefused) {
   const HuntLog log(dir_, kHuntSettings, false);
@@ -94,7 +104,8 @@ TEST_F(HuntLogFile, ADamagedLineIsRefusedAndNamed) {
     const std::size_t length = text_.find('\n', begin) - begin;
     for (const std::string& instead :
          {std::string("{}"), text_.substr(begin, 1 + random() % (length - 1)), std::string(length, '\0'),
-          std::string("{\"case\": -1, \"flown\": \"x\", \"outcome\": {}}")}) {
+          std::string("{\"case\": -1, \"flown\": \"x\", \"outcome\": {}}"), of_case(9'999'999),
+          of_case(line + HuntSearch::kMostLag), of_case(std::numeric_limits<std::uint64_t>::max())}) {
       std::string damaged = text_;
       write_text(file_, damaged.replace(begin, length, instead));
       const std::string said = refusal();

@@ -24,6 +24,7 @@ class HuntSearch {
  public:
   /// The usual lag: at most this many cases are fixed whose outcomes are not known yet.
   static constexpr std::size_t kLag = 16;
+  static constexpr std::size_t kMostLag = 10'000;  ///< the most that `skein hunt --round` takes
   /// Runs have seeds from 1 to this number.
   static constexpr std::uint64_t kRunSeeds = 4;
 
