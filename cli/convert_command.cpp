@@ -10,15 +10,15 @@
 namespace skein::cli {
 namespace {
 
-void convert_file(const std::filesystem::path& file, bool in_place, const Console& console) {
+/// A fault test as it is, and its text for this version.
+struct Conversion {
+  std::filesystem::path file;
+  std::string before, after;
+};
+
+Conversion conversion_of(const std::filesystem::path& file) {
   const ConfigDocument document = read_config_document(file);
-  const std::string text = converted(document);
-  if (!in_place) {
-    console.out << text << std::flush;
-    return;
-  }
-  if (text != document.text) write_file_atomically(file, text);
-  console.out << file.string() << ": " << (text == document.text ? "nothing to convert" : "converted") << std::endl;
+  return {file, document.text, converted(document)};
 }
 
 }  // namespace
@@ -35,8 +35,17 @@ void add_convert(CLI::App& app, ConvertOptions& convert) {
 }
 
 int convert_files(const ConvertOptions& options, const Console& console) {
+  std::vector<Conversion> all;  // whatever one of the files is refused for, none has been changed then
   for (const std::filesystem::path& path : options.files) {
-    for (const std::filesystem::path& file : fault_test_files(path)) convert_file(file, options.in_place, console);
+    for (const std::filesystem::path& file : fault_test_files(path)) all.push_back(conversion_of(file));
+  }
+  for (const auto& [file, before, after] : all) {
+    if (!options.in_place) {
+      console.out << after << std::flush;
+      continue;
+    }
+    if (after != before) write_file_atomically(file, after);
+    console.out << file.string() << ": " << (after == before ? "nothing to convert" : "converted") << std::endl;
   }
   return kExitDone;
 }

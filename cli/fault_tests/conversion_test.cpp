@@ -124,6 +124,10 @@ TEST_F(Converted, WhatCannotBeConvertedIsRefusedWithItsLine) {
       EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
     }
   };
+  for (const char* other : {"name: towers\nfleet: []\n", "properties: {separation: ready}\n", "expect: {score: 3}\n",
+                            "- faults\n", "faults\n"}) {
+    refused(other, "old.yaml:1: faults: is missing, so this is no fault test");
+  }
   refused(kFlown + "expect: {during: 3}", "old.yaml:3: expect.during: must be a list");
   refused("{faults: [], expect: {score: 3}}", "old.yaml:1: expect: cannot be converted: let `expect:` begin a line");
   refused(kFlown + "properties: ./mine.yaml\nexpect: {score: 3}",
