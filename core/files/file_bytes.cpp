@@ -62,6 +62,7 @@ bool next_line(std::istream& in, std::string& line, const std::filesystem::path&
     if (line.size() == kLongest) throw InputError(file.string() + ": has a line of more than 1 MB: it is no text");
     line += static_cast<char>(c);
   }
+  if (line.ends_with('\r')) line.pop_back();
   return true;
 }
 

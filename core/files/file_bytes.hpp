@@ -18,7 +18,7 @@ std::string read_file_bytes(const std::filesystem::path& file, std::uintmax_t mo
 /// @throws InputError when the path leads to something else than a regular file.
 std::ifstream open_text(const std::filesystem::path& file);
 
-/// As std::getline(), but for lines of at most 1 MiB. @param file  for messages.
+/// As std::getline(), but for lines of at most 1 MiB, which may also end with "\r\n". @param file  for messages.
 /// @throws InputError when the line is longer.
 bool next_line(std::istream& in, std::string& line, const std::filesystem::path& file);
 

@@ -5,6 +5,8 @@
 #include <sys/stat.h>
 
 #include <fstream>
+#include <string>
+#include <vector>
 
 #include "core/types.hpp"
 
@@ -69,6 +71,14 @@ TEST_F(FileBytes, LinesAreAsGetlineHasThem) {
       EXPECT_EQ(a.eof(), b.eof());
     }
   }
+}
+
+TEST_F(FileBytes, LinesOfAFileFromWindowsAreTheSame) {
+  std::ofstream(folder_ / "text") << "one\r\n\r\nt\rwo\r\r\nthree";
+  std::ifstream in = open_text(folder_ / "text");
+  std::vector<std::string> lines;
+  for (std::string line; next_line(in, line, "text");) lines.push_back(line);
+  EXPECT_EQ(lines, (std::vector<std::string>{"one", "", "t\rwo\r", "three"}));
 }
 
 }  // namespace

@@ -49,6 +49,15 @@ TEST_F(HandFileTest, NumbersComeBackToTheBit) {
 
 TEST_F(HandFileTest, WithoutACommandNothingIsWanted) { EXPECT_TRUE(hand_file::read(write(hand_file::head())).empty()); }
 
+TEST_F(HandFileTest, AnEditorOnWindowsMayHaveSavedIt) {
+  std::string text = hand_file::head() + "20,400,1,0,0,0,0,0.5\n40,800,0,0,0,0,0,0\n";
+  for (std::size_t at = 0; (at = text.find('\n', at)) != std::string::npos; at += 2) text.insert(at, "\r");
+  const std::vector<HandRow> rows = hand_file::read(write(text));
+  ASSERT_EQ(rows.size(), 2U);
+  EXPECT_EQ(rows[0].command.gimbal_yaw_rate, 0.5);
+  EXPECT_EQ(rows[1].tick, 800);
+}
+
 TEST_F(HandFileTest, WhatIsWrongIsNamedWithItsLine) {
   const std::string good = "20,400,1,0,0,0,0,0\n";
   EXPECT_NE(refusal("").find(":1: "), std::string::npos);
