@@ -191,20 +191,22 @@ void fly_in(const ComposeProject& project, const FleetPlan& plan, const ComposeL
 }
 
 int fly(const ComposeOptions& options, const FleetPlan& plan, ComposeLayout layout, const Console& console) {
-  const fs::path dir = results_dir_of(options.run, plan.scenario.name);
   for (const auto& [program, vendor] : dds_vendors(plan)) {
     const auto [image, variable] = image_of(plan, program);
     if (!layout.images.contains(programs::member_name(program))) layout.chosen[variable] = variable_or(variable, image);
   }
   compose_file(plan, layout);  // throws if the file cannot be made
-  ResultsDir::check(dir, options.run.force);
-  if (!options.run.force) check_no_containers_files(dir);
-  check_inputs_outlast(plan, dir);
+  const fs::path planned = results_dir_of(options.run, plan.scenario.name);  // another launcher may take it first
+  ResultsDir::check(planned, options.run.force);
+  if (!options.run.force) check_no_containers_files(planned);
+  check_inputs_outlast(plan, planned);
   check_before_flight(plan, layout, console);
   std::optional<LivePage> page;
   if (layout.view) page.emplace(layout.view->published, true);
-  const ResultsDir out(dir, options.run.force);
-  const ContainerFolders folders(out.path());
+  const auto out = ResultsDir::take(options.run, plan.scenario.name);
+  const fs::path& dir = out->given();
+  if (!options.run.force) check_no_containers_files(dir);
+  const ContainerFolders folders(out->path());
   folders.make(plan);
   const ScratchDir keys;
   const std::uint64_t run_id = draw_run_id();
@@ -219,16 +221,16 @@ int fly(const ComposeOptions& options, const FleetPlan& plan, ComposeLayout layo
     layout.view->published = page->endpoint();
     layout.view->folder = shown.path();
   }
-  layout.results = out.path();
+  layout.results = out->path();
   layout.user = folders.user();
   layout.run = std::to_string(run_id);
   layout.status_lines = true;
-  write_file_atomically(out.path() / kComposeFile, compose_file(plan, layout));
+  write_file_atomically(out->path() / kComposeFile, compose_file(plan, layout));
 
   FleetRun run(plan, console.err, console.terminal);
   {
-    ComposeProject project(out.path() / kComposeFile, fmt::format("skein-{:08x}", run_id & 0xffffffff),
-                           out.path() / kComposeLog, console.err);
+    ComposeProject project(out->path() / kComposeFile, fmt::format("skein-{:08x}", run_id & 0xffffffff),
+                           out->path() / kComposeLog, console.err);
     run.view().message(fmt::format("{}: {} UAVs in containers, planner {}, seed {}, results in {}", plan.scenario.name,
                                    plan.scenario.fleet.size(), options.run.planner, options.run.seed, dir.string()));
     project.up();
@@ -236,16 +238,16 @@ int fly(const ComposeOptions& options, const FleetPlan& plan, ComposeLayout layo
       page->announce([&](const std::string& text) { run.view().message(text); },
                      options.run.view.browser && console.terminal);
     }
-    fly_in(project, plan, layout, out.path(), run);
+    fly_in(project, plan, layout, out->path(), run);
   }
-  gather_agents(out.path());
-  const results::Reports reports = results::read_reports(out.path(), plan.scenario, run.reports());
+  gather_agents(out->path());
+  const results::Reports reports = results::read_reports(out->path(), plan.scenario, run.reports());
   const RunResults results{options.run, run.facts(), plan.scenario,
-                           reports,     out.path(),  [&](const std::string& text) { return out.write_result(text); }};
+                           reports,     out->path(), [&](const std::string& text) { return out->write_result(text); }};
   const auto result = write_results(
       results, dir, [] { return std::vector<std::string>(); }, console);
   if (!result) return kExitProcessFailed;
-  if (page && !run.facts().interrupted) page->stay_as_replay(out.path(), options.run.view, console.err);
+  if (page && !run.facts().interrupted) page->stay_as_replay(out->path(), options.run.view, console.err);
   return exit_code_of(run, *result);
 }
 

@@ -18,6 +18,7 @@
 #include "process/files/security_files.hpp"
 #include "process/json_text.hpp"
 #include "process/program.hpp"
+#include "run/results_dir.hpp"
 #include "tests/support/places.hpp"
 
 namespace skein::cli {
@@ -270,7 +271,8 @@ class ComposeUp : public testing::Test {
     ::setenv("PATH", (programs_.dir().string() + ":" + path_).c_str(), 1);
     write_script(programs_.dir() / "docker", "gone=" + gone().string() + " folder=" + programs_.dir().string() + R"(
 case "$*" in
-  "compose version"|version*|"image inspect"*) ;;
+  "image inspect"*) if [ -e "$folder/first" ]; then . "$folder/first"; fi ;;
+  "compose version"|version*) ;;
   *" down "*) if [ -e "$gone" ]; then echo "no engine"; exit 1; fi ;;
   compose*) ;;
   "ps --all"*) for name in sim_server comm_router station uav_agent-alpha uav_agent-beta; do echo "$name id-$name"; done ;;
@@ -287,9 +289,10 @@ esac
   ~ComposeUp() override { ::setenv("PATH", path_.c_str(), 1); }
 
   fs::path gone() const { return programs_.dir() / "gone"; }
-  int up() {
-    const Texts words = {"compose", programs_.scenario(),   "--planner", "hover", "--up",
-                         "--out",   programs_.dir() / "out"};
+  int up() { return up_with({"--out", programs_.dir() / "out"}); }
+  int up_with(const Texts& more) {
+    Texts words = {"compose", programs_.scenario(), "--planner", "hover", "--up"};
+    words.insert(words.end(), more.begin(), more.end());
     return compose_fleet(parse_command_line(words).get<ComposeOptions>(), {out_, err_, false});
   }
 
@@ -306,6 +309,21 @@ TEST_F(ComposeUp, AFolderWithFilesOfTheNamesThatItUsesIsNotTaken) {
     EXPECT_EQ(read_text(programs_.dir() / "out" / name), "mine");
     fs::remove_all(programs_.dir() / "out");
   }
+}
+
+// The second command has made its checks, and does not fly yet, when the first one takes the folder.
+TEST_F(ComposeUp, TwoAtOnceWithoutOutGetFoldersOfTheirOwn) {
+  const fs::path before = fs::current_path(), usual = default_results_dir("small", "hover", 0);
+  const std::string first = programs_.dir() / usual;
+  write_text(programs_.dir() / "first", "mkdir -p " + first + "; echo first >" + first + "/result.json\n");
+  write_text(programs_.dir() / "server", "touch " + (programs_.dir() / "over").string() + "\n");
+  fs::current_path(programs_.dir());
+  const int code = up_with({});
+  fs::current_path(before);
+  EXPECT_EQ(code, kExitProcessFailed) << err_.str();
+  EXPECT_EQ(read_text(first + "/result.json"), "first\n");
+  EXPECT_NE(err_.str().find("results in " + usual.string() + "-2"), std::string::npos) << err_.str();
+  EXPECT_TRUE(fs::exists(first + "-2/result.json"));
 }
 
 TEST_F(ComposeUp, AnEngineThatGoesAwayIsReportedOnceAndWhatMayBeLeftIsNamed) {
