@@ -6,12 +6,16 @@
 
 #include "cli/actions.hpp"
 #include "cli/option_checks.hpp"
+#include "cli/hunt/capsule_run.hpp"
 #include "cli/options.hpp"
+#include "core/scenario/scenario_reader.hpp"
+#include "core/text/suggestion.hpp"
 #include "core/text/text.hpp"
 #include "process/json_text.hpp"
 #include "process/program.hpp"
 #include "results/result_file.hpp"
 #include "results/run_folder.hpp"
+#include "run/drawn_world.hpp"
 #include "run/fleet_plan.hpp"
 #include "run/hand_flights.hpp"
 #include "run/python_planners.hpp"
@@ -21,6 +25,38 @@ namespace skein::cli {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// The options of the flight of a command: for a capsule, those in its file, and few of the command's own.
+RunOptions options_flown(const RunOptions& given) {
+  if (!is_capsule(given)) return given;
+  RunOptions options = load_fault_test(given.scenario, given.assets, given.agent).plan.options;
+  options.dds = given.dds;
+  options.attainable = given.attainable;
+  options.report = given.report;
+  options.command = given.command;
+  return options;
+}
+
+/// The command's files may have changed since the run, and its relative names start from the current folder.
+/// @throws InputError if the command flies another scenario now, or another fleet or seed
+void check_flies_the_run(const RunOptions& options, const fs::path& run, const Json& result) {
+  LoadOptions load = load_options(options);
+  load.needs_scene_files = false;
+  const Scenario scenario = load_scenario(scenario_source(options.scenario, options.scene_seed), load);
+  std::vector<std::string> differences;
+  const auto compare = [&](const std::string& what, const std::string& then, const std::string& now) {
+    if (!then.empty() && then != now) differences.push_back(what + " " + then + ", now " + now);
+  };
+  // `skein merge` notes the scenario's file, also where the command has a name.
+  const std::string then = fs::path(text_in(result, "scenario")).stem(), file = scenario.file.stem();
+  if (then != file) compare("scenario", then, fs::path(options.scenario).stem());
+  compare("UAVs", joined(fleet_of(result)), joined(scenario.uav_names()));
+  compare("seed", result.contains("seed") ? result["seed"].dump() : "", std::to_string(options.seed));
+  if (differences.empty()) return;
+  throw InputError(run.string() + ": its command flies another run now: " + joined(differences, "; ") +
+                   ". Start from the folder in which that run was started, with the files that it had: " +
+                   text_in(result, "command"));
+}
 
 /// The options as the user gave them then, without those that only that run needed: output, debugging, view, security.
 RunOptions options_of(const fs::path& run, const Json& result) {
@@ -34,7 +70,8 @@ RunOptions options_of(const fs::path& run, const Json& result) {
   const auto* flown = parsed.get_if<RunOptions>();
   const auto* in_containers = parsed.get_if<ComposeOptions>();
   if (flown == nullptr && in_containers == nullptr) throw InputError(run.string() + ": it was no run: " + command);
-  RunOptions options = flown != nullptr ? *flown : in_containers->run;
+  RunOptions options = options_flown(flown != nullptr ? *flown : in_containers->run);
+  check_flies_the_run(options, run, result);
   options.out.reset();
   options.debug.clear();
   options.log.clear();
