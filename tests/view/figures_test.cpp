@@ -1,5 +1,5 @@
 // The cost of the page: draw calls, bytes sent, memory over an hour, for a large artificial flight that the test
-// advances. Nothing depends on the clock.
+// advances. Nothing depends on the clock. And what the page tells of poor pictures.
 #include "view_fixture.hpp"
 
 namespace skein::test {
@@ -9,6 +9,15 @@ class FiguresOfThePage : public BrowserTest {};
 
 TEST_F(FiguresOfThePage, StayWithinTheirBoundsOverAnHour) {
   look("figures", folder() / "door.html", helper_program("view_feeder"));
+}
+
+class PoorPictures : public FleetTest {};
+
+TEST_F(PoorPictures, AreToldWithThePartOfTheQualityThatLowersItMost) {
+  if (command_file("node").empty()) GTEST_SKIP() << "there is no node";
+  ChildProcess& node = start_program("poor", {command_file("node"), source_path("tests/view/poor.mjs")});
+  EXPECT_EQ(node.wait(kBrowserPatience).code, 0) << node.err();
+  EXPECT_EQ(node.out(), "");
 }
 
 }  // namespace

@@ -28,6 +28,13 @@ const better = (one, other) => (other === null || other === undefined ? one.its_
     one.its_q > other.its_q || (one.its_q === other.its_q && one.of.time < other.of.time));
 const counts = (seen) => seen !== null && seen.q >= kDetected;
 
+/** @returns the part of a point's quality in a capture that lowers it most: 'distance', 'tilt' or 'blur'. */
+export function weakestPart({blur, res, distance}) {
+  if (blur === 0) return 'blur';  // the resolution cannot be told from the product of both
+  const tilt = distance > 0 ? res / distance : 0;
+  return distance <= tilt && distance <= blur ? 'distance' : tilt <= blur ? 'tilt' : 'blur';
+}
+
 /** @param data  the flight's data: its UAVs, and its end [s]. */
 export function makeCustody(data) {
   const bestTaken = [], bestDelivered = [];  // by UAV, only within forget()
@@ -45,6 +52,7 @@ export function makeCustody(data) {
     const state = () => ({points: 0, score: 0});
     return {
       states: {delivered: state(), carried: state(), poor: state(), unseen: state()},
+      poor: {distance: 0, tilt: 0, blur: 0},  // points photographed too poorly, by the weakest part of their best capture
       blur: 0, resolution: 0, earned: 0, shares: data.uavs.map(() => 0), losses: new Map(),
     };
   }
@@ -69,15 +77,11 @@ export function makeCustody(data) {
     const score = counts(delivered) ? delivered.q : 0;
     const loss = could - score;
     const isToBlame = (one) => counts(one) && one.q > score && (score === 0 || one.q - score >= could - one.q);
-    const worst = ({blur, res, distance}) => {
-      const tilt = distance > 0 ? res / distance : 0;
-      return distance <= tilt && distance <= blur ? 'distance' : tilt <= blur ? 'tilt' : 'blur';
-    };
     const cause = () => {
       if (loss < 0) return 'above_estimate';
       if (isToBlame(taken)) return 'not_delivered';
       if (anyVoid() && isToBlame(bestVoid(index, time))) return 'voided';
-      if (score > 0) return worst(delivered);
+      if (score > 0) return weakestPart(delivered);
       return estimate.beyond.has(index) ? 'out_of_reach' : 'never_in_picture';
     };
     return Math.abs(loss) < kRounding ? null : {cause: cause(), loss};
@@ -106,7 +110,9 @@ export function makeCustody(data) {
   /** Adds a point to a tally, or subtracts it. @param by  1 or -1. */
   function count(tally, {delivered, taken}, by) {
     const given = counts(delivered);
-    const state = tally.states[given ? 'delivered' : taken === null ? 'unseen' : counts(taken) ? 'carried' : 'poor'];
+    const name = given ? 'delivered' : taken === null ? 'unseen' : counts(taken) ? 'carried' : 'poor';
+    const state = tally.states[name];
+    if (name === 'poor') tally.poor[weakestPart(taken)] += by;
     state.points += by;
     state.score += by * ((given ? delivered : taken)?.q ?? 0);
     if (counts(taken)) tally.earned += by * taken.q;

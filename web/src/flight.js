@@ -244,15 +244,16 @@ export function makeFlight(data) {
   }
 
   /**
-   * @returns number and score of the points by state, and the mean losses of delivered points to blur and resolution.
+   * @returns number and score of the points by state, the mean losses of delivered points to blur and resolution, and
+   * the number of points photographed too poorly, by what lowers their quality most.
    */
   function pointsAt(time) {
-    const {states: exact, blur, resolution} = tallyAt(time);
+    const {states: exact, blur, resolution, poor} = tallyAt(time);
     // After additions and subtractions, the sum over no points is not exactly 0.
     const states = Object.fromEntries(Object.entries(exact).map(
         ([name, {points, score}]) => [name, {points, score: points === 0 ? 0 : score}]));
     const {points} = states.delivered;
-    return {states, blur: points > 0 ? blur / points : 0, resolution: points > 0 ? resolution / points : 0};
+    return {states, poor, blur: points > 0 ? blur / points : 0, resolution: points > 0 ? resolution / points : 0};
   }
 
   /** @returns attainable score, losses by cause, and delivered score; null: the attainable score is not known. */

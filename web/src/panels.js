@@ -1,6 +1,7 @@
 // The panels beside the scene: activities of the UAVs, links, events, and facts about the chosen UAV or point. Each is
 // drawn for the moment that the page shows.
 import {factsOfActivity, numbersOf, saidAt, showDoes} from './activity.js';
+import {kDetected, weakestPart} from './custody.js';
 import {allEvents, doing, drawn, flights, isPair, kLinks, kRuns, linkOf, poseAt, sharesAt} from './flights.js';
 import {linkButton, showLinkButton} from './hand_faults.js';
 import {data, element, moment, shortName, swatch, trackColour} from './page.js';
@@ -68,7 +69,8 @@ const kPointStates = [
 ];
 
 /**
- * The panel of the points: number and score by state, and why delivered points have less than the full quality.
+ * The panel of the points: number and score by state, why delivered points have less than the full quality, and why
+ * others were photographed too poorly.
  * @param choose  called with the number of a point that the user enters, for users who cannot click on it in the scene;
  * null: no such field. @param run  index of the flight on a page with two runs.
  */
@@ -78,14 +80,20 @@ export function pointsPanel(choose, run = 0) {
       'tr', {}, element('th', {scope: 'row'}, swatch(colour), text), ...cells[i]));
   const note = element('p', {class: 'soft'}, '');
   const show = () => {
-    const {states, blur, resolution} = flights[run].pointsAt(moment.seconds);
+    const {states, blur, resolution, poor} = flights[run].pointsAt(moment.seconds);
     kPointStates.forEach(([state], i) => {
       cells[i][0].textContent = String(states[state].points);
       cells[i][1].textContent = state === 'unseen' ? '–' : states[state].score.toFixed(1);
     });
-    note.textContent = states.delivered.points === 0 ? '' :
-        `A delivered point lost ${(100 * blur).toFixed(0)} % to blur and ${(100 * resolution).toFixed(0)} % to ` +
-        'resolution (distance and tilt), on average.';
+    const sentences = [];
+    if (states.delivered.points > 0)
+      sentences.push(`A delivered point lost ${(100 * blur).toFixed(0)} % to blur and ${(100 * resolution).toFixed(0)} % to ` +
+                     'resolution (distance and tilt), on average.');
+    const causes = Object.entries(poor).filter(([, points]) => points > 0);
+    if (causes.length > 0)
+      sentences.push('What lowers the quality of points photographed too poorly most: ' +
+                     `${causes.map(([part, points]) => `${part} (${points})`).join(', ')}.`);
+    note.textContent = sentences.join(' ');
   };
   const table = element('table', {class: 'states'}, headRow(['points', 'number', 'score']), element('tbody', {}, ...rows));
   return {
@@ -150,9 +158,10 @@ function factsOfPoint(index, flight = flights[drawn.points]) {
   const one = delivered ?? taken;
   if (one === null) return [['state', 'unseen: in no picture so far']];
   const by = flight.data.uavs[one.of.uav].name;
+  const poor = one.q < kDetected ? ` (below ${kDetected} does not count; lowered most by ${weakestPart(one)})` : '';
   const facts = [
     ['state', delivered !== null ? 'delivered' : 'photographed, not delivered'],
-    ['score', `${one.q.toFixed(3)}${one.q < 0.2 ? ' (below 0.2 does not count)' : ''}`],
+    ['score', `${one.q.toFixed(3)}${poor}`],
     ['best capture', `no. ${one.of.number} of ${by}, at ${clock(one.of.time)}`],
     ['qualities', `sharp ${one.blur.toFixed(3)}, resolution ${one.res.toFixed(3)}` +
                       (one.distance > 0 ? `, ${one.distance.toFixed(3)} if seen head-on` : '')],
