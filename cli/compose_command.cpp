@@ -195,7 +195,7 @@ int fly(const ComposeOptions& options, const FleetPlan& plan, ComposeLayout layo
     const auto [image, variable] = image_of(plan, program);
     if (!layout.images.contains(programs::member_name(program))) layout.chosen[variable] = variable_or(variable, image);
   }
-  compose_file(plan, layout);  // throws if the file cannot be made
+  compose_file(plan, layout);                                                // throws if the file cannot be made
   const fs::path planned = results_dir_of(options.run, plan.scenario.name);  // another launcher may take it first
   ResultsDir::check(planned, options.run.force);
   if (!options.run.force) check_no_containers_files(planned);

@@ -52,7 +52,7 @@ export function makeCustody(data) {
     const state = () => ({points: 0, score: 0});
     return {
       states: {delivered: state(), carried: state(), poor: state(), unseen: state()},
-      poor: {distance: 0, tilt: 0, blur: 0},  // points photographed too poorly, by the weakest part of their best capture
+      poor: {distance: 0, tilt: 0, blur: 0},  // numbers of points, by weakestPart()
       blur: 0, resolution: 0, earned: 0, shares: data.uavs.map(() => 0), losses: new Map(),
     };
   }
