@@ -18,8 +18,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds kMatchPoll{2}, kRoundLimit{60'000};
-/// Rounds before the measurement. A DDS match is no handshake: the first samples after it may reach the reader only
-/// with the writer's next heartbeat.
+/// Rounds before the measurement. A writer may match a reader before the reader matches the writer. The reader then
+/// misses the writer's first samples, and receives them only after the writer's next heartbeat.
 constexpr std::uint64_t kWarmUp = 10;
 
 double process_cpu_s() {
@@ -28,10 +28,10 @@ double process_cpu_s() {
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-/// One process of the benchmark: its DDS endpoints, and what it writes and awaits in each round.
-class Player {
+/// This process as a part of the benchmark: its DDS endpoints, and what it writes and awaits in each round.
+class Participant {
  public:
-  Player(const Seat& seat, const std::vector<Flow>& flows) : vendor_(make_vendor()) {
+  Participant(const Seat& seat, const std::vector<Flow>& flows) : vendor_(make_vendor()) {
     for (const Flow& flow : flows) {
       if (flow.writer == seat) {
         writers_.push_back(vendor_->open_writer(flow));
@@ -49,21 +49,21 @@ class Player {
     for (const auto& writer : writers_) writer->write();
   }
 
-  /// Waits until this process has received every sample that the flows send to it in rounds 1 to `round`.
+  /// Waits until this process has received all samples of rounds 1 to `round` that are sent to it.
   /// @throws std::runtime_error after kRoundLimit.
   void await(std::uint64_t round) {
     if (!arrivals_.wait_for(round * readers_.size(), kRoundLimit)) {
-      throw std::runtime_error("round " + std::to_string(round) + " is not complete after a minute");
+      throw std::runtime_error("round " + std::to_string(round) +
+                               ": a process still waits for messages after a minute");
     }
   }
 
-  /// Checks that this process received as many bytes as `rounds` rounds send to it. Does not compare their values.
-  /// @throws std::runtime_error if the numbers differ.
+  /// Checks that this process has received as many bytes as the writers send to it in `rounds` rounds. Does not compare
+  /// the values of the bytes. @throws std::runtime_error if the numbers differ.
   void check_bytes(std::uint64_t rounds) const {
-    if (arrivals_.bytes() != rounds * bytes_per_round_) throw std::runtime_error("messages of another size arrived");
+    if (arrivals_.bytes() != rounds * bytes_per_round_)
+      throw std::runtime_error("messages arrived with other sizes than they were sent with");
   }
-
-  std::size_t inbound() const { return readers_.size(); }
 
  private:
   void await_matches() {
@@ -74,7 +74,8 @@ class Player {
       return all;
     };
     while (!complete()) {
-      if (Clock::now() > deadline) throw std::runtime_error("the processes do not find each other");
+      if (Clock::now() > deadline)
+        throw std::runtime_error("the processes have not matched their DDS writers and readers within a minute");
       arrivals_.wait_for(1, kMatchPoll);
     }
   }
@@ -86,20 +87,20 @@ class Player {
   std::uint64_t bytes_per_round_ = 0;
 };
 
-/// The parent's handle of the child process that takes one seat. The child reports through a pipe: one byte when all
-/// its endpoints are matched, and at the end the CPU time of its measured rounds [s].
+/// A child process, which takes one seat, as its parent handles it. The child writes to a pipe: one byte when all its
+/// endpoints are matched, and at the end its CPU time in the measured rounds [s].
 class Child {
  public:
   Child(const Seat& seat, const std::vector<Flow>& flows, std::uint64_t rounds) {
     int ends[2];
-    if (::pipe(ends) != 0) throw std::runtime_error("no pipe for a process");
+    if (::pipe(ends) != 0) throw std::runtime_error("cannot create a pipe to a child process");
     const pid_t parent = ::getpid();
     pid_ = ::fork();
-    if (pid_ < 0) throw std::runtime_error("no process for a seat");
+    if (pid_ < 0) throw std::runtime_error("cannot fork a child process");
     if (pid_ == 0) {
       ::prctl(PR_SET_PDEATHSIG, SIGKILL);
       ::close(ends[0]);
-      ::_exit(::getppid() == parent ? play(seat, flows, rounds, ends[1]) : 3);
+      ::_exit(::getppid() == parent ? take_part(seat, flows, rounds, ends[1]) : 3);
     }
     ::close(ends[1]);
     pipe_ = ends[0];
@@ -117,21 +118,21 @@ class Child {
   double await_end() { return read_all<double>(); }
 
  private:
-  static int play(const Seat& seat, const std::vector<Flow>& flows, std::uint64_t rounds, int pipe) try {
-    Player player(seat, flows);
+  static int take_part(const Seat& seat, const std::vector<Flow>& flows, std::uint64_t rounds, int pipe) try {
+    Participant participant(seat, flows);
     const char ready = 1;
     if (::write(pipe, &ready, 1) != 1) return 3;
     double before_s = 0.0;
     for (std::uint64_t round = 1; round <= kWarmUp + rounds; ++round) {
-      player.await(round);
-      player.write();
+      participant.await(round);
+      participant.write();
       if (round == kWarmUp) before_s = process_cpu_s();
     }
-    player.check_bytes(kWarmUp + rounds);
+    participant.check_bytes(kWarmUp + rounds);
     const double cpu_s = process_cpu_s() - before_s;
     if (::write(pipe, &cpu_s, sizeof cpu_s) != sizeof cpu_s) return 3;
-    // DDS may not yet have delivered the last samples, and would drop them if this process exited. So it waits until
-    // its parent kills it (~Child).
+    // If this process exited now, DDS would drop those of its last samples that it has not delivered yet. So the
+    // process waits until its parent kills it (~Child).
     for (;;) ::pause();
   } catch (const std::exception& error) {
     std::cerr << error.what() << std::endl;
@@ -141,7 +142,7 @@ class Child {
   template <class T>
   T read_all() const {
     T value{};
-    if (::read(pipe_, &value, sizeof value) != sizeof value) throw std::runtime_error("a process failed");
+    if (::read(pipe_, &value, sizeof value) != sizeof value) throw std::runtime_error("a child process failed");
     return value;
   }
 
@@ -176,19 +177,19 @@ FloorResult run_floor(const FloorOptions& options) {
   for (std::size_t i = 1; i < all.size(); ++i) {
     children.push_back(std::make_unique<Child>(all[i], flows, options.rounds));
   }
-  Player server(all.front(), flows);
+  Participant server(all.front(), flows);
   for (const auto& child : children) child->await_ready();
 
-  const auto play = [&](std::uint64_t first, std::uint64_t last) {
+  const auto run_rounds = [&](std::uint64_t first, std::uint64_t last) {
     for (std::uint64_t round = first; round <= last; ++round) {
       server.write();
       server.await(round);
     }
   };
-  play(1, kWarmUp);
+  run_rounds(1, kWarmUp);
   const auto began = Clock::now();
   const double before_s = process_cpu_s();
-  play(kWarmUp + 1, kWarmUp + options.rounds);
+  run_rounds(kWarmUp + 1, kWarmUp + options.rounds);
   FloorResult result;
   result.rounds = options.rounds;
   result.wall_s = std::chrono::duration<double>(Clock::now() - began).count();

@@ -16,7 +16,8 @@ struct FloorOptions {
 
 struct FloorResult {
   std::uint64_t rounds = 0;
-  double wall_s = 0.0;                    ///< of all rounds, from the server's first write to its last received sample
+  double wall_s = 0.0;                    ///< of the rounds after the warm-up, from the server's first write in them to
+                                          ///< the last sample that it receives
   double cpu_s = 0.0;                     ///< of all processes in that time
   double server_cpu_s = 0.0;              ///< of the server alone
   std::uint64_t messages = 0, bytes = 0;  ///< delivered per round (payloads)
