@@ -17,14 +17,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Folder of the replay. It lies in the run's folder, so that maps are moved and not copied. It is removed last: while
-/// it exists, some maps may not have been moved yet.
-constexpr const char* kReflight = "replay-maps";
+/// Results folder of the second flight, inside the run's folder: on the same file system, so that a rename moves the
+/// maps. It is removed last. If it is still there when a command starts, an earlier command was interrupted, and may
+/// not have moved all maps.
+constexpr const char* kSecondFlight = "replay-maps";
 
+/// Replaces the maps of these UAVs in `to` by those in `from`.
 void move_maps(const std::vector<std::string>& uavs, const fs::path& from, const fs::path& to) {
   for (const std::string& uav : uavs) {
     for (int life = 0; fs::exists(to / run_folder::maps_file(uav, life)); ++life) {
-      fs::remove(to / run_folder::maps_file(uav, life));  // damaged
+      fs::remove(to / run_folder::maps_file(uav, life));  // damaged, or moved by an interrupted command
     }
     for (int life = 0; fs::exists(from / run_folder::maps_file(uav, life)); ++life) {
       fs::rename(from / run_folder::maps_file(uav, life), to / run_folder::maps_file(uav, life));
@@ -35,19 +37,19 @@ void move_maps(const std::vector<std::string>& uavs, const fs::path& from, const
 }  // namespace
 
 int add_maps_in_time(const fs::path& run, const Console& console) try {
-  const fs::path reflight = run / kReflight;
+  const fs::path second_flight = run / kSecondFlight;
   const std::vector<std::string> uavs = fleet_of(results::read_result_file(run));
-  if (!fs::exists(reflight) && view::has_maps_in_time(run, uavs)) return kExitDone;
+  if (!fs::exists(second_flight) && view::has_maps_in_time(run, uavs)) return kExitDone;
   console.err << "computing the UAVs' maps: the run is flown again from its recording" << std::endl;
-  std::ostringstream unseen;  // the summary is of no interest: the score is known
+  std::ostringstream ignored_summary;  // it would repeat the score of the recorded run
   const ThoughtAgain again =
-      think_again_with_maps(run, reflight, {unseen, console.err, console.terminal, console.keyboard});
-  if (again.code == kExitDone && again.different.empty()) move_maps(uavs, reflight, run);
-  fs::remove_all(reflight);
+      think_again_with_maps(run, second_flight, {ignored_summary, console.err, console.terminal, console.keyboard});
+  if (again.code == kExitDone && again.different.empty()) move_maps(uavs, second_flight, run);
+  fs::remove_all(second_flight);
   if (again.code != kExitDone) return again.code;
   for (const std::string& text : again.different) console.err << "warning: " << text << '\n';
   if (!again.different.empty()) {
-    console.err << "warning: these would be maps of another run, so they are not shown" << std::endl;
+    console.err << "warning: the computed maps are therefore maps of another run, and Skein discards them" << std::endl;
   }
   return kExitDone;
 } catch (const fs::filesystem_error& error) {

@@ -1,6 +1,6 @@
-// `skein bench --view`: flies pairs of runs, one with its live page open in a browser, and one without a browser.
-// Compares the CPU times of the two runs, and measures what the page costs the browser. docs/performance.md has the
-// results.
+// `skein bench --view`: measures what it costs to watch a run on its live page. Flies pairs of equal runs: a browser
+// shows the page of one of them. Compares the CPU times of the two fleets, and measures the work of the browser.
+// docs/performance.md has results.
 #pragma once
 
 #include <ostream>
@@ -12,23 +12,25 @@
 
 namespace skein::cli {
 
-/// Two runs of the same flight. Both runs serve the page.
+/// Two runs of the same flight. In both runs, the station serves the page.
 struct WatchedPair {
-  Json unseen;   ///< result.json of the run whose page no browser showed
-  Json watched;  ///< result.json of the run whose page a browser showed
-  Json page;     ///< costs of the page in that browser (bench/view/watched_run.mjs)
+  Json unseen;   ///< result.json of the run without a browser
+  Json watched;  ///< result.json of the run with a browser that shows the page
+  Json page;     ///< work of that browser for the page, as bench/view/watched_run.mjs prints it
 };
 
-/// {"pairs", "cpu_ratio", "first_picture_ms", "script_ms", "thread_ms", "draw_calls", "pictures"}: the number of pairs,
-/// and for each other key the figure() (report.hpp) of the pairs' values, or null if no pair has a value.
-/// `cpu_ratio` is the fleet's CPU time with a browser, from the first step to the last, divided by that without one.
+/// Summarises the pairs. @returns {"pairs", "cpu_ratio", "first_picture_ms", "script_ms", "thread_ms", "draw_calls",
+/// "pictures"}. `pairs` is the number of pairs. Each other key has a figure() (report.hpp) over the pairs, or null if
+/// no pair has a value. `cpu_ratio` is the CPU time of the fleet that a browser watches, divided by that of the other
+/// one, both from the first step to the last. The values of the other keys are those of WatchedPair::page.
 Json watching_entry(const std::vector<WatchedPair>& pairs);
 
-/// Prints the figures next to their targets.
+/// Prints a watching_entry() as a table, with the target of each figure.
 void print_watching(std::ostream& out, const Json& entry);
 
-/// Flies the pairs at the default speed of a watched run. Needs the source tree with web/node_modules, Node.js and
-/// Chromium. @returns kExitDone; kExitProcessFailed when a flight failed.
+/// Flies the pairs at the default speed of watched runs (view::kUsualSpeed). Needs the source tree with
+/// web/node_modules, Node.js and Chromium.
+/// @returns kExitDone; kExitProcessFailed if a run or its browser failed.
 /// @throws InputError before the first flight if one of these is missing; Interrupted after Ctrl-C.
 int bench_watching(const BenchOptions& options, const Console& console);
 

@@ -1,5 +1,6 @@
-// `skein run --place ... --print`: commands to type on each host, if the launcher cannot start programs there. Reads
-// this host's name, and draws a run id.   Threads: any.
+// `skein run --place ... --print`: for hosts on which the launcher cannot log in, the commands with which the user
+// starts the programs of a fleet by hand on each host. Reads this host's name, and draws a random run id.
+// Threads: any.
 #pragma once
 
 #include <string>
@@ -9,8 +10,9 @@
 
 namespace skein::cli {
 
-/// A shell script with a part for each host. The programs need no launcher: each restarts itself (--keep), and the
-/// server detects by their leases which of them have died.
+/// A shell script with a part for each host, this one first, and at the end the commands that merge the results on this
+/// host. The programs fly without a launcher: each of Skein's programs runs under a keeper process that restarts it
+/// (--keep), and the server notices that a program has died when its DDS lease expires (--lease).
 std::string place_commands(const FleetPlan& plan, const std::vector<PlacedHost>& hosts);
 
 }  // namespace skein::cli
