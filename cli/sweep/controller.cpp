@@ -18,9 +18,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostTries = 3;        ///< of a unit without progress
-constexpr std::size_t kMostCheckRounds = 4;  ///< the engine may give a check to the node that flew the flight
-constexpr std::size_t kMostChecksHere = 10;  ///< of the checks that are left then
+constexpr std::size_t kMostTries = 3;  ///< tries of a unit, as long as no further flight of it is completed
+/// How often the controller gives the remaining checks to the engine. Once is not enough: the engine may give a check
+/// to the node that flew the flight first, and that node does not fly it again.
+constexpr std::size_t kMostCheckRounds = 4;
+constexpr std::size_t kMostChecksHere = 10;  ///< then this machine flies at most so many of the remaining checks
 
 std::string digest_in(const SweepRow& row) { return value_or(row.figures, "digest", "").get<std::string>(); }
 
@@ -39,7 +41,8 @@ std::string new_token(const std::string& plan) {
 
 bool is_checked(std::size_t index, std::size_t flights) {
   if (flights < kCheckedShare) return index == flights / 2;
-  // A random flight of each hundred: the order of a study may have a period of a hundred.
+  // One flight of each kCheckedShare, at a random place among them. If it were always the same place, all checked flights
+  // might have the same seed: a study may repeat its seeds with this period.
   return RandomStream(1, "checked flight", index / kCheckedShare).bits() % kCheckedShare == index % kCheckedShare;
 }
 
@@ -71,11 +74,12 @@ void SweepController::begin(const SweepPlan& plan, const std::string& digest_of_
   settings_.command = plan.command;
   settings_.working_folder = plan.working_folder;
   const auto former = folder_.settings();
-  // As in the rounds of a hunt: with the same reference flight, the nodes need not fly it again.
-  const bool proved = former && std::ranges::any_of(plan.references, [&](const SweepFlight& flight) {
-                        return to_json(flight) == to_json(former->reference);
-                      });
-  if (proved) {
+  // Nodes that have reproduced this reference flight in the former sweep need not fly it again. The rounds of a hunt,
+  // for example, share one reference flight.
+  const bool is_known = former && std::ranges::any_of(plan.references, [&](const SweepFlight& flight) {
+                          return to_json(flight) == to_json(former->reference);
+                        });
+  if (is_known) {
     settings_.reference = former->reference;
     settings_.digest = former->digest;
     settings_.reference_s = former->reference_s;
@@ -84,11 +88,12 @@ void SweepController::begin(const SweepPlan& plan, const std::string& digest_of_
   }
   settings_.sizes = plan.unit_sizes(settings_.reference_s);
   folder_.forget_sick();
-  folder_.begin(settings_, proved, [&](std::size_t number) { return planned_unit(plan, number); });
+  folder_.begin(settings_, is_known, [&](std::size_t number) { return planned_unit(plan, number); });
   for (std::size_t number = 0; number < settings_.units(); ++number) close_what_is_flown(number, &say_);
 }
 
-/// Tries the candidates in order, so that a planner that always fails does not prevent the sweep.
+/// Flies the candidates for the reference flight in their order until one succeeds, so that a planner that always fails
+/// does not prevent the sweep. @throws NodeTrouble if all fail.
 void SweepController::fly_a_reference(const SweepPlan& plan) {
   for (const SweepFlight& flight : plan.references) {
     const auto began = std::chrono::steady_clock::now();
@@ -123,7 +128,8 @@ bool SweepController::fly() {
     const auto more = [&] { return checks_follow ? checks_elsewhere() : EngineWork{}; };
     if (!engine_.fly(work, {[this] { tell_progress(); }, more})) return false;
     tell_progress();
-    // A node that fails at once may have taken many units, so these tries say nothing about the units.
+    // A node with a problem fails each of its units at once, so the engine may have given it many units before it was
+    // quarantined or noted as sick. These tries say nothing about the units.
     if (nodes_to_avoid() != before) folder_.write_tries({});
   }
   folder_.clear_air();
@@ -145,20 +151,20 @@ std::vector<std::size_t> SweepController::open_units() const {
   return open;
 }
 
-/// The units that have tries left. A unit that has made progress gets all its tries again, because an engine's time
-/// limit may split it into many pieces.
+/// The units that have tries left; counts one more try of each. If flights of a unit have been completed since its last
+/// try, it has all its tries again, because the engine's time limit may interrupt a unit many times.
 std::vector<std::size_t> SweepController::within_tries(const std::vector<std::size_t>& units) const {
   std::map<std::size_t, SweepFolder::Tries> tries = folder_.tries();
   std::vector<std::size_t> within;
   for (const std::size_t unit : units) {
-    const SweepUnit its = folder_.unit(unit);
-    const auto flown = static_cast<std::size_t>(std::ranges::count_if(
-        its.flights, [](const SweepFlight& flight) { return fs::exists(flight.dir / kFlightMark); }));
-    SweepFolder::Tries& its_tries = tries[unit];
-    if (flown > its_tries.flown) its_tries.tries = 0;
-    its_tries.flown = flown;
-    if (its_tries.tries >= kMostTries) continue;
-    ++its_tries.tries;
+    const std::vector<SweepFlight> flights = folder_.unit(unit).flights;
+    const auto flown = static_cast<std::size_t>(
+        std::ranges::count_if(flights, [](const SweepFlight& flight) { return fs::exists(flight.dir / kFlightMark); }));
+    SweepFolder::Tries& tried = tries[unit];
+    if (flown > tried.flown) tried.tries = 0;
+    tried.flown = flown;
+    if (tried.tries >= kMostTries) continue;
+    ++tried.tries;
     within.push_back(unit);
   }
   if (!within.empty()) folder_.write_tries(tries);
@@ -170,7 +176,7 @@ SweepFlight SweepController::flight(std::size_t index) const {
   return folder_.unit(unit).flights.at(index - settings_.sizes.first(unit));
 }
 
-/// The flights of the sample whose results have not been checked on a second node yet.
+/// The flights to check (is_checked()) that have a result, but have not been flown again on a second node yet.
 std::vector<SweepFlight> SweepController::unchecked_flights() const {
   std::vector<SweepFlight> unchecked;
   const std::size_t flights = settings_.sizes.flights;
@@ -187,12 +193,14 @@ std::vector<SweepFlight> SweepController::unchecked_flights() const {
   return unchecked;
 }
 
-/// Writes units of unchecked flights. A node flies only those flights of such a unit that another node flew first.
+/// Writes extra units, numbered after those of the sweep, with the unchecked flights. A node that gets such a unit
+/// flies only those of its flights that another node flew first. @returns their numbers; none if there is no second
+/// node, or after kMostCheckRounds.
 std::vector<std::size_t> SweepController::units_of_checks() const {
   if (!engine_.has_other_nodes() || engine_.lacks_nodes() || folder_.nodes().size() < 2) return {};
   const std::size_t first = settings_.units();
   std::map<std::size_t, SweepFolder::Tries> tries = folder_.tries();
-  std::size_t& rounds = tries[first].tries;
+  std::size_t& rounds = tries[first].tries;  // the tries of the first extra unit count the rounds
   const std::vector<SweepFlight> flights = unchecked_flights();
   if (flights.empty() || rounds == kMostCheckRounds) return {};
   ++rounds;
@@ -216,7 +224,8 @@ EngineWork SweepController::checks_elsewhere() {
   return work;
 }
 
-/// The node that flew all flights of these units, and so cannot check any, if there is another node that may fly.
+/// If a single node flew all flights of these units first, it cannot check any of them. @returns this node if another
+/// node may fly, otherwise an empty set.
 std::set<std::string> SweepController::nodes_of_no_use(const std::vector<std::size_t>& checks,
                                                        const std::set<std::string>& avoided) const {
   std::set<std::string> flew, others;
@@ -232,8 +241,8 @@ std::set<std::string> SweepController::nodes_of_no_use(const std::vector<std::si
   return others.empty() ? std::set<std::string>{} : flew;
 }
 
-/// Checks on this machine what no other node has checked: a few flights, or the whole sample if only one node flies.
-/// @returns whether it has checked any.
+/// Flies the remaining checks on this machine, without those of flights that this machine flew first: at most
+/// kMostChecksHere in the life of this object. @returns whether it has flown any.
 bool SweepController::check_here() {
   if (!engine_.has_other_nodes()) return false;
   bool any = false;
@@ -256,13 +265,16 @@ void SweepController::judge_checks() const {
   }
 }
 
-/// Two nodes have different digests of a flight. This machine decides which node is wrong, unless the flight has
-/// another digest each time here, too.
+/// Two nodes have different digests of a flight. To find out which of them is wrong, this machine flies the flight twice.
+/// If its own two digests are equal, it quarantines each node with another digest. If not, the flight is not repeatable,
+/// and neither node is to blame.
 void SweepController::judge(const SweepCheck& check) const {
   const SweepFlight disputed = flight(check.index);
   const std::string here = digest_here(folder_, disputed, here_);
   if (digest_here(folder_, disputed, here_) != here) {
-    say_ << disputed.dir.string() << " is another flight each time that it is flown: see `skein check-planner`\n";
+    say_ << disputed.dir.string()
+         << ": its digest is different each time that it is flown here, so it is not repeatable: see "
+            "`skein check-planner`\n";
   } else {
     for (const auto& [node, digest] :
          {std::pair(check.first_node, check.first_digest), std::pair(check.node, check.digest)}) {
@@ -274,13 +286,14 @@ void SweepController::judge(const SweepCheck& check) const {
   folder_.forget_check(settings_.token, check.index);
 }
 
-/// Sets aside the flights of quarantined nodes, also those of units that are not over, so that they never count.
+/// Moves the flights of quarantined nodes to aside/, so that they never count and other nodes fly them again. Also
+/// moves those of units that are not over.
 void SweepController::remove_quarantined() {
   const std::set<std::string> nodes = folder_.quarantined_nodes();
   if (nodes == removed_) return;
   for (const std::string& node : nodes) {
     if (!removed_.contains(node)) {
-      say_ << "nothing of " << node << " counts: " << folder_.quarantined(node).value_or("") << std::endl;
+      say_ << "no result of the node " << node << " counts: " << folder_.quarantined(node).value_or("") << std::endl;
     }
   }
   for (std::size_t unit = 0; unit < settings_.units(); ++unit) {
@@ -313,8 +326,8 @@ void SweepController::collect(const std::function<void(SweepRow row)>& take) con
 std::map<std::size_t, std::string> SweepController::failed() const {
   std::map<std::size_t, std::string> failed;
   for (const std::size_t unit : open_units()) {
-    const std::vector<std::string> words = last_lines(folder_.log_of(unit), 1);
-    failed[unit] = words.empty() ? "" : words.back();
+    const std::vector<std::string> last = last_lines(folder_.log_of(unit), 1);
+    failed[unit] = last.empty() ? "" : last.back();
   }
   return failed;
 }
@@ -322,14 +335,16 @@ std::map<std::size_t, std::string> SweepController::failed() const {
 std::vector<std::string> SweepController::findings() const {
   std::vector<std::string> lines;
   for (const std::string& node : folder_.quarantined_nodes()) {
-    lines.push_back("nothing of " + node + " counts: " + folder_.quarantined(node).value_or(""));
+    lines.push_back("no result of the node " + node + " counts: " + folder_.quarantined(node).value_or(""));
   }
   const std::set<std::size_t> checks = folder_.checks(settings_.token);
   std::set<std::string> nodes;
   for (const std::string& node : folder_.nodes()) nodes.insert(node);
-  lines.push_back(fmt::format("{} node{}; {} flight{} flown again elsewhere, {}", nodes.size(),
-                              nodes.size() == 1 ? "" : "s", checks.size(), checks.size() == 1 ? "" : "s",
-                              checks.empty() ? "none of them another one" : "each with the same digest"));
+  const std::string checked = checks.empty()
+                                  ? "no flight was flown again on a second node"
+                                  : fmt::format("{} flight{} flown again elsewhere, each with the same digest",
+                                                checks.size(), checks.size() == 1 ? "" : "s");
+  lines.push_back(fmt::format("{} node{}; {}", nodes.size(), nodes.size() == 1 ? "" : "s", checked));
   return lines;
 }
 

@@ -177,7 +177,8 @@ TEST(SweepController, AnotherArithmeticIsFoundByTheReferenceFlight) {
   sweep.expect_all(20);
   EXPECT_TRUE(sweep.quarantined("odd"));
   EXPECT_FALSE(sweep.quarantined("sound"));
-  EXPECT_NE(sweep.said.str().find("nothing of odd counts: its reference flight has the digest"), std::string::npos)
+  EXPECT_NE(sweep.said.str().find("no result of the node odd counts: its reference flight has the digest"),
+            std::string::npos)
       << sweep.said.str();
 }
 

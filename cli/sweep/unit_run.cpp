@@ -43,7 +43,7 @@ class UnitRun {
     const auto now = folder_.settings();
     if (!now || now->token != settings_.token) throw NodeTrouble("the study was planned anew: this unit is not wanted");
     if (const auto reason = folder_.quarantined(node_.name)) {
-      throw NodeTrouble("nothing of " + node_.name + " counts: " + *reason);
+      throw NodeTrouble("no result of the node " + node_.name + " counts: " + *reason);
     }
   }
 
