@@ -16,9 +16,10 @@
 namespace skein::cli {
 namespace {
 
-/// Variables that may be set: those for users, of docker/compose.yaml, of tests, and what Skein's programs set for each
-/// other (SKEIN_SWEEP_MERGES: cli/sweep/slurm.hpp, SKEIN_OTHER_CLOCK_S: process/host/other_clock.hpp).
-const std::vector<std::string> kUserNames = {
+/// The variables SKEIN_... that cause no warning: those that users set, those of docker/compose.yaml, of the build and
+/// of the tests, and those that Skein's programs set for each other (for example SKEIN_SWEEP_MERGES,
+/// cli/sweep/slurm.hpp, and SKEIN_OTHER_CLOCK_S, process/host/other_clock.hpp).
+const std::vector<std::string> kKnownNames = {
     "SKEIN_AGENT",         "SKEIN_ASSETS",        "SKEIN_BIN_DIR",      "SKEIN_CHAOS",       "SKEIN_CONFIG_DIR",
     "SKEIN_DURATION",      "SKEIN_LOG",           "SKEIN_NETWORK",      kThreadsVariable,    "SKEIN_WEB",
     "SKEIN_DEBUG_VALUES",  "SKEIN_HASH_SEED",     "SKEIN_IMAGE",        "SKEIN_AGENT_IMAGE", "SKEIN_PYTHON_AGENT_IMAGE",
@@ -33,14 +34,17 @@ std::vector<std::string> environment_warnings() {
   std::vector<std::string> warnings;
   const std::vector<std::string> ignored = ignored_variables();
   if (!ignored.empty()) {
-    warnings.push_back("not passed on to the programs, whose DDS is set up by Skein alone: " + joined(ignored));
+    warnings.push_back(
+        "not passed on to the programs of a fleet, because Skein itself configures their DDS and "
+        "tells each program its role: " +
+        joined(ignored));
   }
   for (char** entry = environ; *entry != nullptr; ++entry) {
     const std::string name(variable_in(*entry));
     if (!name.starts_with("SKEIN_") || is_ignored_variable(name) ||
-        std::ranges::find(kUserNames, name) != kUserNames.end())
+        std::ranges::find(kKnownNames, name) != kKnownNames.end())
       continue;
-    warnings.push_back("no program reads the variable " + name + "; " + suggestion(name, kUserNames));
+    warnings.push_back("no program reads the variable " + name + "; " + suggestion(name, kKnownNames));
   }
   std::sort(warnings.begin(), warnings.end());
   return warnings;
@@ -61,7 +65,8 @@ std::string fleet_environment_prefix(bool native) {
 }
 
 void settle_process() {
-  // If the shell closed a standard descriptor, a pipe or a lock would get its number, and then the output meant for it.
+  // The shell may have closed a standard descriptor (`skein 2>&-`). Then the next pipe or lock file that is opened
+  // would get its number, and the process would write its output or error messages there.
   for (int fd = ::open("/dev/null", O_RDWR); fd >= 0; fd = ::open("/dev/null", O_RDWR)) {
     if (fd <= STDERR_FILENO) continue;
     ::close(fd);

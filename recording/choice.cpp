@@ -8,8 +8,8 @@
 namespace skein::recording {
 namespace {
 
-/// Period of odometry and similar topics. More is not needed: /tf contains the poses five times a second, and what a
-/// UAV receives in each exchange follows from its commands.
+/// Recording period of odometry and similar topics. Twice a second is enough: the recording has all poses five times a
+/// second in /tf, and a flight that repeats the recorded commands reproduces what each UAV received in each exchange.
 constexpr double kPosePeriod_s = 0.5;
 
 bool is(const topics::TopicInfo& info, std::string_view node, std::string_view topic) {
@@ -34,8 +34,8 @@ Scope scope_of(std::string_view name) {
 std::optional<Choice> choice_of(Scope scope, std::string_view node, std::string_view topic) {
   using namespace topics;
   if (scope == Scope::none) return std::nullopt;
-  const bool tells_of_itself = !debug_name(wire_topic(topic), node).empty();
-  if (scope == Scope::messages) return tells_of_itself ? std::optional(Choice{0, true}) : std::nullopt;
+  const bool is_debug_value = !debug_name(wire_topic(topic), node).empty();
+  if (scope == Scope::messages) return is_debug_value ? std::optional(Choice{0, true}) : std::nullopt;
   if (is_one_of({kOdometry, kGimbal, kBattery, kWind, kRadioLinks}, node, topic))
     return Choice{ticks(kPosePeriod_s), true};
   if (is_one_of({kTrajectoryCommand, kGimbalCommand, kCameraTrigger, kTrigger, kCommandRejected, kCapture,
@@ -43,13 +43,14 @@ std::optional<Choice> choice_of(Scope scope, std::string_view node, std::string_
                 node, topic)) {
     return Choice{0, true};
   }
-  if (tells_of_itself) return Choice{0, true};
+  if (is_debug_value) return Choice{0, true};
   if (is(kBoundingBoxes, node, topic)) return node == "gcs" ? std::optional(Choice{0, true}) : std::nullopt;
   if (scope == Scope::run) return std::nullopt;
-  if (is(kScore, node, topic)) return Choice{0, true};  // no program of a fleet reads it
-  // A LiDAR cloud is of no use without the angle of the LiDAR's servo.
-  const bool cloud = is_one_of({kCloud, kLidarServo, kSelfKeyframe, kNeighbourKeyframe}, node, topic);
-  return Choice{0, cloud && scope == Scope::clouds};
+  if (is(kScore, node, topic)) return Choice{0, true};  // also unread, since no program of a fleet reads it
+  // The angle of the LiDAR's servo is recorded whenever clouds are: without it, a cloud does not show which way the
+  // LiDAR was turned.
+  const bool belongs_to_clouds = is_one_of({kCloud, kLidarServo, kSelfKeyframe, kNeighbourKeyframe}, node, topic);
+  return Choice{0, belongs_to_clouds && scope == Scope::clouds};
 }
 
 std::string ros_topic(std::string_view wire_name) {

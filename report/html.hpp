@@ -1,4 +1,5 @@
-// Pieces of HTML and SVG text. Pure; any thread. Numbers are written the same in every locale.
+// Functions that build the HTML and SVG of reports. Pure; any thread. The locale does not affect how they write
+// numbers.
 #pragma once
 
 #include <optional>
@@ -10,17 +11,19 @@
 
 namespace skein::report {
 
-/// Escapes text for elements and quoted attributes: & < > " '. Control characters that XML forbids become '?'.
+/// The text with & < > " ' escaped, for use in elements and in quoted attributes. Replaces control characters
+/// that XML forbids, and bytes that are not UTF-8, by '?'.
 std::string escaped(std::string_view text);
 
 using skein::fixed;
-/// The same; a dash if there is no value.
+/// As skein::fixed(); a dash if there is no value.
 std::string fixed(const std::optional<double>& value, int digits);
 
-/// A coordinate in a drawing, with at most one digit after the point: "3", not "3.0".
+/// A coordinate in a drawing, with one digit after the point, or none if it is 0: "3.5", "3".
 std::string coordinate(double value);
 
-/// Shortens text to at most `most` characters of UTF-8. If it cuts something off, the last character is an ellipsis.
+/// A text of at most `most` characters (not bytes) of UTF-8. If the text is longer, cuts off its end, and the last of
+/// the `most` characters is an ellipsis.
 std::string shortened(const std::string& text, std::size_t most);
 
 /// The beginning of a page that is a file, up to <main>, with the styles of drawings and runs. Escapes the title.
@@ -30,22 +33,24 @@ std::string shortened(const std::string& text, std::size_t most);
 std::string page_begin(const std::string& title, const std::optional<std::string>& script, const std::string& classes,
                        std::string_view css = {});
 
-/// A <figure> with a caption and, if not empty, a smaller line below the caption. Escapes these two, but not `svg`.
+/// A <figure>: the caption, below it `small` in smaller print (unless empty), and the drawing `svg`. Escapes `caption`
+/// and `small`, but not `svg`.
 std::string figure(const std::string& caption, const std::string& small, const std::string& svg);
 
-/// An axis with round ends and round ticks.
+/// The axis of a plot. Both ends and all ticks are multiples of the step between two ticks.
 struct Axis {
   double low = 0.0, high = 1.0, step = 1.0;
 
-  /// Position of a value on the axis: 0 at `low`, 1 at `high`.
+  /// Relative position of a value on the axis: 0 at `low`, 1 at `high`.
   double share(double value) const { return (value - low) / (high - low); }
   std::vector<double> ticks() const;
   /// Text of a tick, with as many digits after the point as the step needs.
   std::string label(double tick) const;
 };
 
-/// The axis for values from `low` to `high`. It begins (or ends) at 0 if that makes the range at most twice as long. An
-/// empty range is widened. @param about  approximate number of steps.
+/// An axis that contains all values from `low` to `high`, with a step of 1, 2 or 5 times a power of ten. It is extended
+/// to 0 if that makes the range less than twice as long. If `low` and `high` are equal, the axis also covers values
+/// beside them. @param about  approximate number of steps.
 Axis nice_axis(double low, double high, int about = 5);
 
 }  // namespace skein::report

@@ -41,8 +41,8 @@ std::string new_token(const std::string& plan) {
 
 bool is_checked(std::size_t index, std::size_t flights) {
   if (flights < kCheckedShare) return index == flights / 2;
-  // One flight of each kCheckedShare, at a random place among them. If it were always the same place, all checked flights
-  // might have the same seed: a study may repeat its seeds with this period.
+  // One flight of each kCheckedShare, at a random place among them. If it were always the same place, all checked
+  // flights might have the same seed: a study may repeat its seeds with this period.
   return RandomStream(1, "checked flight", index / kCheckedShare).bits() % kCheckedShare == index % kCheckedShare;
 }
 
@@ -265,9 +265,9 @@ void SweepController::judge_checks() const {
   }
 }
 
-/// Two nodes have different digests of a flight. To find out which of them is wrong, this machine flies the flight twice.
-/// If its own two digests are equal, it quarantines each node with another digest. If not, the flight is not repeatable,
-/// and neither node is to blame.
+/// Two nodes have different digests of a flight. To find out which of them is wrong, this machine flies the flight
+/// twice. If its own two digests are equal, it quarantines each node with another digest. If not, the flight is not
+/// repeatable, and neither node is to blame.
 void SweepController::judge(const SweepCheck& check) const {
   const SweepFlight disputed = flight(check.index);
   const std::string here = digest_here(folder_, disputed, here_);

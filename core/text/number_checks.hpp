@@ -1,6 +1,7 @@
-// Range checks for numbers on the command line, for programs that do not use the launcher's checks
-// (cli/option_checks.hpp). Each function is a CLI11 validator. CLI11's own validators would print the largest double,
-// with 309 digits, as the upper limit.   Pure.
+// Range checks for numbers on the command line, for all programs; cli/option_checks.hpp has further ones for the
+// launcher. They serve as validators for CLI11. Unlike CLI11's own validators (CLI::PositiveNumber,
+// CLI::NonNegativeNumber, CLI::Range) they refuse "nan" and "0x10". Also, the messages of the first two name the
+// largest double, with 309 digits, as upper limit.   Pure.
 #pragma once
 
 #include <functional>
@@ -8,12 +9,12 @@
 
 namespace skein {
 
-/// @returns an error message unless the text is a number above 0, otherwise an empty text.
+/// @returns an empty text if `text` is a number above 0, otherwise an error message.
 std::string check_positive(const std::string& text);
-/// @returns an error message unless the text is a number of at least 0, otherwise an empty text.
+/// @returns an empty text if `text` is a number of at least 0, otherwise an error message.
 std::string check_not_negative(const std::string& text);
 
-/// A validator of numbers within [least, most]. Unlike CLI::Range it refuses "nan" and "0x10", too.
+/// @returns a function that checks in the same way that a text is a number within [least, most].
 std::function<std::string(const std::string&)> number_within(double least, double most);
 
 }  // namespace skein
