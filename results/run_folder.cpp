@@ -53,23 +53,26 @@ bool is_maps_file(const std::string& name, const std::string& uav) {
 }
 
 bool is_of_a_run(const std::string& name) {
-  // recording/bag.hpp writes metadata.yaml.
-  constexpr std::array<std::string_view, 20> kTables = {
+  // "metadata.yaml" is kBagMetadata of recording/bag.hpp, which this layer cannot include.
+  constexpr std::array<std::string_view, 20> kFixedNames = {
       "metadata.yaml",  kFleetLog,        kResult,       kScore,         kCaptures, kDigests,     kLosses,
       kEvents,          kCaptureMessages, kTrajectories, kScoreTimeline, kScene,    kPage,        kRecording,
       kRecordingLayout, kTracking,        kWork,         kActivity,      kByHand,   kPlannerFiles};
-  // Reports, logs (also that of a whole fleet's process), the station's journal and the router's counts. If a journal
-  // or counts of another run stayed, the program would continue from them, as after a crash.
-  const bool of_a_program = programs::is_agent(name) || name.starts_with(std::string(programs::kOneProcess) + ".") ||
-                            std::any_of(programs::kServers.begin(), programs::kServers.end(), [&](const char* program) {
-                              return name.starts_with(std::string(program) + ".");
-                            });
-  // Without the suffix of a temporary file, which stays if the writing program is killed (atomic_file.hpp).
-  const std::string whole = name.substr(0, name.rfind(".tmp"));
-  const bool is_map =
-      (whole.starts_with("map-") && whole.ends_with(".bt")) || (whole.starts_with("maps-") && whole.ends_with(".mcap"));
-  const bool is_of_a_hand = whole.starts_with("hand-") && whole.ends_with(".csv");
-  return of_a_program || is_map || is_of_a_hand || std::find(kTables.begin(), kTables.end(), whole) != kTables.end();
+  // Files whose names begin with a program's name: reports, logs (also the log of the process that runs a whole fleet),
+  // recordings, the station's journal and the router's counts. If the journal or the counts of an earlier run remained
+  // in the folder, the station or the router would continue from them, as after a crash.
+  const bool is_of_a_program =
+      programs::is_agent(name) || name.starts_with(std::string(programs::kOneProcess) + ".") ||
+      std::any_of(programs::kServers.begin(), programs::kServers.end(),
+                  [&](const char* program) { return name.starts_with(std::string(program) + "."); });
+  // A program that is killed while it writes a file leaves a temporary file: the final name with a suffix
+  // (atomic_file.hpp).
+  const std::string final_name = name.substr(0, name.rfind(".tmp"));
+  const bool is_map = (final_name.starts_with("map-") && final_name.ends_with(".bt")) ||
+                      (final_name.starts_with("maps-") && final_name.ends_with(".mcap"));
+  const bool is_hand_file = final_name.starts_with("hand-") && final_name.ends_with(".csv");
+  return is_of_a_program || is_map || is_hand_file ||
+         std::find(kFixedNames.begin(), kFixedNames.end(), final_name) != kFixedNames.end();
 }
 
 bool has_file(const std::filesystem::path& run, const std::string& name) {

@@ -1,4 +1,4 @@
-// Where a page is served: an address of this host and a port; by default on the loopback address.
+// The endpoint at which this host serves a page: one of its addresses, by default the loopback address, and a port.
 // Pure except for names_of(), which asks the operating system; any thread.
 #pragma once
 
@@ -13,19 +13,21 @@ struct Endpoint {
   std::string address = "127.0.0.1";  ///< IPv4 or IPv6, numeric
   std::uint16_t port = 0;             ///< 0: any free port
 
-  bool is_loopback() const;    ///< whether only programs on this host reach it
-  bool is_any() const;         ///< whether it is all addresses of this host: 0.0.0.0 or ::
-  std::string text() const;    ///< as in a URL: "127.0.0.1:8080", "[::1]:8080"
-  Endpoint from_here() const;  ///< the endpoint at which a browser on this host reaches it
+  bool is_loopback() const;  ///< whether only programs on this host can reach the endpoint
+  bool is_any() const;       ///< whether the address stands for all addresses of this host: 0.0.0.0 or ::
+  std::string text() const;  ///< as in a URL: "127.0.0.1:8080", "[::1]:8080"
+  /// The endpoint for a browser on this host: itself, or the loopback address instead of all addresses.
+  Endpoint from_here() const;
   bool operator==(const Endpoint&) const = default;
 };
 
-/// Reads [ADDRESS:]PORT: "8080", "0.0.0.0:8080", "[::1]:8080", "localhost:8080".
-/// @throws InputError whose message says what is allowed
+/// Reads [ADDRESS:]PORT: "8080", "0.0.0.0:8080", "[::1]:8080", "localhost:8080". Without ADDRESS: on 127.0.0.1.
+/// @throws InputError for any other text; its message says what is allowed.
 Endpoint read_endpoint(std::string_view text);
 
-/// Host names that browsers may use for this endpoint: its address. If it is all addresses of this host, then those of
-/// the host's interfaces and the host's name, also without its domain.
+/// The names by which browsers may address this endpoint in URLs, besides localhost (door.hpp). If the endpoint has a
+/// single address: this address. If it stands for all addresses: the addresses of the host's network interfaces, the
+/// host's name, and the host's name without its domain.
 std::vector<std::string> names_of(const Endpoint& endpoint);
 
 /// The two parts of a Host header such as "localhost:8080": the name in lower case, without the brackets of IPv6, and

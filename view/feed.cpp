@@ -47,7 +47,8 @@ void Feed::set_cloud(const std::string& name, std::string cloud) {
   tell();
 }
 
-/// Takes the clouds with the oldest changes first, so that each gets its turn. @returns a JSON list; empty: no news.
+/// Takes first the cloud whose latest version is the oldest, so that a cloud that changes all the time does not delay
+/// one that changed before it. @returns a JSON list of clouds, or an empty text if the browser has all latest versions.
 std::string Feed::next_clouds(FeedPlace& place, std::size_t most_bytes) const {
   std::vector<std::pair<const Cloud*, std::uint64_t*>> news;
   for (auto& [name, number] : place.clouds) {

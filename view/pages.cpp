@@ -25,7 +25,7 @@ std::string style_element(std::string_view more = {}) {
   return "<style>\n" + std::string(report::base_style()) + std::string(more) + "</style>\n";
 }
 
-/// Style of a page that shows a flight.
+/// The style element of a page that shows a flight.
 std::string run_style_element() {
   return style_element(std::string(report::drawing_style()) + std::string(report::run_style()));
 }
@@ -50,12 +50,13 @@ Site site_of(const std::string& title, const std::filesystem::path& script) {
 std::string kept_page(const std::string& title, const Feed& flight, std::size_t most_bytes) {
   const auto script = report::web_bundle(report::kLiveScript);
   if (!script) find_script();
-  if (!script) throw InputError("the page's script live.js is damaged: it cannot stand in a page");
+  if (!script) throw InputError("the page's script live.js is damaged: it cannot be embedded in a page");
   const std::string head = "<meta http-equiv=\"Content-Security-Policy\" content=\"" +
                            report::escaped(report::policy_of_file(script)) + "\"/>\n" + run_style_element();
-  constexpr std::size_t kElements = 1000;
-  const std::size_t own = head.size() + script->size() + kElements;
-  const std::size_t room = most_bytes > own ? most_bytes - own : std::min<std::size_t>(most_bytes, 1);
+  constexpr std::size_t kOtherHtml = 1000;  // estimated bytes of the other elements
+  const std::size_t fixed_bytes = head.size() + script->size() + kOtherHtml;
+  // Without room, 1 byte: kept_flight() then leaves out maps and points, and says so. With 0 it would not mention them.
+  const std::size_t room = most_bytes > fixed_bytes ? most_bytes - fixed_bytes : std::min<std::size_t>(most_bytes, 1);
   return document("Skein: " + title, head,
                   "<body class=\"run watch\">\n<noscript>This page needs JavaScript.</noscript>\n"
                   "<main id=\"flight\"><p class=\"soft\">One moment, please.</p></main>\n"
@@ -68,8 +69,9 @@ std::string door_page(bool refused) {
       "Skein: the key, please", style_element(),
       "<body>\n<main>\n<h1>The key, please</h1>\n" +
           std::string(refused ? "<p role=\"alert\"><strong>That is not the key of this run.</strong></p>\n" : "") +
-          "<p>To watch a run, or to pause it, you need its key. Open the file <code>view.html</code> that "
-          "<code>skein</code> named when it began, or paste here what <code>view.key</code> beside it holds.</p>\n"
+          "<p>To watch a run, or to pause it, you need its key. Open the file <code>view.html</code> whose path "
+          "<code>skein</code> printed, or paste here the content of the file <code>view.key</code> in the same "
+          "folder.</p>\n"
           "<form method=\"post\" action=\"/enter\"><label>Key <input name=\"key\" type=\"password\" "
           "autocomplete=\"off\" autofocus=\"autofocus\" size=\"40\"/></label> <button>Enter</button></form>\n"
           "</main>\n</body>\n");
@@ -82,14 +84,14 @@ std::string entered_page() {
 
 std::string key_file_page(const std::string& host, const Key& key, bool waits) {
   const std::string enter = "document.getElementById('enter').submit()";
-  // The file may not read the server's answer, but it learns that the server answers.
+  // The browser does not let a local file read the server's answer, but fetch() succeeds once the server answers.
   const std::string when_served = "function knock() { fetch('http://" + host + "/', {mode: 'no-cors'}).then(() => " +
                                   enter + ", () => setTimeout(knock, 500)); }\nknock();";
   return document("Skein", style_element(),
                   "<body>\n<main>\n<form id=\"enter\" method=\"post\" action=\"http://" + host +
                       "/enter\"><input type=\"hidden\" name=\"key\" value=\"" + key.text() +
                       "\"/><button>Open the page of the run</button></form>\n" +
-                      (waits ? "<p>This opens by itself as soon as the fleet is there.</p>\n" : "") +
+                      (waits ? "<p>The page opens by itself as soon as the fleet is running.</p>\n" : "") +
                       "</main>\n<script>" + (waits ? when_served : enter + ";") + "</script>\n</body>\n");
 }
 

@@ -14,19 +14,21 @@ class WorldMapper {
     WorldMap::Config map = {};
     /// Uses one scan in `every`. The default uses all: the CPU time allows it, and more scans prove more space free.
     int every = 1;
-    double bundle_rad = ScanBundler::kBundleRad;  ///< see ScanBundler
-    /// Radius of the ball around the LiDAR that counts as free at the start: greater than the range in which the LiDAR
-    /// is blind, so that the first beams can prove more (decision 25).
+    double bundle_rad = ScanBundler::kBundleRad;  ///< size of a bundle of adjacent beams, see ScanBundler
+    /// Radius of the ball around the LiDAR that counts as free at the start. It is greater than the LiDAR's
+    /// `range_min_m`, because a beam without a return proves space free only if its first `range_min_m` are known to be
+    /// free already (decision 25).
     double start_clear_m = 1.2;
-    bool clutter = false;  ///< rain or dust may return beams: ClutterFilter
+    bool clutter = false;  ///< whether to filter returns from rain or dust (ClutterFilter)
   };
 
-  /// @param lidar   its share of lost returns enters the map's criterion as no_return_p.
-  /// @param config  its `map.criterion.no_return_p` is not read.
+  /// @param lidar   `no_return_p` and the share of `dropped_sectors` determine the map's `criterion.no_return_p`.
+  /// @param config  its `map.criterion.no_return_p` is ignored.
   WorldMapper(const LidarConfig& lidar, const Config& config);
 
-  /// Enters a scan. Call it with all scans of the LiDAR, in order. It ignores scans in doubt (ScanDoubt), and those
-  /// whose tick is no multiple of `every` scan periods. The first one used marks the ball at the start as free.
+  /// Enters a scan into the map. Call it with all scans of the LiDAR, in order. It ignores a scan whose beams are
+  /// all unknown (ScanDoubt), and a scan whose tick is not a multiple of `every` scan periods. Before it enters the
+  /// first scan that it does not ignore, it marks the ball of `start_clear_m` around the LiDAR as free.
   void insert(const BeamScan& scan);
 
   const WorldMap& map() const { return map_; }
@@ -39,7 +41,7 @@ class WorldMapper {
   ScanBundler bundler_;
   RepeatedScans repeated_;
   ClutterFilter clutter_;
-  std::vector<Eigen::Vector3f> hits_W_;  ///< of one scan, without clutter
+  std::vector<Eigen::Vector3f> hits_W_;  ///< hits of the present scan without clutter; a member to reuse its memory
   bool started_ = false;
 };
 

@@ -8,7 +8,8 @@
 namespace skein::agent {
 namespace {
 
-/// Unit vector along the optical axis, before the body's yaw: R_z(yaw) R_y(pitch) e_x.
+/// Unit vector along the camera's optical axis, in a level frame with the body's heading: R_z(yaw) R_y(pitch) e_x.
+/// @param pitch, yaw  of the gimbal.
 Vector3d optical_axis(double pitch, double yaw) {
   return {std::cos(yaw) * std::cos(pitch), std::sin(yaw) * std::cos(pitch), -std::sin(pitch)};
 }
@@ -26,8 +27,8 @@ GimbalCommand aim_at(const Vector3d& p_W, const RigidBodyState& state, const Veh
 }
 
 std::optional<double> yaw_facing(const Vector3d& out_W) {
-  constexpr double kUpright = 0.5;  // |n_z| from which on a face counts as top or bottom
-  return std::abs(out_W.z()) < kUpright ? std::optional(std::atan2(-out_W.y(), -out_W.x())) : std::nullopt;
+  constexpr double kTopOrBottom = 0.5;  // a face with |out_W.z()| of at least this is the top or bottom of a box
+  return std::abs(out_W.z()) < kTopOrBottom ? std::optional(std::atan2(-out_W.y(), -out_W.x())) : std::nullopt;
 }
 
 double aim_error(const Vector3d& p_W, const RigidBodyState& state, const GimbalState& gimbal,

@@ -21,7 +21,7 @@ TEST_F(PythonPlannerTest, TextsThatUtf8CannotEncodeAreNamed) {
              {"ValueError: half \\ud800", "at step 7 (0.35 s)"});
   const std::string code =
       "class Mine(Planner):\n    def plan(self, inputs): pass\n    def debug_names(self): return ['a\\ud800']\n";
-  expect_has(input_error(file(code)), {"debug_names(): must be a text that UTF-8 has"});
+  expect_has(input_error(file(code)), {"debug_names(): must be a text that UTF-8 can encode"});
 }
 
 }  // namespace

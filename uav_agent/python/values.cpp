@@ -7,15 +7,15 @@
 namespace skein::agent::python {
 namespace {
 
-/// What it is, shortly.
-std::string what_is(py::handle value) {
+/// Describes a value in a few words, for messages: its repr() and type, or only its shape or type if it is large.
+std::string described(py::handle value) {
   if (value.is_none()) return "None";
   constexpr std::size_t kLongest = 60;
   const std::string type = Py_TYPE(value.ptr())->tp_name;
   if (py::isinstance<py::array>(value)) {
     const auto array = py::reinterpret_borrow<py::array>(value);
-    const std::string shape = py::str(array.attr("shape")), kind = py::str(array.dtype());
-    if (array.size() > 3) return "an array of shape " + shape + " of " + kind;
+    const std::string shape = py::str(array.attr("shape")), element_type = py::str(array.dtype());
+    if (array.size() > 3) return "an array of shape " + shape + " of " + element_type;
   }
   std::string text;
   try {
@@ -27,7 +27,7 @@ std::string what_is(py::handle value) {
   return text + (py::isinstance<py::array>(value) ? "" : " (" + type + ")");
 }
 
-/// NaN where it is no number; numbers of NumPy are some.
+/// The value as a number, also from NumPy's scalars. @returns NaN if it is not a real number, or is a bool.
 double number_in(py::handle value) {
   if (PyFloat_Check(value.ptr()) != 0) return PyFloat_AS_DOUBLE(value.ptr());
   if (PyNumber_Check(value.ptr()) == 0 || PyBool_Check(value.ptr()) != 0) return std::nan("");
@@ -40,12 +40,16 @@ double number_in(py::handle value) {
   return number;
 }
 
-bool is_plain(const py::array& array) {
+/// Whether the array's memory has the layout of a Vector3d: three adjacent doubles.
+bool is_like_vector3d(const py::array& array) {
   return array.ndim() == 1 && array.shape(0) == 3 && array.dtype().num() == py::detail::npy_api::NPY_DOUBLE_ &&
          array.strides(0) == sizeof(double);
 }
 
-bool is_real(const py::array& array) { return std::string_view("fiu").find(array.dtype().kind()) != std::string::npos; }
+/// Whether the elements are floating-point numbers or integers (kinds of NumPy: f; i and, without sign, u).
+bool has_real_numbers(const py::array& array) {
+  return std::string_view("fiu").find(array.dtype().kind()) != std::string::npos;
+}
 
 }  // namespace
 
@@ -55,7 +59,7 @@ std::string Place::text() const {
 }
 
 void Place::refuse(const std::string& wanted, py::handle value) const {
-  throw WrongOutput(text() + ": must be " + wanted + ", not " + what_is(value));
+  throw WrongOutput(text() + ": must be " + wanted + ", not " + described(value));
 }
 
 py::object to_array(const Vector3d& vector) {
@@ -82,9 +86,9 @@ Vector3d read_vector(py::handle value, const Place& place) {
   Vector3d vector = Vector3d::Constant(std::nan(""));
   if (py::isinstance<py::array>(value)) {
     const auto array = py::reinterpret_borrow<py::array>(value);
-    if (is_plain(array)) {
+    if (is_like_vector3d(array)) {
       vector = Eigen::Map<const Vector3d>(static_cast<const double*>(array.data()));
-    } else if (array.ndim() == 1 && array.shape(0) == 3 && is_real(array)) {
+    } else if (array.ndim() == 1 && array.shape(0) == 3 && has_real_numbers(array)) {
       for (py::ssize_t i = 0; i < 3; ++i) vector[i] = number_in(array[py::int_(i)]);
     }
   } else if (PyTuple_Check(value.ptr()) != 0 || PyList_Check(value.ptr()) != 0) {
@@ -127,7 +131,7 @@ std::string read_text(py::handle value, const Place& place) {
       py::reinterpret_steal<py::object>(PyUnicode_AsEncodedString(value.ptr(), "utf-8", "surrogateescape"));
   if (!bytes) {
     PyErr_Clear();
-    place.refuse("a text that UTF-8 has", value);
+    place.refuse("a text that UTF-8 can encode", value);
   }
   std::string text = bytes.cast<std::string>();
   if (text.find('\0') != std::string::npos) place.refuse("a text without NUL", value);

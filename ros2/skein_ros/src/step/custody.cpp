@@ -6,9 +6,10 @@
 namespace skein_ros {
 namespace {
 
-constexpr std::uint64_t kResendSteps = 10;
-constexpr std::size_t kMostBytesPerStep = 200'000;
+constexpr std::uint64_t kResendSteps = 10;          // without an acknowledgement, a report is sent again after these
+constexpr std::size_t kMostBytesPerStep = 200'000;  // the first report of a step may exceed this limit
 
+/// About the size of the serialised report.
 std::size_t bytes_of(const skein_msgs::msg::CaptureReport& report) {
   return 48 + report.uav.size() + report.points.size() * sizeof(skein_msgs::msg::CapturePoint);
 }
@@ -19,6 +20,7 @@ std::uint32_t crc32_with(std::uint32_t crc, std::uint8_t byte) {
   return crc;
 }
 
+/// The checksum of an acknowledgement, as skein_msgs/msg/CaptureAck defines it: CRC-32 as in zlib.
 std::uint32_t sum_of(const std::string& uav, const std::vector<std::uint64_t>& captures) {
   std::uint32_t crc = 0xffffffffU;
   for (const char c : uav) crc = crc32_with(crc, static_cast<std::uint8_t>(c));
@@ -37,7 +39,8 @@ void Custody::take(const skein_msgs::msg::CaptureReports& reports) {
 }
 
 void Custody::see(const sensor_msgs::msg::PointCloud2& neighbours) {
-  constexpr std::size_t kNodeOffset = 12;  // the field "intensity", a float32
+  // Offset of the field "intensity", a float32 with the neighbour's node number; 0 is the ground station.
+  constexpr std::size_t kNodeOffset = 12;
   linked_ = false;
   if (neighbours.point_step < kNodeOffset + sizeof(float)) return;
   for (std::size_t at = 0; at + neighbours.point_step <= neighbours.data.size(); at += neighbours.point_step) {
@@ -62,9 +65,9 @@ skein_msgs::msg::CaptureReports Custody::due(std::uint64_t k) {
   std::size_t bytes = 0;
   for (auto& [capture, held] : held_) {
     if (held.sent && k < held.sent_at + kResendSteps) continue;
-    const std::size_t more = bytes_of(held.report);
-    if (!out.reports.empty() && bytes + more > kMostBytesPerStep) break;
-    bytes += more;
+    const std::size_t report_bytes = bytes_of(held.report);
+    if (!out.reports.empty() && bytes + report_bytes > kMostBytesPerStep) break;
+    bytes += report_bytes;
     held.sent = true;
     held.sent_at = k;
     out.reports.push_back(held.report);
