@@ -250,7 +250,7 @@ void add_compose(CLI::App& app, ComposeOptions& compose) {
       "  skein compose towers --planner kios --view 8080 --up\n"
       "  skein compose towers --planner kios --file compose.yaml\n"
       "  skein compose towers --planner hover,jurong=orbit --image jurong=my-agent --up\n\n"
-      "See docs/containers.md for how to build images, and for each part of the file.");
+      "docs/how-to-containers.md shows how to build images; docs/containers.md explains each part of the file.");
 }
 
 void finish_compose(ComposeOptions& compose, const std::vector<std::string>& arguments) {

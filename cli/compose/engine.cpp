@@ -46,7 +46,7 @@ void check_engine(const std::vector<std::string>& images) {
   compose_program();
   for (const std::string& image : images) {
     if (shell("docker image inspect " + shell_word(image)) == 0) continue;
-    throw InputError("the engine has no image '" + image + "'; docs/containers.md tells how Skein's are built");
+    throw InputError("the engine has no image '" + image + "'; docs/how-to-containers.md tells how Skein's are built");
   }
 }
 

@@ -85,7 +85,7 @@ TEST_F(FlightInContainers, FaultsMeanTheSame) {
   }
 }
 
-// The steps of docs/containers.md without the compilation, in a fleet of another size.
+// The steps of docs/how-to-containers.md without the compilation, in a fleet of another size.
 TEST_F(FlightInContainers, APlannersOwnImageFliesAUav) {
   const fs::path context = folder() / "image";
   fs::create_directory(context);
