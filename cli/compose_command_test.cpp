@@ -126,7 +126,7 @@ TEST_F(ComposeCommand, OnlyAFileThatSkeinMadeIsReplacedWithoutForce) {
 }
 
 TEST_F(ComposeCommand, AFullDiskLeavesTheFormerFile) {
-  auto options = std::get<ComposeOptions>(parse_command_line({"compose", "towers"}));
+  auto options = parse_command_line({"compose", "towers"}).get<ComposeOptions>();
   const fs::path file = scratch_.path() / "compose.yaml", link = scratch_.path() / "link.yaml";
   fs::create_symlink(file, link);
   for (const fs::path& name : {file, link}) {
@@ -147,7 +147,7 @@ TEST_F(ComposeCommand, AFullDiskLeavesTheFormerFile) {
 }
 
 TEST_F(ComposeCommand, OnlyARegularFileIsWrittenTo) {
-  auto options = std::get<ComposeOptions>(parse_command_line({"compose", "towers"}));
+  auto options = parse_command_line({"compose", "towers"}).get<ComposeOptions>();
   const fs::path pipe = scratch_.path() / "pipe", circle = scratch_.path() / "circle";
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
   fs::create_symlink(circle, circle);

@@ -141,7 +141,7 @@ void add_pack(CLI::App& app, PackOptions& pack) {
       "pack", "Write the programs with all their libraries into one archive, for machines without Skein");
   command->add_option("FILE", pack.file, "Archive to write: skein.tar.gz")->required();
   command->add_option("--agent", pack.agents, "Pack this agent program of yours, too")->allow_extra_args(false);
-  command->footer("Example:\n  skein pack skein.tar.gz\n\nSee docs/sweeps.md.");
+  command->footer("Example:\n  skein pack skein.tar.gz\n\nSee docs/how-to-sweep.md.");
 }
 
 int pack_programs(const PackOptions& options, const Console& console) {

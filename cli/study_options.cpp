@@ -13,7 +13,7 @@ void add_sweep(CLI::App& command, SweepOptions& sweep) {
   command
       .add_option("--executor", sweep.executor,
                   "Divide the flights into units of some minutes, and fly these on this machine (local), on other "
-                  "hosts by GNU parallel over ssh (parallel), or on a cluster (slurm); see docs/sweeps.md")
+                  "hosts by GNU parallel over ssh (parallel), or on a cluster (slurm); see docs/how-to-sweep.md")
       ->check(CLI::IsMember({"local", "parallel", "slurm"}));
   command
       .add_option("--sshlogin", sweep.logins,
