@@ -5,16 +5,19 @@
 //    boxes by frontiers: one viewpoint for each cluster, an ATSP over them (explorer.hpp). 3. UAVs send each other
 //    their maps in chunks (talk.hpp). 4. Photographers begin at once: viewpoints before known surface that nobody has
 //    inspected (surfaces.hpp), in clusters, by a hierarchical ATSP (tour.hpp); without viewpoints they hover. Explorers
-//    only explore, with the camera towards their frontiers, unless `explorers_inspect`, or the team has no
-//    photographer. 5. All UAVs fly through their viewpoints without a stop, turning and tilting the camera all the
-//    time, and plan again every 1.5 s; so pictures are blurred and oblique.
+//    only explore, with the camera towards their frontiers. With `explorers_inspect`, or if the team has no
+//    photographer, they also inspect: on the way the camera looks at surface that they pass and nobody has inspected,
+//    and when they have explored their boxes, they inspect like photographers. 5. All UAVs fly through their viewpoints
+//    without a stop, turning and tilting the camera all the time, and plan again every 1.5 s; so pictures are blurred
+//    and oblique.
 //
 // Its weaknesses are the published ones: boxes are assigned once, by path length; empty volume is explored like any
-// other; photographers begin late; and pictures are taken in motion. Our addition: a team without work helps with the
-// boxes of others (`helps`). `faithful` switches our additions off: photographers without surface to inspect hover
-// where they are for ever, even out of line of sight; an explorer that has explored its boxes is done (unless
-// `explorers_inspect`), and a team without a box has nothing to do; UAVs plan without regard to where the others are
-// about to work. The published collisions at the start are not reproduced.
+// other; photographers begin late; and pictures are taken in motion. Our additions: a team without work helps with the
+// boxes of others (`helps`), and explorers may inspect (`explorers_inspect`, off by default). `faithful` switches our
+// additions off, except those that are set by name: photographers without surface to inspect hover where they are for
+// ever, even out of line of sight; an explorer that has explored its boxes is done, unless it inspects; a team without
+// a box has nothing to do; UAVs plan without regard to where the others are about to work. The published collisions at
+// the start are not reproduced.
 // Not published for this contest, and so our choice: all numbers (config.hpp), the messages, and that the flight core
 // does the flying (flight_core/flight_core.hpp).
 #include <algorithm>
