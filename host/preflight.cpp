@@ -87,7 +87,7 @@ std::vector<std::string> run_checks(const std::vector<ProgramSpec>& programs, co
   const std::map<std::string, ExitStatus> exits = run_all(programs, tell);
   std::vector<std::string> warnings;
   for (const ProgramSpec& program : programs) {
-    const ExitStatus exit = exits.at(program.name);
+    const ExitStatus& exit = exits.at(program.name);
     if (exit.code == kExitBadInput) throw InputError(message_of(program));
     if (!exit.ok()) {
       throw std::runtime_error(program.name + " --check ended with " + exit.text() + "\n" + message_of(program));

@@ -130,11 +130,14 @@ class StudyRun {
 
 }  // namespace
 
+bool is_of_sound_flight(const Json& mark, const std::string& command) {
+  static const Json no_problem = "";
+  return value_or(mark, "command", nullptr) == command && value_or(mark, "problem", nullptr) == no_problem;
+}
+
 std::optional<StudyOutcome> flown_before(const StudyFlight& flight, std::ostream* say) {
   const Json mark = read_json(flight.dir / kFlightMark);
-  if (value_or(mark, "command", nullptr) != flight.command() || value_or(mark, "problem", nullptr) != "") {
-    return std::nullopt;
-  }
+  if (!is_of_sound_flight(mark, flight.command())) return std::nullopt;
   const Json result = sound_result(flight.dir, say);
   if (value_or(result, "seed", nullptr) != flight.seed || !went_to_its_end(result)) return std::nullopt;
   return StudyOutcome{figures_of(result), ""};

@@ -38,6 +38,9 @@ Json sound_result(const std::filesystem::path& dir, std::ostream* say);
 /// Error message for a flight that failed. @param dir  its folder. @param exit  of its `skein run`
 std::string problem_of(const std::filesystem::path& dir, const Json& result, const ExitStatus& exit);
 
+/// True if this mark (kFlightMark) says that `command` flew the run, and without a problem.
+bool is_of_sound_flight(const Json& mark, const std::string& command);
+
 /// The outcome of an earlier flight with the same StudyFlight::command() that went to its end without a problem.
 /// nullopt: it must be flown. @param say  as for sound_result()
 std::optional<StudyOutcome> flown_before(const StudyFlight& flight, std::ostream* say);

@@ -182,9 +182,7 @@ void fly_unit(const SweepFolder& folder, std::size_t unit, const SweepNode& node
 std::optional<SweepRow> row_in_place(const SweepFolder& folder, const SweepFlight& flight, const SweepNode& node,
                                      std::ostream* say) {
   const Json mark = read_json(flight.dir / kFlightMark);
-  if (value_or(mark, "command", nullptr) != flight.made_under || value_or(mark, "problem", nullptr) != "") {
-    return std::nullopt;
-  }
+  if (!is_of_sound_flight(mark, flight.made_under)) return std::nullopt;
   const std::string flown_by = text_in(mark, "node");
   if (folder.quarantined(flown_by)) return std::nullopt;
   const Json result = sound_result(flight.dir, say);
