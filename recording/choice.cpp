@@ -46,7 +46,7 @@ std::optional<Choice> choice_of(Scope scope, std::string_view node, std::string_
   if (is_debug_value) return Choice{0, true};
   if (is(kBoundingBoxes, node, topic)) return node == "gcs" ? std::optional(Choice{0, true}) : std::nullopt;
   if (scope == Scope::run) return std::nullopt;
-  if (is(kScore, node, topic)) return Choice{0, true};  // also unread, since no program of a fleet reads it
+  if (is(kScore, node, topic)) return Choice{0, true};  // unread samples, too: no program of a fleet reads this topic
   // The angle of the LiDAR's servo is recorded whenever clouds are: without it, a cloud does not show which way the
   // LiDAR was turned.
   const bool belongs_to_clouds = is_one_of({kCloud, kLidarServo, kSelfKeyframe, kNeighbourKeyframe}, node, topic);

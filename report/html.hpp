@@ -26,10 +26,10 @@ std::string coordinate(double value);
 /// the `most` characters is an ellipsis.
 std::string shortened(const std::string& text, std::size_t most);
 
-/// The beginning of a page that is a file, up to <main>, with the styles of drawings and runs. Escapes the title.
+/// The beginning, up to <main>, of a page that users open as a file, not from a server, with the styles of drawings and
+/// runs. Escapes the title.
 /// @param script  the only script that the page may run (policy_of_file())
-/// @param classes  CSS classes of the body
-/// @param css  more styles
+/// @param classes  CSS classes of the body. @param css  more styles
 std::string page_begin(const std::string& title, const std::optional<std::string>& script, const std::string& classes,
                        std::string_view css = {});
 

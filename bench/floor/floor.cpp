@@ -87,7 +87,7 @@ class Participant {
   std::uint64_t bytes_per_round_ = 0;
 };
 
-/// A child process, which takes one seat, as its parent handles it. The child writes to a pipe: one byte when all its
+/// The parent's handle of a child process that takes one seat. The child writes to a pipe: one byte when all its
 /// endpoints are matched, and at the end its CPU time in the measured rounds [s].
 class Child {
  public:

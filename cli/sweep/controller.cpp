@@ -18,11 +18,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostTries = 3;  ///< tries of a unit, as long as no further flight of it is completed
+constexpr std::size_t kMostTries = 3;  ///< successive tries of a unit that complete no further flight of it
 /// How often the controller gives the remaining checks to the engine. Once is not enough: the engine may give a check
 /// to the node that flew the flight first, and that node does not fly it again.
 constexpr std::size_t kMostCheckRounds = 4;
-constexpr std::size_t kMostChecksHere = 10;  ///< then this machine flies at most so many of the remaining checks
+/// This machine flies at most so many of the checks that no other node has flown.
+constexpr std::size_t kMostChecksHere = 10;
 
 std::string digest_in(const SweepRow& row) { return value_or(row.figures, "digest", "").get<std::string>(); }
 

@@ -9,8 +9,8 @@ namespace skein {
 ConfigNode ConfigWriter::number(double value) { return ConfigNode::make_scalar(shortest(value)); }
 
 ConfigNode ConfigWriter::text(const std::string& value) {
-  // In quotes, a value stays a text even if it looks like a number, true or false. No number begins with a letter or
-  // '/'.
+  // A text that looks like a number, true or false needs quotes to stay a text. One that begins with a letter or '/'
+  // does not look like a number, so it needs them only if it is true or false.
   const bool starts_as_word = !value.empty() && (std::isalpha(static_cast<unsigned char>(value[0])) || value[0] == '/');
   return ConfigNode::make_scalar(value, !starts_as_word || value == "true" || value == "false");
 }

@@ -1,7 +1,7 @@
 // Range checks for numbers on the command line, for all programs; cli/option_checks.hpp has further ones for the
-// launcher. They serve as validators for CLI11. Unlike CLI11's own validators (CLI::PositiveNumber,
-// CLI::NonNegativeNumber, CLI::Range) they refuse "nan" and "0x10". Also, the messages of the first two name the
-// largest double, with 309 digits, as upper limit.   Pure.
+// launcher. They serve as validators for CLI11. CLI11's own (CLI::PositiveNumber, CLI::NonNegativeNumber, CLI::Range)
+// accept "nan" and "0x10"; and the messages of CLI::PositiveNumber and CLI::NonNegativeNumber name the largest double,
+// with 309 digits, as upper limit.   Pure.
 #pragma once
 
 #include <functional>
