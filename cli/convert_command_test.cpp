@@ -1,5 +1,5 @@
 // `skein convert`: what it prints or rewrites, and that it changes no file if it refuses one.
-#include "cli/actions.hpp"
+#include "cli/convert_command.hpp"
 
 #include <gtest/gtest.h>
 

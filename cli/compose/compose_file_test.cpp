@@ -28,7 +28,7 @@ namespace fs = std::filesystem;
 
 const Texts kSceneFiles = {"mesh.stl", "points.pcd", "boxes.yaml"};
 /// What YAML, DNS or docker-compose might take for something else.
-const Texts kOddNames = {
+const Texts kOddNodes = {
     "on", "yes", "null", "true", "n", "usual", "host", "results", "uav", "router", "E5", "z__9_", std::string(64, 'a')};
 constexpr int kFleets = 40;
 
@@ -62,7 +62,7 @@ class ComposeFile : public testing::Test {
   }
 
   Texts draw_names(std::mt19937& random) {
-    Texts names = kOddNames;
+    Texts names = kOddNodes;
     for (int i = 0; i < 20; ++i) names.push_back("u" + std::to_string(i));
     std::ranges::shuffle(names, random);
     names.resize(std::uniform_int_distribution<std::size_t>(1, 20)(random));

@@ -130,7 +130,7 @@ class StudyRun {
 
 }  // namespace
 
-bool is_of_sound_flight(const Json& mark, const std::string& command) {
+bool is_of_sound_flight(const Json& mark, const Json& command) {
   static const Json no_problem = "";
   return value_or(mark, "command", nullptr) == command && value_or(mark, "problem", nullptr) == no_problem;
 }

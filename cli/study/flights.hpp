@@ -39,7 +39,7 @@ Json sound_result(const std::filesystem::path& dir, std::ostream* say);
 std::string problem_of(const std::filesystem::path& dir, const Json& result, const ExitStatus& exit);
 
 /// True if this mark (kFlightMark) says that `command` flew the run, and without a problem.
-bool is_of_sound_flight(const Json& mark, const std::string& command);
+bool is_of_sound_flight(const Json& mark, const Json& command);
 
 /// The outcome of an earlier flight with the same StudyFlight::command() that went to its end without a problem.
 /// nullopt: it must be flown. @param say  as for sound_result()

@@ -11,22 +11,22 @@
 namespace skein::cli {
 
 /// Names that break HTML, TeX, CSV or SVG into which they are written unescaped.
-inline const std::vector<std::string> kOddNames = {"kios",
-                                                   "exec:./a <b> && 'c' \"d\"",
-                                                   "50%_{$x$}\\end{tabular}",
-                                                   "patrol:a=1,b=2",
-                                                   "~^#&|--[*]`",
-                                                   "\xff\xfe",
-                                                   "漢字",
-                                                   "a\nb",
-                                                   "]]>",
-                                                   "</style>"};
+inline const std::vector<std::string> kOddPlanners = {"kios",
+                                                      "exec:./a <b> && 'c' \"d\"",
+                                                      "50%_{$x$}\\end{tabular}",
+                                                      "patrol:a=1,b=2",
+                                                      "~^#&|--[*]`",
+                                                      "\xff\xfe",
+                                                      "漢字",
+                                                      "a\nb",
+                                                      "]]>",
+                                                      "</style>"};
 
 inline Study odd_study(std::mt19937& random, bool contest) {
   const auto below = [&](std::size_t limit) { return static_cast<std::size_t>(random() % limit); };
   Study study{contest, Rank::median,       {},           {}, {}, {}, "./skein contest --planner 'a & b'",
               "9.8.7", "0123456789abcdef", "cyclonedds", 2};
-  for (std::size_t i = 0, n = 1 + below(4); i < n; ++i) study.planners.push_back(kOddNames[(i * 3 + below(3)) % 10]);
+  for (std::size_t i = 0, n = 1 + below(4); i < n; ++i) study.planners.push_back(kOddPlanners[(i * 3 + below(3)) % 10]);
   for (std::size_t i = 0, n = 1 + below(3); i < n; ++i) {
     study.scenarios.push_back(std::vector<std::string>{"towers", "a/x<y>.yaml", "b/x<y>.yaml"}[i]);
   }
