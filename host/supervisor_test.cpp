@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "host/testing/ends.hpp"
 #include "host/testing/fake_programs.hpp"
 #include "process/host/environment.hpp"
 
@@ -13,22 +14,6 @@ namespace skein::cli {
 namespace {
 
 constexpr std::chrono::milliseconds kNoLimit{-1};
-
-/// Programs started while it lives inherit one end of a pipe; the other end tells when the last of them is gone.
-class OpenUntilAllEnded {
- public:
-  OpenUntilAllEnded() { EXPECT_EQ(::pipe(fds_), 0); }
-  ~OpenUntilAllEnded() { ::close(fds_[0]); }
-  /// Waits for it.
-  bool all_ended() {
-    ::close(fds_[1]);
-    char c;
-    return ::read(fds_[0], &c, 1) == 0;
-  }
-
- private:
-  int fds_[2];
-};
 
 class SupervisorTest : public ::testing::Test {
  protected:
@@ -39,10 +24,23 @@ class SupervisorTest : public ::testing::Test {
   /// All events until no program is left.
   std::vector<Event> run_out() {
     std::vector<Event> all;
-    while (!supervisor_.running().empty()) {
-      for (Event& event : supervisor_.wait(kNoLimit)) all.push_back(std::move(event));
-    }
+    const auto none_is_left = [&] {
+      for (int looks = 0; looks < 50 && !supervisor_.running().empty(); ++looks) {
+        for (Event& event : supervisor_.wait(std::chrono::milliseconds(20))) all.push_back(std::move(event));
+      }
+      return supervisor_.running().empty();
+    };
+    EXPECT_TRUE(eventually(none_is_left, kUntilNoticed)) << "a program runs on";
+    if (all.empty()) all.emplace_back();  // there is always an end, except in a test that has just failed
     return all;
+  }
+  /// Waits until a program is seen to have been stopped.
+  bool stops(const std::string& program) {
+    return eventually([&] { return supervisor_.has_stopped(program); }, kUntilNoticed);
+  }
+  /// The supervisor's destructor waits for its programs, and their minders.
+  void TearDown() override {
+    if (HasFailure()) kill_own_children();
   }
 
   ScratchDir scratch_;
@@ -123,7 +121,7 @@ TEST_F(SupervisorTest, AStoppedProgramCanBeEnded) {
 TEST_F(SupervisorTest, AProgramThatStopsItselfIsSeenOnceAndCanBeContinued) {
   supervisor_.start(shell("a", "echo stopping >&3; kill -STOP $$; echo going on >&3"));
   EXPECT_EQ(supervisor_.wait(kNoLimit).at(0).line, "stopping");
-  while (!supervisor_.has_stopped("a")) supervisor_.wait(std::chrono::milliseconds(1));
+  ASSERT_TRUE(stops("a"));
   EXPECT_FALSE(supervisor_.has_stopped("a"));
   supervisor_.signal("a", SIGCONT);
   EXPECT_EQ(run_out().at(0).line, "going on");
@@ -162,11 +160,11 @@ TEST_F(SupervisorTest, AMindedProgramIsLikeAnyOtherOne) {
   program.minded = true;
   supervisor_.start(program);
   EXPECT_EQ(supervisor_.wait(kNoLimit).at(0).line, "stopping");
-  while (!supervisor_.has_stopped("a")) supervisor_.wait(std::chrono::milliseconds(1));
+  ASSERT_TRUE(stops("a"));
   supervisor_.signal("a", SIGCONT);
   EXPECT_GT(supervisor_.memory_share_mb("a"), 0.0);
   supervisor_.send("a", "go");
-  EXPECT_EQ(run_out().back().exit.signal, SIGSEGV);
+  ASSERT_EQ(run_out().back().exit.signal, SIGSEGV);
   program.argv = {"/does/not/exist"};
   EXPECT_THROW(supervisor_.start(program), std::system_error);
   EXPECT_TRUE(supervisor_.running().empty());
@@ -177,7 +175,7 @@ TEST_F(SupervisorTest, AStoppedMindedProgramCanBeEnded) {
   ProgramSpec program = shell("a", "setsid sleep 1000 & echo ready >&3; kill -STOP $$; read line <&4");
   program.minded = true;
   supervisor_.start(program);
-  while (!supervisor_.has_stopped("a")) supervisor_.wait(std::chrono::milliseconds(1));
+  ASSERT_TRUE(stops("a"));
   supervisor_.end_all(std::chrono::milliseconds(300));
   EXPECT_TRUE(supervisor_.running().empty());
   EXPECT_TRUE(pipe.all_ended());
