@@ -2,9 +2,13 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include <CLI/CLI.hpp>
+
 #include "cli/film/film.hpp"
 #include "cli/maps_in_time.hpp"
 #include "cli/option_checks.hpp"
+#include "cli/view_options.hpp"
+#include "core/text/number_checks.hpp"
 #include "core/text/suggestion.hpp"
 #include "core/types.hpp"
 #include "process/files/atomic_file.hpp"
@@ -19,6 +23,26 @@ namespace skein::cli {
 namespace {
 
 namespace fs = std::filesystem;
+
+void add_film_options(CLI::App& command, CLI::Option& exported, FilmOptions& film) {
+  command.add_option("--fps", film.fps, "Film: frames per second (default 25)")
+      ->check(CLI::Range(1, 120))
+      ->needs(&exported);
+  CLI::Option* const seconds =
+      command.add_option("--seconds", film.seconds, "Film: its length [s] (default 30)")->needs(&exported);
+  seconds->check(CLI::Validator(number_within(0.1, 36000.0), ""))->type_name("SECONDS");
+  command.add_option("--speed", film.speed, "Film: simulated seconds per second of the film, instead of --seconds")
+      ->check(CLI::Validator(number_within(0.01, 10000.0), ""))
+      ->type_name("SPEED")
+      ->needs(&exported)
+      ->excludes(seconds);
+  command
+      .add_option("--from-address", film.address,
+                  "Film: what it shows, written as the page's address after its #; t is the simulated time at which "
+                  "the film begins")
+      ->type_name("ADDRESS")
+      ->needs(&exported);
+}
 
 /// Size limit of an exported page with maps or LiDAR points [bytes], so that it can be sent to somebody.
 constexpr std::size_t kMostBytes = 4'000'000;
@@ -95,6 +119,35 @@ int export_run(const ReplayOptions& options, const Console& console) {
 }
 
 }  // namespace
+
+void add_replay(CLI::App& app, ReplayOptions& replay) {
+  CLI::App* command = app.add_subcommand("replay", "Show a finished run in a browser, with a slider over its time");
+  command->add_option("RUN", replay.run, "A results folder")->required();
+  CLI::Option* const other = command->add_option(
+      "OTHER", replay.other, "A second run of the same scene: show both on one clock, and where they first differ");
+  CLI::Option* const served = command->add_option(
+      "--view", replay.at, "Port of 127.0.0.1 (default: a free port), or another address with a port");
+  served->type_name("[ADDRESS:]PORT")->check(CLI::Validator(check_endpoint, ""));
+  add_no_browser(*command, replay.browser);
+  CLI::Option* const exported =
+      command->add_option("--export", replay.exported,
+                          "Write a file instead: FILE.html, the page with its flight, which opens in any browser; or "
+                          "FILE.mp4, a film (needs chromium and ffmpeg)");
+  exported->type_name("FILE")->excludes(served);
+  command->add_flag("--force", replay.force, "Overwrite the file of --export")->needs(exported);
+  command
+      ->add_flag("--maps", replay.maps,
+                 "Show each UAV's map over time. If the run did not keep these maps (skein run --keep-maps), Skein "
+                 "flies it again from its recording, without oracle and report, and stores the maps in RUN")
+      ->excludes(other);
+  add_film_options(*command, *exported, replay.film);
+  command->footer(
+      "Examples:\n  skein replay runs/towers-kios-0\n  skein replay runs/towers-kios-0 runs/towers-star-0\n"
+      "  skein replay runs/towers-kios-0 --maps\n"
+      "  skein replay runs/towers-kios-0 --export flight.html\n"
+      "  skein replay runs/towers-kios-0 --export flight.mp4 --from-address '#uav=changi&view=camera'\n\n"
+      "See docs/how-to-watch.md.");
+}
 
 int replay_run(const ReplayOptions& options, const Console& console) {
   if (options.exported) return export_run(options, console);

@@ -6,21 +6,13 @@
 #include <string>
 
 #include "cli/console.hpp"
+#include "cli/film/film_options.hpp"
 
 namespace CLI {
 class App;
 }
 
 namespace skein::cli {
-
-/// Options of a film of a run (`skein replay --export FILE.mp4`).
-struct FilmOptions {
-  int fps = 25;
-  std::optional<double> seconds;  ///< length of the film
-  std::optional<double> speed;    ///< or: simulated seconds per second of the film
-  std::string address;            ///< what the page shows: the fragment (after #) of its URL; t is the film's start
-  int width = 1280, height = 720;
-};
 
 /// `skein replay`: shows a finished run in a browser, or two runs on one clock; or writes a file that shows them.
 struct ReplayOptions {

@@ -5,8 +5,8 @@
 #include <iostream>
 
 #include "cli/actions.hpp"
-#include "cli/option_checks.hpp"
 #include "cli/hunt/capsule_run.hpp"
+#include "cli/option_checks.hpp"
 #include "cli/options.hpp"
 #include "core/scenario/scenario_reader.hpp"
 #include "core/text/suggestion.hpp"

@@ -1,7 +1,7 @@
 // `skein bench --planners`: every planner flies a fixed set of scenes; its scores are shown beside those of a table.
 #pragma once
 
-#include "cli/bench_command.hpp"
+#include "cli/bench/bench_options.hpp"
 #include "cli/console.hpp"
 
 namespace skein::cli {

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "cli/bench_command.hpp"
+#include "cli/bench/bench_options.hpp"
 #include "cli/console.hpp"
 #include "results/result.hpp"
 

@@ -2,7 +2,7 @@
 // beams: the tables and pictures of docs/sensing.md.
 #pragma once
 
-#include "cli/bench_command.hpp"
+#include "cli/bench/bench_options.hpp"
 #include "cli/console.hpp"
 
 namespace skein::cli {

@@ -6,7 +6,7 @@
 #include <ostream>
 #include <string>
 
-#include "cli/bench_command.hpp"
+#include "cli/bench/bench_options.hpp"
 #include "cli/console.hpp"
 #include "results/tracking_table.hpp"
 

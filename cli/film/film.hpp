@@ -7,7 +7,7 @@
 
 #include "cli/console.hpp"
 #include "cli/film/browser.hpp"
-#include "cli/replay_command.hpp"
+#include "cli/film/film_options.hpp"
 
 namespace skein::cli {
 

@@ -1,0 +1,111 @@
+// Parses a command line by the table of commands: parse_command_line() and with_command_line() of cli/options.hpp.
+// Commands read command lines of recorded runs with these functions, so cli/options.cpp must not include the table.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <functional>
+#include <optional>
+#include <utility>
+
+#include "cli/command_table.hpp"
+#include "cli/help.hpp"
+#include "cli/option_checks.hpp"
+#include "cli/options.hpp"
+#include "cli/place/host_service.hpp"
+#include "cli/sweep/this_machine.hpp"
+#include "cli/tool_options.hpp"
+#include "core/text/suggestion.hpp"
+#include "core/text/text.hpp"
+#include "core/types.hpp"
+#include "process/manual.hpp"
+
+namespace skein::cli {
+namespace {
+
+/// The command line with all commands, and the structs that CLI11 fills.
+class OptionParser {
+ public:
+  OptionParser()
+      : app("Skein: a fleet of inspection UAVs, simulated as separate processes that talk over DDS.", "skein") {
+    app.require_subcommand(1);
+    app.set_version_flag("--version", "skein " SKEIN_VERSION);
+    app.failure_message(CLI::FailureMessage::simple);
+    app.footer("Example:\n  skein run towers --planner kios\n\n`skein COMMAND --help` shows the options of a command.");
+    for (const CommandEntry& entry : command_table()) {
+      TakeCommand take = entry.add(app);
+      CLI::App* added = app.get_subcommands([](const CLI::App*) { return true; }).back();
+      added->group(entry.task);
+      commands_.emplace_back(added, std::move(take));
+    }
+    refuse_leading_zeros(app);
+  }
+
+  /// The command that was parsed, with its options.
+  Command take(const std::vector<std::string>& arguments) {
+    for (const auto& [command, take] : commands_) {
+      if (command->parsed()) return take(arguments);
+    }
+    throw InputError("no command was given");
+  }
+
+  CLI::App app;
+
+ private:
+  std::vector<std::pair<CLI::App*, TakeCommand>> commands_;
+};
+
+Command help(std::string text, bool names_planners = false) {
+  return {HelpText{std::move(text), names_planners}, print_help};
+}
+
+/// The commands that programs call, not users: --complete is for shells, --host for a launcher on another host, --unit
+/// for engines of sweeps.
+std::optional<Command> internal_command(const std::vector<std::string>& arguments) {
+  if (arguments.empty()) return {};
+  const std::vector<std::string> rest(arguments.begin() + 1, arguments.end());
+  if (arguments[0] == "--complete") return Command(CompletionOptions{rest}, print_completions);
+  if (arguments[0] == "--unit") return Command(unit_options(rest), run_unit);
+  if (arguments[0] != "--host" || !rest.empty()) return {};
+  return Command(HostOptions{}, [](const HostOptions&, const Console&) { return serve_host(); });
+}
+
+/// Refuses a first word that names no command. CLI11 would only say that a command is missing. @throws InputError
+void require_command(const CLI::App& app, const std::vector<std::string>& arguments) {
+  if (arguments.empty() || arguments[0].empty() || arguments[0].starts_with("-")) return;
+  std::vector<std::string> known;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+    known.push_back(command->get_name());
+  }
+  if (std::ranges::find(known, arguments[0]) != known.end()) return;
+  throw InputError("there is no command '" + shortened(arguments[0]) + "'; " + suggestion(arguments[0], known) +
+                   "\nSee `skein --help`.");
+}
+
+}  // namespace
+
+void with_command_line(const std::function<void(const CLI::App&)>& use) { use(OptionParser().app); }
+
+Command parse_command_line(const std::vector<std::string>& arguments) {
+  OptionParser parser;
+  // Not for users: --manual is the source of the manual page, and a shell calls --complete.
+  if (arguments == std::vector<std::string>{"--manual"}) return help(manual_of(parser.app, "skein"));
+  if (const auto command = internal_command(arguments)) return *command;
+  require_command(parser.app, arguments);
+  refuse_empty_assignments(parser.app, arguments);
+  const auto is = [&parser](const char* command) { return parser.app.got_subcommand(command); };
+  std::vector<std::string> reversed(arguments.rbegin(), arguments.rend());  // as CLI11 wants them
+  try {
+    parser.app.parse(std::move(reversed));
+  } catch (const CLI::CallForHelp&) {
+    // The help of the command that was named, or else the general help.
+    return help(parser.app.help(), is("run") || is("compose") || is("contest") || is("compare"));
+  } catch (const CLI::CallForVersion& version) {
+    return help(std::string(version.what()) + "\n");
+  } catch (const CLI::ParseError& error) {
+    throw InputError(std::string(error.what()) + "\nSee `skein --help` or `skein COMMAND --help`.");
+  }
+  refuse_empty_values(parser.app);
+  refuse_empty_items(parser.app, arguments);
+  return parser.take(arguments);
+}
+
+}  // namespace skein::cli
