@@ -251,6 +251,16 @@ int fly(const ComposeOptions& options, const FleetPlan& plan, ComposeLayout layo
   return exit_code_of(run, *result);
 }
 
+/// The file that a link leads to, also if it is not there yet: weakly_canonical() would keep the link's own name then.
+fs::path behind_links(fs::path path) {
+  constexpr int kMostLinks = 40;  // as the kernel
+  for (int links = 0; fs::is_symlink(path); ++links) {
+    if (links == kMostLinks) throw std::system_error(std::make_error_code(std::errc::too_many_symbolic_link_levels));
+    path = path.parent_path() / fs::read_symlink(path);
+  }
+  return path;
+}
+
 /// Writes the file for docker-compose, or leaves the former one as it is. Without `force`, it replaces a file only if
 /// that is empty, or `skein compose` made it. @throws InputError
 void write_compose_file(const fs::path& path, const std::string& text, bool force) try {
@@ -262,9 +272,7 @@ void write_compose_file(const fs::path& path, const std::string& text, bool forc
                      ": is there already, and was not made by `skein compose`; overwrite it with --force, or choose "
                      "another file");
   }
-  const fs::path behind_links = fs::weakly_canonical(path, error);  // a link stays, and leads to the new file
-  if (error) throw std::system_error(error);
-  write_file_atomically(behind_links, text);
+  write_file_atomically(behind_links(path), text);  // a link stays, and leads to the new file
 } catch (const std::system_error& error) {
   throw InputError("--file " + path.string() + ": cannot be written: " + error.code().message());
 }

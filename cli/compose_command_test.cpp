@@ -146,6 +146,16 @@ TEST_F(ComposeCommand, AFullDiskLeavesTheFormerFile) {
   EXPECT_EQ(names_in(scratch_.path()), (std::set<std::string>{"compose.yaml", "link.yaml"}));
 }
 
+TEST_F(ComposeCommand, ALinkMayLeadToAFileThatIsNotThereYet) {
+  auto options = parse_command_line({"compose", "towers"}).get<ComposeOptions>();
+  const fs::path link = scratch_.path() / "link.yaml";
+  fs::create_symlink("compose.yaml", link);
+  options.file = link;
+  EXPECT_EQ(compose_fleet(options, {out_, err_, false}), kExitDone);
+  EXPECT_TRUE(fs::is_symlink(link));
+  EXPECT_TRUE(fs::is_regular_file(fs::symlink_status(scratch_.path() / "compose.yaml")));
+}
+
 TEST_F(ComposeCommand, OnlyARegularFileIsWrittenTo) {
   auto options = parse_command_line({"compose", "towers"}).get<ComposeOptions>();
   const fs::path pipe = scratch_.path() / "pipe", circle = scratch_.path() / "circle";
