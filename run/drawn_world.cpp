@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <system_error>
 #include <vector>
 
 #include "core/files/file_bytes.hpp"
@@ -57,6 +58,16 @@ bool is_kept(const fs::path& scenario) try {
   return false;
 }
 
+/// Whether an earlier version, which kept no checksums, left a world with all its files.
+bool is_kept_unchecked(const fs::path& scenario) try {
+  std::error_code error;
+  if (!fs::is_regular_file(scenario, error) || fs::exists(checksum_file(scenario), error)) return false;
+  load_scenario(scenario);
+  return true;
+} catch (const InputError&) {
+  return false;
+}
+
 /// Without a checksum, for example if an earlier version drew it, a world is drawn again the next time.
 void keep_checksum(const fs::path& scenario) try {
   write_file_atomically(checksum_file(scenario), checksum_of(scenario), Readers::no_agents);
@@ -83,6 +94,8 @@ std::string scenario_source(const std::string& scenario, const std::optional<std
     keep_checksum(file);
     return file;
   }
+  // The cache may be read-only: earlier versions flew such a world.
+  if (exit.code == kExitBadInput && is_kept_unchecked(file)) return file;
   std::string said;
   for (const std::string& line : last_lines(log, 20)) said += "\n" + line;
   if (exit.code == kExitBadInput) throw InputError(scenario + " " + seed + ":" + said);

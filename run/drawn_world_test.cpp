@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <optional>
 
+#include "core/types.hpp"
 #include "host/testing/fake_programs.hpp"
 
 namespace skein::cli {
@@ -94,6 +95,19 @@ TEST_F(DrawnWorld, IsDrawnAgainIfAFileOfItIsDamaged) {
   }
   EXPECT_EQ(scenario_source("wild", 3), file);
   EXPECT_EQ(drawn(), draws) << "a sound world is used";
+}
+
+TEST_F(DrawnWorld, OfAnEarlierVersionFliesIfTheCacheIsReadOnly) {
+  const fs::path file = scenario_source("wild", 3);
+  write_script(programs_.dir() / "sim_server", "echo '--out: cannot be written to'; exit 2");
+  EXPECT_EQ(scenario_source("wild", 3), file) << "it has a checksum, and needs no drawing";
+  fs::remove(file.parent_path() / "wild_3.sha256");
+  EXPECT_EQ(scenario_source("wild", 3), file);
+  write_text(file.parent_path() / "wild_3.sha256", "0\n");
+  EXPECT_THROW(scenario_source("wild", 3), InputError) << "it is damaged";
+  fs::remove(file.parent_path() / "wild_3.sha256");
+  fs::remove(file.parent_path() / "models/m.stl");
+  EXPECT_THROW(scenario_source("wild", 3), InputError) << "a file is missing";
 }
 
 }  // namespace
