@@ -115,7 +115,7 @@ struct RadioTopicConfig {
 struct SceneConfig {
   std::string family;  ///< procedural: "towers"; empty: files
   std::uint64_t scene_seed = 0;
-  std::vector<std::filesystem::path> meshes;  ///< STL; resolved path
+  std::vector<std::filesystem::path> meshes;  ///< STL, OBJ, PLY, COLLADA or glTF; resolved path
   std::filesystem::path points;               ///< PCD; resolved path
   std::filesystem::path boxes;                ///< box_description.yaml; resolved path
 };

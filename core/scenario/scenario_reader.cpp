@@ -173,7 +173,7 @@ void check_scene(const SceneConfig& scene, ConfigErrors& errors) {
                  "'" + scene.family + "' is drawn whole, with its fleet: fly it as `skein run " + scene.family + "`");
     errors.check(files || drawn, "scene",
                  "needs 'family' (a procedural scene), or 'meshes', 'points' and 'boxes' (files)");
-    errors.check(!files || !scene.meshes.empty(), "scene", "needs 'meshes': a list of STL files");
+    errors.check(!files || !scene.meshes.empty(), "scene", "needs 'meshes': a list of mesh files");
     errors.check(!files || !scene.points.empty(), "scene", "needs 'points': a PCD file of interest points");
     errors.check(!files || !scene.boxes.empty(), "scene", "needs 'boxes': a box_description.yaml");
     errors.check(scene.scene_seed == 0 || drawn, "scene.scene_seed", "a scene from files has no seed");

@@ -1,6 +1,8 @@
-// Assimp reads the triangles. But it accepts malformed ASCII files, for example with commas and numbers that overflow,
-// and looks for byte order marks and colours in the header of binary files. So this file checks the format first, and
-// gives Assimp a file in the simplest form.
+// The extension of a mesh file decides on its format. This file reads STL, and model_file.cpp the others.
+//
+// Assimp reads the triangles of an STL file. But it accepts malformed ASCII files, for example with commas and numbers
+// that overflow, and looks for byte order marks and colours in the header of binary files. So this file checks the
+// format first, and gives Assimp a file in the simplest form.
 #include "scenes/files/mesh_file.hpp"
 
 #include <assimp/scene.h>
@@ -9,15 +11,16 @@
 #include <array>
 #include <assimp/Importer.hpp>
 #include <cctype>
-#include <charconv>
-#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <fstream>
+#include <optional>
 #include <string_view>
 
 #include "core/files/file_bytes.hpp"
 #include "scenes/files/limits.hpp"
+#include "scenes/files/mesh_checks.hpp"
+#include "scenes/files/model_file.hpp"
 
 namespace skein::sim {
 namespace {
@@ -25,11 +28,6 @@ namespace {
 constexpr std::size_t kBinaryHead = 84;      ///< 80 bytes of text, the number of triangles
 constexpr std::size_t kBinaryTriangle = 50;  ///< normal, three vertices, two bytes of attributes
 constexpr std::size_t kAttributes = 48;      ///< offset of the attributes in a triangle
-
-[[noreturn]] void refuse_count(const std::filesystem::path& file, const std::string& triangles) {
-  refuse(file, "has " + triangles + " than the " + std::to_string(kMostTriangles) +
-                   " triangles that are accepted; simplify the mesh");
-}
 
 /// Number of triangles according to the header of a binary STL.
 std::size_t promised_triangles(std::string_view bytes) {
@@ -49,19 +47,6 @@ void refuse_huge_binary(const std::filesystem::path& file) {
   const std::size_t count = promised_triangles({head.data(), head.size()});
   if (count > kMostTriangles && std::filesystem::file_size(file, ignored) == binary_size(count)) {
     refuse_count(file, std::to_string(count) + " triangles, more");
-  }
-}
-
-void check_count(const std::filesystem::path& file, std::size_t triangles) {
-  if (triangles == 0) refuse(file, "has no triangles; a structure needs at least one");
-  if (triangles > kMostTriangles) refuse_count(file, std::to_string(triangles) + " triangles, more");
-}
-
-void check_vertex(const std::filesystem::path& file, std::size_t triangle, const Eigen::Vector3f& vertex) {
-  const auto wrong = [&](const char* why) { refuse(file, "triangle " + std::to_string(triangle) + why); };
-  if (!vertex.allFinite()) wrong(" has a vertex that is not finite");
-  if (vertex.cwiseAbs().maxCoeff() > kFarthest) {
-    wrong(" has a vertex farther than 100 km from the origin; are these metres?");
   }
 }
 
@@ -130,19 +115,13 @@ class AsciiStl {
       for (float& coordinate : vertex) coordinate = number();
       check_vertex(file_, stl.triangles, vertex);
       stl.bytes += "vertex";
-      for (const float coordinate : vertex) append(stl.bytes, coordinate);
+      for (const float coordinate : vertex) append_plain(stl.bytes, coordinate);
       stl.bytes += '\n';
     }
     expect("endloop");
     expect("endfacet");
     stl.bytes += "endloop\nendfacet\n";
     ++stl.triangles;
-  }
-
-  static void append(std::string& text, float number) {
-    std::array<char, 80> digits{};  // the longest number has fewer characters
-    const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), number, std::chars_format::fixed);
-    text.append(" ").append(digits.data(), end.ptr);
   }
 
   /// The next word; empty at the end.
@@ -169,27 +148,15 @@ class AsciiStl {
 
   float number() {
     const std::string_view word = next();
-    const std::string_view digits = word.starts_with('+') ? word.substr(1) : word;
-    const char* const end = digits.data() + digits.size();
-    float value = 0.0F;
-    auto result = std::from_chars(digits.data(), end, value);
-    if (result.ec == std::errc::result_out_of_range) {  // a number too small for a float becomes 0, too large: infinity
-      double wide = 0.0;
-      result = std::from_chars(digits.data(), end, wide);
-      value = static_cast<float>(wide);
-    }
-    if (result.ec != std::errc() || result.ptr != end) wrong("a number", word);
-    return value;
+    const std::optional<float> value = parsed_float(word);
+    if (!value) wrong("a number", word);
+    return *value;
   }
 
   [[noreturn]] void wrong(const std::string& wanted, std::string_view word) const {
     if (word.empty()) refuse(file_, "truncated: the ASCII STL ends where " + wanted + " is needed");
-    constexpr std::size_t kShown = 40;
-    std::string shown(word.substr(0, kShown));
-    std::replace_if(
-        shown.begin(), shown.end(), [](unsigned char c) { return c < ' ' || c >= 0x7f; }, '?');
     throw InputError(file_.string() + ":" + std::to_string(line_) + ": not an ASCII STL: " + wanted +
-                     " is needed, not '" + shown + "'");
+                     " is needed, not '" + shown(word) + "'");
   }
 
   const std::filesystem::path& file_;
@@ -238,9 +205,7 @@ void append(const std::filesystem::path& file, const aiMesh& part, TriangleMesh&
   }
 }
 
-}  // namespace
-
-TriangleMesh read_mesh(const std::filesystem::path& file) {
+TriangleMesh read_stl(const std::filesystem::path& file) {
   const PlainStl stl = read_plain(file);
   Assimp::Importer importer;
   const aiScene* scene = importer.ReadFileFromMemory(stl.bytes.data(), stl.bytes.size(), 0, "stl");
@@ -254,6 +219,17 @@ TriangleMesh read_mesh(const std::filesystem::path& file) {
                      std::to_string(mesh.triangles.size()) + " could be read");
   }
   return mesh;
+}
+
+}  // namespace
+
+TriangleMesh read_mesh(const std::filesystem::path& file) {
+  std::string extension = file.extension();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (extension == ".stl") return read_stl(file);
+  if (const auto format = model_format(extension)) return read_model(file, *format);
+  refuse(file, "is no mesh file by its extension: it must end with .stl, .obj, .ply, .dae, .glb or .gltf");
 }
 
 std::string to_stl(const TriangleMesh& mesh) {

@@ -205,7 +205,7 @@ const std::vector<LibraryRule>& library_rules() {
       {"PCL", {"pcl/"}, {"uav_agent/", "sim_server/sensors/key_frames.cpp", "scenes/files/point_file_pcl_test.cpp"}, 2},
       {"Python", {"pybind11/", "Python.h"}, {"uav_agent/python/", "uav_agent/client/"}, 12, true},
       {"Boost", {"boost/"}, {"view/"}, 1},
-      {"Assimp", {"assimp/"}, {"scenes/files/"}, 1}};
+      {"Assimp", {"assimp/"}, {"scenes/files/"}, 2}};
   return kRules;
 }
 
