@@ -227,9 +227,14 @@ TriangleMesh read_mesh(const std::filesystem::path& file) {
   std::string extension = file.extension();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (extension == ".stl") return read_stl(file);
   if (const auto format = model_format(extension)) return read_model(file, *format);
-  refuse(file, "is no mesh file by its extension: it must end with .stl, .obj, .ply, .dae, .glb or .gltf");
+  if (extension == ".stl") return read_stl(file);
+  try {
+    return read_stl(file);
+  } catch (const InputError& error) {
+    throw InputError(std::string(error.what()) +
+                     " (a mesh is read as STL unless its name ends with .obj, .ply, .dae, .glb or .gltf)");
+  }
 }
 
 std::string to_stl(const TriangleMesh& mesh) {
