@@ -5,6 +5,7 @@
 #include <cstring>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <string_view>
 #include <vector>
 
@@ -56,6 +57,14 @@ class PlainGltf {
   }
 
  private:
+  struct Elements {
+    std::string_view bytes;  ///< at least stride * (count - 1) and one element
+    std::size_t count = 0;
+    std::size_t stride = 0;
+    std::size_t size = 0;  ///< of one component
+    std::uint32_t type = 0;
+  };
+
   /// @returns the text of a .glb; its binary part is kept.
   std::string_view chunks(std::string_view bytes) {
     constexpr std::size_t kHead = 12, kChunkHead = 8;
@@ -149,12 +158,14 @@ class PlainGltf {
       if (mode < kTriangles) continue;  // points and lines
       const Json& attributes = member(primitive, "attributes");
       if (!attributes.is_object() || !attributes.contains("POSITION")) continue;  // the standard allows this
-      const std::vector<float> positions = read_positions(attributes);
-      std::vector<std::uint32_t> corners = read_corners(primitive, positions.size() / 3);
+      const Elements vertices = accessor(attributes, "POSITION", "VEC3");
+      if (vertices.type != kFloatCode) wrong("positions must be floats (componentType 5126)");
+      std::vector<std::uint32_t> corners = read_corners(primitive, vertices.count);
       if (mode == kTriangles) corners.resize(corners.size() / 3 * 3);
       if (corners.size() < 3) continue;
       triangles_ += mode == kTriangles ? corners.size() / 3 : corners.size() - 2;
       if (triangles_ > kMostTriangles) refuse_count(file_, "more");
+      const std::vector<float> positions = read_positions(vertices, corners);
       copies.push_back({{"mode", mode},
                         {"attributes", {{"POSITION", append(positions, kFloatCode, "VEC3", positions.size() / 3)}}},
                         {"indices", append(corners, kUint32Code, "SCALAR", corners.size())}});
@@ -164,13 +175,17 @@ class PlainGltf {
     return copied_["meshes"].size() - 1;
   }
 
-  std::vector<float> read_positions(const Json& attributes) {
-    const Elements elements = accessor(attributes, "POSITION", "VEC3");
-    if (elements.type != kFloatCode) wrong("positions must be floats (componentType 5126)");
-    std::vector<float> positions(3 * elements.count);
-    for (std::size_t i = 0; i < elements.count; ++i) {
-      std::memcpy(&positions[3 * i], elements.bytes.data() + i * elements.stride, 3 * sizeof(float));
+  /// All vertices; or one for each corner if these are fewer, and then the corners are numbered anew: many primitives
+  /// may share the vertices of a whole model.
+  std::vector<float> read_positions(const Elements& vertices, std::vector<std::uint32_t>& corners) const {
+    const bool some = corners.size() < vertices.count;
+    const std::size_t count = some ? corners.size() : vertices.count;
+    std::vector<float> positions(3 * count);
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::size_t vertex = some ? corners[i] : i;
+      std::memcpy(&positions[3 * i], vertices.bytes.data() + vertex * vertices.stride, 3 * sizeof(float));
     }
+    if (some) std::iota(corners.begin(), corners.end(), 0u);
     for (const float coordinate : positions) {
       if (!std::isfinite(coordinate)) wrong("a vertex is not finite");
     }
@@ -182,7 +197,7 @@ class PlainGltf {
     std::vector<std::uint32_t> corners;
     if (!primitive.contains("indices")) {
       corners.resize(vertices);
-      for (std::size_t i = 0; i < vertices; ++i) corners[i] = static_cast<std::uint32_t>(i);
+      std::iota(corners.begin(), corners.end(), 0u);
       return corners;
     }
     const Elements elements = accessor(primitive, "indices", "SCALAR");
@@ -195,14 +210,6 @@ class PlainGltf {
     }
     return corners;
   }
-
-  struct Elements {
-    std::string_view bytes;  ///< at least stride * (count - 1) and one element
-    std::size_t count = 0;
-    std::size_t stride = 0;
-    std::size_t size = 0;  ///< of one component
-    std::uint32_t type = 0;
-  };
 
   Elements accessor(const Json& owner, const char* key, const std::string& type) {
     const Json& accessors = list("accessors");
