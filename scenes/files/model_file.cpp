@@ -1,6 +1,7 @@
 #include "scenes/files/model_file.hpp"
 
 #include <assimp/MemoryIOWrapper.h>
+#include <assimp/config.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
@@ -127,6 +128,8 @@ TriangleMesh read_model(const std::filesystem::path& file, ModelFormat format) {
   PlainModel model = plain(file, format);
   Assimp::Importer importer;
   importer.SetIOHandler(new OneFile(model.name, std::move(model.bytes)));  // the importer deletes it
+  // Without meshes, Assimp would make up some that show the nodes.
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
   const aiScene* scene = importer.ReadFile(model.name, aiProcess_Triangulate);
   if (!scene || !scene->mRootNode) refuse(file, std::string("Assimp cannot read it: ") + importer.GetErrorString());
   Eigen::Matrix4d X_WM = Eigen::Matrix4d::Identity();

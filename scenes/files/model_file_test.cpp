@@ -140,6 +140,57 @@ TEST_F(ModelFile, PolygonsAreDividedAndPointsAndLinesLeftOut) {
   EXPECT_NEAR(area, 5.0 + 4.0, 1e-6);
 }
 
+TEST_F(ModelFile, AnObjMayHaveAByteOrderMarkAndWindowsLines) {
+  const TriangleMesh mesh = read("m.obj",
+                                 "\xef\xbb\xbfv 0 0 0\r\nv 1. -.5 1E-01\r\n\tv  0 1 0  0.5 0.5 0.5 # grey\r\n"
+                                 "usemtl a b\r\ns off\r\nf 1// \\\r\n2// 3//\r\n");
+  EXPECT_EQ(corners(mesh),
+            (Corners{{Eigen::Vector3f(0, 0, 0), Eigen::Vector3f(1, -0.5F, 0.1F), Eigen::Vector3f(0, 1, 0)}}));
+}
+
+/// As MeshLab and CloudCompare write it.
+TEST_F(ModelFile, APlyMayHaveDoublesAndOtherElements) {
+  const std::string ply =
+      "ply\r\nformat ascii 1.0\r\nobj_info of a scan\r\nelement vertex 3\r\nproperty double x\r\nproperty double y\r\n"
+      "property double z\r\nproperty float nx\r\nelement face 1\r\nproperty list uchar uint vertex_index\r\n"
+      "property list uchar float texcoord\r\nelement edge 1\r\nproperty int vertex1\r\nend_header\r\n"
+      "0 0 0 nan\r\n1. 0 0 -nan(ind)\r\n0 1 1e-1 1\r\n3 0 1 2 2 .5 .5\r\n0\r\n";
+  EXPECT_EQ(corners(read("m.ply", ply)),
+            (Corners{{Eigen::Vector3f(0, 0, 0), Eigen::Vector3f(1, 0, 0), Eigen::Vector3f(0, 1, 0.1F)}}));
+}
+
+TEST_F(ModelFile, AColladaFileMayHaveEmptyObjectsAndSpacesInTexts) {
+  const Corners box = corners(box_mesh());
+  const auto with = [&](const std::string& up) {
+    std::string text = small_models::dae(box_mesh(),
+                                         "<node><instance_geometry url=\"#e\"/></node>"
+                                         "<node id=\"n\"><instance_geometry url=\"#g\"/></node>");
+    const std::string first = "<library_geometries>";
+    text.insert(
+        text.find(first) + first.size(),
+        "<geometry id=\"e\"><mesh><source id=\"ep\"><float_array id=\"ea\" count=\"0\"/><technique_common>"
+        "<accessor source=\"#ea\" count=\"0\" stride=\"3\"><param name=\"X\" type=\"float\"/></accessor>"
+        "</technique_common></source><vertices id=\"ev\"><input semantic=\"POSITION\" source=\"#ep\"/></vertices>"
+        "<polylist count=\"0\"><input semantic=\"VERTEX\" source=\"#ev\" offset=\"0\"/><vcount></vcount><p></p>"
+        "</polylist></mesh></geometry>");
+    return corners(read("m.dae", text.replace(text.find("Z_UP"), 4, up)));
+  };
+  expect_near(with("Z_UP"), box);
+  expect_near(with("\n  Z_UP\n"), box);
+}
+
+/// Each primitive gets only what it needs of vertices that many share; else a small file would need much memory.
+TEST_F(ModelFile, PrimitivesOfGltfMayShareTheVerticesOfAModel) {
+  TriangleMesh mesh{std::vector<Eigen::Vector3f>(20'000, {1, 2, 3}), {{19'999, 0, 1}}};
+  mesh.vertices[1] = {4, 5, 6};
+  std::string text = small_models::gltf(mesh);
+  const std::string one = "{\"attributes\": {\"POSITION\": 0}, \"indices\": 1, \"material\": 0}";
+  std::string more;
+  for (int i = 0; i < 99; ++i) more += one + ", ";
+  text.insert(text.find(one), more);
+  EXPECT_EQ(corners(read("m.gltf", text)), Corners(100, corners(mesh).front()));
+}
+
 TEST_F(ModelFile, SaysWhichNamesAreAccepted) {
   for (const char* name : {"box.fbx", "box", "box.stl.bak", ".obj"}) {
     EXPECT_NE(wrong(name, small_models::obj(box_mesh())).find("unless its name ends with .obj, .ply, .dae, .glb or"),
@@ -193,6 +244,9 @@ TEST_F(ModelFile, SaysWhatIsWrongWithColladaAndGltf) {
       {"count=\"8\"", "count=\"9\"", "more numbers than its float_array has"},
       {node, node + "<instance_node url=\"#n\"/>", "or contain each other"},
       {"url=\"#g\"", "url=\"other.dae#g\"", "needs another file"},
+      {"url=\"#g\"", "url=\"#h\"", "'#h', but no geometry has this id"},
+      {node, node + "<instance_node url=\"#h\"/>", "'#h', but no node has this id"},
+      {"<instance_geometry url=\"#g\"/>", "", "has no triangles"},
       {node, node + "<instance_controller url=\"#c\"/>", "export without them"},
   };
   for (const auto& [old, replacement, message] : in_dae) {

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <map>
 #include <pugixml.hpp>
+#include <set>
 #include <sstream>
 #include <string_view>
 #include <vector>
@@ -20,7 +21,8 @@ class PlainDae {
  public:
   PlainDae(const std::filesystem::path& file, const std::string& bytes) : file_(file) {
     if (bytes.starts_with("PK")) wrong("a ZIP archive; unpack it");
-    const pugi::xml_parse_result parsed = document_.load_buffer(bytes.data(), bytes.size());
+    const pugi::xml_parse_result parsed = document_.load_buffer(
+        bytes.data(), bytes.size(), pugi::parse_default | pugi::parse_trim_pcdata);  // Assimp does not know " Z_UP "
     if (!parsed) wrong(std::string(parsed.description()) + " at byte " + std::to_string(parsed.offset));
     root_ = document_.child("COLLADA");
     if (!root_) wrong("it has no element 'COLLADA'");
@@ -36,6 +38,7 @@ class PlainDae {
     }
     check(root_, 0);
     check_accessors();
+    check_geometries();
     if (instances_ > 0) {
       for (const pugi::xml_node scene : root_.child("library_visual_scenes").children("visual_scene")) {
         count_nodes(scene);
@@ -89,9 +92,13 @@ class PlainDae {
         wrong("it needs another file: an instance_node has the url '" + shown(element.attribute("url").value()) + "'");
       }
     }
-    if (name == "instance_geometry" && !std::string_view(element.attribute("url").value()).starts_with('#')) {
-      wrong("it needs another file: an instance_geometry has the url '" + shown(element.attribute("url").value()) +
-            "'");
+    if (name == "geometry") geometries_.emplace(element.attribute("id").value());
+    if (name == "instance_geometry") {
+      const std::string_view url = element.attribute("url").value();
+      if (!url.starts_with('#')) {
+        wrong("it needs another file: an instance_geometry has the url '" + shown(url) + "'");
+      }
+      needed_geometries_.emplace(url.substr(1));
     }
     if (name == "node") {
       const std::string id = element.attribute("id").value(), given = element.attribute("name").value();
@@ -137,6 +144,7 @@ class PlainDae {
       const auto array = arrays_.find(std::string(accessor.attribute("source").value()).erase(0, 1));
       if (array == arrays_.end()) wrong("an accessor has no float_array");
       const std::size_t end = array->second + 1, count = whole(accessor, "count", end);
+      if (count == 0) continue;  // of an empty object; its stride is that of others
       const std::size_t offset = accessor.attribute("offset") ? whole(accessor, "offset", end) : 0;
       const std::size_t stride = accessor.attribute("stride") ? whole(accessor, "stride", end) : 1;
       const auto params = accessor.children("param");
@@ -144,6 +152,14 @@ class PlainDae {
         wrong("an accessor has more params than its stride");
       }
       if (offset + count * stride > array->second) wrong("an accessor needs more numbers than its float_array has");
+    }
+  }
+
+  /// Assimp leaves out what it does not find.
+  void check_geometries() const {
+    for (const std::string& id : needed_geometries_) {
+      if (!geometries_.contains(id))
+        wrong("an instance_geometry has the url '#" + shown(id) + "', but no geometry has this id");
     }
   }
 
@@ -175,6 +191,10 @@ class PlainDae {
     for (const pugi::xml_node child : node.children("node")) count_nodes(child);
     for (const pugi::xml_node instance : node.children("instance_node")) {
       const auto [begin, end] = nodes_by_name_.equal_range(instance.attribute("url").value() + 1);
+      if (begin == end) {
+        wrong("an instance_node has the url '" + shown(instance.attribute("url").value()) +
+              "', but no node has this id");
+      }
       for (auto node_of_name = begin; node_of_name != end; ++node_of_name) count_nodes(node_of_name->second);
     }
     --depth_;
@@ -198,6 +218,8 @@ class PlainDae {
   std::map<pugi::xml_node, std::size_t> indices_;  ///< how many each list of primitives has
   std::map<std::string, std::size_t> arrays_;      ///< how many numbers each float_array has
   std::vector<pugi::xml_node> accessors_;
+  std::set<std::string> geometries_;  ///< their ids
+  std::set<std::string> needed_geometries_;
   std::size_t instances_ = 0;
   std::size_t nodes_ = 0;
   std::size_t depth_ = 0;

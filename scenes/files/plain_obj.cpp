@@ -10,10 +10,13 @@
 namespace skein::sim {
 namespace {
 
+constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+
 /// Copies vertices and faces of an OBJ file, line by line.
 class PlainObj {
  public:
-  PlainObj(const std::filesystem::path& file, std::string_view text) : file_(file), text_(text) {}
+  PlainObj(const std::filesystem::path& file, std::string_view text)
+      : file_(file), text_(text.starts_with(kByteOrderMark) ? text.substr(kByteOrderMark.size()) : text) {}
 
   std::string plain() {
     while (at_ < text_.size()) {
