@@ -4,10 +4,8 @@
 
 #include <gtest/gtest.h>
 #include <spdlog/fmt/fmt.h>
-#include <sys/resource.h>
 #include <sys/stat.h>
 
-#include <csignal>
 #include <cstdlib>
 #include <set>
 #include <sstream>
@@ -19,6 +17,7 @@
 #include "process/json_text.hpp"
 #include "process/program.hpp"
 #include "run/results_dir.hpp"
+#include "tests/support/limited_files.hpp"
 #include "tests/support/places.hpp"
 
 namespace skein::cli {
@@ -56,26 +55,8 @@ class ComposeCommand : public testing::Test {
   std::ostringstream out_, err_;
 };
 
-/// While it lives, no file of this process or its children can grow beyond 2500 bytes, as on a full disk: the file for
-/// docker-compose is longer, and so are some files of keys, but not the first of them.
-class FullDisk {
- public:
-  FullDisk() : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
-    ::getrlimit(RLIMIT_FSIZE, &before_);
-    const rlimit limit{2500, before_.rlim_max};
-    ::setrlimit(RLIMIT_FSIZE, &limit);
-  }
-  ~FullDisk() {
-    ::setrlimit(RLIMIT_FSIZE, &before_);
-    std::signal(SIGXFSZ, handler_);
-  }
-  FullDisk(const FullDisk&) = delete;
-  FullDisk& operator=(const FullDisk&) = delete;
-
- private:
-  rlimit before_{};
-  const sighandler_t handler_;
-};
+/// Bytes that a file may have: that for docker-compose is longer, and so are some files of keys, but not the first.
+constexpr rlim_t kRoom = 2500;
 
 TEST_F(ComposeCommand, TheShippedFileIsWhatItWrites) {
   const Texts words = {"compose", "towers", "--planner", "kios", "--file", "docker/compose.yaml"};
@@ -133,7 +114,7 @@ TEST_F(ComposeCommand, AFullDiskLeavesTheFormerFile) {
     options.file = name;
     EXPECT_EQ(compose_fleet(options, {out_, err_, false}), kExitDone);
     const std::string before = read_text(file);
-    const FullDisk full;
+    const LimitedFiles full(kRoom);
     try {
       compose_fleet(options, {out_, err_, false});
       ADD_FAILURE() << "written";
@@ -239,7 +220,7 @@ TEST_F(ComposeCommand, KeysAreNeverOverwritten) {
 TEST_F(ComposeCommand, AFullDiskLeavesNoPartOfTheKeys) {
   const fs::path folder = scratch_.path() / "keys";
   {
-    const FullDisk full;
+    const LimitedFiles full(kRoom);
     try {
       keys({"towers", "--out", folder});
       ADD_FAILURE() << "written";

@@ -2,40 +2,19 @@
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
-#include <csignal>
 #include <filesystem>
 #include <random>
 #include <string>
 
+#include "tests/support/limited_files.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 namespace skein {
 namespace {
-
-/// While it lives, files may have only so many bytes: as on a disk that becomes full.
-class LimitedFiles {
- public:
-  explicit LimitedFiles(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
-    ::getrlimit(RLIMIT_FSIZE, &usual_);
-    const rlimit limited{bytes, usual_.rlim_max};
-    ::setrlimit(RLIMIT_FSIZE, &limited);
-  }
-  ~LimitedFiles() {
-    ::setrlimit(RLIMIT_FSIZE, &usual_);
-    std::signal(SIGXFSZ, handler_);
-  }
-  LimitedFiles(const LimitedFiles&) = delete;
-  LimitedFiles& operator=(const LimitedFiles&) = delete;
-
- private:
-  rlimit usual_{};
-  void (*handler_)(int);
-};
 
 TEST(WriteWhole, WritesAllOrTellsTheReason) {
   const ScratchFolder scratch;

@@ -1,17 +1,16 @@
 #include "process/files/private_file.hpp"
 
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 #include <sys/stat.h>
 
 #include <cerrno>
-#include <csignal>
 #include <cstring>
 #include <fstream>
 #include <optional>
 #include <system_error>
 
 #include "core/files/file_bytes.hpp"
+#include "tests/support/limited_files.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 namespace skein {
@@ -27,21 +26,13 @@ class PrivateFile : public testing::Test {
 
 /// What write_private_file() says if a file may have only so many bytes; nullopt: it wrote the whole text.
 std::optional<std::string> complaint_with_room(rlim_t bytes, const fs::path& file, std::string_view text) {
-  rlimit before{};
-  ::getrlimit(RLIMIT_FSIZE, &before);
-  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
-  rlimit limit = before;
-  limit.rlim_cur = bytes;
-  ::setrlimit(RLIMIT_FSIZE, &limit);
-  std::optional<std::string> complaint;
+  const LimitedFiles limited(bytes);
   try {
     write_private_file(file, text);
   } catch (const std::system_error& error) {
-    complaint = error.what();
+    return error.what();
   }
-  ::setrlimit(RLIMIT_FSIZE, &before);
-  std::signal(SIGXFSZ, handler);
-  return complaint;
+  return {};
 }
 
 TEST_F(PrivateFile, TellsTheSystemsReasonWhenItIsWrittenInPart) {
