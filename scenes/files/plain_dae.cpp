@@ -10,9 +10,12 @@
 #include "scenes/files/limits.hpp"
 #include "scenes/files/mesh_checks.hpp"
 #include "scenes/files/plain_model.hpp"
+#include "scenes/files/words.hpp"
 
 namespace skein::sim {
 namespace {
+
+constexpr std::string_view kXmlSpace = " \t\r\n";
 
 constexpr std::size_t kMostInputs = 32;  ///< of a list of primitives
 
@@ -108,7 +111,7 @@ class PlainDae {
   }
 
   void check_numbers(const pugi::xml_node& element) const {
-    for_each_word(element.text().get(), [&](std::string_view word) {
+    for_each_word(element.text().get(), kXmlSpace, [&](std::string_view word) {
       const std::optional<float> number = parsed_float(word);
       if (!number || !std::isfinite(*number)) {
         wrong(std::string(element.name()) + ": a finite number is needed, not '" + shown(word) + "'");
@@ -119,7 +122,7 @@ class PlainDae {
   /// @returns how many there are.
   std::size_t check_indices(const pugi::xml_node& element, std::string_view name) const {
     std::size_t indices = 0;
-    for_each_word(element.text().get(), [&](std::string_view word) {
+    for_each_word(element.text().get(), kXmlSpace, [&](std::string_view word) {
       std::uint32_t index = 0;
       const auto result = std::from_chars(word.data(), word.data() + word.size(), index);
       if (result.ec != std::errc() || result.ptr != word.data() + word.size()) {
@@ -165,7 +168,7 @@ class PlainDae {
 
   static std::size_t words(const pugi::xml_node& element) {
     std::size_t count = 0;
-    for_each_word(element.text().get(), [&](std::string_view) { ++count; });
+    for_each_word(element.text().get(), kXmlSpace, [&](std::string_view) { ++count; });
     return count;
   }
 
@@ -198,15 +201,6 @@ class PlainDae {
       for (auto node_of_name = begin; node_of_name != end; ++node_of_name) count_nodes(node_of_name->second);
     }
     --depth_;
-  }
-
-  static void for_each_word(std::string_view text, const auto& use) {
-    constexpr std::string_view kSpace = " \t\r\n";
-    for (std::size_t begin = text.find_first_not_of(kSpace); begin < text.size();) {
-      const std::size_t end = std::min(text.find_first_of(kSpace, begin), text.size());
-      use(text.substr(begin, end - begin));
-      begin = text.find_first_not_of(kSpace, end);
-    }
   }
 
   [[noreturn]] void wrong(const std::string& what) const { refuse(file_, "not a readable COLLADA file: " + what); }

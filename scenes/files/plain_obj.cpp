@@ -6,6 +6,7 @@
 #include "scenes/files/limits.hpp"
 #include "scenes/files/mesh_checks.hpp"
 #include "scenes/files/plain_model.hpp"
+#include "scenes/files/words.hpp"
 
 namespace skein::sim {
 namespace {
@@ -41,16 +42,7 @@ class PlainObj {
       if (line.ends_with('\r')) line.remove_suffix(1);
       goes_on = line.ends_with('\\');
       if (goes_on) line.remove_suffix(1);
-      split(line.substr(0, line.find('#')));
-    }
-  }
-
-  void split(std::string_view line) {
-    constexpr std::string_view kSpace = " \t\r\v\f";
-    for (std::size_t begin = line.find_first_not_of(kSpace); begin < line.size();) {
-      const std::size_t end = std::min(line.find_first_of(kSpace, begin), line.size());
-      words_.push_back(line.substr(begin, end - begin));
-      begin = line.find_first_not_of(kSpace, end);
+      for_each_word(line.substr(0, line.find('#')), " \t\r\v\f", [this](auto word) { words_.push_back(word); });
     }
   }
 
@@ -93,7 +85,7 @@ class PlainObj {
     }
     if (index < 0) index += vertices_ + 1;
     if (index < 1 || index > vertices_)
-      wrong("a face needs a vertex that does not precede it: '" + shown(corner) + "'");
+      wrong("a face names a vertex that does not precede it: '" + shown(corner) + "'");
     return index;
   }
 

@@ -11,6 +11,7 @@
 #include "scenes/files/limits.hpp"
 #include "scenes/files/mesh_checks.hpp"
 #include "scenes/files/plain_model.hpp"
+#include "scenes/files/words.hpp"
 
 namespace skein::sim {
 namespace {
@@ -226,15 +227,7 @@ class PlainPly {
     const std::size_t end = bytes_.find('\n', at_);
     if (end == std::string_view::npos) wrong("truncated: its header has no end");
     std::vector<std::string> words;
-    std::string word;
-    for (const char c : bytes_.substr(at_, end - at_)) {
-      if (c != ' ' && c != '\t' && c != '\r') {
-        word += c;
-      } else if (!word.empty()) {
-        words.push_back(std::exchange(word, {}));
-      }
-    }
-    if (!word.empty()) words.push_back(word);
+    for_each_word(bytes_.substr(at_, end - at_), " \t\r", [&](std::string_view word) { words.emplace_back(word); });
     at_ = end + 1;
     return words;
   }

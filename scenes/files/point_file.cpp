@@ -16,6 +16,7 @@
 #include "core/files/file_bytes.hpp"
 #include "scenes/files/limits.hpp"
 #include "scenes/files/pcd_header.hpp"
+#include "scenes/files/words.hpp"
 
 namespace skein::sim {
 namespace {
@@ -116,15 +117,12 @@ class AsciiPoints {
  private:
   /// @returns whether the line has a point (false: it is blank).
   bool read_line(std::string_view line, Numbers& numbers) const {
-    static constexpr std::string_view kSpace = " \t\r";
     std::size_t words = 0;
-    for (std::size_t at = line.find_first_not_of(kSpace); at != std::string_view::npos;
-         at = line.find_first_not_of(kSpace, at), ++words) {
-      const std::size_t end = std::min(line.find_first_of(kSpace, at), line.size());
-      const double value = read_number(line.substr(at, end - at));
+    for_each_word(line, " \t\r", [&](std::string_view word) {
+      const double value = read_number(word);
       if (words < wanted_.size() && wanted_[words]) numbers[*wanted_[words]] = static_cast<float>(value);
-      at = end;
-    }
+      ++words;
+    });
     if (words != 0 && words != wanted_.size()) {
       wrong("must have " + std::to_string(wanted_.size()) + " numbers, not " + std::to_string(words));
     }
