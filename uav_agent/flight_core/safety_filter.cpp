@@ -21,6 +21,10 @@ constexpr double kPeerBrakesMps2 = 2.0;
 constexpr double kPeerSmoothS = 0.4;
 /// For so long, a UAV that is told to brake may still accelerate: commands lag, and the UAV lags behind its commands.
 constexpr double kPeerLagS = kPeerDelayS + 0.5 * kPeerSmoothS;
+/// So much later than its commands say, a UAV may brake, and it may fly faster than they say: controllers overshoot. Two
+/// UAVs that speed up towards each other in the same exchange would otherwise both use up the same room. Chosen in drawn
+/// encounters with bodies that follow 0.2 and 0.25 s late (docs/flight-safety.md).
+constexpr double kOwnLagS = 0.2;
 constexpr double kRestsMps = 0.2;
 constexpr double kFarM = 40.0;
 constexpr double kClimbsMps = 1.0;  ///< speed for which clear_up_to() checks a climb
@@ -215,7 +219,8 @@ Held SafetyFilter::judge(const std::vector<Vector3d>& way_W, double speed_mps, c
     for (const PeerReach& peer : peers) {
       const Vector3d off_W = from_segment(p_W, peer.from_W, peer.to_W);
       const double off_m = off_W.norm();
-      if (off_m >= peer.apart_m + (exact ? 0.0 : along_m(peer.error_m, off_W))) continue;
+      const double errors_m = exact ? 0.0 : along_m(peer.error_m, off_W);
+      if (off_m >= peer.apart_m + kOwnLagS * speed_mps + errors_m) continue;
       // If the peer's segment reaches this UAV, no place is nearer to it. So the peer's own position counts, too.
       const bool nearer = off_m < peer.now_m - nearer_m_ || (p_W - peer.from_W).norm() < peer.from_m - nearer_m_;
       if (nearer) return {Held::By::peer, p_W, peer.uav};

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "uav_agent/testing/guarded_uav.hpp"
@@ -59,13 +60,15 @@ TEST(SafetyFilter, TwoUavsNeverTouch) {
   EXPECT_LT(nearest_m, 3.0) << "they never met";
 }
 
-/// How near two UAVs come that brake at once from what they show now, later and softer than they do.
-double soft_braking_least_m(const RigidBodyState& one, const RigidBodyState& other) {
-  static constexpr double kDelayS = 0.1, kBrakesMps2 = 2.0, kStepS = 0.02, kForS = 3.0;
-  const auto at_W = [](const RigidBodyState& state, double t_s) -> Vector3d {
-    const double speed_mps = state.v_WB.norm(), brakes_s = std::clamp(t_s - kDelayS, 0.0, speed_mps / kBrakesMps2);
+constexpr double kSoftMps2 = 2.0;
+
+/// How near two UAVs come that begin to brake 0.1 s after now.
+double braking_least_m(const RigidBodyState& one, const RigidBodyState& other, double brakes_mps2) {
+  static constexpr double kDelayS = 0.1, kStepS = 0.02, kForS = 3.0;
+  const auto at_W = [&](const RigidBodyState& state, double t_s) -> Vector3d {
+    const double speed_mps = state.v_WB.norm(), brakes_s = std::clamp(t_s - kDelayS, 0.0, speed_mps / brakes_mps2);
     if (speed_mps <= 0.0) return state.p_WB;
-    const double way_m = speed_mps * (std::min(t_s, kDelayS) + brakes_s) - 0.5 * kBrakesMps2 * brakes_s * brakes_s;
+    const double way_m = speed_mps * (std::min(t_s, kDelayS) + brakes_s) - 0.5 * brakes_mps2 * brakes_s * brakes_s;
     return state.p_WB + state.v_WB * (way_m / speed_mps);
   };
   double least_m = 1e9;
@@ -90,12 +93,38 @@ TEST(SafetyFilter, TwoUavsThatSetOutAtOnceKeepTheirMargin) {
     for (int k = 0; k < 120; ++k) {
       two.step(true, random);
       nearest_m = std::min(nearest_m, two.apart_m());
-      braking_m = std::min(braking_m, soft_braking_least_m(two.uavs[0]->state, two.uavs[1]->state));
+      braking_m = std::min(braking_m, braking_least_m(two.uavs[0]->state, two.uavs[1]->state, kSoftMps2));
     }
   }
   EXPECT_GT(braking_m, 2.0 * kBodyM + 0.3);
   EXPECT_GT(nearest_m, 2.0 * kBodyM + 0.3);
   EXPECT_LT(nearest_m, 2.6) << "they never met";
+}
+
+// Real bodies follow their commands late, and two UAVs that have braked for each other speed up again in the same
+// exchange. Each wants to pass where the other one is, again and again.
+TEST(SafetyFilter, TwoUavsThatFollowTheirCommandsLateCouldAlwaysBrake) {
+  static constexpr double kBrakesMps2 = 2.8;
+  for (const std::size_t late : {4, 5, 6}) {
+    double braking_m = 1e9;
+    for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+      RandomStream random(seed, "late_bodies", late);
+      TwoGuardedUavs two(random, static_cast<int>(seed % 2), late);
+      std::array<int, 2> next = {0, 0};
+      for (int k = 0; k < 300; ++k) {
+        for (std::size_t i = 0; i < 2; ++i) {
+          if (k < next[i]) continue;
+          const Vector3d from_W = two.uavs[i]->state.p_WB, to_W = two.uavs[1 - i]->state.p_WB;
+          two.uavs[i]->fly({{from_W + 1.6 * (to_W - from_W) + drawn_within(random, 2.0), 5.0}});
+          next[i] = k + 20 + static_cast<int>(random.bits() % 80);
+        }
+        two.step(true, random);
+        braking_m = std::min(braking_m, braking_least_m(two.uavs[0]->state, two.uavs[1]->state, kBrakesMps2));
+      }
+    }
+    EXPECT_GT(braking_m, 2.0 * kBodyM + 0.27) << "bodies follow " << late << " exchanges late";
+    EXPECT_LT(braking_m, 3.5) << "they never met";
+  }
 }
 
 // Each turns onto the other one's way while that one does the same: what a UAV shows before its turn foretells another

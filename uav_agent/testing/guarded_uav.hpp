@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <deque>
 #include <memory>
 #include <vector>
 
@@ -115,10 +116,11 @@ inline std::vector<Waypoint> drawn_way(RandomStream& random, const Vector3d& abo
   return way;
 }
 
-/// Two explorers in a large free space. While in sight, each knows the other's state of `latency` exchanges ago.
+/// Two explorers in a large free space. While in sight, each knows the other's state of `latency` exchanges ago. Their
+/// bodies are where they were commanded to be `late` exchanges ago.
 class TwoGuardedUavs {
  public:
-  TwoGuardedUavs(RandomStream& random, int latency) : latency_(latency) {
+  TwoGuardedUavs(RandomStream& random, int latency, std::size_t late = 0) : latency_(latency), late_(late) {
     for (std::size_t i = 0; i < 2; ++i) {
       const Vector3d start_W(i == 0 ? -6.0 : 6.0, random.uniform(-6.0, 6.0), random.uniform(8.0, 14.0));
       uavs.push_back(std::make_unique<GuardedUav>(start_W, fleet_of(2, Role::explorer, i)));
@@ -138,7 +140,12 @@ class TwoGuardedUavs {
       if (in_sight) neighbours.push_back({node_of_uav(UavIndex(1 - i)), other.p_WB, other.v_WB});
       uavs[i]->peers.update(uavs[i]->tick, neighbours);
     }
-    for (auto& uav : uavs) uav->step();
+    for (std::size_t i = 0; i < 2; ++i) {
+      uavs[i]->step();
+      commanded_[i].push_back(uavs[i]->state);
+      if (commanded_[i].size() > late_ + 1) commanded_[i].pop_front();
+      uavs[i]->state = commanded_[i].front();
+    }
     for (auto& uav : uavs) uav->drift(random);
   }
   double apart_m() const { return (uavs[0]->state.p_WB - uavs[1]->state.p_WB).norm(); }
@@ -147,7 +154,9 @@ class TwoGuardedUavs {
 
  private:
   int latency_;
+  std::size_t late_;
   std::vector<std::array<RigidBodyState, 2>> past_;
+  std::array<std::deque<RigidBodyState>, 2> commanded_;
 };
 
 }  // namespace skein::agent
