@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "cli/actions.hpp"
 #include "cli/command_table.hpp"
 #include "cli/help.hpp"
 #include "cli/option_checks.hpp"
@@ -58,11 +59,12 @@ Command help(std::string text, bool names_planners = false) {
 }
 
 /// The commands that programs call, not users: --complete is for shells, --host for a launcher on another host, --unit
-/// for engines of sweeps.
+/// for engines of sweeps, --flight for commands that fly many runs.
 std::optional<Command> internal_command(const std::vector<std::string>& arguments) {
   if (arguments.empty()) return {};
   const std::vector<std::string> rest(arguments.begin() + 1, arguments.end());
   if (arguments[0] == "--complete") return Command(CompletionOptions{rest}, print_completions);
+  if (arguments[0] == kFlight && rest.size() == 1) return Command(flight_of(rest[0]), run_fleet);
   if (arguments[0] == "--unit") return Command(unit_options(rest), run_unit);
   if (arguments[0] != "--host" || !rest.empty()) return {};
   return Command(HostOptions{}, [](const HostOptions&, const Console&) { return serve_host(); });

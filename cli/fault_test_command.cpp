@@ -8,14 +8,12 @@
 #include "cli/fault_tests/flights.hpp"
 #include "cli/fault_tests/report.hpp"
 #include "cli/option_checks.hpp"
-#include "cli/options.hpp"
 #include "cli/study/side_by_side.hpp"
 #include "cli/study/spec.hpp"
 #include "cli/test_counts.hpp"
 #include "host/preflight.hpp"
 #include "host/supervisor.hpp"
 #include "process/files/atomic_file.hpp"
-#include "process/host/environment.hpp"
 #include "process/program.hpp"
 #include "results/run_folder.hpp"
 #include "run/results_dir.hpp"
@@ -116,12 +114,10 @@ class FaultTestRun {
     const fs::path dir = *flight.options.out;
     if (const std::error_code error = make_results_folder(dir)) throw std::system_error(error, dir);
     fs::remove(dir / run_folder::kResult);  // of an earlier call
-    std::vector<std::string> arguments = arguments_of(flight.options);
-    arguments.insert(arguments.begin(), program_dir() / "skein");
     std::map<std::string, std::string> variables;
     if (flight.chaos) variables["SKEIN_CHAOS"] = std::to_string(*flight.chaos);
     flown_[index].began = Clock::now();
-    return {"", std::move(arguments), environment_with(variables), dir / run_folder::kFlightLog};
+    return flight_program(flight.options, variables);
   }
 
   void on_exit(std::size_t index, const ExitStatus& exit) {

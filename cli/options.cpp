@@ -24,7 +24,7 @@ void add_network(CLI::App& command, std::optional<std::string>& network) {
           "--network", network,
           "Let programs on other hosts take part: over this interface, over those that the DDS vendor chooses (all), "
           "or as a YAML file (or its text in braces) says for each domain (default: nothing leaves this host)")
-      ->envname("SKEIN_NETWORK")
+      ->envname(kNetworkVariable)
       ->type_name("[IFACE|all|FILE]")
       ->expected(0, 1)
       ->default_str("all");

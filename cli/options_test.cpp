@@ -340,44 +340,6 @@ TEST(Options, WhatDoesNotFitIsRefused) {
   }
 }
 
-TEST(Options, OfARunCanBeWrittenAsArguments) {
-  RunOptions run;
-  const auto same = [](const RunOptions& given) {
-    const auto again = parse_command_line(arguments_of(given)).get<RunOptions>();
-    EXPECT_EQ(arguments_of(again), arguments_of(given));
-    return again;
-  };
-  same(run);
-  run.scenario = "./my scenes/a.yaml";
-  run.planner = "hover,jurong=exec:./mine --speed 3, 4";
-  run.seed = 18446744073709551615u;
-  run.scene_seed = 4;
-  run.uavs = 7;
-  run.assets = "/some where";
-  run.duration_s = 0.1;
-  run.rules = "paper";
-  run.faults = "a.yaml";
-  run.dds = "mixed";
-  run.clock = "realtime:2";
-  run.agent = "mine";
-  run.stop_at_s = 1e-3;
-  run.keep_maps_s = 2.5;
-  run.out = "here";
-  run.native = run.secure = run.force = true;
-  run.attainable = run.report = false;
-  const RunOptions again = same(run);
-  EXPECT_EQ(again.planner, run.planner);
-  EXPECT_EQ(again.scenario, run.scenario);
-  EXPECT_EQ(again.uavs, run.uavs);
-  EXPECT_EQ(again.duration_s, run.duration_s);
-  EXPECT_FALSE(again.attainable);
-  EXPECT_FALSE(again.report);
-  EXPECT_EQ(again.keep_maps_s, 2.5);
-  EXPECT_NE(again.command.find("'--planner=hover,jurong=exec:./mine --speed 3, 4'"), std::string::npos)
-      << "as a shell takes it: " << again.command;
-  EXPECT_TRUE(again.secure);
-}
-
 TEST(Options, OfFaultTestsBelongToFaultTests) {
   const auto test = parse<TestOptions>(
       {"test", "--faults", "d", "--agent", "a", "--jobs", "3", "--seeds", "1-20", "--junit", "x.xml", "-v"});

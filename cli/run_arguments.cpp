@@ -1,54 +1,46 @@
-// A run's options as words of a command line.
+// A run's options as JSON for the process that flies it, and as words of a command line for people.
 #include <spdlog/fmt/fmt.h>
 
+#include <cstdlib>
+
 #include "cli/options.hpp"
+#include "core/text/text.hpp"
+#include "process/json_fields.hpp"
 
 namespace skein::cli {
+namespace {
+
+std::string value_text(const Json& value) {
+  if (value.is_string()) return value.get<std::string>();
+  return value.is_number_float() ? fmt::format("{}", value.get<double>()) : value.dump();
+}
+
+}  // namespace
 
 std::vector<std::string> arguments_of(const RunOptions& run) {
-  std::vector<std::string> arguments = {"run",
-                                        run.scenario,
-                                        "--planner=" + run.planner,
-                                        "--seed=" + std::to_string(run.seed),
-                                        run.one_process ? "--one-process" : "--dds=" + run.dds,
-                                        "--clock=" + run.clock,
-                                        "--record=" + run.record};
-  const auto add = [&](const std::string& option, const auto& value, const auto& text) {
-    if (value) arguments.push_back(option + "=" + text(*value));
-  };
-  const auto as_it_is = [](const std::string& text) { return text; };
-  const auto path = [](const std::filesystem::path& file) { return file.string(); };
-  const auto number = [](const auto& value) { return fmt::format("{}", value); };
-  add("--agent", run.agent, path);
-  add("--scene-seed", run.scene_seed, number);
-  add("--uavs", run.uavs, number);
-  add("--assets", run.assets, path);
-  add("--duration", run.duration_s, number);
-  add("--rules", run.rules, as_it_is);
-  add("--conditions", run.conditions, as_it_is);
-  add("--network", run.network, as_it_is);
-  add("--faults", run.faults, path);
-  add("--break-at", run.break_at_s, number);
-  add("--break-on", run.break_on, as_it_is);
-  add("--break-from", run.break_from, path);
-  for (const std::string& value : run.log) arguments.push_back("--log=" + value);
-  for (const std::string& value : run.debug) arguments.push_back("--debug=" + value);
-  add("--domain", run.domain, number);
-  add("--stop-at", run.stop_at_s, number);
-  add("--lease", run.lease_s, number);
-  add("--agent-timeout", run.agent_timeout_s, number);
-  add("--keep-maps", run.keep_maps_s, number);
-  add("--out", run.out, path);
-  for (const auto& [flag, set] : {std::pair("--native", run.native),
-                                  {"--cores", run.cores},
-                                  {"--secure", run.secure},
-                                  {"--force", run.force},
-                                  {"--no-check", !run.check},
-                                  {"--no-oracle", !run.attainable},
-                                  {"--no-report", !run.report}}) {
-    if (set) arguments.push_back(flag);
+  const Json options = json_of(run), usual = json_of(RunOptions{});
+  std::vector<std::string> arguments = {"run", run.scenario};
+  for (const auto& [name, value] : options.items()) {
+    if (name == "scenario") continue;
+    if (value.is_boolean()) {
+      if (value != usual.at(name)) arguments.push_back((value.get<bool>() ? "--" : "--no-") + name);
+      continue;
+    }
+    for (const Json& one : value.is_array() ? value : Json::array({value})) {
+      arguments.push_back("--" + name + "=" + value_text(one));
+    }
   }
   return arguments;
+}
+
+std::vector<std::string> flight_words(const RunOptions& run) { return {kFlight, json_text(json_of(run))}; }
+
+RunOptions flight_of(const std::string& json) {
+  RunOptions run = struct_of<RunOptions>(parse_json(json));
+  run.command = "skein " + shell_line(arguments_of(run));
+  const char* const network = std::getenv(kNetworkVariable);
+  if (!run.network && network != nullptr && *network != '\0') run.network = network;  // as if it were on a command line
+  return run;
 }
 
 }  // namespace skein::cli

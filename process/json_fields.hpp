@@ -14,7 +14,7 @@
 //
 // Reading never throws: a member whose key is missing, or has a value of another kind, keeps its default (an optional
 // with a value of another kind becomes empty). Members may be bool, numbers, strings, enums with names
-// (core/types.hpp), such structs, Json (any object), and optionals, vectors, arrays and Named of these. Unfit elements
+// (core/types.hpp), paths, such structs, Json (any object), and optionals, vectors, arrays and Named of these. Unfit elements
 // of a vector are left out.
 #pragma once
 
@@ -22,6 +22,7 @@
 #include <cmath>
 #include <concepts>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -127,6 +128,8 @@ Json write(const T& value) {
     return Json(value);
   } else if constexpr (std::is_enum_v<T>) {
     return name_of(value);
+  } else if constexpr (std::is_same_v<T, std::filesystem::path>) {
+    return value.string();
   } else if constexpr (kIsNamed<T>) {
     Json object = Json::object();
     for (const auto& [name, item] : value) object[name] = write(item);
@@ -207,8 +210,8 @@ std::optional<T> read(const Json& json) {
     return json.is_number() ? std::optional(json.get<T>()) : std::nullopt;
   } else if constexpr (std::is_same_v<T, Amount>) {
     return json.is_number() && json.get<double>() >= 0.0 ? std::optional(Amount(json.get<double>())) : std::nullopt;
-  } else if constexpr (std::is_same_v<T, std::string>) {
-    return json.is_string() ? std::optional(json.get<std::string>()) : std::nullopt;
+  } else if constexpr (std::is_same_v<T, std::string> || std::is_same_v<T, std::filesystem::path>) {
+    return json.is_string() ? std::optional<T>(json.get<std::string>()) : std::nullopt;
   } else if constexpr (std::is_same_v<T, Json>) {
     return json.is_object() ? std::optional(json) : std::nullopt;
   } else if constexpr (std::is_enum_v<T>) {

@@ -26,6 +26,7 @@ struct Whole {
   std::array<double, 2> pair{};
   Named<int> named;
   Json raw = Json::object();
+  std::filesystem::path file;
   bool operator==(const Whole&) const = default;
 };
 void describe(auto& f, Whole& whole) {
@@ -41,6 +42,7 @@ void describe(auto& f, Whole& whole) {
   f.field("pair", whole.pair);
   f.field("named", whole.named);
   f.field("raw", whole.raw);
+  f.field("file", whole.file);
 }
 
 Whole some() {
@@ -55,7 +57,8 @@ Whole some() {
           .parts = {{"a"}, {"b"}},
           .pair = {3.0, 4.0},
           .named = {{"z", 1}, {"a", 2}},
-          .raw = {{"any", {1, nullptr}}}};
+          .raw = {{"any", {1, nullptr}}},
+          .file = "a folder/b"};
 }
 
 TEST(JsonFields, ReadsBackWhatItWrites) {
@@ -80,7 +83,7 @@ TEST(JsonFields, KeysStandInTheOrderOfTheList) {
   EXPECT_EQ(json_of(whole).dump(),
             R"({"small":-7,"flag":false,"big":18446744073709551615,"real":0.1,"text":"\"quoted\"\n","role":"explorer",)"
             R"("null":null,"parts":[{"name":"a"},{"name":"b"}],"pair":[3.0,4.0],"named":{"z":1,"a":2},)"
-            R"("raw":{"any":[1,null]}})");
+            R"("raw":{"any":[1,null]},"file":"a folder/b"})");
 }
 
 TEST(JsonFields, WhatIsMissingOrOfAnotherKindLeavesTheValueAsItWas) {

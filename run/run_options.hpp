@@ -92,4 +92,44 @@ struct RunOptions {
   std::string command;     ///< command line as the user typed it; empty: there was none
 };
 
+/// The options that one flight of a study, a hunt or a fault test may have, by their names on the command line: for
+/// process/json_fields.hpp, and for the command line that repeats the flight. True by default means that the option is
+/// --no-NAME.
+void describe(auto& f, RunOptions& run) {
+  f.field("scenario", run.scenario);
+  f.field("planner", run.planner);
+  f.field("seed", run.seed);
+  f.field("one-process", run.one_process);
+  if (!run.one_process) f.field("dds", run.dds);
+  f.field("clock", run.clock);
+  f.field("record", run.record);
+  f.field("agent", run.agent);
+  f.field("scene-seed", run.scene_seed);
+  f.field("uavs", run.uavs);
+  f.field("assets", run.assets);
+  f.field("duration", run.duration_s);
+  f.field("rules", run.rules);
+  f.field("conditions", run.conditions);
+  f.field("network", run.network);
+  f.field("faults", run.faults);
+  f.field("break-at", run.break_at_s);
+  f.field("break-on", run.break_on);
+  f.field("break-from", run.break_from);
+  f.field("log", run.log);
+  f.field("debug", run.debug);
+  f.field("domain", run.domain);
+  f.field("stop-at", run.stop_at_s);
+  f.field("lease", run.lease_s);
+  f.field("agent-timeout", run.agent_timeout_s);
+  f.field("keep-maps", run.keep_maps_s);
+  f.field("out", run.out);
+  f.field("native", run.native);
+  f.field("cores", run.cores);
+  f.field("secure", run.secure);
+  f.field("force", run.force);
+  f.field("check", run.check);
+  f.field("oracle", run.attainable);
+  f.field("report", run.report);
+}
+
 }  // namespace skein::cli

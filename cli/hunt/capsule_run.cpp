@@ -1,16 +1,15 @@
 #include "cli/hunt/capsule_run.hpp"
 
-#include <algorithm>
 #include <set>
 #include <sstream>
 
 #include "cli/actions.hpp"
 #include "cli/fault_tests/fault_test.hpp"
 #include "cli/hunt/trial.hpp"
-#include "cli/options.hpp"
 #include "core/config/config_node.hpp"
 #include "core/text/text.hpp"
 #include "host/preflight.hpp"
+#include "process/json_fields.hpp"
 #include "process/program.hpp"
 #include "results/run_folder.hpp"
 #include "results/run_record.hpp"
@@ -85,16 +84,12 @@ Replayed judge_digest(const FaultTest& test, const fs::path& dir, const Console&
 
 /// @throws InputError for an option that would change what is flown, since the capsule alone defines that.
 void check_options(const RunOptions& options) {
-  static const std::set<std::string> kTaken = {"--dds",    "--one-process", "--agent",   "--assets",
-                                               "--out",    "--force",       "--record",  "--no-report",
-                                               "--domain", "--no-oracle",   "--no-check"};
-  RunOptions plain;
-  plain.scenario = options.scenario;
-  const std::vector<std::string> usual = arguments_of(plain);
-  for (const std::string& argument : arguments_of(options)) {
-    const std::string name = argument.substr(0, argument.find('='));
-    if (kTaken.contains(name) || std::ranges::find(usual, argument) != usual.end()) continue;
-    throw InputError(name + " does not go with a capsule, which has all that is flown: change it in a copy of " +
+  static const std::set<std::string> kTaken = {"scenario", "dds",    "one-process", "agent",  "assets", "out",
+                                               "force",    "record", "report",      "domain", "oracle", "check"};
+  const Json given = json_of(options), usual = json_of(RunOptions{});
+  for (const auto& [name, value] : given.items()) {
+    if (kTaken.contains(name) || value == value_or(usual, name.c_str(), nullptr)) continue;
+    throw InputError("--" + name + " does not go with a capsule, which has all that is flown: change it in a copy of " +
                      options.scenario);
   }
 }

@@ -5,7 +5,6 @@
 #include <system_error>
 
 #include "cli/fault_tests/flights.hpp"
-#include "cli/options.hpp"
 #include "cli/study/side_by_side.hpp"
 #include "host/preflight.hpp"
 #include "process/files/atomic_file.hpp"
@@ -55,7 +54,7 @@ ProgramSpec TrialFlights::start(const Trial& trial, const fs::path& dir) const {
     run.faults = dir / kFaultFile;
     write_file_atomically(*run.faults, trial.text());
   }
-  return flight_program(arguments_of(run), dir);
+  return flight_program(run);
 }
 
 properties::PropertySet TrialFlights::asked(const properties::PropertySet& set) const {

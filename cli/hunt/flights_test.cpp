@@ -4,7 +4,6 @@
 
 #include <sstream>
 
-#include "cli/options.hpp"
 #include "host/testing/fake_programs.hpp"
 
 namespace skein::cli {

@@ -3,7 +3,6 @@
 #include <fstream>
 
 #include "cli/hunt/flights.hpp"
-#include "cli/options.hpp"
 #include "cli/study/flights.hpp"
 #include "cli/study/made_under.hpp"
 #include "cli/sweep/controller.hpp"
@@ -11,6 +10,7 @@
 #include "cli/sweep/this_machine.hpp"
 #include "core/types.hpp"
 #include "host/machine.hpp"
+#include "host/preflight.hpp"
 #include "process/files/atomic_file.hpp"
 
 namespace skein::cli {
@@ -35,7 +35,7 @@ SweepFlight reference(const HuntPlan& plan, const SweepFolder& folder, MadeUnder
   run.duration_s = std::min(plan.fleet.scenario.duration_s, kReferenceMission_s);
   run.seed = 1;
   run.attainable = run.report = false;
-  return {0, folder.dir() / "reference", arguments_of(run), made_under.of(plan_fleet(run, program_dir()))};
+  return {0, folder.dir() / "reference", run, made_under.of(plan_fleet(run, program_dir()))};
 }
 
 }  // namespace
@@ -71,7 +71,7 @@ void TrialFlights::fly_round(const std::vector<std::size_t>& numbers, const std:
       write_file_atomically(*run.faults, trials[i].text());
     }
     try {
-      flights.push_back({flights.size(), *run.out, arguments_of(run), made_under.of(plan_fleet(run, program_dir()))});
+      flights.push_back({flights.size(), *run.out, run, made_under.of(plan_fleet(run, program_dir()))});
       flights.back().made_under["case"] = numbers[i];
     } catch (const InputError&) {
       refused.emplace(numbers[i], i);

@@ -88,7 +88,7 @@ class StudyRun {
     const StudyFlight& flight = plan_.flights[index];
     if (const std::error_code error = make_results_folder(flight.dir)) throw std::system_error(error, flight.dir);
     fs::remove(flight.dir / kFlightMark);
-    return flight_program(arguments_of(flight_options(plan_, flight)), flight.dir);
+    return flight_program(flight_options(plan_, flight));
   }
 
   void on_exit(std::size_t index, const ExitStatus& exit) {

@@ -3,16 +3,19 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "cli/options.hpp"
 #include "host/threads.hpp"
 #include "process/host/environment.hpp"
 #include "process/program.hpp"
 #include "results/run_folder.hpp"
+#include "run/fleet_plan.hpp"
 
 namespace skein::cli {
 
-ProgramSpec flight_program(std::vector<std::string> arguments, const std::filesystem::path& dir) {
-  arguments.insert(arguments.begin(), program_dir() / "skein");
-  return {"", std::move(arguments), environment_with({}), dir / run_folder::kFlightLog};
+ProgramSpec flight_program(const RunOptions& run, const std::map<std::string, std::string>& variables) {
+  std::vector<std::string> argv = flight_words(run);
+  argv.insert(argv.begin(), program_dir() / "skein");
+  return {"", std::move(argv), environment_with(variables), *run.out / run_folder::kFlightLog};
 }
 
 bool SideBySide::fly(std::deque<std::size_t> waiting, const Start& start, const Over& over) {

@@ -2,21 +2,20 @@
 #pragma once
 
 #include <deque>
-#include <filesystem>
 #include <functional>
 #include <map>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "cli/console.hpp"
 #include "host/supervisor.hpp"
+#include "run/run_options.hpp"
 
 namespace skein::cli {
 
-/// The `skein` process for one flight. Its log is in the flight's folder.
-/// @param arguments  of `skein`, beginning with `run`
-ProgramSpec flight_program(std::vector<std::string> arguments, const std::filesystem::path& dir);
+/// The `skein` process for one flight. Its log is in the flight's folder, `run.out`.
+/// @param variables  to set in its environment
+ProgramSpec flight_program(const RunOptions& run, const std::map<std::string, std::string>& variables = {});
 
 /// Threads: one, which must live as long as the flights.
 class SideBySide {

@@ -11,6 +11,7 @@
 #include "core/types.hpp"
 #include "process/files/atomic_file.hpp"
 #include "process/files/closed_to_agents.hpp"
+#include "process/json_fields.hpp"
 
 namespace skein::cli {
 namespace {
@@ -19,7 +20,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kSettings = "sweep.json";
 constexpr const char* kTries = "tries.json";
-constexpr int kFormat = 1;  ///< version of the file format
+constexpr int kFormat = 2;  ///< version of the file format
 
 /// A number with leading zeros, so that names sort by number.
 std::string numbered(std::size_t number) { return fmt::format("{:06}", number); }
@@ -82,14 +83,15 @@ SweepRow row_of(const Json& json) {
 Json to_json(const SweepFlight& flight) {
   return {{"index", flight.index},
           {"dir", flight.dir.string()},
-          {"arguments", flight.arguments},
+          {"run", json_of(flight.run)},
           {"made_under", flight.made_under}};
 }
 
 SweepFlight sweep_flight_of(const Json& json, const fs::path& file) {
-  SweepFlight flight{number_in(json, "index"), text_in(json, "dir"), texts_in(json, "arguments"),
+  const Json run = value_or(json, "run", Json::object());
+  SweepFlight flight{number_in(json, "index"), text_in(json, "dir"), struct_of<RunOptions>(run),
                      value_or(json, "made_under", nullptr)};
-  if (flight.dir.empty() || flight.arguments.empty()) {
+  if (flight.dir.empty() || run.empty()) {
     throw InputError(file.string() + ": damaged: " + json.dump() +
                      " is no flight; delete this file, and the same command goes on with the flights that are there");
   }

@@ -29,15 +29,16 @@
 
 #include "cli/sweep/unit_sizes.hpp"
 #include "process/json_text.hpp"
+#include "run/run_options.hpp"
 
 namespace skein::cli {
 
 /// A flight, described so that any node can fly it.
 struct SweepFlight {
-  std::size_t index = 0;               ///< in the sweep
-  std::filesystem::path dir;           ///< folder where its results belong
-  std::vector<std::string> arguments;  ///< of `skein`; while it flies, with another results folder
-  Json made_under;                     ///< everything on which its result depends
+  std::size_t index = 0;      ///< in the sweep
+  std::filesystem::path dir;  ///< folder where its results belong
+  RunOptions run;             ///< while it flies, with another results folder
+  Json made_under;            ///< everything on which its result depends
 };
 
 struct SweepUnit {

@@ -77,7 +77,7 @@ class StandInSlurm : public testing::Test {
   ~StandInSlurm() override { ::setenv("PATH", path_.c_str(), 1); }
 
   SweepFlight flight(std::size_t number) const {
-    return {number, scratch_.path() / std::to_string(number), {"run"}, Json::object()};
+    return {number, scratch_.path() / std::to_string(number), RunOptions{}, Json::object()};
   }
   fs::path bin() const { return scratch_.path() / "bin"; }
   fs::path file(const std::string& name) const { return scratch_.path() / name; }

@@ -6,7 +6,6 @@
 #include <cstdlib>
 #include <ostream>
 
-#include "cli/options.hpp"
 #include "cli/study/figures_json.hpp"
 #include "cli/sweep/controller.hpp"
 #include "cli/sweep/engines.hpp"
@@ -26,7 +25,7 @@ constexpr std::size_t kMostTold = 20;    ///< failed units that are listed singl
 
 SweepFlight sweep_flight(const StudyPlan& plan, std::size_t index) {
   const StudyFlight& flight = plan.flights[index];
-  return {index, flight.dir, arguments_of(flight_options(plan, flight)), flight.command()};
+  return {index, flight.dir, flight_options(plan, flight), flight.command()};
 }
 
 double reference_duration_s(const StudyPlan& plan) { return std::min(plan.flights.front().mission_s, kReference_s); }
@@ -40,7 +39,7 @@ std::vector<SweepFlight> references(const StudyPlan& plan, const SweepFolder& fo
     run.duration_s = reference_duration_s(plan);
     run.record = "none";
     run.attainable = run.report = false;
-    references.push_back({0, folder.dir() / "reference", arguments_of(run), plan.flights[i].command()});
+    references.push_back({0, folder.dir() / "reference", run, plan.flights[i].command()});
   }
   return references;
 }

@@ -5,14 +5,12 @@
 #include <memory>
 #include <ostream>
 
-#include "cli/options.hpp"
 #include "cli/study/figures.hpp"
 #include "cli/study/figures_json.hpp"
 #include "cli/study/flights.hpp"
 #include "cli/study/made_under.hpp"
 #include "cli/study/side_by_side.hpp"
 #include "core/text/suggestion.hpp"
-#include "core/text/text.hpp"
 #include "core/types.hpp"
 #include "host/machine.hpp"
 #include "host/preflight.hpp"
@@ -34,12 +32,6 @@ std::string boot_id() {
   return id;
 }
 
-RunOptions run_of(const SweepFlight& flight) {
-  const Command command = parse_command_line(flight.arguments);
-  if (const auto* run = command.get_if<RunOptions>()) return *run;
-  throw InputError("no flight: skein " + shell_line(flight.arguments));
-}
-
 /// Compares this machine's programs and files with those that the plan of the sweep records (`made_under`). It compares
 /// only once for all flights that differ only in seed or case.
 class Likeness {
@@ -48,7 +40,7 @@ class Likeness {
     Json then = flight.made_under;
     for (const char* own : {"seed", "case"}) then.erase(own);
     const auto [known, is_new] = known_.try_emplace(then.dump());
-    if (is_new) known->second = differences(then, run_of(flight));
+    if (is_new) known->second = differences(then, flight.run);
     return known->second;
   }
 
@@ -79,20 +71,16 @@ std::string node_name() {
   return host_name("host");
 }
 
-std::vector<std::string> arguments_into(const SweepFlight& flight, const fs::path& out) {
-  RunOptions run = run_of(flight);
-  run.out = out;
-  run.force = true;
-  return arguments_of(run);
-}
-
 SweepNode this_machine(const Console& console) {
   const auto likeness = std::make_shared<Likeness>();
   SweepNode node{node_name(), boot_id(), cpu_model(), {}, {}, {}, {}};
   node.fly = [&console](const SweepFlight& flight, const fs::path& out) {
     SideBySide side_by_side(1, console);
     ExitStatus end;
-    const auto start = [&](std::size_t) { return flight_program(arguments_into(flight, out), out); };
+    RunOptions run = flight.run;
+    run.out = out;
+    run.force = true;
+    const auto start = [&](std::size_t) { return flight_program(run); };
     if (!side_by_side.fly({0}, start, [&](std::size_t, const ExitStatus& exit) { end = exit; })) throw Interrupted{};
     return end;
   };

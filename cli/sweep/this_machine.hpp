@@ -13,10 +13,6 @@ std::string node_name();
 /// Threads: one, which must live as long as the flights. @param console  must outlive the returned node.
 SweepNode this_machine(const Console& console);
 
-/// The arguments of `skein` that fly `flight` with `out` as its results folder.
-/// @throws InputError if the flight's arguments are not those of `skein run`.
-std::vector<std::string> arguments_into(const SweepFlight& flight, const std::filesystem::path& out);
-
 /// Executes `skein --unit STUDY N`, which an engine runs on a node. @returns the exit code.
 int run_unit(const UnitOptions& options, const Console& console);
 

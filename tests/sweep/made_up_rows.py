@@ -18,9 +18,9 @@ sweep = folder / "sweep"
 command = ["compare", "--planners", ",".join(names), "--scenarios", "towers", "--scene-seeds", f"0-{scenes - 1}",
            "--seeds",
            f"0-{seeds - 1}", "--executor", "local", "--out", str(folder)]
-reference = {"index": 0, "dir": str(sweep / "reference"), "arguments": ["run"], "made_under": None}
+reference = {"index": 0, "dir": str(sweep / "reference"), "run": {"scenario": "towers"}, "made_under": None}
 (sweep / "sweep.json").write_text(json.dumps({
-    "format": 1, "token": "made-up", "plan": "", "flights": count, "unit_flights": unit, "reference": reference,
+    "format": 2, "token": "made-up", "plan": "", "flights": count, "unit_flights": unit, "reference": reference,
     "digest": "",
     "reference_s": 1.0, "command": command, "working_folder": str(folder)}))
 

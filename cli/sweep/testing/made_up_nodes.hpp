@@ -41,10 +41,10 @@ class MadeUpWorld {
   std::filesystem::path study() const { return scratch_.path() / "study"; }
 
   SweepFlight flight(std::size_t index) const {
-    return {index,
-            study() / "flights" / ("seed-" + std::to_string(index)),
-            {"run", std::to_string(index)},
-            {{"programs", build}, {"seed", index}}};
+    RunOptions run;
+    run.seed = index;
+    return {
+        index, study() / "flights" / ("seed-" + std::to_string(index)), run, {{"programs", build}, {"seed", index}}};
   }
   SweepPlan plan(std::size_t unit_flights) const {
     SweepPlan plan{flights_,

@@ -1,0 +1,71 @@
+// The options of a run as a command line, and as what the process of a flight gets.
+#include <gtest/gtest.h>
+
+#include "cli/options.hpp"
+
+namespace skein::cli {
+namespace {
+
+/// The options after they were a command line.
+RunOptions parsed_again(const RunOptions& given) {
+  const auto again = parse_command_line(arguments_of(given)).get<RunOptions>();
+  EXPECT_EQ(arguments_of(again), arguments_of(given));
+  return again;
+}
+
+RunOptions unusual_run() {
+  RunOptions run;
+  run.scenario = "./my scenes/a.yaml";
+  run.planner = "hover,jurong=exec:./mine --speed 3, 4";
+  run.seed = 18446744073709551615u;
+  run.scene_seed = 4;
+  run.uavs = 7;
+  run.assets = "/some where";
+  run.duration_s = 0.1;
+  run.rules = "paper";
+  run.faults = "a.yaml";
+  run.dds = "mixed";
+  run.clock = "realtime:2";
+  run.agent = "mine";
+  run.stop_at_s = 1e-3;
+  run.keep_maps_s = 2.5;
+  run.out = "here";
+  run.native = run.secure = run.force = true;
+  run.attainable = run.report = false;
+  return run;
+}
+
+TEST(RunArguments, OfARunAreReadBack) {
+  parsed_again(RunOptions());
+  EXPECT_EQ(arguments_of(RunOptions()),
+            (std::vector<std::string>{"run", "towers", "--planner=" + std::string(kDefaultPlanner), "--seed=0",
+                                      "--dds=cyclonedds", "--clock=lockstep", "--record=run"}));
+  const RunOptions run = unusual_run();
+  const RunOptions again = parsed_again(run);
+  EXPECT_EQ(again.planner, run.planner);
+  EXPECT_EQ(again.scenario, run.scenario);
+  EXPECT_EQ(again.uavs, run.uavs);
+  EXPECT_EQ(again.duration_s, run.duration_s);
+  EXPECT_FALSE(again.attainable);
+  EXPECT_FALSE(again.report);
+  EXPECT_EQ(again.keep_maps_s, 2.5);
+  EXPECT_NE(again.command.find("'--planner=hover,jurong=exec:./mine --speed 3, 4'"), std::string::npos)
+      << "as a shell takes it: " << again.command;
+  EXPECT_TRUE(again.secure);
+}
+
+TEST(RunArguments, OfAFlightAreReadBackFromJson) {
+  RunOptions run = unusual_run();
+  const RunOptions flown = flight_of(flight_words(run).back());
+  EXPECT_EQ(flight_words(flown), flight_words(run));
+  EXPECT_EQ(flown.seed, run.seed);
+  EXPECT_EQ(flown.duration_s, run.duration_s);
+  EXPECT_EQ(flown.out, run.out);
+  EXPECT_EQ(flown.command, parsed_again(run).command) << "that of the same command line";
+  EXPECT_EQ(parse_command_line(flight_words(run)).get<RunOptions>().planner, run.planner);
+  run.one_process = true;  // excludes --dds
+  EXPECT_EQ(flight_of(flight_words(run).back()).command, parsed_again(run).command);
+}
+
+}  // namespace
+}  // namespace skein::cli
