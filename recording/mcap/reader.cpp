@@ -15,13 +15,6 @@ namespace {
 
 constexpr std::uintmax_t kLargestFile = 1ULL << 36;
 
-/// A little-endian number.
-std::uint32_t word_at(ByteView bytes) {
-  std::uint32_t word = 0;
-  for (std::size_t i = 0; i < sizeof(word); ++i) word |= std::uint32_t{bytes[i]} << (8 * i);
-  return word;
-}
-
 /// The values that the header of a chunk and the indexes after it must have, computed from the chunk's messages.
 struct ChunkFacts {
   std::uint64_t start_time = 0, end_time = 0;
@@ -190,11 +183,12 @@ std::vector<std::string> Reader::damage() const {
 bool Reader::data_is_sound(std::uint64_t end) const {
   const ByteView all = view(bytes_);
   ByteView rest = all.subspan(end);
-  const auto data_end = take_record(rest);
+  const auto record = take_record(rest);
+  const auto data_end = record ? parse<DataEnd>(record->content) : std::nullopt;
   const auto at_end = footer();
-  if (!data_end || data_end->content.size() != sizeof(std::uint32_t) || !at_end) return false;
+  if (!data_end || !at_end) return false;
   const std::uint64_t after = all.size() - rest.size();
-  const std::uint32_t crc = word_at(data_end->content);
+  const std::uint32_t crc = data_end->data_section_crc;
   return (at_end->summary_start == 0 || at_end->summary_start == after) && (crc == 0 || crc == crc_of(all.first(end)));
 }
 
@@ -246,9 +240,11 @@ void Reader::take(const RawRecord& record, const std::function<void(const Channe
 }
 
 std::optional<Footer> Reader::footer() const {
-  constexpr std::size_t kTail = kRecordHead + 20 + sizeof(kMagic);
-  if (bytes_.size() < kTail + sizeof(kMagic)) return std::nullopt;
-  ByteView tail = view(bytes_).last(kTail);
+  Bytes any;  // all footers have the same length
+  append(any, Footer{});
+  const std::size_t length = any.size() + sizeof(kMagic);
+  if (bytes_.size() < length + sizeof(kMagic)) return std::nullopt;
+  ByteView tail = view(bytes_).last(length);
   const auto record = take_record(tail);
   if (!record || record->opcode != Opcode::footer || !std::equal(tail.begin(), tail.end(), std::begin(kMagic))) {
     return std::nullopt;

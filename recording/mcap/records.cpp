@@ -147,6 +147,7 @@ template std::optional<Message> parse(ByteView);
 template std::optional<Chunk> parse(ByteView);
 template std::optional<MessageIndex> parse(ByteView);
 template std::optional<Metadata> parse(ByteView);
+template std::optional<DataEnd> parse(ByteView);
 
 std::optional<RawRecord> take_record(ByteView& bytes) {
   FieldParser parser(bytes);

@@ -69,11 +69,12 @@ void Summary::write(Output& out) const {
   });
   Footer footer{.summary_start = out.size() + data_end, .summary_offset_start = out.size() + bytes.size()};
   for (const SummaryOffset& group : groups) append(bytes, group);
+  const std::size_t before_footer = bytes.size();
   append(bytes, footer);
   // The checksum is over everything before it; it is the last four bytes of the footer.
   footer.summary_crc = crc_of(ByteView(bytes).subspan(data_end, bytes.size() - data_end - sizeof(std::uint32_t)));
-  for (std::size_t i = 0; i < 4; ++i)
-    bytes[bytes.size() - 4 + i] = static_cast<std::uint8_t>(footer.summary_crc >> (8 * i));
+  bytes.resize(before_footer);
+  append(bytes, footer);
   bytes.insert(bytes.end(), std::begin(kMagic), std::end(kMagic));
   out.write(bytes);
 }
