@@ -8,18 +8,14 @@
 #include <tuple>
 #include <unordered_map>
 
+#include "uav_agent/maps/block_table.hpp"
+
 namespace skein::agent {
 namespace {
 
 using Cell = Eigen::Vector3i;
 
 constexpr int kEscapeCells = 3;  ///< the search may begin in a cell up to so many cells from the start, along each axis
-
-std::uint64_t key_of(const Cell& c) {
-  constexpr std::uint64_t kMask = (1U << 21) - 1;
-  return (static_cast<std::uint64_t>(c.x()) & kMask) | (static_cast<std::uint64_t>(c.y()) & kMask) << 21 |
-         (static_cast<std::uint64_t>(c.z()) & kMask) << 42;
-}
 
 class Search {
  public:
@@ -84,7 +80,7 @@ class Search {
     for (int expanded = 0; expanded < config_.max_expansions && !queue_.empty(); ++expanded) {
       const Cell cell = std::get<2>(queue_.top());
       queue_.pop();
-      Node& node = nodes_.at(key_of(cell));
+      Node& node = nodes_.at(grid_key(cell));
       if (node.closed) continue;
       node.closed = true;
       if (last(cell)) return cell;
@@ -125,7 +121,7 @@ class Search {
   }
 
   void open(const Cell& cell, double cost, const Cell& parent) {
-    const auto [it, is_new] = nodes_.try_emplace(key_of(cell), Node{cost, parent});
+    const auto [it, is_new] = nodes_.try_emplace(grid_key(cell), Node{cost, parent});
     if (!is_new) {
       if (it->second.closed || it->second.cost <= cost) return;
       it->second.cost = cost;
@@ -139,7 +135,7 @@ class Search {
       const Cell step(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
       if (step.isZero()) continue;
       const Cell next = cell + step;
-      const auto known = nodes_.find(key_of(next));
+      const auto known = nodes_.find(grid_key(next));
       if (known != nodes_.end() && known->second.closed) continue;
       if (!free_cell(next) || !passable(0.5 * (centre(cell) + centre(next)))) continue;
       const double way_m = config_.cell_m * std::sqrt(static_cast<double>(step.squaredNorm()));
@@ -148,7 +144,7 @@ class Search {
   }
 
   bool free_cell(const Cell& c) {
-    const auto [it, is_new] = passable_.try_emplace(key_of(c), false);
+    const auto [it, is_new] = passable_.try_emplace(grid_key(c), false);
     if (is_new) it->second = passable(centre(c));
     return it->second;
   }
@@ -157,7 +153,7 @@ class Search {
     std::vector<Vector3d> corners;
     while (true) {
       corners.push_back(centre(cell));
-      const Cell parent = nodes_.at(key_of(cell)).parent;
+      const Cell parent = nodes_.at(grid_key(cell)).parent;
       if (parent == cell) break;
       cell = parent;
     }

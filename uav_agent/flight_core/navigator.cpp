@@ -27,7 +27,6 @@ constexpr double kTurn = 0.8, kTurnEveryS = 1.2;
 constexpr double kFaceM = 4.0;  ///< nearer than this to its goal, a UAV turns to the goal's yaw
 constexpr double kHereM = 0.3;
 constexpr double kFitMps = 1.0;  ///< paths are wide enough for this speed
-constexpr double kCreepMps = 0.5, kProvedStepM = 1.0;
 
 /// Whether all places within kBesideM of p are nearer to structure than this. The map has one distance for each cube,
 /// and a path may lead along the border of two cubes: beside the path, the distance may be less than where it was

@@ -9,7 +9,6 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kAirborneM = 2.0;       ///< a UAV that begins above this height was restarted in flight
 constexpr double kLowestTopM = 4.0;      ///< least height of the climb
 constexpr double kClimbLayerM = 2.0;     ///< difference between the heights to which two UAVs climb
 constexpr double kCrowdM = 6.0;          ///< UAVs whose starts are nearer than this lift off one after the other
@@ -51,7 +50,7 @@ void Takeoff::stand(const PlannerInput& in, Steering& steering) {
     if (!sinks_back_) filter_.set_trust(SafetyFilter::Trust::proved);
     return;
   }
-  if (p_W.z() > kAirborneM) {
+  if (p_W.z() > kBeginsInFlightM) {
     steering.motion = Hold{};
     phase_ = Phase::over;
     return;

@@ -8,12 +8,7 @@ namespace {
 constexpr int kHitBlockEdge = 4;
 
 /// Key of the region that contains a block.
-std::uint64_t region_key(const Eigen::Vector3i& block) {
-  constexpr std::uint64_t kMask = (1U << 21) - 1;
-  const Eigen::Vector3i region = HitBlocks::block_of(block);
-  return (static_cast<std::uint64_t>(region.x()) & kMask) | (static_cast<std::uint64_t>(region.y()) & kMask) << 21 |
-         (static_cast<std::uint64_t>(region.z()) & kMask) << 42;
-}
+std::uint64_t region_key(const Eigen::Vector3i& block) { return grid_key(HitBlocks::block_of(block)); }
 
 /// Divides the blocks lo to hi along one axis by regions: calls `use` with the first and the last block in each region.
 void each_region(int lo, int hi, const auto& use) {

@@ -249,4 +249,11 @@ VoxelGrid operational_volume(const std::vector<OrientedBox>& boxes, const std::v
   return {Isometry3d(Eigen::Translation3d(lo)), size, voxel_m, chunk_voxels};
 }
 
+VoxelGrid limited_volume(const std::vector<OrientedBox>& boxes, double margin_m, double voxel_m, int max_voxels) {
+  constexpr double kGrowth = 1.1;
+  const Vector3d edges = extent_of(boxes).sizes().array() + 2.0 * margin_m;
+  while ((edges / voxel_m).array().ceil().prod() > max_voxels) voxel_m *= kGrowth;
+  return operational_volume(boxes, {}, margin_m, 0.0, voxel_m);
+}
+
 }  // namespace skein::agent

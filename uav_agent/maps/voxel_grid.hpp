@@ -110,5 +110,7 @@ Eigen::AlignedBox3d extent_of(const std::vector<OrientedBox>& boxes);
 /// of it is below `lowest_m`. KIOS's operational volume.
 VoxelGrid operational_volume(const std::vector<OrientedBox>& boxes, const std::vector<Vector3d>& points_W,
                              double margin_m, double lowest_m, double voxel_m, std::size_t chunk_voxels = 512);
+/// The operational volume of the boxes, with cubes of `voxel_m`, or larger if there were more than `max_voxels`.
+VoxelGrid limited_volume(const std::vector<OrientedBox>& boxes, double margin_m, double voxel_m, int max_voxels);
 
 }  // namespace skein::agent

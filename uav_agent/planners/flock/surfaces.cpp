@@ -8,7 +8,6 @@ namespace skein::agent {
 namespace {
 
 constexpr double kAutoVoxelRatio = 0.2, kSmallestVoxelM = 1.0, kLargestVoxelM = 2.0;
-constexpr double kGrowth = 1.1;         ///< factor by which cubes grow while there are too many
 constexpr double kGridAroundM = 12.0;   ///< margin of the grid around the boxes
 constexpr double kBoxMarginM = 1.0;     ///< structure this far outside a box still belongs to it
 constexpr double kFreeAroundM = 0.5;    ///< radius around a cube's middle that must be free
@@ -24,9 +23,7 @@ constexpr double kRangeRatio = 1.6;  ///< most distance of a face, in units of d
 VoxelGrid site_grid(const std::vector<OrientedBox>& boxes, const FlockConfig& config, double sharp_m) {
   double voxel_m = config.voxel_m;
   if (voxel_m == 0.0) voxel_m = std::clamp(kAutoVoxelRatio * sharp_m, kSmallestVoxelM, kLargestVoxelM);
-  const Vector3d edges = extent_of(boxes).sizes().array() + 2.0 * kGridAroundM;
-  while ((edges / voxel_m).array().ceil().prod() > config.max_voxels) voxel_m *= kGrowth;
-  return operational_volume(boxes, {}, kGridAroundM, 0.0, voxel_m);
+  return limited_volume(boxes, kGridAroundM, voxel_m, config.max_voxels);
 }
 
 }  // namespace

@@ -9,11 +9,9 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kAirborneM = 2.0;   ///< a UAV that begins above this height was restarted in flight
 constexpr double kRestsMps = 0.01;   ///< slower counts as no motion
 constexpr double kAheadS = 2.0;      ///< the path is as long as the way flown in this time,
 constexpr double kBrakesMps2 = 1.0;  ///< plus the braking distance at this gentle deceleration
-constexpr double kCreepMps = 0.5, kProvedStepM = 1.0;
 constexpr double kObeysShare = 0.5;  ///< a UAV faster than this share of the commanded speed is not held back
 
 }  // namespace
@@ -82,7 +80,7 @@ HeldBack HandFlight::why_slower(double wanted_mps, double pace_mps) const {
 
 std::optional<TrajectoryCommand> HandFlight::fly(const HandCommand& wanted, const PlannerInput& in) {
   const double dt_s = agent_.exchange_period_s;
-  if (!std::exchange(began_, true) && in.state.p_WB.z() > kAirborneM) tracker_.hold();
+  if (!std::exchange(began_, true) && in.state.p_WB.z() > kBeginsInFlightM) tracker_.hold();
   const Vector3d v_W = wanted_velocity_W(wanted, in);
   const double speed_mps = v_W.norm();
   going_to_W_.reset();

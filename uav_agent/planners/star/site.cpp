@@ -10,7 +10,6 @@ namespace skein::agent {
 namespace {
 
 constexpr double kAutoVoxelRatio = 0.35, kSmallestVoxelM = 2.0, kLargestVoxelM = 3.0;
-constexpr double kGrowth = 1.1;    ///< factor by which cubes grow while there are too many
 constexpr double kAroundM = 12.0;  ///< margin of the grid around the boxes
 constexpr double kBesideM = 6.0;   ///< distance of a place beside a box from the box's circumscribed circle
 constexpr int kWallDirections = 12;
@@ -21,9 +20,7 @@ constexpr double kAboveFloorM = 2.0;
 VoxelGrid star_grid(const std::vector<OrientedBox>& boxes, const StarConfig& config, double sharp_m) {
   double voxel = config.voxel_m;
   if (voxel == 0.0) voxel = std::clamp(kAutoVoxelRatio * sharp_m, kSmallestVoxelM, kLargestVoxelM);
-  const Vector3d edges = extent_of(boxes).sizes().array() + 2.0 * kAroundM;
-  while ((edges / voxel).array().ceil().prod() > config.max_voxels) voxel *= kGrowth;
-  return operational_volume(boxes, {}, kAroundM, 0.0, voxel);
+  return limited_volume(boxes, kAroundM, voxel, config.max_voxels);
 }
 
 std::vector<VoxelGrid::Id> cubes_of_boxes(const VoxelGrid& grid, const std::vector<OrientedBox>& boxes,

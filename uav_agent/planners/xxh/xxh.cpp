@@ -31,7 +31,6 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kAirborneM = 2.0;   ///< a UAV that begins above this height was restarted in flight
 constexpr double kLookAtMapS = 1.0;  ///< time between two looks at the map
 constexpr int kFruitless = 8;        ///< after so many unreachable choices in a row, the flight core ...
 constexpr double kGivesWayS = 5.0;   ///< ... has so much time to take the UAV elsewhere
@@ -132,7 +131,7 @@ PlannerOutput XxhPlanner::plan(const PlannerInput& in) {
 /// Updates what the UAV knows of team and map.
 void XxhPlanner::prepare(const PlannerInput& in) {
   if (!start_W_) {
-    restarted_ = in.state.p_WB.z() > kAirborneM;
+    restarted_ = in.state.p_WB.z() > kBeginsInFlightM;
     start_W_ = restarted_ ? agent_.me().p_WB_start : in.state.p_WB;
   }
   talk_.listen(in, site_.shared_grid());
