@@ -25,6 +25,7 @@
 #include "results/run_folder.hpp"
 #include "run/inputs_outlast.hpp"
 #include "run/live_page.hpp"
+#include "run/open_files.hpp"
 #include "run/results_dir.hpp"
 #include "view/pages.hpp"
 
@@ -138,6 +139,7 @@ void write_keys(const FleetPlan& plan, int base_domain, const fs::path& folder,
 }
 
 void check_before_flight(FleetPlan plan, const ComposeLayout& layout, const Console& console) {
+  check_launcher_open_files(plan);
   std::vector<std::string> images;
   for (const auto& [variable, image] : layout.chosen) images.push_back(image);
   for (const auto& [member, image] : layout.images) images.push_back(image);

@@ -302,6 +302,18 @@ TEST_F(ComposeUp, AFolderWithFilesOfTheNamesThatItUsesIsNotTaken) {
   }
 }
 
+TEST_F(ComposeUp, ALauncherThatMayOpenTooFewFilesIsRefusedBeforeTheEngineIsAsked) {
+  write_script(programs_.dir() / "docker", "touch " + gone().string());
+  const LimitedOpenFiles low(24);
+  try {
+    up();
+    ADD_FAILURE() << "it would fail in its middle";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("a process may have 24 open files"), std::string::npos) << error.what();
+  }
+  EXPECT_FALSE(fs::exists(gone()));
+}
+
 // The second command has made its checks, and does not fly yet, when the first one takes the folder.
 TEST_F(ComposeUp, TwoAtOnceWithoutOutGetFoldersOfTheirOwn) {
   const fs::path before = fs::current_path(), usual = default_results_dir("small", "hover", 0);

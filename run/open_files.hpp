@@ -10,7 +10,7 @@ namespace skein::cli {
 
 /// How many open files a process of the fleet needs.
 struct OpenFilesNeed {
-  std::uint64_t least;  ///< with fewer, the fleet cannot start: the launcher's own, or those of the one process
+  std::uint64_t least;  ///< with fewer, the fleet cannot start: those of the process with most
   std::uint64_t ample;  ///< with fewer, a program may fail: an estimate, rounded up
 };
 OpenFilesNeed open_files_need(const FleetPlan& plan);
@@ -20,7 +20,12 @@ OpenFilesNeed open_files_need(const FleetPlan& plan);
 /// @throws InputError that names the limit and the need when the fleet cannot start.
 std::string check_open_files(const FleetPlan& plan, std::uint64_t limit);
 
-/// The same with this process's limit, which the programs inherit. A fleet on several hosts (--place) is not checked.
+/// The same with this process's limit, which the programs inherit. Of a fleet on several hosts (--place), it checks the
+/// programs on this host; the others need less.
 std::string check_open_files(const FleetPlan& plan);
+
+/// Checks this process's limit for the launcher alone, whose fleet flies in containers: their limits are the engine's.
+/// @throws InputError that names the limit and the need when the launcher cannot follow the fleet.
+void check_launcher_open_files(const FleetPlan& plan);
 
 }  // namespace skein::cli

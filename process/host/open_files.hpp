@@ -17,6 +17,6 @@ std::string open_files_hint(const std::error_code& code);
 
 /// Open files of the server of a fleet over DDS, which joins all domains; no program has more. An estimate, rounded up,
 /// from measurements with both vendors and 5 UAVs.
-constexpr std::uint64_t ample_open_files(std::uint64_t domains) { return 16 + 9 * domains; }
+constexpr std::uint64_t ample_open_files(std::uint64_t domains) { return 20 + 9 * domains; }
 
 }  // namespace skein

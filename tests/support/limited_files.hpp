@@ -1,4 +1,4 @@
-// For tests of what a program does when it cannot write a whole file.
+// For tests of what a program does when it cannot write a whole file, or cannot open another one.
 #pragma once
 
 #include <sys/resource.h>
@@ -26,6 +26,22 @@ class LimitedFiles {
  private:
   rlimit usual_{};
   void (*handler_)(int);
+};
+
+/// While it lives, this process and its children can have only so many open files; those that are open stay.
+class LimitedOpenFiles {
+ public:
+  explicit LimitedOpenFiles(rlim_t files) {
+    ::getrlimit(RLIMIT_NOFILE, &usual_);
+    const rlimit limited{files, usual_.rlim_max};
+    ::setrlimit(RLIMIT_NOFILE, &limited);
+  }
+  ~LimitedOpenFiles() { ::setrlimit(RLIMIT_NOFILE, &usual_); }
+  LimitedOpenFiles(const LimitedOpenFiles&) = delete;
+  LimitedOpenFiles& operator=(const LimitedOpenFiles&) = delete;
+
+ private:
+  rlimit usual_{};
 };
 
 }  // namespace skein
