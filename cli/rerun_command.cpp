@@ -8,6 +8,7 @@
 #include "cli/hunt/capsule_run.hpp"
 #include "cli/option_checks.hpp"
 #include "cli/options.hpp"
+#include "core/faults/fault_plan.hpp"
 #include "core/scenario/scenario_reader.hpp"
 #include "core/text/suggestion.hpp"
 #include "core/text/text.hpp"
@@ -37,12 +38,14 @@ RunOptions options_flown(const RunOptions& given) {
   return options;
 }
 
-/// The command's files may have changed since the run, and its relative names start from the current folder.
-/// @throws InputError if the command flies another scenario now, or another fleet or seed
-void check_flies_the_run(const RunOptions& options, const fs::path& run, const Json& result) {
-  LoadOptions load = load_options(options);
-  load.needs_scene_files = false;
-  const Scenario scenario = load_scenario(scenario_source(options.scenario, options.scene_seed), load);
+/// What helps if the command's files have changed since the run: its relative names start from the current folder.
+std::string where_to_start(const Json& result) {
+  return ". Start from the folder in which that run was started, with the files that it had: " +
+         text_in(result, "command");
+}
+
+/// @param scenario  that the command names now. @throws InputError if it is another one, or has another fleet or seed
+void check_flies_the_run(const RunOptions& options, const Scenario& scenario, const fs::path& run, const Json& result) {
   std::vector<std::string> differences;
   const auto compare = [&](const std::string& what, const std::string& then, const std::string& now) {
     if (!then.empty() && then != now) differences.push_back(what + " " + then + ", now " + now);
@@ -54,8 +57,29 @@ void check_flies_the_run(const RunOptions& options, const fs::path& run, const J
   compare("seed", result.contains("seed") ? result["seed"].dump() : "", std::to_string(options.seed));
   if (differences.empty()) return;
   throw InputError(run.string() + ": its command flies another run now: " + joined(differences, "; ") +
-                   ". Start from the folder in which that run was started, with the files that it had: " +
-                   text_in(result, "command"));
+                   where_to_start(result));
+}
+
+/// The options of the flight of a run's command, as the command's files say now.
+/// @throws InputError if a file is not there, or not valid, or the command flies another run now
+RunOptions options_now(const RunOptions& given, const fs::path& run, const Json& result) {
+  const auto reading = [&](const auto& read) {
+    try {
+      return read();
+    } catch (const InputError& error) {
+      throw InputError(run.string() + ": its command cannot be repeated: " + error.what() + where_to_start(result));
+    }
+  };
+  RunOptions options = reading([&] { return options_flown(given); });
+  const Scenario scenario = reading([&] {
+    LoadOptions load = load_options(options);
+    load.needs_scene_files = false;
+    return load_scenario(scenario_source(options.scenario, options.scene_seed), load);
+  });
+  check_flies_the_run(options, scenario, run, result);
+  if (fs::exists(run / run_folder::kByHand)) options.faults = run / run_folder::kByHand;  // wherever the run is now
+  reading([&] { return load_fault_plan(options.faults.value_or(""), scenario, options.seed); });
+  return options;
 }
 
 /// The options as the user gave them then, without those that only that run needed: output, debugging, view, security.
@@ -70,8 +94,7 @@ RunOptions options_of(const fs::path& run, const Json& result) {
   const auto* flown = parsed.get_if<RunOptions>();
   const auto* in_containers = parsed.get_if<ComposeOptions>();
   if (flown == nullptr && in_containers == nullptr) throw InputError(run.string() + ": it was no run: " + command);
-  RunOptions options = options_flown(flown != nullptr ? *flown : in_containers->run);
-  check_flies_the_run(options, run, result);
+  RunOptions options = options_now(flown != nullptr ? *flown : in_containers->run, run, result);
   options.out.reset();
   options.debug.clear();
   options.log.clear();
@@ -81,7 +104,6 @@ RunOptions options_of(const fs::path& run, const Json& result) {
   options.domain.reset();
   options.network.reset();
   options.view = {};
-  if (fs::exists(run / run_folder::kByHand)) options.faults = run / run_folder::kByHand;  // wherever the run is now
   options.secure = options.force = options.one_process = options.cores = false;
   options.record = "run";
   options.keep_maps_s.reset();

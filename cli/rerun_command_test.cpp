@@ -55,6 +55,20 @@ TEST_F(OptionsOfRun, AreRefusedIfTheCommandFliesAnotherScenarioFleetOrSeed) {
   EXPECT_EQ(refusal("skein run " + copy.string() + " --seed 3").find(begin + "scenario small, now copy. "), 0U);
 }
 
+TEST_F(OptionsOfRun, AreRefusedWithThePlaceToStartFromIfAFileOfTheCommandIsMissing) {
+  const std::string faults = " --faults faults.yaml", begin = run_.string() + ": its command cannot be repeated: ";
+  for (const std::string& command :
+       std::vector<std::string>{"skein run small.yaml --seed 3", "skein run " + small_ + " --seed 3" + faults,
+                                "skein run find.yaml --seed 3"}) {
+    const std::string said = refusal(command);
+    EXPECT_EQ(said.find(begin), 0U) << said;
+    EXPECT_NE(said.find(". Start from the folder in which that run was started, "), std::string::npos) << said;
+    EXPECT_TRUE(said.ends_with(": " + command)) << said;
+  }
+  const std::string other = refusal("skein run " + small_ + " --seed 4" + faults);
+  EXPECT_NE(other.find("seed 3, now 4. "), std::string::npos) << "another run, whatever its faults: " << other;
+}
+
 TEST_F(OptionsOfRun, OfACapsuleAreThoseOfItsFile) {
   const std::filesystem::path capsule = programs_.dir() / "find.yaml";
   write_text(capsule,
