@@ -119,6 +119,29 @@ TEST_F(PythonPlannerTest, OutputsArriveAsTheyAre) {
   EXPECT_EQ(std::get<TrajectoryCommand>(command.motion).v_WB, Vector3d(1, 0, 0));
 }
 
+/// Arrays from files and from the network often have the byte order of another machine, or begin at any byte.
+TEST_F(PythonPlannerTest, VectorsArriveFromArraysOfAnyKindOfNumbers) {
+  for (const char* array : {"np.array([1, 2, 3], '>f8')", "np.array([1, 2, 3], '<f8')", "np.array([1, 2, 3], '>f4')",
+                            "np.array([1, 2, 3], '>i4')", "np.array([1, 2, 3], '>u2')", "np.array([3.0, 2, 1])[::-1]",
+                            "np.frombuffer(b'?' + np.array([1.0, 2, 3]).tobytes(), '=f8', 3, 1)",
+                            "np.array([(0, 1), (0, 2), (0, 3)], [('a', 'u1'), ('b', '>f8')])['b']"}) {
+    const PlannerOutput out = ask(*planning(std::string("return PlannerOutput(motion=Setpoint(") + array + "))"));
+    EXPECT_EQ(std::get<Setpoint>(out.motion).p_WB, Vector3d(1, 2, 3)) << array;
+  }
+}
+
+/// Questions to maps take the same arrays.
+TEST_F(PythonPlannerTest, MapsAreAskedInAnyByteOrder) {
+  const auto planner = planning(
+      "places = np.array([[5.1, 5.1, 5.1], [0, 0, 0]])\n"
+      "        for order in ('>f8', '>f4', '<f8'):\n"
+      "            there = inputs.map.occupied(places.astype(order))\n"
+      "            assert there.tolist() == inputs.map.occupied(places).tolist(), order\n"
+      "            way = inputs.map.segment_clear(places[0].astype(order), places[1].astype(order), 0.5)\n"
+      "            assert way == inputs.map.segment_clear(places[0], places[1], 0.5), order");
+  EXPECT_EQ(refusal(*planner), "");
+}
+
 TEST_F(PythonPlannerTest, GoalsNeedTheFlightCore) {
   const std::string goal =
       "return PlannerOutput(goals=[Goal(3, [Waypoint([1, 2, 3])], yaw=1, gimbal=GimbalCommand('rate', 1, 2))])";

@@ -40,10 +40,12 @@ double number_in(py::handle value) {
   return number;
 }
 
-/// Whether the array's memory has the layout of a Vector3d: three adjacent doubles.
+/// Whether the array's memory has the layout of a Vector3d: three adjacent doubles in this machine's byte order.
 bool is_like_vector3d(const py::array& array) {
+  constexpr char kNative = '=';
   return array.ndim() == 1 && array.shape(0) == 3 && array.dtype().num() == py::detail::npy_api::NPY_DOUBLE_ &&
-         array.strides(0) == sizeof(double);
+         array.dtype().byteorder() == kNative && array.strides(0) == sizeof(double) &&
+         (array.flags() & py::detail::npy_api::NPY_ARRAY_ALIGNED_) != 0;
 }
 
 /// Whether the elements are floating-point numbers or integers (kinds of NumPy: f; i and, without sign, u).
