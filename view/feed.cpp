@@ -6,10 +6,10 @@
 namespace skein::view {
 
 void FeedPlace::look_at(const std::vector<std::string>& names) {
-  std::map<std::string, std::uint64_t> wanted;
+  std::map<std::string, Cloud> wanted;
   for (const std::string& name : names) {
     const auto before = clouds.find(name);
-    wanted[name] = before != clouds.end() ? before->second : 0;
+    wanted[name] = before != clouds.end() ? before->second : Cloud();
   }
   clouds = std::move(wanted);
 }
@@ -47,20 +47,21 @@ void Feed::set_cloud(const std::string& name, std::string cloud) {
   tell();
 }
 
-/// Takes first the cloud whose latest version is the oldest, so that a cloud that changes all the time does not delay
-/// one that changed before it. @returns a JSON list of clouds, or an empty text if the browser has all latest versions.
+/// Takes first the cloud that the browser has not got for longest: of N clouds that change all the time, it gets each
+/// at every Nth turn. @returns a JSON list of clouds; an empty text if the browser has all latest versions
 std::string Feed::next_clouds(FeedPlace& place, std::size_t most_bytes) const {
-  std::vector<std::pair<const Cloud*, std::uint64_t*>> news;
-  for (auto& [name, number] : place.clouds) {
+  std::vector<std::pair<const Cloud*, FeedPlace::Cloud*>> news;
+  for (auto& [name, got] : place.clouds) {
     const auto cloud = clouds_.find(name);
-    if (cloud != clouds_.end() && cloud->second.number != number) news.emplace_back(&cloud->second, &number);
+    if (cloud != clouds_.end() && cloud->second.number != got.version) news.emplace_back(&cloud->second, &got);
   }
-  std::ranges::sort(news, {}, [](const auto& one) { return one.first->number; });
+  // Of those that it never got, first the one whose latest version is the oldest.
+  std::ranges::sort(news, {}, [](const auto& one) { return std::pair(one.second->turn, one.first->number); });
   std::string list;
-  for (const auto& [cloud, number] : news) {
+  for (const auto& [cloud, got] : news) {
     if (!list.empty() && list.size() + cloud->text.size() > most_bytes) break;
     list += (list.empty() ? "[" : ",") + cloud->text;
-    *number = cloud->number;
+    *got = {cloud->number, ++place.turns};
   }
   return list.empty() ? list : list + "]";
 }

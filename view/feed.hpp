@@ -21,8 +21,14 @@ struct FeedPlace {
   bool scene = false;
   std::size_t lines = 0;
   std::uint64_t state = 0;
-  bool more = false;                                 ///< whether the last message left lines for the next one
-  std::map<std::string, std::uint64_t> clouds = {};  ///< requested clouds by name: the version that it has
+  bool more = false;  ///< whether the last message left lines for the next one
+
+  struct Cloud {
+    std::uint64_t version = 0;  ///< that the browser has
+    std::uint64_t turn = 0;     ///< when it got this version, counted in clouds; 0: never
+  };
+  std::map<std::string, Cloud> clouds = {};  ///< requested clouds by name
+  std::uint64_t turns = 0;                   ///< number of clouds sent
 
   /// Requests these clouds and no others. A cloud that was requested before is not sent again until it changes.
   void look_at(const std::vector<std::string>& names);
@@ -42,7 +48,8 @@ class Feed {
 
   /// The next message for a browser at `place`, which moves on: {"scene": ..., "lines": [...], "more": true, "state":
   /// ..., "clouds": [...]}, with only the keys that have news. "more" means that lines are left. `most_bytes` is a
-  /// rough limit: the first line, and the first cloud if there is room left for it to begin, are sent whole.
+  /// rough limit: the first line, and the first cloud if there is room left for it to begin, are sent whole. The clouds
+  /// take turns: those that the browser has not got for longest come first.
   /// @returns an empty text when there is nothing new.
   std::string next(FeedPlace& place, std::size_t most_bytes) const;
   /// Sets the function that is called, in the thread that fills the feed, when there is something new. It replaces the

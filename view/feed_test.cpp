@@ -90,11 +90,45 @@ TEST(Feeds, OfEachCloudTheNewest) {
   EXPECT_EQ(feed.next(slow, 100), "") << "nothing has piled up";
   // One that changes all the time does not keep the other from being told.
   feed.set_cloud("b", "2");
-  feed.set_cloud("a", much);
-  feed.next(slow, 1);
-  feed.set_cloud("a", much);
-  EXPECT_EQ(feed.next(slow, 1), "{\"clouds\":[" + much + "]}");
+  for (const std::string& next : {much, std::string("2"), much}) {
+    feed.set_cloud("a", much);
+    EXPECT_EQ(feed.next(slow, 1), "{\"clouds\":[" + next + "]}");
+  }
   EXPECT_EQ(feed.next(slow, 1), "");
+}
+
+/// All clouds change before each message, in the same order, and a message has room for some of them.
+TEST(Feeds, CloudsTakeTurns) {
+  const std::vector<std::string> names = {"a", "b", "c", "d", "e"};
+  for (std::size_t room = 1; room <= names.size(); ++room) {
+    Feed feed;
+    FeedPlace slow;
+    feed.set_scene("{}");
+    feed.next(slow, kMuch);
+    slow.look_at(names);
+    std::string told;
+    while (told.size() < 4 * names.size()) {
+      for (const std::string& name : names) feed.set_cloud(name, name);
+      const std::string text = feed.next(slow, std::string("[a").size() * room);
+      for (const char c : text.substr(text.find('[')))
+        told += std::string("abcde").find(c) < 5 ? std::string(1, c) : "";
+    }
+    EXPECT_EQ(told.substr(0, 20), "abcdeabcdeabcdeabcde") << room << " in a message";
+  }
+}
+
+TEST(Feeds, ACloudThatABrowserNeverGotComesFirst) {
+  Feed feed;
+  FeedPlace place;
+  feed.set_scene("{}");
+  feed.next(place, kMuch);
+  place.look_at({"a", "b"});
+  for (const char* name : {"a", "b", "c"}) feed.set_cloud(name, std::string(1, *name));
+  feed.next(place, kMuch);
+  place.look_at({"a", "b", "c"});
+  feed.set_cloud("b", "b");
+  feed.set_cloud("a", "a");
+  for (const char* next : {"c", "a", "b"}) EXPECT_EQ(feed.next(place, 1), std::string("{\"clouds\":[") + next + "]}");
 }
 
 TEST(Feeds, LinesComeBeforeClouds) {
