@@ -33,6 +33,16 @@ void refuse_doubles(const std::string& what, const std::vector<std::string>& nam
   }
 }
 
+/// The planner with the whole paths of its agent and of its file in Python: one text for each planner.
+std::string with_whole_paths(const std::string& planner) {
+  const auto whole = [](const fs::path& agent) { return fs::weakly_canonical(agent).string(); };
+  std::string text = with_agents_named(planner, whole);
+  auto python = python_spec(text);
+  if (!python) return text;
+  python->file = fs::weakly_canonical(python->file);
+  return text_of(*python);
+}
+
 std::vector<std::string> planners_of(const StudyOptions& options) {
   std::vector<std::string> planners;
   for (const std::string& list : options.planner_lists) {
@@ -40,10 +50,9 @@ std::vector<std::string> planners_of(const StudyOptions& options) {
   }
   planners.insert(planners.end(), options.planners.begin(), options.planners.end());
   if (planners.empty()) throw InputError("which planners? Give them as --planners A,B");
-  std::vector<std::string> with_whole_paths;
-  const auto whole = [](const fs::path& agent) { return agent.string(); };
-  for (const std::string& planner : planners) with_whole_paths.push_back(with_agents_named(planner, whole));
-  refuse_doubles("planner", with_whole_paths);
+  std::vector<std::string> whole;
+  for (const std::string& planner : planners) whole.push_back(with_whole_paths(planner));
+  refuse_doubles("planner", whole);
   return planners;
 }
 
@@ -93,6 +102,19 @@ void list_scenes(const StudyOptions& options, StudyPlan& plan) {
     }
   }
 }
+
+/// Names of scenarios by their files. @throws InputError if another name led to the file before
+class ScenarioFiles {
+ public:
+  void add(const std::string& name, const fs::path& file) {
+    const auto [before, is_new] = names_.emplace(fs::weakly_canonical(file), name);
+    if (is_new || before->second == name) return;
+    throw InputError("scenario '" + name + "' is named twice: '" + before->second + "' is the same file");
+  }
+
+ private:
+  std::map<fs::path, std::string> names_;
+};
 
 RunOptions run_options(const StudyOptions& options, const StudyScene& scene, const std::string& planner) {
   RunOptions run;
@@ -245,11 +267,13 @@ StudyPlan plan_study(const StudyOptions& options, AskPrograms ask) {
   std::vector<StudyFlight> of_one_seed;
   Json inputs = Json::object(), agents = Json::object();
   MadeUnder made_under;
+  ScenarioFiles files;
   const auto built_in =
       own_agent(options.agent) ? planners_of(program_dir() / programs::kAgent) : std::vector<std::string>{};
   for (std::size_t s = 0; s < plan.scenarios.size(); ++s) {
     for (std::size_t p = 0; p < plan.planners.size(); ++p) {
       FleetPlan fleet = plan_fleet(run_options(options, plan.scenes[s], plan.planners[p]), program_dir());
+      if (p == 0) files.add(plan.scenes[s].scenario, fleet.scenario.file);
       if (fleet.agent && are_all_built_in(fleet, built_in)) {
         fleet.options.agent = fleet.bin_dir / programs::kAgent;
         fleet = plan_fleet(fleet.options, fleet.bin_dir);

@@ -54,8 +54,8 @@ enum class AskPrograms { no, yes };
 
 /// Reads all files that the options name, and lets the programs check every planner in every scenario (of scenes that
 /// differ only in scene seed or conditions, in the first one). Writes nothing into the study's folder.
-/// @throws InputError, with a correct value: for a planner or scenario that is unknown or named twice, for seeds, for a
-///   missing agent program. Interrupted.
+/// @throws InputError, with a correct value: for a planner or scenario that is unknown or named twice (also by two
+///   names of one file), for seeds, for a missing agent program. Interrupted.
 StudyPlan plan_study(const StudyOptions& options, AskPrograms ask = AskPrograms::yes);
 
 /// How the settings of two studies differ, in phrases for a message; empty: not at all.
