@@ -338,15 +338,25 @@ std::vector<std::string> SweepController::findings() const {
   for (const std::string& node : folder_.quarantined_nodes()) {
     lines.push_back("no result of the node " + node + " counts: " + folder_.quarantined(node).value_or(""));
   }
-  const std::set<std::size_t> checks = folder_.checks(settings_.token);
-  std::set<std::string> nodes;
-  for (const std::string& node : folder_.nodes()) nodes.insert(node);
-  const std::string checked = checks.empty()
-                                  ? "no flight was flown again on a second node"
-                                  : fmt::format("{} flight{} flown again elsewhere, each with the same digest",
-                                                checks.size(), checks.size() == 1 ? "" : "s");
-  lines.push_back(fmt::format("{} node{}; {}", nodes.size(), nodes.size() == 1 ? "" : "s", checked));
+  const std::vector<std::string> nodes = folder_.nodes();
+  const std::size_t count = std::set<std::string>(nodes.begin(), nodes.end()).size();
+  lines.push_back(fmt::format("{} node{}; {}", count, count == 1 ? "" : "s", text_of_checks()));
   return lines;
+}
+
+/// What the checks have shown. Somebody who only looks at a sweep may see digests that differ and are not judged yet.
+std::string SweepController::text_of_checks() const {
+  std::size_t checks = 0, different = 0;
+  for (const std::size_t index : folder_.checks(settings_.token)) {
+    const auto check = folder_.check(settings_.token, index);
+    if (!check) continue;
+    ++checks;
+    if (check->digest != check->first_digest) ++different;
+  }
+  if (checks == 0) return "no flight was flown again on a second node";
+  const std::string flown = fmt::format("{} flight{} flown again elsewhere, ", checks, checks == 1 ? "" : "s");
+  if (different == 0) return flown + "each with the same digest";
+  return flown + fmt::format("{} with another digest: which node is wrong shows when the study goes on", different);
 }
 
 void SweepController::tell_progress() {

@@ -63,6 +63,7 @@ class SweepController {
   std::vector<std::string> findings() const;
 
  private:
+  std::string text_of_checks() const;
   void begin(const SweepPlan& plan, const std::string& digest_of_plan);
   void fly_a_reference(const SweepPlan& plan);
   SweepUnit planned_unit(const SweepPlan& plan, std::size_t number) const;

@@ -125,6 +125,27 @@ TEST(SweepController, LosesAndDoublesNothingInDrawnOrders) {
   EXPECT_GT(failing, orders / 10);
 }
 
+TEST(SweepController, WhoOnlyLooksIsToldHowManyChecksDiffer) {
+  Sweep sweep(1, 12, 2, {{"sound 1"}, {"sound 2"}});
+  ASSERT_TRUE(sweep.control());
+  SweepFolder folder(sweep.world.study());
+  const std::string token = folder.settings().value().token;
+  const SweepNode node = sweep.world.node(sweep.here, [] {});
+  SweepController controller(folder, sweep.engine, node, sweep.said);
+  controller.look();
+  const std::string before = controller.findings().back(), nodes = before.substr(0, before.find("; ") + 2);
+  EXPECT_EQ(before, nodes + "1 flight flown again elsewhere, each with the same digest");
+  // As a worker leaves them, before a controller judges them.
+  for (const std::size_t index : folder.checks(token)) folder.forget_check(token, index);
+  EXPECT_EQ(controller.findings().back(), nodes + "no flight was flown again on a second node");
+  folder.write_check(token, {0, "sound 2", "a", "sound 1", "a"});
+  folder.write_check(token, {1, "sound 2", "b?", "sound 1", "b"});
+  EXPECT_EQ(controller.findings().back(),
+            nodes +
+                "2 flights flown again elsewhere, 1 with another digest: which node is wrong shows when the study "
+                "goes on");
+}
+
 // In a sweep of fewer than 100 flights, one flight is repeated on another node as a check. The controller excludes the
 // node that flew it first, so in every order the check takes only one further call of the engine. If only one node took
 // part, this machine ("here") repeats the flight, without the engine.
