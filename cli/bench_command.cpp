@@ -90,7 +90,7 @@ class Bench {
     if (options_.hour) measure_memory();
     report_["targets"] = targets_of(report_);
     print_bench(console_.out, report_);
-    if (options_.json) write_file_atomically(*options_.json, report_.dump(2) + "\n");
+    if (options_.json) replace_or_overwrite(*options_.json, report_.dump(2) + "\n");
     return failed_ ? kExitProcessFailed : kExitDone;
   }
 

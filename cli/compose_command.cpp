@@ -274,7 +274,7 @@ void write_compose_file(const fs::path& path, const std::string& text, bool forc
                      ": is there already, and was not made by `skein compose`; overwrite it with --force, or choose "
                      "another file");
   }
-  write_file_atomically(behind_links(path), text);  // a link stays, and leads to the new file
+  replace_or_overwrite(behind_links(path), text);  // a link stays, and leads to the new file
 } catch (const std::system_error& error) {
   throw InputError("--file " + path.string() + ": cannot be written: " + error.code().message());
 }

@@ -44,7 +44,7 @@ int convert_files(const ConvertOptions& options, const Console& console) {
       console.out << after << std::flush;
       continue;
     }
-    if (after != before) write_file_atomically(file, after);
+    if (after != before) replace_or_overwrite(file, after);
     console.out << file.string() << ": " << (after == before ? "nothing to convert" : "converted") << std::endl;
   }
   return kExitDone;

@@ -198,7 +198,7 @@ class FaultTestRun {
   void write_report() const {
     if (!options_.junit) return;
     try {
-      write_file_atomically(*options_.junit, junit_xml("skein test --faults " + options_.faults->string(), verdicts_));
+      replace_or_overwrite(*options_.junit, junit_xml("skein test --faults " + options_.faults->string(), verdicts_));
     } catch (const std::runtime_error& error) {
       throw InputError("--junit: " + std::string(error.what()));
     }

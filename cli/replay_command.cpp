@@ -111,7 +111,7 @@ int export_run(const ReplayOptions& options, const Console& console) {
   if (is_film) {
     write_film(*programs, page, options.film, file, console);
   } else {
-    write_file_atomically(file, page);
+    replace_or_overwrite(file, page);
   }
   console.out << fmt::format("{} ({:.1f} MB)\n", file.string(), 1e-6 * static_cast<double>(fs::file_size(file)))
               << std::flush;

@@ -55,7 +55,7 @@ int bench_planners(const BenchOptions& options, const Console& console) {
   }
   console.out << "\nbefore: " << table.string() << "\n\n";
   print_planner_scores(console.out, before, now);
-  if (options.write) write_file_atomically(*options.write, planner_scores_csv(now));
+  if (options.write) replace_or_overwrite(*options.write, planner_scores_csv(now));
   return failed ? kExitProcessFailed : kExitDone;
 }
 

@@ -157,7 +157,7 @@ int bench_profile(const BenchOptions& options, const Console& console) {
     report["growth"][planner] = profile_growth(entries);
   }
   print_profile(console.out, report);
-  if (options.json) write_file_atomically(*options.json, report.dump(2) + "\n");
+  if (options.json) replace_or_overwrite(*options.json, report.dump(2) + "\n");
   return failed ? kExitProcessFailed : kExitDone;
 }
 

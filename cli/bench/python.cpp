@@ -76,7 +76,7 @@ class PythonBench {
     print_python(console_.out, rows);
     if (options_.json) {
       const Json report = {{"planners", planners}, {"stepping", stepping}, {"rows", rows}};
-      write_file_atomically(*options_.json, report.dump(2) + "\n");
+      replace_or_overwrite(*options_.json, report.dump(2) + "\n");
     }
     return failed_ ? kExitProcessFailed : kExitDone;
   }

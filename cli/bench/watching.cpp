@@ -61,7 +61,7 @@ class WatchingBench {
     }
     const Json entry = watching_entry(pairs);
     print_watching(console_.out, entry);
-    if (options_.json) write_file_atomically(*options_.json, entry.dump(2) + "\n");
+    if (options_.json) replace_or_overwrite(*options_.json, entry.dump(2) + "\n");
     return failed_ ? kExitProcessFailed : kExitDone;
   }
 

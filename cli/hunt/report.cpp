@@ -62,8 +62,8 @@ void write_hunt_report(const HuntSummary& summary) {
   write_file_atomically(summary.plan.out / run_folder::kPage, hunt_page(summary));
   if (!summary.plan.options.junit) return;
   try {
-    write_file_atomically(*summary.plan.options.junit,
-                          junit_xml("skein hunt " + summary.plan.fleet.scenario.name, verdicts_of(summary)));
+    replace_or_overwrite(*summary.plan.options.junit,
+                         junit_xml("skein hunt " + summary.plan.fleet.scenario.name, verdicts_of(summary)));
   } catch (const std::runtime_error& error) {
     throw InputError("--junit: " + std::string(error.what()));
   }

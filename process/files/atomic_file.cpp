@@ -1,6 +1,7 @@
 #include "process/files/atomic_file.hpp"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -28,10 +29,28 @@ class File {
   bool is_open() const { return fd_ >= 0; }
   bool sync() const { return ::fsync(fd_) == 0; }
   bool write(std::string_view content) const { return write_whole(fd_, content); }
+  /// Replaces the content. If there is no room for the new one, the former one stays.
+  bool overwrite(std::string_view content) const {
+    struct stat former {};
+    if (::fstat(fd_, &former) != 0) return false;
+    const auto size = static_cast<off_t>(content.size());
+    if (const int trouble = size > 0 ? ::posix_fallocate(fd_, 0, size) : 0; trouble != 0) {
+      static_cast<void>(!::ftruncate(fd_, former.st_size));
+      errno = trouble;
+      return false;
+    }
+    return write(content) && ::ftruncate(fd_, size) == 0;
+  }
 
  private:
   int fd_;
 };
+
+/// Whether the system may let a program write into a file that it did not let it replace, for this reason.
+bool may_stay(const std::error_code& reason) {
+  const int code = reason.value();
+  return code == EBUSY || code == EACCES || code == EPERM || code == EROFS;
+}
 
 }  // namespace
 
@@ -52,6 +71,16 @@ void write_file_atomically(const std::filesystem::path& path, std::string_view c
   // The new name is durable only after its folder is synced. Some file systems cannot sync folders; that is no failure.
   const File folder(path.has_parent_path() ? path.parent_path().string() : ".", O_RDONLY | O_DIRECTORY);
   if (folder.is_open()) static_cast<void>(folder.sync());
+}
+
+void replace_or_overwrite(const std::filesystem::path& path, std::string_view content) try {
+  write_file_atomically(path, content);
+} catch (const std::system_error& error) {
+  std::error_code ignored;
+  if (!may_stay(error.code()) || !std::filesystem::is_regular_file(path, ignored)) throw;
+  const File file(path, O_RDWR);  // where the system cannot reserve room, the C library reads the file for that
+  if (file.is_open() && file.overwrite(content) && file.sync()) return;
+  throw std::system_error(errno, std::generic_category(), "cannot write " + path.string());
 }
 
 std::string write_if_possible(const std::filesystem::path& path, std::string_view content) try {

@@ -15,7 +15,13 @@ enum class Readers { all, no_agents };
 /// @throws std::runtime_error with the system's reason; no temporary file is left.
 void write_file_atomically(const std::filesystem::path& path, std::string_view content, Readers readers = Readers::all);
 
-/// The same, for a file that the program can do without; a file in kNowhere (process/files/nowhere.hpp) is not written.
+/// The same, for a file that the user has named and that perhaps cannot be replaced: something is mounted on it (a bind
+/// mount of a container), or its folder takes no new files. Then writes into the file that is there: readers may see a
+/// part of the text. On a full disk the former text stays.
+void replace_or_overwrite(const std::filesystem::path& path, std::string_view content);
+
+/// write_file_atomically(), for a file that the program can do without; a file in kNowhere (process/files/nowhere.hpp)
+/// is not written.
 /// @returns an error message for people, with the file's name; empty if there was no error.
 std::string write_if_possible(const std::filesystem::path& path, std::string_view content);
 

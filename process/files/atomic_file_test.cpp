@@ -1,13 +1,19 @@
 #include "process/files/atomic_file.hpp"
 
 #include <gtest/gtest.h>
+#include <sched.h>
+#include <sys/mount.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <cstdlib>
+#include <functional>
 #include <stdexcept>
+#include <system_error>
 
 #include "core/files/file_bytes.hpp"
 #include "core/types.hpp"
+#include "tests/support/limited_files.hpp"
 
 namespace skein {
 namespace {
@@ -44,6 +50,69 @@ TEST_F(AtomicFile, LeavesNothingBehindWhenItFails) {
   fs::create_directory(folder_ / "taken");
   EXPECT_THROW(write_file_atomically(folder_ / "taken", "x"), std::runtime_error);
   EXPECT_EQ(files(), 1u);
+}
+
+constexpr int kNoMounts = 77;
+
+/// Runs `body` in a process in which the file is mounted on itself, as in a container. @returns its exit code
+int with_mounted(const fs::path& file, const std::function<int()>& body) {
+  const pid_t child = ::fork();
+  if (child == 0) {
+    const bool elsewhere = ::unshare(CLONE_NEWNS) == 0 || ::unshare(CLONE_NEWUSER | CLONE_NEWNS) == 0;
+    if (!elsewhere || ::mount("none", "/", nullptr, MS_REC | MS_PRIVATE, nullptr) != 0 ||
+        ::mount(file.c_str(), file.c_str(), nullptr, MS_BIND, nullptr) != 0) {
+      ::_exit(kNoMounts);
+    }
+    ::_exit(body());
+  }
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+TEST_F(AtomicFile, WhatIsMountedIsWrittenIntoWhenTheUserNamedIt) {
+  const fs::path file = folder_ / "compose.yaml";
+  for (const std::string& text : {std::string("longer than before"), std::string("short"), std::string()}) {
+    write_file_atomically(file, "former text");
+    const int code = with_mounted(file, [&] {
+      try {
+        write_file_atomically(file, text);
+        return 1;
+      } catch (const std::system_error& error) {
+        if (error.code() != std::errc::device_or_resource_busy) return 2;
+      }
+      replace_or_overwrite(file, text);
+      return read_file_bytes(file, 100) == text ? 0 : 3;
+    });
+    if (code == kNoMounts) GTEST_SKIP() << "no mounts here";
+    EXPECT_EQ(code, 0);
+    EXPECT_EQ(read_file_bytes(file, 100), text);
+    EXPECT_EQ(files(), 1u);
+  }
+}
+
+TEST_F(AtomicFile, AFullDiskLeavesWhatIsMounted) {
+  const fs::path file = folder_ / "compose.yaml";
+  write_file_atomically(file, "former text");
+  const int code = with_mounted(file, [&] {
+    const LimitedFiles full(100);
+    try {
+      replace_or_overwrite(file, std::string(90, 'x'));
+      replace_or_overwrite(file, std::string(101, 'y'));
+    } catch (const std::system_error&) {
+      return read_file_bytes(file, 100) == std::string(90, 'x') ? 0 : 2;
+    }
+    return 1;
+  });
+  if (code == kNoMounts) GTEST_SKIP() << "no mounts here";
+  EXPECT_EQ(code, 0);
+}
+
+TEST_F(AtomicFile, AFolderIsNotWrittenInto) {
+  fs::create_directory(folder_ / "taken");
+  EXPECT_THROW(replace_or_overwrite(folder_ / "taken", "x"), std::system_error);
+  replace_or_overwrite(folder_ / "new", "x");
+  EXPECT_EQ(read_file_bytes(folder_ / "new", 100), "x");
 }
 
 TEST_F(AtomicFile, ALargeFileIsRefusedBeforeItIsRead) {
