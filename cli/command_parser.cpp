@@ -17,6 +17,7 @@
 #include "core/text/suggestion.hpp"
 #include "core/text/text.hpp"
 #include "core/types.hpp"
+#include "process/empty_options.hpp"
 #include "process/manual.hpp"
 
 namespace skein::cli {
@@ -70,6 +71,13 @@ std::optional<Command> internal_command(const std::vector<std::string>& argument
   return Command(HostOptions{}, [](const HostOptions&, const Console&) { return serve_host(); });
 }
 
+/// The command that the first word names; null: none.
+const CLI::App* command_named(const CLI::App& app, const std::vector<std::string>& arguments) {
+  if (arguments.empty()) return nullptr;
+  const auto commands = app.get_subcommands([&](const CLI::App* one) { return one->get_name() == arguments[0]; });
+  return commands.empty() ? nullptr : commands[0];
+}
+
 /// Refuses a first word that names no command. CLI11 would only say that a command is missing. @throws InputError
 void require_command(const CLI::App& app, const std::vector<std::string>& arguments) {
   if (arguments.empty() || arguments[0].empty() || arguments[0].starts_with("-")) return;
@@ -92,7 +100,7 @@ Command parse_command_line(const std::vector<std::string>& arguments) {
   if (arguments == std::vector<std::string>{"--manual"}) return help(manual_of(parser.app, "skein"));
   if (const auto command = internal_command(arguments)) return *command;
   require_command(parser.app, arguments);
-  refuse_empty_assignments(parser.app, arguments);
+  if (const CLI::App* command = command_named(parser.app, arguments)) refuse_empty_assignments(*command, arguments);
   const auto is = [&parser](const char* command) { return parser.app.got_subcommand(command); };
   std::vector<std::string> reversed(arguments.rbegin(), arguments.rend());  // as CLI11 wants them
   try {

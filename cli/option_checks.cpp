@@ -24,10 +24,6 @@ std::string check_decimal(const std::string& text) {
   return "'" + text + "' must be a whole number in decimal digits, without a zero before it";
 }
 
-[[noreturn]] void refuse_empty(const std::string& option) {
-  throw InputError(option + ": must not be empty; leave it out, or say what is meant");
-}
-
 /// The words that follow an option on the command line: the one behind its '=', or those up to the next option.
 std::vector<std::string> values_behind(const CLI::Option& option, const std::vector<std::string>& arguments) {
   const std::string name = option.get_name();
@@ -110,25 +106,6 @@ void check_paths(const std::vector<std::string>& arguments) {
   const std::filesystem::path here = std::filesystem::current_path(error);
   if (error) throw InputError("the current folder cannot be found: " + error.message() + "; change to another one");
   if (!is_utf8(here)) throw InputError(here.string() + ": the name of the current folder is not in UTF-8; rename it");
-}
-
-void refuse_empty_values(const CLI::App& app) {
-  for (const CLI::Option* option : app.get_options()) {
-    if (std::ranges::any_of(option->results(), &std::string::empty)) refuse_empty(option->get_name());
-  }
-  for (const CLI::App* command : app.get_subcommands()) refuse_empty_values(*command);
-}
-
-void refuse_empty_assignments(const CLI::App& app, const std::vector<std::string>& arguments) {
-  if (arguments.empty()) return;
-  const auto commands = app.get_subcommands([&](const CLI::App* one) { return one->get_name() == arguments[0]; });
-  if (commands.empty()) return;
-  for (const std::string& argument : arguments) {
-    if (argument == "--") return;
-    if (!argument.starts_with("--") || !argument.ends_with("=")) continue;
-    const std::string name = argument.substr(0, argument.size() - 1);
-    if (commands[0]->get_option_no_throw(name) != nullptr) refuse_empty(name);
-  }
 }
 
 }  // namespace skein::cli

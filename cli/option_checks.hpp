@@ -38,12 +38,4 @@ void refuse_empty_items(const CLI::App& app, const std::vector<std::string>& arg
 /// JSON, and results and pages name these paths. Refuses a current folder that has been deleted. @throws InputError
 void check_paths(const std::vector<std::string>& arguments);
 
-/// Refuses options with an empty value, which comes from an unset variable of a script and is never meant.
-/// @throws InputError that names the first such option of a command.
-void refuse_empty_values(const CLI::App& app);
-
-/// The same for `--option=`, before a command's arguments are parsed: CLI11 would read `--keep-maps=` as `--keep-maps`,
-/// and would take the next argument for the value of `--out=`.
-void refuse_empty_assignments(const CLI::App& app, const std::vector<std::string>& arguments);
-
 }  // namespace skein::cli

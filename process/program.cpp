@@ -19,6 +19,7 @@
 
 #include "core/text/number_checks.hpp"
 #include "core/text/suggestion.hpp"
+#include "process/empty_options.hpp"
 #include "process/files/path_error.hpp"
 #include "process/health/crash_notes.hpp"
 #include "process/health/keeper.hpp"
@@ -178,16 +179,23 @@ std::variant<ProgramOptions, int> parse_program(const std::string& name, int arg
   CLI::App app("Skein: " + name, name);
   ProgramOptions options;
   add_common_options(app, options);
+  const auto wrong = [&](const std::exception& error) {
+    std::cerr << name << ": " << error.what() << "\nRun '" << name << " --help' for the options.\n";
+    return kExitBadInput;
+  };
   try {
     if (add_options) add_options(app);
     if (argc == 2 && std::string_view(argv[1]) == "--manual") {  // printed as --version would be
       throw CLI::CallForVersion(manual_of(app, std::filesystem::path(argv[0]).filename()), 0);
     }
+    refuse_empty_assignments(app, {argv + std::min(argc, 1), argv + argc});
     app.parse(argc, argv);
+    refuse_empty_values(app);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help, --manual
-    std::cerr << name << ": " << error.what() << "\nRun '" << name << " --help' for the options.\n";
-    return kExitBadInput;
+    return wrong(error);
+  } catch (const InputError& error) {
+    return wrong(error);
   }
   return options;
 }

@@ -75,6 +75,21 @@ TEST(Program, AWrongCommandLineIsCodeTwoWithAHint) {
   EXPECT_EQ(run({"--log-level", "loud"}, nothing).code, kExitBadInput);
 }
 
+TEST(Program, NoOptionHasAnEmptyValue) {
+  for (const std::vector<const char*>& arguments : std::vector<std::vector<const char*>>{
+           {"--uav="}, {"--uav", ""}, {"--check", "--uav=", "jurong"}, {"--faults="}, {"--network="}, {"--check="}}) {
+    std::string uav;
+    const auto outcome = run(arguments, nothing, [&](CLI::App& app) { app.add_option("--uav", uav); });
+    const std::string option = arguments.size() > 2 ? "--uav" : std::string(arguments[0]);
+    EXPECT_EQ(outcome.code, kExitBadInput) << option;
+    EXPECT_EQ(outcome.error.find("tester: " + option.substr(0, option.find('=')) + ": must not be empty"), 0U)
+        << outcome.error;
+    EXPECT_NE(outcome.error.find("--help"), std::string::npos) << outcome.error;
+  }
+  EXPECT_EQ(run({"--network"}, nothing).code, kExitDone) << "an option whose value may be left out";
+  EXPECT_EQ(run({"--network", "--check"}, nothing).code, kExitDone);
+}
+
 TEST(Program, DefaultsAndOptions) {
   run({}, [](const ProgramOptions& options, StopSignal&) {
     EXPECT_EQ(options.scenario, "towers");

@@ -1,0 +1,23 @@
+// Refuses empty values on the command line of the launcher and of all programs: they come from unset variables of
+// scripts and are never meant.   Pure.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace skein {
+
+/// Checks the options that were given to a program, or to a command and its subcommands.
+/// @throws InputError that names the first option with an empty value.
+void refuse_empty_values(const CLI::App& app);
+
+/// The same for `--option=`, before the arguments are parsed: CLI11 would read `--keep-maps=` as `--keep-maps`, and
+/// would take the next argument for the value of `--out=`.
+/// @param app  whose options these are: a program, or the command that the arguments name
+void refuse_empty_assignments(const CLI::App& app, const std::vector<std::string>& arguments);
+
+}  // namespace skein
