@@ -28,7 +28,7 @@ class Sweep {
   /// Runs one controller until it ends or is killed. @returns false if it was killed.
   bool control() try {
     said.str("");
-    SweepFolder folder(world.study());
+    SweepFolder folder = world.folder();
     folder.on_step([this] {
       if (world.draw.uniform() < engine.manners.kills_controller) throw Killed{};
     });
@@ -54,7 +54,7 @@ class Sweep {
   }
 
   std::map<std::size_t, std::vector<SweepRow>> rows() {
-    SweepFolder folder(world.study());
+    SweepFolder folder = world.folder();
     const SweepNode node = world.node(here, [] {});
     SweepController controller(folder, engine, node, said);
     controller.look();
@@ -75,7 +75,7 @@ class Sweep {
       ASSERT_EQ(value_or(read_json(flight.dir / run_folder::kResult), "digest", nullptr), world.digest(index)) << index;
     }
   }
-  bool quarantined(const std::string& node) const { return SweepFolder(world.study()).quarantined(node).has_value(); }
+  bool quarantined(const std::string& node) const { return world.folder().quarantined(node).has_value(); }
 
   MadeUpWorld world;
   std::vector<MadeUpNode> nodes;
@@ -98,7 +98,7 @@ std::vector<MadeUpNode> drawn_nodes(RandomStream& draw) {
 }
 
 TEST(SweepController, LosesAndDoublesNothingInDrawnOrders) {
-  // Each order writes many small files, so at each commit only a tenth of the 2000 orders runs (SKEIN_TURN).
+  // Each order starts many threads and writes many small files, so at each commit a tenth of them runs (SKEIN_TURN).
   std::size_t orders = 0, killed = 0, failing = 0;
   for (std::uint64_t order = 1; order <= 2000; ++order) {
     if (!has_turn(order, 10)) continue;
@@ -116,7 +116,7 @@ TEST(SweepController, LosesAndDoublesNothingInDrawnOrders) {
     sweep.expect_all(flights);
     if (::testing::Test::HasFatalFailure()) return;
     failing += sweep.world.failing.size();
-    const SweepFolder folder(sweep.world.study());
+    const SweepFolder folder = sweep.world.folder();
     EXPECT_FALSE(folder.quarantined("sound 1")) << *folder.quarantined("sound 1");
     EXPECT_FALSE(folder.quarantined("sound 2")) << *folder.quarantined("sound 2");
     EXPECT_TRUE(fs::is_empty(folder.dir() / "air"));
@@ -157,7 +157,7 @@ TEST(SweepController, ACheckGoesToAnotherNodeAtOnce) {
     sweep.engine.asks_for_more = order % 2 == 0;
     ASSERT_TRUE(sweep.control());
     sweep.expect_all(12);
-    const SweepFolder folder(sweep.world.study());
+    const SweepFolder folder = sweep.world.folder();
     EXPECT_EQ(folder.checks(folder.settings().value().token).size(), 1U);
     const std::size_t elsewhere = folder.nodes().size() == 2 ? 1 : 0;  // else this machine flies it again
     const std::size_t rounds = sweep.engine.rounds - 1;
@@ -182,7 +182,7 @@ TEST(SweepController, ACheckForWhichNoNodeIsLeftIsFlownHere) {
     sweep.engine.others_are_gone = true;
     ASSERT_TRUE(sweep.control());
     sweep.expect_all(12);
-    const SweepFolder folder(sweep.world.study());
+    const SweepFolder folder = sweep.world.folder();
     EXPECT_EQ(folder.checks(folder.settings().value().token).size(), 1U);
     EXPECT_LE(sweep.engine.rounds, 2U) << "asking again would wait again: " << sweep.said.str();
     gone += sweep.engine.lacks_nodes() ? 1 : 0;
@@ -284,7 +284,7 @@ ino_t inode(const fs::path& file) {
 /// What may happen to a finished unit while nobody flies. @returns the damaged file of the flight, which must be named;
 /// empty: only files of the sweep were damaged, and nothing need be flown again.
 fs::path damage(const Sweep& sweep, std::size_t index, std::size_t kind) {
-  const SweepFolder folder(sweep.world.study());
+  const SweepFolder folder = sweep.world.folder();
   const SweepSettings settings = folder.settings().value();
   const std::string unit = folder.log_of(settings.sizes.unit_of(index)).stem().string() + ".json";
   const fs::path dir = sweep.world.flight(index).dir, result = dir / run_folder::kResult;
@@ -324,7 +324,7 @@ TEST(SweepController, FinishedUnitsAreReadAgainAndWhatIsDamagedIsFlownAgain) {
     const auto index = std::min(static_cast<std::size_t>(draw.uniform() * static_cast<double>(flights)), flights - 1);
     const fs::path named = damage(sweep, index, order % 7);
     {
-      SweepFolder folder(sweep.world.study());
+      SweepFolder folder = sweep.world.folder();
       const SweepNode node = sweep.world.node(sweep.here, [] {});
       SweepController status(folder, sweep.engine, node, sweep.said);
       status.look();
@@ -347,7 +347,7 @@ TEST(SweepController, FinishedUnitsAreReadAgainAndWhatIsDamagedIsFlownAgain) {
 TEST(SweepController, AResultWithAWrongChecksumIsNamedAndCountsAsNone) {
   Sweep sweep(7, 4, 2, {{"one"}});
   ASSERT_TRUE(sweep.control());
-  const SweepFolder folder(sweep.world.study());
+  const SweepFolder folder = sweep.world.folder();
   const SweepNode node = sweep.world.node(sweep.here, [] {});
   const SweepFlight flight = sweep.world.flight(2);
   const fs::path result = flight.dir / run_folder::kResult;

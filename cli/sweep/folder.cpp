@@ -9,7 +9,6 @@
 
 #include "core/text/whole_number.hpp"
 #include "core/types.hpp"
-#include "process/files/atomic_file.hpp"
 #include "process/files/closed_to_agents.hpp"
 #include "process/json_fields.hpp"
 
@@ -107,7 +106,8 @@ fs::path SweepFolder::log_of(std::size_t unit) const { return dir_ / "log" / (nu
 void SweepFolder::write(const fs::path& file, const Json& json) const {
   step();
   fs::create_directories(file.parent_path());
-  write_file_atomically(file, json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n");
+  const std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+  write_file_atomically(file, text, Readers::all, flush_);
 }
 
 std::optional<SweepSettings> SweepFolder::settings() const {
@@ -301,6 +301,10 @@ fs::path SweepFolder::place_in_the_air(const std::string& node) const {
   fs::create_directories(place);
   close_to_agents(place);
   return place;
+}
+
+void SweepFolder::write_in_the_air(const fs::path& file, std::string_view text) const {
+  write_file_atomically(file, text, Readers::all, flush_);
 }
 
 bool SweepFolder::land(const fs::path& flown, const fs::path& dir,

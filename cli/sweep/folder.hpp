@@ -25,9 +25,11 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "cli/sweep/unit_sizes.hpp"
+#include "process/files/atomic_file.hpp"
 #include "process/json_text.hpp"
 #include "run/run_options.hpp"
 
@@ -137,6 +139,8 @@ class SweepFolder {
 
   /// Creates a folder in air/ for a flight of this program, with a unique name.
   std::filesystem::path place_in_the_air(const std::string& node) const;
+  /// Writes a file of a flight in air/.
+  void write_in_the_air(const std::filesystem::path& file, std::string_view text) const;
   /// Moves a flown folder to `dir`. @param stays  whether a folder that is already there is good and stays.
   /// @returns false if that folder stays; then `flown` is deleted. @throws std::filesystem::filesystem_error
   bool land(const std::filesystem::path& flown, const std::filesystem::path& dir,
@@ -150,6 +154,9 @@ class SweepFolder {
 
   /// For tests: `step` is called before each operation whose effect other programs can see.
   void on_step(std::function<void()> step) { step_ = std::move(step); }
+  /// For tests of many sweeps: files are not flushed to the disk, which takes longer than all else. Other programs see
+  /// the same files.
+  void never_flush() { flush_ = Flush::none; }
 
  private:
   std::filesystem::path file_of(const std::filesystem::path& folder, const std::string& name) const;
@@ -160,6 +167,7 @@ class SweepFolder {
 
   std::filesystem::path dir_;
   std::function<void()> step_;
+  Flush flush_ = Flush::to_disk;
 };
 
 Json to_json(const SweepFlight& flight);

@@ -5,7 +5,6 @@
 #include "cli/study/flights.hpp"
 #include "core/types.hpp"
 #include "host/preflight.hpp"
-#include "process/files/atomic_file.hpp"
 #include "results/run_folder.hpp"
 
 namespace skein::cli {
@@ -113,7 +112,7 @@ class UnitRun {
                        {"problem", row.problem},
                        {"node", row.node},
                        {"exit", {{"code", exit.code}, {"signal", exit.signal}}}};
-    write_file_atomically(air / kFlightMark, json_text(mark, 2) + "\n");
+    folder_.write_in_the_air(air / kFlightMark, json_text(mark, 2) + "\n");
     check_still_wanted();
     put_in_place(flight, air, text_in(result, "digest"), row);
     say_ << flight.dir.string() << ": " << (row.problem.empty() ? "flown" : row.problem) << std::endl;

@@ -54,7 +54,7 @@ bool may_stay(const std::error_code& reason) {
 
 }  // namespace
 
-void write_file_atomically(const std::filesystem::path& path, std::string_view content, Readers readers) {
+void write_file_atomically(const std::filesystem::path& path, std::string_view content, Readers readers, Flush flush) {
   // The process id prevents two programs that write the same path from sharing a temporary file.
   const std::string temporary = path.string() + ".tmp" + std::to_string(::getpid());
   const auto fail = [&](const char* step) {
@@ -65,9 +65,11 @@ void write_file_atomically(const std::filesystem::path& path, std::string_view c
   {
     const File file(temporary, O_WRONLY | O_CREAT | O_TRUNC);
     if (readers == Readers::no_agents) close_to_agents(temporary);
-    if (!file.is_open() || !file.write(content) || !file.sync()) fail("write");
+    if (!file.is_open() || !file.write(content)) fail("write");
+    if (flush == Flush::to_disk && !file.sync()) fail("write");
   }
   if (std::rename(temporary.c_str(), path.c_str()) != 0) fail("rename the temporary file of");
+  if (flush == Flush::none) return;
   // The new name is durable only after its folder is synced. Some file systems cannot sync folders; that is no failure.
   const File folder(path.has_parent_path() ? path.parent_path().string() : ".", O_RDONLY | O_DIRECTORY);
   if (folder.is_open()) static_cast<void>(folder.sync());

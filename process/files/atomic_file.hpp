@@ -10,10 +10,15 @@ namespace skein {
 /// The users that may read a file that root writes: all, or all but agents (closed_to_agents.hpp).
 enum class Readers { all, no_agents };
 
+/// Whether a file is on the disk when the call returns. Without that, a program sees the same, but a machine that loses
+/// its power may lose the file.
+enum class Flush { to_disk, none };
+
 /// Writes a temporary file in the same folder, flushes it to the disk and renames it to `path`: a reader sees either
-/// the old content or the new, also after a crash. The folder must exist.
+/// the old content or the new, also after a crash unless `flush` is none. The folder must exist.
 /// @throws std::runtime_error with the system's reason; no temporary file is left.
-void write_file_atomically(const std::filesystem::path& path, std::string_view content, Readers readers = Readers::all);
+void write_file_atomically(const std::filesystem::path& path, std::string_view content, Readers readers = Readers::all,
+                           Flush flush = Flush::to_disk);
 
 /// The same, for a file that the user has named and that perhaps cannot be replaced: something is mounted on it (a bind
 /// mount of a container), or its folder takes no new files. Then writes into the file that is there: readers may see a

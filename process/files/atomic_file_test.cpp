@@ -45,6 +45,16 @@ TEST_F(AtomicFile, WritesAndReplaces) {
   EXPECT_EQ(files(), 1u);
 }
 
+TEST_F(AtomicFile, WithoutAFlushReadersSeeTheSame) {
+  const fs::path file = folder_ / "result.json";
+  write_file_atomically(file, "old", Readers::all, Flush::none);
+  write_file_atomically(file, "new", Readers::all, Flush::none);
+  EXPECT_EQ(read_file_bytes(file, 100), "new");
+  EXPECT_EQ(files(), 1u);
+  EXPECT_THROW(write_file_atomically(folder_ / "none" / "result.json", "x", Readers::all, Flush::none),
+               std::runtime_error);
+}
+
 TEST_F(AtomicFile, LeavesNothingBehindWhenItFails) {
   EXPECT_THROW(write_file_atomically(folder_ / "none" / "result.json", "x"), std::runtime_error);
   fs::create_directory(folder_ / "taken");

@@ -40,6 +40,13 @@ class MadeUpWorld {
 
   std::filesystem::path study() const { return scratch_.path() / "study"; }
 
+  /// The sweep's folder. Its files are never flushed: an order is about what other programs see, and not about power.
+  SweepFolder folder() const {
+    SweepFolder folder(study());
+    folder.never_flush();
+    return folder;
+  }
+
   SweepFlight flight(std::size_t index) const {
     RunOptions run;
     run.seed = index;
@@ -103,7 +110,7 @@ class MadeUpWorker {
     thread_ = std::thread([this, &world, &node] {
       go_.acquire();
       try {
-        SweepFolder folder(world.study());
+        SweepFolder folder = world.folder();
         const auto step = [this] { pause(); };
         folder.on_step(step);
         if (!killed_) fly_unit(folder, unit_, world.node(node, step), said_);
@@ -186,7 +193,8 @@ class MadeUpEngine : public SweepEngine {
       }
       const std::size_t which = place(workers_.size());
       if (drawn(manners.kills_worker)) workers_[which]->kill();
-      if (!workers_[which]->run_a_step()) workers_.erase(workers_.begin() + static_cast<std::ptrdiff_t>(which));
+      if (workers_[which]->run_a_step()) continue;
+      workers_.erase(workers_.begin() + static_cast<std::ptrdiff_t>(which));
       meanwhile.tell();
     }
     return true;
