@@ -1,6 +1,8 @@
 // Rounds of a hunt, each a sweep (cli/sweep/): the cases of a round are fixed before the first of them flies, so that
 // the search does not depend on which node flies which case.
 #include <fstream>
+#include <map>
+#include <set>
 
 #include "cli/hunt/flights.hpp"
 #include "cli/study/flights.hpp"
@@ -38,6 +40,16 @@ SweepFlight reference(const HuntPlan& plan, const SweepFolder& folder, MadeUnder
   return {0, folder.dir() / "reference", run, made_under.of(plan_fleet(run, program_dir()))};
 }
 
+/// Removes the fault files of earlier rounds. No program needs them once the sweep is that of this round: a hunt of many
+/// cases would otherwise leave a file of each.
+void keep_only(const std::set<fs::path>& of_this_round, const fs::path& cases) {
+  std::vector<fs::path> others;
+  for (const fs::directory_entry& entry : fs::directory_iterator(cases)) {
+    if (!of_this_round.contains(entry.path())) others.push_back(entry.path());
+  }
+  for (const fs::path& file : others) SweepFolder::remove(file);
+}
+
 }  // namespace
 
 void TrialFlights::fly_in_rounds(const std::vector<std::size_t>& numbers, const Make& make, const Over& over) {
@@ -61,13 +73,16 @@ void TrialFlights::fly_round(const std::vector<std::size_t>& numbers, const std:
   MadeUnder made_under;
   std::vector<SweepFlight> flights;
   std::map<std::size_t, std::size_t> refused;  // cases that are invalid input; value: index in `trials`
-  fs::create_directories(folder.dir() / "cases");
+  std::set<fs::path> fault_files;
+  const fs::path cases = folder.dir() / "cases";
+  fs::create_directories(cases);
   for (std::size_t i = 0; i < trials.size(); ++i) {
     const std::string name = name_of_trial(numbers[i]);
     RunOptions run = trials[i].run;
     run.out = dir_of(name);
     if (!trials[i].faults.empty()) {
-      run.faults = folder.dir() / "cases" / (name + ".yaml");
+      run.faults = cases / (name + ".yaml");
+      fault_files.insert(*run.faults);
       write_file_atomically(*run.faults, trials[i].text());
     }
     try {
@@ -90,6 +105,7 @@ void TrialFlights::fly_round(const std::vector<std::size_t>& numbers, const std:
                      },
                      plan_.options.sweep.command,
                      fs::current_path()});
+    keep_only(fault_files, cases);
     write_fly_script(folder, fs::absolute(plan_.out), fs::current_path(), plan_.options.jobs);
     if (!controller.fly()) throw Interrupted{};
     for (const auto& [unit, words] : controller.failed()) {

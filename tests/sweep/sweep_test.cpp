@@ -171,6 +171,8 @@ TEST_F(Sweep, AHuntIsTheSameSearch) {
   };
   EXPECT_EQ(lines("plain hunt").size(), 20U);
   EXPECT_EQ(lines("plain hunt"), lines("swept hunt"));
+  const fs::directory_iterator cases(folder() / "swept hunt/sweep/cases");
+  EXPECT_LE(std::distance(cases, {}), 4) << "fault files of the last round only, which has four cases";
 }
 
 /// Flies with the archive alone, in a root folder that contains nothing else.
