@@ -22,8 +22,13 @@ constexpr std::array kHuntParts = {kLogFile, kFindsFolder, "flights"};
 
 std::string differing_keys(const Json& then, const Json& now) {
   std::string keys;
+  const auto add = [&](const std::string& key) { keys += (keys.empty() ? "" : ", ") + key; };
   for (const auto& [key, value] : now.items()) {
-    if (value_or(then, key.c_str(), nullptr) != value) keys += (keys.empty() ? "" : ", ") + key;
+    if (value_or(then, key.c_str(), nullptr) != value) add(key);
+  }
+  if (!then.is_object()) return keys;
+  for (const auto& [key, value] : then.items()) {
+    if (!now.contains(key)) add(key);  // an option that is not given now
   }
   return keys;
 }

@@ -160,6 +160,18 @@ TEST_F(HuntLogs, BeginningAnewKeepsAndNamesTheFindsOfEveryHuntBefore) {
   EXPECT_TRUE(fs::exists(dir_ / "earlier/1/finds/separation-3.yaml"));
 }
 
+TEST_F(HuntLogs, ARefusalNamesWhatDiffersAlsoIfItIsNotGivenNow) {
+  const Json in_long_rounds{{"round", 128}, {"seed", 1}};
+  HuntLog(dir_, in_long_rounds, false).add(0, "first", {.digest = "ab"});
+  try {
+    HuntLog(dir_, other_, false);
+    ADD_FAILURE() << "continued";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("differs in seed, round; choose another --out"), std::string::npos)
+        << error.what();
+  }
+}
+
 TEST_F(HuntLogs, TakeNoFolderOfOtherFilesAndChangeNothingThere) {
   fs::permissions(dir_, fs::perms(0755));
   struct stat before {

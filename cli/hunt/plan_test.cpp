@@ -65,6 +65,14 @@ TEST_F(HuntPlans, ACapsuleIsAFaultTestThatReadsBack) {
   }
 }
 
+// Cases beyond a gap in the log would otherwise pass for cases of the new search.
+TEST_F(HuntPlans, RoundsOfAnotherSizeAreAnotherHunt) {
+  HuntOptions hunt = options();
+  EXPECT_FALSE(plan_hunt(hunt).settings.contains("round")) << "a hunt of an earlier version has no such key";
+  hunt.round = 128;
+  EXPECT_EQ(plan_hunt(hunt).settings.value("round", std::size_t{0}), hunt.round);
+}
+
 TEST_F(HuntPlans, UsersTextsAndParametersStayInACapsule) {
   const properties::PropertyEntries entries = {
       {"low", std::string("for u in uavs, always z(u) < 60 m")},
