@@ -65,13 +65,16 @@ void check_settings(const StudyPlan& plan) {
   if (!then.is_object()) {
     throw InputError(
         (plan.out / kSettings).string() +
-        ": damaged: no JSON; choose another --out, or go on there with --force: flights that fit are kept");
+        ": damaged: no JSON; choose another --out, or go on there with --force: flights that fit are kept, and the "
+        "others are flown again in their place");
   }
   const std::vector<std::string> differences = differing_settings(then, plan.settings);
   if (differences.empty()) return;
   std::string text = plan.out.string() + " holds a study with other settings:";
   for (const std::string& difference : differences) text += "\n  " + difference;
-  throw InputError(text + "\nChoose another --out, or go on there with --force: flights that fit are kept.");
+  text +=
+      "\nNothing was changed. Choose another --out, or go on there with --force: flights that fit are kept, and the ";
+  throw InputError(text + "others are flown again in their place.");
 }
 
 /// A picture of the best flight of each scene and planner; none in a study of too many scenes to look at.

@@ -2,75 +2,14 @@
 
 #include <gtest/gtest.h>
 
-#include <sstream>
-
-#include "cli/actions.hpp"
 #include "cli/study/flights.hpp"
 #include "cli/sweep/slurm.hpp"
-#include "core/types.hpp"
-#include "host/testing/fake_programs.hpp"
+#include "cli/testing/study_commands.hpp"
 #include "process/program.hpp"
 #include "results/result_file.hpp"
 
 namespace skein::cli {
 namespace {
-
-/// In the place of `skein run`: notes that it was called, and leaves a result whose score is 10 times the seed, and
-/// 1000 more for patrol.
-constexpr const char* kFlight = R"(
-for argument; do
-  case $argument in
-    --out=*) out=${argument#--out=} ;;
-    --seed=*) seed=${argument#--seed=} ;;
-    --planner=*) planner=${argument#--planner=} ;;
-    --agent=*) agent=${argument##*/} ;;
-    --uavs=*) echo "${argument#--uavs=}" >> "$(dirname "$0")/uavs.txt" ;;
-  esac
-done
-here=$(dirname "$0")
-echo "$planner $seed" >> "$here/flights.txt"
-echo "$agent" >> "$here/agents.txt"
-score=$((10 * seed))
-[ "$planner" != patrol ] || score=$((score + 1000))
-code=0
-[ ! -e "$here/hook" ] || . "$here/hook"
-echo "{\"seed\": $seed, \"status\": \"completed\", \"score\": $score, \"points_detected\": 5}" > "$out/result.json"
-exit $code
-)";
-
-class StudyCommand : public ::testing::Test {
- protected:
-  StudyCommand() {
-    write_script(programs_.dir() / "skein", kFlight);
-    options_.contest = true;
-    options_.planner_lists = {"hover,patrol"};
-    options_.scenarios = {programs_.scenario()};
-    options_.seeds = "1-3";
-    options_.out = programs_.dir() / "out";
-  }
-
-  int run() {
-    out_.str("");
-    err_.str("");
-    write_text(programs_.dir() / "flights.txt", "");
-    return run_study(options_, {out_, err_, false});
-  }
-  /// What was flown in the last call, a line each.
-  std::string flown() const { return read_text(programs_.dir() / "flights.txt"); }
-  std::string agents() const { return read_text(programs_.dir() / "agents.txt"); }
-  void hook(const std::string& body) const { write_text(programs_.dir() / "hook", body); }
-  std::string file(const std::string& name) const { return read_text(*options_.out / name); }
-  std::string refusal() try {
-    run();
-    return "";
-  } catch (const InputError& error) {
-    return error.what();
-  }
-
-  FakePrograms programs_;
-  StudyOptions options_;
-  std::ostringstream out_, err_;
-};
 
 TEST_F(StudyCommand, FliesAllAndReports) {
   EXPECT_EQ(run(), kExitDone) << err_.str();
@@ -120,25 +59,6 @@ TEST_F(StudyCommand, AResultWithAWrongChecksumIsNamedAndFlownAgain) {
   EXPECT_EQ(flown(), "hover 2\n");
   EXPECT_NE(err_.str().find(result.string() + ": is damaged"), std::string::npos) << err_.str();
   EXPECT_EQ(file("flights.csv"), flights);
-}
-
-TEST_F(StudyCommand, OtherSettingsInTheSameFolderAreRefusedUnlessForced) {
-  ASSERT_EQ(run(), kExitDone);
-  options_.planner_lists = {"hover,patrol", "kios"};
-  EXPECT_NE(refusal().find("planners: then hover, patrol, now hover, patrol, kios"), std::string::npos) << refusal();
-  EXPECT_EQ(flown(), "");
-  options_.force = true;
-  EXPECT_EQ(run(), kExitDone);
-  EXPECT_EQ(flown(), "kios 1\nkios 2\nkios 3\n") << "the others fit";
-  options_.duration_s = 30.0;
-  options_.force = false;
-  EXPECT_NE(refusal().find("duration_s: then null, now 30"), std::string::npos) << refusal();
-  options_.duration_s.reset();
-  programs_.script("station", "# another build\n");
-  EXPECT_NE(refusal().find("built anew"), std::string::npos) << refusal();
-  options_.force = true;
-  EXPECT_EQ(run(), kExitDone);
-  EXPECT_EQ(std::ranges::count(flown(), '\n'), 9) << "flights of another build do not count";
 }
 
 /// An agent program with planners of these names.
@@ -344,49 +264,6 @@ TEST_F(StudyCommand, WhatIsWrongIsToldBeforeAnythingFlies) {
   write_script(programs_.dir() / "uav_agent",
                "case \"$*\" in *patrol*--check*) echo 'no such planner' >&2; exit 2;; esac");
   refused("planner patrol: no such planner");
-}
-
-TEST_F(StudyCommand, AFolderOfARunIsNotTaken) {
-  std::filesystem::create_directories(*options_.out);
-  write_text(*options_.out / "result.json", "{}");
-  EXPECT_NE(refusal().find("holds a result already"), std::string::npos);
-}
-
-TEST_F(StudyCommand, AFolderOfOtherFilesIsLeftAsItIsUnlessForced) {
-  const auto figures = *options_.out / "figures";
-  std::filesystem::create_directories(figures);
-  EXPECT_NE(refusal().find("--out " + options_.out->string() + ": 'figures' is there, and is of no study"),
-            std::string::npos)
-      << refusal();
-  write_text(figures / "mine.svg", "a drawing");
-  write_text(*options_.out / "flights.csv", "mine");
-  EXPECT_NE(refusal().find("--force"), std::string::npos) << refusal();
-  EXPECT_EQ(flown(), "");
-  EXPECT_EQ(file("flights.csv"), "mine");
-  EXPECT_EQ(file("figures/mine.svg"), "a drawing");
-  EXPECT_FALSE(std::filesystem::exists(*options_.out / "study.json"));
-  write_text(*options_.out / "study.json", "{\"planners\": [");
-  EXPECT_NE(refusal().find("study.json: damaged"), std::string::npos) << refusal();
-  std::filesystem::remove(*options_.out / "study.json");
-  write_text(*options_.out / "scene.json", "mine, too");
-  options_.force = true;
-  EXPECT_EQ(run(), kExitDone);
-  EXPECT_EQ(file("scene.json"), "mine, too") << "no file of a study's";
-  options_.force = false;
-  EXPECT_EQ(run(), kExitDone) << "now it is of a study";
-}
-
-// Slurm opens the log of a job before the job begins; a launcher that was killed has left its reserved space.
-TEST_F(StudyCommand, AnEmptyFolderAndOneWithTheLogOfItsJobAreTaken) {
-  const std::vector<std::string> logs = {"slurm-17.out", "slurm-17_3.out", "job.log", "job.err"};
-  std::filesystem::create_directories(*options_.out);
-  EXPECT_EQ(run(), kExitDone) << err_.str();
-  options_.out = programs_.dir() / "logs";
-  std::filesystem::create_directories(*options_.out);
-  for (const std::string& log : logs) write_text(*options_.out / log, "mine");
-  write_text(*options_.out / "result.json.tmp-room", "");
-  EXPECT_EQ(run(), kExitDone) << err_.str();
-  for (const std::string& log : logs) EXPECT_EQ(file(log), "mine") << log;
 }
 
 TEST_F(StudyCommand, TheJobThatMergesSaysSoIfItCannot) {

@@ -143,6 +143,16 @@ TEST_F(Sweep, AnotherBuildOnANodeFliesNothing) {
   std::ofstream(bin / "station", std::ios::app) << "x";
   ChildProcess& planned = fly("builds", {"--executor", "local", "--jobs", "2"});
   ASSERT_EQ(planned.wait().code, 0) << planned.err();
+  const std::string sweep = text_of(folder() / "builds/sweep/sweep.json");
+  ++tests_;
+  ChildProcess& more = fly("builds", {"--executor", "local", "--jobs", "2"}, {{"SKEIN_BIN_DIR", bin}});
+  --tests_;
+  EXPECT_EQ(more.wait().code, 2);
+  for (const char* part : {"the programs were built anew", "Nothing was changed."}) {
+    EXPECT_NE(more.err().find(part), std::string::npos) << more.err();
+  }
+  EXPECT_EQ(text_of(folder() / "builds/sweep/sweep.json"), sweep);
+  EXPECT_EQ(flown("builds"), flights()) << "no flight of the earlier build is lost";
   fs::remove_all(folder() / "builds/flights");
   ChildProcess& unit =
       start_program("unit", {program("skein"), "--unit", folder() / "builds", "0"}, {{"SKEIN_BIN_DIR", bin}});

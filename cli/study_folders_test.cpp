@@ -1,0 +1,107 @@
+// The folder of a study: what is there is never lost without --force.
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "cli/testing/study_commands.hpp"
+
+namespace skein::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The texts of all files of a study, by path.
+std::map<std::string, std::string> texts_below(const fs::path& folder) {
+  std::map<std::string, std::string> texts;
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {
+    if (entry.is_regular_file()) texts[entry.path()] = read_text(entry.path());
+  }
+  return texts;
+}
+
+TEST_F(StudyCommand, OtherSettingsInTheSameFolderAreRefusedUnlessForced) {
+  ASSERT_EQ(run(), kExitDone);
+  options_.planner_lists = {"hover,patrol", "kios"};
+  EXPECT_NE(refusal().find("planners: then hover, patrol, now hover, patrol, kios"), std::string::npos) << refusal();
+  EXPECT_EQ(flown(), "");
+  options_.force = true;
+  EXPECT_EQ(run(), kExitDone);
+  EXPECT_EQ(flown(), "kios 1\nkios 2\nkios 3\n") << "the others fit";
+  options_.duration_s = 30.0;
+  options_.force = false;
+  EXPECT_NE(refusal().find("duration_s: then null, now 30"), std::string::npos) << refusal();
+  options_.duration_s.reset();
+  programs_.script("station", "# another build\n");
+  EXPECT_NE(refusal().find("built anew"), std::string::npos) << refusal();
+  options_.force = true;
+  EXPECT_EQ(run(), kExitDone);
+  EXPECT_EQ(std::ranges::count(flown(), '\n'), 9) << "flights of another build do not count";
+}
+
+// With other programs no flight fits, so a repeat that was only to add a planner must not begin.
+TEST_F(StudyCommand, ARefusedRepeatWithAPlannerMoreLeavesTheFolderAsItIs) {
+  ASSERT_EQ(run(), kExitDone) << err_.str();
+  const auto before = texts_below(*options_.out);
+  options_.planner_lists = {"hover,patrol,kios"};
+  programs_.script("station", "# another build\n");
+  const std::string message = refusal();
+  for (const char* part : {"planners: then hover, patrol, now hover, patrol, kios", "the programs were built anew",
+                           "Nothing was changed. Choose another --out, or go on there with --force",
+                           "and the others are flown again in their place"}) {
+    EXPECT_NE(message.find(part), std::string::npos) << message;
+  }
+  EXPECT_EQ(flown(), "");
+  EXPECT_EQ(texts_below(*options_.out), before);
+  options_.planner_lists = {"hover,patrol"};
+  programs_.script("station", "");
+  EXPECT_EQ(run(), kExitDone) << "the study itself goes on";
+  EXPECT_EQ(flown(), "");
+}
+
+TEST_F(StudyCommand, AFolderOfARunIsNotTaken) {
+  fs::create_directories(*options_.out);
+  write_text(*options_.out / "result.json", "{}");
+  EXPECT_NE(refusal().find("holds a result already"), std::string::npos);
+}
+
+TEST_F(StudyCommand, AFolderOfOtherFilesIsLeftAsItIsUnlessForced) {
+  const auto figures = *options_.out / "figures";
+  fs::create_directories(figures);
+  EXPECT_NE(refusal().find("--out " + options_.out->string() + ": 'figures' is there, and is of no study"),
+            std::string::npos)
+      << refusal();
+  write_text(figures / "mine.svg", "a drawing");
+  write_text(*options_.out / "flights.csv", "mine");
+  EXPECT_NE(refusal().find("--force"), std::string::npos) << refusal();
+  EXPECT_EQ(flown(), "");
+  EXPECT_EQ(file("flights.csv"), "mine");
+  EXPECT_EQ(file("figures/mine.svg"), "a drawing");
+  EXPECT_FALSE(fs::exists(*options_.out / "study.json"));
+  write_text(*options_.out / "study.json", "{\"planners\": [");
+  EXPECT_NE(refusal().find("study.json: damaged"), std::string::npos) << refusal();
+  fs::remove(*options_.out / "study.json");
+  write_text(*options_.out / "scene.json", "mine, too");
+  options_.force = true;
+  EXPECT_EQ(run(), kExitDone);
+  EXPECT_EQ(file("scene.json"), "mine, too") << "no file of a study's";
+  options_.force = false;
+  EXPECT_EQ(run(), kExitDone) << "now it is of a study";
+}
+
+// Slurm opens the log of a job before the job begins; a launcher that was killed has left its reserved space.
+TEST_F(StudyCommand, AnEmptyFolderAndOneWithTheLogOfItsJobAreTaken) {
+  const std::vector<std::string> logs = {"slurm-17.out", "slurm-17_3.out", "job.log", "job.err"};
+  fs::create_directories(*options_.out);
+  EXPECT_EQ(run(), kExitDone) << err_.str();
+  options_.out = programs_.dir() / "logs";
+  fs::create_directories(*options_.out);
+  for (const std::string& log : logs) write_text(*options_.out / log, "mine");
+  write_text(*options_.out / "result.json.tmp-room", "");
+  EXPECT_EQ(run(), kExitDone) << err_.str();
+  for (const std::string& log : logs) EXPECT_EQ(file(log), "mine") << log;
+}
+
+}  // namespace
+}  // namespace skein::cli
