@@ -231,6 +231,10 @@ TEST_F(ModelFile, SaysWhatIsWrongWithObjAndPly) {
   for (const auto& [old, replacement, message] : in_ply) {
     EXPECT_NE(wrong("x.ply", ply, old, replacement).find(message), std::string::npos) << message;
   }
+  const std::string bare =
+      "ply\nformat ascii 1.0\nelement vertex 3\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
+      "3 0 1 2\n";
+  EXPECT_NE(wrong("x.ply", bare).find("its vertices need the properties x, y and z"), std::string::npos);
 }
 
 TEST_F(ModelFile, SaysWhatIsWrongWithColladaAndGltf) {

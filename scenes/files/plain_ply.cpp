@@ -39,7 +39,10 @@ class PlainPly {
   std::string plain() {
     read_header();
     for (const PlyElement& element : elements_) {
-      if (element.properties.empty()) continue;
+      if (element.properties.empty()) {
+        if (element.name == "vertex" && element.count > 0) wrong("its vertices need the properties x, y and z");
+        continue;
+      }
       for (std::uint64_t i = 0; i < element.count; ++i) read(element);
     }
     if (triangles_ == 0) check_count(file_, 0);
