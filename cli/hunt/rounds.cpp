@@ -1,6 +1,5 @@
 // Rounds of a hunt, each a sweep (cli/sweep/): the cases of a round are fixed before the first of them flies, so that
 // the search does not depend on which node flies which case.
-#include <fstream>
 #include <map>
 #include <set>
 
@@ -40,8 +39,8 @@ SweepFlight reference(const HuntPlan& plan, const SweepFolder& folder, MadeUnder
   return {0, folder.dir() / "reference", run, made_under.of(plan_fleet(run, program_dir()))};
 }
 
-/// Removes the fault files of earlier rounds. No program needs them once the sweep is that of this round: a hunt of many
-/// cases would otherwise leave a file of each.
+/// Removes the fault files of earlier rounds, of which a long hunt would leave many. Once the sweep is that of this
+/// round, no program needs them.
 void keep_only(const std::set<fs::path>& of_this_round, const fs::path& cases) {
   std::vector<fs::path> others;
   for (const fs::directory_entry& entry : fs::directory_iterator(cases)) {
