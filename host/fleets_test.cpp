@@ -148,6 +148,7 @@ TEST_F(FleetsTest, TheLauncherIsTheHolderOfTheDomain) {
 
 TEST_F(FleetsTest, ADomainOfAnotherNetworkNamespaceIsNotTheOneHere) {
   const auto lock = HostLock::try_take(domain_lock_name(own_domain()));
+  ASSERT_TRUE(lock);
   const Sham server(words("sim_server", {"--domain", std::to_string(own_domain())}), {}, Sham::Network::elsewhere);
   if (!server.stands()) GTEST_SKIP() << "this system does not allow another network namespace";
   EXPECT_TRUE(found().value().elsewhere);

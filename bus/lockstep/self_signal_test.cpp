@@ -80,7 +80,10 @@ TEST(SelfSignalOfAProgram, AUsersOwnCommandIsLeftToTheLauncher) {
   }
   int status = 0;
   ASSERT_EQ(::waitpid(child, &status, WUNTRACED), child);
-  if (WIFSTOPPED(status)) ::kill(child, SIGKILL);
+  if (WIFSTOPPED(status)) {
+    ::kill(child, SIGKILL);
+    ::waitpid(child, nullptr, 0);
+  }
   EXPECT_TRUE(WIFEXITED(status)) << "it stands, and the launcher may have gone on with it before";
   EXPECT_EQ(WEXITSTATUS(status), 42);
 }

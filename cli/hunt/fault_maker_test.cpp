@@ -81,10 +81,17 @@ TEST_F(FaultMakers, WhatIsDrawnIsAFaultFileAndReadsBackAsItWas) {
 }
 
 TEST_F(FaultMakers, EachLastsLongEnoughToActHoweverLongAnExchangeIs) {
-  towers_.exchange_period_s = 0.75;
-  each([&](const std::vector<Fault>& faults) {
-    for (const Fault& fault : faults) EXPECT_TRUE(has_exchange(fault, towers_)) << fault_line(fault);
-  });
+  for (const double period_s : {kTickS, 0.05, 0.75, 1.0}) {  // 1 s is the longest
+    towers_.exchange_period_s = period_s;
+    each([&](const std::vector<Fault>& faults) {
+      for (const Fault& fault : faults) {
+        EXPECT_TRUE(has_exchange(fault, towers_)) << fault_line(fault);
+        if (fault.waits) {
+          EXPECT_GE(fault.for_s.value(), period_s - 1e-9) << fault_line(fault);
+        }
+      }
+    });
+  }
 }
 
 TEST_F(FaultMakers, AllIsOverInTimeButSomeDeaths) {

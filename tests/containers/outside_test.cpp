@@ -56,6 +56,7 @@ TEST_F(FromOutside, WhoIsKilledAndStartedAgainWorksAgain) {
   ASSERT_TRUE(run.wait_until_flying()) << run.err();
   std::vector<std::string> victims = {"uav_agent-changi", "station", "comm_router"};
   std::ranges::shuffle(victims, std::mt19937(std::random_device{}()));
+  SCOPED_TRACE("killed: " + victims[0] + ", " + victims[1] + ", " + victims[2]);
   std::map<std::string, long> returned;
   for (const std::string& victim : victims) {
     const std::string id = container(run, victim), member = victim.substr(victim.find('-') + 1);
