@@ -164,7 +164,7 @@ void tell_who_waits(const FleetPlan& plan, const std::map<std::string, std::stri
   for (const Debuggee& one : plan.debug) {
     if (one.here || !containers.contains(one.program)) continue;
     view.message(
-        fmt::format("{} stands before its first step until you attach to the process that {} names:\n\n  "
+        fmt::format("{} waits before its first step until you attach to the process that {} names:\n\n  "
                     "docker exec --interactive --tty {} gdb -q -p PROCESS\n",
                     one.member, (out / run_folder::log_file(one.program)).string(), containers.at(one.program)));
   }

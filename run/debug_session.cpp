@@ -40,7 +40,7 @@ std::string DebugSession::introduction(const FleetPlan& plan, const Debuggee& de
       return "Start the agent of " + member + " yourself; the fleet waits for it:\n\n  " +
              debug_command(plan, debuggee.program, base_domain, out, secure) + "\n";
     case How::gdbserver:
-      return member + " stands in gdbserver; the fleet waits for it:\n\n  " +
+      return member + " waits in gdbserver; the fleet waits for it:\n\n  " +
              connect_command(debuggee, program_file(plan, debuggee.program)) + "\n";
     case How::gdb:
     case How::command:
@@ -65,7 +65,7 @@ std::vector<const DebugWatch*> DebugSession::take_ended() {
   std::vector<const DebugWatch*> ended;
   for (const auto& watch : watches_) {
     if (watch->appeared() && watch->debuggee().how == How::wait) {
-      view_.message(fmt::format("{0} stands before its first step until you attach (or: kill -CONT {1}):\n\n  {2}\n",
+      view_.message(fmt::format("{0} waits before its first step until you attach (or: kill -CONT {1}):\n\n  {2}\n",
                                 watch->debuggee().member, watch->pid(), attach_command(watch->pid())));
     }
     if (watch->ended() && watch->debuggee().how != How::wait) ended.push_back(watch.get());

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 /// container has ended.
 std::string gdb_inside(const std::string& container, const fs::path& log) {
   return fmt::format(R"sh(while [ "$(docker inspect --format '{{{{.State.Running}}}}' {0} 2>&1)" = true ]; do
-  process=$(sed -n 's/.*process \([0-9]*\) stands until a debugger.*/\1/p' {1} 2>/dev/null | tail -n 1)
+  process=$(sed -n 's/.*process \([0-9]*\) waits for a debugger.*/\1/p' {1} 2>/dev/null | tail -n 1)
   [ -z "$process" ] || break
   sleep 0.1
 done

@@ -92,7 +92,7 @@ void wait_for_debugger(const std::function<bool()>& stop) {
   ::sigaction(SIGCONT, &action, &former);
   {
     const AttachWatch watch(continued_fd);
-    spdlog::info("process {} stands until a debugger is attached, or SIGCONT comes", ::getpid());
+    spdlog::info("process {} waits for a debugger or SIGCONT", ::getpid());
     constexpr int kLook_ms = 50;
     pollfd continued{.fd = continued_fd, .events = POLLIN, .revents = 0};
     // A tracer that attaches to this thread only (strace -p) is detected only while it is attached.

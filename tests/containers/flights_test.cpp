@@ -119,7 +119,7 @@ TEST_F(FlightInContainers, TheFleetWaitsForWhoIsDebugged) {
   const auto told = [&] {
     const std::string log = log_of(run, agent);
     std::smatch match;
-    if (!std::regex_search(log, match, std::regex("process ([0-9]+) stands until a debugger"))) return false;
+    if (!std::regex_search(log, match, std::regex("process ([0-9]+) waits for a debugger"))) return false;
     process = match[1];
     return true;
   };

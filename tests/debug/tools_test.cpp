@@ -48,7 +48,7 @@ TEST_F(Tools, GdbserverHandsTheProgramToAGdbElsewhere) {
   ASSERT_TRUE(eventually([&] { return skein.err().find("target remote") != std::string::npos || skein.ended(); }));
   std::smatch command;
   const std::string text = skein.err();
-  ASSERT_TRUE(std::regex_search(text, command, std::regex("changi stands in gdbserver.*:\n\n  (.*)\n"))) << text;
+  ASSERT_TRUE(std::regex_search(text, command, std::regex("changi waits in gdbserver.*:\n\n  (.*)\n"))) << text;
   const std::string commands = write("elsewhere.gdb",
                                      "break skein::agent::PatrolPlanner::plan\ncontinue\nprint in.k\n"
                                      "print in.state.p_WB\ndelete\ncontinue\nquit\n");
@@ -72,9 +72,9 @@ TEST_F(Tools, WhoWaitsIsToldAndGoesOn) {
     ASSERT_TRUE(eventually([&] { return skein.err().find(words) != std::string::npos || skein.ended(); }))
         << skein.err();
     const std::string text = skein.err();
-    expect_part(text, member + " stands before its first step");
+    expect_part(text, member + " waits before its first step");
     const auto log = dir(name) / (member == "changi" ? "uav_agent-changi.log" : "comm_router.log");
-    EXPECT_TRUE(eventually([&] { return text_of(log).find("stands until") != std::string::npos; }));
+    EXPECT_TRUE(eventually([&] { return text_of(log).find("waits for a debugger") != std::string::npos; }));
     ::kill(std::stoi(text.substr(text.find(words) + words.size())), SIGCONT);
     EXPECT_EQ(skein.wait().code, 0) << skein.err();
     EXPECT_EQ(result(name)["digest"], digest);
@@ -87,7 +87,8 @@ TEST_F(Tools, WhoWaitsGoesOnWhenItsDebuggerHasOnlyLooked) {
   const auto log = dir("looked") / "uav_agent-changi.log";
   const std::string words = "kill -CONT ";
   ASSERT_TRUE(eventually([&] {
-    return skein.err().find(words) != std::string::npos && text_of(log).find("stands until") != std::string::npos;
+    return skein.err().find(words) != std::string::npos &&
+           text_of(log).find("waits for a debugger") != std::string::npos;
   })) << skein.err();
   const std::string text = skein.err();
   const std::string pid = std::to_string(std::stoi(text.substr(text.find(words) + words.size())));
