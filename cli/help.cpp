@@ -16,7 +16,7 @@ namespace {
 /// The agent program that flies by default.
 std::filesystem::path default_agent() { return own_agent({}).value_or(program_dir() / programs::kAgent); }
 
-/// The list of planners for the help. If the agent program fails, its error takes the place of the list.
+/// The list of planners for the help, or the error of the agent program if it fails: help must not fail.
 std::string planner_list() try {
   const std::filesystem::path agent = default_agent();
   std::string text = "\nPlanners: " + joined(planners_of(agent)) + "\n";
@@ -25,7 +25,7 @@ std::string planner_list() try {
   return std::string("\nPlanners: ") + error.what() + "\n";
 }
 
-/// The names of scenarios in files, and of procedurally drawn ones.
+/// The names of the scenarios in files, and of the families of generated worlds.
 std::vector<std::string> scenario_names() {
   std::vector<std::string> names = config_names(default_config_dir() / "scenarios");
   names.insert(names.end(), kDrawnWorlds.begin(), kDrawnWorlds.end());

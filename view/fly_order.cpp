@@ -7,7 +7,7 @@
 namespace skein::view {
 namespace {
 
-constexpr std::size_t kLongestFlyOrder = 500, kLongestUavName = 100;
+constexpr std::size_t kLongestFlyOrder = 500, kLongestUavName = 100;  ///< a browser may send anything
 constexpr const char *kFlyDo = "do", *kFlyWord = "fly", *kFlyUav = "uav", *kFlyVelocity = "velocity",
                      *kFlyYawRate = "yaw_rate", *kFlyGimbal = "gimbal";
 

@@ -62,7 +62,7 @@ class Participant {
   /// the values of the bytes. @throws std::runtime_error if the numbers differ.
   void check_bytes(std::uint64_t rounds) const {
     if (arrivals_.bytes() != rounds * bytes_per_round_)
-      throw std::runtime_error("messages arrived with other sizes than they were sent with");
+      throw std::runtime_error("a process received another number of bytes than the others sent to it");
   }
 
  private:

@@ -24,7 +24,7 @@ struct HuntSummary {
 struct PropertyRecord {
   std::string name;
   std::size_t held = 0, failed = 0, vacuous = 0;
-  std::optional<double> least = {};  ///< least margin, in SI; none: no case has one
+  std::optional<double> least = {};  ///< least margin, in SI units; nullopt: no case has a margin
   std::size_t least_in = 0;          ///< number of the case with the least margin
 };
 

@@ -25,8 +25,8 @@ namespace hand_file {
 std::string head();
 /// A row as a line, including the newline.
 std::string line_of(const HandRow& row);
-/// @throws InputError naming the file, and the line if any, when it cannot be read, is no such file, or a tick does not
-/// increase.
+/// @throws InputError if the file cannot be read, is not a file of commands, or has a tick that is not greater than the
+///   one before it. The message names the file, and the line if a line is wrong.
 std::vector<HandRow> read(const std::filesystem::path& file);
 
 }  // namespace hand_file

@@ -28,7 +28,7 @@ struct FlightFindingReport {
   Text uav = {};
   Text with = {};                                      ///< "structure" or a UAV
   std::optional<std::array<double, 3>> position = {};  ///< of the UAV in W [m], at the least distance
-  std::optional<double> distance_m = {};               ///< distance between the surfaces there; below 0
+  std::optional<double> distance_m = {};               ///< between the surfaces there; negative: they overlap
 };
 void describe(auto& f, FlightFindingReport& finding) {
   f.field("distance_m", finding.distance_m);
@@ -38,10 +38,13 @@ void describe(auto& f, FlightFindingReport& finding) {
   f.field("with", finding.with);
 }
 
-/// Whether UAVs could always stop without a collision (docs/flight-safety.md). Distances may be below 0.
+/// Whether UAVs could always stop without a collision. docs/flight-safety.md explains each figure. A negative distance
+/// means that two surfaces overlap.
 struct FlightCheckReport {
-  Count exchanges = {};  ///< sum over all UAVs of the exchanges in flight
-  Count braking_hits = {}, braking_meets = {}, ways_meet = {};
+  Count exchanges = {};      ///< sum over all UAVs of the exchanges in flight
+  Count braking_hits = {};   ///< exchanges in which the braking body would touch the structure
+  Count braking_meets = {};  ///< pairs of bodies that would touch if both began to brake now
+  Count ways_meet = {};      ///< the same, wherever each body is on its braking trajectory
   std::optional<double> least_clearance_m = {}, least_braking_clearance_m = {};
   std::optional<double> least_separation_m = {}, least_braking_separation_m = {};
   TrackingReport tracking_error_m = {};

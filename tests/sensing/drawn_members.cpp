@@ -3,21 +3,26 @@
 #include <cmath>
 
 namespace skein::sensing {
+namespace {
+
+constexpr double kQuantile = 1.645;  // 95 % of the normal distribution, one-sided
+
+}  // namespace
 
 double Tally::upper_bound() const {
   const double n = static_cast<double>(unseen) + 1.0;
-  return n * std::pow(1.0 - 1.0 / (9.0 * n) + 1.645 / (3.0 * std::sqrt(n)), 3) / static_cast<double>(drawn);
+  return n * std::pow(1.0 - 1.0 / (9.0 * n) + kQuantile / (3.0 * std::sqrt(n)), 3) / static_cast<double>(drawn);
 }
 
 double Tally::lower_bound() const {
   if (unseen == 0) return 0.0;
   const auto n = static_cast<double>(unseen);
-  return n * std::pow(1.0 - 1.0 / (9.0 * n) - 1.645 / (3.0 * std::sqrt(n)), 3) / static_cast<double>(drawn);
+  return n * std::pow(1.0 - 1.0 / (9.0 * n) - kQuantile / (3.0 * std::sqrt(n)), 3) / static_cast<double>(drawn);
 }
 
 std::vector<Tally> draw_members(const SensedSpace& space, RandomStream& random, std::size_t draws) {
-  constexpr std::size_t kATube = 20, kMostTubes = 4'000'000;
-  std::vector<Tally> by_distance(20);
+  constexpr std::size_t kPerTube = 20, kMostTubes = 4'000'000;
+  std::vector<Tally> by_distance(20);  // bins of 2 m
   std::size_t drawn = 0;
   for (std::size_t tubes = 0; drawn < draws && tubes < kMostTubes; ++tubes) {
     const auto scan = static_cast<std::size_t>(random.uniform() * static_cast<double>(space.scans().size()));
@@ -26,7 +31,7 @@ std::vector<Tally> draw_members(const SensedSpace& space, RandomStream& random, 
     if (space.map().at(middle_W) != agent::Space::free) continue;
     if (!space.map().tube_free(middle_W - half_W, middle_W + half_W, kTubeM)) continue;
     Tally here;
-    for (; here.drawn < kATube; ++here.drawn) {
+    for (; here.drawn < kPerTube; ++here.drawn) {
       const Member member = drawn_member(random, middle_W - half_W, middle_W + half_W);
       if (!space.saw(member, middle_W - half_W, middle_W + half_W, kTubeM)) ++here.unseen;
     }
@@ -43,7 +48,7 @@ Tally sum(const std::vector<Tally>& by_distance) {
 }
 
 std::vector<Tally> merged(std::vector<Tally> by_distance) {
-  constexpr std::size_t kFewest = 8000;
+  constexpr std::size_t kFewest = 8000;  // of so many, three unseen ones still give an upper bound below 1e-3
   for (std::size_t i = by_distance.size(); i-- > 1;) {
     if (by_distance[i].drawn >= kFewest) continue;
     by_distance[i - 1].add(by_distance[i]);

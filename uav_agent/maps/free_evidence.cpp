@@ -8,8 +8,9 @@
 namespace skein::agent {
 namespace {
 
-/// Upper approximation of a convex function f(k) that finally falls like k^-Power or faster: linear interpolation
-/// within the table (a chord of a convex function is above it), and the power law beyond the table.
+/// Upper bound on a convex function f(k) that falls at least as fast as k^-Power for large k. Within the table, the
+/// bound interpolates linearly, because a chord of a convex function lies above it. Beyond the table, it uses the power
+/// law.
 template <int Power>
 class Table {
  public:
@@ -75,7 +76,7 @@ double BeamEvidence::unseen_probability(const FreeCriterion& criterion) const {
   return std::min(by_number, std::exp(-a) * unseen_about_an_axis(b - a));
 }
 
-/// The argument at which a decreasing function falls to `value`, approached from below.
+/// The argument at which a decreasing function falls to `value`; never greater than the exact one.
 double falls_to(const auto& function, double value, double low, double high) {
   for (int step = 0; step < 60; ++step) {
     const double middle = 0.5 * (low + high);

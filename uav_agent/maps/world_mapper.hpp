@@ -12,7 +12,8 @@ class WorldMapper {
  public:
   struct Config {
     WorldMap::Config map = {};
-    /// Uses one scan in `every`. The default uses all: the CPU time allows it, and more scans prove more space free.
+    /// The mapper uses one scan in `every`. The default is all: the CPU time allows it, and more scans prove more space
+    /// free.
     int every = 1;
     double bundle_rad = ScanBundler::kBundleRad;  ///< size of a bundle of adjacent beams, see ScanBundler
     /// Radius of the ball around the LiDAR that counts as free at the start. It is greater than the LiDAR's

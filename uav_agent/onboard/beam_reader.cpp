@@ -11,14 +11,14 @@ namespace skein::agent {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-/// Points may lie off the lines of their beams by this, since directions and coordinates have single precision.
+/// Largest distance of a point from the line of its beam: directions and coordinates have single precision.
 constexpr double kRoundingRad = 1e-4;
 constexpr double kRoundingOfCoordinates = 4.0 * std::numeric_limits<float>::epsilon();
-/// Normally distributed noise moves a point along its beam, even beyond the LiDAR's range, by up to so many deviations.
+/// Range noise moves a point along its beam, even beyond the LiDAR's range, by at most this many standard deviations.
 constexpr double kSigmas = 7.0;
-constexpr Tick kLongestGap = kTicksPerSecond / 10;
-constexpr Tick kMemory = kTicksPerSecond;  ///< the longest exchange period
-constexpr double kServoRounding = 1e-6;    ///< [rad]
+constexpr Tick kLongestGap = kTicksPerSecond / 10;  ///< in the odometry; the interpolation error grows with its square
+constexpr Tick kMemory = kTicksPerSecond;           ///< the longest exchange period
+constexpr double kServoRounding = 1e-6;             ///< [rad]
 
 bool meets(const Vector3d& from_W, const Vector3d& direction_W, double reach_m, const KnownBody& body) {
   const Vector3d to_body = body.p_W - from_W;
@@ -39,7 +39,7 @@ BeamReader::BeamReader(const LidarConfig& config)
       directions_L_.push_back(lidar_direction_L(config, ring, column));
     }
   }
-  // Columns lie closest in the outermost rings.
+  // The columns of the outermost rings are closest together, so these rings determine the tolerance.
   const double closest = column_step_ * std::cos(ring_elevation(config, 0));
   most_off_ = 0.25 * (ring_step_ > 0.0 ? std::min(closest, ring_step_) : closest);
 }
@@ -55,7 +55,7 @@ const LidarServo* BeamReader::servo_at(Tick tick) const {
 }
 
 /// Angle of the servo at a tick, from its angles and rates at this scan and at the one before. Between two scans, the
-/// servo turns at a constant rate, and at most once rests at a stop or turns back.
+/// servo turns at a constant rate, except that it may stop at its limit or turn back once.
 std::optional<double> BeamReader::servo_angle(Tick scan, Tick tick) const {
   const LidarServo* now = servo_at(scan);
   if (now == nullptr) return std::nullopt;
@@ -120,7 +120,8 @@ bool BeamReader::assign(const Scan& scan, const BodyTrack::Pose& end, BeamScan& 
     const double allowed = kRoundingRad + (rounding + end.error_m) / range + end.error_rad;
     const double most_off = std::min(allowed, most_off_);
     const auto lies_on = [&](std::size_t beam) { return (direction_L - directions_L_[beam]).norm() <= most_off; };
-    // The point is usually on the beam after the last one. A beam on which it lies is also the nearest one.
+    // Usually the point lies on the next beam. If so, no beam is nearer: the tolerance is at most a quarter of the
+    // distance between beams.
     std::size_t beam = next;
     if (beam >= directions_L_.size() || !lies_on(beam)) {
       const std::optional<std::size_t> nearest = beam_of(direction_L);
@@ -134,7 +135,7 @@ bool BeamReader::assign(const Scan& scan, const BodyTrack::Pose& end, BeamScan& 
   return true;
 }
 
-/// The beams that may meet a ball, and some beside it: a range of rings, and columns to both sides of one column.
+/// A window of beams that contains all beams that may meet a ball: a range of rings, and columns on both sides of one.
 BeamReader::Window BeamReader::window_about(const Vector3d& p_L, double radius_m) const {
   constexpr double kMarginRad = 1e-3;
   const Window all{0, config_.rings - 1, 0, config_.columns / 2};

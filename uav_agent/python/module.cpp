@@ -16,13 +16,14 @@
 namespace skein::agent::python {
 namespace {
 
-/// plan() failed: its UAV's program ends with this text.
+/// plan() failed. The UAV's program ends with this text.
 class PlannerFailure : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// Runs a user's code before the flight: what goes wrong is bad input. @param what  for people.
+/// Runs code of the user's planner before the flight. An error is then a mistake of the user, not a failed flight.
+/// @param what  what failed, for the message. @throws InputError
 auto as_input(const Order& order, const std::string& what, const auto& work) {
   const std::string head = "--planner " + text_of(order.planner) + ": " + what;
   try {
@@ -48,7 +49,7 @@ class PythonPlanner final : public Planner {
     });
     const py::dict values =
         as_input(order_, "wrong parameters", [&] { return read_parameters(type, order_.parameters); });
-    planner_ = as_input(order_, "cannot be made",
+    planner_ = as_input(order_, "cannot be created",
                         [&] { return py::object(embedded.attr("construct")(type, values, to_python(order_.agent))); });
     ask();
     if (order_.debug_from_s) debugger_ = embedded.attr("Debugger")(*order_.debug_from_s);
@@ -70,7 +71,7 @@ class PythonPlanner final : public Planner {
       }
       call->end();
       if (const std::string kept = debugger_ ? "" : call->kept(); !kept.empty()) {
-        throw WrongOutput(kept + " was kept, and is gone with the call: keep a copy (array.copy())");
+        throw WrongOutput(kept + " was kept, but is valid only during the call: keep a copy (array.copy())");
       }
     } catch (py::error_already_set& error) {
       call->end();
@@ -90,7 +91,7 @@ class PythonPlanner final : public Planner {
   std::vector<std::string> debug_names() const override { return rules_.debug_names; }
 
  private:
-  /// What is asked once.
+  /// Asks the planner for everything that must not change during the flight.
   void ask() {
     const auto wish = [&](const char* name) {
       return as_input(order_, std::string(name) + "()", [&] { return read_bool(planner_.attr(name)(), Place(name)); });
@@ -111,7 +112,7 @@ class PythonPlanner final : public Planner {
     });
   }
 
-  /// The last line says whose it was and when: the end of a log is what the launcher shows.
+  /// The last line names the UAV, the planner and the time, because the launcher shows only the end of a log.
   [[noreturn]] void fail(const PlannerInput& in, const std::string& traceback, const std::string& how) const {
     throw PlannerFailure(fmt::format("{}{}'s planner {} {}, at step {} ({:.2f} s)", traceback, name_,
                                      text_of(order_.planner), how, in.k, seconds(in.tick)));

@@ -48,8 +48,8 @@ Scan TestLidar::scan(Tick tick, const Isometry3d& X_WB, const std::vector<Orient
   const Vector3d p_WL = X_WL.translation(), down_L = -R_WL.row(2);
   std::vector<double> ranges(directions_L_.size(), kNever);
   for (std::size_t i = 0; i < ranges.size(); ++i) {
-    const double sinks = down_L.dot(directions_L_[i]);
-    if (sinks > 0.0) ranges[i] = p_WL.z() / sinks;
+    const double down = down_L.dot(directions_L_[i]);  // the ground is at z = 0
+    if (down > 0.0) ranges[i] = p_WL.z() / down;
   }
   for (const OrientedBox& solid : solids) {
     const double radius_m = 0.5 * solid.size.norm();

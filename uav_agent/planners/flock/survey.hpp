@@ -1,5 +1,6 @@
-// Which parts of the site explorers have surveyed: they had them in line of sight, near enough for their LiDARs to find
-// all structure. Other parts are worth a flight. Parts that are in sight from no place lie inside structure.
+// Which parts of the site explorers have surveyed: parts that were in line of sight of an explorer, and near enough for
+// its LiDAR to find all structure. Other parts are worth a flight, except those inside structure, which are never in
+// sight.
 // Each UAV keeps its own record, of its own LiDAR and of those of the explorers in line of sight.
 // Frame W.   Units: metres.   Threads: one.   Effort of look(): cells within survey_m.
 #pragma once
