@@ -82,7 +82,7 @@ class Hunt {
       if (i >= before.size() || !before[i]) numbers.push_back(i);
     }
     if (numbers.size() < wanted_) {
-      console_.err << wanted_ - numbers.size() << " of " << wanted_ << " runs are there already" << std::endl;
+      console_.err << wanted_ - numbers.size() << " of " << wanted_ << " runs are complete already" << std::endl;
     }
     for (std::size_t i = 0; i < before.size() && i < wanted_; ++i) {
       if (before[i] && can_make(i)) log_.check(i, flown_text(trial(i)));

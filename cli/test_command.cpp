@@ -66,8 +66,7 @@ int run_tests(const TestOptions& options, const Console& console) {
   const ScratchDir scratch;
   const std::filesystem::path build_dir = std::filesystem::absolute(program_dir()).parent_path();
   if (!std::filesystem::exists(build_dir / "CTestTestfile.cmake")) {
-    throw InputError(
-        "test: there are no tests beside this skein; ./skein test in the source tree builds and runs them");
+    throw InputError("test: this skein has no tests beside it; ./skein test in the source tree builds and runs them");
   }
   const std::filesystem::path junit = scratch.path() / "ctest.xml", reports = scratch.path() / "gtest";
   // One job more than there are cores, since tests often wait for their processes.

@@ -33,7 +33,7 @@ TestCounts count_cases(const Json& report) {
 pugi::xml_document read_junit(const std::filesystem::path& junit) {
   pugi::xml_document document;
   if (const pugi::xml_parse_result read = document.load_file(junit.c_str()); !read) {
-    throw std::runtime_error(junit.string() + ": ctest left no report: " + read.description());
+    throw std::runtime_error(junit.string() + ": ctest wrote no valid report: " + read.description());
   }
   return document;
 }
@@ -47,14 +47,14 @@ TestCounts count_tests(const std::filesystem::path& junit, const std::filesystem
     const std::string name = entry.attribute("name").value(), status = entry.attribute("status").value();
     const std::string_view why = entry.child("skipped").attribute("message").value();
     const bool skipped = status == "disabled" || why.starts_with("SKIP_");
-    const bool failed = !skipped && status != "run";  // also one that could not be started
+    const bool failed = !skipped && status != "run";  // also a program that ctest could not start
     const Json report = read_json(reports / (name + ".json"));
     if (report.is_null()) {  // no GoogleTest program, or one that crashed or timed out
       ++(failed ? total.failed : skipped ? total.skipped : total.passed);
       continue;
     }
     TestCounts counts = count_cases(report);
-    if (failed && counts.failed == 0) counts.failed = 1;  // all cases passed, yet the program ended badly
+    if (failed && counts.failed == 0) counts.failed = 1;  // all cases passed, but the program then failed
     total.passed += counts.passed;
     total.failed += counts.failed;
     total.skipped += counts.skipped;

@@ -29,8 +29,8 @@ const Acquaintance* find(const Meeting& meeting, const PeerFacts& peer) {
 
 /// Hint why nothing at all was received from a listed peer.
 std::string silence_hint(const Meetings& all, const Meeting& meeting, const PeerFacts& peer) {
-  if (!peer.address) return "no address is known of it: start it, or write its address instead of its name";
-  if (!peer.source) return "there is no way to its address: join its network";
+  if (!peer.address) return "its name has no address: start it, or write its address instead of its name";
+  if (!peer.source) return "there is no route to its address: join its network";
   if (!meeting.address.empty() && *peer.source != meeting.address) {
     return fmt::format(
         "wrong interface: packets to it leave by {}, this domain has {}; name the peer's address in that "

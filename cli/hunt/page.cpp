@@ -35,8 +35,7 @@ std::string head(const HuntSummary& summary) {
 
 std::string properties_section(const HuntSummary& summary) {
   std::string html = "<section id=\"properties\"><h2>Properties</h2>\n<div class=\"wide\"><table>" +
-                     table_head({"Property", "Held", "Failed", "Said nothing", "Least margin", "In case"}) +
-                     "<tbody>\n";
+                     table_head({"Property", "Held", "Failed", "Vacuous", "Least margin", "In case"}) + "<tbody>\n";
   for (const PropertyRecord& record : property_records(summary)) {
     const bool vacuous = record.held == 0 && record.failed == 0;
     html += table_row({escaped(record.name) + (vacuous ? " (vacuous)" : ""), count_text(record.held),
@@ -93,7 +92,7 @@ std::string chart(const HuntSummary& summary, const Find& find) try {
   return "<figure>" +
          report::time_chart_svg("Margin of " + find.broke + " over time", {margin_curve(summary, find, run)}, run, {},
                                 kChartWidth) +
-         "<figcaption>margin over time, with the faults behind it</figcaption></figure>\n";
+         "<figcaption>margin over time; bars in the background: faults</figcaption></figure>\n";
 } catch (const std::exception& error) {  // the find is valid without its chart
   return report::absent(error.what());
 }
@@ -103,8 +102,8 @@ std::string find_section(const HuntSummary& summary, const Find& find) {
                      escaped(find.told) + "</p>\n<pre>";
   for (const Fault& fault : find.trial.faults) html += escaped(fault_line(fault)) + "\n";
   html += "</pre>\n" +
-          fmt::format("<p>Found in case {}, made small with {} flights{}. <a href=\"finds/{}.yaml\">Capsule</a></p>\n",
-                      find.index, find.flights, find.over_dds ? ", the same over DDS" : "", escaped(find.name));
+          fmt::format("<p>Found in case {}, minimised with {} flights{}. <a href=\"finds/{}.yaml\">Capsule</a></p>\n",
+                      find.index, find.flights, find.over_dds ? ", confirmed over DDS" : "", escaped(find.name));
   return html + chart(summary, find) + "</section>\n";
 }
 

@@ -91,7 +91,7 @@ TEST_F(HuntReports, ThePageHasFindsNumbersAndEscapesWhatItQuotes) {
   write(true);
   const std::string html = page();
   for (const char* part : {"3 runs, 1 finds, 7 states of the fleet", "skein hunt &lt;here&gt; &amp; there",
-                           "two came &lt;too&gt; near", "Found in case 1, made small with 12 flights",
+                           "two came &lt;too&gt; near", "Found in case 1, minimised with 12 flights",
                            "<a href=\"finds/separation-1.yaml\">Capsule</a>", "custody_kept (vacuous)"}) {
     EXPECT_NE(html.find(part), std::string::npos) << part;
   }

@@ -34,7 +34,7 @@ Json sound_result(const fs::path& dir, std::ostream* say) try {
   std::error_code error;
   return fs::exists(dir / run_folder::kResult, error) ? results::read_result_file(dir) : Json();
 } catch (const InputError& damage) {
-  if (say != nullptr) *say << damage.what() << "; this flight is flown again" << std::endl;
+  if (say != nullptr) *say << damage.what() << "; Skein flies this flight again" << std::endl;
   return {};
 }
 
@@ -75,7 +75,7 @@ class StudyRun {
         left_s_ += plan_.flights[i].mission_s;
       }
     }
-    if (over_ > 0) tell(fmt::format("{} of {} flights are there already", over_, plan_.flights.size()));
+    if (over_ > 0) tell(fmt::format("{} of {} flights are complete already", over_, plan_.flights.size()));
     SideBySide side_by_side(static_cast<std::size_t>(plan_.jobs), console_);
     outcomes_.interrupted = !side_by_side.fly(
         std::move(waiting), [this](std::size_t index) { return start(index); },

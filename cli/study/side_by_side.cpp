@@ -45,7 +45,7 @@ bool SideBySide::fly(std::deque<std::size_t> waiting, const Start& start, const 
 
 void SideBySide::on_interrupt() {
   if (!interrupted_) {
-    console_.err << "ending the flights in the air; press Ctrl-C again to end them at once" << std::endl;
+    console_.err << "ending the current flights; press Ctrl-C again to end them immediately" << std::endl;
   }
   interrupted_ = true;
   for (const auto& [name, index] : running_) supervisor_.signal(name, SIGINT);

@@ -90,7 +90,7 @@ void SweepController::reopen_what_must_fly(bool failed_too) const {
   }
   for (const auto& [index, what] : missing) {
     if (folder_.is_done(settings_.token, settings_.sizes.unit_of(index))) continue;
-    say_ << what << "; this flight is flown again" << std::endl;
+    say_ << what << "; Skein flies this flight again" << std::endl;
   }
 }
 

@@ -79,7 +79,7 @@ TEST_F(ContestTest, FliesRanksAndGoesOnWhereItWasStopped) {
   std::filesystem::remove(folder() / "one/flights/scenario/patrol/seed-1/flight.json");
   ChildProcess& again = skein(contest("one"));
   ASSERT_EQ(again.wait().code, 0) << again.err();
-  EXPECT_NE(again.err().find("3 of 4 flights are there already"), std::string::npos) << again.err();
+  EXPECT_NE(again.err().find("3 of 4 flights are complete already"), std::string::npos) << again.err();
   const auto repeated = read_csv(folder() / "one" / "flights.csv");
   ASSERT_EQ(repeated.size(), 4u);
   for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(repeated[i].at("digest"), flights[i].at("digest"));

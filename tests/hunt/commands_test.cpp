@@ -201,7 +201,7 @@ TEST_F(HuntCommands, CtrlCLeavesAWholeLogAndTheSameCommandGoesOn) {
 
   const Said whole = call(words("whole", flown + 2)), on = call(words("stopped", flown + 2));
   EXPECT_EQ(on.code, whole.code) << on.err;
-  EXPECT_NE(on.err.find(std::to_string(flown) + " of " + std::to_string(flown + 2) + " runs are there already"),
+  EXPECT_NE(on.err.find(std::to_string(flown) + " of " + std::to_string(flown + 2) + " runs are complete already"),
             std::string::npos)
       << on.err;
   EXPECT_EQ(log_lines("stopped"), log_lines("whole"));

@@ -115,7 +115,7 @@ TEST_F(Hunts, TheirFindsAreThereWhenTheyGoOnAndCanBeTestedAndBlamed) {
   const auto before = finds();
   ASSERT_FALSE(before.empty()) << said_;
   EXPECT_EQ(skein(words), 1) << "none is lost";
-  EXPECT_NE(said_.find("10 of 10 runs are there already"), std::string::npos) << said_;
+  EXPECT_NE(said_.find("10 of 10 runs are complete already"), std::string::npos) << said_;
   EXPECT_EQ(finds(), before);
   for (const auto& [name, text] : before) EXPECT_NE(said_.find(name), std::string::npos) << said_;
 
@@ -144,7 +144,7 @@ TEST_F(Hunts, GoOnWhereTheyWereStoppedAndDoNotDependOnJobs) {
   hunt("one", "18", "1");
   hunt("two", "7", "2");
   hunt("two", "18", "2");
-  EXPECT_NE(said_.find("7 of 18 runs are there already"), std::string::npos) << said_;
+  EXPECT_NE(said_.find("7 of 18 runs are complete already"), std::string::npos) << said_;
   EXPECT_EQ(lines("one"), lines("two"));
   EXPECT_EQ(hunt("two", "18", "1"), hunt("one", "18", "1"));
   EXPECT_EQ(skein({"hunt", "towers", "--planner", "hover", "--out", folder() / "one"}), 2) << "another hunt";
@@ -167,7 +167,7 @@ TEST_F(Hunts, FlyUnderTheConditionsThatAreGiven) {
   ASSERT_EQ(digests.size(), 2U) << "eight cases, and one of the two is never flown with a chance of 1 in 128";
   for (const std::string& digest : digests["none"]) EXPECT_FALSE(digests["windy"].contains(digest));
   EXPECT_EQ(hunt("none,wind=breezy+odometry=breezy"), 0);
-  EXPECT_NE(said_.find("8 of 8 runs are there already"), std::string::npos) << said_;
+  EXPECT_NE(said_.find("8 of 8 runs are complete already"), std::string::npos) << said_;
   EXPECT_EQ(hunt("none"), 2) << "another hunt";
   EXPECT_EQ(hunt("none,wind=brezy"), 2);
   EXPECT_NE(said_.find("--conditions wind=brezy: there is no preset 'brezy' of conditions"), std::string::npos)
