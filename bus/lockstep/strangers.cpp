@@ -4,7 +4,7 @@ namespace skein::bus {
 
 namespace {
 
-/// Maximum number of writers that one program stores, so that very many participants cannot exhaust its memory.
+/// Maximum number of writers that one program remembers: many participants must not exhaust its memory.
 constexpr std::size_t kMaxWriters = 256;
 
 /// The ROS name of a DDS topic: "/x" for "rt/x".

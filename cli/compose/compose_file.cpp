@@ -29,7 +29,7 @@ using Texts = std::vector<std::string>;
 
 constexpr const char* kConfigInImage = "/usr/share/skein/config";
 constexpr const char* kResultsInContainer = "/results";
-constexpr const char* kHealthFile = "/tmp/alive";  ///< in a container
+constexpr const char* kHealthFile = "/tmp/alive";  ///< in a container; a program touches it while it works
 constexpr const char* kKeysInContainer = "/keys";
 constexpr const char* kBuildInContainer = "/opt/skein";
 constexpr const char* kParametersInContainer = "/planner.yaml";
@@ -38,7 +38,7 @@ constexpr const char* kViewInContainer = "/view";
 constexpr const char* kViewAlias = "page.view";
 constexpr int kViewPort = 8080;
 constexpr int kLease_s = 10;  ///< without a launcher, only leases tell which program died
-/// How long a container waits for the server before it ends, if the engine has restarted it after the run's end.
+/// A container that the engine restarts after the end of the run waits this long for a server, then ends.
 constexpr int kServerTimeout_s = 60;
 constexpr int kMostRestarts = 5;
 
@@ -182,8 +182,8 @@ class ComposeText {
     yaml_.key("retries").number(3).key("start_period").own("30s").end_map();
   }
 
-  /// Limits, node and restarts of a program. Programs are restarted after a crash or a drop, but not sim_server, with
-  /// which the run ends.
+  /// Limits, node and restarts of a program. The engine restarts a program that has failed, except sim_server: without
+  /// the server the run is over.
   void add_care(const std::string& program) {
     const bool agent = programs::is_agent(program), server = program == programs::kSimServer;
     const char* const memory = server ? "4g" : "1g";
@@ -317,7 +317,7 @@ class ComposeText {
       add_mount(yaml_, default_config_dir(), fs::path(kBuildInContainer) / "config");
     }
   }
-  /// In a stack, agents' files are sent to their nodes; the other programs run on a manager, which has the files.
+  /// In a stack, Docker sends agents' files to their nodes; the other programs run on a manager, which has the files.
   bool travels(const std::string& program) const { return layout_.stack && programs::is_agent(program); }
   void add_sent_files(const std::string& program) {
     if (travels(program)) sent_.add_configs(yaml_, files_of(plan_, program));
@@ -335,7 +335,7 @@ class ComposeText {
   void add_networks() {
     yaml_.key("networks").begin_map();
     for (const std::string& name : networks_.names()) {
-      // The bridge has no address, so that containers cannot reach the host by it.
+      // The bridge has no address, so containers cannot reach the host through it.
       yaml_.key(name).begin_map().key("internal").flag(true);
       if (layout_.stack) {
         yaml_.key("driver").own("overlay");
@@ -345,7 +345,7 @@ class ComposeText {
       add_next_subnet();
       yaml_.end_map();
     }
-    if (layout_.view) {  // browsers reach the station by it; the station cannot get out
+    if (layout_.view) {  // browsers reach the station through it; without masquerading, the station reaches nobody
       yaml_.key(kViewNetwork).begin_map();
       add_driver_option("com.docker.network.bridge.enable_ip_masquerade", "false");
       add_next_subnet();

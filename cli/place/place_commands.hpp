@@ -12,7 +12,7 @@ namespace skein::cli {
 
 /// A shell script with a part for each host, this one first, and at the end the commands that merge the results on this
 /// host. The programs fly without a launcher: each of Skein's programs runs under a keeper process that restarts it
-/// (--keep), and the server notices that a program has died when its DDS lease expires (--lease).
+/// after a SIGKILL (--keep), and the server notices a program's death when its DDS lease expires (--lease).
 std::string place_commands(const FleetPlan& plan, const std::vector<PlacedHost>& hosts);
 
 }  // namespace skein::cli

@@ -11,12 +11,12 @@ namespace skein {
 /// The limit of this process; nullopt: there is none.
 std::optional<std::uint64_t> open_files_limit();
 
-/// What a message about a failure should say besides if this limit was the cause, which the system's "Too many open
-/// files" does not: "; a process may have 20 open files (ulimit -n)...". Empty if another cause is told.
+/// A hint to append to the system's message if this limit caused a failure, because "Too many open files" does not name
+/// the limit: "; a process may have 20 open files (ulimit -n)...". Empty if `code` names another cause.
 std::string open_files_hint(const std::error_code& code);
 
-/// Open files of the server of a fleet over DDS, which joins all domains; no program has more. An estimate, rounded up,
-/// from measurements with both vendors and 5 UAVs.
+/// An estimate, rounded up, of the open files that a fleet's server needs over DDS. No program needs more, because the
+/// server joins all domains. From measurements with both vendors and 5 UAVs.
 constexpr std::uint64_t ample_open_files(std::uint64_t domains) { return 20 + 9 * domains; }
 
 }  // namespace skein

@@ -17,7 +17,7 @@ class Trails {
 
   explicit Trails(std::size_t uavs) : places_(uavs) {}
 
-  /// Call it with increasing ticks; positions before the next one is due are ignored.
+  /// Call it with increasing ticks. It ignores positions less than kPeriod after the last ones that it added.
   /// @returns whether positions were added.
   bool add(Tick tick, std::span<const UavView> uavs) {
     if (tick < due_) return false;

@@ -1,6 +1,7 @@
-// Making room: a UAV that rests moves away from another UAV that stands close to it. The other one may be held by it:
-// between a canopy and UAVs below, for example, the safety filter allows no motion that brings two UAVs nearer to each
-// other. Neither knows what the other wants, but both see how long the other has stood, so both can apply this rule.
+// Making room: a UAV that rests moves away from another UAV that stands close to it, because it may block that UAV. The
+// safety filter allows no motion that brings two UAVs nearer to each other: a UAV between a canopy and UAVs below it,
+// for example, cannot move. Neither UAV knows where the other wants to fly. But each sees for how long the other has
+// stood, so both can apply this rule.
 // Frame W.   Units: SI.   Threads: one.   Deterministic.
 #pragma once
 
@@ -20,8 +21,8 @@ class MakingRoom {
 
   /// Notes for how long the UAVs have stood. Call it once per exchange.
   void update(const PlannerInput& in);
-  /// Where this UAV (its centre) must move, straight from where it is; nullopt: no UAV in sight stands too close to it,
-  /// or not for long enough, or there is no better place near by. Call it while the UAV rests.
+  /// The place to which this UAV's centre should move in a straight line. Call it while the UAV rests.
+  /// @returns nullopt if no UAV in sight has stood too close for long enough, or if there is no better place near by.
   std::optional<Vector3d> place_W(const PlannerInput& in);
 
  private:

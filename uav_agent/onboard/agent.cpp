@@ -28,8 +28,8 @@ namespace {
 constexpr double kBodyMarginM = 0.3;  ///< margin around a known body
 constexpr double kGroundM = 0.3;      ///< hits of a LiDAR below this height are the ground
 constexpr double kScanAgeS = 0.1;     ///< a scan is at most this much older than the positions with it
-constexpr double kBodySigmas = 3.0;   ///< of the relative position, by which other UAVs' bodies are enlarged
-constexpr double kWaitBreak_s = 0.5;
+constexpr double kBodySigmas = 3.0;   ///< standard deviations of the relative position that enlarge a body
+constexpr double kWaitBreak_s = 0.5;  ///< a planner that waits again within this time has not stopped waiting
 
 WorldMap::Config world_map_config() {
   WorldMap::Config config;
@@ -91,7 +91,7 @@ struct Agent::Impl {
   Peers peers;
   OccupancyMap map;
   std::optional<BeamReader> beam_reader;      ///< if beams or the world map are wanted and there is a LiDAR
-  std::deque<Scan> scans_ahead;               ///< for whose ticks the odometry has not arrived yet
+  std::deque<Scan> scans_ahead;               ///< scans that are newer than the newest odometry
   std::vector<BeamScan> beam_scans;           ///< of this exchange
   std::unique_ptr<WorldMapper> world_mapper;  ///< if the world map is wanted and there is a LiDAR
   std::unique_ptr<WorldMap> world_map;        ///< if the world map is wanted and there is no LiDAR
@@ -110,7 +110,7 @@ struct Agent::Impl {
   OwnMotion own_motion;  ///< if there is no core
   ActivityTeller activity{config.fleet};
   std::optional<FreeSpace> space;        ///< PlannerInput::space of `taken_in`, if there is a core
-  std::optional<PlannerInput> taken_in;  ///< input of a step that has begun and not ended
+  std::optional<PlannerInput> taken_in;  ///< input of the current step, from look() or step() to the step's end
 };
 
 void Agent::Impl::wait_for(std::size_t mate, double now_s) {
@@ -124,7 +124,7 @@ void Agent::Impl::wait_for(std::size_t mate, double now_s) {
 std::vector<KnownBody> Agent::Impl::other_bodies(const PoseUncertainty& uncertainty) const {
   std::vector<KnownBody> bodies;
   for (const Peer& peer : peers.all()) {
-    // A UAV that was never seen is taken to stand at its start.
+    // A UAV that this UAV has never seen is assumed to be at its start.
     if (!peer.visible && peer.seen) continue;
     // Returns from another UAV must not become structure, which the map would never forget.
     const double off_m = kBodySigmas * relative_deviation_m(uncertainty, peer).maxCoeff();
@@ -160,8 +160,8 @@ void Agent::Impl::read_beams(const AgentInput& input) {
   }
 }
 
-/// Another UAV that did not know this UAV's position may have mapped its body as structure, and sent that. But this UAV
-/// knows that its own place is free; otherwise it could never leave that place.
+/// A UAV that did not know this UAV's position may have mapped this UAV's body as structure, and reported it by radio.
+/// But the place where this UAV is must be free; otherwise it could never leave that place.
 void Agent::Impl::clear_own_place(const Vector3d& p_W) {
   WorldMap& world = *known_world();
   if (world.structure_distance_m(p_W) > config.me().body_radius_m) return;
@@ -183,8 +183,8 @@ void Agent::Impl::perceive(const AgentInput& input) {
   if (!input.boxes.empty()) boxes = input.boxes;
   if (!input.key_frames.empty()) {
     const KnownBodies bodies(known_bodies(input));
-    // An isolated hit may be a UAV out of sight. But from afar it is all that a LiDAR finds of a thin member. Where one
-    // box holds a whole site, UAVs fly between members that were only seen from afar, so isolated hits are kept.
+    // An isolated hit may be on a UAV out of sight. But it may also be all that a distant LiDAR sees of a thin member.
+    // If one box contains a whole site, UAVs fly between members that LiDARs saw only from afar: then keep such hits.
     const bool keep_lone = std::any_of(boxes.begin(), boxes.end(), is_site_box);
     for (const KeyFrame& frame : input.key_frames) {
       auto sound_W = frames->filter(keep_lone).sound(frame.points_W, bodies);
