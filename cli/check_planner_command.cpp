@@ -10,8 +10,8 @@
 #include <memory>
 #include <sstream>
 
-#include "cli/actions.hpp"
 #include "cli/option_checks.hpp"
+#include "cli/run_command.hpp"
 #include "cli/study/flights.hpp"
 #include "core/planners/python_spec.hpp"
 #include "core/text/number_checks.hpp"

@@ -1,19 +1,19 @@
-// Parses a command line by the table of commands: parse_command_line() and with_command_line() of cli/options.hpp.
-// Commands read command lines of recorded runs with these functions, so cli/options.cpp must not include the table.
+#include "cli/command_parser.hpp"
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <functional>
 #include <optional>
 #include <utility>
 
-#include "cli/actions.hpp"
 #include "cli/command_table.hpp"
 #include "cli/help.hpp"
 #include "cli/option_checks.hpp"
-#include "cli/options.hpp"
 #include "cli/place/host_service.hpp"
+#include "cli/run_arguments.hpp"
+#include "cli/run_command.hpp"
 #include "cli/sweep/this_machine.hpp"
-#include "cli/tool_options.hpp"
+#include "cli/sweep_options.hpp"
 #include "core/text/suggestion.hpp"
 #include "core/text/text.hpp"
 #include "core/types.hpp"

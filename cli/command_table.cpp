@@ -2,26 +2,29 @@
 
 #include <memory>
 
-#include "cli/actions.hpp"
 #include "cli/attach_command.hpp"
 #include "cli/bench_command.hpp"
 #include "cli/blame_command.hpp"
 #include "cli/check_command.hpp"
 #include "cli/check_planner_command.hpp"
+#include "cli/compose_command.hpp"
 #include "cli/convert_command.hpp"
 #include "cli/diff_command.hpp"
 #include "cli/doctor_command.hpp"
 #include "cli/fleet_command.hpp"
 #include "cli/hunt/capsule_run.hpp"
+#include "cli/hunt_command.hpp"
+#include "cli/keys_command.hpp"
 #include "cli/merge_command.hpp"
 #include "cli/oracle_command.hpp"
 #include "cli/pack_command.hpp"
 #include "cli/replay_command.hpp"
 #include "cli/report_command.hpp"
 #include "cli/rerun_command.hpp"
+#include "cli/run_command.hpp"
 #include "cli/scene_command.hpp"
+#include "cli/study_command.hpp"
 #include "cli/test_command.hpp"
-#include "cli/tool_options.hpp"
 
 namespace skein::cli {
 namespace {

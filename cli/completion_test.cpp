@@ -11,7 +11,8 @@
 #include <sstream>
 #include <utility>
 
-#include "cli/options.hpp"
+#include "cli/command_parser.hpp"
+#include "cli/help.hpp"
 #include "tests/support/places.hpp"
 
 namespace skein::cli {

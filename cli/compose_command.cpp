@@ -1,4 +1,4 @@
-#include "cli/actions.hpp"
+#include "cli/compose_command.hpp"
 
 #include <spdlog/fmt/fmt.h>
 #include <unistd.h>
@@ -13,10 +13,10 @@
 #include "cli/compose/engine.hpp"
 #include "cli/compose/followers.hpp"
 #include "cli/compose/images.hpp"
+#include "cli/keys_command.hpp"
 #include "cli/option_checks.hpp"
 #include "cli/place/placement.hpp"
 #include "cli/run_results.hpp"
-#include "cli/secure/security.hpp"
 #include "host/preflight.hpp"
 #include "process/files/atomic_file.hpp"
 #include "process/files/private_file.hpp"
@@ -121,20 +121,6 @@ void check_no_containers_files(const fs::path& dir) {
     throw InputError(dir.string() + " holds '" + name +
                      "', a name that a run in containers uses for a file of its own; overwrite it with --force, or "
                      "choose another --out");
-  }
-}
-
-/// Writes one folder of keys for each program. @param give  passes a path on to the user of the containers.
-void write_keys(const FleetPlan& plan, int base_domain, const fs::path& folder,
-                const std::function<void(const fs::path&)>& give) {
-  for (const auto& [program, files] : security_of(plan, base_domain)) {
-    fs::create_directories(folder / program);
-    fs::permissions(folder / program, fs::perms::owner_all);
-    for (const auto& [name, text] : files) {
-      write_private_file(folder / program / name, text);
-      give(folder / program / name);
-    }
-    give(folder / program);
   }
 }
 
@@ -351,26 +337,6 @@ int compose_fleet(const ComposeOptions& options, const Console& console) {
     console.err << "once the fleet is up, open " << (folder / kViewDoor).string() << " in a browser (http://"
                 << layout.view->published.from_here().text() << "/)" << std::endl;
   }
-  return kExitDone;
-}
-
-int make_keys(const KeysOptions& options, const Console& console) {
-  RunOptions run = options.run;
-  run.secure = true;
-  const FleetPlan plan = plan_fleet(run, program_dir());
-  std::error_code error;
-  if (!fs::create_directories(options.out, error)) {
-    throw InputError("--out " + options.out.string() + ": " +
-                     (error ? error.message() : "is there already; keys are never overwritten"));
-  }
-  try {
-    write_keys(plan, run.domain.value_or(kComposeBaseDomain), options.out, [](const fs::path&) {});
-  } catch (...) {  // a full disk, say: a part of the keys must not pass for all of them
-    fs::remove_all(options.out, error);
-    throw;
-  }
-  console.out << "keys of " << domain_count(plan) + 1 << " programs in " << options.out.string()
-              << "; whoever has a folder is that program" << std::endl;
   return kExitDone;
 }
 

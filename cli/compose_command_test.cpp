@@ -1,6 +1,5 @@
 // `skein compose` and `skein keys`, with the real programs beside them.
-#include "cli/actions.hpp"
-#include "cli/options.hpp"
+#include "cli/command_parser.hpp"
 
 #include <gtest/gtest.h>
 #include <spdlog/fmt/fmt.h>
@@ -11,6 +10,9 @@
 #include <sstream>
 #include <system_error>
 
+#include "cli/compose_command.hpp"
+#include "cli/keys_command.hpp"
+#include "cli/merge_command.hpp"
 #include "host/preflight.hpp"
 #include "host/testing/fake_programs.hpp"
 #include "process/files/security_files.hpp"
@@ -360,6 +362,28 @@ TEST_F(ComposeUp, AContainerThatFailsIsNoEngineThatGoesAway) {
   EXPECT_NE(err_.str().find("exit code 12"), std::string::npos) << err_.str();
   EXPECT_EQ(err_.str().find("does not answer"), std::string::npos) << err_.str();
   EXPECT_EQ(err_.str().find("down --volumes"), std::string::npos) << err_.str();
+}
+
+TEST(Options, FleetsInContainersHaveTheFlightOptionsOfRun) {
+  const auto compose = parse_command_line({"compose", "cranes", "--planner", "kios", "--image", "jurong=mine",
+                                           "--image", "changi=mine", "--subnet", "10.1.0.0/20", "--file", "f"})
+                           .get<ComposeOptions>();
+  EXPECT_EQ(compose.run.scenario, "cranes");
+  EXPECT_EQ(compose.images, (std::vector<std::string>{"jurong=mine", "changi=mine"}));
+  EXPECT_EQ(
+      compose.run.command,
+      "skein compose cranes --planner kios --image jurong=mine --image changi=mine --subnet 10.1.0.0/20 --file f");
+  EXPECT_FALSE(compose.up);
+  EXPECT_THROW(parse_command_line({"compose", "--up", "--file", "f"}), InputError);
+  const auto keys = parse_command_line({"keys", "cranes", "--domain", "7", "--out", "o"}).get<KeysOptions>();
+  EXPECT_EQ(keys.run.domain, 7);
+  EXPECT_EQ(keys.out, "o");
+  const auto merge =
+      parse_command_line({"merge", "there", "--scenario", "s.yaml", "--assets", "data"}).get<MergeOptions>();
+  EXPECT_EQ(merge.dir, "there");
+  EXPECT_EQ(merge.scenario, "s.yaml");
+  EXPECT_EQ(merge.assets, "data");
+  EXPECT_THROW(parse_command_line({"merge"}), InputError) << "of what?";
 }
 
 }  // namespace

@@ -2,8 +2,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "cli/flight_options.hpp"
 #include "cli/option_checks.hpp"
-#include "cli/tool_options.hpp"
 #include "core/text/suggestion.hpp"
 #include "core/text/text.hpp"
 #include "core/types.hpp"

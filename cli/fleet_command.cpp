@@ -12,8 +12,8 @@
 #include <system_error>
 #include <vector>
 
+#include "cli/flight_options.hpp"
 #include "cli/option_checks.hpp"
-#include "cli/tool_options.hpp"
 #include "core/files/write_whole.hpp"
 #include "core/text/text.hpp"
 #include "core/types.hpp"
@@ -21,6 +21,7 @@
 #include "process/files/nowhere.hpp"
 #include "process/program.hpp"
 #include "run/fleet_plan.hpp"
+#include "run/run_options.hpp"
 
 namespace skein::cli {
 namespace {

@@ -1,10 +1,23 @@
 // What `skein` prints about itself: help, version, manual page, and tab completion.
 #pragma once
 
-#include "cli/command.hpp"
+#include <string>
+#include <vector>
+
 #include "cli/console.hpp"
 
 namespace skein::cli {
+
+/// --help or --version: what to print.
+struct HelpText {
+  std::string text;
+  bool names_planners = false;  ///< append a list of the available planners
+};
+
+/// --complete, which a shell calls for completion: the words up to the cursor.
+struct CompletionOptions {
+  std::vector<std::string> words;
+};
 
 /// --help and --version: prints the text, and on request the planners of the default agent program. If that program
 /// fails, its error takes the place of the list. @returns kExitDone

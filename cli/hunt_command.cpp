@@ -1,4 +1,4 @@
-#include "cli/actions.hpp"
+#include "cli/hunt_command.hpp"
 
 #include <spdlog/fmt/fmt.h>
 

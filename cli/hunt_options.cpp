@@ -1,9 +1,9 @@
-// The command line of `skein hunt`.
+#include "cli/hunt_options.hpp"
+
 #include <CLI/CLI.hpp>
 
 #include "cli/hunt/search.hpp"
 #include "cli/option_checks.hpp"
-#include "cli/tool_options.hpp"
 #include "core/text/number_checks.hpp"
 #include "core/text/text.hpp"
 #include "core/types.hpp"

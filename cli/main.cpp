@@ -7,10 +7,11 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "cli/command_parser.hpp"
 #include "cli/duration_variable.hpp"
+#include "cli/help.hpp"
 #include "cli/hunt/capsule_run.hpp"
 #include "cli/option_checks.hpp"
-#include "cli/options.hpp"
 #include "cli/standard_output.hpp"
 #include "core/types.hpp"
 #include "host/environment.hpp"
@@ -19,6 +20,7 @@
 #include "process/files/path_error.hpp"
 #include "process/host/open_files.hpp"
 #include "process/program.hpp"
+#include "run/run_options.hpp"
 
 namespace skein::cli {
 namespace {

@@ -6,9 +6,10 @@
 
 #include <fstream>
 
-#include "cli/options.hpp"
+#include "cli/command_parser.hpp"
 #include "core/types.hpp"
 #include "host/preflight.hpp"
+#include "run/run_options.hpp"
 
 namespace skein::cli {
 namespace {

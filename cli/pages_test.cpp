@@ -8,7 +8,8 @@
 #include <set>
 #include <sstream>
 
-#include "cli/options.hpp"
+#include "cli/command_parser.hpp"
+#include "cli/help.hpp"
 #include "core/text/text.hpp"
 #include "core/types.hpp"
 #include "tests/support/places.hpp"

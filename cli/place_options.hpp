@@ -1,7 +1,7 @@
 // The options of `skein run` that place programs on other hosts.
 #pragma once
 
-#include "cli/command.hpp"
+#include "run/run_options.hpp"
 
 namespace CLI {
 class App;

@@ -4,10 +4,11 @@
 #include <algorithm>
 #include <iostream>
 
-#include "cli/actions.hpp"
+#include "cli/command_parser.hpp"
+#include "cli/compose_options.hpp"
 #include "cli/hunt/capsule_run.hpp"
 #include "cli/option_checks.hpp"
-#include "cli/options.hpp"
+#include "cli/run_command.hpp"
 #include "core/faults/fault_plan.hpp"
 #include "core/scenario/scenario_reader.hpp"
 #include "core/text/suggestion.hpp"

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "cli/options.hpp"
+#include "run/run_options.hpp"
 
 namespace skein::cli {
 

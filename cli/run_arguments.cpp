@@ -1,9 +1,9 @@
-// A run's options as JSON for the process that flies it, and as words of a command line for people.
+#include "cli/run_arguments.hpp"
+
 #include <spdlog/fmt/fmt.h>
 
 #include <cstdlib>
 
-#include "cli/options.hpp"
 #include "core/text/text.hpp"
 #include "process/json_fields.hpp"
 

@@ -1,7 +1,9 @@
 // The options of a run as a command line, and as what the process of a flight gets.
+#include "cli/run_arguments.hpp"
+
 #include <gtest/gtest.h>
 
-#include "cli/options.hpp"
+#include "cli/command_parser.hpp"
 
 namespace skein::cli {
 namespace {

@@ -1,19 +1,25 @@
-#include "cli/actions.hpp"
+#include "cli/run_command.hpp"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <optional>
 #include <sstream>
 
+#include "cli/flight_options.hpp"
+#include "cli/option_checks.hpp"
 #include "cli/place/place_commands.hpp"
 #include "cli/place/placed_fleet.hpp"
+#include "cli/place_options.hpp"
 #include "cli/ros_environment.hpp"
 #include "cli/run_results.hpp"
 #include "cli/secure/security.hpp"
+#include "cli/view_options.hpp"
 #include "core/text/text.hpp"
 #include "debug/core_file.hpp"
 #include "host/domain_block.hpp"
 #include "host/environment.hpp"
 #include "host/preflight.hpp"
+#include "host/threads.hpp"
 #include "results/run_folder.hpp"
 #include "run/break_event.hpp"
 #include "run/fleet_plan.hpp"
@@ -123,7 +129,89 @@ void find_break(RunOptions& options, const Console& console) {
   console.err << member << ": " << *options.break_on << " at " << shortest(*options.break_at_s) << " s" << std::endl;
 }
 
+/// Refuses the options that need separate processes. @throws InputError
+void check_one_process(const RunOptions& run) {
+  if (!run.one_process) return;
+  const auto refuse = [](bool given, const std::string& option, const std::string& why) {
+    if (given) throw InputError(option + " needs processes: " + why + "; leave out --one-process");
+  };
+  refuse(!run.debug.empty(), "--debug", "the program that you debug is one of its own");
+  refuse(run.cores, "--cores", "there would be one core file for all programs");
+  refuse(run.domain.has_value(), "--domain", "a fleet in one process uses no DDS domain");
+  refuse(run.place.at.has_value(), "--place", "they run on several hosts");
+}
+
 }  // namespace
+
+void add_run(CLI::App& app, RunOptions& run) {
+  CLI::App* command = app.add_subcommand("run", "Fly a fleet through a scenario and write its results");
+  add_flight_options(command, run);
+  add_programs(*command, run);
+  command
+      ->add_flag("--one-process", run.one_process,
+                 "Run all programs in one process, without DDS: the same result in less time")
+      ->excludes("--dds");
+  command
+      ->add_option("--threads", run.threads,
+                   "Number of threads with --one-process; results do not depend on it (default: SKEIN_THREADS, else "
+                   "the available cores, at most one per UAV)")
+      ->needs("--one-process")
+      ->check(CLI::Range(1, kMostThreads));
+  command
+      ->add_option("--debug", run.debug,
+                   "Debug this program while the fleet waits: a UAV, gcs, sim_server, comm_router or station. TOOL: "
+                   "gdb, or pdb for a planner in Python, in this terminal; gdbserver:PORT; wait (until you attach a "
+                   "debugger); or a command that Skein puts before the program's command line (default: gdb; without a "
+                   "terminal, Skein prints a command for you to start)")
+      ->type_name("UAV[=TOOL]")
+      ->allow_extra_args(false)
+      ->excludes("--agent-timeout");  // with --debug the fleet waits until Ctrl-C, or until the debugged program ends
+  command
+      ->add_option("--break-at", run.break_at_s,
+                   "Stop the debugged programs in the exchange before this simulated time [s]")
+      ->check(CLI::Validator(check_seconds, ""))
+      ->needs("--debug");
+  command
+      ->add_option("--break-on", run.break_on,
+                   "Like --break-at, before this event first happens to the first UAV of --debug; to find the time, "
+                   "Skein flies the fleet once beforehand")
+      ->check(CLI::IsMember(std::vector<std::string>(kBreakEvents.begin(), kBreakEvents.end())))
+      ->needs("--debug")
+      ->excludes("--break-at");
+  command
+      ->add_option("--break-from", run.break_from,
+                   "Results folder of the same flight, in which Skein looks up the time instead of flying beforehand")
+      ->needs("--break-on");
+  command->add_flag("--cores", run.cores, "Keep the core file of a crashed program in the results folder");
+  command->add_option("--domain", run.domain, "First DDS domain of the fleet (default: the first free block)");
+  command
+      ->add_option(
+          "--ros-env", run.ros_env,
+          "Do not fly: print settings for a shell with this UAV's ROS 2 nodes, for eval. They are for the fleet that "
+          "flies now (select one of several by --out), or with --domain for a fleet that you start later")
+      ->type_name("UAV");
+  add_network(*command, run.network);
+  add_place_options(*command, run.place);
+  add_result_options(command, run);
+  add_view_options(*command, run.view);
+  command->footer(
+      "Examples:\n"
+      "  skein run towers --planner kios\n"
+      "  skein run cranes --planner patrol,jurong=hover --seed 7 --out runs/mine\n"
+      "  skein run towers --planner kios --faults config/faults/station_outage.yaml\n"
+      "  skein run towers --agent build/my_agent --planner orbit\n"
+      "  skein run towers --planner orbit@team_a/agent,jurong=kios@team_b/agent\n"
+      "  skein run towers --planner hover,jurong=exec:./my_program\n"
+      "  skein run towers --planner kios --debug jurong=gdb\n"
+      "  skein run towers --planner kios --view\n"
+      "  skein run towers --planner kios --place jurong=host1,raffles=host2");
+}
+
+void finish_run(RunOptions& run, const std::vector<std::string>& arguments) {
+  check_one_process(run);
+  check_view(run);
+  run.command = "skein " + shell_line(arguments);
+}
 
 int run_fleet(const RunOptions& options, const Console& console) { return fly_fleet(options, console).code; }
 

@@ -1,4 +1,3 @@
-#include "cli/actions.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,6 +6,7 @@
 #include <sstream>
 
 #include "cli/report_command.hpp"
+#include "cli/run_command.hpp"
 #include "core/types.hpp"
 #include "host/testing/fake_programs.hpp"
 #include "results/result.hpp"

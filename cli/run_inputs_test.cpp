@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <sstream>
 
-#include "cli/actions.hpp"
+#include "cli/run_command.hpp"
 #include "core/types.hpp"
 #include "host/testing/fake_programs.hpp"
 

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "cli/console.hpp"
-#include "cli/options.hpp"
 #include "results/result.hpp"
 #include "run/fleet_run.hpp"
+#include "run/run_options.hpp"
 
 namespace skein::cli {
 

@@ -8,8 +8,7 @@
 #include <memory>
 #include <utility>
 
-#include "cli/actions.hpp"
-#include "cli/options.hpp"
+#include "cli/command_parser.hpp"
 #include "cli/study/columns.hpp"
 #include "cli/study/conditions_table.hpp"
 #include "cli/study/csv.hpp"

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <sstream>
+
 #include "cli/study/flights.hpp"
 #include "cli/sweep/slurm.hpp"
 #include "cli/testing/study_commands.hpp"

@@ -3,7 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "cli/options.hpp"
+#include "cli/command_parser.hpp"
+#include "cli/compose_options.hpp"
 #include "cli/replay_command.hpp"
 #include "core/types.hpp"
 

@@ -3,6 +3,7 @@
 #include <sstream>
 
 #include "cli/bench/report.hpp"
+#include "cli/run_command.hpp"
 #include "host/preflight.hpp"
 #include "process/program.hpp"
 #include "results/run_folder.hpp"

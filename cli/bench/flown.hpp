@@ -4,8 +4,8 @@
 #include <iosfwd>
 #include <string>
 
-#include "cli/actions.hpp"
 #include "results/result.hpp"
+#include "run/run_options.hpp"
 
 namespace skein::cli {
 

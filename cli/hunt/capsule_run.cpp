@@ -3,9 +3,9 @@
 #include <set>
 #include <sstream>
 
-#include "cli/actions.hpp"
 #include "cli/fault_tests/fault_test.hpp"
 #include "cli/hunt/trial.hpp"
+#include "cli/run_command.hpp"
 #include "core/config/config_node.hpp"
 #include "core/text/text.hpp"
 #include "host/preflight.hpp"

@@ -1,9 +1,9 @@
 // `skein run CAPSULE`: flies a find of a hunt again (capsule_text() in plan.hpp), and evaluates its property.
 #pragma once
 
-#include "cli/command.hpp"
 #include "cli/console.hpp"
 #include "cli/fault_tests/fault_test.hpp"
+#include "run/run_options.hpp"
 
 namespace skein::cli {
 

@@ -10,6 +10,7 @@
 #include "process/files/atomic_file.hpp"
 #include "process/program.hpp"
 #include "run/results_dir.hpp"
+#include "run/run_options.hpp"
 #include "signals/judge.hpp"
 
 namespace skein::cli {

@@ -10,6 +10,7 @@
 #include "cli/fault_tests/fault_test.hpp"
 #include "cli/hunt/fault_maker.hpp"
 #include "cli/hunt/trial.hpp"
+#include "cli/hunt_options.hpp"
 #include "run/fleet_plan.hpp"
 #include "signals/properties/property_file.hpp"
 

@@ -13,6 +13,7 @@
 #include "host/machine.hpp"
 #include "host/preflight.hpp"
 #include "process/files/atomic_file.hpp"
+#include "run/run_options.hpp"
 
 namespace skein::cli {
 namespace {

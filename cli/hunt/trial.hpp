@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "cli/command.hpp"
 #include "cli/fault_tests/fault_test.hpp"
 #include "core/faults/fault_plan.hpp"
 #include "core/scenario.hpp"
 #include "host/program_host.hpp"
 #include "process/json_text.hpp"
+#include "run/run_options.hpp"
 #include "signals/properties/evaluation.hpp"
 #include "signals/properties/property_file.hpp"
 

@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "cli/options.hpp"
 #include "cli/study/flight_tables.hpp"
+#include "cli/study_options.hpp"
 #include "results/result.hpp"
 
 namespace skein::cli {

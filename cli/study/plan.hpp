@@ -7,8 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "cli/options.hpp"
+#include "cli/study_options.hpp"
 #include "results/result.hpp"
+#include "run/run_options.hpp"
 
 namespace skein::cli {
 

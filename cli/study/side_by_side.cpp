@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "cli/options.hpp"
+#include "cli/run_arguments.hpp"
 #include "host/threads.hpp"
 #include "process/host/environment.hpp"
 #include "process/program.hpp"

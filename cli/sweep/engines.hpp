@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "cli/command.hpp"
 #include "cli/console.hpp"
 #include "cli/sweep/engine.hpp"
 #include "cli/sweep/folder.hpp"
+#include "cli/sweep_options.hpp"
 
 namespace skein::cli {
 

@@ -6,8 +6,10 @@
 #include <cstdlib>
 #include <sstream>
 
-#include "cli/options.hpp"
+#include "cli/command_parser.hpp"
+#include "cli/study_options.hpp"
 #include "cli/sweep/engines.hpp"
+#include "cli/sweep_options.hpp"
 #include "core/types.hpp"
 #include "host/testing/fake_programs.hpp"
 #include "tests/support/scratch_folder.hpp"

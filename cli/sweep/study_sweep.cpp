@@ -7,12 +7,14 @@
 #include <ostream>
 
 #include "cli/study/figures_json.hpp"
+#include "cli/study_options.hpp"
 #include "cli/sweep/controller.hpp"
 #include "cli/sweep/engines.hpp"
 #include "cli/sweep/slurm.hpp"
 #include "cli/sweep/this_machine.hpp"
 #include "core/types.hpp"
 #include "host/machine.hpp"
+#include "run/run_options.hpp"
 
 namespace skein::cli {
 namespace {

@@ -10,6 +10,7 @@
 #include "cli/study/flights.hpp"
 #include "cli/study/made_under.hpp"
 #include "cli/study/side_by_side.hpp"
+#include "cli/sweep_options.hpp"
 #include "core/text/suggestion.hpp"
 #include "core/types.hpp"
 #include "host/machine.hpp"
@@ -18,6 +19,7 @@
 #include "process/program.hpp"
 #include "results/run_folder.hpp"
 #include "run/fleet_plan.hpp"
+#include "run/run_options.hpp"
 
 namespace skein::cli {
 namespace {

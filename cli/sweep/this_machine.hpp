@@ -1,9 +1,9 @@
 // The machine that this program runs on, as a node of a sweep: it flies each flight as a `skein run` of its own.
 #pragma once
 
-#include "cli/command.hpp"
 #include "cli/console.hpp"
 #include "cli/sweep/unit_run.hpp"
+#include "cli/sweep_options.hpp"
 
 namespace skein::cli {
 

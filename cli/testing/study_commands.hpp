@@ -6,25 +6,24 @@
 #include <sstream>
 #include <string>
 
-#include "cli/actions.hpp"
 #include "cli/study_command.hpp"
 #include "core/types.hpp"
 #include "host/testing/fake_programs.hpp"
 
 namespace skein::cli {
 
-/// In the place of `skein run`: notes that it was called, and leaves a result whose score is 10 times the seed, and
+/// In the place of the process of a flight: notes that it was called, and leaves a result whose score is 10 times the seed, and
 /// 1000 more for patrol.
 inline constexpr const char* kStudyFlight = R"(
-for argument; do
-  case $argument in
-    --out=*) out=${argument#--out=} ;;
-    --seed=*) seed=${argument#--seed=} ;;
-    --planner=*) planner=${argument#--planner=} ;;
-    --agent=*) agent=${argument##*/} ;;
-    --uavs=*) echo "${argument#--uavs=}" >> "$(dirname "$0")/uavs.txt" ;;
-  esac
-done
+[ "$1" = --flight ] || exit 2
+value() { printf %s "$2" | sed -n "s/.*\"$1\":\"\{0,1\}\([^\",}]*\).*/\1/p"; }
+out=$(value out "$2")
+seed=$(value seed "$2")
+planner=$(value planner "$2")
+agent=$(value agent "$2")
+agent=${agent##*/}
+uavs=$(value uavs "$2")
+[ -z "$uavs" ] || echo "$uavs" >> "$(dirname "$0")/uavs.txt"
 here=$(dirname "$0")
 echo "$planner $seed" >> "$here/flights.txt"
 echo "$agent" >> "$here/agents.txt"

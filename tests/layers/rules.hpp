@@ -62,7 +62,7 @@ Violations check_length(const Tree& tree, std::size_t most_lines = 400);
 
 /// A function that may be longer than others.
 struct LongFunction {
-  std::string path, name;  ///< "cli/options.cpp", "add_run"
+  std::string path, name;  ///< "cli/run_command.cpp", "add_run"
   std::string why;
 };
 /// The list of this project.

@@ -1,24 +1,12 @@
-// The command line of `skein`, read into plain structs. Nothing is opened or started here.
+// A run's options as JSON for the process that flies it, and as words of a command line for people.
 #pragma once
 
-#include <functional>
 #include <string>
 #include <vector>
 
-#include "cli/command.hpp"
-#include "cli/command_line.hpp"
-
-namespace CLI {
-class App;
-}
+#include "run/run_options.hpp"
 
 namespace skein::cli {
-
-/// @param arguments without the program's name. @throws InputError for anything that does not fit.
-Command parse_command_line(const std::vector<std::string>& arguments);
-
-/// Calls `use` with all commands and their options, before anything is parsed: for help texts and completion.
-void with_command_line(const std::function<void(const CLI::App&)>& use);
 
 /// The inverse of parse_command_line(), for people: the arguments of `skein` that repeat this run.
 std::vector<std::string> arguments_of(const RunOptions& run);

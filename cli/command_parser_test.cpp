@@ -1,9 +1,7 @@
-#include "cli/options.hpp"
+#include "cli/command_parser.hpp"
 
 #include <gtest/gtest.h>
 
-#include <any>
-#include <iterator>
 #include <set>
 #include <sstream>
 
@@ -11,9 +9,10 @@
 #include "cli/check_command.hpp"
 #include "cli/diff_command.hpp"
 #include "cli/doctor_command.hpp"
-#include "cli/merge_command.hpp"
+#include "cli/help.hpp"
 #include "cli/oracle_command.hpp"
 #include "cli/scene_command.hpp"
+#include "cli/study_options.hpp"
 #include "cli/test_command.hpp"
 #include "core/types.hpp"
 
@@ -105,26 +104,6 @@ TEST(Options, ADoctorIsToldWhoseFleetAndWhatToLookAt) {
                                                 {"doctor", "--network", ""}}) {
     EXPECT_THROW(parse_command_line(wrong), InputError) << wrong.back();
   }
-}
-
-TEST(Options, FleetsInContainersHaveTheFlightOptionsOfRun) {
-  const auto compose = parse<ComposeOptions>({"compose", "cranes", "--planner", "kios", "--image", "jurong=mine",
-                                              "--image", "changi=mine", "--subnet", "10.1.0.0/20", "--file", "f"});
-  EXPECT_EQ(compose.run.scenario, "cranes");
-  EXPECT_EQ(compose.images, (std::vector<std::string>{"jurong=mine", "changi=mine"}));
-  EXPECT_EQ(
-      compose.run.command,
-      "skein compose cranes --planner kios --image jurong=mine --image changi=mine --subnet 10.1.0.0/20 --file f");
-  EXPECT_FALSE(compose.up);
-  EXPECT_THROW(parse_command_line({"compose", "--up", "--file", "f"}), InputError);
-  const auto keys = parse<KeysOptions>({"keys", "cranes", "--domain", "7", "--out", "o"});
-  EXPECT_EQ(keys.run.domain, 7);
-  EXPECT_EQ(keys.out, "o");
-  const auto merge = parse<MergeOptions>({"merge", "there", "--scenario", "s.yaml", "--assets", "data"});
-  EXPECT_EQ(merge.dir, "there");
-  EXPECT_EQ(merge.scenario, "s.yaml");
-  EXPECT_EQ(merge.assets, "data");
-  EXPECT_THROW(parse_command_line({"merge"}), InputError) << "of what?";
 }
 
 // Each example of a command is one that it understands.
