@@ -1,4 +1,4 @@
-// `skein compose`.
+// `skein compose`: a fleet in containers.
 #pragma once
 
 #include "cli/compose_options.hpp"

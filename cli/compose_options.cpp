@@ -11,7 +11,7 @@ namespace skein::cli {
 void add_compose(CLI::App& app, ComposeOptions& compose) {
   CLI::App* command =
       app.add_subcommand("compose", "Write a docker-compose file for a fleet in containers, or fly this fleet");
-  add_flight_options(command, compose.run);
+  add_flight_options(*command, compose.run);
   CLI::Option* up = command->add_flag("--up", compose.up,
                                       "Start the containers, follow the run, and remove the containers at its end");
   command->add_option("--file", compose.file, "File to write (default: standard output)")->excludes(up);
@@ -39,7 +39,7 @@ void add_compose(CLI::App& app, ComposeOptions& compose) {
       ->allow_extra_args(false)
       ->excludes("--agent-timeout");
   command->add_option("--build-folder", compose.build, "Fly the programs of this build, not those of the images");
-  add_result_options(command, compose.run);
+  add_result_options(*command, compose.run);
   add_view_options(*command, compose.run.view);
   command->footer(
       "Examples:\n"

@@ -58,56 +58,53 @@ void add_mission(CLI::App& command, RunOptions& run, const std::string& faults_b
   command.add_option("--faults", run.faults, "Fault file (YAML): what goes wrong, and when" + faults_but);
 }
 
-/// The options of run, compose and keys that say what is flown, and how.
-void add_flight_options(CLI::App* command, RunOptions& run) {
-  command->add_option("SCENARIO", run.scenario, "A name under config/scenarios/ or a YAML file")->capture_default_str();
+void add_flight_options(CLI::App& command, RunOptions& run) {
+  command.add_option("SCENARIO", run.scenario, "A name under config/scenarios/ or a YAML file")->capture_default_str();
   command
-      ->add_option(
-          "--planner", run.planner,
-          "Planner of all UAVs, and UAV=NAME,... for single UAVs; NAME@AGENT: a planner of this agent program; "
-          "py:FILE: a planner in Python; exec:CMD: a program of yours; ros:PACKAGE/EXECUTABLE: a ROS 2 node")
+      .add_option("--planner", run.planner,
+                  "Planner of all UAVs, and UAV=NAME,... for single UAVs; NAME@AGENT: a planner of this agent program; "
+                  "py:FILE: a planner in Python; exec:CMD: a program of yours; ros:PACKAGE/EXECUTABLE: a ROS 2 node")
       ->capture_default_str();
   const CLI::Validator seed(check_seed, ""), seconds(check_seconds, "");
   command
-      ->add_option("--seed", run.seed,
-                   "Seed of the random effects; with 0, starts, command latency and LiDARs have none")
+      .add_option("--seed", run.seed,
+                  "Seed of the random effects; with 0, starts, command latency and LiDARs have none")
       ->check(seed)
       ->capture_default_str();
-  add_mission(*command, run);
-  command->add_option("--dds", run.dds, "DDS vendor: cyclonedds, fastdds or mixed")
+  add_mission(command, run);
+  command.add_option("--dds", run.dds, "DDS vendor: cyclonedds, fastdds or mixed")
       ->check(CLI::IsMember({"cyclonedds", "fastdds", "mixed"}))
       ->capture_default_str();
-  command->add_option("--clock", run.clock, "lockstep (repeatable), or realtime[:FACTOR]")
+  command.add_option("--clock", run.clock, "lockstep (repeatable), or realtime[:FACTOR]")
       ->check(CLI::Validator(check_clock, "CLOCK"))
       ->capture_default_str();
   command
-      ->add_option("--agent-timeout", run.agent_timeout_s,
-                   "Wall time to wait for a program's answer before it counts as lost [s] (default 60)")
+      .add_option("--agent-timeout", run.agent_timeout_s,
+                  "Wall time to wait for a program's answer before it counts as lost [s] (default 60)")
       ->check(CLI::Validator(check_timeout, ""));
   command
-      ->add_option(
+      .add_option(
           "--lease", run.lease_s,
           "Time of silence after which DDS counts a program as gone [s]; must be longer than any interruption of the "
           "network (default: 10 in containers and for programs that you start by hand; otherwise longer than any wait)")
       ->check(CLI::Range(1, kLongestLease_s));
-  command->add_flag("--secure", run.secure, "Enforce the isolation of agents: certificates, encryption, user ids");
-  command->add_option("--stop-at", run.stop_at_s, "End the run at this simulated time [s]")->check(seconds);
+  command.add_flag("--secure", run.secure, "Enforce the isolation of agents: certificates, encryption, user ids");
+  command.add_option("--stop-at", run.stop_at_s, "End the run at this simulated time [s]")->check(seconds);
 }
 
-/// The options of run and compose for the results.
-void add_result_options(CLI::App* command, RunOptions& run) {
-  command->add_option("--out", run.out,
-                      "Results folder (default runs/<scenario>-<planner>-<seed>, or with -2, -3... if that is taken)");
-  command->add_flag("--force", run.force, "Overwrite an existing result and other files that are in the way");
-  add_record(*command, run.record);
+void add_result_options(CLI::App& command, RunOptions& run) {
+  command.add_option("--out", run.out,
+                     "Results folder (default runs/<scenario>-<planner>-<seed>, or with -2, -3... if that is taken)");
+  command.add_flag("--force", run.force, "Overwrite an existing result and other files that are in the way");
+  add_record(command, run.record);
   const std::string keep_maps =
       "Keep each UAV's map over time for the replay, in maps-UAV.mcap: a snapshot every 10 s of simulated time, or "
       "with =SECONDS at this interval, from 1 to 3600";
-  command->add_flag("--keep-maps{10}", keep_maps)
+  command.add_flag("--keep-maps{10}", keep_maps)
       ->check(CLI::Validator(check_maps_period, ""))
       ->each([&run](const std::string& seconds) { run.keep_maps_s = parse_number(seconds); });
-  command->add_flag("--no-oracle{false}", run.attainable, "Do not compute the attainable score");
-  command->add_flag("--no-report{false}", run.report, "Do not write report.html");
+  command.add_flag("--no-oracle{false}", run.attainable, "Do not compute the attainable score");
+  command.add_flag("--no-report{false}", run.report, "Do not write report.html");
 }
 
 }  // namespace skein::cli

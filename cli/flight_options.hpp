@@ -1,4 +1,4 @@
-// The options of flights that several commands share.
+// The options of a flight that several commands share: run, compose, keys, fleet, studies and doctor.
 #pragma once
 
 #include <optional>
@@ -13,9 +13,9 @@ class App;
 namespace skein::cli {
 
 /// Adds the options of run, compose and keys that say what is flown, and how.
-void add_flight_options(CLI::App* command, RunOptions& run);
+void add_flight_options(CLI::App& command, RunOptions& run);
 /// Adds the options of run and compose for the results.
-void add_result_options(CLI::App* command, RunOptions& run);
+void add_result_options(CLI::App& command, RunOptions& run);
 /// Adds the options of run, compose, keys and fleet that change a scenario's mission: scene seed, UAVs, assets,
 /// duration, rules, conditions, faults.  @param faults_but  for the help: the faults that a fault file may not have
 void add_mission(CLI::App& command, RunOptions& run, const std::string& faults_but = "");

@@ -1,4 +1,4 @@
-// `skein hunt`.
+// `skein hunt`: a search for faults that break a property.
 #pragma once
 
 #include "cli/console.hpp"

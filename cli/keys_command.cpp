@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 void add_keys(CLI::App& app, KeysOptions& keys) {
   CLI::App* command = app.add_subcommand("keys", "Make the certificates and permissions of a secured fleet");
-  add_flight_options(command, keys.run);
+  add_flight_options(*command, keys.run);
   command->add_option("--domain", keys.run.domain, "First DDS domain (default 1)");
   command->add_option("--out", keys.out, "New folder, with a folder for each program")->required();
   command->footer("Example:\n  skein keys towers --out keys");

@@ -1,4 +1,4 @@
-// `skein keys`.
+// `skein keys`: makes the keys of a secured fleet. Writes files; one thread.
 #pragma once
 
 #include <filesystem>
@@ -13,9 +13,10 @@ class App;
 
 namespace skein::cli {
 
+/// `skein keys`: certificates and permissions of a secured fleet.
 struct KeysOptions {
-  RunOptions run;
-  std::filesystem::path out;
+  RunOptions run;             ///< the flight for which the keys are
+  std::filesystem::path out;  ///< new folder, with a folder for each program
 };
 
 /// Adds the command `keys`, whose options CLI11 parses into the second argument.
@@ -26,7 +27,8 @@ void add_keys(CLI::App& app, KeysOptions& keys);
 ///   written.
 int make_keys(const KeysOptions& options, const Console& console);
 
-/// Writes one folder of keys for each program. @param give  passes a path on to the user of the containers.
+/// Writes one folder of keys for each program. @param give  makes the user of the programs the owner of a path.
+/// @throws std::system_error when a file cannot be written.
 void write_keys(const FleetPlan& plan, int base_domain, const std::filesystem::path& folder,
                 const std::function<void(const std::filesystem::path&)>& give);
 

@@ -145,7 +145,7 @@ void check_one_process(const RunOptions& run) {
 
 void add_run(CLI::App& app, RunOptions& run) {
   CLI::App* command = app.add_subcommand("run", "Fly a fleet through a scenario and write its results");
-  add_flight_options(command, run);
+  add_flight_options(*command, run);
   add_programs(*command, run);
   command
       ->add_flag("--one-process", run.one_process,
@@ -192,7 +192,7 @@ void add_run(CLI::App& app, RunOptions& run) {
       ->type_name("UAV");
   add_network(*command, run.network);
   add_place_options(*command, run.place);
-  add_result_options(command, run);
+  add_result_options(*command, run);
   add_view_options(*command, run.view);
   command->footer(
       "Examples:\n"

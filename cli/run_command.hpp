@@ -1,4 +1,5 @@
-// `skein run`. Its options are in run/run_options.hpp.
+// `skein run`: one flight. The struct of its options is in run/run_options.hpp, because studies, hunts and repeated runs
+// fill it, too.
 #pragma once
 
 #include <filesystem>

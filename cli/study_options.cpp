@@ -7,7 +7,6 @@
 #include "core/text/number_checks.hpp"
 
 namespace skein::cli {
-
 namespace {
 
 /// Adds the options that `skein contest` and `skein compare` have in common.

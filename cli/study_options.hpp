@@ -47,7 +47,7 @@ struct StudyOptions {
   SweepOptions sweep;
 };
 
-// Each of these adds a sub-command, whose options CLI11 parses into the second argument.
+/// Each of these adds the command of its name, whose options CLI11 parses into the second argument.
 void add_contest(CLI::App& app, StudyOptions& contest);
 void add_compare(CLI::App& app, StudyOptions& study);
 

@@ -1,4 +1,5 @@
-// The options for flying a study or a hunt beyond one process.
+// The options with which an engine flies a study or a hunt on several processes or machines (cli/sweep/), and those of
+// the unit that an engine starts. Pure; any thread.
 #pragma once
 
 #include <cstddef>

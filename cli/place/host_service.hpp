@@ -9,8 +9,7 @@
 
 namespace skein::cli {
 
-/// This process starts a fleet's programs for a launcher on another host (cli/place/host_service.hpp).
-struct HostOptions {};
+struct HostOptions {};  ///< `skein --host` has no options
 
 /// Serves a launcher on descriptors 0 and 1. @returns the exit code.
 int serve_host();
