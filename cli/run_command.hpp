@@ -1,5 +1,5 @@
-// `skein run`: one flight. The struct of its options is in run/run_options.hpp, because studies, hunts and repeated runs
-// fill it, too.
+// `skein run`: one flight. The struct of its options is in run/run_options.hpp, because studies, hunts and repeated
+// runs fill it, too.
 #pragma once
 
 #include <filesystem>
@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cli/console.hpp"
+#include "process/program.hpp"  // exit codes
 #include "run/run_options.hpp"
 
 namespace CLI {
