@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cli/testing/study_commands.hpp"
+#include "process/program.hpp"
 
 namespace skein::cli {
 namespace {

@@ -24,6 +24,7 @@
 #include "host/domain_block.hpp"
 #include "host/preflight.hpp"
 #include "host/supervisor.hpp"
+#include "process/host/environment.hpp"
 #include "results/run_folder.hpp"
 #include "run/fleet_plan.hpp"
 
