@@ -49,11 +49,12 @@ bool is_page(const SourceFile& file) {
          (file.folder() == "docs" && file.path.ends_with(".md"));
 }
 
-/// Whether a path refers to this tree at all, and not to a user's or a run's files, whose folders have other names.
+/// Whether a path refers to this tree at all, and not to a user's or a run's files, whose folders have other names. A
+/// name without a folder on a page may be that of a reader's planner, but readers need no headers of their own.
 bool is_ours(const std::string& path, const Paths& paths, bool in_comment) {
-  static const std::regex kCpp(R"(.*\.[ch]pp)");
+  static const std::regex kCpp(R"(.*\.[ch]pp)"), kHeader(R"(.*\.hpp)");
   const std::size_t slash = path.find('/');
-  if (slash == std::string::npos) return in_comment && std::regex_match(path, kCpp);
+  if (slash == std::string::npos) return std::regex_match(path, in_comment ? kCpp : kHeader);
   return paths.has_folder(path.substr(0, slash)) || std::regex_match(path, kCpp);
 }
 

@@ -308,16 +308,18 @@ TEST_F(MadeUpTree, NamesOfFilesThatAreNotThereAreFound) {
   file("core/good.hpp",
        "// See docs/good.md, core/good.hpp (good.hpp), core/good.*, and what is in my_runs/result.json.\n");
   file("core/literal.cpp", "open(\"core/none.hpp\");  // and core/*.hpp, x.y.z\n");
-  file("docs/good.md", "`core/good.hpp` and mine/scenario.yaml\n```cpp orbit.cpp\n```\nSave it as `core/orbit.cpp`.\n");
+  file("docs/good.md",
+       "`core/good.hpp`, `good.hpp`, mine.cpp and mine/scenario.yaml\n```cpp orbit.cpp\n```\nSave it as "
+       "`core/orbit.cpp`.\n");
   file("sight/rays/fan.hpp", "// Used by rays/fan.hpp.\n");
   EXPECT_EQ(check_references(tree()), Violations{});
 
   file("core/bad.cpp", "// core/none.hpp\nint x;  // rays/good.hpp\n/* docs/none.md */ // gone.hpp\n// core/gone.*\n");
-  file("docs/bad.md", "\nsee `core/gone.hpp`, [this](docs/gone.md), core/orbit.cpp\n");
+  file("docs/bad.md", "\nsee `core/gone.hpp`, [this](docs/gone.md), core/orbit.cpp\nand `gone.hpp`\n");
   file("README.md", "config/x.yaml, docs/good.md, docs/x.json\n");
   EXPECT_EQ(places(check_references(tree())),
             (Places{"README.md:1", "core/bad.cpp:1", "core/bad.cpp:2", "core/bad.cpp:3", "core/bad.cpp:3",
-                    "core/bad.cpp:4", "docs/bad.md:2", "docs/bad.md:2", "docs/bad.md:2"}));
+                    "core/bad.cpp:4", "docs/bad.md:2", "docs/bad.md:2", "docs/bad.md:2", "docs/bad.md:3"}));
 }
 
 TEST_F(MadeUpTree, FilesOfARunAreNamedInOnePlace) {
