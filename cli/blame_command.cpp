@@ -196,8 +196,8 @@ void add_blame(CLI::App& app, BlameOptions& blame) {
                    "FROM UNTIL [s]: also fly without the messages of this time, one link after the other")
       ->expected(2);
   command->add_option("--out", blame.out,
-                      "Folder of the flights (default: a new one, blame in RUN or, of a capsule, runs/blame)");
-  command->add_flag("--force", blame.force, "Write to a folder that is not empty; flights there are replaced");
+                      "Folder of the flights (default: a new one: blame in RUN, or runs/blame for a capsule)");
+  command->add_flag("--force", blame.force, "Use a folder that is not empty, and replace the flights in it");
   command->footer(
       "Examples:\n"
       "  skein blame runs/towers-kios-0\n"

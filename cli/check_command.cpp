@@ -33,9 +33,10 @@ FileKind kind_of(const std::string& file) {
     const auto found = kTellingKeys.find(key);
     if (found != kTellingKeys.end()) return found->second;
   }
-  throw InputError(file + ":1: is of no known kind: a scenario has the keys 'scene' and 'fleet', a vehicle 'role', a " +
-                   "file for the waypoints planner 'paths', a fault file 'faults', a fault test 'run' too, a file "
-                   "of properties 'properties'");
+  throw InputError(
+      file + ":1: is a file of an unknown kind: a scenario has the keys 'scene' and 'fleet', a vehicle 'role', a " +
+      "file for the waypoints planner 'paths', a fault file 'faults', a fault test also 'run', a file "
+      "of properties 'properties'");
 }
 
 /// Lets the programs themselves check a plan, and prints their warnings.

@@ -267,8 +267,8 @@ class PlannerCheck {
 
 void add_check_planner(CLI::App& app, CheckPlannerOptions& check) {
   CLI::App* command = app.add_subcommand("check-planner",
-                                         "Check that a planner is repeatable: fly the same under other conditions of "
-                                         "the machine, and name the first difference");
+                                         "Check that a planner is repeatable: repeat flights under other conditions "
+                                         "of the machine, and name the first difference");
   constexpr double kShortMission_s = 40.0;
   const CLI::Validator seed(check_seed, ""), seconds(check_seconds, "");
   RunOptions& run = check.run;
@@ -285,7 +285,7 @@ void add_check_planner(CLI::App& app, CheckPlannerOptions& check) {
   command->add_option("--duration", run.duration_s, "Mission time [s]")->check(seconds)->capture_default_str();
   command->add_option("--seed", run.seed, "As for `skein run`")->check(seed)->capture_default_str();
   CLI::Option* out = command->add_option("--out", check.out, "Folder for the flights (default: Skein deletes them)");
-  command->add_flag("--force", check.force, "Write to a folder that is not empty; flights there are replaced")
+  command->add_flag("--force", check.force, "Use a folder that is not empty, and replace the flights in it")
       ->needs(out);
   command->footer(
       "Example:\n  skein check-planner orbit --agent build/my_agent\n\n"

@@ -54,8 +54,7 @@ ComposeLayout layout_of(const ComposeOptions& options) {
   }
   layout.stack = options.stack;
   if (options.stack && options.run.view.at) {
-    throw InputError(
-        "--stack and --view: a page of a fleet over several engines is not offered; leave out one of them");
+    throw InputError("--stack and --view: a fleet over several engines has no live page; leave out one of them");
   }
   if (options.stack && options.build) {
     throw InputError("--stack and --build-folder: other nodes have no such folder; leave out one of them");
@@ -257,7 +256,7 @@ void write_compose_file(const fs::path& path, const std::string& text, bool forc
   const bool holds_something = fs::is_regular_file(path, error) && !fs::is_empty(path, error);
   if (!force && holds_something && !is_compose_file(path)) {
     throw InputError("--file " + path.string() +
-                     ": is there already, and was not made by `skein compose`; overwrite it with --force, or choose "
+                     ": exists already, and `skein compose` did not write it; overwrite it with --force, or choose "
                      "another file");
   }
   replace_or_overwrite(behind_links(path), text);  // a link stays, and leads to the new file

@@ -92,7 +92,7 @@ TEST_F(ComposeCommand, OnlyAFileThatSkeinMadeIsReplacedWithoutForce) {
     compose_fleet(options, {out_, err_, false});
     ADD_FAILURE() << "replaced";
   } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("--file " + file.string() + ": is there already"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("--file " + file.string() + ": exists already"), std::string::npos);
     EXPECT_NE(std::string(error.what()).find("--force"), std::string::npos) << error.what();
   }
   EXPECT_EQ(read_text(file), "services: {}\n");

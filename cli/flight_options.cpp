@@ -38,8 +38,11 @@ void add_programs(CLI::App& command, RunOptions& run) {
       .add_option("--log", run.log,
                   "How much a program (UAV, gcs, sim_server, ...) logs: UAV=trace, debug, info, warn, error or off")
       ->allow_extra_args(false);
-  command.add_flag("--no-check{false}", run.check, "Do not ask the programs beforehand whether they can fly this");
-  command.add_flag("--native", run.native, "Let libm use this CPU's fastest code (the digest is then this CPU's own)");
+  command.add_flag(
+      "--no-check{false}", run.check,
+      "Skip the checks before the flight: whether the programs accept it and, with --place, the network works");
+  command.add_flag("--native", run.native,
+                   "Let libm use this CPU's fastest code (the digest then depends on the CPU model)");
 }
 
 void add_mission(CLI::App& command, RunOptions& run, const std::string& faults_but) {

@@ -194,12 +194,12 @@ class Hunt {
     }
     console_.out << '\n';
     if (const std::size_t none = not_flown(count); none > 0) {
-      console_.out << fmt::format("{} runs could not be flown, and say nothing: `skein run` refused them\n", none);
+      console_.out << fmt::format("{} runs do not count: `skein run` refused to fly them\n", none);
     }
     for (const Find& find : finds_.all()) {
       console_.out << "FIND " << find.name << ": " << find.property << ": " << find.told << '\n';
       for (const Fault& fault : find.trial.faults) console_.out << "     " << fault_line(fault) << '\n';
-      console_.out << fmt::format("     {} failures in all; {} flights and {:.0f} s to make it small{}\n",
+      console_.out << fmt::format("     {} failures in all; minimised with {} flights in {:.0f} s{}\n",
                                   finds_.counts().at(find.broke), find.flights, find.wall_s,
                                   find.over_dds ? "; the same over DDS" : "");
       console_.out << "     " << find.capsule.string() << '\n';

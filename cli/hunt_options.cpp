@@ -66,7 +66,7 @@ void add_hunt(CLI::App& app, HuntOptions& hunt) {
   command
       ->add_option("--round", hunt.round,
                    "Number of cases in a round, which can fly at the same time: Skein uses the results of a round only "
-                   "for later rounds, so another number gives another search")
+                   "for later rounds, so a different number gives a different search")
       ->check(CLI::Range(std::size_t{1}, HuntSearch::kMostLag))
       ->capture_default_str();
   add_sweep(*command, hunt.sweep);
@@ -88,7 +88,7 @@ void finish_hunt(HuntOptions& hunt, const std::vector<std::string>& arguments) {
   hunt.run.command = "skein " + shell_line(arguments);
   check_sweep(hunt.sweep);
   if (hunt.sweep.detach || hunt.sweep.status) {
-    throw InputError("--detach and --status are of studies: a hunt decides after each round what flies next");
+    throw InputError("--detach and --status are for studies only: a hunt decides after each round what flies next");
   }
   hunt.sweep.command = arguments;
 }

@@ -45,7 +45,7 @@ int make_keys(const KeysOptions& options, const Console& console) {
   std::error_code error;
   if (!fs::create_directories(options.out, error)) {
     throw InputError("--out " + options.out.string() + ": " +
-                     (error ? error.message() : "is there already; keys are never overwritten"));
+                     (error ? error.message() : "exists already; Skein never overwrites keys"));
   }
   try {
     write_keys(plan, run.domain.value_or(kComposeBaseDomain), options.out, [](const fs::path&) {});
@@ -54,7 +54,7 @@ int make_keys(const KeysOptions& options, const Console& console) {
     throw;
   }
   console.out << "keys of " << domain_count(plan) + 1 << " programs in " << options.out.string()
-              << "; whoever has a folder is that program" << std::endl;
+              << "; anyone who can read a program's folder can act as this program" << std::endl;
   return kExitDone;
 }
 

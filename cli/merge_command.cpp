@@ -49,7 +49,7 @@ Scenario scenario_of(const RunOptions& run) {
     return load_scenario(run.scenario, load);
   } catch (const InputError& error) {
     throw InputError(std::string(error.what()) +
-                     "\n(the server's report names this scenario; --scenario FILE tells another)");
+                     "\n(the server's report names this scenario; --scenario FILE names another)");
   }
 }
 
@@ -80,7 +80,7 @@ void settle(const char* program, const char* books, const RunOptions& run, const
   if (!damaged && fs::exists(report)) return;
   if (!fs::exists(dir / books)) return require_sound(dir, program);
   if (damaged)
-    err << report.string() << ": is damaged: it is no JSON object; it is made anew from " << books << std::endl;
+    err << report.string() << ": is damaged: it is no JSON object; Skein restores it from " << books << std::endl;
   std::vector<std::string> argv = {program_dir() / program,
                                    "--settle",
                                    "--scenario",
@@ -93,7 +93,7 @@ void settle(const char* program, const char* books, const RunOptions& run, const
   if (run.rules) argv.insert(argv.end(), {"--rules", *run.rules});
   run_to_end({program, argv, fleet_environment(false), dir / run_folder::log_file(program), true});
   if (!is_damaged(dir, program)) return;
-  throw InputError(report.string() + ": is damaged, and cannot be made anew from " + books + ": see " + program +
+  throw InputError(report.string() + ": is damaged, and Skein cannot restore it from " + books + ": see " + program +
                    ".log");
 }
 
@@ -108,7 +108,7 @@ Json launchers_facts(const fs::path& dir, std::ostream& err) try {
   }
   return facts;
 } catch (const InputError& damage) {
-  err << damage.what() << "; it is made anew" << std::endl;
+  err << damage.what() << "; Skein makes it again" << std::endl;
   return {};
 }
 

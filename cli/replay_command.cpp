@@ -90,7 +90,7 @@ bool check_export(const ReplayOptions& options) {
   }
   if (fs::is_directory(file) || (fs::exists(file) && !options.force)) {
     throw InputError("--export " + file.string() +
-                     (fs::is_directory(file) ? ": is a folder" : ": is there already; --force overwrites it"));
+                     (fs::is_directory(file) ? ": is a folder" : ": exists already; --force overwrites it"));
   }
   if (const std::string wrong = check_file_to_write(file); !wrong.empty()) throw InputError("--export: " + wrong);
   const fs::path folder = file.has_parent_path() ? file.parent_path() : ".";

@@ -121,7 +121,8 @@ Json fly_quietly(RunOptions options) {
 void find_break(RunOptions& options, const Console& console) {
   if (!options.break_on) return;
   const FleetPlan plan = plan_fleet(options, program_dir());
-  if (!options.break_from) console.err << "flying once to see when: --break-on " << *options.break_on << std::endl;
+  if (!options.break_from)
+    console.err << "flying once to find the time of --break-on " << *options.break_on << std::endl;
   const Json result = options.break_from ? result_of_same_flight(*options.break_from, plan) : fly_quietly(options);
   const std::string& member = plan.debug.front().member;
   options.break_at_s = event_time_s(result, member, *options.break_on);
@@ -135,7 +136,7 @@ void check_one_process(const RunOptions& run) {
   const auto refuse = [](bool given, const std::string& option, const std::string& why) {
     if (given) throw InputError(option + " needs processes: " + why + "; leave out --one-process");
   };
-  refuse(!run.debug.empty(), "--debug", "the program that you debug is one of its own");
+  refuse(!run.debug.empty(), "--debug", "the debugger needs a process with only this program");
   refuse(run.cores, "--cores", "there would be one core file for all programs");
   refuse(run.domain.has_value(), "--domain", "a fleet in one process uses no DDS domain");
   refuse(run.place.at.has_value(), "--place", "they run on several hosts");

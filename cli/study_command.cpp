@@ -53,7 +53,7 @@ void check_is_of_a_study(const fs::path& out) {
   const std::string first = foreign_entry(out);
   if (first.empty()) return;
   throw InputError("--out " + out.string() + ": '" + first +
-                   "' is there, and is of no study; choose another --out, or write there all the same with --force");
+                   "' exists and belongs to no study; choose another --out, or use this folder anyway with --force");
 }
 
 /// @throws InputError when the folder holds a study with other settings, unless --force is given.
@@ -62,17 +62,18 @@ void check_settings(const StudyPlan& plan) {
   if (plan.options.force || !fs::exists(plan.out / kSettings, error)) return;
   const Json then = read_json(plan.out / kSettings);
   if (!then.is_object()) {
-    throw InputError(
-        (plan.out / kSettings).string() +
-        ": damaged: no JSON; choose another --out, or go on there with --force: flights that fit are kept, and the "
-        "others are flown again in their place");
+    throw InputError((plan.out / kSettings).string() +
+                     ": is damaged: it is no JSON; choose another --out, or continue there with --force: flights that "
+                     "fit are kept, and the "
+                     "others are flown again in their place");
   }
   const std::vector<std::string> differences = differing_settings(then, plan.settings);
   if (differences.empty()) return;
   std::string text = plan.out.string() + " holds a study with other settings:";
   for (const std::string& difference : differences) text += "\n  " + difference;
   text +=
-      "\nNothing was changed. Choose another --out, or go on there with --force: flights that fit are kept, and the ";
+      "\nNothing was changed. Choose another --out, or continue there with --force: flights that fit are kept, and "
+      "the ";
   throw InputError(text + "others are flown again in their place.");
 }
 
@@ -190,7 +191,7 @@ void print_study(std::ostream& out, const Study& study) {
                          fixed(spread_of(points).median, 0), collisions);
     }
   }
-  out << "\nmedians over the seeds, and from the least to the greatest; collisions of all flights\n";
+  out << "\nmedians over the seeds, and the range from minimum to maximum; collisions: sum over all flights\n";
 }
 
 namespace {
@@ -207,7 +208,7 @@ int merge(const StudyPlan& plan, StudyOutcomes outcomes, const Console& console)
   const bool kept = print_requirements(console.out, study, requirements);
   console.out << "report: " << (plan.out / run_folder::kPage).string() << std::endl;
   if (interrupted) {
-    console.err << "interrupted; the same command goes on from here" << std::endl;
+    console.err << "interrupted; the same command continues from here" << std::endl;
     return kExitInterrupted;
   }
   if (study.any_problem()) return kExitProcessFailed;

@@ -199,7 +199,7 @@ TEST_F(StudyCommand, CtrlCStopsAndTheSameCommandGoesOn) {
   hook("if [ $seed = 2 ]; then kill -INT $PPID; trap 'exit 130' INT; for i in $(seq 1000); do sleep 0.01; done; fi\n");
   EXPECT_EQ(run(), kExitInterrupted);
   EXPECT_EQ(flown(), "hover 1\npatrol 1\nhover 2\n");
-  EXPECT_NE(err_.str().find("goes on from here"), std::string::npos) << err_.str();
+  EXPECT_NE(err_.str().find("continues from here"), std::string::npos) << err_.str();
   EXPECT_NE(file("report.html").find("<strong>2 of 6</strong>"), std::string::npos);
   hook("");
   EXPECT_EQ(run(), kExitDone);

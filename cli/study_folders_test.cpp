@@ -49,7 +49,7 @@ TEST_F(StudyCommand, ARefusedRepeatWithAPlannerMoreLeavesTheFolderAsItIs) {
   programs_.script("station", "# another build\n");
   const std::string message = refusal();
   for (const char* part : {"planners: then hover, patrol, now hover, patrol, kios", "the programs were built anew",
-                           "Nothing was changed. Choose another --out, or go on there with --force",
+                           "Nothing was changed. Choose another --out, or continue there with --force",
                            "and the others are flown again in their place"}) {
     EXPECT_NE(message.find(part), std::string::npos) << message;
   }
@@ -70,7 +70,7 @@ TEST_F(StudyCommand, AFolderOfARunIsNotTaken) {
 TEST_F(StudyCommand, AFolderOfOtherFilesIsLeftAsItIsUnlessForced) {
   const auto figures = *options_.out / "figures";
   fs::create_directories(figures);
-  EXPECT_NE(refusal().find("--out " + options_.out->string() + ": 'figures' is there, and is of no study"),
+  EXPECT_NE(refusal().find("--out " + options_.out->string() + ": 'figures' exists and belongs to no study"),
             std::string::npos)
       << refusal();
   write_text(figures / "mine.svg", "a drawing");

@@ -220,7 +220,7 @@ std::unique_ptr<ResultsDir> ResultsDir::take_for_flights(const std::optional<std
   const std::string first = force ? "" : foreign_entry(dir->path());
   if (first.empty()) return dir;
   throw InputError("--out " + dir->given().string() + ": '" + first +
-                   "' is there; choose another --out, or write there all the same with --force");
+                   "' exists already; choose another --out, or use this folder anyway with --force");
 }
 
 std::unique_ptr<ResultsDir> ResultsDir::take_free(const std::filesystem::path& base) {

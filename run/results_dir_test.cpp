@@ -223,7 +223,7 @@ TEST(ResultsDir, OfSeveralFlightsIsEmptyOrForced) {
     ADD_FAILURE() << "accepted";
   } catch (const InputError& error) {
     const std::string told = error.what();
-    EXPECT_NE(told.find(named.string() + ": 'as-it-was' is there"), std::string::npos) << told;
+    EXPECT_NE(told.find(named.string() + ": 'as-it-was' exists already"), std::string::npos) << told;
     EXPECT_NE(told.find("--force"), std::string::npos) << told;
   }
   EXPECT_EQ(std::distance(fs::directory_iterator(named), {}), 1);

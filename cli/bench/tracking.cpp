@@ -20,7 +20,7 @@ constexpr double kShare = 0.9999;  ///< of the samples, for which the bound must
 constexpr double kQuickMissionS = 120.0;
 constexpr int kSpeeds = 8, kAccelerations = 5;  ///< rows and columns of the table, 1 m/s and 1 m/s^2 wide
 
-/// The samples of one bin: at least this speed and acceleration of the set-point, at most this error.
+/// The samples of one bin: at least this speed and acceleration of the setpoint, at most this error.
 struct Sample {
   double speed_mps, acceleration_mps2, error_m;
   double count;
@@ -85,7 +85,7 @@ void print_rows(std::ostream& out, const results::TrackingTable& table, const st
 StudyOptions flights(const BenchOptions& options) {
   StudyOptions study;
   study.planner_lists = {"patrol,kios,xxh,star"};
-  study.seeds = options.quick ? "1" : "1-2";  // with start offsets, and some UAVs that hear an exchange late
+  study.seeds = options.quick ? "1" : "1-2";  // with start offsets, and some UAVs that take commands an exchange late
   study.scenarios = options.quick ? std::vector<std::string>{"towers"}
                                   : std::vector<std::string>{"towers", "hangar", "cranes", "spire", "sail"};
   if (options.assets) study.scenarios.insert(study.scenarios.end(), {"mbs", "crane"});
@@ -118,7 +118,7 @@ void print_tracking(std::ostream& out, const results::TrackingTable& table) {
   out << fmt::format("{:<14}{:>7}{:>8}{:>10}{:>8}{:>8}{:>8}{:>8}\n", "vehicle", "m/s", "m/s^2", "samples", "50 %",
                      "99 %", "99.99 %", "most");
   for (const std::string& vehicle : vehicles_in(table)) print_rows(out, table, vehicle);
-  out << "from so many m/s and m/s^2 of the set-point on; its distance from the UAV at the same time [m]\n\n";
+  out << "speed and acceleration of the setpoint, from these values on; quantiles of its distance from the UAV [m]\n\n";
   for (const std::string& vehicle : vehicles_in(table)) {
     for (const double share : {kShare, 1.0}) {
       const TrackingBound bound = fit_bound(table, vehicle, share);

@@ -1,5 +1,5 @@
-// `skein bench --tracking`: the distances of the bundled vehicles from their set-points, and a bound on this distance
-// that depends on speed and acceleration of the set-point. docs/flight-safety.md has the table.
+// `skein bench --tracking`: the distances of the bundled vehicles from their setpoints, and a bound on this distance
+// that depends on speed and acceleration of the setpoint. docs/flight-safety.md has the table.
 #pragma once
 
 #include <filesystem>
@@ -12,7 +12,7 @@
 
 namespace skein::cli {
 
-/// |error| <= c0 + c1 |v| + c2 |a|, with v and a of the set-point [m, m/s, m/s^2].
+/// |error| <= c0 + c1 |v| + c2 |a|, with v and a of the setpoint [m, m/s, m/s^2].
 struct TrackingBound {
   double c0_m = 0.0, c1_s = 0.0, c2_s2 = 0.0;
   double covered = 0.0;   ///< share of all samples for which the bound holds
@@ -33,7 +33,7 @@ TrackingBound fit_bound(const results::TrackingTable& table, const std::string& 
 void print_tracking(std::ostream& out, const results::TrackingTable& table);
 
 /// Flies `patrol`, `kios`, `xxh` and `star` in the five procedural scenarios (with --quick: in `towers` only), without
-/// faults; with --assets in `mbs` and `crane`, too. Writes to runs/bench-tracking, and keeps flights that these
+/// faults; with --assets in `mbs` and `crane`, too. Writes to runs/bench-tracking, and does not repeat flights that these
 /// programs have already flown. Takes about ten minutes, with --quick one. @returns as bench_planners().
 int bench_tracking(const BenchOptions& options, const Console& console);
 

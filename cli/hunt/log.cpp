@@ -42,12 +42,12 @@ const fs::path& folder_for_hunt(const fs::path& dir, bool force) {
   names.insert(names.end(), {HuntLog::kEarlier, "sweep", run_folder::kPage});
   for (const std::string& name : names) {
     if (!fs::exists(fs::symlink_status(dir / name, error))) continue;
-    throw InputError("--out " + dir.string() + ": '" + name + "' is there, and is of no hunt; choose another --out");
+    throw InputError("--out " + dir.string() + ": '" + name + "' exists and belongs to no hunt; choose another --out");
   }
   const std::string first = force ? "" : foreign_entry(dir);
   if (first.empty()) return dir;
   throw InputError("--out " + dir.string() + ": '" + first +
-                   "' is there, and is of no hunt; choose another --out, or write there all the same with --force");
+                   "' exists and belongs to no hunt; choose another --out, or use this folder anyway with --force");
 }
 
 /// The folder in kEarlier for the finds of an earlier hunt: the first number without finds. A launcher that was killed

@@ -189,14 +189,14 @@ TEST_F(HuntLogs, TakeNoFolderOfOtherFilesAndChangeNothingThere) {
   for (const std::string name : {"report.html", "log.jsonl", "finds", "flights", "earlier", "sweep"}) {
     write_text(dir_ / name, "mine");
     for (const bool force : {false, true}) {
-      EXPECT_NE(refusal(force).find("'" + name + "' is there, and is of no hunt"), std::string::npos) << name;
+      EXPECT_NE(refusal(force).find("'" + name + "' exists and belongs to no hunt"), std::string::npos) << name;
       EXPECT_EQ(read_text(dir_ / name), "mine");
     }
     fs::remove(dir_ / name);
   }
   for (const std::string name : {"result.json", "notes.txt", "study.json"}) {
     write_text(dir_ / name, "mine");
-    EXPECT_NE(refusal(false).find("'" + name + "' is there, and is of no hunt"), std::string::npos) << refusal(false);
+    EXPECT_NE(refusal(false).find("'" + name + "' exists and belongs to no hunt"), std::string::npos) << refusal(false);
     EXPECT_NE(refusal(false).find("--force"), std::string::npos) << refusal(false);
     EXPECT_EQ(std::distance(fs::directory_iterator(dir_), {}), 1) << "nothing is written";
     EXPECT_EQ(refusal(true), "");

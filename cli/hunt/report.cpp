@@ -13,8 +13,8 @@ namespace {
 using Outcome = properties::Verdict::Outcome;
 
 std::string record_text(const PropertyRecord& record) {
-  std::string text = "held in " + std::to_string(record.held) + " runs, said nothing of " +
-                     std::to_string(record.vacuous) + ", failed in " + std::to_string(record.failed);
+  std::string text = "held in " + std::to_string(record.held) + " runs, vacuous in " + std::to_string(record.vacuous) +
+                     ", failed in " + std::to_string(record.failed);
   if (record.least)
     text += "; least margin " + number_text(*record.least + 0.0) + " in case " + std::to_string(record.least_in);
   return text;

@@ -1,4 +1,4 @@
-// Finds are made small: what does not matter goes, what does stays, whatever is flown at once.
+// Finds are minimised: faults that do not matter go, and those that matter stay, however many flights fly at once.
 #include "cli/hunt/shrink.hpp"
 
 #include <gtest/gtest.h>

@@ -111,7 +111,7 @@ TEST_F(ContestTest, CtrlCEndsTheFlightInTheAirAndNothingIsLeft) {
   ASSERT_TRUE(eventually([&] { return is_flying(folder() / "out/flights/towers/patrol/seed-0"); })) << study.err();
   study.signal(SIGINT);
   EXPECT_EQ(study.wait().code, 130);
-  EXPECT_NE(study.err().find("goes on from here"), std::string::npos) << study.err();
+  EXPECT_NE(study.err().find("continues from here"), std::string::npos) << study.err();
   const Json result = Json::parse(file("out", "flights/towers/patrol/seed-0/result.json"));
   EXPECT_EQ(result["status"], "interrupted");
   const auto in_the_air = std::max(1U, std::thread::hardware_concurrency());

@@ -83,7 +83,7 @@ CountsByProperty counts_of_log(const std::vector<Json>& lines) {
 CountsByProperty counts_of_junit(const fs::path& file) {
   pugi::xml_document xml;
   EXPECT_TRUE(xml.load_file(file.c_str()));
-  static const std::regex numbers(R"(held in (\d+) runs, said nothing of (\d+), failed in (\d+))");
+  static const std::regex numbers(R"(held in (\d+) runs, vacuous in (\d+), failed in (\d+))");
   CountsByProperty counts;
   std::size_t failures = 0;
   const pugi::xml_node suite = xml.child("testsuites").child("testsuite");
@@ -247,7 +247,7 @@ TEST_F(HuntCommands, BlameAndCheckPlannerRefuseAFolderThatIsNotEmpty) {
   for (const Arguments& command : {Arguments{"blame", capsule}, Arguments{"check-planner", "hover"}}) {
     const Said said = call(joined(command, {"--out", folder() / "mine"}));
     EXPECT_EQ(said.code, 2) << said.err;
-    EXPECT_NE(said.err.find("'as-it-was' is there; choose another --out"), std::string::npos) << said.err;
+    EXPECT_NE(said.err.find("'as-it-was' exists already; choose another --out"), std::string::npos) << said.err;
     EXPECT_EQ(text_of(mine), "mine");
   }
 }
