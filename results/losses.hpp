@@ -9,7 +9,7 @@ namespace skein::results {
 
 /// Writes losses.csv into a run's folder. It has a line for each point that is attainable, and for each other point
 /// that scored: index, x, y, z (frame W, metres), estimate, score, cause, loss, then uav, capture, q_distance, q_tilt,
-/// q_blur and q of the picture that the cause is about (docs/results.md).
+/// q_blur and q of the picture to which the cause refers (docs/results.md).
 /// @param answer  the oracle's answer, with `estimate` and `flyable` for each point.
 /// @returns `losses` of result.json: `points` and `score` for each cause. Null, without writing a file, if the answer
 ///          or a required report is missing, or does not fit the scene.

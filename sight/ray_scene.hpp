@@ -1,7 +1,7 @@
 // Ray casting in the world: the first hit on a straight line, and the clearance from the structure. Uses Embree, and
 // RayFan for many rays from one point.
-// The world has the structure (triangles, double-sided), the ground plane z = 0, and the UAVs' bodies (boxes with rotor
-// discs).   Frames: W world, B body.   Units: SI.
+// The world consists of the structure (triangles, double-sided), the ground plane z = 0, and the UAVs' bodies (boxes
+// with rotor discs).   Frames: W world, B body.   Units: SI.
 //
 // The results are the same on every CPU. Embree uses one instruction set and one thread, and only determines which
 // triangle a ray hits. The distance is computed here, in double precision: Embree divides by approximate reciprocals,
@@ -101,7 +101,7 @@ class RayScene {
 
   /// Whether a triangle of the structure certainly blocks a segment: the segment crosses it well inside its edges, at
   /// most `distance_max` from the start [m]. Then a ray along the segment hits this triangle or something nearer. Much
-  /// cheaper than a ray, and often enough: the triangle that blocked a view a moment ago mostly still blocks it.
+  /// cheaper than a ray, and usually sufficient: the triangle that blocked a view a moment ago mostly still blocks it.
   /// @param triangle  as in Hit; kNoTriangle blocks nothing.
   bool surely_blocked_by(std::uint32_t triangle, const Vector3d& from_W, const Vector3d& to_W,
                          double distance_max) const;

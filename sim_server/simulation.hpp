@@ -101,7 +101,7 @@ class Simulation {
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
 
-  /// A set-point for a UAV. If several arrive within one exchange, the last one that is not refused counts. A command
+  /// A setpoint for a UAV. If several arrive within one exchange, the last one that is not refused counts. A command
   /// is refused, and listed in the next events().rejections, if a number is not finite or, with
   /// rules.reject_commands_beyond_limits, if it exceeds the vehicle's speed, acceleration or yaw rate. Commands to a
   /// dead UAV, or after the mission's end, are ignored silently.

@@ -61,9 +61,8 @@ Table surface_table(std::span<const SiteStudy> studies) {
 
 Table reach_table(std::span<const Reach> reaches, std::span<const Stop> stops) {
   std::string text =
-      "| member | hovering for 8 s: proved way, median and least [m] | speed [m/s] | hovering for 24 s [m] | speed "
-      "[m/s] "
-      "| flying at 2 m/s, ahead [m] | speed [m/s] |\n" +
+      "| member | hovering for 8 s: proved way, median and minimum [m] | speed [m/s] | hovering for 24 s [m] "
+      "| speed [m/s] | flying at 2 m/s, ahead [m] | speed [m/s] |\n" +
       ruled(7);
   for (const Reach& reach : reaches) {
     const auto cells = [&](double median_m, double least_m) {
@@ -81,7 +80,7 @@ Table reach_table(std::span<const Reach> reaches, std::span<const Stop> stops) {
 }
 
 Table cost_table(std::span<const SiteStudy> studies) {
-  std::string text = "| | after | CPU of the map [ms a simulated second] | memory [MB] |\n" + ruled(4);
+  std::string text = "| | after | CPU of the map [ms per simulated second] | memory [MB] |\n" + ruled(4);
   for (const SiteStudy& study : studies) {
     for (const Snapshot& snapshot : study.snapshots) {
       text +=
@@ -94,7 +93,7 @@ Table cost_table(std::span<const SiteStudy> studies) {
 
 Table message_table(std::span<const SiteStudy> studies) {
   std::string text =
-      "| | scans | points a scan | `cloud_inW` [bytes a scan]: mean, most | `lidar_servo` [bytes a scan] |\n" +
+      "| | scans | points per scan | `cloud_inW` [bytes per scan]: mean, maximum | `lidar_servo` [bytes per scan] |\n" +
       ruled(5);
   for (const SiteStudy& study : studies) {
     const Messages& messages = study.messages;
@@ -107,7 +106,8 @@ Table message_table(std::span<const SiteStudy> studies) {
 
 Table vendor_table(const nlohmann::json& vendors) {
   std::string text =
-      "| vendor | step without beams [ms] | step with beams [ms] | CPU without [ms a step] | CPU with [ms a step] |\n" +
+      "| vendor | step without beams [ms] | step with beams [ms] | CPU without [ms per step] "
+      "| CPU with [ms per step] |\n" +
       ruled(5);
   for (const nlohmann::json& one : vendors) {
     const auto figure = [&](const char* run, const char* what) { return one.at(run).at(what).get<double>(); };

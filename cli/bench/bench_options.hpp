@@ -21,7 +21,7 @@ struct BenchOptions {
   std::optional<std::filesystem::path> json;
   bool planners = false;                         ///< measure the scores of all planners, not the machine
   bool sensing = false;                          ///< measure only what an explorer's map knows of space
-  bool tracking = false;                         ///< measure only how far UAVs are from their set-points
+  bool tracking = false;                         ///< measure only how far UAVs are from their setpoints
   bool view = false;                             ///< measure only the cost of a page that follows a run
   bool python = false;                           ///< measure only the cost of planners in Python
   bool profile = false;                          ///< the cost of each stage and planner, by the size of the fleet

@@ -33,8 +33,8 @@ TrackingBound fit_bound(const results::TrackingTable& table, const std::string& 
 void print_tracking(std::ostream& out, const results::TrackingTable& table);
 
 /// Flies `patrol`, `kios`, `xxh` and `star` in the five procedural scenarios (with --quick: in `towers` only), without
-/// faults; with --assets in `mbs` and `crane`, too. Writes to runs/bench-tracking, and does not repeat flights that these
-/// programs have already flown. Takes about ten minutes, with --quick one. @returns as bench_planners().
+/// faults; with --assets in `mbs` and `crane`, too. Writes to runs/bench-tracking, and does not repeat flights that
+/// these programs have already flown. Takes about ten minutes, with --quick one. @returns as bench_planners().
 int bench_tracking(const BenchOptions& options, const Console& console);
 
 }  // namespace skein::cli

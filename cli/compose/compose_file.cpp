@@ -184,7 +184,7 @@ class ComposeText {
 
   /// Limits, node and restarts of a program. The engine restarts a program that has failed, except sim_server: without
   /// the server the run is over.
-  void add_care(const std::string& program) {
+  void add_limits(const std::string& program) {
     const bool agent = programs::is_agent(program), server = program == programs::kSimServer;
     const char* const memory = server ? "4g" : "1g";
     if (layout_.stack) {
@@ -217,7 +217,7 @@ class ComposeText {
         yaml_.own(fmt::format("${{{}:-{}}}", variable, usual));
       }
     }
-    add_care(program);
+    add_limits(program);
     yaml_.key("command").begin_list();
     if (!agent) yaml_.own(program);
     for (const std::string& argument : arguments_of(program)) yaml_.literal(argument);

@@ -62,9 +62,9 @@ std::vector<SignalInfo> make_table() {
              "those of the `acknowledged` captures whose report the station had received by the time the "
              "acknowledgement reached the UAV, and still has at the end of the run"),
       number("acknowledged_with_path", {uav}, 0, kPlainNumber, kAfterwards,
-             "those of the `acknowledged` captures for which report and acknowledgement could pass: after the UAV took "
-             "the capture, its link to the station was open, and later the link back, each time while sender, router "
-             "and receiver took part in the run"),
+             "those of the `acknowledged` captures whose report and acknowledgement had a path: some time after the "
+             "capture, the link from the UAV to the station was open, and after that the link back. A link counts as "
+             "open only while sender, router and receiver take part in the run"),
       number("lost", {uav}, 0, kPlainNumber, kAfterwards,
              "messages with capture reports that a link with a fault has lost, counted when the UAV sends the message"),
       number("late", {uav}, 0, kPlainNumber, kAfterwards,

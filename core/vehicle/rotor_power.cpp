@@ -12,8 +12,8 @@ double induced_velocity(double thrust_n, double disc_area_m2, double across_mps,
   if (thrust_n <= 0.0 || disc_area_m2 <= 0.0) return 0.0;
   const double hover2 = thrust_n / (2.0 * kAirDensity * disc_area_m2);
   const double climb = std::max(climb_mps, 0.0);
-  // v sqrt(V^2 + (V_c + v)^2) increases with v, so there is one root. The hover's velocity is not below it, and from
-  // above, Newton's method descends to it.
+  // v sqrt(V^2 + (V_c + v)^2) increases with v, so there is one root. The iteration begins with the induced velocity in
+  // hover, which is not below the root. From there Newton's method descends to the root and never passes it.
   double v = std::sqrt(hover2);
   constexpr int kSteps = 8;
   for (int i = 0; i < kSteps; ++i) {

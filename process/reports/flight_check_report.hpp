@@ -44,7 +44,7 @@ struct FlightCheckReport {
   Count exchanges = {};      ///< sum over all UAVs of the exchanges in flight
   Count braking_hits = {};   ///< exchanges in which the braking body would touch the structure
   Count braking_meets = {};  ///< pairs of bodies that would touch if both began to brake now
-  Count ways_meet = {};      ///< the same, wherever each body is on its braking trajectory
+  Count ways_meet = {};      ///< pairs whose braking trajectories touch, at whatever times
   std::optional<double> least_clearance_m = {}, least_braking_clearance_m = {};
   std::optional<double> least_separation_m = {}, least_braking_separation_m = {};
   TrackingReport tracking_error_m = {};

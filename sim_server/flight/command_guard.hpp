@@ -1,4 +1,4 @@
-// Keeps a UAV within its vehicle's limits, outside the control law: refuses set-points beyond the limits, and limits
+// Keeps a UAV within its vehicle's limits, outside the control law: refuses setpoints beyond the limits, and limits
 // the speed of flights to far positions. Frame: W.  Units: SI.
 // The contest's rules say that commands beyond the kinematic limits are ignored, but its code neither checks commands
 // nor limits speed. The rules' switches `reject_commands_beyond_limits` and `guard_position_commands` turn the two

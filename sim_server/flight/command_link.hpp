@@ -55,7 +55,7 @@ class CommandLink {
     return arrived;
   }
 
-  /// The set-point that arrived since the last call; nullopt: none, or the motors have not started yet.
+  /// The setpoint that arrived since the last call; nullopt: none, or the motors have not started yet.
   std::optional<TrajectoryCommand> take_trajectory(Tick tick) {
     if (!motors_start_ || tick < *motors_start_) return std::nullopt;
     return std::exchange(waiting_, std::nullopt);

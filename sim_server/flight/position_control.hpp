@@ -1,4 +1,4 @@
-// Trajectory controller of a multirotor, 20 Hz: computes tilt, yaw rate and thrust from a set-point.
+// Trajectory controller of a multirotor, 20 Hz: computes tilt, yaw rate and thrust from a setpoint.
 // Frames: W world (ENU), B body (FLU).  Units: SI, radians; age in physics ticks.
 // Source: golden vectors `position_control`. The reference has quirks (an integral without a time step; a target near
 // the world's origin means "none"), which this controller reproduces; docs/rules.md lists them.

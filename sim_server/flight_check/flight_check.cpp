@@ -8,7 +8,7 @@
 namespace skein::sim {
 namespace {
 
-constexpr double kNoPosition = 0.01;  ///< a set-point this near to the origin means "no position": docs/rules.md
+constexpr double kNoPosition = 0.01;  ///< a setpoint this near to the origin means "no position": docs/rules.md
 constexpr double kLookBeyondM = 2.0;  ///< extra search distance, so that the next exchanges need no search
 
 }  // namespace

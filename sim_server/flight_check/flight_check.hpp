@@ -29,7 +29,7 @@ struct CheckedUav {
   bool present = false;                                     ///< the UAV is alive
   bool flies = false;
   double delay_s = 0.0;                       ///< until a command that its software sends takes effect
-  std::optional<TrajectoryCommand> setpoint;  ///< set-point of the exchange: where the UAV should be now
+  std::optional<TrajectoryCommand> setpoint;  ///< setpoint of the exchange: where the UAV should be now
 };
 
 /// A braking body that touches something and did not touch it in the previous exchange.
@@ -45,7 +45,7 @@ class FlightCheck {
  public:
   static constexpr double kBrakingShare = 0.7;  ///< of a vehicle's maximum acceleration; the rest is for corrections
   static constexpr double kMostM = 10.0, kToleranceM = 0.01;
-  /// Set-points already climb before the motors start. For this time after takeoff a UAV still catches up with them,
+  /// Setpoints already climb before the motors start. For this time after takeoff a UAV still catches up with them,
   /// and its distance from them is no measure of its tracking.
   static constexpr double kCatchUpS = 5.0;
   static constexpr std::size_t kMostFindings = 20;

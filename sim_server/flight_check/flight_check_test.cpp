@@ -178,7 +178,7 @@ TEST(FlightCheck, WhoIsOutOrStandsOnTheGroundIsNoPilot) {
   EXPECT_EQ(other.braking_meets, 1U);
 }
 
-/// One set-point after the other, as a pilot has it.
+/// One setpoint after the other, as a pilot has it.
 using Pilot = std::function<TrajectoryCommand(double t)>;
 
 /// Climbs to z, then flies along a line from its start: as fast as it may, and brakes such that it stands at `end_m`.

@@ -1,4 +1,4 @@
-// A planner for tests: climbs by bare velocity set-points, then follows a path. It examines every scan, key frame and
+// A planner for tests: climbs by bare velocity setpoints, then follows a path. It examines every scan, key frame and
 // detection, and once a second logs as JSON what it has received so far.
 #include <spdlog/spdlog.h>
 

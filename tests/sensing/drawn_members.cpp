@@ -48,7 +48,7 @@ Tally sum(const std::vector<Tally>& by_distance) {
 }
 
 std::vector<Tally> merged(std::vector<Tally> by_distance) {
-  constexpr std::size_t kFewest = 8000;  // of so many, three unseen ones still give an upper bound below 1e-3
+  constexpr std::size_t kFewest = 8000;  // with fewer, three unseen members would put the upper bound above 1e-3
   for (std::size_t i = by_distance.size(); i-- > 1;) {
     if (by_distance[i].drawn >= kFewest) continue;
     by_distance[i - 1].add(by_distance[i]);

@@ -22,7 +22,7 @@ class MakingRoom {
   /// Notes for how long the UAVs have stood. Call it once per exchange.
   void update(const PlannerInput& in);
   /// The place to which this UAV's centre should move in a straight line. Call it while the UAV rests.
-  /// @returns nullopt if no UAV in sight has stood too close for long enough, or if there is no better place near by.
+  /// @returns nullopt if no UAV in sight has stood too close for long enough, or if there is no better place nearby.
   std::optional<Vector3d> place_W(const PlannerInput& in);
 
  private:

@@ -1,5 +1,5 @@
 // Builds a WorldMap from the scans of this UAV's LiDAR.
-// Frames: W world, B body.   Units: metres.   Threads: one.   Deterministic.
+// Frame: W world.   Units: metres.   Threads: one.   Deterministic.
 #pragma once
 
 #include "uav_agent/maps/clutter_filter.hpp"

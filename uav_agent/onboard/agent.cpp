@@ -27,7 +27,7 @@ namespace {
 
 constexpr double kBodyMarginM = 0.3;  ///< margin around a known body
 constexpr double kGroundM = 0.3;      ///< hits of a LiDAR below this height are the ground
-constexpr double kScanAgeS = 0.1;     ///< a scan is at most this much older than the positions with it
+constexpr double kScanAgeS = 0.1;     ///< a scan is at most this much older than the known positions of UAVs
 constexpr double kBodySigmas = 3.0;   ///< standard deviations of the relative position that enlarge a body
 constexpr double kWaitBreak_s = 0.5;  ///< a planner that waits again within this time has not stopped waiting
 

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kCellsAroundM = 12.0;  ///< margin of the cells around the boxes
 constexpr double kMarginM = 1.0;        ///< margin around a box that is surveyed with it
-constexpr int kEnoughLooks = 3;         ///< one per second; the LiDAR covers all directions within 4 s
+constexpr int kEnoughLooks = 3;         ///< one per second: most of the 4 s in which the LiDAR covers all directions
 constexpr int kMostVisits = 2;
 constexpr int kGroup = 3;  ///< cells along an edge of a group
 

@@ -28,7 +28,7 @@ struct XxhWord {
   std::uint8_t explored = 0;         ///< leader: number of sections that may be inspected
   bool acknowledged = false;         ///< the UAV knows that its own section may be inspected
   bool done = false;                 ///< the UAV is done with its section
-  std::vector<Vector3d> way_W = {};  ///< its set-point, and the next corners of its way
+  std::vector<Vector3d> way_W = {};  ///< its setpoint, and the next corners of its way
   Tick heard = 0;                    ///< when it was received
 };
 
