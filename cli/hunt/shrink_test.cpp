@@ -95,12 +95,12 @@ TEST_F(Shrinking, LeavesWhatMattersAndNothingElse) {
 
 TEST_F(Shrinking, LeavesTheConditionsThatItNeeds) {
   const auto outcome = [](const Trial& trial) {
-    TrialOutcome outcome;
-    TrialFinding& finding = outcome.findings.emplace_back();
+    TrialOutcome judged;
+    TrialFinding& finding = judged.findings.emplace_back();
     finding.property = "whole";
     const bool windy = trial.run.conditions && chosen_conditions(*trial.run.conditions, {}).wind.on();
     finding.outcome = windy ? properties::Verdict::Outcome::fails : properties::Verdict::Outcome::holds;
-    return outcome;
+    return judged;
   };
   for (const char* preset : {"breezy", "harsh"}) {
     Trial trial{{}, {{20.0, 30.0, Kill{"raffles"}}}};
