@@ -48,8 +48,7 @@ std::optional<BodyTrack::Pose> BodyTrack::at(Tick tick) const {
   const Vector3d& w = b.w_WB_B;
   const Vector3d turn_rate = w + 0.5 * turn.cross(w) + turn.cross(turn.cross(w)) / 12.0;
   const Quaterniond q_WB = a.q_WB * turned_by(hermite(s, h, Vector3d::Zero(), a.w_WB_B, turn, turn_rate));
-  // The curve's acceleration differs from the body's by at most twice the limit of accelerations.
-  const double part = 2.0 * h * h / 32.0;
+  const double part = h * h / 16.0;  // largest error per unit of acceleration: half-way between the messages
   return Pose{Eigen::Translation3d(p_WB) * q_WB, part * kMostAcceleration, part * kMostAngularAcceleration};
 }
 

@@ -24,8 +24,8 @@ class BodyTrack {
   void add(Tick tick, const RigidBodyState& state);
 
   /// Pose at a tick. Between two messages, the position is a cubic Hermite curve through the positions and velocities
-  /// at both; so is the rotation vector relative to the first attitude. The error is at most h^2 / 32 times the error
-  /// of the curve's second derivative: for h = 0.05 s and accelerations up to the limits below, 3.2 mm and 6.3 mrad.
+  /// at both; so is the rotation vector relative to the first attitude. With a time h between the messages, the error
+  /// is at most h^2 / 16 times the largest acceleration: for h = 0.05 s and the limits below, 3.2 mm and 6.3 mrad.
   /// Errors in flight are far smaller.
   /// @returns nullopt outside the messages' times, and in gaps longer than longest_gap.
   std::optional<Pose> at(Tick tick) const;
