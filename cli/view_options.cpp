@@ -46,7 +46,8 @@ void add_view_options(CLI::App& command, ViewOptions& view) {
       ->type_name("SECONDS")
       ->check(CLI::Validator(number_within(0.0, 1e6), ""))
       ->needs(watched);
-  command.add_flag("--view-close", view.close, "With --view: end the page when the run ends")->needs(watched);
+  command.add_flag("--view-close", view.close, "With --view: stop the server of the page when the run ends")
+      ->needs(watched);
   add_no_browser(command, view.browser);
 }
 

@@ -11,7 +11,7 @@ constexpr std::size_t kLongestFlyOrder = 500, kLongestUavName = 100;  ///< a bro
 constexpr const char *kFlyDo = "do", *kFlyWord = "fly", *kFlyUav = "uav", *kFlyVelocity = "velocity",
                      *kFlyYawRate = "yaw_rate", *kFlyGimbal = "gimbal";
 
-/// @returns whether `value` is a number within the bounds; if so, `number` gets it.
+/// Sets `number` to `value` if that is a number. @returns whether it is a number from -most to most.
 bool take_bounded(const Json& value, double most, double& number) {
   if (!value.is_number()) return false;
   number = value.get<double>();

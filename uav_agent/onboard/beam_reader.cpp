@@ -11,8 +11,9 @@ namespace skein::agent {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-/// Largest distance of a point from the line of its beam: directions and coordinates have single precision.
+/// Largest angle between a point and its beam because directions have single precision.
 constexpr double kRoundingRad = 1e-4;
+/// Largest error of a point, relative to its largest coordinate: coordinates have single precision.
 constexpr double kRoundingOfCoordinates = 4.0 * std::numeric_limits<float>::epsilon();
 /// Range noise moves a point along its beam, even beyond the LiDAR's range, by at most this many standard deviations.
 constexpr double kSigmas = 7.0;
@@ -76,7 +77,7 @@ std::optional<double> BeamReader::servo_angle(Tick scan, Tick tick) const {
   return fits ? std::optional(angle(tick)) : std::nullopt;
 }
 
-/// Enters the poses from which the columns were fired into the scan. @param end  becomes the LiDAR's pose at the end.
+/// Stores in the scan the poses from which its columns were fired. @param end  becomes the LiDAR's pose at the end.
 ScanDoubt BeamReader::place(BeamScan& scan, BodyTrack::Pose& end) const {
   const auto fire = [&](int first, Tick tick) {
     const std::optional<double> angle = servo_angle(scan.tick, tick);
@@ -106,7 +107,8 @@ std::optional<std::size_t> BeamReader::beam_of(const Vector3d& direction_L) cons
          static_cast<std::size_t>(column) % static_cast<std::size_t>(config_.columns);
 }
 
-/// Assigns each point to its beam. @returns false if a point lies on no beam, out of range, or out of order.
+/// Assigns each point to its beam. @returns false if a point lies on no beam or is out of range, or if points are out
+/// of order.
 bool BeamReader::assign(const Scan& scan, const BodyTrack::Pose& end, BeamScan& beams) const {
   const Isometry3d X_LW = end.X_WB.inverse();
   const double slack = kSigmas * config_.sigma_m + end.error_m;
