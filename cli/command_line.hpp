@@ -1,12 +1,20 @@
-// A command line of `skein` that has been parsed: the options of one command, and the function that executes it.
+// The command line of `skein`, read into plain structs, and the command that it names: its options, and the function that
+// executes it. Nothing is opened or started here. cli/command_parser.cpp, which knows all commands, parses it; it has no
+// header of its own, because commands read the command lines of recorded runs.
 #pragma once
 
 #include <any>
 #include <concepts>
 #include <functional>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "cli/console.hpp"
+
+namespace CLI {
+class App;
+}
 
 namespace skein::cli {
 
@@ -39,5 +47,11 @@ class Command {
   std::any options_;
   std::function<int(const std::any&, const Console&)> action_;
 };
+
+/// @param arguments without the program's name. @throws InputError for anything that does not fit.
+Command parse_command_line(const std::vector<std::string>& arguments);
+
+/// Calls `use` with all commands and their options, before anything is parsed: for help texts and completion.
+void with_command_line(const std::function<void(const CLI::App&)>& use);
 
 }  // namespace skein::cli

@@ -1,11 +1,11 @@
-#include "cli/command_parser.hpp"
-
+// Parses a command line by the table of commands: parse_command_line() and with_command_line() of cli/command_line.hpp.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <functional>
 #include <optional>
 #include <utility>
 
+#include "cli/command_line.hpp"
 #include "cli/command_table.hpp"
 #include "cli/help.hpp"
 #include "cli/option_checks.hpp"

@@ -1,4 +1,4 @@
-#include "cli/command_parser.hpp"
+#include "cli/command_line.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string_view>
 
-#include "cli/command_parser.hpp"
+#include "cli/command_line.hpp"
 #include "core/scenario/scenario_reader.hpp"
 #include "core/text/text.hpp"
 

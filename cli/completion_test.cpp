@@ -11,7 +11,7 @@
 #include <sstream>
 #include <utility>
 
-#include "cli/command_parser.hpp"
+#include "cli/command_line.hpp"
 #include "cli/help.hpp"
 #include "tests/support/places.hpp"
 

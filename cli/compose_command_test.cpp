@@ -1,5 +1,5 @@
 // `skein compose` and `skein keys`, with the real programs beside them.
-#include "cli/command_parser.hpp"
+#include "cli/command_line.hpp"
 
 #include <gtest/gtest.h>
 #include <spdlog/fmt/fmt.h>

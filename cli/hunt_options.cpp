@@ -2,7 +2,6 @@
 
 #include <CLI/CLI.hpp>
 
-#include "cli/hunt/search.hpp"
 #include "cli/option_checks.hpp"
 #include "core/text/number_checks.hpp"
 #include "core/text/text.hpp"
@@ -67,7 +66,7 @@ void add_hunt(CLI::App& app, HuntOptions& hunt) {
       ->add_option("--round", hunt.round,
                    "Number of cases in a round, which can fly at the same time: Skein uses the results of a round only "
                    "for later rounds, so a different number gives a different search")
-      ->check(CLI::Range(std::size_t{1}, HuntSearch::kMostLag))
+      ->check(CLI::Range(std::size_t{1}, kMostRound))
       ->capture_default_str();
   add_sweep(*command, hunt.sweep);
   command->add_option("--out", hunt.out, "Folder of the hunt and its finds (default runs/hunt-<scenario>-<planner>)");

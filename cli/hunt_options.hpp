@@ -17,6 +17,9 @@ class App;
 
 namespace skein::cli {
 
+/// The usual number of cases in a round, and the most that --round takes.
+inline constexpr std::size_t kUsualRound = 16, kMostRound = 10'000;
+
 /// `skein hunt`: a search for faults that break a property.
 struct HuntOptions {
   RunOptions run;                                   ///< the flight that the hunt varies
@@ -32,8 +35,9 @@ struct HuntOptions {
   bool first = false;       ///< end the search with the first find
   std::size_t shrink = 40;  ///< maximum number of flights spent on minimising a find
   std::optional<std::filesystem::path> out, junit;
-  bool force = false;      ///< start over in the folder of another hunt
-  std::size_t round = 16;  ///< number of cases that are drawn before the outcome of the first of them is evaluated
+  bool force = false;  ///< start over in the folder of another hunt
+  std::size_t round =
+      kUsualRound;  ///< number of cases that are drawn before the outcome of the first of them is evaluated
   SweepOptions sweep;
 };
 

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <system_error>
 
-#include "cli/command_parser.hpp"
+#include "cli/command_line.hpp"
 #include "cli/duration_variable.hpp"
 #include "cli/help.hpp"
 #include "cli/hunt/capsule_run.hpp"

@@ -6,7 +6,7 @@
 
 #include <fstream>
 
-#include "cli/command_parser.hpp"
+#include "cli/command_line.hpp"
 #include "core/types.hpp"
 #include "host/preflight.hpp"
 #include "run/run_options.hpp"

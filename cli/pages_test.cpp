@@ -8,7 +8,7 @@
 #include <set>
 #include <sstream>
 
-#include "cli/command_parser.hpp"
+#include "cli/command_line.hpp"
 #include "cli/help.hpp"
 #include "core/text/text.hpp"
 #include "core/types.hpp"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <iostream>
 
-#include "cli/command_parser.hpp"
+#include "cli/command_line.hpp"
 #include "cli/compose_options.hpp"
 #include "cli/hunt/capsule_run.hpp"
 #include "cli/option_checks.hpp"

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "cli/command_parser.hpp"
+#include "cli/command_line.hpp"
 
 namespace skein::cli {
 namespace {

@@ -8,7 +8,7 @@
 #include <memory>
 #include <utility>
 
-#include "cli/command_parser.hpp"
+#include "cli/command_line.hpp"
 #include "cli/study/columns.hpp"
 #include "cli/study/conditions_table.hpp"
 #include "cli/study/csv.hpp"

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "cli/command_parser.hpp"
+#include "cli/command_line.hpp"
 #include "cli/compose_options.hpp"
 #include "cli/replay_command.hpp"
 #include "core/types.hpp"

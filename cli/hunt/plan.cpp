@@ -4,7 +4,6 @@
 #include <cmath>
 #include <set>
 
-#include "cli/hunt/search.hpp"
 #include "cli/hunt/weather_faults.hpp"
 #include "core/conditions.hpp"
 #include "core/config/config_writer.hpp"
@@ -114,7 +113,7 @@ Json settings_of(const HuntPlan& plan) {
                 {"seed", plan.options.seed},       {"faults", plan.space.kinds},
                 {"properties", Json::object()},    {"programs", programs_digest(plan.fleet)}};
   // The usual number is left out, so that hunts of earlier versions can be continued.
-  if (plan.options.round != HuntSearch::kLag) settings["round"] = plan.options.round;
+  if (plan.options.round != kUsualRound) settings["round"] = plan.options.round;
   if (!plan.options.conditions.empty()) settings["conditions"] = plan.options.conditions;
   for (const auto& [name, entry] : plan.entries) {
     settings["properties"][name] = flow_text(ConfigWriter::node_of(entry).value_or(ConfigNode{}));

@@ -11,6 +11,7 @@
 
 #include "cli/hunt/fault_maker.hpp"
 #include "cli/hunt/trial.hpp"
+#include "cli/hunt_options.hpp"
 
 namespace skein::cli {
 
@@ -23,8 +24,8 @@ struct HuntCase {
 class HuntSearch {
  public:
   /// The usual lag: at most this many cases are fixed whose outcomes are not known yet.
-  static constexpr std::size_t kLag = 16;
-  static constexpr std::size_t kMostLag = 10'000;  ///< the most that `skein hunt --round` takes
+  static constexpr std::size_t kLag = kUsualRound;
+  static constexpr std::size_t kMostLag = kMostRound;
   /// Runs have seeds from 1 to this number.
   static constexpr std::uint64_t kRunSeeds = 4;
 

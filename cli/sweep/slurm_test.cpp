@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <sstream>
 
-#include "cli/command_parser.hpp"
+#include "cli/command_line.hpp"
 #include "cli/study_options.hpp"
 #include "cli/sweep/engines.hpp"
 #include "cli/sweep_options.hpp"
