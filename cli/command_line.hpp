@@ -1,6 +1,6 @@
-// The command line of `skein`, read into plain structs, and the command that it names: its options, and the function that
-// executes it. Nothing is opened or started here. cli/command_parser.cpp, which knows all commands, parses it; it has no
-// header of its own, because commands read the command lines of recorded runs.
+// The command line of `skein`, read into plain structs, and the command that it names: its options, and the function
+// that executes it. Nothing is opened or started here. cli/command_parser.cpp, which knows all commands, parses it; it
+// has no header of its own, because commands read the command lines of recorded runs.
 #pragma once
 
 #include <any>

@@ -35,9 +35,8 @@ struct HuntOptions {
   bool first = false;       ///< end the search with the first find
   std::size_t shrink = 40;  ///< maximum number of flights spent on minimising a find
   std::optional<std::filesystem::path> out, junit;
-  bool force = false;  ///< start over in the folder of another hunt
-  std::size_t round =
-      kUsualRound;  ///< number of cases that are drawn before the outcome of the first of them is evaluated
+  bool force = false;               ///< start over in the folder of another hunt
+  std::size_t round = kUsualRound;  ///< number of cases that are drawn before the first of them is evaluated
   SweepOptions sweep;
 };
 

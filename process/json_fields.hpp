@@ -14,8 +14,8 @@
 //
 // Reading never throws: a member whose key is missing, or has a value of another kind, keeps its default (an optional
 // with a value of another kind becomes empty). Members may be bool, numbers, strings, enums with names
-// (core/types.hpp), paths, such structs, Json (any object), and optionals, vectors, arrays and Named of these. Unfit elements
-// of a vector are left out.
+// (core/types.hpp), paths, such structs, Json (any object), and optionals, vectors, arrays and Named of these. Unfit
+// elements of a vector are left out.
 #pragma once
 
 #include <array>

@@ -12,8 +12,8 @@
 
 namespace skein::cli {
 
-/// In the place of the process of a flight: notes that it was called, and leaves a result whose score is 10 times the seed, and
-/// 1000 more for patrol.
+/// In the place of the process of a flight: notes that it was called, and leaves a result whose score is 10 times the
+/// seed, and 1000 more for patrol.
 inline constexpr const char* kStudyFlight = R"(
 [ "$1" = --flight ] || exit 2
 value() { printf %s "$2" | sed -n "s/.*\"$1\":\"\{0,1\}\([^\",}]*\).*/\1/p"; }

@@ -9,8 +9,8 @@ namespace skein::agent {
 
 /// A UAV that begins above this height was restarted in flight.
 inline constexpr double kBeginsInFlightM = 2.0;
-/// A UAV that sees flies at least at kCreepMps where little space ahead is proved free, which is examined in steps of at
-/// most kProvedStepM.
+/// A UAV that sees flies at least at kCreepMps where little space ahead is proved free, which is examined in steps of
+/// at most kProvedStepM.
 inline constexpr double kCreepMps = 0.5, kProvedStepM = 1.0;
 
 struct FlightConfig {

@@ -21,9 +21,9 @@ constexpr double kPeerBrakesMps2 = 2.0;
 constexpr double kPeerSmoothS = 0.4;
 /// For so long, a UAV that is told to brake may still accelerate: commands lag, and the UAV lags behind its commands.
 constexpr double kPeerLagS = kPeerDelayS + 0.5 * kPeerSmoothS;
-/// So much later than its commands say, a UAV may brake, and it may fly faster than they say: controllers overshoot. Two
-/// UAVs that speed up towards each other in the same exchange would otherwise both use up the same room. Chosen in drawn
-/// encounters with bodies that follow 0.2 and 0.25 s late (docs/flight-safety.md).
+/// So much later than its commands say, a UAV may brake, and it may fly faster than they say: controllers overshoot.
+/// Two UAVs that speed up towards each other in the same exchange would otherwise both use up the same room. Chosen in
+/// drawn encounters with bodies that follow 0.2 and 0.25 s late (docs/flight-safety.md).
 constexpr double kOwnLagS = 0.2;
 constexpr double kRestsMps = 0.2;
 constexpr double kFarM = 40.0;
