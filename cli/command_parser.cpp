@@ -59,13 +59,21 @@ Command help(std::string text, bool names_planners = false) {
   return {HelpText{std::move(text), names_planners}, print_help};
 }
 
+/// The flight of --flight JSON. @throws InputError also for a value that `skein run` would refuse
+Command flight_command(const std::vector<std::string>& words) {
+  if (words.size() != 1) throw InputError(std::string(kFlight) + " is for Skein's own commands: --flight JSON");
+  const RunOptions run = flight_of(words[0]);
+  parse_command_line(arguments_of(run));
+  return {run, run_fleet};
+}
+
 /// The commands that programs call, not users: --complete is for shells, --host for a launcher on another host, --unit
 /// for engines of sweeps, --flight for commands that fly many runs.
 std::optional<Command> internal_command(const std::vector<std::string>& arguments) {
   if (arguments.empty()) return {};
   const std::vector<std::string> rest(arguments.begin() + 1, arguments.end());
   if (arguments[0] == "--complete") return Command(CompletionOptions{rest}, print_completions);
-  if (arguments[0] == kFlight && rest.size() == 1) return Command(flight_of(rest[0]), run_fleet);
+  if (arguments[0] == kFlight) return flight_command(rest);
   if (arguments[0] == "--unit") return Command(unit_options(rest), run_unit);
   if (arguments[0] != "--host" || !rest.empty()) return {};
   return Command(HostOptions{}, [](const HostOptions&, const Console&) { return serve_host(); });

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "cli/command_line.hpp"
+#include "core/types.hpp"
 
 namespace skein::cli {
 namespace {
@@ -67,6 +68,50 @@ TEST(RunArguments, OfAFlightAreReadBackFromJson) {
   EXPECT_EQ(parse_command_line(flight_words(run)).get<RunOptions>().planner, run.planner);
   run.one_process = true;  // excludes --dds
   EXPECT_EQ(flight_of(flight_words(run).back()).command, parsed_again(run).command);
+}
+
+TEST(RunArguments, OfAFlightKeepWhateverIsInAPathOrNumber) {
+  RunOptions run = unusual_run();
+  run.scenario = "a \"quoted\"\n\\ näme'.yaml";
+  run.out = "{}, \"seed\":7/\t";
+  run.duration_s = 0.1 + 0.2;
+  run.stop_at_s = 1e-300;
+  const RunOptions flown = flight_of(flight_words(run).back());
+  EXPECT_EQ(flown.scenario, run.scenario);
+  EXPECT_EQ(flown.out, run.out);
+  EXPECT_EQ(flown.seed, run.seed);
+  EXPECT_EQ(flown.duration_s, run.duration_s);
+  EXPECT_EQ(flown.stop_at_s, run.stop_at_s);
+}
+
+TEST(RunArguments, OfAFlightAreRefusedIfTheyAreNoOptionsOfOne) {
+  const auto refusal = [](const std::vector<std::string>& words) -> std::string {
+    try {
+      parse_command_line(words);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  EXPECT_EQ(refusal({kFlight, "{}"}), "accepted");
+  EXPECT_EQ(refusal({kFlight, R"({"one-process": true, "dds": "fastdds"})"}),
+            R"(--flight: "dds": "fastdds" is of the wrong kind, or does not go with one-process)");
+  EXPECT_EQ(refusal({kFlight, R"({"sede": 3})"}), "--flight: a flight has no option 'sede'; did you mean 'seed'?");
+  for (const char* wrong : {R"("seed": "3")", R"("seed": -3)", R"("seed": 2.5)", R"("seed": null)", R"("out": 7)",
+                            R"("log": "a=info")", R"("log": [1])", R"("secure": "yes")", R"("uavs": 1e30)"}) {
+    const std::string said = refusal({kFlight, "{" + std::string(wrong) + "}"});
+    EXPECT_NE(said.find("is of the wrong kind"), std::string::npos) << said;
+  }
+  for (const char* value : {R"("dds": "rti")", R"("record": "some")", R"("clock": "never")", R"("duration": -1)",
+                            R"("scenario": "", "planner": "")"}) {
+    EXPECT_NE(refusal({kFlight, "{" + std::string(value) + "}"}), "accepted") << value;
+  }
+  for (const char* text : {"", "{", "[]", "3", "null", "{\"seed\": 1} x"}) {
+    EXPECT_NE(refusal({kFlight, text}).find("is for Skein's own commands"), std::string::npos) << text;
+  }
+  for (const std::vector<std::string>& words : {std::vector<std::string>{kFlight}, {kFlight, "{}", "{}"}}) {
+    EXPECT_NE(refusal(words).find("is for Skein's own commands"), std::string::npos);
+  }
 }
 
 }  // namespace
