@@ -124,7 +124,7 @@ void check_no_containers_files(const fs::path& dir) {
 }
 
 void check_before_flight(FleetPlan plan, const ComposeLayout& layout, const Console& console) {
-  check_launcher_open_files(plan);
+  allow_launcher_open_files(plan);
   std::vector<std::string> images;
   for (const auto& [variable, image] : layout.chosen) images.push_back(image);
   for (const auto& [member, image] : layout.images) images.push_back(image);

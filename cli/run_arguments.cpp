@@ -7,6 +7,7 @@
 
 #include "core/text/suggestion.hpp"
 #include "core/text/text.hpp"
+#include "core/text/utf8.hpp"
 #include "core/types.hpp"
 #include "process/json_fields.hpp"
 
@@ -62,7 +63,12 @@ std::vector<std::string> arguments_of(const RunOptions& run) {
   return arguments;
 }
 
-std::vector<std::string> flight_words(const RunOptions& run) { return {kFlight, json_text(json_of(run))}; }
+std::vector<std::string> flight_words(const RunOptions& run) try {
+  return {kFlight, json_of(run).dump()};
+} catch (const Json::exception&) {  // json_text() would replace bytes, and the flight go to another folder
+  throw InputError("this flight has names that are not in UTF-8; rename the file or folder: skein " +
+                   as_utf8(shell_line(arguments_of(run))));
+}
 
 RunOptions flight_of(const std::string& json) {
   const Json given = parse_json(json);

@@ -17,6 +17,7 @@ inline constexpr const char* kFlight = "--flight";
 inline constexpr const char* kNetworkVariable = "SKEIN_NETWORK";
 
 /// The arguments of `skein` that fly this run in a process of its own: kFlight, and the options as JSON.
+/// @throws InputError if a path or another text is not in UTF-8.
 std::vector<std::string> flight_words(const RunOptions& run);
 /// The options that flight_words() has written as JSON, with the command line that repeats the run as `command`.
 /// @throws InputError for text that is no such JSON: an unknown option, or a value of another kind. The values are not

@@ -82,6 +82,8 @@ TEST(RunArguments, OfAFlightKeepWhateverIsInAPathOrNumber) {
   EXPECT_EQ(flown.seed, run.seed);
   EXPECT_EQ(flown.duration_s, run.duration_s);
   EXPECT_EQ(flown.stop_at_s, run.stop_at_s);
+  run.out = "caf\xe9";
+  EXPECT_THROW(flight_words(run), InputError) << "JSON cannot have it as it is";
 }
 
 TEST(RunArguments, OfAFlightAreRefusedIfTheyAreNoOptionsOfOne) {

@@ -44,7 +44,7 @@ std::string check_results_dir_and_limits(const RunOptions& options, const FleetP
   const std::filesystem::path dir = results_dir_of(options, plan.scenario.name);
   check_inputs_outlast(plan, dir);
   ResultsDir::check(dir, options.force);
-  return check_open_files(plan);
+  return allow_open_files(plan);
 }
 
 /// @param domains  null: all programs in one process, without DDS.

@@ -29,12 +29,14 @@ Finding judge_open_files(const MachineFacts& machine, const FleetNeeds& needs) {
   const std::string found =
       fmt::format("{} a process; {} UAVs need about {}", *machine.open_files, needs.uavs, needs.open_files());
   if (*machine.open_files >= needs.open_files()) return fine(what, found);
-  const bool may_raise = !machine.most_open_files || *machine.most_open_files >= needs.open_files();
   const std::string number = std::to_string(needs.open_files());
+  if (!machine.most_open_files || *machine.most_open_files >= needs.open_files()) {
+    return fine(
+        what, found + "; a run raises the limit (before programs that you start by hand: `ulimit -n " + number + "`)");
+  }
   return failure(what, found,
-                 may_raise ? "`ulimit -n " + number + "` before the run; a container: --ulimit nofile=" + number
-                           : "as root raise nofile in /etc/security/limits.conf to " + number +
-                                 " and log in anew; a container: --ulimit nofile=" + number);
+                 "as root raise nofile in /etc/security/limits.conf to " + number +
+                     " and log in anew; a container: --ulimit nofile=" + number);
 }
 
 Finding judge_processes(const MachineFacts& machine, const FleetNeeds& needs) {

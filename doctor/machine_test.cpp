@@ -63,7 +63,8 @@ struct Lack {
 
 const std::vector<Lack>& lacks() {
   static const std::vector<Lack> kAll = {
-      {"open files", [](auto& m, auto& random, const auto& n) { m.open_files = random() % n.open_files(); }},
+      {"open files",
+       [](auto& m, auto& random, const auto& n) { m.open_files = m.most_open_files = random() % n.open_files(); }},
       {"processes", [](auto& m, auto& random, const auto& n) { m.processes = random() % n.threads(); }},
       {"processes", [](auto& m, auto& random, const auto& n) { m.kernel_processes = random() % n.threads(); }},
       {"processes", [](auto& m, auto& random, const auto& n) { m.cgroup.processes = random() % n.threads(); }},

@@ -41,8 +41,9 @@ std::uint64_t shared_process_files(const FleetPlan& plan) {
 std::string judge(const std::string& who, const OpenFilesNeed& need, std::uint64_t limit) {
   if (limit >= need.ample) return {};
   const std::string text = fmt::format(
-      "a process may have {} open files (ulimit -n), and {} needs about {}; raise the limit with `ulimit -n {}`, or as "
-      "root with nofile in /etc/security/limits.conf",
+      "a process may have {} open files (ulimit -n), and {} needs about {}; as root, raise the limit with `ulimit -n "
+      "{}`, "
+      "or with nofile in /etc/security/limits.conf",
       limit, who, need.ample, need.ample);
   if (limit < need.least) throw InputError(text);
   return text;
@@ -66,14 +67,16 @@ std::string check_open_files(const FleetPlan& plan, std::uint64_t limit) {
   return judge(fleet_text(plan), open_files_need(plan), limit);
 }
 
-std::string check_open_files(const FleetPlan& plan) {
+std::string allow_open_files(const FleetPlan& plan) {
+  raise_open_files_limit(open_files_need(plan).ample);
   const auto limit = open_files_limit();
   return limit ? check_open_files(plan, *limit) : std::string();
 }
 
-void check_launcher_open_files(const FleetPlan& plan) {
-  const auto limit = open_files_limit();
+void allow_launcher_open_files(const FleetPlan& plan) {
   const std::uint64_t need = launcher_files(plan);
+  raise_open_files_limit(need);
+  const auto limit = open_files_limit();
   if (limit) judge("the launcher of " + fleet_text(plan), {need, need}, *limit);
 }
 

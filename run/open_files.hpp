@@ -1,4 +1,4 @@
-// Whether the limit of open files (`ulimit -n`) allows a fleet.   Threads: any.
+// Lets a fleet have enough open files, if the limit (`ulimit -n`) can be raised so far.   Threads: any.
 #pragma once
 
 #include <cstdint>
@@ -20,12 +20,14 @@ OpenFilesNeed open_files_need(const FleetPlan& plan);
 /// @throws InputError that names the limit and the need when the fleet cannot start.
 std::string check_open_files(const FleetPlan& plan, std::uint64_t limit);
 
-/// The same with this process's limit, which the programs inherit. Of a fleet on several hosts (--place), it checks the
-/// programs on this host; the others need less.
-std::string check_open_files(const FleetPlan& plan);
+/// Raises this process's limit, which the programs inherit, to what the fleet needs, as far as the system permits, and
+/// checks it as above. Of a fleet on several hosts (--place), this is about the programs on this host; the others need
+/// less. The usual limit of 1024 is there for programs that call select(), which takes no greater descriptors. Of a
+/// fleet's programs, only those over Cyclone DDS call it, and they need fewer.
+std::string allow_open_files(const FleetPlan& plan);
 
-/// Checks this process's limit for the launcher alone, whose fleet flies in containers: their limits are the engine's.
+/// The same for the launcher alone, whose fleet flies in containers: their limits are the engine's.
 /// @throws InputError that names the limit and the need when the launcher cannot follow the fleet.
-void check_launcher_open_files(const FleetPlan& plan);
+void allow_launcher_open_files(const FleetPlan& plan);
 
 }  // namespace skein::cli

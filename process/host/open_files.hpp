@@ -10,6 +10,9 @@ namespace skein {
 
 /// The limit of this process; nullopt: there is none.
 std::optional<std::uint64_t> open_files_limit();
+/// Raises the limit of this process, which its children inherit, to `files`, or as far as the system permits (the hard
+/// limit). Never lowers it.
+void raise_open_files_limit(std::uint64_t files);
 
 /// A hint to append to the system's message if this limit caused a failure, because "Too many open files" does not name
 /// the limit: "; a process may have 20 open files (ulimit -n)...". Empty if `code` names another cause.

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cerrno>
+#include <string>
 
 #include "tests/support/limited_files.hpp"
 
@@ -18,6 +19,20 @@ TEST(OpenFiles, AFailureForWantOfThemTellsTheLimit) {
   for (const int other : {0, ENOENT, ENFILE, EACCES}) {
     EXPECT_EQ(open_files_hint({other, std::generic_category()}), "") << other;
   }
+}
+
+TEST(OpenFiles, TheLimitIsRaisedAsFarAsTheSystemPermits) {
+  const LimitedOpenFiles low(64);
+  raise_open_files_limit(32);
+  EXPECT_EQ(open_files_limit(), 64U) << "never lowered";
+  raise_open_files_limit(100);
+  EXPECT_EQ(open_files_limit(), 100U);
+  EXPECT_EQ(done_with_open_files(80,
+                                 [] {
+                                   raise_open_files_limit(100);
+                                   return std::to_string(open_files_limit().value_or(0));
+                                 }),
+            "80");
 }
 
 }  // namespace
