@@ -112,7 +112,7 @@ void SweepController::fly_a_reference(const SweepPlan& plan) {
 
 void SweepController::look() {
   const auto settings = folder_.settings();
-  if (!settings) throw InputError(folder_.dir().string() + " holds no sweep");
+  if (!settings) throw InputError(folder_.why_no_settings());
   settings_ = *settings;
 }
 

@@ -10,6 +10,7 @@
 
 #include "cli/sweep/testing/made_up_nodes.hpp"
 #include "cli/sweep/unit_run.hpp"
+#include "core/types.hpp"
 #include "results/result_file.hpp"
 #include "tests/support/test_program.hpp"
 
@@ -360,6 +361,23 @@ TEST(SweepController, AResultWithAWrongChecksumIsNamedAndCountsAsNone) {
   std::ostringstream said;
   EXPECT_FALSE(row_in_place(folder, flight, node, &said));
   EXPECT_NE(said.str().find(result.string() + ": is damaged"), std::string::npos) << said.str();
+}
+
+TEST(SweepController, ASweepOfAnotherVersionIsNamedAndItsFlightsStay) {
+  Sweep sweep(8, 4, 2, {{"one"}});
+  ASSERT_TRUE(sweep.control());
+  const fs::path settings = sweep.world.folder().dir() / "sweep.json";
+  std::ofstream(settings) << R"({"format": 1, "token": "t", "reference": {"index": 0, "dir": "d", "arguments": []}})";
+  try {
+    sweep.rows();
+    ADD_FAILURE() << "looked at";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("a sweep of another version of Skein: "), std::string::npos);
+  }
+  const ino_t flown = inode(sweep.world.flight(2).dir);
+  ASSERT_TRUE(sweep.control());
+  sweep.expect_all(4);
+  EXPECT_EQ(inode(sweep.world.flight(2).dir), flown) << "it was flown again";
 }
 
 TEST(Sweep, OneFlightInAHundredIsCheckedWhateverTheOrder) {

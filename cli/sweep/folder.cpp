@@ -128,6 +128,15 @@ std::optional<SweepSettings> SweepFolder::settings() const {
   return settings;
 }
 
+std::string SweepFolder::why_no_settings() const {
+  if (value_or(read_json(dir_ / kSettings), "format", nullptr).is_null()) {
+    return dir_.string() + " holds no sweep, as a study has that was flown with --executor";
+  }
+  return dir_.string() +
+         " holds a sweep of another version of Skein: go on with that one, or repeat the command of the study with "
+         "--force, which keeps the flights that fit";
+}
+
 void SweepFolder::begin(const SweepSettings& settings, bool nodes_stay,
                         const std::function<SweepUnit(std::size_t number)>& unit) const {
   step();

@@ -87,6 +87,8 @@ class SweepFolder {
 
   /// nullopt: there is no sweep, or sweep.json has another format. @throws InputError when it is damaged.
   std::optional<SweepSettings> settings() const;
+  /// Why settings() returned nullopt, for people.
+  std::string why_no_settings() const;
   /// Begins a sweep, and deletes the files of an earlier one. The results folders of its flights stay.
   /// @param nodes_stay  keep nodes/ and quarantine/, since the reference flight is the same. @param unit  gives a unit
   void begin(const SweepSettings& settings, bool nodes_stay,

@@ -162,8 +162,9 @@ StudyOutcomes tell_sweep(const StudyPlan& plan, const Console& console) {
 }
 
 std::vector<std::string> enter_sweep(const fs::path& study) {
-  const auto settings = SweepFolder(fs::absolute(study)).settings();
-  if (!settings) throw InputError("--status " + study.string() + ": there is no study that was flown with --executor");
+  const SweepFolder folder(fs::absolute(study));
+  const auto settings = folder.settings();
+  if (!settings) throw InputError("--status " + study.string() + ": " + folder.why_no_settings());
   fs::current_path(settings->working_folder);
   return settings->command;
 }

@@ -18,7 +18,7 @@ class UnitRun {
   UnitRun(const SweepFolder& folder, std::size_t number, const SweepNode& node, std::ostream& say)
       : folder_(folder), number_(number), node_(node), say_(say) {
     const auto settings = folder.settings();
-    if (!settings) throw InputError(folder.dir().string() + " holds no sweep");
+    if (!settings) throw InputError(folder.why_no_settings());
     settings_ = *settings;
     unit_ = folder.unit(number);
   }
