@@ -335,7 +335,7 @@ TEST(SweepController, FinishedUnitsAreReadAgainAndWhatIsDamagedIsFlownAgain) {
     for (std::size_t i = 0; i < flights; ++i) before[i] = inode(sweep.world.flight(i).dir);
     ASSERT_TRUE(sweep.control());
     sweep.expect_all(flights);
-    EXPECT_EQ(sweep.said.str().find("flown again") != std::string::npos, !named.empty()) << sweep.said.str();
+    EXPECT_EQ(sweep.said.str().find("this flight again") != std::string::npos, !named.empty()) << sweep.said.str();
     EXPECT_NE(sweep.said.str().find(named.string()), std::string::npos) << sweep.said.str();
     for (std::size_t i = 0; i < flights; ++i) {
       const bool again = inode(sweep.world.flight(i).dir) != before[i];
