@@ -81,7 +81,7 @@ TEST_F(StudyCommand, AFolderOfOtherFilesIsLeftAsItIsUnlessForced) {
   EXPECT_EQ(file("figures/mine.svg"), "a drawing");
   EXPECT_FALSE(fs::exists(*options_.out / "study.json"));
   write_text(*options_.out / "study.json", "{\"planners\": [");
-  EXPECT_NE(refusal().find("study.json: damaged"), std::string::npos) << refusal();
+  EXPECT_NE(refusal().find("study.json: is damaged"), std::string::npos) << refusal();
   fs::remove(*options_.out / "study.json");
   write_text(*options_.out / "scene.json", "mine, too");
   options_.force = true;

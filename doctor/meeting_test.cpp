@@ -114,7 +114,7 @@ TEST(Meetings, SilenceHasItsReasons) {
   world.peers[1].source = "10.9.9.9";
   EXPECT_NE(hint().find("leave by 10.9.9.9"), std::string::npos);
   world.peers[1].source.reset();
-  EXPECT_NE(hint().find("no way"), std::string::npos);
+  EXPECT_NE(hint().find("no route"), std::string::npos);
   world.peers[1].address.reset();
   EXPECT_NE(hint().find("no address"), std::string::npos);
 }

@@ -99,7 +99,9 @@ FaultFlights plan_fault_flights(const std::vector<FaultTest>& tests, const TestO
 
 std::string what_is_flown(const RunOptions& options) {
   std::ostringstream text;
-  text << options.scenario << '\n' << options.planner << '\n' << options.seed << '\n' << *options.duration_s << '\n';
+  text << options.scenario << '\n' << options.planner << '\n' << options.seed << '\n';
+  if (options.duration_s) text << *options.duration_s;
+  text << '\n';
   if (options.scene_seed) text << *options.scene_seed;
   if (options.uavs) text << "\n" << *options.uavs << " UAVs";
   if (options.conditions) text << "\nconditions " << *options.conditions;

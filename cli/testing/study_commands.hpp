@@ -16,7 +16,7 @@ namespace skein::cli {
 /// seed, and 1000 more for patrol.
 inline constexpr const char* kStudyFlight = R"(
 [ "$1" = --flight ] || exit 2
-value() { printf %s "$2" | sed -n "s/.*\"$1\":\"\{0,1\}\([^\",}]*\).*/\1/p"; }
+value() { printf %s "$2" | sed -nE "s/.*\"$1\":(\"([^\"]*)\"|([^\",}]*)).*/\2\3/p"; }
 out=$(value out "$2")
 seed=$(value seed "$2")
 planner=$(value planner "$2")

@@ -16,7 +16,7 @@ class PlainCompose : public Containers {};
 TEST_F(PlainCompose, FliesTheSameAndItsResultsAreMerged) {
   const std::string file = folder() / "compose.yaml", project = "skein-plain-" + std::to_string(::getpid());
   const Arguments flown = arguments();
-  Arguments wanted = {"compose", "towers", "--duration", "60", "--file", file};
+  Arguments wanted = {"compose", "towers", "--planner", "patrol", "--duration", "60", "--file", file};
   for (const std::string& word : programs_of_this_build()) wanted.push_back(word);
   ASSERT_EQ(skein(wanted).wait().code, 0);
   const std::string command = compose() + " --project-name " + project + " --file " + file + " ";

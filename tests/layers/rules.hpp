@@ -82,8 +82,8 @@ Violations check_marks(const Tree& tree);
 Violations check_machine_paths(const Tree& tree);
 
 /// Files that comments of C++ files, docs/, README.md and CONTRIBUTING.md name exist: those with a folder of the tree
-/// ("docs/lockstep.md"), C++ files in any folder ("flight/site.hpp"), headers by their names alone ("tours.hpp"), and in
-/// comments also other C++ files by their names alone; ".*" means any ending. A page may also name the files that it
+/// ("docs/lockstep.md"), C++ files in any folder ("flight/site.hpp"), headers by their names alone ("tours.hpp"), and
+/// in comments also other C++ files by their names alone; ".*" means any ending. A page may also name the files that it
 /// tells its reader to write: its code blocks with a name.
 Violations check_references(const Tree& tree);
 
