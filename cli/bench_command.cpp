@@ -8,6 +8,8 @@
 #include <map>
 #include <set>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 #include "cli/bench/flown.hpp"
 #include "cli/bench/planners.hpp"
@@ -284,44 +286,33 @@ void add_bench(CLI::App& app, BenchOptions& bench) {
                    "Mission time of the speed runs, or of --tracking, --view or --python [s], instead of the usual one")
       ->check(CLI::Validator(check_seconds, ""));
   command->add_option("--json", bench.json, "File for all figures")->check(CLI::Validator(check_file_to_write, ""));
+  std::vector<CLI::Option*> kinds;  // of measurements: a call makes one of them
+  const auto add_kind = [&](const std::string& name, bool& chosen, const std::string& text) {
+    CLI::Option* kind = command->add_flag(name, chosen, text);
+    for (CLI::Option* other : kinds) kind->excludes(other);
+    kinds.push_back(kind);
+    return kind;
+  };
   CLI::Option* planners =
-      command->add_flag("--planners", bench.planners,
-                        "Measure the scores of all planners in a fixed set of scenes, and compare them with a table");
+      add_kind("--planners", bench.planners,
+               "Measure the scores of all planners in a fixed set of scenes, and compare them with a table");
   command->add_option("--against", bench.against, "Table to compare with (default: config/planner_scores.csv)")
       ->needs(planners);
   CLI::Option* sensing =
-      command
-          ->add_flag("--sensing", bench.sensing,
-                     "Measure what an explorer knows of the space around it: the tables of docs/sensing.md")
-          ->excludes(planners);
-  CLI::Option* tracking = command
-                              ->add_flag("--tracking", bench.tracking,
-                                         "Measure how far UAVs are from their setpoints, by speed and acceleration: "
-                                         "the table of docs/flight-safety.md")
-                              ->excludes(planners)
-                              ->excludes(sensing);
-  command
-      ->add_flag("--view", bench.view,
-                 "Measure what the live page costs the fleet, and what the page itself needs; needs Chromium and a "
-                 "source tree")
-      ->excludes(planners)
-      ->excludes(sensing)
-      ->excludes(tracking);
-  CLI::Option* profile = command
-                             ->add_flag("--profile", bench.profile,
-                                        "Measure the CPU time of an exchange by stage and planner for each fleet size "
-                                        "(--sizes), and its growth; in one process")
-                             ->excludes(planners)
-                             ->excludes(sensing)
-                             ->excludes(tracking);
-  command
-      ->add_flag("--python", bench.python,
-                 "Measure what planners in Python cost compared with C++, and what stepping, resetting and copying a "
-                 "fleet cost; needs a source tree")
-      ->excludes(planners)
-      ->excludes(sensing)
-      ->excludes(tracking)
-      ->excludes(profile);
+      add_kind("--sensing", bench.sensing,
+               "Measure what an explorer knows of the space around it: the tables of docs/sensing.md");
+  add_kind("--tracking", bench.tracking,
+           "Measure how far UAVs are from their setpoints, by speed and acceleration: the table of "
+           "docs/flight-safety.md");
+  add_kind("--view", bench.view,
+           "Measure what the live page costs the fleet, and what the page itself needs; needs Chromium and a source "
+           "tree");
+  add_kind("--profile", bench.profile,
+           "Measure the CPU time of an exchange by stage and planner for each fleet size (--sizes), and its growth; in "
+           "one process");
+  add_kind("--python", bench.python,
+           "Measure what planners in Python cost compared with C++, and what stepping, resetting and copying a fleet "
+           "cost; needs a source tree");
   command
       ->add_option("--write", bench.write,
                    "File for the new table of --planners; folder for pictures and page of --sensing")

@@ -274,6 +274,15 @@ TEST(Options, BenchReadsAll) {
   EXPECT_THROW(parse_command_line({"bench", "--view", "--tracking"}), InputError);
 }
 
+TEST(Options, BenchMakesOneKindOfMeasurement) {
+  const std::vector<std::string> kinds = {"--planners", "--sensing", "--tracking", "--view", "--profile", "--python"};
+  for (const std::string& kind : kinds) {
+    for (const std::string& other : kinds) {
+      if (kind != other) EXPECT_THROW(parse_command_line({"bench", kind, other}), InputError) << kind << " " << other;
+    }
+  }
+}
+
 TEST(Options, TheLargestSeedAndTheLimitsAreTaken) {
   EXPECT_EQ(parse<RunOptions>({"run", "--seed", "18446744073709551615"}).seed, ~std::uint64_t{0});
   EXPECT_EQ(parse<RunOptions>({"run", "--clock", "realtime:1000"}).clock, "realtime:1000");

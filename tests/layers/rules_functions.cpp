@@ -74,7 +74,6 @@ const std::vector<LongFunction>& long_functions() {
   static const std::vector<LongFunction> kLong = {
       {"cli/run_command.cpp", "add_run", "a table: one statement for each option"},
       {"cli/hunt_options.cpp", "add_hunt", "the same"},
-      {"cli/bench_command.cpp", "add_bench", "the same"},
       {"core/expressions/signal_table.cpp", "make_table", "a table: one row for each signal"},
       {"report/style.cpp", "base_style", "one literal: a style sheet"},
       {"report/run_style.cpp", "run_style", "the same"},
