@@ -4,6 +4,7 @@
 #include "core/files/command_file.hpp"
 #include "debug_fixture.hpp"
 #include "tests/free_port.hpp"
+#include "tests/support/places.hpp"
 
 namespace skein::test {
 namespace {
@@ -61,6 +62,45 @@ TEST_F(Tools, GdbserverHandsTheProgramToAGdbElsewhere) {
   EXPECT_EQ(skein.wait().code, 0) << skein.err();
   EXPECT_EQ(result("server")["digest"], plain_digest());
   EXPECT_FALSE(text_of(dir("server") / "uav_agent-changi.report.json").empty());
+}
+
+/// The launch file that docs/how-to-debug.md shows for VS Code, of this build and with another port.
+Json launch_configuration(const std::string& port, const std::filesystem::path& programs) {
+  const std::string page = text_of(source_path("docs/how-to-debug.md"));
+  const auto begin = page.find("```json\n", page.find("*VS Code*")), end = page.find("\n```", begin);
+  std::string text = page.substr(begin + 8, end - begin - 8);
+  text = std::regex_replace(text, std::regex(R"(\$\{workspaceFolder\}/build/release/bin)"), programs.string());
+  text = std::regex_replace(text, std::regex(R"(\$\{workspaceFolder\})"), source_path());
+  text = std::regex_replace(text, std::regex(":2345"), ":" + port);
+  return Json::parse(text)["configurations"].at(0);
+}
+
+// VS Code's extension speaks gdb's machine interface. The test sends what the extension sends for this launch file.
+TEST_F(Tools, TheLaunchFileForVsCodeStopsAtABreakpoint) {
+  SKEIN_NEEDS_GDB();
+  if (command_file("gdbserver").empty()) GTEST_SKIP() << "there is no gdbserver here";
+  const FreePort port;
+  ChildProcess& skein = fly("server", {"--debug", "changi=gdbserver:" + port.text()});
+  ASSERT_TRUE(eventually([&] { return skein.err().find("target remote") != std::string::npos || skein.ended(); }));
+  const Json launch = launch_configuration(port.text(), std::filesystem::path(program("uav_agent")).parent_path());
+  EXPECT_EQ(launch["MIMode"], "gdb");
+  std::string commands = "-environment-cd " + Json(launch["cwd"]).dump() + "\n-gdb-set mi-async off\n";
+  for (const Json& setup : launch["setupCommands"]) {
+    commands += "-interpreter-exec console " + setup["text"].dump() + "\n";
+  }
+  commands += "-file-exec-and-symbols " + launch["program"].dump() + "\n-target-select remote " +
+              launch["miDebuggerServerAddress"].get<std::string>() +
+              "\n-break-insert skein::agent::PatrolPlanner::plan\n-exec-continue\n-stack-list-frames\n"
+              "-data-evaluate-expression in.state.p_WB\n-break-delete\n-exec-continue\n-gdb-exit\n";
+  const std::string file = write("launch.mi", commands);
+  ChildProcess& gdb = start_program("code", {"/bin/sh", "-c", "exec gdb --interpreter=mi -nx <" + shell_word(file)});
+  EXPECT_EQ(gdb.wait().code, 0) << gdb.out() << gdb.err();
+  EXPECT_EQ(gdb.out().find("^error"), std::string::npos) << gdb.out();
+  expect_part(gdb.out(), "reason=\"breakpoint-hit\"");
+  expect_part(gdb.out(), "value=\"(");  // skein_printers.py writes a vector in one line
+  expect_part(gdb.out(), "reason=\"exited-normally\"");
+  EXPECT_EQ(skein.wait().code, 0) << skein.err();
+  EXPECT_EQ(result("server")["digest"], plain_digest());
 }
 
 TEST_F(Tools, WhoWaitsIsToldAndGoesOn) {
