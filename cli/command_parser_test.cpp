@@ -284,6 +284,13 @@ TEST(Options, BenchMakesOneKindOfMeasurement) {
   }
 }
 
+TEST(Options, AHuntHasNoStatusAndDoesNotDetach) {
+  parse_command_line({"hunt", "towers", "--executor", "slurm"});
+  EXPECT_THROW(parse_command_line({"hunt", "towers", "--executor", "slurm", "--detach"}), InputError);
+  EXPECT_THROW(parse_command_line({"hunt", "--status", "runs/hunt"}), InputError);
+  parse_command_line({"compare", "--status", "runs/compare"});
+}
+
 TEST(Options, TheLargestSeedAndTheLimitsAreTaken) {
   EXPECT_EQ(parse<RunOptions>({"run", "--seed", "18446744073709551615"}).seed, ~std::uint64_t{0});
   EXPECT_EQ(parse<RunOptions>({"run", "--clock", "realtime:1000"}).clock, "realtime:1000");

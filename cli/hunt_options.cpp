@@ -86,9 +86,6 @@ void add_hunt(CLI::App& app, HuntOptions& hunt) {
 void finish_hunt(HuntOptions& hunt, const std::vector<std::string>& arguments) {
   hunt.run.command = "skein " + shell_line(arguments);
   check_sweep(hunt.sweep);
-  if (hunt.sweep.detach || hunt.sweep.status) {
-    throw InputError("--detach and --status are for studies only: a hunt decides after each round what flies next");
-  }
   hunt.sweep.command = arguments;
 }
 

@@ -56,7 +56,7 @@ void add_study_options(CLI::App& command, StudyOptions& study) {
           "--jobs", study.jobs,
           "Number of simultaneous flights; results do not depend on it (default: the number of cores; over DDS 1)")
       ->check(CLI::Range(1, 64));
-  add_sweep(command, study.sweep);
+  add_sweep_of_study(command, study.sweep);
   command.add_flag("--force", study.force,
                    "Use a folder that has a study with other settings, and keep the flights that fit");
   const bool contest = command.get_name() == "contest";

@@ -22,14 +22,18 @@ void add_sweep(CLI::App& command, SweepOptions& sweep) {
       ->allow_extra_args(false);
   command.add_option("--slurm", sweep.slurm,
                      "Options of sbatch for --executor slurm, such as partition=debug,time=30:00,account=mine");
-  command.add_flag("--detach", sweep.detach,
-                   "With --executor slurm: do not wait for the jobs; a final job writes the report");
   command.add_option("--unit-minutes", sweep.unit_minutes, "Approximate time that a unit flies [min]")
       ->check(CLI::Validator(number_within(0.01, 10000.0), ""))
       ->capture_default_str();
+}
+
+void add_sweep_of_study(CLI::App& command, SweepOptions& sweep) {
+  add_sweep(command, sweep);
+  command.add_flag("--detach", sweep.detach,
+                   "With --executor slurm: do not wait for the jobs; a final job writes the report");
   command.add_option("--status", sweep.status,
                      "Show how much of the study in this folder is complete, what flies now and what failed, and write "
-                     "its report so far");
+                     "its report so far; for studies with --executor");
 }
 
 void check_sweep(const SweepOptions& sweep) {

@@ -33,6 +33,8 @@ struct UnitOptions {
 
 /// Adds the options for flying a study or a hunt beyond one process.
 void add_sweep(CLI::App& command, SweepOptions& sweep);
+/// The same, with --detach and --status. A hunt has neither: after each round it decides what flies next.
+void add_sweep_of_study(CLI::App& command, SweepOptions& sweep);
 /// @throws InputError for options that need another --executor.
 void check_sweep(const SweepOptions& sweep);
 /// Parses `skein --unit STUDY N`, which engines call, not users. @throws InputError

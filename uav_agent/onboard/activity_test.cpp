@@ -2,7 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <regex>
 #include <set>
+
+#include "tests/support/places.hpp"
 
 namespace skein::agent {
 namespace {
@@ -72,6 +76,35 @@ TEST_F(ActivityWords, DifferForAllThatAUavMayDo) {
   facts_.what = Doing{What::shows_mate, {}, 1};
   step();
   EXPECT_EQ(last_.mode, "shows changi its way up");
+}
+
+/// The beginnings of words that the live page shows in a colour of their own.
+std::vector<std::string> beginnings_on_the_page() {
+  std::ifstream page(source_path("web/src/modes.js"));
+  std::vector<std::string> beginnings;
+  const std::regex quoted("'([^']+)'");
+  for (std::string line; std::getline(page, line);) {
+    const auto list = line.find("begins: [");
+    if (list == std::string::npos) continue;
+    for (std::sregex_iterator it(line.begin() + static_cast<std::ptrdiff_t>(list), line.end(), quoted), end; it != end;
+         ++it) {
+      beginnings.push_back((*it)[1]);
+    }
+  }
+  return beginnings;
+}
+
+TEST_F(ActivityWords, HaveAColourOnTheLivePage) {
+  const std::vector<std::string> beginnings = beginnings_on_the_page();
+  ASSERT_GT(beginnings.size(), 10u);
+  for (int what = 0; what <= static_cast<int>(What::awaits_link); ++what) {
+    doing(static_cast<What>(what));
+    facts_.tick += 400;
+    step();
+    steps(20);
+    const auto begins = [&](const std::string& beginning) { return last_.mode.starts_with(beginning); };
+    EXPECT_TRUE(std::ranges::any_of(beginnings, begins)) << last_.mode;
+  }
 }
 
 TEST_F(ActivityWords, AreTheOldOnesBetweenTwoGoals) {

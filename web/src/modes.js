@@ -4,7 +4,7 @@ import {element, swatch} from './page.js';
 
 const kOther = {colour: 'q2', text: 'other', begins: ['']};
 const kKinds = [
-  {colour: 'q0', text: 'on the ground, takes off', begins: ['on the ground', 'takes off', 'waits to be shown its way up']},
+  {colour: 'q0', text: 'on the ground, takes off, lands', begins: ['on the ground', 'takes off', 'waits to be shown its way up', 'flies to its landing place']},
   {colour: 'c0', text: 'flies to goals, rests there', begins: ['flies to a goal', 'flies along', 'flies to a set-point', 'rests at its goal', 'holds its place', 'sends commands']},
   {colour: 'c3', text: 'shows another UAV its way up', begins: ['shows ']},
   {colour: 'c4', text: 'has no goal or way, recovers', begins: ['has no goal', 'looks for a way', 'looks around', 'flies nearer', 'tries from elsewhere', 'climbs to see more', 'flies back', 'makes room']},
