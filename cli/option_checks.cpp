@@ -1,7 +1,6 @@
 #include "cli/option_checks.hpp"
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -22,19 +21,6 @@ std::string check_decimal(const std::string& text) {
   const std::size_t first = text.find_first_not_of("+-");
   if (first == std::string::npos || text[first] != '0' || first + 1 == text.size()) return "";
   return "'" + text + "' must be a whole number in decimal digits, without a zero before it";
-}
-
-/// The words that follow an option on the command line: the one behind its '=', or those up to the next option.
-std::vector<std::string> values_behind(const CLI::Option& option, const std::vector<std::string>& arguments) {
-  const std::string name = option.get_name();
-  std::vector<std::string> values;
-  for (std::size_t i = 0; i < arguments.size() && arguments[i] != "--"; ++i) {
-    if (arguments[i].starts_with(name + "=")) values.push_back(arguments[i].substr(name.size() + 1));
-    if (arguments[i] != name) continue;
-    const std::size_t end = option.get_allow_extra_args() ? arguments.size() : std::min(arguments.size(), i + 2);
-    for (std::size_t k = i + 1; k < end && !arguments[k].starts_with("-"); ++k) values.push_back(arguments[k]);
-  }
-  return values;
 }
 
 }  // namespace
@@ -82,18 +68,6 @@ void refuse_leading_zeros(CLI::App& app) {
     if (type.starts_with("INT") || type.starts_with("UINT")) option->transform(CLI::Validator(check_decimal, ""));
   }
   for (CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) refuse_leading_zeros(*command);
-}
-
-void refuse_empty_items(const CLI::App& app, const std::vector<std::string>& arguments) {
-  for (const CLI::Option* option : app.get_options()) {
-    if (option->get_delimiter() != ',' || option->count() == 0) continue;
-    for (const std::string& value : values_behind(*option, arguments)) {
-      const std::vector<std::string> items = split(value);
-      if (std::ranges::find(items, std::string()) == items.end()) continue;
-      throw InputError(option->get_name() + ": an item of '" + value + "' is empty; write one comma between two items");
-    }
-  }
-  for (const CLI::App* command : app.get_subcommands()) refuse_empty_items(*command, arguments);
 }
 
 void check_paths(const std::vector<std::string>& arguments) {

@@ -29,11 +29,6 @@ std::string check_file_to_write(const std::string& text);
 /// CLI11 would take them for octal and hexadecimal numbers: 010 for 8.
 void refuse_leading_zeros(CLI::App& app);
 
-/// Refuses empty items in the lists of a command's options: CLI11 would leave them out.
-/// @param arguments  the whole command line, which has been parsed
-/// @throws InputError that names the first such option.
-void refuse_empty_items(const CLI::App& app, const std::vector<std::string>& arguments);
-
 /// Refuses arguments, and a current folder, that are not in UTF-8: programs in one process get their command lines as
 /// JSON, and results and pages name these paths. Refuses a current folder that has been deleted. @throws InputError
 void check_paths(const std::vector<std::string>& arguments);

@@ -1,5 +1,5 @@
-// Refuses empty values on the command line of the launcher and of all programs: they come from unset variables of
-// scripts and are never meant.   Pure.
+// Refuses empty values, and empty items of lists, on the command line of the launcher and of all programs: they come
+// from unset variables of scripts and are never meant.   Pure.
 #pragma once
 
 #include <string>
@@ -19,5 +19,10 @@ void refuse_empty_values(const CLI::App& app);
 /// would take the next argument for the value of `--out=`.
 /// @param app  whose options these are: a program, or the command that the arguments name
 void refuse_empty_assignments(const CLI::App& app, const std::vector<std::string>& arguments);
+
+/// Refuses empty items in the lists, separated by commas, of the options that were given: CLI11 leaves them out.
+/// @param arguments  the whole command line, which has been parsed
+/// @throws InputError that names the first such option.
+void refuse_empty_items(const CLI::App& app, const std::vector<std::string>& arguments);
 
 }  // namespace skein

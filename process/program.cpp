@@ -188,9 +188,11 @@ std::variant<ProgramOptions, int> parse_program(const std::string& name, int arg
     if (argc == 2 && std::string_view(argv[1]) == "--manual") {  // printed as --version would be
       throw CLI::CallForVersion(manual_of(app, std::filesystem::path(argv[0]).filename()), 0);
     }
-    refuse_empty_assignments(app, {argv + std::min(argc, 1), argv + argc});
+    const std::vector<std::string> arguments(argv + std::min(argc, 1), argv + argc);
+    refuse_empty_assignments(app, arguments);
     app.parse(argc, argv);
     refuse_empty_values(app);
+    refuse_empty_items(app, arguments);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help, --manual
     return wrong(error);

@@ -90,6 +90,26 @@ TEST(Program, NoOptionHasAnEmptyValue) {
   EXPECT_EQ(run({"--network", "--check"}, nothing).code, kExitDone);
 }
 
+TEST(Program, ListsHaveNoEmptyItems) {
+  const auto outcome_of = [](const std::vector<const char*>& arguments) {
+    std::vector<std::string> uavs;
+    return run(arguments, nothing, [&](CLI::App& app) { app.add_option("--stand-ins", uavs)->delimiter(','); });
+  };
+  for (const std::vector<const char*>& arguments :
+       std::vector<std::vector<const char*>>{{"--stand-ins", "a,,b"},
+                                             {"--stand-ins=a,"},
+                                             {"--stand-ins", ",a", "--check"},
+                                             {"--check", "--stand-ins", ","},
+                                             {"--stand-ins", ",", "--check"},
+                                             {"--stand-ins", "a", "b,"}}) {
+    const auto outcome = outcome_of(arguments);
+    EXPECT_EQ(outcome.code, kExitBadInput) << outcome.error;
+    EXPECT_EQ(outcome.error.find("tester: --stand-ins: an item of '"), 0U) << outcome.error;
+  }
+  EXPECT_EQ(outcome_of({"--stand-ins", "a,b", "--check"}).code, kExitDone);
+  EXPECT_EQ(outcome_of({"--stand-ins=a,b"}).code, kExitDone);
+}
+
 TEST(Program, DefaultsAndOptions) {
   run({}, [](const ProgramOptions& options, StopSignal&) {
     EXPECT_EQ(options.scenario, "towers");

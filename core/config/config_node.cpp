@@ -11,6 +11,7 @@
 #include <unordered_map>
 
 #include "core/files/file_bytes.hpp"
+#include "core/text/text.hpp"
 #include "core/types.hpp"
 
 namespace skein {
@@ -320,8 +321,8 @@ ConfigDocument read_config_document(const std::filesystem::path& file) {
 
 ConfigDocument parse_assignments(const std::string& text, const std::string& origin) {
   ConfigDocument document{origin, ConfigNode::make_map()};
-  std::istringstream stream(text);
-  for (std::string part; std::getline(stream, part, ',');) {
+  if (text.empty()) return document;
+  for (const std::string& part : split(text)) {
     const auto equals = part.find('=');
     if (equals == std::string::npos || equals == 0 || equals + 1 == part.size()) {
       throw InputError(origin + ": '" + part + "' is not of the form key=value");

@@ -64,7 +64,7 @@ ConfigDocument read_config_document(const std::filesystem::path& file);
 ConfigDocument parse_config_document(const std::string& text, const std::string& origin);
 
 /// Parses "key=value,key=value" from a command line; an empty text gives an empty map. Values are plain scalars.
-/// @throws InputError if a part has no '=', or a key occurs twice.
+/// @throws InputError if a part is empty or has no '=', or a key occurs twice.
 ConfigDocument parse_assignments(const std::string& text, const std::string& origin);
 
 /// The tree as YAML text that parse_config_document() reads back to an equal tree.

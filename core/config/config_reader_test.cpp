@@ -211,7 +211,8 @@ TEST(ConfigReader, ReadsAssignmentsOfACommandLine) {
   const auto part = read_config<Part>(parse_assignments("name=wing,length_m=2.5", "--planner"));
   EXPECT_EQ(part.name, "wing");
   EXPECT_EQ(part.length_m, 2.5);
-  for (const char* bad : {"name", "name=", "=wing", "name=a,name=b", "name=a,,", "name=a,colour=red"}) {
+  for (const char* bad :
+       {"name", "name=", "=wing", "name=a,name=b", "name=a,,", "name=a,", ",name=a", "name=a,colour=red"}) {
     EXPECT_THROW(read_config<Part>(parse_assignments(bad, "--planner")), InputError) << bad;
   }
 }
