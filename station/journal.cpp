@@ -7,7 +7,6 @@
 #include <array>
 #include <bit>
 #include <cerrno>
-#include <fstream>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -168,15 +167,6 @@ Journal::Journal(const std::filesystem::path& file, RunId run) : file_(file), en
 
 Journal::~Journal() {
   if (descriptor_ >= 0) ::close(descriptor_);
-}
-
-std::optional<RunId> Journal::run_of(const std::filesystem::path& file) {
-  std::array<char, kMagic.size() + sizeof(RunId)> head{};
-  std::ifstream in(file, std::ios::binary);
-  if (!in.read(head.data(), head.size()) || !std::equal(kMagic.begin(), kMagic.end(), head.begin()))
-    return std::nullopt;
-  const Bytes run(head.begin() + kMagic.size(), head.end());
-  return RunId{Cursor(run).get<std::uint64_t>()};
 }
 
 void Journal::replay(RunId run) {

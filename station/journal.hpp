@@ -8,7 +8,6 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -26,8 +25,6 @@ class Journal {
   /// cannot be written, the first append() says so instead.
   explicit Journal(const std::filesystem::path& file, RunId run = RunId::none);
   ~Journal();
-  /// The run that a journal belongs to; nullopt when the file is no journal.
-  static std::optional<RunId> run_of(const std::filesystem::path& file);
   Journal(const Journal&) = delete;
   Journal& operator=(const Journal&) = delete;
 
