@@ -38,6 +38,15 @@ class Table {
   std::array<double, static_cast<std::size_t>(kEnd / kStep) + 1> values_ = {};
 };
 
+/// The argument at which a decreasing function falls to `value`; never greater than the exact one.
+double falls_to(const auto& function, double value, double low, double high) {
+  for (int step = 0; step < 60; ++step) {
+    const double middle = 0.5 * (low + high);
+    (function(middle) > value ? low : high) = middle;
+  }
+  return low;
+}
+
 }  // namespace
 
 double unseen_along_one_direction(double k) {
@@ -74,15 +83,6 @@ double BeamEvidence::unseen_probability(const FreeCriterion& criterion) const {
   solver.computeDirect(k_of_one * m, Eigen::EigenvaluesOnly);
   const double a = std::max(0.0, k - solver.eigenvalues()[2]), b = std::max(a, k - solver.eigenvalues()[1]);
   return std::min(by_number, std::exp(-a) * unseen_about_an_axis(b - a));
-}
-
-/// The argument at which a decreasing function falls to `value`; never greater than the exact one.
-double falls_to(const auto& function, double value, double low, double high) {
-  for (int step = 0; step < 60; ++step) {
-    const double middle = 0.5 * (low + high);
-    (function(middle) > value ? low : high) = middle;
-  }
-  return low;
 }
 
 // Let a <= b <= c be the eigenvalues of K I - M. Since a + b + c = 2 K, c >= b gives b <= K - a / 2, so the second
