@@ -56,25 +56,38 @@ void check_is_of_a_study(const fs::path& out) {
                    "' exists and belongs to no study; choose another --out, or use this folder anyway with --force");
 }
 
-/// @throws InputError when the folder holds a study with other settings, unless --force is given.
-void check_settings(const StudyPlan& plan) {
+/// @returns why the study in the plan's folder is not the one that the plan describes; empty: it is, or there is none.
+std::string difference_from_folder(const StudyPlan& plan) {
   std::error_code error;
-  if (plan.options.force || !fs::exists(plan.out / kSettings, error)) return;
+  if (!fs::exists(plan.out / kSettings, error)) return {};
   const Json then = read_json(plan.out / kSettings);
-  if (!then.is_object()) {
-    throw InputError((plan.out / kSettings).string() +
-                     ": is damaged: it is no JSON; choose another --out, or continue there with --force: flights that "
-                     "fit are kept, and the "
-                     "others are flown again in their place");
-  }
+  if (!then.is_object()) return (plan.out / kSettings).string() + ": is damaged: it is no JSON";
   const std::vector<std::string> differences = differing_settings(then, plan.settings);
-  if (differences.empty()) return;
+  if (differences.empty()) return {};
   std::string text = plan.out.string() + " holds a study with other settings:";
   for (const std::string& difference : differences) text += "\n  " + difference;
-  text +=
-      "\nNothing was changed. Choose another --out, or continue there with --force: flights that fit are kept, and "
-      "the ";
-  throw InputError(text + "others are flown again in their place.");
+  return text;
+}
+
+/// @throws InputError when the folder holds a study with other settings, unless --force is given.
+void check_settings(const StudyPlan& plan) {
+  const std::string difference = plan.options.force ? "" : difference_from_folder(plan);
+  if (difference.empty()) return;
+  throw InputError(difference +
+                   "\nNothing was changed. Choose another --out, or continue there with --force: flights that fit are "
+                   "kept, and the others are flown again in their place.");
+}
+
+/// The same for `--status`, whose report names the present programs. It does not matter whether the command with which
+/// the study was flown had --force.
+void check_shown_settings(const StudyPlan& plan) {
+  const std::string difference = difference_from_folder(plan);
+  if (difference.empty()) return;
+  throw InputError(difference +
+                   "\nNothing was changed: --status only shows a study, and needs the programs and files with which it "
+                   "was flown. Call it with these. If you continue the study with the present ones instead (repeat "
+                   "its command with --force), Skein keeps the flights that fit, and flies the others again in their "
+                   "place. No flight fits after the programs were built anew.");
 }
 
 /// A picture of the best flight of each scene and planner; none in a study of too many scenes to look at.
@@ -230,7 +243,7 @@ int tell_status(const fs::path& folder, const Console& console) {
   const auto* options = command.get_if<StudyOptions>();
   if (options == nullptr) throw InputError("--status " + folder.string() + ": this is no study");
   const StudyPlan plan = plan_study(*options, AskPrograms::no);
-  check_settings(plan);
+  check_shown_settings(plan);
   return merge(plan, tell_sweep(plan, console), console);
 }
 

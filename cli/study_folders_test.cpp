@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/sweep/folder.hpp"
 #include "cli/testing/study_commands.hpp"
 #include "process/program.hpp"
 
@@ -59,6 +60,36 @@ TEST_F(StudyCommand, ARefusedRepeatWithAPlannerMoreLeavesTheFolderAsItIs) {
   programs_.script("station", "");
   EXPECT_EQ(run(), kExitDone) << "the study itself goes on";
   EXPECT_EQ(flown(), "");
+}
+
+// Who asks for the status has not asked for flights.
+TEST_F(StudyCommand, TheStatusAfterAnotherBuildSaysWhatFitsAndWhatContinuingDoes) {
+  ASSERT_EQ(run(), kExitDone) << err_.str();
+  const std::string out = *options_.out;
+  for (const bool forced : {false, true}) {
+    SweepSettings sweep;
+    sweep.token = "token";
+    sweep.reference = {0, *options_.out / "reference", RunOptions{}, Json::object()};
+    sweep.command = {"contest",    "--planners", "hover,patrol", "--scenarios", programs_.scenario(),
+                     "--executor", "local",      "--tests",      "3",           "--out",
+                     out};
+    if (forced) sweep.command.emplace_back("--force");
+    sweep.working_folder = fs::current_path();
+    SweepFolder(*options_.out).write_settings(sweep);
+    const auto before = texts_below(*options_.out);
+    programs_.script("station", "# another build\n");
+    options_.sweep.status = *options_.out;
+    const std::string message = refusal();
+    EXPECT_EQ(message.find(out + " holds a study with other settings:\n  the programs were built anew\nNothing was"),
+              0U)
+        << message;
+    for (const char* part : {"--status only shows a study", "the programs and files with which it was flown",
+                             "If you continue the study", "No flight fits after the programs were built anew."}) {
+      EXPECT_NE(message.find(part), std::string::npos) << message;
+    }
+    EXPECT_EQ(flown(), "");
+    EXPECT_EQ(texts_below(*options_.out), before);
+  }
 }
 
 TEST_F(StudyCommand, AFolderOfARunIsNotTaken) {

@@ -133,8 +133,8 @@ std::string SweepFolder::why_no_settings() const {
     return dir_.string() + " holds no sweep, as a study has that was flown with --executor";
   }
   return dir_.string() +
-         " holds a sweep of another version of Skein: go on with that one, or repeat the command of the study with "
-         "--force, which keeps the flights that fit";
+         " holds a sweep of another version of Skein: show or continue it with that version; or repeat the command of "
+         "the study with --force: Skein then keeps the flights that fit, and flies the others again";
 }
 
 void SweepFolder::begin(const SweepSettings& settings, bool nodes_stay,
