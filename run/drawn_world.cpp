@@ -58,8 +58,9 @@ bool is_kept(const fs::path& scenario) try {
   return false;
 }
 
-/// Whether an earlier version, which kept no checksums, left a world with all its files.
-bool is_kept_unchecked(const fs::path& scenario) try {
+/// Whether the cache has a world with all its files and without a checksum: an earlier version drew it, or the checksum
+/// could not be written.
+bool is_kept_without_checksum(const fs::path& scenario) try {
   std::error_code error;
   if (!fs::is_regular_file(scenario, error) || fs::exists(checksum_file(scenario), error)) return false;
   load_scenario(scenario);
@@ -94,8 +95,8 @@ std::string scenario_source(const std::string& scenario, const std::optional<std
     keep_checksum(file);
     return file;
   }
-  // The cache may be read-only: earlier versions flew such a world.
-  if (exit.code == kExitBadInput && is_kept_unchecked(file)) return file;
+  // If the cache is read-only, a world without a checksum cannot be drawn again: it flies as it is.
+  if (exit.code == kExitBadInput && is_kept_without_checksum(file)) return file;
   std::string said;
   for (const std::string& line : last_lines(log, 20)) said += "\n" + line;
   if (exit.code == kExitBadInput) throw InputError(scenario + " " + seed + ":" + said);
