@@ -1,12 +1,16 @@
 #include "bus/program_bus.hpp"
 
+#include <spdlog/spdlog.h>
+
 #include <algorithm>
+#include <string>
 
 #include "core/topics.hpp"
+#include "process/host/open_files.hpp"
 
 namespace skein::bus {
 
-std::unique_ptr<Bus> make_bus(const ProgramOptions& options, const Scenario& scenario) {
+std::unique_ptr<Bus> make_bus(const ProgramOptions& options, const Scenario& scenario, std::size_t domains) {
   BusConfig config{.vendor = options.dds, .lease_s = options.lease_s, .security = options.security, .run = options.run};
   if (options.network) {
     const NetworkConfig network = read_network(*options.network);
@@ -16,6 +20,12 @@ std::unique_ptr<Bus> make_bus(const ProgramOptions& options, const Scenario& sce
     for (const auto& [name, own] : network.domains) {
       config.networks[options.domain + static_cast<int>(std::ranges::find(names, name) - names.begin())] = own;
     }
+  }
+  if (!options.check_only && std::ranges::count(dds_vendors(), options.dds) > 0) {
+    const std::string warning =
+        provide_open_files(fmt::format("this program, which joins {} DDS domain{},", domains, domains == 1 ? "" : "s"),
+                           open_files_over_dds(domains, options.dds == "fastdds"));
+    if (!warning.empty() && !options.has_launcher()) spdlog::warn("{}", warning);  // a launcher has warned already
   }
   return make_bus(config);
 }

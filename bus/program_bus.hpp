@@ -1,5 +1,7 @@
-// Creates the bus that a program's command line specifies.
+// Creates the bus that a program's command line specifies, and lets the program have enough open files for it.
 #pragma once
+
+#include <cstddef>
 
 #include "bus/bus.hpp"
 #include "core/scenario.hpp"
@@ -7,8 +9,11 @@
 
 namespace skein::bus {
 
-/// @throws InputError for an unknown vendor, a network interface that this host does not have, or a network for a
-/// domain that the scenario does not have.
-std::unique_ptr<Bus> make_bus(const ProgramOptions& options, const Scenario& scenario);
+/// Over DDS, raises the limit of open files to what the bus needs, unless the program only checks its input: it may fly
+/// elsewhere. The launcher does the same for its fleet, but a program may be started without one, or on another host.
+/// @param domains  how many domains the program joins
+/// @throws InputError for an unknown vendor, a network interface that this host does not have, a network for a domain
+/// that the scenario does not have, or too low a limit of open files.
+std::unique_ptr<Bus> make_bus(const ProgramOptions& options, const Scenario& scenario, std::size_t domains);
 
 }  // namespace skein::bus

@@ -7,6 +7,7 @@
 
 #include "bus/program_bus.hpp"
 #include "comm_router/router_node.hpp"
+#include "core/topics.hpp"
 #include "process/files/nowhere.hpp"
 #include "process/reports/program_report.hpp"
 #include "process/reports/reports.hpp"
@@ -162,7 +163,7 @@ std::variant<int, std::unique_ptr<bus::FleetMember>> RouterProgram::prepare(cons
   Scenario scenario = load_scenario(options.scenario, options.load_options_without_scene());
   FaultPlan faults = load_fault_plan(options.faults, scenario, options.seed);
   if (settle_only_) return settle(options, scenario, status);
-  auto bus = bus::make_bus(options, scenario);
+  auto bus = bus::make_bus(options, scenario, domain_names(scenario).size());
   if (options.check_only) return kExitDone;
   return std::make_unique<RouterMember>(std::move(scenario), std::move(faults), options, status, std::move(bus),
                                         replay_, stand_ins_);

@@ -31,8 +31,7 @@ Finding judge_open_files(const MachineFacts& machine, const FleetNeeds& needs) {
   if (*machine.open_files >= needs.open_files()) return fine(what, found);
   const std::string number = std::to_string(needs.open_files());
   if (!machine.most_open_files || *machine.most_open_files >= needs.open_files()) {
-    return fine(
-        what, found + "; a run raises the limit (before programs that you start by hand: `ulimit -n " + number + "`)");
+    return fine(what, found + "; a run raises the limit, as does each program that you start by hand");
   }
   return failure(what, found,
                  "as root raise nofile in /etc/security/limits.conf to " + number +

@@ -4,15 +4,12 @@
 #include <cstdint>
 #include <string>
 
+#include "process/host/open_files.hpp"
 #include "run/fleet_plan.hpp"
 
 namespace skein::cli {
 
-/// How many open files a process of the fleet needs.
-struct OpenFilesNeed {
-  std::uint64_t least;  ///< with fewer, the fleet cannot start: those of the process with most
-  std::uint64_t ample;  ///< with fewer, a program may fail: an estimate, rounded up
-};
+/// How many open files the process of the fleet with most of them needs.
 OpenFilesNeed open_files_need(const FleetPlan& plan);
 
 /// @param limit  open files that a process may have.

@@ -7,7 +7,6 @@
 #include <string>
 
 #include "core/types.hpp"
-#include "process/host/open_files.hpp"
 #include "tests/support/limited_files.hpp"
 
 namespace skein::cli {

@@ -11,6 +11,7 @@
 #include "bus/program_bus.hpp"
 #include "core/scenario/scenario_reader.hpp"
 #include "core/text/number_checks.hpp"
+#include "core/topics.hpp"
 #include "process/files/user_cache.hpp"
 #include "process/json_text.hpp"
 #include "process/reports/program_report.hpp"
@@ -196,7 +197,7 @@ std::variant<int, std::unique_ptr<bus::FleetMember>> ServerProgram::prepare(cons
   std::optional<Scene> ready = shelf_ ? shelf_->take() : std::nullopt;
   Scene scene = ready ? std::move(*ready) : load_scene(*scenario, user_cache_folder());
   if (!options.check_only) refuse_used_folder(options);
-  auto bus = bus::make_bus(options, *scenario);
+  auto bus = bus::make_bus(options, *scenario, domain_names(*scenario).size());
   if (options.check_only) {
     for (const std::string& warning : scene_warnings(scene)) spdlog::warn("{}", warning);
     const Simulation checked(*scenario, std::move(scene), options.seed);  // checks that the starts are free

@@ -88,7 +88,7 @@ std::variant<int, std::unique_ptr<bus::FleetMember>> StationProgram::prepare(con
     settle(options.out, scenario, options.run, status);
     return kExitDone;
   }
-  auto bus = bus::make_bus(options, scenario);
+  auto bus = bus::make_bus(options, scenario, 2);  // GCS and world
   if (options.check_only) return kExitDone;
   std::optional<ReadyView> view;
   if (view_.listener >= 0 || !view_.listen.empty()) view.emplace(view_);

@@ -68,6 +68,23 @@ TEST_F(Surroundings, AProgramThatIsStartedByHandComputesAsOneOfAFleet) {
   station.wait();
 }
 
+// With a low hard limit of open files, the DDS vendor ended a server or router that no launcher had started.
+TEST_F(Surroundings, AProgramThatIsStartedByHandNamesALimitOfOpenFilesThatIsTooLow) {
+  const FreeDomains domains(4);
+  for (const std::string name : {"sim_server", "comm_router"}) {
+    for (const std::string vendor : {"cyclonedds", "fastdds"}) {
+      ChildProcess& refused =
+          start_program(name + "-" + vendor,
+                        {"/bin/sh", "-c", "ulimit -n 40; exec \"$@\"", "sh", program(name), "--scenario", scenario_,
+                         "--domain", std::to_string(domains.base()), "--dds", vendor, "--out", folder()});
+      EXPECT_EQ(refused.wait().code, 2) << refused.err();
+      const std::string message =
+          name + ": a process may have 40 open files (ulimit -n), and this program, which joins 4";
+      EXPECT_NE(refused.err().find(message), std::string::npos) << refused.err();
+    }
+  }
+}
+
 /// Variables that once prevented a fleet from starting, or could change it; HERE is a folder with the files.
 const std::vector<std::pair<std::string, std::string>> kHostileVariables = {
     {"ROS_DISCOVERY_SERVER", "127.0.0.1:11811"},

@@ -257,7 +257,7 @@ class Member {
     if (const char* network = std::getenv("SKEIN_NETWORK"); network != nullptr && *network != '\0') {
       options.network = network;
     }
-    auto bus = bus::make_bus(options, scenario_);
+    auto bus = bus::make_bus(options, scenario_, 1);
     auto user = std::make_unique<UserNode>(scenario_, node, domain, *bus, std::move(topics));
     return {std::move(bus), std::move(user)};
   }
