@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "core/scoring/score_table.hpp"
-#include "core/told_state.hpp"
 #include "core/topics.hpp"
 #include "core/types.hpp"
+#include "core/uav_status.hpp"
 #include "idl/type_names.hpp"
 
 namespace skein {

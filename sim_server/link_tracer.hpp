@@ -9,7 +9,7 @@
 #include "core/for_each.hpp"
 #include "core/radio/link_matrix.hpp"
 #include "core/scenario.hpp"
-#include "core/told_state.hpp"
+#include "core/uav_status.hpp"
 #include "sight/ray_scene.hpp"
 #include "sim_server/conditions/path_loss.hpp"
 #include "sim_server/sensors/sight_memory.hpp"

@@ -8,7 +8,7 @@
 
 #include "core/conditions.hpp"
 #include "core/scenario.hpp"
-#include "core/told_state.hpp"
+#include "core/uav_status.hpp"
 #include "core/vehicle/airframe.hpp"
 
 namespace skein::sim {

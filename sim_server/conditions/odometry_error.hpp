@@ -11,8 +11,8 @@
 
 #include "core/conditions.hpp"
 #include "core/random_stream.hpp"
-#include "core/told_state.hpp"
 #include "core/types.hpp"
+#include "core/uav_status.hpp"
 
 namespace skein::sim {
 

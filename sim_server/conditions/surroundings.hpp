@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "core/scenario.hpp"
-#include "core/told_state.hpp"
+#include "core/uav_status.hpp"
 #include "sight/camera.hpp"
 #include "sim_server/conditions/battery.hpp"
 #include "sim_server/conditions/odometry_error.hpp"

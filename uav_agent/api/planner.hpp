@@ -17,7 +17,7 @@
 
 #include "core/config/config_reader.hpp"
 #include "core/hand_command.hpp"
-#include "core/told_state.hpp"
+#include "core/uav_status.hpp"
 #include "uav_agent/api/agent_config.hpp"
 #include "uav_agent/api/beam_scan.hpp"
 #include "uav_agent/api/goals.hpp"

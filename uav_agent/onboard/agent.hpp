@@ -11,7 +11,7 @@
 
 #include "core/activity.hpp"
 #include "core/run/work_time.hpp"
-#include "core/told_state.hpp"
+#include "core/uav_status.hpp"
 #include "uav_agent/api/agent_config.hpp"
 #include "uav_agent/api/messages.hpp"
 #include "uav_agent/api/planner.hpp"

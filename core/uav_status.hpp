@@ -1,4 +1,5 @@
-// What the on-board software receives in addition to odometry: uncertainty of the pose, battery status, link quality.
+// What the on-board software receives in addition to odometry: uncertainty of the pose, battery status, quality of
+// links.
 // Frame: W world (ENU).  Units: SI, radians.
 #pragma once
 

@@ -1,4 +1,4 @@
-// What a UAV is told beside its state, there and back.
+// Messages about a UAV's status (core/uav_status.hpp): what was encoded decodes again.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -8,7 +8,7 @@
 namespace skein {
 namespace {
 
-TEST(ToldConversions, TheOdometryCarriesHowSureItIs) {
+TEST(StatusConversions, TheOdometryCarriesHowSureItIs) {
   const PoseUncertainty told{{0.1, 0.2, 0.3}, 0.05, 0.02};
   const msg::Odometry odometry = to_odometry(40, "a", RigidBodyState{}, told);
   EXPECT_DOUBLE_EQ(odometry.pose().covariance()[7], 0.04);
@@ -24,7 +24,7 @@ TEST(ToldConversions, TheOdometryCarriesHowSureItIs) {
   EXPECT_EQ(uncertainty_from_odometry(odd).position_m.head<2>().norm(), 0.0);
 }
 
-TEST(ToldConversions, ABatteryIsAsRos2HasIt) {
+TEST(StatusConversions, ABatteryIsAsRos2HasIt) {
   const msg::BatteryState message = to_battery(40, {0.5, 4.0, 22.2, 11.0}, 6);
   EXPECT_FLOAT_EQ(message.charge(), 2.0F);
   EXPECT_FLOAT_EQ(message.current(), -11.0F) << "negative while it discharges";
@@ -39,12 +39,12 @@ TEST(ToldConversions, ABatteryIsAsRos2HasIt) {
   EXPECT_FALSE(from_battery(odd));
 }
 
-TEST(ToldConversions, WindIsAVectorOfFiniteNumbers) {
+TEST(StatusConversions, WindIsAVectorOfFiniteNumbers) {
   EXPECT_EQ(from_wind(to_wind(40, {1.0, -2.0, 0.5})), Vector3d(1.0, -2.0, 0.5));
   EXPECT_FALSE(from_wind(to_wind(40, {std::numeric_limits<double>::infinity(), 0.0, 0.0})));
 }
 
-TEST(ToldConversions, LinksComeBackAndOnesWithoutANumberAreLeftOut) {
+TEST(StatusConversions, LinksComeBackAndOnesWithoutANumberAreLeftOut) {
   const LinkQualities links = {{kStationNode, {-61.5, 1.5e6}}, {Node{3}, {-80.25, 162500.0}}};
   EXPECT_EQ(from_radio_links(to_radio_links(40, links)), links);
   EXPECT_TRUE(from_radio_links(to_radio_links(40, {})).empty());
