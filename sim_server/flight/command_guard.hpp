@@ -20,8 +20,8 @@ class CommandGuard {
 
   /// Reason why a command must be ignored, as a sentence for the user; nullopt: it is accepted. The guard refuses a
   /// velocity, acceleration or yaw rate beyond the vehicle's limit, and an acceleration without position and velocity
-  /// that would lead beyond the speed limit; under all rules, numbers that are not finite. It never refuses a position
-  /// or a yaw for its distance. Pure.
+  /// that would lead beyond the speed limit; under all rules, numbers that are not finite, or too large to compute with
+  /// (1e154). Up to there it refuses no position and no yaw for its distance. Pure.
   std::optional<std::string> refuse(const TrajectoryCommand& command, const RigidBodyState& state) const;
 
   /// The command with a position that the control law can follow within the limits. Call it once per control step

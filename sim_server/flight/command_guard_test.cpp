@@ -77,6 +77,29 @@ TEST_F(CommandGuardTest, NeverAcceptsWhatIsNotANumber) {
   EXPECT_TRUE(guard.refuse({.yaw_rate = inf}, {}));
 }
 
+/// A distance whose square overflows would make the carrot's position NaN. The law would take that for no position.
+TEST_F(CommandGuardTest, TheFarthestPositionIsLedToWithinTheLimitsAndNoneBeyondIsAccepted) {
+  rules_.reject_commands_beyond_limits = false;
+  CommandGuard guard(vehicle_, rules_);
+  RigidBodyState state{.p_WB = {1, 2, 5}, .v_WB = {0.5, 0, 0}};
+  for (const double far : {1e6, 1e100, 1e153}) {
+    const TrajectoryCommand command{.p_WB = {far, -far, far}};
+    ASSERT_FALSE(guard.refuse(command, state)) << far;
+    for (int step = 0; step < 100; ++step) {
+      const TrajectoryCommand led = guard.lead(command, state);
+      ASSERT_TRUE(led.p_WB.allFinite()) << far << ", step " << step;
+      ASSERT_LT((led.p_WB - state.p_WB).norm(), 20.0) << far << ", step " << step;
+      state.p_WB += 0.1 * (led.p_WB - state.p_WB);
+    }
+    guard.reset();
+  }
+  for (const double far : {1e155, -1e200, 1e308}) {
+    EXPECT_TRUE(guard.refuse({.p_WB = {0, far, 0}}, state)) << far;
+    EXPECT_TRUE(guard.refuse({.v_WB = {0, far, 0}}, state)) << far;
+    EXPECT_TRUE(guard.refuse({.a_WB = {0, far, 0}}, state)) << far;
+  }
+}
+
 TEST_F(CommandGuardTest, PassesNearPositionsUntouched) {
   CommandGuard guard(vehicle_, rules_);
   const TrajectoryCommand near{.p_WB = {10.9, 0, 5}, .v_WB = {1, 0, 0}};
