@@ -107,6 +107,32 @@ TEST(MapExchange, WhoAgreesSendsNoChunks) {
   EXPECT_EQ(fleet.take_bytes(), 3 * (4 + 2 * fleet[0].grid.chunks() + 1)) << "hashes alone";
 }
 
+/// Also for the finest grid of the largest site. The rest of a payload is for what a planner says besides its map.
+TEST(MapExchange, AMessageFitsIntoAPayloadHoweverManyCubesTheGridHas) {
+  constexpr std::size_t kOfThePlanner = 200;
+  for (const double edge_m : {20.0, 100.0, 250.0}) {
+    VoxelGrid ours(Isometry3d::Identity(), Vector3d::Constant(edge_m), 1.0), theirs = ours;
+    for (VoxelGrid::Id id = 0; id < 8000; ++id) {
+      ours.raise(id, id % 2 == 0 ? VoxelState::free : VoxelState::occupied);  // the longest encoding
+    }
+    const auto peers_of = [](std::size_t uav, std::size_t other) {
+      Peers peers(config_of(uav));
+      peers.update(0, {{node_of_uav(UavIndex(other)), Vector3d::Zero()}});
+      return peers;
+    };
+    MapExchange we, they;
+    PayloadWriter request, reply;
+    they.write(theirs, peers_of(1, 0), 0, request);
+    PayloadReader asked(request.data());
+    ASSERT_TRUE(we.read(1, 0, ours, asked));
+    we.write(ours, peers_of(0, 1), 0, reply);
+    EXPECT_LE(reply.size() + kOfThePlanner, kMaxPayloadBytes) << ours.count() << " cubes";
+    PayloadReader told(reply.data());
+    ASSERT_TRUE(they.read(0, 0, theirs, told));
+    EXPECT_EQ(theirs.state(1), VoxelState::occupied);
+  }
+}
+
 TEST(MapExchange, AnotherGridAndDamageAreRefused) {
   Fleet fleet;
   learn(fleet);

@@ -10,6 +10,7 @@ namespace skein::agent {
 namespace {
 
 constexpr double kMaxVoxels = 16e6;
+constexpr std::size_t kUsualInChunk = 512;
 constexpr std::size_t kMostInChunk = std::numeric_limits<std::uint16_t>::max();  ///< a chunk tells its length so
 constexpr std::uint8_t kPlain = 0, kRuns = 1;                                    ///< encoding of a chunk
 constexpr std::size_t kLongestRun = 255;
@@ -18,16 +19,19 @@ constexpr std::uint8_t kHighestState = 2;
 
 }  // namespace
 
-VoxelGrid::VoxelGrid(const Isometry3d& X_WG, const Vector3d& size_m, double voxel_m, std::size_t chunk_voxels)
-    : X_WG_(X_WG), X_GW_(X_WG.inverse()), voxel_m_(voxel_m), chunk_voxels_(chunk_voxels) {
+VoxelGrid::VoxelGrid(const Isometry3d& X_WG, const Vector3d& size_m, double voxel_m,
+                     std::optional<std::size_t> chunk_voxels)
+    : X_WG_(X_WG), X_GW_(X_WG.inverse()), voxel_m_(voxel_m) {
   const Vector3d edges = (size_m / voxel_m).array().max(1e-9).ceil();
-  const bool chunks_can_be = chunk_voxels > 0 && chunk_voxels <= kMostInChunk;
+  const bool chunks_can_be = !chunk_voxels || (*chunk_voxels > 0 && *chunk_voxels <= kMostInChunk);
   if (!(voxel_m > 0.0) || !chunks_can_be || !edges.allFinite() || edges.prod() > kMaxVoxels) {
     throw std::invalid_argument("a voxel grid of this size cannot be");
   }
   dims_ = edges.cast<int>();
   voxels_.assign(static_cast<std::size_t>(dims_.prod()), 0);
-  chunk_revision_.assign((voxels_.size() + chunk_voxels - 1) / chunk_voxels, 0);
+  const auto parts = [this](std::size_t size) { return (voxels_.size() + size - 1) / size; };
+  chunk_voxels_ = chunk_voxels.value_or(std::max(kUsualInChunk, parts(kMostChunks)));
+  chunk_revision_.assign(parts(chunk_voxels_), 0);
   chunk_hash_.assign(chunk_revision_.size(), {0, 0});
 }
 
@@ -237,7 +241,7 @@ Eigen::AlignedBox3d extent_of(const std::vector<OrientedBox>& boxes) {
 }
 
 VoxelGrid operational_volume(const std::vector<OrientedBox>& boxes, const std::vector<Vector3d>& points_W,
-                             double margin_m, double lowest_m, double voxel_m, std::size_t chunk_voxels) {
+                             double margin_m, double lowest_m, double voxel_m) {
   Eigen::AlignedBox3d all = extent_of(boxes);
   for (const Vector3d& p : points_W) all.extend(p);
   if (all.isEmpty()) all.extend(Vector3d::Zero());
@@ -246,7 +250,7 @@ VoxelGrid operational_volume(const std::vector<OrientedBox>& boxes, const std::v
   const double cut = std::max(0.0, lowest_m - lo.z());
   lo.z() += cut;
   size.z() = std::max(size.z() - cut, voxel_m);
-  return {Isometry3d(Eigen::Translation3d(lo)), size, voxel_m, chunk_voxels};
+  return {Isometry3d(Eigen::Translation3d(lo)), size, voxel_m};
 }
 
 VoxelGrid limited_volume(const std::vector<OrientedBox>& boxes, double margin_m, double voxel_m, int max_voxels) {

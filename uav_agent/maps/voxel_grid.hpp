@@ -26,11 +26,16 @@ class VoxelGrid {
   using Id = std::uint32_t;
   using Cell = Eigen::Vector3i;
   static constexpr int kFaces = 6;  ///< +x -x +y -y +z -z of G
+  /// Most chunks of a grid that chooses the size of its chunks. A message of MapExchange has a hash of each chunk, and
+  /// must fit into a radio payload (uav_agent/api/payload.hpp) with all else that a planner puts into it.
+  static constexpr std::size_t kMostChunks = 1400;
 
   /// @param X_WG  pose of the lowest corner.   @param size_m  is rounded up to whole cubes, at least one.
+  /// @param chunk_voxels  cubes in a chunk; nullopt: 512, or more if there were more than kMostChunks chunks otherwise.
   /// @throws std::invalid_argument for an edge that is not positive, empty chunks or chunks of more than 65,535 cubes,
   ///   or more than 16 million cubes.
-  VoxelGrid(const Isometry3d& X_WG, const Vector3d& size_m, double voxel_m, std::size_t chunk_voxels = 512);
+  VoxelGrid(const Isometry3d& X_WG, const Vector3d& size_m, double voxel_m,
+            std::optional<std::size_t> chunk_voxels = std::nullopt);
 
   double voxel_m() const { return voxel_m_; }
   const Cell& dims() const { return dims_; }
@@ -109,7 +114,7 @@ Eigen::AlignedBox3d extent_of(const std::vector<OrientedBox>& boxes);
 /// The smallest grid with axes along W's that holds all boxes and points, and `margin_m` more on each side; nothing
 /// of it is below `lowest_m`. KIOS's operational volume.
 VoxelGrid operational_volume(const std::vector<OrientedBox>& boxes, const std::vector<Vector3d>& points_W,
-                             double margin_m, double lowest_m, double voxel_m, std::size_t chunk_voxels = 512);
+                             double margin_m, double lowest_m, double voxel_m);
 /// The operational volume of the boxes, with cubes of `voxel_m`, or larger if there were more than `max_voxels`.
 VoxelGrid limited_volume(const std::vector<OrientedBox>& boxes, double margin_m, double voxel_m, int max_voxels);
 
