@@ -10,6 +10,7 @@
 #include "core/planners/uav_planner.hpp"
 #include "core/radio/radio_routes.hpp"
 #include "core/text/suggestion.hpp"
+#include "core/text/text.hpp"
 #include "results/run_folder.hpp"
 #include "run/ros_command.hpp"
 
@@ -41,6 +42,7 @@ std::map<std::string, std::string> part_variables(const FleetPlan& plan, const s
     node = node_of_uav(uav);
     variables["SKEIN_ROLE"] = name_of(plan.scenario.fleet[uav].vehicle.role);
   }
+  variables["SKEIN_EXCHANGE_S"] = shortest(seconds(plan.scenario.exchange_ticks()));
   std::tie(variables["SKEIN_RADIO_SENDS"], variables["SKEIN_RADIO_HEARS"]) = radio_topics_of(plan.scenario, node);
   return variables;
 }

@@ -9,8 +9,8 @@
 
 namespace skein::cli {
 
-/// The variables that do not depend on where the command runs: its radio topics and, unless it runs at the ground
-/// station, its UAV's role.
+/// The variables that do not depend on where the command runs: the time of an exchange, its radio topics and, unless it
+/// runs at the ground station, its UAV's role.
 std::map<std::string, std::string> part_variables(const FleetPlan& plan, const std::string& program);
 
 /// All environment variables of a user's command (docs/how-to.md). The command joins only the DDS domain SKEIN_DOMAIN.

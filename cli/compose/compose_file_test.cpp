@@ -314,7 +314,7 @@ TEST_F(ComposeFile, SubnetsLieBesideEachOtherInTheOneThatIsGiven) {
 }
 
 // As `skein run` tells the program of a planner exec:CMD or ros:PACKAGE/EXECUTABLE.
-TEST_F(ComposeFile, AProgramOfTheUsersOwnImageIsToldItsRoleAndItsRadioTopics) {
+TEST_F(ComposeFile, AProgramOfTheUsersOwnImageIsToldItsRoleItsRadioTopicsAndTheTimeOfAnExchange) {
   std::set<std::string> roles;
   for_all([&](const Fleet& fleet, const Compose& file) {
     for (const UavConfig& uav : fleet.plan.scenario.fleet) {
@@ -322,7 +322,7 @@ TEST_F(ComposeFile, AProgramOfTheUsersOwnImageIsToldItsRoleAndItsRadioTopics) {
       const auto environment = file.of(program, "environment");
       const bool foreign = fleet.layout.images.contains(uav.name);
       const auto told = exec_variables(fleet.plan, program, kComposeBaseDomain, "out", {});
-      for (const char* name : {"SKEIN_ROLE", "SKEIN_RADIO_SENDS", "SKEIN_RADIO_HEARS"}) {
+      for (const char* name : {"SKEIN_ROLE", "SKEIN_EXCHANGE_S", "SKEIN_RADIO_SENDS", "SKEIN_RADIO_HEARS"}) {
         ASSERT_EQ(environment[name].IsDefined(), foreign) << program << " " << name;
         if (!foreign) continue;
         EXPECT_EQ(filled_in(environment[name].Scalar()), told.at(name)) << program;

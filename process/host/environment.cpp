@@ -30,9 +30,9 @@ constexpr std::array<std::string_view, 8> kVendorNames = {"ROS_DISCOVERY_SERVER"
                                                           "ROS_STATIC_PEERS",      "ROS_AUTOMATIC_DISCOVERY_RANGE",
                                                           "SKIP_DEFAULT_XML_FILE", "SKIP_DEFAULT_XML"};
 /// Variables that a launcher sets for each program that it starts. Inherited values would be those of another fleet.
-constexpr std::array<std::string_view, 10> kToldNames = {
-    "SKEIN_DDS",  "SKEIN_DOMAIN", "SKEIN_OUT",      "SKEIN_RADIO_HEARS", "SKEIN_RADIO_SENDS",
-    kRunVariable, "SKEIN_ROLE",   "SKEIN_SCENARIO", "SKEIN_SECURITY",    "SKEIN_UAV"};
+constexpr std::array<std::string_view, 11> kToldNames = {
+    "SKEIN_DDS",  "SKEIN_DOMAIN", "SKEIN_EXCHANGE_S", "SKEIN_OUT",      "SKEIN_RADIO_HEARS", "SKEIN_RADIO_SENDS",
+    kRunVariable, "SKEIN_ROLE",   "SKEIN_SCENARIO",   "SKEIN_SECURITY", "SKEIN_UAV"};
 
 bool listed(const auto& names, std::string_view name) {
   return std::find(names.begin(), names.end(), name) != names.end();

@@ -20,7 +20,6 @@ using std::chrono::milliseconds;
 using std::chrono::seconds;
 using std::chrono::steady_clock;
 
-constexpr std::int64_t kExchange_ns = 50'000'000;
 constexpr milliseconds kMatchPoll{2};
 constexpr milliseconds kIdlePoll{500};
 constexpr seconds kLinger{5};  // so long may the last answer take to arrive
@@ -114,7 +113,7 @@ bool Member::take_invitation() {
     base_.clear();  // an earlier invitation may have come before its writer was known
     for (const auto& count : resync.base) base_.push_back({count.topic, {count.source, count.count}});
     invited_after_ = resync.epoch > 0 ? std::optional(resync.k) : std::nullopt;
-    now_ns_ = static_cast<std::int64_t>(resync.k) * kExchange_ns;
+    now_ns_ = static_cast<std::int64_t>(resync.k) * setup_.exchange_ns;
     return server_ != 0;
   }
   return false;

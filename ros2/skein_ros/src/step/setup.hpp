@@ -11,6 +11,7 @@ namespace skein_ros {
 struct Setup {
   std::string uav;                                ///< SKEIN_UAV: the member's name
   std::uint64_t run = 0;                          ///< SKEIN_RUN
+  std::int64_t exchange_ns = 50'000'000;          ///< SKEIN_EXCHANGE_S: simulated time of one step; 50 ms if unset
   bool explorer = true;                           ///< SKEIN_ROLE is not "photographer": it has a LiDAR
   std::set<std::string> radio_sends = {"/plan"};  ///< SKEIN_RADIO_SENDS: "/x /y"
   std::set<std::string> radio_hears;              ///< SKEIN_RADIO_HEARS: "/x/jurong ..."; "/plan/<uav>" if unset
