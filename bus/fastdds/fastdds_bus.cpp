@@ -181,15 +181,18 @@ class FastParticipant : public Participant {
 
  private:
   /// The topic, created at the first call: Fast DDS permits one per name in a participant. It exists as long as the
-  /// participant. @throws std::runtime_error if it exists with another type.
+  /// participant, or until it is opened with another type after its last endpoint has gone.
+  /// @throws std::runtime_error if an endpoint uses it with another type.
   dds::Topic& open(const TopicSpec& spec) {
     const std::scoped_lock lock(mutex_);
-    const auto known = topics_.find(spec.name);
-    if (known != topics_.end()) {
-      if (known->second->get_type_name() != spec.type)
-        throw std::runtime_error("Fast DDS: topic " + spec.name + " has type " + known->second->get_type_name() +
+    if (const auto known = topics_.find(spec.name); known != topics_.end()) {
+      const std::string type = known->second->get_type_name();
+      if (type == spec.type) return *known->second;
+      if (participant_->delete_topic(known->second) != ReturnCode_t::RETCODE_OK) {
+        throw std::runtime_error("Fast DDS: topic " + spec.name + " has type " + type +
                                  " already, it cannot have type " + spec.type + " as well");
-      return *known->second;
+      }
+      topics_.erase(known);
     }
     if (!participant_->find_type(spec.type)) dds::TypeSupport(new RawType(spec.type)).register_type(participant_);
     dds::Topic* topic =

@@ -85,9 +85,16 @@ void LockstepClient::open_reader(Reading& reading) {
 }
 
 void LockstepClient::add_radio_writer(const TopicSpec& topic) {
-  const auto same = [&](const Writing& writing) { return writing.topic.name == topic.name; };
-  if (std::any_of(writings_.begin(), writings_.end(), same)) return;
-  writings_.push_back({topic, Counterpart::router, std::make_unique<CountedWriter>(participant_, topic), true, false});
+  const auto same = std::find_if(writings_.begin(), writings_.end(),
+                                 [&](const Writing& writing) { return writing.topic.name == topic.name; });
+  if (same == writings_.end()) {
+    writings_.push_back(
+        {topic, Counterpart::router, std::make_unique<CountedWriter>(participant_, topic), true, false});
+  } else if (same->registered && !same->open && same->topic.type != topic.type) {
+    same->writer.reset();  // first: a participant has one type for a topic
+    same->topic = topic;
+    same->writer = std::make_unique<CountedWriter>(participant_, topic);
+  }
 }
 
 void LockstepClient::open_radio_writer(const std::string& topic) {
@@ -100,6 +107,10 @@ void LockstepClient::open_radio_writer(const std::string& topic) {
 void LockstepClient::open_radio_reader(const TopicSpec& topic, CountedQueues::Handler handler) {
   queues_.add_topic(topic.name, std::move(handler));
   queues_.set_base(topic.name, router_, delivered_[topic.name]);
+  const auto former = std::find_if(readings_.begin(), readings_.end(), [&](const Reading& reading) {
+    return reading.registered && reading.topic.name == topic.name;
+  });
+  if (former != readings_.end()) readings_.erase(former);  // with both, each sample would count twice
   readings_.push_back({topic, Counterpart::router, nullptr, true});
   open_reader(readings_.back());
   matched_router_ = 0;

@@ -41,13 +41,14 @@ class LockstepClient {
   void declare_writer(const TopicSpec& topic, Counterpart counterpart);
 
   /// For radio topics that are registered with the router during the run; only RadioTopics (radio_topics.hpp) calls
-  /// these. Creates a writer, unless the topic has one. The router does not match it before open_radio_writer().
+  /// these. Creates a writer, unless the topic has one; replaces one of another type that the router has not opened.
+  /// The router does not match it before open_radio_writer().
   void add_radio_writer(const TopicSpec& topic);
   /// Call it in a handler, when the router has opened the topic: the current step waits until the router has matched
   /// the writer.
   void open_radio_writer(const std::string& topic);
-  /// Creates a reader for messages from the next step on. Call it in a handler: the current step waits until the router
-  /// has matched the reader.
+  /// Creates a reader for messages from the next step on, in place of a former one that the router has refused. Call it
+  /// in a handler: the current step waits until the router has matched the reader.
   void open_radio_reader(const TopicSpec& topic, CountedQueues::Handler handler);
 
   /// Sends the hello; poll() continues from there.

@@ -32,8 +32,8 @@ RadioTopics::RadioTopics(LockstepClient& client, std::string node)
 void RadioTopics::send(const std::string& topic, const std::string& type, const std::vector<std::string>& targets) {
   const TopicSpec spec = radio_topic(topic, type, 1);
   begin_step();
-  const auto [entry, fresh] = sendings_.try_emplace(topic);
-  if (fresh) client_.add_radio_writer(spec);
+  const auto entry = sendings_.try_emplace(topic).first;
+  client_.add_radio_writer(spec);
   entry->second.request = make_request(client_.run(), topic, type);
   entry->second.request.source(node_);
   entry->second.request.targets(targets);
@@ -45,11 +45,14 @@ void RadioTopics::listen(const std::string& topic, const std::string& type, Coun
   radio_topic(topic, type, 1);  // throws when malformed
   begin_step();
   const auto [entry, fresh] = listenings_.try_emplace(topic);
-  entry->second.handler = std::move(handler);
-  if (!fresh) return;
-  entry->second.request = make_request(client_.run(), topic, type);
-  entry->second.request.listen(true);
-  ask(entry->second.request);
+  Listening& listening = entry->second;
+  listening.handler = std::move(handler);
+  const bool asked = !fresh && listening.request.type() == type && listening.status.refusal.empty();
+  if (asked || listening.status.open) return;
+  listening.request = make_request(client_.run(), topic, type);
+  listening.request.listen(true);
+  listening.status = {};
+  ask(listening.request);
 }
 
 // While the router is away, this sends nothing; begin_step() will send the request to the next router.

@@ -254,6 +254,22 @@ TEST_P(BusContract, OnlyFittingEndpointsMatch) {
   EXPECT_EQ(writer->matched().size(), 1u);
 }
 
+/// Who asked for a radio topic of the wrong type may ask again (docs/radio.md).
+TEST_P(BusContract, ATopicMayHaveAnotherTypeOnceItsEndpointsAreGone) {
+  auto a = writing_side(), b = reading_side();
+  const bus::TopicSpec spec = topic("retyped");
+  bus::TopicSpec former = spec;
+  former.type = "other::Type_";
+  a->create_writer(former).reset();
+  b->create_reader(former, [](Sample&&) {}).reset();
+  Collector got;
+  auto reader = b->create_reader(spec, got.callback());
+  auto writer = a->create_writer(spec);
+  connect(*writer, *reader);
+  writer->write(numbered(7));
+  EXPECT_EQ(got.numbers(1), count_from(7, 1));
+}
+
 TEST_P(BusContract, DomainsDoNotHearEachOther) {
   auto a0 = writing_side(0), a1 = writing_side(1), b0 = reading_side(0), b1 = reading_side(1);
   Collector got0, got1;

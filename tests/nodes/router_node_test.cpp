@@ -152,6 +152,54 @@ TEST(RouterNode, WhatIsUnderWayOnARegisteredTopicArrivesAlthoughItsTopicIsRefuse
   EXPECT_EQ(router.gate().total().delivered, 2U);
 }
 
+/// A request for another type than the topic's is refused. Who made it may ask again for the right one, and the fleet
+/// does not wait for a writer of the wrong one.
+TEST(RouterNode, WhoAskedForTheWrongTypeOfATopicMayCorrectIt) {
+  constexpr std::uint64_t kWrong = 3, kRight = 8, kSays = 14, kSteps = 20;
+  const std::string right = "std_msgs/msg/String", wrong = "std_msgs/msg/Bool";
+  const Scenario scenario = toy_scenario(3);
+  const auto bus = bus::make_bus({.vendor = "inproc"});
+  ToyServer server(*bus, scenario, kSteps);
+  server.expect_uavs(scenario);
+  server.expect_router();
+  router::RouterNode router(scenario, 0, 0, *bus);
+  router.set_patience(1e-9, 1.0);
+  ToyMember first(*bus, uav_domain(0, UavIndex{0}), "a"), sender(*bus, uav_domain(0, UavIndex{1}), "b"),
+      listener(*bus, uav_domain(0, UavIndex{2}), "c");
+  bus::RadioTopics of_first(first.client(), "a"), of_sender(sender.client(), "b"), of_listener(listener.client(), "c");
+  bool sent = false;
+  int heard = 0, misheard = 0;
+  first.on_step = [&](const msg::Step& step) {
+    of_first.begin_step();
+    if (step.k() == 0) of_first.send("/note", right, {"all"});
+  };
+  sender.on_step = [&](const msg::Step& step) {
+    of_sender.begin_step();
+    if (step.k() == kWrong) of_sender.send("/note", wrong, {"all"});
+    if (step.k() == kSays) sent = of_sender.write("/note", encode(msg::String()));
+    if (step.k() != kRight) return;
+    EXPECT_NE(of_sender.sending("/note").refusal, "");
+    of_sender.send("/note", right, {"all"});
+  };
+  listener.on_step = [&](const msg::Step& step) {
+    of_listener.begin_step();
+    if (step.k() == kWrong) of_listener.listen("/note", wrong, [&](bus::Sample&&) { ++misheard; });
+    if (step.k() != kRight) return;
+    EXPECT_NE(of_listener.listening("/note").refusal, "");
+    of_listener.listen("/note", right, [&](bus::Sample&&) { ++heard; });
+  };
+  std::vector<std::function<void()>> turns = {[&] { server.poll(); }, [&] { router.poll(); }};
+  router.start();
+  for (ToyMember* const member : {&first, &sender, &listener}) {
+    member->start();
+    turns.push_back([member] { member->poll(); });
+  }
+  ASSERT_TRUE(take_turns(turns, [&] { return server.over(); })) << router.waiting_for();
+  EXPECT_TRUE(sent) << of_sender.sending("/note").refusal;
+  EXPECT_EQ(heard, 1) << of_listener.listening("/note").refusal;
+  EXPECT_EQ(misheard, 0);
+}
+
 TEST(RouterNode, TellsForWhomItWaitsBeforeItsRadioIsOpen) {
   const Scenario scenario = toy_scenario(1);
   const auto bus = bus::make_bus({.vendor = "inproc"});
