@@ -5,10 +5,18 @@
 #include <vector>
 
 #include "core/scenario.hpp"
+#include "core/text/text.hpp"
 #include "core/view_topics.hpp"
 
 namespace skein {
 namespace {
+
+/// @throws InputError if a name of DDS is too long. @param given  what the user wrote. @param what  it is.
+std::string bounded(std::string name, std::string_view given, const char* what) {
+  if (name.size() <= kMostNameBytes) return name;
+  throw InputError("'" + shortened(std::string(given)) + "' is too long: the name of " + what + " may have " +
+                   std::to_string(kMostNameBytes) + " characters in DDS, not " + std::to_string(name.size()));
+}
 
 bool is_name_character(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
 
@@ -53,7 +61,7 @@ std::string wire_topic(std::string_view ros_topic) {
                      "' is not an absolute topic name; write it like '/broadcast': after each '/' letters, "
                      "digits and '_', not beginning with a digit");
   }
-  return "rt" + std::string(ros_topic);
+  return bounded("rt" + std::string(ros_topic), ros_topic, "a topic");
 }
 
 std::string wire_type(std::string_view ros_type) {
@@ -61,14 +69,14 @@ std::string wire_type(std::string_view ros_type) {
   if (parts.size() != 3 || parts[1] != "msg" || !is_token(parts[0]) || !is_token(parts[2])) {
     throw InputError("'" + std::string(ros_type) + "' is not a message type; write it like 'std_msgs/msg/String'");
   }
-  return std::string(parts[0]) + "::msg::dds_::" + std::string(parts[2]) + "_";
+  return bounded(std::string(parts[0]) + "::msg::dds_::" + std::string(parts[2]) + "_", ros_type, "a type");
 }
 
 namespace topics {
 
 std::string_view debug_name(std::string_view wire_topic, std::string_view id) {
   const std::string prefix = debug(id, "").name;
-  if (!wire_topic.starts_with(prefix)) return {};
+  if (!wire_topic.starts_with(prefix) || wire_topic.size() > kMostNameBytes) return {};
   const std::string_view name = wire_topic.substr(prefix.size());
   return is_token(name) ? name : std::string_view();
 }

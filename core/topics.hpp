@@ -21,10 +21,12 @@ struct Scenario;
 
 /// Whether `text` is an absolute ROS topic name: "/x", "/x/y".
 bool is_topic_name(std::string_view text);
-/// "/x" -> "rt/x". @throws InputError when `ros_topic` is not an absolute ROS topic name.
+/// Longest name of a DDS topic or type: Fast DDS cuts longer names off, and Cyclone DDS crashes at 64 KiB.
+inline constexpr std::size_t kMostNameBytes = 255;
+/// "/x" -> "rt/x". @throws InputError when `ros_topic` is not an absolute ROS topic name, or too long.
 std::string wire_topic(std::string_view ros_topic);
 /// "std_msgs/msg/String" -> "std_msgs::msg::dds_::String_".
-/// @throws InputError when `ros_type` is not of the form package/msg/Type.
+/// @throws InputError when `ros_type` is not of the form package/msg/Type, or too long.
 std::string wire_type(std::string_view ros_type);
 
 /// World domain: ground truth; no agent joins it.
@@ -370,7 +372,7 @@ inline WireTopic debug(std::string_view id, std::string_view name) {
   return {"rt/" + std::string(id) + "/debug/" + std::string(name), wire_type("std_msgs/msg/Float64"), false,
           kCommandDepth};
 }
-/// The name of the debug value in a topic made by debug(id, name); empty if the topic is none of this UAV's.
+/// The name of the debug value in a topic made by debug(id, name); empty if it is none of this UAV's, or too long.
 std::string_view debug_name(std::string_view wire_topic, std::string_view id);
 inline WireTopic trigger(std::string_view id) { return wire(kTrigger, id); }
 inline WireTopic octomap(std::string_view id) { return wire(kOctomap, id); }

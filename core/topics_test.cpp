@@ -25,6 +25,17 @@ TEST(Topics, MalformedNamesAreRefused) {
   }
 }
 
+TEST(Topics, NamesThatDdsCannotCarryAreRefused) {
+  const std::string most(kMostNameBytes - std::string("rt/").size(), 'x');
+  EXPECT_EQ(wire_topic("/" + most).size(), kMostNameBytes);
+  EXPECT_THROW(wire_topic("/" + most + "x"), InputError);
+  EXPECT_THROW(wire_topic("/" + std::string(1 << 20, 'x')), InputError);
+  EXPECT_THROW(wire_type("std_msgs/msg/" + std::string(kMostNameBytes, 'X')), InputError);
+  const std::string longest(kMostNameBytes - topics::debug("jurong", "").name.size(), 'x');
+  EXPECT_EQ(topics::debug_name(topics::debug("jurong", longest).name, "jurong"), longest);
+  EXPECT_EQ(topics::debug_name(topics::debug("jurong", longest + "x").name, "jurong"), "");
+}
+
 TEST(Topics, EveryEntryOfTheTablesIsWellFormedAndUnique) {
   for (const auto table :
        {topics::uav_topics(), topics::gcs_topics(), topics::viewer_topics(), topics::lockstep_topics()}) {

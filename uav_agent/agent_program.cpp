@@ -44,7 +44,8 @@ void check_debug_names(const std::vector<std::string>& names, const std::string&
   for (const std::string& name : names) {
     if (topics::debug_name(topics::debug(uav, name).name, uav).empty()) {
       throw InputError(uav + "'s planner " + planner + ": debug name '" + name +
-                       "' is not part of a topic's name: letters, digits and _, a letter first");
+                       "' is not part of a topic's name: letters, digits and _, a letter first, and together at most "
+                       "255 characters");
     }
   }
   if (std::set<std::string>(names.begin(), names.end()).size() > topics::kMostDebugNames) {

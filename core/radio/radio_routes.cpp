@@ -166,6 +166,9 @@ class RadioTable::Builder {
   /// A route of this name and type, without its ends.
   RadioRoute check_names(const std::string& ros_topic, const std::string& ros_type) const {
     const std::string topic = checked("name", [&] { return wire_topic(ros_topic); });
+    for (const Node node : scenario_.nodes()) {
+      checked("name", [&] { return wire_topic(arrival_topic(ros_topic, name(node))); });
+    }
     const std::string type = checked("type", [&] { return wire_type(ros_type); });
     if (ros_topic.starts_with("/skein/")) fail("name", "names under /skein/ are Skein's own; choose another");
     // Refused by every node, to send and to hear: UAVs would learn what they did not see, and what a point is called.

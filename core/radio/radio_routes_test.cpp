@@ -228,13 +228,17 @@ TEST(RadioTable, RefusalsSayWhyAndChangeNothing) {
                {"/skein/note", "some/msg/Note", {"all"}, "Skein's own"},
                {"/captures/jurong2", "some/msg/Note", {"all"}, "carry the score"},
                {"/clock", "some/msg/Note", {"all"}, "is taken by a topic that Skein writes"},
+               {"/" + std::string(240, 'x'), "some/msg/Note", {"sentosa"}, ""},
+               {"/" + std::string(246, 'x'), "some/msg/Note", {"sentosa"}, "name: '/xxx"},
+               {"/" + std::string(1 << 20, 'x'), "some/msg/Note", {"sentosa"}, "name: '/xxx"},
+               {"/note2", "some/msg/" + std::string(255, 'x'), {"all"}, "type: 'some/msg/xxx"},
                {"/jurong", "some/msg/Note", {"all"}, ""}};
   for (const auto& w : wrong) {
     const std::string said = refusal(table, Node{1}, w.name, w.type, w.targets);
     EXPECT_NE(said.find(w.reason), std::string::npos) << w.name << ": " << said;
     EXPECT_EQ(said.empty(), w.reason.empty()) << said;
   }
-  EXPECT_EQ(table.routes().size(), before + 1) << "the last one made sense";
+  EXPECT_EQ(table.routes().size(), before + 2) << "these made sense";
   EXPECT_THROW(table.arrival(Node{1}, "/note", "some/msg/Other"), InputError);
   EXPECT_NO_THROW(table.arrival(Node{1}, "/not_yet", "some/msg/Other"));
 }
