@@ -17,6 +17,7 @@ import pytest
 import skein
 from skein.client import Client, Listener, Message, decode, define, encode, new
 from skein.client.messages import type_named
+from skein.client.step import Step
 
 TYPES = ["nav_msgs/msg/Odometry", "sensor_msgs/msg/PointCloud2", "sensor_msgs/msg/JointState", "std_msgs/msg/String",
          "skein_msgs/msg/CaptureReports", "skein_msgs/msg/Step", "trajectory_msgs/msg/MultiDOFJointTrajectory",
@@ -85,6 +86,18 @@ def test_random_bytes_are_no_message_and_do_no_harm() -> None:
         except skein.DamagedError:
             refused += 1
     assert 500 < refused < 4000
+
+
+def test_a_damaged_text_is_as_good_as_lost_and_hides_no_other() -> None:
+    client = Client.__new__(Client)  # without a fleet
+    text = "std_msgs/msg/String"
+    client.name, client._latest, client._radio = "jurong", {}, {"/plan": text, "/own": text}
+    whole = encode(new(text, data="here"))
+    arrived = {"/plan/jurong": [whole, whole[:10], b"", whole], "/own/jurong": [whole[:5]]}
+    step = Step(client, 1, 20, False, arrived, True, 0)
+    assert [(one.topic, one.text) for one in step.radio] == [("/plan", "here")] * 2
+    with pytest.raises(skein.DamagedError):
+        step.messages("/plan")
 
 
 def test_values_that_do_not_fit_are_named() -> None:

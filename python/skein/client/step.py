@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import contextlib
+from collections.abc import Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
 import numpy.typing as npt
 
-from ..errors import InputError
+from ..errors import DamagedError, InputError
 from ..planner import GimbalState, KeyFrame, OrientedBox, RadioMessage, Scan, State, TICKS_PER_SECOND
 from . import messages, words
 from .messages import Message
@@ -40,9 +42,13 @@ class Step:
         return self.tick / TICKS_PER_SECOND
 
     def messages(self, topic: str) -> list[Message]:
-        """All messages that arrived with this step on a topic of `Client(read=...)` or a radio topic, in order."""
+        """All messages that arrived with this step on a topic of `Client(read=...)` or a radio topic, in order. Raises
+        DamagedError for one that no longer is a message of its type after a link with `corruption`."""
         of = self._client._type_of(topic)
-        return [messages.decode(of, payload) for payload in self._arrived.get(self._client._arrival(topic), ())]
+        return [messages.decode(of, payload) for payload in self._payloads(topic)]
+
+    def _payloads(self, topic: str) -> Sequence[bytes]:
+        return self._arrived.get(self._client._arrival(topic), ())
 
     def _last(self, topic: str) -> Message | None:
         payload = self._latest.get(topic)
@@ -87,9 +93,14 @@ class Step:
 
     @cached_property
     def radio(self) -> tuple[RadioMessage, ...]:
-        """Texts that other nodes sent. For topics of other types: `messages("/their_topic")`."""
-        return tuple(RadioMessage(topic, message.data) for topic, of in self._client._radio.items() if of == _TEXT
-                     for message in self.messages(topic))
+        """Texts that other nodes sent, without damaged messages. For topics of other types:
+        `messages("/their_topic")`."""
+        found = []
+        for topic in (topic for topic, of in self._client._radio.items() if of == _TEXT):
+            for payload in self._payloads(topic):
+                with contextlib.suppress(DamagedError):  # links with corruption: as if it were lost
+                    found.append(RadioMessage(topic, messages.decode(_TEXT, payload).data))
+        return tuple(found)
 
     @cached_property
     def scans(self) -> tuple[Scan, ...]:
