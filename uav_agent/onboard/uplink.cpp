@@ -22,7 +22,8 @@ void Uplink::acknowledge(const std::vector<std::uint64_t>& captures) {
     held_.erase(capture);
     if (is_acknowledged(capture)) continue;
     std::uint64_t first = capture, last = capture;
-    if (const auto after = acknowledged_.find(capture + 1); after != acknowledged_.end()) {
+    const auto after = acknowledged_.upper_bound(capture);
+    if (after != acknowledged_.end() && after->first - capture == 1) {
       last = after->second;
       acknowledged_.erase(after);
     }

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <map>
 #include <set>
 
@@ -98,6 +99,17 @@ TEST(Uplink, RemembersExactlyWhatWasAcknowledged) {
       ASSERT_EQ(uplink.undelivered() - before, acknowledged.contains(capture) ? 0U : 1U) << seed << ": " << capture;
     }
   }
+}
+
+// The last number has no successor; its range must not be joined to that of the first.
+TEST(Uplink, TheLastNumberIsNotNextToTheFirst) {
+  constexpr std::uint64_t kLast = std::numeric_limits<std::uint64_t>::max();
+  Uplink uplink;
+  uplink.acknowledge({0, 1, kLast});
+  uplink.take({report(0), report(1), report(kLast)});
+  EXPECT_EQ(uplink.undelivered(), 0U);
+  uplink.take({report(2), report(kLast - 1)});
+  EXPECT_EQ(uplink.undelivered(), 2U);
 }
 
 // Radio that loses messages and links both ways, whatever the order of events: all arrives, and nothing but
