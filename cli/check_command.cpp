@@ -70,7 +70,11 @@ std::string checked_with(const CheckOptions& options, const auto& check) {
 
 std::string check_fault_test(const CheckOptions& options, const std::filesystem::path& file, const Console& console) {
   const FaultTest test = load_fault_test(file, options.assets, options.agent);
-  check_with_programs(test.plan, console);
+  try {
+    check_with_programs(test.plan, console);
+  } catch (const InputError& error) {
+    throw InputError(file.string() + ": run: " + error.what());
+  }
   return test.plan.scenario.name;
 }
 

@@ -88,7 +88,17 @@ void check_run(const RunOptions& options, ConfigErrors& errors) {
     find_config_file("scenario", options.scenario, default_config_dir() / "scenarios");
     LoadOptions load;
     load.needs_scene_files = false;
-    const Scenario scenario = load_scenario(options.scenario, load);
+    Scenario scenario = load_scenario(options.scenario, load);
+    // One key after the other, so that a mistake is reported at the key that makes it.
+    const auto load_with = [&](const char* next, auto LoadOptions::*part, const auto& value) {
+      if (!value) return;
+      key = next;
+      load.*part = value;
+      scenario = load_scenario(options.scenario, load);
+    };
+    load_with("run.scene_seed", &LoadOptions::scene_seed, options.scene_seed);
+    load_with("run.duration_s", &LoadOptions::duration_s, options.duration_s);
+    load_with("run.uavs", &LoadOptions::uavs, options.uavs);
     key = "run.planner";
     parse_planners(options.planner, scenario.uav_names());
     key = "run.conditions";

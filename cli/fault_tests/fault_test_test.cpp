@@ -80,6 +80,20 @@ TEST_F(FaultTestFile, AnythingWrongIsNamedWithItsLine) {
           "faults[0].at_s: is after the end");
 }
 
+TEST_F(FaultTestFile, PlannersMayNameTheCopiesOfALargerFleetAndOnlyUavsThatFly) {
+  const std::string run = "faults: []\nrun:\n  scenario: towers\n  planner: hover,";
+  EXPECT_EQ(load(run + "jurong2=patrol\n  uavs: 7\n").plan.scenario.fleet.size(), 7u);
+  refused(run + "jurong3=patrol\n  uavs: 7\n", "mine.yaml:4: run.planner: ");
+  refused(run + "changi=patrol\n  uavs: 2\n", "mine.yaml:4: run.planner: ");
+}
+
+TEST_F(FaultTestFile, WhatDoesNotFitTheScenarioIsNamedWithItsLine) {
+  const std::string towers = "faults: []\nrun:\n  scenario: towers\n";
+  refused(towers + "  duration_s: 1e-9\n", "mine.yaml:4: run.duration_s: ");
+  refused(towers + "  uavs: 12\n", "mine.yaml:4: run.uavs: ");
+  refused("faults: []\nrun:\n  scenario: mbs\n  scene_seed: 1\n", "mine.yaml:4: run.scene_seed: ");
+}
+
 TEST_F(FaultTestFile, AnExpectationThatBecameAPropertyIsRefusedWithTheCommandThatConvertsIt) {
   for (const std::string& key : old_expectations()) {
     const std::string file = (programs_.dir() / "mine.yaml").string();
