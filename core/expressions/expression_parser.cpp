@@ -240,10 +240,13 @@ Expression ExpressionParser::signal(std::size_t at, const std::string& name) {
   const SignalInfo& info = signal_named(at, name);
   SignalUse use{&info, {}};
   if (accept_mark("(")) {
+    std::string_view before;  // as written: a variable may happen to stand for the UAV that is named beside it
     do {
       if (use.arguments.size() == info.arguments.size()) {
         fail(this->at(), "too many names: the signal is " + info.text());
       }
+      refuse_same(info, use.arguments.size(), before);
+      before = peek_word();
       const bool may_be_all = use.arguments.size() >= info.required;
       use.arguments.push_back(may_be_all && accept("all") ? "" : argument(info.arguments[use.arguments.size()]));
     } while (accept_mark(","));
@@ -255,6 +258,14 @@ Expression ExpressionParser::signal(std::size_t at, const std::string& name) {
   if (use.is("result")) result.unit = unit_of_result(use.arguments[0]).unit;
   result.signal = slot_of(std::move(use));
   return result;
+}
+
+/// No node has a link to itself, and no UAV a distance from itself.
+void ExpressionParser::refuse_same(const SignalInfo& info, std::size_t place, std::string_view before) {
+  const std::string_view next = peek_word();
+  const bool of_one_kind = place > 0 && info.arguments[place] == info.arguments[place - 1];
+  if (!of_one_kind || next != before || next.empty() || next == "all") return;
+  fail(at(), "'" + std::string(next) + "' is named twice: " + info.text() + " is about two different ones");
 }
 
 std::size_t ExpressionParser::slot_of(SignalUse use) {

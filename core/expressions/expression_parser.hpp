@@ -61,6 +61,7 @@ class ExpressionParser : public ExpressionText {
   std::string argument(SignalArgument kind);
   std::string known(const std::string& name, std::size_t at, const std::vector<std::string>& names,
                     const std::string& what) const;
+  void refuse_same(const SignalInfo& info, std::size_t place, std::string_view before);
   std::size_t slot_of(SignalUse use);
 
   const ExpressionScope& scope_;

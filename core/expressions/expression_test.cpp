@@ -189,6 +189,10 @@ TEST_F(Expressions, WrongOnesAreRefusedWhereTheyAreWrong) {
   refused("held(chagni) > 1", 5, "there is no UAV 'chagni'; did you mean 'changi'?");
   refused("link(jurong) ", 0, "names are missing: the signal is link(node, node)");
   refused("held(jurong, changi) > 1", 13, "too many names: the signal is held([uav])");
+  refused("link(jurong, jurong)", 13, "'jurong' is named twice: link(node, node) is about two different ones");
+  refused("separation(changi, changi) > 1 m", 19, "'changi' is named twice");
+  refused("sent(gcs, gcs, /plan) > 1", 10, "'gcs' is named twice");
+  parse("sent(all, all, /plan) > 1");
   refused("sent(jurong, gcs, plan) > 1", 18, "here must be a topic like '/plan'");
   refused("held > 1 and 3", 13, "must be a condition");
   refused("held = 1", 5, "write '=='");
