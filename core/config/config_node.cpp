@@ -12,6 +12,7 @@
 
 #include "core/files/file_bytes.hpp"
 #include "core/text/text.hpp"
+#include "core/text/utf8.hpp"
 #include "core/types.hpp"
 
 namespace skein {
@@ -166,6 +167,16 @@ class NothingMore final : public YAML::EventHandler {
   const std::string& origin_;
 };
 
+/// yaml-cpp would replace the bytes without a word: a name would become another one.
+void refuse_other_encodings(const std::string& text, const std::string& origin) {
+  if (is_utf8(text)) return;
+  std::istringstream lines(text);
+  int number = 1;
+  for (std::string line; std::getline(lines, line) && is_utf8(line); ++number) {
+  }
+  throw InputError(place(origin, number) + ": not in UTF-8; convert the file, for example with iconv");
+}
+
 /// yaml-cpp takes some control characters for its own marks.
 void refuse_binary(const std::string& text, const std::string& origin) {
   int line = 1;
@@ -302,6 +313,7 @@ ConfigPlace place_in(const ConfigDocument& document, const ConfigNode& scalar, s
 
 ConfigDocument parse_config_document(const std::string& text, const std::string& origin) {
   refuse_binary(text, origin);
+  refuse_other_encodings(text, origin);
   std::istringstream stream(text);
   try {
     YAML::Parser parser(stream);

@@ -144,6 +144,16 @@ TEST(ConfigReader, SaysWhereAndWhatWouldBeRight) {
             "test:1: seed: must be a whole number of at least 0, not '18446744073709551616'");
 }
 
+TEST(ConfigReader, ATextInAnotherEncodingIsRefusedWithItsLine) {
+  EXPECT_EQ(complaint("flag: true\nname: caf\xE9"), "test:2: not in UTF-8; convert the file, for example with iconv");
+  EXPECT_EQ(complaint("flag: true  # caf\xE9\n"), "test:1: not in UTF-8; convert the file, for example with iconv");
+  EXPECT_EQ(complaint("flag: true  # caf\xC3\xA9\n"), "accepted");
+  EXPECT_EQ(complaint("\xEF\xBB\xBF"
+                      "flag: true\n"),
+            "accepted")
+      << "a mark of the byte order";
+}
+
 TEST(ConfigReader, NumbersAreStrict) {
   for (const char* number : {"1.", ".5", "1e3", "+2", "-0", "007"}) {
     EXPECT_EQ(complaint("real: " + std::string(number)), "accepted") << number;
