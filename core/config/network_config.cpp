@@ -1,16 +1,35 @@
 #include "core/config/network_config.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <variant>
 
 #include "core/config/config_reader.hpp"
 #include "core/text/suggestion.hpp"
+#include "core/text/text.hpp"
+#include "core/text/whole_number.hpp"
 
 namespace skein {
 namespace {
 
 constexpr const char* kUsual = "usual";
+
+/// Whether a text may be the name of a host, or is an IPv4 address in full. Names that nobody knows yet are looked up
+/// again and again, so that a port or a network behind an address would be waited for without a word.
+bool may_be_host(const std::string& text) {
+  const auto fits = [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '.' || c == '-' || c == '_';
+  };
+  if (text.empty() || text[0] == '-' || !std::ranges::all_of(text, fits)) return false;
+  if (text.find_first_not_of("0123456789.") != std::string::npos) return true;
+  const std::vector<std::string> numbers = split(text, '.');
+  const auto is_byte = [](const std::string& number) {
+    const auto value = parse_whole(number);
+    return value && *value <= 255;
+  };
+  return numbers.size() == 4 && std::ranges::all_of(numbers, is_byte);
+}
 
 bool is_file(const std::string& text) { return text.ends_with(".yaml") || text.ends_with(".yml"); }
 
@@ -23,8 +42,9 @@ ConfigDocument document_of(const std::string& text) {
 void describe(auto& r, DomainNetwork& network) {
   r.field("interface", network.interface);
   r.field("peers", network.peers);
-  const bool unnamed = std::ranges::any_of(network.peers, &std::string::empty);
-  r.check(!unnamed, "peers", "must be names or IPv4 addresses of hosts");
+  for (const std::string& peer : network.peers) {
+    r.check(may_be_host(peer), "peers", "must be names or IPv4 addresses of hosts, without a port, not '" + peer + "'");
+  }
   r.check(network.interface != DomainNetwork::kHost || network.peers.empty(), "peers",
           "must not be given where nothing leaves the host");
 }

@@ -51,6 +51,13 @@ TEST(NetworkConfig, MistakesAreNamed) {
   EXPECT_NE(network_refusal("{world: {peer: [a]}}").find("peer"), std::string::npos);
   EXPECT_NE(network_refusal("{world: {peers: a}}").find("world.peers"), std::string::npos);
   EXPECT_NE(network_refusal("{world: {peers: ['']}}").find("names or IPv4 addresses"), std::string::npos);
+  for (const char* peer : {"10.0.0.7:7400", "10.0.0.0/24", "10.0.0.300", "10.0.0", "::1", "a b", "-a", "<a>"}) {
+    const std::string refusal = network_refusal("{world: {peers: [b, '" + std::string(peer) + "']}}");
+    EXPECT_NE(refusal.find("without a port, not '" + std::string(peer) + "'"), std::string::npos) << peer << refusal;
+  }
+  for (const char* peer : {"10.0.0.7", "a-b.example", "7up", "h_1", "localhost."}) {
+    EXPECT_EQ(network_refusal("{world: {peers: ['" + std::string(peer) + "']}}"), "") << peer;
+  }
   EXPECT_NE(network_refusal("{world: {interface: host, peers: [a]}}").find("nothing leaves the host"),
             std::string::npos);
   EXPECT_NE(network_refusal("{world: [").find("--network"), std::string::npos);
