@@ -53,22 +53,32 @@ Scenario scenario_of(const RunOptions& run) {
   }
 }
 
-/// Whether there is a report of this program that cannot be read: a truncated one, say.
-bool is_damaged(const fs::path& dir, const std::string& program) {
+/// What is wrong with the report of a program: it is truncated, say, or lacks what all reports of this program have.
+/// Null if the report is sound, or there is none.
+std::optional<std::string> damage_of(const fs::path& dir, const std::string& program) {
   const fs::path report = dir / run_folder::report_file(program);
   std::error_code error;
-  return fs::exists(fs::symlink_status(report, error)) && !read_json(report).is_object();
+  if (!fs::exists(fs::symlink_status(report, error))) return std::nullopt;
+  const Json json = read_json(report);
+  if (!json.is_object()) return "is damaged: it is no JSON object";
+  if (program == programs::kSimServer && !struct_of<SimServerReport>(json).status) {
+    return "is damaged: 'status' is missing, or has no valid value";
+  }
+  if (program == programs::kStation && !struct_of<StationReport>(json).score) {
+    return "is damaged: 'score' is missing, or is no number of at least 0";
+  }
+  return std::nullopt;
 }
 
 /// Without the report, the result would be wrong in silence: a damaged one is not the same as none.
 /// @throws InputError if the report is damaged
 void require_sound(const fs::path& dir, const std::string& program) {
-  if (!is_damaged(dir, program)) return;
-  throw InputError(
-      (dir / run_folder::report_file(program)).string() +
-      ": is damaged: it is no JSON object, and nothing else is there to make it from; copy the file again, "
-      "or delete it to get a result without what " +
-      program + " reported");
+  const std::optional<std::string> damage = damage_of(dir, program);
+  if (!damage) return;
+  throw InputError((dir / run_folder::report_file(program)).string() + ": " + *damage +
+                   ", and nothing else is there to make it from; copy the file again, "
+                   "or delete it to get a result without what " +
+                   program + " reported");
 }
 
 /// If a program died before it wrote its report, or the report is damaged, starts it again to write the report from its
@@ -76,11 +86,10 @@ void require_sound(const fs::path& dir, const std::string& program) {
 void settle(const char* program, const char* books, const RunOptions& run, const FlightReport& flight,
             const fs::path& dir, std::ostream& err) {
   const fs::path report = dir / run_folder::report_file(program);
-  const bool damaged = is_damaged(dir, program);
-  if (!damaged && fs::exists(report)) return;
+  const std::optional<std::string> damage = damage_of(dir, program);
+  if (!damage && fs::exists(report)) return;
   if (!fs::exists(dir / books)) return require_sound(dir, program);
-  if (damaged)
-    err << report.string() << ": is damaged: it is no JSON object; Skein restores it from " << books << std::endl;
+  if (damage) err << report.string() << ": " << *damage << "; Skein restores it from " << books << std::endl;
   std::vector<std::string> argv = {program_dir() / program,
                                    "--settle",
                                    "--scenario",
@@ -92,7 +101,7 @@ void settle(const char* program, const char* books, const RunOptions& run, const
   if (run.uavs) argv.insert(argv.end(), {"--uavs", std::to_string(*run.uavs)});
   if (run.rules) argv.insert(argv.end(), {"--rules", *run.rules});
   run_to_end({program, argv, fleet_environment(false), dir / run_folder::log_file(program), true});
-  if (!is_damaged(dir, program)) return;
+  if (!damage_of(dir, program)) return;
   throw InputError(report.string() + ": is damaged, and Skein cannot restore it from " + books + ": see " + program +
                    ".log");
 }
@@ -131,9 +140,8 @@ results::RunFacts facts_of(const RunOptions& run, const Scenario& scenario, cons
 }
 
 std::string no_server(const MergeOptions& options, const fs::path& dir) {
-  if (is_damaged(dir, programs::kSimServer)) {
-    return (options.dir / run_folder::report_file(programs::kSimServer)).string() +
-           ": is damaged: it is no JSON object";
+  if (const std::optional<std::string> damage = damage_of(dir, programs::kSimServer)) {
+    return (options.dir / run_folder::report_file(programs::kSimServer)).string() + ": " + *damage;
   }
   return options.dir.string() + ": there is no " + run_folder::report_file(programs::kSimServer) +
          " in it: the run is not over, or its server died";
@@ -195,7 +203,7 @@ int merge_reports(const MergeOptions& options, const Console& console) {
   const fs::path dir = fs::absolute(options.dir);
   const FolderLock lock = lock_of(options.dir);
   const Json server = read_json(dir / run_folder::report_file(programs::kSimServer));
-  if (!server.is_object()) return merge_without_server(options, dir, console);
+  if (!server.is_object() || damage_of(dir, programs::kSimServer)) return merge_without_server(options, dir, console);
   const Json facts_of_launcher = launchers_facts(dir, console.err);
   gather_agents(dir);
   const auto sim = struct_of<SimServerReport>(server);

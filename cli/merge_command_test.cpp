@@ -77,6 +77,21 @@ TEST_F(MergeCommand, ADamagedReportIsNamedAndTheResultStays) {
   EXPECT_EQ(read_text(result_file()), result);
 }
 
+TEST_F(MergeCommand, AReportWithoutWhatAllHaveIsDamaged) {
+  ASSERT_EQ(merge(), kExitDone) << err_.str();
+  const std::string result = read_text(result_file());
+  for (const Json& json : {Json::object(), Json{{"score", "x"}}, Json{{"score", -1.0}}}) {
+    write_report("station", json);
+    EXPECT_NE(refusal().find(report("station").string() + ": is damaged: 'score'"), std::string::npos) << json;
+  }
+  write_report("station", {{"score", 2.5}});
+  for (const Json& json : {Json::object(), Json{{"status", 3}}, Json{{"status", "fine"}}}) {
+    write_report("sim_server", json);
+    EXPECT_NE(refusal().find(report("sim_server").string() + ": is damaged: 'status'"), std::string::npos) << json;
+  }
+  EXPECT_EQ(read_text(result_file()), result);
+}
+
 TEST_F(MergeCommand, ADamagedReportIsMadeAnewFromTheBooks) {
   programs_.script("station", "echo '{\"score\": 2.25}' > \"$out/station.report.json\"\n");
   truncate("station");
