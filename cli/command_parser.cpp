@@ -98,6 +98,43 @@ void require_command(const CLI::App& app, const std::vector<std::string>& argume
                    "\nSee `skein --help`.");
 }
 
+/// "; did you mean '--planner'?" for the first argument that looks like an option and is none, if one is near; else "".
+std::string nearest_option(const CLI::App& command, const std::vector<std::string>& arguments) {
+  std::vector<std::string> known;
+  for (const CLI::Option* option : command.get_options()) {
+    for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
+  }
+  for (const std::string& argument : arguments) {
+    const std::string name = argument.substr(0, argument.find('='));
+    if (!name.starts_with("--") || std::ranges::find(known, name) != known.end()) continue;
+    const std::string words = suggestion(name, known);
+    return words.starts_with("did you mean") ? "; " + words : "";
+  }
+  return "";
+}
+
+/// What is wrong with the value of an option that CLI11 cannot convert.
+std::string of_value(const CLI::Option& option, const std::string& value) {
+  const std::string type = option.get_type_name(), name = option.get_name() + ": ";
+  if (type.empty()) return name + "takes no value, such as '" + value + "'; leave '=' and the value out";
+  const bool whole = type.starts_with("INT") || type.starts_with("UINT");
+  return name + "'" + value + "' must be a " + (whole ? "whole number of at most nine digits" : "number");
+}
+
+/// What CLI11 says of a mistake; in our words where CLI11 does not say what would be right.
+std::string said_of(const CLI::ParseError& error, const CLI::App* command, const std::vector<std::string>& arguments) {
+  const std::string words = error.what(), twice = ": At Most 1 required but received ", value = "Could not convert: ";
+  if (const std::size_t at = words.find(twice); at != std::string::npos) {
+    return words.substr(0, at) + ": is given " + words.substr(at + twice.size()) + " times; give it once";
+  }
+  if (command == nullptr) return words;
+  if (error.get_name() == "ExtrasError") return words + nearest_option(*command, arguments);
+  const std::size_t equals = words.find(" = ");
+  if (!words.starts_with(value) || equals == std::string::npos) return words;
+  const CLI::Option* option = command->get_option_no_throw(words.substr(value.size(), equals - value.size()));
+  return option == nullptr ? words : of_value(*option, words.substr(equals + 3));
+}
+
 }  // namespace
 
 void with_command_line(const std::function<void(const CLI::App&)>& use) { use(OptionParser().app); }
@@ -108,8 +145,9 @@ Command parse_command_line(const std::vector<std::string>& arguments) {
   if (arguments == std::vector<std::string>{"--manual"}) return help(manual_of(parser.app, "skein"));
   if (const auto command = internal_command(arguments)) return *command;
   require_command(parser.app, arguments);
-  if (const CLI::App* command = command_named(parser.app, arguments)) refuse_empty_assignments(*command, arguments);
-  const auto is = [&parser](const char* command) { return parser.app.got_subcommand(command); };
+  const CLI::App* const command = command_named(parser.app, arguments);
+  if (command != nullptr) refuse_empty_assignments(*command, arguments);
+  const auto is = [&parser](const char* name) { return parser.app.got_subcommand(name); };
   std::vector<std::string> reversed(arguments.rbegin(), arguments.rend());  // as CLI11 wants them
   try {
     parser.app.parse(std::move(reversed));
@@ -119,7 +157,7 @@ Command parse_command_line(const std::vector<std::string>& arguments) {
   } catch (const CLI::CallForVersion& version) {
     return help(std::string(version.what()) + "\n");
   } catch (const CLI::ParseError& error) {
-    throw InputError(std::string(error.what()) + "\nSee `skein --help` or `skein COMMAND --help`.");
+    throw InputError(said_of(error, command, arguments) + "\nSee `skein --help` or `skein COMMAND --help`.");
   }
   refuse_empty_values(parser.app);
   refuse_empty_items(parser.app, arguments);

@@ -336,6 +336,26 @@ TEST(Options, WhatDoesNotFitIsRefused) {
   }
 }
 
+TEST(Options, WhatIsRefusedIsAnsweredWithWhatWouldBeRight) {
+  const auto said = [](const std::vector<std::string>& arguments) -> std::string {
+    try {
+      parse_command_line(arguments);
+    } catch (const InputError& error) {
+      return std::string(error.what()).substr(0, std::string(error.what()).find('\n'));
+    }
+    return "accepted";
+  };
+  EXPECT_EQ(said({"run", "--seed", "1", "--seed", "2"}), "--seed: is given 2 times; give it once");
+  EXPECT_EQ(said({"run", "--domain", "--force"}), "--domain: '--force' must be a whole number of at most nine digits");
+  EXPECT_EQ(said({"run", "--domain=99999999999"}),
+            "--domain: '99999999999' must be a whole number of at most nine digits");
+  EXPECT_EQ(said({"run", "--force=maybe"}), "--force: takes no value, such as 'maybe'; leave '=' and the value out");
+  const std::string unexpected = "The following argument was not expected: ";
+  EXPECT_EQ(said({"run", "--planer=kios"}), unexpected + "--planer=kios; did you mean '--planner'?");
+  EXPECT_EQ(said({"run", "--force", "--xyzzy"}), unexpected + "--xyzzy");
+  EXPECT_EQ(said({"run", "towers", "cranes"}), unexpected + "cranes");
+}
+
 TEST(Options, OfFaultTestsBelongToFaultTests) {
   const auto test = parse<TestOptions>(
       {"test", "--faults", "d", "--agent", "a", "--jobs", "3", "--seeds", "1-20", "--junit", "x.xml", "-v"});

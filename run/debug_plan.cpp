@@ -10,20 +10,22 @@
 namespace skein::cli {
 namespace {
 
-/// The program for a name that the user gives with --debug or --log: of a UAV, "gcs", or a server.
-std::string debugged_program(const FleetPlan& plan, const std::string& name) {
+/// The program for a name that the user gives with an option: of a UAV, "gcs", or a server.
+std::string debugged_program(const FleetPlan& plan, const std::string& option, const std::string& name) try {
   const auto& servers = programs::kServers;
   if (std::find(servers.begin(), servers.end(), name) != servers.end()) return name;
   const std::string program = programs::agent_program(name);
   if (program == programs::kGroundAgent && plan.ground) return program;
   plan.scenario.uav_index(name);  // throws for an unknown name
   return program;
+} catch (const InputError& error) {
+  throw InputError(option + ": " + error.what());
 }
 
 }  // namespace
 
 std::vector<Debuggee> debuggees(const FleetPlan& plan) {
-  const auto program_of = [&](const std::string& name) { return debugged_program(plan, name); };
+  const auto program_of = [&](const std::string& name) { return debugged_program(plan, "--debug", name); };
   std::vector<Debuggee> all = parse_debug(plan.options.debug, program_of);
   for (const Debuggee& one : all) {
     const std::string why = "--debug " + one.member;
@@ -50,7 +52,7 @@ std::map<std::string, std::string> log_levels(const FleetPlan& plan) {
   std::map<std::string, std::string> levels;
   for (const std::string& value : plan.options.log) {
     const std::size_t cut = value.find('=');
-    const std::string program = debugged_program(plan, value.substr(0, cut));
+    const std::string program = debugged_program(plan, "--log", value.substr(0, cut));
     const std::string level = cut == std::string::npos ? "" : value.substr(cut + 1);
     if (std::ranges::find(known, level) == known.end()) {
       throw InputError("--log " + value + ": '" + level + "' is no level; " + suggestion(level, known));

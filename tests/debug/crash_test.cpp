@@ -91,6 +91,7 @@ TEST_F(Crash, AWrongLevelStartsNothing) {
   for (const std::string value : {"changi=loud", "chang=debug", "changi"}) {
     ChildProcess& skein = fly("wrong", {"--log", value});
     EXPECT_EQ(skein.wait().code, 2) << value;
+    EXPECT_NE(skein.err().find("--log"), std::string::npos) << skein.err();
     EXPECT_FALSE(std::filesystem::exists(dir("wrong"))) << value;
   }
 }
