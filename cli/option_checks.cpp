@@ -5,9 +5,9 @@
 #include <filesystem>
 #include <optional>
 
+#include "core/text/number_checks.hpp"
 #include "core/text/text.hpp"
 #include "core/text/utf8.hpp"
-#include "core/text/whole_number.hpp"
 #include "core/types.hpp"
 
 namespace skein::cli {
@@ -15,13 +15,6 @@ namespace {
 
 constexpr double kLongestS = 36000.0, kLeastTimeoutS = 0.1, kLeastFactor = 0.001, kGreatestFactor = 1000.0;
 constexpr double kLeastMapsPeriodS = 1.0, kGreatestMapsPeriodS = 3600.0;
-
-/// "Whole number" in decimal digits, as far as its beginning tells.
-std::string check_decimal(const std::string& text) {
-  const std::size_t first = text.find_first_not_of("+-");
-  if (first == std::string::npos || text[first] != '0' || first + 1 == text.size()) return "";
-  return "'" + text + "' must be a whole number in decimal digits, without a zero before it";
-}
 
 }  // namespace
 
@@ -31,10 +24,6 @@ std::string check_clock(const std::string& text) {
   const auto factor = text.starts_with(prefix) ? parse_number(text.substr(prefix.size())) : std::nullopt;
   if (factor && *factor >= kLeastFactor && *factor <= kGreatestFactor) return {};
   return "must be lockstep, realtime or realtime:FACTOR with a factor within [0.001, 1000], not '" + text + "'";
-}
-
-std::string check_seed(const std::string& text) {
-  return parse_whole(text) ? "" : "'" + text + "' must be a whole number within [0, 18446744073709551615]";
 }
 
 std::string check_seconds(const std::string& text) {

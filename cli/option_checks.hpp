@@ -13,8 +13,6 @@ namespace skein::cli {
 
 /// "lockstep", "realtime" or "realtime:FACTOR" with a factor within [0.001, 1000].
 std::string check_clock(const std::string& text);
-/// An unsigned whole number that fits into 64 bits.
-std::string check_seed(const std::string& text);
 /// A decimal number of seconds, above 0 and at most ten hours, the longest mission: 1e18 would overflow the ticks.
 std::string check_seconds(const std::string& text);
 /// A decimal number of seconds of wall time within [0.1, 36000]: a program of the fleet cannot answer much sooner.

@@ -5,7 +5,6 @@
 #include <CLI/CLI.hpp>
 #include <iomanip>
 
-#include "cli/option_checks.hpp"
 #include "core/text/number_checks.hpp"
 #include "core/text/text.hpp"
 #include "core/types.hpp"

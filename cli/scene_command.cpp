@@ -2,7 +2,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "cli/option_checks.hpp"
+#include "core/text/number_checks.hpp"
 #include "core/types.hpp"
 #include "host/preflight.hpp"
 #include "process/host/environment.hpp"

@@ -98,9 +98,9 @@ void add_common_options(CLI::App& app, ProgramOptions& options) {
   app.add_option("--seed", options.seed,
                  "Seed of the random effects; with 0, starts, command latency and LiDARs have none")
       ->capture_default_str()
-      ->check(CLI::Validator(check_not_negative, "NONNEGATIVE"));
+      ->check(CLI::Validator(check_seed, "NONNEGATIVE"));
   app.add_option("--scene-seed", options.scene_seed, "Seed of a procedural scene, instead of the scenario's")
-      ->check(CLI::Validator(check_not_negative, "NONNEGATIVE"));
+      ->check(CLI::Validator(check_seed, "NONNEGATIVE"));
   app.add_option("--uavs", options.uavs, "Fleet size, instead of the scenario's")
       ->check(CLI::Validator(check_positive, "POSITIVE"));
   app.add_option("--duration", options.duration_s, "Mission time [s], instead of the scenario's");
@@ -140,6 +140,7 @@ void add_common_options(CLI::App& app, ProgramOptions& options) {
          "--run", [&options](std::uint64_t run) { options.run = RunId{run}; },
          "Number of the run; the program ignores messages of other runs")
       ->envname(kRunVariable)
+      ->check(CLI::Validator(check_seed, ""))
       ->group("Launcher");
 }
 

@@ -66,8 +66,18 @@ TEST(Program, APathThatCannotBeIsCodeTwo) {
 }
 
 TEST(Program, AWrongCommandLineIsCodeTwoWithAHint) {
-  for (const std::vector<const char*>& arguments : std::vector<std::vector<const char*>>{
-           {"--no-such-option"}, {"--seed", "-1"}, {"--seed", "x"}, {"--domain", "201"}, {"--duration"}}) {
+  for (const std::vector<const char*>& arguments :
+       std::vector<std::vector<const char*>>{{"--no-such-option"},
+                                             {"--seed", "-1"},
+                                             {"--seed", "x"},
+                                             {"--domain", "201"},
+                                             {"--duration"},
+                                             {"--run", "-1"},
+                                             {"--run", "18446744073709551616"},
+                                             {"--run", "x"},
+                                             {"--seed", "18446744073709551616"},
+                                             {"--seed", "010"},
+                                             {"--scene-seed", "1.5"}}) {
     const auto outcome = run(arguments, nothing);
     EXPECT_EQ(outcome.code, kExitBadInput) << arguments[0];
     EXPECT_NE(outcome.error.find("--help"), std::string::npos) << outcome.error;

@@ -14,6 +14,13 @@ std::string check_positive(const std::string& text);
 /// @returns an empty text if `text` is a number of at least 0, otherwise an error message.
 std::string check_not_negative(const std::string& text);
 
+/// @returns an error message if `text` begins like an octal or hexadecimal number, which CLI11 would read as such: 010
+/// as 8. An empty text otherwise, also for a text that is no number.
+std::string check_decimal(const std::string& text);
+/// @returns an empty text if `text` is an unsigned whole number that fits into 64 bits, otherwise an error message.
+/// CLI11 takes -1, and numbers that are too large, for the largest number.
+std::string check_seed(const std::string& text);
+
 /// @returns a function that checks in the same way that a text is a number within [least, most].
 std::function<std::string(const std::string&)> number_within(double least, double most);
 

@@ -23,5 +23,13 @@ TEST(NumberChecks, ARangeHasOnlyNumbersInDecimalDigits) {
   }
 }
 
+TEST(NumberChecks, SeedsAreWholeNumbersOf64BitsInDecimalDigits) {
+  for (const char* good : {"0", "7", "18446744073709551615"}) EXPECT_EQ(check_seed(good), "") << good;
+  for (const char* bad : {"-1", "18446744073709551616", "1.5", "1e3", "0x10", "", "x"}) {
+    EXPECT_EQ(check_seed(bad), "'" + std::string(bad) + "' must be a whole number within [0, 18446744073709551615]");
+  }
+  EXPECT_EQ(check_seed("010"), "'010' must be a whole number in decimal digits, without a zero before it");
+}
+
 }  // namespace
 }  // namespace skein
