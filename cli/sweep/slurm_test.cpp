@@ -46,7 +46,7 @@ TEST(SweepOptions, NeedTheirExecutor) {
   EXPECT_NE(refusal({"compare", "--sshlogin", "a"}).find("--executor parallel"), std::string::npos);
   EXPECT_NE(refusal({"contest", "--slurm", "time=1"}).find("--executor slurm"), std::string::npos);
   EXPECT_NE(refusal({"contest", "--executor", "local", "--detach"}).find("--executor slurm"), std::string::npos);
-  EXPECT_NE(refusal({"hunt", "--executor", "slurm", "--detach"}).find("for studies only"), std::string::npos);
+  EXPECT_NE(refusal({"hunt", "--executor", "slurm", "--detach"}).find("not expected: --detach"), std::string::npos);
   EXPECT_NE(refusal({"compare", "--executor", "condor"}).find("slurm"), std::string::npos);
   for (const char* unit : {"x", "1.5", "-1", ""}) {
     EXPECT_NE(refusal({"--unit", "folder", unit}).find("--unit STUDY N"), std::string::npos) << unit;

@@ -93,7 +93,7 @@ class FlightConfig:
     peer_memory_s: float = 20.0
     approach_mps: float = 5.0
     climb_mps: float = 3.0
-    sweep_s: float = 4.0
+    ahead_s: float = 1.5
     unknown_cost: float = 1.5
     stall_s: float = 4.0
     look_s: float = 8.0

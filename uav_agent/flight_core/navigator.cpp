@@ -170,7 +170,7 @@ void Navigator::step(const PlannerInput& in, const Held& held, Steering& steerin
   if (on_way_) leg_ = in.tracking.leg;
   if (!sees()) pace_mps_ = std::numeric_limits<double>::infinity();
   if (in.k % kLookEach == 0 && sees()) {
-    pace_mps_ = std::max(kCreepMps, proved_ahead_m(in, config_.approach_mps * config_.sweep_s) / config_.sweep_s);
+    pace_mps_ = std::max(kCreepMps, proved_ahead_m(in, config_.approach_mps * config_.ahead_s) / config_.ahead_s);
   }
   if (in.k % kLookEach == 0 && !retraces_ && blocked_ahead(in)) {
     replan(in, "something was seen on the way", steering);

@@ -117,7 +117,8 @@ TEST(MapExchange, AMessageFitsIntoAPayloadHoweverManyCubesTheGridHas) {
     }
     const auto peers_of = [](std::size_t uav, std::size_t other) {
       Peers peers(config_of(uav));
-      peers.update(0, {{node_of_uav(UavIndex(other)), Vector3d::Zero()}});
+      const Neighbour neighbour{node_of_uav(UavIndex(other)), Vector3d::Zero()};
+      peers.update(0, std::vector<Neighbour>(1, neighbour));
       return peers;
     };
     MapExchange we, they;

@@ -44,21 +44,21 @@ Vector3d HandFlight::wanted_velocity_W(const HandCommand& wanted, const PlannerI
   return allowed_W;
 }
 
-/// Highest speed at which the LiDAR, which covers all directions in sweep_s, proves the space ahead before the UAV gets
-/// there. In vertical flight only the safety filter limits the speed, as at takeoff.
+/// Highest speed at which the UAV would not cover the proved space ahead within ahead_s. In vertical flight only the
+/// safety filter limits the speed, as at takeoff.
 double HandFlight::pace_mps(const Vector3d& v_W, const PlannerInput& in) const {
   if (filter_.assumes_boxes()) return config_.flight.alone_mps;
   const double speed_mps = v_W.norm();
   const bool upright = v_W.head<2>().norm() <= kRestsMps;
   if (!sight_.sees() || upright || speed_mps <= kCreepMps) return std::numeric_limits<double>::infinity();
   const Vector3d from_W = tracker_.tracking().setpoint.p_WB;
-  const double most_m = speed_mps * config_.flight.sweep_s;
+  const double most_m = speed_mps * config_.flight.ahead_s;
   double proved_m = 0.0;
   while (proved_m < most_m &&
          filter_.proved(from_W + v_W / speed_mps * (proved_m + kProvedStepM), *in.world_map, in.boxes)) {
     proved_m += kProvedStepM;
   }
-  return std::max(kCreepMps, std::min(proved_m, most_m) / config_.flight.sweep_s);
+  return std::max(kCreepMps, std::min(proved_m, most_m) / config_.flight.ahead_s);
 }
 
 HeldBack HandFlight::why_slower(double wanted_mps, double pace_mps) const {
