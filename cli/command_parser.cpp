@@ -128,7 +128,8 @@ std::string said_of(const CLI::ParseError& error, const CLI::App* command, const
     return words.substr(0, at) + ": is given " + words.substr(at + twice.size()) + " times; give it once";
   }
   if (command == nullptr) return words;
-  if (error.get_name() == "ExtrasError") return words + nearest_option(*command, arguments);
+  if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError))
+    return words + nearest_option(*command, arguments);
   const std::size_t equals = words.find(" = ");
   if (!words.starts_with(value) || equals == std::string::npos) return words;
   const CLI::Option* option = command->get_option_no_throw(words.substr(value.size(), equals - value.size()));

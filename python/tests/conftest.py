@@ -39,10 +39,11 @@ def root() -> Path:
 
 @pytest.fixture(scope="session")
 def faults(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A fault file: links that lose messages, and a UAV without radio in the end."""
+    """A fault file: links that lose messages, and a UAV without radio for a while and in the end."""
     file = tmp_path_factory.mktemp("faults") / "faults.yaml"
     file.write_text("faults:\n"
                     "  - {at_s: 0, until_s: 45, link: {loss: 0.3}}\n"
+                    "  - {at_s: 20, until_s: 21, blackout: raffles}\n"
                     "  - {at_s: 35, blackout: raffles}\n")
     return file
 

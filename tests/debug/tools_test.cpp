@@ -9,7 +9,15 @@
 namespace skein::test {
 namespace {
 
-class Tools : public DebugTest {};
+class Tools : public DebugTest {
+ protected:
+  /// Starts a flight whose changi waits in gdbserver, and waits until the launcher says how to connect.
+  ChildProcess& fly_in_gdbserver(const FreePort& port) {
+    ChildProcess& skein = fly("server", {"--debug", "changi=gdbserver:" + port.text()});
+    EXPECT_TRUE(eventually([&] { return skein.err().find("target remote") != std::string::npos || skein.ended(); }));
+    return skein;
+  }
+};
 
 TEST_F(Tools, AnyToolTakesTheCommandLine) {
   const auto note = folder() / "a note";
@@ -45,8 +53,7 @@ TEST_F(Tools, GdbserverHandsTheProgramToAGdbElsewhere) {
   SKEIN_NEEDS_GDB();
   if (command_file("gdbserver").empty()) GTEST_SKIP() << "there is no gdbserver here";
   const FreePort port;
-  ChildProcess& skein = fly("server", {"--debug", "changi=gdbserver:" + port.text()});
-  ASSERT_TRUE(eventually([&] { return skein.err().find("target remote") != std::string::npos || skein.ended(); }));
+  ChildProcess& skein = fly_in_gdbserver(port);
   std::smatch command;
   const std::string text = skein.err();
   ASSERT_TRUE(std::regex_search(text, command, std::regex("changi waits in gdbserver.*:\n\n  (.*)\n"))) << text;
@@ -80,8 +87,7 @@ TEST_F(Tools, TheLaunchFileForVsCodeStopsAtABreakpoint) {
   SKEIN_NEEDS_GDB();
   if (command_file("gdbserver").empty()) GTEST_SKIP() << "there is no gdbserver here";
   const FreePort port;
-  ChildProcess& skein = fly("server", {"--debug", "changi=gdbserver:" + port.text()});
-  ASSERT_TRUE(eventually([&] { return skein.err().find("target remote") != std::string::npos || skein.ended(); }));
+  ChildProcess& skein = fly_in_gdbserver(port);
   const Json launch = launch_configuration(port.text(), std::filesystem::path(program("uav_agent")).parent_path());
   EXPECT_EQ(launch["MIMode"], "gdb");
   std::string commands = "-environment-cd " + Json(launch["cwd"]).dump() + "\n-gdb-set mi-async off\n";

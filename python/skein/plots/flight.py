@@ -14,7 +14,8 @@ if TYPE_CHECKING:
 
 # Kinds of activities: colour, name, and the first words of the activities that UAVs report. As in web/src/modes.js.
 _MODES = (
-    (look.QUALITIES[0], "on the ground, takes off", ("on the ground", "takes off", "waits to be shown its way up")),
+    (look.QUALITIES[0], "on the ground, takes off, lands", (
+        "on the ground", "takes off", "waits to be shown its way up", "flies to its landing place")),
     (look.PLANNERS[0], "flies to goals, rests there", (
         "flies to a goal", "flies along", "flies to a set-point", "rests at its goal", "holds its place",
         "sends commands")),
