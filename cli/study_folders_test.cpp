@@ -62,7 +62,7 @@ TEST_F(StudyCommand, ARefusedRepeatWithAPlannerMoreLeavesTheFolderAsItIs) {
   EXPECT_EQ(flown(), "");
 }
 
-// Who asks for the status has not asked for flights.
+// A user who asks for the status has not asked for flights.
 TEST_F(StudyCommand, TheStatusAfterAnotherBuildSaysWhatFitsAndWhatContinuingDoes) {
   ASSERT_EQ(run(), kExitDone) << err_.str();
   const std::string out = *options_.out;

@@ -254,7 +254,7 @@ TEST_P(BusContract, OnlyFittingEndpointsMatch) {
   EXPECT_EQ(writer->matched().size(), 1u);
 }
 
-/// Who asked for a radio topic of the wrong type may ask again (docs/radio.md).
+/// A program that asked for a radio topic of the wrong type may ask again (docs/radio.md).
 TEST_P(BusContract, ATopicMayHaveAnotherTypeOnceItsEndpointsAreGone) {
   auto a = writing_side(), b = reading_side();
   const bus::TopicSpec spec = topic("retyped");

@@ -20,6 +20,20 @@ bus::TopicSpec text_topic(const std::string& ros_topic) {
           bus::Qos{.reliable = true, .latched = false, .depth = topics::radio_depth(8)}};
 }
 
+/// The server and the router of a fleet, which wait for its UAVs and for each other.
+struct RoutedFleet {
+  /// @param scenario  must outlive this.
+  RoutedFleet(const Scenario& scenario, std::uint64_t steps)
+      : server(*bus, scenario, steps), router(scenario, 0, 0, *bus) {
+    server.expect_uavs(scenario);
+    server.expect_router();
+  }
+
+  const std::unique_ptr<bus::Bus> bus = bus::make_bus({.vendor = "inproc"});
+  ToyServer server;
+  router::RouterNode router;
+};
+
 using Heard = std::map<std::uint64_t, std::vector<std::string>>;  // by step
 
 TEST(RouterNode, EachMessageReachesTheLinkedOnesInTheNextStep) {
@@ -27,11 +41,8 @@ TEST(RouterNode, EachMessageReachesTheLinkedOnesInTheNextStep) {
   for (unsigned seed = 0; seed < 4; ++seed) {
     std::mt19937 random(seed);
     const Scenario scenario = toy_scenario(3);
-    const auto bus = bus::make_bus({.vendor = "inproc"});
-    ToyServer server(*bus, scenario, kSteps);
-    server.expect_uavs(scenario);
-    server.expect_router();
-    router::RouterNode router(scenario, 0, 0, *bus);
+    RoutedFleet fleet(scenario, kSteps);
+    auto& [bus, server, router] = fleet;
     std::vector<std::unique_ptr<ToyMember>> members;
     std::map<UavIndex, Heard> heard, expected;
     std::vector<std::function<void()>> turns = {[&] { server.poll(); }, [&] { router.poll(); }};
@@ -79,11 +90,8 @@ TEST(RouterNode, EachMessageReachesTheLinkedOnesInTheNextStep) {
 
 TEST(RouterNode, GoesOnWithoutWhomTheServerGivesUp) {
   const Scenario scenario = toy_scenario(2);
-  const auto bus = bus::make_bus({.vendor = "inproc"});
-  ToyServer server(*bus, scenario, 12);
-  server.expect_uavs(scenario);
-  server.expect_router();
-  router::RouterNode router(scenario, 0, 0, *bus);
+  RoutedFleet fleet(scenario, 12);
+  auto& [bus, server, router] = fleet;
   ToyMember a(*bus, uav_domain(0, UavIndex{0}), "a"), b(*bus, uav_domain(0, UavIndex{1}), "b");
   for (bus::LockstepNode* node : {static_cast<bus::LockstepNode*>(&router), static_cast<bus::LockstepNode*>(&a),
                                   static_cast<bus::LockstepNode*>(&b)}) {
@@ -108,11 +116,8 @@ TEST(RouterNode, WhatIsUnderWayOnARegisteredTopicArrivesAlthoughItsTopicIsRefuse
   LinkEffect& slow = scenario.links.emplace_back();
   slow.latency_s = 0.5;
   slow.topics = {"/note"};
-  const auto bus = bus::make_bus({.vendor = "inproc"});
-  ToyServer server(*bus, scenario, kSteps);
-  server.expect_uavs(scenario);
-  server.expect_router();
-  router::RouterNode router(scenario, 0, 0, *bus);
+  RoutedFleet fleet(scenario, kSteps);
+  auto& [bus, server, router] = fleet;
   router.set_patience(1e-9, 1.0);
   auto a = std::make_unique<ToyMember>(*bus, uav_domain(0, UavIndex{0}), "a");
   ToyMember b(*bus, uav_domain(0, UavIndex{1}), "b"), next(*bus, uav_domain(0, UavIndex{0}), "a");
@@ -152,17 +157,14 @@ TEST(RouterNode, WhatIsUnderWayOnARegisteredTopicArrivesAlthoughItsTopicIsRefuse
   EXPECT_EQ(router.gate().total().delivered, 2U);
 }
 
-/// A request for another type than the topic's is refused. Who made it may ask again for the right one, and the fleet
-/// does not wait for a writer of the wrong one.
+/// A request for another type than the topic's is refused. The program that made it may ask again for the right one,
+/// and the fleet does not wait for a writer of the wrong one.
 TEST(RouterNode, WhoAskedForTheWrongTypeOfATopicMayCorrectIt) {
   constexpr std::uint64_t kWrong = 3, kRight = 8, kSays = 14, kSteps = 20;
   const std::string right = "std_msgs/msg/String", wrong = "std_msgs/msg/Bool";
   const Scenario scenario = toy_scenario(3);
-  const auto bus = bus::make_bus({.vendor = "inproc"});
-  ToyServer server(*bus, scenario, kSteps);
-  server.expect_uavs(scenario);
-  server.expect_router();
-  router::RouterNode router(scenario, 0, 0, *bus);
+  RoutedFleet fleet(scenario, kSteps);
+  auto& [bus, server, router] = fleet;
   router.set_patience(1e-9, 1.0);
   ToyMember first(*bus, uav_domain(0, UavIndex{0}), "a"), sender(*bus, uav_domain(0, UavIndex{1}), "b"),
       listener(*bus, uav_domain(0, UavIndex{2}), "c");
