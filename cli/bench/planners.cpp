@@ -2,6 +2,7 @@
 
 #include "cli/bench/planner_scores.hpp"
 #include "cli/option_checks.hpp"
+#include "cli/study/plan.hpp"
 #include "cli/study_command.hpp"
 #include "core/config/config_files.hpp"
 #include "core/types.hpp"
@@ -11,7 +12,6 @@
 namespace skein::cli {
 namespace {
 
-constexpr const char* kPlanners = "patrol,kios,xxh,star";
 constexpr const char* kWorlds = "0-19";
 constexpr const char* kFewWorlds = "0-4";
 constexpr const char* kOut = "runs/bench-planners";
@@ -19,13 +19,11 @@ constexpr const char* kOut = "runs/bench-planners";
 /// The families in their nominal form, and worlds in which no planner was tuned.
 std::vector<StudyOptions> studies(const BenchOptions& options) {
   StudyOptions families;
-  families.planner_lists = {kPlanners};
+  families.planner_lists = {kBenchPlanners};
   families.seeds = "0";
   families.force = true;  // after a change; flights that still fit are kept
   StudyOptions worlds = families;
-  families.scenarios = options.quick ? std::vector<std::string>{"towers"}
-                                     : std::vector<std::string>{"towers", "hangar", "cranes", "spire", "sail"};
-  if (options.assets) families.scenarios.insert(families.scenarios.end(), {"mbs", "crane"});
+  families.scenarios = bench_scenarios(options);
   families.assets = options.assets;
   families.out = std::filesystem::path(kOut) / "families";
   worlds.scenarios = {"wild"};
@@ -35,6 +33,13 @@ std::vector<StudyOptions> studies(const BenchOptions& options) {
 }
 
 }  // namespace
+
+std::vector<std::string> bench_scenarios(const BenchOptions& options) {
+  std::vector<std::string> scenarios = contest_scenarios(options.assets.has_value());
+  const auto procedural = static_cast<std::ptrdiff_t>(contest_scenarios(false).size());
+  if (options.quick) scenarios.erase(scenarios.begin() + 1, scenarios.begin() + procedural);  // towers is the first
+  return scenarios;
+}
 
 int bench_planners(const BenchOptions& options, const Console& console) {
   if (const std::string wrong = options.write ? check_file_to_write(*options.write) : ""; !wrong.empty()) {

@@ -1,10 +1,18 @@
 // `skein bench --planners`: every planner flies a fixed set of scenes; its scores are shown beside those of a table.
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "cli/bench/bench_options.hpp"
 #include "cli/console.hpp"
 
 namespace skein::cli {
+
+/// The planners that benchmarks fly, as `skein compare --planners` takes them.
+inline constexpr const char* kBenchPlanners = "patrol,kios,xxh,star";
+/// The scenes that benchmarks of planners fly: those of a contest; with --quick only towers of the procedural ones.
+std::vector<std::string> bench_scenarios(const BenchOptions& options);
 
 /// Flies, in runs/bench-planners, what these programs have not flown yet; prints the comparison, and writes the table
 /// to --write. Takes about ten minutes, with --quick one. @returns kExitDone; kExitProcessFailed when a flight failed;

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "cli/bench/planners.hpp"
 #include "cli/study_command.hpp"
 #include "process/program.hpp"
 #include "results/csv_table.hpp"
@@ -84,11 +85,9 @@ void print_rows(std::ostream& out, const results::TrackingTable& table, const st
 
 StudyOptions flights(const BenchOptions& options) {
   StudyOptions study;
-  study.planner_lists = {"patrol,kios,xxh,star"};
+  study.planner_lists = {kBenchPlanners};
   study.seeds = options.quick ? "1" : "1-2";  // with start offsets, and some UAVs that take commands an exchange late
-  study.scenarios = options.quick ? std::vector<std::string>{"towers"}
-                                  : std::vector<std::string>{"towers", "hangar", "cranes", "spire", "sail"};
-  if (options.assets) study.scenarios.insert(study.scenarios.end(), {"mbs", "crane"});
+  study.scenarios = bench_scenarios(options);
   study.assets = options.assets;
   study.duration_s = options.duration_s;
   if (options.quick && !study.duration_s) study.duration_s = kQuickMissionS;

@@ -22,10 +22,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Scenarios of a contest: those that need no files, and those that need --assets.
-const std::vector<std::string> kProcedural = {"towers", "hangar", "cranes", "spire", "sail"};
-const std::vector<std::string> kWithAssets = {"mbs", "crane"};
-
 void refuse_doubles(const std::string& what, const std::vector<std::string>& names) {
   std::set<std::string> seen;
   for (const std::string& name : names) {
@@ -59,10 +55,7 @@ std::vector<std::string> planners_of(const StudyOptions& options) {
 std::vector<std::string> scenarios_of(const StudyOptions& options) {
   std::vector<std::string> scenarios = options.scenarios;
   if (scenarios.empty() && !options.contest) scenarios = {RunOptions{}.scenario};
-  if (scenarios.empty()) {
-    scenarios = kProcedural;
-    if (options.assets) scenarios.insert(scenarios.end(), kWithAssets.begin(), kWithAssets.end());
-  }
+  if (scenarios.empty()) scenarios = contest_scenarios(options.assets.has_value());
   refuse_doubles("scenario", scenarios);
   return scenarios;
 }
@@ -244,6 +237,12 @@ Json settings_of(const StudyPlan& plan, const std::string& programs, const Json&
 }
 
 }  // namespace
+
+std::vector<std::string> contest_scenarios(bool assets) {
+  std::vector<std::string> scenarios = {"towers", "hangar", "cranes", "spire", "sail"};
+  if (assets) scenarios.insert(scenarios.end(), {"mbs", "crane"});
+  return scenarios;
+}
 
 Json StudyFlight::command() const {
   Json command = *made_under;

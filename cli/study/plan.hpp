@@ -50,6 +50,9 @@ struct StudyPlan {
   std::string command_line;          ///< repeats the study; without options such as --jobs
 };
 
+/// The scenarios of a contest, in its order. @param assets  whether CARIC's data are there, which two of them need
+std::vector<std::string> contest_scenarios(bool assets);
+
 /// Whether the programs themselves check the plan (--check), which takes a while.
 enum class AskPrograms { no, yes };
 
