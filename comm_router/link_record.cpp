@@ -4,6 +4,7 @@
 
 #include "core/radio/radio_routes.hpp"
 #include "results/run_folder.hpp"
+#include "results/run_tables.hpp"
 
 namespace skein::router {
 
@@ -30,7 +31,7 @@ void LinkRecord::write(const std::string& line) try {
   if (!out_) {
     const bool is_new = !std::filesystem::exists(file_);
     out_.emplace(file_, StreamFile::Mode::append);
-    if (is_new) *out_ << "step,uav,arrives\n";
+    if (is_new) *out_ << run_tables::kCaptureMessageColumns << "\n";
   }
   *out_ << line;
   out_->flush();  // a router may be killed at any time

@@ -15,7 +15,7 @@ namespace skein::station {
 namespace {
 
 std::string timeline_csv(const Scoreboard& scoreboard) {
-  std::string text = "time_s,points,score\n";
+  std::string text = run_tables::kScoreTimelineColumns + std::string("\n");
   for (const TimelinePoint& at : scoreboard.timeline()) {
     text += fmt::format("{:.9g},{},{:.9g}\n", seconds(at.tick), at.points, at.score);
   }
@@ -35,7 +35,7 @@ std::string reason(const Scoreboard& scoreboard, const LedgerEntry& entry, const
 }
 
 std::string captures_csv(const Scoreboard& scoreboard, const std::vector<std::string>& uav_names) {
-  std::string text = "uav,capture,tick,time_s,point,q_seen,q_blur,q_res,q_distance,q,delivered_at_s,reason\n";
+  std::string text = run_tables::kCaptureColumns + std::string("\n");
   for (const LedgerEntry& entry : scoreboard.ledger()) {
     if (entry.collision) continue;
     const Audit audit = scoreboard.audit(entry);

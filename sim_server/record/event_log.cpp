@@ -12,7 +12,7 @@ EventLog::EventLog(const std::filesystem::path& folder, const Scenario& scenario
   members_.insert(members_.end(), {scenario.node_name(kStationNode), programs::kStation, programs::kCommRouter});
   present_.resize(members_.size());
   links_ = Links(scenario.fleet.size() + 1);
-  out_ << "step,time_s,event,subject,object\n";
+  out_ << run_tables::kEventColumns << "\n";
   out_.flush();  // so that a server that is killed leaves a table without rows, not an empty file
 }
 

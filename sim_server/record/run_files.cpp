@@ -82,8 +82,8 @@ RunFiles::RunFiles(const std::filesystem::path& folder, const Scenario& scenario
       events_(folder, scenario),
       activities_(folder, scenario),
       review_(scenario) {
-  trajectories_ << run_tables::kPoseColumns << "vx,vy,vz,gimbal_pitch,gimbal_yaw,alive,clearance"
-                << (scenario.conditions.battery.on() ? ",charge\n" : "\n");
+  trajectories_ << run_tables::kPoseColumns << run_tables::kMotionColumns
+                << (scenario.conditions.battery.on() ? run_tables::kChargeColumn : "") << "\n";
   digests_ << "k,digest";
   for (const std::string& column : digest.columns()) digests_ << "," << column;
   digests_ << "\n";
