@@ -126,7 +126,8 @@ Known find_peers(const DomainNetwork& network, const std::string& domain, std::c
     known = addresses_of(network.peers, look_up_all(network.peers));
   }
   if (!known.unknown.empty()) {
-    spdlog::info("network of {}: {} cannot be found yet; who comes later will find us", domain, joined(known.unknown));
+    spdlog::info("network of {}: {} cannot be found yet; hosts that join later will find this one", domain,
+                 joined(known.unknown));
   }
   if (!by_route) known.own.clear();
   return known;

@@ -112,7 +112,7 @@ class ContainerFolders {
 };
 
 /// Files and folders of a fleet in containers that no run without containers has. Without --force, a run neither
-/// overwrites nor deletes them, whoever made them. @throws InputError
+/// overwrites nor deletes them, no matter which program made them. @throws InputError
 void check_no_containers_files(const fs::path& dir) {
   for (const char* name : {kComposeFile, kComposeLog, kAgentsFolder}) {
     std::error_code error;
@@ -155,7 +155,7 @@ void tell_who_waits(const FleetPlan& plan, const std::map<std::string, std::stri
   }
 }
 
-/// Completes the logs of containers that somebody has started again. Results matter more: Ctrl-C leaves it out.
+/// Completes the logs of containers that a user has started again. Results matter more: Ctrl-C leaves it out.
 void add_later_logs(const std::map<std::string, std::string>& containers,
                     const std::map<std::string, std::string>& starts, const ComposeLayout& layout,
                     const fs::path& out) try {

@@ -64,7 +64,7 @@ TEST_F(DiffCommand, ATableThatNeitherRunHasIsNoDifference) {
   EXPECT_EQ(diff(), kExitDone) << out_.str();
 }
 
-// Whoever compares the folder of a run that has lost its recording with a whole one must learn that something is gone.
+// `skein diff` says that a recording is missing if one of the two runs has lost it.
 TEST_F(DiffCommand, ARunThatHasLostItsRecordingIsNotTheSame) {
   for (const std::string run : {"a", "b"}) {
     const std::string owner = run == "a" ? "first" : "second";

@@ -89,7 +89,7 @@ class FaultTestRun {
 
   /// @throws Interrupted.
   TestCounts fly() {
-    write_report();  // before anything flies, so that nobody waits in vain for a report that cannot be written
+    write_report();  // before anything flies, so that a report that cannot be written is known early
     std::deque<std::size_t> waiting(flights_.flights.size());
     std::iota(waiting.begin(), waiting.end(), std::size_t{0});
     SideBySide side_by_side(static_cast<std::size_t>(options_.jobs), console_);

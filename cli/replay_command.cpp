@@ -44,7 +44,7 @@ void add_film_options(CLI::App& command, CLI::Option& exported, FilmOptions& fil
       ->needs(&exported);
 }
 
-/// Size limit of an exported page with maps or LiDAR points [bytes], so that it can be sent to somebody.
+/// Size limit of an exported page with maps or LiDAR points [bytes], so that it can be sent by mail.
 constexpr std::size_t kMostBytes = 4'000'000;
 
 view::Parting parting_of(const fs::path& a, const fs::path& b) {

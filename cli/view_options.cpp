@@ -35,7 +35,7 @@ void add_view_options(CLI::App& command, ViewOptions& view) {
           ->default_str("0");
   command
       .add_option("--speed", view.speed,
-                  "With --view: simulated seconds per second, from 0.1 to 1000, or max (default 8; 1 if somebody flies "
+                  "With --view: simulated seconds per second, from 0.1 to 1000, or max (default 8; 1 if you fly a UAV "
                   "by hand)")
       ->type_name("SPEED")
       ->needs(watched);

@@ -51,7 +51,7 @@ void RadioRegistry::forget_the_lost() {
 }
 
 /// Whether the request contradicts the type in another request of this step that may yet be refused, because no writer
-/// of its asker has matched. Nobody loses a topic to a mistake of another member, so the next step decides.
+/// of its asker has matched. No member loses a topic to a mistake of another one, so the next step decides.
 bool RadioRegistry::awaits_type(const RadioRequest& request) const {
   bool contradicts = false;
   for (std::size_t route = 0; route < table_.routes().size(); ++route) {

@@ -70,7 +70,7 @@ class RouterSync {
   /// A request for a radio topic; counted and handed out like messages.
   void on_request(SourceId source, Payload payload);
   /// Admits a member to a route that is not the scenario's: from the next step on, its messages there count. Those that
-  /// it sent before, as counted in its last Done, never count, because nobody listened.
+  /// it sent before, as counted in its last Done, never count, because no program listened.
   void open(SourceId source, std::size_t route);
   /// The server gave the member up in step k: its messages of step k that are not handed out yet are discarded, and
   /// nothing that it sends counts again.

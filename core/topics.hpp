@@ -194,7 +194,7 @@ inline constexpr TopicInfo kCommandRejected{"/{id}/command_rejected", "skein_msg
                                             Direction::to_agent, kCommandDepth, "when a command is ignored"};
 /// Only to a UAV that a person flies by hand.
 inline constexpr TopicInfo kHand{"/{id}/hand", "skein_msgs/msg/HandCommand", Direction::to_agent, kCommandDepth,
-                                 "when who flies it by hand wants something else"};
+                                 "when the viewer who flies it by hand gives another command"};
 inline constexpr TopicInfo kActivity{"/{id}/activity", "skein_msgs/msg/Activity", Direction::from_agent, kCommandDepth,
                                      "from the agent, when it does something else, and each second"};
 inline constexpr TopicInfo kTrajectoryCommand{"/{id}/command/trajectory", "trajectory_msgs/msg/MultiDOFJointTrajectory",
@@ -321,7 +321,7 @@ inline constexpr TopicInfo kAttached{"/skein/attached",
 inline constexpr TopicInfo kRouted{"/skein/routed", "skein_msgs/msg/Routed", Direction::internal, 8,
                                    "router -> world, every exchange"};
 inline constexpr TopicInfo kAwaits{"/skein/awaits", "skein_msgs/msg/Awaits", Direction::internal, 64,
-                                   "router -> world, while it waits for somebody"};
+                                   "router -> world, while it waits for a member"};
 inline constexpr TopicInfo kDrop{"/skein/drop", "skein_msgs/msg/Drop", Direction::internal, 128,
                                  "server -> world, when a member is lost"};
 // Latched with a large depth, so that a station that starts late, or restarts, receives the whole ledger.

@@ -21,7 +21,7 @@ struct PoseUncertainty {
 };
 
 struct BatteryStatus {
-  static constexpr double kFullCharge = 0.95;  ///< above this charge a battery counts as full, and nobody swaps it
+  static constexpr double kFullCharge = 0.95;  ///< above this charge a battery counts as full, and is not swapped
 
   double charge = 1.0;       ///< remaining share of the capacity, [0, 1]
   double capacity_ah = 0.0;  ///< of a full battery

@@ -68,7 +68,7 @@ int lock_folder(const std::filesystem::path& folder, int how) {
   return -1;
 }
 
-/// Deletes the folders that killed processes left: nobody holds their locks.
+/// Deletes the folders that killed processes left: no process holds their locks.
 void remove_orphans(const std::filesystem::path& where) {
   std::error_code error;
   for (std::filesystem::directory_iterator entry(where, error), end; !error && entry != end; entry.increment(error)) {

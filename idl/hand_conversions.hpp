@@ -1,4 +1,4 @@
-// What somebody wants of the UAV that he flies by hand, on the wire.   Pure; safe from any thread.
+// Converts the commands for UAVs that a viewer flies by hand, from and to messages.   Pure; safe from any thread.
 #pragma once
 
 #include <optional>

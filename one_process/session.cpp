@@ -80,7 +80,7 @@ Session::Session(SessionPlan plan, int socket, double patience_s)
     : plan_(std::move(plan)), socket_(socket), guard_(patience_s) {
   ::prctl(PR_SET_PDEATHSIG, 0);        // no signal when the starting thread ends, which may be before the fleet's end
   ::prctl(PR_SET_CHILD_SUBREAPER, 1);  // adopts copies whose parent has ended
-  std::signal(SIGCHLD, SIG_IGN);       // nobody waits for copies
+  std::signal(SIGCHLD, SIG_IGN);       // no process waits for copies
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
   DeathNotice::watch(socket);

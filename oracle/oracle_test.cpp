@@ -219,7 +219,7 @@ TEST(Oracle, BruteForceFindsNothingBetter) {
       const auto p_C = exposure.view(p_W);
       const auto score = p_C ? exposure.score(*p_C, scene.points[p].n_W.cast<double>()) : std::nullopt;
       if (!score || score->score() <= best[p] || own_body_hides(vehicle, X_WB, p_WC, p_W)) continue;
-      if (in_sight(p_WC, p_W, kNobody, world)) best[p] = score->score();
+      if (in_sight(p_WC, p_W, kNoUav, world)) best[p] = score->score();
     }
   }
   int seen = 0;

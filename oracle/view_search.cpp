@@ -242,7 +242,7 @@ ViewSearch::Trial ViewSearch::try_direction(const InterestPoint& point, const Ve
     // If the heading does not matter, the nearest free place is the same for all kinds of camera.
     if (before == nullptr || heading_matters(viewer)) {
       d = nearest_place(look, trial.openness);
-      visible = d < kNowhere && sees_(look.place(d), p_W, kNobody, world_);
+      visible = d < kNowhere && sees_(look.place(d), p_W, kNoUav, world_);
       aim.reset();
     }
     if (aim && before->optics != viewer.optics) aim.reset();

@@ -105,7 +105,7 @@ TEST(ViewSearch, FindsOnlyWhatTheRefereeSeesByTheRulesOfTheRun) {
       ++asked;
       if (best.q <= 0.0) continue;
       ++found;
-      EXPECT_TRUE(sight_test(rules)(best.p_WC, point.p_W.cast<double>(), kNobody, world))
+      EXPECT_TRUE(sight_test(rules)(best.p_WC, point.p_W.cast<double>(), kNoUav, world))
           << rules.preset << ", triangle " << triangle;
     }
     EXPECT_GT(found, asked / 3) << rules.preset;

@@ -136,7 +136,7 @@ std::string head_section(const RunPage& page) {
   const Json& result = page.run.result;
   const std::string status = text_in(result, "status");
   static const std::map<std::string, std::string> kWords = {{"completed", "completed"},
-                                                            {"no_takeoff", "nobody took off"},
+                                                            {"no_takeoff", "no UAV took off"},
                                                             {"interrupted", "interrupted"},
                                                             {"aborted", "aborted"}};
   const auto words = kWords.find(status);

@@ -52,7 +52,7 @@ BatteryEffects battery_effects(const SimServerReport& report) {
     any |= grounded;
     all &= grounded || !uav.alive.value_or(true);
   }
-  effects.nobody_could_fly = all && any;
+  effects.no_uav_could_fly = all && any;
   for (const CollisionReport& collision : report.collisions) {
     if (collision.cause == "battery" && collision.uav) effects.fell.insert(*collision.uav);
   }

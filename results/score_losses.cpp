@@ -27,7 +27,7 @@ bool is_to_blame(const std::optional<CaptureRow>& lost, const PointRecord& point
 /// The cause for a point without a picture that counts.
 LossCause why_not_taken(const PointRecord& point, const BatteryEffects& batteries) {
   if (!point.flyable) return LossCause::out_of_reach;
-  if (batteries.nobody_could_fly) return LossCause::energy;
+  if (batteries.no_uav_could_fly) return LossCause::energy;
   return point.seen ? LossCause::below_threshold : LossCause::never_in_picture;
 }
 

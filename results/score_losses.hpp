@@ -27,7 +27,7 @@ struct PointRecord {
 
 /// What batteries did in the run.
 struct BatteryEffects {
-  bool nobody_could_fly = false;  ///< at the end of the mission, all UAVs that had not collided
+  bool no_uav_could_fly = false;  ///< at the end of the mission, all UAVs that had not collided
   std::set<std::string> fell;     ///< UAVs that collided because their battery was empty
 };
 

@@ -81,7 +81,7 @@ bool is_true(const PointRecord& point, const BatteryEffects& batteries, LossCaus
     case LossCause::voided:
       return lost && better_voided && !better_lost && !fell;
     case LossCause::energy:
-      return lost && !better_lost && (fell || (never && batteries.nobody_could_fly));
+      return lost && !better_lost && (fell || (never && batteries.no_uav_could_fly));
     case LossCause::drift:
       return lost && !better_lost && !better_voided && would_matter(point.if_exact) && point.if_exact >= point.if_calm;
     case LossCause::wind:
@@ -93,9 +93,9 @@ bool is_true(const PointRecord& point, const BatteryEffects& batteries, LossCaus
     case LossCause::out_of_reach:
       return lost && point.captures.empty() && !point.flyable && not_lost;
     case LossCause::below_threshold:
-      return lost && never && !batteries.nobody_could_fly && point.seen;
+      return lost && never && !batteries.no_uav_could_fly && point.seen;
     case LossCause::never_in_picture:
-      return lost && never && !batteries.nobody_could_fly && !point.seen;
+      return lost && never && !batteries.no_uav_could_fly && !point.seen;
   }
   return false;
 }
@@ -104,7 +104,7 @@ TEST(ScoreLosses, AllLossesTogetherAreTheDifference) {
   std::map<LossCause, std::size_t> met;
   for (std::uint64_t key = 0; key < 40; ++key) {
     RandomStream random(key, "score_losses_test", 0);
-    BatteryEffects batteries{.nobody_could_fly = random.uniform() < 0.3, .fell = {}};
+    BatteryEffects batteries{.no_uav_could_fly = random.uniform() < 0.3, .fell = {}};
     if (random.uniform() < 0.5) batteries.fell.insert("falls");
     std::vector<PointLoss> losses;
     double estimate = 0.0, score = 0.0;

@@ -1,4 +1,4 @@
-// Who went without work: from reports to result.json's figures and work.csv.
+// Which UAVs went without work: from reports to result.json's figures and work.csv.
 #include "results/work.hpp"
 
 #include <gtest/gtest.h>

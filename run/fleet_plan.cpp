@@ -358,7 +358,7 @@ std::filesystem::path program_file(const FleetPlan& plan, const std::string& pro
 std::string debug_command(const FleetPlan& plan, const std::string& program, int base_domain,
                           const std::filesystem::path& out, const SecureFolders& secure) {
   SecureFolder own = secure_folder(secure, program);
-  if (own.user) own.out.clear();  // whoever types the command may write to the results folder
+  if (own.user) own.out.clear();  // the user who types the command may write to the results folder
   own.user.reset();
   std::string command = fleet_environment_prefix(plan.options.native);
   if (is_exec(plan, program)) {

@@ -57,7 +57,8 @@ std::vector<fs::path> input_files(const FleetPlan& plan) {
 void check_outlast(const std::vector<fs::path>& files, const fs::path& dir) {
   for (const fs::path& file : files) {
     std::error_code error;
-    if (!fs::exists(file, error)) continue;  // a name like "all" of --network, or somebody else's to report
+    if (!fs::exists(file, error))
+      continue;  // a name like "all" of --network, or a missing file, which another check reports
     const fs::path named = fs::absolute(file), target = fs::canonical(file, error);
     // Without lexically_normal(): "..", after a link, leads elsewhere than the text says.
     if (!is_deleted(named, dir) && (error || !is_deleted(target, dir))) continue;

@@ -47,7 +47,7 @@ void LivePage::announce(const std::function<void(const std::string&)>& say, bool
   const std::string port = std::to_string(endpoint_.port), key = (folder_.path() / kViewKey).string();
   if (!endpoint_.is_loopback()) {
     say("warning: the page is served at " + endpoint_.text() +
-        ", beyond this host: whoever reaches it and has the key may look and give orders, and plain HTTP hides "
+        ", beyond this host: anyone who reaches it and has the key may look and give orders, and plain HTTP hides "
         "neither; "
         "ssh -L is safer (docs/how-to-watch.md). From elsewhere: http://" +
         (endpoint_.is_any() ? host_name("HOST") + ":" + port : endpoint_.text()) + "/, with the key in " + key);

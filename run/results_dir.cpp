@@ -60,7 +60,7 @@ void check_kind(const std::filesystem::path& dir) {
   }
 }
 
-/// Without --force, a run neither overwrites nor deletes a file, whoever wrote it. @throws InputError
+/// Without --force, a run neither overwrites nor deletes a file, no matter which program wrote it. @throws InputError
 void check_nothing_in_the_way(const std::filesystem::path& dir) {
   const auto refuse = [&](const std::string& what, const std::string& lose) {
     throw InputError(dir.string() + " holds " + what + "; " + lose + " it with --force, or choose another --out");
@@ -122,7 +122,7 @@ std::filesystem::path usual_dir_of(const RunOptions& run, const std::string& sce
   return run.usual_out.value_or(default_results_dir(scenario, run.planner, run.seed));
 }
 
-/// Whether a file is a log, which nobody's results depend on.
+/// Whether a file is a log, on which no results depend.
 bool is_log(const std::filesystem::path& file) {
   struct stat entry {};
   if (::lstat(file.c_str(), &entry) != 0 || !S_ISREG(entry.st_mode)) return false;

@@ -37,7 +37,7 @@ std::string foreign_entry(const std::filesystem::path& dir);
 
 /// What becomes of files with names of a run's files (run_folder::is_of_a_run()) that are in a results folder already.
 enum class Earlier {
-  refuse,  ///< the folder is not taken: the files may be anybody's
+  refuse,  ///< the folder is not taken: the files may belong to another user
   remove,  ///< they are deleted, so that a stale report does not pass for one of this run (--force)
   keep,    ///< they stay: a study's folder
 };

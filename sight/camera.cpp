@@ -108,7 +108,7 @@ void Camera::find_near(const std::array<const View*, 3>& views) {
 }
 
 bool Camera::sees(std::uint32_t point, const Vector3d& p_WC, const Vector3d& p_W, const RayScene& world) {
-  const UavIndex sees_through = rules_.own_body_hides ? kNobody : uav_;
+  const UavIndex sees_through = rules_.own_body_hides ? kNoUav : uav_;
   if (rules_.ray_ends_at_point) return in_sight_of_reference(p_WC, p_W, sees_through, world);
   const double distance = (p_W - p_WC).norm();
   for (const std::uint32_t known : {blockers_[point], last_blocker_}) {

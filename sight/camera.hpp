@@ -15,7 +15,7 @@ namespace skein::sim {
 
 /// Whether a camera has line of sight to a point on a surface: the first hit of the ray towards the point is at most
 /// Camera::kSurfaceTolerance in front of the point or behind it. The default test of Camera.
-/// @param own_uav  UAV whose body does not occlude; kNobody: every body does.
+/// @param own_uav  UAV whose body does not occlude; kNoUav: every body does.
 bool in_sight(const Vector3d& p_WC, const Vector3d& p_W, UavIndex own_uav, const RayScene& world);
 /// As in_sight(), but with the reference's test (`rules.ray_ends_at_point`): in single precision, the ray must hit the
 /// surface before it ends at the point. So rounding decides: only some 45 % of the unobstructed views of points that

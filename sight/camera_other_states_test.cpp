@@ -116,7 +116,7 @@ TEST(CameraMemory, ChangesNothingThatTheCameraSees) {
     detections += seen.size();
     for (const InterestPoint& point : points) {
       const Vector3d ray = point.p_W.cast<double>() - body.p_WB;
-      hidden += ray.norm() < 15.0 && !in_sight(body.p_WB, point.p_W.cast<double>(), kNobody, world);
+      hidden += ray.norm() < 15.0 && !in_sight(body.p_WB, point.p_W.cast<double>(), kNoUav, world);
     }
   }
   EXPECT_EQ(camera.best(), best);

@@ -296,9 +296,9 @@ TEST(Camera, RayThatEndsAtThePointMissesMoreThanHalf) {
     const Vector3d p_WC = p_W + random.uniform(3.0, 7.0) * direction;
     const double clear_until = (p_W - p_WC).norm() - 2.0 * Camera::kSurfaceTolerance;
     if (std::abs(direction.dot(point.n_W.cast<double>())) < 0.5 || p_WC.z() < 0.0) continue;
-    if (world.first_hit(p_WC, p_W - p_WC, clear_until) || !in_sight(p_WC, p_W, kNobody, world)) continue;
+    if (world.first_hit(p_WC, p_W - p_WC, clear_until) || !in_sight(p_WC, p_W, kNoUav, world)) continue;
     ++free_views;
-    seen += in_sight_of_reference(p_WC, p_W, kNobody, world);
+    seen += in_sight_of_reference(p_WC, p_W, kNoUav, world);
   }
   EXPECT_NEAR(100.0 * seen / free_views, 45.0, 3.0);
 }

@@ -169,7 +169,7 @@ struct RayScene::Impl {
     bool any = false;
     if (filter.ground) {
       if (const double t = ground_distance(ray); t <= nearest.distance) {
-        nearest = {t, HitKind::ground, kNobody, kNoTriangle};
+        nearest = {t, HitKind::ground, kNoUav, kNoTriangle};
         any = true;
       }
     }

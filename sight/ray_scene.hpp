@@ -32,7 +32,7 @@ struct BodyShape {
 };
 BodyShape body_shape(const VehicleConfig& vehicle);
 
-inline constexpr UavIndex kNobody{std::numeric_limits<std::size_t>::max()};
+inline constexpr UavIndex kNoUav{std::numeric_limits<std::size_t>::max()};
 inline constexpr std::uint32_t kNoTriangle = std::numeric_limits<std::uint32_t>::max();
 
 /// Selects the objects that a ray may hit besides the structure.
@@ -40,7 +40,7 @@ struct RayFilter {
   bool ground = true;
   bool uavs = true;
   /// UAVs that do not stop the ray: sensors and antennas sit inside or close to their own body.
-  UavIndex except_uav = kNobody, except_other_uav = kNobody;
+  UavIndex except_uav = kNoUav, except_other_uav = kNoUav;
   /// If given, the ray is tested against these bodies only: for callers that know that it misses all others.
   std::optional<std::span<const UavIndex>> among = {};
 };
@@ -50,7 +50,7 @@ enum class HitKind { structure, ground, uav };
 struct Hit {
   double distance = 0.0;  ///< along the ray [m]
   HitKind kind = HitKind::structure;
-  UavIndex uav = kNobody;                ///< fleet index, if `kind` is uav
+  UavIndex uav = kNoUav;                 ///< fleet index, if `kind` is uav
   std::uint32_t triangle = kNoTriangle;  ///< index in the structure's mesh, if `kind` is structure
 };
 

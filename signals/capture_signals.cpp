@@ -48,7 +48,7 @@ std::set<std::size_t> work_before(const results::RunRecord& run, const std::stri
   return own;
 }
 
-/// Times at which this UAV, in the run `without` faults, first photographs each point that nobody photographs in `run`
+/// Times at which this UAV, in the run `without` faults, first photographs each point that no UAV photographs in `run`
 /// [s], ascending. Only captures that count.
 std::vector<double> left_undone_s(const results::RunRecord& without, const std::string& uav, const Scenario& scenario,
                                   const results::RunRecord& run) {

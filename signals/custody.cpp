@@ -97,7 +97,7 @@ class Timeline {
     for (std::uint64_t k = sent + 1; k < *arrives; ++k) {
       if (!present(programs::kCommRouter, k)) return std::nullopt;
     }
-    // Nothing is handed on to who takes no part, nor kept for who is about to come back.
+    // Nothing is handed on to a program that takes no part, nor kept for one that is about to come back.
     const bool received = present(programs::kCommRouter, *arrives) && present(programs::kStation, *arrives - 1) &&
                           present(programs::kStation, *arrives);
     if (*arrives > last_step_ || !received) return std::nullopt;

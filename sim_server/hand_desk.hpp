@@ -27,10 +27,10 @@ class HandDesk {
   /// time (web/src/hand_flight.js).
   static constexpr std::chrono::milliseconds kHolds{1000};
 
-  /// @param uavs  UAVs that somebody flies by hand.
+  /// @param uavs  UAVs that viewers fly by hand.
   HandDesk(const Scenario& scenario, const std::vector<UavIndex>& uavs);
 
-  /// The newest order counts, whoever gave it. Orders for UAVs that nobody flies by hand are ignored.
+  /// The newest order counts, no matter which viewer gave it. Orders for other UAVs are ignored.
   void take(const view::FlyOrder& order, Clock::time_point now);
   /// Call it at a boundary. @returns the command for this UAV from now on; nullopt: it has not changed.
   std::optional<HandCommand> news(UavIndex uav, Clock::time_point now);

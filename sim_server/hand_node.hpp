@@ -18,11 +18,11 @@ namespace skein::sim {
 
 class HandNode {
  public:
-  /// @param uavs  UAVs that somebody flies. @param folder  for their files. Scenario and simulation must outlive this.
+  /// @param uavs  UAVs that viewers fly. @param folder  for their files. Scenario and simulation must outlive this.
   HandNode(const Scenario& scenario, const Simulation& simulation, const std::vector<UavIndex>& uavs,
            const std::filesystem::path& folder);
 
-  /// Declares the command topic of a UAV in its domain. Does nothing if nobody flies this UAV.
+  /// Declares the command topic of a UAV in its domain. Does nothing if this UAV is not flown by hand.
   void declare(UavIndex uav, bus::LockstepServer& server, bus::LockstepServer::DomainIndex domain);
   void take(const view::FlyOrder& order) { desk_.take(order, HandDesk::Clock::now()); }
   /// Call it before the samples of a step are written: takes the commands that hold from this step on.
@@ -33,13 +33,13 @@ class HandNode {
   void resend(UavIndex uav);
   /// Takes a debug value that a UAV's planner has published. Only kHeldSignal matters: what holds the UAV back.
   void hear(UavIndex uav, const std::string& name, double value);
-  /// Names of the UAVs that somebody flies.
+  /// Names of the UAVs that viewers fly.
   std::vector<std::string> names() const;
   /// For the viewers' page, by UAV: commanded velocity and yaw rate, and what holds the UAV back (HeldBack).
   std::string state_json() const;
 
   bool flies() const { return !flown_.empty(); }
-  /// nullopt: nobody flies.
+  /// nullopt: no UAV is flown by hand.
   std::optional<std::vector<HandReport>> report() const;
   /// At the end of the run: flushes the files. @returns a sentence for each file that could not be written.
   std::vector<std::string> finish();

@@ -23,7 +23,7 @@ LinkTracer::LinkTracer(const Scenario& scenario, const FaultPlan& faults, std::u
 Links LinkTracer::trace(Tick tick, const RayScene& rays, const std::vector<Place>& uavs, const ForEach& for_each) {
   Links links(uavs.size() + 1);
   unfailed_ = links;
-  const auto body_of = [](Node node) { return uav_of_node(node).value_or(kNobody); };
+  const auto body_of = [](Node node) { return uav_of_node(node).value_or(kNoUav); };
   const auto antenna = [&](Node node) {
     const auto uav = uav_of_node(node);
     if (!uav) return AntennaNode{scenario_.station_position, scenario_.station_antenna_offset_m};

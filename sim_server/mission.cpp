@@ -79,13 +79,13 @@ void Mission::update_phase(Tick tick) {
     if (tick >= takeoff_timeout_) finish(tick, MissionEnd::takeoff_timeout);
     return;
   }
-  const bool nobody = std::ranges::all_of(uavs_, [this](const Member& uav) {
+  const bool none_flies = std::ranges::all_of(uavs_, [this](const Member& uav) {
     return !uav.alive || (uav.has_flown && !uav.airborne && !batteries_are_swapped_);
   });
   if (tick >= *start_tick_ + duration_) {
     finish(tick, MissionEnd::duration);
-  } else if (nobody) {
-    finish(tick, MissionEnd::nobody_flies);
+  } else if (none_flies) {
+    finish(tick, MissionEnd::no_uav_flies);
   }
 }
 

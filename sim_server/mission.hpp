@@ -13,7 +13,7 @@
 namespace skein::sim {
 
 /// Why a mission ended.
-enum class MissionEnd { none, duration, nobody_flies, takeoff_timeout };
+enum class MissionEnd { none, duration, no_uav_flies, takeoff_timeout };
 
 /// The death of one UAV by collision. If two UAVs die in one collision, there are two of these.
 struct Collision {

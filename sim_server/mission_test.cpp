@@ -70,7 +70,7 @@ TEST_F(MissionTest, EndsWhenEveryoneIsDeadOrHasLanded) {
   EXPECT_EQ(m.phase(), Phase::flying);  // 2 may still take off
   m.update(4, {flying(), resting(), flying()}, {});
   m.update(5, {flying(), resting(), resting()}, {});
-  EXPECT_EQ(m.end(), MissionEnd::nobody_flies);
+  EXPECT_EQ(m.end(), MissionEnd::no_uav_flies);
 }
 
 TEST_F(MissionTest, GoesOnWhereALandedUavGetsAnotherBattery) {
@@ -86,7 +86,7 @@ TEST_F(MissionTest, GoesOnWhereALandedUavGetsAnotherBattery) {
   m.take_out(UavIndex{0});
   m.take_out(UavIndex{1});
   m.update(4, {resting(), resting()}, {});
-  EXPECT_EQ(m.end(), MissionEnd::nobody_flies);
+  EXPECT_EQ(m.end(), MissionEnd::no_uav_flies);
 }
 
 TEST_F(MissionTest, AFallenUavHasLandedWhereverItsRotorsHoldIt) {

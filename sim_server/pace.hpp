@@ -1,4 +1,4 @@
-// Paces a run that somebody watches: it holds the server at boundaries between two exchanges, at which every program
+// Paces a run that a user watches: it holds the server at boundaries between two exchanges, at which every program
 // has answered and none waits for a message. The results of the run do not depend on it.
 // Threads: one.   Pure: knows no bus, and reads no clock.
 #pragma once

@@ -66,7 +66,7 @@ FlightReport flight_of(const ProgramOptions& options, const Scenario& scenario, 
           .dds = options.dds};
 }
 
-/// @throws InputError if a run was flown in the folder. Without a launcher, nobody has emptied the folder, and the
+/// @throws InputError if a run was flown in the folder. Without a launcher, the folder has not been emptied, and the
 /// server would continue the records of a run with the same number.
 void refuse_used_folder(const ProgramOptions& options) {
   if (options.has_launcher() || !std::filesystem::exists(options.out / run_folder::kDigests)) return;
@@ -150,7 +150,7 @@ void ServerProgram::add_options(CLI::App& app) {
       ->group("Launcher");
   app.add_option("--stand-ins", stand_ins_, "UAVs whose agent passes on the messages of programs outside the lock-step")
       ->delimiter(',');
-  app.add_option("--by-hand", by_hand_, "UAVs that somebody flies by hand on the page")
+  app.add_option("--by-hand", by_hand_, "UAVs that a viewer flies by hand on the page")
       ->delimiter(',')
       ->needs("--watch")
       ->group("Launcher");

@@ -40,7 +40,7 @@ class ServerProgram final : public bus::FleetProgram {
   std::optional<double> stop_at_s_, startup_timeout_s_;
   double agent_timeout_s_ = 60.0;
   bool ground_program_ = false;
-  std::string watch_speed_;  ///< empty: nobody watches
+  std::string watch_speed_;  ///< empty: the run is not watched
   bool watch_losses_ = false;
   std::optional<double> watch_pause_at_s_;
   std::vector<std::string> by_hand_, stand_ins_;

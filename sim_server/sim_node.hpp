@@ -48,7 +48,7 @@ struct SimNodeOptions {
   recording::ReplayOptions replay = {};
   bool notice_deaths = false;               ///< no launcher calls report_lost(): the server detects dead members
   bool expect_gcs_program = false;          ///< wait for a user's program at the ground station before the start
-  std::optional<WatchOptions> watch = {};   ///< set: somebody watches the run (--watch)
+  std::optional<WatchOptions> watch = {};   ///< set: the run is watched (--watch)
   std::vector<std::string> stand_ins = {};  ///< UAVs whose agent relays messages of programs outside the lock-step
   std::vector<UavIndex> by_hand = {};       ///< UAVs that a viewer flies (--by-hand)
   FaultPlan faults;
@@ -124,7 +124,7 @@ class SimNode final : public bus::LockstepNode {
   std::unique_ptr<GcsNode> gcs_;
   std::unique_ptr<VizNode> viz_;
   HandNode hand_;
-  std::unique_ptr<WatchNode> watch_;  ///< none: nobody watches
+  std::unique_ptr<WatchNode> watch_;  ///< none: the run is not watched
   FaultNode faults_;
   std::optional<WorkLog> work_;  ///< for the report alone; none where a gate steps the fleet
   ProgressTeller progress_;

@@ -121,7 +121,7 @@ class Simulation {
   /// @param faults  all faults by hand so far. Their effect on exchanges that are over must not change.
   void set_faults_by_hand(const std::vector<Fault>& faults);
 
-  /// Sets whether anybody reads this UAV's scans (initially: yes). A scan that nobody reads and that would not become a
+  /// Sets whether a program reads this UAV's scans (initially: yes). A scan without a reader that would not become a
   /// key frame is not computed, because the LiDAR is the most expensive sensor. Only events().scans depends on this.
   void want_scans(UavIndex uav, bool wanted);
   /// From now on `for_each` executes independent work: scans, exposures, links, and the forces of a large fleet.

@@ -98,7 +98,7 @@ TEST_F(Field, FlyingIntoTheWallKillsAndIsLogged) {
   EXPECT_EQ(sim.referee().ledger().back().tick, collisions[0].tick);
   EXPECT_GT(sim.uav(UavIndex{0}).captures, 10U);
   EXPECT_EQ(sim.referee().earned().score(), 0.0) << "only UAVs without a collision count";
-  EXPECT_EQ(sim.mission().end(), MissionEnd::nobody_flies);
+  EXPECT_EQ(sim.mission().end(), MissionEnd::no_uav_flies);
   EXPECT_LT(sim.uav(UavIndex{0}).state.p_WB.z(), 1.5) << "the wreck falls";
 }
 
@@ -128,7 +128,7 @@ TEST_F(Field, LandingOnTheGroundIsNoCollision) {
   fly(3.0, {to(0.5, 0, 2)});
   fly(8.0, {TrajectoryCommand{.v_WB = {0, 0, -0.4}}});
   EXPECT_TRUE(sim.uav(UavIndex{0}).alive);
-  EXPECT_EQ(sim.mission().end(), MissionEnd::nobody_flies);
+  EXPECT_EQ(sim.mission().end(), MissionEnd::no_uav_flies);
 }
 
 TEST_F(Field, RefusedCommandsAreToldAndCounted) {

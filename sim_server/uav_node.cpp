@@ -10,7 +10,7 @@
 namespace skein::sim {
 namespace {
 
-// Builds a message only if somebody reads it: large unread messages would be the server's greatest cost.
+// Builds a message only if a program reads it: large unread messages would be the server's greatest cost.
 void send(bus::CountedWriter& writer, auto&& make) {
   if (writer.is_wanted()) {
     writer.write(make());

@@ -28,7 +28,7 @@ class HeardKeyFrames {
 
  private:
   std::optional<std::uint64_t> step_;
-  std::vector<std::vector<std::uint8_t>> payloads_;  ///< empty: nobody asked yet
+  std::vector<std::vector<std::uint8_t>> payloads_;  ///< empty: not encoded yet
 };
 
 class UavNode {
@@ -38,7 +38,7 @@ class UavNode {
   UavNode(UavIndex uav, const Scenario& scenario, Simulation& simulation, HeardKeyFrames& heard,
           bus::LockstepServer& server, bus::LockstepServer::DomainIndex domain);
 
-  /// Makes the simulation compute the next step's scan if somebody reads it. Call it when the members of that step are
+  /// Makes the simulation compute the next step's scan if a program reads it. Call it when the members of that step are
   /// known, and before it is simulated: so a program that has just joined gets its first scan, whether or not DDS still
   /// counts its dead predecessor as a reader. @param shown  a viewer wants to see the scan.
   void choose_scans(bool shown = false);

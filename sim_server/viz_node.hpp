@@ -1,5 +1,5 @@
 // Publishes frames, markers and a map in the world domain for viewers, usually RViz 2 (docs/how-to-ros2.md), at no more
-// than 10 Hz of simulated time. The server computes only what somebody reads. No program of the fleet reads these
+// than 10 Hz of simulated time. The server computes only what a program reads. No program of the fleet reads these
 // topics and the lock-step does not count them, so no program waits for a viewer; a slow viewer loses samples.
 // Frame: W.
 #pragma once
@@ -23,7 +23,7 @@ class VizNode {
 
  private:
   using Writer = std::unique_ptr<bus::Writer>;
-  /// A latched topic. It is written when somebody reads it and its content has changed since it was last written.
+  /// A latched topic. It is written when a program reads it and its content has changed since it was last written.
   struct Latched {
     Writer writer;
     bool stale = true;

@@ -35,7 +35,7 @@ struct WatchOptions {
 class WatchNode {
  public:
   /// @param world, uavs  the server's participants in the world domain and, by UAV, in the UAVs' domains. They and the
-  /// references must outlive this. @param hand  takes the page's orders for UAVs that somebody flies.
+  /// references must outlive this. @param hand  takes the page's orders for UAVs that viewers fly.
   WatchNode(const Scenario& scenario, const Simulation& simulation, EventLog& events, bus::Inbox& inbox,
             bus::Participant& world, std::span<const std::unique_ptr<bus::Participant>> uavs,
             const WatchOptions& options, FaultNode& faults, HandNode& hand);
@@ -53,7 +53,7 @@ class WatchNode {
   /// any was obeyed; then the caller must call FaultNode::let_back_victims().
   bool obey_fault_orders();
   /// At a boundary: whether the next exchange may begin. While the station is away, a pause does not hold the run,
-  /// because nobody could end it.
+  /// because no viewer could end it.
   bool may_go_on();
   /// While may_go_on() returns false: time until it is worth asking again, unless something arrives first.
   std::chrono::milliseconds left() const;

@@ -98,7 +98,7 @@ TEST(Scoreboard, EveryChangeOfAReportIsRefused) {
     for (const Refusal reason : {Refusal::unknown, Refusal::borrowed, Refusal::altered}) {
       EXPECT_EQ(score.refused(reason), reason == cases[i].reason ? 1U : 0U) << i << to_string(reason);
     }
-    // Who looks up the capture that the report claims finds why it was refused; a token that is unknown claims none.
+    // audit() says why the capture that the report claims was refused; a token that is unknown claims none.
     const std::size_t claimed = cases[i].report.token == of_another.token ? 0 : 1;
     for (std::size_t known = 0; known < 2; ++known) {
       const bool told = cases[i].reason != Refusal::unknown && known == claimed;

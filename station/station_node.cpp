@@ -85,9 +85,9 @@ void StationNode::on_reports(std::size_t source, const msg::CaptureReports& repo
       names_.resolve(*report);
       scoreboard_->add_report(source, std::move(*report));
     } else {
-      CaptureReport nobody;
-      nobody.uav = UavIndex(uavs_.size());
-      scoreboard_->add_report(source, std::move(nobody));
+      CaptureReport unreadable;
+      unreadable.uav = UavIndex(uavs_.size());
+      scoreboard_->add_report(source, std::move(unreadable));
     }
   }
 }

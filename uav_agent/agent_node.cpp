@@ -188,7 +188,7 @@ std::string AgentNode::end_maps() {
 
 void AgentNode::send(LockstepClient& client) {
   write(client);
-  // Before the step is answered: who is killed at the next one has kept the same each time.
+  // Before the step is answered: an agent that is killed at the next one has kept the same each time.
   if (kept_maps_) kept_maps_->keep(input_.tick, agent_.world_map(), agent_.map());
   // State stays until the next sample replaces it; events are over.
   input_.boxes.clear();
@@ -219,7 +219,7 @@ void AgentNode::show_octomap() {
 
 void AgentNode::show_flight_map() {
   if (!flight_map_->has_readers()) {
-    flight_map_due_ = 0;  // who comes need not wait: the run may be held step by step
+    flight_map_due_ = 0;  // a new reader need not wait: the run may be held step by step
     return shown_tree_.reset();
   }
   if (input_.tick < flight_map_due_) return;

@@ -6,7 +6,7 @@
 
 namespace skein::agent {
 
-// Who was stopped by a fault comes back as somebody new on the network; what it had in mind stays.
+// A program that a fault has stopped joins the network again as a new participant, and keeps its state.
 void MemberNode::start() {
   client_.reset();
   participant_.reset();

@@ -27,7 +27,7 @@ void RadioNode::declare(bus::LockstepClient& client, std::vector<RadioMessage>& 
     if (route.source != node_ || !out_.contains(route.ros_topic) || !declared.insert(route.topic).second) continue;
     client.declare_writer(bus::spec({route.topic, route.type, false, topics::kRadioDepth}), Counterpart::router);
   }
-  // All sources of a topic arrive on one: nobody can tell them apart, as in CARIC.
+  // All sources of a topic arrive on one: the receiver cannot tell them apart, as in CARIC.
   for (const RadioRoute& route : routes_) {
     for (const RadioTarget& target : route.targets) {
       if (target.node != node_ || route.ros_type != kTextType || !declared.insert(target.topic).second) continue;

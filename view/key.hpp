@@ -1,5 +1,6 @@
-// The key of a run's page: whoever has it may watch the run and give orders. Each run gets a new random key. Programs
-// pass it on in a file that only its owner may read, never on a command line or in the environment.   Any thread.
+// The key of a run's page: users who have it may watch the run and give orders. Each run gets a new random key.
+// Programs pass it on in a file that only its owner may read, never on a command line or in the environment.   Any
+// thread.
 #pragma once
 
 #include <filesystem>

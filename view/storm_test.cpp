@@ -1,5 +1,5 @@
-// Whoever comes to the page's server, and however many: those who are let in are served, and what it takes of the
-// machine has bounds. What is sent is drawn by a seed, which a failure tells.
+// Many viewers, drawn at random, call the page's server: it serves those that it admits, and its use of the machine has
+// bounds. A failure tells the seed.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -215,7 +215,7 @@ TEST_P(DrawnStorm, OfStrangersTellsThemNothingAndKeepsNobodyOut) {
   EXPECT_EQ(orders_, 0);
 }
 
-// Who has the key, and sends what is no order.
+// Viewers that have the key, and send what is no order.
 TEST_P(DrawnStorm, OfFramesIsObeyedWhereItIsAnOrderAndEndsOtherwise) {
   Random random(GetParam());
   fill();

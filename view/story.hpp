@@ -51,8 +51,8 @@ std::string poses_json(std::span<const ShownUav> uavs);
 std::string links_line(double time_s, std::span<const ShownLink> row_major);
 /// k: event. "e": the event, "s": its subject, "o": its object.
 std::string event_line(double time_s, const std::string& event, const std::string& subject, const std::string& object);
-/// k: activity. What the UAV "u" reports about its activity: "m": its mode, "g": its goal or null, "w": whom it waits
-/// for (empty: nobody), "n": why path search failed (empty: it found a path, or there was no search).
+/// k: activity. What the UAV "u" reports about its activity: "m": its mode, "g": its goal or null, "w": the UAV for
+/// which it waits (empty: none), "n": why path search failed (empty: it found a path, or there was no search).
 std::string activity_line(double time_s, std::size_t uav, const Activity& activity);
 /// For the feed's state. By UAV: speed [cm/s], captures not delivered, CPU time per simulated second [ms] or null; null
 /// for a UAV that reports nothing.

@@ -2,7 +2,7 @@
 // time from the first step to the first picture [ms], CPU time of scripts and of all work of the page's thread per
 // picture [ms], number of pictures, largest number of draw calls. `skein bench --view` starts it. The browser is open
 // before the run begins, as a user's is. Work is measured as CPU time: without a graphics card, the same cores draw.
-// usage: node watched_run.mjs WEB CHROMIUM page|nobody RUN SKEIN ARGUMENT...
+// usage: node watched_run.mjs WEB CHROMIUM page|none RUN SKEIN ARGUMENT...
 import {spawn} from 'node:child_process';
 import {readFileSync} from 'node:fs';
 import path from 'node:path';

@@ -33,7 +33,7 @@ std::string change_text(const Sum& sum) {
   return std::abs(percent) < 0.05 ? "0.0 %" : fmt::format("{:+.1f} %", percent);  // tables hold rounded scores
 }
 
-/// Whose score in which scene it is.
+/// The planner and the scene of a score.
 auto key_of(const PlannerScore& score) { return std::tie(score.scene, score.planner); }
 
 }  // namespace

@@ -55,7 +55,7 @@ class WatchingBench {
     for (int i = 0; i < repeats; ++i) {
       console_.err << "bench: watched run " << i + 1 << " of " << repeats << std::endl;
       WatchedPair pair;
-      pair.unseen = fly("nobody", pair.page);
+      pair.unseen = fly("none", pair.page);
       pair.watched = fly("page", pair.page);
       pairs.push_back(pair);
     }

@@ -345,7 +345,7 @@ class ComposeText {
       add_next_subnet();
       yaml_.end_map();
     }
-    if (layout_.view) {  // browsers reach the station through it; without masquerading, the station reaches nobody
+    if (layout_.view) {  // browsers reach the station through it; without masquerading, the station reaches no host
       yaml_.key(kViewNetwork).begin_map();
       add_driver_option("com.docker.network.bridge.enable_ip_masquerade", "false");
       add_next_subnet();

@@ -143,7 +143,7 @@ std::string governance(int first_domain, int last_domain) {
   add_element(domains, "discovery_protection_kind", "ENCRYPT");
   add_element(domains, "liveliness_protection_kind", "ENCRYPT");
   add_element(domains, "rtps_protection_kind", "NONE");
-  // Whole submessages are encrypted, so that nobody without a certificate can inject a heartbeat or a gap either.
+  // Whole submessages are encrypted, so that programs without a certificate cannot inject heartbeats or gaps either.
   pugi::xml_node topics = domains.append_child("topic_access_rules").append_child("topic_rule");
   add_element(topics, "topic_expression", "*");
   add_element(topics, "enable_discovery_protection", "true");

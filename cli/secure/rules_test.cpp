@@ -1,4 +1,4 @@
-// Who may do what in a secured fleet, and who can vouch for it.
+// What each program may do in a secured fleet, and which certificates prove it.
 #include "cli/secure/rules.hpp"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // Sets up a secured run (`skein run --secure`), and cleans up after it: each program gets keys and permissions in a
-// folder that nobody else can read and, if the launcher is root, each agent gets a user id of its own. docs/security.md
-// says what this protects, and what not.   Threads: one.
+// folder that no other user can read and, if the launcher is root, each agent gets a user id of its own.
+// docs/security.md says what this protects, and what not.   Threads: one.
 #pragma once
 
 #include <filesystem>

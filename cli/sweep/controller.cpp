@@ -344,7 +344,7 @@ std::vector<std::string> SweepController::findings() const {
   return lines;
 }
 
-/// What the checks have shown. Somebody who only looks at a sweep may see digests that differ and are not judged yet.
+/// What the checks have shown. A user who only looks at a sweep may see digests that differ and are not judged yet.
 std::string SweepController::text_of_checks() const {
   std::size_t checks = 0, different = 0;
   for (const std::size_t index : folder_.checks(settings_.token)) {

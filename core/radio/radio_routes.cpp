@@ -56,7 +56,7 @@ class RadioTable::Builder {
       route.member = member;
       add_targets(route, targets);
       if (route.targets.empty()) {
-        if (sources.all && sources.nodes.size() > 1) continue;  // "all" means: all that have somebody to talk to
+        if (sources.all && sources.nodes.size() > 1) continue;  // "all" means: all that have a target
         fail("targets", "'" + name(source) + "' has no target besides itself; name another node or 'all'");
       }
       occupy_source(route);

@@ -12,7 +12,7 @@ constexpr double kLargestShift = 2.0;
 constexpr double kCrowded = 0.25;    ///< share of the varied seeds
 constexpr double kCrowdStep = 1.45;  ///< between two in a crowd [m]
 
-/// Who starts where, and whether all do so at one place.
+/// The start places of the UAVs, and whether all are at one place.
 void vary(std::vector<StartPlace>& places, const std::vector<Vector2d>& nominal, RandomStream& random) {
   for (std::size_t i = places.size(); i > 1; --i) {
     std::swap(places[i - 1], places[static_cast<std::size_t>(random.uniform() * static_cast<double>(i))]);

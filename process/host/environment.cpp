@@ -94,7 +94,7 @@ std::vector<std::string> ignored_variables() {
 void take_fleet_environment(char** argv) {
   if (std::getenv(kPinnedVariable) != nullptr) return;
   // Since kPinnedVariable is not set, no launcher started this program. So SKEIN_RUN, if set, does not come from
-  // another fleet's launcher: whoever started this program chose it for this run, and the program keeps it.
+  // another fleet's launcher: the user who started this program chose it for this run, and the program keeps it.
   std::map<std::string, std::string> told;
   if (const char* run = std::getenv(kRunVariable)) told[kRunVariable] = run;
   std::vector<std::string> variables = fleet_environment(false, told);

@@ -103,7 +103,7 @@ struct BatteryReport {
   Number empty_s = {};  ///< time at which it became empty
   /// The UAV was on the ground at the end, and had landed with at most a tenth of the charge above its reserve.
   std::optional<bool> grounded = {};
-  Count swaps = {};  ///< none: nobody swaps batteries
+  Count swaps = {};  ///< none: batteries are not swapped
 };
 void describe(auto& f, BatteryReport& battery) {
   f.field("capacity_wh", battery.capacity_wh);

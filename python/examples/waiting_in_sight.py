@@ -30,5 +30,5 @@ for path in sys.argv[1:]:
         links = run.links[(run.links["a"] == mate) & (run.links["b"] == uav)]
         linked_s += sum(max(0.0, min(until_s, link["to_s"]) - max(from_s, link["from_s"])) for link in links)
         waited_s += until_s - from_s
-    share = f"{100.0 * linked_s / waited_s:.0f} % of {waited_s:.0f} s" if waited_s else "nobody waited"
+    share = f"{100.0 * linked_s / waited_s:.0f} % of {waited_s:.0f} s" if waited_s else "no UAV waited"
     print(f"{path}: {share}")

@@ -99,7 +99,7 @@ DIGESTS_OF_A_UAV = ("position", "attitude", "velocity", "body_rates", "gimbal", 
 HAND = Table("hand", "hand-{uav}.csv", (
     *_columns("count", "", "step tick"), *_columns("number", "m/s", "ahead left up"),
     *_columns("number", "rad/s", "yaw_rate gimbal_pitch_rate gimbal_yaw_rate")),
-    "nobody flew this UAV by hand (`planner=\"UAV=hand\"` with `view=True`)")
+    "no viewer flew this UAV by hand (`planner=\"UAV=hand\"` with `view=True`)")
 
 # Not a file: Run.links computes it from events.csv.
 LINKS = Table("links", "events.csv", (*_columns("text", "", "a b"), *_columns("number", "s", "from_s to_s")))

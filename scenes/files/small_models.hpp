@@ -97,7 +97,7 @@ inline std::string dae(const TriangleMesh& mesh,
 inline std::string gltf_text(const TriangleMesh& mesh, const std::string& nodes, const std::string& uri) {
   const std::size_t positions = 12 * mesh.vertices.size(), indices = 6 * mesh.triangles.size();
   return "{\"asset\": {\"version\": \"2.0\", \"generator\": \"written by a test, with a text that may be damaged "
-         "without any consequence for the triangles, because nobody reads it, as is true of much that such files "
+         "without any consequence for the triangles, because no reader uses it, as is true of much that such files "
          "have\"},\n"
          "\"scene\": 0, \"scenes\": [{\"nodes\": [0]}],\n\"nodes\": [" +
          nodes +

@@ -28,7 +28,7 @@ struct BatteryUse {
   double capacity_wh = 0.0, given_wh = 0.0, mean_power_w = 0.0;
   std::optional<Tick> empty;             ///< when it became empty; nullopt: it is not empty
   std::optional<double> last_in_flight;  ///< share of the charge when the UAV was last airborne; nullopt: never
-  std::optional<std::uint64_t> swaps;    ///< number of swaps; nullopt: nobody swaps batteries
+  std::optional<std::uint64_t> swaps;    ///< number of swaps; nullopt: batteries are not swapped
 };
 
 class Surroundings {

@@ -1,4 +1,4 @@
-// Who acts when, in a simulation that is looked at after every tick: controllers, camera, LiDAR, the mission's clock.
+// The ticks at which controllers, camera, LiDAR and the mission's clock act, in a simulation read after every tick.
 #include <gtest/gtest.h>
 
 #include <memory>

@@ -236,7 +236,7 @@ TEST(FlightCheck, FindsWhoFliesFastAtAWallAndStopsLate) {
   EXPECT_GT(*late.first[0].time_s, 8.0);
   EXPECT_GT((*late.first[0].position)[0], 28.0);
 
-  // Whoever hits it could not have stopped before.
+  // A UAV that hits it could not have stopped before.
   const auto hit = flown(scenario, wall, {line_flight(start, {1, 0, 0}, 40.0, 4.0, 2.0)}, 24.0, collided);
   ASSERT_TRUE(collided);
   EXPECT_GT(*hit.braking_hits, 0U);

@@ -44,7 +44,7 @@ struct RunSummary {
   std::uint64_t unsent = 0;                     ///< samples that could not be sent
   TimingReport timing;
   std::vector<FaultReport> faults;
-  std::optional<std::vector<HandReport>> hand;          ///< nullopt: nobody flew by hand
+  std::optional<std::vector<HandReport>> hand;          ///< nullopt: no UAV was flown by hand
   std::vector<WorkTrack> work;                          ///< by UAV
   std::optional<std::vector<std::string>> differences;  ///< from the recorded run; nullopt: no run is flown again
 };

@@ -89,7 +89,7 @@ TEST(AntennaLink, SightMemoryAnswersAsRaysAlone) {
         const AntennaNode a{station, 0.2};
         const AntennaNode b{step % 20 == 19 ? place() : Vector3d(start + 0.005 * step * (end - start)), 0.1};
         world.set_pose(UavIndex{0}, Isometry3d(Eigen::Translation3d(0.5 * (a.p_W + b.p_W))));
-        const RayFilter filter{.except_uav = step % 2 == 0 ? UavIndex{0} : kNobody};
+        const RayFilter filter{.except_uav = step % 2 == 0 ? UavIndex{0} : kNoUav};
         const bool expected = trace_link(a, b, [&](const Vector3d& p, const Vector3d& q) {
                                 return world.first_hit_distance(p, q, filter);
                               }).linked;

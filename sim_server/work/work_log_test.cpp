@@ -1,4 +1,5 @@
-// Who works, by the referee's truth: flights of seconds and minutes before a wall, with drawn places and distances.
+// Which UAVs work, by the referee's truth: flights of seconds and minutes before a wall, with drawn places and
+// distances.
 #include "sim_server/work/work_log.hpp"
 
 #include <gtest/gtest.h>

@@ -26,7 +26,7 @@ void ToldSpace::listen(const PlannerInput& in, bool sees, SafetyFilter& filter) 
   has_left_ = has_left_ || (in.state.p_WB - agent_.me().p_WB_start).norm() > kLeftM;
   const bool told = in.world_map->regions().size() > kOwnRegions;
   if (filter.assumes_boxes()) {
-    // Where nobody has proved the space between the UAV and the rest of the map, it would be shut in.
+    // Where no beam has proved the space between the UAV and the rest of the map, the UAV would be shut in.
     if (told && has_left_ && filter.proved_free(in.state.p_WB, *in.world_map)) filter.assume_boxes(false);
     return;
   }

@@ -268,7 +268,7 @@ TEST(WorldMap, WhatIsDoubtedIsProvedFromNothingAndNothingElseIsForgotten) {
   }
 }
 
-/// Whoever flies on keeps what it knows, but no evidence of all that it ever passed.
+/// A UAV that flies on keeps what it knows, but no evidence of all that it ever passed.
 TEST(WorldMap, WhatIsFarAndUnknownIsForgotten) {
   WorldMap::Config config;
   config.to_m = {10.0};

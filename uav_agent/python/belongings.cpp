@@ -71,7 +71,7 @@ struct Belongings::Generators {
     numpy_rest = state["has_gauss"].cast<int>() != 0 ? state : py::object(py::none());
   }
 
-  /// @param in_store  whether NumPy's generator has such a number from somebody else.
+  /// @param in_store  whether NumPy's generator has such a number that this object did not store.
   void load(bool in_store) const {
     const Globals& of = globals();
     if (of.random_twister.empty()) of.random.attr("setstate")(random_state);

@@ -29,7 +29,7 @@ void show_symbols() {
   }
 }
 
-/// Debian's, or that of the virtual environment in which somebody works.
+/// Debian's, or that of the user's virtual environment.
 std::string program_name() {
   const char* environment = std::getenv("VIRTUAL_ENV");
   const std::string own = environment == nullptr ? "" : std::string(environment) + "/bin/python3";
@@ -37,7 +37,7 @@ std::string program_name() {
   return !own.empty() && std::filesystem::exists(own, none) ? own : "/usr/bin/python3";
 }
 
-/// Nothing of a run depends on the locale, the order of hashes or somebody's settings of the interpreter. Signals
+/// Nothing of a run depends on the locale, the order of hashes or the user's settings of the interpreter. Signals
 /// are the agent's.
 void start() {
   PyPreConfig before;

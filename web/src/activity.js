@@ -72,7 +72,7 @@ export function factsOfActivity(index, pose) {
     ['since', `${what.since.toFixed(1)} s`],
     ['goal', goal === null ? 'none' :
          `${[goal.x, goal.y, goal.z].map((v) => v.toFixed(1)).join(', ')} m${far === null ? '' : `, ${far.toFixed(1)} m away`}`],
-    ['waits for', what.waitsFor || 'nobody'],
+    ['waits for', what.waitsFor || 'no UAV'],
     ...(what.noWay ? [['no way', what.noWay]] : []),
     ...(cpu === null ? [] : [['CPU', `${cpu} ms for a simulated second`]]),
   ];

@@ -22,7 +22,7 @@ class Seen {
 }
 
 const kRounding = 2e-6;  // of the difference of two numbers that are rounded to 1/1000000
-const kNobody = {delivered: null, taken: null};
+const kUnseen = {delivered: null, taken: null};
 /** Of two captures with equal quality, the earlier one counts, as in the station's tally. */
 const better = (one, other) => (other === null || other === undefined ? one.its_q > 0 :
     one.its_q > other.its_q || (one.its_q === other.its_q && one.of.time < other.of.time));
@@ -245,7 +245,7 @@ export function makeCustody(data) {
   function custody(index, time) {
     const point = points[index];
     if (time >= data.end) return point;
-    return point.seen.length === 0 ? kNobody : lookUp(index, time);
+    return point.seen.length === 0 ? kUnseen : lookUp(index, time);
   }
 
   /**

@@ -184,7 +184,7 @@ export function handPanel(order, follow) {
     const now = data.now?.hand?.[which.value];
     wanted.textContent = now ? inWords({gimbal: flies ? hands.command.gimbal : [0, 0], ...now}) : '–';
     const dead = data.uavs[index()]?.collided !== null;
-    held.textContent = dead ? 'It collided: nobody flies it any more.' : now ? kHeld[now.held] ?? '' : '';
+    held.textContent = dead ? 'It collided, and cannot be flown any more.' : now ? kHeld[now.held] ?? '' : '';
   };
   const letGo = () => {
     take.focus();

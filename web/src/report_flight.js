@@ -21,7 +21,7 @@ export function offerFlight() {
 
 /** Adds controls: the UAV that the view follows, and whether the view is that of its camera. */
 export function followTools(scene) {
-  const whom = element('select', {id: 'follow', 'aria-label': 'whom the view follows'}, element('option', {value: '-1'}, 'nobody'),
+  const whom = element('select', {id: 'follow', 'aria-label': 'whom the view follows'}, element('option', {value: '-1'}, 'no UAV'),
                        ...data.uavs.map(({name}, i) => element('option', {value: String(i)}, name)));
   const through = element('input', {type: 'checkbox', id: 'through'});
   through.disabled = true;

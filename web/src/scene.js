@@ -347,7 +347,7 @@ function legendOf(by) {
   const entry = (name, text) => element('li', {}, swatch(name), text);
   if (by === 'uav')
     return [
-      ...data.uavs.slice(0, 12).map((uav, i) => entry(trackColour(i), `by ${uav.name}`)), entry('q0', 'by nobody')
+      ...data.uavs.slice(0, 12).map((uav, i) => entry(trackColour(i), `by ${uav.name}`)), entry('q0', 'by no UAV')
     ];
   if (by === 'cause') {
     const there = new Set(points.map((p) => p.cause));

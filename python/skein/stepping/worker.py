@@ -59,9 +59,9 @@ class _Process:
     """This program's end of the socket of a fleet's process, and the output of that process.
 
     Ctrl-C may interrupt each method at any instruction. At any time, this end is closed, or no reply is due, or one is
-    due for which the caller of begin_steps() will wait: who is interrupted between a message and its reply closes this
-    end. The socket itself is the only record of whether this end is closed, so an interrupted let_go() leaves it closed
-    or open, and a further call completes it.
+    due for which the caller of begin_steps() will wait: a caller that is interrupted between a message and its reply
+    closes this end. The socket itself is the only record of whether this end is closed, so an interrupted let_go()
+    leaves it closed or open, and a further call completes it.
     """
 
     def __init__(self, ours: socket.socket, log: io.FileIO) -> None:

@@ -202,7 +202,7 @@ TEST(Hand, TellsWhatHoldsItBack) {
   EXPECT_EQ(held.back(), static_cast<double>(HeldBack::no));
 }
 
-/// Who is started again in flight does not fall, and hears what is wanted by then.
+/// A UAV whose program is started again in flight does not fall, and receives the command that holds by then.
 TEST(Hand, ItsProgramStartsAgainInFlight) {
   TestWorld world = flown("again", {{1.0, up(1.0)}, {16.0, {}}, {21.0, level(1.0, 0.0)}, {45.0, {}}});
   world.run(19.0);

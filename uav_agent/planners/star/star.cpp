@@ -3,10 +3,10 @@
 // 1. Balanced teams consist of one explorer and its photographers; a multiple travelling salesmen problem over path
 //    length and volume assigns the boxes to the teams (teams.hpp), once and for all. 2. Explorers explore their team's
 //    boxes by frontiers: one viewpoint for each cluster, an ATSP over them (explorer.hpp). 3. UAVs send each other
-//    their maps in chunks (talk.hpp). 4. Photographers begin at once: viewpoints before known surface that nobody has
+//    their maps in chunks (talk.hpp). 4. Photographers begin at once: viewpoints before known surface that no UAV has
 //    inspected (surfaces.hpp), in clusters, by a hierarchical ATSP (tour.hpp); without viewpoints they hover. Explorers
 //    only explore, with the camera towards their frontiers. With `explorers_inspect`, or if the team has no
-//    photographer, they also inspect: on the way the camera looks at surface that they pass and nobody has inspected,
+//    photographer, they also inspect: on the way the camera looks at surface that they pass and no UAV has inspected,
 //    and when they have explored their boxes, they inspect like photographers. 5. All UAVs fly through their viewpoints
 //    without a stop, turning and tilting the camera all the time, and plan again every 1.5 s; so pictures are blurred
 //    and oblique.

@@ -133,7 +133,7 @@ TEST(StarFlight, WithoutSurfaceItGoesWhereItsExplorerWorks) {
 }
 
 /// Of an explorer beside a wall that is all known, with photographers in its team: places that it asks to fly to before
-/// that. Who inspects has viewpoints there; who does not has nothing to do there.
+/// that. A UAV that inspects has viewpoints there; one that does not has nothing to do there.
 std::size_t places_before_walls(const std::string& planner, std::size_t photographers) {
   AgentConfig agent;
   agent.fleet = {{.name = "lidar", .body_radius_m = 0.32}};

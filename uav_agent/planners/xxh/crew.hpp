@@ -1,7 +1,7 @@
 // One UAV's view of its XXH team: the members and their regions, the progress that the others report, and which members
 // are silent, so that the team does not wait for them.
 // Threads: one.   Source: paper, "Task Assignment" of Team XXH. That a UAV computes the assignment itself when it
-// receives none, and that nobody waits for silent members, is our choice: without it, a team can be idle for a whole
+// receives none, and that no UAV waits for silent members, is our choice: without it, a team can be idle for a whole
 // mission.
 #pragma once
 

@@ -17,17 +17,17 @@ class XxhGround final : public GroundProgram {
   XxhGround(const Config& config, const AgentConfig& ground) : config_(config.resolved()), ground_(ground) {}
 
   std::vector<RadioMessage> work(const GroundInput& in) override {
-    bool somebody_lacks_it = false;
+    bool one_lacks_it = false;
     for (const RadioMessage& message : in.radio) {
       const auto heard = open_word(message, ground_.fleet.size());
       if (!heard) continue;
       const auto& [uav, word] = *heard;
-      somebody_lacks_it |= !word.has_plan;
+      one_lacks_it |= !word.has_plan;
       if (plan_ || !reports_.emplace(uav, word.start_W).second) continue;
       last_new_ = in.tick;
     }
     if (!plan_ && list_is_closed(in)) make_plan(in);
-    lacking_ |= somebody_lacks_it;
+    lacking_ |= one_lacks_it;
     if (!plan_ || !lacking_ || !ground_.due(in.k, config_.assign_every_s, 0)) return {};
     lacking_ = false;
     return {plan_message(*plan_, ground_.fleet.size())};

@@ -10,7 +10,7 @@
 //
 // Its weaknesses are the published ones: the exploration is slow, and photographers are idle meanwhile; a share by
 // volume says little about the work; no UAV helps another team. Our choice, where the sources are silent: all numbers
-// without a source (docs/strategies.md); a UAV that receives no assignment computes it itself; nobody waits for silent
+// without a source (docs/strategies.md); a UAV that receives no assignment computes it itself; no UAV waits for silent
 // leaders and followers; the leader's section is smaller, because it begins last.
 // `faithful` brings back defects of the public code: only the first turn of the spiral in each section is flown,
 // announced trajectories never expire, and waits have no end. Not modelled: its searches that end after 1,000 cells,

@@ -84,7 +84,7 @@ class Outgoing {
   /// Holds a sample until the end of the step.
   void hold(std::vector<std::uint8_t> bytes) { held_.push_back(std::move(bytes)); }
   /// Sends the held samples, at most as many as the history is deep; drops the rest, and logs that once.
-  /// @param lost  drops all of them, because nobody is there to receive them
+  /// @param lost  drops all of them, because no receiver is there
   void flush(bool lost);
   std::uint64_t sent() const { return sent_; }
 

@@ -30,7 +30,7 @@ bool is_python() {
   return initialized != nullptr && initialized() != 0;
 }
 
-/// The exit code of a Python program with an exception that nobody caught, as that of rclpy.spin() at the run's end.
+/// The exit code of a Python program with an exception that it did not catch, as that of rclpy.spin() at the run's end.
 void forgive_exception(int code, void*) {
   if (code == 1) exit_at_once(0);
 }

@@ -22,7 +22,7 @@ Member::Role Member::role_of_reading(const std::string& topic) const {
   Role role;
   const FleetTopic* const entry = fleet_topic(topic, setup_.uav);
   if (entry != nullptr && entry->way == Way::to_node) {
-    if (entry->explorers_only && !setup_.explorer) return role;  // nobody writes it
+    if (entry->explorers_only && !setup_.explorer) return role;  // no program writes it
     role = {Counterpart::server, entry->depth, entry->latched};
   } else if (setup_.radio_hears.count(topic) != 0) {
     role = {Counterpart::router, kArrivalDepth, false};
