@@ -1,4 +1,5 @@
 // Finds the agent programs of a fleet, and asks them which strategies they have.
+// Starts programs to ask them.   Threads: one.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// Starts the user's browser, for a page that this command serves.
+// Starts the user's browser, for a page that this command serves.   Threads: any.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,5 @@
 // Generated worlds (core/scenario/drawn_worlds.hpp): each is generated once, and kept as files in the user's cache.
+// Threads: one.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,5 @@
 // Environment variables for a user's command in place of uav_agent, and a check whether it can fly at all.
+// Threads: one.
 #pragma once
 
 #include <filesystem>

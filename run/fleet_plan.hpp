@@ -1,4 +1,4 @@
-// Plans a run: which programs it consists of, and the command line of each.
+// Plans a run: which programs it consists of, and the command line of each.   Units: s.   Threads: one.
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,5 @@
 // UAVs that ROS 2 nodes fly in real time, outside of the lock-step: `--clock realtime --planner UAV=ros`
-// (docs/how-to-ros2.md).
+// (docs/how-to-ros2.md).   Pure.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// Selects the program at the ground station.
+// Selects the program at the ground station.   Threads: one.
 #pragma once
 
 #include <filesystem>

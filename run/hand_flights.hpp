@@ -1,5 +1,5 @@
 // UAVs that a person flies by hand (--planner jurong=hand), and how such a flight is repeated without that person: from
-// the file of commands that the run recorded (--planner jurong=hand:FILE).
+// the file of commands that the run recorded (--planner jurong=hand:FILE).   Threads: any.
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,5 @@
 // Parses the value of --planner: which planner flies which UAV, from which agent program, and what runs at the ground
-// station.
+// station.   Reads the environment and looks for files, if a planner is ros:.   Threads: any.
 #pragma once
 
 #include <filesystem>

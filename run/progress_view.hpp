@@ -1,5 +1,5 @@
 // Shows the progress of a run: on a terminal, one line that is rewritten; elsewhere, a new line every tenth of the
-// mission.
+// mission.   Times in seconds.   Threads: one.
 #pragma once
 
 #include <ostream>

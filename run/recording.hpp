@@ -1,4 +1,4 @@
-// Joins the recordings of a run's programs (the parts) into recording.mcap.
+// Joins the recordings of a run's programs (the parts) into recording.mcap.   Threads: any.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// The folder that a run writes its results to.
+// The folder that a run writes its results to.   Threads: one for each object.
 #pragma once
 
 #include <cstdint>

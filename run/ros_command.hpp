@@ -1,4 +1,5 @@
 // Planners that are ROS 2 nodes: `ros:PACKAGE/EXECUTABLE ARGUMENTS` as a shell command (docs/how-to-ros2.md).
+// Reads environment variables and looks for files.   Threads: any.
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,5 @@
 // The options of one run, as plain structs. The launcher fills them from its command line, from those of studies, or
-// from the result of an earlier run.
+// from the result of an earlier run.   Units: s (simulated, unless a comment says otherwise).
 #pragma once
 
 #include <array>

@@ -1,5 +1,6 @@
 // A wide-body airliner of about 70 x 64 x 20 m on its wheels, as a part of scenes.
 // Frames: W world; A airliner: origin on the ground below the tip of the nose, x aft, z up.   Units: m, rad.
+// Threads: any.
 #pragma once
 
 #include <vector>

@@ -1,4 +1,5 @@
 // A construction site: two tower cranes and a gantry crane, mostly lattice.
+// Frame: W, ground z = 0.   Units: m.   Pure.
 #pragma once
 
 #include <cstdint>

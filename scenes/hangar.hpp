@@ -1,6 +1,6 @@
 // The family `hangar`: an airliner that stands half inside an open hangar, nose or tail first. The hangar is a shell
 // with columns and roof trusses, large enough to fly in.
-// Frame: W, ground z = 0.   Units: m.
+// Frame: W, ground z = 0.   Units: m.   Pure.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// The ropes, the hook and the load below a crane's trolley.   Frame: W.   Units: m.
+// The ropes, the hook and the load below a crane's trolley.   Frame: W.   Units: m.   Threads: any.
 #pragma once
 
 #include "core/random_stream.hpp"

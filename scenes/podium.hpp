@@ -1,4 +1,5 @@
 // The podium of the spire: a wide low block with an arcade around it and objects on its roof.   Frame: W.   Units: m.
+// Threads: any.
 #pragma once
 
 #include "core/random_stream.hpp"

@@ -1,6 +1,6 @@
 // The family `sail`: a tower shaped like a sail in the wind. A tall curved sheet with terraces on its convex side and a
 // frame of booms and struts on its concave side; a podium below it, and a small sail at some distance.
-// Frame: W, ground z = 0.   Units: m.
+// Frame: W, ground z = 0.   Units: m.   Pure.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,6 @@
 // Exports a scene as files in CARIC's layout, with a scenario that uses them. Reading the files gives the same scene,
 // bit for bit: a run of the exported scenario has the same digest as a run of the original.
+// Frame: W.   Units: m.   Threads: any.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,5 @@
 // The scene that a scenario names: from files in CARIC's layout, or from a procedural family.
+// Frame: W.   Units: m.   Threads: any.
 #pragma once
 
 #include <filesystem>

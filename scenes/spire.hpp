@@ -1,4 +1,4 @@
-// A stepped tower on a wide podium.
+// A stepped tower on a wide podium.   Frame: W, ground z = 0.   Units: m.   Pure.
 #pragma once
 
 #include <cstdint>

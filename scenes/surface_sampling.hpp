@@ -1,5 +1,5 @@
 // Interest points on the surfaces of a scene: evenly spread, and only where a camera outside can see them.
-// Frame: W.   Units: m.
+// Frame: W.   Units: m.   Pure; any thread.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// One tower crane with a hammerhead jib.   Frame: W.   Units: m, rad.
+// One tower crane with a hammerhead jib.   Frame: W.   Units: m, rad.   Threads: any.
 #pragma once
 
 #include <string>

@@ -1,6 +1,6 @@
 // The family `towers`: three tall towers that carry one long deck, a museum of petals beside them, and a small building
 // at some distance. Size, fleet and starts are those of the benchmark's MBS scene; all shapes are original.
-// Frame: W, ground z = 0.   Units: m.
+// Frame: W, ground z = 0.   Units: m.   Pure.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // Varies the boxes of a procedural scene from seed to seed, in the same way for all families.
 // The boxes are all that a planner knows in advance, and boxes that people draw by hand vary, too.
-// Frame: W.   Units: m.
+// Frame: W.   Units: m.   Threads: any.
 #pragma once
 
 #include <cstdint>

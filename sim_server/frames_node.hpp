@@ -1,6 +1,7 @@
 // Publishes the frames of one UAV for ROS 2's tf in the UAV's own domain, for viewers there (docs/ros2.md): /tf in each
 // exchange, /tf_static once. The poses are those that the UAV is told, not the true ones, and none of other UAVs. The
 // server writes only while a program reads them. The lock-step does not count them, so no program waits for them.
+// Threads: one.
 #pragma once
 
 #include <memory>

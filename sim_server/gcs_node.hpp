@@ -1,5 +1,5 @@
 // Publishes the server's data for the ground station: the topics of the GCS domain and, in the world domain, the
-// referee's ledger.
+// referee's ledger.   Frame: W.   Units: m, s.   Threads: one.
 #pragma once
 
 #include "bus/bus.hpp"

@@ -61,7 +61,7 @@ std::string HandFaults::begin(const view::FaultOrder& order, Tick next) {
     fault.until_s = file_time_s(next + std::max(period, (ticks(*order.for_s) + period - 1) / period * period));
   }
   if (is_of_process(fault) && fault_target(fault) == programs::kStation && !fault.until_s) {
-    return "the station serves this page, and nobody could bring it back: say for how long (for_s)";
+    return "the station serves this page, and no viewer could bring it back: say for how long (for_s)";
   }
   if (const auto* link = std::get_if<LinkEffect>(&fault.action); link != nullptr && link->from == link->to) {
     return "a link is between two nodes";

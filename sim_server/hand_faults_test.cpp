@@ -122,8 +122,8 @@ TEST_F(FaultsByHand, WhatMakesNoSenseIsRefusedWithAReason) {
   expect_refused(hand, begin(LidarFailure{"changi"}), next, "'changi' has no LiDAR");
   expect_refused(hand, begin(view::no_link("changi", "nobody")), next, "there is no node 'nobody'");
   expect_refused(hand, begin(view::no_link("changi", "changi")), next, "between two nodes");
-  expect_refused(hand, begin(Kill{"station"}), next, "nobody could bring it back");
-  expect_refused(hand, begin(Pause{"station"}), next, "nobody could bring it back");
+  expect_refused(hand, begin(Kill{"station"}), next, "no viewer could bring it back");
+  expect_refused(hand, begin(Pause{"station"}), next, "no viewer could bring it back");
   expect_refused(hand, begin(Blackout{"changi"}), next, "the radio of changi has a fault from 10 s on already");
   expect_refused(hand, begin(Blackout{"jurong"}), ticks(80.0), "after the end");
   expect_refused(hand, end(0), next, "no such fault");

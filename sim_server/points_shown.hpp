@@ -1,4 +1,5 @@
-// The interest points that a fleet's cameras have seen so far, and the score lost to odometry errors and wind. Pure.
+// The interest points that a fleet's cameras have seen so far, and the score lost to odometry errors and wind.
+// Scores in [0, 1] of each point.   Pure.
 #pragma once
 
 #include <vector>

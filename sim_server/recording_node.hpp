@@ -1,5 +1,6 @@
 // The server's part of a run's recording: the samples that it writes, the commands that it takes, events, faults, and
 // the frames and markers that viewers draw. If a recorded run is flown again, it also replays what the members said.
+// Frame of the views: W.   Threads: one.
 #pragma once
 
 #include <filesystem>

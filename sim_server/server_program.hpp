@@ -1,5 +1,5 @@
 // sim_server as a program: it simulates the world of a run, or does a task that needs its code but no fleet
-// (server_tasks.hpp).
+// (server_tasks.hpp).   Units: s.   Threads: one.
 #pragma once
 
 #include <filesystem>

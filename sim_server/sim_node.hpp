@@ -1,4 +1,5 @@
 // The server as a process: the simulation behind DDS, the lock-step clock, the launcher's pipes, the run's files.
+// Units: s.   Threads: one, except where a function says otherwise.
 #pragma once
 
 #include <chrono>

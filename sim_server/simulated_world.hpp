@@ -1,4 +1,5 @@
-// The simulation as the signals of a run see it (signals/live_signals.hpp).   Threads: one.
+// The simulation as the signals of a run see it (signals/live_signals.hpp).
+// Frame: W.   Units: SI; ticks.   Threads: one.
 #pragma once
 
 #include <vector>

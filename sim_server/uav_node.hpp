@@ -1,4 +1,5 @@
 // The server's end of one UAV's domain: publishes the data of the UAV's sensors, and takes its commands.
+// Frames: W world, B body, `told` (sensors/detection_log.hpp).   Units: SI, radians.   Threads: one.
 #pragma once
 
 #include <map>

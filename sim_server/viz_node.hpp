@@ -1,7 +1,7 @@
 // Publishes frames, markers and a map in the world domain for viewers, usually RViz 2 (docs/how-to-ros2.md), at no more
 // than 10 Hz of simulated time. The server computes only what a program reads. No program of the fleet reads these
 // topics and the lock-step does not count them, so no program waits for a viewer; a slow viewer loses samples.
-// Frame: W.
+// Frame: W.   Units: SI, radians.   Threads: one.
 #pragma once
 
 #include <memory>

@@ -1,5 +1,6 @@
 // The server's side of a watched run (--watch): it sends the station what the viewers' page needs, and holds the run
 // when the page asks for it. No agent receives its messages, and the lock-step does not count them.
+// Frame: W.   Units: SI, radians.   Threads: one; the readers store what arrives from threads of the bus.
 #pragma once
 
 #include <chrono>

@@ -1,5 +1,5 @@
 // CARIC's box_description.yaml: the oriented boxes, which are all that a UAV knows in advance about the structures.
-// Frame W; metres.
+// Frame W; metres.   Any thread.
 #pragma once
 
 #include <filesystem>

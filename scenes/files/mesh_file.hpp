@@ -1,4 +1,4 @@
-// Triangles of a structure: from a file of any format that is accepted, and to STL. Frame W; metres.
+// Triangles of a structure: from a file of any format that is accepted, and to STL. Frame W; metres.   Any thread.
 #pragma once
 
 #include <filesystem>

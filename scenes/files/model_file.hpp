@@ -1,4 +1,4 @@
-// Triangles of a structure from OBJ, PLY, COLLADA and glTF files. Frame W (z up); metres.
+// Triangles of a structure from OBJ, PLY, COLLADA and glTF files. Frame W (z up); metres.   Any thread.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// Interest points, from and to PCD. Frame W; metres.
+// Interest points, from and to PCD. Frame W; metres.   Any thread.
 #pragma once
 
 #include <filesystem>

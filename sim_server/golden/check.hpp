@@ -1,4 +1,4 @@
-// Runs reference vectors through the production code. The header row tells which table it is.
+// Runs reference vectors through the production code. The header row tells which table it is.   Threads: any.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,5 @@
 // A CSV table of reference vectors, and its comparison with computed values.
+// Frames and units of the values are those of the code that computes them.   Threads: one.
 #pragma once
 
 #include <filesystem>

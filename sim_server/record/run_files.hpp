@@ -1,6 +1,6 @@
 // The server's output files: trajectories.csv, tracking.csv, digests.csv, events.csv, activity.csv, scene.json and
 // sim_server.report.json, from which the launcher makes the server's part of result.json. Times in seconds of simulated
-// time, lengths in metres.
+// time, lengths in metres.   Threads: one.
 #pragma once
 
 #include <filesystem>
