@@ -36,7 +36,7 @@ class OpenUntilAllEnded {
   int fds_[2];
 };
 
-/// Kills the children of this process, so that nobody has to wait for their ends any longer.
+/// Kills the children of this process, so that no test has to wait for their ends any longer.
 inline void kill_own_children() {
   for (const pid_t pid : all_processes()) {
     if (parent_of(pid) == ::getpid()) ::kill(pid, SIGKILL);

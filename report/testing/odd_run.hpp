@@ -61,7 +61,7 @@ class OddRun {
   double number(double most) { return most * static_cast<double>(below(10'001)) / 10'000.0; }
   std::string nasty() { return kNastyTexts[below(kNastyTexts.size())]; }
   double time() { return 0.05 * static_cast<double>(below(steps_ + 1)); }
-  std::string anybody() { return names_.empty() || one_in(6) ? "gcs" : names_[below(names_.size())]; }
+  std::string any_member() { return names_.empty() || one_in(6) ? "gcs" : names_[below(names_.size())]; }
   static std::string text(double value) { return Json(value).dump(); }
 
   Json result() {
@@ -95,9 +95,9 @@ class OddRun {
     }
     for (std::size_t i = below(4); i > 0; --i) {
       json["warnings"].push_back(nasty());
-      json["lost_members"].push_back({{"member", anybody()}, {"time_s", time()}, {"reason", nasty()}});
+      json["lost_members"].push_back({{"member", any_member()}, {"time_s", time()}, {"reason", nasty()}});
       json["faults"].push_back({{"kind", nasty()},
-                                {"target", anybody() + " " + nasty()},
+                                {"target", any_member() + " " + nasty()},
                                 {"began_step", one_in(3) ? Json() : Json(below(50))},
                                 {"ended_step", one_in(2) ? Json() : Json(60)}});
     }
@@ -110,7 +110,7 @@ class OddRun {
     }
     json["radio"] = {{"sent", below(1000)}, {"per_link", Json::array()}};
     json["radio"]["per_link"].push_back(
-        {{"from", anybody()}, {"to", anybody()}, {"sent", below(99)}, {"delivered", below(99)}});
+        {{"from", any_member()}, {"to", any_member()}, {"sent", below(99)}, {"delivered", below(99)}});
     json["station"] = {{"position", one_in(3) ? Json::array() : Json{1.0, 2.0, 0.3}}};
     for (const char* key :
          {"uavs", "planner", "dds", "radio", "warnings", "faults", "attainable", "station", "score", "collisions"}) {
@@ -162,7 +162,7 @@ class OddRun {
     std::string csv = "uav,capture,tick,time_s,point,q_seen,q_blur,q_res,q_distance,q,delivered_at_s,reason\n";
     for (std::size_t i = 0; i < below(900); ++i) {
       const double time_s = time();
-      csv += anybody() + "," + std::to_string(below(60)) + ",0," + text(time_s) + "," +
+      csv += any_member() + "," + std::to_string(below(60)) + ",0," + text(time_s) + "," +
              std::to_string(below(points_ + 5)) + ",1,1,1,1," + text(number(1.0)) + "," +
              (one_in(3) ? "" : text(time_s + number(3.0))) + "," + (one_in(5) ? "uav collided" : "") + "\n";
     }
@@ -174,8 +174,8 @@ class OddRun {
     for (std::size_t k = 0; k < steps_; ++k) {
       for (std::size_t i = below(4); i > 0; --i) {
         const std::size_t event = below(6);
-        csv += std::to_string(k) + "," + text(0.05 * static_cast<double>(k)) + "," + kEvents[event] + "," + anybody() +
-               "," + (event == 2 || event == 3 ? anybody() : std::to_string(below(9))) + "\n";
+        csv += std::to_string(k) + "," + text(0.05 * static_cast<double>(k)) + "," + kEvents[event] + "," +
+               any_member() + "," + (event == 2 || event == 3 ? any_member() : std::to_string(below(9))) + "\n";
       }
     }
     return csv;
@@ -184,8 +184,8 @@ class OddRun {
     static constexpr const char* kModes[] = {"takes off", "flies to a goal", "stands: <b>", "dances", ""};
     std::string csv = "step,time_s,uav,mode,goal_x,goal_y,goal_z,waits_for,no_way\n";
     for (std::size_t k = 0; k < steps_; k += 1 + below(9)) {
-      csv += std::to_string(k) + "," + text(0.05 * static_cast<double>(k)) + "," + anybody() + "," + kModes[below(5)] +
-             ",,,," + (one_in(3) ? anybody() : "") + ",\n";
+      csv += std::to_string(k) + "," + text(0.05 * static_cast<double>(k)) + "," + any_member() + "," +
+             kModes[below(5)] + ",,,," + (one_in(3) ? any_member() : "") + ",\n";
     }
     return csv;
   }

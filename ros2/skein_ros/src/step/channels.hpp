@@ -22,7 +22,7 @@ struct Sample {
   rmw_message_info_t info = {};
 };
 
-enum class Counterpart { server, router, nobody };
+enum class Counterpart { server, router, none };
 
 /// A subscription.
 class Incoming {

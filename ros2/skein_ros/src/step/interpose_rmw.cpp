@@ -40,9 +40,9 @@ Outgoing* outgoing_of(const rmw_publisher_t* publisher) {
 rmw_ret_t publish(Outgoing& out, std::vector<std::uint8_t> bytes) {
   skein_ros::require_node_thread(("publishes on " + out.topic()).c_str());
   skein_ros::note_work();
-  const bool counted = out.counterpart() != Counterpart::nobody;
+  const bool counted = out.counterpart() != Counterpart::none;
   for (const auto& incoming : member()->incomings()) {
-    if (incoming->counterpart() == Counterpart::nobody && incoming->topic() == out.topic()) incoming->hand({bytes});
+    if (incoming->counterpart() == Counterpart::none && incoming->topic() == out.topic()) incoming->hand({bytes});
   }
   if (counted) {
     out.hold(std::move(bytes));
@@ -116,7 +116,7 @@ rmw_publisher_t* rmw_create_publisher(const rmw_node_t* node, const rosidl_messa
   }
   const Member::Role role = member()->role_of_writing(topic);
   if (refused(role)) return nullptr;
-  const bool counted = role.counterpart != Counterpart::nobody;
+  const bool counted = role.counterpart != Counterpart::none;
   const rmw_qos_profile_t used = counted ? skein_ros::writer_qos(role.depth, false) : *qos;
   rmw_publisher_t* const made = SKEIN_REAL(rmw_create_publisher)(node, type, topic, &used, options);
   if (made == nullptr) return nullptr;
@@ -128,7 +128,7 @@ rmw_publisher_t* rmw_create_publisher(const rmw_node_t* node, const rosidl_messa
 rmw_ret_t rmw_destroy_publisher(rmw_node_t* node, rmw_publisher_t* publisher) {
   if (const Outgoing* const out = outgoing_of(publisher)) {
     // The lock-step still counts its samples, so the publisher stays until the run is over.
-    if (out->counterpart() != Counterpart::nobody && member()->has_declared() && !member()->is_over())
+    if (out->counterpart() != Counterpart::none && member()->has_declared() && !member()->is_over())
       return RMW_RET_OK;
     member()->remove(*out);
   }
@@ -161,7 +161,7 @@ rmw_subscription_t* rmw_create_subscription(const rmw_node_t* node, const rosidl
   }
   const Member::Role role = member()->role_of_reading(topic);
   if (refused(role)) return nullptr;
-  const bool counted = role.counterpart != Counterpart::nobody;
+  const bool counted = role.counterpart != Counterpart::none;
   const rmw_qos_profile_t used = counted ? skein_ros::reader_qos(role.depth, role.latched) : *qos;
   rmw_subscription_t* const made = SKEIN_REAL(rmw_create_subscription)(node, type, topic, &used, options);
   if (made == nullptr) return nullptr;
@@ -172,7 +172,7 @@ rmw_subscription_t* rmw_create_subscription(const rmw_node_t* node, const rosidl
 
 rmw_ret_t rmw_destroy_subscription(rmw_node_t* node, rmw_subscription_t* subscription) {
   if (const Incoming* const in = incoming_of(subscription)) {
-    if (in->counterpart() != Counterpart::nobody && member()->has_declared() && !member()->is_over()) return RMW_RET_OK;
+    if (in->counterpart() != Counterpart::none && member()->has_declared() && !member()->is_over()) return RMW_RET_OK;
     member()->remove(*in);
   }
   return SKEIN_REAL(rmw_destroy_subscription)(node, subscription);

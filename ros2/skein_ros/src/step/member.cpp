@@ -41,7 +41,7 @@ void Member::say_ready(std::uint32_t revision) {
   } else {
     const auto add_name = [](auto& names, const auto& end) {
       const std::string name = "rt" + end.topic();
-      if (end.counterpart() == Counterpart::nobody) return;
+      if (end.counterpart() == Counterpart::none) return;
       if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
     };
     for (const auto& incoming : incomings_) add_name(ready.reads, *incoming);
@@ -238,7 +238,7 @@ void Member::on_step(skein_msgs::msg::Step step) {
     if (other.name == "comm_router") router_ = other.source;
   }
   for (const auto& incoming : incomings_) {
-    if (incoming->counterpart() == Counterpart::nobody) continue;
+    if (incoming->counterpart() == Counterpart::none) continue;
     const Source source = source_of(incoming->counterpart());
     for (const auto& count : step.expected) {
       if (count.source == source && count.topic == "rt" + incoming->topic()) incoming->expect(source, count.count);
@@ -263,7 +263,7 @@ bool Member::step_is_here() {
   if (!pending_) return false;
   bool complete = true;
   for (const auto& incoming : incomings_) {
-    if (incoming->counterpart() == Counterpart::nobody) continue;
+    if (incoming->counterpart() == Counterpart::none) continue;
     incoming->drain(writers_, source_of(incoming->counterpart()));
     complete = complete && incoming->complete();
   }
@@ -333,7 +333,7 @@ void Member::answer(const skein_msgs::msg::Step& step) {
   done.epoch = step.epoch;
   done.member = setup_.uav;
   for (const auto& outgoing : outgoings_) {
-    if (outgoing->counterpart() == Counterpart::nobody) continue;
+    if (outgoing->counterpart() == Counterpart::none) continue;
     skein_msgs::msg::TopicCount count;
     count.topic = "rt" + outgoing->topic();
     count.source = self_;

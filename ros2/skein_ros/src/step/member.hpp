@@ -43,7 +43,7 @@ class Member {
 
   /// Of a topic that the node reads or writes: the program at the other end, and the depth of the history.
   struct Role {
-    Counterpart counterpart = Counterpart::nobody;
+    Counterpart counterpart = Counterpart::none;
     int depth = 0;
     bool latched = false;
     std::string refusal = {};  ///< why the node must not have the endpoint; empty: it may

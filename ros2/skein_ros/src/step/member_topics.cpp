@@ -27,7 +27,7 @@ Member::Role Member::role_of_reading(const std::string& topic) const {
   } else if (setup_.radio_hears.count(topic) != 0) {
     role = {Counterpart::router, kArrivalDepth, false};
   }
-  if (role.counterpart != Counterpart::nobody && declared_ && !over_) {
+  if (role.counterpart != Counterpart::none && declared_ && !over_) {
     role.refusal = "a subscription to " + topic +
                    " made after the node's first wait: the fleet has been told what it "
                    "reads; make it in the node's constructor";
@@ -52,7 +52,7 @@ Member::Role Member::role_of_writing(const std::string& topic) const {
                      "SKEIN_DEBUG_VALUES='" + topic.substr(debug.size()) + " ...'";
     }
   }
-  if (role.counterpart != Counterpart::nobody && declared_ && !over_) {
+  if (role.counterpart != Counterpart::none && declared_ && !over_) {
     role.refusal = "a publisher on " + topic +
                    " made after the node's first wait: the fleet has been told what it "
                    "writes; make it in the node's constructor";
