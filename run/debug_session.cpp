@@ -13,11 +13,12 @@ using How = Debuggee::How;
 
 }  // namespace
 
-DebugSession::DebugSession(const FleetPlan& plan, int base_domain, const std::filesystem::path& out,
-                           const SecureFolders& secure, ProgressView& view, std::ostream& console, bool terminal)
+DebugSession::DebugSession(const FleetPlan& plan, const std::vector<Debuggee>& debuggees, int base_domain,
+                           const std::filesystem::path& out, const SecureFolders& secure, ProgressView& view,
+                           std::ostream& console, bool terminal)
     : plan_(plan), view_(view), console_(console), terminal_(terminal), log_file_(out / run_folder::kFleetLog) {
   bool here = false;
-  for (const Debuggee& debuggee : plan.debug) {
+  for (const Debuggee& debuggee : debuggees) {
     watches_.push_back(std::make_unique<DebugWatch>(debuggee, out, program_file(plan, debuggee.program)));
     const std::string text = introduction(plan, debuggee, base_domain, out, secure);
     if (!text.empty()) view_.message(text);
@@ -85,6 +86,7 @@ const DebugWatch* DebugSession::find(const std::string& program) const {
 }
 
 void DebugSession::on_restart(const std::string& program) {
+  take_back(program);
   const DebugWatch* watch = find(program);
   if (watch != nullptr && watch->debuggee().here) view_.write_to(log_, false);
 }

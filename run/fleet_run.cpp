@@ -12,6 +12,7 @@
 #include "debug/crash_trace.hpp"
 #include "host/shared_process.hpp"
 #include "host/supervisor.hpp"
+#include "process/program.hpp"
 #include "results/run_folder.hpp"
 #include "run/python_planners.hpp"
 
@@ -67,7 +68,7 @@ void FleetRun::fly(int base_domain, const std::filesystem::path& out, const Secu
   } else {
     host_ = elsewhere ? std::move(elsewhere) : std::make_unique<Supervisor>();
   }
-  if (!plan_.debug.empty()) debug_.emplace(plan_, base_domain, out, secure, view_, console_, terminal_);
+  debug_.emplace(plan_, plan_.debug, base_domain, out, secure, view_, console_, terminal_);
   start(fleet_programs(plan_, base_domain, out, secure));
   finish(out);
 }
@@ -76,9 +77,9 @@ void FleetRun::fly_in_containers(const std::vector<ProgramSpec>& containers, con
   facts_.planner_files = keep_python_files(plan_.planners, out, facts_.warnings);
   in_containers_ = true;
   host_ = std::make_unique<Supervisor>();
-  if (std::ranges::any_of(plan_.debug, &Debuggee::here)) {
-    debug_.emplace(plan_, kFirstDomain, out, SecureFolders{}, view_, console_, terminal_);
-  }
+  const bool any_here = std::ranges::any_of(plan_.debug, &Debuggee::here);
+  debug_.emplace(plan_, any_here ? plan_.debug : std::vector<Debuggee>{}, kFirstDomain, out, SecureFolders{}, view_,
+                 console_, terminal_);
   start(containers);
   finish(out);
 }
@@ -93,9 +94,9 @@ void FleetRun::start(const std::vector<ProgramSpec>& programs) {
 
 void FleetRun::finish(const std::filesystem::path& out) {
   watch();
-  if (debug_ && server_done_) debug_->await_reports(leave_time());
+  if (server_done_) debug_->await_reports(leave_time());
   // From here on programs start on this host and without a debugger: see settle().
-  if (in_containers_ || (debug_ && !plan_.options.secure)) {
+  if (in_containers_ || (debug_->watches() && !plan_.options.secure)) {
     plan_.debug.clear();
     for (ProgramSpec& program : fleet_programs(plan_, kFirstDomain, out)) {
       programs_[program.name] = std::move(program);
@@ -123,7 +124,7 @@ void FleetRun::watch() {
     }
     limit = orders_->limit(until_notice(limit));
     // Looks before wait(): if they ended because the run has, wait() returns the news of that before they are reported.
-    const auto debugged_ended = debug_ ? debug_->take_ended() : std::vector<const DebugWatch*>{};
+    const auto debugged_ended = debug_->take_ended();
     handle_all(host_->wait(limit));
     for (const DebugWatch* watch : debugged_ended) on_debugged_end(*watch);
     host_->follow_job_control();
@@ -135,8 +136,7 @@ void FleetRun::watch() {
 
 /// Longest wait for events, so that tell_waiting() prints its notice in time, and debugged programs are looked for.
 milliseconds FleetRun::until_notice(milliseconds limit) const {
-  milliseconds left = silence_.left(Clock::now());
-  if (debug_) left = std::min(left, DebugWatch::kPeriod);
+  const milliseconds left = std::min(silence_.left(Clock::now()), debug_->period());
   return limit.count() < 0 ? left : std::min(limit, left);
 }
 
@@ -171,16 +171,11 @@ void FleetRun::on_exit(Event event) {
   if (in_containers_ && event.exit.signal == kEngineLost) return on_engine_lost();
   const bool of_server = event.program == programs::kSimServer;
   note_end(event);
-  const DebugWatch* debugged = debug_ ? debug_->find(event.program) : nullptr;
-  if (debugged != nullptr) {
-    debug_->on_exit(event.program);
-    if (leave_by_.is_set() && !facts_.interrupted) leave_by_.set(leave_time());  // the others waited for it
-    // A tool does not end by the signal that killed its program: count the fault's SIGKILL as the tool's.
-    if (orders_->out().contains(event.program) && debugged_lost_.erase(event.program) > 0) event.exit.signal = SIGKILL;
-  }
+  const DebugWatch* debugged = debug_->find(event.program);
+  if (debugged != nullptr) on_debugged_exit(event);
   if (orders_->on_exit(event.program, event.exit)) return;  // as a fault ordered
   if (debugged != nullptr && debugged->debuggee().here && !event.exit.ok()) return on_debugged_end(*debugged);
-  if (debugged_lost_.contains(event.program)) return;
+  if (debug_->is_lost(event.program)) return;
   if (!event.exit.ok() && !event.exit.dragged && !ending_ && !left_as_asked(event.exit)) {
     complain(event.program, event.exit.text() + crash_text(event.program, event.exit));
   }
@@ -221,27 +216,6 @@ void FleetRun::on_interrupt() {
     host_->send(programs::kSimServer, orders::text_of(orders::Stop{}));
   }
   if (!leave_by_.is_set()) leave_by_.set(scaled(kStopTime));
-}
-
-/// A debugged program that ends is lost like any other program, whether or not the user has left the debugger.
-void FleetRun::on_debugged_end(const DebugWatch& watch) {
-  const auto& [member, program, how, port, tool, here] = watch.debuggee();
-  if (server_done_ || ending_ || !debugged_lost_.insert(program).second) return;
-  if (orders_->out().contains(program)) return;
-  const bool of_server = program == programs::kSimServer;
-  view_.message(fmt::format("the debugged program of {}{} has ended; the fleet {}", member,
-                            watch.pid() == 0 ? "" : fmt::format(" (process {})", watch.pid()),
-                            of_server ? "ends with it" : "goes on without it"));
-  facts_.warnings.push_back("the debugged program of " + member + " ended before the run did");
-  if (!of_server) return tell_lost(member);
-  failed_ = true;
-  end_all();
-}
-
-/// Whether a debugged program runs, and Ctrl-C was not pressed: then programs have no deadline for leaving.
-bool FleetRun::being_debugged() const {
-  return !facts_.interrupted && std::any_of(plan_.debug.begin(), plan_.debug.end(),
-                                            [&](const Debuggee& debuggee) { return host_->running(debuggee.program); });
 }
 
 /// Prints what the launcher waits for while sim_server reports nothing: while it starts, and while programs leave.
@@ -309,8 +283,7 @@ void FleetRun::bring_back(const std::string& program) {
   const auto spec = programs_.find(program);
   if (host_->running(program) || spec == programs_.end()) return host_->signal(program, SIGCONT);
   spec->second.append_log = true;
-  debugged_lost_.erase(program);
-  if (debug_) debug_->on_restart(program);
+  debug_->on_restart(program);
   std::ofstream(spec->second.log, std::ios::app) << "[skein] a fault killed this program; here it starts again\n";
   try {
     host_->start(spec->second);

@@ -66,9 +66,12 @@ class FleetRun {
   void on_exit(Event event);
   void on_interrupt();
   void on_engine_lost();
+  void tell_waiting();
+
+  // Programs under --debug (fleet_debug.cpp).
+  void on_debugged_exit(Event& event);
   void on_debugged_end(const DebugWatch& watch);
   bool being_debugged() const;
-  void tell_waiting();
 
   // What sim_server and the station say.
   void hear(const status::Progress& progress);
@@ -113,8 +116,7 @@ class FleetRun {
   std::optional<Clock::time_point> first_progress_;
   std::map<std::string, double> cpu_before_s_;  ///< of each process at the first step
   LeaveDeadline leave_by_;                      ///< the launcher then ends all programs that still run
-  std::optional<DebugSession> debug_;           ///< under --debug
-  std::set<std::string> debugged_lost_;         ///< debugged programs that ended before the run did
+  std::optional<DebugSession> debug_;           ///< set before the programs start
   WaitNotice silence_{Clock::now()};            ///< since sim_server last said something
   bool in_containers_ = false;
   bool server_done_ = false;  ///< sim_server has ended the run in good order

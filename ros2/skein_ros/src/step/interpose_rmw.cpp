@@ -128,8 +128,7 @@ rmw_publisher_t* rmw_create_publisher(const rmw_node_t* node, const rosidl_messa
 rmw_ret_t rmw_destroy_publisher(rmw_node_t* node, rmw_publisher_t* publisher) {
   if (const Outgoing* const out = outgoing_of(publisher)) {
     // The lock-step still counts its samples, so the publisher stays until the run is over.
-    if (out->counterpart() != Counterpart::none && member()->has_declared() && !member()->is_over())
-      return RMW_RET_OK;
+    if (out->counterpart() != Counterpart::none && member()->has_declared() && !member()->is_over()) return RMW_RET_OK;
     member()->remove(*out);
   }
   return SKEIN_REAL(rmw_destroy_publisher)(node, publisher);
