@@ -31,7 +31,8 @@ Command command_of(const std::vector<std::string>& arguments) {
   Command command = parse_command_line(arguments);
   const auto* run = command.get_if<RunOptions>();
   if (run != nullptr && is_capsule(*run)) return command;
-  return parse_command_line(with_duration_of_environment(arguments));
+  const std::vector<std::string> completed = with_duration_of_environment(arguments);
+  return completed == arguments ? command : parse_command_line(completed);
 }
 
 int execute(const std::vector<std::string>& arguments, const Console& console) try {
