@@ -234,7 +234,7 @@ TEST_F(ComposeCommand, AFullDiskLeavesNoPartOfTheKeys) {
   EXPECT_EQ(keys({"towers", "--out", folder}), kExitDone) << "the command can be repeated";
 }
 
-TEST_F(ComposeCommand, WhoIsDebuggedStandsAndNobodyIsTakenForDead) {
+TEST_F(ComposeCommand, ADebuggedProgramWaitsAndNoProgramIsTakenForDead) {
   const auto file_of = [&](const Texts& more) {
     Texts all = {"compose", "towers", "--planner", "kios"};
     all.insert(all.end(), more.begin(), more.end());

@@ -249,7 +249,7 @@ echo '{"status":"interrupted","deterministic":false,"sim_time_s":0,"uavs":[],"lo
 echo '{"type":"ended","status":"interrupted"}' >&3
 )";
 
-TEST_F(RunCommand, CtrlCBeforeTheFirstStepBlamesNobody) {
+TEST_F(RunCommand, CtrlCBeforeTheFirstStepBlamesNoProgram) {
   // They do not know that the run is over, and do not end well when they are ended.
   for (const char* name : {"comm_router", "station", "uav_agent"}) {
     programs_.script(name, "trap 'exit 3' TERM; echo 1 >> \"$out/started\"; while :; do sleep 0.01; done");
@@ -264,7 +264,7 @@ TEST_F(RunCommand, CtrlCBeforeTheFirstStepBlamesNobody) {
   EXPECT_EQ(result()["warnings"].dump().find("failed"), std::string::npos) << result()["warnings"];
 }
 
-TEST_F(RunCommand, AfterCtrlCNobodyIsWaitedForLongAndNobodyIsBlamed) {
+TEST_F(RunCommand, AfterCtrlCTheWaitIsShortAndNoProgramIsBlamed) {
   options_.patience = 0.02;
   // One planner hangs, and the server never gets to the end of its step.
   programs_.script("sim_server", "kill -INT $PPID; trap '' TERM; while :; do sleep 0.01; done");
@@ -389,7 +389,7 @@ TEST_F(RunCommand, AnAgentThatFloodsItsStatusPipeIsNamedAndTheRunGoesOn) {
   EXPECT_NE(result()["warnings"].dump().find(words), std::string::npos) << result()["warnings"];
 }
 
-TEST_F(RunCommand, APipeInTheNameOfAReportKeepsNobody) {
+TEST_F(RunCommand, APipeInTheNameOfAReportBlocksNoRun) {
   options_.planner =
       "hover,beta=exec:mkfifo \"$SKEIN_OUT/station.report.json\" \"$SKEIN_OUT/uav_agent-beta.report.json\"";
   EXPECT_EQ(run(), kExitDone) << err_.str();

@@ -38,7 +38,7 @@ TEST(ViewOptions, ReplayReadsAll) {
   }
 }
 
-TEST(ViewOptions, MapsAreKeptWhereSomebodyAsks) {
+TEST(ViewOptions, MapsAreKeptWhereTheUserAsks) {
   EXPECT_EQ(read<RunOptions>({"run"}).keep_maps_s, std::nullopt);
   EXPECT_EQ(read<RunOptions>({"run", "--keep-maps", "cranes"}).keep_maps_s, 10.0);
   EXPECT_EQ(read<RunOptions>({"run", "--keep-maps", "cranes"}).scenario, "cranes");

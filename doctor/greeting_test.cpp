@@ -45,7 +45,7 @@ TEST(Greetings, ComeBackAsTheyWereInDatagramsOfAnySize) {
   }
 }
 
-TEST(Greetings, WhateverArrivesOnThePortHarmsNobody) {
+TEST(Greetings, NoDataThatArriveOnThePortDoHarm) {
   Random random(2);
   for (int i = 0; i < 2000; ++i) {
     std::vector<std::uint8_t> bytes = bytes_of(drawn_greeting(random), random() % 500);

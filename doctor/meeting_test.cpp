@@ -119,7 +119,7 @@ TEST(Meetings, SilenceHasItsReasons) {
   EXPECT_NE(hint().find("no address"), std::string::npos);
 }
 
-TEST(Meetings, WhoIsHeardThoughNobodyNamedHimIsListedAndFailsNothing) {
+TEST(Meetings, APeerThatIsHeardWithoutBeingNamedIsListedAndFailsNothing) {
   Way way;
   way.large = false;
   Meetings all = meeting_of({way});

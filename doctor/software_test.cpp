@@ -36,7 +36,7 @@ class MadeUpMemory : public testing::Test {
   fs::path root_;
 };
 
-TEST_F(MadeUpMemory, SegmentsThatNobodyHasAreCounted) {
+TEST_F(MadeUpMemory, SegmentsThatNoProcessHasAreCounted) {
   std::mt19937_64 random(1);
   std::size_t unused = 0, bytes = 0;
   for (int i = 0; i < 60; ++i) {

@@ -83,7 +83,7 @@ echo '{"ended": "b", "code": 0, "signal": 9}' >&3; )" +
   EXPECT_FALSE(last[0].exit.shared);
 }
 
-TEST_F(SharedProcessTest, WhoTookTheProcessAlongIsToBlameAndNobodyElse) {
+TEST_F(SharedProcessTest, OnlyTheProgramThatTookTheProcessAlongIsToBlame) {
   home(kReadTwo + R"(echo '{"ended": "b", "code": 0, "signal": 11, "fatal": true}' >&3; kill -SEGV $$)");
   const auto ends = ends_in(hear());
   ASSERT_EQ(ends.size(), 3U);
@@ -111,7 +111,7 @@ TEST_F(SharedProcessTest, ALogWithoutEndKeepsItsBeginningAndItsEnd) {
   EXPECT_NE(text.find("\n[skein] what stood here is left out: the log has more than 2 MiB\n"), std::string::npos);
 }
 
-TEST_F(SharedProcessTest, ADeathThatNobodyExplainsIsTheProcesssOwn) {
+TEST_F(SharedProcessTest, ADeathWithoutAnExplanationIsTheProcesssOwn) {
   home(kReadTwo + "kill -KILL $$");
   const auto ends = ends_in(hear());
   ASSERT_EQ(ends.size(), 3U);

@@ -301,7 +301,7 @@ TEST_P(CrewTest, ThoseThatShareNothingHaveTheirTurnsSideBySide) {
   EXPECT_EQ(diary_.turns["b"], 4);
 }
 
-TEST_P(CrewTest, WhoeverSharesATurnWorksForItsProgram) {
+TEST_P(CrewTest, AThreadThatSharesATurnWorksForItsProgram) {
   const ForEach for_each = shared_turn(workers_);
   const DeathNotice notice("shared");
   ProgramOutput output(folder_ / "shared.log", false);

@@ -41,7 +41,7 @@ TEST(OpenSpace, AClosedHouseIsNotReachedButAllAroundItIs) {
   }
 }
 
-TEST(OpenSpace, AWindowLetsInWhoeverFitsThrough) {
+TEST(OpenSpace, AWindowLetsInABodyThatFitsThrough) {
   for (const double window : {0.8, 2.0, 3.0}) {
     const RayScene world(house(window));
     for (const double clearance : {0.1, 0.25, 0.5, 1.0, 1.2, 2.0}) {

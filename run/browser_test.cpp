@@ -46,7 +46,7 @@ TEST_F(Browser, IsTheUsersOwnOrThatOfTheDesktop) {
   EXPECT_EQ(command({{"DISPLAY", ":0"}, {"BROWSER", "none"}}), (Words{at("xdg-open"), "/there/view.html"}));
 }
 
-TEST_F(Browser, IsNoneWhereNobodySitsBeforeAScreen) {
+TEST_F(Browser, IsNoneWithoutAUserBeforeAScreen) {
   EXPECT_EQ(command({}), Words());
   EXPECT_EQ(command({{"DISPLAY", ""}, {"WAYLAND_DISPLAY", ""}, {"BROWSER", "mine"}}), Words());
   EXPECT_EQ(command({{"DISPLAY", "localhost:10.0"}, {"SSH_CONNECTION", "192.0.2.1 1 192.0.2.2 22"}}), Words());
@@ -54,7 +54,7 @@ TEST_F(Browser, IsNoneWhereNobodySitsBeforeAScreen) {
   EXPECT_EQ(command({{"DISPLAY", ":0"}}), Words());
 }
 
-TEST_F(Browser, IsStartedInASessionOfItsOwnAndNobodyHearsIt) {
+TEST_F(Browser, IsStartedInASessionOfItsOwnWithoutOutput) {
   const fs::path seen = programs() / "seen";
   const std::string part = programs() / "part";
   write_script(at("mine"), "echo said\necho wrong >&2\nread -r _ _ _ _ _ session _ </proc/$$/stat\necho $1 $session >" +

@@ -35,7 +35,7 @@ TEST(HandFlights, KnowsWhoIsFlownByHand) {
   EXPECT_EQ(hands_in("bob=hand:" + yaml.string()), Texts{});
 }
 
-TEST(HandFlights, SomebodyMustBeAbleToFly) {
+TEST(HandFlights, AViewerMustBeAbleToFly) {
   const auto planners = parse_planners("kios,bob=hand,cid=hand:safe=false", kThree).uavs;
   EXPECT_NO_THROW(check_hands(planners, true));
   EXPECT_NO_THROW(check_hands(parse_planners("bob=hand:x.csv", kThree).uavs, false));

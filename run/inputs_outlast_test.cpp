@@ -50,7 +50,7 @@ TEST_F(InputsOutlast, AFileThatTheRunWouldDeleteIsNamed) {
   EXPECT_NE(refusal(dir_ / "events.csv"), "") << "the run deletes the link";
 }
 
-TEST_F(InputsOutlast, OtherFilesAreNobodysConcern) {
+TEST_F(InputsOutlast, OtherFilesAreIgnored) {
   EXPECT_EQ(refusal(dir_ / "my.yaml"), "") << "no file of a run's: it stays";
   EXPECT_EQ(refusal(beside_ / "by-hand.yaml"), "");
   EXPECT_EQ(refusal(dir_ / "captures.csv"), "") << "it is not there";

@@ -122,7 +122,7 @@ TEST(Summary, TellsHowMuchOfTheAttainableItIs) {
   EXPECT_EQ(unknown.str().find("attainable"), std::string::npos) << unknown.str();
 }
 
-TEST(ProgressView, NobodyIsInContactWithAUavWhoseProgramIsLost) {
+TEST(ProgressView, NoUavIsInContactWithOneWhoseProgramIsLost) {
   std::ostringstream out;
   ProgressView view(out, false);
   status::Progress status = progress(40.0, 38.0);

@@ -155,7 +155,7 @@ TEST(ResultsDir, TwoRunsNeverShareAFolder) {
 
 // A command that only asks whether a run writes to a folder takes the folder's lock for a moment. This must not keep
 // another command from taking the folder.
-TEST(ResultsDir, AQuestionWhetherAFolderIsInUseKeepsNobodyOut) {
+TEST(ResultsDir, AQuestionWhetherAFolderIsInUseKeepsNoLauncherOut) {
   const OutDir scratch;
   write_text(scratch.path() / "result.json", "{}");
   std::atomic<bool> over = false;

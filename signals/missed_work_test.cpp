@@ -59,7 +59,7 @@ TEST_F(MissedWork, IsThatOfAsMuchTimeFromTheStartLessTheWayBack) {
   EXPECT_THROW(number("missed(a)"), InputError);
 }
 
-TEST_F(MissedWork, IsNothingThatAnybodyPhotographsEver) {
+TEST_F(MissedWork, IsNothingThatAUavPhotographsEver) {
   run_.captures = {capture("a", 0, 3.0, {}, 1), capture("b", 0, 59.0, {}, 2)};
   EXPECT_EQ(missed_at(80.0), 1.0);
 }
@@ -121,7 +121,7 @@ TEST_F(MissedWork, DecidesWhetherAUavPhotographsAgain) {
 }
 
 // The same run, asked for a photograph within a deadline.
-TEST_F(MissedWork, WorksAgainSaysNothingWhereNobodyWasAway) {
+TEST_F(MissedWork, WorksAgainSaysNothingWhereNoUavWasAway) {
   fly(2.0);
   EXPECT_EQ(outcome("works_again"), Outcome::fails);
   run_.events.push_back({20 * 50, "captured", "a", "0"});

@@ -217,7 +217,7 @@ TEST_F(RunSignalsTest, APathIsALinkThereAndThenOneBack) {
   EXPECT_GT(without, 30);
 }
 
-TEST_F(RunSignalsTest, WorkThatIsTakenOverIsWhatNobodyElseWouldHaveDone) {
+TEST_F(RunSignalsTest, WorkThatIsTakenOverIsWhatNoOtherUavWouldHaveDone) {
   results::RunRecord undisturbed = run_;
   undisturbed.result["score"] = 9.0;
   undisturbed.captures = {capture("a", 0, 0.1, {}, 0), capture("a", 1, 1.0, {}, 1), capture("a", 2, 1.1, {}, 2),

@@ -52,7 +52,7 @@ TEST_F(MissionTest, EndsAfterItsDurationAndStaysEnded) {
   EXPECT_TRUE(m.alive(UavIndex{0}));
 }
 
-TEST_F(MissionTest, EndsWhenNobodyTakesOff) {
+TEST_F(MissionTest, EndsWhenNoUavTakesOff) {
   Mission m = mission(1);
   m.update(1999, {resting()}, {});
   EXPECT_EQ(m.phase(), Phase::waiting);

@@ -98,7 +98,7 @@ TEST(WholeSimulation, RepeatsBitForBitAndSeedsDiffer) {
   EXPECT_NE(survey(scenario, scene, 1, 5.0), survey(scenario, scene, 2, 5.0));
 }
 
-TEST(WholeSimulation, ScansThatNobodyReadsChangeNothingElse) {
+TEST(WholeSimulation, ScansWithoutAReaderChangeNothingElse) {
   const Scenario scenario = towers();
   const Scene scene = load_scene(scenario);
   Simulation all(scenario, scene, 3), lazy(scenario, scene, 3);

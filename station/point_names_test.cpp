@@ -36,7 +36,7 @@ TEST(PointNames, EachUavHasItsOwnNumbersInTheOrderOfTheLedger) {
   EXPECT_EQ(resolved(names, UavIndex{1}, {1, 0}), (Points{5, 9})) << "what was known is not counted again";
 }
 
-TEST(PointNames, NumbersThatNobodyGaveNameNoPoint) {
+TEST(PointNames, NumbersThatWereNeverGivenNameNoPoint) {
   PointNames names(1);
   names.follow({named_entry(0, UavIndex{0}, 0, {3})});
   EXPECT_EQ(resolved(names, UavIndex{0}, {1, 0}), (Points{PointNames::kNoPoint, 3}));

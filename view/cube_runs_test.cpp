@@ -173,7 +173,7 @@ TEST(CubeRuns, ArriveAsTheyWerePacked) {
   EXPECT_EQ(packed(rows), "BgIEBQEEggICjwHOBA==");
 }
 
-TEST(CubeRuns, RefuseWhatNobodyCanHaveSeen) {
+TEST(CubeRuns, RefuseWhatNoCameraCanHaveSeen) {
   EXPECT_TRUE(shown_map("", 0.5, 1.0).has_value()) << "nothing is known";
   EXPECT_FALSE(shown_map("x", 0.5, 1.0).has_value());
   EXPECT_FALSE(shown_map(std::string("\x02\x00", 2), 0.5, 1.0).has_value()) << "an eighth of the world is occupied";

@@ -180,7 +180,7 @@ std::size_t open_descriptors() {
 class DrawnStorm : public Storm, public testing::WithParamInterface<unsigned> {};
 
 // Malformed, foreign, half sent and never ended requests, while a browser follows.
-TEST_P(DrawnStorm, OfStrangersTellsThemNothingAndKeepsNobodyOut) {
+TEST_P(DrawnStorm, OfStrangersTellsThemNothingAndKeepsNoViewerOut) {
   Random random(GetParam());
   fill();
   const auto good = follower();
@@ -257,7 +257,7 @@ TEST_F(Storm, OfTraversalsFindsNoFile) {
 }
 
 // Anybody on the host may open connections; it takes no key to say nothing.
-TEST_F(Storm, OfConnectionsThatSayNothingKeepsNobodyOut) {
+TEST_F(Storm, OfConnectionsThatSayNothingKeepsNoViewerOut) {
   const auto good = follower();
   std::list<Wire> idle;
   for (int i = 0; i < 300; ++i) {

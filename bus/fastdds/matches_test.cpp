@@ -17,7 +17,7 @@ GUID_t endpoint(std::uint8_t participant, std::uint8_t entity) {
 
 const GuidPrefix_t kOwn = endpoint(9, 0).guidPrefix;
 
-TEST(Matches, HasWhoeverWroteASampleBeforeTheMatchIsTold) {
+TEST(Matches, HasTheWriterOfASampleBeforeTheMatchIsTold) {
   Matches matches(kOwn);
   const GUID_t writer = endpoint(1, 1);
   matches.note_sample(writer);
@@ -28,7 +28,7 @@ TEST(Matches, HasWhoeverWroteASampleBeforeTheMatchIsTold) {
   EXPECT_TRUE(matches.empty());
 }
 
-TEST(Matches, ALateSampleBringsNobodyBackButANewMatchDoes) {
+TEST(Matches, ALateSampleBringsNoWriterBackButANewMatchDoes) {
   Matches matches(kOwn);
   const GUID_t writer = endpoint(1, 1);
   matches.begin(writer);

@@ -13,7 +13,7 @@
 namespace skein::bus {
 namespace {
 
-/// Somebody to whom no server ever speaks.
+/// A client to which no server ever speaks.
 class Lonely final : public ClientNode {
  public:
   Lonely(Bus& bus, StopSignal& stop)

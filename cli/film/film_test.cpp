@@ -29,7 +29,7 @@ TEST(FilmTimes, GoAtTheSpeedThatWasAskedFor) {
   EXPECT_LT(times[times.size() - 2], 60.1);
 }
 
-TEST(FilmTimes, TakeHalfAMinuteWhereNobodySaysOtherwise) {
+TEST(FilmTimes, TakeHalfAMinuteByDefault) {
   EXPECT_EQ(FilmTimes({}, 0.0, 600.0).size(), static_cast<std::size_t>(30 * 25 + 1));
 }
 

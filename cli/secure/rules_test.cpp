@@ -64,7 +64,7 @@ TEST_F(SecurityRules, TheScoreIsTheStationsToTellAndItsIndicesAreNotForPlayers) 
   EXPECT_TRUE(may_publish(station, topics::score().name) && may_publish(station, topics::score_eval().name));
 }
 
-TEST_F(SecurityRules, NobodyButTheServerSpeaksForTheServer) {
+TEST_F(SecurityRules, OnlyTheServerSpeaksForTheServer) {
   for (const char* program : {"comm_router", "station"}) {
     const Rights rights = rights_of(plan(), program, 10);
     for (const auto& topic : {topics::step(), topics::ledger(), topics::odometry("alpha"), topics::capture()}) {

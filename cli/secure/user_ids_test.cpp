@@ -60,7 +60,7 @@ TEST_F(UserIdsTest, AreDifferentAndFree) {
   for (const uid_t user : all) EXPECT_FALSE(anybody_is(user)) << user;
 }
 
-TEST_F(UserIdsTest, WithThemEndsWhoeverHasThem) {
+TEST_F(UserIdsTest, WithThemEndTheProcessesThatHaveThem) {
   uid_t user = 0;
   {
     const UserIds ids(1);
@@ -80,7 +80,7 @@ TEST_F(UserIdsTest, WhatASurvivorHasIsNotGivenAgain) {
   EXPECT_FALSE(anybody_is(kFirstAgentUser));
 }
 
-TEST_F(UserIdsTest, NobodyElsesProcessesAreEnded) {
+TEST_F(UserIdsTest, NoOtherUsersProcessesAreEnded) {
   EXPECT_FALSE(end_processes_of(0));
   EXPECT_FALSE(end_processes_of(1000));
 }

@@ -269,7 +269,7 @@ TEST(SweepController, AnotherBuildBeginsAnewAndTheFormerOnesUnitsEnd) {
   sweep.expect_all(8);
 }
 
-TEST(SweepController, AFlightThatSomebodyRemovedIsFlownAgain) {
+TEST(SweepController, AFlightThatAUserRemovedIsFlownAgain) {
   Sweep sweep(6, 8, 2, {{"one"}});
   ASSERT_TRUE(sweep.control());
   fs::remove_all(sweep.world.flight(5).dir);

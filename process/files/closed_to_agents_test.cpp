@@ -51,7 +51,7 @@ class ClosedToAgents : public testing::Test {
   fs::path dir_;
 };
 
-TEST_F(ClosedToAgents, WhateverTheModeAgentsAreKeptOutAndNobodyElse) {
+TEST_F(ClosedToAgents, OnlyAgentsAreKeptOutWhateverTheMode) {
   if (::geteuid() != 0) GTEST_SKIP() << "only root's agents are other users";
   for (mode_t bits = 0; bits < 0100; ++bits) {
     for (const bool is_folder : {false, true}) {

@@ -46,7 +46,7 @@ TEST_F(PrivateFile, TellsTheSystemsReasonWhenItIsWrittenInPart) {
   EXPECT_EQ(fs::file_size(file_), 64U);
 }
 
-TEST_F(PrivateFile, ReplacesAFileThatOthersMayReadOrThatNobodyMayWrite) {
+TEST_F(PrivateFile, ReplacesAFileThatOthersMayReadOrThatIsReadOnly) {
   for (const unsigned before : {0644U, 0400U}) {
     std::ofstream(file_) << "former";
     ASSERT_EQ(::chmod(file_.c_str(), before), 0);

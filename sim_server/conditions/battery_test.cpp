@@ -160,7 +160,7 @@ TEST_P(BatterySwap, NeverComesToAUavWhoseBatteryIsEmpty) {
   EXPECT_EQ(uav_->battery_use().swaps, 0U);
 }
 
-TEST_P(BatterySwap, NeverComesWhereNobodySwaps) {
+TEST_P(BatterySwap, NeverComesWithoutSwaps) {
   scenario_.conditions.battery.swap_s.reset();
   uav_.emplace(scenario_, 1, UavIndex{0});
   most_charge_ = 0.3;

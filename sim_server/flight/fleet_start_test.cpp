@@ -75,7 +75,7 @@ TEST(FleetStart, DrawsStayInBoundsAndNeverOverlap) {
 
 VehicleConfig shipped(const std::string& name) { return load_vehicle(name, source_path("config")); }
 
-TEST(FleetStart, WhoStartsAsFarAwayAsItMustTouchesNobody) {
+TEST(FleetStart, AUavThatStartsAsFarAwayAsItMustTouchesNoOther) {
   RandomStream random(1, "pairs", 0);
   for (int i = 0; i < 200; ++i) {
     const VehicleConfig a = shipped(i % 2 == 0 ? "explorer" : "photographer");

@@ -259,7 +259,7 @@ TEST_F(Faulty, AFrozenOdometryTellsWhereItWasAndAJumpingOneWhereItIsNot) {
   EXPECT_GT(moved, 2.0) << "it flew on meanwhile";
 }
 
-TEST_F(Faulty, NobodyFliesOtherwiseBecauseOfWhatHeIsTold) {
+TEST_F(Faulty, NoUavFliesOtherwiseBecauseOfWhatItIsTold) {
   std::vector<Vector3d> with, without;
   fly(plan({fault(5.0, std::nullopt, OdometryJump{"lead", {5, 5, 5}})}), 10.0,
       [&](double) { with.push_back(lead().state.p_WB); });

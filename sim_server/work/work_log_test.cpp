@@ -135,7 +135,7 @@ TEST_F(WorkLogTest, WhoPhotographsMoreAndMoreIsNotFrozen) {
   EXPECT_GT(done(0), 5.0);
 }
 
-TEST_F(WorkLogTest, WhereNothingIsWithinReachNobodyIsFrozen) {
+TEST_F(WorkLogTest, WhereNothingIsWithinReachNoUavIsFrozen) {
   add("photographer", 0, 0);
   test::add_box(scene_.mesh, {0, 30, 10}, {4, 4, 4});
   for (int i = 0; i < 20; ++i) scene_.points.push_back({{0.1F * static_cast<float>(i), 30, 10}, {1, 0, 0}});  // inside

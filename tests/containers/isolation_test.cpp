@@ -109,7 +109,7 @@ TEST_F(Isolation, AUavSeesItsOwnDomainAndNothingElse) {
 class Intruder : public Isolation, public testing::WithParamInterface<std::string> {};
 
 // The intruder sends to the server and the router, which are in all domains, over the network that it shares with them.
-TEST_P(Intruder, HearsNothingOfOtherDomainsAndNobodyHearsIt) {
+TEST_P(Intruder, HearsNothingOfOtherDomainsAndIsNotHeardThere) {
   SkeinRun& run = start_up("up", arguments("patrol", "300", {"--dds", GetParam()}));
   const std::string spy = container(run, kAgent);
   fs::copy_file(helper_program("container_intruder"), run.dir() / "agents" / kSpy / "intruder");

@@ -79,7 +79,7 @@ TEST_F(FromOutside, WhoIsKilledAndStartedAgainWorksAgain) {
   EXPECT_GE(result["score"].get<double>(), 0.99 * result["score_earned"].get<double>()) << result["losses"];
 }
 
-TEST_F(FromOutside, WhoStandsStillForAMomentIsMissedByNobody) {
+TEST_F(FromOutside, AProgramThatIsStoppedForAMomentIsNotMissed) {
   const Arguments flown = arguments();
   SkeinRun& run = start_up("up", flown);
   const std::string id = flying(run, "uav_agent-changi");

@@ -140,7 +140,7 @@ TEST_P(BusProcesses, OtherProcessAnswersLargeSamples) {
   }
 }
 
-TEST_P(BusProcesses, StoppedReaderHoldsNobodyUp) {
+TEST_P(BusProcesses, StoppedReaderHoldsNoWriterUp) {
   peer_.stop();
   write_in_step(2000);
   [[maybe_unused]] const double before = resident_mb();
@@ -151,7 +151,7 @@ TEST_P(BusProcesses, StoppedReaderHoldsNobodyUp) {
   peer_.resume();
 }
 
-TEST_P(BusProcesses, KilledReaderHoldsNobodyUpAndIsMissed) {
+TEST_P(BusProcesses, KilledReaderHoldsNoWriterUpAndIsMissed) {
   const auto before = shared_memory();
   peer_.kill();
   write_in_step(2000);

@@ -44,7 +44,7 @@ TEST_F(Attach, GdbLooksIntoAFlyingProgramAndLeavesItFlying) {
   end(fleet);
 }
 
-TEST_F(Attach, WhoeverLooksInAndGoesOnChangesNothing) {
+TEST_F(Attach, AUserWhoLooksInAndGoesOnChangesNothing) {
   SKEIN_NEEDS_GDB();
   // On a busy machine, gdb needs more time to read symbols than the default timeout of an agent.
   const Arguments flight = {scenario_, "--planner",   "patrol",          "--duration",

@@ -88,7 +88,7 @@ TEST_F(Doctor, AnInterfaceThatIsNotThereFailsAsItWouldInARun) {
   EXPECT_NE(finding["found"].get<std::string>().find("--network eth99 (jurong): this host has no"), std::string::npos);
 }
 
-TEST_F(Doctor, APeerThatNobodyKnowsFails) {
+TEST_F(Doctor, APeerOfUnknownNameFails) {
   const Answer answer = ask("--json --network '{world: {interface: lo, peers: [127.0.0.1, no-such-host.invalid]}}'");
   EXPECT_EQ(answer.code, 1) << answer.err;
   EXPECT_EQ(answer.verdict("peer 127.0.0.1"), "ok") << answer.out;

@@ -157,7 +157,7 @@ TEST_F(Interruption, AHungStepIsGivenUpAndOnlyWhoHangsIsNamed) {
   expect_nothing_left();
 }
 
-TEST_F(Interruption, BeforeTheFirstStepNobodyIsBlamed) {
+TEST_F(Interruption, BeforeTheFirstStepNoProgramIsBlamed) {
   SkeinRun& run = start("run", {"towers", "--planner", "patrol", "--debug", "changi"});
   ASSERT_TRUE(run.wait_for("gdb --args")) << run.err();
   run.skein().signal(SIGINT);

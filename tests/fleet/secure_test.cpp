@@ -271,7 +271,7 @@ TEST_F(Secure, AgentsReadNoGroundTruthThatIsThereAlready) {
   for (const fs::path& file : secret) EXPECT_EQ(reader(file), 0) << file;
 }
 
-TEST_F(Secure, NobodyIsLeftUnderTheUserIdsOfARun) {
+TEST_F(Secure, NoProcessIsLeftUnderTheUserIdsOfARun) {
   if (!is_root()) GTEST_SKIP() << "agents have users of their own only when the launcher is root";
   const fs::path script = write("stay.sh",
                                 "setsid sleep 1000 &\n"

@@ -30,7 +30,7 @@ class SharedMemory : public testing::Test {
   const ScratchFolder output_;
 };
 
-TEST_F(SharedMemory, ThatNobodyHasOpenIsUnused) {
+TEST_F(SharedMemory, WithoutAProcessThatHasItOpenIsUnused) {
   EXPECT_TRUE(is_there());
   EXPECT_FALSE(is_used());
 }

@@ -192,7 +192,7 @@ TEST_P(Viewer, SeesTheRunAsItIsAndDoesNotTouchIt) {
   expect_delivered_points(seen);
 }
 
-TEST_P(Viewer, ThatIsStoppedHoldsNobodyUp) {
+TEST_P(Viewer, ThatIsStoppedHoldsNoProgramUp) {
   SkeinRun& seen = run_with_viewer(SIGSTOP);
   expect_untouched(seen, run("alone", flight()));
 }

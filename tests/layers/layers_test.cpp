@@ -40,8 +40,8 @@ TEST_F(Layers, OnlyNodesTalkOverTheBus) { expect_none(check_bus_users(tree_)); }
 TEST_F(Layers, OnlyAVendorsFolderSeesItsDds) { expect_none(check_dds_headers(tree_)); }
 TEST_F(Layers, LargeLibrariesStayInTheirPlace) { expect_none(check_libraries(tree_, library_rules())); }
 TEST_F(Layers, HeadersAreSafeToInclude) { expect_none(check_headers(tree_)); }
-TEST_F(Layers, NobodyPrints) { expect_none(check_printing(tree_)); }
-TEST_F(Layers, NobodySleeps) { expect_none(check_sleeping(tree_)); }
+TEST_F(Layers, NoLibraryPrints) { expect_none(check_printing(tree_)); }
+TEST_F(Layers, NoCodeSleeps) { expect_none(check_sleeping(tree_)); }
 TEST_F(Layers, TestsReadNoClock) { expect_none(check_clocks(tree_)); }
 TEST_F(Layers, FilesAreShort) { expect_none(check_length(tree_)); }
 TEST_F(Layers, FunctionsAreShort) { expect_none(check_functions(tree_, long_functions())); }

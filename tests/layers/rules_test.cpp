@@ -210,7 +210,7 @@ TEST_F(MadeUpTree, PrintingIsForTheCommandLine) {
   EXPECT_EQ(places(check_printing(tree())), (Places{"core/bad.cpp:2", "core/bad.cpp:3"}));
 }
 
-TEST_F(MadeUpTree, NobodySleepsOutsideOfTests) {
+TEST_F(MadeUpTree, NoCodeSleepsOutsideOfTests) {
   file("tests/a.cpp", "std::this_thread::sleep_for(t);\n");
   file("core/good.cpp", "fall_asleep_if_still(); // sleep_for(t)\nbool asleep();\n");
   EXPECT_EQ(check_sleeping(tree()), Violations{});

@@ -115,7 +115,7 @@ class DomainNetworks : public testing::Test {
 
 class VendorsOnNetworks : public DomainNetworks, public testing::WithParamInterface<std::pair<Vendors, Interface>> {};
 
-TEST_P(VendorsOnNetworks, HearWhomTheyShareADomainWithAndNobodyElse) {
+TEST_P(VendorsOnNetworks, HearOnlyPeersThatShareADomainWithThem) {
   const auto& [vendors, interface] = GetParam();
   start_all(vendors, interface, 60'000);
   ASSERT_TRUE(all_say("met")) << errors();

@@ -154,7 +154,7 @@ TEST(AgentNode, ReadsTheQualityOfItsLinks) {
   }
 }
 
-TEST(AgentNode, ShowsItsMapWhereSomebodyLooksOn) {
+TEST(AgentNode, ShowsItsMapWhereAViewerLooksOn) {
   constexpr std::uint64_t kSteps = 200, kLooksFrom = 100;
   OneUav one(toy_scenario(1), kSteps);
   bus::CountedWriter& odometry = one.writer(topics::odometry("a"));
@@ -210,7 +210,7 @@ TEST(AgentNode, ShowsItsMapWhereSomebodyLooksOn) {
 }
 
 // An observer receives the program's diagnostics once per second, and does not change the program's counts.
-TEST(AgentNode, TellsOfItselfWhereSomebodyLooksOn) {
+TEST(AgentNode, TellsOfItselfWhereAViewerLooksOn) {
   constexpr std::uint64_t kSteps = 200, kLooksFrom = 100;
   OneUav one(toy_scenario(1), kSteps);
   bus::CountedWriter& odometry = one.writer(topics::odometry("a"));

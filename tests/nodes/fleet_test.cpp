@@ -187,7 +187,7 @@ TEST(FleetInOneProcess, TheOrderOfDiscoveryAndArrivalIsNoMatter) {
 
 // The times at which points and maps are sent to a viewer depend on wall time, but must not affect the flight. The
 // planner "hover" reads no scans, so they are computed only for the page, and its map is that of key frames.
-TEST(FleetInOneProcess, IsTheSameWhereSomebodyLooksAtPointsAndMaps) {
+TEST(FleetInOneProcess, IsTheSameWhereAViewerLooksAtPointsAndMaps) {
   for (const std::string planner : {"patrol", "hover"}) {
     const Flight flight{.planner = planner, .seed = 5, .stop_at_s = 15.0};
     std::optional<Fleet> unseen(std::in_place, flight, 1);

@@ -165,7 +165,7 @@ TEST_F(OneProcess, OfTurnsSideBySideOneOfTheirProgramsIsNamedOrAll) {
   EXPECT_FALSE(says(run.err(), "uav_agent-changi failed: ")) << run.err();
 }
 
-TEST_F(OneProcess, DebugNamesThatNobodyReadsAreRefusedAtOnce) {
+TEST_F(OneProcess, DebugNamesWithoutAReaderAreRefusedAtOnce) {
   for (const auto& [how, reason] : {std::pair("names_badly", "'not fine'"), {"names_many", "at most 64"}}) {
     SkeinRun& run = this->run(how, nasty(how), {}, 2);
     EXPECT_TRUE(says(run.err(), reason)) << run.err();

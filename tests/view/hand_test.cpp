@@ -73,7 +73,7 @@ TEST_F(FlownByHand, RepeatsThroughFaultsOfItsProgram) {
   EXPECT_GT(one.result()["uavs"][0]["distance_m"].get<double>(), 5.0);
 }
 
-TEST_F(FlownByHand, IsRefusedWhereNobodyCanFly) {
+TEST_F(FlownByHand, IsRefusedWhereNoViewerCanFly) {
   const Arguments by_hand = {"--planner", "kios,jurong=hand"};
   const SkeinRun& unwatched = run("unwatched", joined(kHandFlight, by_hand), {}, 2);
   for (const char* part : {"jurong=hand", "--view", "hand-jurong.csv"}) {

@@ -136,7 +136,7 @@ TEST_F(FilmOfARun, IsTheSameEachTime) {
   EXPECT_NE(pictures.out().find("1280x720"), std::string::npos);
 }
 
-TEST_F(FilmOfARun, LeavesNobodyBehind) {
+TEST_F(FilmOfARun, LeavesNoProcessBehind) {
   const SkeinRun& done =
       run("done", {"towers", "--planner", "hover", "--duration", "5", "--one-process", "--no-oracle", "--no-report"});
   fs::create_directory(temporary());

@@ -44,7 +44,7 @@ std::size_t listeners_of(pid_t pid) {
 
 class WatchedRun : public ViewTest {};
 
-TEST_F(WatchedRun, HasTheDigestOfOneThatNobodyWatches) {
+TEST_F(WatchedRun, HasTheDigestOfOneThatIsNotWatched) {
   const SkeinRun& unseen = run("unseen", joined(kShort, {"--one-process"}));
   const std::string activity = text_of(unseen.dir() / "activity.csv");
   for (const std::string& uav : kFleet) EXPECT_NE(activity.find("," + uav + ",takes off,"), std::string::npos) << uav;

@@ -76,7 +76,7 @@ TEST(Peers, HaveTheLinkOfThisExchangeAndNoOther) {
   EXPECT_FALSE(peers.all()[0].link || peers.station_link());
 }
 
-TEST(Peers, RememberWhereSomebodyWasLastSeen) {
+TEST(Peers, RememberWhereAUavWasLastSeen) {
   Peers peers(fleet_in_a_row(2, 0));
   peers.update(
       20,

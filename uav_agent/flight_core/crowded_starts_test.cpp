@@ -82,7 +82,7 @@ Crowd drawn_group_below_a_canopy(std::uint64_t seed) {
   return crowd;
 }
 
-// The explorer rises until the canopy stops it, and the others below it until it stops them. Nobody can fly past
+// The explorer rises until the canopy stops it, and the others below it until it stops them. No UAV can fly past
 // another one any more, until those that rest make room.
 TEST(CrowdedStarts, EveryUavGetsAwayBelowACanopy) {
   const char* const planners[] = {"star", "flock", "kios"};

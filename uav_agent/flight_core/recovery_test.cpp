@@ -265,7 +265,7 @@ TEST(Recovery, AUavWhoseWayBackIsTakenForStructureGetsAwayFromIt) {
 }
 
 // Where not even that is left, it stays.
-TEST(Recovery, NobodyGoesBackThroughLessThanItsBodyNeeds) {
+TEST(Recovery, NoUavGoesBackThroughLessThanItsBodyNeeds) {
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
     ShutIn uav(seed % 2 == 0 ? Role::photographer : Role::explorer, 2 * seed + 1, true);
     for (int i = 0; i < 8; ++i) uav.recover();

@@ -176,7 +176,7 @@ TEST(SafetyFilter, KeepsOffAUavThatWentOutOfSight) {
 
 // A UAV brakes and will come to rest obliquely in front of another one, which lies beside what it may sweep if it
 // brakes as softly as the filter takes into account. The other one wants to go where the first one comes from.
-TEST(SafetyFilter, NobodyComesNearerToAUavThatBrakesInFrontOfIt) {
+TEST(SafetyFilter, NoUavComesNearerToOneThatBrakesInFrontOfIt) {
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     RandomStream random(seed, "brakes_in_front", 0);
     GuardedUav uav({0.5, 0.5, 20.0}, fleet_of(2, Role::explorer, 0));

@@ -192,7 +192,7 @@ TEST(Showing, LooksFromOtherHeightsEachTime) {
   EXPECT_GT(*heights_m.rbegin(), 10.0);
 }
 
-TEST(Showing, NobodyThatHasRisenIsShownAnything) {
+TEST(Showing, NoUavThatHasRisenIsShownAnything) {
   Shows uav(explorer_and_photographer(), 0);
   uav.peers.update(0, {{node_of_uav(UavIndex(1)), Vector3d(6.0, 0.0, 0.2), std::nullopt}});
   ASSERT_TRUE(uav.next());

@@ -35,7 +35,7 @@ struct Stands : FlownUav {
 };
 
 // Those who told it of the other place may be lost.
-TEST(ToldSpace, AMapOfAnotherPlaceKeepsNobodyOnTheGround) {
+TEST(ToldSpace, AMapOfAnotherPlaceKeepsNoUavOnTheGround) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     Stands uav(seed);
     uav.listen(uav.config.alone_s - 1.0);

@@ -98,7 +98,7 @@ double least_total(const FleetTourProblem& p) {
   return least;
 }
 
-TEST(FleetTours, TheSumOfAllIsNearlyLeastAndNobodyStaysWithoutATask) {
+TEST(FleetTours, TheSumOfAllIsNearlyLeastAndNoUavStaysWithoutATask) {
   double gaps = 0.0;
   constexpr int kInstances = 40;
   for (int i = 0; i < kInstances; ++i) {

@@ -59,7 +59,7 @@ TEST(Standoff, FollowsALeaningSurfaceAtTheSharpDistance) {
   }
 }
 
-TEST(Standoff, DoesNotEnterTheBoxWhereNobodyHasLooked) {
+TEST(Standoff, DoesNotEnterTheBoxWhereNoUavHasLooked) {
   const Facade facade;
   OccupancyMap map;
   add_wall(

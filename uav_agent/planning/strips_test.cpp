@@ -67,7 +67,7 @@ TEST(Strips, AreNoLongerThanAsked) {
 
 class SharedStrips : public testing::TestWithParam<std::size_t> {};
 
-TEST_P(SharedStrips, EveryStripIsSomebodysExactlyOnceAndNobodyHasMuchMore) {
+TEST_P(SharedStrips, EveryStripIsGivenExactlyOnceAndNoUavHasMuchMore) {
   const std::size_t uavs = GetParam();
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     RandomStream random(seed, "share", 0);

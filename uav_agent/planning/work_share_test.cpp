@@ -33,7 +33,7 @@ std::vector<WorkShare> shares_of(AgentConfig agent, const std::vector<OrientedBo
   return shares;
 }
 
-TEST(TeamShare, EveryStripIsSomebodysExactlyOnce) {
+TEST(TeamShare, EveryStripIsGivenExactlyOnce) {
   const std::pair<std::size_t, std::size_t> fleets[] = {{2, 3}, {1, 1}, {1, 4}, {3, 2}, {3, 0}, {0, 3}, {1, 0}};
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     for (const auto& [explorers, photographers] : fleets) {

@@ -130,7 +130,7 @@ TEST(KiosStops, AFaceIsLookedAtFromBesideWhatStandsInFrontOfIt) {
 }
 
 /// For who plans through the unknown: a place counts if it was seen to be free, and is proved if a body fits there.
-TEST(KiosStops, WhatNobodyHasSeenIsNoPlaceAndWhatABodyDoesNotFitIsNotProved) {
+TEST(KiosStops, UnseenSpaceIsNoPlaceAndWhatABodyDoesNotFitIsNotProved) {
   LoneCube world;
   const Vector3d in_front_W(17.5, 12.5, 12.5), behind_W(7.5, 12.5, 12.5);
   world.map.set_free(in_front_W, 2.6);

@@ -27,7 +27,7 @@ TEST(Patrol, IsRepeatable) {
 
 class PatrolFleets : public testing::TestWithParam<std::size_t> {};
 
-TEST_P(PatrolFleets, NobodyTouchesAnything) {
+TEST_P(PatrolFleets, NoUavTouchesAnything) {
   TestWorld world(two_towers(), test_fleet(GetParam()), "patrol", 150.0);
   world.run(150.0);
   EXPECT_GT(world.clearance(), kExplorerRadiusM + 0.5);

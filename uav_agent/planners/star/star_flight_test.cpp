@@ -156,7 +156,7 @@ std::size_t places_before_walls(const std::string& planner, std::size_t photogra
   return near;
 }
 
-TEST(StarFlight, ExplorersInspectWhereTheyAreAskedToOrNobodyElseCan) {
+TEST(StarFlight, ExplorersInspectWhereTheyAreAskedToOrNoOtherUavCan) {
   EXPECT_LT(places_before_walls("star", 1), places_before_walls("star:explorers_inspect=true", 1) / 4);
   EXPECT_GT(places_before_walls("star:explorers_inspect=true,faithful=true", 1), 20U) << "what is given wins";
   EXPECT_GT(places_before_walls("star", 0), 20U) << "it has no photographer";

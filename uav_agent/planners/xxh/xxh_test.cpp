@@ -80,7 +80,7 @@ TEST(Xxh, PhotographersWaitUntilTheirSectionIsExplored) {
   EXPECT_GT((world.position(1) - waits).norm(), 3.0);
 }
 
-TEST(Xxh, NobodyWaitsForALeaderThatIsNeverHeard) {
+TEST(Xxh, NoUavWaitsForALeaderThatIsNeverHeard) {
   TestScene scene = two_towers();
   scene.talk = false;
   TestWorld silent(scene, test_fleet(2), "xxh", 300.0);
