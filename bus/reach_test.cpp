@@ -76,7 +76,7 @@ class ReachTest : public testing::Test {
   const std::shared_ptr<spdlog::logger> before_;
 };
 
-TEST_F(ReachTest, WhoIsKnownCountsAndWhoIsNotIsNamed) {
+TEST_F(ReachTest, APeerThatIsKnownCountsAndOneThatIsNotIsNamed) {
   const auto own = own_address();
   if (!own) GTEST_SKIP() << "this host has no address but the loopback's";
   std::mt19937 random{std::random_device{}()};

@@ -88,7 +88,7 @@ TEST_F(Registry, SaysThatThereIsNoFittingWriter) {
   EXPECT_EQ(opened_.size(), 1U);
 }
 
-TEST_F(Registry, WhoAsksInVainAgainAndAgainIsNotWaitedForAnyMore) {
+TEST_F(Registry, AMemberThatAsksInVainAgainAndAgainIsNotWaitedForAnyMore) {
   hears_ = {kSecond};
   for (std::uint32_t id = 0; id < RadioRegistry::kMaxVain; ++id) {
     registry_.begin_step({sending(kFirst, id)});
@@ -243,7 +243,7 @@ TEST_F(Registry, MoreTargetsMayBeAddedAndTheSourceIsTheAsker) {
   EXPECT_EQ(table_.routes().back().targets.size(), 2U) << "a refused request changes nothing";
 }
 
-TEST_F(Registry, WhoIsLostWhileTheOthersAreAwaitedIsForgotten) {
+TEST_F(Registry, AMemberThatIsLostWhileTheOthersAreAwaitedIsForgotten) {
   step({sending(kFirst, 1), listening(kSecond, 1)});
   step();
   hears_.clear();

@@ -74,7 +74,7 @@ TEST_F(ProcessOrdersTest, ItsSecondDeathIsAFailure) {
   EXPECT_FALSE(end_was_ordered());
 }
 
-TEST_F(ProcessOrdersTest, WhoStopsGoesOnOnceItHasBeenSeenToStandStill) {
+TEST_F(ProcessOrdersTest, AProgramThatStopsGoesOnOnceItHasBeenSeenToStandStill) {
   start("read line <&4; kill -STOP $$; read line <&4");
   orders_.take_out("a", false, false);
   orders_.let_back("a");

@@ -228,7 +228,7 @@ TEST_P(KilledLauncher, IsOutlivedByNothing) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Minded, KilledLauncher, ::testing::Bool());
-TEST_F(SupervisorTest, WhoWritesALineWithoutAnEndIsCutOffAndNamed) {
+TEST_F(SupervisorTest, AProgramThatWritesALineWithoutAnEndIsCutOffAndNamed) {
   supervisor_.start(shell("endless", "trap '' PIPE; echo first >&3; yes endless | tr -d '\\n' >&3; exit 7"));
   supervisor_.start(shell("other", "read line <&4; echo \"$line\" >&3"));
   std::vector<Event> events;
@@ -245,7 +245,7 @@ TEST_F(SupervisorTest, WhoWritesALineWithoutAnEndIsCutOffAndNamed) {
   EXPECT_EQ(run_out().at(0).line, "still heard");
 }
 
-TEST_F(SupervisorTest, WhoWritesLinesWithoutAnEndIsCutOffToo) {
+TEST_F(SupervisorTest, AProgramThatWritesLinesWithoutAnEndIsCutOffToo) {
   ProgramSpec endless = shell("endless", "trap '' PIPE; yes >&3; exit 7");
   endless.most_status_bytes = 1 << 20;
   supervisor_.start(endless);

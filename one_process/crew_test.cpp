@@ -215,7 +215,7 @@ TEST_P(CrewTest, EveryEndIsToldAndTheOthersGoOn) {
   EXPECT_NE(log("refuses").find("no such thing"), std::string::npos);
 }
 
-TEST_P(CrewTest, WhoIsKilledIsGoneWithoutAWord) {
+TEST_P(CrewTest, AProgramThatIsKilledIsGoneWithoutAWord) {
   start("dies", "dies");
   start("stays", "stays");
   const auto outside = bus::make_bus({.vendor = "inproc"})->join(5);
@@ -236,7 +236,7 @@ TEST_P(CrewTest, WhoIsKilledIsGoneWithoutAWord) {
   EXPECT_EQ(diary_.turns["dies"], 5);
 }
 
-TEST_P(CrewTest, WhoIsStoppedStandsStillUntilItGoesOn) {
+TEST_P(CrewTest, AProgramThatIsStoppedStandsStillUntilItGoesOn) {
   start("stops", "stops");
   start("stays", "stays");
   rounds(8);
@@ -249,7 +249,7 @@ TEST_P(CrewTest, WhoIsStoppedStandsStillUntilItGoesOn) {
   EXPECT_EQ(diary_.turns["stops"], 5);
 }
 
-TEST_P(CrewTest, WhoIsKilledOrStoppedBeforeItIsReadyHasEnded) {
+TEST_P(CrewTest, AProgramThatIsKilledOrStoppedBeforeItIsReadyHasEnded) {
   start("dies", "dies early");
   start("stops", "stops early");
   start("stays", "stays");
@@ -264,7 +264,7 @@ TEST_P(CrewTest, WhoIsKilledOrStoppedBeforeItIsReadyHasEnded) {
   EXPECT_EQ(diary_.turns["stays"], 3);
 }
 
-TEST_P(CrewTest, WhoIsAskedToEndDoesSo) {
+TEST_P(CrewTest, AProgramThatIsAskedToEndDoesSo) {
   start("stays", "stays");
   start("stops", "stops");
   rounds(4);

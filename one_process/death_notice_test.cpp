@@ -58,7 +58,7 @@ std::atomic<bool> Shared::gone = false;
   ::_exit(99);
 }
 
-TEST(DeathNotice, WhoCallsExitEndsAllBeforeTheOthersMissAnything) {
+TEST(DeathNotice, AProgramThatCallsExitEndsAllBeforeTheOthersMissAnything) {
   if (!sanitizer().empty()) GTEST_SKIP() << "a process with threads that forks; and the end is the sanitizer's";
   for (const int code : {0, 7}) {
     for (const bool from_other_thread : {false, true}) {

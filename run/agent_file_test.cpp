@@ -68,7 +68,7 @@ TEST_F(AgentFile, EachPlannerFliesInTheProgramThatItNames) {
   EXPECT_NE(debug_command(plan(), beta_, 1, programs_.dir()).find("gdb --args " + b + " "), std::string::npos);
 }
 
-TEST_F(AgentFile, WhoNamesNoneFliesInTheFleets) {
+TEST_F(AgentFile, APlannerThatNamesNoneFliesInTheFleets) {
   const std::string a = agent("a"), b = agent("b");
   options_.planner = "hover,beta=orbit@" + a + ",gcs=orbit@" + b;
   EXPECT_EQ(software(flown(), alpha_), stock_ + " hover");

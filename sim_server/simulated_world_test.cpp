@@ -97,7 +97,7 @@ TEST_F(LiveSignalsTest, AChargeIsThatOfTheUavsBattery) {
   EXPECT_LT(value("charge(a)"), 0.95);
 }
 
-TEST_F(LiveSignalsTest, WhoComesBackHasRestarted) {
+TEST_F(LiveSignalsTest, AProgramThatComesBackHasRestarted) {
   int step = 0;
   away_ = {"b", "gcs"};
   fly(3.0, [&] {

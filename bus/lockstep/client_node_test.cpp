@@ -93,7 +93,7 @@ std::optional<NodeEnd> end_without_idle_turns(bool matches) {
   return node.end();
 }
 
-TEST(ClientNode, WhoNeverHadAnIdleTurnFindsThatTheServerHasGone) {
+TEST(ClientNode, AMemberThatNeverHadAnIdleTurnFindsThatTheServerHasGone) {
   EXPECT_EQ(end_without_idle_turns(true), NodeEnd::finished) << "it was no member yet";
 }
 

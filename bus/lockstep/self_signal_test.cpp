@@ -42,7 +42,7 @@ TEST_P(SelfSignal, AKilledProgramIsDead) {
   EXPECT_EQ(status, 128 + SIGKILL);
 }
 
-TEST_P(SelfSignal, WhoCannotBeContinuedIsNotStopped) {
+TEST_P(SelfSignal, AProgramThatCannotBeContinuedIsNotStopped) {
   const int status = run_as(GetParam(), [] {
     bool asked = false;
     set_self_signals({.kill = {}, .stop = [&] { asked = true; }});

@@ -126,7 +126,7 @@ TEST(SweepController, LosesAndDoublesNothingInDrawnOrders) {
   EXPECT_GT(failing, orders / 10);
 }
 
-TEST(SweepController, WhoOnlyLooksIsToldHowManyChecksDiffer) {
+TEST(SweepController, AUserWhoOnlyLooksIsToldHowManyChecksDiffer) {
   Sweep sweep(1, 12, 2, {{"sound 1"}, {"sound 2"}});
   ASSERT_TRUE(sweep.control());
   SweepFolder folder(sweep.world.study());

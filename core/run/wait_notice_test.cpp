@@ -19,7 +19,7 @@ TEST(WaitNotice, SpeaksAfterFiveSecondsAndThenLessAndLess) {
   EXPECT_EQ(told, (std::vector<double>{5, 10, 20, 40, 80}));
 }
 
-TEST(WaitNotice, WhoLooksLateHearsOnce) {
+TEST(WaitNotice, ACallerThatLooksLateHearsOnce) {
   const WaitNotice::Clock::time_point start{};
   WaitNotice notice(start);
   EXPECT_EQ(notice.left(start + seconds(1)), seconds(4));

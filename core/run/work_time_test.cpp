@@ -100,7 +100,7 @@ TEST(WorkTime, AStretchCountsInWholeOnceItIsAMinuteLong) {
   }
 }
 
-TEST(WorkTime, WhoComesBackBeginsAnew) {
+TEST(WorkTime, AUavThatComesBackBeginsAnew) {
   for (int draw = 0; draw < kDraws; ++draw) {
     RandomStream random(3, "work_time", draw);
     WorkTrack track = open_track(150);
@@ -111,7 +111,7 @@ TEST(WorkTime, WhoComesBackBeginsAnew) {
   }
 }
 
-TEST(WorkTime, WhoWaitsForAWorkingMateIsExcusedFor45Seconds) {
+TEST(WorkTime, AUavThatWaitsForAWorkingMateIsExcusedFor45Seconds) {
   for (int draw = 0; draw < kDraws; ++draw) {
     RandomStream random(4, "work_time", draw);
     const std::size_t wait = 1 + random.bits() % 200, count = 320, begin = 10;
@@ -138,7 +138,7 @@ TEST(WorkTime, AWaitInManyPiecesIsNoLongerThanOne) {
             kMostExcused_s);
 }
 
-TEST(WorkTime, WhoWaitsForAMateThatStandsIsFrozen) {
+TEST(WorkTime, AUavThatWaitsForAMateThatStandsIsFrozen) {
   for (int draw = 0; draw < kDraws; ++draw) {
     RandomStream random(5, "work_time", draw);
     const std::size_t count = 150 + random.bits() % 200, stands = random.bits() % 20;

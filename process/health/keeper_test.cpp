@@ -106,7 +106,7 @@ TEST_P(Keeper, ACrashIsTheEnd) {
   EXPECT_EQ(shared_->lives, 1);
 }
 
-TEST_P(Keeper, WhoAsksItToEndAsksTheProgram) {
+TEST_P(Keeper, ARequestToEndReachesTheProgram) {
   for (const int signal : {SIGTERM, SIGINT, SIGHUP}) {
     const int status = keep_and_send(signal, [](int got) { return got; });
     SKIP_WITHOUT_RIGHTS(status);
@@ -121,7 +121,7 @@ TEST_P(Keeper, NothingStartsAgainThatWasAskedToEnd) {
   EXPECT_EQ(shared_->lives, 1);
 }
 
-TEST_P(Keeper, WhoKillsItKillsTheProgram) {
+TEST_P(Keeper, KillingItKillsTheProgram) {
   const int status = keep(
       [&](int) {
         shared_->ready = true;

@@ -45,7 +45,7 @@ TEST(OpenFiles, ALimitIsJudgedByWhatIsNeeded) {
   EXPECT_THROW(judge_open_files_limit("a fleet", kNeed, 49), InputError);
 }
 
-TEST(OpenFiles, WhoNeedsThemGetsThemOrIsRefused) {
+TEST(OpenFiles, AProgramThatNeedsThemGetsThemOrIsRefused) {
   constexpr OpenFilesNeed kNeed{50, 60};
   const LimitedOpenFiles low(40);
   EXPECT_EQ(done_with_open_files(55, [&] { return provide_open_files("it", kNeed); }).find("a process may have 55"),

@@ -31,7 +31,7 @@ TEST(TurnPage, TellsWhoHasATurnInEachSeat) {
   EXPECT_EQ(launchers.holders(), (Names{"uav_agent-b"}));
 }
 
-TEST(TurnPage, WhoGaveTheReasonIsTheOne) {
+TEST(TurnPage, TheProgramThatGaveTheReasonIsTheOne) {
   TurnPage launchers;
   TurnPage page(launchers.path());
   page.enter(1, "uav_agent-a");

@@ -40,7 +40,7 @@ TEST(Braking, FliesOnThenStopsAfterVSquaredByTwoA) {
   }
 }
 
-TEST(Braking, WhoStandsStays) {
+TEST(Braking, ABodyThatStandsStays) {
   const Braking braking{.p_W = {1, 2, 3}, .delay_s = 0.1};
   EXPECT_EQ(braking.way_m(), 0.0);
   EXPECT_EQ(braking.end_W(), Vector3d(1, 2, 3));

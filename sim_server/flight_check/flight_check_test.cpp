@@ -135,7 +135,7 @@ TEST(FlightCheck, WaysMeetWhereBodiesDoNot) {
   EXPECT_NEAR(found.least_braking_separation_m, found.least_separation_m, 1e-9);
 }
 
-TEST(FlightCheck, WhoCatchesUpAfterTakeOffDoesNotTrackYet) {
+TEST(FlightCheck, AUavThatCatchesUpAfterTakeOffDoesNotTrackYet) {
   const Scenario scenario = fleet_of({"explorer"});
   const RayScene nothing{TriangleMesh{}};
   FlightCheck check(scenario);
@@ -158,7 +158,7 @@ TEST(FlightCheck, WhoCatchesUpAfterTakeOffDoesNotTrackYet) {
   EXPECT_EQ(check.findings().exchanges, 4U);
 }
 
-TEST(FlightCheck, WhoIsOutOrStandsOnTheGroundIsNoPilot) {
+TEST(FlightCheck, AUavThatIsOutOrStandsOnTheGroundIsNoPilot) {
   const Scenario scenario = fleet_of({"explorer", "explorer"});
   const RayScene wall = wall_from_x_0();
   CheckedUav out = flying({-1, 0, 5}, {6, 0, 0});

@@ -74,7 +74,7 @@ class WorkLogTest : public testing::Test {
 
 TrajectoryCommand hover(double x, double y, double z, double yaw = 0.0) { return {.p_WB = {x, y, z}, .yaw = yaw}; }
 
-TEST_F(WorkLogTest, WhoFliesToAndFroWithoutAPictureIsFrozen) {
+TEST_F(WorkLogTest, AUavThatFliesToAndFroWithoutAPictureIsFrozen) {
   add("photographer", -5, 0);
   add_patch(0, 10, 6);
   for (int draw = 0; draw < kDraws; ++draw) {
@@ -88,7 +88,7 @@ TEST_F(WorkLogTest, WhoFliesToAndFroWithoutAPictureIsFrozen) {
   }
 }
 
-TEST_F(WorkLogTest, WhoPhotographsKnownPointsWorseIsFrozen) {
+TEST_F(WorkLogTest, AUavThatPhotographsKnownPointsWorseIsFrozen) {
   add("photographer", 0, 0);
   add_patch(0, 8, 1);
   add_patch(0, 8, 3, false);
@@ -107,7 +107,7 @@ TEST_F(WorkLogTest, WhoPhotographsKnownPointsWorseIsFrozen) {
   }
 }
 
-TEST_F(WorkLogTest, WhoPhotographsWhatAMateHasIsFrozen) {
+TEST_F(WorkLogTest, AUavThatPhotographsWhatAMateHasIsFrozen) {
   add("photographer", 0, -3);
   add("photographer", 0, 3);
   add_patch(0, 8, 1);
@@ -125,7 +125,7 @@ TEST_F(WorkLogTest, WhoPhotographsWhatAMateHasIsFrozen) {
   EXPECT_GE(judged()[1].frozen_s, 90u);
 }
 
-TEST_F(WorkLogTest, WhoPhotographsMoreAndMoreIsNotFrozen) {
+TEST_F(WorkLogTest, AUavThatPhotographsMoreAndMoreIsNotFrozen) {
   add("photographer", 0, 0);
   add_patch(0, 10, 8);
   start();

@@ -51,7 +51,7 @@ class FromOutside : public Containers {
   }
 };
 
-TEST_F(FromOutside, WhoIsKilledAndStartedAgainWorksAgain) {
+TEST_F(FromOutside, AProgramThatIsKilledAndStartedAgainWorksAgain) {
   SkeinRun& run = start_up("up", arguments("patrol", "300"));
   ASSERT_TRUE(run.wait_until_flying()) << run.err();
   std::vector<std::string> victims = {"uav_agent-changi", "station", "comm_router"};
@@ -90,7 +90,7 @@ TEST_F(FromOutside, AProgramThatIsStoppedForAMomentIsNotMissed) {
 }
 
 // Longer than its lease: the server drops the UAV, which must join again.
-TEST_F(FromOutside, WhoStandsStillForLongComesBack) {
+TEST_F(FromOutside, AProgramThatStandsStillForLongComesBack) {
   SkeinRun& run = start_up("up", arguments("patrol", "300"));
   const std::string id = flying(run, "uav_agent-changi");
   EXPECT_EQ(shell("docker pause " + id + " && sleep 13 && docker unpause " + id).code, 0);

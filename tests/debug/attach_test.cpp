@@ -93,7 +93,7 @@ TEST_F(Attach, AFleetInAnotherNetworkIsToldFromTheOneHere) {
   }
 }
 
-TEST_F(Attach, WhoIsNotThereIsBadInput) {
+TEST_F(Attach, AProgramThatIsNotThereIsBadInput) {
   EXPECT_EQ(skein({"attach", "changi", "--run", folder()}).wait().code, 2);
   SkeinRun& fleet = flying_fleet();
   ChildProcess& wrong = skein({"attach", "chang", "--run", fleet.dir()});

@@ -28,7 +28,7 @@ TEST_F(Gdb, BreaksInAPlannerPrintsAndFliesOnToTheSameDigest) {
   EXPECT_FALSE(text_of(dir("gdb") / "uav_agent-changi.report.json").empty());
 }
 
-TEST_F(Gdb, WhoQuitsEndsThatProgramAndTheFleetGoesOn) {
+TEST_F(Gdb, AUserWhoQuitsEndsThatProgramAndTheFleetGoesOn) {
   SKEIN_NEEDS_GDB();
   ChildProcess& skein = fly("gdb", {"--debug", "changi=gdb"}, kBreak + "quit\n");
   EXPECT_EQ(skein.wait().code, 3) << skein.out() << skein.err();

@@ -109,7 +109,7 @@ TEST_F(Tools, TheLaunchFileForVsCodeStopsAtABreakpoint) {
   EXPECT_EQ(result("server")["digest"], plain_digest());
 }
 
-TEST_F(Tools, WhoWaitsIsToldAndGoesOn) {
+TEST_F(Tools, AProgramThatWaitsIsToldAndGoesOn) {
   const std::string digest = plain_digest();
   for (const std::string member : {"changi", "comm_router"}) {
     const std::string name = "wait_" + member;
@@ -127,7 +127,7 @@ TEST_F(Tools, WhoWaitsIsToldAndGoesOn) {
   }
 }
 
-TEST_F(Tools, WhoWaitsGoesOnWhenItsDebuggerHasOnlyLooked) {
+TEST_F(Tools, AProgramThatWaitsGoesOnWhenItsDebuggerHasOnlyLooked) {
   SKEIN_NEEDS_GDB();
   ChildProcess& skein = fly("looked", {"--debug", "changi=wait"});
   const auto log = dir("looked") / "uav_agent-changi.log";

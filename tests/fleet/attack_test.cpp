@@ -72,7 +72,7 @@ TEST_P(Attack, ForgedAcknowledgementsEraseNothing) {
   EXPECT_EQ(forged.digest(), alone.digest()) << "nobody has heard it";
 }
 
-TEST_P(Attack, WhoStandsStillForAWhileIsNotTakenForDead) {
+TEST_P(Attack, AProgramThatStandsStillForAWhileIsNotTakenForDead) {
   SkeinRun& flying = start("run", {"towers", "--planner", "patrol", "--duration", "120", "--dds", GetParam()});
   ASSERT_TRUE(flying.wait_until_flying()) << flying.err();
   const auto found = processes_of(flying.dir());

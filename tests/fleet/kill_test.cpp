@@ -97,7 +97,7 @@ Arguments without_launcher(pid_t pid) {
 }
 
 // A user has fixed the program and starts it again.
-TEST_F(Interruption, WhoIsStartedAgainByHandIsLostNoLonger) {
+TEST_F(Interruption, AProgramThatIsStartedAgainByHandIsLostNoLonger) {
   SkeinRun& run = flying({"towers", "--planner", "patrol", "--duration", "300"});
   const pid_t pid = processes_of(run.dir()).at("uav_agent-changi");
   const Arguments words = without_launcher(pid);

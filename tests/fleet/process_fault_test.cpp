@@ -57,7 +57,7 @@ std::string all_away(const std::string& order) {
   return text;
 }
 
-TEST_F(ProcessFaults, WhoIsKilledComesBack) {
+TEST_F(ProcessFaults, AProgramThatIsKilledComesBack) {
   const auto [result, other] = fly_twice(all_away("kill"));
   EXPECT_EQ(result["score"], result["score_earned"]) << "all is delivered in the end";
   const std::string log = text_of(folder() / "one0" / "station.log");
@@ -66,13 +66,13 @@ TEST_F(ProcessFaults, WhoIsKilledComesBack) {
   EXPECT_NE(log.find("records of the journal"), std::string::npos) << log;
 }
 
-TEST_F(ProcessFaults, WhoIsStoppedGoesOn) {
+TEST_F(ProcessFaults, AProgramThatIsStoppedGoesOn) {
   const auto [result, other] = fly_twice(all_away("pause"));
   EXPECT_EQ(result["score"], result["score_earned"]) << "all is delivered in the end";
   EXPECT_NE(text_of(folder() / "one0" / "uav_agent-sentosa.log").find("a fault stops this program"), std::string::npos);
 }
 
-TEST_F(ProcessFaults, WhoNeverComesBackLeavesItsBooks) {
+TEST_F(ProcessFaults, AProgramThatNeverComesBackLeavesItsBooks) {
   const auto [result, other] = fly_twice(
       "  - {at_s: 50.0, kill: station}\n"
       "  - {at_s: 45.0, pause: sentosa}\n"

@@ -69,7 +69,7 @@ TEST_P(Unattended, FaultsMeanTheSameAsUnderTheLauncher) {
   EXPECT_EQ(station["score"], launched.result()["score"]);
 }
 
-TEST_P(Unattended, WhoIsKilledIsMissedAndWorksAgain) {
+TEST_P(Unattended, AProgramThatIsKilledIsMissedAndWorksAgain) {
   start_fleet(kept());
   ASSERT_TRUE(eventually([&] { return is_flying(dir_); }));
   std::vector<std::string> victims = {"uav_agent-changi", "station", "comm_router"};
@@ -91,7 +91,7 @@ TEST_P(Unattended, WhoIsKilledIsMissedAndWorksAgain) {
   EXPECT_GT(Json::parse(text_of(dir_ / "station.report.json"))["score"], 0.0);
 }
 
-TEST_P(Unattended, WhoIsAskedToEndLeavesAndTheRunGoesOn) {
+TEST_P(Unattended, AProgramThatIsAskedToEndLeavesAndTheRunGoesOn) {
   start_fleet(kept());
   ASSERT_TRUE(eventually([&] { return is_flying(dir_); }));
   const std::string uav = kPrograms.at(std::uniform_int_distribution<std::size_t>(3, kPrograms.size() - 1)(random_));
@@ -124,7 +124,7 @@ TEST_P(Unattended, AllThatAreAskedToEndAtOnceDo) {
 }
 
 // Also a program that is still restarting when the server ends.
-TEST_P(Unattended, WhoIsKilledForGoodEndsWithTheRun) {
+TEST_P(Unattended, AProgramThatIsKilledForGoodEndsWithTheRun) {
   std::vector<std::string> victims = {"changi", "station", "comm_router"};
   std::string faults = "faults:\n";
   for (const std::string& victim : victims) {
@@ -164,7 +164,7 @@ TEST_P(Unattended, TwoRunsInOneFolderAreToldApart) {
 }
 
 // The health check of a container looks at the same file.
-TEST_P(Unattended, WhoHangsTouchesItsFileNoMore) {
+TEST_P(Unattended, AProgramThatHangsTouchesItsFileNoMore) {
   namespace fs = std::filesystem;
   const std::string hangs = "uav_agent-jurong", works = "uav_agent-changi";
   const Options options = kept({}, "600", "60");  // long enough not to drop a paused program

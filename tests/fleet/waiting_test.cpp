@@ -24,7 +24,7 @@ class Waiting : public FleetTest {
   std::string scenario_;
 };
 
-TEST_F(Waiting, WhoNeverJoinsIsNamed) {
+TEST_F(Waiting, AProgramThatNeverJoinsIsNamed) {
   SkeinRun& run = start("run", {scenario_, "--planner", "hover,changi=exec:exec sleep 1000"});
   EXPECT_TRUE(run.wait_for("waiting for changi to join (")) << run.err();
   EXPECT_NE(text_of(run.dir() / "sim_server.log").find("waiting for changi"), std::string::npos)
@@ -32,7 +32,7 @@ TEST_F(Waiting, WhoNeverJoinsIsNamed) {
   end_by_interrupt(run);
 }
 
-TEST_F(Waiting, WhoHangsIsNamed) {
+TEST_F(Waiting, AProgramThatHangsIsNamed) {
   SkeinRun& run = start("run", {scenario_, "--planner", "hover", "--duration", "2000"});
   ASSERT_TRUE(run.wait_until_flying()) << run.err();
   ::kill(processes_of(run.dir()).at("uav_agent-changi"), SIGSTOP);

@@ -71,7 +71,7 @@ TEST_F(Teams, MeetInOneStudy) {
   EXPECT_TRUE(std::filesystem::exists(folder() / "study/flights/scenario/orbit@howto_agent/seed-0/result.json"));
 }
 
-TEST_F(Teams, WhoIsNotThereIsNamed) {
+TEST_F(Teams, AProgramThatIsNotThereIsNamed) {
   const std::string text = write("text", "no program"), nobody = folder() / "nobody";
   const std::vector<std::pair<std::string, std::vector<std::string>>> wrong = {
       {"orbit@" + nobody, {"--planner orbit@" + nobody, "no such file"}},

@@ -82,7 +82,7 @@ TEST_F(CheckPlanner, WhatOutlivesARestartInOneProcessIsNamed) {
                     "usually it is something that UAVs share in one process"});
 }
 
-TEST_F(CheckPlanner, WhoReadsTheCalendarIsNamed) {
+TEST_F(CheckPlanner, APlannerThatReadsTheCalendarIsNamed) {
   expect_different("planted:defect=reads_calendar", {{"clock"}, {"clock"}},
                    {"the runs part at step ", "jurong first differs at ", "usually it is the wall clock\n"});
 }

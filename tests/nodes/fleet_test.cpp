@@ -227,7 +227,7 @@ TEST(FleetInOneProcess, GoesOnWithoutWhoIsLost) {
   EXPECT_EQ(summary.lost[0].name, "raffles");
 }
 
-TEST(FleetInOneProcess, WhoIsLostBeforeItHasJoinedMayComeLater) {
+TEST(FleetInOneProcess, AMemberThatIsLostBeforeItHasJoinedMayComeLater) {
   for (const int turns : {0, 2000}) {
     Fleet fleet({.stop_at_s = 4.0}, 4);
     fleet.kill(UavIndex{1});

@@ -159,7 +159,7 @@ TEST(RouterNode, WhatIsUnderWayOnARegisteredTopicArrivesAlthoughItsTopicIsRefuse
 
 /// A request for another type than the topic's is refused. The program that made it may ask again for the right one,
 /// and the fleet does not wait for a writer of the wrong one.
-TEST(RouterNode, WhoAskedForTheWrongTypeOfATopicMayCorrectIt) {
+TEST(RouterNode, AMemberThatAskedForTheWrongTypeOfATopicMayCorrectIt) {
   constexpr std::uint64_t kWrong = 3, kRight = 8, kSays = 14, kSteps = 20;
   const std::string right = "std_msgs/msg/String", wrong = "std_msgs/msg/Bool";
   const Scenario scenario = toy_scenario(3);

@@ -113,7 +113,7 @@ TEST_F(StationNodeTest, CountsAndAcknowledgesWhatTheLedgerHas) {
   EXPECT_GT(report()["duplicates"], 0);
 }
 
-TEST_F(StationNodeTest, WhoComesBackCountsOnAndWorksAgain) {
+TEST_F(StationNodeTest, AMemberThatComesBackCountsOnAndWorksAgain) {
   for (const std::uint64_t k : {1U, 4U, 9U}) {
     std::filesystem::remove(folder_ / run_folder::kJournal);
     EXPECT_EQ(run(k), kHonest) << "killed before step " << k;

@@ -120,7 +120,7 @@ TEST_F(OneProcess, AnExceptionIsThatMembersDeath) {
   }
 }
 
-TEST_F(OneProcess, WhoTakesTheProcessAlongIsNamed) {
+TEST_F(OneProcess, AProgramThatTakesTheProcessAlongIsNamed) {
   const std::vector<std::pair<std::string, std::string>> deaths = {{"segfaults", "signal 11"},
                                                                    {"aborts", "signal 6"},
                                                                    {"overflows", "signal 11"},
@@ -141,7 +141,7 @@ TEST_F(OneProcess, WhoTakesTheProcessAlongIsNamed) {
   }
 }
 
-TEST_F(OneProcess, WhoEndsOrStopsTheProcessWithoutAWordIsNamed) {
+TEST_F(OneProcess, AProgramThatEndsOrStopsTheProcessWithoutAWordIsNamed) {
   if (!sanitizer().empty()) GTEST_SKIP() << "sanitizers take the end of a process, and its descriptors, for their own";
   const std::vector<std::pair<std::string, std::string>> deaths = {{"stops", "is stopped (SIGSTOP)"},
                                                                    {"closes", "closed file descriptors"},
@@ -173,7 +173,7 @@ TEST_F(OneProcess, DebugNamesWithoutAReaderAreRefusedAtOnce) {
   }
 }
 
-TEST_F(OneProcess, WhoIsKilledHasNoLastWords) {
+TEST_F(OneProcess, AProgramThatIsKilledHasNoLastWords) {
   const auto faults = write("faults.yaml", "faults:\n  - {at_s: 2, kill: jurong}\n");
   const auto last_words = [&](const std::string& name, const Arguments& more) {
     const std::string file = folder() / (name + ".txt");

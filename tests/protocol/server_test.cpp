@@ -93,7 +93,7 @@ TEST_F(OneMember, AnEpochLastsAsLongAsTheMembersStayTheSame) {
   EXPECT_EQ(step(), alone + 2);
 }
 
-TEST_F(OneMember, WhoIsLostWhileItIsOutIsNotLetBack) {
+TEST_F(OneMember, AMemberThatIsLostWhileItIsOutIsNotLetBack) {
   ASSERT_TRUE(joined_);
   server_.take_out("a", bus::kOrderKill);
   server_.lost("a", "it could not be started again");
@@ -154,7 +154,7 @@ TEST_P(GivenUp, AProgramThatIsStartedInItsPlaceJoinsLikeARestartedOne) {
   EXPECT_EQ(server_.take_lost().size(), 1U);
 }
 
-TEST_P(GivenUp, WhoJoinsAndIsLostAtOneBoundaryHasNotComeBack) {
+TEST_P(GivenUp, AMemberThatJoinsAndIsLostAtOneBoundaryHasNotComeBack) {
   const auto anew = bus_->join(7);
   bus::LockstepClient successor(*anew, client_inbox_, "b");
   successor.start();

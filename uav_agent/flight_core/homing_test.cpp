@@ -71,7 +71,7 @@ TEST(Homing, IsDueInTimeForTheWay) {
   }
 }
 
-TEST(Homing, WhoDeliversWhereItIsNeedNotLeave) {
+TEST(Homing, AUavThatDeliversWhereItIsNeedNotLeave) {
   ComingHome uav({40.0, 0.0, 10.0});
   uav.linked = true;
   uav.undelivered = 10;

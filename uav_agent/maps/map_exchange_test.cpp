@@ -98,7 +98,7 @@ TEST(MapExchange, LostMessagesOnlyTakeLonger) {
   EXPECT_LT(rounds, 80);
 }
 
-TEST(MapExchange, WhoAgreesSendsNoChunks) {
+TEST(MapExchange, AUavThatAgreesSendsNoChunks) {
   Fleet fleet;
   learn(fleet);
   for (int i = 0; i < 60; ++i) fleet.round();

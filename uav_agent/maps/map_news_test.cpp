@@ -47,7 +47,7 @@ TEST(MapNews, AllKnowTheSameInTheEndWhateverIsLostAndNoSecondHasMoreBytesThanItM
   }
 }
 
-TEST(MapNews, WhoStartsAnewIsToldEverythingAgainAndTellsAnew) {
+TEST(MapNews, AUavThatStartsAnewIsToldEverythingAgainAndTellsAnew) {
   constexpr int kDrawn = 10, kMost = 2000;
   for (std::uint64_t seed = 1; seed <= kDrawn; ++seed) {
     RandomStream random(seed, "news_restart", 0);
@@ -197,7 +197,7 @@ TEST(MapNews, IsToldOnceToAllAndNotBackAndPassedOnOnlyToThoseThatDoNotHearTheTel
   }
 }
 
-TEST(MapNews, WhoHasNothingToTellIsNearlySilent) {
+TEST(MapNews, AUavThatHasNothingToTellIsNearlySilent) {
   NewsRadio radio({}, 4);
   RandomStream random(4, "news_idle", 0);
   draw_space(*radio[0].map, random, Vector3d::Zero(), 30.0, 1000);

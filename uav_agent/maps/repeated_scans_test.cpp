@@ -14,7 +14,7 @@ Isometry3d pose(const Vector3d& p_W, double about_x, double about_z = 0.0) {
          Eigen::AngleAxisd(about_x, Vector3d::UnitX());
 }
 
-TEST(RepeatedScans, WhoHoversSaysEachThingOnce) {
+TEST(RepeatedScans, AUavThatHoversSaysEachThingOnce) {
   RepeatedScans scans(kWidthM);
   RandomStream random(1, "hover", 0);
   for (int round = 0; round < 5; ++round) {
@@ -26,7 +26,7 @@ TEST(RepeatedScans, WhoHoversSaysEachThingOnce) {
   }
 }
 
-TEST(RepeatedScans, WhoTurnsSaysSomethingNew) {
+TEST(RepeatedScans, AUavThatTurnsSaysSomethingNew) {
   RepeatedScans scans(kWidthM);
   for (int step = 0; step < 30; ++step) EXPECT_FALSE(scans.ask(pose(Vector3d::Zero(), 0.0, 0.05 * step)).all) << step;
   EXPECT_TRUE(scans.ask(pose(Vector3d::Zero(), 0.0, 0.5)).all);

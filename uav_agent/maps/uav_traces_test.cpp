@@ -128,7 +128,7 @@ TEST_F(UavTracesTest, WhatItCannotHaveBeenStays) {
   for (const Vector3d& hit_W : pole_W) EXPECT_FALSE(doubted(hit_W)) << "it is longer than a UAV";
 }
 
-TEST_F(UavTracesTest, WhoIsNeverHeardAgainStays) {
+TEST_F(UavTracesTest, AUavThatIsNeverHeardAgainStays) {
   const std::vector<Vector3d> hits_W = body({12.0, 0.0, 10.0});
   wait(Vector3d(10.0, 0.0, 10.0), 3.0);
   exchange(std::nullopt, hits_W);

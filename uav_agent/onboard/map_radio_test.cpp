@@ -161,7 +161,7 @@ TEST(MapRadio, WhatAnExplorerSeesAllKnowThoughTheirPlannersCallNothing) {
   }
 }
 
-TEST(MapRadio, WhoIsStartedAnewKnowsItAgain) {
+TEST(MapRadio, AUavThatIsStartedAnewKnowsItAgain) {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     for (const std::size_t restarted : {0U, 1U}) {
       Talkers talkers(2, seed, 0.3);

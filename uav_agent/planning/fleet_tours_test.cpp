@@ -144,7 +144,7 @@ TEST(FleetTours, LoadIsShared) {
   }
 }
 
-TEST(FleetTours, WhoHasWorkAheadGetsLess) {
+TEST(FleetTours, AUavThatHasWorkAheadGetsLess) {
   FleetTourProblem problem = random_problem(2, 40, 3);
   problem.ahead = {100.0, 0.0};
   const FleetTours tours = solve_fleet_tours(problem);

@@ -87,7 +87,7 @@ TEST(XxhErrand, IsUnderWayUntilAllChoicesCameToNothing) {
   EXPECT_FALSE(uav.errand.under_way());
 }
 
-TEST(XxhErrand, WhoWasCalledAwayChoosesAnew) {
+TEST(XxhErrand, AUavThatWasCalledAwayChoosesAnew) {
   Asked uav;
   uav.set_out(2);
   uav.flight.working = false;

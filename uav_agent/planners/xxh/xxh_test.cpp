@@ -53,7 +53,7 @@ std::size_t keeps_clear_of(std::size_t self, double after_s, bool forever) {
   return talk.trajectories({0, ticks(after_s), {}, {}, {}, map, boxes, peers, {}, false, 0, {}, {}}).size();
 }
 
-TEST(XxhTalk, WhoHasLessPriorityKeepsClearOfTheOthersTrajectoriesForAWhile) {
+TEST(XxhTalk, AUavThatHasLessPriorityKeepsClearOfTheOthersTrajectoriesForAWhile) {
   EXPECT_EQ(keeps_clear_of(1, 1.0, false), 1U) << "a photographer: of the explorer, not of the photographer behind it";
   EXPECT_EQ(keeps_clear_of(2, 1.0, false), 1U) << "the second explorer: of the first, not of any photographer";
   EXPECT_EQ(keeps_clear_of(1, 60.0, false), 0U);
