@@ -1,4 +1,4 @@
-// How the own address is found by the names of peers. Names that end in .invalid are nobody's (RFC 6761).
+// How the own address is found by the names of peers. Names that end in .invalid belong to no host (RFC 6761).
 #include "bus/reach.hpp"
 
 #include <dlfcn.h>
@@ -19,7 +19,7 @@
 
 namespace {
 
-/// Stands before the system's resolver: names that are nobody's get no answer before so many have been asked for.
+/// Stands before the system's resolver: names of no host get no answer before so many have been asked for.
 struct Resolver {
   std::mutex mutex;
   std::condition_variable asked_more;

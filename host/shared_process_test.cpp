@@ -30,7 +30,7 @@ class SharedProcessTest : public testing::Test {
     }
   }
   std::filesystem::path log_of(const std::string& program) const { return folder_.path() / (program + ".log"); }
-  /// Until nobody runs, or `end` comes.
+  /// Until no program runs, or `end` comes.
   std::vector<Event> hear(const std::string& end = "") {
     std::vector<Event> all;
     eventually([&] {

@@ -44,7 +44,7 @@ std::atomic<bool> Shared::gone = false;
     flies.enter();
     both.count_down();
     while (!Shared::gone) std::this_thread::yield();
-    std::raise(SIGSEGV);  // as whoever uses what is destroyed
+    std::raise(SIGSEGV);  // as a program that uses what is destroyed
   };
   const auto leave = [&] {
     leaves.enter();

@@ -77,8 +77,8 @@ class ReplayTest : public mcap::McapFiles {
   }
 
   Speech replay(const ReplayOptions& options, const Speech& now, std::vector<Difference>& differences) {
-    Recorder nobody(folder_, programs::kSimServer, Scope::none);
-    Replay replay(options, nobody);
+    Recorder idle(folder_, programs::kSimServer, Scope::none);
+    Replay replay(options, idle);
     Speech heard = hear(
         replay, now, [&](Tick tick) { replay.begin_step(tick); }, [&] { replay.end_step(); });
     differences = replay.differences().list();
@@ -169,8 +169,8 @@ class TellsOfItself : public ReplayTest {
     take(
         recorder, then_on, then, [&](Tick tick) { recorder.set_time(tick); }, [] {});
     recorder.close();
-    Recorder nobody(folder_, programs::kSimServer, Scope::none);
-    Replay replay({.file = part, .until_s = {}, .only = {}}, nobody);
+    Recorder idle(folder_, programs::kSimServer, Scope::none);
+    Replay replay({.file = part, .until_s = {}, .only = {}}, idle);
     Told heard = take(
         replay, now_on, now, [&](Tick tick) { replay.begin_step(tick); }, [&] { replay.end_step(); });
     differences_ = replay.differences().list().size();
@@ -203,8 +203,8 @@ TEST_F(TellsOfItself, ItsDebugValuesAreTakenAndComparedLikeCommands) {
 TEST_F(ReplayTest, AFileThatIsCutOffIsRefused) {
   const std::filesystem::path file = record(random_speech(1, 10));
   std::filesystem::resize_file(file, std::filesystem::file_size(file) - 9);
-  Recorder nobody(folder_, programs::kSimServer, Scope::none);
-  EXPECT_THROW(Replay({.file = file, .until_s = {}, .only = {}}, nobody), InputError);
+  Recorder idle(folder_, programs::kSimServer, Scope::none);
+  EXPECT_THROW(Replay({.file = file, .until_s = {}, .only = {}}, idle), InputError);
 }
 
 TEST(ReplayDifference, IsDescribedInWordsThatAnyFileCanHold) {

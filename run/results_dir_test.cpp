@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A folder to write to: a scratch folder itself is locked by whoever made it.
+/// A folder to write to: a scratch folder itself is locked by the test that made it.
 class OutDir {
  public:
   OutDir() { fs::create_directory(path_); }

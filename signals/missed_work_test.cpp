@@ -116,7 +116,7 @@ TEST_F(MissedWork, DecidesWhetherAUavPhotographsAgain) {
   EXPECT_EQ(outcome("photographs_again"), Outcome::fails) << "too late";
   fly(0.0);
   EXPECT_EQ(outcome("photographs_again"), Outcome::holds) << "it stands and waits: other properties ask for that";
-  run_.events.resize(2);  // nobody was ever away
+  run_.events.resize(2);  // no program was ever away
   EXPECT_EQ(outcome("photographs_again"), Outcome::vacuous);
 }
 

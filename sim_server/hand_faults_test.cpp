@@ -144,7 +144,7 @@ TEST_F(FaultsByHand, OneThatHasNotBegunLeavesNothing) {
   EXPECT_EQ(hand.obey(end(hand.open(next)[0].number), next), "");
   EXPECT_TRUE(hand.empty());
   EXPECT_TRUE(load(hand.file_text()).empty());
-  // Its number is nobody's: who asks once more does not end another one.
+  // No fault has its number now: a second request does not end another fault.
   EXPECT_EQ(hand.obey(begin(Kill{"changi"}), next), "");
   EXPECT_NE(hand.obey(end(0), next), "");
   EXPECT_EQ(hand.obey(end(1), next + period_), "");

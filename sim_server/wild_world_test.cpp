@@ -107,7 +107,7 @@ TEST_P(EveryWorld, FleetStartsAndTheExportFliesTheSame) {
   EXPECT_EQ(read.station_position, scenario_.station_position);
   ASSERT_EQ(read.fleet.size(), scenario_.fleet.size());
   for (std::size_t i = 0; i < read.fleet.size(); ++i) EXPECT_EQ(read.fleet[i].start, scenario_.fleet[i].start);
-  EXPECT_NO_THROW(Simulation(read, Scene(scene_), 0));  // starts are clear, and nobody is shut in
+  EXPECT_NO_THROW(Simulation(read, Scene(scene_), 0));  // starts are clear, and no UAV is shut in
   std::filesystem::remove_all(folder);
 }
 

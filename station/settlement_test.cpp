@@ -36,7 +36,7 @@ class Settlement : public testing::Test {
   const std::filesystem::path folder_ =
       std::filesystem::path(testing::TempDir()) / ("skein_settlement_" + std::to_string(::getpid()));
   Scenario scenario_;
-  StatusPipe nobody_{-1};
+  StatusPipe no_launcher_{-1};
 };
 
 TEST_F(Settlement, TheJournalIsTheReport) {
@@ -45,7 +45,7 @@ TEST_F(Settlement, TheJournalIsTheReport) {
   Journal(folder_ / "station.journal")
       .append(std::vector<TallyRecord>{record(2, UavIndex{0}, 0, 1, 0.5F), record(5, UavIndex{1}, 3, 1, 0.75F),
                                        record(9, UavIndex{1}, 4, 2, 0.25F)});
-  settle(folder_, scenario_, RunId::none, nobody_);
+  settle(folder_, scenario_, RunId::none, no_launcher_);
   EXPECT_EQ(report()["score"], 1.0);
   EXPECT_EQ(report()["points_detected"], 2);
   EXPECT_EQ(report()["score_by_uav"]["b"], 1.0);
@@ -67,7 +67,7 @@ TEST_F(Settlement, ACollisionThatTheStationDidNotHearOfVoidsTheScore) {
                                        record(9, UavIndex{1}, 4, 2, 0.25F)});
   for (const bool voids : {true, false}) {
     scenario_.rules.collision_voids_score = voids;
-    settle(folder_, scenario_, RunId::none, nobody_);
+    settle(folder_, scenario_, RunId::none, no_launcher_);
     EXPECT_EQ(report()["score"], voids ? 0.5 : 1.0);
     EXPECT_EQ(text("captures.csv").find("uav collided") != std::string::npos, voids);
   }
@@ -75,12 +75,12 @@ TEST_F(Settlement, ACollisionThatTheStationDidNotHearOfVoidsTheScore) {
 
 TEST_F(Settlement, WithoutAnythingDeliveredItIsEmpty) {
   std::ofstream(folder_ / "scene.json") << R"({"points": []})";
-  settle(folder_, scenario_, RunId::none, nobody_);
+  settle(folder_, scenario_, RunId::none, no_launcher_);
   EXPECT_EQ(report()["score"], 0.0);
 }
 
 TEST_F(Settlement, WithoutASceneThereIsNone) {
-  EXPECT_THROW(settle(folder_, scenario_, RunId::none, nobody_), std::runtime_error);
+  EXPECT_THROW(settle(folder_, scenario_, RunId::none, no_launcher_), std::runtime_error);
 }
 
 }  // namespace

@@ -43,8 +43,8 @@ class StationReport : public testing::Test {
   StationReport() {
     std::string pattern = (fs::temp_directory_path() / "skein-report-XXXXXX").string();
     folder_ = ::mkdtemp(pattern.data());
-    StatusPipe nobody(-1);
-    write_station_report(folder_, eventful_run(), {"jurong", "raffles", "changi"}, nobody,
+    StatusPipe no_launcher(-1);
+    write_station_report(folder_, eventful_run(), {"jurong", "raffles", "changi"}, no_launcher,
                          {.malformed = 3, .unsent = 2});
   }
   ~StationReport() override { fs::remove_all(folder_); }

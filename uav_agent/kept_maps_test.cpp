@@ -99,7 +99,7 @@ TEST_F(KeptMapsTest, AreInTheFileWhenTheProgramDies) {
   for (std::size_t i = 1; i <= 3; ++i) {
     test::draw_space(map, random, {0.0, 0.0, 10.0}, 20.0, 5);
     kept.keep(static_cast<Tick>(i) * kSecond, &map, none_);
-    EXPECT_EQ(snapshots(0, false).size(), i);  // nobody has closed it
+    EXPECT_EQ(snapshots(0, false).size(), i);  // it has not been closed
   }
 }
 

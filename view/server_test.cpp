@@ -131,7 +131,7 @@ TEST_F(ServerTest, TellsFollowersAndObeysThem) {
 TEST_F(ServerTest, TellsPointsAndMapsToWhoLooks) {
   const auto looks = follower(), other = follower();
   looks->send(frame(R"({"do":"look","lidar":["a"],"map":"b"})"));
-  EXPECT_TRUE(eventually([&] { return orders_ == 1; })) << "whoever sends them hears of it, too";
+  EXPECT_TRUE(eventually([&] { return orders_ == 1; })) << "the viewer who sends them hears of it, too";
   const auto has = [](const char* word) {
     return [word](const std::string& text) { return text.find(word) != std::string::npos; };
   };

@@ -152,7 +152,7 @@ class Storm : public ServerTest {
     }
     return text;
   }
-  /// What nobody hears who has no key.
+  /// What viewers without a key do not hear.
   static void expect_nothing_told(const std::string& answer, const std::string& to) {
     for (const char* secret : {"<p>the page</p>", "the_script()", "\"it\"", "root:", "HTTP/1.1 101", "Set-Cookie"}) {
       EXPECT_EQ(answer.find(secret), std::string::npos) << to << "\n" << answer;
@@ -327,7 +327,7 @@ TEST_F(Storm, ASlowReaderIsToldAllLinesAndFewStates) {
   EXPECT_LT(states, kStates / 10U) << "it was told what was new when it was ready";
 }
 
-// Nobody says goodbye: its machine has lost its power, or its network.
+// It does not close the connection: its machine has lost its power, or its network.
 TEST_F(Storm, ABrowserThatAnswersNoMoreIsLetGo) {
   serve({.silence = 400ms});
   const auto dead = follower();

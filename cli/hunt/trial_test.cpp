@@ -11,7 +11,7 @@
 namespace skein::cli {
 namespace {
 
-/// A mission of 20 s in which nothing happens: all programs take part, all links are open, nobody holds a capture.
+/// A mission of 20 s in which nothing happens: all programs take part, all links are open, no UAV holds a capture.
 class QuietMission final : public properties::RunSignals {
  public:
   const std::vector<double>& values(const SignalUse& signal) override { return signal.is("held") ? none_ : all_; }

@@ -177,7 +177,7 @@ TEST(StudyPage, TablesSayWhatTheFlightsSay) {
   }
 }
 
-/// In each scene's table all planners with the best median, and nobody else; the first UAV of a planner begins a group.
+/// In each scene's table all planners with the best median, and no other; the first UAV of a planner begins a group.
 TEST(StudyPage, TheBestIsMarkedAndPlannersAreApart) {
   std::mt19937 random(7);
   std::size_t marked = 0, groups = 0;
@@ -314,7 +314,7 @@ TEST(StudyPage, SaysWhoIsAheadAndHowToMakeItAgain) {
   EXPECT_EQ(page_of(a_study(false)).find("Ranking"), std::string::npos);
 }
 
-// Scenes differ in size: whoever has most of a small one and less of a large one must not fall behind by sums.
+// Scenes differ in size: sums must not rank a planner low that has most of a small one and less of a large one.
 TEST(StudyPage, OverAllScenesAComparisonGoesByShares) {
   const auto page_with = [](bool contest, bool known) {
     Study study = a_study(contest);

@@ -256,7 +256,7 @@ TEST_F(ScenarioReader, AFleetMayBeOfAnotherSize) {
     for (std::size_t i = 0; i < uavs; ++i) {
       EXPECT_EQ(fleet[i].name, i < 5 ? whole[i].name : whole[i - 5].name + "2");
       EXPECT_EQ(fleet[i].vehicle.role, whole[i % 5].vehicle.role);
-      EXPECT_EQ(fleet[i].start, more[i].start) << "whoever else flies";
+      EXPECT_EQ(fleet[i].start, more[i].start) << "in a fleet of any size";
     }
   }
   for (const auto& [uavs, reason] : {std::pair(0, "--uavs"), {129, "--uavs"}, {9, "the scene has places for 8 UAVs"}}) {

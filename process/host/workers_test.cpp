@@ -29,7 +29,7 @@ TEST_P(WorkersTest, EachPieceIsDoneOnceWhateverItsLength) {
     const std::size_t count = random.bits() % 40;
     std::vector<int> lengths(count);
     for (int& length : lengths) length = static_cast<int>(random.bits() % 3000);
-    std::vector<std::uint64_t> done(count);  // written without a lock: nobody else has a piece
+    std::vector<std::uint64_t> done(count);  // written without a lock: no other thread has a piece
     workers.run(count, [&](std::size_t i) { done[i] += mixed(i, lengths[i]); });
     for (std::size_t i = 0; i < count; ++i) ASSERT_EQ(done[i], mixed(i, lengths[i])) << job << " " << i;
   }

@@ -59,8 +59,8 @@ TEST_F(ProgramReport, MayHaveTextsThatAreNoUtf8) {
 }
 
 TEST_F(ProgramReport, WithoutALauncherItIsAnErrorNotASilentLoss) {
-  StatusPipe nobody(-1);
-  EXPECT_THROW(hand_in_report({{"score", 7}}, file_ / "below", nobody), std::runtime_error);
+  StatusPipe no_launcher(-1);
+  EXPECT_THROW(hand_in_report({{"score", 7}}, file_ / "below", no_launcher), std::runtime_error);
 }
 
 }  // namespace

@@ -26,7 +26,7 @@ constexpr std::array kTypes = {Field::INT8,   Field::UINT8, Field::INT16,  Field
                                Field::UINT32, Field::INT64, Field::UINT64, Field::FLOAT32, Field::FLOAT64};
 
 /// A cloud with the needed fields, floats or doubles, among others of all types and sizes, in any order and with gaps
-/// between them. What nobody asks for has any bits, NaN too.
+/// between them. Fields that no reader asks for have any bits, NaN too.
 class DrawnCloud {
  public:
   explicit DrawnCloud(std::uint64_t seed) : draw_(seed, "point_file_pcl_test", 0) {

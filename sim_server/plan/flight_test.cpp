@@ -1,4 +1,4 @@
-// Plans can be flown: in the simulation they score about what they say, and nobody collides.
+// Plans can be flown: in the simulation they score about what they say, and no UAV collides.
 #include <gtest/gtest.h>
 
 #include "scenes/scene_source.hpp"

@@ -41,7 +41,7 @@ TEST_F(ActivityLogTest, HasALineForWhatIsNewAndNoNumbersThatDiffer) {
   Simulation simulation(scenario_, {}, 0);
   const std::string head = "step,time_s,uav,mode,goal_x,goal_y,goal_z,waits_for,no_way\n";
   ActivityLog log(folder_, scenario_);
-  EXPECT_EQ(text(), head) << "whoever is killed leaves a table without rows";
+  EXPECT_EQ(text(), head) << "a server that is killed leaves a table without rows";
   Activity activity{.mode = "takes off", .goal_W = Vector3d(1.0, 2.25, -0.5)};
   EXPECT_TRUE(log.add(simulation, kJurong, activity));
   EXPECT_TRUE(log.add(simulation, kChangi, {.mode = "on the ground", .waits_for = "jurong", .no_way = "no way"}));

@@ -53,8 +53,8 @@ TEST_F(RunFilesTest, TheReportTellsPairTimeAndPlace) {
   RunDigest digest(scenario_.uav_names());
   RunSummary summary;
   summary.collisions = {with_uav_, with_structure_};
-  StatusPipe nobody(-1);
-  RunFiles(folder, scenario_, digest).write_report(simulation, summary, nobody);
+  StatusPipe no_launcher(-1);
+  RunFiles(folder, scenario_, digest).write_report(simulation, summary, no_launcher);
   const auto report = nlohmann::json::parse(std::ifstream(folder / "sim_server.report.json"));
   const auto expected = nlohmann::json::parse(R"([
       {"time_s": 1.0, "uav": "jurong", "with": "changi", "position": [1.0, 2.0, 3.0]},
@@ -72,8 +72,8 @@ TEST_F(RunFilesTest, APoseEveryTenthOfASecondAndADigestEveryExchange) {
     files.add_step(simulation, {.k = simulation.step(), .running = "r" + std::to_string(k), .fields = {"x", "y"}});
     simulation.advance();
   }
-  StatusPipe nobody(-1);
-  files.write_report(simulation, {}, nobody);
+  StatusPipe no_launcher(-1);
+  files.write_report(simulation, {}, no_launcher);
   const auto lines = [&](const char* name) {
     std::ifstream in(folder_ / name);
     std::vector<std::string> all;
@@ -141,19 +141,19 @@ TEST_F(RunFilesTest, TheReportNamesWhoWasLostWhatWasSeenAndWhatIsMissing) {
   RunSummary summary;
   summary.lost = {{.name = "jurong", .step = 3, .tick = 400, .reason = "it ended"},
                   {.name = "changi", .step = 5, .tick = 800, .reason = "killed", .back = Tick{1200}}};
-  StatusPipe nobody(-1);
+  StatusPipe no_launcher(-1);
   RunFiles files(folder_, scenario_, RunDigest(scenario_.uav_names()));
   std::filesystem::create_directory(folder_ / "scene.json");  // so that the server cannot write the file
   files.write_scene(scene);
   files.note_unwritten("");
   files.note_unwritten("the disk is full");
-  files.write_report(simulation, summary, nobody);
+  files.write_report(simulation, summary, no_launcher);
   const auto report = nlohmann::json::parse(std::ifstream(folder_ / "sim_server.report.json"));
   EXPECT_EQ(report["lost_members"], nlohmann::json::parse(R"([
       {"member": "jurong", "step": 3, "time_s": 1.0, "reason": "it ended", "back_at_s": null},
       {"member": "changi", "step": 5, "time_s": 2.0, "reason": "killed", "back_at_s": 3.0}])"));
   EXPECT_EQ(report["points_total"], 3);
-  EXPECT_EQ(report["points_seen"], "000") << "nobody took a picture";
+  EXPECT_EQ(report["points_seen"], "000") << "no_launcher took a picture";
   ASSERT_EQ(report["unwritten"].size(), 2u) << report["unwritten"];
   EXPECT_NE(report["unwritten"][0].get<std::string>().find("scene.json"), std::string::npos) << report["unwritten"];
   EXPECT_EQ(report["unwritten"][1], "the disk is full");
@@ -176,8 +176,8 @@ TEST_F(RunFilesTest, AUavIsGroundedIfItLandsWithLittleMoreThanItsReserve) {
     fly(up_s, 1.5, 0.0);
     fly(up_s + 4.0, 0.05, -1.0);
     EXPECT_FALSE(simulation.uav(UavIndex{0}).airborne);
-    StatusPipe nobody(-1);
-    RunFiles(folder_, scenario_, RunDigest(scenario_.uav_names())).write_report(simulation, {}, nobody);
+    StatusPipe no_launcher(-1);
+    RunFiles(folder_, scenario_, RunDigest(scenario_.uav_names())).write_report(simulation, {}, no_launcher);
     const auto report = nlohmann::json::parse(std::ifstream(folder_ / "sim_server.report.json"));
     EXPECT_EQ(report["uavs"][1]["battery"]["grounded"], false) << "it has never flown";
     return report["uavs"][0]["battery"]["grounded"].get<bool>();
@@ -195,8 +195,8 @@ TEST_F(RunFilesTest, APoseHasAValueForEachColumn) {
   const Simulation simulation(scenario_, {}, 0);
   RunFiles files(folder_, scenario_, RunDigest(scenario_.uav_names()));
   files.add_step(simulation, {.k = 0, .running = "r", .fields = {}});
-  StatusPipe nobody(-1);
-  files.write_report(simulation, {}, nobody);
+  StatusPipe no_launcher(-1);
+  files.write_report(simulation, {}, no_launcher);
   std::ifstream in(folder_ / "trajectories.csv");
   const auto fields_of = [&in] {
     std::string line, field;
@@ -241,8 +241,8 @@ TEST_F(RunFilesTest, APoseHasTheChargeWhereThereAreBatteries) {
     }
     RunFiles files(folder_, scenario_, RunDigest(scenario_.uav_names()));
     files.add_step(simulation, {.k = 20, .running = "r", .fields = {}});
-    StatusPipe nobody(-1);
-    files.write_report(simulation, {}, nobody);
+    StatusPipe no_launcher(-1);
+    files.write_report(simulation, {}, no_launcher);
     const auto battery = simulation.uav(UavIndex{0}).battery;
     std::ifstream in(folder_ / "trajectories.csv");
     std::string columns, row;
@@ -265,8 +265,8 @@ TEST_F(RunFilesTest, TheReportNamesOnlyTheFileThatTheDiskRefuses) {
     std::filesystem::create_directories(folder_);
     std::filesystem::create_symlink("/dev/full", folder_ / full);
     const Simulation simulation(scenario_, {}, 0);
-    StatusPipe nobody(-1);
-    RunFiles(folder_, scenario_, RunDigest(scenario_.uav_names())).write_report(simulation, {}, nobody);
+    StatusPipe no_launcher(-1);
+    RunFiles(folder_, scenario_, RunDigest(scenario_.uav_names())).write_report(simulation, {}, no_launcher);
     const auto report = nlohmann::json::parse(std::ifstream(folder_ / "sim_server.report.json"));
     ASSERT_EQ(report["unwritten"].size(), 1u) << report;
     EXPECT_NE(report["unwritten"][0].get<std::string>().find(full), std::string::npos) << report["unwritten"];

@@ -159,7 +159,7 @@ TEST_F(WorkLogTest, SurfaceIsMappedOnceByMatesThatHearEachOther) {
   fly(40.0, both(0.0));
   const double first = done(0) + done(1);
   EXPECT_GT(first, 10.0) << "the wall, and what they see of it from a little higher and lower";
-  EXPECT_GT(std::max(done(0), done(1)), 2.0 * std::min(done(0), done(1)) + 1.0) << "whoever was first has it";
+  EXPECT_GT(std::max(done(0), done(1)), 2.0 * std::min(done(0), done(1)) + 1.0) << "the UAV that was first has it";
   fly(40.0, both(1.0));
   EXPECT_LT(done(0, 42) + done(1, 42), 0.2 * first) << "what is known is no work";
 }

@@ -73,7 +73,7 @@ TEST_F(Wild, FleetsLeaveCrowdedStarts) {
   }
 }
 
-/// Worlds in which nobody has tuned a planner, drawn anew each time.
+/// Worlds in which no planner has been tuned, drawn anew each time.
 TEST_F(Wild, AllPlannersFlyInDrawnWorlds) {
   if (!long_tests()) GTEST_SKIP() << "takes minutes: SKEIN_LONG=1";
   std::mt19937 draw{std::random_device{}()};

@@ -64,7 +64,7 @@ struct FleetOptions {
   bool leftovers = false;
   /// In this step "a" destroys its radio writer, although it has declared it.
   std::optional<std::uint64_t> closes_writer = {};
-  /// In this step "a" announces a radio message that reaches nobody.
+  /// In this step "a" announces a radio message that reaches no member.
   std::optional<std::uint64_t> announces_too_much = {};
   /// In this step the next sample of a topic in this domain is lost on the way to all its readers.
   struct Loss {

@@ -104,7 +104,7 @@ async function checkLive(page, run) {
   await page.select('#follow', '0');
   const followed = await look();
   expect(followed !== outside, 'the view does not follow a UAV');
-  expect(await page.$eval('#through', (box) => box.disabled) === !run.scene.cameras, 'cameras are offered that nobody knows, or known ones are not');
+  expect(await page.$eval('#through', (box) => box.disabled) === !run.scene.cameras, 'cameras are offered that are not known, or known ones are not');
   if (run.scene.cameras) {
     await page.click('#through');
     expect((await look()) !== followed, 'the view is not that of the camera');

@@ -51,8 +51,8 @@ await page.reload();  // so that the spy sees all messages
 await pausedByItself(page);
 await letGo(page);
 await eventually(() => told.frames > 30, 'news of the flight');
-expect(told.clouds === 0, 'there are points or maps, and nobody looks');
-expect(await note() === '', `nobody looks, and the page says ${await note()}`);
+expect(told.clouds === 0, 'there are points or maps, and no viewer looks');
+expect(await note() === '', `no viewer looks, and the page says ${await note()}`);
 
 await choose('speed', '0.5');  // so that the run does not end before the checks
 await choose('lidar-of', 'all');
@@ -60,7 +60,7 @@ await choose('map-of', 'jurong');
 await eventually(() => count('lidar') >= 10 && told.points.length > 1500, 'LiDAR points');
 await eventually(() => (told.newest.get('map jurong')?.steps?.[0].runs.length ?? 0) > 2000, 'a map of some size');
 expect(told.names.has('lidar jurong') && told.names.has('lidar raffles'), 'not all explorers have points');
-expect(![...told.names.keys()].some((name) => /sentosa|map raffles/.test(name)), 'there is what nobody asked for');
+expect(![...told.names.keys()].some((name) => /sentosa|map raffles/.test(name)), 'there is what no viewer asked for');
 const each = told.bytes / [...told.names.values()].reduce((sum, times) => sum + times, 0);  // a busy machine joins some
 expect(each < kMostBytes, `points or a map have ${each} bytes`);
 expect(told.newest.get('map jurong').kind === 'what it flies on', 'it is another map');

@@ -14,7 +14,7 @@ const result = JSON.parse(readFileSync(path.join(run, 'result.json'), 'utf8'));
 const browser = await openBrowser(web, chromium);
 
 async function checkLosses(page) {
-  if (!result.losses) return expect(await lossesOf(page) === null, 'it tells of losses that nobody knows');
+  if (!result.losses) return expect(await lossesOf(page) === null, 'it tells of losses that are not known');
   const shown = await page.$eval('#losses', (panel) => panel.innerText).catch(() => '');
   for (const {points, score} of Object.values(result.losses)) {
     if (points > 0) expect(shown.includes(`${points}\t${(-score).toFixed(1)}`), `the losses lack ${points} points, ${-score}: ${shown}`);

@@ -62,7 +62,7 @@ for (const seconds of [9.5, 12, 19.9, 20, 25, 38, 45, 52, 60]) {
   const count = lengths.reduce((sum, length) => sum + length, 0);
   expect(cubes === count, `at ${seconds} s there are ${cubes} cubes, and not ${count}`);
 }
-expect(!isServed || told.map !== null, 'nobody was told a map');
+expect(!isServed || told.map !== null, 'no viewer was told a map');
 expect(new Set(shown.map(({time}) => time)).size >= 4, `there are too few maps: ${JSON.stringify(shown)}`);
 const cubes = shown.map((one) => one.cubes);
 expect(cubes.at(-1) > 1.5 * cubes[0] && cubes[0] > 0, `it does not grow: ${cubes}`);

@@ -18,7 +18,7 @@ AgentConfig a_lone_explorer() {
   return agent;
 }
 
-/// A strategy that wants one place after the other: most of them inside structure, or where nobody proves anything.
+/// A strategy that wants one place after the other: most of them inside structure, or where no beam proves anything.
 struct WantsOnePlaceAfterTheOther : CoreUav {
   explicit WantsOnePlaceAfterTheOther(std::uint64_t seed)
       : CoreUav(a_lone_explorer(), {0.0, 0.0, 10.0}), random(seed, "outcomes", 0) {
@@ -90,7 +90,7 @@ TEST(FlightCore, EachOutcomeIsHeardWhenTheStrategyDecides) {
   }
 }
 
-// Its strategy wants another place out there every 1.5 s, and nobody proves the way: it looks around and tries
+// Its strategy wants another place out there every 1.5 s, and no beam proves the way: it looks around and tries
 // elsewhere all the same, and the strategy is told.
 TEST(FlightCore, AUavThatIsHeldRecoversAlthoughItsGoalsAreReplaced) {
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {

@@ -52,7 +52,7 @@ struct InARoom : CoreUav {
   Doing::What doing = Doing::What::ground;
 };
 
-// Nobody proves the space between its room and the station.
+// No beam proves the space between its room and the station.
 TEST(GoingHome, AUavThatFindsNoWayHomeGoesBackToWork) {
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     RandomStream random(seed, "no_way_home", 0);

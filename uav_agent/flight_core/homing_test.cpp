@@ -56,7 +56,7 @@ TEST(Homing, ThatWasGivenUpIsNotDueAgainAtOnceButInTheEnd) {
   EXPECT_TRUE(uav.homing.due(uav.input()));
 }
 
-// The farther off it is, the earlier; and nobody counts on flying faster than approach_mps.
+// The farther off it is, the earlier; and no UAV counts on flying faster than approach_mps.
 TEST(Homing, IsDueInTimeForTheWay) {
   for (std::uint64_t seed = 1; seed <= 50; ++seed) {
     RandomStream random(seed, "way_home", 0);

@@ -67,7 +67,7 @@ TEST(Navigator, TakesTheFirstGoalToWhichThereIsAWay) {
   }
 }
 
-// Nobody proves what is there, and it cannot wait for ever.
+// No beam proves what is there, and it cannot wait for ever.
 TEST(Navigator, GivesUpWhatIsNeverProved) {
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
     RandomStream random(seed, "never", 0);
@@ -122,7 +122,7 @@ TEST(Navigator, AWayMayChangeWhileItIsFlown) {
   }
 }
 
-// Without its LiDAR nobody proves what it would fly through: it asks for ways through what is known, and says at once
+// Without its LiDAR no beam proves what it would fly through: it asks for ways through what is known, and says at once
 // where there is none. When the LiDAR is back, so is the old way of planning.
 TEST(Navigator, WithoutItsLidarItPlansThroughProvedSpaceAlone) {
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {

@@ -144,7 +144,7 @@ TEST(SafetyFilter, LeavesAPlaceWithLittleRoomSlowly) {
   }
 }
 
-// Nobody has a LiDAR: boxes are all that is known, and nobody flies into one.
+// No UAV has a LiDAR: boxes are all that is known, and no UAV flies into one.
 TEST(SafetyFilter, ABlindFleetKeepsOutOfBoxes) {
   double flown_m = 0.0;
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {

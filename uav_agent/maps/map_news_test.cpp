@@ -255,10 +255,10 @@ TEST(MapNews, NothingIsTakenOfWhatIsDamagedOrForeign) {
   WorldMap::Config larger;
   larger.cell_m = 0.75;
   WorldMap other(larger);
-  PayloadReader of_other(whole), of_self(whole), of_nobody(whole), right(whole);
+  PayloadReader of_other(whole), of_self(whole), of_none(whole), right(whole);
   EXPECT_FALSE(news.read(0, 1, other, of_other)) << "cubes of another size";
   EXPECT_FALSE(news.read(1, 1, map, of_self));
-  EXPECT_FALSE(news.read(2, 1, map, of_nobody));
+  EXPECT_FALSE(news.read(2, 1, map, of_none));
   EXPECT_TRUE(map.regions().empty() && other.regions().empty());
   EXPECT_TRUE(news.read(0, 1, map, right));
   EXPECT_TRUE(right.at_end());

@@ -217,7 +217,7 @@ TEST_F(UavTracesTest, AUavThatReportsNoVelocitiesIsHeardAfterAGapHoweverFastItIs
   }
 }
 
-// Nobody flies so fast.
+// No UAV flies so fast.
 TEST_F(UavTracesTest, AUavThatReportsNoVelocitiesAndJumpsIsDoubted) {
   for (int drawn = 0; drawn < 10; ++drawn) {
     map_ = WorldMap(WorldMap::Config());

@@ -92,7 +92,7 @@ class Talkers {
     return most;
   }
 
-  /// From now on nobody hears this UAV, and it hears nobody.
+  /// From now on this UAV neither sends nor receives messages.
   void hide(std::size_t uav) { hidden_ = uav; }
   void show() { hidden_.reset(); }
   /// A thing of half a metre, which the LiDAR sees.

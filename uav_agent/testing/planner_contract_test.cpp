@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kTouchM = kExplorerRadiusM + 0.3;  ///< to structure: the larger body, and a little
 constexpr double kSmallestGapM = 0.3;               ///< between two bodies
-constexpr double kUnmeasuredM = 1e3;                ///< a distance that nobody flew in
+constexpr double kUnmeasuredM = 1e3;                ///< a distance that no UAV flew in
 
 /// A file of drawn commands: up, and then anything.
 std::string hands_of_anybody() {
@@ -61,7 +61,7 @@ class EveryPlanner : public testing::TestWithParam<std::string> {
   }
   /// Without that, keeping clear of everything is no merit.
   static void expect_all_flew(const TestWorld& world, std::size_t uavs) {
-    if (GetParam() == "learner") {  // nobody tells it anything here
+    if (GetParam() == "learner") {  // no program commands it here
       for (const UavIndex uav : FirstUavs(uavs)) EXPECT_LT(world.highest_m(uav), 1.0) << "uav" << uav;
       return;
     }
@@ -125,7 +125,7 @@ TEST_P(EveryPlanner, PeersThatNeverSayAWord) {
   expect_all_flew(silent, 4);
 }
 
-/// Nobody sees anybody, so nobody can give way: all else holds, of every one of them.
+/// No UAV sees another one, so none can give way: all else holds, of every one of them.
 TEST_P(EveryPlanner, NoRadioAtAll) {
   TestScene scene = two_towers();
   scene.radio = false;

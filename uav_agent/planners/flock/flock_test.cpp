@@ -167,8 +167,8 @@ TEST(FlockSurfaces, WhatTheCameraCannotLookAtIsLeftOutForATime) {
   EXPECT_EQ(uav.told_faces(), 0U);
 }
 
-/// A UAV that takes boxes for structure, because it flies without a map, tells nobody so: others know better. In a
-/// fleet that has no LiDAR at all, all UAVs take them for structure.
+/// A UAV that takes boxes for structure, because it flies without a map, tells no other UAV so: others know better. In
+/// a fleet that has no LiDAR at all, all UAVs take them for structure.
 TEST(FlockSurfaces, BoxesTakenForStructureAreNotToldToThoseWhoSee) {
   BeforeAWall uav;
   const auto occupied = [](const VoxelGrid& grid) {

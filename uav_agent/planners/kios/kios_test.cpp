@@ -227,7 +227,7 @@ TEST(Kios, PhotographersWaitUntilTheExplorersHaveFlownTheirLanes) {
   EXPECT_GT((world.position(1) - waits).norm(), 3.0);
 }
 
-// An explorer that has not come to the end of its lanes keeps nobody on the ground for long.
+// An explorer that has not come to the end of its lanes keeps no UAV on the ground for long.
 TEST(Kios, PhotographersWaitNoLongerThanTheyAreAskedTo) {
   TestWorld patient(two_towers(), test_fleet(3), "kios:map_mps=0.5", 120.0);
   TestWorld hasty(two_towers(), test_fleet(3), "kios:map_mps=0.5,wait_s=5", 120.0);

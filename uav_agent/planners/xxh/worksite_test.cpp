@@ -117,7 +117,7 @@ TEST(XxhWorksite, WithoutAMapItBeginsAtTheTopAndSharesNothing) {
   EXPECT_FALSE(at.site.is_solid()) << "another region, another map";
 }
 
-/// A region's map is taken in from who is at the same region and began it at the same end, and from nobody else.
+/// A UAV takes in a region's map only from UAVs at the same region that began it at the same end.
 TEST(XxhTalk, MapsOfOtherRegionsAreNotTakenIn) {
   AgentConfig self, other;
   for (const TestUav& uav : test_fleet(2)) self.fleet.push_back({uav.name, uav.role, {0.0, 0.0, 0.0}, 0.5});
