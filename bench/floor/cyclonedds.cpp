@@ -1,4 +1,5 @@
-// The floor on Eclipse Cyclone DDS's C API, with Cyclone's serialiser for a type that is one sequence of octets.
+// Implements the benchmark's baseline (floor.hpp) with Eclipse Cyclone DDS's C API, and with Cyclone's serialiser for a
+// type that is one sequence of octets.
 #include <dds/dds.h>
 
 #include <array>

@@ -1,4 +1,4 @@
-// The floor on eProsima Fast DDS's C++ API.
+// Implements the benchmark's baseline (floor.hpp) with eProsima Fast DDS's C++ API.
 #include <fastdds/dds/domain/DomainParticipant.hpp>
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
 #include <fastdds/dds/publisher/DataWriter.hpp>

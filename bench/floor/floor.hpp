@@ -1,5 +1,6 @@
-// The floor: the lower bound of what lock-step rounds cost over a DDS vendor. The same processes exchange the same
-// messages in the same order over the vendor's own API, without counting, inbox, codec, physics or planner.
+// The floor is the baseline of `skein bench`: the least that lock-step rounds cost over a DDS vendor. The same
+// processes exchange the same messages in the same order over the vendor's own API, without counting, inbox, codec,
+// physics or planner.
 #pragma once
 
 #include <cstdint>

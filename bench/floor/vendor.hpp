@@ -1,5 +1,5 @@
-// Interface of a DDS vendor for the floor: endpoints that transport bytes. Each vendor's file implements it directly on
-// the vendor's own API, with listeners; from Skein it uses only the settings (QoS, loopback, leases).
+// Interface of a DDS vendor for the baseline (floor.hpp): endpoints that transport bytes. Each vendor's file implements
+// it directly with the vendor's own API and listeners; from Skein it uses only the settings (QoS, loopback, leases).
 #pragma once
 
 #include <chrono>
