@@ -19,12 +19,15 @@ namespace {
 constexpr std::size_t kMostFaults = 6;
 constexpr double kShortest_s = 0.1, kLongest_s = 40.0;
 /// Motor failures are short and weak: no planner can save a vehicle that lacks the thrust to stay in the air.
-constexpr double kLongestFall_s = 2.0, kLeastThrust = 0.6;
-constexpr double kLongestLie_s = 12.0;  ///< longest fault of odometry, for a similar reason
-constexpr double kShareOfWaiting = 0.2, kShareOfAllNodes = 0.4, kShareOfAllTopics = 0.5;
-constexpr double kShareOfGround = 0.4;    ///< of the programs to kill or pause: every UAV depends on these
-constexpr double kShareOfForGood = 0.15;  ///< share of kills of a UAV's program that have no end
-/// Share of faults that are repeated: a defect that shows only at one instant in ten is then found sooner.
+constexpr double kLongestMotorFailure_s = 2.0, kLeastThrust = 0.6;
+/// Longest fault of odometry: no planner can save a vehicle that has flown by a wrong position for too long.
+constexpr double kLongestOdometryFault_s = 12.0;
+constexpr double kShareOfWaiting = 0.2;  ///< share of faults that begin on a condition instead of at a time
+/// Shares of link faults that apply to all senders, to all receivers (each), and to all topics.
+constexpr double kShareOfAllNodes = 0.4, kShareOfAllTopics = 0.5;
+constexpr double kShareOfGroundPrograms = 0.4;  ///< of kills and pauses: every UAV depends on the ground programs
+constexpr double kShareOfKillsForGood = 0.15;   ///< share of kills of a UAV's program that have no end
+/// Share of faults that are repeated, so that a hunt finds a defect sooner if it shows only at one instant in ten.
 constexpr double kShareOfRepeated = 0.2, kLeastInterval_s = 2.0, kLongestInterval_s = 12.0;
 
 /// Kinds are drawn in proportion to their weights: programs and radio can fail in more ways than the rest.
@@ -38,6 +41,7 @@ constexpr Kind kKinds[] = {{"link", 4},          {"partition", 2},     {"blackou
                            {"stuck_gimbal", 1},  {"gust", 2},          {"fix_loss", 2},        {"battery_loss", 1},
                            {"conditions", 2}};
 
+/// Faults that change the conditions of the run (weather_faults.hpp).
 constexpr std::string_view kWeather[] = {"gust", "fix_loss", "battery_loss", "conditions"};
 
 bool chance(RandomStream& draw, double share) { return draw.uniform() < share; }
@@ -45,17 +49,17 @@ const std::string& one_of(const std::vector<std::string>& names, RandomStream& d
   return names[below(draw, names.size())];
 }
 double rounded(double value, double step) { return std::round(value / step) * step; }
-/// Draws a length [s]: mostly short, sometimes long.
+/// Draws a duration [s]: mostly short, sometimes long.
 double length(RandomStream& draw, double longest_s) {
   const double u = draw.uniform();
   return tenths(kShortest_s + (longest_s - kShortest_s) * u * u);
 }
 
 double longest_of(const Fault& fault) {
-  if (std::holds_alternative<MotorFailure>(fault.action)) return kLongestFall_s;
-  const bool lies =
+  if (std::holds_alternative<MotorFailure>(fault.action)) return kLongestMotorFailure_s;
+  const bool is_of_odometry =
       std::holds_alternative<OdometryFreeze>(fault.action) || std::holds_alternative<OdometryJump>(fault.action);
-  return lies ? kLongestLie_s : kLongest_s;
+  return is_of_odometry ? kLongestOdometryFault_s : kLongest_s;
 }
 
 bool is_for_good(const Fault& fault) { return !fault.waits && !fault.until_s; }
@@ -98,7 +102,7 @@ FaultMaker::FaultMaker(const Scenario& scenario, FaultSpace space)
   if (space_.ground_program) ground_programs_.push_back(scenario.node_name(kStationNode));
   std::set<std::string> topics;
   for (const RadioRoute& route : radio_routes(scenario)) {
-    topics.insert(route.ros_topic.substr(0, route.ros_topic.find('/', 1)));  // "/captures" means "/captures/changi"
+    topics.insert(route.ros_topic.substr(0, route.ros_topic.find('/', 1)));  // "/captures" includes "/captures/changi"
   }
   topics_.assign(topics.begin(), topics.end());
 }
@@ -112,9 +116,9 @@ FaultMaker FaultMaker::under(const std::string& conditions) const {
 const std::string& FaultMaker::uav(RandomStream& draw) const { return one_of(uavs_, draw); }
 const std::string& FaultMaker::node(RandomStream& draw) const { return one_of(nodes_, draw); }
 const std::string& FaultMaker::program(RandomStream& draw) const {
-  return chance(draw, kShareOfGround) ? one_of(ground_programs_, draw) : uav(draw);
+  return chance(draw, kShareOfGroundPrograms) ? one_of(ground_programs_, draw) : uav(draw);
 }
-bool FaultMaker::is_death(const Fault& fault) const {
+bool FaultMaker::kills_uav_program(const Fault& fault) const {
   const auto* kill = std::get_if<Kill>(&fault.action);
   return kill != nullptr && std::ranges::find(uavs_, kill->member) != uavs_.end();
 }
@@ -215,7 +219,7 @@ void FaultMaker::place(Fault& fault, RandomStream& draw) const {
   fault.when.reset();
   fault.for_s.reset();
   fault.until_s = space_.heal_by_s;
-  if (!fault.waits && is_death(fault) && chance(draw, kShareOfForGood)) {
+  if (!fault.waits && kills_uav_program(fault) && chance(draw, kShareOfKillsForGood)) {
     fault.until_s.reset();
     return;
   }
@@ -229,7 +233,7 @@ void FaultMaker::place(Fault& fault, RandomStream& draw) const {
 
 void FaultMaker::end_in_time(Fault& fault) const {
   fault.at_s = std::clamp(fault.at_s, 0.0, space_.heal_by_s - shortest_s_);
-  if (is_for_good(fault) && is_death(fault)) return;
+  if (is_for_good(fault) && kills_uav_program(fault)) return;
   if (fault.waits) {
     fault.until_s = space_.heal_by_s;
     fault.for_s = std::max(shortest_s_, *fault.for_s);
@@ -239,8 +243,8 @@ void FaultMaker::end_in_time(Fault& fault) const {
   fault.until_s = std::max(earliest_s, std::min(fault.until_s.value_or(earliest_s), space_.heal_by_s));
 }
 
-std::optional<Fault> FaultMaker::any(RandomStream& draw) const {
-  std::vector<std::string> lots;
+std::optional<Fault> FaultMaker::any_fault(RandomStream& draw) const {
+  std::vector<std::string> lots;  // each possible kind, as often as its weight
   for (const Kind& kind : kKinds) {
     const bool wanted = std::ranges::find(space_.kinds, kind.name) != space_.kinds.end();
     if (!wanted || !is_possible(kind.name, conditions_)) continue;
@@ -255,7 +259,7 @@ std::optional<Fault> FaultMaker::any(RandomStream& draw) const {
 std::vector<Fault> FaultMaker::schedule(RandomStream& draw) const {
   std::vector<Fault> faults;
   for (std::size_t left = 1 + below(draw, 4); left > 0; --left) {
-    const std::optional<Fault> fault = any(draw);
+    const std::optional<Fault> fault = any_fault(draw);
     if (!fault) return {};
     faults.push_back(*fault);
     if (chance(draw, kShareOfRepeated)) repeat(faults, draw);
@@ -297,7 +301,7 @@ std::vector<Fault> FaultMaker::varied(std::vector<Fault> faults, const std::vect
 void FaultMaker::vary_one(std::vector<Fault>& faults, const std::vector<Fault>& other, RandomStream& draw) const {
   const std::size_t what = below(draw, 8);
   if (faults.empty() || (what == 0 && faults.size() < kMostFaults)) {
-    if (const std::optional<Fault> fault = any(draw)) faults.push_back(*fault);
+    if (const std::optional<Fault> fault = any_fault(draw)) faults.push_back(*fault);
     return;
   }
   const std::size_t at = below(draw, faults.size());

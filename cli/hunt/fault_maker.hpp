@@ -29,7 +29,7 @@ class FaultMaker {
   /// Draws faults for runs under the scenario's own conditions.
   FaultMaker(const Scenario& scenario, FaultSpace space);
   /// @param conditions  as `--conditions` has them; empty: the scenario's own.
-  /// @returns one for runs under these conditions.
+  /// @returns a FaultMaker for runs under these conditions.
   FaultMaker under(const std::string& conditions) const;
 
   /// Draws one to four faults, and repeats some of them; at most six in all. None if no kind of the space is possible
@@ -40,7 +40,7 @@ class FaultMaker {
   std::vector<Fault> varied(std::vector<Fault> faults, const std::vector<Fault>& other, RandomStream& draw) const;
 
  private:
-  std::optional<Fault> any(RandomStream& draw) const;
+  std::optional<Fault> any_fault(RandomStream& draw) const;
   FaultAction action(const std::string& kind, RandomStream& draw) const;
   LinkEffect link(RandomStream& draw) const;
   void repeat(std::vector<Fault>& faults, RandomStream& draw) const;
@@ -51,7 +51,7 @@ class FaultMaker {
   const std::string& uav(RandomStream& draw) const;
   const std::string& node(RandomStream& draw) const;
   const std::string& program(RandomStream& draw) const;
-  bool is_death(const Fault& fault) const;  ///< whether it kills a UAV's program
+  bool kills_uav_program(const Fault& fault) const;
 
   const FaultSpace space_;
   const ConditionsConfig scenarios_conditions_;

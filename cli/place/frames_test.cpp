@@ -1,4 +1,4 @@
-// Frames: what is said arrives as it was said, whatever pieces the stream comes in.
+// Frames: a reader returns each frame as it was sent, however the stream is divided into pieces.
 #include "cli/place/frames.hpp"
 
 #include <gtest/gtest.h>
@@ -14,30 +14,30 @@ std::string drawn_text(std::mt19937& random, std::size_t most) {
   return text;
 }
 
-TEST(Frames, ArriveWholeInWhateverPieces) {
+TEST(Frames, ArriveUnchangedHoweverTheStreamIsDivided) {
   for (unsigned seed = 0; seed < 200; ++seed) {
     std::mt19937 random(seed);
     const bool greeted = seed % 2 == 0;
     std::string stream = greeted ? "" : "Welcome!\nno frame {\r\n" + std::string(kHostGreeting) + "\r\n";
-    std::vector<Frame> said;
+    std::vector<Frame> sent;
     for (int i = 0; i < 10; ++i) {
-      said.push_back({{{"say", "log"}, {"number", i}, {"text", "line\nor \"two\" " + std::to_string(seed)}},
+      sent.push_back({{{"say", "log"}, {"number", i}, {"text", "line\nor \"two\" " + std::to_string(seed)}},
                       drawn_text(random, 300)});
-      stream += bytes_of(said.back().head, said.back().body);
+      stream += bytes_of(sent.back().head, sent.back().body);
     }
     FrameReader reader(greeted);
-    std::vector<Frame> heard;
+    std::vector<Frame> received;
     while (!stream.empty()) {
       const std::size_t piece = std::uniform_int_distribution<std::size_t>(1, 80)(random);
       reader.add(stream.substr(0, piece));
       stream.erase(0, piece);
-      while (auto frame = reader.next()) heard.push_back(*frame);
+      while (auto frame = reader.next()) received.push_back(*frame);
     }
-    ASSERT_EQ(heard.size(), said.size()) << seed;
-    for (std::size_t i = 0; i < said.size(); ++i) {
-      EXPECT_EQ(heard[i].head["number"], said[i].head["number"]);
-      EXPECT_EQ(heard[i].text("text"), said[i].text("text"));
-      EXPECT_EQ(heard[i].body, said[i].body);
+    ASSERT_EQ(received.size(), sent.size()) << seed;
+    for (std::size_t i = 0; i < sent.size(); ++i) {
+      EXPECT_EQ(received[i].head["number"], sent[i].head["number"]);
+      EXPECT_EQ(received[i].text("text"), sent[i].text("text"));
+      EXPECT_EQ(received[i].body, sent[i].body);
     }
     if (!greeted) {
       EXPECT_EQ(reader.before_greeting(), "Welcome!\nno frame {\n");
@@ -45,7 +45,7 @@ TEST(Frames, ArriveWholeInWhateverPieces) {
   }
 }
 
-TEST(Frames, WhatIsNoneIsSaid) {
+TEST(Frames, InvalidBytesThrowAndAnIncompleteFrameIsAwaited) {
   for (const std::string text : {"garbage\n", "[1, 2]\n", "{\"bytes\": 99999999999}\n"}) {
     FrameReader reader(true);
     reader.add(text);
@@ -56,8 +56,8 @@ TEST(Frames, WhatIsNoneIsSaid) {
   EXPECT_FALSE(reader.next().has_value());
 }
 
-// A program may write what is no UTF-8 on its status pipe.
-TEST(Frames, CarryWhateverAProgramWrote) {
+// A program may write invalid UTF-8 to its status pipe.
+TEST(Frames, CarryTextThatIsInvalidUtf8) {
   FrameReader reader(true);
   reader.add(bytes_of({{"say", "status"}, {"line", "\xff\xfe and more"}}));
   const auto frame = reader.next();

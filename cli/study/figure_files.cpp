@@ -12,7 +12,7 @@
 namespace skein::cli {
 namespace {
 
-/// Values on paper of the CSS variables of report/style.cpp.
+/// Values of the CSS variables of report/style.cpp for figures on paper.
 const std::map<std::string, std::string>& paper_palette() {
   static const std::map<std::string, std::string> kPalette = {{"--font", "Helvetica, Arial, sans-serif"},
                                                               {"--ink", "#000000"},
@@ -47,7 +47,7 @@ constexpr const char* kPaperStyle =
 .mark.q0 { fill: #cfd4db; } .mark.q1 { fill: #a9cbe8; } .mark.q2 { fill: #6aa6d8; } .mark.q3 { fill: #2d7bbf; } .mark.q4 { fill: #0b4a86; }
 )css";
 
-/// A style sheet with "var(--ink)" and the like replaced by values on paper.
+/// Replaces "var(--ink)" and the like in a style sheet by the values for paper.
 std::string resolved(std::string_view style) {
   std::string out;
   for (std::size_t at = 0; at < style.size();) {
@@ -79,15 +79,15 @@ std::string paper_svg(const StudyFigure& figure) {
   const auto [width, height] = view_box(figure.svg);
   double legend_height = 0.0;
   const std::string legend = legend_svg(figure.legend, 10.0, height + 2.0, width - 20.0, legend_height);
-  const std::string all = report::coordinate(height + (legend_height > 0.0 ? legend_height + 8.0 : 0.0));
+  const std::string full_height = report::coordinate(height + (legend_height > 0.0 ? legend_height + 8.0 : 0.0));
   const std::size_t inner = figure.svg.find('>') + 1, end = figure.svg.rfind("</svg>");
-  const std::size_t names = figure.svg.find("class=\"") + 7;
+  const std::size_t classes = figure.svg.find("class=\"") + 7;
   return fmt::format(
              "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"{}\" "
              "width=\"{}\" height=\"{}\" viewBox=\"0 0 {} {}\">\n<title>{}</title>\n<style>\n{}{}</style>\n"
              "<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>",
-             figure.svg.substr(names, figure.svg.find('"', names) - names), report::coordinate(width), all,
-             report::coordinate(width), all,
+             figure.svg.substr(classes, figure.svg.find('"', classes) - classes), report::coordinate(width),
+             full_height, report::coordinate(width), full_height,
              report::escaped(figure.caption + (figure.small.empty() ? "" : ", " + figure.small)),
              resolved(report::drawing_style()), kPaperStyle) +
          figure.svg.substr(inner, end - inner) + legend + "</svg>\n";

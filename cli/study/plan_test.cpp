@@ -37,7 +37,7 @@ class PlanOfAStudy : public testing::Test {
   const std::string small_ = programs_.scenario();
 };
 
-TEST_F(PlanOfAStudy, HasEachScenarioOnceWhateverItsNames) {
+TEST_F(PlanOfAStudy, RefusesAScenarioThatIsNamedTwiceByDifferentPaths) {
   for (const fs::path& other : {dir_ / "." / "small.yaml", dir_ / "other/../small.yaml", dir_ / "link.yaml"}) {
     EXPECT_EQ(refusal({"hover"}, {small_, other}),
               "scenario '" + other.string() + "' is named twice: '" + small_ + "' is the same file");
@@ -45,10 +45,11 @@ TEST_F(PlanOfAStudy, HasEachScenarioOnceWhateverItsNames) {
   const std::string towers = source_path("config/scenarios/towers.yaml");
   EXPECT_NE(refusal({"hover"}, {"towers", towers}).find("'towers' is the same file"), std::string::npos);
   write_text(dir_ / "copy.yaml", kSmallScenario);
-  EXPECT_EQ(refusal({"hover"}, {small_, dir_ / "copy.yaml"}), "accepted") << "with two fleet sizes each";
+  EXPECT_EQ(refusal({"hover"}, {small_, dir_ / "copy.yaml"}), "accepted")
+      << "each scenario is in the plan twice, once for each fleet size";
 }
 
-TEST_F(PlanOfAStudy, HasEachPlannerInPythonOnceWhateverItsNames) {
+TEST_F(PlanOfAStudy, RefusesAPlannerInPythonThatIsNamedTwiceByDifferentPaths) {
   const std::string mine = "py:" + (dir_ / "mine.py").string();
   for (const char* class_name : {"", ":Mine"}) {
     const std::string other = "py:" + (dir_ / "other/../mine.py").string() + class_name;
