@@ -2,13 +2,16 @@
 //   condition  or condition        a and b binds tighter than a or b
 //   not condition
 //   number < number                also <=, >, >=, ==, !=
-//   number + number                also -; then * and /; then -number
+//   number + number                also -
+//   number * number                also /
+//   -number
 //   20 m  80 %  0.5 m/s            a number, followed by its unit (core/expressions/unit.hpp)
 //   separation  link(jurong, gcs)  a signal (core/expressions/signal_table.hpp)
 //   min(a, b)  max(a, b)  abs(a)  gain(a)  rises(a)  falls(a)
-//   (anything)
+//   (condition or number)
 // Units must fit: an expression may only compare or add numbers of the same dimension. The parser of a language
-// that contains expressions (signals/properties/property_parser.hpp) also reads its own words with this class.  Pure.
+// that contains expressions (signals/properties/property_parser.hpp) also uses this class to read the words of that
+// language.   Pure.
 #pragma once
 
 #include <map>
@@ -28,15 +31,15 @@ struct ExpressionScope {
   bool live_only = false;                             ///< only signals known during a run, no operators on the past
   std::map<std::string, std::string> variables = {};  ///< name of the UAV that each variable stands for
   std::map<std::string, Quantity> parameters = {};
-  const std::vector<SignalInfo>* signals = &signal_table();  ///< all signals that there are
-  std::string_view signal_word = "signal";                   ///< what they are called in messages
+  const std::vector<SignalInfo>* signals = &signal_table();  ///< where names are looked up
+  std::string_view signal_word = "signal";                   ///< what messages call such a name
 };
 
 /// Parses a text part by part. All member functions throw ExpressionError.
 class ExpressionParser : public ExpressionText {
  public:
   /// @param scope, text  must outlive this.
-  /// @param signals  receives the signals used, each once; an expression's slots are indices in it. Must outlive this.
+  /// @param signals  receives the signals used, each once; an expression names them by their index. Must outlive this.
   ExpressionParser(std::string_view text, const ExpressionScope& scope, std::vector<SignalUse>& signals)
       : ExpressionText(text), scope_(scope), signals_(signals) {}
 
@@ -61,6 +64,8 @@ class ExpressionParser : public ExpressionText {
   std::string argument(SignalArgument kind);
   std::string known(const std::string& name, std::size_t at, const std::vector<std::string>& names,
                     const std::string& what) const;
+  /// Refuses link(a, a): argument number `place` must differ from `before`, the one in front of it, if both are of one
+  /// kind.
   void refuse_same(const SignalInfo& info, std::size_t place, std::string_view before);
   std::size_t slot_of(SignalUse use);
 
