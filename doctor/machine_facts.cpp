@@ -176,7 +176,7 @@ DiskFacts read_disk(const fs::path& results) {
   std::string name = facts.folder / "skein-doctor-XXXXXX";
   const int file = ::mkostemp(name.data(), O_CLOEXEC);
   if (file < 0) {
-    facts.no_file = std::strerror(errno);
+    facts.create_error = std::strerror(errno);
     return facts;
   }
   ::close(file);

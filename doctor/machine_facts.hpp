@@ -32,7 +32,7 @@ struct MachineFacts {
 struct DiskFacts {
   std::filesystem::path folder{};  ///< the results folder, or its nearest ancestor that exists
   Limit free{};                    ///< [bytes]
-  std::string no_file{};           ///< why no file could be created; empty: one could
+  std::string create_error{};      ///< why no file could be created; empty: one could
 };
 
 struct ClockFacts {

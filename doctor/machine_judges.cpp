@@ -96,8 +96,9 @@ Finding judge_cpus(const MachineFacts& machine) {
 
 Finding judge_disk(const DiskFacts& disk) {
   const std::string what = "results folder", folder = disk.folder.string();
-  if (!disk.no_file.empty()) {
-    return failure(what, folder + " takes no file: " + disk.no_file, "another folder with --out, or its permissions");
+  if (!disk.create_error.empty()) {
+    return failure(what, folder + " takes no file: " + disk.create_error,
+                   "another folder with --out, or its permissions");
   }
   if (!disk.free) return fine(what, folder + "; how much is free is not told");
   const std::string found = folder + " has " + megabytes(*disk.free) + " free";

@@ -1,4 +1,4 @@
-// Facts of the machine: read from made-up cgroups and real folders, and judged as drawn.
+// The checks of the machine: what they read from made-up cgroups and real folders, and how they judge random facts.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -17,12 +17,12 @@ namespace {
 namespace fs = std::filesystem;
 using Random = std::mt19937_64;
 
-/// Above `least`, or no limit at all.
+/// A random limit of at least `least`, or no limit.
 Limit ample(Random& random, std::uint64_t least) {
   return random() % 4 == 0 ? Limit() : Limit(least + random() % (3 * least + 1));
 }
 
-/// Of a machine that a fleet has no complaint of.
+/// The facts of a random machine that has enough of everything for the fleet.
 MachineFacts drawn_machine(Random& random, const FleetNeeds& needs) {
   MachineFacts machine;
   machine.container = random() % 2 == 0 ? "" : "/.dockerenv";
@@ -55,13 +55,13 @@ std::vector<std::string> complaints(const Findings& findings) {
   return names;
 }
 
-/// One thing that may lack, and the complaint of it.
-struct Lack {
-  std::string what;
-  std::function<void(MachineFacts&, Random&, const FleetNeeds&)> take_away;
+/// A resource of which a machine can have too little.
+struct Shortage {
+  std::string what;                                                      ///< the finding that reports it
+  std::function<void(MachineFacts&, Random&, const FleetNeeds&)> cause;  ///< lowers the resource below the need
 };
 
-const std::vector<Lack>& lacks() {
+const std::vector<Shortage>& shortages() {
   static const std::vector<Lack> kAll = {
       {"open files",
        [](auto& m, auto& random, const auto& n) { m.open_files = m.most_open_files = random() % n.open_files(); }},
@@ -86,20 +86,20 @@ const std::vector<Lack>& lacks() {
   return kAll;
 }
 
-TEST(MachineJudges, NameWhatLacksAndNothingElse) {
+TEST(MachineJudges, ReportEachShortageAndNothingElse) {
   Random random(1);
   for (int i = 0; i < 2000; ++i) {
     const FleetNeeds needs{1 + random() % 100};
     const MachineFacts machine = drawn_machine(random, needs);
     EXPECT_TRUE(complaints(judge(machine, needs)).empty());
-    const Lack& lack = lacks()[random() % lacks().size()];
+    const Shortage& shortage = shortages()[random() % shortages().size()];
     MachineFacts poor = machine;
-    lack.take_away(poor, random, needs);
-    EXPECT_EQ(complaints(judge(poor, needs)), std::vector{lack.what});
+    shortage.cause(poor, random, needs);
+    EXPECT_EQ(complaints(judge(poor, needs)), std::vector{shortage.what});
   }
 }
 
-TEST(MachineJudges, TheLowestLimitOfProcessesIsTheOneToRaise) {
+TEST(MachineJudges, TheFixNamesTheLowestLimitOfProcesses) {
   Random random(5);
   for (int i = 0; i < 500; ++i) {
     const FleetNeeds needs{1 + random() % 100};
@@ -108,7 +108,7 @@ TEST(MachineJudges, TheLowestLimitOfProcessesIsTheOneToRaise) {
                                                                 {&machine.kernel_processes, "kernel.threads-max"},
                                                                 {&machine.cgroup.processes, "pids.max"}};
     const std::uint64_t least = random() % (needs.threads() - 1);
-    const auto& [lowest, words] = limits[random() % limits.size()];
+    const auto& [lowest, name] = limits[random() % limits.size()];
     for (const auto& [limit, other] : limits) {
       if (random() % 2 == 0) *limit = least + 1 + random() % needs.threads();
     }
@@ -128,7 +128,8 @@ TEST(MachineJudges, MoreUavsNeverNeedLess) {
     EXPECT_LT(less.threads(), more.threads());
     EXPECT_LT(less.memory_bytes(), more.memory_bytes());
   }
-  // As measured: a server of five UAVs has 74 files open over Fast DDS, programs of a hundred have 909 MB.
+  // As measured: over Fast DDS, the server of a fleet of 5 UAVs has 74 open files; the programs of a fleet of 100 UAVs
+  // use 909 MB.
   EXPECT_GE(FleetNeeds{5}.open_files(), 74u);
   EXPECT_GE(FleetNeeds{100}.memory_bytes(), 909'000'000u);
 }
@@ -144,16 +145,16 @@ TEST(MachineJudges, AFullDiskFailsAndANearlyFullOneWarns) {
     EXPECT_EQ(judge_disk(disk).verdict, Verdict::fail);
   }
   DiskFacts disk{.folder = "/results", .free = kAmpleDisk};
-  disk.no_file = "Read-only file system";
+  disk.create_error = "Read-only file system";
   EXPECT_EQ(judge_disk(disk).verdict, Verdict::fail);
 }
 
-TEST(MachineJudges, ClocksThatGoAreFine) {
+TEST(MachineJudges, ClocksThatRunAreFine) {
   ClockFacts clocks{.monotonic_s = 0.02, .realtime_s = 0.02, .date_s = 1.7e9, .source = "tsc"};
   EXPECT_TRUE(complaints(judge_clocks(clocks)).empty());
   clocks.realtime_s = -3600.0;
   EXPECT_EQ(complaints(judge_clocks(clocks)), std::vector<std::string>{"time of day"});
-  EXPECT_EQ(exit_code(judge_clocks(clocks)), kExitDone) << "no result depends on it";
+  EXPECT_EQ(exit_code(judge_clocks(clocks)), kExitDone) << "no result depends on the time of day";
   clocks.realtime_s = 0.02;
   clocks.date_s = 86400.0;
   EXPECT_EQ(complaints(judge_clocks(clocks)), std::vector<std::string>{"time of day"});
@@ -181,7 +182,7 @@ class MadeUpMachine : public testing::Test {
   fs::path root_;
 };
 
-TEST_F(MadeUpMachine, TheTightestCgroupAboveCounts) {
+TEST_F(MadeUpMachine, TheLowestLimitOfACgroupAndItsAncestorsCounts) {
   file("proc/self/cgroup", "0::/a/b\n");
   file("sys/fs/cgroup/a/b/memory.max", "max\n");
   file("sys/fs/cgroup/a/memory.max", "1000\n");
@@ -197,9 +198,9 @@ TEST_F(MadeUpMachine, TheTightestCgroupAboveCounts) {
   EXPECT_EQ(facts.cpus, 1.5);
 }
 
-TEST_F(MadeUpMachine, CgroupsOfTheFormerVersionCountToo) {
+TEST_F(MadeUpMachine, CgroupsOfVersion1CountToo) {
   file("proc/self/cgroup", "4:memory:/docker/x\n3:cpu,cpuacct:/docker/x\n2:pids:/docker/x\n1:name=systemd:/\n");
-  file("sys/fs/cgroup/memory/memory.limit_in_bytes", "1000\n");  // the engine shows its own cgroup as the root
+  file("sys/fs/cgroup/memory/memory.limit_in_bytes", "1000\n");  // a container sees its own cgroup as the root
   file("sys/fs/cgroup/memory/memory.usage_in_bytes", "400\n");
   file("sys/fs/cgroup/cpu/cpu.cfs_quota_us", "50000\n");
   file("sys/fs/cgroup/cpu/cpu.cfs_period_us", "100000\n");
@@ -210,7 +211,7 @@ TEST_F(MadeUpMachine, CgroupsOfTheFormerVersionCountToo) {
   EXPECT_FALSE(facts.processes);
 }
 
-TEST_F(MadeUpMachine, NoLimitIsNone) {
+TEST_F(MadeUpMachine, MissingLimitsAreReadAsNoLimit) {
   file("proc/self/cgroup", "4:memory:/\n3:cpu:/\n");
   file("sys/fs/cgroup/memory/memory.limit_in_bytes", "9223372036854771712\n");
   file("sys/fs/cgroup/cpu/cpu.cfs_quota_us", "-1\n");
@@ -221,16 +222,16 @@ TEST_F(MadeUpMachine, NoLimitIsNone) {
   }
 }
 
-TEST_F(MadeUpMachine, AResultsFolderIsTriedAndLeftAsItWas) {
+TEST_F(MadeUpMachine, ReadDiskTriesToCreateAFileAndLeavesNone) {
   const DiskFacts disk = read_disk(root_ / "runs" / "not" / "yet");
   EXPECT_EQ(disk.folder, root_);
   EXPECT_TRUE(disk.free);
-  EXPECT_TRUE(disk.no_file.empty()) << disk.no_file;
+  EXPECT_TRUE(disk.create_error.empty()) << disk.create_error;
   EXPECT_TRUE(fs::is_empty(root_));
-  EXPECT_FALSE(read_disk("/proc").no_file.empty());
+  EXPECT_FALSE(read_disk("/proc").create_error.empty());
 }
 
-TEST(MachineFacts, AreReadHere) {
+TEST(MachineFacts, OfThisMachineAreRead) {
   EXPECT_GE(read_machine().cpus, 1);
   const ClockFacts clocks = read_clocks();
   EXPECT_GT(clocks.monotonic_s, 0.0);

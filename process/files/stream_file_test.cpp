@@ -25,7 +25,7 @@ class StreamFileTest : public testing::Test {
   const fs::path file_ = fs::path(testing::TempDir()) / ("skein_stream_" + std::to_string(::getpid()));
 };
 
-TEST_F(StreamFileTest, WhatWasWrittenIsThere) {
+TEST_F(StreamFileTest, ContainsWhatWasWritten) {
   {
     StreamFile file(file_);
     file << "a,b\n"
@@ -39,7 +39,7 @@ TEST_F(StreamFileTest, WhatWasWrittenIsThere) {
   EXPECT_EQ(content(), "");
 }
 
-TEST_F(StreamFileTest, AFileThatCannotBeOpenedIsNamed) {
+TEST_F(StreamFileTest, TheErrorNamesAFileThatCannotBeOpened) {
   try {
     StreamFile file(file_ / "below");
     FAIL() << "opened";
@@ -48,7 +48,7 @@ TEST_F(StreamFileTest, AFileThatCannotBeOpenedIsNamed) {
   }
 }
 
-TEST_F(StreamFileTest, AFullDiskIsToldAndTheProgramGoesOn) {
+TEST_F(StreamFileTest, AFullDiskIsReportedAndThrowsNothing) {
   StreamFile file("/dev/full");
   file << "some words\n";
   file.flush();
@@ -62,7 +62,7 @@ TEST_F(StreamFileTest, AFileThatIsCutShortEndsWithAWholeLine) {
   std::mt19937 draw(20);
   for (int round = 0; round < 20; ++round) {
     const rlim_t limit = 1 + draw() % 40000;
-    const pid_t child = ::fork();  // the limit must not touch this process
+    const pid_t child = ::fork();  // so that the limit does not apply to this process
     ASSERT_GE(child, 0);
     if (child == 0) {
       ::signal(SIGXFSZ, SIG_IGN);
@@ -75,7 +75,7 @@ TEST_F(StreamFileTest, AFileThatIsCutShortEndsWithAWholeLine) {
     }
     int status = 0;
     ASSERT_EQ(::waitpid(child, &status, 0), child);
-    EXPECT_EQ(status, 0) << "nothing was told at " << limit << " bytes";
+    EXPECT_EQ(status, 0) << "the child reported no trouble at a limit of " << limit << " bytes";
     std::string expected;
     for (int line = 0; expected.size() + std::to_string(line).size() + 6 <= limit; ++line) {
       expected += std::to_string(line) + ",7.25\n";
