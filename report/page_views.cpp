@@ -18,7 +18,7 @@ std::string entry(const std::string& colour, const std::string& text) {
 std::string views_section(const RunPage& page) {
   std::string html = "<section id=\"views\"><h2>The flight</h2>\n";
   if (page.picture.points.empty() && page.picture.boxes.empty() && page.picture.tracks.empty()) {
-    return html + absent("Nothing is known of the scene, and nothing flew.") + "</section>\n";
+    return html + absent("Nothing is known about the scene, and nothing flew.") + "</section>\n";
   }
   html += picture_legend(page.picture) + "<div class=\"panels views\">\n";
   struct View {

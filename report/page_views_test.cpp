@@ -1,4 +1,4 @@
-// The sections with drawings of the scene. Each point is far from all others, so that each is a dot of its own.
+// The sections with drawings of the scene. Each point is far from all others, so that each has its own dot.
 #include <gtest/gtest.h>
 #include <spdlog/fmt/fmt.h>
 
@@ -55,7 +55,7 @@ class Section {
     Panel panel{caption.text().get(), caption.child("small").text().get(), figure.attribute("data-live").value(), {}};
     const pugi::xml_node points = figure.child("svg").find_child_by_attribute("g", "class", "points");
     for (const pugi::xml_node& path : points.children("path")) {
-      const std::string_view data = path.attribute("d").value();  // each dot is a line of no length: "h0"
+      const std::string_view data = path.attribute("d").value();  // each dot is a line of zero length: "h0"
       panel.dots[path.attribute("class").value()] = std::ranges::count(data, 'h');
     }
     return panel;
@@ -64,7 +64,7 @@ class Section {
   pugi::xml_document document_;
 };
 
-/// A run whose points lost score for drawn causes, and one point that lost nothing. Some causes have no point.
+/// A run with one point that lost nothing, and points that lost score for random causes. Some causes have no point.
 results::RunRecord lossy_run(std::mt19937& random) {
   results::RunRecord run;
   run.causes_known = true;
@@ -86,7 +86,7 @@ results::RunRecord lossy_run(std::mt19937& random) {
   return run;
 }
 
-TEST(PlacesSection, ShowsEachCauseThatHasPointsWithThesePointsAlone) {
+TEST(PlacesSection, HasADrawingForEachCauseThatHighlightsItsPoints) {
   std::mt19937 random(21);
   for (int trial = 0; trial < 40; ++trial) {
     const results::RunRecord run = lossy_run(random);
@@ -116,12 +116,12 @@ TEST(PlacesSection, ShowsEachCauseThatHasPointsWithThesePointsAlone) {
   }
 }
 
-TEST(PlacesSection, IsAboutTheStructureAndNotAboutTracks) {
+TEST(PlacesSection, IgnoresTracks) {
   std::mt19937 random(22);
   RunPage page(lossy_run(random));
   const std::string without = places_section(page);
   page.picture.tracks.push_back({"a", false, {{0.0, 0.0, 5.0}, {900.0, 0.0, 5.0}}});
-  EXPECT_EQ(places_section(page), without) << "neither the tracks nor their extent";
+  EXPECT_EQ(places_section(page), without) << "the section shows neither the tracks nor their extent";
 }
 
 TEST(PlacesSection, IsEmptyIfNoCausesAreKnown) {
@@ -131,9 +131,9 @@ TEST(PlacesSection, IsEmptyIfNoCausesAreKnown) {
   EXPECT_EQ(places_section(RunPage(run)), "");
 }
 
-TEST(ViewsSection, AnythingThatIsKnownIsDrawn) {
+TEST(ViewsSection, DrawsWhateverIsKnown) {
   RunPage nothing{results::RunRecord()};
-  EXPECT_NE(views_section(nothing).find("Nothing is known of the scene"), std::string::npos);
+  EXPECT_NE(views_section(nothing).find("Nothing is known about the scene"), std::string::npos);
   EXPECT_TRUE(Section(views_section(nothing)).panels().empty());
 
   RunPage points = nothing, boxes = nothing, track = nothing;
@@ -152,7 +152,7 @@ TEST(ViewsSection, EachViewHasItsDirectionAndOnlyTheObliqueOneIsLive) {
   for (int axis = 0; axis < 3; ++axis) {
     RunPage page{results::RunRecord()};
     for (const double apart : {0.0, 20.0}) page.picture.points.push_back({offset + apart * Vector3d::Unit(axis), 0.0});
-    const auto dots = [&](int along) -> std::ptrdiff_t { return axis == along ? 1 : 2; };  // one hides the other
+    const auto dots = [&](int along) -> std::ptrdiff_t { return axis == along ? 1 : 2; };  // one dot hides the other
     const std::vector<Panel> expected = {{"From the south-south-east", "", "3d", {{"q0", 2}}},
                                          {"Plan", "", "", {{"q0", dots(2)}}},
                                          {"Elevation from the south", "", "", {{"q0", dots(1)}}},

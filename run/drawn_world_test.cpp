@@ -14,7 +14,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Writes a world of two UAVs, and a line in the log: sim_server --draw-world W --scene-seed S --export-scene FOLDER.
+/// A script that replaces `sim_server --draw-world W --scene-seed S --export-scene FOLDER`: it writes a world of two
+/// UAVs, and a line in a log.
 constexpr const char* kDraw = R"(
 echo "$2_$4" >> "$(dirname "$0")/drawn.log"
 mkdir -p "$6/models"
@@ -71,7 +72,7 @@ TEST_F(DrawnWorld, IsDrawnAgainIfAFileOfItIsMissing) {
   }
   fs::remove(file.parent_path() / "wild_3.sha256");
   EXPECT_EQ(scenario_source("wild", 3), file);
-  EXPECT_EQ(drawn(), ++draws) << "a world of an earlier version";
+  EXPECT_EQ(drawn(), ++draws) << "a world that an earlier version of Skein wrote, without a checksum";
   write_text(file, "name: [");
   EXPECT_EQ(scenario_source("wild", 3), file);
   EXPECT_EQ(drawn(), ++draws) << "a damaged scenario";
@@ -94,13 +95,13 @@ TEST_F(DrawnWorld, IsDrawnAgainIfAFileOfItIsDamaged) {
     }
   }
   EXPECT_EQ(scenario_source("wild", 3), file);
-  EXPECT_EQ(drawn(), draws) << "a sound world is used";
+  EXPECT_EQ(drawn(), draws) << "an undamaged world is not drawn again";
 }
 
-TEST_F(DrawnWorld, OfAnEarlierVersionFliesIfTheCacheIsReadOnly) {
+TEST_F(DrawnWorld, WithoutAChecksumIsUsedIfTheCacheIsReadOnly) {
   const fs::path file = scenario_source("wild", 3);
   write_script(programs_.dir() / "sim_server", "echo '--out: cannot be written to'; exit 2");
-  EXPECT_EQ(scenario_source("wild", 3), file) << "it has a checksum, and needs no drawing";
+  EXPECT_EQ(scenario_source("wild", 3), file) << "its checksum matches, so sim_server need not draw it again";
   fs::remove(file.parent_path() / "wild_3.sha256");
   EXPECT_EQ(scenario_source("wild", 3), file);
   write_text(file.parent_path() / "wild_3.sha256", "0\n");

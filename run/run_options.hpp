@@ -18,7 +18,7 @@ struct ReplayOf {
   std::filesystem::path recording;
   std::optional<double> until_s;   ///< from this time on, the programs' own messages count instead of the recorded ones
   std::vector<std::string> only;   ///< UAVs whose programs run, or "gcs"; empty: all
-  std::vector<std::string> other;  ///< UAVs whose software differs from the recorded one: messages not compared
+  std::vector<std::string> other;  ///< UAVs with other software than recorded: their messages are not compared
 };
 
 /// The longest lease that DDS accepts: Cyclone DDS's limit [s].
@@ -60,8 +60,8 @@ struct RunOptions {
   std::optional<std::filesystem::path> agent;       ///< program that flies in the place of uav_agent
   std::vector<std::string> debug;                   ///< UAV[=TOOL], see debug/debuggee.hpp
   std::optional<double> break_at_s;                 ///< debugged programs stop before that simulated time
-  std::optional<std::string> break_on;              ///< they stop before the first of them first meets this event
-  std::optional<std::filesystem::path> break_from;  ///< results of the same flight, which give the event's time
+  std::optional<std::string> break_on;              ///< they stop before this event first happens to the first of them
+  std::optional<std::filesystem::path> break_from;  ///< results folder of the same flight, which tells the event's time
   std::vector<std::string> log;                     ///< UAV=LEVEL
   bool cores = false;                               ///< programs that crash leave a core dump
   bool one_process = false;                         ///< all programs in one process, without DDS
@@ -77,8 +77,8 @@ struct RunOptions {
   std::optional<int> lease_s;             ///< silence after which DDS considers a program gone
   std::optional<double> agent_timeout_s;  ///< wall time to wait for a program's answer, instead of a minute
   std::optional<std::filesystem::path> out;
-  /// Where the run goes if `out` names no folder, with a number behind it if that one is not free; none: as
-  /// default_results_dir() of run/results_dir.hpp.
+  /// Results folder if `out` is not given; Skein appends a number to its name if it exists and is not empty. none: the
+  /// folder that default_results_dir() of run/results_dir.hpp returns.
   std::optional<std::filesystem::path> usual_out;
   bool force = false;
   std::string record = "run";         ///< how much goes into the recording: none, messages, run, all or clouds
@@ -93,8 +93,8 @@ struct RunOptions {
 };
 
 /// The options that one flight of a study, a hunt or a fault test may have, by their names on the command line: for
-/// process/json_fields.hpp, and for the command line that repeats the flight. True by default means that the option is
-/// --no-NAME.
+/// process/json_fields.hpp, and for the command line that repeats the flight. An option that is
+/// true by default is --no-NAME there.
 void describe(auto& f, RunOptions& run) {
   f.field("scenario", run.scenario);
   f.field("planner", run.planner);

@@ -22,10 +22,10 @@ constexpr double kLargestSwing = 2.0;   ///< turn [rad] times length [m], at mos
 constexpr double kLargestMargin = 1.0;  ///< added to the family's own margin [m]
 constexpr double kLongBox = 30.0;       ///< least length of a box that may be split [m]
 
-/// The smallest box with the given axes around others.
+/// The smallest box with the given axes that contains all `boxes`, enlarged by the margin.
 OrientedBox box_around(const std::string& name, std::span<const OrientedBox> boxes, const Matrix3d& R_WO,
                        double margin) {
-  Eigen::AlignedBox3d extent;  // in O
+  Eigen::AlignedBox3d extent;  // in O, the frame of the new box
   for (const OrientedBox& box : boxes) {
     for (int corner = 0; corner < 8; ++corner) {
       const Vector3d sign(corner & 1 ? 0.5 : -0.5, corner & 2 ? 0.5 : -0.5, corner & 4 ? 0.5 : -0.5);
@@ -73,7 +73,8 @@ void split_longest(std::vector<OrientedBox>& boxes, double share) {
   boxes.push_back(high);
 }
 
-void vary_as_ever(Scene& scene, std::uint64_t scene_seed) {
+/// The variation that every seed except 0 has.
+void vary_for_all_seeds(Scene& scene, std::uint64_t scene_seed) {
   RandomStream random(scene_seed, "scene_boxes", 0);
   const double kind = random.uniform();
   if (kind < kSingleBox) {
@@ -104,8 +105,9 @@ OrientedBox idle_box(const OrientedBox& near, RandomStream& random) {
 }
 
 /// Additional variation for seeds from kVariedSeeds on.
-void vary_further(std::vector<OrientedBox>& boxes, std::uint64_t scene_seed) {
-  constexpr double kLoose = 0.35, kIdle = 0.3;  // shares of the boxes, of the seeds
+void vary_for_later_seeds(std::vector<OrientedBox>& boxes, std::uint64_t scene_seed) {
+  constexpr double kLoose = 0.35;  // share of the boxes
+  constexpr double kIdle = 0.3;    // share of the seeds
   RandomStream random(scene_seed, "scene_boxes_further", 0);
   for (OrientedBox& box : boxes) {
     if (random.uniform() < kLoose) loosen(box, random);
@@ -128,8 +130,8 @@ void loosen(OrientedBox& box, RandomStream& random) {
 
 void vary_boxes(Scene& scene, std::uint64_t scene_seed) {
   if (scene_seed == 0) return;
-  vary_as_ever(scene, scene_seed);
-  if (scene_seed >= kVariedSeeds) vary_further(scene.boxes, scene_seed);
+  vary_for_all_seeds(scene, scene_seed);
+  if (scene_seed >= kVariedSeeds) vary_for_later_seeds(scene.boxes, scene_seed);
 }
 
 }  // namespace skein::sim

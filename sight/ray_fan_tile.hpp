@@ -20,8 +20,9 @@ struct Rect {
   int column0, column1, row0, row1;
 };
 
-/// Converts a slope in the tile to the index of a column or a row: index = slope * scale + offset. Both offsets, to the
-/// first index and to the one past the last, include the rays' deviation from a regular grid, and rounding errors.
+/// Converts a slope in the tile to the index of a column or a row: index = slope * scale + offset. Both offsets (to the
+/// first index, and to the one past the last) include a margin for rays that deviate from a regular grid, and for
+/// rounding errors.
 struct Ruler {
   Float8 scale, to_first, to_past_last;
 };
@@ -32,7 +33,8 @@ struct Tile {
   alignas(32) float nearness[kRays];               ///< 1 / depth of the first hit so far, or of the ray's end
   std::uint32_t triangle[kRays];
   Vector8 origin_W, origin_T;
-  Vector8 axes_W[3], axes_T[3], spans_T[3];  ///< across, along, ahead; spans_T: magnitudes of the components of axes_T
+  Vector8 axes_W[3], axes_T[3],
+      spans_T[3];  ///< across, along, ahead (ray_fan_kernel.hpp); spans_T: magnitudes of the components of axes_T
   Float8 slack;
   Ruler columns, rows;
 };
@@ -76,8 +78,8 @@ inline Indices indices(const Ruler& ruler, Float8 low, Float8 high, int first, i
 }
 
 /// Fits a ruler to slopes that grow with the index.   @param index_of  returns the true indices of a row of rays.
-/// @param blur  receives the largest deviation of a slope from the ruler, as a number of index steps.
-Ruler fit_ruler(const float (&slopes)[kRays], int last, auto index_of, float& blur) {
+/// @param deviation  receives the largest deviation of a slope from the ruler, as a number of index steps.
+Ruler fit_ruler(const float (&slopes)[kRays], int last, auto index_of, float& deviation) {
   Float8 low = load(slopes), high = low;
   for (int i = kLanes; i < kRays; i += kLanes) {
     low = smaller(low, load(&slopes[i]));
@@ -85,17 +87,17 @@ Ruler fit_ruler(const float (&slopes)[kRays], int last, auto index_of, float& bl
   }
   const float start = least(low);
   const float scale = static_cast<float>(last > 1 ? last : 1) / max(most(high) - start, 1e-4F);
-  Float8 stray = all(0.0F);
+  Float8 deviations = all(0.0F);
   for (int row = 0; row < kTileRows; ++row) {
     const Float8 index = (load(&slopes[row * kLanes]) - all(start)) * all(scale);
-    stray = larger(stray, magnitude(index - index_of(row)));
+    deviations = larger(deviations, magnitude(index - index_of(row)));
   }
-  blur = most(stray);
-  const float margin = blur + 1e-3F + 1e-6F * scale;
+  deviation = most(deviations);
+  const float margin = deviation + 1e-3F + 1e-6F * scale;
   return {all(scale), all(1.0F - margin - start * scale), all(1.0F + margin - start * scale)};
 }
 
-/// Copies the rays into the tile; a tile at the rim of the grid repeats its last ones. `nearness` receives their
+/// Copies the rays into the tile; a tile at the edge of the grid repeats its last rays. `nearness` receives their
 /// lengths, which arrange() converts.
 inline void gather(const Job& job, const Window& window, Tile& tile) {
   for (int row = 0; row < kTileRows; ++row) {
@@ -114,9 +116,9 @@ inline void gather(const Job& job, const Window& window, Tile& tile) {
   }
 }
 
-/// Scales the rays and fits the rulers.   @returns false if the rays do not form a tile.
+/// Scales the rays and fits the rulers.   @returns false if the rays spread too far, or are too irregular, for a tile.
 inline bool arrange(const Job& job, const Window& window, Tile& tile) {
-  constexpr float kLeastAhead = 0.5F, kMostBlur = 1.5F;
+  constexpr float kLeastAhead = 0.5F, kMostDeviation = 1.5F;
   alignas(32) float across[kRays], along[kRays];
   tile.origin_W = spread(job.origin_W);
   tile.origin_T = spread(job.origin_T);
@@ -143,11 +145,11 @@ inline bool arrange(const Job& job, const Window& window, Tile& tile) {
   const int last_column = window.columns - 1, last_row = window.rows - 1;
   const Float8 column_index = smaller(column_numbers(), all(static_cast<float>(last_column)));
   const auto row_index = [last_row](int row) { return all(static_cast<float>(min(row, last_row))); };
-  float blur[2];
+  float deviation[2];
   tile.columns = fit_ruler(
-      across, last_column, [column_index](int) { return column_index; }, blur[0]);
-  tile.rows = fit_ruler(along, last_row, row_index, blur[1]);
-  return max(blur[0], blur[1]) <= kMostBlur;
+      across, last_column, [column_index](int) { return column_index; }, deviation[0]);
+  tile.rows = fit_ruler(along, last_row, row_index, deviation[1]);
+  return max(deviation[0], deviation[1]) <= kMostDeviation;
 }
 
 }  // namespace
