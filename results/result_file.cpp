@@ -38,8 +38,8 @@ Json read_result_file(const std::filesystem::path& run) {
   rest.erase(kResultChecksum);
   if (told != checksum_of(rest)) {
     throw InputError(file.string() +
-                     ": is damaged, or was edited: its checksum does not fit what it holds (without the "
-                     "key 'checksum' it is taken as it is)");
+                     ": is damaged, or was edited: its checksum does not match its contents (Skein "
+                     "accepts it unchecked if you delete the key 'checksum')");
   }
   return result;
 }

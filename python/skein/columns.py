@@ -35,7 +35,7 @@ class Table:
     name: str
     file: str
     columns: tuple[Column, ...]
-    missing: str = "the run was ended before it was written, or the disk was full"
+    missing: str = "the run ended before Skein wrote the file, or the disk was full"
     optional: tuple[Column, ...] = ()
 
     @property

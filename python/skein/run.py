@@ -42,7 +42,7 @@ def run(scenario: str | os.PathLike[str] = "towers", *, launcher: str | os.PathL
 
 
 def results_folder(finished: Finished) -> Path | None:
-    """The results folder, from the launcher's output at the end, or else at the beginning."""
+    """The results folder that the launcher named at the end of its output, or else at the beginning."""
     named = re.findall(r"^results   (.+)$", finished.out, re.MULTILINE)
     named = named or re.findall(r"^.*, results in (.+)$", finished.err, re.MULTILINE)
     return Path(named[-1]) if named else None
@@ -71,16 +71,16 @@ def read_json(file: Path, missing: str) -> dict[str, Any]:
         value = json.loads(text)
         as_written = json.loads(text, parse_float=_AsWritten, parse_int=_AsWritten, parse_constant=_AsWritten)
         if not isinstance(value, dict):
-            raise ValueError("it is no JSON object")
-        told = as_written.pop("checksum", None)
+            raise ValueError("it is not a JSON object")
+        stated = as_written.pop("checksum", None)
         # surrogatepass: an escape in the file may be half of a surrogate pair; then the checksum does not match.
-        held = _compact(as_written).encode(errors="surrogatepass") if told is not None else b""
+        content = _compact(as_written).encode(errors="surrogatepass") if stated is not None else b""
     except (ValueError, RecursionError) as error:  # the latter: too deeply nested
         line = getattr(error, "lineno", 1)
         raise DamagedError(f"{file}:{line}: is damaged: {error}") from None
-    if told is not None and hashlib.sha256(struct.pack("<Q", len(held)) + held).hexdigest() != told:
-        raise DamagedError(f"{file}:1: is damaged, or was edited: its checksum does not fit what it holds (without the "
-                           "key 'checksum' it is taken as it is)")
+    if stated is not None and hashlib.sha256(struct.pack("<Q", len(content)) + content).hexdigest() != stated:
+        raise DamagedError(f"{file}:1: is damaged, or was edited: its checksum does not match its contents (Skein "
+                           "accepts it unchecked if you delete the key 'checksum')")
     return value
 
 
@@ -120,23 +120,23 @@ class Run:
     @property
     def result(self) -> dict[str, Any]:
         """result.json, with the keys of docs/results.md."""
-        return self._read_json("result.json", "it is no results folder, or its run is not over")
+        return self._read_json("result.json", "it is not a results folder, or its run has not ended")
 
     @property
     def scene(self) -> dict[str, Any]:
         """scene.json: boxes, interest points, the mesh, and each UAV's camera."""
-        return self._read_json("scene.json", "the run was ended before it was written, or the disk was full")
+        return self._read_json("scene.json", "the run ended before Skein wrote the file, or the disk was full")
 
     def _read_json(self, name: str, missing: str) -> dict[str, Any]:
         if name not in self._json:
             self._json[name] = read_json(self.path / name, missing)
         return self._json[name]
 
-    def _told(self, key: str, kind: type[_Kind]) -> _Kind:
+    def _value(self, key: str, kind: type[_Kind]) -> _Kind:
         value = self.result.get(key)
         if not isinstance(value, kind):
             raise DamagedError(
-                f"{self.path / 'result.json'}:1: {key} must be of kind {kind.__name__}, not {value!r:.60}")
+                f"{self.path / 'result.json'}:1: {key} must be of type {kind.__name__}, not {value!r:.60}")
         return value
 
     def _number(self, key: str) -> float:
@@ -146,21 +146,21 @@ class Run:
 
     @property
     def scenario(self) -> str:
-        return self._told("scenario", str)
+        return self._value("scenario", str)
 
     @property
     def planner(self) -> dict[str, str]:
         """The planners, by name of the UAV."""
-        return dict(self._told("planner", dict))
+        return dict(self._value("planner", dict))
 
     @property
     def seed(self) -> int:
-        return self._told("seed", int)
+        return self._value("seed", int)
 
     @property
     def status(self) -> str:
         """completed, no_takeoff, interrupted or aborted."""
-        return self._told("status", str)
+        return self._value("status", str)
 
     @property
     def score(self) -> float:
@@ -169,7 +169,7 @@ class Run:
 
     @property
     def digest(self) -> str | None:
-        """The digest; None if the run is not deterministic, so that a repetition would have another one."""
+        """The digest; None if the run is not deterministic, so that a repetition may have another one."""
         value = self.result.get("digest")
         return value if isinstance(value, str) else None
 
@@ -177,7 +177,7 @@ class Run:
     def uavs(self) -> list[str]:
         """The names of the UAVs, in fleet order."""
         try:
-            return [str(uav["name"]) for uav in self._told("uavs", list)]
+            return [str(uav["name"]) for uav in self._value("uavs", list)]
         except (KeyError, TypeError):
             raise DamagedError(f"{self.path / 'result.json'}:1: uavs must have names") from None
 
@@ -287,8 +287,8 @@ class Run:
         for row in events[np.isin(events["event"], ["link_up", "link_down"])]:
             link = (str(row["subject"]), str(row["object"]))
             if (row["event"] == "link_up") == (link in begun):
-                raise DamagedError(f"{self.path / 'events.csv'}: at {row['time_s']} s there is a {row['event']} from "
-                                   f"{link[0]} to {link[1]}, which it was already")
+                raise DamagedError(f"{self.path / 'events.csv'}: at {row['time_s']} s there is a second {row['event']} "
+                                   f"in a row from {link[0]} to {link[1]}")
             if row["event"] == "link_up":
                 begun[link] = float(row["time_s"])
             else:
@@ -300,7 +300,7 @@ class Run:
         table.flags.writeable = False
         return table
 
-    # -- made of them -------------------------------------------------------------------------------------------------
+    # -- derived from the tables --------------------------------------------------------------------------------------
 
     @property
     def score_losses(self) -> dict[str, float]:
