@@ -1,4 +1,4 @@
-// Whether properties held, by how much, and what says nothing: against a second, naive reading of the definitions.
+// Compares outcomes, margins and vacuous verdicts with a second, naive implementation of the definitions.
 #include "signals/properties/evaluation.hpp"
 
 #include <gtest/gtest.h>
@@ -28,10 +28,10 @@ Scenario fleet() {
   return scenario;
 }
 
-/// Signals by their text, one value a second.
-class Given final : public RunSignals {
+/// A run with given signals, by their text: one value a second.
+class GivenRun final : public RunSignals {
  public:
-  explicit Given(std::map<std::string, std::vector<double>> signals) : signals_(std::move(signals)) {}
+  explicit GivenRun(std::map<std::string, std::vector<double>> signals) : signals_(std::move(signals)) {}
 
   const std::vector<double>& values(const SignalUse& signal) override { return signals_.at(signal.text()); }
   std::size_t exchanges() const override { return signals_.begin()->second.size(); }
@@ -44,7 +44,7 @@ class Given final : public RunSignals {
   std::map<std::string, std::vector<double>> signals_;
 };
 
-Verdict judged(const std::string& text, Given& run) {
+Verdict judged(const std::string& text, GivenRun& run) {
   const std::vector<Property> properties = parse_property("it", text, fleet());
   std::vector<Verdict> verdicts;
   for (const Property& property : properties) verdicts.push_back(evaluate(property, run));
@@ -53,7 +53,7 @@ Verdict judged(const std::string& text, Given& run) {
 
 Verdict judged(const std::string& text, std::map<std::string, std::vector<double>> signals,
                std::optional<double> healed = 0.0) {
-  Given run(std::move(signals));
+  GivenRun run(std::move(signals));
   run.healed = healed;
   return judged(text, run);
 }
@@ -88,7 +88,7 @@ TEST(Evaluation, AlwaysIsTheLeastAndEventuallyTheGreatestOfItsWindow) {
   }
 }
 
-TEST(Evaluation, UntilIsTheBestInstantOfTheGoalAndAllBefore) {
+TEST(Evaluation, UntilTakesTheBestInstantForItsGoal) {
   std::mt19937_64 random(4);
   for (int round = 0; round < 500; ++round) {
     std::vector<double> a(12), b(12);
@@ -114,8 +114,8 @@ TEST(Evaluation, UntilIsTheBestInstantOfTheGoalAndAllBefore) {
   }
 }
 
-// The margin is what it says: who moves the signal by less changes nothing.
-TEST(Evaluation, WithinTheMarginTheVerdictStays) {
+// A change of the signal by less than the margin does not change the verdict.
+TEST(Evaluation, ChangesBelowTheMarginKeepTheVerdict) {
   std::mt19937_64 random(5);
   for (int round = 0; round < 1000; ++round) {
     std::vector<double> held(10);
@@ -133,15 +133,15 @@ TEST(Evaluation, WithinTheMarginTheVerdictStays) {
   }
 }
 
-TEST(Evaluation, WheneverAsksFromEachTimeOn) {
+TEST(Evaluation, WheneverIsJudgedFromEachTimeThatItsConditionBecomesTrue) {
   const std::vector<double> restarts = {0, 0, 1, 1, 1, 1, 2, 2, 2, 2}, captures = {0, 1, 1, 1, 2, 2, 2, 2, 2, 3};
   const std::string text = "whenever rises(restarts), eventually gain(captures) >= 1 within ";
   const auto with = [&](const std::string& time) {
     return judged(text + time, {{"restarts", restarts}, {"captures", captures}});
   };
-  EXPECT_EQ(with("3 s").outcome, Outcome::holds) << "at 4 s and at 9 s";
+  EXPECT_EQ(with("3 s").outcome, Outcome::holds) << "the captures grow at 4 s and at 9 s";
   const Verdict late = with("2 s");
-  EXPECT_EQ(late.outcome, Outcome::fails) << "the second time it took 3 s";
+  EXPECT_EQ(late.outcome, Outcome::fails) << "after the second restart, the captures grow only after 3 s";
   EXPECT_NE(late.reason.find("from 6 to 8 s"), std::string::npos) << late.reason;
   EXPECT_EQ(with("1 s").outcome, Outcome::fails);
 }
@@ -154,18 +154,19 @@ TEST(Evaluation, GainsCountFromTheBeginningOfTheWindow) {
   EXPECT_EQ(judged("eventually gain(captures) >= 2 after heal", {{"captures", captures}}, 3.0).outcome, Outcome::fails);
 }
 
-TEST(Evaluation, WhatTheRunDoesNotDecideIsVacuousAndSaysWhy) {
+TEST(Evaluation, APropertyThatTheRunDoesNotDecideIsVacuousWithAReason) {
   const std::vector<double> rising = {0, 1, 2, 3}, still = {2, 2, 2, 2};
   const auto reason = [](const Verdict& verdict) {
     EXPECT_EQ(verdict.outcome, Outcome::vacuous);
     return verdict.reason;
   };
   EXPECT_NE(reason(judged("always held < 3", {{"held", still}})).find("ever moved"), std::string::npos);
-  EXPECT_EQ(judged("always held < 1", {{"held", still}}).outcome, Outcome::fails) << "what fails, fails";
+  EXPECT_EQ(judged("always held < 1", {{"held", still}}).outcome, Outcome::fails)
+      << "a property that fails is not vacuous";
   EXPECT_EQ(judged("always held < 3 and result(score) > 1", {{"held", rising}, {"result(score)", still}}).outcome,
             Outcome::fails);
   EXPECT_EQ(judged("always result(score) > 1", {{"result(score)", still}}).outcome, Outcome::holds)
-      << "it never moves in any run";
+      << "result() is constant in every run, so it need not change";
   EXPECT_NE(reason(judged("sometimes held > 9", {{"held", rising}})).find("never reached"), std::string::npos);
   EXPECT_NE(reason(judged("whenever held > 9, always held < 3", {{"held", rising}})).find("never came"),
             std::string::npos);
@@ -177,11 +178,12 @@ TEST(Evaluation, WhatTheRunDoesNotDecideIsVacuousAndSaysWhy) {
   EXPECT_EQ(judged("eventually held > 9 within 2 s", {{"held", rising}}).outcome, Outcome::fails);
   EXPECT_NE(reason(judged("finally held >= 0 within 5 s", {{"held", rising}})).find("before it could be decided"),
             std::string::npos)
-      << "what is true before the window's end need not be true there";
-  EXPECT_EQ(judged("eventually held >= 2 within 5 s", {{"held", rising}}).outcome, Outcome::holds) << "it came in time";
+      << "what holds before the window's end may not hold at its end";
+  EXPECT_EQ(judged("eventually held >= 2 within 5 s", {{"held", rising}}).outcome, Outcome::holds)
+      << "the value was reached in time";
 }
 
-TEST(Evaluation, WhatIsUndefinedNeitherHoldsNorFails) {
+TEST(Evaluation, AnUndefinedComparisonNeitherHoldsNorFails) {
   const std::vector<double> from_zero = {0, 1, 2}, to_zero = {2, 1, 0}, never_zero = {3, 2, 1};
   const std::map<std::string, std::vector<double>> run = {
       {"held(a)", from_zero}, {"held(b)", to_zero}, {"captures(a)", never_zero}};
@@ -201,7 +203,7 @@ TEST(Evaluation, WhatIsUndefinedNeitherHoldsNorFails) {
   unclear("whenever 1 / held(a) > 5, always held(b) < 9", 0.0);
   unclear("1 / held(a) > 5 until held(b) < 2", 1.0);
   unclear("for u in uavs, always 1 / held(u) > 0.1", 0.0);
-  // What the other exchanges decide by themselves stays decided.
+  // If the other exchanges decide the property, the undefined one does not matter.
   EXPECT_EQ(judged("always 1 / held(a) > 0.9", run).outcome, Outcome::fails);
   EXPECT_EQ(judged("never 1 / held(a) > 0.1", run).outcome, Outcome::fails);
   EXPECT_EQ(judged("eventually 1 / held(a) > 0.9", run).outcome, Outcome::holds);
@@ -209,7 +211,7 @@ TEST(Evaluation, WhatIsUndefinedNeitherHoldsNorFails) {
   EXPECT_EQ(judged("always 1 / captures(a) > 0.1", run).outcome, Outcome::holds);
 }
 
-TEST(Evaluation, TheWorstCaseCounts) {
+TEST(Evaluation, TheUavWithTheWorstMarginCounts) {
   const std::vector<double> low = {0, 1, 2}, high = {3, 4, 5}, still = {1, 1, 1};
   const Verdict failing = judged("for u in uavs, always held(u) < 4", {{"held(a)", low}, {"held(b)", high}});
   EXPECT_EQ(failing.outcome, Outcome::fails);
@@ -219,10 +221,10 @@ TEST(Evaluation, TheWorstCaseCounts) {
   EXPECT_EQ(near.bound, "u = b");
   EXPECT_EQ(near.margin, 4.0);
   const Verdict half = judged("for u in uavs, always held(u) < 9", {{"held(a)", still}, {"held(b)", low}});
-  EXPECT_EQ(half.outcome, Outcome::holds) << "one case says something";
+  EXPECT_EQ(half.outcome, Outcome::holds) << "the property is decided for one of the UAVs";
 }
 
-TEST(Evaluation, TruthWithoutMeasureHasAnInfiniteMargin) {
+TEST(Evaluation, ABooleanSignalHasAnInfiniteMargin) {
   const Verdict verdict = judged("eventually alive(a)", {{"alive(a)", {0, 1, 1}}});
   EXPECT_EQ(verdict.outcome, Outcome::holds);
   EXPECT_EQ(verdict.margin, kInfinity);
@@ -230,43 +232,45 @@ TEST(Evaluation, TruthWithoutMeasureHasAnInfiniteMargin) {
 }
 
 TEST(Evaluation, MarginsOverTimeAreThoseOfTheCondition) {
-  Given run({{"held", {1, 2, 3}}});
+  GivenRun run({{"held", {1, 2, 3}}});
   EXPECT_EQ(margins_over_time(parse_property("it", "always held < 3", fleet())[0], run),
             (std::vector<double>{2, 1, 0}));
   EXPECT_EQ(margins_over_time(parse_property("it", "never held < 3", fleet())[0], run),
             (std::vector<double>{-2, -1, 0}));
 }
 
-// `alive` moves in a collision only; a run in which UAVs fly and none collides is no vacuous one.
+// `alive` changes only in a collision. A run in which UAVs fly and none collides is not vacuous.
 TEST(Evaluation, AFlightWithoutCollisionExercisesAlive) {
-  const auto flown = [](const std::vector<double>& way, const std::vector<double>& alive) {
+  const auto flown = [](const std::vector<double>& distance, const std::vector<double>& alive) {
     return judged("for u in uavs, always alive(u)",
-                  {{"alive(a)", alive}, {"distance(a)", way}, {"alive(b)", {1, 1, 1}}, {"distance(b)", {0, 0, 0}}})
+                  {{"alive(a)", alive}, {"distance(a)", distance}, {"alive(b)", {1, 1, 1}}, {"distance(b)", {0, 0, 0}}})
         .outcome;
   };
   EXPECT_EQ(flown({0, 1, 2}, {1, 1, 1}), Outcome::holds);
-  EXPECT_EQ(flown({0, 0, 0}, {1, 1, 1}), Outcome::vacuous) << "whatever stands on the ground";
+  EXPECT_EQ(flown({0, 0, 0}, {1, 1, 1}), Outcome::vacuous) << "no UAV flies";
   EXPECT_EQ(flown({0, 1, 1}, {1, 1, 0}), Outcome::fails);
 }
 
-TEST(Evaluation, WhatComesUnderUnlessIsNoSuccess) {
+TEST(Evaluation, UnlessEndsTheWindow) {
   const auto outcome = [](const std::string& text, const std::vector<double>& held, const std::vector<double>& back) {
     return judged(text, {{"held", held}, {"member(a)", back}}).outcome;
   };
   const std::string eventually = "eventually held >= 2 unless member(a) within 3 s";
-  EXPECT_EQ(outcome(eventually, {0, 1, 2, 2, 2}, {0, 0, 0, 1, 1}), Outcome::holds) << "it came first";
-  EXPECT_EQ(outcome(eventually, {0, 1, 1, 2, 2}, {0, 0, 1, 1, 1}), Outcome::vacuous) << "the excuse came first";
+  EXPECT_EQ(outcome(eventually, {0, 1, 2, 2, 2}, {0, 0, 0, 1, 1}), Outcome::holds) << "the property came true first";
+  EXPECT_EQ(outcome(eventually, {0, 1, 1, 2, 2}, {0, 0, 1, 1, 1}), Outcome::vacuous)
+      << "the condition of unless came true first";
   EXPECT_EQ(outcome(eventually, {0, 1, 1, 1, 2}, {0, 0, 0, 0, 1}), Outcome::fails) << "neither came in time";
-  EXPECT_EQ(outcome(eventually, {2, 2, 2, 2, 2}, {1, 1, 1, 1, 1}), Outcome::vacuous) << "it was never asked";
+  EXPECT_EQ(outcome(eventually, {2, 2, 2, 2, 2}, {1, 1, 1, 1, 1}), Outcome::vacuous)
+      << "unless is true from the beginning";
   const std::string always = "always held < 2 unless member(a)";
   EXPECT_EQ(outcome(always, {0, 1, 2, 0, 0}, {0, 0, 0, 1, 1}), Outcome::fails);
-  EXPECT_EQ(outcome(always, {0, 1, 0, 2, 2}, {0, 0, 0, 1, 1}), Outcome::holds) << "as far as it was asked";
+  EXPECT_EQ(outcome(always, {0, 1, 0, 2, 2}, {0, 0, 0, 1, 1}), Outcome::holds) << "it holds until unless becomes true";
   const Verdict excused = judged(eventually, {{"held", {0, 1, 1}}, {"member(a)", {0, 0, 1}}});
   EXPECT_NE(excused.reason.find("not exercised"), std::string::npos) << excused.reason;
 }
 
-// A run in which nothing happens says that nothing happens, and little else.
-TEST(Evaluation, AConditionThatSomethingKeepsAValueIsNotVacuous) {
+// If no signal changes, only a condition that requires a constant value is not vacuous.
+TEST(Evaluation, AConditionThatRequiresAConstantValueIsNotVacuous) {
   const std::vector<double> still = {3, 3, 3, 3}, moving = {3, 4, 5, 6};
   for (const char* text : {"always gain(held) == 0", "finally held == 3", "always held == 3 and held < 9",
                            "for u in uavs, always gain(held(a)) == 0"}) {

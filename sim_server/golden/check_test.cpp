@@ -1,4 +1,4 @@
-// Every reference vector through the production code, one test per table.
+// Checks the production code against every reference vector, one test per table.
 #include "sim_server/golden/check.hpp"
 
 #include <gtest/gtest.h>
@@ -32,7 +32,7 @@ INSTANTIATE_TEST_SUITE_P(Tables, GoldenTables,
                          testing::Values("scoring", "gimbal", "position_control", "attitude_control", "los_antenna"),
                          [](const auto& table) { return std::string(table.param); });
 
-/// Those that every user has: our own, of a second implementation.
+/// The reference vectors that Skein ships: our own, computed by a second implementation.
 class ShippedVectors : public testing::TestWithParam<const char*> {};
 
 TEST_P(ShippedVectors, AllRowsAgree) {
@@ -77,19 +77,19 @@ std::string reversed(const std::string& line) {
   return result;
 }
 
-TEST_F(GoldenFile, ShapesOfAFileThatDoNotMatter) {
+TEST_F(GoldenFile, AcceptsOtherFormsOfTheSameTable) {
   const std::string header(kAttitudeHeader, sizeof(kAttitudeHeader) - 2);  // without the end of line
   const std::string row = "1,explorer,0,0,0,0,1,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0";
   const std::string e_row = "1,explorer,+0,0e0,0E+00,0.0,1e0,-0,1e-400,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0";
   const std::vector<std::string> files = {
-      header + "\n" + row,                                               // no end of line at the end
-      header + "\r\n" + row + "\r\n\r\n",                                // from Windows
-      "\xEF\xBB\xBF" + header + "\n" + row + "\n",                       // with a mark of UTF-8
+      header + "\n" + row,                                               // the last line without a line end
+      header + "\r\n" + row + "\r\n\r\n",                                // line ends of Windows
+      "\xEF\xBB\xBF" + header + "\n" + row + "\n",                       // with a byte order mark
       "# a comment\n\n" + header + "\n\n# another\n" + row + "\n   \n",  // comments and empty lines
       reversed(header) + "\n" + reversed(row) + "\n",                    // columns in another order
-      header + ",remark\n" + row + ",of no importance\n",                // a column more
-      header + "\n" + e_row + "\n",                                      // scientific notation, signs, tiny
-      "\"row_id\" , " + header.substr(7) + "\n" + " 1 , \"explorer\"" + row.substr(10) + "\n"};  // blanks, quotes
+      header + ",remark\n" + row + ",of no importance\n",                // an additional column
+      header + "\n" + e_row + "\n",                                      // scientific notation, signs, a tiny number
+      "\"row_id\" , " + header.substr(7) + "\n" + " 1 , \"explorer\"" + row.substr(10) + "\n"};  // spaces, quotes
   for (const std::string& file : files) {
     const GoldenReport report = check_golden(write(file));
     EXPECT_EQ(report.rows, 1u) << file;
@@ -97,13 +97,13 @@ TEST_F(GoldenFile, ShapesOfAFileThatDoNotMatter) {
   }
 }
 
-TEST_F(GoldenFile, MessagesCountLinesOfTheFile) {
+TEST_F(GoldenFile, MessagesHaveTheLineNumberInTheFile) {
   const auto path = write(std::string("# first\n") + kAttitudeHeader +
                           "\n1,explorer,0,0,0,0,1,0,0,0,0,0,0,0,0,0,0,0,0,0,0.5,0,0,0,0,0\n");
   EXPECT_EQ(check_golden(path).messages.at(0), "line 4, rotor_0: expected 0.5, computed 0");
 }
 
-TEST_F(GoldenFile, NotANumberIsNoAgreement) {
+TEST_F(GoldenFile, NanAndInfinityDoNotAgree) {
   const auto path =
       write(std::string(kAttitudeHeader) + "1,explorer,0,0,0,0,1,0,0,0,0,0,0,0,0,0,0,nan,inf,0,0,0,0,0,0,0\n");
   const GoldenReport report = check_golden(path);
@@ -117,7 +117,7 @@ constexpr char kGimbalHeader[] =
     "partial_saturation_quirk,stale_rate_quirk\n";
 
 TEST_F(GoldenFile, GimbalModesAreAnyNumbersAndSequencesMayInterleave) {
-  // G6: 0.5 is angle, -1e-8 freeze, -0.3 rate.
+  // docs/rules.md, G6: the mode 0.5 means angle, -1e-8 freeze, and -0.3 rate.
   const auto path = write(std::string(kGimbalHeader) +
                           "a,0,0.5,0.01,0,0,80,90,60,0,0,1,0.01,0,0.2,0,0,0,0\n"
                           "b,0,-0.3,0,0.4,0,80,90,60,0,0,-1,0,0.02,0,0.4,0,0,0\n"
@@ -136,8 +136,9 @@ constexpr char kPositionHeader[] =
     "state_after,eff_cmd_px,eff_cmd_py,eff_cmd_pz,eff_cmd_yaw,pos_err_acc_out_x,pos_err_acc_out_y,pos_err_acc_out_z,"
     "yaw_err_acc_out,tar_acc_x,tar_acc_y,tar_acc_z,roll_cmd,pitch_cmd,yaw_rate_cmd,thrust_cmd_N\n";
 
-TEST_F(GoldenFile, AgesFallOnTheirSideOfTheLimit) {
-  // A hovering explorer at its target, whose command gets old: at 0.1 s exactly no rule fires (P9), later it holds.
+TEST_F(GoldenFile, ACommandMustBeOlderThanTheLimitToExpire) {
+  // An explorer hovers at its target, and its command gets old: no rule applies at exactly 0.1 s (docs/rules.md, P9);
+  // after that, the UAV holds its position.
   const std::string before = "explorer,5,0,3,0,0,0,0,0,0,0,5,0,3,1,0,0,0,0,0,0,0,0,0,0,moving,";
   const std::string after = ",5,0,3,0,0,0,0,0,0,0,9.781,0,0,0,30.21\n";
   const auto failures = [&](const std::string& age, const std::string& state) {
@@ -156,7 +157,8 @@ TEST_F(GoldenFile, BadTablesAreRefused) {
   EXPECT_THROW(check_golden(write("a,b\n1,2\n")), InputError);
   EXPECT_THROW(check_golden(write("")), InputError);
   EXPECT_THROW(check_golden(write(kAttitudeHeader)), InputError) << "no rows";
-  EXPECT_THROW(check_golden(write("row_id," + std::string(kAttitudeHeader) + "1,1\n")), InputError) << "twice";
+  EXPECT_THROW(check_golden(write("row_id," + std::string(kAttitudeHeader) + "1,1\n")), InputError)
+      << "a column is there twice";
   EXPECT_THROW(
       check_golden(write(std::string(kAttitudeHeader) + "1,tractor,0,0,0,0,1,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0\n")),
       InputError);
