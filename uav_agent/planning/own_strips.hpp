@@ -19,7 +19,7 @@ class OwnStrips {
   std::optional<std::size_t> next(Tick now, const Vector3d& p_WB) const;
   const Strip& strip(std::size_t number) const { return records_[number].strip; }
   /// How often the strip was flown.
-  int looks(std::size_t number) const { return records_[number].flown; }
+  int times_flown(std::size_t number) const { return records_[number].flown; }
   /// Whether the strip's end is nearer than its beginning, so that it should be flown in reverse.
   bool begins_at_end(std::size_t number, const Vector3d& p_WB) const;
 

@@ -31,7 +31,7 @@ TEST(OwnStrips, AllComeOnceBeforeAnyComesAgain) {
       for (int i = 0; i < 12; ++i) {
         const auto next = strips.next(0, at_W);
         ASSERT_TRUE(next);
-        EXPECT_EQ(strips.looks(*next), look);
+        EXPECT_EQ(strips.times_flown(*next), look);
         flown.insert(*next);
         strips.flown(*next);
         at_W = strips.begins_at_end(*next, at_W) ? strips.strip(*next).begin_W : strips.strip(*next).end_W;

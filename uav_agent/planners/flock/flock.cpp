@@ -70,7 +70,7 @@ class FlockPlanner final : public Planner {
   void set_up(const PlannerInput& in);
   bool has_lidar() const { return agent_.me().role == Role::explorer; }
   void look_around(const PlannerInput& in);
-  void take_note(const Outcome& outcome, const PlannerInput& in);
+  void handle_outcome(const Outcome& outcome, const PlannerInput& in);
   void carry_on(const PlannerInput& in, PlannerOutput& out);
   bool view_taken(const PlannerInput& in);
   void note_picture(const FlockView::Sight& sight);
@@ -109,7 +109,7 @@ PlannerOutput FlockPlanner::plan(const PlannerInput& in) {
   if (!surfaces_) return out;
   talk_.listen(in, surfaces_->grid(), surfaces_->points());
   look_around(in);
-  for (const Outcome& outcome : in.flight.outcomes) take_note(outcome, in);
+  for (const Outcome& outcome : in.flight.outcomes) handle_outcome(outcome, in);
   if (in.flight.working) {
     carry_on(in, out);
   } else {
@@ -149,7 +149,7 @@ void FlockPlanner::look_around(const PlannerInput& in) {
   }
 }
 
-void FlockPlanner::take_note(const Outcome& outcome, const PlannerInput& in) {
+void FlockPlanner::handle_outcome(const Outcome& outcome, const PlannerInput& in) {
   if (outcome.id != id_ || route_.empty() || outcome.kind == Outcome::Kind::reached) return;
   reach_.refuse(route_.front().p_WB, in.tick);
   route_.clear();

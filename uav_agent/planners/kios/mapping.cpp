@@ -12,7 +12,7 @@ constexpr double kRetryS = 1.0;   ///< wait after a failure
 
 void KiosMapping::step(const PlannerInput& in, std::int64_t& id, PlannerOutput& out) {
   for (const Outcome& outcome : in.flight.outcomes) {
-    if (asked_ > 0 && outcome.id == goal_) take_note(outcome, in.tick);
+    if (asked_ > 0 && outcome.id == goal_) handle_outcome(outcome, in.tick);
   }
   if (asked_ > 0 || left_W_.empty() || in.tick < not_before_) return;
   asked_ = left_W_.size() % 2 == 0 ? 2 : 1;
@@ -21,7 +21,7 @@ void KiosMapping::step(const PlannerInput& in, std::int64_t& id, PlannerOutput& 
   for (std::size_t i = 0; i < asked_; ++i) goal.way.push_back({left_W_[i], speed_mps_});
 }
 
-void KiosMapping::take_note(const Outcome& outcome, Tick now) {
+void KiosMapping::handle_outcome(const Outcome& outcome, Tick now) {
   const bool reached = outcome.kind == Outcome::Kind::reached;
   const std::size_t passed = std::min(reached ? asked_ : outcome.leg, left_W_.size());
   left_W_.erase(left_W_.begin(), left_W_.begin() + static_cast<std::ptrdiff_t>(passed));

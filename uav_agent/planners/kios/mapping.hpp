@@ -24,7 +24,7 @@ class KiosMapping {
   void step(const PlannerInput& in, std::int64_t& id, PlannerOutput& out);
 
  private:
-  void take_note(const Outcome& outcome, Tick now);
+  void handle_outcome(const Outcome& outcome, Tick now);
 
   double speed_mps_;
   std::deque<Vector3d> left_W_;  ///< corners that are left, in order

@@ -24,8 +24,8 @@ namespace {
 
 constexpr double kRefitS = 2.0;                      ///< between two refits of the strip that is being flown
 constexpr double kRestS = 3.0;                       ///< wait when no strip can be flown
-constexpr double kViewTurns[] = {0.0, 0.45, -0.45};  ///< yaw of the gimbal, by number of the look [rad]
-constexpr int kMaxFailures = 3;                      ///< of a strip in one look; after one more it is given up
+constexpr double kViewTurns[] = {0.0, 0.45, -0.45};  ///< yaw of the gimbal in successive flights along a strip [rad]
+constexpr int kMaxFailures = 3;                      ///< that one flight along a strip may have; the next one ends it
 constexpr double kStartHeight = 0.25;                ///< assumed height at which tours begin, as a share of the site's
 constexpr int kMostTries = 3;                        ///< most strips that are fitted in one exchange
 
@@ -44,15 +44,15 @@ class PatrolPlanner final : public Planner {
  private:
   StandoffConfig standoff_config() const;
   void share_work(const PlannerInput& in);
-  void take_note(const Outcome& outcome, const PlannerInput& in);
+  void handle_outcome(const Outcome& outcome, const PlannerInput& in);
   std::vector<Goal> next_goals(const PlannerInput& in);
   bool take_strip(const PlannerInput& in);
   std::vector<Goal> strip_goals(const PlannerInput& in, const std::optional<Vector3d>& p_W_now);
   std::vector<Goal> refitted(const PlannerInput& in);
-  void strip_is_flown();
+  void mark_flown();
   void face_strip(Goal& goal) const;
   void give_strip_up(const PlannerInput& in);
-  /// Distance along the strip of the waypoint `leg` of the current run.
+  /// Distance along the strip of the waypoint `leg` of the current stretch (Run).
   double run_s(std::size_t leg) const { return strip_s_ + standoff_config().step_m * static_cast<double>(leg); }
 
   const Config config_;
@@ -64,13 +64,13 @@ class PatrolPlanner final : public Planner {
   std::optional<BlockWork> blocks_;
   std::optional<std::size_t> own_;       ///< number of the current strip, if it is one of strips_...
   std::optional<BlockWork::Task> task_;  ///< ...or its task, if it is one of blocks_
-  int looks_ = 0;                        ///< how often this UAV has flown the current strip before
-  bool flown_ = false;                   ///< part of the current strip was flown in this look
+  int times_flown_ = 0;                  ///< how often this UAV has flown the current strip before
+  bool flown_ = false;                   ///< the UAV has flown a part of the current strip this time
   std::optional<Strip> strip_;           ///< the current strip
   bool reversed_ = false;                ///< the strip is flown from its end to its beginning
-  double strip_s_ = 0.0;                 ///< where on the strip the current run begins [m]
-  std::size_t run_length_ = 0;           ///< waypoints of the current run
-  int failures_ = 0;                     ///< of the current strip, in this look
+  double strip_s_ = 0.0;                 ///< where on the strip the current stretch begins [m]
+  std::size_t run_length_ = 0;           ///< number of waypoints of the current stretch
+  int failures_ = 0;                     ///< of this flight along the current strip
   std::int64_t id_ = 0;                  ///< id of the current goal
   bool flying_ = false;                  ///< the UAV flies to the strip or along it
   Tick refit_at_ = 0, rest_until_ = 0;
@@ -81,7 +81,7 @@ PlannerOutput PatrolPlanner::plan(const PlannerInput& in) {
   if (!in.boxes.empty() && !shared_) share_work(in);
   if (!in.flight.working || !shared_) return out;
   for (const Outcome& outcome : in.flight.outcomes) {
-    if (outcome.id == id_) take_note(outcome, in);
+    if (outcome.id == id_) handle_outcome(outcome, in);
   }
   if (!flying_ && in.tick >= rest_until_) {
     out.goals = next_goals(in);
@@ -89,7 +89,7 @@ PlannerOutput PatrolPlanner::plan(const PlannerInput& in) {
     ++id_;
   } else if (flying_ && strip_ && in.flight.on_way && in.tick >= refit_at_) {
     refit_at_ = in.tick + ticks(kRefitS);
-    strip_is_flown();
+    mark_flown();
     if (auto goals = refitted(in); !goals.empty()) out.goals = std::move(goals);
   }
   if (out.goals && flying_) out.goals->front().id = id_;
@@ -108,7 +108,7 @@ std::vector<Goal> PatrolPlanner::refitted(const PlannerInput& in) {
   return {};
 }
 
-void PatrolPlanner::strip_is_flown() {
+void PatrolPlanner::mark_flown() {
   if (flown_) return;
   flown_ = true;
   if (task_) blocks_->flown(*task_);
@@ -126,7 +126,7 @@ StandoffConfig PatrolPlanner::standoff_config() const {
 
 void PatrolPlanner::share_work(const PlannerInput& in) {
   shared_ = true;
-  const bool blind = !agent_.first_explorer();
+  const bool blind = !agent_.first_explorer();  // without a LiDAR, the map never shows the structure
   WorkShareConfig config;
   config.strips.standoff_ratio = config_.standoff_ratio;
   config.strips.overlap = config_.overlap;
@@ -141,11 +141,11 @@ void PatrolPlanner::share_work(const PlannerInput& in) {
   strips_ = OwnStrips(team_share(agent_, tight, reach_, kStartHeight * top_of(in.boxes), config));
 }
 
-void PatrolPlanner::take_note(const Outcome& outcome, const PlannerInput& in) {
+void PatrolPlanner::handle_outcome(const Outcome& outcome, const PlannerInput& in) {
   flying_ = false;
   if (outcome.kind == Outcome::Kind::reached) {
     strip_s_ = run_s(run_length_);
-    strip_is_flown();
+    mark_flown();
     return;
   }
   if (outcome.kind == Outcome::Kind::blocked) strip_s_ = run_s(outcome.leg);
@@ -179,11 +179,11 @@ bool PatrolPlanner::take_strip(const PlannerInput& in) {
   task_ = blocks_->any() ? blocks_->next(in.tick, here_W, in.map) : std::nullopt;
   own_ = strips_.next(in.tick, here_W);
   if (!task_ && !own_) return false;
-  if (own_ && task_ && task_->flown < strips_.looks(*own_)) own_.reset();
+  if (own_ && task_ && task_->flown < strips_.times_flown(*own_)) own_.reset();
   if (own_) task_.reset();
   strip_ = own_ ? strips_.strip(*own_) : task_->strip;
   reversed_ = own_ ? strips_.begins_at_end(*own_, here_W) : task_->reversed;
-  looks_ = own_ ? strips_.looks(*own_) : task_->flown;
+  times_flown_ = own_ ? strips_.times_flown(*own_) : task_->flown;
   flown_ = false;
   strip_s_ = 0.0;
   return true;
@@ -207,7 +207,7 @@ void PatrolPlanner::face_strip(Goal& goal) const {
   const double pitch_limit = agent_.vehicle.gimbal.pitch_limit_deg * kRadPerDeg;
   if (strip_->kind == FaceKind::side) {
     goal.yaw = std::atan2(-strip_->out_W.y(), -strip_->out_W.x());
-    const double turn = kViewTurns[static_cast<std::size_t>(looks_) % std::size(kViewTurns)];
+    const double turn = kViewTurns[static_cast<std::size_t>(times_flown_) % std::size(kViewTurns)];
     goal.gimbal = GimbalCommand{GimbalMode::angle, 0.0, turn};
     return;
   }

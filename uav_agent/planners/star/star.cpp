@@ -72,7 +72,7 @@ class StarPlanner final : public Planner {
 
   void survey_site(const PlannerInput& in);
   void look_around(const PlannerInput& in);
-  void take_note(const Outcome& outcome, const PlannerInput& in);
+  void handle_outcome(const Outcome& outcome, const PlannerInput& in);
   void carry_on(const PlannerInput& in, PlannerOutput& out);
   bool target_done(const PlannerInput& in);
   void put_off(const Route& route, const PlannerInput& in);
@@ -126,7 +126,7 @@ PlannerOutput StarPlanner::plan(const PlannerInput& in) {
   if (!known_) return out;
   talk_.listen(in, known_->grid());
   look_around(in);
-  for (const Outcome& outcome : in.flight.outcomes) take_note(outcome, in);
+  for (const Outcome& outcome : in.flight.outcomes) handle_outcome(outcome, in);
   if (in.flight.working) {
     carry_on(in, out);
     if (idle_since_ && routes_.empty()) out.waits_for = awaited();
@@ -163,7 +163,7 @@ void StarPlanner::look_around(const PlannerInput& in) {
 }
 
 /// A failed route is put off, and removed together with those before it, which the flight core has tried before.
-void StarPlanner::take_note(const Outcome& outcome, const PlannerInput& in) {
+void StarPlanner::handle_outcome(const Outcome& outcome, const PlannerInput& in) {
   const auto ended = std::ranges::find(routes_, outcome.id, &Route::id);
   if (ended == routes_.end()) return;
   if (outcome.kind == Outcome::Kind::reached) return routes_.clear();

@@ -12,12 +12,12 @@ namespace {
 
 using Id = VoxelGrid::Id;
 
-constexpr double kTilt = 0.8;          ///< slope of a tilted viewpoint's direction against the face's normal
-constexpr double kEnoughShare = 0.85;  ///< share of a patch in sight that suffices: the search ends there
-constexpr double kImageShare = 0.95;   ///< share of the image's half angles in which surface counts as seen
-constexpr double kNearShare = 0.75;    ///< second distance that is tried, as a share of the stand-off
+constexpr double kTilt = 0.8;          ///< tangent of the angle between a tilted view and the face's normal
+constexpr double kEnoughShare = 0.85;  ///< the search ends at a view that sees this share of the patch
+constexpr double kImageShare = 0.95;   ///< surface counts as seen within this share of the camera's half angles
+constexpr double kNearShare = 0.75;    ///< the second distance to try, as a share of the stand-off
 constexpr double kSpareM = 0.3;        ///< distance from a viewpoint to its surface, beyond the clearance
-constexpr std::size_t kMostTried = 4;  ///< most patches tried, per viewpoint that a plan may have
+constexpr std::size_t kMostTried = 4;  ///< views() tries at most this many patches, times `max_views`
 constexpr int kMostFailures = 12;
 
 /// Whether no occupied cube covers the face; false at the grid's boundary.
@@ -148,8 +148,8 @@ std::optional<Vector3d> StarSurfaces::nearest_open_W(const VoxelGrid& grid, cons
     const double distance = (surface - p_W).norm();
     if (distance >= least) return;
     for (int face = 0; face < VoxelGrid::kFaces; ++face) {
-      const bool turned_here = (p_W - surface).dot(grid.normal_W(face)) > std::cos(config_.oblique) * distance;
-      if (!turned_here || grid.marked(id, face) || !exposed(grid, id, face)) continue;
+      const bool faces_uav = (p_W - surface).dot(grid.normal_W(face)) > std::cos(config_.oblique) * distance;
+      if (!faces_uav || grid.marked(id, face) || !exposed(grid, id, face)) continue;
       if (!grid.sees(p_W, grid.centre_W(id))) return;
       least = distance;
       nearest = surface;
