@@ -20,7 +20,7 @@ std::vector<Eigen::Vector3f> drawn(std::mt19937& random, std::size_t count, floa
   return points;
 }
 
-TEST(ScanPoints, AreOneInEachCubeAboveTheGround) {
+TEST(ScanPoints, KeepOnePointInEachCubeAboveTheGround) {
   std::mt19937 random(1);
   ScanPoints scan;
   const auto points = drawn(random, 4000, 4.0F);
@@ -41,26 +41,26 @@ TEST(ScanPoints, AreOneInEachCubeAboveTheGround) {
   }
 }
 
-TEST(ScanPoints, AreOnlyThoseThatCanBeTold) {
+TEST(ScanPoints, LeaveOutPointsThatCannotBeEncoded) {
   constexpr float kInfinite = std::numeric_limits<float>::infinity();
   std::mt19937 random(5);
-  for (const float odd : {kInfinite, -kInfinite, std::nanf(""), 1e30F, -1e30F, 3'277.0F, -3'277.0F}) {
+  for (const float invalid : {kInfinite, -kInfinite, std::nanf(""), 1e30F, -1e30F, 3'277.0F, -3'277.0F}) {
     for (int axis = 0; axis < 3; ++axis) {
       std::vector<Eigen::Vector3f> points = drawn(random, 50, 1'000.0F);
       for (Eigen::Vector3f& p : points) {
         p.z() = std::abs(p.z()) + 1.0F;
-        p[axis] = odd;
+        p[axis] = invalid;
       }
       ScanPoints scan(3);
       scan.add(points);
-      EXPECT_TRUE(scan.empty()) << odd << " on axis " << axis;
+      EXPECT_TRUE(scan.empty()) << invalid << " on axis " << axis;
       scan.add(std::vector<Eigen::Vector3f>{{1.0F, 2.0F, 3.0F}, {4.0F, 5.0F, 6.0F}, {-3'276.0F, 0.0F, 3'276.0F}});
-      EXPECT_EQ(scan.take(10).size(), 3U) << "the room was kept for these";
+      EXPECT_EQ(scan.take(10).size(), 3U) << "the points left out took no room";
     }
   }
 }
 
-TEST(ScanPoints, AreNoMoreThanAskedFor) {
+TEST(ScanPoints, AreAtMostAsManyAsRequested) {
   std::mt19937 random(2);
   ScanPoints scan;
   for (int i = 0; i < 20; ++i) scan.add(drawn(random, 3000, 100.0F));
@@ -73,7 +73,7 @@ TEST(ScanPoints, AreNoMoreThanAskedFor) {
   EXPECT_EQ(scan.take(0).size(), 0U);
 }
 
-TEST(ScanPoints, ComeOnceWhereTheyAreTakenForGood) {
+TEST(ScanPoints, TakeForGoodReturnsAPointOfEachCubeOnce) {
   std::mt19937 random(4);
   ScanPoints scan(300);
   const auto first = drawn(random, 100, 5.0F), second = drawn(random, 2000, 5.0F);
@@ -83,25 +83,26 @@ TEST(ScanPoints, ComeOnceWhereTheyAreTakenForGood) {
   scan.add(first);
   EXPECT_TRUE(scan.empty());
   scan.add(second);
-  EXPECT_EQ(early + scan.take_for_good().size(), 300U) << "and no more than it was made for";
+  EXPECT_EQ(early + scan.take_for_good().size(), 300U) << "at most most_kept points in all";
   scan.add(drawn(random, 100, 100.0F));
   EXPECT_TRUE(scan.empty());
 }
 
-TEST(ScanPoints, ArriveToTheDecimetre) {
+TEST(ScanPoints, ArriveWithinADecimetre) {
   std::mt19937 random(3);
   auto points = drawn(random, 200, 3000.0F);
   const auto arrived = unpacked_points(packed_points(points));
   ASSERT_EQ(arrived.size(), points.size());
   for (std::size_t i = 0; i < points.size(); ++i) EXPECT_LT((arrived[i] - points[i].cast<double>()).norm(), 0.09);
   points = {{1e9F, 0.0F, 1.0F}, {1.0F, 2.0F, 3.0F}, {0.0F, std::nanf(""), 0.0F}};
-  EXPECT_EQ(unpacked_points(packed_points(points)).size(), 1U) << "what is too far away is left out";
+  EXPECT_EQ(unpacked_points(packed_points(points)).size(), 1U)
+      << "points that are too far away, or not finite, are left out";
   const std::vector<Eigen::Vector3f> two = {{1.0F, -2.0F, 3.0F}, {-300.0F, 0.0F, 0.5F}};
-  EXPECT_EQ(packed_points(two), "CgDs/x4ASPQAAAUA") << "the vector that web/src/packed.js is held against, too";
-  const Json told = parse_json(lidar_text("a", std::vector<PointsStep>{{2.5, two}}));
-  EXPECT_EQ(told["n"], "lidar a");
-  EXPECT_EQ(told["steps"][0]["t"], 2.5);
-  EXPECT_EQ(unpacked_points(told["steps"][0]["points"].get<std::string>()).size(), 2U);
+  EXPECT_EQ(packed_points(two), "CgDs/x4ASPQAAAUA") << "the encoding that web/src/packed.js decodes";
+  const Json sent = parse_json(lidar_text("a", std::vector<PointsStep>{{2.5, two}}));
+  EXPECT_EQ(sent["n"], "lidar a");
+  EXPECT_EQ(sent["steps"][0]["t"], 2.5);
+  EXPECT_EQ(unpacked_points(sent["steps"][0]["points"].get<std::string>()).size(), 2U);
 }
 
 }  // namespace
