@@ -35,19 +35,19 @@ await waitUntil(() => look(cell(4, 0)), ({kind}) => kind.includes('waits'), 'the
 expect((await faults()).some((text) => text.includes('begins with the next step')), `no fault waits: ${await faults()}`);
 await step();
 const cut = await waitUntil(() => look(cell(4, 0)), ({kind}) => !kind.includes('waits'), 'the link is cut');
-expect(cut.title.includes('click heals it'), `the cell says ${cut.title}`);
+expect(cut.title.includes('click to restore it'), `the cell says ${cut.title}`);
 expect(['l l2', 'l l0'].includes(cut.kind), `the cell is ${cut.kind}`);  // l0: out of sight
 expect((await look(cell(0, 4))).kind !== 'l l2', 'the other direction is cut, too');
 
-// A fault that has not begun can be taken back.
+// A fault that has not begun can be cancelled.
 await page.click('#fleet tbody tr:nth-child(4) button');
 const kill = '#uav-faults button[data-fault="kill"]';
-await waitUntil(() => look(kill), ({disabled}) => !disabled, 'the chosen UAV can be broken');
+await waitUntil(() => look(kill), ({disabled}) => !disabled, 'faults can be injected into the chosen UAV');
 await page.click(kill);
-await waitUntil(() => look(kill), ({text}) => text.includes('take back'), 'the kill waits');
-expect((await look('#uav-faults button[data-fault="pause"]')).disabled, 'who is killed could be paused, too');
+await waitUntil(() => look(kill), ({text}) => text.includes('Cancel'), 'the kill waits');
+expect((await look('#uav-faults button[data-fault="pause"]')).disabled, 'a killed program could be paused, too');
 await page.click(kill);
-await waitUntil(() => look(kill), ({pressed}) => pressed === 'false', 'it is taken back');
+await waitUntil(() => look(kill), ({pressed}) => pressed === 'false', 'it is cancelled');
 // This time the fault begins; afterwards the program is started again.
 await page.click(kill);
 await waitUntil(() => look(kill), ({pressed}) => pressed === 'true', 'the kill waits again');
@@ -63,7 +63,7 @@ await waitUntil(faults, (texts) => texts.some((text) => /killed.*changi.*\d to \
 // Another way to end a fault, and a fault that the server refuses.
 await page.$$eval('#faults ol li.on button', (buttons) => buttons.at(-1).click());  // the oldest: the link
 await step();
-await waitUntil(() => look(cell(4, 0)), ({title}) => title.includes('Click cuts it'), 'the link is healed');
+await waitUntil(() => look(cell(4, 0)), ({title}) => title.includes('Click to cut it'), 'the link is healed');
 await page.evaluate(() => document.querySelector('#uav-faults button[data-fault="motor_failure"]').click());
 await waitUntil(faults, (texts) => texts.some((text) => text.includes('rotor weak')), 'a rotor is to be weak');
 await page.evaluate(() => document.querySelector('#uav-faults button[data-fault="motor_failure"]').click());

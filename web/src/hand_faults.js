@@ -1,16 +1,17 @@
-// Faults: shows those of the run, and lets a viewer begin and end faults by hand (view/fault_order.hpp). An order takes
-// effect with the next step; the next state says whether the server accepted it.
+// Shows the faults of the run, and lets a viewer begin and end faults by hand. The page sends an order for each
+// (view/fault_order.hpp). An order takes effect in the next step; the next state says whether the server accepted it.
 import {data, element, moment} from './page.js';
 
 const kMostRows = 60;
-const kStationAway_s = 5;  // the station serves this page, so a viewer could not end such a fault
+// The station serves this page. While it is killed or paused, a viewer cannot end the fault, so it ends by itself.
+const kStationFault_s = 5;
 const kStation = 'gcs';    // name of its node; its program is called station
 
-const hand = {order: () => {}, connected: false, seen: null};
+const hand = {order: () => {}, connected: false, refusedBefore: null};
 
 /**
- * Takes a line of the kind "fault" (story.hpp). @param told  by fault that has begun: its number, whether a viewer
- * began it, kind, target, begin and end [s].
+ * Adds what a line of the kind "fault" (view/story.hpp) says to a list of faults. @param told  the list: number, byHand
+ * (a viewer began the fault), kind, target, begin and end [s] of each fault that has begun.
  */
 export function tellFault(told, {t, n, hand: byHand, on, kind, of}) {
   if (on === 1) told.push({number: n, byHand: byHand === 1, kind, of, from: t, until: Infinity});
@@ -19,22 +20,22 @@ export function tellFault(told, {t, n, hand: byHand, on, kind, of}) {
 }
 
 /** @param order  function that sends an order. */
-export function useHand(order) {
+export function setOrderFunction(order) {
   hand.order = order;
 }
 
 /** @param connected  whether a server receives orders. */
-export function connectHand(connected) {
+export function setConnected(connected) {
   hand.connected = connected;
 }
 
 const openByHand = () => data.now?.faults?.open ?? [];
 const openOf = (kind, of) => openByHand().find((one) => one.kind === kind && one.of === of);
-/** Faults begin at present, so the viewer cannot begin one while the page shows the past. */
+/** Faults begin now, so a viewer cannot begin one while the page shows the past. */
 const mayAct = () => data.mode === 'live' && hand.connected && moment.newest;
 
 function ask(order) {
-  hand.seen = data.now?.faults?.refused ?? 0;
+  hand.refusedBefore = data.now?.faults?.refused ?? 0;
   hand.order(order);
 }
 const begin = (kind, of, more = {}) => ask({do: 'fault', kind, ...(of === null ? {} : {of}), ...more});
@@ -69,13 +70,13 @@ export function linkButton(from, to) {
   return button;
 }
 
-/** @param kind  digit of kLinks. @param text  the same in words. */
+/** @param kind  state of the link: a digit of kLinks. @param text  the same state in words. */
 export function showLinkButton(button, from, to, kind, text) {
   const cut = cutOf(from, to);
   const waits = cut !== undefined && !cut.begun;
   button.className = `l l${kind}${waits ? ' waits' : ''}`;
   button.disabled = !mayAct();
-  const what = cut === undefined ? 'Click cuts it' : waits ? 'It is cut with the next step; click takes that back' : 'Cut by hand; click heals it';
+  const what = cut === undefined ? 'Click to cut it' : waits ? 'It is cut in the next step; click to cancel' : 'Cut by hand; click to restore it';
   const title = `${shownName(from)} to ${shownName(to)}: ${text}${button.disabled ? '' : `. ${what} (with Shift: both directions)`}`;
   if (button.title === title) return;
   button.title = title;
@@ -84,8 +85,8 @@ export function showLinkButton(button, from, to, kind, text) {
 
 // ---- faults of one UAV ----------------------------------------------------------------------------------------------
 
-/** kind of fault, text of the button that begins it, text of the button that ends it */
-const kOfUav = [
+/** By fault: its kind, the text of the button that begins it, and the text of the button that ends it. */
+const kUavFaults = [
   ['kill', 'Kill its program', 'Start its program again'],
   ['pause', 'Pause its program', 'Let its program go on'],
   ['blackout', 'Cut its radio', 'Radio works again'],
@@ -108,8 +109,8 @@ function toggle(kind, of, begins, ends, more = {}) {
     const other = {kill: 'pause', pause: 'kill'}[kind];
     const taken = other !== undefined && openOf(other, name) !== undefined;
     const waits = open !== undefined && !open.begun;
-    setButton(button, open === undefined ? begins : waits ? `${begins}: take back` : ends,
-              waits ? 'begins with the next step' : `takes effect with the next step (${kind})`, !mayAct() || taken);
+    setButton(button, open === undefined ? begins : waits ? `Cancel: ${begins}` : ends,
+              waits ? 'begins with the next step' : `takes effect in the next step (${kind})`, !mayAct() || taken);
     button.setAttribute('aria-pressed', String(open !== undefined));
   };
   return {button, show};
@@ -129,10 +130,10 @@ export function uavFaultsPanel() {
   let [shown, parts] = [-1, []];
   const build = (uav) => {
     const {name, explorer} = data.uavs[uav];
-    title.textContent = `Break something of ${name}`;
-    parts = kOfUav.filter(([kind]) => explorer || kind !== 'lidar_failure').map(([kind, ...texts]) => toggle(kind, name, ...texts));
+    title.textContent = `Inject faults into ${name}`;
+    parts = kUavFaults.filter(([kind]) => explorer || kind !== 'lidar_failure').map(([kind, ...texts]) => toggle(kind, name, ...texts));
     const rotor = selectOf('rotor', [0, 1, 2, 3, 4, 5].map((i) => [i, `rotor ${i}`]), 0);
-    const thrust = selectOf('thrust that is left', [[0, 'no thrust'], [0.25, '25 %'], [0.5, '50 %'], [0.75, '75 %']], 0.5);
+    const thrust = selectOf('remaining thrust', [[0, 'no thrust'], [0.25, '25 %'], [0.5, '50 %'], [0.75, '75 %']], 0.5);
     const weaken = element('button', {type: 'button', 'data-fault': 'motor_failure'}, 'Weaken');
     weaken.addEventListener('click', () => begin('motor_failure', name, {rotor: Number(rotor.value), thrust: Number(thrust.value)}));
     const delay = selectOf('delay', [[4, '0.2 s'], [10, '0.5 s'], [20, '1 s']], 4);
@@ -176,7 +177,7 @@ function rows() {
   const seconds = (time) => time.toFixed(2);
   const list = waiting.map((one) => ({
     key: `${one.n}`, text: `${kKinds[one.kind] ?? one.kind}`, of: targetText(one), when: 'begins with the next step', state: 'waits',
-    ends: one.n, label: 'Take back',
+    ends: one.n, label: 'Cancel',
   }));
   for (const one of known.slice(0, kMostRows)) {
     const byHand = one.byHand && moment.newest ? open.find(({n}) => n === one.number) : undefined;
@@ -201,13 +202,13 @@ function rowOf({key, text, of, when, state, ends, label, byHand}) {
 }
 
 /**
- * @returns the panel with all faults. A viewer can end faults by hand here, and kill the programs that belong to no
- * UAV.
+ * @returns the panel with all faults. A viewer can end the faults that were begun by hand here, and kill or pause the
+ * programs that belong to no UAV.
  */
 export function faultsPanel() {
   const parts = [
-    toggle('kill', 'station', `Kill the station for ${kStationAway_s} s`, 'Start the station again', {for_s: kStationAway_s}),
-    toggle('pause', 'station', `Pause the station for ${kStationAway_s} s`, 'Let the station go on', {for_s: kStationAway_s}),
+    toggle('kill', 'station', `Kill the station for ${kStationFault_s} s`, 'Start the station again', {for_s: kStationFault_s}),
+    toggle('pause', 'station', `Pause the station for ${kStationFault_s} s`, 'Let the station go on', {for_s: kStationFault_s}),
     toggle('station_outage', null, 'Cut the station\'s radio', 'Station\'s radio works again'),
     toggle('kill', 'comm_router', 'Kill the radio router', 'Start the radio router again'),
     toggle('pause', 'comm_router', 'Pause the radio router', 'Let the radio router go on'),
@@ -222,8 +223,8 @@ export function faultsPanel() {
   const show = () => {
     for (const part of parts) part.show();
     const now = data.now?.faults;
-    hand.seen ??= now?.refused ?? null;
-    const text = now !== undefined && hand.seen !== null && now.refused > hand.seen ? `Not done: ${now.why}.` : '';
+    hand.refusedBefore ??= now?.refused ?? null;
+    const text = now !== undefined && hand.refusedBefore !== null && now.refused > hand.refusedBefore ? `Not done: ${now.why}.` : '';
     if (refused.textContent !== text) refused.textContent = text;
     const all = rows();
     none.hidden = all.length > 0;

@@ -7,7 +7,7 @@ import {addFigures} from './figures.js';
 import filmStyle from './film.css';
 import {offerFilm} from './film.js';
 import {begin, flights, isPair, stand, tell} from './flights.js';
-import {connectHand, faultsPanel, uavFaultsPanel, useHand} from './hand_faults.js';
+import {faultsPanel, setConnected, setOrderFunction, uavFaultsPanel} from './hand_faults.js';
 import {handPanel} from './hand_flight.js';
 import {tellKept} from './kept.js';
 import style from './live.css';
@@ -88,7 +88,7 @@ function stateOf() {
 }
 
 function showHead() {
-  connectHand(live);
+  setConnected(live);
   const [text, kind] = kStates[stateOf()];
   const state = document.getElementById('state');
   if (state.className !== `state ${kind}`) state.className = `state ${kind}`;
@@ -157,7 +157,7 @@ const address = {
 };
 
 async function show(order) {
-  useHand(order);
+  setOrderFunction(order);
   const places = frame(order);
   data.describe = describe;
   let scene;
