@@ -69,7 +69,7 @@ TEST_F(ComposeCommand, TheShippedFileIsWhatItWrites) {
       << "mend it in the source tree with: ./skein " << fmt::format("{}", fmt::join(words, " "));
 }
 
-TEST_F(ComposeCommand, AFileIsWrittenOrTheReasonTold) {
+TEST_F(ComposeCommand, AFileIsWrittenOrTheReasonIsReported) {
   auto options = parse_command_line({"compose", "towers"}).get<ComposeOptions>();
   options.file = scratch_.path() / "compose.yaml";
   EXPECT_EQ(compose_fleet(options, {out_, err_, false}), kExitDone);

@@ -39,7 +39,7 @@ TEST_F(ConvertCommand, PrintsOrRewritesFaultTestsOfEarlierVersions) {
   EXPECT_EQ(read_text(old_), kNew);
 }
 
-TEST_F(ConvertCommand, RefusesWhatIsNoFaultTestAndChangesNothing) {
+TEST_F(ConvertCommand, RefusesFilesThatAreNotFaultTestsAndChangesNothing) {
   write_text(other_, "name: towers\nfleet: []\n");
   const std::vector<std::vector<std::filesystem::path>> given = {{other_}, {scratch_.path()}, {old_, other_}};
   for (const bool in_place : {false, true}) {

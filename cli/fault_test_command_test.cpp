@@ -201,7 +201,7 @@ TEST_F(FaultTestCommand, AReportForOtherPrograms) {
             std::string::npos);
 }
 
-TEST_F(FaultTestCommand, OfARunThatLeavesNothingTheReasonIsTold) {
+TEST_F(FaultTestCommand, TheReasonIsReportedForARunWithoutResults) {
   programs_.script("comm_router", "");
   test_file("a", "always result(score) == 3");
   write_script(programs_.dir() / "fails", "echo nobody home >&2; exit 3");
@@ -211,7 +211,7 @@ TEST_F(FaultTestCommand, OfARunThatLeavesNothingTheReasonIsTold) {
   EXPECT_NE(out_.str().find("exit code 3 and without a result\n       nobody home"), std::string::npos) << out_.str();
 }
 
-TEST_F(FaultTestCommand, ABadReportOrSeedIsToldBeforeAnythingFlies) {
+TEST_F(FaultTestCommand, ABadReportOrSeedIsReportedBeforeAnythingFlies) {
   test_file("a", "always result(score) == 3");
   const auto refused = [&](TestOptions options, const std::string& words) {
     try {
@@ -231,7 +231,7 @@ TEST_F(FaultTestCommand, ABadReportOrSeedIsToldBeforeAnythingFlies) {
   refused(options, "is not a regular file");
   options.junit.reset();
   options.seeds = "3-x";
-  refused(options, "is no seed");
+  refused(options, "is not a seed");
   options.seeds.reset();
   options.agent = programs_.dir() / "nobody";
   refused(options, "--agent: ");

@@ -60,12 +60,12 @@ std::optional<std::string> damage_of(const fs::path& dir, const std::string& pro
   std::error_code error;
   if (!fs::exists(fs::symlink_status(report, error))) return std::nullopt;
   const Json json = read_json(report);
-  if (!json.is_object()) return "is damaged: it is no JSON object";
+  if (!json.is_object()) return "is damaged: it is not a JSON object";
   if (program == programs::kSimServer && !struct_of<SimServerReport>(json).status) {
     return "is damaged: 'status' is missing, or has no valid value";
   }
   if (program == programs::kStation && !struct_of<StationReport>(json).score) {
-    return "is damaged: 'score' is missing, or is no number of at least 0";
+    return "is damaged: 'score' is missing, or is not a number of at least 0";
   }
   return std::nullopt;
 }

@@ -158,7 +158,7 @@ TEST_F(OracleCommand, ARunTellsAPlanThatIsKnown) {
   EXPECT_EQ(arguments().find("--plan"), std::string::npos) << arguments();
 }
 
-TEST_F(OracleCommand, FailuresAreTold) {
+TEST_F(OracleCommand, FailuresAreReported) {
   write_script(programs_.dir() / "sim_server", "echo 'no such scenario' >&2; exit 2");
   EXPECT_THROW(run(), InputError);
   write_script(programs_.dir() / "sim_server", "exit 3");

@@ -130,7 +130,7 @@ void check_target(const fs::path& archive) {
   if (archive.filename().empty()) throw InputError(archive.string() + ": name the archive, as skein.tar.gz");
   const fs::path folder = archive.parent_path();
   if (!fs::is_directory(folder, none) && fs::exists(folder, none)) {
-    throw InputError(folder.string() + ": is no folder, so no archive can be made in it");
+    throw InputError(folder.string() + ": is not a folder, so no archive can be made in it");
   }
 }
 
@@ -154,7 +154,7 @@ int pack_programs(const PackOptions& options, const Console& console) {
   }
   files.push_back(program_dir() / (std::string(programs::kAgent) + programs::kFleetSuffix));
   for (const fs::path& agent : options.agents) {
-    if (!fs::is_regular_file(agent)) throw InputError("--agent " + agent.string() + ": is no program");
+    if (!fs::is_regular_file(agent)) throw InputError("--agent " + agent.string() + ": is not a program");
     files.push_back(agent);
     const fs::path fleet = agent.string() + programs::kFleetSuffix;
     if (fs::exists(fleet)) files.push_back(fleet);

@@ -33,7 +33,7 @@ TEST_F(PackCommand, ATargetThatIsNoFileIsRefusedBeforeAnythingIsDone) {
   EXPECT_EQ(refusal(folder_.path()), folder_.path().string() + ": is a folder; name the archive, as skein.tar.gz");
   const std::filesystem::path file = folder_.path() / "file";
   std::ofstream(file) << "text";
-  EXPECT_EQ(refusal(file / "skein.tar.gz"), file.string() + ": is no folder, so no archive can be made in it");
+  EXPECT_EQ(refusal(file / "skein.tar.gz"), file.string() + ": is not a folder, so no archive can be made in it");
   EXPECT_FALSE(std::filesystem::exists(folder_.path().string() + ".tmp"));
   EXPECT_FALSE(std::filesystem::exists(folder_.path().string() + ".parts"));
 }

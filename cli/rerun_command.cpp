@@ -94,7 +94,7 @@ RunOptions options_of(const fs::path& run, const Json& result) {
   const Command parsed = parse_command_line(words);
   const auto* flown = parsed.get_if<RunOptions>();
   const auto* in_containers = parsed.get_if<ComposeOptions>();
-  if (flown == nullptr && in_containers == nullptr) throw InputError(run.string() + ": it was no run: " + command);
+  if (flown == nullptr && in_containers == nullptr) throw InputError(run.string() + ": it was not a run: " + command);
   RunOptions options = options_now(flown != nullptr ? *flown : in_containers->run, run, result);
   options.out.reset();
   options.debug.clear();

@@ -83,7 +83,7 @@ TEST_F(RunCommand, TheCommandThatRepeatsItNamesTheAgentOfTheEnvironment) {
   EXPECT_EQ(result()["command"], options_.command);
 }
 
-TEST_F(RunCommand, WhatIsNoAgentIsRefusedBeforeTheStart) {
+TEST_F(RunCommand, AProgramThatIsNotAnAgentIsRefusedBeforeTheStart) {
   write_text(programs_.dir() / "text", "no program");
   write_script(programs_.dir() / "other", "exit 0\n");
   for (const char* name : {"missing", "text", "other"}) {
@@ -206,7 +206,7 @@ TEST_F(RunCommand, ADeadAgentIsNamedAndTheServerTold) {
   EXPECT_EQ(result()["status"], "completed");
 }
 
-TEST_F(RunCommand, ADeadRouterOrStationIsTold) {
+TEST_F(RunCommand, ADeadRouterOrStationIsReported) {
   for (const char* program : {"comm_router", "station"}) {
     options_.force = true;
     let_the_server_wait();
@@ -298,7 +298,7 @@ TEST_F(RunCommand, ACommandTakesThePlaceOfAnAgent) {
   options_.planner = "hover,beta=exec:" + command;
   EXPECT_EQ(run(), kExitDone) << err_.str();
   EXPECT_EQ(result()["planner"], (Json{{"alpha", "hover"}, {"beta", "exec:" + command}}));
-  EXPECT_EQ(result()["score"], 0.0) << "what a command says of the score is no news";
+  EXPECT_EQ(result()["score"], 0.0) << "what a command says of the score is not news";
   EXPECT_EQ(read_text(*options_.out / "uav_agent-beta.log"), "hello, world\n");
   const std::string environment = "\n" + read_text(*options_.out / "env.txt");
   for (const std::string& variable :
@@ -356,7 +356,7 @@ TEST_F(RunCommand, ReportsThatComeThroughThePipeNeedNoFiles) {
   EXPECT_EQ(result()["score"], 2.5);
   EXPECT_EQ(result()["points_detected"], 3);
   EXPECT_EQ(result()["radio"]["sent"], 11);
-  EXPECT_TRUE(result()["uavs"][1]["planner_cpu_s"].is_null()) << "what a command says of itself is no report";
+  EXPECT_TRUE(result()["uavs"][1]["planner_cpu_s"].is_null()) << "what a command says of itself is not a report";
   const std::string words = "files are missing or cut short: cannot write x/captures.csv: No space left on device";
   EXPECT_NE(result()["warnings"].dump().find(words), std::string::npos) << result()["warnings"];
   EXPECT_NE(out_.str().find("warning: files are missing"), std::string::npos) << out_.str();

@@ -61,7 +61,7 @@ std::string difference_from_folder(const StudyPlan& plan) {
   std::error_code error;
   if (!fs::exists(plan.out / kSettings, error)) return {};
   const Json then = read_json(plan.out / kSettings);
-  if (!then.is_object()) return (plan.out / kSettings).string() + ": is damaged: it is no JSON";
+  if (!then.is_object()) return (plan.out / kSettings).string() + ": is damaged: it is not JSON";
   const std::vector<std::string> differences = differing_settings(then, plan.settings);
   if (differences.empty()) return {};
   std::string text = plan.out.string() + " holds a study with other settings:";
@@ -241,7 +241,7 @@ std::unique_ptr<ResultsDir> results_dir(const fs::path& dir) try {
 int tell_status(const fs::path& folder, const Console& console) {
   const Command command = parse_command_line(enter_sweep(folder));
   const auto* options = command.get_if<StudyOptions>();
-  if (options == nullptr) throw InputError("--status " + folder.string() + ": this is no study");
+  if (options == nullptr) throw InputError("--status " + folder.string() + ": this is not a study");
   const StudyPlan plan = plan_study(*options, AskPrograms::no);
   check_shown_settings(plan);
   return merge(plan, tell_sweep(plan, console), console);

@@ -242,7 +242,7 @@ TEST_F(StudyCommand, EachFleetSizeIsASceneOfItsOwn) {
   EXPECT_NE(refusal().find("uavs: then 1, 2, now 1"), std::string::npos) << refusal();
 }
 
-TEST_F(StudyCommand, WhatIsWrongIsToldBeforeAnythingFlies) {
+TEST_F(StudyCommand, MistakesAreReportedBeforeAnythingFlies) {
   const StudyOptions good = options_;
   const auto refused = [&](const std::string& with) {
     const std::string message = refusal();
@@ -260,7 +260,7 @@ TEST_F(StudyCommand, WhatIsWrongIsToldBeforeAnythingFlies) {
   options_.uavs = {2, 2};
   refused("fleet size '2' is named twice");
   options_.seeds = "x";
-  refused("'x' is no seed");
+  refused("'x' is not a seed");
   options_.planners = {"gamma=hover"};
   refused("no UAV is called 'gamma'");
   write_script(programs_.dir() / "uav_agent",
@@ -271,7 +271,7 @@ TEST_F(StudyCommand, WhatIsWrongIsToldBeforeAnythingFlies) {
 TEST_F(StudyCommand, TheJobThatMergesSaysSoIfItCannot) {
   write_text(*options_.out, "a file");
   ::setenv(kMergeVariable, "1", 1);
-  EXPECT_NE(refusal().find("is no folder"), std::string::npos) << out_.str();
+  EXPECT_NE(refusal().find("is not a folder"), std::string::npos) << out_.str();
   ::unsetenv(kMergeVariable);
 }
 

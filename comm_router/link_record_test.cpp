@@ -55,7 +55,7 @@ TEST_F(LinkRecordTest, IdealLinksLeaveNoFile) {
   EXPECT_FALSE(std::filesystem::exists(folder_ / "capture_messages.csv"));
 }
 
-TEST_F(LinkRecordTest, LossAndDelayOfCaptureReportsAreTold) {
+TEST_F(LinkRecordTest, LossAndDelayOfCaptureReportsAreRecorded) {
   send({.loss = LinkLoss::fault}, 5);
   send({.delay_steps = 3}, 6);
   send({.loss = LinkLoss::overflow}, 7);
@@ -64,7 +64,7 @@ TEST_F(LinkRecordTest, LossAndDelayOfCaptureReportsAreTold) {
   EXPECT_EQ(written(), "step,uav,arrives\n5,changi,\n6,changi,10\n7,changi,\n");
 }
 
-TEST_F(LinkRecordTest, ADiskThatRefusesIsToldOnceAndLinksGoOn) {
+TEST_F(LinkRecordTest, AWriteErrorIsReportedOnceAndLinksGoOn) {
   std::filesystem::create_symlink("/dev/full", folder_ / "capture_messages.csv");
   send({.delay_steps = 3}, 6);
   EXPECT_EQ(unwritten_.size(), 1U);

@@ -58,7 +58,7 @@ struct RadioEndpoints {
   std::function<bool(const RadioTarget&)> declared;
   /// From the next step on, messages of this member on the route count.
   std::function<void(std::size_t route, SourceId)> admit;
-  /// Whether this participant is no member any more.
+  /// Whether this participant is no longer a member.
   std::function<bool(SourceId)> lost;
 };
 

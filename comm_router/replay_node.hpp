@@ -13,7 +13,7 @@ namespace skein::router {
 
 class ReplayNode {
  public:
-  /// @param routes  of the scenario. @throws InputError when the file is no recording, or when messages arrived on
+  /// @param routes  of the scenario. @throws InputError when the file is not a recording, or when messages arrived on
   /// other routes: a run in which members registered topics cannot be flown again.
   ReplayNode(const Scenario& scenario, const std::vector<RadioRoute>& routes, const recording::ReplayOptions& options);
 

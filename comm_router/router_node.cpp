@@ -129,7 +129,7 @@ void RouterNode::close_route(std::size_t number) {
   arrivals_.close_route(number);
 }
 
-// A sender that is no applicant is a stranger: members are attached before they send.
+// A sender that is not an applicant is a stranger: members are attached before they send.
 bool RouterNode::from_stranger(Node node, const std::string& topic, bus::ParticipantId source) {
   if (applicants_.contains(source)) return false;
   const std::string name = scenario_.node_name(node);

@@ -58,13 +58,13 @@ class RouterNode final : public bus::ClientNode {
   void expect_stand_ins(const std::vector<std::string>& uavs) { stand_ins_ = {uavs.begin(), uavs.end()}; }
   /// Before start(): delivers the messages of a recorded run instead of those of now. @throws InputError as ReplayNode.
   void replay(const recording::ReplayOptions& options);
-  /// Where members send other messages than in the recorded run, a sentence each; nullopt: this is no replay.
+  /// Where members send other messages than in the recorded run, a sentence each; nullopt: this is not a replay.
   std::optional<std::vector<std::string>> differences() const;
   const LinkGate& gate() const { return gate_; }
   /// For the end of a run: the number of radio messages from outside the lock-step, and their senders, a line each.
   std::uint64_t unheard() const;
   std::vector<std::string> stranger_warnings() const { return stranger_warnings_; }
-  /// Number of received samples that were no message of their topic's type.
+  /// Number of received samples that were not messages of their topic's type.
   std::uint64_t malformed() const { return inbox_.malformed(); }
   /// Number of samples that could not be sent.
   std::uint64_t unsent() const { return world_->unsent().count(); }

@@ -5,14 +5,14 @@
 namespace skein::router {
 namespace {
 
-/// Limits the memory for a participant that is no member and still sends (a tool in a UAV's domain). No participant
+/// Limits the memory for a participant that is not a member and still sends (a tool in a UAV's domain). No participant
 /// sends nearly as many samples before it becomes a member.
 constexpr std::size_t kMaxStrangerSamples = 4096;
 
 /// Limits the memory for a sender that never announces its messages. No step has nearly as many messages on one topic.
 constexpr std::size_t kMaxWaiting = 16 * topics::kRadioDepth;
 
-/// A member answers only the steps that it is asked. A participant with this many answers waiting is no member.
+/// A member answers only the steps that it is asked. A participant with this many answers waiting is not a member.
 constexpr std::size_t kMaxAnswers = 64;
 
 const std::string kRequests = topics::radio_request().name;

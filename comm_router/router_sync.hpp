@@ -62,7 +62,7 @@ class RouterSync {
   /// Step(k). @param members  those whose messages count; leave out those without a radio (the router itself). A former
   /// member that is missing here is forgotten, with all that it sent.
   void on_step(std::uint64_t k, std::uint32_t epoch, std::vector<RadioMember> members, Links links);
-  /// Done(k). Counts of topics that are no radio topic of the sender's node are ignored.
+  /// Done(k). Counts of topics that are not radio topics of the sender's node are ignored.
   void on_done(SourceId source, std::uint64_t k, std::vector<SentCount> sent);
   /// A sample from a reader of `routes[route]`. Those of one writer must come in the order of writing. If the route is
   /// bound to a member (RadioRoute::member), samples and counts of other members at its node are ignored.

@@ -123,7 +123,7 @@ class Fleet {
     }
   }
 
-  /// Adds a message of a participant that is no member: the router must never hand it out.
+  /// Adds a message of a participant that is not a member: the router must never hand it out.
   void stranger(Round& round) {
     const std::size_t r = random_() % routes_.size();
     round.lanes.push_back({[=](RouterSync& sync) { sync.on_radio(99999, r, payload("stranger")); }});

@@ -30,7 +30,7 @@ struct Greeting {
 
 /// @param size  minimum size of the result [bytes]; shorter text is padded with blanks.
 std::vector<std::uint8_t> bytes_of(Greeting greeting, std::size_t size = 0);
-/// @returns nullopt if the bytes are no greeting.
+/// @returns nullopt if the bytes are not a greeting.
 std::optional<Greeting> read_greeting(std::span<const std::uint8_t> bytes);
 
 }  // namespace skein::doctor

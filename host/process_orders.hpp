@@ -32,7 +32,7 @@ class ProcessOrders {
   /// ProgramHost reports no event when a program stops.
   std::chrono::milliseconds limit(std::chrono::milliseconds limit) const;
 
-  /// A program ended. @returns true if SIGKILL ended it and a fault or end() had ordered that: it is no failure.
+  /// A program ended. @returns true if SIGKILL ended it and a fault or end() had ordered that: it is not a failure.
   bool on_exit(const std::string& program, const ExitStatus& exit);
   /// The run is over: kills all programs that a fault still keeps out of it, since they cannot end by themselves.
   void end();

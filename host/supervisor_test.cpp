@@ -47,7 +47,7 @@ class SupervisorTest : public ::testing::Test {
   Supervisor supervisor_;
 };
 
-TEST_F(SupervisorTest, ProcessorTimeIsToldWhileAProgramRunsAndAtItsEnd) {
+TEST_F(SupervisorTest, ProcessorTimeIsReportedWhileAProgramRunsAndAtItsEnd) {
   supervisor_.start(shell("a", "i=0; while [ $i -lt 20000 ]; do i=$((i + 1)); done; echo >&3; read line <&4"));
   EXPECT_EQ(supervisor_.wait(kNoLimit).at(0).kind, Event::Kind::status_line);
   const double so_far_s = supervisor_.cpu_s("a");

@@ -212,7 +212,7 @@ TEST(Conversions, AcknowledgementThatWasHitAcknowledgesNothing) {
       const std::vector<std::uint64_t> taken = from_capture_ack(damaged, "changi");
       EXPECT_TRUE(taken.empty() || taken == captures) << "bit " << bit;  // those of the padding say nothing
     }
-    EXPECT_GT(read, 64) << "what cannot be read is no test of the sum";
+    EXPECT_GT(read, 64) << "what cannot be read is not a test of the sum";
   }
 }
 

@@ -20,8 +20,8 @@
 namespace skein::one_process {
 namespace {
 
-// Thrown when a fault kills or stops a program in the middle of its turn. They are no std::exception, so that only
-// outcome_of() catches them.
+// Thrown when a fault kills or stops a program in the middle of its turn. They are not derived from std::exception, so
+// that only outcome_of() catches them.
 struct Killed {};
 struct Paused {};
 
@@ -208,7 +208,7 @@ Crew::Outcome Crew::outcome_of(Place& place, bool beside, const std::function<st
       outcome.code = kExitProcessFailed;
     }
   } catch (...) {  // an unknown exception: a process of its own would have aborted
-    std::cerr << place.name << ": failed: an exception that is no std::exception" << std::endl;
+    std::cerr << place.name << ": failed: an exception that is not a std::exception" << std::endl;
     outcome.signal = SIGABRT;
     outcome.code = kExitProcessFailed;
   }

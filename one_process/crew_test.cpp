@@ -193,7 +193,7 @@ class CrewTest : public testing::TestWithParam<int> {
 
 INSTANTIATE_TEST_SUITE_P(Threads, CrewTest, testing::Values(1, 2, 16));
 
-TEST_P(CrewTest, EveryEndIsToldAndTheOthersGoOn) {
+TEST_P(CrewTest, EveryEndIsReportedAndTheOthersGoOn) {
   for (const char* what : {"ends", "throws", "dies", "stays"}) start(what, what);
   start("checks", "stays", {"--check"});
   start("refuses", "refuses");

@@ -34,7 +34,7 @@ struct SessionPlan {
   nlohmann::json about;           ///< sent unchanged with the hello of a process without fleet
 };
 
-/// @throws std::exception when the file is missing or is no plan.
+/// @throws std::exception when the file is missing or is not a plan.
 SessionPlan read_session_plan(const std::filesystem::path& file);
 
 class Session {

@@ -62,7 +62,7 @@ TEST_F(OracleCache, TheSecondAnswerComesFromTheCache) {
   EXPECT_EQ(summary_from_json(to_json(*first.summary)), *first.summary);
 }
 
-TEST_F(OracleCache, ADamagedFileIsToldAndReplaced) {
+TEST_F(OracleCache, ADamagedFileIsReportedAndReplaced) {
   const OracleSummary right = *ask().summary;
   const std::string whole = read(file());
   std::string lie = whole;

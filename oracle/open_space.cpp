@@ -61,8 +61,8 @@ Vector3d OpenSpace::on_line(std::size_t line, double x) const {
           grid_.low.z() + static_cast<double>(iz) * grid_.step};
 }
 
-/// Whether a line is at a side or at the top of the grid, and so open. The bottom is no border: lines on the ground may
-/// be inside a hollow structure.
+/// Whether a line is at a side or at the top of the grid, and so open. The bottom is not a border: lines on the ground
+/// may be inside a hollow structure.
 bool OpenSpace::at_border(std::size_t line) const {
   const std::size_t iy = line % grid_.lines_y, iz = line / grid_.lines_y;
   return iy == 0 || iy + 1 == grid_.lines_y || iz + 1 == grid_.lines_z;

@@ -239,7 +239,7 @@ Json json_of(const T& value) {
   return json_detail::write(value);
 }
 
-/// The JSON as a T. JSON that is no object gives T's defaults.
+/// The JSON as a T. JSON that is not an object gives T's defaults.
 template <class T>
 T struct_of(const Json& json) {
   return json_detail::read<T>(json).value_or(T{});

@@ -210,7 +210,7 @@ std::shared_ptr<spdlog::logger> make_log(const std::string& name, const std::str
   if (level.empty()) level = "info";
   static const std::vector<std::string> known = {"trace", "debug", "info", "warn", "error", "off"};
   if (std::find(known.begin(), known.end(), level) == known.end()) {
-    throw InputError((level_option.empty() ? "SKEIN_LOG: '" : "--log-level: '") + level + "' is no level; " +
+    throw InputError((level_option.empty() ? "SKEIN_LOG: '" : "--log-level: '") + level + "' is not a level; " +
                      suggestion(level, known));
   }
   auto logger = std::make_shared<spdlog::logger>(name, std::make_shared<spdlog::sinks::stderr_sink_mt>());

@@ -103,7 +103,7 @@ TEST(RunReport, AFolderWithoutAResultIsTheUsersMistake) {
   EXPECT_THROW(write_run_report(scratch.path()), InputError);
 }
 
-TEST(RunReport, WhatIsNotThereIsTold) {
+TEST(RunReport, MissingPartsAreReported) {
   const results::Scratch scratch;
   results::write_text(scratch.path() / "result.json", R"({"uavs": [{"name": "a"}], "losses": {}})");
   results::write_text(scratch.path() / "events.csv", "step,time_s,event,subject,object\n0,0,joined,a,\n1,0.05,joi");

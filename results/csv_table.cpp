@@ -31,14 +31,14 @@ const std::string& CsvTable::text(const std::string& column) const {
 double CsvTable::number(const std::string& column) const {
   const std::string& cell = text(column);
   const auto value = parse_number(cell);
-  if (!value) fail("column '" + column + "': '" + cell + "' is no number");
+  if (!value) fail("column '" + column + "': '" + cell + "' is not a number");
   return *value;
 }
 
 std::uint64_t CsvTable::count(const std::string& column) const {
   const std::string& cell = text(column);
   const auto value = parse_whole(cell);
-  if (!value) fail("column '" + column + "': '" + cell + "' is no whole number of at least 0");
+  if (!value) fail("column '" + column + "': '" + cell + "' is not a whole number of at least 0");
   return *value;
 }
 

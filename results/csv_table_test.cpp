@@ -57,15 +57,16 @@ TEST_F(CsvCells, AreReadAsTheyAreWritten) {
   }
 }
 
-TEST_F(CsvCells, WhatIsNoNumberIsToldWithFileAndLine) {
+TEST_F(CsvCells, InvalidNumbersAreReportedWithFileAndLine) {
   for (const std::string cell : {"", "x", "1.5abc", "1.5 ", " 1", "1;5", "0x10", "nan", "inf", "1e999", "--1"}) {
-    EXPECT_EQ(error([&] { return number(cell); }), file_.string() + ":3: column 'value': '" + cell + "' is no number");
+    EXPECT_EQ(error([&] { return number(cell); }),
+              file_.string() + ":3: column 'value': '" + cell + "' is not a number");
   }
 }
 
-TEST_F(CsvCells, WhatIsNoCountIsToldWithFileAndLine) {
+TEST_F(CsvCells, InvalidCountsAreReportedWithFileAndLine) {
   for (const std::string cell : {"", "x", "1.5", "-1", "1e3", "3 ", "nan", "18446744073709551616", "1e300"}) {
-    const std::string words = "' is no whole number of at least 0";
+    const std::string words = "' is not a whole number of at least 0";
     EXPECT_EQ(error([&] { return count(cell); }), file_.string() + ":3: column 'value': '" + cell + words);
   }
   const auto if_any = [](const CsvTable& table) { return table.count_if_any("value"); };

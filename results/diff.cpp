@@ -42,7 +42,7 @@ class DigestFile {
     try {
       return std::stoll(row[0]);
     } catch (const std::exception&) {
-      throw InputError(file_.string() + ":" + std::to_string(line_) + ": '" + row[0] + "' is no step number");
+      throw InputError(file_.string() + ":" + std::to_string(line_) + ": '" + row[0] + "' is not a step number");
     }
   }
 

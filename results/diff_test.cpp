@@ -82,7 +82,7 @@ TEST_F(RunDiff, WhatIsNoRunIsRefused) {
   EXPECT_THROW(difference_to(std::string(kHeader) + "0,aa,1,2\n1,bb,4,5,6\n2,cc,7,8,9\n"), InputError);
 }
 
-TEST_F(RunDiff, TheCauseForWhichARunCannotBeReadIsSaid) {
+TEST_F(RunDiff, TheReasonWhyARunCannotBeReadIsReported) {
   const auto complaint = [&](const std::filesystem::path& b) -> std::string {
     try {
       first_difference(a_, b);

@@ -31,7 +31,7 @@ Json read_result_file(const std::filesystem::path& run) {
   }
   // Not read_json(), for which a file that cannot be read is the same as a damaged one.
   Json result = parse_json(read_file_bytes(file, kMostBytes));
-  if (!result.is_object()) throw InputError(file.string() + ": is damaged: it is no JSON object");
+  if (!result.is_object()) throw InputError(file.string() + ": is damaged: it is not a JSON object");
   const Json told = value_or(result, kResultChecksum, nullptr);
   if (told.is_null()) return result;
   Json rest = result;

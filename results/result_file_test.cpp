@@ -28,7 +28,7 @@ class ResultFile : public ::testing::Test {
             {"score", 4.071234567890123},
             {"digest", nullptr},
             {"uavs", Json::array({{{"name", "jurong"}, {"distance_m", 1e-7}, {"alive", true}}})},
-            {"warnings", {"a \xFF that is no UTF-8", "two\nlines"}},
+            {"warnings", {"a \xFF that is not UTF-8", "two\nlines"}},
             {"wall_time_s", 12.5}};
   }
 
@@ -77,7 +77,7 @@ TEST_F(ResultFile, AResultOfAnEarlierVersionCountsAsItIs) {
   EXPECT_EQ(read_result_file(run_)["seed"], 7);
 }
 
-TEST_F(ResultFile, WhatIsMissingOrNoObjectIsSaid) {
+TEST_F(ResultFile, MissingFilesAndOtherJsonThanObjectsAreReported) {
   const auto complaint = [&] {
     try {
       read_result_file(run_);
@@ -93,7 +93,7 @@ TEST_F(ResultFile, WhatIsMissingOrNoObjectIsSaid) {
 
 /// The cause lies in the path to the file: a circle of links, or a folder that is none. It is not that a run left no
 /// result. Permissions, the usual cause, do not bind root, who may run this test.
-TEST_F(ResultFile, TheCauseForWhichItCannotBeReadIsSaid) {
+TEST_F(ResultFile, TheReasonWhyItCannotBeReadIsReported) {
   const auto complaint = [](const std::filesystem::path& run) {
     try {
       read_result_file(run);
@@ -107,7 +107,7 @@ TEST_F(ResultFile, TheCauseForWhichItCannotBeReadIsSaid) {
   std::ofstream(file) << "x";
   EXPECT_EQ(complaint(circle),
             (circle / run_folder::kResult).string() + ": cannot be read (Too many levels of symbolic links)");
-  EXPECT_EQ(complaint(file), file.string() + ": is no folder");
+  EXPECT_EQ(complaint(file), file.string() + ": is not a folder");
   EXPECT_EQ(complaint(run_ / "none"), (run_ / "none").string() + ": there is no such folder");
   EXPECT_NE(complaint(run_ / std::string(300, 'x')).find("cannot be read (File name too long)"), std::string::npos);
   std::filesystem::create_symlink(circle, run_ / run_folder::kResult);

@@ -134,7 +134,7 @@ TEST_F(RunResult, AllReportsMakeACompleteResult) {
   EXPECT_EQ(result["warnings"], Json::array({"windy"}));
 }
 
-TEST_F(RunResult, SwitchesBesideThePresetAreTold) {
+TEST_F(RunResult, SwitchesThatDifferFromThePresetAreReported) {
   write_all_reports();
   EXPECT_EQ(merged()["rule_switches"], Json::object());
   scenario_.rules.min_point_score = 0.25;

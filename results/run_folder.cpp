@@ -85,7 +85,7 @@ bool has_file(const std::filesystem::path& run, const std::string& name) {
   };
   if (exists(run / name)) return true;
   if (!exists(run)) throw InputError(run.string() + ": there is no such folder");
-  if (!fs::is_directory(run)) throw InputError(run.string() + ": is no folder");
+  if (!fs::is_directory(run)) throw InputError(run.string() + ": is not a folder");
   return false;
 }
 

@@ -102,8 +102,8 @@ struct RunRecord {
 
 /// Reads a run to judge it: result.json, captures, events, messages, poses, scores and work. A missing table counts as
 /// empty, since its program may have died.
-/// @throws std::runtime_error if result.json is missing or damaged, or a row is invalid. It is no InputError, because
-///   the run is wrong, not the user's input.
+/// @throws std::runtime_error if result.json is missing or damaged, or a row is invalid. It is not an InputError,
+///   because the run is wrong, not the user's input.
 RunRecord read_run(const std::filesystem::path& dir);
 
 /// Reads all of a run that pages show. Leaves out rows of UAVs that are not in result.json, and reports damage in

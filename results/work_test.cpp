@@ -42,7 +42,7 @@ TEST_F(WorkTimes, WaitsGoByTheMatesName) {
   EXPECT_EQ(times[1]->frozen_s, 0u);
 }
 
-TEST_F(WorkTimes, OfWhatWasNotReportedNothingIsKnown) {
+TEST_F(WorkTimes, WithoutReportsNothingIsKnown) {
   tell("a", "11", 0.0);
   reports_.agents.clear();
   EXPECT_TRUE(work_times(scenario_, reports_)[0]);

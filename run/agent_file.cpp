@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::size_t kTailLines = 5;
 
-/// Has an agent program list its strategies. @param said  file for its output. @returns nullopt if that is no list.
+/// Has an agent program list its strategies. @param said  file for its output. @returns nullopt if that is not a list.
 std::optional<StrategyList> strategies_of(const std::filesystem::path& agent, const std::filesystem::path& said) {
   if (!std::filesystem::exists(agent)) return std::nullopt;
   run_to_end({programs::kAgent, {agent, "--list-planners"}, fleet_environment(false), said});

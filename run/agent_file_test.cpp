@@ -122,7 +122,7 @@ TEST_F(AgentFile, AWrongNumberOfThreadsIsFoundInThePlan) {
   ::unsetenv("SKEIN_THREADS");
 }
 
-TEST_F(AgentFile, WhatIsNoAgentIsNamedWithWhatWouldBeRight) {
+TEST_F(AgentFile, AProgramThatIsNotAnAgentIsNamedWithWhatWouldBeRight) {
   write_text(file("text"), "no program");
   write_script(file("other"), "echo two of a kind\nexit 3\n");
   const auto refused = [&](const std::string& planner, const std::vector<std::string>& parts) {

@@ -55,7 +55,7 @@ std::map<std::string, std::string> log_levels(const FleetPlan& plan) {
     const std::string program = debugged_program(plan, "--log", value.substr(0, cut));
     const std::string level = cut == std::string::npos ? "" : value.substr(cut + 1);
     if (std::ranges::find(known, level) == known.end()) {
-      throw InputError("--log " + value + ": '" + level + "' is no level; " + suggestion(level, known));
+      throw InputError("--log " + value + ": '" + level + "' is not a level; " + suggestion(level, known));
     }
     if (is_exec(plan, program)) throw InputError("--log " + value + ": a command of yours logs as it likes");
     levels[program] = level;

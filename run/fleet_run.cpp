@@ -352,7 +352,7 @@ std::string FleetRun::program_of(const std::string& member) const {
   return programs_.contains(program) ? program : member;
 }
 
-/// After Ctrl-C the run may not end in good order: then an exit with an error code is no failure, but a crash is.
+/// After Ctrl-C the run may not end in good order: then an exit with an error code is not a failure, but a crash is.
 bool FleetRun::left_as_asked(const ExitStatus& exit) const { return facts_.interrupted && exit.signal == 0; }
 
 /// Time for programs to leave after the run. After Ctrl-C before the first step: none, as they are not told of its end.

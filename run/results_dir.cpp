@@ -56,7 +56,7 @@ void check_kind(const std::filesystem::path& dir) {
                      "); choose another folder");
   }
   if (kind != std::filesystem::file_type::directory && kind != std::filesystem::file_type::not_found) {
-    throw InputError("--out " + dir.string() + ": is no folder");
+    throw InputError("--out " + dir.string() + ": is not a folder");
   }
 }
 

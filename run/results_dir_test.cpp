@@ -250,7 +250,7 @@ TEST(ResultsDir, LogsAndWhatAFileSystemHasAreNoForeignEntries) {
   fs::create_directory(scratch.path() / "lost+found");
   EXPECT_EQ(foreign_entry(scratch.path()), "");
   fs::create_directory(scratch.path() / "log.log");
-  EXPECT_EQ(foreign_entry(scratch.path()), "log.log") << "a folder is no log";
+  EXPECT_EQ(foreign_entry(scratch.path()), "log.log") << "a folder is not a log";
   write_text(scratch.path() / "a.json", "x");
   EXPECT_EQ(foreign_entry(scratch.path()), "a.json");
   fs::remove(scratch.path() / "a.json");
@@ -271,7 +271,7 @@ TEST(ResultsDir, LogsAndWhatAFileSystemHasAreNoForeignEntries) {
   }
 }
 
-TEST(ResultsDir, AFileIsNoFolder) {
+TEST(ResultsDir, AFileIsRefusedAsAFolder) {
   const OutDir scratch;
   write_text(scratch.path() / "file", "");
   EXPECT_THROW(ResultsDir(scratch.path() / "file", true), InputError);
@@ -337,7 +337,7 @@ TEST(ResultsDir, WithoutRoomForAResultNothingStarts) {
   EXPECT_TRUE(fs::is_empty(scratch.path()));
 }
 
-TEST(ResultsDir, AResultThatCannotBeWrittenIsToldAndLeavesNothingHalf) {
+TEST(ResultsDir, AResultThatCannotBeWrittenIsReportedAndLeavesNoPartOfAFile) {
   const OutDir scratch;
   EXPECT_EQ(with_file_limit(300 << 10,
                             [&] {

@@ -161,7 +161,7 @@ TEST_F(CameraAtWall, KeepsTheBest) {
   EXPECT_EQ(again.detections[0].q, blurred.detections[0].q);
   EXPECT_EQ(c.best(), std::vector<float>{1.0F});
   body_.v_WB = Vector3d::Zero();
-  EXPECT_FALSE(c.capture(123, body_, {}, w).improved()) << "equally good is no improvement";
+  EXPECT_FALSE(c.capture(123, body_, {}, w).improved()) << "equally good is not an improvement";
 }
 
 TEST_F(CameraAtWall, BlurAndDistanceDropBelowTheThreshold) {

@@ -236,7 +236,7 @@ FolderSignals::Values FolderSignals::of_members(const SignalUse& signal) {
   if (signal.is("restarts") || signal.is("leaves")) {
     const bool joins = signal.is("restarts");
     std::vector<std::size_t> steps;
-    std::set<std::string> known;  // the first time that a program joins is no restart
+    std::set<std::string> known;  // the first time that a program joins is not a restart
     for (const results::EventRow& row : run_.events) {
       const bool is_meant = row.event == (joins ? run_tables::kJoined : run_tables::kLeft);
       if (!is_meant || (!subject.empty() && row.subject != subject)) continue;
@@ -278,7 +278,7 @@ FolderSignals::Values FolderSignals::result(const SignalUse& signal) const {
   }
   if (here.is_array()) return constant(static_cast<double>(here.size()));
   if (here.is_boolean()) return constant(here.get<bool>() ? 1.0 : 0.0);
-  if (!here.is_number()) throw InputError("result(" + path + "): this is no number of the run's result");
+  if (!here.is_number()) throw InputError("result(" + path + "): this is not a number of the run's result");
   return constant(here.get<double>() * unit_of_result(path).factor);
 }
 

@@ -39,7 +39,7 @@ TEST_F(Estimate, MayBeLeftAlone) {
   for (int i = 0; i < 5; ++i) EstimateTask(scenario_, scene_, request_);
 }
 
-TEST_F(Estimate, IsNoneWhereItTakesTooLong) {
+TEST_F(Estimate, IsMissingWhereItTakesTooLong) {
   request_.patience_s = 0.0;
   std::optional<EstimateTask> task(std::in_place, scenario_, scene_, request_);
   while (!task->over()) std::this_thread::yield();

@@ -13,7 +13,7 @@
 namespace skein::sim {
 namespace {
 
-/// The periods of interest, and some that are no multiple of a control step.
+/// The periods of interest, and some that are not multiples of a control step.
 std::vector<Tick> periods() {
   std::vector<Tick> periods = {1, 20, 40, 80, 100, 200, 400};
   RandomStream random(1, "periods", 0);

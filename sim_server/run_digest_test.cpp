@@ -43,7 +43,7 @@ TEST(RunDigest, NamesItsColumns) {
   EXPECT_EQ(digest.columns()[14], "tally");
 }
 
-TEST(RunDigest, EveryFieldCountsAndIsTold) {
+TEST(RunDigest, EveryFieldCountsAndIsReported) {
   const StepDigest base = Exchange().hashed();
   const RunDigest names(kNames);
   const std::vector<std::pair<std::string, std::function<void(Exchange&)>>> changes = {

@@ -31,8 +31,8 @@ std::vector<AwaitedMember> for_people(const std::vector<bus::LockstepServer::Awa
   return members;
 }
 
-/// A participant that is no member and sends commands has this many steps, from its first command on, to ask to join.
-/// Then the server warns the user that these commands have no effect.
+/// A participant that is not a member and sends commands has this many steps, from its first command on, to ask to
+/// join. Then the server warns the user that these commands have no effect.
 constexpr std::uint64_t kStrangerSteps = 20;
 
 double elapsed_s(std::chrono::steady_clock::time_point since) {

@@ -118,7 +118,7 @@ class SimNode final : public bus::LockstepNode {
   bus::Inbox inbox_;
   std::vector<std::unique_ptr<bus::Participant>> participants_;  ///< world, gcs, UAVs
   bus::LockstepServer server_;
-  bus::Strangers strangers_;  ///< participants that send commands and are no members
+  bus::Strangers strangers_;  ///< participants that send commands and are not members
   HeardKeyFrames heard_;
   std::vector<std::unique_ptr<UavNode>> uavs_;
   std::vector<std::unique_ptr<FramesNode>> frames_;  ///< of each UAV

@@ -131,7 +131,7 @@ TEST_F(Field, LandingOnTheGroundIsNoCollision) {
   EXPECT_EQ(sim.mission().end(), MissionEnd::no_uav_flies);
 }
 
-TEST_F(Field, RefusedCommandsAreToldAndCounted) {
+TEST_F(Field, RefusedCommandsAreReportedAndCounted) {
   add("photographer", 0, 0);
   Simulation& sim = start();
   const double nan = std::numeric_limits<double>::quiet_NaN();

@@ -115,7 +115,7 @@ TEST_F(JournalTest, AnotherRunsJournalIsNotTakenUp) {
   EXPECT_TRUE(Journal(file_, RunId{7}).replayed().empty());
   set_content("no journal");
   Journal(file_, RunId{7}).append(records);
-  EXPECT_EQ(Journal(file_, RunId{7}).replayed(), records) << "what is no journal is replaced by one";
+  EXPECT_EQ(Journal(file_, RunId{7}).replayed(), records) << "what is not a journal is replaced by one";
 }
 
 TEST_F(JournalTest, WhatWasAppendedOutlivesAKilledProcess) {
@@ -143,7 +143,7 @@ TEST_F(JournalTest, AFileThatCannotBeOpenedIsNamed) {
   }
 }
 
-TEST_F(JournalTest, AFileSystemThatRefusesIsToldOnceAndEndsTheJournal) {
+TEST_F(JournalTest, AWriteErrorIsReportedOnceAndEndsTheJournal) {
   const std::vector<TallyRecord> records = some_records(5);
   const pid_t child = ::fork();  // the limit must not touch this process
   ASSERT_GE(child, 0);

@@ -8,7 +8,7 @@
 
 namespace skein::agent {
 
-/// Node number from the float field of a cloud's point; nullopt if it is no valid whole number.
+/// Node number from the float field of a cloud's point; nullopt if it is not a valid whole number.
 inline std::optional<Node> node_of(float number) {
   const auto node = whole_number(number);
   return node ? std::optional(Node(*node)) : std::nullopt;

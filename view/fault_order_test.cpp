@@ -44,7 +44,7 @@ TEST(FaultOrder, ALinkIsCutAsAFaultFileCutsIt) {
   EXPECT_EQ(fault_line(fault), "{at_s: 1, link: {from: changi, to: gcs, range_m: 0.001}}");
 }
 
-TEST(FaultOrder, WhatLacksOrHasAKeyTooManyIsNone) {
+TEST(FaultOrder, OrdersThatLackAKeyOrHaveAnExtraOneAreNotRead) {
   for (const std::string& text : kOrders) {
     const Json whole = parse_json(text);
     for (const auto& [key, value] : whole.items()) {

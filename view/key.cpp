@@ -40,7 +40,7 @@ Key Key::read_from(const std::filesystem::path& file) {
   std::string text = read_file_bytes(file, 1024);
   while (!text.empty() && text.back() == '\n') text.pop_back();
   if (text.size() != 2 * kBytes || text.find_first_not_of(kDigits) != std::string::npos) {
-    throw InputError(file.string() + ": is no key of a page");
+    throw InputError(file.string() + ": is not a key of a page");
   }
   return Key(std::move(text));
 }

@@ -43,7 +43,7 @@ TEST_F(KeyFile, IsReadByItsOwnerAlone) {
   EXPECT_THROW(Key::read_from(file), InputError) << "others may read it";
 }
 
-TEST_F(KeyFile, OfAnythingElseIsNone) {
+TEST_F(KeyFile, InvalidKeyFilesAreRefused) {
   EXPECT_THROW(Key::read_from(folder_ / "missing"), InputError);
   for (const std::string& text : {std::string(), std::string(64, 'x'), std::string(63, '0'), std::string(65, '0')}) {
     write_private_file(folder_ / "view.key", text);

@@ -76,7 +76,7 @@ Endpoint endpoint_of(int fd) {
   const bool there = ::getsockname(fd, address.get(), &address.size) == 0 &&
                      (address.storage.ss_family == AF_INET || address.storage.ss_family == AF_INET6) &&
                      ::getsockopt(fd, SOL_SOCKET, SO_ACCEPTCONN, &listens, &listens_size) == 0 && listens == 1;
-  if (!there) throw InputError("--view-fd " + std::to_string(fd) + ": is no socket that listens to browsers");
+  if (!there) throw InputError("--view-fd " + std::to_string(fd) + ": is not a socket that listens to browsers");
   return endpoint_of(address);
 }
 

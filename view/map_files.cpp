@@ -25,7 +25,7 @@ std::vector<fs::path> files_of(const fs::path& dir, const std::string& uav) {
   return files;
 }
 
-/// @returns nullopt when one of the files is damaged, or is no map file.
+/// @returns nullopt when one of the files is damaged, or is not a map file.
 std::optional<std::vector<mcap::Reader>> open_all(const std::vector<fs::path>& files) try {
   std::vector<mcap::Reader> readers;
   for (const fs::path& file : files) {

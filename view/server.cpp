@@ -222,7 +222,8 @@ struct Server::Impl {
     const auto plain = [&](http::status status, const std::string& text) {
       return made(request, status, "text/plain; charset=utf-8", text + "\n");
     };
-    if (!knows(request)) return plain(http::status::misdirected_request, "This is no name of this page.");
+    if (!knows(request))
+      return plain(http::status::misdirected_request, "This page is not served under this host name.");
     const beast::string_view target = request.target();
     if (target == "/enter") return enter(request);
     if (is_foreign(request)) return plain(http::status::forbidden, "Only a page of this server may ask for that.");

@@ -215,7 +215,7 @@ TEST_P(DrawnStorm, OfStrangersTellsThemNothingAndKeepsNoViewerOut) {
   EXPECT_EQ(orders_, 0);
 }
 
-// Viewers that have the key, and send what is no order.
+// Who has the key, and sends what is not an order.
 TEST_P(DrawnStorm, OfFramesIsObeyedWhereItIsAnOrderAndEndsOtherwise) {
   Random random(GetParam());
   fill();

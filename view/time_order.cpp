@@ -58,7 +58,7 @@ std::optional<double> read_speed(const std::string& text) {
   if (text == kMax) return std::nullopt;
   const std::optional<double> speed = parse_number(text);
   if (!speed || !is_speed(*speed)) {
-    throw InputError("--speed: '" + text + "' is no speed; give a number from " + shortest(kLeastSpeed) + " to " +
+    throw InputError("--speed: '" + text + "' is not a speed; give a number from " + shortest(kLeastSpeed) + " to " +
                      shortest(kMostSpeed) + ", or " + kMax);
   }
   return speed;

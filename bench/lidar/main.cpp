@@ -36,7 +36,7 @@ std::map<Tick, Poses> read_trajectories(const std::string& file, const Scenario&
   std::ifstream in(file);
   std::string line;
   if (!std::getline(in, line) || !line.starts_with(skein::run_tables::kPoseColumns)) {
-    throw skein::InputError(file + ": is no " + skein::run_folder::kTrajectories + " of a run");
+    throw skein::InputError(file + ": is not a " + skein::run_folder::kTrajectories + " of a run");
   }
   std::map<Tick, Poses> poses;
   while (std::getline(in, line)) {

@@ -81,7 +81,7 @@ TEST_F(SensingPage, InALooseBoxTheBeamsProveMore) {
     EXPECT_LT(100 * surface.world_free, surface.places) << "what stands there is not free";
     EXPECT_GE(surface.world_occupied, surface.today_occupied);
   }
-  EXPECT_EQ(studies().front().rays, 16) << "a box so large is no piece of structure";
+  EXPECT_EQ(studies().front().rays, 16) << "a box so large is not a piece of structure";
 }
 
 TEST_F(SensingPage, IsTheSameAtEachCall) {

@@ -94,7 +94,7 @@ std::optional<NodeEnd> end_without_idle_turns(bool matches) {
 }
 
 TEST(ClientNode, AMemberThatNeverHadAnIdleTurnFindsThatTheServerHasGone) {
-  EXPECT_EQ(end_without_idle_turns(true), NodeEnd::finished) << "it was no member yet";
+  EXPECT_EQ(end_without_idle_turns(true), NodeEnd::finished) << "it was not a member yet";
 }
 
 TEST(ClientNode, AnInvitationMayBeHereBeforeItsServerIsFound) {

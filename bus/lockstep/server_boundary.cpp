@@ -87,7 +87,7 @@ bool LockstepServer::at_boundary() {
   bool closed = true;
   for (Place* place : order) {
     if (place->member) continue;
-    // The death of a program that was no member yet may never be reported, although its hello has arrived.
+    // The death of a program that was not a member yet may never be reported, although its hello has arrived.
     if (place->source != 0 && !contains(door_of(*place).ready->matched(), place->source)) vacate(*place);
     if (place->source == 0 && place->next) {
       const auto [source, ready] = *place->next;

@@ -22,7 +22,7 @@ TEST(Strangers, AreToldOfOnceATopicAndWriter) {
   EXPECT_EQ(strangers.unheard("bob"), 0U);
 }
 
-TEST(Strangers, AMemberThatJoinsInTimeIsNone) {
+TEST(Strangers, AProgramThatJoinsInTimeIsNotAStranger) {
   Strangers strangers;
   std::set<ParticipantId> members;
   const auto is_stranger = [&](ParticipantId source) { return !members.contains(source); };

@@ -51,7 +51,7 @@ TEST(PlannerScores, DamagedTablesAreNamedByLine) {
   }
 }
 
-TEST(PlannerScores, WhatIsNoRegularFileIsRefusedAtOnce) {
+TEST(PlannerScores, OnlyRegularFilesAreRead) {
   const ScratchDir folder;
   const auto pipe = folder.path() / "pipe";
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);

@@ -69,7 +69,7 @@ TEST(BenchReport, ExchangeIsTheSumOfItsPrograms) {
   EXPECT_EQ(exchange["by_program"]["uav_agents"], 1.5);
 }
 
-TEST(BenchReport, NothingAtAllIsNoError) {
+TEST(BenchReport, AnEmptyReportIsNotAnError) {
   for (const Json& nothing : {Json(), Json::object()}) {
     EXPECT_EQ(work_of(nothing)["exchange"]["share"], 0.0);
     EXPECT_EQ(speed_entry({nothing}, nullptr)["real_time_factor"]["median"], 0.0);

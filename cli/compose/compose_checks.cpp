@@ -39,7 +39,7 @@ void check_image(const std::string& option, const std::string& image) {
   if (!image.empty() && std::isalnum(static_cast<unsigned char>(image[0])) && std::ranges::all_of(image, may_be))
     return;
   throw InputError(option + ": '" + printable(image) +
-                   "' is no name of an image, such as my-planner or registry.example:5000/team/planner:1.2");
+                   "' is not the name of an image, such as my-planner or registry.example:5000/team/planner:1.2");
 }
 
 }  // namespace

@@ -178,7 +178,7 @@ TEST_F(ComposeFile, EachProgramIsToldItsPeersByNamesThatTheyHave) {
     for (const std::string& service : file.services()) {
       const NetworkConfig config = read_network(filled_in(file.of(service, "environment")["SKEIN_NETWORK"].Scalar()));
       for (const std::string& network : file.networks_of(service)) {
-        if (network == "view") continue;  // browsers are no peers
+        if (network == "view") continue;  // browsers are not peers
         Names peers, members;
         for (const std::string& peer : config.of(network).peers) peers.insert(peer);
         for (const std::string& member : file.members(network)) {
@@ -333,7 +333,7 @@ TEST_F(ComposeFile, AProgramOfTheUsersOwnImageIsToldItsRoleItsRadioTopicsAndTheT
   EXPECT_EQ(roles, (std::set<std::string>{"explorer", "photographer"}));
 }
 
-TEST_F(ComposeFile, WhatIsWrongIsToldWithWhatWouldBeRight) {
+TEST_F(ComposeFile, MistakesAreReportedWithWhatWouldBeRight) {
   const auto fleet = [&](const Texts& names) { return Fleet{plan_of(names, false, false, {}), {}}; };
   for (const Texts& alike : {Texts{"jurong", "Jurong"}, Texts{"a", "world"}, Texts{"GCS"}}) {
     EXPECT_NE(error_of(fleet(alike)).find("choose another name"), std::string::npos) << alike.back();

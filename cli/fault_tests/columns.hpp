@@ -1,5 +1,5 @@
 // Columns for messages that name no more than a line. Programs write capsules (docs/how-to-hunt.md) in long lines with
-// many keys, and there a line is no place.   Pure.
+// many keys, so a line alone does not show the place.   Pure.
 #pragma once
 
 #include <string>

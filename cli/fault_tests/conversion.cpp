@@ -306,7 +306,7 @@ const std::vector<std::string>& old_expectations() {
 std::string converted(const ConfigDocument& document) {
   const ConfigNode& root = document.root;
   require(root.find("faults") != nullptr, document, "faults",
-          "is missing, so this is no fault test: one has a list of faults, or the name of a fault file");
+          "is missing, so this is not a fault test: one has a list of faults, or the name of a fault file");
   ConfigNode kept = root.find("expect") == nullptr ? ConfigNode{} : *root.find("expect");
   const std::size_t keys = kept.keys.size();
   for (const std::string& key : old_expectations()) kept.remove(key);

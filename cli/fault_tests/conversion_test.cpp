@@ -126,7 +126,7 @@ TEST_F(Converted, WhatCannotBeConvertedIsRefusedWithItsLine) {
   };
   for (const char* other : {"name: towers\nfleet: []\n", "properties: {separation: ready}\n", "expect: {score: 3}\n",
                             "- faults\n", "faults\n"}) {
-    refused(other, "old.yaml:1: faults: is missing, so this is no fault test");
+    refused(other, "old.yaml:1: faults: is missing, so this is not a fault test");
   }
   refused(kFlown + "expect: {during: 3}", "old.yaml:3: expect.during: must be a list");
   refused("{faults: [], expect: {score: 3}}", "old.yaml:1: expect: cannot be converted: let `expect:` begin a line");

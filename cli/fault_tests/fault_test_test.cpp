@@ -217,7 +217,7 @@ TEST_F(JudgedRun, RepetitionsHaveTheSameDigest) {
             "expect.same_digest: expected the digest \"d1\" of the repetition 'again' too, seen \"d2\"; compare  with "
             "\n");
   run_.result["digest"] = again_->result["digest"] = nullptr;
-  EXPECT_NE(broken("deterministic: false"), "") << "no digest is no equal digest";
+  EXPECT_NE(broken("deterministic: false"), "") << "a missing digest is not an equal one";
 }
 
 TEST_F(JudgedRun, WhatFailsHasItsLine) {

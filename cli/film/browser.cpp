@@ -90,7 +90,7 @@ Json Browser::evaluate(const std::string& script) {
 std::vector<std::uint8_t> Browser::picture() {
   const Json answer = call("Page.captureScreenshot", {{"format", "png"}, {"optimizeForSpeed", true}});
   const auto bytes = read_base64(answer.at("data").get<std::string>());
-  if (!bytes) throw std::runtime_error("chromium's picture is no base64");
+  if (!bytes) throw std::runtime_error("chromium's picture is not base64");
   return *bytes;
 }
 

@@ -27,7 +27,7 @@ using properties::PropertyEntry;
 /// has a link, and waits. A UAV whose program restarts far from home begins to wait long before the end.
 constexpr double kAfterDeadline_s = 40.0;
 constexpr double kLeastForFaults_s = 5.0;
-constexpr double kPatience_s = 300.0;  ///< wall time; many flights at once make each one slow, which is no failure
+constexpr double kPatience_s = 300.0;  ///< wall time; many flights at once make each one slow, which is not a failure
 constexpr std::size_t kBuildLetters = 12;
 constexpr std::uintmax_t kLargestAgent = 2'000'000'000;
 

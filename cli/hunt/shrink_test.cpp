@@ -126,7 +126,7 @@ TEST_F(Shrinking, DoesNotDependOnHowManyFlyAtOnce) {
   }
 }
 
-TEST_F(Shrinking, NeverProposesWhatIsNoFaultFile) {
+TEST_F(Shrinking, NeverProposesAnInvalidFaultFile) {
   const ScratchDir scratch;
   for (std::uint64_t number = 0; number < 30; ++number) {
     const Trial trial = drawn(number);

@@ -30,7 +30,7 @@ std::optional<Frame> FrameReader::next() {
   }
   Frame frame{parse_json(bytes_.substr(0, line)), {}};
   if (!frame.head.is_object())
-    throw std::runtime_error("what is no frame: " + bytes_.substr(0, std::min(line, std::size_t{80})));
+    throw std::runtime_error("not a frame: " + bytes_.substr(0, std::min(line, std::size_t{80})));
   const std::size_t size = value_or(frame.head, "bytes", std::size_t{0}).get<std::size_t>();
   if (size > kLongestBody) throw std::runtime_error("a frame of " + std::to_string(size) + " bytes");
   const std::size_t whole = line + 1 + (size == 0 ? 0 : size + 1);

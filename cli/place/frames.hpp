@@ -38,7 +38,7 @@ class FrameReader {
   explicit FrameReader(bool greeted) : greeted_(greeted) {}
 
   void add(std::string_view bytes) { bytes_ += bytes; }
-  /// The next frame; nullopt: it has not arrived completely. @throws std::runtime_error for bytes that are no frame.
+  /// The next frame; nullopt: it has not arrived completely. @throws std::runtime_error for bytes that are not a frame.
   std::optional<Frame> next();
   /// What came before the greeting: its last 4096 bytes at most.
   const std::string& before_greeting() const { return before_; }

@@ -40,7 +40,7 @@ TEST_F(HostLinkFrames, AllThatComeAfterAnAnswerAreTaken) {
     HostLink link(host_that_says(bytes), log());
     EXPECT_EQ(link.answer("hello").text("build"), "b");
     std::vector<std::string> expected, taken;
-    for (std::size_t i = 0; i < after; i += 2) expected.push_back(std::to_string(i));  // "alive" is no news
+    for (std::size_t i = 0; i < after; i += 2) expected.push_back(std::to_string(i));  // "alive" is not news
     expected.emplace_back("last");
     ASSERT_TRUE(eventually([&] {
       for (const Frame& frame : link.take()) taken.push_back(frame.text("number"));
@@ -51,7 +51,7 @@ TEST_F(HostLinkFrames, AllThatComeAfterAnAnswerAreTaken) {
   }
 }
 
-TEST_F(HostLinkFrames, TroubleInsteadOfAnAnswerIsTold) {
+TEST_F(HostLinkFrames, AnErrorInsteadOfAnAnswerIsReported) {
   HostLink link(host_that_says(bytes_of({{"say", "trouble"}, {"text", "no room"}})), log());
   try {
     link.answer("hello");

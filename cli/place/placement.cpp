@@ -44,7 +44,7 @@ Words other_nodes() {
   const char* list = ::getenv("SLURM_JOB_NODELIST");
   if (list == nullptr || *list == '\0') {
     throw InputError(
-        "--place slurm: this is no allocation of Slurm (salloc, sbatch); name hosts instead: UAV=HOST,...");
+        "--place slurm: this is not an allocation of Slurm (salloc, sbatch); name hosts instead: UAV=HOST,...");
   }
   const ScratchDir scratch;
   const std::filesystem::path log = scratch.path() / "nodes";
@@ -74,7 +74,7 @@ std::vector<std::pair<std::string, std::string>> pairs_of(const FleetPlan& plan)
                       host = equals == std::string::npos ? "" : entry.substr(equals + 1);
     if (member.empty() || host.empty()) throw InputError("--place " + entry + ": must be UAV=HOST,...");
     if (host.front() == '-' || host.find('/') != std::string::npos)
-      throw InputError("--place " + entry + ": " + host + " is no host");
+      throw InputError("--place " + entry + ": " + host + " is not a host");
     pairs.emplace_back(member, host);
   }
   return pairs;

@@ -23,7 +23,7 @@ std::uint64_t whole_number(const std::string& digits, const std::string& text) {
   const auto read = std::from_chars(digits.data(), end, number);
   if (read.ec != std::errc() || read.ptr != end) {
     throw InputError(text + ": '" + digits +
-                     "' is no seed; write one (5), a list (3,5,8) or a range (0-4 for five of them)");
+                     "' is not a seed; write one (5), a list (3,5,8) or a range (0-4 for five of them)");
   }
   // As for --seed and all other whole numbers (refuse_leading_zeros()).
   if (digits.size() > 1 && digits.front() == '0') {
@@ -60,7 +60,7 @@ std::vector<std::string> split_planners(const std::string& list) {
       const bool goes_on = !planners.empty() && has_parameters(planners.back()) && !exec_command(planners.back());
       if (!goes_on) {
         throw InputError("--planners " + list + ": '" + item +
-                         "' is no planner; a planner's first parameter follows a " +
+                         "' is not a planner; a planner's first parameter follows a " +
                          "colon (NAME:KEY=VALUE,KEY=VALUE), and a fleet of several planners is given by --planner");
       }
       planners.back() += "," + item;

@@ -29,7 +29,7 @@ TEST(StudySpec, ACommandEndsAtTheNextComma) {
   EXPECT_EQ(split_planners("exec:./mine --speed=3,kios"), (Texts{"exec:./mine --speed=3", "kios"}));
 }
 
-TEST(StudySpec, WhatIsNoListOfPlannersIsRefused) {
+TEST(StudySpec, InvalidListsOfPlannersAreRefused) {
   for (const char* list : {"", "kios,,star", "kios,", "jurong=hover", "kios,voxel_m=4", "exec:./mine,speed=4"}) {
     EXPECT_THROW(split_planners(list), InputError) << list;
   }
@@ -58,7 +58,7 @@ TEST(StudySpec, SeedsAreAListAndANumberIsOneOfThem) {
   EXPECT_EQ(parse_seeds("18446744073709551613-18446744073709551615").size(), 3u);
 }
 
-TEST(StudySpec, WhatIsNoSeedIsRefused) {
+TEST(StudySpec, InvalidSeedsAreRefused) {
   for (const char* text : {"", "x", "-1", "1-", "-", "5-1", "1.5", "3,3", "1-4,2", "1,,2", "0-1000", "1--2",
                            "99999999999999999999999", "0-18446744073709551615", "18446744073709551616", "+1", " 1"}) {
     EXPECT_THROW(parse_seeds(text), InputError) << text;

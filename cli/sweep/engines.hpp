@@ -29,7 +29,7 @@ std::filesystem::path fly_script(const SweepFolder& folder);
 std::filesystem::path launcher_file();
 
 /// The options for sbatch in a text such as "partition=debug,time=10:00,exclude=a,b". An item without "=" continues the
-/// value before it. @throws InputError for options that Skein sets itself, and for items that are no option.
+/// value before it. @throws InputError for options that Skein sets itself, and for items that are not options.
 std::vector<std::string> sbatch_options(const std::string& text);
 
 }  // namespace skein::cli

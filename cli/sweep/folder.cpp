@@ -91,8 +91,9 @@ SweepFlight sweep_flight_of(const Json& json, const fs::path& file) {
   SweepFlight flight{number_in(json, "index"), text_in(json, "dir"), struct_of<RunOptions>(run),
                      value_or(json, "made_under", nullptr)};
   if (flight.dir.empty() || run.empty()) {
-    throw InputError(file.string() + ": damaged: " + json.dump() +
-                     " is no flight; delete this file, and the same command goes on with the flights that are there");
+    throw InputError(
+        file.string() + ": damaged: " + json.dump() +
+        " is not a flight; delete this file, and the same command goes on with the flights that are there");
   }
   return flight;
 }

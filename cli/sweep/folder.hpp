@@ -173,7 +173,7 @@ class SweepFolder {
 };
 
 Json to_json(const SweepFlight& flight);
-/// @param file  of which the JSON is a part. @throws InputError that names it, when the JSON is no complete flight.
+/// @param file  of which the JSON is a part. @throws InputError that names it, when the JSON is not a complete flight.
 SweepFlight sweep_flight_of(const Json& json, const std::filesystem::path& file);
 
 }  // namespace skein::cli

@@ -365,7 +365,7 @@ std::vector<std::string> sbatch_options(const std::string& text) {
     const std::string name = piece.substr(0, equals);
     if (name.empty() || name.front() == '-' ||
         name.find_first_not_of("abcdefghijklmnopqrstuvwxyz-") != std::string::npos) {
-      throw InputError("--slurm " + text + ": '" + name + "' is no option of sbatch; give long ones, without --");
+      throw InputError("--slurm " + text + ": '" + name + "' is not an option of sbatch; give long ones, without --");
     }
     if (ours.contains(name)) throw InputError("--slurm " + text + ": Skein sets " + name + " itself");
     options.push_back("--" + piece);

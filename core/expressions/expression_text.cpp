@@ -86,7 +86,7 @@ Quantity ExpressionText::number() {
   const std::size_t begin = at();
   Quantity number;
   const auto [end, error] = std::from_chars(text_.data() + begin, text_.data() + text_.size(), number.value);
-  if (error != std::errc() || !std::isfinite(number.value)) fail(begin, "this is no number");
+  if (error != std::errc() || !std::isfinite(number.value)) fail(begin, "this is not a number");
   const auto digits_end = static_cast<std::size_t>(end - text_.data());
   next_ = digits_end;
   const std::string_view rest = text_.substr(at());

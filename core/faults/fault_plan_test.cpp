@@ -247,7 +247,7 @@ TEST_F(FaultFile, WrongConditionsAreRefusedWithTheirColumn) {
 }
 
 TEST_F(FaultFile, WrongTopicsAreRefused) {
-  refused("faults: [{at_s: 1, link: {loss: 1, topics: plan}}]", "'plan' is no topic; write it like '/plan'");
+  refused("faults: [{at_s: 1, link: {loss: 1, topics: plan}}]", "'plan' is not a topic; write it like '/plan'");
   refused("faults: [{at_s: 1, link: {loss: 1, topics: []}}]", "must name at least one topic");
   refused("faults: [{at_s: 1, link: {range_m: 10, topics: [/plan]}}]", "cannot stand beside range_m");
   EXPECT_NO_THROW(load("faults: [{at_s: 1, link: {loss: 1, topics: [/plan, /captures]}}]"));

@@ -59,7 +59,7 @@ bool next_line(std::istream& in, std::string& line, const std::filesystem::path&
       in.setstate(line.empty() ? std::ios::eofbit | std::ios::failbit : std::ios::eofbit);
       return !line.empty();
     }
-    if (line.size() == kLongest) throw InputError(file.string() + ": has a line of more than 1 MB: it is no text");
+    if (line.size() == kLongest) throw InputError(file.string() + ": has a line of more than 1 MB: it is not text");
     line += static_cast<char>(c);
   }
   if (line.ends_with('\r')) line.pop_back();

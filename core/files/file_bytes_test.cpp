@@ -56,7 +56,7 @@ TEST_F(FileBytes, WhatIsTooLargeIsRefusedBeforeItIsRead) {
   EXPECT_NE(complaint([&] { read_file_bytes(folder_ / "hole", 1 << 20); }).find("1048576 MB"), std::string::npos);
   std::ifstream hole = open_text(folder_ / "hole");
   std::string line;
-  EXPECT_NE(complaint([&] { next_line(hole, line, folder_ / "hole"); }).find("it is no text"), std::string::npos);
+  EXPECT_NE(complaint([&] { next_line(hole, line, folder_ / "hole"); }).find("it is not text"), std::string::npos);
 }
 
 TEST_F(FileBytes, LinesAreAsGetlineHasThem) {

@@ -66,7 +66,7 @@ std::vector<HandRow> read(const std::filesystem::path& file) {
     const std::string place = file.string() + ":" + std::to_string(number) + ": ";
     const std::optional<HandRow> row = row_of(line);
     if (!row) {
-      throw InputError(place + "'" + line.substr(0, 100) + "' is no command; there must be " +
+      throw InputError(place + "'" + line.substr(0, 100) + "' is not a command; there must be " +
                        std::to_string(kColumns) + " numbers, of which step and tick are whole and not negative");
     }
     if (!rows.empty() && row->tick <= rows.back().tick) {

@@ -69,7 +69,7 @@ struct LinkEffect {
     describe_names(r, "topics", topics);
     for (const std::string& topic : topics) {
       r.check(topic == "all" || is_topic_name(topic), "topics",
-              "'" + topic + "' is no topic; write it like '/plan': after each '/' letters, digits and '_'");
+              "'" + topic + "' is not a topic; write it like '/plan': after each '/' letters, digits and '_'");
     }
     r.check(!topics.empty(), "topics", "must name at least one topic, or be the word all");
     r.check(names_every_topic() || !range_m, "topics", "cannot stand beside range_m, which is of the link as a whole");

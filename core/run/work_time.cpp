@@ -74,7 +74,7 @@ void measure(const WorkTrack& track, WorkTime& time) {
   for (const WorkSecond& second : time.seconds) time.frozen_s += second.frozen;
 }
 
-/// By second: whether a UAV works, which is no excuse of its own: some 60 s about it hold a least amount, and it is
+/// By second: whether a UAV works, which is not an excuse of its own: some 60 s about it hold a least amount, and it is
 /// not without work.
 std::vector<bool> working(const WorkTrack& track, const WorkTime& time) {
   const std::size_t count = time.seconds.size();

@@ -80,7 +80,7 @@ void check_names(const ScenarioFile& file, ConfigErrors& errors) {
     const std::string& name = file.fleet[i].name;
     const std::string key = index_path("fleet", i, "name");
     errors.check(is_ros_word(name), key,
-                 "'" + name + "' is no ROS name: a letter, then letters, digits and underscores");
+                 "'" + name + "' is not a ROS name: a letter, then letters, digits and underscores");
     errors.check(!reserved.contains(name), key, "'" + name + "' is reserved; choose another name");
     errors.check(
         name.size() <= kLongestName, key,
@@ -219,7 +219,7 @@ class SceneFileFinder {
  private:
   std::string advice(const std::string& key, const std::string& file) const {
     return scenario_.file.string() + ": " + key + ": scenario '" + scenario_.name + "' needs the data file " + file +
-           ": name the folder that it is in with --assets DIR or SKEIN_ASSETS=DIR (of CARIC's data, which are no part "
+           ": name the folder that it is in with --assets DIR or SKEIN_ASSETS=DIR (of CARIC's data, which are not part "
            "of Skein, the one that holds models/), or write ./" +
            file + " for a file beside the scenario. The scenario 'towers' needs no data files.";
   }

@@ -15,7 +15,7 @@ std::string check_positive(const std::string& text);
 std::string check_not_negative(const std::string& text);
 
 /// @returns an error message if `text` begins like an octal or hexadecimal number, which CLI11 would read as such: 010
-/// as 8. An empty text otherwise, also for a text that is no number.
+/// as 8. An empty text otherwise, also for a text that is not a number.
 std::string check_decimal(const std::string& text);
 /// @returns an empty text if `text` is an unsigned whole number that fits into 64 bits, otherwise an error message.
 /// CLI11 takes -1, and numbers that are too large, for the largest number.

@@ -76,7 +76,7 @@ std::vector<std::string> shell_words(const std::string& command) {
   bool in_word = false;
   char quote = 0;
   const auto refuse = [&](bool wrong, const std::string& why) {
-    if (wrong) throw InputError("'" + command + "' is no command with its arguments: " + why);
+    if (wrong) throw InputError("'" + command + "' is not a command with its arguments: " + why);
   };
   const auto add = [&](char letter) {
     if (!in_word) words.emplace_back();

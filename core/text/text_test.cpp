@@ -105,7 +105,7 @@ TEST(Text, ControlCharactersAreShownAsQuestionMarks) {
   EXPECT_EQ(printable(std::string("a\x01\0b\n\tü", 8)), "a??b\n\tü");
 }
 
-TEST(Text, WhatIsNoUtf8IsShownAsQuestionMarks) {
+TEST(Text, InvalidUtf8IsShownAsQuestionMarks) {
   for (const char* text : {"", "plain", "\u00e4\u20ac\U0001f681", "\x7f\xc2\x80", "\xef\xbf\xbf\xf4\x8f\xbf\xbf"}) {
     EXPECT_EQ(as_utf8(text), text);
     EXPECT_TRUE(is_utf8(text)) << text;

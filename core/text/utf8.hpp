@@ -19,7 +19,7 @@ std::string first_bytes(const std::string& text, std::size_t most);
 
 bool is_utf8(const std::string& text);
 
-/// Replaces each byte that is no part of a valid character by '?'.
+/// Replaces each byte that is not part of a valid character by '?'.
 std::string as_utf8(std::string text);
 
 }  // namespace skein

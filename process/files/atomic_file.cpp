@@ -70,7 +70,8 @@ void write_file_atomically(const std::filesystem::path& path, std::string_view c
   }
   if (std::rename(temporary.c_str(), path.c_str()) != 0) fail("rename the temporary file of");
   if (flush == Flush::none) return;
-  // The new name is durable only after its folder is synced. Some file systems cannot sync folders; that is no failure.
+  // The new name is durable only after its folder is synced. Some file systems cannot sync folders; that is not a
+  // failure.
   const File folder(path.has_parent_path() ? path.parent_path().string() : ".", O_RDONLY | O_DIRECTORY);
   if (folder.is_open()) static_cast<void>(folder.sync());
 }

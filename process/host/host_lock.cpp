@@ -20,7 +20,7 @@ struct Address {
   const sockaddr* get() const { return reinterpret_cast<const sockaddr*>(&name); }
 };
 
-/// The address of an abstract socket: its name begins with a zero byte, and it is no file.
+/// The address of an abstract socket: its name begins with a zero byte, and it is not a file.
 Address abstract_address(const std::string& name) {
   Address address;
   address.name.sun_family = AF_UNIX;

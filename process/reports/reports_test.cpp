@@ -77,7 +77,7 @@ void check_report(const char* text) {
       damaged[place] = odd;
       EXPECT_NO_THROW(struct_of<Report>(damaged)) << place;
     }
-    if (place.to_string().find("/position/") != std::string::npos) return;  // two numbers are no place
+    if (place.to_string().find("/position/") != std::string::npos) return;  // two numbers are not a place
     Json lacking = whole;
     erase(lacking, place);
     const Json read = json_of(struct_of<Report>(lacking));

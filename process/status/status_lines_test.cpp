@@ -56,7 +56,7 @@ TEST(StatusLines, AreReadBack) {
   }
 }
 
-TEST(StatusLines, WhatIsNoneIsNothing) {
+TEST(StatusLines, OtherLinesAreNotStatusLines) {
   for (const char* text : {"", "{", "hello", "3", "[]", "null", "{}", R"({"type":"dance"})", R"({"type":7})",
                            R"({"type":null})", R"({"Type":"progress"})", "\xff\xfe"}) {
     EXPECT_FALSE(status::read_line(text)) << text;

@@ -62,7 +62,7 @@ def load(file: str, class_name: str) -> type[Planner]:
         name = f"planner_{name}"
     spec = importlib.util.spec_from_file_location(name, file)
     if spec is None or spec.loader is None:
-        raise Wrong(f"{file}: is no file of Python; its name must end with .py")
+        raise Wrong(f"{file}: is not a file of Python; its name must end with .py")
     module = importlib.util.module_from_spec(spec)
     sys.modules[name] = module
     spec.loader.exec_module(module)
@@ -78,7 +78,7 @@ def _chosen(module: types.ModuleType, file: str, class_name: str) -> type[Planne
         if inspect.isclass(value) and issubclass(value, Planner) and value is not Planner:
             return value
         if value is not None:
-            raise Wrong(f"{file}: {class_name} is no planner: it must be a class derived from skein.planner.Planner")
+            raise Wrong(f"{file}: {class_name} is not a planner: it must be a class derived from skein.planner.Planner")
         near = difflib.get_close_matches(class_name, planners, 1)
         raise Wrong(f"{file}: there is no class '{class_name}' in it; "
                     + (f"did you mean '{near[0]}'?" if near else _known(planners)))

@@ -72,7 +72,7 @@ def option_arguments(options: Mapping[str, Any]) -> list[str]:
         if _is_flag(value):
             words.append(option)
         elif isinstance(value, Mapping):
-            raise InputError(f"{name}: an option is no dictionary; write {value!r} as on the command line")
+            raise InputError(f"{name}: an option is not a dictionary; write {value!r} as on the command line")
         elif hasattr(value, "__iter__") and not isinstance(value, (str, bytes)):
             items = list(value)
             if items and all(_is_whole(item) for item in items):

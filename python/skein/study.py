@@ -73,7 +73,7 @@ class Study:
     def settings(self) -> dict[str, Any]:
         """study.json: all settings on which the results of the study depend."""
         if self._settings is None:
-            self._settings = read_json(self.path / "study.json", "it is no folder of a study")
+            self._settings = read_json(self.path / "study.json", "it is not a folder of a study")
         return self._settings
 
     def table(self, name: str) -> Array:

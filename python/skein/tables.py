@@ -47,7 +47,7 @@ def read_text(file: Path, missing: str) -> str:
         return data.decode()
     except UnicodeDecodeError as error:
         line = data.count(b"\n", 0, error.start) + 1
-        raise DamagedError(f"{file}:{line}: is damaged: it is no UTF-8") from None
+        raise DamagedError(f"{file}:{line}: is damaged: it is not UTF-8") from None
 
 
 def _whole_lines(file: Path, missing: str) -> str:
@@ -128,7 +128,7 @@ def _texts(rows: _Rows, column: Column, cells: list[str], allowed: str) -> Array
         rows.fail(row, f"{column.name} has {longest} characters")
     if (set("".join(cells)) & _UNPRINTABLE) - set(allowed):
         row = next(i for i, cell in enumerate(cells) if (set(cell) & _UNPRINTABLE) - set(allowed))
-        rows.fail(row, f"{column.name} is no text: {cells[row]!r:.60}")
+        rows.fail(row, f"{column.name} is not text: {cells[row]!r:.60}")
     return np.array(cells, f"U{max(longest, 1)}")
 
 

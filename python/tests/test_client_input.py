@@ -62,7 +62,7 @@ def test_bytes_are_what_dds_carries() -> None:
     define("test_msgs/msg/Mixed", "uint8 a\nfloat64 b\nuint16[] c\nfloat64[] d\nbool e")
     mixed = new("test_msgs/msg/Mixed", a=1, b=0.5, c=[7], e=True)
     assert encode(mixed) == (b"\0\1\0\0" + struct.pack("<B7xdIH2xI?", 1, 0.5, 1, 7, 0, True) + b"\0\0\0")
-    assert decode("std_msgs/msg/String", b"\0\1\0\0\2\0\0\0\xff\0").data == "\udcff", "what is no UTF-8 stays"
+    assert decode("std_msgs/msg/String", b"\0\1\0\0\2\0\0\0\xff\0").data == "\udcff", "what is not UTF-8 stays"
 
 
 def test_random_bytes_are_no_message_and_do_no_harm() -> None:
@@ -132,8 +132,8 @@ def test_values_that_do_not_fit_are_named() -> None:
 
 @pytest.mark.parametrize(("name", "text", "match"), [
     ("my_msgs/Survey", "float64 x", "write it like"), ("my_msgs/msg/A", "", "no fields"),
-    ("my_msgs/msg/B", "float64 x\nfloat64 x", "twice"), ("my_msgs/msg/C", "float64 x = 3", "is no field"),
-    ("std_msgs/msg/String", "float64 x", "with other fields"), ("my_msgs/msg/D", "float64[-1] x", "is no field"),
+    ("my_msgs/msg/B", "float64 x\nfloat64 x", "twice"), ("my_msgs/msg/C", "float64 x = 3", "is not a field"),
+    ("std_msgs/msg/String", "float64 x", "with other fields"), ("my_msgs/msg/D", "float64[-1] x", "is not a field"),
 ])
 def test_definitions_are_checked(name: str, text: str, match: str) -> None:
     type_named("std_msgs/msg/String")
@@ -163,7 +163,7 @@ GOOD: dict[str, Any] = {"name": "jurong", "scenario": "towers", "domain": 223, "
 @pytest.mark.parametrize(("wrong", "match"), [
     ({"name": "jurnog"}, "no UAV of this fleet"), ({"scenario": "towrs"}, "towrs"), ({"domain": 231}, "up to 230"),
     ({"domain": -1}, "whole number"), ({"dds": "opendds"}, "opendds"), ({"run": -1}, "whole number"),
-    ({"name": None}, "SKEIN_UAV is not set"), ({"read": ["/jurong/gimball"]}, "no topic of jurong"),
+    ({"name": None}, "SKEIN_UAV is not set"), ({"read": ["/jurong/gimball"]}, "not a topic of jurong"),
     ({"read": ["gimbal"]}, "absolute topic name"), ({"read": [3]}, "is a text"), ({"debug": ["a b"]}, "absolute"),
     ({"security": "/no/such/folder"}, "/no/such/folder"),
 ])
@@ -173,7 +173,7 @@ def test_a_client_that_cannot_be_says_why(wrong: dict[str, Any], match: str) -> 
 
 
 @pytest.mark.parametrize(("arguments", "match"), [
-    (((),), "list of names"), (("/clock",), "list of names"), ((["/jurong/gimball"],), "no topic of jurong"),
+    (((),), "list of names"), (("/clock",), "list of names"), ((["/jurong/gimball"],), "not a topic of jurong"),
     ((["clock"],), "absolute"), (({"/x/gcs": "std_msgs/msg/Strin"},), "not known"),
 ])
 def test_a_listener_that_cannot_be_says_why(arguments: Any, match: str) -> None:

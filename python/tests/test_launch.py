@@ -80,7 +80,7 @@ def test_exit_codes_are_exceptions(tmp_path: Path, code: int, kind: type[skein.E
     with pytest.raises(skein.Error) as caught:
         skein.run(launcher=program)
     assert type(caught.value) is kind
-    assert str(caught.value) == f"code {code}: alas", "progress is no message"
+    assert str(caught.value) == f"code {code}: alas", "progress is not a message"
     assert caught.value.exit_code == code
     assert caught.value.run is not None and caught.value.run.path == tmp_path
 

@@ -118,9 +118,9 @@ def test_what_is_missing_says_what_brings_it(tmp_path: Path) -> None:
     assert len(run.captures) == 0 and len(run.earned()) == 1
     with pytest.raises(skein.MissingError, match="no folder"):
         skein.Run(tmp_path / "none")
-    with pytest.raises(skein.MissingError, match="no results folder"):
+    with pytest.raises(skein.MissingError, match="not a results folder"):
         skein.Run(tmp_path).result
-    assert "no results folder" in repr(skein.Run(tmp_path))
+    assert "not a results folder" in repr(skein.Run(tmp_path))
 
 
 def test_what_nobody_could_tell_is_nan(tmp_path: Path) -> None:

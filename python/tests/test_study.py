@@ -62,7 +62,7 @@ def test_what_a_study_refuses_says_why(study: skein.Study, tmp_path: Path) -> No
         study.totals
     with pytest.raises(KeyError, match="'flight'; it has flights"):
         study.table("flight")
-    with pytest.raises(skein.MissingError, match="no folder of a study"):
+    with pytest.raises(skein.MissingError, match="not a folder of a study"):
         skein.Study(tmp_path).settings
 
 

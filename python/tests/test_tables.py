@@ -140,7 +140,7 @@ def test_damage_is_named_with_its_line(flown: skein.Run, tmp_path: Path) -> None
             ":5: time_s must be a number, not '1e999'"),
         "\n".join([*lines[:4], lines[4].replace(lines[4].split(",")[3], "nan"), *lines[5:], ""]): (
             ":5: time_s must be a number, not 'nan'"),
-        "\n".join([*lines[:4], "\a" + lines[4], *lines[5:], ""]): ":5: uav is no text",
+        "\n".join([*lines[:4], "\a" + lines[4], *lines[5:], ""]): ":5: uav is not text",
     }.items():
         (tmp_path / "captures.csv").write_text(text)
         with pytest.raises(skein.DamagedError) as caught:

@@ -67,7 +67,7 @@ TEST_F(McapJoin, PartsThatAreCutOffCountAsFarAsTheyGo) {
   EXPECT_EQ(of_part(whole, "b"), kept);
 }
 
-TEST_F(McapJoin, APartThatIsNoRecordingIsToldAndLeftOut) {
+TEST_F(McapJoin, APartThatIsNotARecordingIsReportedAndLeftOut) {
   const auto a = write_part("a", 1, 2);
   std::ofstream(folder_ / "b") << "nonsense";
   EXPECT_NE(join({folder_ / "a", folder_ / "b"}, folder_ / "whole", {}).find("no MCAP file"), std::string::npos);

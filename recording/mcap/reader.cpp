@@ -129,7 +129,7 @@ std::optional<Bytes> unpack(const Chunk& chunk) {
 Reader::Reader(const std::filesystem::path& file) : file_(file), bytes_(read_file_bytes(file, kLargestFile)) {
   const ByteView bytes = view(bytes_);
   if (bytes.size() < sizeof(kMagic) || !std::equal(std::begin(kMagic), std::end(kMagic), bytes.begin())) {
-    throw InputError(file.string() + ": is no MCAP file, or its first bytes are damaged");
+    throw InputError(file.string() + ": is not an MCAP file, or its first bytes are damaged");
   }
 }
 

@@ -45,7 +45,7 @@ TEST(McapRecords, TheChecksumIsTheCommonCrc32) {
   EXPECT_EQ(crc_of(bytes.subspan(4), crc_of(bytes.first(4))), 0xCBF43926U);
 }
 
-TEST(McapRecords, ARecordThatIsCutOffIsNone) {
+TEST(McapRecords, ATruncatedRecordIsNotRead) {
   Bytes whole;
   append(whole, Channel{1, 2, "/topic", "cdr", {{"key", "value"}}});
   for (std::size_t length = 0; length < whole.size(); ++length) {
@@ -58,7 +58,7 @@ TEST(McapRecords, ARecordThatIsCutOffIsNone) {
 }
 
 // Whatever a damaged file holds: an answer, and no memory that its lengths promise.
-TEST(McapRecords, NoiseIsNoRecordAndNoTrouble) {
+TEST(McapRecords, NoiseGivesNoRecordAndNoError) {
   std::mt19937_64 random(20'261);
   for (int round = 0; round < 20'000; ++round) {
     Bytes noise(random() % 60);

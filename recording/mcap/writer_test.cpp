@@ -142,7 +142,7 @@ TEST_F(McapWriter, TellsWhenItHasNoMoreIds) {
   EXPECT_THROW(writer.add_channel("/c", "t/msg/T", ""), std::length_error);
 }
 
-TEST_F(McapWriter, WhatIsNoMcapFileIsRefusedByName) {
+TEST_F(McapWriter, FilesThatAreNotMcapAreRefusedByName) {
   std::ofstream(folder_ / "text") << "no recording at all";
   EXPECT_THROW(Reader(folder_ / "text"), InputError);
   EXPECT_THROW(Reader(folder_ / "missing"), InputError);

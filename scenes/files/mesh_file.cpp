@@ -191,7 +191,7 @@ PlainStl read_plain(const std::filesystem::path& file) {
 void append(const std::filesystem::path& file, const aiMesh& part, TriangleMesh& mesh) {
   for (unsigned f = 0; f < part.mNumFaces; ++f) {
     const aiFace& face = part.mFaces[f];
-    if (face.mNumIndices != 3) refuse(file, "holds a face that is no triangle");
+    if (face.mNumIndices != 3) refuse(file, "holds a face that is not a triangle");
     std::array<std::uint32_t, 3> triangle{};
     for (unsigned i = 0; i < 3; ++i) {
       if (face.mIndices[i] >= part.mNumVertices) refuse(file, "holds a triangle without its vertices");

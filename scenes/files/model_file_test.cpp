@@ -242,7 +242,7 @@ TEST_F(ModelFile, SaysWhatIsWrongWithColladaAndGltf) {
   const std::string node = "<node id=\"n\">";
   const Mistakes in_dae = {
       {"</COLLADA>", "", "not a readable COLLADA file"},
-      {"meter=\"0.01\"", "meter=\"0\"", "no positive number of metres"},
+      {"meter=\"0.01\"", "meter=\"0\"", "not a positive number of metres"},
       {"meter=\"0.01\"", "meter=\"1e6\"", "farther than 100 km"},
       {"count=\"24\"", "count=\"25\"", "must be a whole number below 25"},
       {"count=\"8\"", "count=\"9\"", "more numbers than its float_array has"},

@@ -87,7 +87,7 @@ class PlainDae {
     if (name == "input" && element.attribute("offset")) whole(element, "offset", kMostInputs);
     if (name == "unit") {
       const std::optional<float> metres = parsed_float(element.attribute("meter").as_string("1"));
-      if (!metres || !std::isfinite(*metres) || !(*metres > 0.0F)) wrong("its unit is no positive number of metres");
+      if (!metres || !std::isfinite(*metres) || !(*metres > 0.0F)) wrong("its unit is not a positive number of metres");
     }
     if (name == "instance_node") {
       ++instances_;

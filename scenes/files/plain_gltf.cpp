@@ -38,7 +38,7 @@ class PlainGltf {
     const bool binary = bytes.size() >= 4 && word_at(bytes, 0) == kMagic;
     const std::string_view text = binary ? chunks(bytes) : bytes;
     doc_ = Json::parse(text, nullptr, false);
-    if (!doc_.is_object()) wrong("its text is no JSON object");
+    if (!doc_.is_object()) wrong("its text is not a JSON object");
     const std::string version = string(member(doc_, "asset"), "version");
     if (!version.starts_with("2.")) wrong("version '" + shown(version) + "' instead of 2.0");
     check_extensions();
@@ -102,11 +102,11 @@ class PlainGltf {
     if (depth > kDeepest) wrong("its nodes are nested more than " + std::to_string(kDeepest) + " deep");
     const char* const key = depth == 0 ? "nodes" : "children";
     Json numbers = Json::array();
-    if (!parent.is_object()) wrong("a node or scene is no object");
+    if (!parent.is_object()) wrong("a node or scene is not an object");
     if (!parent.contains(key)) return numbers;
     const Json& nodes = list("nodes");
     seen_.resize(nodes.size());
-    if (!parent[key].is_array()) wrong("'" + std::string(key) + "' is no list");
+    if (!parent[key].is_array()) wrong("'" + std::string(key) + "' is not a list");
     for (const Json& child : parent[key]) {
       const std::size_t number = index(child, key, nodes.size());
       if (seen_[number]) wrong("a node has two parents");
@@ -123,7 +123,7 @@ class PlainGltf {
   }
 
   void copy_transformation(const Json& node, Json& copy) const {
-    if (!node.is_object()) wrong("a node is no object");
+    if (!node.is_object()) wrong("a node is not an object");
     constexpr std::array<std::pair<const char*, std::size_t>, 4> kParts = {
         {{"matrix", 16}, {"translation", 3}, {"rotation", 4}, {"scale", 3}}};
     for (const auto& [name, size] : kParts) {
@@ -151,7 +151,7 @@ class PlainGltf {
   std::optional<std::size_t> copied_mesh(const Json& mesh) {
     constexpr std::uint64_t kTriangles = 4, kFan = 6;
     const Json& primitives = member(mesh, "primitives");
-    if (!primitives.is_array()) wrong("'primitives' is no list");
+    if (!primitives.is_array()) wrong("'primitives' is not a list");
     Json copies = Json::array();
     for (const Json& primitive : primitives) {
       const std::size_t mode = index(primitive, "mode", kFan + 1, kTriangles);
@@ -259,7 +259,7 @@ class PlainGltf {
       wrong("its data are in another file, '" + shown(uri) + "'; export as one .glb file");
     }
     const auto bytes = mark == std::string::npos ? std::nullopt : read_base64(uri.substr(mark + kMark.size()));
-    if (!bytes) wrong("the data of a buffer are no Base64");
+    if (!bytes) wrong("the data of a buffer are not Base64");
     return decoded_.emplace(number, std::string(bytes->begin(), bytes->end())).first->second;
   }
 
@@ -293,14 +293,14 @@ class PlainGltf {
 
   std::string string(const Json& owner, const char* key) const {
     const Json& text = member(owner, key);
-    if (!text.is_string()) wrong("'" + std::string(key) + "' is no text");
+    if (!text.is_string()) wrong("'" + std::string(key) + "' is not text");
     return text.get<std::string>();
   }
 
   /// A list of the document.
   const Json& list(const char* key) const {
     const Json& found = member(doc_, key);
-    if (!found.is_array()) wrong("'" + std::string(key) + "' is no list");
+    if (!found.is_array()) wrong("'" + std::string(key) + "' is not a list");
     return found;
   }
 

@@ -1,6 +1,6 @@
 // Check model files before Assimp reads them, and write them in the simplest form with the same triangles. Assimp hangs
 // or crashes on some damaged PLY files, recurses without a bound where nodes of a COLLADA file contain each other, and
-// takes a word that is no number for one.
+// takes a word that is not a number for one.
 #pragma once
 
 #include <filesystem>

@@ -82,7 +82,7 @@ class PlainPly {
     PlyElement element{.name = words[1], .count = 0, .properties = {}};
     const char* const end = words[2].data() + words[2].size();
     const auto result = std::from_chars(words[2].data(), end, element.count);
-    if (result.ec != std::errc() || result.ptr != end) wrong("'" + shown(words[2]) + "' is no number of elements");
+    if (result.ec != std::errc() || result.ptr != end) wrong("'" + shown(words[2]) + "' is not a number of elements");
     if (element.count > bytes_.size()) wrong("truncated: its header promises more than the file can hold");
     if (element.name == "face") {
       faces_ = element.count;
@@ -176,7 +176,7 @@ class PlainPly {
   std::uint64_t list_length(PlyType type) {
     const double length = value(type);
     if (!(length >= 0.0 && length <= static_cast<double>(bytes_.size() - at_)) || length != std::floor(length)) {
-      wrong("a list is longer than the file, or its length is no whole number");
+      wrong("a list is longer than the file, or its length is not a whole number");
     }
     return static_cast<std::uint64_t>(length);
   }

@@ -66,7 +66,7 @@ std::optional<World> attempt(const std::string& family, const wild::Dice& dice, 
 }  // namespace
 
 World draw_world(const std::string& family, std::uint64_t scene_seed, const std::filesystem::path& config_dir) {
-  if (!is_drawn_world(family)) throw InputError("'" + family + "' is no family of generated worlds");
+  if (!is_drawn_world(family)) throw InputError("'" + family + "' is not a family of generated worlds");
   const std::filesystem::path dir = config_dir.empty() ? default_config_dir() : config_dir;
   const VehicleConfig explorer = load_vehicle("explorer", dir), photographer = load_vehicle("photographer", dir);
   const bool blind = family == kBlindWorld;

@@ -85,14 +85,14 @@ class Evaluation {
   Verdict verdict() {
     if (rows_.size() == 0) return vacuous("the run has no exchange");
     if (property_.window.from == Window::From::heal && !run_.healed_s()) {
-      return vacuous("a fault lasts to the end, so that nothing comes after it");
+      return vacuous("a fault lasts to the end of the run, so there is no time after it");
     }
     const auto whole = stretch(begin_s());
     if (!whole)
       return vacuous("the run ended at " + number_text(end_s()) + " s, before " + number_text(begin_s()) + " s");
     const std::vector<std::size_t> starts = property_.whenever ? triggers(*whole) : std::vector{whole->first};
     if (starts.empty() && unclear_s_) return unclear("'whenever'");
-    if (starts.empty()) return vacuous("what it waits for with 'whenever' never came");
+    if (starts.empty()) return vacuous("the condition of 'whenever' never became true");
     Verdict worst;
     bool decided = false;
     for (const std::size_t start : starts) {
@@ -108,12 +108,12 @@ class Evaluation {
     if (unclear_s_ && worst.outcome != Outcome::fails) {
       return unclear("it");
     }
-    if (!decided && excused_) return vacuous("it was not exercised: what stands behind 'unless' came first");
+    if (!decided && excused_) return vacuous("it was not exercised: the condition of 'unless' became true first");
     if (!decided) return vacuous("the run ended before it could be decided");
     if (property_.kind == Kind::sometimes && worst.outcome == Outcome::fails) return vacuous("it was never reached");
     if (worst.outcome == Outcome::holds && !says_still(property_.condition) &&
         !rows_.any_moved(property_, whole->first, whole->last)) {
-      return vacuous("nothing that it is about ever moved");
+      return vacuous("none of its signals ever changed");
     }
     return worst;
   }

@@ -208,7 +208,7 @@ TEST_F(CommandGuardTest, ThePointAheadMayBeWantedWhereItIs) {
   for (int step = 0; step < 400; ++step) {
     mass.step({.p_WB = step == 0 ? last : target});
     const double speed = (mass.p_W_led() - last).x() / 0.05;
-    ASSERT_LE(std::abs(speed - before), 4.0 * 0.05 + 1e-9) << "step " << step;  // fails, too, where it is no number
+    ASSERT_LE(std::abs(speed - before), 4.0 * 0.05 + 1e-9) << "step " << step;  // fails, too, where it is not a number
     before = speed;
     last = mass.p_W_led();
   }

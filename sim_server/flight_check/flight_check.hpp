@@ -2,8 +2,9 @@
 // true scene, and nothing of what the UAVs know or plan. docs/flight-safety.md defines the checks and the counts.
 // Frame W.   Units: SI.   Threads: one.
 //
-// A body is a sphere about Bo that contains boxes and rotors at every attitude. The ground is no obstacle, because UAVs
-// land on it. Distances are between surfaces, negative if bodies overlap, at most kMostM, and accurate to kToleranceM.
+// A body is a sphere about Bo that contains boxes and rotors at every attitude. The ground is not an obstacle, because
+// UAVs land on it. Distances are between surfaces, negative if bodies overlap, at most kMostM, and accurate to
+// kToleranceM.
 #pragma once
 
 #include <cstdint>
@@ -46,7 +47,7 @@ class FlightCheck {
   static constexpr double kBrakingShare = 0.7;  ///< of a vehicle's maximum acceleration; the rest is for corrections
   static constexpr double kMostM = 10.0, kToleranceM = 0.01;
   /// Setpoints already climb before the motors start. For this time after takeoff a UAV still catches up with them,
-  /// and its distance from them is no measure of its tracking.
+  /// and its distance from them is not a measure of its tracking.
   static constexpr double kCatchUpS = 5.0;
   static constexpr std::size_t kMostFindings = 20;
 

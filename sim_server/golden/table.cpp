@@ -29,7 +29,7 @@ std::vector<std::string> cells_of(const std::string& line) {
   return cells;
 }
 
-/// Whether a line is empty or a comment: such lines are no rows.
+/// Whether a line is empty or a comment: such lines are not rows.
 bool says_nothing(const std::string& line) {
   const std::string text = trimmed(line);
   return text.empty() || text.front() == '#';

@@ -161,7 +161,7 @@ TEST_F(WorkLogTest, SurfaceIsMappedOnceByMatesThatHearEachOther) {
   EXPECT_GT(first, 10.0) << "the wall, and what they see of it from a little higher and lower";
   EXPECT_GT(std::max(done(0), done(1)), 2.0 * std::min(done(0), done(1)) + 1.0) << "the UAV that was first has it";
   fly(40.0, both(1.0));
-  EXPECT_LT(done(0, 42) + done(1, 42), 0.2 * first) << "what is known is no work";
+  EXPECT_LT(done(0, 42) + done(1, 42), 0.2 * first) << "what is known is not work";
 }
 
 TEST_F(WorkLogTest, NothingIsOpenForWhoMustTurnHome) {

@@ -25,7 +25,7 @@ struct Workplace {
 class Workplaces {
  public:
   static constexpr double kBerth = 1.4;   ///< clearance of the proof that a world is flyable [m]: every vehicle fits
-  static constexpr double kLeastQ = 0.3;  ///< places from which the quality is lower are no workplaces
+  static constexpr double kLeastQ = 0.3;  ///< places from which the quality is lower are not workplaces
 
   Workplaces(const Scenario& scenario, const Scene& scene);
 

@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kFar = "node2";  ///< the swarm's other node, which is no manager
+constexpr const char* kFar = "node2";  ///< the swarm's other node, which is not a manager
 constexpr const char* kPlaces = "jurong=node2,changi=node2";
 
 class Stack : public Containers {

@@ -118,7 +118,7 @@ TEST_F(ContestTest, CtrlCEndsTheFlightInTheAirAndNothingIsLeft) {
   EXPECT_FALSE(std::filesystem::exists(folder() / ("out/flights/towers/patrol/seed-" + std::to_string(in_the_air))));
 }
 
-TEST_F(ContestTest, WhatIsWrongIsToldBeforeAnythingFlies) {
+TEST_F(ContestTest, MistakesAreReportedBeforeAnythingFlies) {
   const auto refused = [&](const Arguments& arguments, const std::string& with) {
     Arguments all = arguments;
     all.insert(all.end(), {"--out", folder() / "out"});

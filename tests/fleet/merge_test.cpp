@@ -82,7 +82,7 @@ TEST_F(Merge, SaysWhatTheLauncherSays) {
   EXPECT_EQ(text_of(dir_ / run_folder::kScore), text_of(folder() / "launched" / run_folder::kScore));
 }
 
-TEST_F(Merge, AProgramThatLeftNoReportIsToldOf) {
+TEST_F(Merge, ProgramsWithoutAReportAreReported) {
   fly();
   const Json whole = merged();
   fs::remove(report("uav_agent-sentosa"));

@@ -28,7 +28,7 @@ class ProcessFaults : public FleetTest {
     for (const Json& result : {first, second}) {
       EXPECT_EQ(result["status"], "completed");
       EXPECT_TRUE(result["deterministic"]);
-      EXPECT_TRUE(result["lost_members"].empty()) << "a fault is no loss: " << result["lost_members"];
+      EXPECT_TRUE(result["lost_members"].empty()) << "a fault is not a loss: " << result["lost_members"];
       EXPECT_TRUE(result["warnings"].empty()) << result["warnings"];
       EXPECT_GT(result["score"], 50.0);
     }

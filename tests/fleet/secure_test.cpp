@@ -307,7 +307,7 @@ TEST_F(Secure, ForgedReportsAreRefusedAndCounted) {
   EXPECT_EQ(forged.result()["score"], 0.0);
 }
 
-TEST_F(Secure, WhatIsReadableAllTheSameIsTold) {
+TEST_F(Secure, FilesThatStayReadableAreReported) {
   SkeinRun& told = run("told", {scenario_, "--secure", "--duration", "5", "--planner", "hover"});
   const std::string expected = is_root() ? "small/scene/points.pcd" : "without root";
   const Json warnings = told.result()["warnings"];

@@ -123,7 +123,7 @@ TEST_F(Debugged, LeavingGdbDoesNotStallTheFleet) {
   expect_fleet_goes_on();
 }
 
-TEST_F(Debugged, TheEndOfTheRunIsNoLoss) {
+TEST_F(Debugged, TheEndOfTheRunDoesNotCountAsALoss) {
   start_fleet_that_ends();
   start_tool("");
   EXPECT_EQ(run_->exit_code(), 0) << run_->err();

@@ -67,7 +67,7 @@ TEST_F(Layers, CodeIsFormatted) {
 
 TEST_F(Layers, GitTracksNoProductsAndNoLargeFiles) {
   const auto tracked = tracked_files(source_path());
-  if (!tracked) GTEST_SKIP() << "this is no git checkout, or there is no git";
+  if (!tracked) GTEST_SKIP() << "this is not a git checkout, or there is no git";
   EXPECT_FALSE(tracked->empty());
   expect_none(check_tracked_files(source_path(), *tracked));
 }

@@ -75,7 +75,7 @@ class Blanker {
   }
 
   bool starts(const char* what) const { return text_.compare(at_, std::char_traits<char>::length(what), what) == 0; }
-  /// The ' in 1'000 opens no character, and FOUR"x" is no raw string.
+  /// The ' in 1'000 opens no character, and FOUR"x" is not a raw string.
   bool follows_word() const {
     return at_ > 0 && (std::isalnum(static_cast<unsigned char>(text_[at_ - 1])) || text_[at_ - 1] == '_');
   }

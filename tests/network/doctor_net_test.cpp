@@ -117,7 +117,7 @@ TEST_F(DoctorNet, EverybodyHearsWhomItSharesADomainWith) {
   for (const char* host : {"server", "router", "a"}) EXPECT_EQ(code(host), 0) << all_said();
 }
 
-TEST_F(DoctorNet, AFirewallThatDropsDdsIsToldFromSilence) {
+TEST_F(DoctorNet, AFirewallThatDropsDdsIsDistinguishedFromSilence) {
   const int first = 7400 + 250 * (domains_.base() + 2);
   const std::string ports = std::to_string(first) + ":" + std::to_string(first + 249);
   if (!hosts_.run("a", "iptables -A INPUT -p udp --dport " + ports + " -j DROP")) GTEST_SKIP() << "no iptables";
@@ -143,7 +143,7 @@ TEST_F(DoctorNet, AHostWhoseInterfaceIsDownIsNamed) {
   }
 }
 
-TEST_F(DoctorNet, AHostWithoutADoctorIsTold) {
+TEST_F(DoctorNet, AHostWithoutADoctorIsReported) {
   start("server");
   start("a");
   EXPECT_EQ(code("server"), 1);
@@ -151,7 +151,7 @@ TEST_F(DoctorNet, AHostWithoutADoctorIsTold) {
   expect_heard("server", "a", "a", {"cyclonedds"});
 }
 
-TEST_F(DoctorNet, AWayOfSmallerPacketsIsTold) {
+TEST_F(DoctorNet, ASmallerMtuIsReported) {
   ASSERT_TRUE(hosts_.run("a", "ip link set eth1 mtu 1300"));
   start_all();
   EXPECT_EQ(code("a"), 1);
@@ -160,7 +160,7 @@ TEST_F(DoctorNet, AWayOfSmallerPacketsIsTold) {
   EXPECT_NE(hint("a", "a", "server").find("MTU"), std::string::npos) << peer;
 }
 
-TEST_F(DoctorNet, AnotherBaseDomainIsTold) {
+TEST_F(DoctorNet, AnotherBaseDomainIsReported) {
   start("server", {"--only", "a"});
   start("a", {"--domain", std::to_string(domains_.base() > 100 ? 10 : 110)});
   EXPECT_EQ(code("server"), 1);

@@ -279,7 +279,7 @@ TEST_F(Place, WrongInputIsExitCodeTwoAndStartsNothing) {
   const std::vector<std::pair<Arguments, std::string>> cases = {
       {{"--place", "jurnog=b"}, "there is no UAV 'jurnog'; did you mean 'jurong'?"},
       {{"--place", "jurong"}, "must be UAV=HOST"},
-      {{"--place", "jurong=-oProxyCommand=x"}, "is no host"},
+      {{"--place", "jurong=-oProxyCommand=x"}, "is not a host"},
       {{"--place", "jurong=b,jurong=c"}, "jurong is placed twice"},
       {{"--place", "jurong=b,changi=" + login_.hosts().address(0, "b")}, "are one machine"},
       {{"--place", "jurong=" + login_.hosts().address(0, 77)}, "No route to host"},
@@ -287,7 +287,7 @@ TEST_F(Place, WrongInputIsExitCodeTwoAndStartsNothing) {
       {{"--place", "jurong=b", "--skein-path", other}, "b has another build of Skein"},
       {{"--place", "sim_server=b"}, "stays with the launcher"},
       {{"--place", "gcs=b"}, "no program runs at the ground station"},
-      {{"--place", "slurm"}, "no allocation of Slurm"},
+      {{"--place", "slurm"}, "not an allocation of Slurm"},
       {{"--place", "jurong=b", "--one-process"}, "--place needs processes"},
       {{"--place", "jurong=b", "--debug", "jurong=wait"}, "--debug and --place"}};
   for (const auto& [arguments, message] : cases) {

@@ -37,7 +37,7 @@ class OneProcess : public FleetTest {
   const std::string scene_ = write_small_scene(folder());  ///< two UAVs: jurong and changi
 };
 
-TEST_F(OneProcess, RefusesWhatIsNoNumberOfThreads) {
+TEST_F(OneProcess, RefusesInvalidNumbersOfThreads) {
   SkeinRun& none = run("none", flight({"--threads", "0"}), {}, 2);
   EXPECT_TRUE(says(none.err(), "--threads")) << none.err();
   SkeinRun& named = run("named", flight({}), {{"SKEIN_THREADS", "many"}}, 2);

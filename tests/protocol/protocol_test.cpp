@@ -277,7 +277,7 @@ TEST_P(ScriptedFault, EveryOrderOfEventsGivesTheSameRun) {
                                .returns_early = seed % 2 == 1};
       auto model = std::make_unique<FleetModel>(FleetOptions{.uavs = 2, .steps = 9, .fault = fault}, seed);
       ASSERT_EQ(model->run(), "") << victim << " schedule " << seed;
-      ASSERT_TRUE(model->lost().empty()) << "a fault is no loss; schedule " << seed;
+      ASSERT_TRUE(model->lost().empty()) << "a fault is not a loss; schedule " << seed;
       ASSERT_EQ(model->rejoined().size(), end < 9 ? 1U : 0U) << "schedule " << seed;
       ASSERT_NO_FATAL_FAILURE(check_absence(*model, fault, seed));
       if (first) {

@@ -110,10 +110,10 @@ TEST_F(Rerun, AForkPartsFromTheRunWhereItIsToldTo) {
   EXPECT_GE(same, 600U) << "30 s of 0.05 s";
   EXPECT_LT(same, 640U);
   EXPECT_EQ(result_in("fork")["differences"], Json::array())
-      << "what hover thought before it took over is no difference, and the others hear what they heard";
+      << "what hover thought before it took over is not a difference, and the others hear what they heard";
 }
 
-TEST_F(Rerun, WhatCannotBeFlownAgainIsSaid) {
+TEST_F(Rerun, RunsThatCannotBeFlownAgainAreReported) {
   SkeinRun& without = this->run("without", {"towers", "--planner", "hover", "--duration", "2", "--record=none"});
   const auto refused = [&](const std::string& command, const SkeinRun& run, const Arguments& more,
                            const std::string& why) {

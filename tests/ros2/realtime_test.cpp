@@ -163,7 +163,7 @@ INSTANTIATE_TEST_SUITE_P(Vendors, FreeNodes, testing::Values("cyclonedds", "fast
 
 class NoNodes : public FleetTest {};
 
-TEST_F(NoNodes, AreToldOf) {
+TEST_F(NoNodes, AreReported) {
   SkeinRun& fleet = run("fleet", {"towers", "--planner", "hover,jurong=ros", "--clock", "realtime:20", "--duration",
                                   "10", "--no-oracle"});
   EXPECT_NE(fleet.out().find("jurong: no ROS 2 node sent anything; `skein run --ros-env jurong`"), std::string::npos)

@@ -19,7 +19,7 @@ PageClient::PageClient(const std::filesystem::path& door) {
   const std::string text = text_of(door);
   std::smatch found;
   if (!std::regex_search(text, found, std::regex("127\\.0\\.0\\.1:(\\d+)/enter.*value=\"([0-9a-f]+)\""))) {
-    throw std::runtime_error(door.string() + ": is no door");
+    throw std::runtime_error(door.string() + ": is not a door");
   }
   port_ = static_cast<std::uint16_t>(std::stoul(found[1]));
   key_ = found[2];

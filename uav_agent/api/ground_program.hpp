@@ -46,8 +46,8 @@ std::unique_ptr<GroundProgram> make_ground_program(const std::string& spec, cons
 /// Names of the strategies that have a program at the ground station, sorted.
 std::vector<std::string> ground_program_names();
 
-/// What the ground station knows before the flight: as agent_config(), but `self` is fleet.size(), which is no UAV, and
-/// `vehicle` is a default one.
+/// What the ground station knows before the flight: as agent_config(), but `self` is fleet.size(), which is not a UAV,
+/// and `vehicle` is a default one.
 AgentConfig ground_config(const Scenario& scenario);
 
 }  // namespace skein::agent

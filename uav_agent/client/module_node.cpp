@@ -117,7 +117,7 @@ topics::WireTopic known_topic(const std::string& ros_topic, const std::string& i
     }
   }
   if (const std::string_view debug = topics::debug_name(name, id); !debug.empty()) return topics::debug(id, debug);
-  throw InputError("'" + ros_topic + "' is no topic of " + (id.empty() ? "a fleet" : id) + " (docs/topics.md)");
+  throw InputError("'" + ros_topic + "' is not a topic of " + (id.empty() ? "a fleet" : id) + " (docs/topics.md)");
 }
 
 /// With a type of its own: a radio topic, as a rule.
@@ -173,7 +173,7 @@ Node node_named(const Scenario& scenario, const std::string& name) {
   for (const Node node : scenario.nodes()) {
     if (scenario.node_name(node) == name) return node;
   }
-  throw InputError("'" + name + "' is no UAV of this fleet, nor gcs");
+  throw InputError("'" + name + "' is not a UAV of this fleet, nor gcs");
 }
 
 Scenario scenario_of(const std::string& file) { return load_scenario(file, LoadOptions{.needs_scene_files = false}); }

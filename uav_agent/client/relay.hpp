@@ -21,7 +21,7 @@ class Relay {
   Relay(topics::WireTopic topic, double exchange_s);
 
   const topics::WireTopic& topic() const { return topic_; }
-  /// Queues a sample. If the queue has the topic's depth, the oldest message is lost. A sample that is no message of
+  /// Queues a sample. If the queue has the topic's depth, the oldest message is lost. A sample that is not a message of
   /// the topic's type is refused.
   void hear(Payload payload);
   /// Discards all queued messages, and counts them as lost: they are from before the UAV's program came back.

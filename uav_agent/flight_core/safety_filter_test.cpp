@@ -45,7 +45,7 @@ TEST(SafetyFilter, CouldBrakeInFreeSpaceAtAnyTime) {
       ASSERT_TRUE(uav.not_free_about(uav.state.p_WB, kBodyM + kHaloM - kFliesAwayM).empty());
     }
   }
-  EXPECT_GT(flown_m, 1000.0) << "without flying, it is no merit";
+  EXPECT_GT(flown_m, 1000.0) << "a UAV that does not fly would prove nothing";
 }
 
 // Something is seen within what it could brake in. Nothing can be done about the way to rest, but all else.

@@ -52,7 +52,7 @@ TEST(BlockTable, AfterClearingItIsAsOneThatWasJustMade) {
   }
 }
 
-TEST(BlockTable, EqualIsWhoHoldsTheSameInWhateverOrderItCame) {
+TEST(BlockTable, TablesWithTheSameContentAreEqualInAnyOrder) {
   for (std::uint64_t world = 0; world < 20; ++world) {
     RandomStream random(world, "equal_blocks", 0);
     std::map<std::uint64_t, int> all;

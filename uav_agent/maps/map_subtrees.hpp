@@ -40,7 +40,7 @@ std::vector<std::uint8_t> join_subtrees(std::span<const Subtree> subtrees);
 
 /// The free and occupied cubes of a tree; free ones as large as the map's levels allow, occupied ones of level 0.
 /// @param levels  number of levels of the map that will take them, see WorldMap::levels().
-/// @returns nullopt if the bytes are no tree, or if it has larger leaves than join_subtrees() makes, or more than
+/// @returns nullopt if the bytes are not a tree, or if it has larger leaves than join_subtrees() makes, or more than
 /// kMostHeardCubes cubes.
 std::optional<std::vector<HeardCube>> read_subtrees(std::span<const std::uint8_t> bytes, int levels);
 

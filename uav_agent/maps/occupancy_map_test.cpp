@@ -163,13 +163,13 @@ TEST(OccupancyMap, WhatAnotherTellsIsKnownAsFarAsItIsProof) {
       const bool occupied = own.occupied(p) || other.occupied(p);
       ASSERT_EQ(both.occupied(p), occupied);
       ASSERT_EQ(both.known_free(p), !occupied && (own.known_free(p) || other.known_free(p)));
-      ASSERT_EQ(both.known_free(p, 12), !occupied && own.known_free(p, 12)) << "a word is no proof";
+      ASSERT_EQ(both.known_free(p, 12), !occupied && own.known_free(p, 12)) << "a word is not proof";
       free_by_word += both.known_free(p) && !own.known_free(p) ? 1 : 0;
     }
     EXPECT_GT(free_by_word, 50);
     const std::string whole = both.octomap_bytes();
     ASSERT_TRUE(both.hear(told));
-    EXPECT_EQ(both.octomap_bytes(), whole) << "the same again is no news";
+    EXPECT_EQ(both.octomap_bytes(), whole) << "the same again is not news";
     EXPECT_EQ(both.revision(), revision + 1);
   }
 }

@@ -1,4 +1,4 @@
-// Finds repeated beams, which are no new evidence. While a UAV hovers, its LiDAR fires the same beams again: the
+// Finds repeated beams, which are not new evidence. While a UAV hovers, its LiDAR fires the same beams again: the
 // servo's period is a whole number of scans, and the servo passes the same angles on its way back.
 //
 // Two scans are alike if the attitudes of the LiDAR differ by less than kTurnRad. Then beams with the same index are

@@ -15,7 +15,7 @@
 //     place where it was heard last, v is its greatest speed and b its body with margins: its radius, half of a cube's
 //     diagonal and margin_m. A hit may be late_s older than its exchange, so late_s is added to t;
 //   - after the cube's last hit the UAV may have reached the place where it was heard again, by the same bound. So a
-//     cube that is hit later, while the UAV is known to be elsewhere, was no UAV;
+//     cube that is hit later, while the UAV is known to be elsewhere, was not a UAV;
 //   - at no time was the trace larger than a body: two of its cubes, hit a time t apart, have d <= 2 b + v t. A flying
 //     UAV leaves a long trace, but a pole of that length is hit at both ends at once;
 //   - it has kMostInTrace cubes at most.

@@ -248,7 +248,7 @@ TEST_F(UavTracesTest, WhatIsToldIsDoubtedAndBelievedOfItsTellerAlone) {
   map_.hear({cube.x() >> 2, cube.y() >> 2, cube.z() >> 2}, 2, Space::free, 2);
   map_.hear(cube, 0, Space::occupied, 3);
   EXPECT_EQ(map_.at(met_W), Space::occupied);
-  EXPECT_TRUE(doubted(met_W)) << "that is said again is no news";
+  EXPECT_TRUE(doubted(met_W)) << "a repeated message is not news";
   map_.hear({cube.x() >> 2, cube.y() >> 2, cube.z() >> 2}, 2, Space::free, 3);
   EXPECT_EQ(map_.at(met_W), Space::free);
 }

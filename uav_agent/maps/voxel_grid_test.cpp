@@ -109,7 +109,7 @@ TEST(VoxelGrid, KnowledgeOnlyGrows) {
   EXPECT_EQ(grid.state(3), VoxelState::occupied);
   EXPECT_TRUE(grid.marked(3, 5));
   EXPECT_FALSE(grid.marked(3, 4));
-  EXPECT_EQ(grid.take_changed(), (std::vector<Id>{3, 3})) << "marks are no change of state";
+  EXPECT_EQ(grid.take_changed(), (std::vector<Id>{3, 3})) << "marks are not changes of state";
   EXPECT_TRUE(grid.take_changed().empty());
 }
 

@@ -227,7 +227,7 @@ TEST(WorldMap, AUavThatHasMovedOnLeavesItsPlaceUnknown) {
   EXPECT_EQ(map.at({3.1, 0.1, 0.1}), Space::occupied);
 }
 
-/// A doubt is no proof, at no level: after it as many beams are needed as of a map that never saw any.
+/// A doubt proves nothing, at any level: after it as many beams are needed as of a map that never saw any.
 TEST(WorldMap, WhatIsDoubtedIsProvedFromNothingAndNothingElseIsForgotten) {
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {
     RandomStream random(seed, "doubt", 0);

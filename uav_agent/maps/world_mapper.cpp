@@ -34,7 +34,7 @@ void WorldMapper::insert(const BeamScan& scan) {
   };
   ClearWay clear_way;
   if (map_.config().criterion.no_return_p > 0.0) {
-    // Beyond this, beams are no evidence at any level, so it does not matter what they meet there.
+    // Beyond this, beams are not evidence at any level, so it does not matter what they meet there.
     const double enough_m = map_.config().to_m.back() + 2.0 * map_.config().cell_m * (1 << (map_.levels() - 1));
     clear_way = [this, enough_m](const Vector3d& from_W, const Vector3d& direction_W, double reach_m) {
       const double asked_m = std::min(reach_m, enough_m);

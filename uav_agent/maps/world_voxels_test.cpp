@@ -105,7 +105,7 @@ TEST(WorldVoxels, WhatBecomesFreeOrIsNoLongerInDoubtIsFoundLater) {
   map.doubt(cube);
   voxels.update(map, grid);
   const std::vector<Eigen::Vector3f> hits_W = {middle_W(cube).cast<float>()};
-  map.insert({}, hits_W);                        // it was no UAV,
+  map.insert({}, hits_W);                        // it was not a UAV,
   tell(map, cube + Cube(1, 0, 0), Space::free);  // and something else of its chunk is told
   voxels.update(map, grid);
   EXPECT_EQ(voxels.hits(*grid.at(middle_W(cube))), 1);

@@ -45,7 +45,7 @@ TEST_F(ActivityWords, AreToldWhenTheyChangeAndEachSecond) {
   const auto first = step();
   ASSERT_TRUE(first);
   EXPECT_EQ(first->mode, "on the ground");
-  facts_.speed_mps = 1.0;  // numbers alone are no news
+  facts_.speed_mps = 1.0;  // numbers alone are not news
   EXPECT_EQ(steps(60), 3);
   doing(What::takeoff, Vector3d(0.0, 0.0, 5.0));
   const auto takeoff = step();

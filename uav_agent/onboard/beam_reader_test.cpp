@@ -137,7 +137,7 @@ TEST_F(BeamReaderTest, OdometryOrServoThatDoNotFitLeaveTheWholeScanUnknown) {
   EXPECT_EQ(reader(config).read(scan, {}).doubt, ScanDoubt::none);
 }
 
-TEST_F(BeamReaderTest, OnePointThatIsNoneOfTheLidarsIsEnough) {
+TEST_F(BeamReaderTest, OnePointThatDoesNotFitTheLidarIsEnough) {
   const Scan scan = drawn({}, 4);
   const Isometry3d X_WL = lidar_pose(state_.X_WB(), servo_.angle);
   const auto doubt_with = [&](auto&& change) {

@@ -274,7 +274,7 @@ TEST_F(PythonPlannerTest, WhatCannotBeLoadedIsBadInput) {
   expect_has(error(""), {"there is no planner in it"});
   expect_has(error(good + "class Other(Mine): pass\n"), {"which of its planners", "Mine, Other"});
   expect_has(error(good, ":Min"), {"did you mean 'Mine'"});
-  expect_has(error(good, ":np"), {"np is no planner"});
+  expect_has(error(good, ":np"), {"np is not a planner"});
   expect_has(error("class Mine(Planner):\n    Config = 3\n"), {"must be a dataclass"});
   expect_has(error("class Mine(Planner):\n    @dataclass\n    class Config:\n        a: dict = None\n"), {"Config.a"});
   expect_has(error("class Mine(Planner):\n    @dataclass\n    class Config:\n        a: int\n"), {"'a'", "required"});

@@ -59,7 +59,7 @@ class EveryPlanner : public testing::TestWithParam<std::string> {
     EXPECT_GT(world.gap(), kSmallestGapM);
     EXPECT_LE(world.longest_message(), 2 * kMaxPayloadBytes);
   }
-  /// Without that, keeping clear of everything is no merit.
+  /// Without that, keeping clear of everything would prove nothing.
   static void expect_all_flew(const TestWorld& world, std::size_t uavs) {
     if (GetParam() == "learner") {  // no program commands it here
       for (const UavIndex uav : FirstUavs(uavs)) EXPECT_LT(world.highest_m(uav), 1.0) << "uav" << uav;

@@ -45,7 +45,7 @@ class FlyingFleet:
         """DDS domain of a node: "world", "gcs" or a UAV's name. Raises InputError for another name."""
         names = ("world", "gcs", *self.fleet)
         if not isinstance(node, str) or node not in names:
-            raise InputError(f"'{node}' is no node of this fleet; those are {', '.join(names)}")
+            raise InputError(f"'{node}' is not a node of this fleet; those are {', '.join(names)}")
         return self.base_domain + names.index(node)
 
 

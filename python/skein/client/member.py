@@ -242,7 +242,7 @@ class Client:
         `Client(debug=[...])`."""
         if name not in self._debug:
             known = ", ".join(self._debug) or "none"
-            raise InputError(f"'{name}' is no name of Client(debug=[...]); those are: {known}")
+            raise InputError(f"'{name}' is not a name of Client(debug=[...]); those are: {known}")
         self._say(f"/{self.name}/debug/{name}", messages.new("std_msgs/msg/Float64", data=words.number(value, name)))
 
     # ---- the program's own radio topics (docs/radio.md) ----------------------------------------------------------

@@ -5,8 +5,8 @@
     payload = messages.encode(twist)
 
 It knows all types of Skein's topics (docs/topics.md); `define()` adds a type from the text of its `.msg` file. Texts
-are `str`, arrays of numbers are NumPy arrays, arrays of anything else are lists. Bytes that are no message of the type
-raise `DamagedError`, values that do not fit into their field `InputError`.
+are `str`, arrays of numbers are NumPy arrays, arrays of anything else are lists. Bytes that are not a message of the
+type raise `DamagedError`, values that do not fit into their field `InputError`.
 """
 
 from __future__ import annotations
@@ -127,7 +127,7 @@ def _add(name: str, text: str) -> type[Message]:
             continue
         match = _FIELD.match(line)
         if match is None:
-            raise InputError(f"{name}, line {number}: '{line}' is no field like 'float64 x' or 'float64[3] p'")
+            raise InputError(f"{name}, line {number}: '{line}' is not a field like 'float64 x' or 'float64[3] p'")
         kind, many, count, field = match.groups()
         if kind not in _NUMBERS and kind != "string":
             kind = _full(kind, name)
@@ -223,7 +223,7 @@ def decode(type_name: str, payload: bytes) -> Message:
     try:
         return _Reader(payload).message(of)
     except DamagedError as error:
-        raise DamagedError(f"{len(payload)} bytes that are no {type_name}: {error}") from None
+        raise DamagedError(f"{len(payload)} bytes that are not {type_name}: {error}") from None
 
 
 # ---- to bytes ----------------------------------------------------------------------------------------------------

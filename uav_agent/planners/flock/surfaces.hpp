@@ -43,7 +43,7 @@ class FlockSurfaces {
 
   VoxelGrid& grid() { return grid_; }
   const VoxelGrid& grid() const { return grid_; }
-  /// What others are told of the grid. Boxes that only this UAV takes for structure are no knowledge.
+  /// What others are told of the grid. Boxes that only this UAV takes for structure are not knowledge.
   const VoxelGrid& told_grid() const { return nothing_told_ ? *nothing_told_ : grid_; }
   FlockSurvey& survey() { return survey_; }
   const FlockSurvey& survey() const { return survey_; }

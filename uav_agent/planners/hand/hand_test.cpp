@@ -217,7 +217,7 @@ TEST(Hand, ItsProgramStartsAgainInFlight) {
   EXPECT_EQ(world.bad_commands(), 0U);
 }
 
-TEST(Hand, WhatIsNoFileOfCommandsIsRefused) {
+TEST(Hand, InvalidFilesOfCommandsAreRefused) {
   const AgentConfig agent = fleet_of(1, Role::explorer, 0);
   EXPECT_THROW(make_planner("hand:/no/such/file.csv", agent), InputError);
   EXPECT_THROW(make_planner("hand:file=/no/such/file.csv", agent), InputError);

@@ -18,7 +18,7 @@ struct Setup {
   std::set<std::string> debug_values;             ///< SKEIN_DEBUG_VALUES: "front plan", of /<uav>/debug/<name>
 };
 
-/// nullopt: this process is no program of a fleet.
+/// nullopt: this process is not a program of a fleet.
 std::optional<Setup> setup_of_environment();
 
 }  // namespace skein_ros

@@ -8,7 +8,7 @@
 
 namespace skein_ros {
 
-/// This process as a member of the lock-step; nullptr: it is no program of a fleet.
+/// This process as a member of the lock-step; nullptr: it is not a program of a fleet.
 Member* member();
 
 /// True if the calling thread is the node's, and runs the node's own code.
@@ -20,7 +20,7 @@ void enter_node_code();
 bool simulated_now(std::int64_t* now_ns);
 
 /// Sleeps until this simulated time [ns], and answers steps meanwhile.
-/// @returns false if the run is over, the context was shut down, or this process is no member
+/// @returns false if the run is over, the context was shut down, or this process is not a member
 bool sleep_until_simulated(std::int64_t until_ns);
 
 /// The node has taken a sample or published a message: its polls are not idle.
