@@ -1,4 +1,4 @@
-// How the own address is found by the names of peers. Names that end in .invalid belong to no host (RFC 6761).
+// How a program finds its own address from the names of its peers. Nobody has a name that ends in .invalid (RFC 6761).
 #include "bus/reach.hpp"
 
 #include <dlfcn.h>

@@ -1,4 +1,4 @@
-// Samples that did not leave: all are counted, and the log has one line a topic.
+// Samples that could not be sent: all are counted, and the log has one line for each topic.
 #include "bus/unsent.hpp"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 namespace skein::bus {
 namespace {
 
-/// What is logged while it lives.
+/// The messages that are logged during its lifetime.
 class LogText {
  public:
   LogText() : former_(spdlog::default_logger()) {

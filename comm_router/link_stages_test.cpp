@@ -1,4 +1,4 @@
-// Links that lose, delay, double and cut: statistics, windows, and that nothing but the keys decides.
+// Links that lose, delay, duplicate and cut messages: statistics, windows, and that only the keys decide.
 #include "comm_router/link_stages.hpp"
 
 #include <gtest/gtest.h>

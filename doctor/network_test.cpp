@@ -1,4 +1,4 @@
-// Facts of the network, judged as drawn; a fleet's ports and locks are read from this host.
+// How the doctor judges random facts of the network; a fleet's ports and locks are read from this host.
 #include <arpa/inet.h>
 #include <gtest/gtest.h>
 #include <sys/socket.h>
@@ -26,7 +26,8 @@ struct Network {
   DomainNetworkFacts domain;
 };
 
-/// Of a domain whose peers are all reached as they should be; the own host is among them now and then.
+/// Random facts of a network without faults: the host reaches all peers of the domain. It is itself among the peers now
+/// and then.
 Network drawn_network(Random& random) {
   Network drawn;
   drawn.interfaces = {{.name = "lo", .address = "127.0.0.1", .mtu = 65536, .up = true}};

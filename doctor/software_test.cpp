@@ -1,4 +1,4 @@
-// Facts about other software: shared memory of made-up processes, and judged.
+// How the doctor reads the shared memory of made-up processes, and how it judges facts about other software.
 #include <gtest/gtest.h>
 
 #include <cstdlib>

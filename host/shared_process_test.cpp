@@ -1,4 +1,4 @@
-// The launcher's side of a process that is home to a fleet, with a shell script for that process.
+// The launcher's side of a process that contains a fleet, with a shell script for that process.
 #include "host/shared_process.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// What a program says of what it does, to and from its message. Pure; any thread.
+// Converts a program's activity to its message and back. Pure; any thread.
 #pragma once
 
 #include "core/activity.hpp"
@@ -7,8 +7,8 @@
 namespace skein {
 
 msg::Activity to_activity(Tick tick, const Activity& activity);
-/// Of whatever program: texts become one line of a table each (no commas, no control characters, 160 bytes at most),
-/// a goal that no numbers describe becomes none, other such numbers 0.
+/// Accepts messages of any program: each text becomes one cell of a table (no commas, no control characters, 160 bytes
+/// at most), a goal with a number that is not finite becomes none, and other such numbers become 0.
 Activity from_activity(const msg::Activity& message);
 
 }  // namespace skein

@@ -33,7 +33,7 @@ msg::Odometry to_odometry(Tick tick, const std::string& id, const RigidBodyState
 /// Velocity back in W.
 RigidBodyState from_odometry(const msg::Odometry& odometry);
 void add_uncertainty(const PoseUncertainty& uncertainty, msg::Odometry& odometry);
-/// What it says of its own errors; a negative or infinite variance counts as none.
+/// The errors that the odometry states; a negative or infinite variance counts as none.
 PoseUncertainty uncertainty_from_odometry(const msg::Odometry& odometry);
 
 msg::BatteryState to_battery(Tick tick, const BatteryStatus& battery, int cells);
@@ -45,7 +45,7 @@ msg::TwistStamped to_wind(Tick tick, const Vector3d& wind_W);
 /// nullopt where a number is not finite.
 std::optional<Vector3d> from_wind(const msg::TwistStamped& wind);
 
-/// Of the open links of a UAV.
+/// The message about the open links of a UAV.
 msg::RadioLinks to_radio_links(Tick tick, const LinkQualities& links);
 /// Leaves out links with a number that is not finite.
 LinkQualities from_radio_links(const msg::RadioLinks& links);

@@ -1,4 +1,4 @@
-// Answers are kept, found again, and not believed when they are damaged.
+// The cache keeps and returns results, and ignores damaged files.
 #include "oracle/cache.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Rooms, windows and halls: what hangs together with the sky.
+// Rooms, windows and halls: which space is connected to the sky.
 #include "oracle/open_space.hpp"
 
 #include <gtest/gtest.h>

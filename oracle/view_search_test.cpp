@@ -1,4 +1,4 @@
-// How directions are spread, and that the search finds what is hard to find.
+// The directions are evenly spread, and the search finds viewpoints that are hard to find.
 #include "oracle/view_search.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,5 @@
-// Each loss has one cause, and together they are the difference: on drawn runs, and cause by cause.
+// Each loss has one cause, and the losses add up to the difference from the attainable score: on random runs, and cause
+// by cause.
 #include "results/score_losses.hpp"
 
 #include <gtest/gtest.h>
@@ -142,7 +143,8 @@ TEST(ScoreLosses, TheWorstPartOfTheBestPictureIsToBlame) {
     return loss.cause;
   };
   EXPECT_EQ(cause(capture(0.7, 0.9, 0.8, true)), LossCause::distance);
-  // Of equals the one that is mended first by flying differently: nearer, then squarer, then slower.
+  // If several causes are equal, the first one counts that a different flight could avoid: nearer, then squarer, then
+  // slower.
   EXPECT_EQ(cause(capture(0.75, 0.75, 0.75, true)), LossCause::distance);
   EXPECT_EQ(cause(capture(1.0, 0.75, 0.75, true)), LossCause::tilt);
   EXPECT_EQ(cause(capture(0.75, 1.0, 0.75, true)), LossCause::distance);

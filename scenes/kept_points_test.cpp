@@ -1,4 +1,4 @@
-// Points that are kept are those that would be drawn, whatever became of the file.
+// Cached interest points equal those that would be drawn, even if the file is damaged.
 #include "scenes/kept_points.hpp"
 
 #include <gtest/gtest.h>

@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::uint64_t kDigestSeeds = 3;
 
-/// Of all numbers of the scene as whole tenths of a millimetre, so that the last bits of a sine do not matter.
+/// Hashes all numbers of the scene as whole tenths of a millimetre, so that the last bits of a sine do not matter.
 std::string digest_of(const Scene& scene) {
   Sha256 sha;
   const auto add = [&sha](double value) { sha.add(static_cast<std::uint64_t>(std::llround(1e4 * value))); };

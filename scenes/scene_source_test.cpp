@@ -1,4 +1,4 @@
-// Which scene a scenario gets.
+// Which scene a scenario has.
 #include "scenes/scene_source.hpp"
 
 #include <gtest/gtest.h>

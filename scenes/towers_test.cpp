@@ -1,4 +1,4 @@
-// What is particular to `towers`; scene_families_test.cpp holds what all families promise.
+// What only `towers` has; scene_families_test.cpp tests what all families promise.
 #include "scenes/towers.hpp"
 
 #include <gtest/gtest.h>

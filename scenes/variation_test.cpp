@@ -1,4 +1,4 @@
-// Boxes of a family, redrawn: never losing anything.
+// Varied boxes of a family contain every place that was in a box before.
 #include "scenes/variation.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// What a body hides from its own camera, against the body put into the world and tried by rays.
+// What a body hides from its own camera, compared with rays that are traced against the body as a part of the world.
 #include "sight/camera_mount.hpp"
 
 #include <gtest/gtest.h>

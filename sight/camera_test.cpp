@@ -1,4 +1,4 @@
-// What a capture sees, against a brute-force judgement, and what the camera remembers.
+// Compares what a capture sees with a brute-force computation, and checks what the camera remembers.
 #include "sight/camera.hpp"
 
 #include <gtest/gtest.h>
@@ -279,8 +279,9 @@ TEST(Camera, HidesAsMuchOfThePictureAsTheBodyOfTheReference) {
   }
 }
 
-/// Of free views of points of public MBS within 60 degrees of their normal, each on its triangle to single precision,
-/// 45 % see it by the reference's ray, because that ends at the point; by Skein's own test all do.
+/// Views of points of the public scene MBS, within 60 degrees of their normal and with nothing in between. Each point
+/// is on its triangle to single precision. The reference's ray ends at the point, so it hits only 45 % of the points;
+/// Skein's own test sees all.
 TEST(Camera, RayThatEndsAtThePointMissesMoreThanHalf) {
   const auto mesh = test::official_mesh("mbs/mbs.stl");
   const auto points = test::official_points("mbs/mbs_interest_points.pcd");

@@ -1,4 +1,4 @@
-// What a straight line of which the clearance was tested really keeps, sampled densely.
+// The true clearance, densely sampled, of straight lines whose clearance was tested.
 #include "sight/clear_line.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,5 @@
-// As RayScene answers, whatever way something takes, near and far, by steps and by leaps.
+// MovingClearance returns what RayScene returns, for every path: near and far from structure, in small steps and in
+// leaps.
 #include "sight/moving_clearance.hpp"
 
 #include <gtest/gtest.h>

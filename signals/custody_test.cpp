@@ -1,4 +1,4 @@
-// What must have become of capture reports, by hand-made accounts of the server.
+// Which capture reports the station must have received, for hand-made records of the server.
 #include "signals/custody.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// The signal `missed`: what lies undone since a UAV came back, of a run that is put together by hand.
+// The signal `missed`: the work that is left undone since a UAV came back, in a hand-made run.
 #include <cmath>
 #include <cstdlib>
 

@@ -1,4 +1,4 @@
-// The signals of a run that is put together by hand: each against what it is meant to be.
+// The signals of a hand-made run: each is compared with its definition.
 #include "signals/run_signals.hpp"
 
 #include <gtest/gtest.h>

@@ -19,7 +19,7 @@ constexpr int kLeastUrgent = 19;
 
 EstimateTask::EstimateTask(const Scenario& scenario, const Scene& scene, OracleRequest request)
     : thread_([this, &scenario, &scene, request = std::move(request)] {
-        // Of this thread only: on Linux each thread has its own priority.
+        // This lowers only this thread's priority: on Linux each thread has its own.
         ::setpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()), kLeastUrgent);
         try {
           OracleReply reply = ask_oracle(scenario, scene, request);

@@ -43,7 +43,7 @@ class FaultNode {
     view::ToldFault fault;
     bool begins = false;
   };
-  /// Of the last begin_step().
+  /// The changes of the last begin_step().
   std::vector<Change> changes() const;
   /// Call it before the step is published: the step then carries the orders (kill, stop) to the programs concerned.
   void take_out_victims();

@@ -145,7 +145,7 @@ class Simulation {
   /// links() without those that blackouts, outages and partitions cut. UAVs get their neighbours' odometry and key
   /// frames over open links.
   const Links& open_links() const;
-  /// Of an open link; nullopt: the link is closed, or the scenario has no path loss.
+  /// The quality of an open link; nullopt: the link is closed, or the scenario has no path loss.
   std::optional<LinkQuality> link_quality(Node from, Node to) const;
   const StepEvents& events() const;
   const Referee& referee() const;

@@ -29,7 +29,7 @@
 namespace skein::agent {
 namespace {
 
-/// Of --maps-every: a step, and the longest mission.
+/// Bounds of --maps-every: a step, and the longest mission.
 constexpr double kLeastMapsPeriod_s = 0.05, kMostMapsPeriod_s = 36000.0;
 
 /// For the launcher and for people: which strategies there are, and which have a program at the ground station.
@@ -81,7 +81,7 @@ std::unique_ptr<Planner> planner_of(const std::string& spec, const Scenario& sce
       {.seed = seed, .radio_topics = {radio.topics().begin(), radio.topics().end()}, .debug_from_s = pdb_from_s});
 }
 
-/// Of ROS 2 nodes: they name no values by themselves.
+/// The debug names of a UAV that ROS 2 nodes fly: the nodes name no values themselves.
 std::vector<std::string> debug_names_of_environment(const std::string& uav) {
   const char* const variable = std::getenv(kDebugValuesVariable);
   std::vector<std::string> names = split(variable == nullptr ? "" : variable, ' ');

@@ -1,4 +1,4 @@
-// Maps in time: what is in the file, and when; the same calls, the same bytes.
+// Snapshots of maps: what the file contains, and when. The same calls write the same bytes.
 #include "uav_agent/kept_maps.hpp"
 
 #include <gtest/gtest.h>

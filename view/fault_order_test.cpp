@@ -1,4 +1,4 @@
-// Orders about faults: each comes back as it went, and nothing else is one.
+// Orders about faults: each is read back as it was written, and no other text is accepted.
 #include "view/fault_order.hpp"
 
 #include <gtest/gtest.h>

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 class FinishedRun : public testing::Test {
  protected:
-  /// Of a kind.
+  /// The lines of this kind.
   std::vector<Json> lines(const std::string& kind) const {
     std::vector<Json> found;
     for (const Json& line : told_["lines"]) {

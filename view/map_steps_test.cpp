@@ -1,4 +1,4 @@
-// When cubes of a map come and go: at each time those that are told are those of the newest snapshot.
+// When cubes of a map appear and disappear: at each time, the sent cubes are those of the newest snapshot.
 #include "view/map_steps.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Pictures and tables of docs/sensing.md: well formed, of more than nothing, and the same at each call.
+// Pictures and tables of docs/sensing.md: well formed, not empty, and the same at each call.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Messages that are put together, and taken apart again as the receiver does.
+// Packs messages, and unpacks them again as the receiver does.
 #include "bus/cyclonedds/packed_messages.hpp"
 
 #include <gtest/gtest.h>

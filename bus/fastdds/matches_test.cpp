@@ -1,4 +1,4 @@
-// What Fast DDS tells from several threads, in every order in which it may come.
+// Matches that Fast DDS reports from several threads, in every possible order.
 #include "bus/fastdds/matches.hpp"
 
 #include <gtest/gtest.h>

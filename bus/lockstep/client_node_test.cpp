@@ -1,4 +1,4 @@
-// A program that waits says for what.
+// A waiting program reports what it waits for.
 #include "bus/lockstep/client_node.hpp"
 
 #include <gtest/gtest.h>

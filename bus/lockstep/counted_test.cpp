@@ -1,5 +1,5 @@
-// Property: whatever arrives, is expected and is forgotten in whatever order, the queues hand out what a list of all
-// that was ever said would.
+// Property: in whatever order messages arrive, are announced and are forgotten, the queues return what a list of all
+// messages would.
 #include "bus/lockstep/counted.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Waiting counts as far as the one who waits was awake.
+// Only time during which the waiting process ran counts as waiting.
 #include "bus/lockstep/patience.hpp"
 
 #include <gtest/gtest.h>

@@ -24,8 +24,8 @@ constexpr std::uint64_t kSchedules = 400;
 /// How long it is in force, or would be once its condition holds.
 double length_s(const Fault& fault) { return fault.waits ? fault.for_s.value() : fault.until_s.value() - fault.at_s; }
 
-/// The longest time that a fault may last. No planner can save a vehicle that lacks thrust, or flies by a wrong position,
-/// for longer.
+/// The longest time that a fault may last. No planner can save a vehicle that lacks thrust, or flies by a wrong
+/// position, for longer.
 double longest_s(const Fault& fault) {
   const std::string kind = fault_kind(fault);
   if (kind == "motor_failure") return 2.0;

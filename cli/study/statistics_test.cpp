@@ -134,7 +134,8 @@ TEST(MedianInterval, IsThatOfAllSamples) {
   }
 }
 
-/// Of more values than can be written down: 10 000 drawn samples have their 2.5 % within 1.6 to 3.4 % of all.
+/// With too many values to enumerate all samples, 10 000 random samples stand for them: the true 2.5 % quantile lies
+/// between their 1.6 % and 3.4 % quantiles.
 TEST(MedianInterval, OfManyValuesIsThatOfDrawnSamples) {
   std::mt19937 random(13);
   for (const std::size_t n : {40, 101, 500}) {

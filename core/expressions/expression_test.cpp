@@ -27,7 +27,7 @@ class Expressions : public testing::Test {
     signals_.clear();
     return parse_condition(text, scope_, signals_);
   }
-  /// Of signals that all have this value.
+  /// The margin of an expression whose signals all have this value.
   Margin margin(const std::string& text, double value = 0.0) {
     const Expression expression = parse(text);
     const std::vector<double> values(signals_.size(), value);

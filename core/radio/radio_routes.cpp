@@ -183,7 +183,7 @@ class RadioTable::Builder {
     return {kStationNode, ros_topic, ros_type, topic, type, {}};
   }
 
-  /// Those of `wanted` that it has not got; a message never comes back to its source.
+  /// Adds the targets of `wanted` that the route lacks, except its source: a message never comes back to its source.
   void add_targets(RadioRoute& route, const NodeList& wanted) const {
     for (const Node target : wanted.nodes) {
       const bool known = std::ranges::find(route.targets, target, &RadioTarget::node) != route.targets.end();

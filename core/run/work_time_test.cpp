@@ -43,7 +43,7 @@ std::vector<bool> frozen_by_windows(const WorkTrack& track) {
     for (std::size_t from = 0; from + kWorkWindow_s <= open.size(); ++from) {
       double sum = 0.0;
       for (std::size_t i = from; i < from + kWorkWindow_s; ++i) sum += done[i];
-      // Of the last open second only what was done by then.
+      // Of the last open second, only the work done by then counts.
       const std::size_t last = open[from + kWorkWindow_s - 1];
       sum += track.done[last] - done[from + kWorkWindow_s - 1];
       for (std::size_t i = from; sum < 1.0 - 1e-9 && i < from + kWorkWindow_s; ++i) marked[open[i]] = true;

@@ -329,7 +329,7 @@ Scenario load_scenario(const std::string& name_or_path, const LoadOptions& optio
   const bool all_placed = find_starts(scenario, file.fleet, errors);
   check_radio(file, errors);
   build_fleet(file, config_dir, scenario, errors);
-  // Of a fleet that can be one: all have a vehicle and a place.
+  // The starts can be checked only if all UAVs have a vehicle and a place.
   const bool whole = scenario.fleet.size() == file.fleet.size() && all_placed;
   if (whole && scenario.fleet.size() <= kMostUavs) check_starts(scenario, errors);
   errors.throw_if_any();

@@ -14,7 +14,7 @@
 namespace skein {
 namespace {
 
-/// Of all magnitudes and both signs.
+/// A random number of any magnitude and either sign.
 double any_number(std::mt19937& random) {
   const double mantissa = static_cast<double>(random()) / 1e9 - 2.0;
   return mantissa * std::pow(10.0, static_cast<int>(random() % 40) - 20);

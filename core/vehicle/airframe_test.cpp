@@ -1,5 +1,5 @@
-// Mass and size of a vehicle that is composed of parts: against mechanics, for drawn vehicles, and by hand for the
-// shipped ones.
+// Mass and size of a vehicle that is composed of parts: compared with mechanics for random vehicles, and computed by
+// hand for the shipped ones.
 #include "core/vehicle/airframe.hpp"
 
 #include <gtest/gtest.h>

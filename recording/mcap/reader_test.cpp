@@ -1,4 +1,4 @@
-// Chunks as a file may state them, rightly or not: what they have comes out, and nothing is taken on their word.
+// Chunks with correct and wrong headers: the reader returns their contents, and trusts no stated length.
 #include "recording/mcap/reader.hpp"
 
 #include <gtest/gtest.h>

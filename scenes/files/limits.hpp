@@ -14,7 +14,7 @@ namespace skein::sim {
 /// benchmark's largest scene. For the cost of such a scene see docs/scenarios.md.
 inline constexpr std::size_t kMostTriangles = 2'000'000;
 inline constexpr std::uintmax_t kMostBytes = 512u << 20;  ///< of one file; ASCII triangles have 268 each
-/// Of one mesh file other than STL: the text of 2,000,000 triangles that share vertices has half of it.
+/// Limit of one mesh file other than STL; the text of 2,000,000 triangles that share vertices has half of that size.
 inline constexpr std::uintmax_t kMostModelBytes = 256u << 20;
 inline constexpr std::size_t kMostPoints = 5'000'000;  ///< of one file
 /// Greatest magnitude of a coordinate of a vertex, point or box [m]: single precision still resolves 8 mm there.

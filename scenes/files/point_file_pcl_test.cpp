@@ -79,7 +79,7 @@ class DrawnCloud {
     cloud_.fields.push_back(field);
   }
 
-  /// Of any size that a scene may have, some of them too small for a normal float.
+  /// A random number of any size that a scene may have; some are too small for a normal float.
   double draw_number() {
     const double exponent = draw_.uniform(-44, 5);
     return draw_.uniform(-1, 1) * std::pow(10.0, below(3) ? draw_.uniform(-2, 5) : exponent);

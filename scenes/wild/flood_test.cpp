@@ -1,5 +1,6 @@
-// What is_flyable() promises of a world, asked of a second implementation that shares nothing with it: no rays and no
-// map, but a grid of cells of 0.3 m, filled from above. Necessary, not sufficient: views are not asked to be open.
+// Checks what is_flyable() promises of a world with a second implementation that shares nothing with it: it uses
+// neither rays nor a map, but a grid of cells of 0.3 m, filled from above. It is necessary, not sufficient: it does not
+// check whether views are open.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,8 +19,9 @@ namespace skein::sim {
 namespace {
 
 constexpr double kCell = 0.3, kMargin = 8.0;
-/// Of a cell's middle from a sample of the surface. The proof asks for 1.4 m along lines 1 m apart: half way from one
-/// to the next are 0.9 m left, and 0.26 m less at the middle of the cell there. A body of 0.63 m still fits.
+/// Least distance between a cell's middle and a sample of the surface [m]. The proof requires 1.4 m along lines 1 m
+/// apart: 0.9 m are left half way between two lines, and 0.26 m less at the middle of the cell there. A body of 0.63 m
+/// still fits.
 constexpr double kBerth = 0.64;
 
 class Flood {

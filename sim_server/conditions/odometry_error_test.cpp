@@ -1,4 +1,4 @@
-// The odometry's error against its formulas, over long samples; and what it says of itself against what it does.
+// The odometry's error compared with its formulas, over long samples, and its stated variance with the actual errors.
 #include "sim_server/conditions/odometry_error.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-// Vehicles composed of links, whose centre of mass is not the origin of their frame: against equations of motion that
-// are written down and integrated here, and against what every rigid body keeps.
+// Vehicles composed of links, whose centre of mass is not the origin of their frame, compared with equations of motion
+// that are written down and integrated here, and with what every rigid body conserves.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -59,7 +59,7 @@ struct NewtonEuler {
   static Quaterniond attitude(const Eigen::Matrix<double, 13, 1>& x) {
     return Quaterniond(x[6], x[7], x[8], x[9]).normalized();
   }
-  /// Of Bo, as odometry has it.
+  /// The state of Bo, as in the odometry.
   RigidBodyState state() const {
     RigidBodyState state{.q_WB = attitude(x), .w_WB_B = x.tail<3>()};
     const Vector3d r_W = state.q_WB * p_BBcm;

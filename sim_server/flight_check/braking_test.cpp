@@ -54,7 +54,7 @@ TEST(Braking, SegmentsAreAsFarApartAsTheirNearestPoints) {
     double least = 1e9;
     constexpr int kParts = 200;
     for (int k = 0; k <= kParts; ++k) {
-      // Of one point of the first segment, the nearest of the second one by projection.
+      // Projects a point of the first segment onto the second one: the nearest point there.
       const Vector3d p = a + (b - a) * k / kParts, way = d - c;
       const double share = way.norm() > 0.0 ? std::clamp((p - c).dot(way) / way.squaredNorm(), 0.0, 1.0) : 0.0;
       least = std::min(least, (p - c - share * way).norm());

@@ -1,4 +1,4 @@
-// The flight check against closed forms, and asked about pilots of whom one flies such that it can stop.
+// The flight check compared with closed forms, and with two pilots, of whom one flies so that it can stop.
 #include "sim_server/flight_check/flight_check.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Plans are kept, found again to the last bit, and not believed when they are damaged.
+// The cache keeps plans, returns them to the last bit, and ignores damaged files.
 #include "sim_server/plan/plan_cache.hpp"
 
 #include <gtest/gtest.h>

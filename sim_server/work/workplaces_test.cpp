@@ -1,4 +1,4 @@
-// Workplaces are what they claim to be, asked of rays and cameras one by one, in drawn worlds.
+// Checks each workplace with rays and the camera, in random worlds.
 #include "sim_server/work/workplaces.hpp"
 
 #include <gtest/gtest.h>

@@ -13,8 +13,9 @@ inline const std::filesystem::path kSharedMemory = "/dev/shm";
 /// The names in `folder`.
 std::set<std::string> shared_memory(const std::filesystem::path& folder = kSharedMemory);
 
-/// Those of `names` that no process has open or mapped: their creator has ended without removing them, or is about to
-/// remove them. Segments that only other users' processes use count as unused. @param folder  absolute, without links
+/// Returns those of `names` that no process has open or mapped: their creator has ended without removing them, or is
+/// about to remove them. Segments that only other users' processes use count as unused. @param folder  absolute,
+/// without links
 std::set<std::string> unused_shared_memory(std::set<std::string> names,
                                            const std::filesystem::path& folder = kSharedMemory);
 

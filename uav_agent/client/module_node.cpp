@@ -26,7 +26,7 @@ namespace py = pybind11;
 namespace skein::agent {
 namespace {
 
-/// Of the module and the package, which may be installed apart.
+/// Version of the interface between the module and the package, which may be installed separately.
 constexpr int kInterface = 1;
 constexpr double kRadians = 3.14159265358979323846 / 180.0;
 /// Ctrl-C is noticed after so long at the latest.
@@ -52,7 +52,7 @@ std::vector<std::uint8_t> from_bytes(const py::bytes& bytes) {
   return {text.begin(), text.end()};
 }
 
-/// Of the process and thread that made something; vendors' threads do not live on in a copy of the process.
+/// The process and thread that made something; a copy of the process does not have the vendors' threads.
 class Home {
  public:
   void check() const {

@@ -1,4 +1,4 @@
-// What a strategy hears of its goals, whatever comes between.
+// What the flight core reports to a strategy about its goals, whatever happens meanwhile.
 #include "uav_agent/flight_core/flight_core.hpp"
 
 #include <gtest/gtest.h>

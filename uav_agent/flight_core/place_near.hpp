@@ -10,7 +10,7 @@
 namespace skein::agent {
 
 /// The best of 78 places at 1, 2 and 3 m from p_W, among those to which the safety filter lets the UAV fly straight.
-/// Of places that are equally good, the nearest.
+/// If several places are equally good, it is the nearest of them.
 /// @param p_W       the UAV's centre.
 /// @param lowest_m  z in W below which no place lies.
 /// @param least     only places of a higher value than this are worth the flight.

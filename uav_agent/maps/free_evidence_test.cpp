@@ -89,7 +89,7 @@ TEST(UnseenMembers, BeamsOfAllSidesProveWithFewerThanBeamsOfOne) {
   EXPECT_LT(beams_needed(true), 160);  // oblique ones count for more
 }
 
-/// Of sightings that are lost with probability q, as of 1 - q times the beams.
+/// Beams whose return is lost with probability q count as 1 - q times as many beams.
 TEST(UnseenMembers, LostReturnsCountAsFewerBeams) {
   for (const double q : {0.3, 0.5, 0.75}) {
     FreeCriterion losing;

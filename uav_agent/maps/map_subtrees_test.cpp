@@ -20,7 +20,7 @@ int drawn_below(RandomStream& random, int count) {
   return static_cast<int>(random.uniform() * static_cast<double>(count));
 }
 
-/// Of cubes of drawn sizes, some within others; or all alike.
+/// A chunk of cubes of random sizes, some within others; or of equal cubes only.
 WorldMap::Chunk drawn_chunk(RandomStream& random) {
   WorldMap::Chunk chunk;
   const auto any = [&] { return static_cast<Space>(drawn_below(random, 3)); };

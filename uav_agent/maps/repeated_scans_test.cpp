@@ -32,7 +32,7 @@ TEST(RepeatedScans, AUavThatTurnsSaysSomethingNew) {
   EXPECT_TRUE(scans.ask(pose(Vector3d::Zero(), 0.0, 0.5)).all);
 }
 
-/// Of who goes on, beams ahead and behind are what they were, and others are not.
+/// While a UAV flies straight on, its beams ahead and behind repeat earlier ones, and the others do not.
 TEST(RepeatedScans, BeamsAlongTheWayRepeatThoseOfBefore) {
   for (std::uint64_t world = 0; world < 50; ++world) {
     RandomStream random(world, "way", 0);

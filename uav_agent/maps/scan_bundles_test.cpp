@@ -86,7 +86,7 @@ TEST(ScanBundler, SaysOfABundleWhatAllOfItsBeamsSay) {
       int beams = 0;
       for (const BeamBundle& bundle : bundler.bundle(scan, {}, everywhere).bundles) {
         beams += bundle.beams;
-        // Of all beams within the bundle's half width (a little less, for those of its neighbours).
+        // Considers all beams within the bundle's half width (a little less, because its neighbours have beams, too).
         const Vector3d middle_L = scan.fired[0].X_WL.linear().transpose() * bundle.direction_W.cast<double>();
         float least = 50.0F;
         int within = 0;

@@ -1,4 +1,4 @@
-// How far a way is clear, against a look at each of its samples.
+// How far a path is clear, compared with a test of each of its samples.
 #include <gtest/gtest.h>
 
 #include <vector>

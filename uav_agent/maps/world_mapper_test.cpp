@@ -29,8 +29,8 @@ TEST(WorldMapper, WhatIsTooNearToBeSeenIsNotTakenForSky) {
   }
 }
 
-/// Of a LiDAR before the wall x = 6, of whose beams each second one returns nothing: what they say of its other side
-/// would be enough for the criterion, many times over.
+/// A scan of a LiDAR in front of the wall x = 6. Every second beam returns nothing: if these beams counted, they would
+/// satisfy the criterion for the space behind the wall many times over.
 BeamScan scan_of_wall(const LidarConfig& lidar, Tick tick, RandomStream& random) {
   const Isometry3d X_WB =
       Eigen::Translation3d(0.25, 0.25, 20.25) * Eigen::AngleAxisd(random.uniform(-3.14, 3.14), Vector3d::UnitZ());

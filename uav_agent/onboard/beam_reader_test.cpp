@@ -1,5 +1,5 @@
-// Clouds made by hand of drawn ranges, and what is rebuilt of them. tests/sensing/beams_test.cpp asks the same of the
-// production LiDAR.
+// Clouds made by hand from random ranges, and the beams reconstructed from them. tests/sensing/beams_test.cpp tests the
+// same with the production LiDAR.
 #include "uav_agent/onboard/beam_reader.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// The on-board software knows that it stands where it is itself, whatever others tell of their maps.
+// The on-board software knows that its UAV occupies its own place, whatever maps the others send.
 #include <gtest/gtest.h>
 
 #include "uav_agent/maps/world_map.hpp"

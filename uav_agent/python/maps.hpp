@@ -12,7 +12,7 @@ namespace skein::agent::python {
 /// Their classes, once.
 void register_maps(py::module_& module);
 
-/// Of a call. None where the planner has no such map.
+/// The maps of a call; None if the planner has no such map.
 py::object occupancy_map_of(const std::shared_ptr<Call>& call);
 py::object world_map_of(const std::shared_ptr<Call>& call);
 py::object free_space_of(const std::shared_ptr<Call>& call);

@@ -1,5 +1,5 @@
-// What an agent and the shared object that holds Python (skein_python) say to each other. The object links none of the
-// agent's code: it asks maps through MapQueries, and the agent knows no more of it than one function.
+// The interface between an agent and the shared object that contains Python (skein_python). The object links none of
+// the agent's code: it asks maps through MapQueries, and the agent knows only one function of it.
 // Frame W.   Units: SI and radians.   Threads: one.
 #pragma once
 
@@ -44,7 +44,7 @@ class MapQueries {
   virtual bool ball_free(const WorldMap& map, const Vector3d& p_W, double radius_m, double lowest_m) const = 0;
   virtual double clear_way_m(const WorldMap& map, const Vector3d& from_W, const Vector3d& direction_W,
                              double reach_m) const = 0;
-  /// Of cubes[0] * cubes[1] * cubes[2] cubes from that of a place on, x slowest.
+  /// Reads cubes[0] * cubes[1] * cubes[2] cubes, beginning with the one that contains `lowest_W`; x varies slowest.
   virtual void read_window(const WorldMap& map, const Vector3d& lowest_W, const Eigen::Vector3i& cubes,
                            std::uint8_t* spaces) const = 0;
   /// Lowest corners, in the order in which they became known.
@@ -56,7 +56,7 @@ class MapQueries {
   virtual bool sees(const FreeSpace& space, const Vector3d& a_W, const Vector3d& b_W, double radius) const = 0;
 };
 
-/// Those of this program.
+/// The implementation in this program.
 const MapQueries& map_queries();
 
 struct Order {

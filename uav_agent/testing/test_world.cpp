@@ -326,7 +326,7 @@ double TestWorld::highest_m(std::size_t uav) const { return impl_->uavs.at(uav).
 Vector3d TestWorld::position(std::size_t uav) const { return impl_->uavs.at(uav).state.p_WB; }
 
 double TestWorld::coverage() const {
-  // Of the structure in the boxes, except below 5 m, which is too low to fly at.
+  // Counts the structure in the boxes, except below 5 m, where UAVs cannot fly.
   double seen = 0.0, all = 0.0;
   for (const SurfacePoint& point : impl_->surface) {
     const bool inspected = std::any_of(impl_->scene.boxes.begin(), impl_->scene.boxes.end(),

@@ -26,7 +26,7 @@ class Vehicle {
   const Vector& p_WB() const { return p_WB_; }
   /// The cell of the setpoint, in which a new way begins.
   Cell cell() const { return cell_at(place_); }
-  /// Of the mission [s]; nullopt before the fleet's first takeoff.
+  /// Time that is left of the mission [s]; nullopt before the fleet's first takeoff.
   const std::optional<double>& time_left_s() const { return time_left_s_; }
   double speed_mps() const { return speed_mps_; }
 

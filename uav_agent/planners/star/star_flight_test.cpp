@@ -132,8 +132,8 @@ TEST(StarFlight, WithoutSurfaceItGoesWhereItsExplorerWorks) {
   }
 }
 
-/// Of an explorer beside a wall that is all known, with photographers in its team: places that it asks to fly to before
-/// that. A UAV that inspects has viewpoints there; one that does not has nothing to do there.
+/// Number of places in front of a wall to which an explorer asks to fly. The wall is completely known, and the explorer
+/// has photographers in its team. An explorer that inspects has viewpoints there; another one has nothing to do there.
 std::size_t places_before_walls(const std::string& planner, std::size_t photographers) {
   AgentConfig agent;
   agent.fleet = {{.name = "lidar", .body_radius_m = 0.32}};

@@ -41,7 +41,7 @@ class Member {
   /// Simulated time [ns].
   std::int64_t now_ns() const { return now_ns_; }
 
-  /// Of a topic that the node reads or writes: the program at the other end, and the depth of the history.
+  /// How the node takes part in a topic: the program at the other end, and the depth of the history.
   struct Role {
     Counterpart counterpart = Counterpart::none;
     int depth = 0;
