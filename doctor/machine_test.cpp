@@ -62,7 +62,7 @@ struct Shortage {
 };
 
 const std::vector<Shortage>& shortages() {
-  static const std::vector<Lack> kAll = {
+  static const std::vector<Shortage> kAll = {
       {"open files",
        [](auto& m, auto& random, const auto& n) { m.open_files = m.most_open_files = random() % n.open_files(); }},
       {"processes", [](auto& m, auto& random, const auto& n) { m.processes = random() % n.threads(); }},

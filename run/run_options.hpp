@@ -93,8 +93,8 @@ struct RunOptions {
 };
 
 /// The options that one flight of a study, a hunt or a fault test may have, by their names on the command line: for
-/// process/json_fields.hpp, and for the command line that repeats the flight. An option that is
-/// true by default is --no-NAME there.
+/// process/json_fields.hpp, and for the command line that repeats the flight. An option that is true
+/// by default is --no-NAME there.
 void describe(auto& f, RunOptions& run) {
   f.field("scenario", run.scenario);
   f.field("planner", run.planner);

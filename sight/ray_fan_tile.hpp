@@ -33,8 +33,8 @@ struct Tile {
   alignas(32) float nearness[kRays];               ///< 1 / depth of the first hit so far, or of the ray's end
   std::uint32_t triangle[kRays];
   Vector8 origin_W, origin_T;
-  Vector8 axes_W[3], axes_T[3],
-      spans_T[3];  ///< across, along, ahead (ray_fan_kernel.hpp); spans_T: magnitudes of the components of axes_T
+  Vector8 axes_W[3], axes_T[3];  ///< across, along, ahead (ray_fan_kernel.hpp)
+  Vector8 spans_T[3];            ///< magnitudes of the components of axes_T
   Float8 slack;
   Ruler columns, rows;
 };

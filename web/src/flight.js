@@ -2,7 +2,7 @@
 // answers what its state was at any time. A live flight and a finished one arrive in the same form.
 import {makeSayings} from './activity.js';
 import {makeCustody} from './custody.js';
-import {tellFault} from './hand_faults.js';
+import {recordFault} from './hand_faults.js';
 import {kMostLinks, kMostPoses, kMostSteps, thin, thinEvents, thinSpans} from './history.js';
 import {indexAt} from './page.js';
 import {poseOn} from './poses.js';
@@ -23,7 +23,7 @@ export function makeFlight(data) {
   const counted = {t: [], n: [], s: []};
   const early = [];                  // deliveries that arrive before their captures, from a station's journal
   const events = [];
-  const failures = [];               // faults, as tellFault() stores them
+  const failures = [];               // faults, as recordFault() stores them
   const sayings = makeSayings();
   const {beginPoints, expect, expected, take: takeCapture, deliver, lookUpAll, custody, tallyAt, changedPoints, kept} = makeCustody(data);
   const saidAt = sayings.at;
@@ -97,7 +97,7 @@ export function makeFlight(data) {
 
   const take = {
     activity: sayings.take,
-    fault: (line) => tellFault(failures, line),
+    fault: (line) => recordFault(failures, line),
     estimate: expect,
     pose({t, u}) {
       u.forEach(([x, y, z, yaw, pitch, alive], i) => {

@@ -5,17 +5,17 @@ import {data, element, moment} from './page.js';
 const kMostRows = 60;
 // The station serves this page. While it is killed or paused, a viewer cannot end the fault, so it ends by itself.
 const kStationFault_s = 5;
-const kStation = 'gcs';    // name of its node; its program is called station
+const kStation = 'gcs';  // name of its node; its program is called station
 
 const hand = {order: () => {}, connected: false, refusedBefore: null};
 
 /**
- * Adds what a line of the kind "fault" (view/story.hpp) says to a list of faults. @param told  the list: number, byHand
- * (a viewer began the fault), kind, target, begin and end [s] of each fault that has begun.
+ * Adds what a line of the kind "fault" (view/story.hpp) says to a list of faults. @param faults  the list: number,
+ * byHand (a viewer began the fault), kind, target, begin and end [s] of each fault that has begun.
  */
-export function tellFault(told, {t, n, hand: byHand, on, kind, of}) {
-  if (on === 1) told.push({number: n, byHand: byHand === 1, kind, of, from: t, until: Infinity});
-  const open = told.find((one) => one.number === n && one.byHand === (byHand === 1) && one.until === Infinity);
+export function recordFault(faults, {t, n, hand: byHand, on, kind, of}) {
+  if (on === 1) faults.push({number: n, byHand: byHand === 1, kind, of, from: t, until: Infinity});
+  const open = faults.find((one) => one.number === n && one.byHand === (byHand === 1) && one.until === Infinity);
   if (on === 0 && open !== undefined) open.until = t;
 }
 

@@ -25,7 +25,7 @@ namespace {
 constexpr double kRefitS = 2.0;                      ///< between two refits of the strip that is being flown
 constexpr double kRestS = 3.0;                       ///< wait when no strip can be flown
 constexpr double kViewTurns[] = {0.0, 0.45, -0.45};  ///< yaw of the gimbal in successive flights along a strip [rad]
-constexpr int kMaxFailures = 3;                      ///< that one flight along a strip may have; the next one ends it
+constexpr int kMaxFailures = 3;                      ///< of one flight along a strip; the next failure ends it
 constexpr double kStartHeight = 0.25;                ///< assumed height at which tours begin, as a share of the site's
 constexpr int kMostTries = 3;                        ///< most strips that are fitted in one exchange
 
