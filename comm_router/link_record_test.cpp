@@ -11,7 +11,7 @@
 namespace skein::router {
 namespace {
 
-/// Does as it is told.
+/// Links with the effects that the test sets.
 class ToldLinks final : public LinkModel {
  public:
   explicit ToldLinks(LinkFate fate) : fate_(fate) {}

@@ -85,7 +85,7 @@ std::string recording_part(const std::string& program, int life);
 bool is_of_a_run(const std::string& name);
 
 /// Whether a run's folder has a file of this name. @param run  a folder that the user named.
-/// @throws InputError with the cause if this cannot be told: there is no such folder, or it may not be searched.
+/// @throws InputError with the cause if this cannot be determined: there is no such folder, or it may not be searched.
 bool has_file(const std::filesystem::path& run, const std::string& name);
 
 }  // namespace run_folder

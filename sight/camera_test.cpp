@@ -47,8 +47,8 @@ RigidBodyState random_state(RandomStream& random, const Vector3d& low, const Vec
   return body;
 }
 
-/// Which points a capture must show: the formulas, then every triangle tried. Points that a ray near an edge or along
-/// the surface leaves open are told apart.
+/// Which points a capture must show: the formulas, then every triangle tried. The verdict `open` is for
+/// points that a ray near an edge or along the surface does not decide.
 enum class Verdict { hidden, seen, open };
 
 Verdict judge(const InterestPoint& point, const CameraState& state, const TriangleMesh& mesh) {

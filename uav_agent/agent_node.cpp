@@ -138,7 +138,7 @@ void AgentNode::read_captures(LockstepClient& client) {
       });
 }
 
-/// All that was announced has been read: the learner looks, and is told when all of them have.
+/// All announced messages have been read: a learner writes its observation, and works once its orders are there.
 bool AgentNode::may_think() {
   if (desk_ == nullptr) return true;
   const msg::Step& step = this->step();

@@ -12,7 +12,7 @@
 namespace skein::view {
 namespace {
 
-/// What the page is told.
+/// The data that the page receives.
 Json told_by(const std::string& text) {
   const std::vector<std::uint8_t> bytes = from_base64(text);
   std::string out(1 << 20, '\0');

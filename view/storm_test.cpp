@@ -128,7 +128,7 @@ class Storm : public ServerTest {
 
   /// Reads all lines that the feed has held by now and its newest state, which may come before the last line, and looks
   /// whether they are whole.
-  /// @returns what it was told
+  /// @returns the lines that it received
   std::string expect_all(Wire& browser) {
     feed_.set_state(R"({"n":"newest"})");
     const std::string last = "\"line " + std::to_string(lines_ - 1) + " ", newest = R"("state":{"n":"newest"})";

@@ -32,7 +32,7 @@ struct StudyOutcomes {
 bool went_to_its_end(const Json& result);
 
 /// The result in a flight's folder; null if there is none. A damaged result, whose checksum is wrong, counts as none.
-/// @param say  gets one line that names the damaged file; null: no line is printed
+/// @param say  gets one line that names the damaged file; null: no message
 Json sound_result(const std::filesystem::path& dir, std::ostream* say);
 
 /// Error message for a flight that failed. @param dir  its folder. @param exit  of its `skein run`

@@ -90,7 +90,7 @@ TEST(Braking, TwoThatBrakeAreAsNearAsAnySampleSays) {
     const Least found = least_distance(a, b, 50.0, kTolerance);
     EXPECT_NEAR(found.value, least, kTolerance + 0.01) << i;
     EXPECT_DOUBLE_EQ(found.value, (a.at(found.at) - b.at(found.at)).norm()) << "where it says";
-    // What is farther than asked for is told as just that.
+    // A distance that is greater than the requested maximum is reported as that maximum.
     const double most = random.uniform(0.0, 6.0);
     const Least asked = least_distance(a, b, most, kTolerance);
     EXPECT_NEAR(asked.value, std::min(most, least), kTolerance + 0.01) << i;

@@ -71,7 +71,7 @@ TEST(Frames, ComposeToThePoseOfTheCamera) {
   }
 }
 
-// A UAV's own tree has what it is told, not what is so; and nothing of the others.
+// A UAV's own tree contains the pose that the UAV receives, not the true one, and no other UAV.
 TEST(OwnFrames, AreThoseThatTheUavIsToldOf) {
   RandomStream random(2, "frames", 0);
   UavConfig uav;

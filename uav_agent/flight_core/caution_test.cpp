@@ -20,7 +20,7 @@ AgentConfig with_battery() {
   return agent;
 }
 
-/// A UAV at a place; what it is told is set by hand.
+/// A UAV at a place; the test sets its inputs.
 struct Told : FlownUav {
   explicit Told(const FlightConfig& flight = {})
       : FlownUav(with_battery(), {0.0, 0.0, 20.0}), flight_config(flight), caution(flight_config, agent) {}

@@ -90,8 +90,8 @@ TEST(FlightCore, EachOutcomeIsHeardWhenTheStrategyDecides) {
   }
 }
 
-// Its strategy wants another place out there every 1.5 s, and no beam proves the way: it looks around and tries
-// elsewhere all the same, and the strategy is told.
+// Its strategy wants another place out there every 1.5 s, and nobody proves the way: it looks around and tries
+// elsewhere all the same, and reports this to the strategy.
 TEST(FlightCore, AUavThatIsHeldRecoversAlthoughItsGoalsAreReplaced) {
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     WantsOnePlaceAfterTheOther uav(seed);

@@ -78,8 +78,8 @@ double braking_least_m(const RigidBodyState& one, const RigidBodyState& other, d
   return least_m;
 }
 
-// Both rest, and are told in the same exchange to fly to where the other one is: each gets faster before it hears that
-// the other one does.
+// Both rest, and receive the command to fly to the other one's place in the same exchange: each accelerates before it
+// hears that the other one does.
 TEST(SafetyFilter, TwoUavsThatSetOutAtOnceKeepTheirMargin) {
   double nearest_m = 1e9, braking_m = 1e9;
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {

@@ -17,8 +17,8 @@ constexpr double kBetweenStepsM = 0.01;
 /// By so much what it flies away from may lie within the tube of its speed: measured, 0.035 m.
 constexpr double kFliesAwayM = 0.05;
 
-// However it is told to fly, and as long as the map only grows freer: what is all about its braking way is free. Its
-// tube widens as it gets faster, so what it flies away from may lie in it for a while (kFliesAwayM).
+// Whatever its commands, and as long as cells of the map only become free: the space around its braking path is free.
+// Its tube widens as it gets faster, so what it flies away from may lie in it for a while (kFliesAwayM).
 TEST(SafetyFilter, CouldBrakeInFreeSpaceAtAnyTime) {
   double flown_m = 0.0;
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
@@ -84,8 +84,8 @@ TEST(SafetyFilter, WhatAppearsAheadIsNotApproachedAnyFurther) {
   EXPECT_GT(broken, 40) << "nothing stood in the way";
 }
 
-// It is where too little is known, and is told again and again to fly off. Its place is not what is measured:
-// that swings, and each swing forward would be a licence to follow it.
+// Too little is known around the UAV, and commands tell it again and again to fly off. The place that it keeps is not
+// the measured position: that swings, and each swing forward would allow the UAV to follow it.
 TEST(SafetyFilter, DoesNotCreepIntoTheUnknown) {
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {
     RandomStream random(seed, "creeps", 0);

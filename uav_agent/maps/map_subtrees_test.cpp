@@ -201,7 +201,7 @@ TEST(MapSubtrees, DamagedTreesAreRefusedOrWithinBounds) {
   EXPECT_GT(refused, 1000U);
 }
 
-/// What is free all over takes no memory, and nothing that was told is lost by it.
+/// Regions that are completely free take no memory, and no received information is lost.
 TEST(HeardMap, StaysSmallAndKnowsAllThatItWasTold) {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     RandomStream random(seed, "heard_map", 0);

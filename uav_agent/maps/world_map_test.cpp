@@ -314,7 +314,7 @@ TEST(WorldMap, SmallerCubesBeginWithWhatTheLargerOnesKnow) {
   EXPECT_EQ(beams_until_free(2 * alone), 0);
 }
 
-/// What is told counts as far as it is news, and is remembered as told.
+/// Received information counts only where it is new, and the map remembers its sender.
 TEST(WorldMap, RemembersWhoToldIt) {
   WorldMap map(WorldMap::Config{});
   const Eigen::Vector3i near(1, 1, 1);

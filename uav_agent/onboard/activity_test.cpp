@@ -17,7 +17,7 @@ class ActivityWords : public testing::Test {
  protected:
   ActivityWords() { facts_.what = Doing{}; }
 
-  /// One exchange more of the same. @returns what is told with it.
+  /// Another exchange with the same facts. @returns the activity that it reports, if any.
   std::optional<Activity> step() {
     const auto told = teller_.step(facts_);
     facts_.no_way.clear();
@@ -26,7 +26,7 @@ class ActivityWords : public testing::Test {
     count_ += told ? 1 : 0;
     return told;
   }
-  /// @returns how often it is told meanwhile.
+  /// @returns how often it reports an activity meanwhile.
   int steps(int exchanges) {
     count_ = 0;
     for (int i = 0; i < exchanges; ++i) step();

@@ -96,7 +96,7 @@ std::optional<std::size_t> FlockPoints::add(const Told& told, const Spot& spot, 
   return point;
 }
 
-/// Improves a point by what was told of it.
+/// Updates a point with a better quality that another UAV has reported.
 void FlockPoints::raise(std::size_t point, const Told& told, const Spot& spot) {
   if (told.own && merge_m_ > 0.0) {
     own_[*told.own] = point;

@@ -25,7 +25,7 @@ std::vector<DetectedPoint> drawn_points(RandomStream& random, int count, double 
   return points;
 }
 
-/// Best quality by place, to the step in which it is told.
+/// Best quality by place, rounded to the step in which messages state it.
 std::map<std::array<long, 3>, long> qualities(const FlockPoints& points) {
   std::map<std::array<long, 3>, long> all;
   for (const FlockPoint& point : points.all()) {
@@ -144,7 +144,7 @@ TEST(FlockPoints, DenseRegionsGoOutInSlices) {
 }
 
 /// The points of a dense region take turns in slices, and other regions, more or fewer of them each time, always have
-/// news. Every point is told all the same, and so are the others' news.
+/// news. UAVs still send every point, and the news of the other regions.
 TEST(FlockPoints, NoSliceStarvesWhateverElseChanges) {
   constexpr std::size_t kRoom = 1500, kPointsInRoom = kRoom / 10;
   for (std::uint64_t seed = 1; seed <= 30; ++seed) {
