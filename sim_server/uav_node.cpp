@@ -1,7 +1,10 @@
 #include "sim_server/uav_node.hpp"
 
+#include <spdlog/spdlog.h>
+
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 #include "bus/lockstep/names.hpp"
 #include "bus/lockstep/strangers.hpp"
@@ -100,6 +103,14 @@ UavNode::UavNode(UavIndex uav, const Scenario& scenario, Simulation& simulation,
   });
 }
 
+/// A program waits until all topics that it writes have readers, and the fleet waits for the program.
+void UavNode::warn_of_unread_debug(const std::string& topic) const {
+  spdlog::warn(
+      "{} announces the topic '{}', which sim_server does not read: the name of a debug value begins with a letter, "
+      "has only letters, digits and _, and is one of at most {} of a UAV",
+      id_, topic.substr(0, kMostNameBytes), topics::kMostDebugNames);
+}
+
 void UavNode::read_debug(const std::vector<std::string>& writes) {
   const bus::TopicSpec activity = bus::spec(topics::activity(id_));
   if (!reads_activity_ && std::ranges::find(writes, activity.name) != writes.end()) {
@@ -108,8 +119,14 @@ void UavNode::read_debug(const std::vector<std::string>& writes) {
                                 [this](const msg::Activity& message) { activity_ = from_activity(message); });
   }
   for (const std::string& topic : writes) {
+    if (!topic.starts_with(topics::debug(id_, "").name)) continue;
     const std::string name(topics::debug_name(topic, id_));
-    if (name.empty() || debug_names_.size() == topics::kMostDebugNames || !debug_names_.insert(name).second) continue;
+    if (debug_names_.contains(name)) continue;
+    if (name.empty() || debug_names_.size() == topics::kMostDebugNames) {
+      if (!std::exchange(warned_of_debug_, true)) warn_of_unread_debug(topic);
+      continue;
+    }
+    debug_names_.insert(name);
     server_.read<msg::Float64>(domain_, bus::spec(topics::debug(id_, name)),
                                [this, name](const msg::Float64& value) { debug_.emplace_back(name, value.data()); });
   }

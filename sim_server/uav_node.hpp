@@ -67,6 +67,7 @@ class UavNode {
   void publish_captures();
   void publish_detections();
   void publish_rejections();
+  void warn_of_unread_debug(const std::string& topic) const;
 
   UavIndex uav_;
   const Scenario& scenario_;
@@ -84,6 +85,7 @@ class UavNode {
   std::map<std::uint64_t, CaptureReport> card_;  ///< reports, as told to the agent, that it has not released
   std::vector<std::uint64_t> released_;
   std::set<std::string> debug_names_;  ///< debug values that are read
+  bool warned_of_debug_ = false;       ///< of the first one that is not
   std::vector<std::pair<std::string, double>> debug_;
   bool reads_activity_ = false;
   std::optional<Activity> activity_;

@@ -166,6 +166,7 @@ GOOD: dict[str, Any] = {"name": "jurong", "scenario": "towers", "domain": 223, "
     ({"name": None}, "SKEIN_UAV is not set"), ({"read": ["/jurong/gimball"]}, "not a topic of jurong"),
     ({"read": ["gimbal"]}, "absolute topic name"), ({"read": [3]}, "is a text"), ({"debug": ["a b"]}, "absolute"),
     ({"security": "/no/such/folder"}, "/no/such/folder"),
+    ({"debug": [f"n{i}" for i in range(65)]}, "65 debug names; at most 64 are read"),
 ])
 def test_a_client_that_cannot_be_says_why(wrong: dict[str, Any], match: str) -> None:
     with pytest.raises(skein.InputError, match=match):

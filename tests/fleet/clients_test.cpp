@@ -159,6 +159,15 @@ TEST_F(Clients, ForeignClientTakesPartInTheLockStep) {
   EXPECT_EQ(digests.size(), 1u) << "the same run, whatever its vendor, and whatever it says that it does";
 }
 
+TEST_F(Clients, AnnouncedDebugValuesThatAreNotReadAreNamed) {
+  SkeinRun& done = run("run", {"towers", "--duration", "5", "--planner", kForeignPlanner + " announce"});
+  const std::string log = text_of(done.dir() / "sim_server.log"), what = "sentosa announces the topic '";
+  const std::size_t said = log.find(what + "rt/sentosa/debug/n64', which sim_server does not read");
+  ASSERT_NE(said, std::string::npos) << log;
+  EXPECT_NE(log.find("at most 64 of a UAV", said), std::string::npos) << log;
+  EXPECT_EQ(log.find(what), log.rfind(what)) << "once";
+}
+
 TEST_F(Clients, ForeignClientIsWatchedLikeTheOthers) {
   SkeinRun& run = start("run", {"towers", "--duration", "60", "--planner", kForeignPlanner});
   ASSERT_TRUE(run.wait_until_flying()) << run.err();

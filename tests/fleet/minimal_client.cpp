@@ -5,7 +5,8 @@
 // with a message, if before that the server dropped the program, gave it up while it joined, or left. For tests of
 // broken clients, an argument makes the program misbehave from step kFirstLie on: "hang" stops answering; "boast"
 // announces one command more than it sends, "smuggle" one less; "forge" sends the station reports of captures that no
-// camera has taken. With "tell", it behaves correctly, and also publishes its activity.
+// camera has taken. "announce" announces more debug values than sim_server reads, and writes none. With "tell", it
+// behaves correctly, and also publishes its activity.
 #include <algorithm>
 #include <condition_variable>
 #include <cstdlib>
@@ -144,6 +145,9 @@ class Client {
     ready.member(uav_);
     ready.revision(revision);
     if (lie_ == "tell") ready.writes().push_back(activity_name());
+    for (int i = 0; lie_ == "announce" && revision == 0 && i < 70; ++i) {
+      ready.writes().push_back("rt/" + uav_ + "/debug/n" + std::to_string(i));
+    }
     if (revision > 0) {
       ready.reads().push_back(odometry_->name());
       ready.writes().push_back(command_name());
@@ -314,7 +318,7 @@ int main(int argc, char** argv) {
              *run = std::getenv("SKEIN_RUN");
   if (domain == nullptr || uav == nullptr || vendor == nullptr) {
     std::cerr << "usage: [SKEIN_RUN=N] SKEIN_DOMAIN=N SKEIN_UAV=NAME SKEIN_DDS=VENDOR minimal_client "
-                 "[hang|boast|smuggle|forge|tell]\n";
+                 "[hang|boast|smuggle|forge|announce|tell]\n";
     return 2;
   }
   const char* security = std::getenv("SKEIN_SECURITY");  // set with --secure

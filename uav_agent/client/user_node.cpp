@@ -13,7 +13,15 @@ using bus::LockstepClient;
 using Counterpart = LockstepClient::Counterpart;
 
 UserNode::UserNode(const Scenario& scenario, Node node, int domain, bus::Bus& bus, UserTopics topics)
-    : MemberNode(bus, domain, scenario.node_name(node)), scenario_(scenario), node_(node), topics_(std::move(topics)) {}
+    : MemberNode(bus, domain, scenario.node_name(node)), scenario_(scenario), node_(node), topics_(std::move(topics)) {
+  std::set<std::string> debug;
+  for (const topics::WireTopic& topic : topics_.writes) {
+    if (!topics::debug_name(topic.name, member()).empty()) debug.insert(topic.name);
+  }
+  if (debug.size() <= topics::kMostDebugNames) return;
+  throw InputError(member() + ": " + std::to_string(debug.size()) + " debug names; at most " +
+                   std::to_string(topics::kMostDebugNames) + " are read");
+}
 
 /// Each time that it joins; what has arrived for it in its former life is not for it any more.
 void UserNode::declare(LockstepClient& client) {

@@ -37,6 +37,7 @@ struct UserTopics {
 class UserNode : public MemberNode {
  public:
   /// @param node  radio node: of a UAV, or kStationNode. @param domain  DDS domain.
+  /// @throws InputError if sim_server would not read all debug values: the fleet would wait for the program in vain
   UserNode(const Scenario& scenario, Node node, int domain, bus::Bus& bus, UserTopics topics);
 
   // ---- while a step waits for its answer ---------------------------------------------------------------------------
