@@ -49,6 +49,16 @@ TEST(OptionChecks, WholeNumbersAreDecimal) {
   EXPECT_EQ(parse_command_line({"run", "--duration", "010"}).get<RunOptions>().duration_s, 10.0);
 }
 
+TEST(OptionChecks, AFleetOfNoUavsIsRefusedInAFewWords) {
+  for (const std::string command : {"run", "compare", "hunt", "check-planner"}) {
+    Arguments arguments = {command, "--uavs", "0"};
+    if (command == "check-planner") arguments.insert(arguments.begin() + 1, "hover");
+    const std::string said = said_of(arguments);
+    EXPECT_NE(said.find("--uavs: '0' must be a number above 0"), std::string::npos) << command << ": " << said;
+    EXPECT_LT(said.size(), 200U) << command << ": " << said;
+  }
+}
+
 TEST(OptionChecks, ListsHaveNoEmptyItems) {
   for (const Arguments& arguments :
        {Arguments{"compare", "--uavs", "1,,2"}, Arguments{"compare", "--uavs=1,"}, Arguments{"compare", "--uavs", ",1"},

@@ -325,6 +325,17 @@ TEST(ConfigDir, IsWhatTheEnvironmentSays) {
   ::unsetenv("SKEIN_CONFIG_DIR");
 }
 
+// A member of the lock-step, a node or a folder of topics would have the same name.
+TEST_F(ScenarioReader, UavsDoNotHaveTheNamesOfProgramsAndNodes) {
+  for (const std::string name :
+       {"all", "clock", "comm_router", "gcs", "one_process", "sim", "sim_server", "skein", "station", "uav_agent"}) {
+    const std::string file =
+        write("s.yaml", "desired_mm_per_pixel: 2\nscene: {family: towers}\nfleet:\n  - {name: " + name +
+                            ", vehicle: explorer, start: [0, 5]}\n");
+    EXPECT_EQ(complaint(file), file + ":4: fleet[0].name: '" + name + "' is reserved; choose another name");
+  }
+}
+
 TEST_F(ScenarioReader, AMissingStartIsAllThatIsSaidOfIt) {
   write("o.stl", "");
   const std::string file =

@@ -204,6 +204,7 @@ TEST_F(DamagedRun, ABitOfTheRecordingIsReportedByAllWhoReadIt) {
     expect_reported({"report", run.dir()}, 1, run_folder::kRecording);
     expect_reported({"diff", run.dir(), folder() / "sound"}, 2, run_folder::kRecording);
   }
+  expect_reported({"merge", run.dir()}, 1, run_folder::kRecording);
 }
 
 TEST_F(DamagedRun, ABitOfTheResultIsReportedByAllWhoReadIt) {
