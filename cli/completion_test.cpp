@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <fstream>
 #include <map>
 #include <memory>
 #include <regex>
@@ -97,6 +98,17 @@ TEST(Help, ListsEachCommandOnceUnderItsTask) {
   EXPECT_EQ(task_of["hunt"], "Find faults");
   EXPECT_EQ(task_of["bench"], "Scenarios and machines");
   EXPECT_EQ(task_of.size(), offered({""}).size());
+}
+
+TEST(Help, CommandsAreInTheReadmesTable) {
+  std::ifstream in(source_path("README.md"));
+  std::string row;
+  while (std::getline(in, row) && !row.starts_with("| commands | ")) continue;
+  std::set<std::string> listed;
+  static const std::regex kName("`([^`]+)`");
+  for (std::sregex_iterator name(row.begin(), row.end(), kName), end; name != end; ++name) listed.insert((*name)[1]);
+  const Words commands = commands_of_help();
+  EXPECT_EQ(listed, std::set<std::string>(commands.begin(), commands.end()));
 }
 
 TEST(Completion, ValuesAreOfferedWhereTheyAreKnown) {

@@ -12,6 +12,9 @@
 #include "cli/help.hpp"
 #include "core/text/text.hpp"
 #include "core/types.hpp"
+#include "host/testing/fake_programs.hpp"
+#include "run/exec_variables.hpp"
+#include "run/fleet_plan.hpp"
 #include "tests/support/places.hpp"
 
 namespace skein::cli {
@@ -95,6 +98,28 @@ TEST(Pages, ShowParametersThatThereAre) {
     }
   }
   EXPECT_GT(read, 10u);
+}
+
+// A program of the user's own gets no variable that the page does not name.
+TEST(Pages, NameTheVariablesOfAProgramOfOnesOwn) {
+  const FakePrograms programs;
+  RunOptions run;
+  run.scenario = programs.scenario();
+  run.planner = "exec:mine";
+  run.network = "all";
+  const FleetPlan plan = plan_fleet(run, programs.dir());
+  const std::string how_to = read_text(source_path("docs/how-to.md"));
+  const auto variables = exec_variables(plan, "uav_agent-alpha", 0, "out", {});
+  for (const auto& [name, value] : variables) EXPECT_NE(how_to.find("`" + name + "`"), std::string::npos) << name;
+  for (const char* name : {"SKEIN_RUN", "SKEIN_NETWORK"}) EXPECT_TRUE(variables.contains(name)) << name;
+  // Programs in containers find Skein's files in the image.
+  const std::string containers = read_text(source_path("docs/containers.md"));
+  for (const std::string name :
+       {"SKEIN_DOMAIN", "ROS_DOMAIN_ID", "SKEIN_UAV", "SKEIN_ROLE", "SKEIN_DDS", "SKEIN_RUN", "SKEIN_NETWORK",
+        "SKEIN_OUT", "SKEIN_EXCHANGE_S", "SKEIN_RADIO_SENDS", "SKEIN_RADIO_HEARS"}) {
+    EXPECT_TRUE(variables.contains(name)) << name;
+    EXPECT_NE(containers.find("`" + name + "`"), std::string::npos) << name;
+  }
 }
 
 // A development version has the number of the release that it becomes.

@@ -272,6 +272,7 @@ TEST_F(SupervisorTest, ALongReportIsNoLineWithoutAnEnd) {
 }
 
 TEST_F(SupervisorTest, ALogWithoutEndKeepsItsBeginningAndItsEnd) {
+  EXPECT_LE(ProgramSpec().most_log_bytes, 64U << 20) << "of each program, if nobody says otherwise";
   ProgramSpec spec =
       shell("a", "echo first; head -c 30000000 /dev/zero | tr '\\0' x; echo >&3; read line <&4; echo; echo last");
   spec.most_log_bytes = 2 << 20;

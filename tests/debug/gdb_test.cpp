@@ -69,8 +69,9 @@ TEST_F(Gdb, EveryPlannerIsFoundInItsOwnSource) {
   SKEIN_NEEDS_GDB();
   std::string commands = "cd /\n";
   const std::map<std::string, std::string> planners = {
-      {"KiosPlanner", "kios/kios"}, {"PatrolPlanner", "patrol/patrol"}, {"StarPlanner", "star/star"},
-      {"XxhPlanner", "xxh/xxh"},    {"HoverPlanner", "basic/hover"},    {"WaypointsPlanner", "basic/waypoints"}};
+      {"FlockPlanner", "flock/flock"},        {"KiosPlanner", "kios/kios"}, {"PatrolPlanner", "patrol/patrol"},
+      {"StarPlanner", "star/star"},           {"XxhPlanner", "xxh/xxh"},    {"HoverPlanner", "basic/hover"},
+      {"WaypointsPlanner", "basic/waypoints"}};
   for (const auto& [planner, file] : planners) commands += "break " + planner + "::plan\nlist " + planner + "::plan\n";
   ChildProcess& gdb = typed(
       "gdb", {"gdb", "-nx", "-q", "-x", source_path("config/gdb/skein_printers.py"), program("uav_agent")}, commands);
