@@ -162,6 +162,7 @@ std::variant<int, std::unique_ptr<bus::FleetMember>> RouterProgram::prepare(cons
                                                                             StatusPipe& status) {
   Scenario scenario = load_scenario(options.scenario, options.load_options_without_scene());
   FaultPlan faults = load_fault_plan(options.faults, scenario, options.seed);
+  if (!options.check_only) options.check_out();
   if (settle_only_) return settle(options, scenario, status);
   auto bus = bus::make_bus(options, scenario, domain_names(scenario).size());
   if (options.check_only) return kExitDone;

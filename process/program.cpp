@@ -20,6 +20,7 @@
 #include "core/text/number_checks.hpp"
 #include "core/text/suggestion.hpp"
 #include "process/empty_options.hpp"
+#include "process/files/nowhere.hpp"
 #include "process/files/path_error.hpp"
 #include "process/health/crash_notes.hpp"
 #include "process/health/keeper.hpp"
@@ -161,6 +162,21 @@ LoadOptions ProgramOptions::load_options_without_scene() const {
   LoadOptions load = load_options();
   load.needs_scene_files = false;
   return load;
+}
+
+void ProgramOptions::check_out() const {
+  if (has_launcher() || out == kNowhere) return;
+  const auto refuse = [&](const std::string& reason) {
+    throw InputError("--out " + out.string() + ": " + reason + "; make this folder first, or choose another one");
+  };
+  std::error_code error;  // e.g. the name is too long
+  const auto kind = std::filesystem::status(out, error).type();
+  if (kind == std::filesystem::file_type::not_found) refuse("does not exist");
+  if (kind == std::filesystem::file_type::none) refuse("cannot be looked at (" + error.message() + ")");
+  if (kind != std::filesystem::file_type::directory) refuse("is no folder");
+  if (::access(out.c_str(), W_OK | X_OK) != 0) {
+    refuse("cannot be written to (" + std::generic_category().message(errno) + ")");
+  }
 }
 
 void StopSignal::on_stop(std::function<void()> wake) {

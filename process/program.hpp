@@ -83,6 +83,9 @@ struct ProgramOptions {
   LoadOptions load_options() const;
   /// The same for a program that does not use the scene: the scene's files need not exist.
   LoadOptions load_options_without_scene() const;
+  /// Checks, without a launcher, that the program can write files to `out`. The launcher makes the folder itself, and
+  /// its programs fly on without their files. @throws InputError
+  void check_out() const;
 };
 
 /// Tells whether the program has been asked to end, by SIGINT, SIGTERM or stop(). Any thread.

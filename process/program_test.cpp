@@ -6,11 +6,14 @@
 #include <CLI/CLI.hpp>
 #include <condition_variable>
 #include <csignal>
+#include <fstream>
 #include <sstream>
 #include <stdexcept>
 #include <vector>
 
 #include "process/log_lines.hpp"
+#include "tests/support/limited_files.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 namespace skein {
 namespace {
@@ -63,6 +66,47 @@ TEST(Program, APathThatCannotBeIsCodeTwo) {
   });
   EXPECT_EQ(full.code, kExitProcessFailed);
   EXPECT_EQ(full.error, "tester: runs/x: No space left on device\n");
+}
+
+std::string refusal_of_out(const std::filesystem::path& out, int control_fd = -1) {
+  ProgramOptions options;
+  options.out = out;
+  options.control_fd = control_fd;
+  try {
+    options.check_out();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Program, WithoutALauncherTheFolderOfOutMustBeThere) {
+  const ScratchFolder scratch;
+  const std::filesystem::path folder = scratch.path(), missing = folder / "none/x", file = folder / "file";
+  std::ofstream(file) << "mine";
+  EXPECT_EQ(refusal_of_out(folder), "");
+  EXPECT_EQ(refusal_of_out("."), "");
+  EXPECT_EQ(refusal_of_out("/dev/null"), "") << "nothing is written";
+  const std::string mend = "; make this folder first, or choose another one";
+  EXPECT_EQ(refusal_of_out(missing), "--out " + missing.string() + ": does not exist" + mend);
+  EXPECT_EQ(refusal_of_out(file), "--out " + file.string() + ": is no folder" + mend);
+  const std::string long_name(300, 'x');
+  EXPECT_EQ(refusal_of_out(long_name), "--out " + long_name + ": cannot be looked at (File name too long)" + mend);
+  EXPECT_EQ(refusal_of_out(missing, 4), "") << "its launcher makes the folder";
+}
+
+TEST(Program, WithoutALauncherTheFolderOfOutMustTakeFiles) {
+  constexpr uid_t kNobody = 65534;  // root may write to every folder
+  constexpr rlim_t kEnoughFiles = 64;
+  const ScratchFolder scratch;
+  std::filesystem::permissions(scratch.path(), std::filesystem::perms::owner_read);
+  const std::string refusal = done_with_open_files(kEnoughFiles, [&]() -> std::string {
+    if (::geteuid() == 0 && ::setuid(kNobody) != 0) return "cannot become another user";
+    return refusal_of_out(scratch.path());
+  });
+  std::filesystem::permissions(scratch.path(), std::filesystem::perms::owner_all);
+  EXPECT_EQ(refusal, "--out " + scratch.path().string() +
+                         ": cannot be written to (Permission denied); make this folder first, or choose another one");
 }
 
 TEST(Program, AWrongCommandLineIsCodeTwoWithAHint) {

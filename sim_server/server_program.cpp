@@ -196,7 +196,10 @@ std::variant<int, std::unique_ptr<bus::FleetMember>> ServerProgram::prepare(cons
                                     .for_each = for_each_};
   std::optional<Scene> ready = shelf_ ? shelf_->take() : std::nullopt;
   Scene scene = ready ? std::move(*ready) : load_scene(*scenario, user_cache_folder());
-  if (!options.check_only) refuse_used_folder(options);
+  if (!options.check_only) {
+    options.check_out();
+    refuse_used_folder(options);
+  }
   auto bus = bus::make_bus(options, *scenario, domain_names(*scenario).size());
   if (options.check_only) {
     for (const std::string& warning : scene_warnings(scene)) spdlog::warn("{}", warning);

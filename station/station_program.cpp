@@ -84,6 +84,7 @@ void StationProgram::add_options(CLI::App& app) {
 std::variant<int, std::unique_ptr<bus::FleetMember>> StationProgram::prepare(const ProgramOptions& options,
                                                                              StatusPipe& status) {
   Scenario scenario = load_scenario(options.scenario, options.load_options_without_scene());
+  if (!options.check_only) options.check_out();
   if (settle_only_) {
     settle(options.out, scenario, options.run, status);
     return kExitDone;

@@ -186,6 +186,7 @@ std::variant<int, std::unique_ptr<bus::FleetMember>> AgentProgram::prepare(const
     check_debug_names(planner->debug_names(), planner_, scenario->fleet[uav].name);
     check_fleet_size(*planner, planner_, scenario->fleet.size());
   }
+  if (!options.check_only) options.check_out();
   auto bus = bus::make_bus(options, *scenario, 1);  // its own domain
   if (options.check_only) return kExitDone;
   std::unique_ptr<MemberNode> node;

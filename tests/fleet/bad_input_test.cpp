@@ -101,6 +101,19 @@ TEST_F(BadInput, FormerResultIsKeptWithoutForce) {
   EXPECT_EQ(run("kept", forced).result()["seed"], 9);
 }
 
+TEST_F(BadInput, AProgramStartedByHandNamesAFolderThatIsNotThere) {
+  const std::string scenario = write_small_scene(folder()), missing = folder() / "none";
+  for (const char* name : {"sim_server", "comm_router", "station", "uav_agent"}) {
+    ChildProcess& refused = start_program(name, {program(name), "--scenario", scenario, "--out", missing});
+    EXPECT_EQ(refused.wait().code, 2) << name;
+    const std::string said = ": --out " + missing + ": does not exist; make this folder first, or choose another one\n";
+    EXPECT_EQ(refused.err(), name + said);
+    ChildProcess& checked = start_program(std::string(name) + "-check",
+                                          {program(name), "--scenario", scenario, "--out", missing, "--check"});
+    EXPECT_EQ(checked.wait().code, 0) << name << " would write nothing: " << checked.err();
+  }
+}
+
 TEST_F(BadInput, WhatBearsTheNameOfAFileAndIsNoneIsRefusedAtOnce) {
   const std::string scenario = write_small_scene(folder());
   const std::string pipe = folder() / "pipe.yaml", recorded = folder() / "recorded", hole = folder() / "hole.csv";
