@@ -33,11 +33,28 @@ class DiffCommand : public ::testing::Test {
     return diff_runs({folder_.path() / "a", folder_.path() / "b"}, {out_, unseen});
   }
 
+  /// The result of a run with this command.
+  static std::string result_of(const std::string& command) {
+    return R"({"status": "completed", "command": ")" + command + "\"}";
+  }
+
   static constexpr const char* kTables[] = {"captures.csv", "events.csv", "score.csv", "score_timeline.csv",
                                             "trajectories.csv"};
   const ScratchFolder folder_;
   std::ostringstream out_;
 };
+
+TEST_F(DiffCommand, AResultThatIsNoneIsRefusedWithItsFileAndKey) {
+  write("a", "result.json", result_of("skein run towers"));
+  write("b", "result.json", "{}");
+  try {
+    diff();
+    ADD_FAILURE() << "compared";
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.what(), (folder_.path() / "b/result.json").string() +
+                                ": is damaged: status: is missing, so it is not the result of a run");
+  }
+}
 
 TEST_F(DiffCommand, NamesEachFileThatOnlyOneRunHas) {
   EXPECT_EQ(diff(), kExitDone);
@@ -72,7 +89,7 @@ TEST_F(DiffCommand, ARunThatHasLostItsRecordingIsNotTheSame) {
     for (const std::string command :
          {"", "skein run towers", "skein run towers --record=messages", "skein run --no-such",
           "skein compose towers --record=all", "skein 'run", "skein"}) {
-      for (const std::string one : {"a", "b"}) write(one, "result.json", "{\"command\": \"" + command + "\"}");
+      for (const std::string one : {"a", "b"}) write(one, "result.json", result_of(command));
       EXPECT_EQ(diff(), kExitCheckFailed) << command;
       EXPECT_NE(out_.str().find("  recording.mcap: only in the " + owner + " run\n"), std::string::npos) << out_.str();
     }
@@ -87,10 +104,10 @@ TEST_F(DiffCommand, ARunThatWasToldToRecordNothingHasNoRecording) {
   for (const std::string run : {"a", "b"}) {
     const std::string other = run == "a" ? "b" : "a", owner = run == "a" ? "first" : "second";
     write(run, "recording.mcap", "never read");
-    write(run, "result.json", R"({"command": "skein run towers"})");
+    write(run, "result.json", result_of("skein run towers"));
     for (const std::string command :
          {"run towers --record=none", "run --record --record=none x", "compose --record=none --no-such"}) {
-      write(other, "result.json", R"({"command": "skein )" + command + "\"}");
+      write(other, "result.json", result_of("skein " + command));
       EXPECT_EQ(diff(), kExitDone) << out_.str();
       EXPECT_EQ(out_.str(), "the runs are the same\nnot compared: recording.mcap, which only the " + owner +
                                 " run has; the other one was told to record nothing\n");

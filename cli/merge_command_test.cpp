@@ -62,6 +62,15 @@ TEST_F(MergeCommand, WhatItMadeItselfItMakesAgain) {
   EXPECT_EQ(results::read_result_file(dir()), result);
 }
 
+TEST_F(MergeCommand, AResultThatIsNoneIsNamedAndMadeAgain) {
+  for (const char* text : {"{}", "[]", "null", R"({"status": "completed", "memory_mb": "9"})"}) {
+    write_text(result_file(), text);
+    EXPECT_EQ(merge(), kExitDone) << err_.str();
+    EXPECT_NE(err_.str().find(result_file().string() + ": is damaged: "), std::string::npos) << text;
+    EXPECT_EQ(results::read_result_file(dir())["score"], 2.5) << text;
+  }
+}
+
 TEST_F(MergeCommand, ADamagedReportIsNamedAndTheResultStays) {
   ASSERT_EQ(merge(), kExitDone) << err_.str();
   const std::string result = read_text(result_file());

@@ -16,7 +16,8 @@ class OptionsOfRun : public testing::Test {
 
   /// The options of a run of small.yaml with seed 3 whose result has this command.
   RunOptions options(const std::string& command) const {
-    Json result = {{"command", command}, {"scenario", programs_.scenario().string()}, {"seed", 3}};
+    Json result = {
+        {"command", command}, {"scenario", programs_.scenario().string()}, {"status", "completed"}, {"seed", 3}};
     for (const char* uav : {"alpha", "beta"}) result["uavs"].push_back({{"name", uav}});
     write_text(run_ / run_folder::kResult, result.dump());
     return options_of_run(run_);

@@ -33,7 +33,8 @@ FlightPicture random_picture(std::mt19937& random, std::size_t points) {
 TEST(FlightPicture, ReadsAResultsFolder) {
   const results::Scratch scratch;
   results::write_text(scratch.path() / "result.json",
-                      R"({"uavs": [{"name": "alpha", "role": "explorer"}, {"name": "beta", "role": "photographer"}]})");
+                      R"({"status": "completed", "uavs": [{"name": "alpha", "role": "explorer"},
+                                                          {"name": "beta", "role": "photographer"}]})");
   results::write_text(
       scratch.path() / "scene.json",
       R"({"boxes": [{"center": [1, 2, 3], "size": [2, 4, 6], "rotation": [[0, -1, 0], [1, 0, 0], [0, 0, 1]]}]})");

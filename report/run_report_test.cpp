@@ -99,13 +99,17 @@ TEST(PageData, NamesWhoDeliveredTheBestPictureOfEachPoint) {
 TEST(RunReport, AFolderWithoutAResultIsTheUsersMistake) {
   const results::Scratch scratch;
   EXPECT_THROW(write_run_report(scratch.path()), InputError);
-  results::write_text(scratch.path() / "result.json", "{\"score\": ");
-  EXPECT_THROW(write_run_report(scratch.path()), InputError);
+  for (const char* text : {"{\"score\": ", "{}", "[]", "null", R"({"status": "completed", "score": "4.1"})"}) {
+    results::write_text(scratch.path() / "result.json", text);
+    EXPECT_THROW(write_run_report(scratch.path()), InputError) << text;
+    EXPECT_FALSE(std::filesystem::exists(scratch.path() / "report.html")) << text;
+  }
 }
 
 TEST(RunReport, MissingPartsAreReported) {
   const results::Scratch scratch;
-  results::write_text(scratch.path() / "result.json", R"({"uavs": [{"name": "a"}], "losses": {}})");
+  results::write_text(scratch.path() / "result.json",
+                      R"({"status": "completed", "uavs": [{"name": "a"}], "losses": {}})");
   results::write_text(scratch.path() / "events.csv", "step,time_s,event,subject,object\n0,0,joined,a,\n1,0.05,joi");
   write_run_report(scratch.path());
   const std::string page = results::read_text(scratch.path() / "report.html");
@@ -122,7 +126,7 @@ TEST(RunReport, MissingPartsAreReported) {
 TEST(RunReport, ANumberOutOfAllBoundsEndsItsTable) {
   for (const char* number : {"nan", "-inf", "1e300", "x"}) {
     const results::Scratch scratch;
-    results::write_text(scratch.path() / "result.json", R"({"uavs": [{"name": "a"}]})");
+    results::write_text(scratch.path() / "result.json", R"({"status": "completed", "uavs": [{"name": "a"}]})");
     const std::string row = ",1,2,0,0,1,0.5,";
     results::write_text(scratch.path() / "score.csv",
                         "x,y,z,nx,ny,nz,score,index\n0" + row + "0\n" + number + row + "1\n3" + row + "2\n");

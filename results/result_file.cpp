@@ -5,6 +5,7 @@
 #include "core/files/file_bytes.hpp"
 #include "core/sha256.hpp"
 #include "core/types.hpp"
+#include "results/result_keys.hpp"
 #include "results/run_folder.hpp"
 
 namespace skein::results {
@@ -33,7 +34,11 @@ Json read_result_file(const std::filesystem::path& run) {
   Json result = parse_json(read_file_bytes(file, kMostBytes));
   if (!result.is_object()) throw InputError(file.string() + ": is damaged: it is not a JSON object");
   const Json told = value_or(result, kResultChecksum, nullptr);
-  if (told.is_null()) return result;
+  if (told.is_null()) {
+    const std::string wrong = wrong_key(result);
+    if (!wrong.empty()) throw InputError(file.string() + ": is damaged: " + wrong);
+    return result;
+  }
   Json rest = result;
   rest.erase(kResultChecksum);
   if (told != checksum_of(rest)) {

@@ -15,8 +15,10 @@ inline constexpr const char* kResultChecksum = "checksum";
 /// The text of the file, its checksum included.
 std::string result_text(Json result);
 
-/// Reads the result in a run's folder. Accepts a file without a checksum: earlier versions wrote none.
-/// @throws InputError if there is no file, it cannot be read, it is not a JSON object, or its checksum is wrong.
+/// Reads the result in a run's folder. Accepts a file without a checksum, since earlier versions wrote none, but checks
+/// its keys (result_keys.hpp).
+/// @throws InputError if there is no file, it cannot be read, it is not a JSON object, its checksum is wrong, or it has
+///   no checksum and a wrong key.
 Json read_result_file(const std::filesystem::path& run);
 
 }  // namespace skein::results

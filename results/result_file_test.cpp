@@ -24,6 +24,7 @@ class ResultFile : public ::testing::Test {
 
   static Json some_result() {
     return {{"scenario", "towers"},
+            {"status", "completed"},
             {"seed", 7},
             {"score", 4.071234567890123},
             {"digest", nullptr},
@@ -87,8 +88,15 @@ TEST_F(ResultFile, MissingFilesAndOtherJsonThanObjectsAreReported) {
     return std::string();
   };
   EXPECT_NE(complaint().find("there is no result.json in it"), std::string::npos);
-  write("[1]");
-  EXPECT_NE(complaint().find("damaged"), std::string::npos);
+  const std::string damaged = (run_ / run_folder::kResult).string() + ": is damaged: ";
+  for (const char* text : {"[1]", "[]", "null", "", "3"}) {
+    write(text);
+    EXPECT_EQ(complaint(), damaged + "it is no JSON object") << text;
+  }
+  write("{}");
+  EXPECT_EQ(complaint(), damaged + "status: is missing, so it is not the result of a run");
+  write(R"({"status": "completed", "score": "4.1"})");
+  EXPECT_EQ(complaint(), damaged + "score: must be a number, not \"4.1\"");
 }
 
 /// The cause lies in the path to the file: a circle of links, or a folder that is none. It is not that a run left no

@@ -24,8 +24,9 @@ class DrawnFolder : public testing::TestWithParam<unsigned> {
                                          run_folder::kScoreTimeline};
 
   DrawnFolder() : random_(GetParam()) {
-    write_text(dir() / run_folder::kResult,
-               R"({"uavs": [{"name": "a", "role": "explorer"}, {"name": "b"}], "sim_time_s": 1})");
+    write_text(
+        dir() / run_folder::kResult,
+        R"({"status": "completed", "uavs": [{"name": "a", "role": "explorer"}, {"name": "b"}], "sim_time_s": 1})");
     heads_ = {
         {run_folder::kCaptures, "uav,capture,time_s,point,q_blur,q_res,q_distance,q,delivered_at_s,reason"},
         {run_folder::kEvents, "step,time_s,event,subject,object"},

@@ -52,7 +52,8 @@ TEST_F(TwoRuns, SayWhatIsNotKnownAndWhatIsTheSame) {
 }
 
 TEST_F(TwoRuns, MayBeOfDifferentFleets) {
-  b_.write("result.json", R"({"scenario": "towers", "sim_time_s": 3.0, "uavs": [{"name": "b", "role": "explorer"}]})");
+  b_.write("result.json", R"({"scenario": "towers", "status": "completed", "sim_time_s": 3.0,
+                               "uavs": [{"name": "b", "role": "explorer"}]})");
   EXPECT_EQ(told()["scene"]["fleets_differ"], true);
 }
 

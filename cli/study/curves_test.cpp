@@ -50,7 +50,8 @@ TEST(FlightTables, AreReadAsFarAsTheyAreThere) {
   const results::Scratch scratch;
   const auto dir = scratch.path();
   EXPECT_TRUE(read_flight_tables(dir).scores.empty()) << "no result at all";
-  results::write_text(dir / "result.json", R"({"sim_time_s": 80, "uavs": [{"name": "a"}, {"name": "b"}]})");
+  results::write_text(dir / "result.json",
+                      R"({"status": "completed", "sim_time_s": 80, "uavs": [{"name": "a"}, {"name": "b"}]})");
   EXPECT_TRUE(read_flight_tables(dir).latencies.empty()) << "nobody knows of captures";
   results::write_text(dir / "score_timeline.csv", "time_s,points,score\n0,0,0\n10,1,2.5\n20,2,nonsense\n");
   results::write_text(dir / "captures.csv",

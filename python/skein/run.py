@@ -142,7 +142,11 @@ class Run:
     def _number(self, key: str) -> float:
         """A number of result.json; NaN if it is unknown because the process that knows it died."""
         value = self.result.get(key)
-        return float(value) if isinstance(value, (int, float)) else math.nan
+        if value is None:
+            return math.nan
+        if isinstance(value, bool) or not isinstance(value, (int, float)):
+            raise DamagedError(f"{self.path / 'result.json'}:1: {key} must be a number, not {value!r:.60}")
+        return float(value)
 
     @property
     def scenario(self) -> str:

@@ -132,6 +132,20 @@ def test_what_nobody_could_tell_is_nan(tmp_path: Path) -> None:
             getattr(run, name)
 
 
+@pytest.mark.parametrize("text", ["{}", "[]", "null", '{"score": "4.1", "sim_time_s": true, "uavs": {"a": 1}}'])
+def test_what_is_no_result_is_refused_with_file_and_key(tmp_path: Path, text: str) -> None:
+    (tmp_path / "result.json").write_text(text)
+    run = skein.Run(tmp_path)
+    for name in ("uavs", "seed", "planner", "status", "scenario"):
+        with pytest.raises(skein.DamagedError, match=rf"result\.json:1: ({name} must be|is damaged: it is no JSON)"):
+            getattr(run, name)
+    assert "result.json:1: " in repr(run)
+    if "score" in text:
+        for name in ("score", "sim_time_s"):
+            with pytest.raises(skein.DamagedError, match=rf"result\.json:1: {name} must be a number"):
+                getattr(run, name)
+
+
 def test_results_go_where_the_command_line_puts_them(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     options = {"planner": "hover", "one_process": True, "duration": 1, "no_report": True, "no_oracle": True}

@@ -36,11 +36,11 @@ def map(run: Run, ax: Axes | None = None) -> Axes:
     with look.drawing(ax, 1.2 + float(np.clip(2.4 * sides[1] / sides[0], 0.8, 4.0))) as ax:
         _draw_boxes(run, ax)
         _draw_points(run, ax)
-        roles = {uav["name"]: uav["role"] for uav in run.result["uavs"]}
+        explorers = [name for name, uav in zip(run.uavs, run.result["uavs"]) if uav.get("role") == "explorer"]
         handles = []
         for uav, colour in look.track_colours(run).items():
             track = poses[poses["uav"] == uav]
-            width = 1.3 if roles[uav] == "explorer" else 0.7
+            width = 1.3 if uav in explorers else 0.7
             handles += ax.plot(track["x"], track["y"], color=colour, linewidth=width, alpha=0.9, zorder=4, label=uav)
             if len(track):
                 ax.plot(track["x"][0], track["y"][0], "o", color=colour, markersize=3.5, markeredgecolor="white",
