@@ -54,12 +54,8 @@ Scenario scenario_of(const RunOptions& run) {
 }
 
 /// What is wrong with the report of a program: it is truncated, say, or lacks what all reports of this program have.
-/// Null if the report is sound, or there is none.
-std::optional<std::string> damage_of(const fs::path& dir, const std::string& program) {
-  const fs::path report = dir / run_folder::report_file(program);
-  std::error_code error;
-  if (!fs::exists(fs::symlink_status(report, error))) return std::nullopt;
-  const Json json = read_json(report);
+/// Null if the report is sound.
+std::optional<std::string> damage_in(const Json& json, const std::string& program) {
   if (!json.is_object()) return "is damaged: it is not a JSON object";
   if (program == programs::kSimServer && !struct_of<SimServerReport>(json).status) {
     return "is damaged: 'status' is missing, or has no valid value";
@@ -68,6 +64,17 @@ std::optional<std::string> damage_of(const fs::path& dir, const std::string& pro
     return "is damaged: 'score' is missing, or is not a number of at least 0";
   }
   return std::nullopt;
+}
+
+bool has_report(const fs::path& dir, const std::string& program) {
+  std::error_code error;
+  return fs::exists(fs::symlink_status(dir / run_folder::report_file(program), error));
+}
+
+/// The same of the program's file; null also if there is none.
+std::optional<std::string> damage_of(const fs::path& dir, const std::string& program) {
+  if (!has_report(dir, program)) return std::nullopt;
+  return damage_in(read_json(dir / run_folder::report_file(program)), program);
 }
 
 /// Without the report, the result would be wrong in silence: a damaged one is not the same as none.
@@ -139,10 +146,9 @@ results::RunFacts facts_of(const RunOptions& run, const Scenario& scenario, cons
   return facts;
 }
 
-std::string no_server(const MergeOptions& options, const fs::path& dir) {
-  if (const std::optional<std::string> damage = damage_of(dir, programs::kSimServer)) {
-    return (options.dir / run_folder::report_file(programs::kSimServer)).string() + ": " + *damage;
-  }
+/// Why there is no result. @param damage  of the server's report, if there is one
+std::string no_server(const MergeOptions& options, const std::optional<std::string>& damage) {
+  if (damage) return (options.dir / run_folder::report_file(programs::kSimServer)).string() + ": " + *damage;
   return options.dir.string() + ": there is no " + run_folder::report_file(programs::kSimServer) +
          " in it: the run is not over, or its server died";
 }
@@ -158,10 +164,11 @@ FolderLock lock_of(const fs::path& dir) try {
 }
 
 /// A run whose server left no report has no result, but the parts that its programs recorded can still be joined.
-/// @throws InputError when there is no part.
-int merge_without_server(const MergeOptions& options, const fs::path& dir, const Console& console) {
+/// @param why  as no_server() says it. @throws InputError when there is no part.
+int merge_without_server(const MergeOptions& options, const fs::path& dir, const std::string& why,
+                         const Console& console) {
   const std::vector<fs::path> parts = recording_parts(dir);
-  if (parts.empty()) throw InputError(no_server(options, dir));
+  if (parts.empty()) throw InputError(why);
   gather_agents(dir);
   const std::string trouble = join_parts(dir, Json::object());
   if (trouble.empty()) {
@@ -181,7 +188,7 @@ int merge_without_server(const MergeOptions& options, const fs::path& dir, const
         parts, [&](const fs::path& part) { return part.filename().string().starts_with(std::string(program) + "."); });
     if (!recorded) console.err << "missing: what " << program << " recorded" << std::endl;
   }
-  console.err << "missing: " << run_folder::kResult << "; " << no_server(options, dir) << std::endl;
+  console.err << "missing: " << run_folder::kResult << "; " << why << std::endl;
   return kExitProcessFailed;
 }
 
@@ -202,8 +209,11 @@ void add_merge(CLI::App& app, MergeOptions& merge) {
 int merge_reports(const MergeOptions& options, const Console& console) {
   const fs::path dir = fs::absolute(options.dir);
   const FolderLock lock = lock_of(options.dir);
+  const bool reported = has_report(dir, programs::kSimServer);
   const Json server = read_json(dir / run_folder::report_file(programs::kSimServer));
-  if (!server.is_object() || damage_of(dir, programs::kSimServer)) return merge_without_server(options, dir, console);
+  if (const auto damage = damage_in(server, programs::kSimServer)) {
+    return merge_without_server(options, dir, no_server(options, reported ? damage : std::nullopt), console);
+  }
   const Json facts_of_launcher = launchers_facts(dir, console.err);
   gather_agents(dir);
   const auto sim = struct_of<SimServerReport>(server);
@@ -213,7 +223,7 @@ int merge_reports(const MergeOptions& options, const Console& console) {
   require_sound(dir, programs::kGroundAgent);
   settle(programs::kStation, run_folder::kJournal, run, sim.flight, dir, console.err);
   settle(programs::kCommRouter, run_folder::kCounts, run, sim.flight, dir, console.err);
-  const results::Reports reports = results::read_reports(dir, scenario);
+  const results::Reports reports = results::read_reports(dir, scenario, {{programs::kSimServer, server}});
   const results::RunFacts facts = facts_of(run, scenario, reports, dir);
   const RunResults results{run, facts, scenario, reports, dir, [&](const std::string& text) {
                              return write_if_possible(dir / run_folder::kResult, with_facts(text, facts_of_launcher));

@@ -115,6 +115,16 @@ TEST_F(MergeCommand, ADamagedReportIsMadeAnewFromTheBooks) {
   EXPECT_EQ(results::read_result_file(dir())["score"], 2.25);
 }
 
+TEST_F(MergeCommand, TheResultIsMadeOfTheReportThatWasChecked) {
+  programs_.script("station",
+                   "echo '{\"score\": 2.25}' > \"$out/station.report.json\"\n"
+                   "echo '{}' > \"$out/sim_server.report.json\"\n");
+  truncate("station");
+  write_text(dir() / run_folder::kJournal, "the journal");
+  EXPECT_EQ(merge(), kExitDone) << err_.str();
+  EXPECT_EQ(results::read_result_file(dir())["status"], "completed");
+}
+
 // Joining the parts of a recording deletes them. The programs of a flying fleet would go on to write to deleted files.
 TEST_F(MergeCommand, TheFolderOfAFleetThatFliesIsLeftAlone) {
   fs::remove(report("sim_server"));
