@@ -5,6 +5,7 @@
 #include <map>
 
 #include "cli/fault_tests/fault_test.hpp"
+#include "cli/tell_errors.hpp"
 #include "core/config/config_node.hpp"
 #include "core/scenario/scenario_reader.hpp"
 #include "core/types.hpp"
@@ -101,6 +102,15 @@ std::string check_file(const CheckOptions& options, const std::string& file, con
   return {};
 }
 
+/// check_file(), with errors that name the file: what programs say of a scenario need not.
+std::string named_check(const CheckOptions& options, const std::string& file, const Console& console) try {
+  return check_file(options, file, console);
+} catch (const InputError& error) {
+  const std::string text = error.what(), name = std::filesystem::path(file).filename();
+  if (text.find(name) != std::string::npos) throw;
+  throw InputError(file + ": " + text);
+}
+
 /// Hands reference vectors to sim_server, which holds the production code, with its output and its exit code.
 int check_golden(const std::string& file) {
   return hand_over({programs::kSimServer,
@@ -135,12 +145,16 @@ void finish_check(CheckOptions& check, const std::vector<std::string>& /*argumen
 }
 
 int check_files(const CheckOptions& options, const Console& console) {
-  for (const std::string& file : options.files) {
-    const std::string kind = check_file(options, file, console);
-    console.out << file << ": OK (" << kind << ")" << std::endl;
-  }
   int worst = kExitDone;
-  for (const std::string& file : options.golden) worst = std::max(worst, check_golden(file));
+  const auto take = [&](const auto& check) { worst = std::max(worst, tell_errors(console, check)); };
+  for (const std::string& file : options.files) {
+    take([&] {
+      const std::string kind = named_check(options, file, console);
+      console.out << file << ": OK (" << kind << ")" << std::endl;
+      return kExitDone;
+    });
+  }
+  for (const std::string& file : options.golden) take([&] { return check_golden(file); });
   return worst;
 }
 

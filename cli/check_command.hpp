@@ -30,8 +30,9 @@ void add_check(CLI::App& app, CheckOptions& check);
 void finish_check(CheckOptions& check, const std::vector<std::string>& arguments);
 
 /// `skein check`: checks scenario, vehicle and fault files, fault tests, and tables of reference vectors. Prints one
-/// line for each valid file. @returns the exit code of `sim_server --golden` if reference vectors were given, else
-///   kExitDone. @throws InputError for the first invalid file.
+/// line for each valid file, and on console.err what is wrong with each other one.
+/// @returns the worst exit code of all files: kExitBadInput for an invalid one, that of `sim_server --golden` for
+///   reference vectors. @throws Interrupted
 int check_files(const CheckOptions& options, const Console& console);
 
 }  // namespace skein::cli

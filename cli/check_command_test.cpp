@@ -34,7 +34,7 @@ TEST_F(CheckCommand, FaultFilesAreCheckedWithAScenario) {
   const std::string mine = file("m.yaml", "faults: [{at_s: 10, blackout: alpha}]");
   EXPECT_EQ(check({{towers}, {}, {}}), kExitDone);
   EXPECT_EQ(out_.str(), towers + ": OK (fault file, with towers)\n");
-  EXPECT_THROW(check({{mine}, {}, {}}), InputError) << "alpha is not of towers";
+  EXPECT_EQ(check({{mine}, {}, {}}), kExitBadInput) << "alpha is not of towers";
   CheckOptions options{{mine}, {}, {}};
   options.scenario = programs_.scenario();
   EXPECT_EQ(check(options), kExitDone);
@@ -42,7 +42,7 @@ TEST_F(CheckCommand, FaultFilesAreCheckedWithAScenario) {
 
 TEST_F(CheckCommand, FaultFilesAreCheckedWithConditions) {
   CheckOptions options{{file("f.yaml", "faults: [{at_s: 10, fix_loss: changi}]")}, {}, {}};
-  EXPECT_THROW(check(options), InputError) << "by default a fix is never lost";
+  EXPECT_EQ(check(options), kExitBadInput) << "by default a fix is never lost";
   options.conditions = "odometry=breezy";
   EXPECT_EQ(check(options), kExitDone);
 }
@@ -60,7 +60,7 @@ TEST_F(CheckCommand, FaultTestsNameTheirScenario) {
   EXPECT_EQ(check({{test}, {}, {}}), kExitDone);
   EXPECT_EQ(out_.str(), test + ": OK (fault test, with small)\n");
   EXPECT_EQ(check({{file("u.yaml", faults)}, {}, {}}), kExitDone) << "what holds by default is enough";
-  EXPECT_THROW(check({{file("w.yaml", faults + "properties: {some: 'eventually scor >= 1'}")}, {}, {}}), InputError);
+  EXPECT_EQ(check({{file("w.yaml", faults + "properties: {some: 'eventually scor >= 1'}")}, {}, {}}), kExitBadInput);
 }
 
 TEST_F(CheckCommand, AnAgentIsAskedForTheWordOfItsPlanners) {
@@ -71,33 +71,38 @@ TEST_F(CheckCommand, AnAgentIsAskedForTheWordOfItsPlanners) {
                                 "run: {scenario: ./small.yaml, planner: orbit}\n"
                                 "faults: [{at_s: 10, blackout: alpha}]\nexpect: {}\n");
   CheckOptions options{{test}, {}, {}};
-  try {
-    check(options);
-    ADD_FAILURE() << "uav_agent does not know orbit";
-  } catch (const InputError& error) {
-    EXPECT_EQ(std::string(error.what()), test + ": run: no planner orbit");
-  }
+  EXPECT_EQ(check(options), kExitBadInput) << "uav_agent does not know orbit";
+  EXPECT_EQ(err_.str(), test + ": run: no planner orbit\n");
   options.agent = mine;
   EXPECT_EQ(check(options), kExitDone) << err_.str();
   options.agent = programs_.dir() / "missing";
-  EXPECT_THROW(check(options), InputError);
+  EXPECT_EQ(check(options), kExitBadInput);
 }
 
 TEST_F(CheckCommand, WrongFilesAreRefused) {
-  EXPECT_THROW(check({{"/does/not/exist.yaml"}, {}, {}}), InputError);
-  EXPECT_THROW(check({{file("a.yaml", "{colour: red}")}, {}, {}}), InputError);
-  EXPECT_THROW(check({{file("b.yaml", "{name: p, role: pilot}")}, {}, {}}), InputError);
-  EXPECT_THROW(check({{file("c.yaml", "{name: s, scene: {family: towers}, fleet: []}")}, {}, {}}), InputError);
+  EXPECT_EQ(check({{"/does/not/exist.yaml"}, {}, {}}), kExitBadInput);
+  EXPECT_EQ(check({{file("a.yaml", "{colour: red}")}, {}, {}}), kExitBadInput);
+  EXPECT_EQ(check({{file("b.yaml", "{name: p, role: pilot}")}, {}, {}}), kExitBadInput);
+  EXPECT_EQ(check({{file("c.yaml", "{name: s, scene: {family: towers}, fleet: []}")}, {}, {}}), kExitBadInput);
 }
 
 TEST_F(CheckCommand, WhatAProgramSaysOfAScenarioCounts) {
   write_script(programs_.dir() / "sim_server", "echo 'the mesh is empty' >&2; exit 2");
-  try {
-    check({{programs_.scenario()}, {}, {}});
-    FAIL();
-  } catch (const InputError& error) {
-    EXPECT_STREQ(error.what(), "the mesh is empty");
-  }
+  EXPECT_EQ(check({{programs_.scenario()}, {}, {}}), kExitBadInput);
+  EXPECT_EQ(err_.str(), programs_.scenario().string() + ": the mesh is empty\n") << "of which file, too";
+}
+
+TEST_F(CheckCommand, AllFilesAreCheckedAndTheWorstExitCodeIsTheCommands) {
+  const std::string bad = file("bad.yaml", "{name: p, role: pilot}"), odd = file("odd.yaml", "{colour: red}");
+  const std::string good = file("v.yaml", "{name: p, role: photographer}"), table = file("t.csv", "x\n");
+  EXPECT_EQ(check({{bad, good, odd}, {}, {}}), kExitBadInput);
+  EXPECT_EQ(out_.str(), good + ": OK (vehicle)\n");
+  EXPECT_NE(err_.str().find(bad + ":1: "), std::string::npos) << err_.str();
+  EXPECT_NE(err_.str().find(odd + ":1: "), std::string::npos) << err_.str();
+  write_script(programs_.dir() / "sim_server", "[ \"$1\" != --golden ] || exit 1; echo crashed >&2; exit 3");
+  EXPECT_EQ(check({{bad}, {table}, {}}), kExitBadInput) << "worse than vectors that differ";
+  EXPECT_EQ(check({{programs_.scenario(), bad}, {table}, {}}), kExitProcessFailed);
+  EXPECT_NE(err_.str().find("sim_server --check ended with exit code 3"), std::string::npos) << err_.str();
 }
 
 TEST_F(CheckCommand, ReferenceVectorsGoToTheServerAndItsExitCodeIsOurs) {

@@ -2,10 +2,8 @@
 #include <unistd.h>
 
 #include <csignal>
-#include <exception>
 #include <iostream>
 #include <stdexcept>
-#include <system_error>
 
 #include "cli/command_line.hpp"
 #include "cli/duration_variable.hpp"
@@ -13,12 +11,10 @@
 #include "cli/hunt/capsule_run.hpp"
 #include "cli/option_checks.hpp"
 #include "cli/standard_output.hpp"
-#include "core/types.hpp"
+#include "cli/tell_errors.hpp"
 #include "host/environment.hpp"
 #include "host/preflight.hpp"
 #include "host/program_start.hpp"
-#include "process/files/path_error.hpp"
-#include "process/host/open_files.hpp"
 #include "process/program.hpp"
 #include "run/run_options.hpp"
 
@@ -36,26 +32,16 @@ Command command_of(const std::vector<std::string>& arguments) {
 }
 
 int execute(const std::vector<std::string>& arguments, const Console& console) try {
-  const Command command = command_of(arguments);
-  const bool reads_paths = command.get_if<HelpText>() == nullptr && command.get_if<CompletionOptions>() == nullptr;
-  if (reads_paths) check_paths(arguments);
-  const int code = command.execute(console);
-  if (const std::string lost = lost_output(); code == kExitDone && !lost.empty()) throw std::runtime_error(lost);
-  return code;
-} catch (const InputError& error) {
-  console.err << error.what() << std::endl;
-  return kExitBadInput;
+  return tell_errors(console, [&] {
+    const Command command = command_of(arguments);
+    const bool reads_paths = command.get_if<HelpText>() == nullptr && command.get_if<CompletionOptions>() == nullptr;
+    if (reads_paths) check_paths(arguments);
+    const int code = command.execute(console);
+    if (const std::string lost = lost_output(); code == kExitDone && !lost.empty()) throw std::runtime_error(lost);
+    return code;
+  });
 } catch (const Interrupted&) {
   return kExitInterrupted;
-} catch (const std::filesystem::filesystem_error& error) {
-  console.err << "skein: " << path_error_text(error) << open_files_hint(error.code()) << std::endl;
-  return is_wrong_path(error) ? kExitBadInput : kExitProcessFailed;
-} catch (const std::system_error& error) {
-  console.err << "skein: " << error.what() << open_files_hint(error.code()) << std::endl;
-  return kExitProcessFailed;
-} catch (const std::exception& error) {
-  console.err << "skein: " << error.what() << std::endl;
-  return kExitProcessFailed;
 }
 
 }  // namespace

@@ -1,13 +1,27 @@
 #include "cli/report_command.hpp"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 
+#include "cli/tell_errors.hpp"
 #include "process/program.hpp"
 #include "report/run_report.hpp"
 #include "results/run_folder.hpp"
 #include "run/recording.hpp"
 
 namespace skein::cli {
+namespace {
+
+int write_page(const std::filesystem::path& run, const Console& console) {
+  report::write_run_report(run);
+  console.out << (run / run_folder::kPage).string() << std::endl;
+  // The page is made from the tables, so a damaged recording does not affect it; the user should know all the same.
+  const std::vector<std::string> damage = recording_damage(run);
+  for (const std::string& one : damage) console.err << one << std::endl;
+  return damage.empty() ? kExitDone : kExitCheckFailed;
+}
+
+}  // namespace
 
 void add_report(CLI::App& app, ReportOptions& report) {
   CLI::App* command = app.add_subcommand("report", "Write report.html of finished runs again");
@@ -16,17 +30,11 @@ void add_report(CLI::App& app, ReportOptions& report) {
 }
 
 int make_reports(const ReportOptions& options, const Console& console) {
-  int code = kExitDone;
+  int worst = kExitDone;
   for (const std::filesystem::path& run : options.runs) {
-    report::write_run_report(run);
-    console.out << (run / run_folder::kPage).string() << std::endl;
-    // The page is made from the tables, so a damaged recording does not affect it; the user should know all the same.
-    for (const std::string& damage : recording_damage(run)) {
-      console.err << damage << std::endl;
-      code = kExitCheckFailed;
-    }
+    worst = std::max(worst, tell_errors(console, [&] { return write_page(run, console); }));
   }
-  return code;
+  return worst;
 }
 
 }  // namespace skein::cli
