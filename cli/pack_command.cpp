@@ -3,13 +3,15 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <CLI/CLI.hpp>
-#include <fstream>
 #include <map>
 #include <optional>
 #include <set>
 #include <sstream>
+#include <stdexcept>
+#include <system_error>
 
 #include "core/config/config_files.hpp"
+#include "core/files/file_bytes.hpp"
 #include "core/types.hpp"
 #include "host/preflight.hpp"
 #include "host/supervisor.hpp"
@@ -27,6 +29,7 @@ namespace fs = std::filesystem;
 using report::find_web_bundle;
 
 constexpr std::size_t kLastLines = 3;
+constexpr std::uintmax_t kMostOfAList = 16 << 20, kMostOfAFile = std::uintmax_t{4} << 30;
 
 /// The script that starts the packed skein. It uses the libraries beside it, including the system's own: another libm
 /// would give another flight.
@@ -39,18 +42,30 @@ export PYTHONPATH="$here/share/skein/python${{PYTHONPATH:+:$PYTHONPATH}}"
 exec "$SKEIN_LOADER" --library-path "$here/lib" --argv0 skein "$here/bin/skein" "$@"
 )sh";
 
-std::string output_of(const std::vector<std::string>& argv) {
+/// Runs a tool to its end. @returns what is wrong; empty: nothing. @param log  where its output goes
+std::string trouble_of(const std::string& tool, const std::vector<std::string>& argv, const fs::path& log) {
+  const ExitStatus exit = run_to_end({"pack", argv, environment_with({{"LC_ALL", "C"}}), log});
+  return exit.ok() ? "" : tool + " ended with " + exit.text() + ":" + last_lines_below(log, kLastLines);
+}
+
+/// What ldd says of a program. It does not notice if its output is lost, as on a full disk; echo does, so what it adds
+/// shows that the list is complete.
+std::string list_of_libraries(const fs::path& program) {
   const ScratchDir scratch;
   const fs::path log = scratch.path() / "log";
-  const ExitStatus exit = run_to_end({"pack", argv, environment_with({{"LC_ALL", "C"}}), log});
-  if (!exit.ok()) throw InputError(argv[1] + " ended with " + exit.text() + ":" + last_lines_below(log, kLastLines));
-  std::ifstream in(log);
-  return {std::istreambuf_iterator<char>(in), {}};
+  const std::string end = "end of list\n";
+  const std::string trouble =
+      trouble_of("ldd", {"/bin/sh", "-c", "ldd \"$1\" && echo end of list", "sh", program}, log);
+  if (!trouble.empty()) throw InputError(trouble);
+  std::string list = read_file_bytes(log, kMostOfAList);
+  if (!list.ends_with(end)) throw std::runtime_error(log.string() + ": could not be written; is the disk full?");
+  list.resize(list.size() - end.size());
+  return list;
 }
 
 /// Adds a program's libraries by the names under which it asks for them, including the loader.
 void add_libraries(const fs::path& program, std::map<std::string, fs::path>& libraries, std::string& loader) {
-  std::istringstream lines(output_of({"/usr/bin/env", "ldd", program}));
+  std::istringstream lines(list_of_libraries(program));
   for (std::string line; std::getline(lines, line);) {
     std::istringstream words(line);
     std::string name, arrow, file;
@@ -87,17 +102,18 @@ std::optional<fs::path> python_package() {
   return std::nullopt;
 }
 
-/// Copies a file or folder with its permissions.
-void copy_all(const fs::path& from, const fs::path& to) {
+/// Copies a file with its permissions. fs::copy() would name the wrong file if the disk is full, and no reason.
+void pack_file(const fs::path& from, const fs::path& to) {
   fs::create_directories(to.parent_path());
-  fs::copy(from, to, fs::copy_options::recursive);
+  write_file_atomically(to, read_file_bytes(from, kMostOfAFile), Readers::all, Flush::none);
+  fs::permissions(to, fs::status(from).permissions());
 }
 
-/// Copies the sources only: .pyc files are for this machine's interpreter.
-void copy_package(const fs::path& from, const fs::path& to) {
+/// Copies the files of a folder, but not .pyc files, which are for this machine's interpreter.
+void pack_folder(const fs::path& from, const fs::path& to) {
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(from)) {
     if (!entry.is_regular_file() || entry.path().extension() == ".pyc") continue;
-    copy_all(entry.path(), to / entry.path().lexically_relative(from));
+    pack_file(entry.path(), to / entry.path().lexically_relative(from));
   }
 }
 
@@ -132,6 +148,41 @@ void check_target(const fs::path& archive) {
   if (!fs::is_directory(folder, none) && fs::exists(folder, none)) {
     throw InputError(folder.string() + ": is not a folder, so no archive can be made in it");
   }
+}
+
+/// What goes into the archive.
+struct Contents {
+  std::vector<fs::path> files;  ///< programs, and modules for Python
+  std::map<std::string, fs::path> libraries;
+  std::string loader;
+  std::optional<fs::path> package;  ///< for Python
+};
+
+/// @throws std::system_error with the archive's name if the disk is full; std::runtime_error if tar fails.
+void write_archive(const fs::path& archive, const Contents& contents) try {
+  const Unfinished unfinished(archive);
+  const fs::path pack = unfinished.parts / "skein";
+  for (const fs::path& file : contents.files) pack_file(fs::canonical(file), pack / "bin" / file.filename());
+  for (const auto& [name, file] : contents.libraries) pack_file(fs::canonical(file), pack / "lib" / name);
+  pack_folder(default_config_dir(), pack / "share/skein/config");
+  if (const auto script = find_web_bundle(report::kReportScript))
+    pack_file(*script, pack / "share/skein/web/report.js");
+  if (const auto script = find_web_bundle(report::kLiveScript)) pack_file(*script, pack / "share/skein/web/live.js");
+  if (contents.package) pack_folder(*contents.package, pack / "share/skein/python/skein");
+  write_file_atomically(pack / "skein", fmt::format(fmt::runtime(kLauncher), contents.loader));
+  fs::permissions(pack / "skein", fs::perms::owner_all | fs::perms::group_read | fs::perms::group_exec |
+                                      fs::perms::others_read | fs::perms::others_exec);
+  const ScratchDir scratch;
+  const std::string trouble = trouble_of("tar",
+                                         {"/usr/bin/env", "tar", "--create", "--use-compress-program=gzip -1", "--file",
+                                          unfinished.file, "--directory", unfinished.parts, "skein"},
+                                         scratch.path() / "log");
+  if (!trouble.empty()) throw std::runtime_error("cannot write " + archive.string() + ": " + trouble);
+  put_in_place(unfinished.file, archive);
+} catch (const fs::filesystem_error&) {  // says itself which path is wrong
+  throw;
+} catch (const std::system_error& error) {
+  throw std::system_error(error.code(), "cannot write " + archive.string());
 }
 
 }  // namespace
@@ -172,20 +223,7 @@ int pack_programs(const PackOptions& options, const Console& console) {
     add_libraries(file, libraries, loader);
   }
 
-  const Unfinished unfinished(archive);
-  const fs::path pack = unfinished.parts / "skein";
-  for (const fs::path& file : files) copy_all(fs::canonical(file), pack / "bin" / file.filename());
-  for (const auto& [name, file] : libraries) copy_all(fs::canonical(file), pack / "lib" / name);
-  copy_all(default_config_dir(), pack / "share/skein/config");
-  if (const auto script = find_web_bundle(report::kReportScript)) copy_all(*script, pack / "share/skein/web/report.js");
-  if (const auto script = find_web_bundle(report::kLiveScript)) copy_all(*script, pack / "share/skein/web/live.js");
-  if (with_python) copy_package(*package, pack / "share/skein/python/skein");
-  write_file_atomically(pack / "skein", fmt::format(fmt::runtime(kLauncher), loader));
-  fs::permissions(pack / "skein", fs::perms::owner_all | fs::perms::group_read | fs::perms::group_exec |
-                                      fs::perms::others_read | fs::perms::others_exec);
-  output_of({"/usr/bin/env", "tar", "--create", "--use-compress-program=gzip -1", "--file", unfinished.file,
-             "--directory", unfinished.parts, "skein"});
-  fs::rename(unfinished.file, archive);
+  write_archive(archive, {files, libraries, loader, with_python ? package : std::nullopt});
   console.out << fmt::format(
       "{}: {} programs, {} libraries, {}{:.0f} MB; unpack it anywhere, and call skein/skein\n", archive.string(),
       files.size() - (with_python ? modules.size() : 0), libraries.size(),

@@ -46,6 +46,12 @@ class File {
   int fd_;
 };
 
+/// A new name is durable only after its folder is synced. Some file systems cannot sync folders; that is no failure.
+void sync_folder_of(const std::filesystem::path& path) {
+  const File folder(path.has_parent_path() ? path.parent_path().string() : ".", O_RDONLY | O_DIRECTORY);
+  if (folder.is_open()) static_cast<void>(folder.sync());
+}
+
 /// Whether the system may let a program write into a file that it did not let it replace, for this reason.
 bool may_stay(const std::error_code& reason) {
   const int code = reason.value();
@@ -69,11 +75,15 @@ void write_file_atomically(const std::filesystem::path& path, std::string_view c
     if (flush == Flush::to_disk && !file.sync()) fail("write");
   }
   if (std::rename(temporary.c_str(), path.c_str()) != 0) fail("rename the temporary file of");
-  if (flush == Flush::none) return;
-  // The new name is durable only after its folder is synced. Some file systems cannot sync folders; that is not a
-  // failure.
-  const File folder(path.has_parent_path() ? path.parent_path().string() : ".", O_RDONLY | O_DIRECTORY);
-  if (folder.is_open()) static_cast<void>(folder.sync());
+  if (flush == Flush::to_disk) sync_folder_of(path);
+}
+
+void put_in_place(const std::filesystem::path& finished, const std::filesystem::path& path) {
+  const File file(finished, O_RDONLY);
+  if (!file.is_open() || !file.sync() || std::rename(finished.c_str(), path.c_str()) != 0) {
+    throw std::system_error(errno, std::generic_category(), "cannot write " + path.string());
+  }
+  sync_folder_of(path);
 }
 
 void replace_or_overwrite(const std::filesystem::path& path, std::string_view content) try {

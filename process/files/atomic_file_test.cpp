@@ -62,6 +62,22 @@ TEST_F(AtomicFile, LeavesNothingBehindWhenItFails) {
   EXPECT_EQ(files(), 1u);
 }
 
+TEST_F(AtomicFile, WhatAnotherProgramWroteGetsItsName) {
+  const fs::path file = folder_ / "skein.tar.gz", finished = folder_ / "skein.tar.gz.tmp";
+  write_file_atomically(file, "old");
+  try {
+    put_in_place(finished, file);
+    ADD_FAILURE() << "nothing was written";
+  } catch (const std::system_error& error) {
+    EXPECT_EQ(error.what(), "cannot write " + file.string() + ": No such file or directory");
+  }
+  EXPECT_EQ(read_file_bytes(file, 100), "old");
+  write_file_atomically(finished, "new");
+  put_in_place(finished, file);
+  EXPECT_EQ(read_file_bytes(file, 100), "new");
+  EXPECT_EQ(files(), 1u);
+}
+
 constexpr int kNoMounts = 77;
 
 /// Runs `body` in a process in which the file is mounted on itself, as in a container. @returns its exit code
