@@ -68,7 +68,7 @@ ProgramSpec ffmpeg_spec(const fs::path& ffmpeg, int fps, const fs::path& file, c
   return spec;
 }
 
-/// A temporary file beside `file`: keep() renames it to `file`, otherwise the destructor deletes it.
+/// A temporary file beside `file`: keep() gives it that name, otherwise the destructor deletes it.
 class Draft {
  public:
   explicit Draft(const fs::path& file) : file_(file), draft_(file.string() + ".part") {}
@@ -79,7 +79,7 @@ class Draft {
   Draft(const Draft&) = delete;
   Draft& operator=(const Draft&) = delete;
   const fs::path& path() const { return draft_; }
-  void keep() const { fs::rename(draft_, file_); }
+  void keep() const { put_in_place(draft_, file_); }
 
  private:
   const fs::path file_, draft_;
