@@ -11,11 +11,10 @@ namespace skein::cli {
 
 namespace {
 
-/// Open files of the launcher: two pipes, the log and the pidfd of each program, and a lock on each domain.
 std::uint64_t launcher_files(const FleetPlan& plan) {
   std::uint64_t programs = programs::kServers.size() + (plan.ground && takes_part(plan, "gcs") ? 1 : 0);
   for (const UavPlanner& planner : plan.planners) programs += takes_part(plan, planner.uav) ? 1 : 0;
-  return 10 + 4 * programs + static_cast<std::uint64_t>(domain_count(plan));
+  return open_files_of_watcher(programs, static_cast<std::uint64_t>(domain_count(plan)));
 }
 
 /// Open files of the server and of the router, which both join all domains.

@@ -9,6 +9,12 @@
 
 namespace skein::cli {
 
+/// Open files of a process that starts, watches and ends so many programs, and holds the locks on so many domains: the
+/// launcher, or its counterpart on another host (--place).
+constexpr std::uint64_t open_files_of_watcher(std::uint64_t programs, std::uint64_t domains) {
+  return 10 + 4 * programs + domains;  // of each program two pipes, the log and the pidfd
+}
+
 /// How many open files the process of the fleet with most of them needs.
 OpenFilesNeed open_files_need(const FleetPlan& plan);
 
@@ -19,8 +25,9 @@ std::string check_open_files(const FleetPlan& plan, std::uint64_t limit);
 
 /// Raises this process's limit, which the programs inherit, to what the fleet needs, as far as the system permits, and
 /// checks it as above. Of a fleet on several hosts (--place), this is about the programs on this host; the others need
-/// less. The usual limit of 1024 is there for programs that call select(), which takes no greater descriptors. Of a
-/// fleet's programs, only those over Cyclone DDS call it, and they need fewer.
+/// less, raise their limits themselves, and say so if they cannot. The usual limit of 1024 is there for programs that
+/// call select(), which takes no greater descriptors. Of a fleet's programs, only those over Cyclone DDS call it, and
+/// they need fewer.
 std::string allow_open_files(const FleetPlan& plan);
 
 /// The same for the launcher alone, whose fleet flies in containers: their limits are the engine's.

@@ -6,6 +6,7 @@
 #include <pwd.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <chrono>
@@ -14,6 +15,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <system_error>
 
 #include "cli/place/frames.hpp"
 #include "cli/secure/user_ids.hpp"
@@ -27,6 +29,7 @@
 #include "process/host/environment.hpp"
 #include "results/run_folder.hpp"
 #include "run/fleet_plan.hpp"
+#include "run/open_files.hpp"
 
 namespace skein::cli {
 namespace {
@@ -132,9 +135,12 @@ class HostService {
 
   void take_domains(const Json& head) {
     domains_.reset();
+    const int size = value_or(head, "size", 0).get<int>();
+    domain_count_ = static_cast<std::uint64_t>(std::max(size, 0));
+    raise_open_files_limit(open_files_of_watcher(1, domain_count_));
     std::string taken;
     try {
-      domains_.emplace(value_or(head, "base", 0).get<int>(), value_or(head, "size", 0).get<int>());
+      domains_.emplace(value_or(head, "base", 0).get<int>(), size);
     } catch (const InputError& error) {
       taken = error.what();
     }
@@ -173,9 +179,13 @@ class HostService {
     const fs::path keys = value_or(head, "keys", "").get<std::string>();
     if (!keys.empty() && ::geteuid() == 0) spec.user = own_user(spec.name, keys);
     if (!spec.append_log) shipped_[spec.name] = 0;
+    // The limit of a login may be lower than that of the launcher. The programs raise theirs themselves.
+    raise_open_files_limit(open_files_of_watcher(logs_.size() + 1, domain_count_));
     try {
       supervisor_.start(spec);
       logs_[spec.name] = spec.log;
+    } catch (const std::system_error& error) {
+      say({{"say", "failed"}, {"name", spec.name}, {"text", error.what() + open_files_hint(error.code())}});
     } catch (const std::exception& error) {
       say({{"say", "failed"}, {"name", spec.name}, {"text", error.what()}});
     }
@@ -294,6 +304,7 @@ class HostService {
   std::map<std::string, std::unique_ptr<UserIds>> users_;  ///< of agents in a secured run, if this process is root
   Supervisor supervisor_;
   std::optional<DomainBlock> domains_;
+  std::uint64_t domain_count_ = 0;
   FrameReader reader_{true};
   std::string unsent_;
   std::map<std::string, fs::path> logs_;

@@ -44,13 +44,16 @@ class Place : public FleetTest {
     return !launcher.ended();
   }
 
-  /// A script that runs the launcher on a host as an ordinary user, whichever user logs in.
-  std::string write_as_nobody() const {
-    const auto file = write("nobody/skein", "#!/bin/sh\nexec setpriv --reuid=nobody --regid=nogroup --clear-groups " +
-                                                program("skein") + " \"$@\"\n");
+  /// A script that runs `skein` on a host by a command. @param name  of its folder
+  std::string write_skein(const std::string& name, const std::string& command) const {
+    const auto file = write(name + "/skein", "#!/bin/sh\n" + command + " " + program("skein") + " \"$@\"\n");
     std::filesystem::permissions(file, std::filesystem::perms(0755));
     std::filesystem::permissions(file.parent_path(), std::filesystem::perms(0755));
     return file;
+  }
+  /// As an ordinary user, whichever user logs in.
+  std::string write_as_nobody() const {
+    return write_skein("nobody", "exec setpriv --reuid=nobody --regid=nogroup --clear-groups");
   }
 
   LoginHosts login_{{"a", "b", "c"}};
@@ -268,6 +271,20 @@ TEST_F(Place, ASecuredAgentWithoutAUserIdOfItsOwnIsNamed) {
       "--secure on b: the launcher does not log in as root there, so uav_agent-jurong runs as the user nobody";
   EXPECT_NE(launcher.err().find(warning), std::string::npos) << launcher.err();
   EXPECT_NE(result("run")["warnings"].dump().find(warning), std::string::npos);
+}
+
+// The launcher's check of the limit is about its own host.
+TEST_F(Place, AHostOnWhichTooFewFilesMayBeOpenIsNamedWithTheLimit) {
+  const Arguments flight = {"--place", "jurong=b", "--duration", "5", "--no-check", "--skein-path"};
+  ChildProcess& refused = fly("refused", joined(flight, {write_skein("hard", "ulimit -n 22\nexec")}));
+  EXPECT_EQ(refused.wait().code, 3) << refused.err();
+  EXPECT_NE(refused.err().find("uav_agent-jurong failed: "), std::string::npos) << refused.err();
+  EXPECT_NE(refused.err().find("a process may have 22 open files (ulimit -n), and this program, which joins 1 DDS "
+                               "domain, needs about 29"),
+            std::string::npos)
+      << refused.err();
+  ChildProcess& raised = fly("raised", joined(flight, {write_skein("soft", "ulimit -S -n 12\nexec")}));
+  EXPECT_EQ(raised.wait().code, 0) << raised.err();
 }
 
 TEST_F(Place, WrongInputIsExitCodeTwoAndStartsNothing) {
