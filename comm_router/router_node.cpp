@@ -141,8 +141,8 @@ bool RouterNode::from_stranger(Node node, const std::string& topic, bus::Partici
 void RouterNode::tell_of_strangers(std::uint64_t patience) {
   const auto is_stranger = [this](bus::ParticipantId source) { return !applicants_.contains(source); };
   for (const auto& notice : strangers_.take_notices(k_, patience, is_stranger)) {
-    stranger_warnings_.push_back(describe(notice));
-    spdlog::warn("{}", stranger_warnings_.back());
+    warnings_.push_back(describe(notice));
+    spdlog::warn("{}", warnings_.back());
   }
 }
 
@@ -347,8 +347,17 @@ std::optional<std::vector<std::string>> RouterNode::differences() const {
   return replay_ ? std::optional(replay_->differences().texts()) : std::nullopt;
 }
 
+void RouterNode::tell_of_excesses() {
+  for (const Excess& excess : sync_.take_excesses()) {
+    const auto applicant = applicants_.find(excess.source);
+    warnings_.push_back((applicant == applicants_.end() ? "a program" : applicant->second.member) + " " + excess.what);
+    spdlog::warn("{}", warnings_.back());
+  }
+}
+
 bool RouterNode::serve() {
   const bool matches = advance();
+  tell_of_excesses();
   tell_awaited(matches || batch_ || sync_.waiting());
   return matches;
 }

@@ -63,7 +63,7 @@ class RouterNode final : public bus::ClientNode {
   const LinkGate& gate() const { return gate_; }
   /// For the end of a run: the number of radio messages from outside the lock-step, and their senders, a line each.
   std::uint64_t unheard() const;
-  std::vector<std::string> stranger_warnings() const { return stranger_warnings_; }
+  std::vector<std::string> warnings() const { return warnings_; }
   /// Number of received samples that were not messages of their topic's type.
   std::uint64_t malformed() const { return inbox_.malformed(); }
   /// Number of samples that could not be sent.
@@ -98,6 +98,7 @@ class RouterNode final : public bus::ClientNode {
   /// Whether the sample's writer was never attached. Then the sample is counted, and not delivered.
   bool from_stranger(Node node, const std::string& topic, bus::ParticipantId source);
   void tell_of_strangers(std::uint64_t patience);
+  void tell_of_excesses();
   void open_radio();
   void open_requests(Node node);
   void open_route(std::size_t number);
@@ -130,7 +131,7 @@ class RouterNode final : public bus::ClientNode {
   std::unique_ptr<ReplayNode> replay_;
   bus::Strangers strangers_;
   std::set<std::string> stand_ins_, present_;  ///< UAVs; members of this step
-  std::vector<std::string> stranger_warnings_;
+  std::vector<std::string> warnings_;
   std::vector<std::string> by_hand_;  ///< faults by hand, from the last step
   std::uint64_t k_ = 0;               ///< the step that was begun last
   bus::Inbox inbox_;

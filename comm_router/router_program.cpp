@@ -113,8 +113,8 @@ class RouterMember final : public bus::FleetMember {
     if (store_ && !store_->trouble().empty()) unwritten_.push_back(store_->trouble());
     recorder_.close();
     if (!recorder_.trouble().empty()) unwritten_.push_back(recorder_.trouble());
-    const Notes notes{node_->malformed(),         node_->unheard(), node_->unsent(),
-                      node_->stranger_warnings(), unwritten_,       node_->differences()};
+    const Notes notes{node_->malformed(), node_->unheard(), node_->unsent(),
+                      node_->warnings(),  unwritten_,       node_->differences()};
     write_report(options_, scenario_, node_->gate(), notes, status_);
     if (!is_nowhere(counts_file_)) std::filesystem::remove(counts_file_);
     return code;

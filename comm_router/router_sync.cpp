@@ -1,5 +1,7 @@
 #include "comm_router/router_sync.hpp"
 
+#include <spdlog/fmt/fmt.h>
+
 #include <algorithm>
 
 namespace skein::router {
@@ -15,6 +17,8 @@ constexpr std::size_t kMaxWaiting = 16 * topics::kRadioDepth;
 /// A member answers only the steps that it is asked. A participant with this many answers waiting is not a member.
 constexpr std::size_t kMaxAnswers = 64;
 
+const std::string kAdvice =
+    fmt::format("a program may send {} on a topic in one step (docs/lockstep.md)", topics::kRadioDepth);
 const std::string kRequests = topics::radio_request().name;
 
 std::optional<std::uint64_t> count_of(const std::vector<SentCount>& sent, const std::string& topic) {
@@ -36,7 +40,10 @@ void RouterSync::on_done(SourceId source, std::uint64_t k, std::vector<SentCount
   if (gone_.contains(source) || (last_k_ && k <= *last_k_)) return;
   Sender& sender = senders_[source];
   sender.done[k] = std::move(sent);
-  if (sender.done.size() > kMaxAnswers) forget(source);
+  if (sender.done.size() > kMaxAnswers) {
+    forget(source, fmt::format("answered more than {} steps that it was not asked to answer: answer each step once",
+                               kMaxAnswers));
+  }
 }
 
 void RouterSync::on_radio(SourceId source, std::size_t route, Payload payload) {
@@ -55,9 +62,20 @@ void RouterSync::on_request(SourceId source, Payload payload) { queue(source, kR
 void RouterSync::queue(SourceId source, const std::string& topic, Payload payload) {
   if (gone_.contains(source)) return;
   Sender& sender = senders_[source];
+  if (sender.member.empty() && ++sender.waiting_as_stranger > kMaxStrangerSamples) {
+    forget(source,
+           fmt::format("sent more than {} messages before its first step: send only in steps", kMaxStrangerSamples));
+    return;
+  }
   Lane& lane = sender.lanes[topic];
-  if (lane.waiting.size() < kMaxWaiting) lane.waiting.push_back(std::move(payload));
-  if (sender.member.empty() && ++sender.waiting_as_stranger > kMaxStrangerSamples) forget(source);
+  if (lane.waiting.size() < kMaxWaiting) {
+    lane.waiting.push_back(std::move(payload));
+  } else if (!std::exchange(lane.overflowed, true)) {
+    excesses_.push_back(
+        {source, fmt::format("sent more than {} messages on {} in one step, or without announcing them, "
+                             "and the router discards the further ones; {}",
+                             kMaxWaiting, topic, kAdvice)});
+  }
 }
 
 void RouterSync::open(SourceId source, std::size_t route) {
@@ -111,9 +129,11 @@ std::vector<AwaitedMember> RouterSync::awaited() const {
     }
     for (const SentCount& sent : radio_counts(sender->second, k, member)) {
       const std::uint64_t arrived = sender->second.arrived(sent.topic);
-      if (arrived < sent.count) {
-        missing.push_back({member, sent.topic + " " + std::to_string(arrived) + " of " + std::to_string(sent.count)});
-      }
+      if (arrived >= sent.count) continue;
+      std::string what = sent.topic + " " + std::to_string(arrived) + " of " + std::to_string(sent.count);
+      if (sender->second.overflowed(sent.topic))
+        what += fmt::format(", since the router keeps {}: {}", kMaxWaiting, kAdvice);
+      missing.push_back({member, std::move(what)});
     }
   }
   return missing;
@@ -126,6 +146,11 @@ std::optional<std::uint64_t> RouterSync::next_step() const {
 std::uint64_t RouterSync::Sender::arrived(const std::string& topic) const {
   const auto lane = lanes.find(topic);
   return lane == lanes.end() ? 0 : lane->second.taken + lane->second.waiting.size();
+}
+
+bool RouterSync::Sender::overflowed(const std::string& topic) const {
+  const auto lane = lanes.find(topic);
+  return lane != lanes.end() && lane->second.overflowed;
 }
 
 std::vector<SentCount> RouterSync::radio_counts(const Sender& sender, std::uint64_t k,
@@ -200,6 +225,11 @@ void RouterSync::forget_the_gone(std::uint64_t k) {
 void RouterSync::forget(SourceId source) {
   senders_.erase(source);
   gone_.insert(source);
+}
+
+void RouterSync::forget(SourceId source, const std::string& excess) {
+  excesses_.push_back({source, excess + "; the router discards all that it sends"});
+  forget(source);
 }
 
 }  // namespace skein::router

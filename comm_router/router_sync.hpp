@@ -10,6 +10,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "comm_router/link_gate.hpp"
@@ -36,6 +37,12 @@ struct AwaitedMember {
 struct SentCount {
   std::string topic;        ///< wire topic in the sender's domain
   std::uint64_t count = 0;  ///< samples since it joined
+};
+
+/// A participant that sent more than RouterSync keeps, so that messages of it are discarded.
+struct Excess {
+  SourceId source = 0;
+  std::string what;  ///< for people: what it sent, what is discarded, and what to do
 };
 
 /// A member's request for a radio topic, still serialised (idl/skein_msgs.idl: RadioRequest_).
@@ -90,6 +97,9 @@ class RouterSync {
   std::size_t missing_answers() const;
   /// What take() waits for. Empty when it waits for nothing but the next step.
   std::vector<AwaitedMember> awaited() const;
+  /// The participants of which messages have been discarded since the last call: each once for each of the topics on
+  /// which it sent too many, or once if all is discarded.
+  std::vector<Excess> take_excesses() { return std::exchange(excesses_, {}); }
   /// The step that take() hands out next, if it was announced.
   std::optional<std::uint64_t> next_step() const;
 
@@ -97,6 +107,7 @@ class RouterSync {
   struct Lane {
     std::uint64_t taken = 0;  ///< samples handed out so far, including those skipped by set_base() or open()
     std::deque<Payload> waiting;
+    bool overflowed = false;  ///< samples have been discarded
   };
   /// What a participant has sent and is not handed out yet. May exist before the step that makes it a member.
   struct Sender {
@@ -108,6 +119,7 @@ class RouterSync {
     std::string member;                                    ///< its name, once it is one
 
     std::uint64_t arrived(const std::string& topic) const;
+    bool overflowed(const std::string& topic) const;
   };
   struct Step {
     std::uint32_t epoch = 0;
@@ -123,6 +135,7 @@ class RouterSync {
   void take_messages(std::uint64_t k, const RadioMember& member, StepBatch& batch);
   void forget_the_gone(std::uint64_t k);
   void forget(SourceId source);
+  void forget(SourceId source, const std::string& excess);
 
   const std::vector<RadioRoute>& routes_;
   const std::size_t declared_;           ///< number of the scenario's routes, which come first
@@ -132,6 +145,7 @@ class RouterSync {
   std::vector<SourceId> members_before_;            ///< of the step that take() last looked at
   std::set<SourceId> gone_;                         ///< participants that never count again
   std::optional<std::uint64_t> last_k_;             ///< handed out last
+  std::vector<Excess> excesses_;                    ///< not yet taken
 };
 
 }  // namespace skein::router

@@ -277,6 +277,58 @@ TEST(RouterSync, ARouteThatIsBoundToAMemberIsNotOpenToItsNeighbour) {
   }
 }
 
+constexpr std::size_t kMost = 4096;
+
+/// Step 0, in which uav1 sends so many messages and announces all of them.
+void send_in_one_step(RouterSync& sync, std::size_t messages) {
+  sync.on_step(0, 0, {{"uav1", 7, Node{1}}}, {});
+  for (std::size_t i = 0; i < messages; ++i) sync.on_radio(7, 1, payload("x"));
+  sync.on_done(7, 0, {{"rt/y", messages}});
+}
+
+TEST(RouterSync, AStepHasAsManyMessagesOfAMemberAsItKeeps) {
+  const std::vector<RadioRoute> routes = some_routes();
+  RouterSync sync(routes);
+  send_in_one_step(sync, kMost);
+  const std::optional<StepBatch> batch = sync.take();
+  ASSERT_TRUE(batch);
+  EXPECT_EQ(batch->messages.size(), kMost);
+  EXPECT_TRUE(sync.take_excesses().empty());
+}
+
+TEST(RouterSync, OfMessagesBeyondWhatItKeepsItTellsWhoSentThemAndWhatToDo) {
+  const std::vector<RadioRoute> routes = some_routes();
+  RouterSync sync(routes);
+  send_in_one_step(sync, kMost + 10);
+  EXPECT_FALSE(sync.take()) << "what is missing never comes";
+  const std::string advice = "a program may send 256 on a topic in one step (docs/lockstep.md)";
+  EXPECT_EQ(awaited(sync), std::vector<std::string>{"uav1: rt/y 4096 of 4106, since the router keeps 4096: " + advice});
+  const std::vector<Excess> excesses = sync.take_excesses();
+  ASSERT_EQ(excesses.size(), 1U) << "one for all ten";
+  EXPECT_EQ(excesses[0].source, 7U);
+  EXPECT_EQ(excesses[0].what,
+            "sent more than 4096 messages on rt/y in one step, or without announcing them, and the router discards "
+            "the further ones; " +
+                advice);
+  EXPECT_TRUE(sync.take_excesses().empty()) << "they are taken";
+}
+
+TEST(RouterSync, OfAParticipantThatCountsNoMoreItTellsTheReason) {
+  const std::vector<RadioRoute> routes = some_routes();
+  RouterSync early(routes), hasty(routes);
+  for (std::size_t i = 0; i <= kMost; ++i) early.on_radio(66, i % 2, payload("x"));
+  for (std::uint64_t k = 0; k < 65; ++k) hasty.on_done(66, k, {});
+  const std::vector<std::pair<RouterSync*, std::string>> all = {
+      {&early, "sent more than 4096 messages before its first step: send only in steps"},
+      {&hasty, "answered more than 64 steps that it was not asked to answer: answer each step once"}};
+  for (const auto& [sync, reason] : all) {
+    EXPECT_TRUE(sync->lost(66)) << reason;
+    const std::vector<Excess> excesses = sync->take_excesses();
+    ASSERT_EQ(excesses.size(), 1U) << reason;
+    EXPECT_EQ(excesses[0].what, reason + "; the router discards all that it sends");
+  }
+}
+
 TEST(RouterSync, AMemberThatNeverSendsDoneCannotFillTheMemory) {
   const std::vector<RadioRoute> routes = some_routes();
   RouterSync sync(routes);
