@@ -1,5 +1,7 @@
 #include "uav_agent/maps/voxel_grid.hpp"
 
+#include <spdlog/fmt/fmt.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,7 +11,7 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kMaxVoxels = 16e6;
+constexpr double kGrowth = 1.1;  ///< of cubes that would be too many, step by step
 constexpr std::size_t kUsualInChunk = 512;
 constexpr std::size_t kMostInChunk = std::numeric_limits<std::uint16_t>::max();  ///< a chunk tells its length so
 constexpr std::uint8_t kPlain = 0, kRuns = 1;                                    ///< encoding of a chunk
@@ -17,14 +19,32 @@ constexpr std::size_t kLongestRun = 255;
 /// Greatest valid value of the state bits, which are the numbers of VoxelState: two states merge to the greater one.
 constexpr std::uint8_t kHighestState = 2;
 
+/// Edges of a grid, in cubes.
+Vector3d edges_of(const Vector3d& size_m, double voxel_m) { return (size_m / voxel_m).array().max(1e-9).ceil(); }
+
+/// The box of an operational volume: its lowest corner in W, and its size.
+std::pair<Vector3d, Vector3d> operational_box(const std::vector<OrientedBox>& boxes,
+                                              const std::vector<Vector3d>& points_W, double margin_m, double lowest_m,
+                                              double voxel_m) {
+  Eigen::AlignedBox3d all = extent_of(boxes);
+  for (const Vector3d& p : points_W) all.extend(p);
+  if (all.isEmpty()) all.extend(Vector3d::Zero());
+  Vector3d lo = all.min().array() - margin_m;
+  Vector3d size = (all.max().array() + margin_m).matrix() - lo;
+  const double cut = std::max(0.0, lowest_m - lo.z());
+  lo.z() += cut;
+  size.z() = std::max(size.z() - cut, voxel_m);
+  return {lo, size};
+}
+
 }  // namespace
 
 VoxelGrid::VoxelGrid(const Isometry3d& X_WG, const Vector3d& size_m, double voxel_m,
                      std::optional<std::size_t> chunk_voxels)
     : X_WG_(X_WG), X_GW_(X_WG.inverse()), voxel_m_(voxel_m) {
-  const Vector3d edges = (size_m / voxel_m).array().max(1e-9).ceil();
+  const Vector3d edges = edges_of(size_m, voxel_m);
   const bool chunks_can_be = !chunk_voxels || (*chunk_voxels > 0 && *chunk_voxels <= kMostInChunk);
-  if (!(voxel_m > 0.0) || !chunks_can_be || !edges.allFinite() || edges.prod() > kMaxVoxels) {
+  if (!(voxel_m > 0.0) || !chunks_can_be || !edges.allFinite() || edges.prod() > kMostVoxels) {
     throw std::invalid_argument("a voxel grid of this size cannot be");
   }
   dims_ = edges.cast<int>();
@@ -242,19 +262,35 @@ Eigen::AlignedBox3d extent_of(const std::vector<OrientedBox>& boxes) {
 
 VoxelGrid operational_volume(const std::vector<OrientedBox>& boxes, const std::vector<Vector3d>& points_W,
                              double margin_m, double lowest_m, double voxel_m) {
-  Eigen::AlignedBox3d all = extent_of(boxes);
-  for (const Vector3d& p : points_W) all.extend(p);
-  if (all.isEmpty()) all.extend(Vector3d::Zero());
-  Vector3d lo = all.min().array() - margin_m;
-  Vector3d size = (all.max().array() + margin_m).matrix() - lo;
-  const double cut = std::max(0.0, lowest_m - lo.z());
-  lo.z() += cut;
-  size.z() = std::max(size.z() - cut, voxel_m);
+  const auto [lo, size] = operational_box(boxes, points_W, margin_m, lowest_m, voxel_m);
   return {Isometry3d(Eigen::Translation3d(lo)), size, voxel_m};
 }
 
+Vector3d operational_size(const std::vector<OrientedBox>& boxes, const std::vector<Vector3d>& points_W, double margin_m,
+                          double lowest_m, double voxel_m) {
+  return operational_box(boxes, points_W, margin_m, lowest_m, voxel_m).second;
+}
+
+double fitting_voxel_m(double voxel_m, const std::function<Vector3d(double voxel_m)>& size_of) {
+  const auto has_too_many = [&] {
+    const double cubes = edges_of(size_of(voxel_m), voxel_m).prod();
+    return std::isfinite(cubes) && cubes > VoxelGrid::kMostVoxels;
+  };
+  while (has_too_many()) voxel_m *= kGrowth;
+  return voxel_m;
+}
+
+std::string coarse_voxels_text(double voxel_m, double fitting_m, const Vector3d& size_m) {
+  constexpr double kMillion = 1e6;
+  const double side_m = std::sqrt(VoxelGrid::kMostVoxels * std::pow(voxel_m, 3) / size_m.minCoeff());
+  return fmt::format(
+      "voxel_m is {:.3g} m instead of {:.3g} m: the map of {:.0f} x {:.0f} x {:.0f} m would have {:.0f} million cubes, "
+      "and {:.0f} million are the most; with voxel_m={:.3g}, a map of {:.0f} x {:.0f} x {:.0f} m fits",
+      fitting_m, voxel_m, size_m.x(), size_m.y(), size_m.z(), std::ceil(edges_of(size_m, voxel_m).prod() / kMillion),
+      VoxelGrid::kMostVoxels / kMillion, voxel_m, std::floor(side_m), std::floor(side_m), size_m.minCoeff());
+}
+
 VoxelGrid limited_volume(const std::vector<OrientedBox>& boxes, double margin_m, double voxel_m, int max_voxels) {
-  constexpr double kGrowth = 1.1;
   const Vector3d edges = extent_of(boxes).sizes().array() + 2.0 * margin_m;
   while ((edges / voxel_m).array().ceil().prod() > max_voxels) voxel_m *= kGrowth;
   return operational_volume(boxes, {}, margin_m, 0.0, voxel_m);

@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "core/types.hpp"
@@ -29,11 +30,12 @@ class VoxelGrid {
   /// Most chunks of a grid that chooses the size of its chunks. A message of MapExchange has a hash of each chunk, and
   /// must fit into a radio payload (uav_agent/api/payload.hpp) with all else that a planner puts into it.
   static constexpr std::size_t kMostChunks = 1400;
+  static constexpr double kMostVoxels = 16e6;  ///< most cubes of a grid
 
   /// @param X_WG  pose of the lowest corner.   @param size_m  is rounded up to whole cubes, at least one.
   /// @param chunk_voxels  cubes in a chunk; nullopt: 512, or more if there were more than kMostChunks chunks otherwise.
   /// @throws std::invalid_argument for an edge that is not positive, empty chunks or chunks of more than 65,535 cubes,
-  ///   or more than 16 million cubes.
+  ///   or more than kMostVoxels cubes.
   VoxelGrid(const Isometry3d& X_WG, const Vector3d& size_m, double voxel_m,
             std::optional<std::size_t> chunk_voxels = std::nullopt);
 
@@ -115,6 +117,15 @@ Eigen::AlignedBox3d extent_of(const std::vector<OrientedBox>& boxes);
 /// of it is below `lowest_m`. KIOS's operational volume.
 VoxelGrid operational_volume(const std::vector<OrientedBox>& boxes, const std::vector<Vector3d>& points_W,
                              double margin_m, double lowest_m, double voxel_m);
+/// The size of that grid before it is rounded up to whole cubes.
+Vector3d operational_size(const std::vector<OrientedBox>& boxes, const std::vector<Vector3d>& points_W, double margin_m,
+                          double lowest_m, double voxel_m);
+/// The edge of the cubes of a grid that should have cubes of `voxel_m`: larger if there were more than
+/// VoxelGrid::kMostVoxels cubes, else the same.   @param size_of  the grid's size, which may depend on the edge.
+double fitting_voxel_m(double voxel_m, const std::function<Vector3d(double voxel_m)>& size_of);
+/// For the log of a planner whose parameter voxel_m should be `voxel_m`, and is `fitting_m` as above: why, and up to
+/// which size of a site it would be `voxel_m`.   @param size_m  of the grid with cubes of `voxel_m`.
+std::string coarse_voxels_text(double voxel_m, double fitting_m, const Vector3d& size_m);
 /// The operational volume of the boxes, with cubes of `voxel_m`, or larger if there were more than `max_voxels`.
 VoxelGrid limited_volume(const std::vector<OrientedBox>& boxes, double margin_m, double voxel_m, int max_voxels);
 

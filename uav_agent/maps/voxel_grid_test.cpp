@@ -231,5 +231,39 @@ TEST(VoxelGrid, TheOperationalVolumeHoldsBoxesAndStarts) {
   EXPECT_EQ(grid.fingerprint(), operational_volume({box}, starts, 5.0, 0.0, 5.0).fingerprint());
 }
 
+TEST(VoxelGrid, CubesGrowOnlyIfThereWereTooManyAndNoMoreThanNeeded) {
+  GridDraw draw;
+  int larger = 0;
+  for (int i = 0; i < 500; ++i) {
+    const Vector3d size_m = draw.in(Vector3d::Constant(1.0), {1500.0, 1500.0, 200.0});
+    const double asked_m = 1.0 + 2.0 * draw();
+    const auto cubes = [&](double edge_m) { return (size_m / edge_m).array().ceil().prod(); };
+    const double edge_m = fitting_voxel_m(asked_m, [&](double) { return size_m; });
+    EXPECT_LE(cubes(edge_m), VoxelGrid::kMostVoxels);
+    if (cubes(asked_m) <= VoxelGrid::kMostVoxels) {
+      EXPECT_EQ(edge_m, asked_m) << "to the last bit";
+    } else {
+      EXPECT_GT(cubes(edge_m / 1.11), VoxelGrid::kMostVoxels);
+      ++larger;
+    }
+  }
+  EXPECT_GT(larger, 20);
+}
+
+TEST(VoxelGrid, WhySmallCubesAreTooManyIsSaidWithWhatWouldFit) {
+  EXPECT_EQ(coarse_voxels_text(1.0, 2.14, {1200.0, 1000.0, 100.0}),
+            "voxel_m is 2.14 m instead of 1 m: the map of 1200 x 1000 x 100 m would have 120 million cubes, and 16 "
+            "million are the most; with voxel_m=1, a map of 400 x 400 x 100 m fits");
+}
+
+TEST(VoxelGrid, TheOperationalVolumeHasTheSizeThatIsComputedForIt) {
+  const OrientedBox box{.name = "", .center = {10.0, 0.0, 15.0}, .size = {20.0, 4.0, 30.0}};
+  for (const double voxel_m : {1.0, 2.5, 6.0}) {
+    const Vector3d size_m = operational_size({box}, {}, voxel_m, 0.0, voxel_m);
+    const VoxelGrid::Cell dims = (size_m / voxel_m).array().ceil().cast<int>();
+    EXPECT_EQ(operational_volume({box}, {}, voxel_m, 0.0, voxel_m).dims(), dims);
+  }
+}
+
 }  // namespace
 }  // namespace skein::agent

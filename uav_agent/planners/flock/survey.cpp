@@ -14,11 +14,17 @@ constexpr int kEnoughLooks = 3;         ///< one per second: most of the 4 s in 
 constexpr int kMostVisits = 2;
 constexpr int kGroup = 3;  ///< cells along an edge of a group
 
+VoxelGrid cells_around(const std::vector<OrientedBox>& boxes) {
+  const auto size_of = [&](double edge) { return operational_size(boxes, {}, kCellsAroundM, 0.0, edge); };
+  const double cell_m = fitting_voxel_m(FlockSurvey::kCellM, size_of);
+  return operational_volume(boxes, {}, kCellsAroundM, 0.0, cell_m);
+}
+
 }  // namespace
 
 FlockSurvey::FlockSurvey(const std::vector<OrientedBox>& boxes, double survey_m)
     : survey_m_(survey_m),
-      cells_(operational_volume(boxes, {}, kCellsAroundM, 0.0, kCellM)),
+      cells_(cells_around(boxes)),
       wanted_(cells_.count(), 0),
       looks_(cells_.count(), 0),
       visits_(cells_.count(), 0) {

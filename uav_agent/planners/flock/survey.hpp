@@ -19,7 +19,7 @@ struct FlockGap {
 
 class FlockSurvey {
  public:
-  static constexpr double kCellM = 4.0;  ///< edge of a cell
+  static constexpr double kCellM = 4.0;  ///< edge of a cell; larger on sites of more than 1 km³
 
   FlockSurvey(const std::vector<OrientedBox>& boxes, double survey_m);
 

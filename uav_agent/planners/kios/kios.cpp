@@ -12,6 +12,8 @@
 // Not published, and so our choice: every number below, where in a free cube a UAV stops (stops.hpp), the lanes
 // (lanes.hpp), the messages (talk.hpp), and that a fleet without LiDAR takes the boxes for solid. The flight core does
 // the flying (flight_core/flight_core.hpp).
+#include <spdlog/spdlog.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -146,8 +148,11 @@ void KiosPlanner::survey_site(const PlannerInput& in) {
   std::vector<Vector3d> starts;
   for (const FleetMember& member : agent_.fleet) starts.push_back(member.p_WB_start);
   const double by_camera = std::clamp(kAutoVoxelRatio * reach_.sharp_distance_m, kSmallestVoxelM, kLargestVoxelM);
-  const double voxel = config_.voxel_m > 0.0 ? config_.voxel_m : by_camera;
+  const double asked = config_.voxel_m > 0.0 ? config_.voxel_m : by_camera;
   // One more cube of free space on all sides, for the stops in front of the outermost faces.
+  const auto size_of = [&](double edge) { return operational_size(in.boxes, starts, edge, 0.0, edge); };
+  const double voxel = fitting_voxel_m(asked, size_of);
+  if (voxel > asked) spdlog::warn("kios: {}", coarse_voxels_text(asked, voxel, size_of(asked)));
   grid_.emplace(operational_volume(in.boxes, starts, voxel, 0.0, voxel));
   const bool came_back = seconds(in.tick) > kBoxesComeS;
   if (came_back) patience_.came_back();

@@ -157,6 +157,16 @@ TEST(Kios, StaysAtAWaypointUntilItHasLooked) {
   EXPECT_NE(next->front().way.back().p_WB, core.p_W);
 }
 
+TEST(Kios, FliesAlsoWhereCubesOfItsSizeWouldBeTooMany) {
+  CoreOfTest core(agent_of(0, 1, 0));
+  core.boxes = {make_box({0.0, 0.0, 50.0}, {1200.0, 1000.0, 100.0})};
+  const auto planner = make_planner("kios:voxel_m=1", core.agent);
+  std::optional<std::vector<Goal>> goals;
+  for (int i = 0; i < 10 && !(goals && !goals->empty()); ++i) goals = planner->plan(core.input()).goals;
+  ASSERT_TRUE(goals);
+  EXPECT_FALSE(goals->empty()) << "its lanes";
+}
+
 TEST(KiosTalk, ClaimsTravelAndExpire) {
   const AgentConfig speaker = agent_of(0, 1, 1), listener = agent_of(1, 1, 1);
   VoxelGrid theirs = long_volume(), ours = long_volume();

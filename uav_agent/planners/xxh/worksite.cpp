@@ -1,5 +1,7 @@
 #include "uav_agent/planners/xxh/worksite.hpp"
 
+#include <spdlog/spdlog.h>
+
 #include <algorithm>
 
 namespace skein::agent {
@@ -12,7 +14,6 @@ constexpr double kLowestM = 2.5;     ///< least height of places on the spiral a
 
 XxhRegionMap::Config map_config(const XxhConfig& config, const CameraReach& reach, double clearance_m) {
   XxhRegionMap::Config map;
-  map.voxel_m = config.voxel_m;
   map.margin_m = config.margin_m;
   map.rim_m = config.rim_m;
   map.spiral_step = config.spiral_step;
@@ -22,6 +23,11 @@ XxhRegionMap::Config map_config(const XxhConfig& config, const CameraReach& reac
   map.farthest_m = std::max({map.nearest_m, room_m, config.standoff_ratio * reach.sharp_distance_m});
   map.limit_m = std::max(map.farthest_m, kLimitRatio * reach.sharp_distance_m);
   return map;
+}
+
+/// Edges of a region's map, along those of its box.
+Vector3d map_size(const XxhConfig& config, const OrientedBox& box) {
+  return box.size + Vector3d::Constant(2.0 * config.margin_m);
 }
 
 }  // namespace
@@ -39,12 +45,18 @@ void XxhWorksite::enter(const XxhRegion& region, const OrientedBox& box, const V
   decided_ = !foot || *config_.begin == XxhBegin::path;
   if (!decided_) region_.from_high_end = *foot == BoxEnd::high;
   lay_out();
+  const double voxel_m = map_->grid().voxel_m();
+  if (voxel_m > config_.voxel_m) {
+    spdlog::warn("xxh: {}", coarse_voxels_text(config_.voxel_m, voxel_m, map_size(config_, map_->box())));
+  }
 }
 
 void XxhWorksite::lay_out() {
   solid_ = false;
-  map_.emplace(map_config(config_, reach_, clearance_m_), region_box(region_, box_), longest_axis(box_),
-               region_.from_high_end);
+  const OrientedBox box = region_box(region_, box_);
+  XxhRegionMap::Config config = map_config(config_, reach_, clearance_m_);
+  config.voxel_m = fitting_voxel_m(config_.voxel_m, [&](double) { return map_size(config_, box); });
+  map_.emplace(config, box, longest_axis(box_), region_.from_high_end);
   const auto spiral = map_->spiral(map_->section(0, 1, 1.0), came_from_W_);
   entry_W_ = spiral.empty() ? map_->box().center : spiral.front();
 }

@@ -57,6 +57,17 @@ TEST(XxhWorksite, AnUprightRegionBeginsAtItsFootWhereverThePathComesFrom) {
   }
 }
 
+TEST(XxhWorksite, ARegionThatIsTooLargeForItsCellsGetsLargerOnes) {
+  XxhConfig fine;
+  fine.voxel_m = 1.0;
+  AtWorksite usual(fine), large(fine);
+  usual.enter(kLying);
+  EXPECT_EQ(usual.site.map().grid().voxel_m(), 1.0);
+  large.enter(make_box({0.0, 0.0, 75.0}, {900.0, 600.0, 150.0}));
+  EXPECT_GT(large.site.map().grid().voxel_m(), 1.5);
+  EXPECT_LT(large.site.map().grid().voxel_m(), 2.0);
+}
+
 TEST(XxhWorksite, OneThatLiesAndThePublicCodeBeginWhereThePathComesFrom) {
   XxhConfig by_path;
   by_path.begin = XxhBegin::path;
