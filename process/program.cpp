@@ -165,7 +165,7 @@ LoadOptions ProgramOptions::load_options_without_scene() const {
 }
 
 void ProgramOptions::check_out() const {
-  if (has_launcher() || out == kNowhere) return;
+  if (has_launcher() || status_fd >= 0 || out == kNowhere) return;
   const auto refuse = [&](const std::string& reason) {
     throw InputError("--out " + out.string() + ": " + reason + "; make this folder first, or choose another one");
   };

@@ -84,7 +84,7 @@ struct ProgramOptions {
   /// The same for a program that does not use the scene: the scene's files need not exist.
   LoadOptions load_options_without_scene() const;
   /// Checks, without a launcher, that the program can write files to `out`. The launcher makes the folder itself, and
-  /// its programs fly on without their files. @throws InputError
+  /// gets the reports through the status pipe, so its programs fly on without their files. @throws InputError
   void check_out() const;
 };
 

@@ -68,10 +68,11 @@ TEST(Program, APathThatCannotBeIsCodeTwo) {
   EXPECT_EQ(full.error, "tester: runs/x: No space left on device\n");
 }
 
-std::string refusal_of_out(const std::filesystem::path& out, int control_fd = -1) {
+std::string refusal_of_out(const std::filesystem::path& out, int control_fd = -1, int status_fd = -1) {
   ProgramOptions options;
   options.out = out;
   options.control_fd = control_fd;
+  options.status_fd = status_fd;
   try {
     options.check_out();
   } catch (const InputError& error) {
@@ -85,14 +86,14 @@ TEST(Program, WithoutALauncherTheFolderOfOutMustBeThere) {
   const std::filesystem::path folder = scratch.path(), missing = folder / "none/x", file = folder / "file";
   std::ofstream(file) << "mine";
   EXPECT_EQ(refusal_of_out(folder), "");
-  EXPECT_EQ(refusal_of_out("."), "");
   EXPECT_EQ(refusal_of_out("/dev/null"), "") << "nothing is written";
   const std::string mend = "; make this folder first, or choose another one";
   EXPECT_EQ(refusal_of_out(missing), "--out " + missing.string() + ": does not exist" + mend);
   EXPECT_EQ(refusal_of_out(file), "--out " + file.string() + ": is no folder" + mend);
   const std::string long_name(300, 'x');
   EXPECT_EQ(refusal_of_out(long_name), "--out " + long_name + ": cannot be looked at (File name too long)" + mend);
-  EXPECT_EQ(refusal_of_out(missing, 4), "") << "its launcher makes the folder";
+  EXPECT_EQ(refusal_of_out(missing, 4, 3), "") << "its launcher makes the folder";
+  EXPECT_EQ(refusal_of_out(missing, -1, 1), "") << "a launcher gets the report";
 }
 
 TEST(Program, WithoutALauncherTheFolderOfOutMustTakeFiles) {
