@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <set>
+#include <string>
+#include <string_view>
 
 namespace skein {
 namespace {
@@ -47,6 +49,41 @@ TEST(Topics, EveryEntryOfTheTablesIsWellFormedAndUnique) {
       EXPECT_FALSE(topic.rate.empty()) << wire.name;
       EXPECT_EQ(topic.cloud != nullptr, topic.type == "sensor_msgs/msg/PointCloud2") << wire.name;
     }
+  }
+}
+
+/// Everything that the server writes into a UAV's domain, except the lock-step's messages and what other nodes send by
+/// radio. Whoever adds a topic here must be sure that it carries nothing of the referee's and no truth: no score of the
+/// fleet, no points that this UAV's camera has not seen, no position without the odometry's error, nothing of the mesh.
+TEST(Topics, AUavReceivesOnlyWhatItsOwnSensorsAndItsRadioTell) {
+  std::set<std::string_view> received;
+  for (const topics::TopicInfo& topic : topics::uav_topics()) {
+    const bool is_from_agent = topic.direction == topics::Direction::from_agent ||
+                               topic.direction == topics::Direction::shown_by_agent ||
+                               topic.pattern == topics::kCaptureStored.pattern;
+    if (!is_from_agent) received.insert(topic.pattern);
+  }
+  const std::set<std::string_view> expected = {"/{id}/ground_truth/odometry",
+                                               "/{id}/gimbal",
+                                               "/{id}/battery",
+                                               "/{id}/wind",
+                                               "/{id}/radio_links",
+                                               "/{id}/cloud_inW",
+                                               "/{id}/lidar_servo",
+                                               "/{id}/slf_kf_cloud",
+                                               "/{id}/nbr_kf_cloud",
+                                               "/{id}/nbr_odom_cloud",
+                                               "/{id}/detected_interest_points",
+                                               "/skein/detected",
+                                               "/{id}/mission_duration_remained",
+                                               "/clock",
+                                               "/gcs/bounding_box_vertices",
+                                               "/{id}/command_rejected",
+                                               "/{id}/hand",
+                                               "/skein/capture"};
+  EXPECT_EQ(received, expected);
+  for (const topics::TopicInfo& topic : topics::score_topics()) {
+    for (const topics::TopicInfo& own : topics::uav_topics()) EXPECT_NE(own.pattern, topic.pattern);
   }
 }
 

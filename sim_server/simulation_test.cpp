@@ -192,6 +192,40 @@ TEST_F(Field, HandTriggeredCamerasWaitForTheTrigger) {
   for (std::size_t i = 1; i < pictures.size(); ++i) EXPECT_GE(pictures[i] - pictures[i - 1], 41);
 }
 
+/// What a UAV receives about its pictures follows from its own pictures alone. So it learns neither the fleet's score nor
+/// what others have photographed.
+TEST_F(Field, WhatOthersPhotographReachesNoUav) {
+  add("explorer", 0, -3);
+  add("photographer", 0, 3);
+  struct Seen {
+    std::vector<CaptureReport> reports;  ///< of the first UAV
+    std::vector<float> best;             ///< of all its detections
+    std::vector<Vector3d> places_W;      ///< of both UAVs
+    double score = 0.0;                  ///< of the fleet
+  };
+  const auto flown = [&](bool other_photographs) {
+    Simulation& sim = start(3);
+    if (!other_photographs) sim.trigger_camera(UavIndex{1});  // from now on, its camera waits for triggers
+    Seen seen;
+    fly(12.0, {to(6, -2, 6), to(6, 2, 6)}, [&](const StepEvents& events) {
+      for (const CaptureEvent& event : events.captures) {
+        if (event.uav != UavIndex{0}) continue;
+        if (event.report) seen.reports.push_back(*event.report);
+        for (const Detection& detection : event.capture.detections) seen.best.push_back(detection.best);
+      }
+      for (const UavIndex uav : FirstUavs(2)) seen.places_W.push_back(sim.uav(uav).told.p_WB);
+    });
+    seen.score = sim.referee().earned().score();
+    return seen;
+  };
+  const Seen alone = flown(false), both = flown(true);
+  EXPECT_GT(both.score, alone.score) << "the other one photographs points, too";
+  EXPECT_EQ(both.places_W, alone.places_W) << "but flies as before";
+  ASSERT_FALSE(alone.reports.empty());
+  EXPECT_EQ(both.reports, alone.reports);
+  EXPECT_EQ(both.best, alone.best);
+}
+
 TEST_F(Field, GimbalTurnsTheCameraAndItsRateIsReported) {
   add("photographer", 0, 0);
   Simulation& sim = start();
