@@ -1,7 +1,9 @@
-// A flight in one process is the same with any number of threads. Planners, seeds and faults are random.
+// A flight in one process is the same with any number of threads. Planners, conditions, seeds and faults are
+// random.
 #include "core/random_stream.hpp"
 #include "fleet_fixture.hpp"
 #include "tests/support/places.hpp"
+#include "tests/support/test_program.hpp"
 
 namespace skein::test {
 namespace {
@@ -27,12 +29,14 @@ TEST_P(Threads, DoNotShowInTheDigest) {
   const std::vector<std::string> planners = {"patrol", "kios", "xxh", "star", "flock"};
   std::string planner = planners[random.bits() % planners.size()];
   for (const std::string& uav : kFleet) planner += "," + uav + "=" + planners[random.bits() % planners.size()];
-  const Arguments flight = {"towers",      "--one-process",
-                            "--no-oracle", "--no-report",
-                            "--duration",  sanitizer() == "thread" ? "8" : "20",
-                            "--planner",   planner,
-                            "--seed",      std::to_string(random.bits() % 1000),
-                            "--faults",    write("faults.yaml", drawn_faults(random))};
+  const std::string conditions = random.bits() % 2 == 0 ? "none" : "harsh";
+  const Arguments flight = {"towers",       "--one-process",
+                            "--no-oracle",  "--no-report",
+                            "--duration",   sanitizer() == "thread" ? "8" : "20",
+                            "--planner",    planner,
+                            "--conditions", conditions,
+                            "--seed",       std::to_string(random.bits() % 1000),
+                            "--faults",     write("faults.yaml", drawn_faults(random))};
   std::set<std::string> digests;
   for (const std::string threads : {"1", "2", "16"}) {
     Arguments more = flight;
@@ -42,7 +46,7 @@ TEST_P(Threads, DoNotShowInTheDigest) {
     EXPECT_EQ(run.digest().size(), 64U) << run.err();
     EXPECT_GT(run.result()["timing"]["steps"].get<int>(), 100);
   }
-  EXPECT_EQ(digests.size(), 1U) << planner;
+  EXPECT_EQ(digests.size(), 1U) << planner << " under " << conditions;
 }
 
 INSTANTIATE_TEST_SUITE_P(Drawn, Threads, testing::Range(std::size_t{1}, std::size_t{10}));
