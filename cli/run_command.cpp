@@ -20,12 +20,14 @@
 #include "host/environment.hpp"
 #include "host/preflight.hpp"
 #include "host/threads.hpp"
+#include "process/host/memory.hpp"
 #include "results/run_folder.hpp"
 #include "run/break_event.hpp"
 #include "run/fleet_plan.hpp"
 #include "run/fleet_run.hpp"
 #include "run/inputs_outlast.hpp"
 #include "run/live_page.hpp"
+#include "run/memory_need.hpp"
 #include "run/open_files.hpp"
 #include "run/results_dir.hpp"
 
@@ -44,6 +46,7 @@ std::string check_results_dir_and_limits(const RunOptions& options, const FleetP
   const std::filesystem::path dir = results_dir_of(options, plan.scenario.name);
   check_inputs_outlast(plan, dir);
   ResultsDir::check(dir, options.force);
+  check_memory(plan, memory_left());
   return allow_open_files(plan);
 }
 

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "process/host/memory.hpp"
 #include "process/host/open_files.hpp"
 
 namespace skein::doctor {
@@ -19,7 +20,7 @@ struct FleetNeeds {
   /// Threads of all programs; the kernel's limits count each thread as a process. The server and the router have six
   /// threads each per domain.
   std::uint64_t threads() const { return 32 + 12 * domains() + 9 * uavs; }
-  std::uint64_t memory_bytes() const { return (90 + 9 * uavs) * 1'000'000; }
+  std::uint64_t memory_bytes() const { return fleet_memory(uavs); }
 };
 
 inline constexpr std::uint64_t kSocketBuffer = 4 * 1024 * 1024;  ///< size that both vendors request [bytes]

@@ -1,0 +1,20 @@
+// The memory of this host, and how much of it a fleet needs.   Threads: any.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+namespace skein {
+
+/// Memory that programs can still get on this host, swap included [bytes]; nullopt: the system does not tell. Ignores
+/// limits of cgroups.
+std::optional<std::uint64_t> memory_left();
+
+/// Memory that a fleet's programs need over DDS [bytes]: an estimate, rounded up, from fleets of 1 to 100 UAVs
+/// (docs/performance.md). Maps grow with the mission and the scene, so long missions need more.
+constexpr std::uint64_t fleet_memory(std::size_t uavs) { return (90 + 9 * uavs) * 1'000'000; }
+/// The same of a fleet in one process, from flights of 20 s with 1 to 8 UAVs, which took 60 to 107 MB.
+constexpr std::uint64_t one_process_memory(std::size_t uavs) { return (55 + 7 * uavs) * 1'000'000; }
+
+}  // namespace skein
