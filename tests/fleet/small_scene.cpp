@@ -91,7 +91,8 @@ std::string write_small_scene(const std::filesystem::path& folder, const SmallSc
   write_points(points, scene.points);
   write_boxes(boxes, scene.boxes);
   scenario << "name: small\ndescription: a few blocks, for a test\nduration_s: " << scene.duration_s << "\n"
-           << "desired_mm_per_pixel: 2.0\nstation: {position: [-6, 0, 0.3], antenna_offset_m: 0.1}\n"
+           << "desired_mm_per_pixel: " << scene.desired_mm_per_pixel
+           << "\nstation: {position: " << list_of(scene.station) << ", antenna_offset_m: 0.1}\n"
            << "scene:\n  meshes: [./scene/mesh.stl]\n  points: ./scene/points.pcd\n"
            << "  boxes: ./scene/box_description.yaml\nfleet:\n"
            << scene.fleet;

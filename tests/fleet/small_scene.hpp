@@ -18,6 +18,8 @@ struct SmallScene {
   std::vector<Block> boxes;                   ///< bounding boxes that the UAVs get
   std::vector<std::array<double, 6>> points;  ///< interest points: position [m] and normal
   std::string fleet;                          ///< YAML list
+  std::array<double, 3> station = {-6.0, 0.0, 0.3};
+  double desired_mm_per_pixel = 2.0;
   double duration_s = 60.0;
 };
 
