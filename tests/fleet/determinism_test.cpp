@@ -57,6 +57,16 @@ TEST_F(Determinism, VendorsOrderOfArrivalAndLoadDoNotShowInTheDigest) {
   EXPECT_EQ(text, "the runs are the same\n");
 }
 
+/// Under conditions, too: wind, odometry errors, batteries, LiDAR errors, blur, path loss; with a restart.
+TEST_F(Determinism, ConditionsAreTheSameOverAllVendorsAndInOneProcess) {
+  const std::string faults = write("faults.yaml", "faults:\n  - {at_s: 25, until_s: 27, kill: jurong}\n");
+  const Arguments harsh = {"towers", "--planner",    "patrol", "--duration", "40",  "--seed",
+                           "1",      "--conditions", "harsh",  "--faults",   faults};
+  const std::string reference = digest("harsh", harsh);
+  EXPECT_EQ(digest("fastdds", joined(harsh, {"--dds", "fastdds"}), {{"SKEIN_CHAOS", "1"}}), reference);
+  EXPECT_EQ(digest("one_process", joined(harsh, kOneProcess)), reference);
+}
+
 TEST_F(Determinism, EverySeedIsAnotherRunAndRepeats) {
   const Arguments one = joined(kTowers, {"--seed", "1"}), two = joined(kTowers, {"--seed", "2"});
   const std::string digest_of_one = digest("seed1", joined(one, kOneProcess)),
