@@ -220,7 +220,10 @@ void WorldMap::tidy_if_grown() {
 }
 
 void WorldMap::take(const HeardCube& heard, Teller teller) {
-  if (heard.space == Space::occupied) return meet(heard.cube, teller);
+  if (heard.space == Space::occupied) {
+    if (ignores_ && known(heard.cube).space == Space::free && ignores_(heard.cube)) return;
+    return meet(heard.cube, teller);
+  }
   settle_free(heard.cube, heard.level, teller);
   for (int i = heard.level; i < levels(); ++i) {
     if (levels_.at(static_cast<std::size_t>(i))->known(shifted(heard.cube, i - heard.level)).space != Space::unknown)

@@ -134,6 +134,10 @@ class WorldMap {
   /// occupied. @param news  whether the cube was not occupied before.
   using OnMet = std::function<void(const Eigen::Vector3i& cube, bool news)>;
   void on_met(OnMet on_met) { on_met_ = std::move(on_met); }
+  /// Other UAVs' reports that a smallest cube is occupied are ignored if this map has proved the cube free, and
+  /// `ignores` is true of it: a UAV's report of this UAV itself (own_trail.hpp).
+  using Ignores = std::function<bool(const Eigen::Vector3i& cube)>;
+  void ignore_reports(Ignores ignores) { ignores_ = std::move(ignores); }
 
   int levels() const { return static_cast<int>(levels_.size()); }
 
@@ -195,6 +199,7 @@ class WorldMap {
   std::uint64_t changes_ = 0, scans_ = 0;
   std::size_t tidied_blocks_ = 0;  ///< number of blocks after the last tidy_if_grown() that tidied
   OnMet on_met_;
+  Ignores ignores_;
 };
 
 }  // namespace skein::agent

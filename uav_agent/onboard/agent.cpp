@@ -12,6 +12,7 @@
 #include "uav_agent/flight_core/flight_core.hpp"
 #include "uav_agent/flight_core/tracker.hpp"
 #include "uav_agent/maps/occupancy_map.hpp"
+#include "uav_agent/maps/own_trail.hpp"
 #include "uav_agent/maps/uav_traces.hpp"
 #include "uav_agent/maps/world_mapper.hpp"
 #include "uav_agent/onboard/activity.hpp"
@@ -64,6 +65,8 @@ struct Agent::Impl {
     map_radio.emplace(config);
     uav_traces.emplace(config, known_world()->config().cell_m);
     known_world()->on_met([this](const Eigen::Vector3i& cube, bool news) { uav_traces->met(cube, news); });
+    own_trail.emplace(config, known_world()->config().cell_m);
+    known_world()->ignore_reports([this](const Eigen::Vector3i& cube) { return own_trail->contains(cube); });
   }
 
   void read_radio(const AgentInput& input);
@@ -97,6 +100,7 @@ struct Agent::Impl {
   std::unique_ptr<WorldMap> world_map;        ///< if the world map is wanted and there is no LiDAR
   std::optional<MapRadio> map_radio;          ///< if the world map is wanted
   std::optional<UavTraces> uav_traces;        ///< if the world map is wanted
+  std::optional<OwnTrail> own_trail;          ///< if the world map is wanted
   std::vector<RadioMessage> planners_radio;   ///< of this exchange, without messages of map sharing
   Uplink uplink;
   Tracker tracker;
@@ -176,6 +180,7 @@ void Agent::Impl::perceive(const AgentInput& input) {
     world_map->set_free(input.state.p_WB, WorldMapper::Config().start_clear_m);
   }
   if (uav_traces) uav_traces->update(input.tick, peers);
+  if (own_trail) own_trail->update(input.tick, peers, input.state.p_WB);
   read_radio(input);
   read_beams(input);
   if (uav_traces) uav_traces->doubt(*known_world());

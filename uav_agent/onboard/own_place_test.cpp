@@ -45,5 +45,62 @@ TEST(OwnPlace, WhatOthersToldToStandThereIsNothing) {
   EXPECT_EQ(looker.here, Space::free);
 }
 
+/// An explorer that did not hear this UAV while it flew mapped its body all along the way. When the two hear each other
+/// again, the explorer reports this; and a new pole beside the way, which must enter the map.
+TEST(OwnPlace, WhatOthersReportOfAFlightThatTheyDidNotHearIsNotStructure) {
+  struct Looker final : Planner {
+    PlannerOutput plan(const PlannerInput& in) override {
+      map = in.world_map;
+      return {};
+    }
+    bool wants_world_map() const override { return true; }
+    const WorldMap* map = nullptr;
+  };
+  AgentConfig explorer;
+  explorer.fleet.resize(2);
+  AgentConfig photographer = explorer;
+  photographer.self = UavIndex(1);
+  photographer.fleet[1].role = Role::photographer;
+  photographer.vehicle.lidar.reset();
+  auto planner = std::make_unique<Looker>();
+  const Looker& looker = *planner;
+  Agent agent(photographer, std::move(planner));
+  MapRadio radio(explorer);
+  Peers peers(explorer);
+  WorldMap seen{WorldMap::Config()};
+  AgentInput input;
+  input.state.p_WB = {0.0, 0.0, 10.0};
+  const auto exchange = [&](bool heard) {
+    input.radio.clear();
+    input.neighbours.clear();
+    if (heard) {
+      input.neighbours = {{node_of_uav(UavIndex{0}), {0.0, 30.0, 10.0}}};
+      peers.update(input.tick, {{node_of_uav(UavIndex{1}), input.state.p_WB}});
+      if (auto message = radio.tell(seen, peers, std::nullopt, input.tick)) input.radio.push_back(*message);
+    } else {
+      peers.update(input.tick, {});
+    }
+    agent.step(input);
+    ++input.k;
+    input.tick += 20;
+  };
+  seen.set_free({5.0, 0.0, 10.0}, 12.0);
+  for (int k = 0; k < 200; ++k) exchange(true);
+  ASSERT_EQ(looker.map->at({8.0, 0.0, 10.0}), Space::free);
+
+  std::vector<Vector3d> body_W;
+  for (int k = 0; k < 100; ++k) {
+    input.state.p_WB.x() = 0.1 * k;
+    exchange(false);
+    body_W.emplace_back(input.state.p_WB + Vector3d(0.0, k % 2 == 0 ? 0.5 : -0.5, 0.3));
+    seen.insert({}, std::vector<Eigen::Vector3f>{body_W.back().cast<float>()});
+  }
+  const Vector3d pole_W(5.0, 4.0, 10.0);
+  seen.insert({}, std::vector<Eigen::Vector3f>{pole_W.cast<float>()});
+  for (int k = 0; k < 200; ++k) exchange(true);
+  EXPECT_EQ(looker.map->at(pole_W), Space::occupied);
+  for (const Vector3d& p_W : body_W) EXPECT_EQ(looker.map->at(p_W), Space::free) << p_W.transpose();
+}
+
 }  // namespace
 }  // namespace skein::agent

@@ -1,0 +1,52 @@
+// Where this UAV's own body has been while another UAV may have mapped it as structure.
+//
+// A UAV with a LiDAR that does not hear this UAV maps its body like a wall (uav_traces.hpp), and reports these cubes to
+// this UAV as soon as they hear each other again. No beam could prove these cubes free while this UAV stays there, so
+// they would hold it there. The map therefore ignores a report of structure in a cube that it has proved free if this
+// trail contains the cube (WorldMap::ignore_reports()): space that was proved free, in which this UAV's body was, has
+// no structure. The trail contains cubes whose centre is within b of this UAV, where b is its body's radius with half
+// of a cube's diagonal and a margin:
+//   - of the place where it is now;
+//   - of all places where it was in the last 60 to 120 s, each while it did not hear all other UAVs that have a LiDAR.
+// A report may also mean another UAV whose radio is silent. Therefore the trail is short, and does not contain the
+// places where all UAVs with a LiDAR knew this UAV.
+// Frame W.   Units: metres, ticks.   Threads: one.   Deterministic.   Source: none; a rule of Skein.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/types.hpp"
+#include "uav_agent/api/peers.hpp"
+#include "uav_agent/maps/block_table.hpp"
+
+namespace skein::agent {
+
+class OwnTrail {
+ public:
+  static constexpr double kMarginM = 0.3;  ///< errors of hits, and motion of the body between its positions
+  static constexpr double kPartS = 60.0;   ///< the trail is forgotten in parts of this length
+
+  /// @param cell_m  edge of the map's smallest cubes.
+  OwnTrail(const AgentConfig& agent, double cell_m);
+
+  /// Call it at each exchange, before its map messages enter the map.
+  /// @param p_WB  this UAV's position by its odometry.
+  void update(Tick now, const Peers& peers, const Vector3d& p_WB);
+  /// @param cube  a smallest cube of the map.
+  bool contains(const Eigen::Vector3i& cube) const;
+
+ private:
+  using Part = BlockTable<std::uint64_t>;  ///< by block of 4^3 cubes: one bit for each cube
+
+  bool near(const Eigen::Vector3i& cube) const;
+  void mark();
+
+  std::vector<std::size_t> lidars_;  ///< the other UAVs that have a LiDAR, by index in the fleet
+  double radius_m_, cell_m_;
+  Vector3d p_WB_ = Vector3d::Zero();
+  Part newer_, older_;
+  Tick newer_since_ = 0;
+};
+
+}  // namespace skein::agent
