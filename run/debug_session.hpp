@@ -47,7 +47,7 @@ class DebugSession {
   bool is_lost(const std::string& program) const { return lost_.contains(program); }
   /// Takes back lose(). @returns false: it was not noted.
   bool take_back(const std::string& program) { return lost_.erase(program) > 0; }
-  /// The program starts again after a fault, under its tool, which may need the terminal again. It is not lost any more.
+  /// The program starts again after a fault, under its tool, which may need the terminal again. It is no longer lost.
   void on_restart(const std::string& program);
   /// A program or its tool has ended: if it had the terminal, progress goes to the console again.
   void on_exit(const std::string& program);

@@ -1,5 +1,5 @@
-// What a fleet's run does about programs under --debug: they are no children of the launcher, and the user may keep them
-// for as long as they like.
+// What a fleet's run does about programs under --debug: they are not children of the launcher, and the user may keep
+// them for as long as they like.
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>

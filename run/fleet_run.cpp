@@ -20,15 +20,17 @@ namespace skein::cli {
 namespace {
 
 using std::chrono::milliseconds;
-/// How long the programs may take to write their reports and leave after sim_server has left.
-constexpr milliseconds kLeaveTime{10000};
+/// How long the programs may take to write their reports and leave after sim_server has left. Beside many other busy
+/// programs, with a low priority, they need over 10 s.
+constexpr milliseconds kLeaveTime{30000};
 /// The same for users' commands once all others have left: they need not know that the run is over.
 constexpr milliseconds kExecLeaveTime{2000};
 /// From SIGTERM to SIGKILL.
 constexpr milliseconds kGrace{3000};
 constexpr double kUsualPatience_s = 60.0;  // for one turn of a program
-/// After Ctrl-C: time for sim_server to end the run, and for the programs to leave if the last step never ended.
+/// After Ctrl-C: time for sim_server to end the run, and for the programs to leave, also if the last step never ended.
 constexpr milliseconds kStopTime{8000};
+constexpr milliseconds kStoppedLeaveTime{10000};
 constexpr milliseconds kStalledLeaveTime{1000};
 constexpr std::size_t kLogLines = 10;
 
@@ -357,8 +359,9 @@ bool FleetRun::left_as_asked(const ExitStatus& exit) const { return facts_.inter
 
 /// Time for programs to leave after the run. After Ctrl-C before the first step: none, as they are not told of its end.
 milliseconds FleetRun::leave_time() const {
-  if (facts_.interrupted && !first_progress_) return milliseconds(0);
-  return scaled(facts_.interrupted && stalled_ ? kStalledLeaveTime : kLeaveTime);
+  if (!facts_.interrupted) return scaled(kLeaveTime);
+  if (!first_progress_) return milliseconds(0);
+  return scaled(stalled_ ? kStalledLeaveTime : kStoppedLeaveTime);
 }
 
 milliseconds FleetRun::scaled(milliseconds time) const {

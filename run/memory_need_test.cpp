@@ -43,7 +43,7 @@ TEST(MemoryOfAFleet, MoreUavsNeedMoreAndOneProcessLess) {
   }
 }
 
-TEST(MemoryOfAFleet, OnSeveralHostsNobodyKnows) {
+TEST(MemoryOfAFleet, FleetsOnSeveralHostsAreNotChecked) {
   FleetPlan plan = fleet_for_memory(5, false);
   plan.options.place.at = "uav0=host1,uav1=host2";
   EXPECT_NO_THROW(check_memory(plan, 0));

@@ -192,8 +192,8 @@ TEST_F(Field, HandTriggeredCamerasWaitForTheTrigger) {
   for (std::size_t i = 1; i < pictures.size(); ++i) EXPECT_GE(pictures[i] - pictures[i - 1], 41);
 }
 
-/// What a UAV receives about its pictures follows from its own pictures alone. So it learns neither the fleet's score nor
-/// what others have photographed.
+/// What a UAV receives about its pictures follows from its own pictures alone. So it learns neither the fleet's score
+/// nor what others have photographed.
 TEST_F(Field, WhatOthersPhotographReachesNoUav) {
   add("explorer", 0, -3);
   add("photographer", 0, 3);

@@ -1,6 +1,6 @@
-// The default planner where things are odd or broken: unusual fleets, scenes, boxes and stations, dead sensors, restarts
-// and partitions. No UAV collides or could not have stopped, none is farther off its setpoint than the flight core
-// assumes, and the fleet does not stay where it is.
+// The default planner with unusual fleets, scenes, boxes and stations, dead sensors, restarts and partitions. No UAV
+// collides or flies so that it could not have stopped, none is farther off its setpoint than the flight core assumes,
+// and the fleet does not stay where it is.
 #include <functional>
 
 #include "fleet_fixture.hpp"
