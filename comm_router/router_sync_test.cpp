@@ -279,10 +279,11 @@ TEST(RouterSync, ARouteThatIsBoundToAMemberIsNotOpenToItsNeighbour) {
 
 constexpr std::size_t kMost = 4096;
 
-/// Step 0, in which uav1 sends so many messages and announces all of them.
+/// Step 0, in which uav1 sends so many messages on rt/y and announces all of them.
 void send_in_one_step(RouterSync& sync, std::size_t messages) {
   sync.on_step(0, 0, {{"uav1", 7, Node{1}}}, {});
-  for (std::size_t i = 0; i < messages; ++i) sync.on_radio(7, 1, payload("x"));
+  const std::size_t y = routes_from(some_routes(), Node{1}).back();
+  for (std::size_t i = 0; i < messages; ++i) sync.on_radio(7, y, payload("x"));
   sync.on_done(7, 0, {{"rt/y", messages}});
 }
 

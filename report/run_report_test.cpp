@@ -118,9 +118,15 @@ TEST(RunReport, MissingPartsAreReported) {
     EXPECT_NE(page.find("There is no " + std::string(file)), std::string::npos) << file;
   }
   EXPECT_NE(page.find("events.csv makes sense for 1 rows only"), std::string::npos);
+  EXPECT_EQ(page.find(scratch.path().string()), std::string::npos) << "where the folder lies is nobody's business";
+}
+
+TEST(RunReport, WithoutItsScriptAPageSaysWhereToGetIt) {
+  const results::Scratch scratch;
+  results::write_text(scratch.path() / "result.json", R"({"status": "completed"})");
+  const std::string page = run_page(results::read_sound_run(scratch.path()), std::nullopt);
   EXPECT_NE(page.find("Packages of Skein contain it; a build from source makes it with npm"), std::string::npos)
       << "users of a package have no folder for npm";
-  EXPECT_EQ(page.find(scratch.path().string()), std::string::npos) << "where the folder lies is nobody's business";
 }
 
 TEST(RunReport, ANumberOutOfAllBoundsEndsItsTable) {

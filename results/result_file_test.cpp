@@ -91,7 +91,7 @@ TEST_F(ResultFile, MissingFilesAndOtherJsonThanObjectsAreReported) {
   const std::string damaged = (run_ / run_folder::kResult).string() + ": is damaged: ";
   for (const char* text : {"[1]", "[]", "null", "", "3"}) {
     write(text);
-    EXPECT_EQ(complaint(), damaged + "it is no JSON object") << text;
+    EXPECT_EQ(complaint(), damaged + "it is not a JSON object") << text;
   }
   write("{}");
   EXPECT_EQ(complaint(), damaged + "status: is missing, so it is not the result of a run");

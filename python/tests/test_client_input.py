@@ -161,7 +161,8 @@ GOOD: dict[str, Any] = {"name": "jurong", "scenario": "towers", "domain": 223, "
 
 
 @pytest.mark.parametrize(("wrong", "match"), [
-    ({"name": "jurnog"}, "no UAV of this fleet"), ({"scenario": "towrs"}, "towrs"), ({"domain": 231}, "up to 230"),
+    ({"name": "jurnog"}, "is not a UAV of this fleet"),
+    ({"scenario": "towrs"}, "towrs"), ({"domain": 231}, "up to 230"),
     ({"domain": -1}, "whole number"), ({"dds": "opendds"}, "opendds"), ({"run": -1}, "whole number"),
     ({"name": None}, "SKEIN_UAV is not set"), ({"read": ["/jurong/gimball"]}, "not a topic of jurong"),
     ({"read": ["gimbal"]}, "absolute topic name"), ({"read": [3]}, "is a text"), ({"debug": ["a b"]}, "absolute"),

@@ -65,7 +65,7 @@ def test_links_that_cannot_be_are_damage(flown: skein.Run, tmp_path: Path) -> No
     text = (flown.path / "events.csv").read_text()
     line = next(line for line in text.splitlines() if ",link_up," in line)
     (tmp_path / "events.csv").write_text(text.replace(line, f"{line}\n{line}", 1))
-    with pytest.raises(skein.DamagedError, match=r"events\.csv: at 0\.0 s there is a link_up"):
+    with pytest.raises(skein.DamagedError, match=r"events\.csv: at 0\.0 s there is a second link_up"):
         skein.Run(tmp_path).links
 
 
@@ -137,7 +137,7 @@ def test_what_is_no_result_is_refused_with_file_and_key(tmp_path: Path, text: st
     (tmp_path / "result.json").write_text(text)
     run = skein.Run(tmp_path)
     for name in ("uavs", "seed", "planner", "status", "scenario"):
-        with pytest.raises(skein.DamagedError, match=rf"result\.json:1: ({name} must be|is damaged: it is no JSON)"):
+        with pytest.raises(skein.DamagedError, match=rf"result\.json:1: ({name} must be|is damaged: it is not a JSON)"):
             getattr(run, name)
     assert "result.json:1: " in repr(run)
     if "score" in text:

@@ -70,7 +70,7 @@ TEST_F(McapJoin, PartsThatAreCutOffCountAsFarAsTheyGo) {
 TEST_F(McapJoin, APartThatIsNotARecordingIsReportedAndLeftOut) {
   const auto a = write_part("a", 1, 2);
   std::ofstream(folder_ / "b") << "nonsense";
-  EXPECT_NE(join({folder_ / "a", folder_ / "b"}, folder_ / "whole", {}).find("no MCAP file"), std::string::npos);
+  EXPECT_NE(join({folder_ / "a", folder_ / "b"}, folder_ / "whole", {}).find("not an MCAP file"), std::string::npos);
   EXPECT_EQ(read_all(folder_ / "whole"), a);
 }
 

@@ -259,7 +259,7 @@ TEST_F(ModelFile, SaysWhatIsWrongWithColladaAndGltf) {
   const std::string gltf = small_models::gltf(box_mesh());
   const Mistakes in_gltf = {
       {"\"2.0\"", "\"1.0\"", "version '1.0' instead of 2.0"},
-      {"{\"asset\"", "{asset", "no JSON object"},
+      {"{\"asset\"", "{asset", "not a JSON object"},
       {"\"scene\": 0", "\"scene\": 1", "'scene' must be a whole number below 1"},
       {"\"count\": 8", "\"count\": 9999", "truncated"},
       {"\"count\": 8", "\"count\": 7", "a vertex that the file does not have"},
