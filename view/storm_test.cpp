@@ -215,7 +215,7 @@ TEST_P(DrawnStorm, OfStrangersTellsThemNothingAndKeepsNoViewerOut) {
   EXPECT_EQ(orders_, 0);
 }
 
-// Who has the key, and sends what is not an order.
+// Viewers that have the key, and send what is not an order.
 TEST_P(DrawnStorm, OfFramesIsObeyedWhereItIsAnOrderAndEndsOtherwise) {
   Random random(GetParam());
   fill();

@@ -157,7 +157,7 @@ TEST(FlightCorePage, HasEveryParameterWithItsRangeItsDefaultAndASource) {
   EXPECT_LE(keys.size(), 40U) << "more parameters than anybody can choose";
 }
 
-/// Who needs another constant makes a parameter of it, or does without an old one. If there are fewer now, lower the
+/// If you need another constant, make a parameter of it, or remove an old one. If there are fewer now, lower the
 /// number.
 TEST(FlightCoreConstants, AreNoMoreThanThereWere) {
   static const std::regex kConstant(R"(\bk[A-Z]\w*(\[\])? = \{?-?[0-9])");

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <numbers>
 #include <utility>
+
+#include "uav_agent/maps/uav_traces.hpp"
 
 namespace skein::agent {
 namespace {
@@ -20,7 +21,7 @@ std::uint64_t bit_of(const Eigen::Vector3i& cube) {
 }  // namespace
 
 OwnTrail::OwnTrail(const AgentConfig& agent, double cell_m)
-    : radius_m_(agent.me().body_radius_m + 0.5 * std::numbers::sqrt3 * cell_m + kMarginM), cell_m_(cell_m) {
+    : radius_m_(seen_radius_m(agent.me().body_radius_m, cell_m, kMarginM)), cell_m_(cell_m) {
   for (std::size_t uav = 0; uav < agent.fleet.size(); ++uav) {
     if (uav != agent.self && agent.fleet[uav].role == Role::explorer) lidars_.push_back(uav);
   }

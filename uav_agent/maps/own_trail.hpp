@@ -4,8 +4,8 @@
 // this UAV as soon as they hear each other again. No beam could prove these cubes free while this UAV stays there, so
 // they would hold it there. The map therefore ignores a report of structure in a cube that it has proved free if this
 // trail contains the cube (WorldMap::ignore_reports()): space that was proved free, in which this UAV's body was, has
-// no structure. The trail contains cubes whose centre is within b of this UAV, where b is its body's radius with half
-// of a cube's diagonal and a margin:
+// no structure. The trail contains cubes whose centre is within b of this UAV, where b is the radius in which beams may
+// hit its body (seen_radius_m()):
 //   - of the place where it is now;
 //   - of all places where it was in the last 60 to 120 s, each while it did not hear all other UAVs that have a LiDAR.
 // A report may also mean another UAV whose radio is silent. Therefore the trail is short, and does not contain the

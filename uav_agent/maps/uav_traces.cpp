@@ -14,10 +14,14 @@ constexpr double kSigmas = 3.0;
 
 }  // namespace
 
+double seen_radius_m(double body_radius_m, double cell_m, double margin_m) {
+  return body_radius_m + 0.5 * std::numbers::sqrt3 * cell_m + margin_m;
+}
+
 UavTraces::UavTraces(const AgentConfig& agent, double cell_m, const Config& config) : config_(config), cell_m_(cell_m) {
   for (const FleetMember& member : agent.fleet) {
     Uav& uav = uavs_.emplace_back();
-    uav.body_m = member.body_radius_m + 0.5 * std::numbers::sqrt3 * cell_m + config.margin_m;
+    uav.body_m = seen_radius_m(member.body_radius_m, cell_m, config.margin_m);
     uav.max_speed_mps = member.max_speed_mps;
     uav.p_W = member.p_WB_start;
   }

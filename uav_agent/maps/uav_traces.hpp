@@ -35,6 +35,9 @@
 
 namespace skein::agent {
 
+/// b in the rule above: how far from a UAV's centre the centre of a cube may be in which a beam hits it [m].
+double seen_radius_m(double body_radius_m, double cell_m, double margin_m);
+
 class UavTraces {
  public:
   struct Config {
