@@ -49,7 +49,7 @@ TEST_F(Layers, LinesAreShort) { expect_none(check_columns(tree_)); }
 TEST_F(Layers, NothingIsMarkedUnfinished) { expect_none(check_marks(tree_)); }
 TEST_F(Layers, FilesThatAreNamedAreThere) { expect_none(check_references(tree_)); }
 TEST_F(Layers, OneHeaderNamesTheFilesOfARun) { expect_none(check_run_files(tree_)); }
-TEST_F(Layers, DecisionsHaveTheirSections) { expect_none(check_decisions(tree_)); }
+TEST_F(Layers, DecisionsAreShortAndHaveTheirSections) { expect_none(check_decisions(tree_)); }
 TEST_F(Layers, NoMachineIsNamed) { expect_none(check_machine_paths(tree_)); }
 
 TEST_F(Layers, CodeIsFormatted) {

@@ -90,9 +90,9 @@ Violations check_references(const Tree& tree);
 /// Only results/run_folder.hpp names the files of a run's folder; tests may, too.
 Violations check_run_files(const Tree& tree);
 
-/// Each decision has the sections Context, Decision, Consequences and Alternatives, unless another one supersedes it as
-/// a whole.
-Violations check_decisions(const Tree& tree);
+/// Each decision is one page, of at most `most_lines` lines. It has the sections Context, Decision, Consequences and
+/// Alternatives, unless another one supersedes it as a whole.
+Violations check_decisions(const Tree& tree, std::size_t most_lines = 60);
 
 /// No build products and no large files among `tracked` (paths below the root).
 Violations check_tracked_files(const std::filesystem::path& root, const std::vector<std::string>& tracked,

@@ -37,11 +37,15 @@ Violations check_run_files(const Tree& tree) {
   return violations;
 }
 
-Violations check_decisions(const Tree& tree) {
+Violations check_decisions(const Tree& tree, std::size_t most_lines) {
   static constexpr std::array kSections = {"## Context", "## Decision", "## Consequences", "## Alternatives"};
   Violations violations;
   for (const SourceFile& file : tree) {
     if (!file.path.starts_with("docs/decisions/")) continue;
+    if (file.lines.size() > most_lines) {
+      violations.push_back(file.path + ":" + std::to_string(most_lines + 1) + ": a decision has at most " +
+                           std::to_string(most_lines) + " lines");
+    }
     const auto has = [&](const std::string& begin) {
       return std::ranges::any_of(file.lines, [&](const std::string& line) { return line.starts_with(begin); });
     };

@@ -342,6 +342,18 @@ TEST_F(MadeUpTree, DecisionsWithoutASectionAreFound) {
   EXPECT_EQ(places(check_decisions(tree())), (Places{"docs/decisions/0003-bad.md:1", "docs/decisions/0003-bad.md:1"}));
 }
 
+TEST_F(MadeUpTree, DecisionsLongerThanAPageAreFound) {
+  const std::string sections = "## Context\n## Decision\n## Consequences\n## Alternatives\n";
+  file("docs/decisions/0001-good.md", sections + "5\n6\n");
+  file("docs/long.md", sections + "5\n6\n7\n");
+  EXPECT_EQ(check_decisions(tree(), 6), Violations{});
+
+  file("docs/decisions/0002-long.md", sections + "5\n6\n7\n");
+  file("docs/decisions/0003-gone.md", "# 3.\n\nSuperseded by [decision 1](0001-good.md).\n4\n5\n6\n7\n");
+  EXPECT_EQ(places(check_decisions(tree(), 6)),
+            (Places{"docs/decisions/0002-long.md:7", "docs/decisions/0003-gone.md:7"}));
+}
+
 TEST_F(MadeUpTree, ProductsAndLargeFilesAreFoundAmongTheTracked) {
   file("docs/large.png", std::string(11, 'x'));
   file("docs/small.png", std::string(10, 'x'));
