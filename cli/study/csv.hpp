@@ -1,4 +1,4 @@
-// The tables of a study as CSV (RFC 4180; a cell is empty if its value is not known). docs/how-to-compare-planners.md
+// The tables of a study as CSV (RFC 4180; a cell is empty if its value is not known). docs/studies.md
 // lists the columns. Pure; any thread.
 #pragma once
 

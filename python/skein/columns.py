@@ -1,6 +1,6 @@
 """Files and columns of the tables of a run and of a study.
 
-docs/results.md and docs/how-to-compare-planners.md explain the columns. A test compares both pages with this file.
+docs/results.md and docs/studies.md explain the columns. A test compares both pages with this file.
 """
 
 from __future__ import annotations

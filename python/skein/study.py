@@ -53,7 +53,7 @@ def study_folder(finished: Finished) -> Path | None:
 class Study:
     """The folder of a comparison or a contest. It reads a file when you first ask for its contents.
 
-    The tables are read-only structured arrays of NumPy, with the columns of docs/how-to-compare-planners.md;
+    The tables are read-only structured arrays of NumPy, with the columns of docs/studies.md;
     `study.frame("flights")` returns the same table as a pandas frame.
     """
 

@@ -53,7 +53,7 @@ def test_every_table_of_the_page_is_known(root: Path) -> None:
 
 
 def test_the_page_of_studies_lists_these_columns(root: Path) -> None:
-    page = (root / "docs/how-to-compare-planners.md").read_text()
+    page = (root / "docs/studies.md").read_text()
     for table in (columns.FLIGHTS, columns.PAIRS):
         section = re.search(rf"^\| column in `{table.file}` \|.*?(?=^[^|])", page, re.MULTILINE | re.DOTALL)
         assert section is not None
