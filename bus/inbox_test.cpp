@@ -134,7 +134,7 @@ TEST_F(InboxTest, NoRingIsLostWhileOthersAreHandled) {
   }
 }
 
-TEST_F(InboxTest, WhatHandlersCauseIsHandledByTheNextDispatch) {
+TEST_F(InboxTest, AJobPostedByAHandlerRunsInTheNextDispatch) {
   Inbox inbox(0);
   int ran = 0;
   inbox.post([&] { inbox.post([&ran] { ++ran; }); });

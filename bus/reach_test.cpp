@@ -104,7 +104,7 @@ TEST_F(ReachTest, APeerThatIsKnownCountsAndOneThatIsNotIsNamed) {
 }
 
 // An answer that the resolver could never give.
-TEST_F(ReachTest, WhatWasAskedAlreadyIsNotAskedAgain) {
+TEST_F(ReachTest, AnAddressThatWasLookedUpBeforeIsNotLookedUpAgain) {
   const Addresses asked = {{"localhost", address_of(kAnothers)}};
   const auto source = source_towards(address_of(kAnothers));
   if (!source) GTEST_SKIP() << "this host has no way to other networks";

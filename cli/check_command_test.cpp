@@ -86,7 +86,7 @@ TEST_F(CheckCommand, WrongFilesAreRefused) {
   EXPECT_EQ(check({{file("c.yaml", "{name: s, scene: {family: towers}, fleet: []}")}, {}, {}}), kExitBadInput);
 }
 
-TEST_F(CheckCommand, WhatAProgramSaysOfAScenarioCounts) {
+TEST_F(CheckCommand, AScenarioThatTheServerRefusesIsBadInput) {
   write_script(programs_.dir() / "sim_server", "echo 'the mesh is empty' >&2; exit 2");
   EXPECT_EQ(check({{programs_.scenario()}, {}, {}}), kExitBadInput);
   EXPECT_EQ(err_.str(), programs_.scenario().string() + ": the mesh is empty\n") << "of which file, too";

@@ -82,7 +82,7 @@ TEST(Options, OtherHostsTakePartOnlyWhenAsked) {
   }
 }
 
-TEST(Options, ADoctorIsToldWhoseFleetAndWhatToLookAt) {
+TEST(Options, TheDoctorsOptionsNameAFleetAndItsNetwork) {
   const auto plain = parse<DoctorOptions>({"doctor"});
   EXPECT_FALSE(plain.net || plain.json || plain.network || plain.domain);
   EXPECT_EQ(plain.scenario, "towers");
@@ -297,7 +297,7 @@ TEST(Options, TheLargestSeedAndTheLimitsAreTaken) {
   EXPECT_EQ(parse<RunOptions>({"run", "--stop-at", "36000"}).stop_at_s, 36000.0);
 }
 
-TEST(Options, WhatDoesNotFitIsRefused) {
+TEST(Options, InvalidArgumentsAreRefused) {
   const std::vector<std::vector<std::string>> wrong = {
       {},
       {"fly"},
@@ -336,7 +336,7 @@ TEST(Options, WhatDoesNotFitIsRefused) {
   }
 }
 
-TEST(Options, WhatIsRefusedIsAnsweredWithWhatWouldBeRight) {
+TEST(Options, ARefusalOfAnArgumentTellsTheCorrection) {
   const auto said = [](const std::vector<std::string>& arguments) -> std::string {
     try {
       parse_command_line(arguments);

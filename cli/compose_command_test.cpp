@@ -341,7 +341,7 @@ TEST_F(ComposeUp, AnEngineThatGoesAwayIsReportedOnceAndWhatMayBeLeftIsNamed) {
   EXPECT_EQ(read_json(programs_.dir() / "out" / "result.json")["status"], "aborted");
 }
 
-TEST_F(ComposeUp, WhatAContainerWritesAfterItWasStartedAgainIsInItsLog) {
+TEST_F(ComposeUp, TheLogOfARestartedContainerHasItsLaterOutput) {
   const std::string folder = programs_.dir().string();
   write_text(programs_.dir() / "server", "touch " + folder + "/again " + folder + "/over\n");
   EXPECT_EQ(up(), kExitProcessFailed) << err_.str();

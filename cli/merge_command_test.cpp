@@ -53,7 +53,7 @@ class MergeCommand : public ::testing::Test {
   std::ostringstream out_, err_;
 };
 
-TEST_F(MergeCommand, WhatItMadeItselfItMakesAgain) {
+TEST_F(MergeCommand, MergingTwiceGivesTheSameResult) {
   EXPECT_EQ(merge(), kExitDone) << err_.str();
   const Json result = results::read_result_file(dir());
   EXPECT_EQ(result["score"], 2.5);
@@ -139,7 +139,7 @@ TEST_F(MergeCommand, TheFolderOfAFleetThatFliesIsLeftAlone) {
   EXPECT_FALSE(fs::exists(options_.dir));
 }
 
-TEST_F(MergeCommand, WhatOnlyTheLauncherKnowsStays) {
+TEST_F(MergeCommand, TheKeysThatOnlyTheLauncherWritesStay) {
   const Json launchers = {{"command", "skein run small.yaml"},
                           {"startup_s", 0.5},
                           {"memory_mb", 90.0},

@@ -127,7 +127,7 @@ std::string with_plan() {
   return answer.dump();
 }
 
-TEST_F(OracleCommand, APlanIsShownToWhoAsksForIt) {
+TEST_F(OracleCommand, ThePlanIsShownOnlyWithItsOption) {
   answer(rows({with_plan()}));
   EXPECT_EQ(run(), 0);
   EXPECT_EQ(out_.str().find("planned"), std::string::npos) << out_.str();

@@ -30,7 +30,7 @@ TEST_F(StudyCommand, FliesAllAndReports) {
   EXPECT_LT(out_.str().find("patrol"), out_.str().find("hover")) << out_.str();
 }
 
-TEST_F(StudyCommand, WhatHasFlownIsNotFlownAgain) {
+TEST_F(StudyCommand, AStudyFliesOnlyTheFlightsThatAreMissing) {
   ASSERT_EQ(run(), kExitDone);
   const std::string report = file("report.html"), flights = file("flights.csv");
   EXPECT_EQ(run(), kExitDone);

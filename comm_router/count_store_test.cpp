@@ -54,7 +54,7 @@ TEST_F(CountStoreTest, ANewFileHasCountedNothing) {
   EXPECT_EQ(store.earlier_counts(), LinkMatrix<LinkCounts>(3));
 }
 
-TEST_F(CountStoreTest, WhatItHadAtHandWhenItDiedIsLost) {
+TEST_F(CountStoreTest, MessagesUnderWayWhenTheRouterDiesCountAsLost) {
   LinkGate gate(routes_, 3, std::make_unique<SlowLinks>());
   {
     CountStore store(file_, 3);
@@ -73,7 +73,7 @@ TEST_F(CountStoreTest, WhatItHadAtHandWhenItDiedIsLost) {
   EXPECT_EQ(gate.counts().at(Node{1}, Node{2}), to_b);
 }
 
-TEST_F(CountStoreTest, WhatAnotherRunCountedIsNotTakenUp) {
+TEST_F(CountStoreTest, TheCountsOfAnotherRunAreNotTakenUp) {
   LinkGate gate(routes_, 3, std::make_unique<SlowLinks>());
   {
     CountStore store(file_, 3, RunId{7});

@@ -38,7 +38,7 @@ TEST(RadioRate, AMessageTakesAsLongAsItsLinksRateSays) {
   }
 }
 
-TEST(RadioRate, WhatDoesNotFitTheQueueIsLostAndTheOtherDirectionIsFree) {
+TEST(RadioRate, AFullQueueLosesMessagesAndLeavesTheOtherDirectionFree) {
   const Scenario scenario = with_radio(0.001);
   LinkStages stages(scenario, {}, 1);
   Links links(3, std::uint8_t{1});
@@ -51,7 +51,7 @@ TEST(RadioRate, WhatDoesNotFitTheQueueIsLostAndTheOtherDirectionIsFree) {
 }
 
 // A program that was killed receives nothing, but its UAV hovers on in sight, so messages to it still pass its link.
-TEST(RadioRate, WhatIsSentToOneReceiverDelaysNothingToTheOthers) {
+TEST(RadioRate, MessagesToOneReceiverDelayNoneToTheOthers) {
   constexpr Node kOther = Node{3};
   for (const bool path_loss : {true, false}) {
     Scenario scenario = with_radio(0.001);

@@ -297,7 +297,7 @@ TEST(RouterSync, AStepHasAsManyMessagesOfAMemberAsItKeeps) {
   EXPECT_TRUE(sync.take_excesses().empty());
 }
 
-TEST(RouterSync, OfMessagesBeyondWhatItKeepsItTellsWhoSentThemAndWhatToDo) {
+TEST(RouterSync, NamesTheSenderOfTooManyMessagesAndTheRemedy) {
   const std::vector<RadioRoute> routes = some_routes();
   RouterSync sync(routes);
   send_in_one_step(sync, kMost + 10);

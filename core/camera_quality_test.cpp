@@ -124,7 +124,7 @@ TEST(CameraQuality, DistanceAndTiltAreTheTwoPartsOfTheResolution) {
 }
 
 /// Exposures of 2^-10 s and coordinates of few digits: all that the formulas compute on the way to 0 / 0 is exact.
-TEST(CameraQuality, WhatTheFormulasLeaveOpenNeverPasses) {
+TEST(CameraQuality, AQualityThatTheFormulasLeaveUndefinedNeverPasses) {
   RandomStream random(2, "camera_quality_test", 0);
   const auto draw = [&](int until) { return std::floor(random.uniform(-1.0, 1.0) * until) / 16.0; };
   CameraConfig camera;

@@ -28,7 +28,7 @@ TEST(Debuggee, EachWayIsRead) {
   EXPECT_EQ(command.program, "uav_agent-jurong");
 }
 
-TEST(Debuggee, OneHasTheTerminal) {
+TEST(Debuggee, OnlyOneToolHasTheTerminal) {
   const auto both = parse({"jurong=wait", "changi=/bin/sh", "station=/bin/sh"});
   EXPECT_FALSE(both[0].here);
   EXPECT_TRUE(both[1].here);
@@ -36,7 +36,7 @@ TEST(Debuggee, OneHasTheTerminal) {
   EXPECT_TRUE(parse({"changi=/bin/sh", "jurong=pdb"})[1].here);
 }
 
-TEST(Debuggee, WhatIsWrongIsNamed) {
+TEST(Debuggee, AnInvalidOptionIsRefused) {
   for (const char* value : {"nobody=wait", "jurong=", "jurong=no_such_tool", "jurong=/no/such/tool", "jurong=gdbserver",
                             "jurong=gdbserver:", "jurong=gdbserver:0", "jurong=gdbserver:65536", "jurong=gdbserver:1x",
                             "jurong=sh 'open", "jurong=sh; rm x", "jurong=$(sh)", "jurong=/tmp"}) {

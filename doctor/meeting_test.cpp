@@ -133,7 +133,7 @@ TEST(Meetings, APeerThatIsHeardWithoutBeingNamedIsListedAndFailsNothing) {
   EXPECT_EQ(exit_code(all), kExitCheckFailed);
 }
 
-TEST(Meetings, WhatWeSayNamesWhomWeHeard) {
+TEST(Meetings, AGreetingNamesTheDoctorsThatItsSenderHeard) {
   Way deaf, plain;
   deaf.dds = false;
   const Meetings all = meeting_of({deaf, plain});

@@ -88,7 +88,7 @@ TEST(NetworkJudges, AnInterfaceThatIsNotThereOrDownFails) {
   }
 }
 
-TEST(NetworkJudges, WhatStaysOnTheHostNeedsTheLoopbackInterface) {
+TEST(NetworkJudges, TrafficWithinTheHostNeedsTheLoopbackInterface) {
   std::vector<InterfaceFacts> interfaces = {{.name = "lo", .address = "127.0.0.1", .mtu = 65536, .up = true}};
   EXPECT_EQ(count(judge_interfaces(interfaces, true), Verdict::ok), 2u);
   EXPECT_EQ(count(judge_interfaces(interfaces, false), Verdict::warn), 1u);

@@ -46,7 +46,7 @@ TEST(DomainBlock, TheTemporaryFolderDoesNotMatter) {
   folder ? ::setenv("TMPDIR", before.c_str(), 1) : ::unsetenv("TMPDIR");
 }
 
-TEST(DomainBlock, ARefusalSaysWhoIsInTheWay) {
+TEST(DomainBlock, ARefusalNamesTheProcessThatUsesADomain) {
   const DomainBlock a(12, 2, own_realm());
   try {
     const DomainBlock b(10, 5, own_realm());

@@ -45,7 +45,7 @@ pid_t start_maker() {
   return maker;
 }
 
-TEST(ScratchDir, WhatAKilledProcessLeavesTheNextOneRemoves) {
+TEST(ScratchDir, TheNextProcessRemovesTheFolderOfAKilledOne) {
   const OwnTmpdir tmpdir;
   std::mt19937 draw(7);
   for (int round = 0; round < 8; ++round) {
@@ -60,7 +60,7 @@ TEST(ScratchDir, WhatAKilledProcessLeavesTheNextOneRemoves) {
   }
 }
 
-TEST(ScratchDir, WhatIsInUseOrOfOthersStays) {
+TEST(ScratchDir, FoldersInUseAndFilesOfOthersStay) {
   const OwnTmpdir tmpdir;
   const ScratchDir mine;
   write_text(mine.path() / "key", "x");

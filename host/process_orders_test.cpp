@@ -95,7 +95,7 @@ TEST_F(ProcessOrdersTest, AProgramThatKnowsNoOrdersIsKilledAndStoppedByUs) {
   EXPECT_TRUE(end_was_ordered());
 }
 
-TEST_F(ProcessOrdersTest, AtTheRunsEndWhoIsAwayIsKilledWithoutAComplaint) {
+TEST_F(ProcessOrdersTest, AProgramThatIsAwayAtTheRunsEndIsKilledWithoutAComplaint) {
   start("kill -STOP $$");
   orders_.take_out("a", false, false);
   orders_.end();

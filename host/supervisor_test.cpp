@@ -145,7 +145,7 @@ TEST_F(SupervisorTest, ChildrenOfAProgramEndWithIt) {
   EXPECT_TRUE(pipe.all_ended());
 }
 
-TEST_F(SupervisorTest, WhatAMindedProgramLeavesBehindEndsWithIt) {
+TEST_F(SupervisorTest, TheProcessesThatAMindedProgramStartedEndWithIt) {
   OpenUntilAllEnded pipe;
   ProgramSpec program = shell("a", "setsid sleep 1000 & env -i sleep 1000 & echo started >&3; exit 5");
   program.minded = true;

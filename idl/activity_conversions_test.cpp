@@ -28,7 +28,7 @@ TEST(ActivityConversions, ComeBack) {
   EXPECT_EQ(travelled(stands), stands);
 }
 
-TEST(ActivityConversions, WhatAnyProgramSaysFitsIntoATable) {
+TEST(ActivityConversions, AnActivityOfAnyProgramFitsIntoATable) {
   Activity odd{.mode = "a,b\nc\x7F\"", .waits_for = std::string(500, 'x'), .no_way = std::string(159, 'y') + "éé"};
   odd.goal_W = Vector3d(0.0, std::numeric_limits<double>::quiet_NaN(), 0.0);
   odd.speed_mps = odd.cpu_s = std::numeric_limits<double>::infinity();
@@ -41,7 +41,7 @@ TEST(ActivityConversions, WhatAnyProgramSaysFitsIntoATable) {
   EXPECT_EQ(read.cpu_s, 0.0);
 }
 
-TEST(ActivityConversions, WhatAnyProgramSaysIsUtf8) {
+TEST(ActivityConversions, AnActivityOfAnyProgramBecomesUtf8) {
   const Activity odd{.mode = "caf\xe9", .waits_for = "caf\xc3\xa9", .no_way = std::string(400, '\xc3')};
   const Activity read = travelled(odd);
   EXPECT_EQ(read.mode, "caf?");

@@ -54,7 +54,7 @@ TEST(MessageDefinition, OfEachTypeIsWhole) {
   EXPECT_THROW(message_definition("std_msgs::msg::dds_::Nothing_"), std::out_of_range);
 }
 
-TEST(MessageDefinition, WhatItDoesNotKnowOfTheIdlIsAnError) {
+TEST(MessageDefinition, AnUnsupportedConstructOfTheIdlIsAnError) {
   const auto in_struct = [](const std::string& member) {
     return "module a { module msg { module dds_ {\n@final struct T_ {\n  " + member + "\n};\n}; }; };\n";
   };

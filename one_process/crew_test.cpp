@@ -291,7 +291,7 @@ TEST_P(CrewTest, EachWritesToItsOwnLog) {
   }
 }
 
-TEST_P(CrewTest, ThoseThatShareNothingHaveTheirTurnsSideBySide) {
+TEST_P(CrewTest, MembersThatShareNothingHaveTheirTurnsSideBySide) {
   if (GetParam() == 1) GTEST_SKIP() << "there is one thread";
   std::latch both(2);
   meeting = &both;

@@ -98,7 +98,7 @@ TEST_F(OracleCache, PatienceLimitsWhatIsComputedNotWhatIsKnown) {
   EXPECT_TRUE(ask().cached);
 }
 
-TEST_F(OracleCache, WhateverChangesTheAnswerChangesTheKey) {
+TEST_F(OracleCache, EachInputThatChangesTheAnswerChangesTheKey) {
   const std::string before = oracle_key(scenario_, scene_, request_.config);
   const std::vector<std::function<void()>> changes = {
       [this] { scene_.mesh.vertices[3].x() += 0.001F; },

@@ -153,7 +153,7 @@ TEST(Oracle, APitIsSeenFromAboveWhereNothingFitsIn) {
   expect_true(photographer(1.0), wide, from_within, 0.5);
 }
 
-TEST(Oracle, WhatIsInAClosedRoomCannotBeHad) {
+TEST(Oracle, APointInAClosedRoomCannotBeReached) {
   Scene scene;
   test::add_box(scene.mesh, {0.0, 0.0, 4.0}, {8.0, 8.0, 6.0});
   scene.points = {point_at({-4.0, 0.0, 4.0}, Vector3d::UnitX()), point_at({1.0, 2.0, 7.0}, Vector3d::UnitZ())};
@@ -330,7 +330,7 @@ Scene room_with_window(double width) {
   return scene;
 }
 
-TEST(Oracle, WhatOnlyACameraGetsToIsToldApart) {
+TEST(Oracle, APointThatOnlyACameraGetsToIsNotFlyable) {
   const auto flyable = [](const Scenario& scenario, double width) {
     const OracleReport report = consult_oracle(scenario, room_with_window(width), {0.3, 2.5, 64, 1});
     EXPECT_EQ(report.reachable.attainable.points, 3u) << "a camera passes 1.2 m";

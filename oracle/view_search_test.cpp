@@ -62,7 +62,7 @@ TEST(ViewSearch, FindsASmallHole) {
   }
 }
 
-TEST(ViewSearch, WhatIsEnoughEndsTheSearch) {
+TEST(ViewSearch, AViewThatIsGoodEnoughEndsTheSearch) {
   TriangleMesh mesh;
   test::add_box(mesh, {5.5, 0.0, 10.0}, {1.0, 20.0, 18.0});
   const RayScene world(mesh);
@@ -112,7 +112,7 @@ TEST(ViewSearch, FindsOnlyWhatTheRefereeSeesByTheRulesOfTheRun) {
   }
 }
 
-TEST(ViewSearch, WhatIsKnownIsNotLost) {
+TEST(ViewSearch, TheSearchKeepsTheKnownViews) {
   const RayScene world(TriangleMesh{});
   const std::vector<Viewer> cameras = a_camera(0.5);
   const ViewSearch search(world, cameras, Berth::camera, RulesConfig{});

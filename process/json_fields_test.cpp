@@ -86,7 +86,7 @@ TEST(JsonFields, KeysStandInTheOrderOfTheList) {
             R"("raw":{"any":[1,null]},"file":"a folder/b"})");
 }
 
-TEST(JsonFields, WhatIsMissingOrOfAnotherKindLeavesTheValueAsItWas) {
+TEST(JsonFields, AMissingKeyOrOneOfAnotherKindLeavesTheValueAsItWas) {
   const Json good = json_of(some());
   const Json no_object = Json::array();
   EXPECT_EQ(struct_of<Whole>(no_object), Whole());

@@ -99,7 +99,7 @@ TEST_F(ReplayTest, TakesWhatWasSaidThenWhateverIsSaidNow) {
   }
 }
 
-TEST_F(ReplayTest, TellsTheFirstDifferenceOfWhoTakesPart) {
+TEST_F(ReplayTest, TellsTheFirstDifferenceOfTheChosenUav) {
   const Speech then = random_speech(7, 40);
   const std::filesystem::path file = record(then);
   std::mt19937_64 random(8);
@@ -179,7 +179,7 @@ class TellsOfItself : public ReplayTest {
   std::size_t differences_ = 0;
 };
 
-TEST_F(TellsOfItself, WhatItDoesIsTakenFromThenAndIsNoDifference) {
+TEST_F(TellsOfItself, AnActivityIsTakenFromTheRecordingAndIsNoDifference) {
   const Told then = {activity("takes off", 0.1), activity("delivers", 0.2)};
   const Told now = {activity("takes off", 0.3), activity("has no goal", 0.4)};
   const auto topic = topics::activity("jurong");

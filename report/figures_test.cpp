@@ -119,7 +119,7 @@ TEST_P(Figures, BoxesSumUpToAll) {
   EXPECT_NEAR(sum.score, all.score, 1e-9);
 }
 
-TEST_P(Figures, NeverInThePictureAreThosePointsThatUavsCameNearAndTheOthers) {
+TEST_P(Figures, PointsNeverInThePictureAreCountedByWhetherAUavCameNear) {
   EXPECT_FALSE(never_in_picture(run_)) << "no camera is known";
   const auto cause = results::cause_of("never_in_picture");
   for (std::size_t uav = 0; uav < run_.uavs.size(); ++uav) {
@@ -152,7 +152,7 @@ TEST_P(Figures, NeverInThePictureAreThosePointsThatUavsCameNearAndTheOthers) {
   EXPECT_NEAR(found->loss_far, expected.loss_far, 1e-9);
 }
 
-TEST_P(Figures, WhatWasEarnedIsTheBestPictureOfEachPoint) {
+TEST_P(Figures, TheEarnedScoreCountsTheBestPictureOfEachPoint) {
   for (const auto& now : score_steps(run_.captures, kDetected, results::Counts::when_taken)) {
     std::map<std::size_t, double> best;
     for (const results::CaptureRow& capture : run_.captures) {

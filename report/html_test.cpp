@@ -8,7 +8,7 @@
 namespace skein::report {
 namespace {
 
-TEST(Html, WhatMeansSomethingInMarkupIsEscaped) {
+TEST(Html, CharactersWithAMeaningInMarkupAreEscaped) {
   EXPECT_EQ(escaped("<a href=\"x\">'&'</a>"), "&lt;a href=&quot;x&quot;&gt;&#39;&amp;&#39;&lt;/a&gt;");
   EXPECT_EQ(escaped("Zürich\n"), "Zürich\n");
   EXPECT_EQ(escaped(std::string("a\x01\0b", 4)), "a??b");

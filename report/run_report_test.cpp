@@ -61,7 +61,7 @@ TEST_P(OddRuns, GiveASoundPage) {
 INSTANTIATE_TEST_SUITE_P(Drawn, OddRuns, testing::Range(1U, 9U));
 
 /// What the script colours a point by: who delivered its best picture, the first of equals.
-TEST(PageData, NamesWhoDeliveredTheBestPictureOfEachPoint) {
+TEST(PageData, NamesTheUavThatDeliveredTheBestPictureOfEachPoint) {
   std::mt19937 random(11);
   for (int trial = 0; trial < 40; ++trial) {
     results::RunRecord run;
@@ -168,7 +168,7 @@ TEST(WebBundle, HashesAsBrowsersDo) {
   EXPECT_EQ(script_hash("alert('Hello, world.');"), "sha256-qznLcsROx4GACP2dm0UCKCzCG+HiZ1guq6ZZDob/Tng=");
 }
 
-TEST(WebBundle, WhatDoesNotFitIntoAScriptIsLeftOut) {
+TEST(WebBundle, ABundleThatDoesNotFitIntoAScriptElementIsLeftOut) {
   const results::Scratch scratch;
   const auto file = scratch.path() / "report.js";
   ::setenv("SKEIN_WEB", file.c_str(), 1);

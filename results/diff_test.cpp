@@ -75,7 +75,7 @@ TEST_F(RunDiff, OtherColumnsAreADifference) {
                                       "beta position (only in the second run)"}));
 }
 
-TEST_F(RunDiff, WhatIsNoRunIsRefused) {
+TEST_F(RunDiff, AMissingOrMalformedDigestFileIsRefused) {
   EXPECT_THROW(first_difference(a_, b_), InputError);
   EXPECT_THROW(difference_to("something,else\n"), InputError);
   EXPECT_THROW(difference_to(""), InputError);

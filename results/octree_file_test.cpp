@@ -35,9 +35,9 @@ TEST(OctreeFile, LeavesAreWhereTheyAre) {
   EXPECT_EQ(cubes[2].edge_m, 0.5 * kHalf_m);
 }
 
-TEST(OctreeFile, NothingIsAMapToo) { EXPECT_TRUE(cubes_of(file_of("", 0)).empty()); }
+TEST(OctreeFile, AnEmptyMapIsReadToo) { EXPECT_TRUE(cubes_of(file_of("", 0)).empty()); }
 
-TEST(OctreeFile, WhatIsCutOrAlteredIsNeverReadBeyondItsEnd) {
+TEST(OctreeFile, ACutOrAlteredFileIsNeverReadBeyondItsEnd) {
   std::mt19937 random(1);
   std::size_t refused = 0;
   for (int trial = 0; trial < 300; ++trial) {

@@ -36,7 +36,7 @@ class ResultFile : public ::testing::Test {
   std::filesystem::path run_;
 };
 
-TEST_F(ResultFile, WhatIsWrittenIsReadHoweverItIsLaidOut) {
+TEST_F(ResultFile, AWrittenResultIsReadInAnyLayout) {
   const std::string text = result_text(some_result());
   write(text);
   const Json result = read_result_file(run_);

@@ -38,7 +38,7 @@ TEST(ResultKeys, AValueOfAnotherKindThanInTheSchemaIsNamedWithItsKey) {
   }
 }
 
-TEST(ResultKeys, WhatIsNullOrMissingIsNotKnown) {
+TEST(ResultKeys, EachKeyButTheStatusMayBeNullOrMissing) {
   const Json schema = schema_of_results();
   Json result = {{"status", "aborted"}};
   EXPECT_EQ(wrong_key(result), "");

@@ -232,7 +232,7 @@ TEST_F(RunResult, ScoreCsvHasAllPointsInOrder) {
             "7,8,9,0,1,0,1.0,2\n");
 }
 
-TEST_F(RunResult, WhatWasHandedInCountsBeforeAFile) {
+TEST_F(RunResult, AReportThatWasHandedInTakesPrecedenceOverItsFile) {
   write_all_reports();
   const Json result = merge_result(facts_, scenario_,
                                    read_reports(dir_.path(), scenario_,

@@ -38,7 +38,7 @@ TEST(RunFolder, KnowsItsFilesAlsoHalfWritten) {
   }
 }
 
-TEST(RunFolder, KnowsWhoseMapsAreInAFile) {
+TEST(RunFolder, KnowsTheUavWhoseMapsAreInAFile) {
   for (int life : {0, 1, 11}) {
     EXPECT_TRUE(run_folder::is_maps_file(run_folder::maps_file("jurong", life), "jurong"));
     EXPECT_FALSE(run_folder::is_maps_file(run_folder::maps_file("jurong", life), "juro"));

@@ -23,7 +23,7 @@ TEST(BreakEvent, TheFirstOfAUavCounts) {
   EXPECT_NEAR(event_time_s(kResult, "a", "rejected").value(), 12.325, 1e-9) << "between its exchange and the next";
 }
 
-TEST(BreakEvent, WhatNeverHappenedHasNoTime) {
+TEST(BreakEvent, AnEventThatNeverHappenedHasNoTime) {
   EXPECT_EQ(event_time_s(kResult, "b", "lost"), std::nullopt);
   EXPECT_EQ(event_time_s(kResult, "b", "rejected"), std::nullopt);
   for (const char* what : kBreakEvents) {

@@ -19,7 +19,7 @@ std::string repeated_from(const std::string& text) {
 
 using Texts = std::vector<std::string>;
 
-TEST(HandFlights, KnowsWhoIsFlownByHand) {
+TEST(HandFlights, KnowsTheUavsThatAreFlownByHand) {
   EXPECT_EQ(hands_in("kios"), Texts{});
   EXPECT_EQ(hands_in("kios,bob=hand"), Texts{"bob"});
   EXPECT_EQ(hands_in("hand"), kThree);

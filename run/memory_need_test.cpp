@@ -18,7 +18,7 @@ FleetPlan fleet_for_memory(int uavs, bool one_process) {
   return plan;
 }
 
-TEST(MemoryOfAFleet, WhatDoesNotFitIsRefusedWithTheEstimate) {
+TEST(MemoryOfAFleet, AFleetThatDoesNotFitIsRefusedWithTheEstimate) {
   for (const bool one_process : {false, true}) {
     const FleetPlan plan = fleet_for_memory(100, one_process);
     const std::uint64_t need = memory_need(plan);

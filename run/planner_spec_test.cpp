@@ -21,7 +21,7 @@ std::vector<std::string> specs(const std::string& text) {
 
 using Specs = std::vector<std::string>;
 
-TEST(PlannerSpec, OneNameIsForAll) { EXPECT_EQ(specs("hover"), (Specs{"hover", "hover", "hover"})); }
+TEST(PlannerSpec, OneNameIsForAllUavs) { EXPECT_EQ(specs("hover"), (Specs{"hover", "hover", "hover"})); }
 
 TEST(PlannerSpec, NamedUavsDifferAndTheRestGetTheDefault) {
   EXPECT_EQ(specs("raffles=hover"), (Specs{kDefaultPlanner, "hover", kDefaultPlanner}));
@@ -59,7 +59,7 @@ TEST(PlannerSpec, TheGroundStationHasAProgramOfItsOwn) {
   EXPECT_THROW(parse_planners("gcs=listen,gcs=none", kFleet), InputError);
 }
 
-TEST(PlannerSpec, WhatFollowsTheLastAtIsAnAgentProgram) {
+TEST(PlannerSpec, TheTextAfterTheLastAtIsAnAgentProgram) {
   struct Case {
     std::string spec, name, agent;
   };

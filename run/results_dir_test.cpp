@@ -289,7 +289,7 @@ TEST(ResultsDir, ANameThatCannotBeIsTheUsersMistake) {
   }
 }
 
-TEST(ResultsDir, WhatBearsTheNameOfAFileAndIsNoneGoesOrIsNamed) {
+TEST(ResultsDir, APipeOrLinkWithTheNameOfAFileGoesAndAFolderIsNamed) {
   const OutDir scratch;
   ASSERT_EQ(::mkfifo((scratch.path() / "sim_server.log").c_str(), 0600), 0);
   write_text(scratch.path() / "mine.txt", "kept");

@@ -32,7 +32,7 @@ TEST(VaryBoxes, SeedZeroKeepsThem) {
   EXPECT_EQ(scene.boxes[0].size, two_boxes().boxes[0].size);
 }
 
-TEST(VaryBoxes, WhatWasInsideStaysInside) {
+TEST(VaryBoxes, APlaceInsideOfABoxStaysInside) {
   const Scene before = two_boxes();
   for (std::uint64_t seed = 1; seed < 200; ++seed) {
     Scene after = before;

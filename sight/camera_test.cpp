@@ -193,7 +193,7 @@ TEST_F(CameraAtWall, RemembersWhatItSawTooPoorly) {
   EXPECT_EQ(c.seen(), (std::vector<bool>{true, true, false}));
 }
 
-TEST_F(CameraAtWall, OthersHide) {
+TEST_F(CameraAtWall, OtherUavsHideAPoint) {
   Camera c = camera();
   RayScene w = world();
   w.set_pose(UavIndex{0}, body_.X_WB());

@@ -56,7 +56,7 @@ TEST_F(CustodyTest, ARunThatEndsMeanwhileHasLostIt) {
   EXPECT_EQ(derived(), Deliveries());
 }
 
-TEST_F(CustodyTest, WhatALinkLosesIsSentAgainAfterTenSteps) {
+TEST_F(CustodyTest, ACaptureThatALinkLosesIsSentAgainAfterTenSteps) {
   captured(20, 0);
   link(0, 300);
   run_.messages = {{20, "alpha", std::nullopt}, {30, "alpha", std::nullopt}};
@@ -111,7 +111,7 @@ TEST_F(CustodyTest, AUavThatComesBackFromDeathSendsAtOnceAndOneThatStoodStillWhe
   EXPECT_EQ(derived(), first(31));
 }
 
-TEST_F(CustodyTest, WhatIsPhotographedWhileTheAgentIsAwayIsHandedOutLater) {
+TEST_F(CustodyTest, ACaptureTakenWhileTheAgentIsAwayIsHandedOutLater) {
   link(0, 300);
   event(15, "left", "alpha");
   captured(20, 0);

@@ -83,7 +83,7 @@ TEST_F(MissedWork, BeginsAnewWhenTheProgramIsAwayAgain) {
   EXPECT_EQ(missed_at(91.0 + 40.0 + 17.0), 3.0);
 }
 
-TEST_F(MissedWork, IsNotKnownOfWhoIsAwayOrWhileAFaultLasts) {
+TEST_F(MissedWork, IsNotKnownOfAnAbsentUavOrWhileAFaultLasts) {
   run_.result["faults"].push_back(fault(300, nullptr));
   EXPECT_EQ(missed_at(80.0), 0.0);
   run_.result["faults"].erase(2);

@@ -40,7 +40,7 @@ TEST_F(HandDeskTest, TellsOfEachChangeOnce) {
   EXPECT_EQ(desk_.news(kThird, now_), ahead("", 3.0).command);
 }
 
-TEST_F(HandDeskTest, WhatIsNotRenewedEnds) {
+TEST_F(HandDeskTest, ACommandThatIsNotRenewedEnds) {
   desk_.take(ahead("ann", 2.0), now_);
   EXPECT_TRUE(desk_.news(kFirst, now_));
   for (int i = 0; i < 20; ++i) {
@@ -57,7 +57,7 @@ TEST_F(HandDeskTest, WhatIsNotRenewedEnds) {
 }
 
 /// Held for a long time, as between two steps of a run that is paused.
-TEST_F(HandDeskTest, WhatHasEndedBeforeItWasToldIsNeverTold) {
+TEST_F(HandDeskTest, ACommandThatEndedBeforeTheNextStepNeverActs) {
   desk_.take(ahead("ann", 2.0), now_);
   now_ += std::chrono::minutes(1);
   EXPECT_EQ(desk_.news(kFirst, now_), std::nullopt);

@@ -114,7 +114,7 @@ TEST_F(FaultsByHand, TheirFileHasTheSameInTheSameExchanges) {
   EXPECT_GT(refused, 500U);
 }
 
-TEST_F(FaultsByHand, WhatMakesNoSenseIsRefusedWithAReason) {
+TEST_F(FaultsByHand, AnInvalidFaultIsRefusedWithAReason) {
   HandFaults hand(scenario_, load("faults: [{at_s: 10, until_s: 20, blackout: changi}, {at_s: 1, link: {loss: 1}}]"));
   const Tick next = 100 * period_;  // 5 s
   expect_refused(hand, begin(Kill{"changy"}), next, "there is no program 'changy'; did you mean 'changi'?");
@@ -136,7 +136,7 @@ TEST_F(FaultsByHand, WhatMakesNoSenseIsRefusedWithAReason) {
   expect_refused(hand, begin(Pause{"jurong"}), next + 50 * period_, "the process of jurong has a fault now already");
 }
 
-TEST_F(FaultsByHand, OneThatHasNotBegunLeavesNothing) {
+TEST_F(FaultsByHand, AFaultThatEndsBeforeItBeginsLeavesNothing) {
   HandFaults hand(scenario_, {});
   const Tick next = 40 * period_;
   EXPECT_EQ(hand.obey(begin(Kill{"jurong"}), next), "");
@@ -153,7 +153,7 @@ TEST_F(FaultsByHand, OneThatHasNotBegunLeavesNothing) {
   EXPECT_NE(hand.obey(end(1), next + 2 * period_), "") << "it is over";
 }
 
-TEST_F(FaultsByHand, OneForAWhileMayEndSooner) {
+TEST_F(FaultsByHand, AFaultForAWhileMayEndSooner) {
   HandFaults hand(scenario_, {});
   EXPECT_EQ(hand.obey(begin(Kill{"station"}, 3.01), ticks(10.0)), "");
   EXPECT_EQ(*hand.all()[0].fault.end(), ticks(13.05)) << "whole exchanges";

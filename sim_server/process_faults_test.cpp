@@ -8,7 +8,7 @@
 namespace skein::sim {
 namespace {
 
-TEST(ProcessFaults, AtEachExchangeThoseActThatThePlanSays) {
+TEST(ProcessFaults, TheFaultsOfThePlanActAtEachExchange) {
   std::mt19937_64 random(5);
   const auto below = [&](std::uint64_t n) { return static_cast<double>(random() % n); };
   for (int round = 0; round < 100; ++round) {

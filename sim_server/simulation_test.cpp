@@ -194,7 +194,7 @@ TEST_F(Field, HandTriggeredCamerasWaitForTheTrigger) {
 
 /// What a UAV receives about its pictures follows from its own pictures alone. So it learns neither the fleet's score
 /// nor what others have photographed.
-TEST_F(Field, WhatOthersPhotographReachesNoUav) {
+TEST_F(Field, AUavLearnsNothingOfThePicturesOfOthers) {
   add("explorer", 0, -3);
   add("photographer", 0, 3);
   struct Seen {

@@ -111,7 +111,7 @@ TEST_P(EveryWorld, FleetStartsAndTheExportFliesTheSame) {
   std::filesystem::remove_all(folder);
 }
 
-TEST_P(EveryWorld, WhoseStartIsWalledInCannotBeFlown) {
+TEST_P(EveryWorld, AWalledInStartCannotBeFlown) {
   MeshBuilder walls;
   const Vector2d start = scenario_.fleet.front().start;
   for (int i = 0; i < 4; ++i) {

@@ -51,7 +51,7 @@ std::vector<TallyRecord> some_records(std::size_t count) {
   return records;
 }
 
-TEST_F(JournalTest, WhatWasAppendedIsReadBackAndCanBeContinued) {
+TEST_F(JournalTest, AppendedRecordsAreReadBackAndCanBeContinued) {
   const std::vector<TallyRecord> records = some_records(9);
   Journal(file_).append(std::span(records).first(4));
   {
@@ -118,7 +118,7 @@ TEST_F(JournalTest, AnotherRunsJournalIsNotTakenUp) {
   EXPECT_EQ(Journal(file_, RunId{7}).replayed(), records) << "what is not a journal is replaced by one";
 }
 
-TEST_F(JournalTest, WhatWasAppendedOutlivesAKilledProcess) {
+TEST_F(JournalTest, AppendedRecordsOutliveAKilledProcess) {
   const std::vector<TallyRecord> records = some_records(5);
   const pid_t child = ::fork();
   ASSERT_GE(child, 0);

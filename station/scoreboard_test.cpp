@@ -41,7 +41,7 @@ TEST(Scoreboard, AReportThatStandsInTheLedgerCountsAndIsAcknowledged) {
   EXPECT_EQ(score.audit(score.ledger()[0]).delivered, Tick{120});
 }
 
-TEST(Scoreboard, WhatIsEarnedIsNotYetDelivered) {
+TEST(Scoreboard, AnEarnedPointIsNotYetDelivered) {
   Scoreboard score = board();
   score.add_entry(entry(0, capture(UavIndex{0}, 0, 10, {point(1, 0.5F)})));
   const StepOutcome outcome = score.end_step(20, 1);

@@ -120,7 +120,7 @@ TEST_F(KeptMapsTest, AreThoseOfKeyFramesWhereItFliesOnThem) {
   EXPECT_EQ(found[1].bytes, found[2].bytes);
 }
 
-TEST_F(KeptMapsTest, LeaveNoFileOfWhoNeverTookAStep) {
+TEST_F(KeptMapsTest, LeaveNoFileOfAUavThatNeverTookAStep) {
   KeptMaps kept(folder_, "a", kSecond);
   kept.end(nullptr, none_);
   EXPECT_TRUE(fs::is_empty(folder_));

@@ -48,7 +48,7 @@ TEST(Endpoints, OfAnythingElseAreRefused) {
   }
 }
 
-TEST(Endpoints, KnowWhoReachesThem) {
+TEST(Endpoints, KnowWhetherOnlyThisHostReachesThem) {
   for (const char* near : {"8080", "127.0.0.1:1", "127.0.0.2:1", "[::1]:1"}) {
     EXPECT_TRUE(read_endpoint(near).is_loopback()) << near;
   }

@@ -53,7 +53,7 @@ TEST(Feeds, EachReaderHasAPlaceOfItsOwn) {
   EXPECT_EQ(feed.next(late, kMuch), R"({"scene":{},"lines":[1,2]})");
 }
 
-TEST(Feeds, TellCloudsToWhoAsksForThem) {
+TEST(Feeds, TellCloudsOnlyToViewersThatAskForThem) {
   Feed feed;
   FeedPlace looks, other, blind;
   feed.set_scene("{}");

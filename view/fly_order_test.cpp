@@ -22,7 +22,7 @@ TEST(FlyOrders, SurviveTheWayToTheBit) {
   EXPECT_EQ(read_fly_order(text_of(FlyOrder{"jurong", {}})), (FlyOrder{"jurong", {}})) << "to let go is one, too";
 }
 
-TEST(FlyOrders, NothingElseIsOne) {
+TEST(FlyOrders, AnyOtherTextIsRefused) {
   const std::string uav = R"("uav":"jurong",)", velocity = R"("velocity":[1,0,0],)", yaw = R"("yaw_rate":0,)",
                     gimbal = R"("gimbal":[0,0])", begin = R"({"do":"fly",)";
   ASSERT_TRUE(read_fly_order(begin + uav + velocity + yaw + gimbal + "}"));

@@ -13,7 +13,7 @@
 namespace skein::view {
 namespace {
 
-TEST_F(ServerTest, ServesWhoHasTheKey) {
+TEST_F(ServerTest, ServesAViewerWithTheKey) {
   EXPECT_NE(get("/", own_host() + cookie()).find("<p>the page</p>"), std::string::npos);
   EXPECT_NE(get("/live.js", own_host() + cookie()).find("the_script()"), std::string::npos);
   EXPECT_NE(get("/", "Host: localhost:" + std::to_string(listener_.port()) + "\r\n" + cookie()).find("the page"),
@@ -128,7 +128,7 @@ TEST_F(ServerTest, TellsFollowersAndObeysThem) {
   EXPECT_TRUE(eventually([&] { return orders_ == 2; })) << "several browsers follow";
 }
 
-TEST_F(ServerTest, TellsPointsAndMapsToWhoLooks) {
+TEST_F(ServerTest, TellsPointsAndMapsOnlyToViewersThatLookAtThem) {
   const auto looks = follower(), other = follower();
   looks->send(frame(R"({"do":"look","lidar":["a"],"map":"b"})"));
   EXPECT_TRUE(eventually([&] { return orders_ == 1; })) << "the viewer who sends them hears of it, too";
@@ -182,7 +182,7 @@ TEST_F(ServerTest, SurvivesNoise) {
   EXPECT_TRUE(get("/", own_host()).starts_with("HTTP/1.1 200"));
 }
 
-TEST_F(ServerTest, DoesNotWaitForWhoDoesNotRead) {
+TEST_F(ServerTest, DoesNotWaitForAViewerThatDoesNotRead) {
   const auto slow = follower();
   slow->send(frame(R"({"do":"look","map":"a"})"));
   for (int i = 0; i < 20'000; ++i) {
@@ -213,7 +213,7 @@ TEST_F(ServerTest, LeavesNoConnectionWhenItIsStopped) {
   EXPECT_EQ(orders_, 0);
 }
 
-TEST_F(ServerTest, AnotherOneTakesOverWhoWaits) {
+TEST_F(ServerTest, TheNextServerTakesOverAWaitingViewer) {
   server_->stop();
   Wire waiting(listener_.port());
   waiting.send("GET / HTTP/1.1\r\n" + own_host() + cookie() + "\r\n");
@@ -223,7 +223,7 @@ TEST_F(ServerTest, AnotherOneTakesOverWhoWaits) {
 }
 
 // ssh -L 9000:127.0.0.1:8080: the browser knows the near end of the tunnel alone.
-TEST_F(ServerTest, ServesWhoComesByATunnel) {
+TEST_F(ServerTest, ServesAViewerThatComesThroughATunnel) {
   for (const std::string near : {"localhost:9000", "127.0.0.1:9000", "[::1]:9000", "localhost"}) {
     const std::string headers = "Host: " + near + "\r\n", cookie = cookie_for(near);
     EXPECT_NE(get("/", headers).find("The key, please"), std::string::npos) << near;

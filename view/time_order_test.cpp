@@ -17,7 +17,7 @@ TEST(TimeOrders, SurviveTheWay) {
   }
 }
 
-TEST(TimeOrders, NothingElseIsOne) {
+TEST(TimeOrders, AnyOtherTextIsRefused) {
   for (const std::string text :
        {"", "pause", "{}", "[]", "null", "{\"do\":1}", "{\"do\":\"kill\"}", "{\"do\":\"pause\",\"speed\":1}",
         "{\"do\":\"speed\"}", "{\"do\":\"speed\",\"speed\":0.05}", "{\"do\":\"speed\",\"speed\":1001}",

@@ -48,7 +48,7 @@ TEST(Matches, EndpointsOfTheOwnParticipantDoNotCount) {
 }
 
 // Matches of one endpoint begin and end in turn; its samples come at any time from shortly before a beginning on.
-TEST(Matches, DrawnOrdersEndWithThoseWhoAreThere) {
+TEST(Matches, DrawnOrdersEndWithTheEndpointsThatAreThere) {
   for (unsigned seed = 0; seed < 500; ++seed) {
     std::mt19937 random(seed);
     Matches matches(kOwn);

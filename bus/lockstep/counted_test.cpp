@@ -184,7 +184,7 @@ TEST(CountedWriter, SendsNoMoreInAStepThanItsHistoryHolds) {
   for (int i = 0; i < 3; ++i) EXPECT_EQ(writer.write(payload), i < 2) << "and of this step's share";
 }
 
-TEST(CountedWriter, WhatIsNotSentIsCountedForAllWritersOfABus) {
+TEST(CountedWriter, TheBusCountsTheUnsentMessagesOfAllItsWriters) {
   const auto bus = make_bus({.vendor = "inproc"});
   const auto here = bus->join(3), there = bus->join(4);
   const std::vector<std::uint8_t> payload = {0, 1, 0, 0};

@@ -80,7 +80,7 @@ TEST(PlannerScores, KindsOfScenesAreSummedOverWhatBothHave) {
 }
 
 // A planner that no longer flies in a scene must not make its sums look better in silence.
-TEST(PlannerScores, WhatOnlyOneTableHasIsCounted) {
+TEST(PlannerScores, TheComparisonCountsTheRowsOfOnlyOneTable) {
   std::mt19937 random(13);
   for (int trial = 0; trial < 50; ++trial) {
     std::vector<PlannerScore> before, now;

@@ -157,7 +157,7 @@ TEST(BenchReport, TargetsSayByHowMuch) {
   EXPECT_EQ(named(targets, "100 UAVs run to the end")["met"], true);
 }
 
-TEST(BenchReport, WhatWasNotMeasuredIsNeitherMetNorMissed) {
+TEST(BenchReport, ATargetThatWasNotMeasuredIsNeitherMetNorMissed) {
   const Json targets = targets_of({{"scale", {scale_entry(5, {result()})}}});
   ASSERT_FALSE(targets.empty());
   for (const Json& target : targets) EXPECT_TRUE(target["met"].is_null() && target["value"].is_null()) << target;

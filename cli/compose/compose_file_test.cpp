@@ -117,7 +117,7 @@ class ComposeFile : public testing::Test {
   const fs::path dir_ = programs_.dir() / "a $b: 'c' \"d\" #{e}";
 };
 
-TEST_F(ComposeFile, EachDomainIsANetworkOfThoseWhoAreInIt) {
+TEST_F(ComposeFile, EachDomainIsANetworkOfItsServices) {
   for_all([](const Fleet& fleet, const Compose& file) {
     Names networks = {"world", "gcs"}, services = {"sim_server", "comm_router", "station"};
     if (fleet.plan.ground) services.insert("uav_agent-gcs");
@@ -219,7 +219,7 @@ TEST_F(ComposeFile, TheStationAloneServesThePageInANetworkOfItsOwn) {
   });
 }
 
-TEST_F(ComposeFile, FilesAreMountedForThoseWhoNeedThem) {
+TEST_F(ComposeFile, AServiceMountsOnlyTheFilesThatItNeeds) {
   for_all([&](const Fleet& fleet, const Compose& file) {
     for (const std::string& service : file.services()) {
       const auto mounts = file.mounts(service);
@@ -280,7 +280,7 @@ TEST_F(ComposeFile, AgentsSeeOneAnothersResultsAsLittleAsTheServers) {
   });
 }
 
-TEST_F(ComposeFile, WhatPlannersAreToldReachesThemAsItWasWritten) {
+TEST_F(ComposeFile, PlannersGetTheirParametersAsTheUserWroteThem) {
   for_all([&](const Fleet& fleet, const Compose& file) {
     for (const UavPlanner& planner : fleet.plan.planners) {
       const std::string service = "uav_agent-" + planner.uav, told = file.option(service, "--planner");

@@ -81,7 +81,7 @@ TEST_F(Converted, EachKeyHasItsProperty) {
   EXPECT_EQ(seen, (std::set<std::string>{old_expectations().begin(), old_expectations().end()}));
 }
 
-TEST_F(Converted, WhatHoldsByDefaultOrIsStatedAsStronglyIsDropped) {
+TEST_F(Converted, AnExpectationThatHoldsByDefaultOrIsStatedElsewhereIsDropped) {
   EXPECT_EQ(text_of(kFlown + "expect: {collisions: 0, custody: kept}\n"), kFlown);
   EXPECT_EQ(text_of("faults: []\nexpect: {collisions: 0}\n"), "faults: []\nexpect: {}\n") << "still a fault test";
   const std::string stated = "properties:\n  score_share: {share: 90 %}\n  custody_exact: ready\n";
@@ -115,7 +115,7 @@ TEST_F(Converted, AllOutsideExpectStaysAsItIs) {
   }
 }
 
-TEST_F(Converted, WhatCannotBeConvertedIsRefusedWithItsLine) {
+TEST_F(Converted, AFileThatCannotBeConvertedIsRefusedWithItsLine) {
   const auto refused = [](const std::string& text, const std::string& words) {
     try {
       text_of(text);

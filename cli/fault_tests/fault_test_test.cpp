@@ -87,7 +87,7 @@ TEST_F(FaultTestFile, PlannersMayNameTheCopiesOfALargerFleetAndOnlyUavsThatFly) 
   refused(run + "changi=patrol\n  uavs: 2\n", "mine.yaml:4: run.planner: ");
 }
 
-TEST_F(FaultTestFile, WhatDoesNotFitTheScenarioIsNamedWithItsLine) {
+TEST_F(FaultTestFile, ASettingThatDoesNotFitTheScenarioIsNamedWithItsLine) {
   const std::string towers = "faults: []\nrun:\n  scenario: towers\n";
   refused(towers + "  duration_s: 1e-9\n", "mine.yaml:4: run.duration_s: ");
   refused(towers + "  uavs: 12\n", "mine.yaml:4: run.uavs: ");
@@ -125,7 +125,7 @@ TEST_F(FaultTestFile, SomePropertiesHoldUnlessTheFileSaysOtherwise) {
       << "a capsule is about one property";
 }
 
-TEST_F(FaultTestFile, WhatIsWrongInACapsuleHasAColumn) {
+TEST_F(FaultTestFile, AnErrorInACapsuleIsReportedWithItsColumn) {
   const std::string run = "run: {scenario: ./small.yaml, duration_s: 60, uavs: 2}\n";
   const std::string rest =
       "faults:\n  - {at_s: 10, until_s: 20, blackout: alpha}\nproperties: {separation: ready}\n"
@@ -186,7 +186,7 @@ class JudgedRun : public FaultTestFile {
 
 TEST_F(JudgedRun, AGoodRunMeetsWhatIsUsual) { EXPECT_EQ(broken(""), ""); }
 
-TEST_F(JudgedRun, WhatIsUsualIsExpectedUnasked) {
+TEST_F(JudgedRun, TheUsualExpectationsApplyByDefault) {
   run_.result["status"] = "no_takeoff";
   run_.result["digest"] = nullptr;
   run_.result["faults"][0]["began_step"] = nullptr;
@@ -220,7 +220,7 @@ TEST_F(JudgedRun, RepetitionsHaveTheSameDigest) {
   EXPECT_NE(broken("deterministic: false"), "") << "a missing digest is not an equal one";
 }
 
-TEST_F(JudgedRun, WhatFailsHasItsLine) {
+TEST_F(JudgedRun, TheReportNamesTheLineOfAFailedExpectation) {
   const std::string file = (programs_.dir() / "mine.yaml").string();
   EXPECT_NE(broken("status: completed,\n  radio: {\n  sent: 3}"), "");
   EXPECT_EQ(place_, file + ":5: expect.radio.sent: ");

@@ -67,7 +67,7 @@ class FaultMakers : public testing::Test {
   const ScratchDir scratch_;
 };
 
-TEST_F(FaultMakers, WhatIsDrawnIsAFaultFileAndReadsBackAsItWas) {
+TEST_F(FaultMakers, DrawnFaultsMakeAFaultFileThatReadsBackTheSame) {
   each([&](const std::vector<Fault>& faults) {
     ASSERT_FALSE(faults.empty());
     const FaultPlan plan = read_back(faults);
@@ -136,7 +136,7 @@ TEST_F(FaultMakers, VariationsOfADeathForGoodEndInTime) {
   EXPECT_GT(others, 50);
 }
 
-TEST_F(FaultMakers, NoneLastsLongerThanItsKindMay) {
+TEST_F(FaultMakers, NoFaultLastsLongerThanItsKindMay) {
   std::map<std::string, double> most_s;
   each([&](const std::vector<Fault>& faults) {
     for (const Fault& fault : faults) {

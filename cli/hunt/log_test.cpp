@@ -65,12 +65,12 @@ class HuntLogFile : public testing::Test {
   std::string text_;
 };
 
-TEST_F(HuntLogFile, WhatWasFlownIsTakenUp) {
+TEST_F(HuntLogFile, ALogResumesWithTheCasesThatWereFlown) {
   EXPECT_EQ(cases(), kCases);
   EXPECT_EQ(read_text(file_), text_);
 }
 
-TEST_F(HuntLogFile, WhatAKillCutOffAtTheEndGoesAndTheRestStays) {
+TEST_F(HuntLogFile, ALogDropsOnlyTheCaseThatAKillCutOff) {
   const std::size_t begin_of_last = text_.rfind('\n', text_.size() - 2) + 1;
   for (std::size_t size = begin_of_last; size < text_.size(); ++size) {
     write_text(file_, text_.substr(0, size));
@@ -249,7 +249,7 @@ TEST_F(HuntLogs, ALogThatCannotBeWrittenEndsTheHunt) {
 }
 
 // Finds are of little use without the log and the settings of their hunt.
-TEST_F(HuntLogs, WhoseFindsCannotBeKeptWithTheirSettingsStayAsTheyWere) {
+TEST_F(HuntLogs, ALogStaysAsItWasWhenItsSettingsCannotBeKept) {
   constexpr std::size_t kLimit = 300 << 10;  // on the size of files, which is to a program what a full disk is
   const Json large{{"seed", 1}, {"text", std::string(2 * kLimit, 'x')}};
   HuntLog(dir_, large, false).add(0, "first", {.digest = "ab"});

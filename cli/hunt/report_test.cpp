@@ -81,7 +81,7 @@ TEST_F(HuntReports, JUnitHasACaseForEachPropertyWithItsNumbersAndCapsules) {
 }
 
 // A hunt that was stopped before it went into a failure has no capsule of it; the property failed all the same.
-TEST_F(HuntReports, WhatFailedAndWasNotGoneIntoIsAFailureInJUnitToo) {
+TEST_F(HuntReports, JUnitHasAFailureAlsoForAPropertyWithoutACapsule) {
   write(false);
   const std::string message = case_of("separation").child("failure").attribute("message").value();
   EXPECT_NE(message.find("failed in 1"), std::string::npos) << message;

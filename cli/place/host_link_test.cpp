@@ -26,7 +26,7 @@ class HostLinkFrames : public testing::Test {
 };
 
 // What a host sends with an answer arrives together with it, or later: it must not matter which.
-TEST_F(HostLinkFrames, AllThatComeAfterAnAnswerAreTaken) {
+TEST_F(HostLinkFrames, FramesThatComeAfterAnAnswerAreTaken) {
   std::mt19937 random(1);
   for (int trial = 0; trial < 10; ++trial) {
     const std::size_t before = random() % 3, after = 1 + random() % 5;

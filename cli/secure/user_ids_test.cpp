@@ -19,7 +19,7 @@ class UserIdsTest : public ::testing::Test {
     if (::geteuid() != 0) GTEST_SKIP() << "only root can choose user ids";
   }
 
-  static bool anybody_is(uid_t user) {
+  static bool has_processes(uid_t user) {
     const std::vector<pid_t> all = all_processes();
     return std::any_of(all.begin(), all.end(), [&](pid_t pid) { return belongs_to(pid, user); });
   }
@@ -57,7 +57,7 @@ TEST_F(UserIdsTest, AreDifferentAndFree) {
   EXPECT_EQ(std::unique(all.begin(), all.end()), all.end());
   EXPECT_GE(all.front(), kFirstAgentUser);
   EXPECT_LE(all.back(), kLastAgentUser);
-  for (const uid_t user : all) EXPECT_FALSE(anybody_is(user)) << user;
+  for (const uid_t user : all) EXPECT_FALSE(has_processes(user)) << user;
 }
 
 TEST_F(UserIdsTest, WithThemEndTheProcessesThatHaveThem) {
@@ -66,18 +66,18 @@ TEST_F(UserIdsTest, WithThemEndTheProcessesThatHaveThem) {
     const UserIds ids(1);
     user = ids.at(0).uid;
     leave_behind(user);
-    EXPECT_TRUE(anybody_is(user));
+    EXPECT_TRUE(has_processes(user));
   }
-  EXPECT_FALSE(anybody_is(user));
+  EXPECT_FALSE(has_processes(user));
 }
 
-TEST_F(UserIdsTest, WhatASurvivorHasIsNotGivenAgain) {
+TEST_F(UserIdsTest, TheUserIdOfASurvivingProcessIsNotGivenAgain) {
   constexpr std::size_t kAll = kLastAgentUser - kFirstAgentUser + 1;
   leave_behind(kFirstAgentUser);
   EXPECT_THROW(UserIds ids(kAll), InputError);
-  EXPECT_TRUE(anybody_is(kFirstAgentUser)) << "it was not ours to end";
+  EXPECT_TRUE(has_processes(kFirstAgentUser)) << "it was not ours to end";
   EXPECT_TRUE(end_processes_of(kFirstAgentUser));
-  EXPECT_FALSE(anybody_is(kFirstAgentUser));
+  EXPECT_FALSE(has_processes(kFirstAgentUser));
 }
 
 TEST_F(UserIdsTest, NoOtherUsersProcessesAreEnded) {

@@ -64,7 +64,7 @@ TEST(FiguresJson, AreTheSameAfterwards) {
   }
 }
 
-TEST(FiguresJson, WhatIsDamagedIsEmpty) {
+TEST(FiguresJson, DamagedFiguresAreReadAsEmpty) {
   for (const char* text : {"null", "3", "{\"score\": \"x\", \"uavs\": 3}", "{\"uavs\": [3]}", "{\"status\": 7}"}) {
     EXPECT_EQ(figures_from(parse_json(text)).score, 0.0) << text;
   }

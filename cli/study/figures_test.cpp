@@ -99,7 +99,7 @@ TEST(StudyFigures, OfFlightsThatAreFoundAreThoseOfAllThatAreLookedAt) {
   }
 }
 
-TEST(StudyFigures, WhatWasNotReportedIsNoNumber) {
+TEST(StudyFigures, AFigureThatWasNotReportedHasNoValue) {
   const FlightFigures figures =
       figures_of(Json::parse(R"({"score": 0, "attainable": {"points": null, "score": null}})"));
   EXPECT_FALSE(figures.attainable_percent || figures.mean_quality || figures.idle_explorers_s ||

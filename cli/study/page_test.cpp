@@ -302,7 +302,7 @@ TEST(StudyPage, ScenesAreCalledByTheirNames) {
   EXPECT_NE(page_of(a_study(false)).find("<h2>x&lt;y&gt;</h2>"), std::string::npos);
 }
 
-TEST(StudyPage, SaysWhoIsAheadAndHowToMakeItAgain) {
+TEST(StudyPage, SaysWhichPlannerIsAheadAndHowToMakeItAgain) {
   const Study study = a_study(true);
   const std::string page = page_of(study);
   for (const char* words :

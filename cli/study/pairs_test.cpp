@@ -74,7 +74,7 @@ TEST(PlannerPairs, AreATableForPrograms) {
 }
 
 /// Two planners of the same median, one of them with twice the spread.
-TEST(PlannerPairs, TellOfOtherFiguresAndOfWhoseScoresAreSpreadWider) {
+TEST(PlannerPairs, CompareOtherFiguresAndTheSpreadOfScores) {
   Study study{false, Rank::maximum, {"a", "b"}, {"s"}, {0, 1, 2, 3, 4, 5, 6}, {}, "", "", "", "", 1};
   for (const std::uint64_t seed : study.seeds) {
     for (const std::size_t planner : {0, 1}) {

@@ -39,7 +39,7 @@ TEST(Requirement, IsNotKeptByAFlightWithoutTheFigure) {
   EXPECT_FALSE(parse_requirement("frozen_uavs==0").holds(figures(5.0, 0)));
 }
 
-TEST(Requirement, WhatMakesNoSenseIsRefused) {
+TEST(Requirement, AMalformedRequirementIsRefused) {
   for (const char* text : {"", "collisions", "collision==0", "==0", "collisions==", "collisions==none", "collisions=0",
                            "gain(collisions)==0", "collisions==0 and", "frozen_s<80 s", "separation > 1 m"}) {
     EXPECT_THROW(parse_requirement(text), InputError) << text;

@@ -75,7 +75,7 @@ TEST(Tex, EverySignIsPrintedAndNoneActs) {
   }
 }
 
-TEST(Tex, WhatIsNoTextBecomesAQuestionMark) {
+TEST(Tex, AnInvalidCharacterBecomesAQuestionMark) {
   EXPECT_EQ(tex_escaped("a\xff\xc3z"), "a??z");
   EXPECT_EQ(tex_escaped("a\x01z\nb"), "a?z b");
   EXPECT_EQ(tex_escaped("漢é"), "漢é");

@@ -242,7 +242,7 @@ TEST(SweepController, WithNodesThatFlyNothingItEndsAndSaysWhatIsMissing) {
   sweep.expect_all(6);
 }
 
-TEST(SweepController, WhatFailedIsFlownOnceMoreByTheNextCommandAndNothingElse) {
+TEST(SweepController, TheNextCommandFliesOnlyTheFailedFlightAgain) {
   Sweep sweep(4, 9, 3, {{"one"}, {"two"}});
   sweep.world.failing = {4};
   ASSERT_TRUE(sweep.control());

@@ -53,7 +53,9 @@ TEST_F(FlyScript, SlotsShareTheCores) {
   EXPECT_GE(std::stoi(threads(1)), 1);
 }
 
-TEST_F(FlyScript, WhatTheUserSaysHolds) { EXPECT_EQ(threads({}, "SKEIN_THREADS=5 SLURM_CPUS_ON_NODE=3"), "5"); }
+TEST_F(FlyScript, TheUsersNumberOfThreadsTakesPrecedence) {
+  EXPECT_EQ(threads({}, "SKEIN_THREADS=5 SLURM_CPUS_ON_NODE=3"), "5");
+}
 
 }  // namespace
 }  // namespace skein::cli

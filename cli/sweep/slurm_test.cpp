@@ -35,7 +35,7 @@ TEST(SbatchOptions, ArePassedOnWithTheirValuesAsTheyAre) {
   EXPECT_EQ(sbatch_options("comment=a=b"), Words{"--comment=a=b"});
 }
 
-TEST(SbatchOptions, WhatSkeinSetsItselfAndWhatIsNoneIsRefused) {
+TEST(SbatchOptions, MalformedOptionsAndThoseThatSkeinSetsAreRefused) {
   for (const char* text : {"array=0-3", "time=10,job-name=x", "dependency=afterok:1", "wrap=true", "exclusive",
                            "--time=10", "=3", "time=1, account=x", "$(reboot)=1"}) {
     EXPECT_THROW(sbatch_options(text), InputError) << text;

@@ -155,7 +155,7 @@ TEST_F(Expressions, AQuotientByZeroIsUndefinedAndSoIsItsOpposite) {
   EXPECT_FALSE(margin("separation - separation(jurong) < 5 m", INFINITY).is_defined);
 }
 
-TEST_F(Expressions, WhatIsDividedByAWrittenZeroIsRefused) {
+TEST_F(Expressions, ADivisionByAWrittenZeroIsRefused) {
   for (const char* text : {"0/0 > 1", "held/0 > 1"}) refused(text, std::string(text).find('/') + 1, "divided by 0");
   refused("1 m / 0 m > 1", 6, "divided by 0");
   refused("held > 1 / (2 - 2)", 12, "divided by 0");

@@ -214,7 +214,7 @@ TEST_F(FaultFile, ALengthMayStandInPlaceOfTheEnd) {
   refused("faults: [{at_s: 8, for_s: 2, blackout: changi}, {at_s: 9, blackout: changi}]", "contradicts");
 }
 
-TEST_F(FaultFile, OneThatWaitsActsFromWhenItIsSetOff) {
+TEST_F(FaultFile, AWaitingFaultActsFromWhenItIsSetOff) {
   const FaultPlan plan = load(
       "faults: [{when: held(changi) >= 3, for_s: 2, blackout: changi}, {when: time > 1 s, at_s: 5, until_s: 9, "
       "blackout: jurong}]");

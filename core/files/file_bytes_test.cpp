@@ -38,7 +38,7 @@ class FileBytes : public testing::Test {
   fs::path folder_;
 };
 
-TEST_F(FileBytes, WhatIsNoFileIsRefusedAtOnceAndNamed) {
+TEST_F(FileBytes, APathThatIsNoRegularFileIsRefusedAtOnceAndNamed) {
   for (const fs::path& file : {folder_ / "pipe", folder_, fs::path("/dev/zero"), fs::path("/dev/full")}) {
     EXPECT_EQ(complaint([&] { read_file_bytes(file, 100); }), file.string() + ": not a regular file");
     EXPECT_EQ(complaint([&] { open_text(file); }), file.string() + ": not a regular file");
@@ -52,7 +52,7 @@ TEST_F(FileBytes, WhatIsNoFileIsRefusedAtOnceAndNamed) {
   EXPECT_EQ(complaint([&] { read_file_bytes(below, 100); }), below.string() + ": no such file");
 }
 
-TEST_F(FileBytes, WhatIsTooLargeIsRefusedBeforeItIsRead) {
+TEST_F(FileBytes, AFileThatIsTooLargeIsRefusedBeforeItIsRead) {
   EXPECT_NE(complaint([&] { read_file_bytes(folder_ / "hole", 1 << 20); }).find("1048576 MB"), std::string::npos);
   std::ifstream hole = open_text(folder_ / "hole");
   std::string line;

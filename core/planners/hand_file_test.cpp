@@ -58,7 +58,7 @@ TEST_F(HandFileTest, AnEditorOnWindowsMayHaveSavedIt) {
   EXPECT_EQ(rows[1].tick, 800);
 }
 
-TEST_F(HandFileTest, WhatIsWrongIsNamedWithItsLine) {
+TEST_F(HandFileTest, AnErrorIsReportedWithItsLine) {
   const std::string good = "20,400,1,0,0,0,0,0\n";
   EXPECT_NE(refusal("").find(":1: "), std::string::npos);
   EXPECT_NE(refusal("step,tick\n").find("begins with 'step,tick,ahead"), std::string::npos);

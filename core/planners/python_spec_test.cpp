@@ -27,7 +27,7 @@ TEST(PythonSpec, TablesShowNoFolders) {
   for (const char* other : {"kios:file=/a/b", "py:", "py:b.py", "exec:/a/b"}) EXPECT_EQ(without_folders(other), other);
 }
 
-TEST(PythonSpec, WhatIsWrittenReadsBackTheSame) {
+TEST(PythonSpec, AWrittenSpecReadsBackTheSame) {
   RandomStream random(7, "python specs", 0);
   const auto one_of = [&](const std::vector<std::string>& texts) { return texts[random.bits() % texts.size()]; };
   for (int i = 0; i < 300; ++i) {

@@ -257,7 +257,7 @@ TEST(RadioTable, ARouteThatIsClosedFreesItsNamesAndType) {
   EXPECT_EQ(arrivals(table.routes()[note]), std::vector<std::string>{"rt/note/raffles"});
 }
 
-TEST(RadioTable, WhatOtherRoutesNeedStaysWhenOneIsClosed) {
+TEST(RadioTable, ClosingARouteKeepsTheTypeAndNameThatOtherRoutesUse) {
   const Scenario scenario = three_uavs();
   RadioTable table(scenario);
   const std::size_t closed = table.open(Node{1}, "/note", "some/msg/Note", {"sentosa", "gcs"});

@@ -151,7 +151,7 @@ TEST(ScoreTable, ThresholdIsInclusive) {
   EXPECT_EQ(table.points()[0].q, 0.2F);
 }
 
-TEST(ScoreTable, WhatCountsForLessIsNotDetected) {
+TEST(ScoreTable, APointOfTooLowAQualityIsNotDetected) {
   RulesConfig rules;
   rules.min_point_score = 0.0;
   ScoreTable table(1, 3, rules);

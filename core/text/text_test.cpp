@@ -63,7 +63,7 @@ TEST(Text, OnlyWholeNumbersAndNothingElseAreRead) {
   }
 }
 
-TEST(Text, WhatIsSplitIsJoinedAgain) {
+TEST(Text, ASplitTextCanBeJoinedAgain) {
   std::mt19937 random(3);
   for (int i = 0; i < 2000; ++i) {
     std::string text;

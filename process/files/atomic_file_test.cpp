@@ -62,7 +62,7 @@ TEST_F(AtomicFile, LeavesNothingBehindWhenItFails) {
   EXPECT_EQ(files(), 1u);
 }
 
-TEST_F(AtomicFile, WhatAnotherProgramWroteGetsItsName) {
+TEST_F(AtomicFile, AFileThatAnotherProgramWroteIsPutInPlace) {
   const fs::path file = folder_ / "skein.tar.gz", finished = folder_ / "skein.tar.gz.tmp";
   write_file_atomically(file, "old");
   try {
@@ -96,7 +96,7 @@ int with_mounted(const fs::path& file, const std::function<int()>& body) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
-TEST_F(AtomicFile, WhatIsMountedIsWrittenIntoWhenTheUserNamedIt) {
+TEST_F(AtomicFile, AMountedFileThatTheUserNamedIsOverwritten) {
   const fs::path file = folder_ / "compose.yaml";
   for (const std::string& text : {std::string("longer than before"), std::string("short"), std::string()}) {
     write_file_atomically(file, "former text");

@@ -55,7 +55,7 @@ TEST_F(HeartbeatTest, MostBeatsCostNothing) {
   EXPECT_LE(touched, 1 + passed_s / 2.0);
 }
 
-TEST_F(HeartbeatTest, WhatCannotBeWrittenIsNoError) {
+TEST_F(HeartbeatTest, AFileThatCannotBeWrittenIsNoError) {
   for (const fs::path& file : {fs::path(), folder_ / "none" / "alive", folder_, fs::path("/proc/alive")}) {
     Heartbeat heart(file);
     EXPECT_NO_THROW(heart.beat()) << file;

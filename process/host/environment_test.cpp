@@ -88,7 +88,7 @@ TEST(Environment, AFleetGetsWhatCannotChangeItsResultAndPins) {
   EXPECT_FALSE(told.contains("SKEIN_DOMAIN"));
 }
 
-TEST(Environment, WhatIsIgnoredIsNamedInOrder) {
+TEST(Environment, IgnoredVariablesAreListedInOrder) {
   // The environment has them in the order in which they were set.
   const With first({{"ROS_LOCALHOST_ONLY", "1"}, {"SKEIN_TEST_KEPT", "x"}});
   const With then(Variables{{"CYCLONEDDS_URI", "x"}});

@@ -12,7 +12,7 @@ namespace {
 /// One that no other test has, nor this one when it runs twice at once.
 std::string own_name() { return "skein-host-lock-test-" + std::to_string(::getpid()); }
 
-TEST(HostLock, OneHoldsItAtATime) {
+TEST(HostLock, OnlyOneHolderTakesALockAtATime) {
   auto first = HostLock::try_take(own_name());
   ASSERT_TRUE(first);
   EXPECT_FALSE(HostLock::try_take(own_name()));
@@ -22,7 +22,7 @@ TEST(HostLock, OneHoldsItAtATime) {
   EXPECT_FALSE(HostLock::try_take(own_name()));
 }
 
-TEST(HostLock, ItIsFreeOnceItsHolderHasGone) {
+TEST(HostLock, ALockIsFreeOnceItsHolderHasGone) {
   { const auto lock = HostLock::try_take(own_name()); }
   EXPECT_TRUE(HostLock::try_take(own_name()));
 }

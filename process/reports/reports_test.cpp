@@ -93,7 +93,7 @@ TEST(Reports, OfTheStation) { check_report<StationReport>(kStation); }
 TEST(Reports, OfTheRouter) { check_report<RouterReport>(kRouter); }
 TEST(Reports, OfAnAgent) { check_report<AgentReport>(kAgent); }
 
-TEST(Reports, WhatAnEntryLacksIsNotMadeUp) {
+TEST(Reports, KeysThatAnEntryLacksStayAbsent) {
   const auto report = struct_of<SimServerReport>(parse_json(R"({"collisions": [{"uav": "alpha"}], "uavs": [{}]})"));
   EXPECT_EQ(json_of(report.collisions), Json::parse(R"([{"uav": "alpha"}])"));
   EXPECT_EQ(json_of(report.uavs), Json::parse("[{}]"));

@@ -13,7 +13,7 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-TEST(TurnPage, TellsWhoHasATurnInEachSeat) {
+TEST(TurnPage, NamesTheHolderOfTheTurnInEachSeat) {
   TurnPage launchers;
   TurnPage page(launchers.path());
   EXPECT_EQ(launchers.process(), page.process());
@@ -51,7 +51,7 @@ std::ptrdiff_t open_files() {
 }
 
 // The launcher makes a page for each process of a fleet: what fails again and again must not use up its descriptors.
-TEST(TurnPage, OneThatCannotBeMadeLeavesNoFileOpen) {
+TEST(TurnPage, APageThatCannotBeMadeLeavesNoFileOpen) {
   const std::ptrdiff_t before = open_files();
   EXPECT_THROW(TurnPage("/dev/null"), std::system_error) << "it cannot be mapped";
   EXPECT_THROW(TurnPage("/no/such/page"), std::system_error);

@@ -72,7 +72,7 @@ class PlannerContract:
     def test_another_scene(self, tmp_path: Path) -> None:
         self.expect_sound(self.fly(tmp_path / "run", scene_seed=7))
 
-    def test_nobody_hears_anybody(self, tmp_path: Path) -> None:
+    def test_no_uav_hears_another(self, tmp_path: Path) -> None:
         deaf = self.faults(tmp_path, "at_s: 0, link: {loss: 1}")
         self.expect_sound(self.fly(tmp_path / "run", faults=deaf))
 

@@ -100,7 +100,7 @@ def test_the_example_scores(root: Path, tmp_path: Path) -> None:
     assert run.score is not None and run.score > 5.0 and run.status == "completed"
 
 
-def test_nobody_notices_a_listener(root: Path, tmp_path: Path) -> None:
+def test_a_listener_changes_no_digest(root: Path, tmp_path: Path) -> None:
     shooter = "hover," + program(tmp_path, of_the_page(root, "my_uav.py"))
     heard = subprocess.Popen([sys.executable, "-B", str(root / "python/examples/listen.py"), str(tmp_path / "heard")],
                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
@@ -206,7 +206,7 @@ def test_it_is_typed(root: Path, tmp_path: Path) -> None:
     assert said.returncode != 0 and '"stat"' in said.stdout, said.stdout
 
 
-def test_what_is_kept_of_a_run_is_as_the_launcher_says(tmp_path: Path) -> None:
+def test_a_program_with_the_number_of_another_run_does_not_join(tmp_path: Path) -> None:
     """A program with the number of another run does not become a member, and its log says so."""
     code = ("import os\nos.environ['SKEIN_RUN'] = '12345'\nfrom skein.client import Client\n"
             "with Client() as uav:\n    for step in uav:\n        print('let in')\n")

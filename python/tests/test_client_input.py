@@ -191,7 +191,7 @@ def test_a_listener_that_cannot_be_says_why(arguments: Any, match: str) -> None:
     *(({"domain": domain, "patience_s": wrong}, "patience_s: must be")
       for domain in (None, 223) for wrong in (-1e-9, -0.05, -3, float("nan"), float("inf"), "3")),
 ])
-def test_what_a_listener_would_not_heed_is_refused(options: dict[str, Any], match: str) -> None:
+def test_options_that_a_listener_would_ignore_are_refused(options: dict[str, Any], match: str) -> None:
     with pytest.raises(skein.InputError, match=match):
         Listener(["/gcs/score"], dds="cyclonedds", **options)
 
@@ -287,8 +287,8 @@ with Client(debug=["x"]) as uav:
 '''
 
 
-def test_what_cannot_be_said_is_refused_in_flight_and_changes_nothing(tmp_path: Path, root: Path,
-                                                                      monkeypatch: pytest.MonkeyPatch) -> None:
+def test_invalid_calls_are_refused_in_flight_and_change_nothing(tmp_path: Path, root: Path,
+                                                                monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("PYTHONPATH", str(root / "python"))
     digests = []
     for nasty in (True, False):

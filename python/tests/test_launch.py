@@ -40,7 +40,7 @@ def test_drawn_numbers_arrive_as_they_are() -> None:
 
 
 @pytest.mark.parametrize("value", [{"jurong": "kios"}, object(), [["a"]], b"a", 1j])
-def test_what_is_no_option_is_refused(value: object) -> None:
+def test_a_value_of_a_wrong_type_is_refused(value: object) -> None:
     with pytest.raises(skein.InputError, match="planner"):
         option_arguments({"planner": value})
 

@@ -75,7 +75,7 @@ def test_the_digest_is_the_same_over_dds_killed_and_started_again(tmp_path: Path
     assert (abs(after["vx"]) + abs(after["vy"]) + abs(after["vz"])).max() > 0.1, "it flies on after its restart"
 
 
-def test_what_flew_is_kept_and_flown_again(tmp_path: Path, wanderer: str) -> None:
+def test_a_run_keeps_its_planner_and_rerun_flies_it_again(tmp_path: Path, wanderer: str) -> None:
     run = fly(tmp_path, wanderer, duration=8)
     (kept,) = run.result["planner_files"]
     assert (run.path / kept["kept"]).read_text() == WANDERER
@@ -177,7 +177,7 @@ WRONG_FILES = {
 
 
 @pytest.mark.parametrize("code", WRONG_FILES)
-def test_what_cannot_be_loaded_is_found_before_the_flight(tmp_path: Path, code: str) -> None:
+def test_a_planner_that_cannot_be_loaded_is_refused_before_the_flight(tmp_path: Path, code: str) -> None:
     (tmp_path / "wrong.py").write_text(code)
     with pytest.raises(skein.InputError, match=WRONG_FILES[code]) as caught:
         fly(tmp_path, f"jurong=py:{tmp_path}/wrong.py")

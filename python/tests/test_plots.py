@@ -220,7 +220,7 @@ def test_a_study_without_flights_that_count_is_drawn(study: skein.Study, tmp_pat
 
 @pytest.mark.parametrize("package, use", [("matplotlib", "skein.plots.axes()"),
                                           ("pandas", "skein.Run('.').frame('events')")])
-def test_what_is_not_installed_is_named(flown: skein.Run, package: str, use: str) -> None:
+def test_a_package_that_is_not_installed_is_named(flown: skein.Run, package: str, use: str) -> None:
     code = (f"import sys; sys.path.insert(0, {str(Path(skein.__file__).parents[1])!r})\n"
             f"sys.modules[{package!r}] = None\nimport skein\n"
             f"try: {use}\nexcept skein.DependencyError as error: print(error)")

@@ -102,7 +102,7 @@ def test_tables_are_attributes(flown: skein.Run) -> None:
         flown.table("capture")
 
 
-def test_what_is_missing_says_what_brings_it(tmp_path: Path) -> None:
+def test_an_error_about_missing_data_names_the_reason(tmp_path: Path) -> None:
     run = skein.run("towers", planner="hover", one_process=True, duration=2, no_oracle=True, no_report=True,
                     out=tmp_path / "run")
     with pytest.raises(skein.MissingError, match="no_oracle"):
@@ -123,7 +123,7 @@ def test_what_is_missing_says_what_brings_it(tmp_path: Path) -> None:
     assert "not a results folder" in repr(skein.Run(tmp_path))
 
 
-def test_what_nobody_could_tell_is_nan(tmp_path: Path) -> None:
+def test_a_number_that_is_null_or_missing_is_nan(tmp_path: Path) -> None:
     (tmp_path / "result.json").write_text('{"score": null, "digest": null, "uavs": null}')
     run = skein.Run(tmp_path)
     assert np.isnan(run.score) and np.isnan(run.sim_time_s) and run.digest is None
@@ -133,7 +133,7 @@ def test_what_nobody_could_tell_is_nan(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("text", ["{}", "[]", "null", '{"score": "4.1", "sim_time_s": true, "uavs": {"a": 1}}'])
-def test_what_is_no_result_is_refused_with_file_and_key(tmp_path: Path, text: str) -> None:
+def test_a_file_that_is_no_result_is_refused_with_file_and_key(tmp_path: Path, text: str) -> None:
     (tmp_path / "result.json").write_text(text)
     run = skein.Run(tmp_path)
     for name in ("uavs", "seed", "planner", "status", "scenario"):

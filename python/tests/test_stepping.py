@@ -109,7 +109,7 @@ def test_observations_stay_as_they_were(fleet: skein.Fleet) -> None:
     assert same(first["jurong"], kept)
 
 
-def test_whoever_collides_terminates_and_the_others_go_on() -> None:
+def test_a_uav_that_collides_terminates_and_the_others_go_on() -> None:
     with skein.Fleet("towers", planner="hover", learners=LEARNERS, safe=False, duration=60, step_s=0.5) as fleet:
         fleet.reset()
         up, down = {"velocity": (0, 0, 3)}, {"velocity": (0, 0, 0)}
@@ -185,7 +185,7 @@ def test_without_learners_it_is_the_launchers_flight(scenario: str, planner: str
 
 
 @pytest.mark.parametrize("safe", [True, False])
-def test_what_learners_did_is_flown_again_by_the_launcher(safe: bool, tmp_path: Path) -> None:
+def test_the_launcher_flies_the_commands_of_learners_again(safe: bool, tmp_path: Path) -> None:
     random = np.random.default_rng(8)
     with skein.Fleet("towers", planner="patrol", seed=2, learners=LEARNERS, safe=safe, duration=10) as fleet:
         fleet.reset()

@@ -158,7 +158,7 @@ NAMED = ["throws", "throws_number", "segfaults", "aborts", "exits", "overflows",
 
 
 @pytest.mark.parametrize("how", [*NAMED, "stops", "closes", "exits_now", "becomes"])
-def test_whatever_a_planner_does_is_an_exception_that_names_it(how: str) -> None:
+def test_each_failure_of_a_planner_is_an_exception_that_names_it(how: str) -> None:
     agent = Path(skein.find_launcher()).parents[1] / "tests" / "nasty_agent"
     if not agent.exists():
         pytest.skip(f"{agent} is not built")
@@ -234,7 +234,7 @@ def started(folder: Path, then: str) -> subprocess.Popen[str]:
 
 @pytest.mark.parametrize("then", ["print('ready', flush=True); input()",
                                   "print('ready', flush=True); fleet.step(step_s=600)"])
-def test_whoever_is_killed_takes_all_along(then: str, tmp_path: Path) -> None:
+def test_a_killed_script_takes_all_its_processes_along(then: str, tmp_path: Path) -> None:
     child = started(tmp_path, then)
     watch = Watch(tmp_path)
     assert len(watch.names) >= 5
@@ -304,7 +304,7 @@ def test_a_copy_of_the_interpreter_has_no_fleet() -> None:
     ("towers", {"learners": ["jurong"], "map_cell_m": 0.1}, "map_cell_m"),
     ("towers", {"planner": "patrol,jurong=exec:true"}, "exec"),
 ])
-def test_what_cannot_be_flown_is_refused(scenario: str, options: dict[str, Any], said: str) -> None:
+def test_a_fleet_that_cannot_be_flown_is_refused(scenario: str, options: dict[str, Any], said: str) -> None:
     before = set(workers())
     with pytest.raises(skein.InputError, match=said):
         skein.Fleet(scenario, **options)

@@ -55,7 +55,7 @@ def test_a_study_goes_on_where_it_was(study: skein.Study) -> None:
     assert {i: (study.run(i).path / "result.json").stat().st_mtime_ns for i in range(10)} == before
 
 
-def test_what_a_study_refuses_says_why(study: skein.Study, tmp_path: Path) -> None:
+def test_a_study_refuses_with_a_reason(study: skein.Study, tmp_path: Path) -> None:
     with pytest.raises(skein.InputError, match="other settings"):
         skein.compare(["patrol"], duration=4, out=study.path)
     with pytest.raises(skein.MissingError, match="contest"):

@@ -17,7 +17,7 @@ WriterOptions small_chunks() { return {.chunk_bytes = 1500}; }
 
 using McapWriter = McapFiles;
 
-TEST_F(McapWriter, WhatWasWrittenIsReadInOrder) {
+TEST_F(McapWriter, WrittenMessagesAreReadInOrder) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     const auto messages = random_messages(seed, "/t", seed * 13);
     {
@@ -81,7 +81,7 @@ TEST_F(McapWriter, ACutOffFileIsReadAsFarAsItGoes) {
   EXPECT_EQ(most, messages.size());
 }
 
-TEST_F(McapWriter, WhatIsFlushedSurvivesTheProcess) {
+TEST_F(McapWriter, FlushedMessagesSurviveTheProcess) {
   const auto messages = random_messages(4, "/t", 5);
   Writer writer(folder_ / "a");
   write_all(writer, messages);

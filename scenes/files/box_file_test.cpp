@@ -85,7 +85,7 @@ TEST_F(BoxFile, SaysByWhichNumbersAMatrixIsNoRotation) {
             std::string::npos);
 }
 
-TEST_F(BoxFile, WhatIsWrittenReadsBackBitForBit) {
+TEST_F(BoxFile, WrittenBoxesReadBackBitForBit) {
   std::vector<OrientedBox> boxes;
   for (int i = 0; i < 20; ++i) {
     RandomStream random(1, "boxes", static_cast<std::uint64_t>(i));

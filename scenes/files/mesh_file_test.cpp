@@ -166,7 +166,7 @@ TEST_F(MeshFile, TrianglesWithoutAreaStay) {
   EXPECT_EQ(read_mesh(write("d.stl", binary_stl(triangles))).triangles.size(), 3u);
 }
 
-TEST_F(MeshFile, WhatIsWrittenReadsBackBitForBit) {
+TEST_F(MeshFile, AWrittenMeshReadsBackBitForBit) {
   TriangleMesh shared{{{0, 0, 0}, {1e-30F, -0.0F, 3}, {0.1F, 2, 3}, {4, 5, 6}}, {{2, 1, 0}, {1, 3, 2}, {0, 0, 0}}};
   const TriangleMesh read = read_mesh(write("m.stl", to_stl(shared)));
   ASSERT_EQ(read.triangles.size(), shared.triangles.size());

@@ -218,7 +218,7 @@ TEST_F(PointFile, MalformedPackedDataAreRefused) {
   expect(many.substr(0, many.size() - 3), "truncated: the sizes of the compressed data are missing");
 }
 
-TEST_F(PointFile, WhatIsWrittenReadsBackBitForBit) {
+TEST_F(PointFile, WrittenPointsReadBackBitForBit) {
   std::vector<InterestPoint> points;
   for (std::size_t i = 0; i < kPoints; ++i) points.push_back({position(i) * 0.1F, normal(i)});
   points[2].n_W *= 1.000002F;

@@ -215,7 +215,7 @@ VehicleConfig drawn_vehicle(RandomStream& random) {
   return vehicle;
 }
 
-TEST(CompositeBody, WhatFliesFreelyKeepsMomentumAndEnergyAboutItsCentreOfMass) {
+TEST(CompositeBody, AFreeBodyKeepsMomentumAndEnergyAboutItsCentreOfMass) {
   RandomStream random(3, "free_flights", 0);
   for (int flight = 0; flight < 20; ++flight) {
     const VehicleConfig vehicle = drawn_vehicle(random);
@@ -300,7 +300,7 @@ TEST(CompositeBody, RestsWhereItsLowestBoxIsAndHoversWithoutDrift) {
   }
 }
 
-TEST(PlausibleVehicles, WhatTheReaderAcceptsStaysInTheWorld) {
+TEST(PlausibleVehicles, AVehicleThatTheReaderAcceptsStaysInTheWorld) {
   // Numbers drawn over decades: a vehicle either is refused, or its physics holds, however badly it flies.
   RandomStream random(6, "oddities", 0);
   const auto decades = [&](double middle, double lowest, double highest) {

@@ -49,7 +49,7 @@ TEST_P(MomentumKeeperTest, AFreeBodyKeepsMomentumAndEnergy) {
   EXPECT_NEAR(0.5 * L_W.dot(w_W_), energy, 1e-3 * energy) << "after a second";
 }
 
-TEST_P(MomentumKeeperTest, WhatTheStepAddsIsAddedToTheMomentum) {
+TEST_P(MomentumKeeperTest, TheGainOfAStepIsAddedToTheMomentum) {
   const Vector3d gain_W = some();
   const Vector3d expected = momentum() + R_WP_ * inertia_.cwiseProduct(R_WP_.transpose() * gain_W);
   step(gain_W);

@@ -281,7 +281,7 @@ TEST_F(Faulty, AStuckGimbalStaysAndThenObeysTheLastCommand) {
   EXPECT_NEAR(lead().gimbal.yaw, -0.3, 1e-3);
 }
 
-TEST_F(Faulty, OneThatWaitedActsFromTheExchangeAtWhichItIsSetOff) {
+TEST_F(Faulty, AWaitingFaultActsFromTheExchangeAtWhichItIsSetOff) {
   FaultPlan faults = plan({fault(0.0, std::nullopt, LidarFailure{"lead"}), fault(0.0, std::nullopt, Blackout{"lead"})});
   for (Fault& one : faults.faults) {
     one.when = FaultCondition{"whatever"};

@@ -218,7 +218,7 @@ FlightCheckReport flown(const Scenario& scenario, const TriangleMesh& mesh, cons
   return review.report();
 }
 
-TEST(FlightCheck, FindsWhoFliesFastAtAWallAndStopsLate) {
+TEST(FlightCheck, FindsAUavThatFliesFastAtAWallAndStopsLate) {
   const Scenario scenario = fleet_of({"explorer"});
   TriangleMesh wall;
   test::add_box(wall, {30.5, 0, 10}, {1, 40, 20});

@@ -154,7 +154,7 @@ TEST(Plan, TheLastPlaceIsLinkedToTheStationInTime) {
   }
 }
 
-TEST(Plan, ItDependsOnNothingButTheQuestion) {
+TEST(Plan, ThePlanDoesNotDependOnTheNumberOfThreads) {
   test::PlanSite site = common_site();
   site.config.threads = 3;
   EXPECT_EQ(to_json(plan_of(site)), to_json(common_plan()));

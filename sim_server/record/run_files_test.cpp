@@ -134,7 +134,7 @@ TEST_F(RunFilesTest, TheSceneFileHasBoxesAndPointsUnchanged) {
   }
 }
 
-TEST_F(RunFilesTest, TheReportNamesWhoWasLostWhatWasSeenAndWhatIsMissing) {
+TEST_F(RunFilesTest, TheReportNamesLostMembersSeenPointsAndMissingFiles) {
   Scene scene;
   scene.points.resize(3);
   const Simulation simulation(scenario_, scene, 0);

@@ -164,7 +164,7 @@ TEST_F(WorkLogTest, SurfaceIsMappedOnceByMatesThatHearEachOther) {
   EXPECT_LT(done(0, 42) + done(1, 42), 0.2 * first) << "what is known is not work";
 }
 
-TEST_F(WorkLogTest, NothingIsOpenForWhoMustTurnHome) {
+TEST_F(WorkLogTest, NothingIsOpenForAUavThatMustTurnHome) {
   add("photographer", 0, 0);
   add_patch(0, 10, 6, false);  // not in sight of the station
   scenario_.duration_s = 120.0;
@@ -177,7 +177,7 @@ TEST_F(WorkLogTest, NothingIsOpenForWhoMustTurnHome) {
   EXPECT_NEAR(static_cast<double>(end - last), 10.0 + 1.5 * 63.0 / 4.0, 5.0) << seconds;
 }
 
-TEST_F(WorkLogTest, WhoseProgramIsAwayIsNotCountedAndBeginsAnew) {
+TEST_F(WorkLogTest, AUavWhoseProgramIsAwayIsNotCountedAndBeginsAnew) {
   add("photographer", -5, 0);
   add_patch(0, 10, 6);
   start();
@@ -196,7 +196,7 @@ TEST_F(WorkLogTest, WhoseProgramIsAwayIsNotCountedAndBeginsAnew) {
   EXPECT_EQ(judged()[0].frozen_s, 0u) << "neither life has a minute";
 }
 
-TEST_F(WorkLogTest, WhatAFailedCameraCannotTakeIsNotOpen) {
+TEST_F(WorkLogTest, WorkThatNeedsAFailedCameraIsNotOpen) {
   add("photographer", -5, 0);
   add_patch(0, 10, 6);
   FaultPlan faults;

@@ -107,7 +107,7 @@ TEST(ConfigFuzz, DamagedScenarioFile) {
   fs::remove(copy);
 }
 
-TEST(ConfigFuzz, WhatIsPrintedReadsBackTheSame) {
+TEST(ConfigFuzz, APrintedDocumentReadsBackTheSame) {
   const std::string original = text_of(source_path("config/vehicles/photographer.yaml"));
   for (std::uint64_t round = 0; round < 1000; ++round) {
     RandomStream random(2, "config_fuzz", "print", round);

@@ -76,8 +76,8 @@ TEST(TopicsPage, HasEveryTopicAndNoOther) {
       EXPECT_EQ(row.depth, std::to_string(topic.depth)) << name;
       EXPECT_EQ(row.when.find("latched") != std::string::npos, topic.latched) << name;
       EXPECT_FALSE(row.writer.empty()) << name;
-      const std::string who = writer(topic.direction);
-      EXPECT_TRUE(who.empty() || row.writer == who) << name << ": " << row.writer;
+      const std::string expected = writer(topic.direction);
+      EXPECT_TRUE(expected.empty() || row.writer == expected) << name << ": " << row.writer;
     }
     EXPECT_GT(found, 0u) << name << " is missing";
   };

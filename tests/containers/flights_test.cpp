@@ -109,7 +109,7 @@ TEST_F(FlightInContainers, APlannersOwnImageFliesAUav) {
 }
 
 // The images have no gdb: SIGCONT lets the program continue, as leaving gdb would.
-TEST_F(FlightInContainers, TheFleetWaitsForWhoIsDebugged) {
+TEST_F(FlightInContainers, TheFleetWaitsForTheDebuggedAgent) {
   const std::string agent = "uav_agent-jurong";
   const Arguments flown = arguments("kios", "20");
   Arguments debugged = flown;
@@ -139,7 +139,7 @@ TEST_F(FlightInContainers, TheFleetWaitsForWhoIsDebugged) {
 }
 
 // The steps of docs/how-to-debug.md, with commands from a pipe.
-TEST_F(FlightInContainers, GdbOpensInTheContainerOfWhoIsDebugged) {
+TEST_F(FlightInContainers, GdbOpensInTheContainerOfTheDebuggedAgent) {
   const std::string image = "skein-agent-debug";
   if (shell("docker image inspect " + image).code != 0) {
     const std::string untested = "the engine has no image '" + image + "': not tested is gdb in a container";

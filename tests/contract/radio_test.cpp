@@ -221,7 +221,7 @@ class Radio : public testing::TestWithParam<Pair> {
   std::vector<std::unique_ptr<Member>> members_;
 };
 
-TEST_P(Radio, CarriesAnyTypeBitForBitToWhomItMay) {
+TEST_P(Radio, CarriesAnyTypeBitForBitToThePermittedNodes) {
   // A participant outside the fleet in the sender's domain, and one in a domain where a topic must not arrive.
   const auto at_a = bus_->join(node_domain(base_, Node{1})), at_gcs = bus_->join(node_domain(base_, Node{0}));
   std::atomic<int> back = 0, from_elsewhere = 0;

@@ -85,7 +85,7 @@ TEST_F(Gdb, EveryPlannerIsFoundInItsOwnSource) {
   }
 }
 
-TEST_F(Gdb, WhatAPlannerReturnsIsShownInALine) {
+TEST_F(Gdb, ThePlannersOutputIsShownInALine) {
   SKEIN_NEEDS_GDB();
   ChildProcess& skein = fly("gdb", {"--debug", "changi=gdb"}, kBreak + "finish\nkill\nquit\n", "1");
   skein.wait();

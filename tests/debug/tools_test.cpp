@@ -34,7 +34,7 @@ TEST_F(Tools, AToolThatEndsItsProgramIsNoticed) {
   expect_part(skein.err() + text_of(dir("tool") / "fleet.log"), "debugged program of changi has ended");
 }
 
-TEST_F(Tools, WhatIsMissingOrWrongStartsNothing) {
+TEST_F(Tools, AMissingToolOrAWrongOptionStartsNothing) {
   for (const auto& [value, part] :
        std::vector<std::pair<std::string, std::string>>{{"changi=no_such_tool -x", "apt-get install no_such_tool"},
                                                         {"changi=gdbserver:0", "gdbserver:PORT"},

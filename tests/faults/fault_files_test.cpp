@@ -69,7 +69,7 @@ TEST_F(FaultFiles, EveryShippedOneIsAFaultTestNamedAfterItsFile) {
 }
 
 // Other UAVs take over the work of a program only if it does not come back; otherwise the property is vacuous.
-TEST_F(FaultFiles, ThoseThatAskForWorkToBeTakenOverKillForGood) {
+TEST_F(FaultFiles, FilesThatRequireATakeoverKillAProgramForGood) {
   std::size_t asked = 0;
   for (const std::string& name : shipped()) {
     const FaultTest test = load_fault_test(kRoot / "config" / "faults" / (name + ".yaml"));

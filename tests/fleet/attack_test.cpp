@@ -37,7 +37,7 @@ class Attack : public FleetTest, public testing::WithParamInterface<std::string>
   }
 };
 
-TEST_P(Attack, WhatAnotherRunLeftBehindIsNotListenedTo) {
+TEST_P(Attack, TheServerIgnoresClientsThatAnotherRunLeftBehind) {
   const std::string digest = brief("alone", "patrol").digest();
   // The clients hold no lock, so another test's fleet may take the domains before this one does. Then tries others.
   for (int attempt = 1; attempt <= kAttempts; ++attempt) {

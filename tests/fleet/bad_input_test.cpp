@@ -114,7 +114,7 @@ TEST_F(BadInput, AProgramStartedByHandNamesAFolderThatIsNotThere) {
   }
 }
 
-TEST_F(BadInput, WhatBearsTheNameOfAFileAndIsNoneIsRefusedAtOnce) {
+TEST_F(BadInput, APipeDeviceOrHugeFileIsRefusedAtOnce) {
   const std::string scenario = write_small_scene(folder());
   const std::string pipe = folder() / "pipe.yaml", recorded = folder() / "recorded", hole = folder() / "hole.csv";
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);

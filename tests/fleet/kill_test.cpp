@@ -143,7 +143,7 @@ INSTANTIATE_TEST_SUITE_P(Signals, StopSignalled, testing::Values(SIGINT, SIGTERM
   return signal.param == SIGINT ? std::string("SIGINT") : std::string("SIGTERM");
 });
 
-TEST_F(Interruption, AHungStepIsGivenUpAndOnlyWhoHangsIsNamed) {
+TEST_F(Interruption, AHungStepIsGivenUpAndOnlyTheHungAgentIsNamed) {
   SkeinRun& run = flying(kLongRun);
   ::kill(processes_of(run.dir()).at("uav_agent-sentosa"), SIGSTOP);
   run.skein().signal(SIGINT);
@@ -220,7 +220,7 @@ INSTANTIATE_TEST_SUITE_P(Media, KilledLauncher, testing::Values("--dds=mixed", "
                            return std::string(medium.param == "--one-process" ? "OneProcess" : "Processes");
                          });
 
-TEST_F(Interruption, WhatAKilledLauncherLeavesTheNextOneRemoves) {
+TEST_F(Interruption, TheNextLauncherRemovesTheFolderOfAKilledOne) {
   const std::filesystem::path tmp = folder() / "tmp";
   std::filesystem::create_directories(tmp);
   const auto left = [&] {

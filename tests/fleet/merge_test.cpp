@@ -164,7 +164,7 @@ TEST_F(Merge, WithoutAServersReportTheRecordingsPartsAreJoined) {
   EXPECT_FALSE(fs::exists(dir_ / run_folder::kResult));
 }
 
-TEST_F(Merge, WhatAgentsInContainersWroteIsTakenFromTheirFolders) {
+TEST_F(Merge, ReportsOfAgentsInContainersAreTakenFromTheirFolders) {
   fly();
   const Json whole = merged();
   const fs::path folder = dir_ / "agents" / "sentosa";

@@ -28,7 +28,7 @@ std::map<double, double> heights(const SkeinRun& run, const std::string& uav) {
   return z;
 }
 
-TEST_F(PlannerInputs, ScansForWhoAsksAndCommandsAsTheyAre) {
+TEST_F(PlannerInputs, PlannersGetScansOnRequestAndTheirCommandsArriveUnchanged) {
   const Arguments brief = {"towers", "--duration", "15"};
   const auto fly = [&](const std::string& name, Arguments more) -> SkeinRun& {
     more.insert(more.begin(), brief.begin(), brief.end());

@@ -283,17 +283,17 @@ TEST_F(Secure, NoProcessIsLeftUnderTheUserIdsOfARun) {
                                 "hover," + kOther + "=exec:exec /bin/sh " + script.string()});
     return static_cast<uid_t>(std::atoi(text_of(done.dir() / ("uav_agent-" + kOther + ".uid")).c_str()));
   };
-  const auto anybody_is = [](uid_t user) {
+  const auto has_processes = [](uid_t user) {
     const std::vector<pid_t> all = cli::all_processes();
     return std::any_of(all.begin(), all.end(), [&](pid_t pid) { return cli::belongs_to(pid, user); });
   };
   const uid_t first = fly("first");
   ASSERT_GE(first, cli::kFirstAgentUser);
-  EXPECT_FALSE(anybody_is(first));
+  EXPECT_FALSE(has_processes(first));
   // If a process with this id exists nevertheless, the next run gets another id.
   const std::string id = std::to_string(first);
   start_program("survivor", {"/usr/bin/setpriv", "--reuid", id, "--regid", id, "--clear-groups", "/bin/sleep", "1000"});
-  ASSERT_TRUE(eventually([&] { return anybody_is(first); }));
+  ASSERT_TRUE(eventually([&] { return has_processes(first); }));
   EXPECT_NE(fly("second"), first);
 }
 

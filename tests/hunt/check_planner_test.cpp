@@ -75,7 +75,7 @@ TEST_F(CheckPlanner, ASoundOnePassesInAllSurroundings) {
   EXPECT_EQ(flights, all) << said.out;
 }
 
-TEST_F(CheckPlanner, WhatOutlivesARestartInOneProcessIsNamed) {
+TEST_F(CheckPlanner, StateThatOutlivesARestartInOneProcessIsNamed) {
   const std::set<std::string> over_dds = {"cyclonedds", "fastdds", "chaos"};
   expect_different("planted:defect=undying_counter", {{}, over_dds},
                    {"the runs part at step ", "jurong first differs at 4.00 s on /jurong/",

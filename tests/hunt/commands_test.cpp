@@ -312,14 +312,14 @@ TEST_F(HuntCommands, BlameHasTheNumbersOfFlightsByHand) {
   EXPECT_NEAR(std::stod(as_it_was[1]), score, 0.0005);
   const std::map<std::string, Blamed> all = blamed(said.out);
   const std::string same = said.out.substr(std::min(said.out.size(), said.out.find("the same run, bit for bit")));
-  std::size_t that_matter = 0;
+  std::size_t effective_faults = 0;
   for (std::size_t i = 0; i < faults.size(); ++i) {
     SkeinRun& less = fly("without-" + std::to_string(i), i);
     if (less.digest() == with.digest()) {
       EXPECT_NE(same.find(faults[i]), std::string::npos) << said.out;
       continue;
     }
-    ++that_matter;
+    ++effective_faults;
     ASSERT_TRUE(all.contains(faults[i])) << faults[i] << "\n" << said.out;
     const Blamed& one = all.at(faults[i]);
     const double score_less = less.result()["score"], reached = std::min(score, score_less);
@@ -328,8 +328,8 @@ TEST_F(HuntCommands, BlameHasTheNumbersOfFlightsByHand) {
     EXPECT_NEAR(*one.seconds, time_of_score(with.dir(), reached) - time_of_score(less.dir(), reached), 0.0051);
     EXPECT_EQ(one.step, first_other_step(with.dir(), less.dir())) << faults[i];
   }
-  EXPECT_EQ(all.size(), that_matter) << said.out;
-  EXPECT_GE(that_matter, 1u);
+  EXPECT_EQ(all.size(), effective_faults) << said.out;
+  EXPECT_GE(effective_faults, 1u);
   EXPECT_GT(all.at(faults[0]).points, 1.0) << "the restart brings the defect to light";
 }
 

@@ -104,7 +104,7 @@ class DoctorNet : public testing::Test {
   std::map<std::string, std::unique_ptr<ChildProcess>> doctors_;
 };
 
-TEST_F(DoctorNet, EverybodyHearsWhomItSharesADomainWith) {
+TEST_F(DoctorNet, EachHostHearsTheHostsThatShareADomainWithIt) {
   start_all({"--dds", "mixed"});
   const std::vector<std::string> both = {"cyclonedds", "fastdds"};
   for (const auto& [host, other] : {std::pair("server", "router"), {"router", "server"}}) {

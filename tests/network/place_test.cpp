@@ -52,7 +52,7 @@ class Place : public FleetTest {
     return file;
   }
   /// As an ordinary user, whichever user logs in.
-  std::string write_as_nobody() const {
+  std::string write_unprivileged_skein() const {
     return write_skein("nobody", "exec setpriv --reuid=nobody --regid=nogroup --clear-groups");
   }
 
@@ -204,7 +204,7 @@ TEST_F(Place, ASecuredAgentHasAUserIdOfItsOwnThere) {
   EXPECT_NE(said.find("PRIVATE KEY"), std::string::npos) << said;
 }
 
-TEST_F(Place, WhatIsInTheWayIsNamedBeforeTheFlight) {
+TEST_F(Place, ANetworkFaultIsNamedBeforeTheFlight) {
   const FreeDomains domains(4);
   const int port = 7400 + 250 * (domains.base() + 2);
   if (!login_.hosts().run("b", "iptables -A INPUT -p udp --dport " + std::to_string(port) + ":" +
@@ -265,7 +265,7 @@ TEST_F(Place, ASecuredAgentWithoutAUserIdOfItsOwnIsNamed) {
   ChildProcess& launcher = start_program(
       "run", login_.hosts().on("a", {program("skein"), "run", scene_, "--planner", "patrol", "--duration", "8",
                                      "--secure", "--no-oracle", "--no-report", "--out", folder() / "run", "--place",
-                                     "jurong=b", "--ssh", login_.ssh(), "--skein-path", write_as_nobody()}));
+                                     "jurong=b", "--ssh", login_.ssh(), "--skein-path", write_unprivileged_skein()}));
   EXPECT_EQ(launcher.wait().code, 0) << launcher.err();
   const std::string warning =
       "--secure on b: the launcher does not log in as root there, so uav_agent-jurong runs as the user nobody";

@@ -215,7 +215,7 @@ TEST(FleetInOneProcess, IsTheSameWhereAViewerLooksAtPointsAndMaps) {
   }
 }
 
-TEST(FleetInOneProcess, GoesOnWithoutWhoIsLost) {
+TEST(FleetInOneProcess, GoesOnWithoutALostUav) {
   Fleet fleet({.stop_at_s = 6.0}, 4);
   fleet.fly_on(2000);
   fleet.kill(UavIndex{1});

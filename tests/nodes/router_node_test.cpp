@@ -88,7 +88,7 @@ TEST(RouterNode, EachMessageReachesTheLinkedOnesInTheNextStep) {
   }
 }
 
-TEST(RouterNode, GoesOnWithoutWhomTheServerGivesUp) {
+TEST(RouterNode, GoesOnWithoutAMemberThatTheServerGivesUp) {
   const Scenario scenario = toy_scenario(2);
   RoutedFleet fleet(scenario, 12);
   auto& [bus, server, router] = fleet;
@@ -110,7 +110,7 @@ TEST(RouterNode, GoesOnWithoutWhomTheServerGivesUp) {
 }
 
 /// The message of a member that is lost is still on a slow link when its successor asks for the same topic in vain.
-TEST(RouterNode, WhatIsUnderWayOnARegisteredTopicArrivesAlthoughItsTopicIsRefusedToTheNextProgram) {
+TEST(RouterNode, AMessageUnderWayArrivesAlthoughTheNextProgramMayNotUseItsTopic) {
   constexpr std::uint64_t kSent = 4, kAsked = 8, kSteps = 30;
   Scenario scenario = toy_scenario(2);
   LinkEffect& slow = scenario.links.emplace_back();
@@ -202,7 +202,7 @@ TEST(RouterNode, AMemberThatAskedForTheWrongTypeOfATopicMayCorrectIt) {
   EXPECT_EQ(misheard, 0);
 }
 
-TEST(RouterNode, TellsForWhomItWaitsBeforeItsRadioIsOpen) {
+TEST(RouterNode, NamesTheMemberForWhichItWaitsBeforeItsRadioIsOpen) {
   const Scenario scenario = toy_scenario(1);
   const auto bus = bus::make_bus({.vendor = "inproc"});
   ToyServer server(*bus, scenario, 3);

@@ -122,7 +122,7 @@ TEST_F(Packages, ManualPagesAreReadWithoutWarnings) {
   }
 }
 
-TEST_F(Packages, AnInstalledFleetFliesForWhoMayNotWriteThere) {
+TEST_F(Packages, AUserWithoutWriteAccessCanFlyAnInstalledFleet) {
   const fs::path prefix = install("runtime"), home = folder() / "home";
   fs::create_directory(home);
   fs::permissions(folder(), fs::perms::others_exec | fs::perms::others_read, fs::perm_options::add);

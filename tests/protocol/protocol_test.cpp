@@ -49,7 +49,7 @@ TEST(Protocol, EveryOrderOfArrivalGivesTheSameRun) {
   }
 }
 
-TEST(Protocol, WhatAnotherRunLeftBehindHasNoSay) {
+TEST(Protocol, MembersLeftBehindByAnotherRunChangeNothing) {
   FleetModel alone({.uavs = 2}, 0);
   ASSERT_EQ(alone.run(), "");
   for (std::uint64_t seed = 0; seed < schedules(20); ++seed) {
@@ -121,7 +121,7 @@ INSTANTIATE_TEST_SUITE_P(All, LostOnItsWay,
 std::uint64_t step_of(const std::string& said) { return std::stoull(said.substr(said.find('@') + 1)); }
 
 /// Expects each node to have received exactly the messages on registered topics that were sent to it over an open link.
-void expect_heard_by_whom_it_may(const FleetModel& model, const std::vector<std::string>& nodes) {
+void expect_heard_over_open_links(const FleetModel& model, const std::vector<std::string>& nodes) {
   std::size_t heard = 0;
   for (std::size_t from = 0; from < nodes.size(); ++from) {
     for (const StepLog& step : model.agents().at(nodes[from])) {
@@ -145,7 +145,7 @@ TEST(Protocol, RegisteredTopicsCarryEveryMessage) {
   for (std::uint64_t seed = 0; seed < schedules(20); ++seed) {
     FleetModel model({.uavs = 3}, seed);
     ASSERT_EQ(model.run(), "") << "schedule " << seed;
-    ASSERT_NO_FATAL_FAILURE(expect_heard_by_whom_it_may(model, {"station", "a", "b", "c"}));
+    ASSERT_NO_FATAL_FAILURE(expect_heard_over_open_links(model, {"station", "a", "b", "c"}));
   }
 }
 
@@ -297,7 +297,7 @@ INSTANTIATE_TEST_SUITE_P(All, ScriptedFault,
                          });
 
 /// Discovery, or a link, that is slower than everything else: shows code that relies on being fast enough.
-TEST(Protocol, WhatIsSlowChangesNothing) {
+TEST(Protocol, ASlowLinkOrDiscoveryChangesNothing) {
   FleetModel first({.uavs = 2}, 0);
   ASSERT_EQ(first.run(), "");
   for (std::uint64_t seed = 1; seed < schedules(120); ++seed) {
@@ -308,7 +308,7 @@ TEST(Protocol, WhatIsSlowChangesNothing) {
   }
 }
 
-TEST_P(ProtocolLoss, WhatIsSlowChangesNothing) {
+TEST_P(ProtocolLoss, ASlowLinkOrDiscoveryChangesNothing) {
   const std::string victim = GetParam().victim;
   for (std::uint64_t seed = 0; seed < schedules(60); ++seed) {
     const FleetOptions options{
@@ -319,7 +319,7 @@ TEST_P(ProtocolLoss, WhatIsSlowChangesNothing) {
   }
 }
 
-TEST_P(ScriptedFault, WhatIsSlowChangesNothing) {
+TEST_P(ScriptedFault, ASlowLinkOrDiscoveryChangesNothing) {
   std::unique_ptr<FleetModel> first;
   for (std::uint64_t seed = 0; seed < schedules(40); ++seed) {
     const ProcessFault fault{

@@ -122,7 +122,7 @@ TEST_F(Recording, SaysWhatTheTablesSay) {
 }
 
 // The programs that record are killed in the middle of a chunk; no other program has the data of this chunk.
-TEST_F(Recording, LosesNothingWhenAFaultKillsWhoRecords) {
+TEST_F(Recording, LosesNothingWhenAFaultKillsARecordingProgram) {
   const auto killed = [&](const std::string& name, const std::string& program) {
     const std::string faults = write(name + ".yaml", "faults:\n  - {at_s: 23.4, until_s: 26, kill: " + program + "}\n");
     return Arguments{"towers", "--planner", "patrol", "--duration", "40", "--faults", faults};

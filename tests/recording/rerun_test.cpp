@@ -191,7 +191,7 @@ class DamagedRun : public Rerun {
   std::string what_;
 };
 
-TEST_F(DamagedRun, ABitOfTheRecordingIsReportedByAllWhoReadIt) {
+TEST_F(DamagedRun, EachCommandThatReadsTheRecordingReportsAFlippedBit) {
   SkeinRun& run = this->run("run", {"towers", "--planner", "patrol", "--duration", "15", "--one-process"});
   fs::copy(run.dir(), folder() / "sound", fs::copy_options::recursive);
   const fs::path file = run.dir() / run_folder::kRecording;
@@ -207,7 +207,7 @@ TEST_F(DamagedRun, ABitOfTheRecordingIsReportedByAllWhoReadIt) {
   expect_reported({"merge", run.dir()}, 1, run_folder::kRecording);
 }
 
-TEST_F(DamagedRun, ABitOfTheResultIsReportedByAllWhoReadIt) {
+TEST_F(DamagedRun, EachCommandThatReadsTheResultReportsAFlippedBit) {
   SkeinRun& run = this->run("run", {"towers", "--planner", "patrol", "--duration", "15", "--one-process"});
   fs::copy(run.dir(), folder() / "sound", fs::copy_options::recursive);
   const fs::path file = run.dir() / run_folder::kResult;

@@ -33,7 +33,7 @@ TEST(CountedMemory, CountsOtherThreads) {
   EXPECT_GE(memory.peak(), kBlock);
 }
 
-TEST(CountedMemory, WhatWasThereBeforeMayGo) {
+TEST(CountedMemory, MemoryInUseBeforeMayBeFreed) {
   auto before = std::make_unique<std::vector<char>>(kBlock);
   const CountedMemory memory;
   before.reset();

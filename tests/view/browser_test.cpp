@@ -32,7 +32,7 @@ TEST_F(PageOfARun, FollowsAFleetOverDds) { watch(kEstimatedFlight, {}); }
 
 TEST_F(PageOfARun, FollowsAFleetInOneProcess) { watch(kEstimatedFlight, {"--one-process"}); }
 
-TEST_F(PageOfARun, TellsWhatUavsDoAndForWhomARunWaits) {
+TEST_F(PageOfARun, TellsTheActivityOfUavsAndTheProgramForWhichARunWaits) {
   const std::string unseen = run("unseen", joined(kWatchedFlight, {"--one-process"})).digest();
   SkeinRun& seen = start("seen", joined(kWatchedFlight, {"--view", "--pause-at", "12", "--speed", "2"}));
   const std::filesystem::path door = door_of(seen);

@@ -49,7 +49,7 @@ TEST(Payload, AnyBytesTravelAsATextWithoutNul) {
   EXPECT_EQ(opened->bytes, all_bytes().data());
 }
 
-TEST(Payload, OthersAreNotOpened) {
+TEST(Payload, AnotherTypeSenderOrTopicIsNotOpened) {
   const RadioMessage message = send_payload("kios/1", 3, all_bytes());
   EXPECT_FALSE(open_payload(message, "kios/2", 5));
   EXPECT_FALSE(open_payload(message, "kios/", 5));

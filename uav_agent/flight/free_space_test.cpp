@@ -43,7 +43,7 @@ TEST(FreeSpace, BesideABoxOnlyWhatWasSeenIsFree) {
   }
 }
 
-TEST(FreeSpace, WhatRaysHavePassedMayBeEnteredUpToTheClearance) {
+TEST(FreeSpace, SpaceThatRaysPassedMayBeEnteredUpToTheClearance) {
   const std::vector<OrientedBox> boxes = {unit_box()};
   const OccupancyMap map = seen_from_above(18.0);
   const FreeSpace space({.clearance_m = 1.8, .jut_m = 3.0}, boxes, map);

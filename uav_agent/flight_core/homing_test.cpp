@@ -42,7 +42,7 @@ TEST(Homing, IsDueWhenCapturesHaveWaitedForLong) {
   EXPECT_TRUE(uav.homing.due(uav.input()));
 }
 
-TEST(Homing, ThatWasGivenUpIsNotDueAgainAtOnceButInTheEnd) {
+TEST(Homing, AGivenUpWayHomeIsDueLaterOrAtTheEnd) {
   ComingHome uav({40.0, 0.0, 10.0});
   uav.undelivered = 3;
   uav.wait(uav.config.deliver_every_s + 1.0);

@@ -124,7 +124,7 @@ struct UnderABlindCube : Climber {
   }
 };
 
-TEST(PlaceAside, WhatItsLidarNeverSeesRightAboveAUavSeesFromBeside) {
+TEST(PlaceAside, AUavMovesAsideToSeeTheSpaceRightAboveIt) {
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     RandomStream random(seed, "place_aside_test", 2);
     UnderABlindCube uav({random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1)});

@@ -49,7 +49,7 @@ TEST(SafetyFilter, CouldBrakeInFreeSpaceAtAnyTime) {
 }
 
 // Something is seen within what it could brake in. Nothing can be done about the way to rest, but all else.
-TEST(SafetyFilter, WhatAppearsAheadIsNotApproachedAnyFurther) {
+TEST(SafetyFilter, AUavApproachesNoFurtherToAnObstacleThatAppearsAhead) {
   int broken = 0;
   for (std::uint64_t seed = 1; seed <= 80; ++seed) {
     RandomStream random(seed, "appears", 0);

@@ -130,7 +130,7 @@ double median_rank(NewsRadio& radio, const std::vector<Vector3d>& places, double
   return ranks[ranks.size() / 2];
 }
 
-TEST(MapNews, WhatIsNearestToTheListenerOrItsWayComesFirst) {
+TEST(MapNews, NewsNearTheListenerOrItsWayComesFirst) {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     RandomStream random(seed, "news_order", 0);
     for (const bool goes : {false, true}) {
@@ -149,7 +149,7 @@ TEST(MapNews, WhatIsNearestToTheListenerOrItsWayComesFirst) {
   }
 }
 
-TEST(MapNews, WhatTheListenerDoesNotKnowAtAllComesBeforeNewsOfWhatItKnowsInPart) {
+TEST(MapNews, NewsOfUnknownSpaceComesBeforeNewsOfPartlyKnownSpace) {
   NewsRadio::Config config;
   config.news.bytes_per_s = 2'000.0;
   NewsRadio radio(config, 1);
@@ -224,7 +224,7 @@ TEST(MapNews, AChunkThatChangesAllTheTimeIsToldOnceASecond) {
   EXPECT_GE(radio[0].sent.size() - before, 9U);
 }
 
-TEST(MapNews, WhatATellerVacatesStaysOccupiedWhereItWasTold) {
+TEST(MapNews, ACubeThatATellerVacatesStaysOccupiedForItsListener) {
   NewsRadio radio({}, 6);
   const Vector3d p_W(3.1, 0.1, 0.1);
   radio[0].map->hear(radio.map(0).cube_of(p_W), 0, Space::occupied, kOwn);

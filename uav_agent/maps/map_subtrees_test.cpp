@@ -130,7 +130,7 @@ TEST(MapSubtrees, AMapThatReadsATreeKnowsTheSameCubes) {
   }
 }
 
-TEST(MapSubtrees, WhatIsAlikeIsOneLeafOfUpToFourChunks) {
+TEST(MapSubtrees, UniformSpaceIsOneLeafOfUpToFourChunks) {
   ChunkSpaces chunks;
   WorldMap::Chunk all;
   const auto fill = [&](int edge, Space space) {

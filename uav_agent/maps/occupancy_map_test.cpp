@@ -148,7 +148,7 @@ OccupancyMap drawn_map(std::uint64_t seed) {
   return map;
 }
 
-TEST(OccupancyMap, WhatAnotherTellsIsKnownAsFarAsItIsProof) {
+TEST(OccupancyMap, AHeardMapIsAddedButItsFreeSpaceIsNotProof) {
   for (std::uint64_t seed = 0; seed < 6; ++seed) {
     const OccupancyMap own = drawn_map(2 * seed), other = drawn_map(2 * seed + 1);
     OccupancyMap both = drawn_map(2 * seed);

@@ -52,7 +52,7 @@ TEST(RepeatedScans, BeamsAlongTheWayRepeatThoseOfBefore) {
   }
 }
 
-TEST(RepeatedScans, WhatRepeatsIsNotRemembered) {
+TEST(RepeatedScans, ARepeatedScanIsNotComparedWithLaterOnes) {
   RepeatedScans scans(kWidthM);
   EXPECT_FALSE(scans.ask(pose(Vector3d::Zero(), 0.0)).all);
   EXPECT_TRUE(scans.ask(pose({0.2, 0.0, 0.0}, 0.0)).all);

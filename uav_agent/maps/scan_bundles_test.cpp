@@ -109,7 +109,7 @@ TEST(ScanBundler, SaysOfABundleWhatAllOfItsBeamsSay) {
   }
 }
 
-TEST(ScanBundler, WhatOneBundleMeetsItsNeighboursKnow) {
+TEST(ScanBundler, TheNeighboursOfABundleKnowItsHit) {
   const LidarConfig lidar;
   RandomStream random(4, "neighbours", 0);
   ScanBundler bundler(lidar);

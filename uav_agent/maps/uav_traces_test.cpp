@@ -97,7 +97,7 @@ TEST_F(UavTracesTest, WhereAUavFliesUnheardIsDoubtedWhenItIsHeardAgain) {
   }
 }
 
-TEST_F(UavTracesTest, WhatItCannotHaveBeenStays) {
+TEST_F(UavTracesTest, HitsThatCannotBeTheUavAreNotDoubted) {
   const Vector3d p_W(10.0, 0.0, 10.0), there_W(15.0, 0.0, 10.0);
   const std::vector<Vector3d> too_far_W = {{p_W.x(), 60.0, 10.0}};
   std::vector<Vector3d> pole_W, before_W = {{10.0, 5.0, 20.0}}, beside_W = {{10.4, 5.6, 20.4}};
@@ -234,7 +234,7 @@ TEST_F(UavTracesTest, AUavThatReportsNoVelocitiesAndJumpsIsDoubted) {
   }
 }
 
-TEST_F(UavTracesTest, WhatIsToldIsDoubtedAndBelievedOfItsTellerAlone) {
+TEST_F(UavTracesTest, AReportedHitIsDoubtedAndOnlyItsTellerSettlesIt) {
   const Vector3d p_W(12.0, 0.0, 10.0), met_W(13.0, 1.0, 10.0);
   const Eigen::Vector3i cube = map_.cube_of(met_W);
   wait(p_W, 3.0);

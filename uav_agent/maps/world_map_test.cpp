@@ -228,7 +228,7 @@ TEST(WorldMap, AUavThatHasMovedOnLeavesItsPlaceUnknown) {
 }
 
 /// A doubt proves nothing, at any level: after it as many beams are needed as of a map that never saw any.
-TEST(WorldMap, WhatIsDoubtedIsProvedFromNothingAndNothingElseIsForgotten) {
+TEST(WorldMap, ADoubtedCubeLosesItsEvidenceAndAllOthersKeepTheirs) {
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {
     RandomStream random(seed, "doubt", 0);
     WorldMap::Config config;
@@ -269,7 +269,7 @@ TEST(WorldMap, WhatIsDoubtedIsProvedFromNothingAndNothingElseIsForgotten) {
 }
 
 /// A UAV that flies on keeps what it knows, but no evidence of all that it ever passed.
-TEST(WorldMap, WhatIsFarAndUnknownIsForgotten) {
+TEST(WorldMap, TheEvidenceOfFarUnknownSpaceIsForgotten) {
   WorldMap::Config config;
   config.to_m = {10.0};
   WorldMap map(config);
@@ -315,7 +315,7 @@ TEST(WorldMap, SmallerCubesBeginWithWhatTheLargerOnesKnow) {
 }
 
 /// Received information counts only where it is new, and the map remembers its sender.
-TEST(WorldMap, RemembersWhoToldIt) {
+TEST(WorldMap, RemembersTheTellerOfEachCube) {
   WorldMap map(WorldMap::Config{});
   const Eigen::Vector3i near(1, 1, 1);
   map.set_free({0.7, 0.7, 0.7}, 0.1);

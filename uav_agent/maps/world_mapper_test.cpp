@@ -16,7 +16,7 @@ BeamScan scan_of_nothing(const LidarConfig& lidar, Tick tick, double servo_angle
 }
 
 // Something hangs 0.6 m above a UAV that stands in the open: its LiDAR drops it as it drops the sky.
-TEST(WorldMapper, WhatIsTooNearToBeSeenIsNotTakenForSky) {
+TEST(WorldMapper, AnObstacleTooNearForTheLidarIsNotTakenForSky) {
   const LidarConfig lidar;
   for (const double clear_m : {0.5, 1.2}) {
     WorldMapper::Config config;

@@ -74,7 +74,7 @@ TEST(WorldVoxels, ACubeIsFreeWhereAllAboutItsMiddleIs) {
   EXPECT_EQ(grid.state(*grid.neighbour(id, 1)), VoxelState::unknown);
 }
 
-TEST(WorldVoxels, WhatMayHaveBeenAUavCountsForNothing) {
+TEST(WorldVoxels, ADoubtedCubeDoesNotCount) {
   WorldMap map = map_above_ground();
   VoxelGrid grid = grid_of_site();
   const Cube cube(3, 4, 20);
@@ -87,7 +87,7 @@ TEST(WorldVoxels, WhatMayHaveBeenAUavCountsForNothing) {
   EXPECT_EQ(voxels.hits(id), 0);
 }
 
-TEST(WorldVoxels, WhatBecomesFreeOrIsNoLongerInDoubtIsFoundLater) {
+TEST(WorldVoxels, AnUpdateFindsCubesThatBecameFreeOrLostTheirDoubt) {
   WorldMap map = map_above_ground();
   VoxelGrid grid = grid_of_site();
   WorldVoxels voxels;

@@ -163,7 +163,7 @@ TEST_F(ActivityWords, TellWhyThereIsNoWayUntilItFliesOn) {
   EXPECT_EQ(last_.no_way, "");
 }
 
-TEST_F(ActivityWords, TellForWhomItWaits) {
+TEST_F(ActivityWords, NameTheUavForWhichItWaits) {
   step();
   facts_.waits_for = 1;
   ASSERT_TRUE(step());

@@ -102,7 +102,7 @@ TEST_F(AgentTest, RemembersBoxesAndRepeatsCommands) {
   EXPECT_NEAR(input_.state.p_WB.z(), 20.0, 1e-6);
 }
 
-TEST_F(AgentTest, TellsForWhomItsPlannerWaitedAndWhen) {
+TEST_F(AgentTest, TellsForWhichUavItsPlannerWaitedAndWhen) {
   const auto wait = [&](std::optional<std::size_t> mate, int exchanges) {
     tape_.answer.waits_for = mate;
     for (int i = 0; i < exchanges; ++i) step();
@@ -350,7 +350,7 @@ TEST_F(AgentTest, HoldAfterACommandOfItsOwnBrakes) {
   EXPECT_LT(input_.state.p_WB.x(), 5.0);
 }
 
-TEST_F(AgentTest, WhatOthersToldOfTheirMapsIsOnItsOwn) {
+TEST_F(AgentTest, AnAgentAddsTheMapsThatItHeardToItsOwn) {
   OccupancyMap other;
   other.insert({{30.2F, 0.2F, 10.2F}, {30.2F, 1.2F, 10.2F}}, std::nullopt);
   step();

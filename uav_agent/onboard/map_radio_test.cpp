@@ -145,7 +145,7 @@ class Talkers {
 
 constexpr int kMostExchanges = 1000;
 
-TEST(MapRadio, WhatAnExplorerSeesAllKnowThoughTheirPlannersCallNothing) {
+TEST(MapRadio, AllUavsGetAnExplorersMapWithoutCallsOfTheirPlanners) {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     Talkers talkers(3, seed, 0.3);
     for (int i = 0; i < 200; ++i) talkers.exchange(true);
@@ -196,7 +196,7 @@ TEST(MapRadio, OnlyMessagesOfMapsAreKeptFromPlanners) {
 }
 
 /// A thing is met while UAV 2 is out of sight, and never again.
-TEST(MapRadio, WhatMayHaveBeenAUavOutOfSightIsDoubtedByAllWhenItIsHeardAgain) {
+TEST(MapRadio, AHitThatMayBeAnUnheardUavIsDoubtedWhenTheUavIsHeardAgain) {
   Talkers talkers(3, 1, 0.0);
   const Vector3d thing_W(5.0, 12.0, 10.0);
   for (int i = 0; i < 120; ++i) talkers.exchange(true);
@@ -267,7 +267,7 @@ double share_of_right(const std::function<void(MapLooker&)>& tell_way, std::uint
   return right / (left + right);
 }
 
-TEST(MapRadio, WhatLiesOnTheWayOfAPlannerThatSaysSoComesFirst) {
+TEST(MapRadio, SpaceOnTheWayThatAPlannerStatesComesFirst) {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     const auto side = [](double y) { return [y](MapLooker& planner) { planner.going_to_W = Vector3d(0.0, y, 10.0); }; };
     EXPECT_GT(share_of_right(side(-60.0), seed), 0.95);

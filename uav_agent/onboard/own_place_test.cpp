@@ -9,7 +9,7 @@ namespace skein::agent {
 namespace {
 
 /// A LiDAR of a UAV that did not hear this one met it, and took it for structure.
-TEST(OwnPlace, WhatOthersToldToStandThereIsNothing) {
+TEST(OwnPlace, AUavIgnoresReportsOfStructureAtItsOwnPlace) {
   struct Looker final : Planner {
     PlannerOutput plan(const PlannerInput& in) override {
       here = in.world_map->at(in.state.p_WB);
@@ -47,7 +47,7 @@ TEST(OwnPlace, WhatOthersToldToStandThereIsNothing) {
 
 /// An explorer that did not hear this UAV while it flew mapped its body all along the way. When the two hear each other
 /// again, the explorer reports this; and a new pole beside the way, which must enter the map.
-TEST(OwnPlace, WhatOthersReportOfAFlightThatTheyDidNotHearIsNotStructure) {
+TEST(OwnPlace, AUavIgnoresReportsOfItsOwnUnheardFlightAsStructure) {
   struct Looker final : Planner {
     PlannerOutput plan(const PlannerInput& in) override {
       map = in.world_map;

@@ -110,7 +110,7 @@ TEST(BlockWork, BlocksAreDealtOutEvenly) {
   }
 }
 
-TEST(BlockWork, WhatFailedIsTriedAgainLater) {
+TEST(BlockWork, AFailedTaskIsTriedAgainLater) {
   const AgentConfig agent = named_fleet(1, 0);
   const CameraReach reach;
   BlockWork work({}, agent, reach, {site()});

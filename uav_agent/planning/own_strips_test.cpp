@@ -22,7 +22,7 @@ WorkShare drawn_share(std::uint32_t seed, std::size_t count) {
   return share;
 }
 
-TEST(OwnStrips, AllComeOnceBeforeAnyComesAgain) {
+TEST(OwnStrips, EachStripComesOnceBeforeAnyComesAgain) {
   for (std::uint32_t seed = 1; seed <= 20; ++seed) {
     OwnStrips strips(drawn_share(seed, 12));
     Vector3d at_W = Vector3d::Zero();
@@ -54,7 +54,7 @@ TEST(OwnStrips, TheNearestEndComesFirst) {
   }
 }
 
-TEST(OwnStrips, WhatFailedComesAgainLater) {
+TEST(OwnStrips, AFailedStripComesAgainLater) {
   OwnStrips strips(drawn_share(3, 2));
   const std::size_t first = *strips.next(0, Vector3d::Zero());
   strips.failed(first, 0);

@@ -213,7 +213,7 @@ TEST_F(PythonPlannerTest, AnExceptionNamesUavAndStepBelowItsTraceback) {
   expect_has(refusal(*planning("return self.plan(inputs)")), {"RecursionError"});
 }
 
-TEST_F(PythonPlannerTest, WhatIsGoneSaysSo) {
+TEST_F(PythonPlannerTest, AnInputThatIsUsedAfterPlanReturnedRaisesGoneError) {
   const std::string keep = "        self.kept = inputs\n        return PlannerOutput()\n";
   const auto late =
       make(file("class Mine(Planner):\n    kept = None\n    def plan(self, inputs):\n"
@@ -262,7 +262,7 @@ TEST_F(PythonPlannerTest, ParametersAreReadAsThoseOfAnyPlanner) {
   expect_has(input_error(spec + ":climb_mps=99"), {"climb_mps", "within [0.2, 10]"});
 }
 
-TEST_F(PythonPlannerTest, WhatCannotBeLoadedIsBadInput) {
+TEST_F(PythonPlannerTest, APlannerThatCannotBeLoadedIsBadInput) {
   const auto error = [&](const std::string& code, const std::string& more = "") {
     return input_error(file(code) + more);
   };

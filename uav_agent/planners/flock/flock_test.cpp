@@ -42,7 +42,7 @@ TEST(FlockSurvey, WallsHideWhatIsBehindThem) {
 
 /// What stays out of sight from the places that were meant to show it is given up, so that no explorer circles there
 /// for ever; what lies farther off stays.
-TEST(FlockSurvey, WhatStaysOutOfSightIsGivenUp) {
+TEST(FlockSurvey, GapsThatStayOutOfSightAreGivenUp) {
   const std::vector<OrientedBox> boxes = {make_box({0, 0, 12}, {40, 40, 24})};
   VoxelGrid grid = operational_volume(boxes, {}, 12.0, 0.0, 1.5);
   for (VoxelGrid::Id id = 0; id < grid.count(); ++id) {
@@ -148,7 +148,7 @@ TEST(FlockSurfaces, APoorPictureIsNotPromisedAgain) {
 }
 
 /// The camera cannot be turned to it: this UAV leaves it out for a while, others are not told.
-TEST(FlockSurfaces, WhatTheCameraCannotLookAtIsLeftOutForATime) {
+TEST(FlockSurfaces, ATargetThatTheCameraCannotLookAtIsLeftOutForATime) {
   BeforeAWall uav;
   uav.surfaces->detect(std::vector<DetectedPoint>{{{2.2F, 0.0F, 10.0F}, 0.4, 0, {-1.0F, 0.0F, 0.0F}}},
                        {-4.0, 0.0, 10.0});
@@ -169,7 +169,7 @@ TEST(FlockSurfaces, WhatTheCameraCannotLookAtIsLeftOutForATime) {
 
 /// A UAV that takes boxes for structure, because it flies without a map, tells no other UAV so: others know better. In
 /// a fleet that has no LiDAR at all, all UAVs take them for structure.
-TEST(FlockSurfaces, BoxesTakenForStructureAreNotToldToThoseWhoSee) {
+TEST(FlockSurfaces, AUavThatTakesBoxesForStructureDoesNotTellOthersSo) {
   BeforeAWall uav;
   const auto occupied = [](const VoxelGrid& grid) {
     std::size_t count = 0;

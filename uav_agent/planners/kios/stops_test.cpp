@@ -54,7 +54,7 @@ TEST(KiosStops, EveryExposedFaceHasOneThatLooksAtIt) {
   }
 }
 
-TEST(KiosStops, WhatWasPhotographedOrIsCoveredOrFailedIsNotOpen) {
+TEST(KiosStops, PhotographedCoveredAndFailedFacesAreNotOpen) {
   LoneCube world;
   KiosStops stops{KiosStops::Config()};
   world.grid.mark(world.cube, 2);
@@ -164,7 +164,7 @@ TEST(KiosStops, ToursGoAroundStructureLast) {
   EXPECT_EQ(share.own_tour(stops, alone, 0, wide_grid()).front(), 0U);
 }
 
-TEST(KiosStops, AllInSightShareThem) {
+TEST(KiosStops, UavsInSightShareTheStops) {
   std::vector<KiosStop> stops;
   for (int i = 0; i < 40; ++i) {
     KiosStop stop;

@@ -90,7 +90,7 @@ Vector3d first_place(const Goal& goal, const Vector3d& here_W) {
   return goal.way[begins_here && goal.way.size() > 1 ? 1 : 0].p_WB;
 }
 
-TEST(StarFlight, WhatCannotBeFlownToIsPutOff) {
+TEST(StarFlight, AGoalThatCannotBeReachedIsPutOff) {
   for (const auto kind : {Outcome::Kind::no_way, Outcome::Kind::blocked}) {
     AtWork uav;
     uav.boxes = {make_box({12.0, 0.0, 10.0}, {8.0, 36.0, 16.0})};

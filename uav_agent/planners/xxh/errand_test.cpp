@@ -98,7 +98,7 @@ TEST(XxhErrand, AUavThatWasCalledAwayChoosesAnew) {
 }
 
 // Whatever the order in which the core tells of old and new goals: only those of the last list count.
-TEST(XxhErrand, WhatBecameOfEarlierChoicesCountsForNothing) {
+TEST(XxhErrand, OutcomesOfEarlierGoalsDoNotCount) {
   for (std::uint64_t seed = 1; seed <= 100; ++seed) {
     RandomStream random(seed, "errand", 0);
     Asked uav;

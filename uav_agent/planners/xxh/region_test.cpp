@@ -147,7 +147,7 @@ TEST(XxhRegion, WhereNothingIsFreeNearIsLookedAtFromFartherOff) {
   EXPECT_EQ(found, 6U);
 }
 
-TEST(XxhRegion, WhatHasAPillarInFrontIsLookedAtFromAside) {
+TEST(XxhRegion, ATargetBehindAPillarIsLookedAtFromAside) {
   LoneCell world;
   const int layer = world.region.layer(world.cube());
   const auto in_front = world.visits(layer);
@@ -168,7 +168,7 @@ TEST(XxhRegion, WhatHasAPillarInFrontIsLookedAtFromAside) {
   }
 }
 
-TEST(XxhRegion, WhatWasLookedAtIsNoTargetAnyMore) {
+TEST(XxhRegion, AFaceThatWasLookedAtIsNoTargetAnyMore) {
   LoneCell world;
   const int layer = world.region.layer(world.cube());
   const auto before = world.visits(layer);
@@ -355,7 +355,7 @@ TEST(XxhExplorer, FliesAlongAllPlacesOfTheSpiralInTheirOrder) {
   EXPECT_EQ(flown, spiral);
 }
 
-TEST(XxhExplorer, WhatCannotBeReachedIsTriedOnceMoreAtTheEnd) {
+TEST(XxhExplorer, APlaceThatCannotBeReachedIsTriedOnceMoreAtTheEnd) {
   Exploring world;
   int choices = 0;
   for (int i = 0; i < 1000; ++i) {

@@ -68,7 +68,7 @@ TEST(XxhWorksite, ARegionThatIsTooLargeForItsCellsGetsLargerOnes) {
   EXPECT_LT(large.site.map().grid().voxel_m(), 2.0);
 }
 
-TEST(XxhWorksite, OneThatLiesAndThePublicCodeBeginWhereThePathComesFrom) {
+TEST(XxhWorksite, LyingBoxesAndThePublicCodeBeginWhereThePathComesFrom) {
   XxhConfig by_path;
   by_path.begin = XxhBegin::path;
   for (const bool from_high_end : {false, true}) {
