@@ -50,6 +50,7 @@ TEST_F(Layers, NothingIsMarkedUnfinished) { expect_none(check_marks(tree_)); }
 TEST_F(Layers, FilesThatAreNamedAreThere) { expect_none(check_references(tree_)); }
 TEST_F(Layers, OneHeaderNamesTheFilesOfARun) { expect_none(check_run_files(tree_)); }
 TEST_F(Layers, DecisionsAreShortAndHaveTheirSections) { expect_none(check_decisions(tree_)); }
+TEST_F(Layers, TestNamesNameTheirActor) { expect_none(check_test_names(tree_)); }
 TEST_F(Layers, NoMachineIsNamed) { expect_none(check_machine_paths(tree_)); }
 
 TEST_F(Layers, CodeIsFormatted) {

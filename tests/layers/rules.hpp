@@ -94,6 +94,10 @@ Violations check_run_files(const Tree& tree);
 /// Alternatives, unless another one supersedes it as a whole.
 Violations check_decisions(const Tree& tree, std::size_t most_lines = 60);
 
+/// No test has a name that begins with Who, What, Nobody, Somebody or a form of these words: such a name does not say
+/// which part of Skein the test is about.
+Violations check_test_names(const Tree& tree);
+
 /// No build products and no large files among `tracked` (paths below the root).
 Violations check_tracked_files(const std::filesystem::path& root, const std::vector<std::string>& tracked,
                                std::uintmax_t most_bytes = 1'500'000);

@@ -1,4 +1,4 @@
-// The rules for what the tree has in one place or one form: names of a run's files, and decisions.
+// The rules for what the tree has in one place or one form: names of a run's files, decisions, and names of tests.
 #include <algorithm>
 #include <array>
 #include <ranges>
@@ -52,6 +52,27 @@ Violations check_decisions(const Tree& tree, std::size_t most_lines) {
     if (has("Superseded by [decision ")) continue;  // as a whole: the page says what is left of the decision
     for (const char* section : kSections) {
       if (!has(section)) violations.push_back(file.path + ":1: has no section '" + section + "'");
+    }
+  }
+  return violations;
+}
+
+Violations check_test_names(const Tree& tree) {
+  static const std::regex kCpp(
+      R"(\bTEST(_F|_P)?\(\w+,\s*((Who(m|se|ever)?|What(ever)?|Nobody|Somebody)([A-Z0-9_]\w*)?)\s*\))");
+  static const std::regex kPython(R"(\bdef\s+(test)_((who(m|se|ever)?|what(ever)?|nobody|somebody)(_\w*)?)\s*\()");
+  Violations violations;
+  for (const SourceFile& file : tree) {
+    const bool python = file.path.ends_with(".py");
+    if (!python && !file.is_cpp()) continue;
+    const std::vector<std::string>& lines = python ? file.lines : file.code;
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      // A line break may stand before the name.
+      const std::string text = lines[i].ends_with(',') && i + 1 < lines.size() ? lines[i] + lines[i + 1] : lines[i];
+      std::smatch name;
+      if (!std::regex_search(text, name, python ? kPython : kCpp)) continue;
+      violations.push_back(file.path + ":" + std::to_string(i + 1) + ": name the actor in the test's name " +
+                           name[2].str());
     }
   }
   return violations;

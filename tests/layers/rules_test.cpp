@@ -354,6 +354,24 @@ TEST_F(MadeUpTree, DecisionsLongerThanAPageAreFound) {
             (Places{"docs/decisions/0002-long.md:7", "docs/decisions/0003-gone.md:7"}));
 }
 
+TEST_F(MadeUpTree, TestNamesWithoutAnActorAreFound) {
+  file("core/good_test.cpp",
+       "TEST(Who, WholeNumbersAreDecimal) {}\nTEST_F(Map, TellsWhatItKnows) {}\n// TEST(Map, WhatIsWrong) {}\n"
+       "EXPECT_EQ(f(What), Nobody);\ntext = \"TEST(Map, WhoIsThere)\";\n");
+  file("python/tests/test_good.py",
+       "def test_whole_numbers():\ndef what_is_wrong():\ndef test_says_what_is_wrong():\n");
+  EXPECT_EQ(check_test_names(tree()), Violations{});
+
+  file("core/bad_test.cpp",
+       "TEST(Map, WhatIsWrong) {}\nTEST_F(Map, WhoeverAsks) {}\nTEST_P(Map, WhoseMapIsLost) {}\n"
+       "TEST(Map, NobodyHearsIt) {}\nTEST(Map,\n     WhomItTells) {}\nTEST(Map, Somebody) {}\n");
+  file("python/tests/test_bad.py", "def test_what_is_wrong() -> None:\n    def test_nobody_hears_it(self):\n");
+  EXPECT_EQ(places(check_test_names(tree())),
+            (Places{"core/bad_test.cpp:1", "core/bad_test.cpp:2", "core/bad_test.cpp:3", "core/bad_test.cpp:4",
+                    "core/bad_test.cpp:5", "core/bad_test.cpp:7", "python/tests/test_bad.py:1",
+                    "python/tests/test_bad.py:2"}));
+}
+
 TEST_F(MadeUpTree, ProductsAndLargeFilesAreFoundAmongTheTracked) {
   file("docs/large.png", std::string(11, 'x'));
   file("docs/small.png", std::string(10, 'x'));
