@@ -87,7 +87,7 @@ void CountStore::save(const LinkGate& gate, const GatedStep& last) {
     link.delivered_bytes -= delivery.payload->size();
   }
   if (write(sizeof(Head), counts_.row_major().data(), counts_.row_major().size() * sizeof(LinkCounts))) return;
-  trouble_ = failure().what();
+  write_error_ = failure().what();
   ::close(std::exchange(fd_, -1));
 }
 

@@ -29,7 +29,7 @@ class CountStore {
   /// the next step on, because it is lost if the router dies before.
   void save(const LinkGate& gate, const GatedStep& last);
   /// Why counts are no longer saved; empty: they are.
-  const std::string& trouble() const { return trouble_; }
+  const std::string& write_error() const { return write_error_; }
 
  private:
   struct Head;
@@ -39,7 +39,7 @@ class CountStore {
 
   const std::filesystem::path file_;
   LinkMatrix<LinkCounts> counts_;  ///< as the file has them
-  std::string trouble_;
+  std::string write_error_;
   int fd_;
 };
 

@@ -35,8 +35,8 @@ void LinkRecord::write(const std::string& line) try {
   }
   *out_ << line;
   out_->flush();  // a router may be killed at any time
-  refused_ = !out_->trouble().empty();
-  if (refused_) unwritten_.push_back(out_->trouble());
+  refused_ = !out_->write_error().empty();
+  if (refused_) unwritten_.push_back(out_->write_error());
 } catch (const std::system_error& error) {
   refused_ = true;
   unwritten_.push_back(error.what());

@@ -110,9 +110,9 @@ class RouterMember final : public bus::FleetMember {
     }
     const int code = bus::exit_code(end, programs::kCommRouter);
     unwritten_.insert(unwritten_.end(), node_->unwritten().begin(), node_->unwritten().end());
-    if (store_ && !store_->trouble().empty()) unwritten_.push_back(store_->trouble());
+    if (store_ && !store_->write_error().empty()) unwritten_.push_back(store_->write_error());
     recorder_.close();
-    if (!recorder_.trouble().empty()) unwritten_.push_back(recorder_.trouble());
+    if (!recorder_.write_error().empty()) unwritten_.push_back(recorder_.write_error());
     const Notes notes{node_->malformed(), node_->unheard(), node_->unsent(),
                       node_->warnings(),  unwritten_,       node_->differences()};
     write_report(options_, scenario_, node_->gate(), notes, status_);

@@ -49,7 +49,7 @@ Recorder::Recorder(const std::filesystem::path& folder, const std::string& progr
   try {
     file_.emplace(folder / run_folder::recording_part(program, life), options_of(program, life));
   } catch (const std::exception& error) {
-    trouble_ = std::string("the recording of ") + program + " ends: " + error.what();
+    write_error_ = std::string("the recording of ") + program + " ends: " + error.what();
   }
 }
 
@@ -88,7 +88,7 @@ void Recorder::add(const std::string& topic, const std::string& wire_type, std::
   try {
     file_->write(channel(topic, wire_type), nanoseconds(tick_), payload, static_cast<std::uint32_t>(sequence));
   } catch (const std::length_error& error) {
-    trouble_ = error.what();
+    write_error_ = error.what();
     close();
   }
 }
@@ -100,10 +100,12 @@ void Recorder::flush() {
 void Recorder::close() {
   if (!file_) return;
   file_->close();
-  if (trouble_.empty()) trouble_ = file_->trouble();
+  if (write_error_.empty()) write_error_ = file_->write_error();
   file_.reset();
 }
 
-std::string Recorder::trouble() const { return file_ && trouble_.empty() ? file_->trouble() : trouble_; }
+std::string Recorder::write_error() const {
+  return file_ && write_error_.empty() ? file_->write_error() : write_error_;
+}
 
 }  // namespace skein::recording

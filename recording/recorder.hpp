@@ -19,7 +19,7 @@ namespace skein::recording {
 
 class Recorder final : public bus::Tap {
  public:
-  /// If the file cannot be opened, nothing is recorded, and trouble() says why.
+  /// If the file cannot be opened, nothing is recorded, and write_error() says why.
   /// @param folder   the run's folder.
   /// @param program  its name in results/run_folder.hpp. A program that is started again writes another part.
   Recorder(const std::filesystem::path& folder, const std::string& program, Scope scope);
@@ -45,14 +45,14 @@ class Recorder final : public bus::Tap {
   /// Ends the recording: later samples are dropped.
   void close();
   /// Description of the first error, for people; empty if there was none.
-  std::string trouble() const;
+  std::string write_error() const;
 
  private:
   std::uint16_t channel(const std::string& topic, const std::string& wire_type);
 
   const Scope scope_;
   std::optional<mcap::Writer> file_;  ///< nullopt: nothing is recorded
-  std::string trouble_;
+  std::string write_error_;
   Tick tick_ = 0;
   std::map<std::string, std::uint16_t, std::less<>> channels_;  ///< by topic
 };

@@ -91,7 +91,7 @@ TEST_F(RecorderTest, AFolderThatCannotBeWrittenIsATroubleAndNoError) {
   Recorder recorder(folder_ / "missing", programs::kStation, Scope::run);
   recorder.add("/skein/tally", msg::Tally());
   recorder.close();
-  EXPECT_NE(recorder.trouble().find("cannot write"), std::string::npos);
+  EXPECT_NE(recorder.write_error().find("cannot write"), std::string::npos);
 }
 
 }  // namespace

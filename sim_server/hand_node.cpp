@@ -90,7 +90,7 @@ std::vector<std::string> HandNode::finish() {
   std::vector<std::string> troubles;
   for (const auto& flown : flown_) {
     flown->rows.flush();
-    if (!flown->rows.trouble().empty()) troubles.push_back(flown->rows.trouble());
+    if (!flown->rows.write_error().empty()) troubles.push_back(flown->rows.write_error());
   }
   return troubles;
 }

@@ -74,7 +74,7 @@ void RecordingNode::add_views(const Simulation& simulation) {
 
 std::string RecordingNode::close() {
   recorder_.close();
-  return recorder_.trouble();
+  return recorder_.write_error();
 }
 
 }  // namespace skein::sim

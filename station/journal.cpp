@@ -185,11 +185,11 @@ void Journal::replay(RunId run) {
   if (!rest.empty() && ::ftruncate(descriptor_, static_cast<off_t>(bytes.size() - rest.size())) != 0) {
     fail(file_, "its broken end cannot be cut off");
   }
-  if (!ours) trouble_ = write(head);
+  if (!ours) write_error_ = write(head);
 }
 
 std::string Journal::append(std::span<const TallyRecord> records) {
-  if (ended_) return std::exchange(trouble_, {});
+  if (ended_) return std::exchange(write_error_, {});
   Bytes bytes;
   for (const TallyRecord& record : records) {
     const Bytes body = encode(record);

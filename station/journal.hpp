@@ -44,8 +44,8 @@ class Journal {
   std::filesystem::path file_;
   int descriptor_ = -1;
   std::vector<TallyRecord> replayed_;
-  bool ended_ = false;   ///< nothing is written: an earlier write failed, or the file is in kNowhere
-  std::string trouble_;  ///< why the first bytes could not be written, for the first append()
+  bool ended_ = false;       ///< nothing is written: an earlier write failed, or the file is in kNowhere
+  std::string write_error_;  ///< why the first bytes could not be written, for the first append()
 };
 
 }  // namespace skein::station

@@ -41,7 +41,7 @@ class StationMember final : public bus::FleetMember {
       return std::nullopt;
     }
     recorder_.close();
-    node_->note_unwritten(recorder_.trouble());
+    node_->note_unwritten(recorder_.write_error());
     if (!node_->came_too_late()) node_->write_report(options_.dds);
     return bus::exit_code(end, programs::kStation);
   }

@@ -183,7 +183,7 @@ void AgentNode::keep_maps(std::unique_ptr<KeptMaps> maps) { kept_maps_ = std::mo
 std::string AgentNode::end_maps() {
   if (!kept_maps_) return {};
   kept_maps_->end(agent_.world_map(), agent_.map());
-  return kept_maps_->trouble();
+  return kept_maps_->write_error();
 }
 
 void AgentNode::send(LockstepClient& client) {

@@ -28,7 +28,7 @@ void KeptMaps::end(const WorldMap* world, const OccupancyMap& key_frames) {
   if (written_ != tick_) write(world, key_frames);
   if (!file_) return;
   file_->close();
-  trouble_ = file_->trouble();
+  write_error_ = file_->write_error();
   file_.reset();
 }
 
@@ -39,7 +39,7 @@ bool KeptMaps::has_changed(const WorldMap* world, const OccupancyMap& key_frames
 }
 
 void KeptMaps::write(const WorldMap* world, const OccupancyMap& key_frames) {
-  if (!trouble_.empty()) return;
+  if (!write_error_.empty()) return;
   if (!file_) open();
   if (!file_) return;
   const Tick tick = *tick_;
@@ -48,7 +48,7 @@ void KeptMaps::write(const WorldMap* world, const OccupancyMap& key_frames) {
   file_->write(channel_, nanoseconds(tick), encode(map));
   file_->flush();
   written_ = tick;
-  trouble_ = file_->trouble();
+  write_error_ = file_->write_error();
 }
 
 void KeptMaps::open() {
@@ -61,7 +61,7 @@ void KeptMaps::open() {
     channel_ = file_->add_channel(topic, type.name, type.text);
   } catch (const std::exception& error) {
     file_.reset();
-    trouble_ = "the maps of " + uav_ + " end: " + error.what();
+    write_error_ = "the maps of " + uav_ + " end: " + error.what();
   }
 }
 

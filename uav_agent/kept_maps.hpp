@@ -26,7 +26,7 @@ class KeptMaps {
   /// Writes a last snapshot, even of an unchanged map, if there was any step, and closes the file. Call it once.
   void end(const WorldMap* world, const OccupancyMap& key_frames);
   /// Error message for the user; empty: no error.
-  const std::string& trouble() const { return trouble_; }
+  const std::string& write_error() const { return write_error_; }
 
  private:
   bool has_changed(const WorldMap* world, const OccupancyMap& key_frames);
@@ -42,7 +42,7 @@ class KeptMaps {
   std::uint64_t key_frames_ = 0;        ///< without a world map: number of key frames at the last look
   std::optional<mcap::Writer> file_;
   std::uint16_t channel_ = 0;
-  std::string trouble_;
+  std::string write_error_;
 };
 
 }  // namespace skein::agent

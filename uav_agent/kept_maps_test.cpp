@@ -79,7 +79,7 @@ TEST_F(KeptMapsTest, AreWhatItWasWhenItHadChangedAndAtTheEnd) {
   ASSERT_EQ(expected.size(), 7U);
   expected.erase(expected.begin() + 4, expected.begin() + 6);  // of 40 s and 50 s: nothing had changed since 30 s
   EXPECT_EQ(snapshots(0, true), expected);
-  EXPECT_EQ(kept.trouble(), "");
+  EXPECT_EQ(kept.write_error(), "");
   EXPECT_FALSE(fs::exists(folder_ / run_folder::maps_file("a", 1)));
 }
 
@@ -129,7 +129,7 @@ TEST_F(KeptMapsTest, LeaveNoFileOfAUavThatNeverTookAStep) {
 TEST_F(KeptMapsTest, EndWhereTheDiskRefuses) {
   KeptMaps nowhere(folder_ / "none", "a", kSecond);
   fly(nowhere);
-  EXPECT_NE(nowhere.trouble().find("maps-a.mcap"), std::string::npos) << nowhere.trouble();
+  EXPECT_NE(nowhere.write_error().find("maps-a.mcap"), std::string::npos) << nowhere.write_error();
 
   rlimit former{};
   ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &former), 0);
@@ -140,7 +140,7 @@ TEST_F(KeptMapsTest, EndWhereTheDiskRefuses) {
   fly(kept);
   ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &former), 0);
   ::signal(SIGXFSZ, handler);
-  EXPECT_NE(kept.trouble().find("maps-a.mcap"), std::string::npos) << kept.trouble();
+  EXPECT_NE(kept.write_error().find("maps-a.mcap"), std::string::npos) << kept.write_error();
   EXPECT_LE(fs::file_size(folder_ / "maps-a.mcap"), 6000U);
   EXPECT_FALSE(snapshots(0, false).empty()) << "it has those for which there was room";
 }

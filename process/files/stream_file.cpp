@@ -27,7 +27,7 @@ StreamFile::~StreamFile() {
 }
 
 StreamFile& StreamFile::operator<<(std::string_view text) {
-  if (!kept() || !trouble_.empty()) return *this;
+  if (!kept() || !write_error_.empty()) return *this;
   buffer_ += text;
   if (buffer_.size() >= kBlock) flush();
   return *this;
@@ -36,7 +36,7 @@ StreamFile& StreamFile::operator<<(std::string_view text) {
 void StreamFile::flush() {
   const std::size_t taken = put_out();
   if (taken < buffer_.size()) {
-    trouble_ = "cannot write " + file_.string() + ": " + std::generic_category().message(errno);
+    write_error_ = "cannot write " + file_.string() + ": " + std::generic_category().message(errno);
     // A truncated line could pass for a complete line with a shorter last number.
     const std::size_t line_end = taken == 0 ? std::string::npos : buffer_.rfind('\n', taken - 1);
     const std::size_t torn = taken - (line_end == std::string::npos ? 0 : line_end + 1);

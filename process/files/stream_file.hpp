@@ -1,5 +1,5 @@
 // A text file to which a program appends while it runs. If a write fails (disk full, quota, size limit), the program
-// continues, but nothing more is written: the file ends with its last complete line, and trouble() has the reason.
+// continues, but nothing more is written: the file ends with its last complete line, and write_error() has the reason.
 // Not thread-safe.
 #pragma once
 
@@ -26,7 +26,7 @@ class StreamFile {
   /// False for a file in kNowhere: then callers need not produce any text.
   bool kept() const { return fd_ >= 0; }
   /// Error message for people, with the file's name; empty while there was no error.
-  const std::string& trouble() const { return trouble_; }
+  const std::string& write_error() const { return write_error_; }
 
  private:
   /// Writes the buffer. @returns number of bytes written.
@@ -34,7 +34,7 @@ class StreamFile {
 
   const std::filesystem::path file_;
   int fd_ = -1;
-  std::string buffer_, trouble_;
+  std::string buffer_, write_error_;
 };
 
 }  // namespace skein

@@ -30,7 +30,7 @@ TEST_F(StreamFileTest, ContainsWhatWasWritten) {
     StreamFile file(file_);
     file << "a,b\n"
          << "1,2\n";
-    EXPECT_EQ(file.trouble(), "");
+    EXPECT_EQ(file.write_error(), "");
   }
   EXPECT_EQ(content(), "a,b\n1,2\n");
   { StreamFile(file_, StreamFile::Mode::append) << "3,4\n"; }
@@ -42,23 +42,23 @@ TEST_F(StreamFileTest, ContainsWhatWasWritten) {
 TEST_F(StreamFileTest, TheErrorNamesAFileThatCannotBeOpened) {
   try {
     StreamFile file(file_ / "below");
-    FAIL() << "opened";
+    FAIL() << "no exception, although the file has no folder";
   } catch (const std::system_error& error) {
     EXPECT_NE(std::string(error.what()).find(file_.string()), std::string::npos) << error.what();
   }
 }
 
-TEST_F(StreamFileTest, AFullDiskIsReportedAndThrowsNothing) {
+TEST_F(StreamFileTest, ReportsAFullDiskWithoutAnException) {
   StreamFile file("/dev/full");
   file << "some words\n";
   file.flush();
-  EXPECT_EQ(file.trouble(), "cannot write /dev/full: No space left on device");
+  EXPECT_EQ(file.write_error(), "cannot write /dev/full: No space left on device");
   file << "more\n";
   file.flush();
-  EXPECT_EQ(file.trouble(), "cannot write /dev/full: No space left on device");
+  EXPECT_EQ(file.write_error(), "cannot write /dev/full: No space left on device");
 }
 
-TEST_F(StreamFileTest, AFileThatIsCutShortEndsWithAWholeLine) {
+TEST_F(StreamFileTest, AFileThatReachesItsSizeLimitEndsWithAWholeLine) {
   std::mt19937 draw(20);
   for (int round = 0; round < 20; ++round) {
     const rlim_t limit = 1 + draw() % 40000;
@@ -71,11 +71,11 @@ TEST_F(StreamFileTest, AFileThatIsCutShortEndsWithAWholeLine) {
       StreamFile file(file_);
       for (int line = 0; line < 5000; ++line) file << std::to_string(line) + ",7.25\n";
       file.flush();
-      ::_exit(file.trouble().empty() ? 1 : 0);
+      ::_exit(file.write_error().empty() ? 1 : 0);
     }
     int status = 0;
     ASSERT_EQ(::waitpid(child, &status, 0), child);
-    EXPECT_EQ(status, 0) << "the child reported no trouble at a limit of " << limit << " bytes";
+    EXPECT_EQ(status, 0) << "the child reported no error at a limit of " << limit << " bytes";
     std::string expected;
     for (int line = 0; expected.size() + std::to_string(line).size() + 6 <= limit; ++line) {
       expected += std::to_string(line) + ",7.25\n";

@@ -96,7 +96,7 @@ std::string join(const std::vector<std::filesystem::path>& parts, const std::fil
   for (const Packed& packed : chunks) copy(packed, out, summary);
   for (const Metadata& one : metadata) write_metadata(out, summary, one);
   summary.write(out);
-  return out.trouble().empty() ? trouble : out.trouble();
+  return out.write_error().empty() ? trouble : out.write_error();
 }
 
 }  // namespace skein::mcap

@@ -16,12 +16,12 @@ Output::Output(const std::filesystem::path& file)
 Output::~Output() { ::close(fd_); }
 
 void Output::write(ByteView records) {
-  if (!trouble_.empty()) return;
+  if (!write_error_.empty()) return;
   for (ByteView left = records; !left.empty();) {
     const ssize_t written = ::write(fd_, left.data(), left.size());
     if (written < 0 && errno == EINTR) continue;
     if (written < 0) {
-      trouble_ = "cannot write " + file_.string() + ": " + std::generic_category().message(errno);
+      write_error_ = "cannot write " + file_.string() + ": " + std::generic_category().message(errno);
       static_cast<void>(!::ftruncate(fd_, static_cast<off_t>(size_)));
       return;
     }

@@ -1,5 +1,5 @@
 // A file that grows record by record. A write error (a full disk, a quota, a limit) ends the file, not the program: the
-// file then ends with its last complete record, and trouble() says why. Not thread-safe.
+// file then ends with its last complete record, and write_error() says why. Not thread-safe.
 #pragma once
 
 #include <filesystem>
@@ -25,14 +25,14 @@ class Output {
   /// Checksum (`crc_of`) of all bytes so far, including the magic.
   std::uint32_t crc() const { return crc_; }
   /// Description of the error, with the file's name, for people; empty if there was none.
-  const std::string& trouble() const { return trouble_; }
+  const std::string& write_error() const { return write_error_; }
 
  private:
   const std::filesystem::path file_;
   int fd_ = -1;
   std::uint64_t size_ = 0;
   std::uint32_t crc_ = 0;
-  std::string trouble_;
+  std::string write_error_;
 };
 
 }  // namespace skein::mcap

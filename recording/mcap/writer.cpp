@@ -162,7 +162,7 @@ void Writer::flush() {
   }
   index.message_indexes_length = bytes.size() - index.length;
   out_.write(bytes);
-  if (trouble().empty()) summary_.add(std::move(index), messages);
+  if (write_error().empty()) summary_.add(std::move(index), messages);
   chunk_.clear();
   chunk_messages_.clear();
 }

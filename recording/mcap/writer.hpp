@@ -66,7 +66,7 @@ class Writer {
   void flush();
   /// Writes the summary; no other call may follow. The destructor does it, too.
   void close();
-  const std::string& trouble() const { return out_.trouble(); }
+  const std::string& write_error() const { return out_.write_error(); }
 
  private:
   const WriterOptions options_;

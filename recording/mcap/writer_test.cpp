@@ -25,7 +25,7 @@ TEST_F(McapWriter, WrittenMessagesAreReadInOrder) {
       write_all(writer, messages);
       writer.write_metadata({"run", {{"seed", std::to_string(seed)}}});
       writer.close();
-      EXPECT_EQ(writer.trouble(), "");
+      EXPECT_EQ(writer.write_error(), "");
     }
     EXPECT_EQ(read_all(folder_ / "a.mcap"), messages) << seed;
     Reader reader(folder_ / "a.mcap");
@@ -125,8 +125,8 @@ TEST_F(McapWriter, AFullDiskEndsTheFileAndNotTheProgram) {
     setrlimit(RLIMIT_FSIZE, &limit);
     write_all(writer, messages);
     writer.close();
-    EXPECT_NE(writer.trouble().find("cannot write"), std::string::npos);
-    EXPECT_NE(writer.trouble().find("full"), std::string::npos);
+    EXPECT_NE(writer.write_error().find("cannot write"), std::string::npos);
+    EXPECT_NE(writer.write_error().find("full"), std::string::npos);
   }
   setrlimit(RLIMIT_FSIZE, &before);
   const auto read = read_all(folder_ / "full");

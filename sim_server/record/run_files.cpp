@@ -225,7 +225,7 @@ SimServerReport RunFiles::report(const Simulation& simulation, const RunSummary&
 void RunFiles::write_report(const Simulation& simulation, const RunSummary& summary, StatusPipe& status) {
   for (StreamFile* file : {&trajectories_, &digests_, &events_.file(), &activities_.file()}) {
     file->flush();
-    if (!file->trouble().empty()) unwritten_.push_back(file->trouble());
+    if (!file->write_error().empty()) unwritten_.push_back(file->write_error());
   }
   note_unwritten(write_if_possible(folder_ / run_folder::kTracking, review_.tracking_csv()));
   hand_in_report(json_of(report(simulation, summary)), folder_ / run_folder::report_file(programs::kSimServer), status);
