@@ -17,12 +17,12 @@ const char* word_of(Verdict verdict) {
 
 Finding fine(std::string what, std::string found) { return {Verdict::ok, std::move(what), std::move(found), {}}; }
 
-Finding warning(std::string what, std::string found, std::string mend) {
-  return {Verdict::warn, std::move(what), std::move(found), std::move(mend)};
+Finding warning(std::string what, std::string found, std::string fix) {
+  return {Verdict::warn, std::move(what), std::move(found), std::move(fix)};
 }
 
-Finding failure(std::string what, std::string found, std::string mend) {
-  return {Verdict::fail, std::move(what), std::move(found), std::move(mend)};
+Finding failure(std::string what, std::string found, std::string fix) {
+  return {Verdict::fail, std::move(what), std::move(found), std::move(fix)};
 }
 
 int exit_code(const Findings& findings) {
@@ -33,7 +33,7 @@ int exit_code(const Findings& findings) {
 void print(std::ostream& out, const Findings& findings) {
   for (const Finding& finding : findings) {
     out << fmt::format("{:<4}  {}: {}{}{}\n", word_of(finding.verdict), finding.what, finding.found,
-                       finding.mend.empty() ? "" : " -> ", finding.mend);
+                       finding.fix.empty() ? "" : " -> ", finding.fix);
   }
 }
 
@@ -41,7 +41,7 @@ Json as_json(const Findings& findings) {
   Json list = Json::array();
   for (const Finding& finding : findings) {
     list.push_back({{"verdict", word_of(finding.verdict)}, {"what", finding.what}, {"found", finding.found}});
-    if (!finding.mend.empty()) list.back()["mend"] = finding.mend;
+    if (!finding.fix.empty()) list.back()["mend"] = finding.fix;
   }
   return {{"ok", exit_code(findings) == kExitDone}, {"findings", list}};
 }

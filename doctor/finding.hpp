@@ -17,13 +17,13 @@ struct Finding {
   Verdict verdict = Verdict::ok;
   std::string what;   ///< what was checked: "open files"
   std::string found;  ///< what was found, in one line
-  std::string mend;   ///< how to fix it; empty if all is well
+  std::string fix;    ///< how to fix it; empty if all is well
 };
 using Findings = std::vector<Finding>;
 
 Finding fine(std::string what, std::string found);
-Finding warning(std::string what, std::string found, std::string mend);
-Finding failure(std::string what, std::string found, std::string mend);
+Finding warning(std::string what, std::string found, std::string fix);
+Finding failure(std::string what, std::string found, std::string fix);
 
 /// kExitDone when nothing fails, else kExitCheckFailed.
 int exit_code(const Findings& findings);

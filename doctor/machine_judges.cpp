@@ -76,10 +76,10 @@ Finding judge_memory(const MachineFacts& machine, const FleetNeeds& needs) {
   const std::string found =
       fmt::format("{} available{}; {} UAVs need about {}", megabytes(*left), by_cgroup ? " in this cgroup" : "",
                   needs.uavs, megabytes(needs.memory_bytes()));
-  const std::string mend =
+  const std::string fix =
       by_cgroup ? "raise memory.max of the cgroup; a container: --memory" : "end other programs, or fly fewer UAVs";
-  if (*left < needs.memory_bytes()) return failure(what, found, mend);
-  if (*left < 2 * needs.memory_bytes()) return warning(what, found + ", large scenes more", mend);
+  if (*left < needs.memory_bytes()) return failure(what, found, fix);
+  if (*left < 2 * needs.memory_bytes()) return warning(what, found + ", large scenes more", fix);
   return fine(what, found);
 }
 
@@ -102,9 +102,9 @@ Finding judge_disk(const DiskFacts& disk) {
   }
   if (!disk.free) return fine(what, folder + "; how much is free is not told");
   const std::string found = folder + " has " + megabytes(*disk.free) + " free";
-  const std::string mend = "make room, or another folder with --out";
-  if (*disk.free < kLeastDisk) return failure(what, found + ", less than a run writes", mend);
-  if (*disk.free < kAmpleDisk) return warning(what, found + "; a run writes tens of MB", mend);
+  const std::string fix = "make room, or another folder with --out";
+  if (*disk.free < kLeastDisk) return failure(what, found + ", less than a run writes", fix);
+  if (*disk.free < kAmpleDisk) return warning(what, found + "; a run writes tens of MB", fix);
   return fine(what, found);
 }
 

@@ -1,4 +1,4 @@
-// The checks of the machine: what they read from made-up cgroups and real folders, and how they judge random facts.
+// Tests that the doctor reads the facts of a machine from made-up cgroups and real folders, and judges random machines.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -49,8 +49,8 @@ std::vector<std::string> complaints(const Findings& findings) {
   std::vector<std::string> names;
   for (const Finding& finding : findings) {
     if (finding.verdict != Verdict::ok) names.push_back(finding.what);
-    EXPECT_EQ(finding.verdict == Verdict::ok, finding.mend.empty()) << finding.what;
-    EXPECT_EQ((finding.found + finding.mend).find('\n'), std::string::npos);
+    EXPECT_EQ(finding.verdict == Verdict::ok, finding.fix.empty()) << finding.what;
+    EXPECT_EQ((finding.found + finding.fix).find('\n'), std::string::npos);
   }
   return names;
 }
@@ -99,7 +99,7 @@ TEST(MachineJudges, ReportEachShortageAndNothingElse) {
   }
 }
 
-TEST(MachineJudges, TheFixNamesTheLowestLimitOfProcesses) {
+TEST(MachineJudges, TheFixNamesTheLowestProcessLimit) {
   Random random(5);
   for (int i = 0; i < 500; ++i) {
     const FleetNeeds needs{1 + random() % 100};
@@ -116,19 +116,19 @@ TEST(MachineJudges, TheFixNamesTheLowestLimitOfProcesses) {
     const Finding finding = judge_processes(machine, needs);
     EXPECT_EQ(finding.verdict, Verdict::fail);
     for (const auto& [limit, other] : limits) {
-      EXPECT_EQ(finding.mend.find(other) != std::string::npos, limit == lowest) << finding.mend;
+      EXPECT_EQ(finding.fix.find(other) != std::string::npos, limit == lowest) << finding.fix;
     }
   }
 }
 
-TEST(MachineJudges, MoreUavsNeverNeedLess) {
+TEST(MachineJudges, MoreUavsNeedMoreOfEverything) {
   for (std::size_t uavs = 1; uavs < 200; ++uavs) {
     const FleetNeeds less{uavs}, more{uavs + 1};
     EXPECT_LT(less.open_files(), more.open_files());
     EXPECT_LT(less.threads(), more.threads());
     EXPECT_LT(less.memory_bytes(), more.memory_bytes());
   }
-  // As measured: over Fast DDS, the server of a fleet of 5 UAVs has 74 open files; the programs of a fleet of 100 UAVs
+  // Measured: over Fast DDS, the server of a fleet of 5 UAVs has 74 open files; the programs of a fleet of 100 UAVs
   // use 909 MB.
   EXPECT_GE(FleetNeeds{5}.open_files(), 74u);
   EXPECT_GE(FleetNeeds{100}.memory_bytes(), 909'000'000u);
@@ -149,12 +149,12 @@ TEST(MachineJudges, AFullDiskFailsAndANearlyFullOneWarns) {
   EXPECT_EQ(judge_disk(disk).verdict, Verdict::fail);
 }
 
-TEST(MachineJudges, ClocksThatRunAreFine) {
+TEST(MachineJudges, StoppedWrongAndSlowClocksAreReported) {
   ClockFacts clocks{.monotonic_s = 0.02, .realtime_s = 0.02, .date_s = 1.7e9, .source = "tsc"};
   EXPECT_TRUE(complaints(judge_clocks(clocks)).empty());
   clocks.realtime_s = -3600.0;
   EXPECT_EQ(complaints(judge_clocks(clocks)), std::vector<std::string>{"time of day"});
-  EXPECT_EQ(exit_code(judge_clocks(clocks)), kExitDone) << "no result depends on the time of day";
+  EXPECT_EQ(exit_code(judge_clocks(clocks)), kExitDone) << "only a warning: no result depends on the time of day";
   clocks.realtime_s = 0.02;
   clocks.date_s = 86400.0;
   EXPECT_EQ(complaints(judge_clocks(clocks)), std::vector<std::string>{"time of day"});
@@ -231,7 +231,7 @@ TEST_F(MadeUpMachine, ReadDiskTriesToCreateAFileAndLeavesNone) {
   EXPECT_FALSE(read_disk("/proc").create_error.empty());
 }
 
-TEST(MachineFacts, OfThisMachineAreRead) {
+TEST(MachineFacts, CanBeReadOnThisMachine) {
   EXPECT_GE(read_machine().cpus, 1);
   const ClockFacts clocks = read_clocks();
   EXPECT_GT(clocks.monotonic_s, 0.0);

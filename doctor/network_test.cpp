@@ -68,7 +68,7 @@ TEST(NetworkJudges, EachPeerThatIsNotReachedIsNamedAndNoOther) {
     ASSERT_EQ(count(findings, Verdict::fail), 1u);
     const Finding& found = *std::ranges::find(findings, Verdict::fail, &Finding::verdict);
     EXPECT_EQ(found.what, "peer " + peer.name);
-    EXPECT_FALSE(found.mend.empty());
+    EXPECT_FALSE(found.fix.empty());
     peer = whole;
     EXPECT_EQ(exit_code(judge_network(drawn.domain, drawn.interfaces)), kExitDone);
   }
