@@ -1,17 +1,18 @@
-// Shows the faults of the run, and lets a viewer begin and end faults by hand. The page sends an order for each
+// Shows the faults of the run, and lets a viewer begin and end faults by hand. For each, the page sends an order
 // (view/fault_order.hpp). An order takes effect in the next step; the next state says whether the server accepted it.
 import {data, element, moment} from './page.js';
 
 const kMostRows = 60;
-// The station serves this page. While it is killed or paused, a viewer cannot end the fault, so it ends by itself.
+// The station serves this page. So while the station is killed or paused, a viewer cannot end this fault; it ends by
+// itself after this time.
 const kStationFault_s = 5;
 const kStation = 'gcs';  // name of its node; its program is called station
 
 const hand = {order: () => {}, connected: false, refusedBefore: null};
 
 /**
- * Adds what a line of the kind "fault" (view/story.hpp) says to a list of faults. @param faults  the list: number,
- * byHand (a viewer began the fault), kind, target, begin and end [s] of each fault that has begun.
+ * Adds what a line of the kind "fault" (view/story.hpp) says to a list of faults. @param faults  one entry for each
+ * fault that has begun: its number, byHand (a viewer began the fault), kind, of (its target), from and until [s].
  */
 export function recordFault(faults, {t, n, hand: byHand, on, kind, of}) {
   if (on === 1) faults.push({number: n, byHand: byHand === 1, kind, of, from: t, until: Infinity});
@@ -85,15 +86,15 @@ export function showLinkButton(button, from, to, kind, text) {
 
 // ---- faults of one UAV ----------------------------------------------------------------------------------------------
 
-/** By fault: its kind, the text of the button that begins it, and the text of the button that ends it. */
+/** For each fault: its kind, and the texts of its button while it would begin the fault, and while it would end it. */
 const kUavFaults = [
-  ['kill', 'Kill its program', 'Start its program again'],
-  ['pause', 'Pause its program', 'Let its program go on'],
-  ['blackout', 'Cut its radio', 'Radio works again'],
-  ['camera_failure', 'Camera fails', 'Camera works again'],
-  ['lidar_failure', 'LiDAR fails', 'LiDAR works again'],
-  ['stuck_gimbal', 'Gimbal sticks', 'Gimbal works again'],
-  ['odometry_freeze', 'Odometry freezes', 'Odometry works again'],
+  ['kill', 'Kill its program', 'Restart its program'],
+  ['pause', 'Pause its program', 'Resume its program'],
+  ['blackout', 'Cut its radio', 'Restore its radio'],
+  ['camera_failure', 'Disable its camera', 'Restore its camera'],
+  ['lidar_failure', 'Disable its LiDAR', 'Restore its LiDAR'],
+  ['stuck_gimbal', 'Block its gimbal', 'Release its gimbal'],
+  ['odometry_freeze', 'Freeze its odometry', 'Restore its odometry'],
 ];
 
 function toggle(kind, of, begins, ends, more = {}) {
@@ -202,16 +203,16 @@ function rowOf({key, text, of, when, state, ends, label, byHand}) {
 }
 
 /**
- * @returns the panel with all faults. A viewer can end the faults that were begun by hand here, and kill or pause the
+ * @returns the panel with all faults. Here, viewers can end the faults that a viewer began, and kill or pause the
  * programs that belong to no UAV.
  */
 export function faultsPanel() {
   const parts = [
-    toggle('kill', 'station', `Kill the station for ${kStationFault_s} s`, 'Start the station again', {for_s: kStationFault_s}),
-    toggle('pause', 'station', `Pause the station for ${kStationFault_s} s`, 'Let the station go on', {for_s: kStationFault_s}),
-    toggle('station_outage', null, 'Cut the station\'s radio', 'Station\'s radio works again'),
-    toggle('kill', 'comm_router', 'Kill the radio router', 'Start the radio router again'),
-    toggle('pause', 'comm_router', 'Pause the radio router', 'Let the radio router go on'),
+    toggle('kill', 'station', `Kill the station for ${kStationFault_s} s`, 'Restart the station', {for_s: kStationFault_s}),
+    toggle('pause', 'station', `Pause the station for ${kStationFault_s} s`, 'Resume the station', {for_s: kStationFault_s}),
+    toggle('station_outage', null, 'Cut the station\'s radio', 'Restore the station\'s radio'),
+    toggle('kill', 'comm_router', 'Kill the radio router', 'Restart the radio router'),
+    toggle('pause', 'comm_router', 'Pause the radio router', 'Resume the radio router'),
   ];
   const buttons = element('div', {class: 'tools-row'}, ...parts.map(({button}) => button));
   const refused = element('p', {class: 'refused', role: 'status'}, '');
@@ -224,7 +225,7 @@ export function faultsPanel() {
     for (const part of parts) part.show();
     const now = data.now?.faults;
     hand.refusedBefore ??= now?.refused ?? null;
-    const text = now !== undefined && hand.refusedBefore !== null && now.refused > hand.refusedBefore ? `Not done: ${now.why}.` : '';
+    const text = now !== undefined && hand.refusedBefore !== null && now.refused > hand.refusedBefore ? `The server refused this: ${now.why}.` : '';
     if (refused.textContent !== text) refused.textContent = text;
     const all = rows();
     none.hidden = all.length > 0;

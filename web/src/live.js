@@ -63,7 +63,7 @@ function showControls(live) {
   if (!now) return;
   const pause = document.getElementById('pause');
   pause.textContent = now.paused ? 'Resume' : 'Pause';
-  pause.title = `${now.paused ? 'Let the flight go on' : 'Pause the flight'} (p)`;
+  pause.title = `${now.paused ? 'Resume the flight' : 'Pause the flight'} (p)`;
   const speed = document.getElementById('speed');
   if (![...speed.options].some(({value}) => value === now.speed)) speed.append(element('option', {value: now.speed}, `${now.speed}x`));
   if (document.activeElement !== speed) speed.value = now.speed;
