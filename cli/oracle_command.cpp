@@ -79,7 +79,7 @@ std::string figures(const Json& part) {
 }
 
 void print_one(std::ostream& out, const Json& answer, bool outside_only) {
-  out << "              points       score   twice as many viewpoints changed it by\n";
+  out << "              points       score   change with twice as many viewpoints\n";
   const auto row = [&](const char* name) {
     out << std::left << std::setw(10) << name << std::right << figures(value_or(answer, name, Json::object())) << '\n';
   };

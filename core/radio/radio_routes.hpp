@@ -29,10 +29,10 @@ struct RadioRoute {
   std::string member = {};           ///< the only program of the node that may send on it; empty: any program may
 };
 
-/// All routes of a scenario: first those that carry captures and their acknowledgements (always there: for each UAV
-/// "/captures/<id>" to the station and "/captures_ack/<id>" back), then the declared topics in the scenario's order,
-/// sources ascending, and last "/plan" from all to all, unless the scenario declares that topic itself. The index in
-/// this list is the route's number in every process of a run.
+/// All routes of a scenario: first those that carry captures and their acknowledgements (they always exist: for each
+/// UAV "/captures/<id>" to the station and "/captures_ack/<id>" back), then the declared topics in the scenario's
+/// order, sources ascending, and last "/plan" from all to all, unless the scenario declares that topic itself. The
+/// index in this list is the route's number in every process of a run.
 /// @throws InputError, naming the scenario file and the key, for: a malformed topic or type; an unknown or repeated
 ///   node; no source or no target besides the source itself; one source declared twice for a topic; a topic with two
 ///   types; a name that is taken in a domain by another use (a standard topic that the source does not write itself,
@@ -71,7 +71,8 @@ class RadioTable {
 /// Name under which a radio topic arrives: ("/x", "jurong") -> "/x/jurong".
 std::string arrival_topic(std::string_view ros_topic, std::string_view target);
 
-/// Radio topic for messages between planners, and between them and the ground station: std_msgs/String, always there.
+/// Radio topic for messages between planners, and between them and the ground station: std_msgs/String.
+/// It always exists.
 inline constexpr std::string_view kPlanTopic = "/plan";
 
 /// Radio topics of a UAV's captures (UAV to station) and of their acknowledgements (station to UAV): ROS names.
