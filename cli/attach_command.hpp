@@ -31,8 +31,8 @@ void add_attach(CLI::App& app, AttachOptions& attach);
 /// `skein ps`: prints a table of the user's running fleets. @returns kExitDone
 int list_fleets(const PsOptions& options, const Console& console);
 
-/// `skein attach`: replaces this process by the debugging tool, attached to one program of a flying fleet; returns only
-/// on failure. @throws InputError when there is no such fleet or program, more than one, or no such tool.
+/// `skein attach`: replaces this process with the debugging tool, attached to one program of a flying fleet; returns
+/// only on failure. @throws InputError when there is no such fleet or program, more than one, or no such tool.
 int attach_to(const AttachOptions& options, const Console& console);
 
 }  // namespace skein::cli

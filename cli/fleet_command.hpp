@@ -20,7 +20,7 @@ struct FleetOptions {
 void add_fleet(CLI::App& app, FleetOptions& fleet);
 
 /// `skein fleet`: a fleet that another program steps, as skein.Fleet does in Python. Plans and checks the flight, then
-/// replaces this process by the one that simulates the whole fleet (one_process/session.hpp); returns only when that
+/// replaces this process with the one that simulates the whole fleet (one_process/session.hpp); returns only when that
 /// fails. @throws InputError, Interrupted.
 int step_fleet(const FleetOptions& options, const Console& console);
 

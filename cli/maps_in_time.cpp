@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 /// not have moved all maps.
 constexpr const char* kSecondFlight = "replay-maps";
 
-/// Replaces the maps of these UAVs in `to` by those in `from`.
+/// Replaces the maps of these UAVs in `to` with those in `from`.
 void move_maps(const std::vector<std::string>& uavs, const fs::path& from, const fs::path& to) {
   for (const std::string& uav : uavs) {
     for (int life = 0; fs::exists(to / run_folder::maps_file(uav, life)); ++life) {

@@ -42,7 +42,7 @@ TEST_F(PackCommand, ATargetThatIsNoFileIsRefusedBeforeAnythingIsDone) {
   EXPECT_FALSE(std::filesystem::exists(folder_.path().string() + ".parts"));
 }
 
-/// Programs that `ldd` takes, in the place of Skein's.
+/// Programs that `ldd` takes, in place of Skein's.
 class PackedPrograms : public PackCommand {
  protected:
   PackedPrograms() {

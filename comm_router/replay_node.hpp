@@ -1,4 +1,4 @@
-// The router's part when a recorded run is flown again: replaces the members' radio messages by the recorded ones.
+// The router's part when a recorded run is flown again: replaces the members' radio messages with the recorded ones.
 #pragma once
 
 #include <map>
@@ -17,7 +17,7 @@ class ReplayNode {
   /// other routes: a run in which members registered topics cannot be flown again.
   ReplayNode(const Scenario& scenario, const std::vector<RadioRoute>& routes, const recording::ReplayOptions& options);
 
-  /// While the replay lasts: replaces the step's messages by the recorded ones, and notes where the two differ.
+  /// While the replay lasts: replaces the step's messages with the recorded ones, and notes where the two differ.
   void replace(StepBatch& batch);
   const recording::Differences& differences() const { return differences_; }
 

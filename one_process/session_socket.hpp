@@ -24,7 +24,7 @@ class SessionSocket {
   std::optional<SessionMessage> receive() const;
   /// Sends a message; does nothing if the other end is closed.
   void send(std::string_view text) const;
-  /// Replaces this socket by another one, under the same descriptor number. @param descriptor  of the other socket; is
+  /// Replaces this socket with another one, under the same descriptor number. @param descriptor of the other socket; is
   /// closed.
   void become(int descriptor) const;
 

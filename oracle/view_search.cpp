@@ -193,7 +193,7 @@ std::optional<double> ViewSearch::fitting_yaw(const Look& look, const Vector3d& 
   return std::nullopt;
 }
 
-/// Replaces `best` by the best picture from a place, if that is better.
+/// Replaces `best` with the best picture from a place, if that is better.
 /// @param aim  the best aim if the body may have any heading.
 void ViewSearch::take_picture(const Look& look, const Vector3d& p_WC, const Vector3d& n_W, Aim aim,
                               PointView& best) const {

@@ -52,7 +52,7 @@ class Differences {
   std::vector<Difference> list_;
 };
 
-/// For the server of the lock-step: replaces the samples of its members by the recorded ones.
+/// For the server of the lock-step: replaces the samples of its members with the recorded ones.
 class Replay final : public bus::Tap {
  public:
   /// @param recorder  receives the samples that count. Must outlive this.

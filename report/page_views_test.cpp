@@ -1,4 +1,4 @@
-// The sections with drawings of the scene. Each point is far from all others, so that each has its own dot.
+// Tests the sections with drawings of the scene. All points are far apart, so that each has a dot of its own.
 #include <gtest/gtest.h>
 #include <spdlog/fmt/fmt.h>
 
@@ -39,7 +39,7 @@ class Section {
     }
     return all;
   }
-  /// Style of the swatch and text of each entry of the legend.
+  /// For each entry of the legend: the style of its swatch, and its text.
   std::vector<std::pair<std::string, std::string>> legend() const {
     std::vector<std::pair<std::string, std::string>> entries;
     for (const pugi::xml_node& entry : root().child("ul").children("li")) {
@@ -86,7 +86,7 @@ results::RunRecord lossy_run(std::mt19937& random) {
   return run;
 }
 
-TEST(PlacesSection, HasADrawingForEachCauseThatHighlightsItsPoints) {
+TEST(PlacesSection, HasForEachCauseADrawingThatHighlightsItsPoints) {
   std::mt19937 random(21);
   for (int trial = 0; trial < 40; ++trial) {
     const results::RunRecord run = lossy_run(random);
@@ -147,7 +147,7 @@ TEST(ViewsSection, DrawsWhateverIsKnown) {
   }
 }
 
-TEST(ViewsSection, EachViewHasItsDirectionAndOnlyTheObliqueOneIsLive) {
+TEST(ViewsSection, EachViewHasItsDirectionAndOnlyTheObliqueOneCanBeTurned) {
   const Vector3d offset = 30.0 * Vector3d::Ones();
   for (int axis = 0; axis < 3; ++axis) {
     RunPage page{results::RunRecord()};
@@ -157,7 +157,7 @@ TEST(ViewsSection, EachViewHasItsDirectionAndOnlyTheObliqueOneIsLive) {
                                          {"Plan", "", "", {{"q0", dots(2)}}},
                                          {"Elevation from the south", "", "", {{"q0", dots(1)}}},
                                          {"Elevation from the east", "", "", {{"q0", dots(0)}}}};
-    EXPECT_EQ(Section(views_section(page)).panels(), expected) << "points apart along axis " << axis;
+    EXPECT_EQ(Section(views_section(page)).panels(), expected) << "the points lie apart along axis " << axis;
   }
 }
 

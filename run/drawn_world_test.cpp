@@ -51,7 +51,7 @@ class DrawnWorld : public ::testing::Test {
 };
 
 TEST_F(DrawnWorld, IsDrawnOnce) {
-  EXPECT_EQ(scenario_source("towers", 3), "towers");
+  EXPECT_EQ(scenario_source("towers", 3), "towers") << "only the world of a wild scene is drawn";
   const fs::path file = scenario_source("wild", 3);
   EXPECT_EQ(file.filename(), "wild_3.yaml");
   EXPECT_TRUE(fs::is_regular_file(file));
@@ -61,7 +61,7 @@ TEST_F(DrawnWorld, IsDrawnOnce) {
   EXPECT_EQ(drawn(), 2U);
 }
 
-TEST_F(DrawnWorld, IsDrawnAgainIfAFileOfItIsMissing) {
+TEST_F(DrawnWorld, IsDrawnAgainIfOneOfItsFilesIsMissing) {
   const fs::path file = scenario_source("wild", 3);
   std::size_t draws = 1;
   for (const char* name : {"models/m.stl", "models/p.pcd", "models/b.yaml", "models", "wild_3.yaml"}) {
@@ -78,7 +78,7 @@ TEST_F(DrawnWorld, IsDrawnAgainIfAFileOfItIsMissing) {
   EXPECT_EQ(drawn(), ++draws) << "a damaged scenario";
 }
 
-TEST_F(DrawnWorld, IsDrawnAgainIfAFileOfItIsDamaged) {
+TEST_F(DrawnWorld, IsDrawnAgainIfOneOfItsFilesIsDamaged) {
   const fs::path file = scenario_source("wild", 3);
   std::size_t draws = 1;
   for (const char* name : {"models/m.stl", "models/p.pcd", "models/b.yaml", "wild_3.yaml", "wild_3.sha256"}) {

@@ -1,5 +1,5 @@
-// The options of one run, as plain structs. The launcher fills them from its command line, from those of studies, or
-// from the result of an earlier run.   Units: s (simulated, unless a comment says otherwise).
+// The options of one run, as plain structs. The launcher fills them from its command line, from a study's plan, or from
+// the result of an earlier run. Units: s (simulated, unless a comment says otherwise).
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@ struct ReplayOf {
   std::filesystem::path recording;
   std::optional<double> until_s;   ///< from this time on, the programs' own messages count instead of the recorded ones
   std::vector<std::string> only;   ///< UAVs whose programs run, or "gcs"; empty: all
-  std::vector<std::string> other;  ///< UAVs with other software than recorded: their messages are not compared
+  std::vector<std::string> other;  ///< UAVs that fly other software now: Skein does not compare their messages
 };
 
 /// The longest lease that DDS accepts: Cyclone DDS's limit [s].
@@ -31,8 +31,8 @@ inline constexpr std::array kBreakEvents = {"collision", "rejected", "lost", "fa
 struct ViewOptions {
   std::optional<std::string> at;     ///< endpoint, as view::read_endpoint() reads it; none: no page is served
   std::optional<std::string> speed;  ///< pace of a watched flight, as view::read_speed() reads it
-  std::optional<double> pause_at_s;  ///< simulated time at which the flight pauses until the page says otherwise
-  bool close = false;                ///< the page ends with the run, instead of staying as its replay
+  std::optional<double> pause_at_s;  ///< simulated time at which the flight pauses until a viewer resumes it
+  bool close = false;                ///< no longer serve the page when the run ends, instead of serving its replay
   bool browser = true;               ///< open the user's browser, if there is one
 };
 
@@ -41,7 +41,7 @@ struct PlaceOptions {
   std::optional<std::string> at;               ///< UAV=HOST,... or "slurm"; none: all programs run on this host
   std::string ssh = "ssh";                     ///< the command that logs in, with options of its own if any
   std::optional<std::filesystem::path> skein;  ///< path of skein on those hosts; none: the same path as on this host
-  bool print = false;                          ///< print commands that start the programs by hand, instead of flying
+  bool print = false;                          ///< do not fly: print the commands with which a user starts the programs
 };
 
 struct RunOptions {
@@ -57,18 +57,18 @@ struct RunOptions {
   std::optional<std::filesystem::path> faults;      ///< fault file
   std::string dds = "cyclonedds";                   ///< a vendor or "mixed"
   std::string clock = "lockstep";                   ///< "lockstep", "realtime" or "realtime:FACTOR"
-  std::optional<std::filesystem::path> agent;       ///< program that flies in the place of uav_agent
+  std::optional<std::filesystem::path> agent;       ///< program that flies in place of uav_agent
   std::vector<std::string> debug;                   ///< UAV[=TOOL], see debug/debuggee.hpp
-  std::optional<double> break_at_s;                 ///< debugged programs stop before that simulated time
-  std::optional<std::string> break_on;              ///< they stop before this event first happens to the first of them
-  std::optional<std::filesystem::path> break_from;  ///< results folder of the same flight, which tells the event's time
+  std::optional<double> break_at_s;                 ///< debugged programs stop before this simulated time
+  std::optional<std::string> break_on;              ///< they stop before this event first happens to debug[0]
+  std::optional<std::filesystem::path> break_from;  ///< results folder of the same flight: has the event's time
   std::vector<std::string> log;                     ///< UAV=LEVEL
   bool cores = false;                               ///< programs that crash leave a core dump
   bool one_process = false;                         ///< all programs in one process, without DDS
   std::optional<int> threads;                       ///< number of threads of that process
   bool stepped = false;  ///< with one_process: another program steps the fleet and commands the learners
   bool native = false;
-  bool secure = false;  ///< DDS Security, agents under user ids of their own where possible
+  bool secure = false;  ///< with DDS Security; each agent runs under a user id of its own if possible
   std::optional<int> domain;
   std::optional<std::string> ros_env;  ///< do not fly: print the environment for a shell of this UAV's ROS 2 nodes
   std::optional<std::string> network;  ///< the network for other hosts: an interface, "all", or a YAML file
@@ -85,16 +85,16 @@ struct RunOptions {
   std::optional<double> keep_maps_s;  ///< period of snapshots of UAVs' maps, in simulated seconds; none: no snapshots
   std::optional<ReplayOf> replay;
   ViewOptions view;
-  bool check = true;       ///< first ask the programs whether they can fly this
+  bool check = true;       ///< before the flight, ask the programs whether they can fly this run
   bool attainable = true;  ///< after the run, ask the oracle for the attainable score
   bool report = true;      ///< make report.html of the run
   double patience = 1.0;   ///< for tests: scales how long the launcher waits for programs to leave
   std::string command;     ///< command line as the user typed it; empty: there was none
 };
 
-/// The options that one flight of a study, a hunt or a fault test may have, by their names on the command line: for
-/// process/json_fields.hpp, and for the command line that repeats the flight. An option that is true
-/// by default is --no-NAME there.
+/// The options that one flight of a study, a hunt or a fault test may have, by their names on the command line.
+/// process/json_fields.hpp reads and writes them, and the command line that repeats the flight has them. There, an
+/// option that is true by default is --no-NAME.
 void describe(auto& f, RunOptions& run) {
   f.field("scenario", run.scenario);
   f.field("planner", run.planner);

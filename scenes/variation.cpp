@@ -16,9 +16,10 @@
 namespace skein::sim {
 namespace {
 
-constexpr double kSingleBox = 0.25, kMerge = 0.3, kSplit = 0.3;  ///< shares of the seeds
-constexpr double kLargestTurn = 0.12;                            ///< of a box's axes [rad]
-constexpr double kLargestSwing = 2.0;   ///< turn [rad] times length [m], at most: long boxes turn less
+/// Shares of the seeds that give a single box, that merge two boxes, and that split the longest box.
+constexpr double kSingleBoxShare = 0.25, kMergeShare = 0.3, kSplitShare = 0.3;
+constexpr double kLargestTurn = 0.12;   ///< of a box about z [rad]
+constexpr double kLargestSwing = 2.0;   ///< limit of turn [rad] times length [m]: long boxes turn less
 constexpr double kLargestMargin = 1.0;  ///< added to the family's own margin [m]
 constexpr double kLongBox = 30.0;       ///< least length of a box that may be split [m]
 
@@ -35,7 +36,7 @@ OrientedBox box_around(const std::string& name, std::span<const OrientedBox> box
   return box_of_extent(name, extent, R_WO, margin);
 }
 
-/// Replaces two boxes by one around both: the pair for which this adds the least volume.
+/// Merges two boxes into one around both. Chooses the pair for which this adds the least volume.
 void merge_two(std::vector<OrientedBox>& boxes) {
   OrientedBox best;
   std::size_t first = 0, second = 0;
@@ -73,17 +74,17 @@ void split_longest(std::vector<OrientedBox>& boxes, double share) {
   boxes.push_back(high);
 }
 
-/// The variation that every seed except 0 has.
-void vary_for_all_seeds(Scene& scene, std::uint64_t scene_seed) {
+/// The variation that every seed except 0 gives.
+void vary_for_nonzero_seeds(Scene& scene, std::uint64_t scene_seed) {
   RandomStream random(scene_seed, "scene_boxes", 0);
   const double kind = random.uniform();
-  if (kind < kSingleBox) {
+  if (kind < kSingleBoxShare) {
     const double heading = random.uniform(-0.25 * std::numbers::pi, 0.25 * std::numbers::pi);
     scene.boxes = {box_around("site", scene.boxes, rotation_z(heading), random.uniform(0.0, kLargestMargin))};
     return;
   }
-  if (kind < kSingleBox + kMerge) merge_two(scene.boxes);
-  if (random.uniform() < kSplit) split_longest(scene.boxes, random.uniform(0.35, 0.65));
+  if (kind < kSingleBoxShare + kMergeShare) merge_two(scene.boxes);
+  if (random.uniform() < kSplitShare) split_longest(scene.boxes, random.uniform(0.35, 0.65));
   for (OrientedBox& box : scene.boxes) {
     const double turn =
         random.uniform(-1.0, 1.0) * std::min(kLargestTurn, kLargestSwing / box.size.head<2>().maxCoeff());
@@ -106,13 +107,13 @@ OrientedBox idle_box(const OrientedBox& near, RandomStream& random) {
 
 /// Additional variation for seeds from kVariedSeeds on.
 void vary_for_later_seeds(std::vector<OrientedBox>& boxes, std::uint64_t scene_seed) {
-  constexpr double kLoose = 0.35;  // share of the boxes
-  constexpr double kIdle = 0.3;    // share of the seeds
+  constexpr double kLooseShare = 0.35;  // of the boxes
+  constexpr double kIdleShare = 0.3;    // of the seeds
   RandomStream random(scene_seed, "scene_boxes_further", 0);
   for (OrientedBox& box : boxes) {
-    if (random.uniform() < kLoose) loosen(box, random);
+    if (random.uniform() < kLooseShare) loosen(box, random);
   }
-  if (random.uniform() < kIdle) boxes.push_back(idle_box(boxes.front(), random));
+  if (random.uniform() < kIdleShare) boxes.push_back(idle_box(boxes.front(), random));
 }
 
 }  // namespace
@@ -122,15 +123,15 @@ void loosen(OrientedBox& box, RandomStream& random) {
   Vector3d share(random.uniform(), random.uniform(), random.uniform());
   share /= std::max(1e-9, share.sum());
   for (int axis = 0; axis < 3; ++axis) {
-    const double more = (std::pow(factor, share[axis]) - 1.0) * box.size[axis];
-    box.center += random.uniform(-0.5, 0.5) * more * box.R_WO.col(axis);
-    box.size[axis] += more;
+    const double growth = (std::pow(factor, share[axis]) - 1.0) * box.size[axis];
+    box.center += random.uniform(-0.5, 0.5) * growth * box.R_WO.col(axis);
+    box.size[axis] += growth;
   }
 }
 
 void vary_boxes(Scene& scene, std::uint64_t scene_seed) {
   if (scene_seed == 0) return;
-  vary_for_all_seeds(scene, scene_seed);
+  vary_for_nonzero_seeds(scene, scene_seed);
   if (scene_seed >= kVariedSeeds) vary_for_later_seeds(scene.boxes, scene_seed);
 }
 

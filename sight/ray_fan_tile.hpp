@@ -1,4 +1,4 @@
-// A tile of RayFan: neighbouring rays from one point, and which of them may hit a box or a triangle.
+// A tile of RayFan: neighbouring rays from one point. Functions find the rays that may hit a box or a triangle.
 // Part of ray_fan_kernel.hpp: see its first lines.
 #pragma once
 
@@ -9,7 +9,7 @@ namespace skein::sim::fan {
 namespace {
 
 constexpr int kRays = kTileRows * kTileColumns;
-static_assert(kTileColumns == kLanes, "a row is eight lanes");
+static_assert(kTileColumns == kLanes, "a row of a tile fills one vector");
 
 constexpr float min(float a, float b) { return b < a ? b : a; }
 constexpr float max(float a, float b) { return b > a ? b : a; }
@@ -20,9 +20,9 @@ struct Rect {
   int column0, column1, row0, row1;
 };
 
-/// Converts a slope in the tile to the index of a column or a row: index = slope * scale + offset. Both offsets (to the
-/// first index, and to the one past the last) include a margin for rays that deviate from a regular grid, and for
-/// rounding errors.
+/// Converts slopes to indices of the tile's columns or rows: index = slope * scale + offset. The offset `to_first`
+/// gives the first index of a range of slopes, and `to_past_last` the index past its last. Both include a margin for
+/// rays that deviate from a regular grid, and for rounding errors.
 struct Ruler {
   Float8 scale, to_first, to_past_last;
 };
@@ -31,7 +31,7 @@ struct Ruler {
 struct Tile {
   alignas(32) float x[kRays], y[kRays], z[kRays];  ///< directions in W
   alignas(32) float nearness[kRays];               ///< 1 / depth of the first hit so far, or of the ray's end
-  std::uint32_t triangle[kRays];
+  std::uint32_t triangle[kRays];                   ///< that the ray hits first so far, or kNoTriangle
   Vector8 origin_W, origin_T;
   Vector8 axes_W[3], axes_T[3];  ///< across, along, ahead (ray_fan_kernel.hpp)
   Vector8 spans_T[3];            ///< magnitudes of the components of axes_T
@@ -57,7 +57,7 @@ inline float most(Float8 a) { return -least(all(0.0F) - a); }
 /// The columns of a rectangle as a bit mask.
 inline unsigned columns_of(const Rect& rect) { return (2U << rect.column1) - (1U << rect.column0); }
 
-/// Whether all rays of a rectangle end in front of a depth.
+/// Whether each ray of a rectangle hits a triangle, or ends, at a smaller depth than this one.
 inline bool hidden(const Tile& tile, const Rect& rect, float depth) {
   if (depth <= 0.0F) return false;
   Float8 farthest = load(&tile.nearness[rect.row0 * kLanes]);
@@ -67,7 +67,7 @@ inline bool hidden(const Tile& tile, const Rect& rect, float depth) {
   return (bits(all(1.0F) > farthest * all(depth)) & columns_of(rect)) == 0;
 }
 
-/// Rays whose slope may lie between two values: the first index, and one past the last. Empty if past_last <= first.
+/// The range of indices whose rays may have a slope between two values. Empty if past_last <= first.
 struct Indices {
   Float8 first, past_last;
 };
@@ -77,7 +77,8 @@ inline Indices indices(const Ruler& ruler, Float8 low, Float8 high, int first, i
           truncated(larger(smaller(to, all(static_cast<float>(last + 1))), all(0.0F)))};
 }
 
-/// Fits a ruler to slopes that grow with the index.   @param index_of  returns the true indices of a row of rays.
+/// Fits a ruler to slopes that grow with the index.
+/// @param last  the largest index.   @param index_of  returns the true indices of a row of rays.
 /// @param deviation  receives the largest deviation of a slope from the ruler, as a number of index steps.
 Ruler fit_ruler(const float (&slopes)[kRays], int last, auto index_of, float& deviation) {
   Float8 low = load(slopes), high = low;

@@ -23,7 +23,7 @@ class PointNames {
 
   /// Takes the new entries of the ledger. @param ledger  from its beginning, without gaps; known entries are skipped.
   void follow(const std::vector<LedgerEntry>& ledger);
-  /// Replaces the numbers in a report by indices. follow() must have had the ledger's entry of this report before.
+  /// Replaces the numbers in a report with indices. follow() must have had the ledger's entry of this report before.
   void resolve(CaptureReport& report) const;
 
  private:

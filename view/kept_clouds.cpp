@@ -61,7 +61,7 @@ class Gathered {
 
  private:
   void end_step() {
-    if (!seen_.empty()) steps_.push_back({newest_s_, seen_.take_for_good()});
+    if (!seen_.empty()) steps_.push_back({newest_s_, seen_.take_new()});
   }
 
   ScanPoints seen_{KeptClouds::kMostPointsKept};

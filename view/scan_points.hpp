@@ -28,8 +28,8 @@ class ScanPoints {
   bool empty() const { return points_W_.empty(); }
   /// Returns at most `most` points, picked evenly, and removes all. Later points in the same cubes count again.
   std::vector<Eigen::Vector3f> take(std::size_t most);
-  /// Returns and removes all points. Their cubes stay taken: later points in them are dropped.
-  std::vector<Eigen::Vector3f> take_for_good() { return std::exchange(points_W_, {}); }
+  /// Returns and removes all points. add() leaves out later points in the same cubes.
+  std::vector<Eigen::Vector3f> take_new() { return std::exchange(points_W_, {}); }
 
  private:
   std::size_t most_kept_;

@@ -55,7 +55,7 @@ TEST(ScanPoints, LeaveOutPointsThatCannotBeEncoded) {
       scan.add(points);
       EXPECT_TRUE(scan.empty()) << invalid << " on axis " << axis;
       scan.add(std::vector<Eigen::Vector3f>{{1.0F, 2.0F, 3.0F}, {4.0F, 5.0F, 6.0F}, {-3'276.0F, 0.0F, 3'276.0F}});
-      EXPECT_EQ(scan.take(10).size(), 3U) << "the points left out took no room";
+      EXPECT_EQ(scan.take(10).size(), 3U) << "the points left out do not count towards the limit";
     }
   }
 }
@@ -73,22 +73,22 @@ TEST(ScanPoints, AreAtMostAsManyAsRequested) {
   EXPECT_EQ(scan.take(0).size(), 0U);
 }
 
-TEST(ScanPoints, TakeForGoodReturnsAPointOfEachCubeOnce) {
+TEST(ScanPoints, TakeNewReturnsAtMostOnePointOfEachCubeEver) {
   std::mt19937 random(4);
   ScanPoints scan(300);
   const auto first = drawn(random, 100, 5.0F), second = drawn(random, 2000, 5.0F);
   scan.add(first);
-  const std::size_t early = scan.take_for_good().size();
+  const std::size_t early = scan.take_new().size();
   EXPECT_GT(early, 20U);
   scan.add(first);
   EXPECT_TRUE(scan.empty());
   scan.add(second);
-  EXPECT_EQ(early + scan.take_for_good().size(), 300U) << "at most most_kept points in all";
+  EXPECT_EQ(early + scan.take_new().size(), 300U) << "at most most_kept points in all";
   scan.add(drawn(random, 100, 100.0F));
   EXPECT_TRUE(scan.empty());
 }
 
-TEST(ScanPoints, ArriveWithinADecimetre) {
+TEST(ScanPoints, AreDecodedWithinADecimetreOfTheirPlace) {
   std::mt19937 random(3);
   auto points = drawn(random, 200, 3000.0F);
   const auto arrived = unpacked_points(packed_points(points));

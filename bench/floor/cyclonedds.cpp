@@ -122,10 +122,10 @@ class CycloneReader final : public Endpoint {
   dds_entity_t entity_ = 0;
 };
 
-class Cyclone final : public Vendor {
+class CycloneVendor final : public Vendor {
  public:
-  ~Cyclone() override {
-    for (const auto& [domain, membership] : domains_) dds_delete(membership.participant);
+  ~CycloneVendor() override {
+    for (const auto& [domain, entities] : domains_) dds_delete(entities.participant);
   }
   std::unique_ptr<Endpoint> open_writer(const Flow& flow) override {
     return std::make_unique<CycloneWriter>(participant(flow.domain), flow);
@@ -135,30 +135,31 @@ class Cyclone final : public Vendor {
   }
 
  private:
-  struct Membership {
+  /// The entities of this process in one domain.
+  struct DomainEntities {
     std::unique_ptr<Domain> domain;
     dds_entity_t participant = 0;
   };
 
   dds_entity_t participant(int id) {
-    Membership& membership = domains_[id];
-    if (!membership.domain) {
+    DomainEntities& entities = domains_[id];
+    if (!entities.domain) {
       const bus::BusConfig config;
       const bus::Reach reach;
-      membership.domain = std::make_unique<Domain>(id, config, reach);
-      membership.participant =
+      entities.domain = std::make_unique<Domain>(id, config, reach);
+      entities.participant =
           check(dds_create_participant(static_cast<dds_domainid_t>(id), nullptr, nullptr), "cannot join");
       if (bus::meets_default_nodes(config, reach))
-        bus::cyclonedds::reach_own_host(membership.domain->entity(), membership.participant);
+        bus::cyclonedds::reach_own_host(entities.domain->entity(), entities.participant);
     }
-    return membership.participant;
+    return entities.participant;
   }
 
-  std::map<int, Membership> domains_;
+  std::map<int, DomainEntities> domains_;
 };
 
 }  // namespace
 
-std::unique_ptr<Vendor> make_vendor() { return std::make_unique<Cyclone>(); }
+std::unique_ptr<Vendor> make_vendor() { return std::make_unique<CycloneVendor>(); }
 
 }  // namespace skein::bench

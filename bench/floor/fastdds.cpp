@@ -22,13 +22,15 @@ namespace {
 namespace dds = eprosima::fastdds::dds;
 using eprosima::fastrtps::types::ReturnCode_t;
 
+/// Returns the entity that Fast DDS created. Throws if it is null, which means that the creation failed.
 template <class Entity>
-Entity* created(Entity* entity) {
+Entity* require(Entity* entity) {
   if (entity == nullptr) throw std::runtime_error("Fast DDS: cannot create an entity");
   return entity;
 }
 
-struct Membership {
+/// The entities of this process in one domain.
+struct DomainEntities {
   dds::DomainParticipant* participant = nullptr;
   dds::Publisher* publisher = nullptr;
   dds::Subscriber* subscriber = nullptr;
@@ -37,16 +39,16 @@ struct Membership {
     if (!participant->find_type(flow.topic.type)) {
       dds::TypeSupport(new bus::fastdds::RawType(flow.topic.type)).register_type(participant);
     }
-    return created(participant->create_topic(flow.topic.name, flow.topic.type, dds::TOPIC_QOS_DEFAULT));
+    return require(participant->create_topic(flow.topic.name, flow.topic.type, dds::TOPIC_QOS_DEFAULT));
   }
 };
 
 class FastWriter final : public Endpoint {
  public:
-  FastWriter(const Membership& membership, const Flow& flow)
+  FastWriter(const DomainEntities& entities, const Flow& flow)
       : sample_(flow.payload),
-        writer_(created(membership.publisher->create_datawriter(membership.topic(flow),
-                                                                bus::fastdds::writer_qos(flow.topic.qos, true)))) {}
+        writer_(require(entities.publisher->create_datawriter(entities.topic(flow),
+                                                              bus::fastdds::writer_qos(flow.topic.qos, true)))) {}
 
   std::size_t matched() const override {
     dds::PublicationMatchedStatus status;
@@ -64,11 +66,12 @@ class FastWriter final : public Endpoint {
 
 class FastReader final : public Endpoint, private dds::DataReaderListener {
  public:
-  FastReader(const Membership& membership, const Flow& flow, Arrivals& arrivals)
+  FastReader(const DomainEntities& entities, const Flow& flow, Arrivals& arrivals)
       : arrivals_(arrivals),
-        reader_(created(membership.subscriber->create_datareader(membership.topic(flow),
-                                                                 bus::fastdds::reader_qos(flow.topic.qos), this,
-                                                                 dds::StatusMask::data_available()))) {}
+        reader_(require(entities.subscriber->create_datareader(
+            entities.topic(flow), bus::fastdds::reader_qos(flow.topic.qos), this, dds::StatusMask::data_available()))) {
+  }
+  /// Fast DDS must not call this object while or after it is destroyed.
   ~FastReader() override { reader_->set_listener(nullptr); }
 
   std::size_t matched() const override {
@@ -90,38 +93,38 @@ class FastReader final : public Endpoint, private dds::DataReaderListener {
   dds::DataReader* reader_;
 };
 
-class Fast final : public Vendor {
+class FastDdsVendor final : public Vendor {
  public:
-  ~Fast() override {
-    for (const auto& [domain, membership] : domains_) {
-      membership.participant->delete_contained_entities();
-      dds::DomainParticipantFactory::get_instance()->delete_participant(membership.participant);
+  ~FastDdsVendor() override {
+    for (const auto& [domain, entities] : domains_) {
+      entities.participant->delete_contained_entities();
+      dds::DomainParticipantFactory::get_instance()->delete_participant(entities.participant);
     }
   }
   std::unique_ptr<Endpoint> open_writer(const Flow& flow) override {
-    return std::make_unique<FastWriter>(membership(flow.domain), flow);
+    return std::make_unique<FastWriter>(entities(flow.domain), flow);
   }
   std::unique_ptr<Endpoint> open_reader(const Flow& flow, Arrivals& arrivals) override {
-    return std::make_unique<FastReader>(membership(flow.domain), flow, arrivals);
+    return std::make_unique<FastReader>(entities(flow.domain), flow, arrivals);
   }
 
  private:
-  const Membership& membership(int domain) {
-    Membership& membership = domains_[domain];
-    if (membership.participant == nullptr) {
-      membership.participant = created(dds::DomainParticipantFactory::get_instance()->create_participant(
+  const DomainEntities& entities(int domain) {
+    DomainEntities& entities = domains_[domain];
+    if (entities.participant == nullptr) {
+      entities.participant = require(dds::DomainParticipantFactory::get_instance()->create_participant(
           static_cast<std::uint32_t>(domain), bus::fastdds::participant_qos(domain, {}, {})));
-      membership.publisher = created(membership.participant->create_publisher(dds::PUBLISHER_QOS_DEFAULT));
-      membership.subscriber = created(membership.participant->create_subscriber(dds::SUBSCRIBER_QOS_DEFAULT));
+      entities.publisher = require(entities.participant->create_publisher(dds::PUBLISHER_QOS_DEFAULT));
+      entities.subscriber = require(entities.participant->create_subscriber(dds::SUBSCRIBER_QOS_DEFAULT));
     }
-    return membership;
+    return entities;
   }
 
-  std::map<int, Membership> domains_;
+  std::map<int, DomainEntities> domains_;
 };
 
 }  // namespace
 
-std::unique_ptr<Vendor> make_vendor() { return std::make_unique<Fast>(); }
+std::unique_ptr<Vendor> make_vendor() { return std::make_unique<FastDdsVendor>(); }
 
 }  // namespace skein::bench

@@ -20,17 +20,20 @@ constexpr std::size_t kMostFaults = 6;
 constexpr double kShortest_s = 0.1, kLongest_s = 40.0;
 /// Motor failures are short and weak: no planner can save a vehicle that lacks the thrust to stay in the air.
 constexpr double kLongestMotorFailure_s = 2.0, kLeastThrust = 0.6;
-/// Longest fault of odometry: no planner can save a vehicle that has flown by a wrong position for too long.
+/// Longest fault of odometry: no planner can save a vehicle that has relied on a wrong position for too long.
 constexpr double kLongestOdometryFault_s = 12.0;
-constexpr double kShareOfWaiting = 0.2;  ///< share of faults that begin on a condition instead of at a time
-/// Shares of link faults that apply to all senders, to all receivers (each), and to all topics.
-constexpr double kShareOfAllNodes = 0.4, kShareOfAllTopics = 0.5;
-constexpr double kShareOfGroundPrograms = 0.4;  ///< of kills and pauses: every UAV depends on the ground programs
+constexpr double kShareOfWaiting = 0.2;  ///< share of faults that begin when a condition becomes true
+/// Share of link faults that apply to all senders. The same share applies to all receivers.
+constexpr double kShareOfAllNodes = 0.4;
+constexpr double kShareOfAllTopics = 0.5;       ///< share of link faults that apply to all topics
+constexpr double kShareOfGroundPrograms = 0.4;  ///< share of kills and pauses; every UAV depends on these programs
 constexpr double kShareOfKillsForGood = 0.15;   ///< share of kills of a UAV's program that have no end
-/// Share of faults that are repeated, so that a hunt finds a defect sooner if it shows only at one instant in ten.
+/// Share of faults that are repeated: some defects show only if a fault hits a rare instant, and repeated faults hit
+/// such an instant sooner.
 constexpr double kShareOfRepeated = 0.2, kLeastInterval_s = 2.0, kLongestInterval_s = 12.0;
 
-/// Kinds are drawn in proportion to their weights: programs and radio can fail in more ways than the rest.
+/// The maker draws kinds in proportion to their weights. Programs and radio can fail in more ways than the rest, so
+/// their weights are larger.
 struct Kind {
   const char* name;
   int weight;
@@ -50,12 +53,12 @@ const std::string& one_of(const std::vector<std::string>& names, RandomStream& d
 }
 double rounded(double value, double step) { return std::round(value / step) * step; }
 /// Draws a duration [s]: mostly short, sometimes long.
-double length(RandomStream& draw, double longest_s) {
+double drawn_length(RandomStream& draw, double longest_s) {
   const double u = draw.uniform();
   return tenths(kShortest_s + (longest_s - kShortest_s) * u * u);
 }
 
-double longest_of(const Fault& fault) {
+double longest_allowed_s(const Fault& fault) {
   if (std::holds_alternative<MotorFailure>(fault.action)) return kLongestMotorFailure_s;
   const bool is_of_odometry =
       std::holds_alternative<OdometryFreeze>(fault.action) || std::holds_alternative<OdometryJump>(fault.action);
@@ -214,7 +217,7 @@ std::optional<FaultCondition> FaultMaker::condition(RandomStream& draw) const {
 /// Draws when a fault begins, or the condition that it waits for, and how long it lasts.
 void FaultMaker::place(Fault& fault, RandomStream& draw) const {
   fault.at_s = tenths(draw.uniform(1.0, space_.heal_by_s - 1.0));
-  const double length_s = length(draw, longest_of(fault));
+  const double length_s = drawn_length(draw, longest_allowed_s(fault));
   fault.waits = chance(draw, kShareOfWaiting);
   fault.when.reset();
   fault.for_s.reset();
@@ -244,14 +247,14 @@ void FaultMaker::end_in_time(Fault& fault) const {
 }
 
 std::optional<Fault> FaultMaker::any_fault(RandomStream& draw) const {
-  std::vector<std::string> lots;  // each possible kind, as often as its weight
+  std::vector<std::string> weighted_kinds;  // each possible kind, as many times as its weight
   for (const Kind& kind : kKinds) {
     const bool wanted = std::ranges::find(space_.kinds, kind.name) != space_.kinds.end();
     if (!wanted || !is_possible(kind.name, conditions_)) continue;
-    for (int i = 0; i < kind.weight; ++i) lots.emplace_back(kind.name);
+    for (int i = 0; i < kind.weight; ++i) weighted_kinds.emplace_back(kind.name);
   }
-  if (lots.empty()) return std::nullopt;
-  Fault fault{0.0, std::nullopt, action(one_of(lots, draw), draw)};
+  if (weighted_kinds.empty()) return std::nullopt;
+  Fault fault{0.0, std::nullopt, action(one_of(weighted_kinds, draw), draw)};
   place(fault, draw);
   return fault;
 }
@@ -285,7 +288,7 @@ void FaultMaker::repeat(std::vector<Fault>& faults, RandomStream& draw) const {
 
 std::vector<Fault> FaultMaker::varied(std::vector<Fault> faults, const std::vector<Fault>& other,
                                       RandomStream& draw) const {
-  // Schedules of runs under other conditions may have faults that these runs cannot have.
+  // A schedule that was drawn for other conditions may contain faults that are impossible under conditions_.
   const auto erase_impossible = [&] {
     std::erase_if(faults, [&](const Fault& fault) { return !is_possible(fault, conditions_); });
   };
@@ -299,37 +302,38 @@ std::vector<Fault> FaultMaker::varied(std::vector<Fault> faults, const std::vect
 }
 
 void FaultMaker::vary_one(std::vector<Fault>& faults, const std::vector<Fault>& other, RandomStream& draw) const {
-  const std::size_t what = below(draw, 8);
-  if (faults.empty() || (what == 0 && faults.size() < kMostFaults)) {
+  const std::size_t change = below(draw, 8);
+  if (faults.empty() || (change == 0 && faults.size() < kMostFaults)) {
     if (const std::optional<Fault> fault = any_fault(draw)) faults.push_back(*fault);
     return;
   }
   const std::size_t at = below(draw, faults.size());
   Fault& fault = faults[at];
-  switch (what) {
+  switch (change) {
     case 1:
       if (faults.size() > 1) faults.erase(faults.begin() + static_cast<std::ptrdiff_t>(at));
       return;
     case 2: {  // earlier or later
-      const double length_s = length_of(fault), by_s = draw.uniform(-8.0, 8.0);
-      fault.at_s = tenths(std::max(0.0, fault.at_s + by_s));
+      const double length_s = length_of(fault), shift_s = draw.uniform(-8.0, 8.0);
+      fault.at_s = tenths(std::max(0.0, fault.at_s + shift_s));
       set_length(fault, length_s);
       break;
     }
     case 3:  // shorter or longer
-      set_length(fault, tenths(std::min(longest_of(fault), length_of(fault) * draw.uniform(0.3, 2.5) + kShortest_s)));
+      set_length(fault,
+                 tenths(std::min(longest_allowed_s(fault), length_of(fault) * draw.uniform(0.3, 2.5) + kShortest_s)));
       break;
     case 4:  // another target or strength
       fault.action = action(fault_kind(fault), draw);
       break;
     case 5: {  // at the same time as another fault, or right after it
-      const Fault& with = faults[below(draw, faults.size())];
-      const double length_s = length_of(fault), end_s = with.until_s.value_or(with.at_s);
-      fault.at_s = chance(draw, 0.5) ? with.at_s : std::min(end_s, space_.heal_by_s - 1.0);
+      const Fault& neighbour = faults[below(draw, faults.size())];
+      const double length_s = length_of(fault), end_s = neighbour.until_s.value_or(neighbour.at_s);
+      fault.at_s = chance(draw, 0.5) ? neighbour.at_s : std::min(end_s, space_.heal_by_s - 1.0);
       set_length(fault, length_s);
       break;
     }
-    case 6:  // one more, from the other schedule
+    case 6:  // add a fault of the other schedule
       if (!other.empty() && faults.size() < kMostFaults) faults.push_back(other[below(draw, other.size())]);
       return;
     default:

@@ -179,7 +179,7 @@ class Proposals {
     }
   }
 
-  /// Replaces the condition of a waiting fault by the time at which the fault began.
+  /// Replaces the condition of a waiting fault with the time at which the fault began.
   void without_waiting(std::size_t index) {
     Fault fault = trial_.faults[index];
     if (!fault.waits || index >= outcome_.began_s.size() || !outcome_.began_s[index]) return;

@@ -17,15 +17,15 @@ std::string drawn_text(std::mt19937& random, std::size_t most) {
 TEST(Frames, ArriveUnchangedHoweverTheStreamIsDivided) {
   for (unsigned seed = 0; seed < 200; ++seed) {
     std::mt19937 random(seed);
-    const bool greeted = seed % 2 == 0;
-    std::string stream = greeted ? "" : "Welcome!\nno frame {\r\n" + std::string(kHostGreeting) + "\r\n";
+    const bool already_greeted = seed % 2 == 0;
+    std::string stream = already_greeted ? "" : "Welcome!\nno frame {\r\n" + std::string(kHostGreeting) + "\r\n";
     std::vector<Frame> sent;
     for (int i = 0; i < 10; ++i) {
       sent.push_back({{{"say", "log"}, {"number", i}, {"text", "line\nor \"two\" " + std::to_string(seed)}},
                       drawn_text(random, 300)});
       stream += bytes_of(sent.back().head, sent.back().body);
     }
-    FrameReader reader(greeted);
+    FrameReader reader(already_greeted);
     std::vector<Frame> received;
     while (!stream.empty()) {
       const std::size_t piece = std::uniform_int_distribution<std::size_t>(1, 80)(random);
@@ -39,13 +39,13 @@ TEST(Frames, ArriveUnchangedHoweverTheStreamIsDivided) {
       EXPECT_EQ(received[i].text("text"), sent[i].text("text"));
       EXPECT_EQ(received[i].body, sent[i].body);
     }
-    if (!greeted) {
+    if (!already_greeted) {
       EXPECT_EQ(reader.before_greeting(), "Welcome!\nno frame {\n");
     }
   }
 }
 
-TEST(Frames, InvalidBytesThrowAndAnIncompleteFrameIsAwaited) {
+TEST(Frames, AReaderThrowsOnInvalidBytesAndWaitsForTheRestOfAFrame) {
   for (const std::string text : {"garbage\n", "[1, 2]\n", "{\"bytes\": 99999999999}\n"}) {
     FrameReader reader(true);
     reader.add(text);

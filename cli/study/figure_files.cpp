@@ -47,7 +47,7 @@ constexpr const char* kPaperStyle =
 .mark.q0 { fill: #cfd4db; } .mark.q1 { fill: #a9cbe8; } .mark.q2 { fill: #6aa6d8; } .mark.q3 { fill: #2d7bbf; } .mark.q4 { fill: #0b4a86; }
 )css";
 
-/// Replaces "var(--ink)" and the like in a style sheet by the values for paper.
+/// Replaces each CSS variable of a style sheet, such as "var(--ink)", with its value for paper.
 std::string resolved(std::string_view style) {
   std::string out;
   for (std::size_t at = 0; at < style.size();) {

@@ -18,7 +18,8 @@ class PlanOfAStudy : public testing::Test {
     write_text(dir_ / "mine.py", "");
   }
 
-  std::string refusal(const std::vector<std::string>& planners, const std::vector<std::string>& scenarios) const {
+  /// The message with which plan_study() refuses this study, or "accepted".
+  std::string answer_to(const std::vector<std::string>& planners, const std::vector<std::string>& scenarios) const {
     StudyOptions options;
     options.planners = planners;
     options.scenarios = scenarios;
@@ -39,21 +40,21 @@ class PlanOfAStudy : public testing::Test {
 
 TEST_F(PlanOfAStudy, RefusesAScenarioThatIsNamedTwiceByDifferentPaths) {
   for (const fs::path& other : {dir_ / "." / "small.yaml", dir_ / "other/../small.yaml", dir_ / "link.yaml"}) {
-    EXPECT_EQ(refusal({"hover"}, {small_, other}),
+    EXPECT_EQ(answer_to({"hover"}, {small_, other}),
               "scenario '" + other.string() + "' is named twice: '" + small_ + "' is the same file");
   }
   const std::string towers = source_path("config/scenarios/towers.yaml");
-  EXPECT_NE(refusal({"hover"}, {"towers", towers}).find("'towers' is the same file"), std::string::npos);
+  EXPECT_NE(answer_to({"hover"}, {"towers", towers}).find("'towers' is the same file"), std::string::npos);
   write_text(dir_ / "copy.yaml", kSmallScenario);
-  EXPECT_EQ(refusal({"hover"}, {small_, dir_ / "copy.yaml"}), "accepted")
-      << "each scenario is in the plan twice, once for each fleet size";
+  EXPECT_EQ(answer_to({"hover"}, {small_, dir_ / "copy.yaml"}), "accepted")
+      << "a copy is another file, and two fleet sizes do not name a scenario twice";
 }
 
 TEST_F(PlanOfAStudy, RefusesAPlannerInPythonThatIsNamedTwiceByDifferentPaths) {
   const std::string mine = "py:" + (dir_ / "mine.py").string();
   for (const char* class_name : {"", ":Mine"}) {
     const std::string other = "py:" + (dir_ / "other/../mine.py").string() + class_name;
-    EXPECT_EQ(refusal({mine + class_name, other}, {small_}), "planner '" + mine + class_name + "' is named twice");
+    EXPECT_EQ(answer_to({mine + class_name, other}, {small_}), "planner '" + mine + class_name + "' is named twice");
   }
 }
 

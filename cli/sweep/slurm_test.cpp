@@ -59,7 +59,7 @@ TEST(SweepOptions, NeedTheirExecutor) {
   EXPECT_EQ(sweep.command.front(), "compare");
 }
 
-/// A sweep of single flights, and shell scripts in the place of Slurm's commands.
+/// A sweep of single flights, and shell scripts in place of Slurm's commands.
 class StandInSlurm : public testing::Test {
  protected:
   StandInSlurm() {

@@ -1,4 +1,4 @@
-// For tests: `skein compare` and `contest` with a script in the place of each flight.
+// For tests: `skein compare` and `contest` with a script in place of each flight.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -1,5 +1,6 @@
 // Reads expressions (expression.hpp). The grammar, from the loosest to the tightest:
-//   condition  or condition        a and b binds tighter than a or b
+//   condition or condition
+//   condition and condition
 //   not condition
 //   number < number                also <=, >, >=, ==, !=
 //   number + number                also -
@@ -9,7 +10,7 @@
 //   separation  link(jurong, gcs)  a signal (core/expressions/signal_table.hpp)
 //   min(a, b)  max(a, b)  abs(a)  gain(a)  rises(a)  falls(a)
 //   (condition or number)
-// Units must fit: an expression may only compare or add numbers of the same dimension. The parser of a language
+// Units must match: an expression may only compare or add numbers of the same dimension. The parser of a language
 // that contains expressions (signals/properties/property_parser.hpp) also uses this class to read the words of that
 // language.   Pure.
 #pragma once
@@ -28,24 +29,25 @@ namespace skein {
 /// The names that an expression may use.
 struct ExpressionScope {
   const SignalNames& names;
-  bool live_only = false;                             ///< only signals known during a run, no operators on the past
+  bool live_only = false;  ///< allows only signals known during a run, no operators on the past
   std::map<std::string, std::string> variables = {};  ///< name of the UAV that each variable stands for
   std::map<std::string, Quantity> parameters = {};
-  const std::vector<SignalInfo>* signals = &signal_table();  ///< where names are looked up
-  std::string_view signal_word = "signal";                   ///< what messages call such a name
+  const std::vector<SignalInfo>* signals = &signal_table();  ///< the parser looks names up here
+  std::string_view signal_word = "signal";                   ///< the word for such a name in messages
 };
 
 /// Parses a text part by part. All member functions throw ExpressionError.
 class ExpressionParser : public ExpressionText {
  public:
-  /// @param scope, text  must outlive this.
-  /// @param signals  receives the signals used, each once; an expression names them by their index. Must outlive this.
+  /// @param scope, text  must outlive the parser.
+  /// @param signals  receives each signal that an expression uses, once; the expression refers to it by its index.
+  ///   Must outlive the parser.
   ExpressionParser(std::string_view text, const ExpressionScope& scope, std::vector<SignalUse>& signals)
       : ExpressionText(text), scope_(scope), signals_(signals) {}
 
   /// Parses one condition and stops after it; more text may follow.
   Expression condition();
-  /// Reads a constant with this unit: "20 s". @param what  names its purpose in error messages
+  /// Reads a constant with this unit: "20 s". @param what  names the constant's purpose in error messages
   double constant(const Unit& unit, const std::string& what);
 
  private:
@@ -62,10 +64,11 @@ class ExpressionParser : public ExpressionText {
   Expression signal(std::size_t at, const std::string& name);
   const SignalInfo& signal_named(std::size_t at, const std::string& name) const;
   std::string argument(SignalArgument kind);
+  /// Returns a name, or the UAV for which a variable of this name stands. Throws if there is neither.
   std::string known(const std::string& name, std::size_t at, const std::vector<std::string>& names,
                     const std::string& what) const;
-  /// Refuses link(a, a): argument number `place` must differ from `before`, the one in front of it, if both are of one
-  /// kind.
+  /// Throws if the next argument, number `place`, equals the previous one (`before`) and is of the same kind, as in
+  /// link(a, a).
   void refuse_same(const SignalInfo& info, std::size_t place, std::string_view before);
   std::size_t slot_of(SignalUse use);
 
@@ -74,7 +77,7 @@ class ExpressionParser : public ExpressionText {
   int depth_ = 0;
 };
 
-/// Reads the whole text as one condition. @throws ExpressionError, also when text follows it.
+/// Reads the whole text as one condition. @throws ExpressionError, also if other text follows the condition.
 Expression parse_condition(std::string_view text, const ExpressionScope& scope, std::vector<SignalUse>& signals);
 
 }  // namespace skein

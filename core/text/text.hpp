@@ -40,7 +40,7 @@ std::vector<std::string> shell_words(const std::string& line);
 /// For messages that quote what a user wrote: texts of more than 80 bytes end early, in "...", and with a whole letter.
 std::string shortened(const std::string& text);
 
-/// Replaces control characters other than line feeds and tabs by '?', because XML cannot represent most of them.
+/// Replaces control characters other than line feeds and tabs with '?', because XML cannot represent most of them.
 std::string printable(std::string text);
 
 }  // namespace skein

@@ -41,7 +41,7 @@ Variables by_name(const std::vector<std::string>& entries) {
   Variables variables;
   for (const std::string& entry : entries) {
     const std::string name(variable_in(entry));
-    EXPECT_TRUE(variables.try_emplace(name, entry.substr(name.size() + 1)).second) << name << " is there twice";
+    EXPECT_TRUE(variables.try_emplace(name, entry.substr(name.size() + 1)).second) << name << " appears twice";
   }
   return variables;
 }

@@ -29,13 +29,15 @@ def run(scenario: str | os.PathLike[str] = "towers", *, launcher: str | os.PathL
     """Flies a fleet, as `skein run SCENARIO` does, and returns the finished run.
 
     Every option of `skein run --help` is a keyword: `planner="kios"`, `seed=3`, `one_process=True`, `duration=60`,
-    `log=["jurong=debug", "raffles=debug"]`. The results folder is as on the command line; `out="..."` names another.
+    `log=["jurong=debug", "raffles=debug"]`. The launcher chooses the results folder as on the
+    command line, unless `out="..."` names one.
 
-    `launcher` is the path of the program; default: SKEIN in the environment, else this checkout's `./skein`, else
-    `skein` in PATH. `verbose` shows the launcher's output during the flight.
+    `launcher` is the path of the launcher; the default is SKEIN in the environment, else this checkout's `./skein`,
+    else `skein` in PATH. `verbose` shows the launcher's output during the flight.
 
-    Raises `InputError` if the input is wrong, `ProcessError` if a process failed (its `run` has the complete results),
-    another `Error` for other exit codes, and KeyboardInterrupt after Ctrl-C, when the fleet has ended.
+    Raises `InputError` if the input is wrong, `ProcessError` if a process failed (the exception's `run` has the
+    complete results), another `Error` for other exit codes, and KeyboardInterrupt after Ctrl-C, when the fleet has
+    ended.
     """
     words = ["run", positional("scenario", scenario), *option_arguments(options)]
     return fly(words, results_folder, Run, "run", launcher=launcher, verbose=verbose)
@@ -49,7 +51,7 @@ def results_folder(finished: Finished) -> Path | None:
 
 
 class _AsWritten(str):
-    """A number as the text that is in the JSON file."""
+    """A number, kept as it is written in the JSON file."""
 
 
 def _compact(value: Any) -> str:
@@ -64,8 +66,8 @@ def _compact(value: Any) -> str:
 
 
 def read_json(file: Path, missing: str) -> dict[str, Any]:
-    """Reads a JSON file that holds an object, and verifies its checksum if it has one. `missing`: the likely reason if
-    the file is missing, for the message."""
+    """Reads a JSON file that holds an object, and verifies its checksum if it has one. `missing` is the likely
+    reason if the file does not exist, for the message."""
     text = read_text(file, missing)
     try:
         value = json.loads(text)
@@ -73,9 +75,10 @@ def read_json(file: Path, missing: str) -> dict[str, Any]:
         if not isinstance(value, dict):
             raise ValueError("it is not a JSON object")
         stated = as_written.pop("checksum", None)
-        # surrogatepass: an escape in the file may be half of a surrogate pair; then the checksum does not match.
+        # An escape in the file may be half of a surrogate pair: surrogatepass encodes it, so that the mismatch of the
+        # checksum is reported instead of a UnicodeEncodeError.
         content = _compact(as_written).encode(errors="surrogatepass") if stated is not None else b""
-    except (ValueError, RecursionError) as error:  # the latter: too deeply nested
+    except (ValueError, RecursionError) as error:  # RecursionError: the JSON is nested too deeply
         line = getattr(error, "lineno", 1)
         raise DamagedError(f"{file}:{line}: is damaged: {error}") from None
     if stated is not None and hashlib.sha256(struct.pack("<Q", len(content)) + content).hexdigest() != stated:
@@ -96,7 +99,7 @@ def existing_folder(path: str | os.PathLike[str]) -> Path:
 
 
 class Run:
-    """The results folder of a run. It reads a file when you first ask for its contents.
+    """A run, read from its results folder. It reads each file when you first ask for its contents.
 
     `result` is result.json. The tables are read-only structured arrays of NumPy, with the columns and units of
     docs/results.md: `run.captures["q_blur"]`. `run.frame("captures")` returns the same table as a pandas frame. Flags
@@ -154,7 +157,7 @@ class Run:
 
     @property
     def planner(self) -> dict[str, str]:
-        """The planners, by name of the UAV."""
+        """The planner of each UAV, by the UAV's name."""
         return dict(self._value("planner", dict))
 
     @property
@@ -173,7 +176,7 @@ class Run:
 
     @property
     def digest(self) -> str | None:
-        """The digest; None if the run is not deterministic, so that a repetition may have another one."""
+        """The digest; None if the run is not deterministic: a repetition may end differently."""
         value = self.result.get("digest")
         return value if isinstance(value, str) else None
 
@@ -208,6 +211,7 @@ class Run:
             names = ", ".join([*columns.RUN_TABLES, "links"])
             raise KeyError(f"a run has no table {name!r}; it has {names}")
         table = columns.RUN_TABLES[name]
+        # Skein writes this file only if there are such messages; `self.result` raises if the folder has no results.
         if name == "capture_messages" and not (self.path / table.file).exists() and self.result:
             return np.empty(0, [(c.name, "U1" if c.kind == "text" else columns.KINDS[c.kind]) for c in table.columns])
         return read_table(self.path, table)
@@ -233,7 +237,7 @@ class Run:
 
     @property
     def work(self) -> Array:
-        """work.csv: a row for each UAV and second: whether there was work for it, and how much of it the UAV did."""
+        """work.csv: a row for each UAV and second: whether the UAV had work, and how much of it the UAV did."""
         return self.table("work")
 
     @property
@@ -243,8 +247,8 @@ class Run:
 
     @property
     def trajectories(self) -> Array:
-        """trajectories.csv: pose, velocity and gimbal of every UAV, ten times a simulated second; with batteries
-        also their `charge`."""
+        """trajectories.csv: pose, velocity and gimbal of every UAV, ten times per simulated second; in runs with
+        batteries also their `charge`."""
         return self.table("trajectories")
 
     @property
@@ -254,7 +258,8 @@ class Run:
 
     @property
     def events(self) -> Array:
-        """events.csv: when programs joined and left, links opened and closed, captures were taken and acknowledged."""
+        """events.csv: when programs joined and left, links opened and closed, and captures were taken and
+        acknowledged."""
         return self.table("events")
 
     @property
@@ -264,18 +269,18 @@ class Run:
 
     @property
     def capture_messages(self) -> Array:
-        """capture_messages.csv: messages with captures that links with faults lost or delayed. Often without rows."""
+        """capture_messages.csv: the messages with captures that faulty links lost or delayed. Often empty."""
         return self.table("capture_messages")
 
     @property
     def digests(self) -> Array:
-        """digests.csv: a row for each step, with a hash of every field."""
+        """digests.csv: a row for each step, with the running digest and a hash of each part of the state."""
         return self.table("digests")
 
     @property
     def links(self) -> Array:
-        """Intervals in which a radio link was open: sender `a`, receiver `b`, from `from_s` to `to_s` [s]. An interval
-        whose link is still open ends with the run."""
+        """Intervals in which a radio link was open: sender `a`, receiver `b`, from `from_s` to `to_s` [s]. If a
+        link is still open at the end of the run, its `to_s` is that end."""
         return self.table("links")
 
     def hand(self, uav: str) -> Array:
@@ -315,7 +320,7 @@ class Run:
         try:
             return {cause: float(part["score"]) for cause, part in losses.items()}
         except (KeyError, TypeError, ValueError):
-            raise DamagedError(f"{self.path / 'result.json'}:1: losses must have a score by cause, not "
+            raise DamagedError(f"{self.path / 'result.json'}:1: losses must give a score for each cause, not "
                                f"{losses!r:.60}") from None
 
     def earned(self) -> Array:
@@ -324,7 +329,7 @@ class Run:
         captures = self.captures
         good = captures[(captures["q"] >= 0.2) & (captures["reason"] != "uav collided")]
         good = good[np.argsort(good["time_s"], kind="stable")]
-        _, points = np.unique(good["point"], return_inverse=True)  # a damaged table may have any index
+        _, points = np.unique(good["point"], return_inverse=True)  # indices, because a damaged table may name any point
         best = np.zeros(len(good))
         gains = np.zeros(len(good))
         for i, (point, quality) in enumerate(zip(points, good["q"])):

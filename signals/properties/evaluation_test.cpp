@@ -28,7 +28,7 @@ Scenario fleet() {
   return scenario;
 }
 
-/// A run with given signals, by their text: one value a second.
+/// A run with given signals, keyed by their text. Each has one value per second.
 class GivenRun final : public RunSignals {
  public:
   explicit GivenRun(std::map<std::string, std::vector<double>> signals) : signals_(std::move(signals)) {}
@@ -58,7 +58,7 @@ Verdict judged(const std::string& text, std::map<std::string, std::vector<double
   return judged(text, run);
 }
 
-TEST(Evaluation, AlwaysIsTheLeastAndEventuallyTheGreatestOfItsWindow) {
+TEST(Evaluation, AlwaysHasTheLeastAndEventuallyTheGreatestMarginInItsWindow) {
   std::mt19937_64 random(3);
   for (int round = 0; round < 500; ++round) {
     std::vector<double> held(20);
@@ -88,7 +88,7 @@ TEST(Evaluation, AlwaysIsTheLeastAndEventuallyTheGreatestOfItsWindow) {
   }
 }
 
-TEST(Evaluation, UntilTakesTheBestInstantForItsGoal) {
+TEST(Evaluation, UntilHasTheMarginOfItsBestInstant) {
   std::mt19937_64 random(4);
   for (int round = 0; round < 500; ++round) {
     std::vector<double> a(12), b(12);
@@ -221,7 +221,7 @@ TEST(Evaluation, TheUavWithTheWorstMarginCounts) {
   EXPECT_EQ(near.bound, "u = b");
   EXPECT_EQ(near.margin, 4.0);
   const Verdict half = judged("for u in uavs, always held(u) < 9", {{"held(a)", still}, {"held(b)", low}});
-  EXPECT_EQ(half.outcome, Outcome::holds) << "the property is decided for one of the UAVs";
+  EXPECT_EQ(half.outcome, Outcome::holds) << "vacuous for UAV a, but UAV b decides it";
 }
 
 TEST(Evaluation, ABooleanSignalHasAnInfiniteMargin) {
@@ -239,8 +239,9 @@ TEST(Evaluation, MarginsOverTimeAreThoseOfTheCondition) {
             (std::vector<double>{-2, -1, 0}));
 }
 
-// `alive` changes only in a collision. A run in which UAVs fly and none collides is not vacuous.
-TEST(Evaluation, AFlightWithoutCollisionExercisesAlive) {
+// `alive` changes only in a collision. Nevertheless, `always alive` is not vacuous in a run in which UAVs fly and none
+// collides.
+TEST(Evaluation, AFlightWithoutCollisionDecidesAlive) {
   const auto flown = [](const std::vector<double>& distance, const std::vector<double>& alive) {
     return judged("for u in uavs, always alive(u)",
                   {{"alive(a)", alive}, {"distance(a)", distance}, {"alive(b)", {1, 1, 1}}, {"distance(b)", {0, 0, 0}}})
@@ -252,24 +253,26 @@ TEST(Evaluation, AFlightWithoutCollisionExercisesAlive) {
 }
 
 TEST(Evaluation, UnlessEndsTheWindow) {
-  const auto outcome = [](const std::string& text, const std::vector<double>& held, const std::vector<double>& back) {
-    return judged(text, {{"held", held}, {"member(a)", back}}).outcome;
+  const auto outcome = [](const std::string& text, const std::vector<double>& held, const std::vector<double>& member) {
+    return judged(text, {{"held", held}, {"member(a)", member}}).outcome;
   };
   const std::string eventually = "eventually held >= 2 unless member(a) within 3 s";
-  EXPECT_EQ(outcome(eventually, {0, 1, 2, 2, 2}, {0, 0, 0, 1, 1}), Outcome::holds) << "the property came true first";
+  EXPECT_EQ(outcome(eventually, {0, 1, 2, 2, 2}, {0, 0, 0, 1, 1}), Outcome::holds) << "held >= 2 became true first";
   EXPECT_EQ(outcome(eventually, {0, 1, 1, 2, 2}, {0, 0, 1, 1, 1}), Outcome::vacuous)
-      << "the condition of unless came true first";
-  EXPECT_EQ(outcome(eventually, {0, 1, 1, 1, 2}, {0, 0, 0, 0, 1}), Outcome::fails) << "neither came in time";
+      << "the condition of unless became true first";
+  EXPECT_EQ(outcome(eventually, {0, 1, 1, 1, 2}, {0, 0, 0, 0, 1}), Outcome::fails)
+      << "neither condition became true in time";
   EXPECT_EQ(outcome(eventually, {2, 2, 2, 2, 2}, {1, 1, 1, 1, 1}), Outcome::vacuous)
-      << "unless is true from the beginning";
+      << "the condition of unless is true from the beginning";
   const std::string always = "always held < 2 unless member(a)";
   EXPECT_EQ(outcome(always, {0, 1, 2, 0, 0}, {0, 0, 0, 1, 1}), Outcome::fails);
-  EXPECT_EQ(outcome(always, {0, 1, 0, 2, 2}, {0, 0, 0, 1, 1}), Outcome::holds) << "it holds until unless becomes true";
+  EXPECT_EQ(outcome(always, {0, 1, 0, 2, 2}, {0, 0, 0, 1, 1}), Outcome::holds)
+      << "held < 2 until the condition of unless became true";
   const Verdict excused = judged(eventually, {{"held", {0, 1, 1}}, {"member(a)", {0, 0, 1}}});
   EXPECT_NE(excused.reason.find("not exercised"), std::string::npos) << excused.reason;
 }
 
-// If no signal changes, only a condition that requires a constant value is not vacuous.
+// If no signal changes, a property is vacuous, unless its condition requires a constant value.
 TEST(Evaluation, AConditionThatRequiresAConstantValueIsNotVacuous) {
   const std::vector<double> still = {3, 3, 3, 3}, moving = {3, 4, 5, 6};
   for (const char* text : {"always gain(held) == 0", "finally held == 3", "always held == 3 and held < 9",

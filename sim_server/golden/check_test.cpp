@@ -59,7 +59,7 @@ constexpr char kAttitudeHeader[] =
     "row_id,role,roll_cmd,pitch_cmd,yaw_rate_cmd,thrust_cmd_N,q_w,q_x,q_y,q_z,w_B_x,w_B_y,w_B_z,roll_int,pitch_int,"
     "roll_int_out,pitch_int_out,ang_acc_x,ang_acc_y,ang_acc_z,rotor_0,rotor_1,rotor_2,rotor_3,rotor_4,rotor_5\n";
 
-TEST_F(GoldenFile, WrongValueIsFoundAndNamed) {
+TEST_F(GoldenFile, AFailureNamesLineAndColumnOfTheWrongValue) {
   const std::string row = "1,explorer,0,0,0,0,1,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0.5,0\n";
   const auto path = write(kAttitudeHeader + row);
   const GoldenReport report = check_golden(path);
@@ -69,7 +69,7 @@ TEST_F(GoldenFile, WrongValueIsFoundAndNamed) {
   EXPECT_EQ(report.messages[0], "line 2, rotor_4: expected 0.5, computed 0");
 }
 
-/// The header's columns and a row's cells in another order.
+/// A line with its cells in reversed order.
 std::string reversed(const std::string& line) {
   std::istringstream cells(line);
   std::string result;
@@ -83,7 +83,7 @@ TEST_F(GoldenFile, AcceptsOtherFormsOfTheSameTable) {
   const std::string e_row = "1,explorer,+0,0e0,0E+00,0.0,1e0,-0,1e-400,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0";
   const std::vector<std::string> files = {
       header + "\n" + row,                                               // the last line without a line end
-      header + "\r\n" + row + "\r\n\r\n",                                // line ends of Windows
+      header + "\r\n" + row + "\r\n\r\n",                                // Windows line ends
       "\xEF\xBB\xBF" + header + "\n" + row + "\n",                       // with a byte order mark
       "# a comment\n\n" + header + "\n\n# another\n" + row + "\n   \n",  // comments and empty lines
       reversed(header) + "\n" + reversed(row) + "\n",                    // columns in another order
@@ -103,7 +103,7 @@ TEST_F(GoldenFile, MessagesHaveTheLineNumberInTheFile) {
   EXPECT_EQ(check_golden(path).messages.at(0), "line 4, rotor_0: expected 0.5, computed 0");
 }
 
-TEST_F(GoldenFile, NanAndInfinityDoNotAgree) {
+TEST_F(GoldenFile, NanAndInfinityNeverAgreeWithAnExpectedValue) {
   const auto path =
       write(std::string(kAttitudeHeader) + "1,explorer,0,0,0,0,1,0,0,0,0,0,0,0,0,0,0,nan,inf,0,0,0,0,0,0,0\n");
   const GoldenReport report = check_golden(path);
@@ -116,7 +116,7 @@ constexpr char kGimbalHeader[] =
     "pitch_before,yaw_before,effective_mode,pitch,yaw,pitch_rate,yaw_rate,saturated_reference_quirk,"
     "partial_saturation_quirk,stale_rate_quirk\n";
 
-TEST_F(GoldenFile, GimbalModesAreAnyNumbersAndSequencesMayInterleave) {
+TEST_F(GoldenFile, AGimbalModeIsAnyNumberAndSequencesMayInterleave) {
   // docs/rules.md, G6: the mode 0.5 means angle, -1e-8 freeze, and -0.3 rate.
   const auto path = write(std::string(kGimbalHeader) +
                           "a,0,0.5,0.01,0,0,80,90,60,0,0,1,0.01,0,0.2,0,0,0,0\n"
@@ -137,8 +137,8 @@ constexpr char kPositionHeader[] =
     "yaw_err_acc_out,tar_acc_x,tar_acc_y,tar_acc_z,roll_cmd,pitch_cmd,yaw_rate_cmd,thrust_cmd_N\n";
 
 TEST_F(GoldenFile, ACommandMustBeOlderThanTheLimitToExpire) {
-  // An explorer hovers at its target, and its command gets old: no rule applies at exactly 0.1 s (docs/rules.md, P9);
-  // after that, the UAV holds its position.
+  // An explorer hovers at its target, and its last command ages. When the command is exactly 0.1 s old, no rule changes
+  // the state (docs/rules.md, P9); when it is older, the UAV holds its position.
   const std::string before = "explorer,5,0,3,0,0,0,0,0,0,0,5,0,3,1,0,0,0,0,0,0,0,0,0,0,moving,";
   const std::string after = ",5,0,3,0,0,0,0,0,0,0,9.781,0,0,0,30.21\n";
   const auto failures = [&](const std::string& age, const std::string& state) {
@@ -158,7 +158,7 @@ TEST_F(GoldenFile, BadTablesAreRefused) {
   EXPECT_THROW(check_golden(write("")), InputError);
   EXPECT_THROW(check_golden(write(kAttitudeHeader)), InputError) << "no rows";
   EXPECT_THROW(check_golden(write("row_id," + std::string(kAttitudeHeader) + "1,1\n")), InputError)
-      << "a column is there twice";
+      << "the header names a column twice";
   EXPECT_THROW(
       check_golden(write(std::string(kAttitudeHeader) + "1,tractor,0,0,0,0,1,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0\n")),
       InputError);

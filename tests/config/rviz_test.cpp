@@ -45,7 +45,7 @@ TEST_F(RvizConfig, ShowsEveryTopicForViewers) {
     EXPECT_EQ(display["Topic"]["Durability Policy"].as<std::string>(), topic->latched ? "Transient Local" : "Volatile")
         << name;
     EXPECT_EQ(display["Topic"]["Reliability Policy"].as<std::string>(), "Reliable") << name;
-    EXPECT_TRUE(shown.insert(name).second) << name << " is there twice";
+    EXPECT_TRUE(shown.insert(name).second) << name << " appears twice";
   }
   EXPECT_TRUE(plugins.contains("rviz_default_plugins/TF"));
   for (const topics::TopicInfo& topic : topics::viewer_topics()) {
@@ -79,7 +79,7 @@ std::set<std::string> shown_by(const YAML::Node& manager, std::span<const topics
       const auto is_it = [&](const topics::CloudField& field) { return field.name == channel.as<std::string>(); };
       EXPECT_TRUE(topic->cloud != nullptr && std::ranges::any_of(topic->cloud->fields, is_it)) << name;
     }
-    EXPECT_TRUE(shown.insert(name).second) << name << " is there twice";
+    EXPECT_TRUE(shown.insert(name).second) << name << " appears twice";
   }
   return shown;
 }

@@ -32,7 +32,7 @@ class ComposeCommands : public FleetTest {
   }
 
  private:
-  /// Replaces paths in a container by paths on this host.
+  /// Replaces paths in a container with paths on this host.
   std::string here(std::string argument) const {
     const std::map<std::string, std::string> places = {
         {"/usr/share/skein/config", source_path("config")},

@@ -34,10 +34,10 @@ struct SourceFile {
 /// with "runs", and files that hold a zero byte.
 std::vector<SourceFile> read_source_tree(const std::filesystem::path& root);
 
-/// C++ text with blanks in the place of comments, characters and strings (raw ones too); line breaks stay.
+/// C++ text with blanks in place of comments, characters and strings (raw ones too); line breaks stay.
 std::string blank_comments_and_literals(const std::string& text);
 
-/// C++ text with blanks in the place of everything but comments; line breaks stay.
+/// C++ text with blanks in place of everything but comments; line breaks stay.
 std::string only_comments(const std::string& text);
 
 }  // namespace skein::layers

@@ -74,7 +74,7 @@ class RosPageTyped : public WorkspaceTest, public testing::WithParamInterface<Pa
   std::optional<HostLock> lock_;  ///< for the reader's folder
 };
 
-/// Replaces the page's domain of jurong, 42, by that of a fleet.
+/// Replaces the page's domain of jurong, 42, with that of a fleet.
 std::string with_domains_of(const ChildProcess& fleet, const std::string& text) {
   const std::string said = fleet.err();
   std::smatch match;

@@ -101,7 +101,7 @@ MadeUpFlight::MadeUpFlight(MadeUpSize size, view::Feed& feed) : size_(size), fee
 }
 
 /// Position of a UAV in W on its climbing circle around a tower. Every kStay_s the position jumps to the next tower:
-/// move() replaces the last kMove_s before that by a smooth flight between the two towers.
+/// move() replaces the last kMove_s before that with a smooth flight between the two towers.
 /// @param tower  receives the index of the tower.
 /// @param angle  receives the angle of the UAV about the tower's axis, from the x axis [rad].
 Vector3d MadeUpFlight::place_of(std::size_t uav, double time_s, std::size_t& tower, double& angle) const {

@@ -239,7 +239,7 @@ PlannerInput Agent::Impl::planner_input(const AgentInput& input) const {
                       .station_link = peers.station_link()};
 }
 
-/// Lets the flight core fly to the planner's goals: replaces the planner's motion by the core's.
+/// Lets the flight core fly to the planner's goals: replaces the planner's motion with the core's.
 void Agent::Impl::fly(const PlannerInput& in, PlannerOutput& decision) {
   Steering steering = core->step(in, std::move(decision.goals));
   decision.motion = std::move(steering.motion);

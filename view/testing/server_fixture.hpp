@@ -22,7 +22,7 @@ class ServerTest : public testing::Test {
     serve({});
   }
 
-  /// Replaces the server by a new one with these limits.
+  /// Replaces the server with a new one with these limits.
   void serve(const ServerLimits& limits) {
     server_.reset();
     server_ = std::make_unique<Server>(

@@ -140,7 +140,7 @@ class Dict(Space):
 
 
 def _use_gymnasium() -> bool:
-    """Replaces the classes of this module by Gymnasium's, if it is installed. Returns whether it is."""
+    """Replaces the classes of this module with Gymnasium's, if it is installed. Returns whether it is."""
     try:
         theirs = importlib.import_module("gymnasium.spaces")
     except ImportError:

@@ -1,9 +1,9 @@
 // Flies along every face of every box in strips, at the distance where the camera is sharp. The planner uses only the
-// boxes and the map, sends no messages, and is meant as an honest baseline: simple, safe, the same on every UAV.
+// boxes and the map, sends no messages, and serves as a baseline: it is simple, safe, and the same on every UAV.
 //
 // Each UAV flies its share of the strips (strips.hpp), closer to the real surface as the map grows (standoff.hpp), and
-// then again with the camera turned to the side. Explorers and photographers share a part of the site
-// (work_share.hpp): where an explorer has photographed, it has proved free space for the photographers. In a loose box,
+// then again with the camera turned to the side. An explorer and the photographers of its team work on the same part of
+// the site (work_share.hpp): where the explorer has photographed, it has proved free space for them. In a loose box,
 // which does not tell where the structure is, the strips come from the map (block_work.hpp). The flight core does the
 // flying (flight_core/flight_core.hpp).
 #include <algorithm>
@@ -22,12 +22,12 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kRefitS = 2.0;                      ///< between two refits of the strip that is being flown
+constexpr double kRefitS = 2.0;                      ///< time between two refits of the current strip
 constexpr double kRestS = 3.0;                       ///< wait when no strip can be flown
 constexpr double kViewTurns[] = {0.0, 0.45, -0.45};  ///< yaw of the gimbal in successive flights along a strip [rad]
-constexpr int kMaxFailures = 3;                      ///< of one flight along a strip; the next failure ends it
-constexpr double kStartHeight = 0.25;                ///< assumed height at which tours begin, as a share of the site's
-constexpr int kMostTries = 3;                        ///< most strips that are fitted in one exchange
+constexpr int kMaxFailures = 3;        ///< failures in one flight along a strip; the next one ends this flight
+constexpr double kStartHeight = 0.25;  ///< assumed height at which tours begin, as a share of the site's height
+constexpr int kMostTries = 3;          ///< most strips that are fitted in one exchange
 
 }  // namespace
 
@@ -62,15 +62,15 @@ class PatrolPlanner final : public Planner {
   bool shared_ = false;  ///< the boxes have arrived, and the work is shared
   OwnStrips strips_;
   std::optional<BlockWork> blocks_;
-  std::optional<std::size_t> own_;       ///< number of the current strip, if it is one of strips_...
-  std::optional<BlockWork::Task> task_;  ///< ...or its task, if it is one of blocks_
+  std::optional<std::size_t> own_;       ///< number of the current strip, if it comes from strips_
+  std::optional<BlockWork::Task> task_;  ///< task of the current strip, if it comes from blocks_
   int times_flown_ = 0;                  ///< how often this UAV has flown the current strip before
   bool flown_ = false;                   ///< the UAV has flown a part of the current strip this time
   std::optional<Strip> strip_;           ///< the current strip
   bool reversed_ = false;                ///< the strip is flown from its end to its beginning
   double strip_s_ = 0.0;                 ///< where on the strip the current stretch begins [m]
   std::size_t run_length_ = 0;           ///< number of waypoints of the current stretch
-  int failures_ = 0;                     ///< of this flight along the current strip
+  int failures_ = 0;                     ///< failures in this flight along the current strip
   std::int64_t id_ = 0;                  ///< id of the current goal
   bool flying_ = false;                  ///< the UAV flies to the strip or along it
   Tick refit_at_ = 0, rest_until_ = 0;
@@ -173,7 +173,7 @@ std::vector<Goal> PatrolPlanner::next_goals(const PlannerInput& in) {
   return {};
 }
 
-/// Makes the strip that this UAV has flown least often the current one. @returns whether there is one.
+/// Chooses the next current strip: one that this UAV has flown least often. @returns whether there is one.
 bool PatrolPlanner::take_strip(const PlannerInput& in) {
   const Vector3d here_W = in.tracking.setpoint.p_WB;
   task_ = blocks_->any() ? blocks_->next(in.tick, here_W, in.map) : std::nullopt;
@@ -211,8 +211,8 @@ void PatrolPlanner::face_strip(Goal& goal) const {
     goal.gimbal = GimbalCommand{GimbalMode::angle, 0.0, turn};
     return;
   }
-  // Top and bottom: the body faces along the strip, in the same direction both ways. So the image's full width lies
-  // across the strip, and the UAV does not turn in between.
+  // Top and bottom: the body faces along the strip, in the same direction whether the UAV flies the strip forwards or
+  // backwards. So the image's full width lies across the strip, and the UAV does not turn around between two strips.
   const Vector3d along = strip_->end_W - strip_->begin_W;
   goal.yaw = std::atan2(along.y(), along.x());
   goal.gimbal = GimbalCommand{GimbalMode::angle, strip_->kind == FaceKind::top ? pitch_limit : -pitch_limit, 0.0};
