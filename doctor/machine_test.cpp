@@ -174,7 +174,7 @@ class MadeUpMachine : public testing::Test {
   }
   ~MadeUpMachine() override { fs::remove_all(root_); }
 
-  void file(const std::string& path, const std::string& text) const {
+  void write_file(const std::string& path, const std::string& text) const {
     fs::create_directories((root_ / path).parent_path());
     std::ofstream(root_ / path) << text;
   }
@@ -183,15 +183,15 @@ class MadeUpMachine : public testing::Test {
 };
 
 TEST_F(MadeUpMachine, TheLowestLimitOfACgroupAndItsAncestorsCounts) {
-  file("proc/self/cgroup", "0::/a/b\n");
-  file("sys/fs/cgroup/a/b/memory.max", "max\n");
-  file("sys/fs/cgroup/a/memory.max", "1000\n");
-  file("sys/fs/cgroup/a/memory.current", "900\n");
-  file("sys/fs/cgroup/a/memory.stat", "anon 700\ninactive_file 150\n");
-  file("sys/fs/cgroup/a/b/pids.max", "70\n");
-  file("sys/fs/cgroup/a/pids.max", "90\n");
-  file("sys/fs/cgroup/a/b/cpu.max", "max 100000\n");
-  file("sys/fs/cgroup/cpu.max", "150000 100000\n");
+  write_file("proc/self/cgroup", "0::/a/b\n");
+  write_file("sys/fs/cgroup/a/b/memory.max", "max\n");
+  write_file("sys/fs/cgroup/a/memory.max", "1000\n");
+  write_file("sys/fs/cgroup/a/memory.current", "900\n");
+  write_file("sys/fs/cgroup/a/memory.stat", "anon 700\ninactive_file 150\n");
+  write_file("sys/fs/cgroup/a/b/pids.max", "70\n");
+  write_file("sys/fs/cgroup/a/pids.max", "90\n");
+  write_file("sys/fs/cgroup/a/b/cpu.max", "max 100000\n");
+  write_file("sys/fs/cgroup/cpu.max", "150000 100000\n");
   const CgroupFacts facts = read_cgroup(root_);
   EXPECT_EQ(facts.memory_left, 250u);
   EXPECT_EQ(facts.processes, 70u);
@@ -199,12 +199,12 @@ TEST_F(MadeUpMachine, TheLowestLimitOfACgroupAndItsAncestorsCounts) {
 }
 
 TEST_F(MadeUpMachine, CgroupsOfVersion1CountToo) {
-  file("proc/self/cgroup", "4:memory:/docker/x\n3:cpu,cpuacct:/docker/x\n2:pids:/docker/x\n1:name=systemd:/\n");
-  file("sys/fs/cgroup/memory/memory.limit_in_bytes", "1000\n");  // a container sees its own cgroup as the root
-  file("sys/fs/cgroup/memory/memory.usage_in_bytes", "400\n");
-  file("sys/fs/cgroup/cpu/cpu.cfs_quota_us", "50000\n");
-  file("sys/fs/cgroup/cpu/cpu.cfs_period_us", "100000\n");
-  file("sys/fs/cgroup/pids/pids.max", "max\n");
+  write_file("proc/self/cgroup", "4:memory:/docker/x\n3:cpu,cpuacct:/docker/x\n2:pids:/docker/x\n1:name=systemd:/\n");
+  write_file("sys/fs/cgroup/memory/memory.limit_in_bytes", "1000\n");  // a container sees its own cgroup as the root
+  write_file("sys/fs/cgroup/memory/memory.usage_in_bytes", "400\n");
+  write_file("sys/fs/cgroup/cpu/cpu.cfs_quota_us", "50000\n");
+  write_file("sys/fs/cgroup/cpu/cpu.cfs_period_us", "100000\n");
+  write_file("sys/fs/cgroup/pids/pids.max", "max\n");
   const CgroupFacts facts = read_cgroup(root_);
   EXPECT_EQ(facts.memory_left, 600u);
   EXPECT_EQ(facts.cpus, 0.5);
@@ -212,10 +212,10 @@ TEST_F(MadeUpMachine, CgroupsOfVersion1CountToo) {
 }
 
 TEST_F(MadeUpMachine, MissingLimitsAreReadAsNoLimit) {
-  file("proc/self/cgroup", "4:memory:/\n3:cpu:/\n");
-  file("sys/fs/cgroup/memory/memory.limit_in_bytes", "9223372036854771712\n");
-  file("sys/fs/cgroup/cpu/cpu.cfs_quota_us", "-1\n");
-  file("sys/fs/cgroup/cpu/cpu.cfs_period_us", "100000\n");
+  write_file("proc/self/cgroup", "4:memory:/\n3:cpu:/\n");
+  write_file("sys/fs/cgroup/memory/memory.limit_in_bytes", "9223372036854771712\n");
+  write_file("sys/fs/cgroup/cpu/cpu.cfs_quota_us", "-1\n");
+  write_file("sys/fs/cgroup/cpu/cpu.cfs_period_us", "100000\n");
   for (const fs::path& root : {root_, root_ / "nowhere"}) {
     const CgroupFacts facts = read_cgroup(root);
     EXPECT_FALSE(facts.memory_left || facts.cpus || facts.processes);

@@ -17,7 +17,8 @@ namespace {
 
 /// One drawing of a section.
 struct Panel {
-  std::string title, small, live;
+  std::string title, small;
+  std::string live;  ///< attribute data-live: kind of the drawing by which report.js replaces it
   std::map<std::string, std::ptrdiff_t> dots;  ///< number of dots by colour: "q0", "k3"
   bool operator==(const Panel&) const = default;
 };
@@ -27,7 +28,7 @@ void PrintTo(const Panel& panel, std::ostream* out) {
   for (const auto& [colour, dots] : panel.dots) *out << " " << colour << "=" << dots;
 }
 
-/// A section, parsed.
+/// A parsed section.
 class Section {
  public:
   explicit Section(const std::string& html) { EXPECT_TRUE(document_.load_buffer(html.data(), html.size())) << html; }

@@ -32,12 +32,12 @@ END
 class DrawnWorld : public ::testing::Test {
  protected:
   DrawnWorld() {
-    if (const char* usual = std::getenv("XDG_CACHE_HOME")) usual_cache_ = usual;
+    if (const char* previous = std::getenv("XDG_CACHE_HOME")) previous_cache_ = previous;
     ::setenv("XDG_CACHE_HOME", cache().c_str(), 1);
     write_script(programs_.dir() / "sim_server", kDraw);
   }
   ~DrawnWorld() override {
-    usual_cache_ ? ::setenv("XDG_CACHE_HOME", usual_cache_->c_str(), 1) : ::unsetenv("XDG_CACHE_HOME");
+    previous_cache_ ? ::setenv("XDG_CACHE_HOME", previous_cache_->c_str(), 1) : ::unsetenv("XDG_CACHE_HOME");
   }
 
   fs::path cache() const { return programs_.dir() / "cache"; }
@@ -47,7 +47,7 @@ class DrawnWorld : public ::testing::Test {
   const FakePrograms programs_;
 
  private:
-  std::optional<std::string> usual_cache_;
+  std::optional<std::string> previous_cache_;
 };
 
 TEST_F(DrawnWorld, IsDrawnOnce) {
@@ -105,10 +105,12 @@ TEST_F(DrawnWorld, WithoutAChecksumIsUsedIfTheCacheIsReadOnly) {
   fs::remove(file.parent_path() / "wild_3.sha256");
   EXPECT_EQ(scenario_source("wild", 3), file);
   write_text(file.parent_path() / "wild_3.sha256", "0\n");
-  EXPECT_THROW(scenario_source("wild", 3), InputError) << "it is damaged";
+  EXPECT_THROW(scenario_source("wild", 3), InputError)
+      << "its checksum does not match, and sim_server cannot draw it again";
   fs::remove(file.parent_path() / "wild_3.sha256");
   fs::remove(file.parent_path() / "models/m.stl");
-  EXPECT_THROW(scenario_source("wild", 3), InputError) << "a file is missing";
+  EXPECT_THROW(scenario_source("wild", 3), InputError)
+      << "a file is missing, and sim_server cannot draw the world again";
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // The options of one run, as plain structs. The launcher fills them from its command line, from a study's plan, or from
-// the result of an earlier run. Units: s (simulated, unless a comment says otherwise).
+// the result of an earlier run.   Units: s (simulated, unless a comment says otherwise).
 #pragma once
 
 #include <array>
@@ -27,7 +27,7 @@ inline constexpr int kLongestLease_s = 3600;
 /// The events that --break-on accepts.
 inline constexpr std::array kBreakEvents = {"collision", "rejected", "lost", "fault"};
 
-/// How the page of a run is served to browsers.
+/// Options of the page that shows a run in browsers.
 struct ViewOptions {
   std::optional<std::string> at;     ///< endpoint, as view::read_endpoint() reads it; none: no page is served
   std::optional<std::string> speed;  ///< pace of a watched flight, as view::read_speed() reads it
@@ -60,7 +60,7 @@ struct RunOptions {
   std::optional<std::filesystem::path> agent;       ///< program that flies in place of uav_agent
   std::vector<std::string> debug;                   ///< UAV[=TOOL], see debug/debuggee.hpp
   std::optional<double> break_at_s;                 ///< debugged programs stop before this simulated time
-  std::optional<std::string> break_on;              ///< they stop before this event first happens to debug[0]
+  std::optional<std::string> break_on;              ///< likewise, before this event first happens to debug[0]
   std::optional<std::filesystem::path> break_from;  ///< results folder of the same flight: has the event's time
   std::vector<std::string> log;                     ///< UAV=LEVEL
   bool cores = false;                               ///< programs that crash leave a core dump

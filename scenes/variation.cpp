@@ -16,11 +16,11 @@
 namespace skein::sim {
 namespace {
 
-/// Shares of the seeds that give a single box, that merge two boxes, and that split the longest box.
+/// Shares of the seeds with which the scene gets a single box, two boxes are merged, and the longest box is split.
 constexpr double kSingleBoxShare = 0.25, kMergeShare = 0.3, kSplitShare = 0.3;
 constexpr double kLargestTurn = 0.12;   ///< of a box about z [rad]
 constexpr double kLargestSwing = 2.0;   ///< limit of turn [rad] times length [m]: long boxes turn less
-constexpr double kLargestMargin = 1.0;  ///< added to the family's own margin [m]
+constexpr double kLargestMargin = 1.0;  ///< greatest addition to the family's own margin [m]
 constexpr double kLongBox = 30.0;       ///< least length of a box that may be split [m]
 
 /// The smallest box with the given axes that contains all `boxes`, enlarged by the margin.

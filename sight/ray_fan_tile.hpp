@@ -1,4 +1,4 @@
-// A tile of RayFan: neighbouring rays from one point. Functions find the rays that may hit a box or a triangle.
+// A tile of RayFan: neighbouring rays from one point. The functions find rays that may hit a box or a triangle.
 // Part of ray_fan_kernel.hpp: see its first lines.
 #pragma once
 
@@ -57,7 +57,7 @@ inline float most(Float8 a) { return -least(all(0.0F) - a); }
 /// The columns of a rectangle as a bit mask.
 inline unsigned columns_of(const Rect& rect) { return (2U << rect.column1) - (1U << rect.column0); }
 
-/// Whether each ray of a rectangle hits a triangle, or ends, at a smaller depth than this one.
+/// Whether each ray of a rectangle hits a triangle, or ends, at a smaller depth than `depth`.
 inline bool hidden(const Tile& tile, const Rect& rect, float depth) {
   if (depth <= 0.0F) return false;
   Float8 farthest = load(&tile.nearness[rect.row0 * kLanes]);

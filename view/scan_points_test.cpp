@@ -13,7 +13,7 @@
 namespace skein::view {
 namespace {
 
-std::vector<Eigen::Vector3f> drawn(std::mt19937& random, std::size_t count, float reach) {
+std::vector<Eigen::Vector3f> random_points(std::mt19937& random, std::size_t count, float reach) {
   std::uniform_real_distribution<float> along(-reach, reach);
   std::vector<Eigen::Vector3f> points;
   for (std::size_t i = 0; i < count; ++i) points.emplace_back(along(random), along(random), along(random));
@@ -23,7 +23,7 @@ std::vector<Eigen::Vector3f> drawn(std::mt19937& random, std::size_t count, floa
 TEST(ScanPoints, KeepOnePointInEachCubeAboveTheGround) {
   std::mt19937 random(1);
   ScanPoints scan;
-  const auto points = drawn(random, 4000, 4.0F);
+  const auto points = random_points(random, 4000, 4.0F);
   scan.add(points);
   scan.add(points);
   const auto kept = scan.take(100'000);
@@ -46,7 +46,7 @@ TEST(ScanPoints, LeaveOutPointsThatCannotBeEncoded) {
   std::mt19937 random(5);
   for (const float invalid : {kInfinite, -kInfinite, std::nanf(""), 1e30F, -1e30F, 3'277.0F, -3'277.0F}) {
     for (int axis = 0; axis < 3; ++axis) {
-      std::vector<Eigen::Vector3f> points = drawn(random, 50, 1'000.0F);
+      std::vector<Eigen::Vector3f> points = random_points(random, 50, 1'000.0F);
       for (Eigen::Vector3f& p : points) {
         p.z() = std::abs(p.z()) + 1.0F;
         p[axis] = invalid;
@@ -63,11 +63,11 @@ TEST(ScanPoints, LeaveOutPointsThatCannotBeEncoded) {
 TEST(ScanPoints, AreAtMostAsManyAsRequested) {
   std::mt19937 random(2);
   ScanPoints scan;
-  for (int i = 0; i < 20; ++i) scan.add(drawn(random, 3000, 100.0F));
+  for (int i = 0; i < 20; ++i) scan.add(random_points(random, 3000, 100.0F));
   const auto few = scan.take(50);
   EXPECT_EQ(few.size(), 50U);
   EXPECT_TRUE(scan.take(50).empty());
-  for (int i = 0; i < 20; ++i) scan.add(drawn(random, 3000, 100.0F));
+  for (int i = 0; i < 20; ++i) scan.add(random_points(random, 3000, 100.0F));
   EXPECT_EQ(scan.take(100'000).size(), ScanPoints::kMostKept);
   scan.add(few);
   EXPECT_EQ(scan.take(0).size(), 0U);
@@ -76,7 +76,7 @@ TEST(ScanPoints, AreAtMostAsManyAsRequested) {
 TEST(ScanPoints, TakeNewReturnsAtMostOnePointOfEachCubeEver) {
   std::mt19937 random(4);
   ScanPoints scan(300);
-  const auto first = drawn(random, 100, 5.0F), second = drawn(random, 2000, 5.0F);
+  const auto first = random_points(random, 100, 5.0F), second = random_points(random, 2000, 5.0F);
   scan.add(first);
   const std::size_t early = scan.take_new().size();
   EXPECT_GT(early, 20U);
@@ -84,13 +84,13 @@ TEST(ScanPoints, TakeNewReturnsAtMostOnePointOfEachCubeEver) {
   EXPECT_TRUE(scan.empty());
   scan.add(second);
   EXPECT_EQ(early + scan.take_new().size(), 300U) << "at most most_kept points in all";
-  scan.add(drawn(random, 100, 100.0F));
+  scan.add(random_points(random, 100, 100.0F));
   EXPECT_TRUE(scan.empty());
 }
 
 TEST(ScanPoints, AreDecodedWithinADecimetreOfTheirPlace) {
   std::mt19937 random(3);
-  auto points = drawn(random, 200, 3000.0F);
+  auto points = random_points(random, 200, 3000.0F);
   const auto arrived = unpacked_points(packed_points(points));
   ASSERT_EQ(arrived.size(), points.size());
   for (std::size_t i = 0; i < points.size(); ++i) EXPECT_LT((arrived[i] - points[i].cast<double>()).norm(), 0.09);

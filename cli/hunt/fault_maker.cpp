@@ -25,9 +25,9 @@ constexpr double kLongestOdometryFault_s = 12.0;
 constexpr double kShareOfWaiting = 0.2;  ///< share of faults that begin when a condition becomes true
 /// Share of link faults that apply to all senders. The same share applies to all receivers.
 constexpr double kShareOfAllNodes = 0.4;
-constexpr double kShareOfAllTopics = 0.5;       ///< share of link faults that apply to all topics
-constexpr double kShareOfGroundPrograms = 0.4;  ///< share of kills and pauses; every UAV depends on these programs
-constexpr double kShareOfKillsForGood = 0.15;   ///< share of kills of a UAV's program that have no end
+constexpr double kShareOfAllTopics = 0.5;         ///< share of link faults that apply to all topics
+constexpr double kShareOfGroundPrograms = 0.4;    ///< share of kills and pauses; every UAV depends on these programs
+constexpr double kShareOfKillsWithoutEnd = 0.15;  ///< share of kills of a UAV's program that have no end
 /// Share of faults that are repeated: some defects show only if a fault hits a rare instant, and repeated faults hit
 /// such an instant sooner.
 constexpr double kShareOfRepeated = 0.2, kLeastInterval_s = 2.0, kLongestInterval_s = 12.0;
@@ -65,13 +65,13 @@ double longest_allowed_s(const Fault& fault) {
   return is_of_odometry ? kLongestOdometryFault_s : kLongest_s;
 }
 
-bool is_for_good(const Fault& fault) { return !fault.waits && !fault.until_s; }
+bool has_no_end(const Fault& fault) { return !fault.waits && !fault.until_s; }
 
 double length_of(const Fault& fault) {
   return fault.waits ? fault.for_s.value_or(1.0) : fault.until_s.value_or(fault.at_s + 1.0) - fault.at_s;
 }
 void set_length(Fault& fault, double length_s) {
-  if (is_for_good(fault)) return;
+  if (has_no_end(fault)) return;
   if (fault.waits) {
     fault.for_s = length_s;
   } else {
@@ -222,7 +222,7 @@ void FaultMaker::place(Fault& fault, RandomStream& draw) const {
   fault.when.reset();
   fault.for_s.reset();
   fault.until_s = space_.heal_by_s;
-  if (!fault.waits && kills_uav_program(fault) && chance(draw, kShareOfKillsForGood)) {
+  if (!fault.waits && kills_uav_program(fault) && chance(draw, kShareOfKillsWithoutEnd)) {
     fault.until_s.reset();
     return;
   }
@@ -234,9 +234,10 @@ void FaultMaker::place(Fault& fault, RandomStream& draw) const {
   end_in_time(fault);
 }
 
+/// Limits the times of a fault so that it ends by heal_by_s, but lasts for shortest_s_ at least.
 void FaultMaker::end_in_time(Fault& fault) const {
   fault.at_s = std::clamp(fault.at_s, 0.0, space_.heal_by_s - shortest_s_);
-  if (is_for_good(fault) && kills_uav_program(fault)) return;
+  if (has_no_end(fault) && kills_uav_program(fault)) return;
   if (fault.waits) {
     fault.until_s = space_.heal_by_s;
     fault.for_s = std::max(shortest_s_, *fault.for_s);
@@ -271,7 +272,8 @@ std::vector<Fault> FaultMaker::schedule(RandomStream& draw) const {
   return without_contradictions(std::move(faults));
 }
 
-/// Repeats the last fault up to three times at equal intervals. Each lasts at most half an interval.
+/// Repeats the last fault up to three times at equal intervals, and shortens all of them to at most half an
+/// interval.
 void FaultMaker::repeat(std::vector<Fault>& faults, RandomStream& draw) const {
   Fault fault = faults.back();
   const double interval_s = tenths(draw.uniform(kLeastInterval_s, kLongestInterval_s));

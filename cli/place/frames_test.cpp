@@ -18,7 +18,7 @@ TEST(Frames, ArriveUnchangedHoweverTheStreamIsDivided) {
   for (unsigned seed = 0; seed < 200; ++seed) {
     std::mt19937 random(seed);
     const bool already_greeted = seed % 2 == 0;
-    std::string stream = already_greeted ? "" : "Welcome!\nno frame {\r\n" + std::string(kHostGreeting) + "\r\n";
+    std::string stream = already_greeted ? "" : "Welcome!\nnot a frame {\r\n" + std::string(kHostGreeting) + "\r\n";
     std::vector<Frame> sent;
     for (int i = 0; i < 10; ++i) {
       sent.push_back({{{"say", "log"}, {"number", i}, {"text", "line\nor \"two\" " + std::to_string(seed)}},
@@ -40,7 +40,7 @@ TEST(Frames, ArriveUnchangedHoweverTheStreamIsDivided) {
       EXPECT_EQ(received[i].body, sent[i].body);
     }
     if (!already_greeted) {
-      EXPECT_EQ(reader.before_greeting(), "Welcome!\nno frame {\n");
+      EXPECT_EQ(reader.before_greeting(), "Welcome!\nnot a frame {\n");
     }
   }
 }

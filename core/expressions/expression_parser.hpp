@@ -29,7 +29,7 @@ namespace skein {
 /// The names that an expression may use.
 struct ExpressionScope {
   const SignalNames& names;
-  bool live_only = false;  ///< allows only signals known during a run, no operators on the past
+  bool live_only = false;  ///< allows only signals known during a run, and no operators on past values
   std::map<std::string, std::string> variables = {};  ///< name of the UAV that each variable stands for
   std::map<std::string, Quantity> parameters = {};
   const std::vector<SignalInfo>* signals = &signal_table();  ///< the parser looks names up here

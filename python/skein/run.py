@@ -29,8 +29,8 @@ def run(scenario: str | os.PathLike[str] = "towers", *, launcher: str | os.PathL
     """Flies a fleet, as `skein run SCENARIO` does, and returns the finished run.
 
     Every option of `skein run --help` is a keyword: `planner="kios"`, `seed=3`, `one_process=True`, `duration=60`,
-    `log=["jurong=debug", "raffles=debug"]`. The launcher chooses the results folder as on the
-    command line, unless `out="..."` names one.
+    `log=["jurong=debug", "raffles=debug"]`. The launcher chooses the results folder as on the command
+    line, unless `out="..."` names one.
 
     `launcher` is the path of the launcher; the default is SKEIN in the environment, else this checkout's `./skein`,
     else `skein` in PATH. `verbose` shows the launcher's output during the flight.
@@ -118,7 +118,7 @@ class Run:
             what = str(error)
         return f"<skein.Run {self.path}: {what}>"
 
-    # -- what result.json says ----------------------------------------------------------------------------------------
+    # -- contents of result.json --------------------------------------------------------------------------------------
 
     @property
     def result(self) -> dict[str, Any]:
@@ -186,7 +186,7 @@ class Run:
         try:
             return [str(uav["name"]) for uav in self._value("uavs", list)]
         except (KeyError, TypeError):
-            raise DamagedError(f"{self.path / 'result.json'}:1: uavs must have names") from None
+            raise DamagedError(f"{self.path / 'result.json'}:1: each entry of uavs must have a name") from None
 
     @property
     def sim_time_s(self) -> float:
@@ -211,7 +211,8 @@ class Run:
             names = ", ".join([*columns.RUN_TABLES, "links"])
             raise KeyError(f"a run has no table {name!r}; it has {names}")
         table = columns.RUN_TABLES[name]
-        # Skein writes this file only if there are such messages; `self.result` raises if the folder has no results.
+        # Skein writes this file only if a link lost or delayed a capture message; `self.result` raises if the folder
+        # has no results.
         if name == "capture_messages" and not (self.path / table.file).exists() and self.result:
             return np.empty(0, [(c.name, "U1" if c.kind == "text" else columns.KINDS[c.kind]) for c in table.columns])
         return read_table(self.path, table)

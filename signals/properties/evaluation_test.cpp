@@ -221,7 +221,7 @@ TEST(Evaluation, TheUavWithTheWorstMarginCounts) {
   EXPECT_EQ(near.bound, "u = b");
   EXPECT_EQ(near.margin, 4.0);
   const Verdict half = judged("for u in uavs, always held(u) < 9", {{"held(a)", still}, {"held(b)", low}});
-  EXPECT_EQ(half.outcome, Outcome::holds) << "vacuous for UAV a, but UAV b decides it";
+  EXPECT_EQ(half.outcome, Outcome::holds) << "vacuous for UAV a, but UAV b decides the property";
 }
 
 TEST(Evaluation, ABooleanSignalHasAnInfiniteMargin) {

@@ -1,4 +1,4 @@
-// Shows the faults of the run, and lets a viewer begin and end faults by hand. For each, the page sends an order
+// Shows the faults of the run, and lets a viewer begin and end faults by hand. To do so, the page sends an order
 // (view/fault_order.hpp). An order takes effect in the next step; the next state says whether the server accepted it.
 import {data, element, moment} from './page.js';
 
@@ -8,6 +8,8 @@ const kMostRows = 60;
 const kStationFault_s = 5;
 const kStation = 'gcs';  // name of its node; its program is called station
 
+// order: sends an order; connected: whether a server receives orders; refusedBefore: number of orders that the server
+// had refused before the newest one.
 const hand = {order: () => {}, connected: false, refusedBefore: null};
 
 /**

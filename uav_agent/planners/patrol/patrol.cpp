@@ -51,7 +51,7 @@ class PatrolPlanner final : public Planner {
   std::vector<Goal> refitted(const PlannerInput& in);
   void mark_flown();
   void face_strip(Goal& goal) const;
-  void give_strip_up(const PlannerInput& in);
+  void give_up_strip(const PlannerInput& in);
   /// Distance along the strip of the waypoint `leg` of the current stretch (Run).
   double run_s(std::size_t leg) const { return strip_s_ + standoff_config().step_m * static_cast<double>(leg); }
 
@@ -149,11 +149,11 @@ void PatrolPlanner::handle_outcome(const Outcome& outcome, const PlannerInput& i
     return;
   }
   if (outcome.kind == Outcome::Kind::blocked) strip_s_ = run_s(outcome.leg);
-  if (outcome.kind == Outcome::Kind::no_way || ++failures_ > kMaxFailures) give_strip_up(in);
+  if (outcome.kind == Outcome::Kind::no_way || ++failures_ > kMaxFailures) give_up_strip(in);
 }
 
 /// Leaves the current strip; if none of it was flown, it counts as failed.
-void PatrolPlanner::give_strip_up(const PlannerInput& in) {
+void PatrolPlanner::give_up_strip(const PlannerInput& in) {
   if (!flown_ && task_) blocks_->failed(*task_, in.tick);
   if (!flown_ && own_) strips_.failed(*own_, in.tick);
   strip_.reset();
@@ -168,7 +168,7 @@ std::vector<Goal> PatrolPlanner::next_goals(const PlannerInput& in) {
       return {};
     }
     if (auto goals = strip_goals(in, std::nullopt); !goals.empty()) return goals;
-    give_strip_up(in);
+    give_up_strip(in);
   }
   return {};
 }

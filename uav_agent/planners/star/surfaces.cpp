@@ -16,7 +16,7 @@ constexpr double kTilt = 0.8;          ///< tangent of the angle between a tilte
 constexpr double kEnoughShare = 0.85;  ///< the search ends at a view that sees this share of the patch
 constexpr double kImageShare = 0.95;   ///< surface counts as seen within this share of the camera's half angles
 constexpr double kNearShare = 0.75;    ///< the second distance to try, as a share of the stand-off
-constexpr double kSpareM = 0.3;        ///< least distance from a viewpoint to its surface is the clearance plus this
+constexpr double kSpareM = 0.3;        ///< a viewpoint is at least the clearance plus this from its surface
 constexpr std::size_t kMostTried = 4;  ///< views() tries at most this many patches, times `max_views`
 constexpr int kMostFailures = 12;      ///< further failures do not make the wait before a retry longer
 
