@@ -13,8 +13,9 @@ const kStation = 'gcs';  // name of its node; its program is called station
 const hand = {order: () => {}, connected: false, refusedBefore: null};
 
 /**
- * Adds what a line of the kind "fault" (view/story.hpp) says to a list of faults. @param faults  one entry for each
- * fault that has begun: its number, byHand (a viewer began the fault), kind, of (its target), from and until [s].
+ * Enters the begin or end of a fault, from a line of the kind "fault" (view/story.hpp), into a list. @param faults one
+ * entry for each fault that has begun: its number, byHand (a viewer began the fault), kind, of (its target), from and
+ * until [s].
  */
 export function recordFault(faults, {t, n, hand: byHand, on, kind, of}) {
   if (on === 1) faults.push({number: n, byHand: byHand === 1, kind, of, from: t, until: Infinity});
