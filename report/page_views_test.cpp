@@ -18,7 +18,7 @@ namespace {
 /// One drawing of a section.
 struct Panel {
   std::string title, small;
-  std::string live;  ///< attribute data-live: kind of the drawing by which report.js replaces it
+  std::string live;  ///< attribute data-live: kind of the drawing with which report.js replaces this one
   std::map<std::string, std::ptrdiff_t> dots;  ///< number of dots by colour: "q0", "k3"
   bool operator==(const Panel&) const = default;
 };

@@ -106,7 +106,7 @@ TEST_F(DrawnWorld, WithoutAChecksumIsUsedIfTheCacheIsReadOnly) {
   EXPECT_EQ(scenario_source("wild", 3), file);
   write_text(file.parent_path() / "wild_3.sha256", "0\n");
   EXPECT_THROW(scenario_source("wild", 3), InputError)
-      << "its checksum does not match, and sim_server cannot draw it again";
+      << "its checksum does not match, and sim_server cannot draw the world again";
   fs::remove(file.parent_path() / "wild_3.sha256");
   fs::remove(file.parent_path() / "models/m.stl");
   EXPECT_THROW(scenario_source("wild", 3), InputError)

@@ -173,7 +173,7 @@ std::vector<Goal> PatrolPlanner::next_goals(const PlannerInput& in) {
   return {};
 }
 
-/// Chooses the next current strip: one that this UAV has flown least often. @returns whether there is one.
+/// Chooses the next strip: one that this UAV has flown least often. @returns whether there is one.
 bool PatrolPlanner::take_strip(const PlannerInput& in) {
   const Vector3d here_W = in.tracking.setpoint.p_WB;
   task_ = blocks_->any() ? blocks_->next(in.tick, here_W, in.map) : std::nullopt;
