@@ -170,7 +170,8 @@ const kKinds = {
 const targetText = ({kind, of}) => (kind === 'link' ? of.replaceAll(kStation, 'station').replace(' > ', ' to ') : of === kStation ? 'station' : of);
 
 /**
- * @returns the faults at the moment that the page shows: first those in force, then those in the past, newest first.
+ * @returns the faults at the moment that the page shows: first those that begin with the next step, then those in force,
+ * then those in the past; the newest first.
  */
 function rows() {
   const now = moment.seconds;
