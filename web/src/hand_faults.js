@@ -13,7 +13,7 @@ const kStation = 'gcs';  // name of its node; its program is called station
 const hand = {order: () => {}, connected: false, refusedBefore: null};
 
 /**
- * Enters the begin or end of a fault, from a line of the kind "fault" (view/story.hpp), into a list. @param faults one
+ * Enters the begin or end of a fault, from a line of the kind "fault" (view/story.hpp), into a list. @param faults  one
  * entry for each fault that has begun: its number, byHand (a viewer began the fault), kind, of (its target), from and
  * until [s].
  */
