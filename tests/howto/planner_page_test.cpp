@@ -1,5 +1,7 @@
 // Follows docs/how-to-add-a-planner.md literally.
 #include <fstream>
+#include <sstream>
+#include <string>
 
 #include "fleet_fixture.hpp"
 #include "tests/support/places.hpp"
@@ -51,6 +53,19 @@ TEST_F(PlannerPage, ItsPlannerFliesTheSameInTheTreeAndOutOfIt) {
   EXPECT_TRUE(there["collisions"].empty());
   EXPECT_GT(there["score_earned"], 0.0) << "it inspects";
   expect_complete_result(inside);
+}
+
+/// Readers should see the whole interface at a glance: what is general belongs into Skein's parts for planners.
+TEST_F(PlannerPage, ItsPlannerHasAtMost60LinesOfCode) {
+  const std::string file = text_of(build_path("tests/howto/page/orbit.cpp"));
+  std::istringstream planner(file.substr(0, file.find("// orbit.cpp, continued")));
+  int lines = 0;
+  for (std::string line; std::getline(planner, line);) {
+    const std::size_t begin = line.find_first_not_of(' ');
+    lines += begin != std::string::npos && line.compare(begin, 2, "//") != 0;
+  }
+  EXPECT_GT(lines, 40) << "it is read";
+  EXPECT_LE(lines, 60);
 }
 
 TEST_F(PlannerPage, AnAgentOfOnesOwnKnowsTheOtherPlannersAndNamesThem) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "core/radio/radio_routes.hpp"
 
@@ -51,14 +52,21 @@ std::optional<std::vector<std::uint8_t>> unescaped(std::string_view text) {
 
 }  // namespace
 
-void PayloadWriter::number(std::uint32_t value, int width) {
+PayloadWriter& PayloadWriter::number(std::uint32_t value, int width) {
   for (int i = 0; i < width; ++i) bytes_.push_back(static_cast<std::uint8_t>(value >> (8 * i)));
+  return *this;
 }
 
-void PayloadWriter::position(const Vector3d& p_W) {
+PayloadWriter& PayloadWriter::position(const Vector3d& p_W) {
   for (int i = 0; i < 3; ++i) {
     u32(static_cast<std::uint32_t>(static_cast<std::int32_t>(std::lround(p_W[i] / kPositionStepM))));
   }
+  return *this;
+}
+
+PayloadWriter& PayloadWriter::bytes(std::span<const std::uint8_t> bytes) {
+  bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());
+  return *this;
 }
 
 std::uint32_t PayloadReader::number(int width) {
@@ -113,6 +121,15 @@ std::optional<Payload> open_payload(const RadioMessage& message, std::string_vie
   const auto content = reader.bytes(reader.left());
   if (!reader.ok() || sender >= fleet_size || sum != check_sum(content)) return std::nullopt;
   return Payload{sender, {content.begin(), content.end()}};
+}
+
+std::vector<Payload> open_payloads(std::span<const RadioMessage> messages, std::string_view planner,
+                                   std::size_t fleet_size) {
+  std::vector<Payload> payloads;
+  for (const RadioMessage& message : messages) {
+    if (auto payload = open_payload(message, planner, fleet_size)) payloads.push_back(std::move(*payload));
+  }
+  return payloads;
 }
 
 }  // namespace skein::agent

@@ -1,7 +1,7 @@
 // Radio messages between planners, as bytes: a writer and a reader of numbers, and the envelope in which a payload
 // travels on the topic /plan: every UAV may send on it, and all nodes in line of sight receive it
 // (core/radio/radio_routes.hpp). A planner puts the message from send_payload() into PlannerOutput::radio, and reads
-// the messages in PlannerInput::radio with open_payload().
+// the messages in PlannerInput::radio with open_payloads().
 // Numbers are little-endian; positions are rounded to centimetres.
 // Pure.   Bounded: a payload is never longer than kMaxPayloadBytes.
 #pragma once
@@ -23,21 +23,22 @@ namespace skein::agent {
 /// Largest payload, without its envelope. A planner that has more to say sends several messages, or the rest later.
 inline constexpr std::size_t kMaxPayloadBytes = 16'384;
 
+/// Appends numbers; calls can be chained: PayloadWriter().u8(1).u16(goal).
 class PayloadWriter {
  public:
-  void u8(std::uint8_t value) { bytes_.push_back(value); }
-  void u16(std::uint16_t value) { number(value, 2); }
-  void u32(std::uint32_t value) { number(value, 4); }
+  PayloadWriter& u8(std::uint8_t value) { return number(value, 1); }
+  PayloadWriter& u16(std::uint16_t value) { return number(value, 2); }
+  PayloadWriter& u32(std::uint32_t value) { return number(value, 4); }
   /// Appends a position as three 32-bit numbers of centimetres; each coordinate must be within 20,000 km.
-  void position(const Vector3d& p_W);
-  void bytes(std::span<const std::uint8_t> bytes) { bytes_.insert(bytes_.end(), bytes.begin(), bytes.end()); }
+  PayloadWriter& position(const Vector3d& p_W);
+  PayloadWriter& bytes(std::span<const std::uint8_t> bytes);
 
   std::size_t size() const { return bytes_.size(); }
   std::size_t room() const { return kMaxPayloadBytes - std::min(bytes_.size(), kMaxPayloadBytes); }
   const std::vector<std::uint8_t>& data() const { return bytes_; }
 
  private:
-  void number(std::uint32_t value, int width);
+  PayloadWriter& number(std::uint32_t value, int width);
 
   std::vector<std::uint8_t> bytes_;
 };
@@ -84,5 +85,9 @@ RadioMessage send_payload(std::string_view planner, std::size_t sender, const Pa
 /// @returns nullopt for a message on another topic, of another planner, damaged, too long, or with a sender outside the
 ///   fleet.
 std::optional<Payload> open_payload(const RadioMessage& message, std::string_view planner, std::size_t fleet_size);
+
+/// The payloads of all messages that open_payload() opens, in the order of the messages.
+std::vector<Payload> open_payloads(std::span<const RadioMessage> messages, std::string_view planner,
+                                   std::size_t fleet_size);
 
 }  // namespace skein::agent

@@ -60,6 +60,20 @@ TEST(Payload, AnotherTypeSenderOrTopicIsNotOpened) {
   EXPECT_FALSE(open_payload(elsewhere, "kios/1", 5));
 }
 
+TEST(Payload, OfManyMessagesThoseOfThePlannerAreOpenedInOrder) {
+  std::vector<RadioMessage> radio;
+  for (const std::uint8_t sender : {2, 0, 1}) {
+    radio.push_back(send_payload("star/1", sender, all_bytes()));
+    radio.push_back(send_payload("kios/1", sender, PayloadWriter().u8(sender).u16(500)));
+  }
+  radio[3].text.pop_back();  // the one of UAV 0 is damaged
+  const std::vector<Payload> opened = open_payloads(radio, "kios/1", 3);
+  ASSERT_EQ(opened.size(), 2U);
+  EXPECT_EQ(opened[0].sender, 2U);
+  EXPECT_EQ(opened[1].sender, 1U);
+  EXPECT_EQ(opened[1].bytes, (std::vector<std::uint8_t>{1, 244, 1}));
+}
+
 TEST(Payload, NoDamageGoesUnnoticedAndNoneCrashes) {
   const RadioMessage message = send_payload("kios/1", 0, all_bytes());
   for (std::size_t i = 0; i < message.text.size(); ++i) {

@@ -10,11 +10,9 @@ bool MapRadio::is_of_maps(const RadioMessage& message) {
 }
 
 void MapRadio::hear(std::span<const RadioMessage> received, Tick now, WorldMap& map) {
-  for (const RadioMessage& message : received) {
-    const std::optional<Payload> payload = open_payload(message, kMapMessages, fleet_);
-    if (!payload) continue;
-    PayloadReader reader(payload->bytes);
-    news_.read(payload->sender, now, map, reader);
+  for (const Payload& payload : open_payloads(received, kMapMessages, fleet_)) {
+    PayloadReader reader(payload.bytes);
+    news_.read(payload.sender, now, map, reader);
   }
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "core/euler.hpp"
 
@@ -22,6 +23,23 @@ std::vector<Vector3d> ring_around(const Vector3d& target_W, const RingConfig& co
     }
   }
   return places;
+}
+
+std::vector<BoxView> rings_around(const std::vector<OrientedBox>& boxes, double standoff_m, double ring_step_m) {
+  std::vector<BoxView> views;
+  for (const OrientedBox& box : boxes) {
+    const Vector3d half = 0.5 * box.size;
+    const int rings = std::max(1, static_cast<int>(box.size.z() / ring_step_m));
+    for (int ring = 0; ring < rings; ++ring) {
+      const double z = (0.5 - (ring + 0.5) / rings) * box.size.z();
+      for (const auto& [x, y] : {std::pair(1, 1), std::pair(-1, 1), std::pair(-1, -1), std::pair(1, -1)}) {
+        const Vector3d edge_O(x * half.x(), y * half.y(), z);
+        const Vector3d away_O(x * standoff_m, y * standoff_m, 0.0);
+        views.push_back({box.center + box.R_WO * (edge_O + away_O), box.center + box.R_WO * edge_O});
+      }
+    }
+  }
+  return views;
 }
 
 std::vector<std::size_t> visible_targets(const VoxelGrid& grid, const Vector3d& from_W, double yaw, double pitch,

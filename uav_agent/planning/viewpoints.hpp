@@ -1,5 +1,5 @@
-// Viewpoints: candidates around a target, the targets that are visible from each, and clusters of places in sight of
-// each other.
+// Viewpoints: candidates around a target, views of boxes, the targets that are visible from each place, and clusters of
+// places in sight of each other.
 // Frame W.   Units: SI and radians.   Pure and deterministic.   Effort: candidates times targets, cut by range first.
 // Source: cylindrical sampling as in FUEL (STAR's explorer); clusters by distance and mutual visibility as in
 // Star-Searcher (STAR's photographers).
@@ -7,6 +7,7 @@
 
 #include <vector>
 
+#include "core/types.hpp"
 #include "uav_agent/maps/voxel_grid.hpp"
 
 namespace skein::agent {
@@ -20,6 +21,16 @@ struct RingConfig {
 
 /// Places around a target: ring by ring from the inside, height by height, counter-clockwise from +x (seen from above).
 std::vector<Vector3d> ring_around(const Vector3d& target_W, const RingConfig& config);
+
+/// A place beside a box, and the point of the box that is nearest to it.
+struct BoxView {
+  Vector3d p_W, nearest_W;
+};
+
+/// Views of all boxes, box by box and ring by ring from the top down: at the four corners of horizontal rings (in the
+/// box's axes), `standoff_m` from the two sides that meet there. There is a ring for each `ring_step_m` of a box's
+/// height, at least one.
+std::vector<BoxView> rings_around(const std::vector<OrientedBox>& boxes, double standoff_m, double ring_step_m);
 
 struct ViewLimits {
   double range_m = 10.0;

@@ -46,6 +46,23 @@ bool sees_by_marching(const VoxelGrid& grid, const Vector3d& a, const Vector3d& 
   return true;
 }
 
+TEST(Viewpoints, RingsAroundBoxesKeepTheStandoffAndGoDown) {
+  const OrientedBox tall{"tall", {10.0, -5.0, 12.0}, {6.0, 4.0, 20.0}, rotation_z(0.7)};
+  const OrientedBox flat{"flat", {-20.0, 0.0, 1.0}, {5.0, 5.0, 2.0}};
+  const std::vector<BoxView> views = rings_around({tall, flat}, 4.0, 6.0);
+  ASSERT_EQ(views.size(), 16U) << "three rings around the tall box, one around the flat one";
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    const OrientedBox& box = i < 12 ? tall : flat;
+    const Vector3d p_O = box.R_WO.transpose() * (views[i].p_W - box.center);
+    EXPECT_NEAR(std::abs(p_O.x()), 0.5 * box.size.x() + 4.0, 1e-9) << i;
+    EXPECT_NEAR(std::abs(p_O.y()), 0.5 * box.size.y() + 4.0, 1e-9) << i;
+    const Vector3d half = 0.5 * box.size, nearest_O = p_O.cwiseMax(-half).cwiseMin(half);
+    EXPECT_LT((box.center + box.R_WO * nearest_O - views[i].nearest_W).norm(), 1e-9) << i;
+    const double up_m = i == 0 || i == 12 ? -1.0 : views[i].p_W.z() - views[i - 1].p_W.z();
+    EXPECT_TRUE(i % 4 == 0 ? up_m < 0.0 : up_m == 0.0) << i;
+  }
+}
+
 TEST(Viewpoints, VisibilityIsWhatRaysSay) {
   const VoxelGrid grid = scattered(0.08);
   Draw draw;

@@ -16,10 +16,9 @@ FlockTalk::FlockTalk(const Config& config, const AgentConfig& agent)
     : config_(config), agent_(agent), exchange_({.max_chunks = kMaxChunks, .max_bytes = kMaxChunkBytes}) {}
 
 void FlockTalk::listen(const PlannerInput& in, VoxelGrid& grid, FlockPoints& points) {
-  for (const RadioMessage& message : in.radio) {
-    const auto payload = open_payload(message, kName, agent_.fleet.size());
-    if (!payload || payload->sender == agent_.self) continue;
-    PayloadReader reader(payload->bytes);
+  for (const Payload& payload : open_payloads(in.radio, kName, agent_.fleet.size())) {
+    if (payload.sender == agent_.self) continue;
+    PayloadReader reader(payload.bytes);
     FlockWord word{.rate = kRateUnit * reader.u8()};
     const std::size_t claims = std::min<std::size_t>(reader.u8(), kMostClaims);
     for (std::size_t i = 0; i < claims; ++i) {
@@ -27,8 +26,8 @@ void FlockTalk::listen(const PlannerInput& in, VoxelGrid& grid, FlockPoints& poi
       word.claims.push_back({p_WB, aim_W});
     }
     if (!reader.ok()) continue;
-    words_[payload->sender] = {std::move(word), in.tick};
-    if (points.read(payload->sender, in.tick, reader)) exchange_.read(payload->sender, in.tick, grid, reader);
+    words_[payload.sender] = {std::move(word), in.tick};
+    if (points.read(payload.sender, in.tick, reader)) exchange_.read(payload.sender, in.tick, grid, reader);
   }
 }
 

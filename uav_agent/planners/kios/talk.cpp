@@ -10,10 +10,9 @@ constexpr std::string_view kName = "kios/1";
 }  // namespace
 
 void KiosTalk::listen(const PlannerInput& in, VoxelGrid& grid) {
-  for (const RadioMessage& message : in.radio) {
-    const auto payload = open_payload(message, kName, agent_.fleet.size());
-    if (!payload || payload->sender == agent_.self) continue;
-    PayloadReader reader(payload->bytes);
+  for (const Payload& payload : open_payloads(in.radio, kName, agent_.fleet.size())) {
+    if (payload.sender == agent_.self) continue;
+    PayloadReader reader(payload.bytes);
     Word word;
     word.heard = in.tick;
     word.mapping = reader.u8() != 0;
@@ -22,8 +21,8 @@ void KiosTalk::listen(const PlannerInput& in, VoxelGrid& grid) {
     const int claims = reader.u8();
     for (int i = 0; i < claims; ++i) word.claims.push_back(reader.u32());
     if (!reader.ok()) continue;
-    words_[payload->sender] = std::move(word);
-    exchange_.read(payload->sender, in.tick, grid, reader);
+    words_[payload.sender] = std::move(word);
+    exchange_.read(payload.sender, in.tick, grid, reader);
   }
 }
 

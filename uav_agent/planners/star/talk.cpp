@@ -22,10 +22,9 @@ StarTalk::StarTalk(const Config& config, const AgentConfig& agent)
     : config_(config), agent_(agent), exchange_(exchange_config()) {}
 
 void StarTalk::listen(const PlannerInput& in, VoxelGrid& grid) {
-  for (const RadioMessage& message : in.radio) {
-    const auto payload = open_payload(message, kName, agent_.fleet.size());
-    if (!payload || payload->sender == agent_.self) continue;
-    PayloadReader reader(payload->bytes);
+  for (const Payload& payload : open_payloads(in.radio, kName, agent_.fleet.size())) {
+    if (payload.sender == agent_.self) continue;
+    PayloadReader reader(payload.bytes);
     Word word;
     word.heard = in.tick;
     const std::uint8_t flags = reader.u8();
@@ -34,8 +33,8 @@ void StarTalk::listen(const PlannerInput& in, VoxelGrid& grid) {
     const Vector3d goal = reader.position();
     if (flags & kHasGoal) word.goal_W = goal;
     if (!reader.ok()) continue;
-    words_[payload->sender] = word;
-    exchange_.read(payload->sender, in.tick, grid, reader);
+    words_[payload.sender] = word;
+    exchange_.read(payload.sender, in.tick, grid, reader);
   }
 }
 
