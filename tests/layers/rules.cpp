@@ -288,7 +288,7 @@ Violations check_clocks(const Tree& tree) {
 Violations check_length(const Tree& tree, std::size_t most_lines) {
   Violations violations;
   for (const SourceFile& file : tree) {
-    if ((!file.is_cpp() && !file.path.ends_with(".py")) || file.lines.size() <= most_lines) continue;
+    if (!(file.is_cpp() || file.is_python() || file.is_javascript()) || file.lines.size() <= most_lines) continue;
     violations.push_back(at(file, file.lines.size(), "is longer than " + std::to_string(most_lines) + " lines"));
   }
   return violations;
@@ -299,7 +299,7 @@ Violations check_columns(const Tree& tree, std::size_t most_columns) {
   for (const SourceFile& file : tree) {
     const bool page = file.path.ends_with(".md");
     const bool other_code = file.name() == "CMakeLists.txt" || file.path.ends_with(".cmake") ||
-                            file.path.ends_with(".sh") || file.path.ends_with(".py") || file.path == "skein" ||
+                            file.path.ends_with(".sh") || file.is_python() || file.path == "skein" ||
                             file.path.starts_with(".ci/");
     if (!file.is_cpp() && !other_code && !page) continue;
     const std::vector<bool> may_be_long = page ? unbroken(file) : std::vector<bool>(file.lines.size());

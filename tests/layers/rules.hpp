@@ -57,7 +57,7 @@ Violations check_sleeping(const Tree& tree);
 /// Tests do not read the clock: they wait for conditions with tests/support/eventually.hpp.
 Violations check_clocks(const Tree& tree);
 
-/// No file of C++ or Python has more than `most_lines`.
+/// No file of C++, Python or JavaScript has more than `most_lines`.
 Violations check_length(const Tree& tree, std::size_t most_lines = 400);
 
 /// A function that may be longer than others.

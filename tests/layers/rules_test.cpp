@@ -236,8 +236,9 @@ TEST_F(MadeUpTree, LongFilesAreFound) {
   file("docs/long.md", "1\n2\n3\n4\n");
   file("core/good.cpp", "1\n2\n3\n");
   file("core/long.cpp", "1\n2\n3\n4\n");
-  file("python/long.py", "1\n2\n3\n4\n");
-  EXPECT_EQ(places(check_length(tree(), 3)), (Places{"core/long.cpp:4", "python/long.py:4"}));
+  for (const char* path : {"python/long.py", "tests/long.mjs", "web/long.js"}) file(path, "1\n2\n3\n4\n");
+  EXPECT_EQ(places(check_length(tree(), 3)),
+            (Places{"core/long.cpp:4", "python/long.py:4", "tests/long.mjs:4", "web/long.js:4"}));
 }
 
 TEST_F(MadeUpTree, LongFunctionsAreFoundUnlessTheListHasThem) {

@@ -21,6 +21,8 @@ struct SourceFile {
 
   bool is_header() const;
   bool is_cpp() const { return !code.empty(); }
+  bool is_python() const { return path.ends_with(".py"); }
+  bool is_javascript() const { return path.ends_with(".js") || path.ends_with(".mjs"); }
   /// "core" of "core/types.hpp"; empty for a file at the root.
   std::string folder() const;
   /// "types.hpp" of "core/types.hpp".

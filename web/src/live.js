@@ -169,7 +169,7 @@ async function show(order) {
   };
   data.onUav = (uav) => choose({uav: uav === chosen.uav ? -1 : uav});
   data.onPoint = (point) => choose({point});
-  const [{sceneView}, {scoreChart, lanesChart}] = [await import('./scene.js'), await import('./charts.js')];
+  const [{sceneView}, {scoreChart, lanesChart}] = [await import('./scene_view.js'), await import('./charts.js')];
   const fleet = fleetPanel(data.onUav);
   const panels = [chosenPanel(() => choose({uav: chosen.uav, through: !chosen.through}), () => choose({})), pointsPanel(data.onPoint), linksPanel(), eventsPanel(), uavFaultsPanel(), faultsPanel()];
   const hand = handPanel(order, (uav, through) => choose({uav, through}));

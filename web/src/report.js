@@ -5,7 +5,7 @@ import {lanesChart, scoreChart} from './charts.js';
 import {element} from './page.js';
 import style from './report.css';
 import {followTools, offerFlight} from './report_flight.js';
-import {sceneView} from './scene.js';
+import {sceneView} from './scene_view.js';
 
 document.head.append(element('style', {}, uplotStyle + style));
 const made = {};

@@ -1,98 +1,23 @@
 // The scene in three dimensions: the structure (drawn as its interest points), boxes, tracks, and the fleet at one
-// moment.
+// moment. scene_view.js puts it on the page, with its tools and legends.
 import * as THREE from 'three';
 import {OrbitControls} from 'three/addons/controls/OrbitControls.js';
 
 import {makeGoals} from './activity.js';
 import {Fleet, Marks} from './bodies.js';
+import {kDetected} from './custody.js';
 import {countFrame} from './figures.js';
 import {takeKeys} from './keys.js';
 import {Labels} from './labels.js';
-import {makeClouds} from './clouds.js';
 import {makeFrusta, makeLinks} from './overlays.js';
-import {colour, data, element, indexAt, moment, onTheme, replaceDrawing, swatch, track, trackColour} from './page.js';
+import {colour, data, indexAt, moment, onTheme, trackColour} from './page.js';
+import {points, scoreColour, tracks} from './points.js';
+import {bounds, makeBoxes, makeStructure} from './structure.js';
 import {trailsOfRuns} from './trails.js';
 
-const kPerPoint = 9;  // numbers per point in the data
-const kDetected = 0.2;
 const kMostNames = 20;
-const count = data.points.length / kPerPoint;
 
-const point = (i) => {
-  const at = i * kPerPoint;
-  const [x, y, z, nx, ny, nz, score, estimate, cause] = data.points.slice(at, at + kPerPoint);
-  return {
-    p: new THREE.Vector3(x, y, z).multiplyScalar(0.01),
-    n: new THREE.Vector3(nx, ny, nz).multiplyScalar(0.01),
-    score: score / 1000,
-    estimate: estimate / 1000,
-    cause,
-    uav: data.best[2 * i],
-    taken: data.best[2 * i + 1] / 1000,
-  };
-};
-const points = Array.from({length: count}, (_, i) => point(i));
-const tracks = data.uavs.map(track);
-
-const scoreColour = (score) =>
-    score < kDetected ? 'q0' : `q${1 + Math.min(Math.floor(((score - kDetected) / (1 - kDetected)) * 4), 3)}`;
-
-/**
- * @returns a radius with which discs at the points look like a surface: 0.8 times the median distance of neighbours
- * [m].
- */
-function discRadius() {
-  const distances = [];
-  for (let k = 0; k < Math.min(count, 60); ++k) {
-    const from = points[Math.floor((k * count) / 60) % count];
-    let least = Infinity;
-    for (const other of points)
-      if (other !== from) least = Math.min(least, from.p.distanceToSquared(other.p));
-    if (Number.isFinite(least)) distances.push(Math.sqrt(least));
-  }
-  distances.sort((a, b) => a - b);
-  return Math.min(Math.max(0.8 * (distances[distances.length >> 1] ?? 0.5), 0.12), 1.2);
-}
-
-function makeStructure() {
-  const mesh = new THREE.InstancedMesh(
-      new THREE.CircleGeometry(discRadius(), 10), new THREE.MeshLambertMaterial({side: THREE.DoubleSide}), count);
-  const along = new THREE.Vector3(0, 0, 1);
-  const turn = new THREE.Quaternion();
-  const unit = new THREE.Vector3(1, 1, 1);
-  points.forEach(({p, n}, i) => {
-    turn.setFromUnitVectors(along, n.lengthSq() > 0.5 ? n.clone().normalize() : along);
-    mesh.setMatrixAt(i, new THREE.Matrix4().compose(p, turn, unit));
-  });
-  return mesh;
-}
-
-function makeBoxes() {
-  const ends = [];
-  for (const box of data.boxes) {
-    for (let i = 0; i < 8; ++i) {
-      for (const bit of [1, 2, 4])
-        if ((i & bit) === 0) ends.push(...box[i], ...box[i | bit]);
-    }
-  }
-  const geometry = new THREE.BufferGeometry();
-  geometry.setAttribute('position', new THREE.Float32BufferAttribute(ends.map((cm) => cm / 100), 3));
-  return new THREE.LineSegments(geometry, new THREE.LineBasicMaterial({transparent: true, opacity: 0.7}));
-}
-
-function bounds() {
-  const box = new THREE.Box3();
-  for (const {p} of points) box.expandByPoint(p);
-  for (const corners of data.boxes)
-    for (const c of corners) box.expandByPoint(new THREE.Vector3(...c).multiplyScalar(0.01));
-  if (box.isEmpty())
-    for (const t of tracks) t.t.forEach((_, i) => box.expandByPoint(new THREE.Vector3(t.x[i], t.y[i], t.z[i])));
-  if (data.station) box.expandByPoint(new THREE.Vector3().fromArray(data.station).multiplyScalar(0.01));
-  if (box.isEmpty()) box.expandByPoint(new THREE.Vector3());
-  return box;
-}
-
-class Scene {
+export class Scene {
   constructor(stage, tip) {
     this.stage = stage;
     this.tip = tip;
@@ -222,7 +147,7 @@ class Scene {
     if (changed === null && this.painted === time) return;
     if (changed === null) {
       data.changedPoints?.();
-      for (let index = 0; index < count; ++index) this.paintPoint(index, seconds, over);
+      for (let index = 0; index < points.length; ++index) this.paintPoint(index, seconds, over);
     } else
       for (const index of changed) this.paintPoint(index, seconds, over);
     this.painted = time;
@@ -325,7 +250,7 @@ class Scene {
 
   /** Shows a tip about the point below the pointer. */
   point(event) {
-    if (event.buttons !== 0 || count === 0) return;
+    if (event.buttons !== 0 || points.length === 0) return;
     const hit = this.hits(event, [this.structure])[0];
     this.tip.hidden = hit === undefined;
     if (hit === undefined) return;
@@ -341,155 +266,4 @@ class Scene {
     if (p.uav >= 0) parts.push(`by ${data.uavs[p.uav].name} at ${p.taken.toFixed(1)} s`);
     this.tip.textContent = parts.join(' · ');
   }
-}
-
-function legendOf(by) {
-  const entry = (name, text) => element('li', {}, swatch(name), text);
-  if (by === 'uav')
-    return [
-      ...data.uavs.slice(0, 12).map((uav, i) => entry(trackColour(i), `by ${uav.name}`)), entry('q0', 'by no UAV')
-    ];
-  if (by === 'cause') {
-    const there = new Set(points.map((p) => p.cause));
-    return [
-      ...data.causes.flatMap((cause, i) => (there.has(i) ? [entry(`k${i}`, cause)] : [])), entry('q0', 'nothing lost')
-    ];
-  }
-  const steps = [[0.2, 0.4], [0.4, 0.6], [0.6, 0.8], [0.8, 1]].map(
-      ([from, to], i) => entry(`q${i + 1}`, `${from.toFixed(1)} to ${to.toFixed(1)}`));
-  if (data.custody && by === 'score') return [entry('q0', 'unseen'), entry('carried', 'not delivered'), ...steps];
-  return [entry('q0', by === 'estimate' ? 'not attainable' : 'not detected'), ...steps];
-}
-
-function legendOfLinks() {
-  const names = [['direct', 'link to the station'], ['relayed', 'link between UAVs'], ['bad', 'cut by a fault']];
-  const entry = (background, text) => {
-    const line = element('span', {class: 'line', 'aria-hidden': 'true'});
-    line.style.background = background;
-    return element('li', {}, line, text);
-  };
-  const dashes = (share) => `repeating-linear-gradient(90deg, var(--soft) 0 ${6 * share}px, transparent ${6 * share}px 6px)`;
-  return element(
-      'ul', {class: 'legend'}, ...names.map(([name, text]) => entry(`var(--${name})`, text)),
-      ...(data.runs ? [] : [entry(dashes(0.5), 'blocked, of the followed UAV'), entry(dashes(0.17), 'dead')]));
-}
-
-function layer(name, objects, scene) {
-  const box = element('input', {type: 'checkbox'});
-  box.checked = objects.every((object) => object.visible);
-  box.addEventListener('change', () => {
-    for (const object of objects) object.visible = box.checked;
-    scene.draw();
-  });
-  return element('label', {}, box, name);
-}
-
-/**
- * Slider and play button of the moment. A run plays in half a minute, a run shorter than that in real time.
- * @param scene  undefined: there is no scene.
- */
-function timeTools(scene) {
-  const slider = element(
-      'input', {type: 'range', min: '0', max: String(data.end), step: 'any', 'aria-label': 'time', id: 'moment'});
-  slider.value = String(data.end);
-  const shown = element('output', {}, '');
-  const play = element('button', {type: 'button'}, 'Play');
-  let last = null;
-  const stop = () => {
-    last = null;
-    play.textContent = 'Play';
-  };
-  const turn = (now) => {
-    if (last === null) return;
-    if (scene && !scene.isFinished()) return requestAnimationFrame(turn);
-    moment.set(moment.seconds + ((now - last) / 1000) * Math.max(data.end / 30, 1));
-    last = now;
-    if (moment.seconds >= data.end)
-      stop();
-    else
-      requestAnimationFrame(turn);
-  };
-  play.addEventListener('click', () => {
-    if (last !== null) return stop();
-    if (moment.seconds >= data.end) moment.set(0);
-    last = performance.now();
-    play.textContent = 'Pause';
-    requestAnimationFrame(turn);
-  });
-  slider.addEventListener('input', () => moment.set(Number(slider.value)));
-  const tell = (seconds) => {
-    slider.max = String(data.end);
-    slider.value = String(seconds);
-    shown.textContent = `${seconds.toFixed(1)} s`;
-  };
-  moment.listen(tell);
-  tell(moment.seconds);
-  return element('span', {class: 'time'}, play, slider, shown);
-}
-
-/** Lets the user choose UAVs and points by clicks on the scene. */
-function takeClicks(scene) {
-  let from = null;
-  const {domElement: canvas} = scene.renderer;
-  canvas.addEventListener('pointerdown', (event) => (from = [event.clientX, event.clientY]));
-  canvas.addEventListener('pointerup', (event) => {
-    if (from === null || Math.hypot(event.clientX - from[0], event.clientY - from[1]) > 4) return;
-    const body = scene.hits(event, scene.fleet.targets)[0];
-    if (body) return data.onUav(scene.fleet.uavOf(body));
-    const hit = scene.hits(event, [scene.structure])[0];
-    if (hit) data.onPoint(hit.instanceId);
-  });
-}
-
-/** @returns the scene; undefined: the browser has no WebGL 2. */
-export function sceneView(figure) {
-  if (document.createElement('canvas').getContext('webgl2') === null) {
-    // A report keeps its static drawing. The page that follows a run has none, but needs the slider.
-    if (data.follows)
-      figure.append(
-          element('p', {class: 'soft'}, 'This browser has no WebGL 2, which the scene needs. All else is here.'),
-          element('div', {class: 'scene'}, element('div', {class: 'tools'}, timeTools())));
-    return;
-  }
-  const stage = element('div', {class: 'stage'});
-  const tip = element('div', {class: 'tip'});
-  tip.hidden = true;
-  const live = element('div', {class: 'live'});
-  figure.classList.add('scene');
-  figure.parentElement.classList.add('with-scene');
-  figure.querySelector('figcaption').textContent = 'In three dimensions';
-  replaceDrawing(figure, live);
-  live.append(stage);
-  const scene = new Scene(stage, tip);
-  stage.append(tip);
-  const legend = element('ul', {class: 'legend'}, ...legendOf('score'));
-  const choice = element('select', {id: 'colour-by', 'aria-label': 'colour of the points'});
-  const colours = [
-    ['score', 'score'],
-    ...(data.causes_known ? [['cause', 'cause of the loss'], ['estimate', 'attainable score']] : []), ['uav', 'UAV']
-  ];
-  for (const [value, text] of colours) choice.append(element('option', {value}, text));
-  choice.addEventListener('change', () => {
-    scene.by = choice.value;
-    scene.painted = null;
-    legend.replaceChildren(...legendOf(scene.by));
-    scene.show();
-  });
-  const tools = element(
-      'div', {class: 'tools'}, element('label', {}, 'Points by ', choice), layer('points', [scene.structure], scene),
-      layer('tracks', [scene.tracks], scene), layer('boxes', [scene.boxes], scene), layer('UAVs', [scene.fleet.object], scene),
-      layer('station, collisions', [scene.marks.object], scene),
-      ...(scene.links ? [layer('links', [scene.links.object], scene)] : []),
-      ...(scene.goals ? [layer('goals', [scene.goals.object], scene)] : []),
-      ...(scene.frusta ? [layer('cameras', [scene.frusta.object], scene)] : []), timeTools(scene));
-  live.prepend(tools);
-  if (data.clouds) {
-    scene.clouds = makeClouds(scene);
-    tools.after(scene.clouds.tools);
-  }
-  live.append(legend);
-  if (scene.links) live.append(legendOfLinks());
-  if (data.onPoint) takeClicks(scene);
-  scene.fit();
-  return scene;
 }
