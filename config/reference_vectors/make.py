@@ -95,6 +95,32 @@ OFFSETS = ([0.2, 0.0, -0.3], [0.25, 0.0, 0.0], [0.0, 0.0, 0.0])
 COUNTS_FROM = 0.2
 
 
+def pixel_moves(p_C, p_dot):
+    """By how many pixels a point moves during the exposure, in u and v; None on a border. From the position of the
+    point when the shutter closes."""
+    mx, my, mz = add(p_C, scale(CAMERA["exposure"], p_dot))
+    if abs(mx) < 1e-3:
+        return None
+    x, y, z = p_C
+    f, s = CAMERA["focal_length"], CAMERA["pixel_size"]
+    return f / s * abs(z / x - mz / mx), f / s * abs(y / x - my / mx)
+
+
+def mm_per_pixel(p_C, n_C):
+    """Millimetres of the surface per pixel, in u and v; None on a border. From the size of a millimetre of the surface
+    on the sensor."""
+    m = scale(1 / norm(n_C), n_C)
+    steps = [scale(0.0005, [-m[2], 0.0, m[0]]), scale(0.0005, [-m[1], m[0], 0.0])]
+    ends = [(add(p_C, d), sub(p_C, d)) for d in steps]
+    (v_plus, v_minus), (u_plus, u_minus) = ends
+    v_span = abs(v_plus[2] / v_plus[0] - v_minus[2] / v_minus[0])
+    u_span = abs(u_plus[1] / u_plus[0] - u_minus[1] / u_minus[0])
+    if min(v_span, u_span) < 1e-9:
+        return None
+    f, s = CAMERA["focal_length"], CAMERA["pixel_size"]
+    return s / (f * u_span), s / (f * v_span)
+
+
 def capture(rng):
     """Draws a camera and a point. Returns the row, or None if it lies on a border."""
     roll, pitch, yaw = (math.radians(rng.uniform(-d, d)) for d in (35, 35, 180))
@@ -138,31 +164,17 @@ def capture(rng):
     if not in_fov:
         return row
 
-    # Blur: from the position of the point when the shutter closes.
     v_WC = apply(R_WB, add(v_B, cross(w_B, offset)))
     yaw_rate = (math.sin(roll) * w_B[1] + math.cos(roll) * w_B[2]) / math.cos(pitch)
     omega_W = add([0.0, 0.0, yaw_rate + a_rate], scale(b_rate, apply(turn(2, yaw + a), [0.0, 1.0, 0.0])))
     p_dot = scale(-1.0, add(cross(apply(transposed(R_WC), omega_W), p_C), apply(transposed(R_WC), v_WC)))
-    mx, my, mz = add(p_C, scale(CAMERA["exposure"], p_dot))
-    if abs(mx) < 1e-3:
+    moves, sizes = pixel_moves(p_C, p_dot), mm_per_pixel(p_C, apply(transposed(R_WC), n_W))
+    if moves is None or sizes is None:
         return None
-    row["pixel_move_v"] = f / s * abs(y / x - my / mx)
-    row["pixel_move_u"] = f / s * abs(z / x - mz / mx)
-    most = max(row["pixel_move_u"], row["pixel_move_v"])
-    row["q_blur"] = 1.0 if most == 0.0 else min(1.0, 1.0 / most)
-
-    # Resolution: from the size of a millimetre of the surface on the sensor.
-    m = apply(transposed(R_WC), n_W)
-    m = scale(1 / norm(m), m)
-    steps = [scale(0.0005, [-m[2], 0.0, m[0]]), scale(0.0005, [-m[1], m[0], 0.0])]
-    ends = [(add(p_C, d), sub(p_C, d)) for d in steps]
-    (v_plus, v_minus), (u_plus, u_minus) = ends
-    v_span = abs(v_plus[2] / v_plus[0] - v_minus[2] / v_minus[0])
-    u_span = abs(u_plus[1] / u_plus[0] - u_minus[1] / u_minus[0])
-    if min(v_span, u_span) < 1e-9:
-        return None
-    row["mm_per_pixel_v"], row["mm_per_pixel_u"] = s / (f * v_span), s / (f * u_span)
-    row["q_res"] = min(1.0, desired / max(row["mm_per_pixel_u"], row["mm_per_pixel_v"]))
+    row["pixel_move_u"], row["pixel_move_v"] = moves
+    row["mm_per_pixel_u"], row["mm_per_pixel_v"] = sizes
+    row["q_blur"] = 1.0 if max(moves) == 0.0 else min(1.0, 1.0 / max(moves))
+    row["q_res"] = min(1.0, desired / max(sizes))
     row["score"] = row["q_blur"] * row["q_res"]
     if abs(row["score"] - COUNTS_FROM) < 1e-6:
         return None

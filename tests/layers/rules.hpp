@@ -67,8 +67,8 @@ struct LongFunction {
 };
 /// The list of this project.
 const std::vector<LongFunction>& long_functions();
-/// No C++ function has more than `most_lines` between its braces, except those in `known`, each of which must have
-/// more, and those of tests.
+/// The body of no function of C++, Python or JavaScript has more than `most_lines`, except those in `known`, each of
+/// which must have more, and those of tests.
 Violations check_functions(const Tree& tree, const std::vector<LongFunction>& known, std::size_t most_lines = 60);
 
 /// No line of C++, Python, CMake, shell or Markdown has more than `most_columns`, except lines inside a string literal,

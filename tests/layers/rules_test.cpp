@@ -253,6 +253,20 @@ TEST_F(MadeUpTree, LongFunctionsAreFoundUnlessTheListHasThem) {
   EXPECT_EQ(places(check_functions(tree(), {{"core/short.cpp", "h", ""}}, 3)), Places{"core/short.cpp:1"});
 }
 
+TEST_F(MadeUpTree, LongFunctionsOfPythonAndJavaScriptAreFound) {
+  file("python/a.py", "def f(x,\n      y):\n    1\n\nclass B:\n    def g(self) -> int:\n        1\n\n        2\n\n1\n");
+  file("web/a.js",
+       "const h = (x) => {\n  1;\n  2;\n  3;\n};\nif (h(1)) {\n1;\n2;\n3;\n}\n"
+       "export function k() {\n  function inner() {\n    1;\n  }\n}\nclass C {\n  m() {\n    1;\n    2;\n    3;\n  }\n"
+       "  n() {\n    for (;;) {\n    }\n  }\n}\n");
+  file("tests/a.mjs", "function t() {\n  1;\n  2;\n  3;\n}\n");
+  EXPECT_EQ(places(check_functions(tree(), {}, 2)),
+            (Places{"python/a.py:6", "web/a.js:1", "web/a.js:11", "web/a.js:17"}));
+  EXPECT_EQ(
+      places(check_functions(tree(), {{"python/a.py", "g", ""}, {"web/a.js", "k", ""}, {"web/a.js", "n", ""}}, 2)),
+      (Places{"web/a.js:1", "web/a.js:17", "web/a.js:22"}));
+}
+
 TEST_F(MadeUpTree, LongLinesAreFoundInAllCodeAndPages) {
   file("core/good.cpp", "1234\n12\u00e94\n");
   file("docs/page.md", "1234\n| 12345 |\n  ![12345](x)\n```sh\n12345\n```\n");

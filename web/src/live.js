@@ -156,20 +156,12 @@ const address = {
   },
 };
 
-async function show(order) {
-  setOrderFunction(order);
-  const places = frame(order);
-  data.describe = describe;
-  let scene;
-  const choose = ({uav = -1, point = -1, through = false}) => {
-    Object.assign(chosen, {uav, point, through});
-    address.write();
-    scene?.follow(uav, through);
-    showPanels();
-  };
-  data.onUav = (uav) => choose({uav: uav === chosen.uav ? -1 : uav});
-  data.onPoint = (point) => choose({point});
-  const [{sceneView}, {scoreChart, lanesChart}] = [await import('./scene_view.js'), await import('./charts.js')];
+/**
+ * Puts the panels beside and below the scene.
+ * @param choose  called with the UAV or point that the user chooses.
+ * @returns the panel for flights by hand, if there is one, and a function that brings all panels up to date.
+ */
+function placePanels(places, order, choose) {
   const fleet = fleetPanel(data.onUav);
   const panels = [chosenPanel(() => choose({uav: chosen.uav, through: !chosen.through}), () => choose({})), pointsPanel(data.onPoint), linksPanel(), eventsPanel(), uavFaultsPanel(), faultsPanel()];
   const hand = handPanel(order, (uav, through) => choose({uav, through}));
@@ -184,6 +176,35 @@ async function show(order) {
     fleet.show(chosen.uav);
     for (const one of panels) one.show(chosen);
   };
+  return {hand, showPanels};
+}
+
+/** @returns figures about the page, for measurements (figures.js). @param scene  undefined: there is no scene. */
+function figuresOf(scene) {
+  return {
+    end: data.end, shown: scene?.shown ?? moment.seconds, points: data.points.length / 9, capturesKept: flights.reduce((sum, flight) => sum + flight.kept(), 0),
+    otherModes: data.uavs.flatMap((_, uav) => otherModes(data.saidBy(uav))),
+    losses: Object.fromEntries(flights[0].lossesAt(Infinity)?.losses ?? []),
+    trailSegments: scene?.trails.reduce((sum, {ends}) => sum + ends.length, 0) ?? 0,
+    trailsUntil: Math.min(...(scene?.trails ?? []).map(({ends}) => ends.at(-1) ?? 0)),  // [s]
+  };
+}
+
+async function show(order) {
+  setOrderFunction(order);
+  const places = frame(order);
+  data.describe = describe;
+  let scene;
+  const choose = ({uav = -1, point = -1, through = false}) => {
+    Object.assign(chosen, {uav, point, through});
+    address.write();
+    scene?.follow(uav, through);
+    showPanels();
+  };
+  data.onUav = (uav) => choose({uav: uav === chosen.uav ? -1 : uav});
+  data.onPoint = (point) => choose({point});
+  const [{sceneView}, {scoreChart, lanesChart}] = [await import('./scene_view.js'), await import('./charts.js')];
+  const {hand, showPanels} = placePanels(places, order, choose);
   let due = 0;
   let later = 0;
   const showPanelsDue = () => {
@@ -201,13 +222,7 @@ async function show(order) {
   });
   scene = sceneView(places.scene);
   isPictureFinished = () => scene?.isFinished() ?? true;
-  addFigures(() => ({
-    end: data.end, shown: scene?.shown ?? moment.seconds, points: data.points.length / 9, capturesKept: flights.reduce((sum, flight) => sum + flight.kept(), 0),
-    otherModes: data.uavs.flatMap((_, uav) => otherModes(data.saidBy(uav))),
-    losses: Object.fromEntries(flights[0].lossesAt(Infinity)?.losses ?? []),
-    trailSegments: scene?.trails.reduce((sum, {ends}) => sum + ends.length, 0) ?? 0,
-    trailsUntil: Math.min(...(scene?.trails ?? []).map(({ends}) => ends.at(-1) ?? 0)),  // [s]
-  }));
+  addFigures(() => figuresOf(scene));
   scoreChart(places.score);
   lanesChart(places.lanes);
   showHead();
