@@ -35,6 +35,15 @@ class RandomStream {
   std::optional<double> spare_normal_;
 };
 
+/// The n-th number, from 0 on, of the generator SplitMix64 (Steele, Lea and Flood 2014) that starts at `key`: 64 random
+/// bits that depend on no other draw. @param key  random, from a RandomStream.
+inline std::uint64_t numbered_bits(std::uint64_t key, std::uint64_t n) {
+  std::uint64_t z = key + (n + 1) * 0x9e3779b97f4a7c15;
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111eb;
+  return z ^ (z >> 31);
+}
+
 /// Natural logarithm from + - * / alone: x = m 2^e with m in [sqrt(1/2), sqrt(2)), ln m = 2 artanh((m-1)/(m+1)) as
 /// its series; within 4 units in the last place, and near 1 within 1e-16.  @param x above 0 and normal.
 double portable_log(double x);

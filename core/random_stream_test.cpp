@@ -73,6 +73,13 @@ TEST(RandomStream, NormalHasTheNormalsMoments) {
   EXPECT_NEAR(static_cast<double>(beyond_two) / kDraws, 0.0455, 0.002);
 }
 
+/// The first numbers of SplitMix64 from 0, as its authors' program prints them.
+TEST(NumberedBits, AreThoseOfSplitMix64) {
+  EXPECT_EQ(numbered_bits(0, 0), 0xe220a8397b1dcdafU);
+  EXPECT_EQ(numbered_bits(0, 1), 0x6e789e6aa1b965f4U);
+  EXPECT_EQ(numbered_bits(0, 2), 0x06c45d188009454fU);
+}
+
 TEST(PortableLog, AgreesWithTheLibrary) {
   RandomStream random(1, "test", 2, 0);
   for (int i = 0; i < 100000; ++i) {
