@@ -6,6 +6,7 @@
 //     full_range_m sqrt(reflectivity cos(incidence)), and loses dark, wet and slanted surfaces, and the edges of thin
 //     members, first. The incidence angle is estimated from the ranges of the two adjacent beams of the scan.
 //   Rain and dust: a drop or a dust particle may return a beam before the beam reaches a surface.
+// The noise of a beam depends on seed, UAV, scan and the beam's index, not on what other beams hit or on rain.
 // Units: SI.  Pure; threads: one.  The same seed and scan give the same numbers.
 #pragma once
 
@@ -34,8 +35,10 @@ class LidarErrors {
   double cos_incidence(std::span<const double> ranges, std::size_t beam) const;
 
  private:
-  double slope(std::span<const double> ranges, std::size_t beam) const;
-  bool is_lost(std::span<const double> ranges, std::size_t beam) const;
+  /// Least difference between the range of a beam and that of an adjacent beam; 0 if both adjacent beams hit nothing.
+  double rise(std::span<const double> ranges, std::size_t beam) const;
+  void measure_surfaces(std::uint64_t scan, std::span<const double> ranges);
+  void add_clutter(std::uint64_t scan, std::span<const double> ranges);
 
   LidarConditions conditions_;
   LidarConfig lidar_;

@@ -8,6 +8,8 @@
 #include <numbers>
 #include <numeric>
 
+#include "core/random_stream.hpp"
+
 namespace skein::sim {
 namespace {
 
@@ -104,6 +106,127 @@ TEST(LidarErrors, NoiseGrowsWithTheRange) {
     const double count = kScans * lidar.columns, sigma = 0.002 * range;
     EXPECT_NEAR(sum / count, 0.0, 0.02 * sigma);
     EXPECT_NEAR(squares / count, sigma * sigma, 0.03 * sigma * sigma);
+  }
+}
+
+/// Scans of walls, plates, single beams and nothing.
+std::vector<double> drawn_scan(const LidarConfig& lidar, RandomStream& draw) {
+  std::vector<double> ranges;
+  while (ranges.size() < static_cast<std::size_t>(lidar.rings * lidar.columns)) {
+    const double kind = draw.uniform(), change = draw.uniform(-0.02, 0.02);
+    double range = draw.uniform(1.0, 49.0);
+    for (double left = std::floor(draw.uniform(1.0, 40.0)); left > 0.0; left -= 1.0) {
+      ranges.push_back(kind < 0.5 ? kNothing : range);
+      range = std::clamp(range * (1.0 + change), 1.0, 49.0);
+    }
+  }
+  ranges.resize(static_cast<std::size_t>(lidar.rings * lidar.columns));
+  return ranges;
+}
+
+LidarConditions drawn_conditions(RandomStream& draw) {
+  LidarConditions conditions;
+  if (draw.uniform() < 0.7) conditions.sigma_per_m = draw.uniform(0.0, 0.01);
+  if (draw.uniform() < 0.7) conditions.reflectivity = draw.uniform(0.05, 1.0);
+  if (draw.uniform() < 0.7) conditions.clutter_p = draw.uniform(0.0, 0.05);
+  return conditions;
+}
+
+TEST(LidarErrors, DependOnlyOnSeedUavScanAndConditions) {
+  LidarConfig lidar;
+  lidar.rings = 4;
+  RandomStream draw(3, "lidar_errors_test", 0);
+  LidarErrors changing({}, lidar, 7, UavIndex{2});
+  for (std::uint64_t scan = 0; scan < 100; ++scan) {
+    LidarConditions conditions = drawn_conditions(draw);
+    const std::vector<double> ranges = drawn_scan(lidar, draw);
+    changing.change(conditions);  // in flight
+    const std::vector<double> measured = changing.measure(scan, ranges);
+    ASSERT_EQ(LidarErrors(conditions, lidar, 7, UavIndex{2}).measure(scan, ranges), measured);
+    conditions.sigma_per_m = 0.001;
+    const std::vector<double> noisy = LidarErrors(conditions, lidar, 7, UavIndex{2}).measure(scan, ranges);
+    EXPECT_NE(LidarErrors(conditions, lidar, 8, UavIndex{2}).measure(scan, ranges), noisy);
+    EXPECT_NE(LidarErrors(conditions, lidar, 7, UavIndex{3}).measure(scan, ranges), noisy);
+    EXPECT_NE(LidarErrors(conditions, lidar, 7, UavIndex{2}).measure(scan + 1, ranges), noisy);
+  }
+}
+
+/// Neither rain nor what other beams hit changes the noise of a beam, and noise changes no loss.
+TEST(LidarErrors, DoNotDependOnEachOther) {
+  LidarConfig lidar;
+  lidar.rings = 4;
+  RandomStream draw(4, "lidar_errors_test", 0);
+  const auto measured = [&](const LidarConditions& conditions, std::uint64_t scan, const std::vector<double>& ranges) {
+    return LidarErrors(conditions, lidar, 7, UavIndex{0}).measure(scan, ranges);
+  };
+  int same = 0, rain = 0;
+  for (std::uint64_t scan = 0; scan < 100; ++scan) {
+    const LidarConditions all = drawn_conditions(draw);
+    LidarConditions dry = all, clear = all;
+    dry.clutter_p = clear.clutter_p = 0.0;
+    clear.sigma_per_m = 0.0;
+    std::vector<double> ranges = drawn_scan(lidar, draw);
+    const std::vector<double> with_all = measured(all, scan, ranges), noisy = measured(dry, scan, ranges),
+                              exact = measured(clear, scan, ranges);
+    for (std::size_t i = 0; i < ranges.size(); ++i) {
+      ASSERT_EQ(std::isfinite(noisy[i]), std::isfinite(exact[i])) << scan << ", " << i;
+      (with_all[i] == noisy[i] ? same : rain) += 1;
+      ASSERT_TRUE(with_all[i] == noisy[i] || with_all[i] < ranges[i]) << scan << ", " << i;
+    }
+    for (std::size_t i = 0; i < ranges.size(); ++i) {
+      if (i % 10 > 2) ranges[i] = kNothing;  // leaves one beam in ten with both neighbours
+    }
+    const std::vector<double> fewer = measured(dry, scan, ranges);
+    for (std::size_t i = 1; i < ranges.size(); i += 10) ASSERT_EQ(fewer[i], noisy[i]) << scan << ", " << i;
+  }
+  EXPECT_GT(same, 50 * rain);
+  EXPECT_GT(rain, 1000);
+}
+
+TEST(LidarErrors, NoiseOfBeamsAndOfScansIsNotCorrelated) {
+  const LidarConfig lidar = one_ring();
+  LidarErrors errors({.sigma_per_m = 0.001}, lidar, 1, UavIndex{0});
+  const std::vector<double> ranges(static_cast<std::size_t>(lidar.columns), 20.0);
+  std::vector<double> before(ranges.size(), 20.0);
+  double beams = 0.0, scans = 0.0;
+  constexpr int kScans = 2000;
+  for (std::uint64_t scan = 0; scan < kScans; ++scan) {
+    const std::vector<double>& measured = errors.measure(scan, ranges);
+    for (std::size_t i = 1; i < ranges.size(); ++i) {
+      beams += (measured[i] - 20.0) * (measured[i - 1] - 20.0) / 4e-4;
+      scans += (measured[i] - 20.0) * (before[i] - 20.0) / 4e-4;
+    }
+    before = measured;
+  }
+  const double count = kScans * (lidar.columns - 1.0);
+  EXPECT_NEAR(beams / count, 0.0, 5.0 / std::sqrt(count));
+  EXPECT_NEAR(scans / count, 0.0, 5.0 / std::sqrt(count));
+}
+
+/// Drops are drawn by the distance from one to the next: each beam meets one as often, independent of the others.
+TEST(LidarErrors, RainMeetsEachBeamAsOften) {
+  const LidarConfig lidar = one_ring();
+  const std::vector<double> ranges(static_cast<std::size_t>(lidar.columns), kNothing);
+  for (const double p : {0.1, 0.01, 1e-18}) {
+    LidarErrors errors({.clutter_p = p, .clutter_mean_m = 0.1}, lidar, 1, UavIndex{0});
+    std::vector<double> drops(ranges.size(), 0.0);
+    double all = 0.0, pairs = 0.0;
+    constexpr double kScans = 10'000;
+    for (std::uint64_t scan = 0; scan < kScans; ++scan) {
+      const std::vector<double>& measured = errors.measure(scan, ranges);
+      for (std::size_t i = 0; i < ranges.size(); ++i) {
+        if (!std::isfinite(measured[i])) continue;
+        all += 1.0;
+        drops[i] += 1.0;
+        pairs += i > 0 && std::isfinite(measured[i - 1]);
+      }
+    }
+    const auto near = [&](double count, double of, double probability) {
+      EXPECT_NEAR(count, of * probability, 5.0 * std::sqrt(of * probability) + 0.5) << p;
+    };
+    near(all, kScans * lidar.columns, p);
+    near(pairs, kScans * (lidar.columns - 1), p * p);
+    for (const double count : drops) near(count, kScans, p);
   }
 }
 
