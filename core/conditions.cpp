@@ -1,6 +1,7 @@
 #include "core/conditions.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <utility>
 #include <vector>
@@ -36,6 +37,7 @@ ConditionsConfig breezy() {
   odometry.known_start = true;
   conditions.battery.endurance_missions = 1.5;
   conditions.lidar.sigma_per_m = 0.001;
+  conditions.lidar.divergence_mrad = 3.0;
   conditions.lidar.reflectivity = 0.5;
   conditions.camera.exposure_factor = 1.5;
   conditions.camera.vibration_deg_s = 1.0;
@@ -92,6 +94,11 @@ ConditionsConfig conditions_preset(const std::string& preset) {
   if (preset == "breezy") return breezy();
   if (preset == "harsh") return harsh();
   return {};
+}
+
+double lidar_sigma_m(const LidarConditions& lidar, double range_m, double tan_incidence) {
+  return range_m *
+         std::hypot(lidar.sigma_per_m, lidar_sigma_across(lidar) * std::min(tan_incidence, kMostTanIncidence));
 }
 
 std::vector<std::string> condition_sections() {

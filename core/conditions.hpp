@@ -68,13 +68,25 @@ struct BatteryConditions {
 struct LidarConditions {
   std::string preset = "none";
   double sigma_per_m = 0.0;                 ///< range noise per metre of range, on top of the vehicle's sigma_m
+  double divergence_mrad = 0.0;             ///< full angle of a beam: on slanted surfaces, it adds range noise
   std::optional<double> reflectivity = {};  ///< of all surfaces at normal incidence; none: no return is lost
   double full_range_m = 100.0;              ///< range at which a perpendicular white surface is just seen
   double clutter_p = 0.0;                   ///< probability that rain or dust returns a beam
   double clutter_mean_m = 4.0;              ///< mean distance of these returns beyond the minimum range; exponential
 
-  bool on() const { return sigma_per_m > 0.0 || reflectivity.has_value() || clutter_p > 0.0; }
+  bool on() const { return sigma_per_m > 0.0 || divergence_mrad > 0.0 || reflectivity.has_value() || clutter_p > 0.0; }
 };
+
+/// Greatest tangent of the incidence angle for the range noise: that of 80 degrees. On thin members, the angle that the
+/// ranges of adjacent beams suggest is close to 90 degrees, and the noise would have no bound.
+inline constexpr double kMostTanIncidence = 5.671281819617709;
+
+/// Standard deviation of the range noise per metre of range and per tangent of the incidence angle: a quarter of the
+/// beam's diameter, which is the standard deviation of a place in an evenly lit disc.
+inline double lidar_sigma_across(const LidarConditions& lidar) { return 0.25e-3 * lidar.divergence_mrad; }
+
+/// Standard deviation of the range noise that conditions add [m].
+double lidar_sigma_m(const LidarConditions& lidar, double range_m, double tan_incidence);
 
 /// Effects that make pictures worse than the vehicle's file implies.
 struct CameraConditions {

@@ -81,6 +81,7 @@ void describe(auto& r, BatteryConditions& battery) {
 void describe(auto& r, LidarConditions& lidar) {
   describe_preset(r, lidar.preset, [&] { lidar = conditions_preset(lidar.preset).lidar; });
   r.field("sigma_per_m", lidar.sigma_per_m, within(0.0, 0.1));
+  r.field("divergence_mrad", lidar.divergence_mrad, within(0.0, 20.0));
   r.field("reflectivity", lidar.reflectivity, within(0.001, 1.0));
   r.field("full_range_m", lidar.full_range_m, within(1.0, 1000.0));
   r.field("clutter_p", lidar.clutter_p, within(0.0, 0.1));

@@ -77,6 +77,14 @@ TEST_F(ConditionsFile, TheOptionReplacesWholeSections) {
   EXPECT_EQ(conditions_text(conditions_preset("breezy")), "breezy");
 }
 
+TEST(LidarSigma, IsThatOfTheConditionsPage) {
+  const LidarConditions breezy = conditions_preset("breezy").lidar;
+  EXPECT_NEAR(lidar_sigma_m(breezy, 20.0, 0.0), 0.020, 1e-12);
+  EXPECT_NEAR(lidar_sigma_m(breezy, 20.0, 1.0), 0.025, 1e-12);  // 1 and 0.75 mm per metre
+  EXPECT_EQ(lidar_sigma_m(breezy, 20.0, 1e9), lidar_sigma_m(breezy, 20.0, kMostTanIncidence));
+  EXPECT_TRUE(LidarConditions{.divergence_mrad = 1.0}.on());
+}
+
 struct BadValue {
   const char *text, *option, *names;
 };
@@ -103,6 +111,7 @@ INSTANTIATE_TEST_SUITE_P(
                       BadValue{"conditions: {battery: {efficiency: 1.2}}\n", "", "battery.efficiency: must be"},
                       BadValue{"conditions: {battery: {swap_s: 0}}\n", "", "battery.swap_s: must be"},
                       BadValue{"conditions: {lidar: {clutter_p: 1}}\n", "", "lidar.clutter_p: must be"},
+                      BadValue{"conditions: {lidar: {divergence_mrad: 21}}\n", "", "divergence_mrad: must be"},
                       BadValue{"conditions: {camera: {exposure_factor: 0}}\n", "", "exposure_factor: must be"},
                       BadValue{"conditions: {radio: {exponent: 9}}\n", "", "radio.exponent: must be"},
                       BadValue{"conditions: {battery: {swap_s: 5}}\n", "", "battery.swap_s: needs endurance_missions"},

@@ -45,6 +45,9 @@ void LidarErrors::measure_surfaces(std::uint64_t scan, std::span<const double> r
                            ? conditions_.full_range_m * conditions_.full_range_m * *conditions_.reflectivity
                            : kNothing;
   const double lost4 = (1.0 + kRounding) * seen2 * seen2, kept4 = (1.0 - kRounding) * seen2 * seen2;
+  const double along = conditions_.sigma_per_m, across = lidar_sigma_across(conditions_);
+  const double along2 = along * along, across2 = across * across;
+  const bool noisy = along > 0.0 || across > 0.0;
   const NormalTable& normal = NormalTable::get();
   const std::uint64_t key = RandomStream(seed_, "lidar_errors", uav_, scan).bits();
 
@@ -65,9 +68,9 @@ void LidarErrors::measure_surfaces(std::uint64_t scan, std::span<const double> r
         if (range > conditions_.full_range_m * std::sqrt(*conditions_.reflectivity * cos)) continue;
       }
       measured = range;
-      if (conditions_.sigma_per_m > 0.0) {
-        measured += conditions_.sigma_per_m * range * normal(numbered_bits(key, first + column));
-      }
+      if (!noisy) continue;
+      const double slanted = std::min(run, kMostTanIncidence * range);
+      measured += std::sqrt(along2 * range2 + across2 * slanted * slanted) * normal(numbered_bits(key, first + column));
     }
   }
 }

@@ -109,6 +109,71 @@ TEST(LidarErrors, NoiseGrowsWithTheRange) {
   }
 }
 
+/// Angle of a beam of wall(), which is its incidence angle.
+double azimuth_of(const LidarConfig& lidar, std::size_t column) {
+  return 2.0 * std::numbers::pi * static_cast<double>(column) / lidar.columns - std::numbers::pi;
+}
+
+double tan_of(double cos) { return std::sqrt(1.0 / (cos * cos) - 1.0); }
+
+/// Squares of the noise of a ring's beams, on average over scans.
+std::vector<double> mean_squares(LidarErrors& errors, const std::vector<double>& ranges, std::uint64_t scans) {
+  std::vector<double> squares(ranges.size(), 0.0);
+  for (std::uint64_t scan = 0; scan < scans; ++scan) {
+    const std::vector<double>& measured = errors.measure(scan, ranges);
+    for (std::size_t i = 0; i < ranges.size(); ++i) {
+      const double noise = std::isfinite(ranges[i]) ? measured[i] - ranges[i] : 0.0;
+      squares[i] += noise * noise / static_cast<double>(scans);
+    }
+  }
+  return squares;
+}
+
+TEST(LidarErrors, NoiseIsThatOfTheModelAtEachRangeAndIncidence) {
+  const LidarConfig lidar = one_ring();
+  RandomStream draw(2, "lidar_errors_test", 0);
+  constexpr std::uint64_t kScans = 4000;
+  constexpr double kStatistics = 5.5 * std::numbers::sqrt2 / 63.0;  // of a mean of 4000 squares
+  int bounded = 0;
+  for (std::uint64_t world = 0; world < 6; ++world) {
+    const LidarConditions conditions{.sigma_per_m = world == 0 ? 0.0 : draw.uniform(0.0005, 0.003),
+                                     .divergence_mrad = world == 1 ? 0.0 : draw.uniform(0.5, 6.0)};
+    LidarErrors errors(conditions, lidar, world, UavIndex{0});
+    const std::vector<double> ranges = wall(lidar, draw.uniform(1.0, 40.0));
+    const std::vector<double> squares = mean_squares(errors, ranges, kScans);
+    for (std::size_t i = 0; i < ranges.size(); ++i) {
+      const double azimuth = azimuth_of(lidar, i);
+      if (!std::isfinite(ranges[i]) || std::abs(azimuth) < 0.1) continue;
+      const double estimated = lidar_sigma_m(conditions, ranges[i], tan_of(errors.cos_incidence(ranges, i)));
+      ASSERT_NEAR(squares[i] / (estimated * estimated), 1.0, kStatistics) << world << ", " << azimuth;
+      // The angle is computed from beams 0.8 degrees apart.
+      const double real = lidar_sigma_m(conditions, ranges[i], std::tan(std::abs(azimuth)));
+      ASSERT_NEAR(std::sqrt(squares[i]) / real, 1.0, 0.5 * kStatistics + 0.1) << world << ", " << azimuth;
+      if (std::tan(std::abs(azimuth)) < 1.1 * kMostTanIncidence) continue;
+      const double most = lidar_sigma_m(conditions, ranges[i], kMostTanIncidence);
+      ASSERT_NEAR(squares[i] / (most * most), 1.0, kStatistics) << "beyond 80 degrees: " << azimuth;
+      ++bounded;
+    }
+  }
+  EXPECT_GT(bounded, 50);
+}
+
+TEST(LidarErrors, EdgesAndSingleBeamsHaveTheNoiseOfPerpendicularSurfaces) {
+  const LidarConfig lidar = one_ring();
+  const LidarConditions conditions{.sigma_per_m = 0.001, .divergence_mrad = 3.0};
+  LidarErrors errors(conditions, lidar, 1, UavIndex{0});
+  std::vector<double> ranges(static_cast<std::size_t>(lidar.columns), kNothing);
+  std::fill_n(ranges.begin() + 100, 20, 30.0);  // background, a plate in front of it, background, nothing
+  std::fill_n(ranges.begin() + 120, 20, 10.0);
+  std::fill_n(ranges.begin() + 140, 20, 30.0);
+  ranges[200] = 20.0;
+  const std::vector<double> squares = mean_squares(errors, ranges, 4000);
+  for (std::size_t i = 0; i < ranges.size(); ++i) {
+    if (!std::isfinite(ranges[i])) continue;
+    EXPECT_NEAR(squares[i] / (1e-6 * ranges[i] * ranges[i]), 1.0, 0.13) << i;
+  }
+}
+
 /// Scans of walls, plates, single beams and nothing.
 std::vector<double> drawn_scan(const LidarConfig& lidar, RandomStream& draw) {
   std::vector<double> ranges;
@@ -127,6 +192,7 @@ std::vector<double> drawn_scan(const LidarConfig& lidar, RandomStream& draw) {
 LidarConditions drawn_conditions(RandomStream& draw) {
   LidarConditions conditions;
   if (draw.uniform() < 0.7) conditions.sigma_per_m = draw.uniform(0.0, 0.01);
+  if (draw.uniform() < 0.7) conditions.divergence_mrad = draw.uniform(0.0, 10.0);
   if (draw.uniform() < 0.7) conditions.reflectivity = draw.uniform(0.05, 1.0);
   if (draw.uniform() < 0.7) conditions.clutter_p = draw.uniform(0.0, 0.05);
   return conditions;
@@ -164,7 +230,7 @@ TEST(LidarErrors, DoNotDependOnEachOther) {
     const LidarConditions all = drawn_conditions(draw);
     LidarConditions dry = all, clear = all;
     dry.clutter_p = clear.clutter_p = 0.0;
-    clear.sigma_per_m = 0.0;
+    clear.sigma_per_m = clear.divergence_mrad = 0.0;
     std::vector<double> ranges = drawn_scan(lidar, draw);
     const std::vector<double> with_all = measured(all, scan, ranges), noisy = measured(dry, scan, ranges),
                               exact = measured(clear, scan, ranges);
