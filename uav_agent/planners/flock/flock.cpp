@@ -6,6 +6,7 @@
 // 2. The targets propose views (views.hpp), and the formulas of the score judge them.
 // 3. Each UAV takes the views that gain most per second (route.hpp), without what others have announced (talk.hpp).
 //    There are no teams and no fixed shares: when a UAV is lost, its claims expire, and others take its work.
+//    A UAV whose camera has failed (camera.hpp) takes and announces no views until the camera works again.
 // 4. Explorers do the same work. In addition, they fly through space that is not proved free yet, which opens it to the
 //    photographers, and to where no LiDAR has looked for structure (survey.hpp).
 // The flight core does the flying (flight_core/flight_core.hpp); docs/flock.md tells how well it works.
@@ -17,14 +18,15 @@
 #include "uav_agent/api/planner.hpp"
 #include "uav_agent/flight/free_space.hpp"
 #include "uav_agent/flight/voxel_route.hpp"
+#include "uav_agent/planners/flock/camera.hpp"
 #include "uav_agent/planners/flock/config.hpp"
 #include "uav_agent/planners/flock/reach.hpp"
 #include "uav_agent/planners/flock/route.hpp"
+#include "uav_agent/planners/flock/stay.hpp"
 #include "uav_agent/planners/flock/surfaces.hpp"
 #include "uav_agent/planners/flock/talk.hpp"
 #include "uav_agent/planners/flock/trail.hpp"
 #include "uav_agent/planners/flock/views.hpp"
-#include "uav_agent/planning/aiming.hpp"
 #include "uav_agent/planning/strips.hpp"
 
 namespace skein::agent {
@@ -32,16 +34,10 @@ namespace {
 
 constexpr double kLookAtMapS = 1.0;        ///< time between two looks at the map
 constexpr std::uint64_t kCameraSteps = 3;  ///< exchanges between two updates from the camera's view
-constexpr double kReachedM = 0.6;          ///< a view is taken from within this distance ...
-constexpr double kAimed = 0.12;            ///< ... with the camera this near to its direction [rad]
-constexpr double kPictureS = 0.15;         ///< the camera takes a picture within this time
-constexpr double kPatienceS = 2.5;         ///< longest stay at a view, for the camera to turn
 constexpr double kRestS = 0.5;             ///< time between two decisions while there is nothing to photograph
-constexpr double kClaimedShare = 0.9;      ///< share of an announced view's quality that counts as photographed
 constexpr std::size_t kMostLegs = 3;
 constexpr int kTries = 4;               ///< most routes tried in a decision, if there is no way to the first view
 constexpr double kAimAheadS = 0.9;      ///< so long before a view, the camera turns to it
-constexpr double kLeastGlance = 0.3;    ///< glances with less gain are left out [points]
 constexpr double kPointsPerS = 1.2;     ///< points that a UAV photographs where there are enough
 constexpr double kGoodRate = 3.0;       ///< gain that a route promises where there are enough points [points/s]
 constexpr double kSeekAfterS = 4.0;     ///< after resting for so long, the flight core searches paths to ...
@@ -60,6 +56,7 @@ class FlockPlanner final : public Planner {
         agent_(agent),
         sharp_m_(camera_reach(agent.vehicle.camera, agent.desired_mm_per_pixel).sharp_distance_m),
         views_(config_, agent_, sharp_m_),
+        camera_(agent.vehicle.camera.trigger_interval_s),
         talk_({.share_s = config.share_s, .claim_s = config.claim_s}, agent_),
         reach_(agent_, talk_) {}
 
@@ -70,14 +67,14 @@ class FlockPlanner final : public Planner {
   void set_up(const PlannerInput& in);
   bool has_lidar() const { return agent_.me().role == Role::explorer; }
   void look_around(const PlannerInput& in);
+  void change_work();
   void handle_outcome(const Outcome& outcome, const PlannerInput& in);
   void carry_on(const PlannerInput& in, PlannerOutput& out);
-  bool view_taken(const PlannerInput& in);
   void note_picture(const FlockView::Sight& sight);
   void glance(const PlannerInput& in, PlannerOutput& out);
   double lack_of_work(const PlannerInput& in, const FlockTargets& targets) const;
+  std::vector<FlockView> find_views(const PlannerInput& in);
   void decide(const PlannerInput& in, PlannerOutput& out);
-  void count_claims(const PlannerInput& in, FlockTargets& targets) const;
   std::optional<std::vector<Vector3d>> way_W(const PlannerInput& in, const Vector3d& to_W) const;
   void offer(const PlannerInput& in, const std::optional<std::vector<Vector3d>>& way, PlannerOutput& out);
   void rest(const PlannerInput& in, std::vector<Vector3d> sought_W, PlannerOutput& out);
@@ -87,6 +84,7 @@ class FlockPlanner final : public Planner {
   const AgentConfig agent_;
   const double sharp_m_;
   FlockViews views_;
+  FlockCamera camera_;
   FlockTalk talk_;
   FlockReach reach_;
   std::optional<FlockSurfaces> surfaces_;  ///< set when the boxes have arrived
@@ -95,12 +93,13 @@ class FlockPlanner final : public Planner {
   std::vector<FlockView> route_;  ///< the UAV flies to the first view
   std::int64_t id_ = 0;           ///< id of the route's goal
   bool rests_ = false;
-  std::optional<Tick> there_since_, aimed_since_;
+  FlockStay stay_;
   Tick planned_at_ = 0, glance_until_ = 0, sought_at_ = 0;
   double rate_ = 0.0, best_rate_ = kGoodRate;  ///< gain that its routes promise: average, and best average [points/s]
   bool glances_ = false;                       ///< the camera looks elsewhere than the route's first view
   FlockTrail trail_;
   Vector3d rest_W_ = Vector3d::Zero();
+  std::optional<FlockView> lookout_;  ///< where it waits for its camera to work again
 };
 
 PlannerOutput FlockPlanner::plan(const PlannerInput& in) {
@@ -135,10 +134,16 @@ void FlockPlanner::set_up(const PlannerInput& in) {
 void FlockPlanner::look_around(const PlannerInput& in) {
   const CameraState camera = camera_state(in.state, in.gimbal, agent_.vehicle.camera);
   surfaces_->detect(in.detected, camera.X_WC.translation());
+  const bool failed = camera_.failed();
+  camera_.hear(!in.detected.empty(), in.tick);
   if (in.k % kCameraSteps == 0 && in.tracking.airborne) {
     const Exposure exposure(camera, agent_.vehicle.camera, agent_.desired_mm_per_pixel, ResolutionRule::contest);
-    surfaces_->look_at_picture(exposure, in.tick);
+    if (camera_.in_doubt(in.tick)) {
+      camera_.expect(surfaces_->clear_points(exposure, in.tick), exposure.position(), in.tick);
+    }
+    if (!camera_.failed()) surfaces_->look_at_picture(exposure, in.tick);
   }
+  if (camera_.failed() != failed) change_work();
   if (!agent_.due(in.k, kLookAtMapS, agent_.self)) return;
   surfaces_->look_at_map(*in.world_map);
   if (has_lidar()) surfaces_->survey().look(surfaces_->grid(), in.state.p_WB);
@@ -149,42 +154,38 @@ void FlockPlanner::look_around(const PlannerInput& in) {
   }
 }
 
+/// The camera has failed, or works again: what this UAV was about to do no longer makes sense.
+void FlockPlanner::change_work() {
+  if (camera_.failed()) surfaces_->forget_pictures();
+  route_.clear();
+  lookout_.reset();
+  rests_ = glances_ = false;
+}
+
 void FlockPlanner::handle_outcome(const Outcome& outcome, const PlannerInput& in) {
+  if (lookout_ && outcome.kind != Outcome::Kind::reached) {
+    reach_.refuse(lookout_->p_WB, in.tick);
+    lookout_.reset();
+  }
   if (outcome.id != id_ || route_.empty() || outcome.kind == Outcome::Kind::reached) return;
   reach_.refuse(route_.front().p_WB, in.tick);
   route_.clear();
 }
 
-/// Whether the first view of the route has been taken, or the camera has not reached its direction in time.
-bool FlockPlanner::view_taken(const PlannerInput& in) {
-  const FlockView& view = route_.front();
-  if ((in.state.p_WB - view.p_WB).norm() > kReachedM) {
-    there_since_.reset();
-    aimed_since_.reset();
-    return false;
-  }
-  if (!there_since_) there_since_ = in.tick;
-  const bool aimed = aim_error(view.aim_W, in.state, in.gimbal, agent_.vehicle) < kAimed;
-  if (!aimed) aimed_since_.reset();
-  if (aimed && !aimed_since_) aimed_since_ = in.tick;
-  return (aimed && seconds(in.tick - *aimed_since_) >= kPictureS) || seconds(in.tick - *there_since_) > kPatienceS;
-}
-
 void FlockPlanner::carry_on(const PlannerInput& in, PlannerOutput& out) {
   if (rests_ && seconds(in.tick - planned_at_) < kRestS) return;
-  const bool on_its_way = !route_.empty() && !there_since_;
+  const bool on_its_way = !route_.empty() && !stay_.arrived();
   if (reach_.stalls(in, on_its_way ? std::optional(route_.front().p_WB) : std::nullopt)) route_.clear();
   const bool due = seconds(in.tick - planned_at_) >= config_.replan_s;
-  const bool taken = !route_.empty() && view_taken(in);
+  const bool taken = !route_.empty() && stay_.done(route_.front(), in, agent_.vehicle);
   if (taken) {
     for (const FlockView::Sight& sight : route_.front().sights) {
       note_picture(sight);
-      if (!aimed_since_) surfaces_->leave_out(targets_->all()[sight.target], in.tick);
+      if (!stay_.aimed()) surfaces_->leave_out(targets_->all()[sight.target], in.tick);
     }
     if (route_.front().survey > 0.0) surfaces_->survey().visited(in.state.p_WB, views_.surveyed_m());
     route_.erase(route_.begin());
-    there_since_.reset();
-    aimed_since_.reset();
+    stay_.end();
   }
   if (due || route_.empty()) {
     decide(in, out);
@@ -214,39 +215,11 @@ void FlockPlanner::glance(const PlannerInput& in, PlannerOutput& out) {
   }
   glance_until_ = in.tick + ticks(config_.glance_s);
   const Vector3d soon_W = in.state.p_WB + 0.5 * config_.glance_s * in.state.v_WB;
-  FlockView best;
-  double most = kLeastGlance;
-  for (const Vector3d& aim_W : views_.aims(*targets_, soon_W, in.state, in.gimbal)) {
-    FlockView view{.p_WB = soon_W, .aim_W = aim_W};
-    views_.judge(*surfaces_, *targets_, view);
-    double gain = 0.0;
-    for (const FlockView::Sight& sight : view.sights) {
-      const FlockTarget& target = targets_->all()[sight.target];
-      gain += target.points * std::max(0.0, sight.q - target.have);
-    }
-    if (gain <= most) continue;
-    most = gain;
-    best = std::move(view);
-  }
-  if (best.sights.empty()) return;
-  for (const FlockView::Sight& sight : best.sights) note_picture(sight);
+  const auto best = views_.glance(*surfaces_, *targets_, soon_W, in.state, in.gimbal);
+  if (!best) return;
+  for (const FlockView::Sight& sight : best->sights) note_picture(sight);
   glances_ = true;
-  out.gimbal = best.aim_W;
-}
-
-/// Counts targets that other UAVs have announced to photograph as photographed with kClaimedShare of the quality.
-void FlockPlanner::count_claims(const PlannerInput& in, FlockTargets& targets) const {
-  for (const auto& [uav, claims] : talk_.claims(in.tick)) {
-    for (const FlockClaim& claim : claims) {
-      FlockView view{.p_WB = claim.p_WB, .aim_W = claim.aim_W};
-      if (!((view.aim_W - view.p_WB).norm() > 0.1)) continue;
-      views_.judge(*surfaces_, targets, view);
-      for (const FlockView::Sight& sight : view.sights) {
-        FlockTarget& target = targets.all()[sight.target];
-        target.have = std::max(target.have, kClaimedShare * sight.q);
-      }
-    }
-  }
+  out.gimbal = best->aim_W;
 }
 
 /// How short work is, from 0 to 1, which decides what surveying is worth to an explorer. The greater of two numbers:
@@ -263,13 +236,24 @@ double FlockPlanner::lack_of_work(const PlannerInput& in, const FlockTargets& ta
   return std::clamp(1.0 - std::min(open / std::max(1.0, capacity), pays), 0.0, 1.0);
 }
 
+/// Finds the targets, and views of them. Without a camera, there is no view to take; the targets are then all known
+/// points, at which the UAV glances: one that it detects proves that the camera works again.
+std::vector<FlockView> FlockPlanner::find_views(const PlannerInput& in) {
+  if (camera_.failed()) {
+    targets_.emplace(surfaces_->known_points(), views_.range_m());
+    return {};
+  }
+  FlockTargets& targets = targets_.emplace(surfaces_->targets(in.tick), views_.range_m());
+  for (const auto& [uav, claims] : talk_.claims(in.tick)) views_.count_claims(*surfaces_, claims, targets);
+  return views_.find(*surfaces_, targets, *in.space, in.tracking.setpoint.p_WB, has_lidar());
+}
+
 void FlockPlanner::decide(const PlannerInput& in, PlannerOutput& out) {
   planned_at_ = in.tick;
   reach_.update(in.tick);
-  FlockTargets& targets = targets_.emplace(surfaces_->targets(in.tick), views_.range_m());
-  count_claims(in, targets);
+  std::vector<FlockView> views = find_views(in);
+  FlockTargets& targets = *targets_;
   const Vector3d here_W = in.tracking.setpoint.p_WB;
-  std::vector<FlockView> views = views_.find(*surfaces_, targets, *in.space, here_W, has_lidar());
   std::vector<Vector3d> best_W = reach_.not_taken(views, kMostSought, in);
   const auto unreachable = [&](const FlockView& view) { return reach_.out_of_reach(view.p_WB, in); };
   std::erase_if(views, unreachable);
@@ -278,7 +262,7 @@ void FlockPlanner::decide(const PlannerInput& in, PlannerOutput& out) {
   if (!route_.empty()) {
     FlockView view = route_.front();
     survey = std::exchange(view.survey, 0.0);
-    views_.judge(*surfaces_, targets, view);
+    if (!camera_.failed()) views_.judge(*surfaces_, targets, view);
     if (!unreachable(view)) {
       current = views.size();
       views.push_back(std::move(view));
@@ -291,10 +275,10 @@ void FlockPlanner::decide(const PlannerInput& in, PlannerOutput& out) {
                       config_.depth, current);
   };
   FlockRoute route = best_route();
-  rate_ += kRateShare * (route.rate() - rate_);
+  if (!camera_.failed()) rate_ += kRateShare * (route.rate() - rate_);
   best_rate_ = std::max(best_rate_, rate_);
   if (has_lidar()) {
-    const double lack = lack_of_work(in, targets);
+    const double lack = camera_.failed() ? 1.0 : lack_of_work(in, targets);
     const std::size_t pictures = views.size();
     views_.find_gaps(*surfaces_, *in.space, here_W, lack, views);
     const auto gaps = views.begin() + static_cast<std::ptrdiff_t>(pictures);
@@ -320,8 +304,9 @@ void FlockPlanner::decide(const PlannerInput& in, PlannerOutput& out) {
   const bool goes_on = current && route.views.front() == *current;
   route_.clear();
   for (const std::size_t i : route.views) route_.push_back(views[i]);
-  if (!goes_on) there_since_.reset();
+  if (!goes_on) stay_.leave_place();
   rests_ = false;
+  lookout_.reset();
   offer(in, way, out);
 }
 
@@ -364,28 +349,42 @@ void FlockPlanner::offer(const PlannerInput& in, const std::optional<std::vector
 /// For a UAV without any view within its reach. A photographer follows an explorer. Otherwise, the flight core searches
 /// paths to views that the UAV cannot reach through the cubes of its map; a UAV below a canopy perhaps. If there are
 /// none, an explorer leaves it to the flight core's recovery to see more of the site, and other UAVs hover. With a
-/// goal, the flight core begins no recovery behaviour.
+/// goal, the flight core begins no recovery behaviour. A UAV whose camera has failed waits aside, at a place from which
+/// the camera would see known points.
 /// @param sought_W  the best views that are out of reach.
 void FlockPlanner::rest(const PlannerInput& in, std::vector<Vector3d> sought_W, PlannerOutput& out) {
   route_.clear();
   if (!rests_) sought_at_ = in.tick - ticks(kSeekS - kSeekAfterS);
-  const std::optional<Vector3d> behind_W = has_lidar() ? std::nullopt : trail_.behind_explorer_W(in);
+  std::optional<Vector3d> aside_W = has_lidar() ? std::nullopt : trail_.behind_explorer_W(in);
   const bool explores = has_lidar() && !surfaces_->survey().gaps().empty();
-  const bool may_seek = !behind_W && (!sought_W.empty() || explores);
+  if (camera_.failed()) {
+    if (!lookout_ && !explores) {
+      const Vector3d here_W = in.tracking.setpoint.p_WB;
+      lookout_ = reach_.first(views_.lookouts(*surfaces_, *targets_, *in.space, here_W), in);
+    }
+    if (lookout_) aside_W = lookout_->p_WB;
+    const auto look = lookout_ ? lookout_ : views_.glance(*surfaces_, *targets_, in.state.p_WB, in.state, in.gimbal);
+    if (look) out.gimbal = look->aim_W;
+  }
+  const bool may_seek = !aside_W && (!sought_W.empty() || explores);
   const bool seeks = may_seek && seconds(in.tick - sought_at_) >= kSeekS;
-  if (rests_ && !seeks && (may_seek || in.flight.goal) && (!behind_W || FlockTrail::same(*behind_W, rest_W_))) return;
+  if (rests_ && !seeks && (may_seek || in.flight.goal) && (!aside_W || FlockTrail::same(*aside_W, rest_W_))) return;
   rests_ = true;
   out.goals.emplace();
   if (seeks) {
     sought_at_ = in.tick;
   } else {
-    rest_W_ = behind_W.value_or(in.tracking.setpoint.p_WB);
+    rest_W_ = aside_W.value_or(in.tracking.setpoint.p_WB);
     sought_W = {rest_W_};
   }
   for (const Vector3d& p_W : sought_W) out.goals->push_back({.id = ++id_, .way = {{p_W, config_.flight.approach_mps}}});
+  if (!lookout_) return;
+  const Vector3d look = lookout_->aim_W - lookout_->p_WB;
+  out.goals->front().yaw = std::atan2(look.y(), look.x());
 }
 
 FlockWord FlockPlanner::own_word() const {
+  if (camera_.failed()) return {};  // a claim is a promise of pictures
   FlockWord word{.rate = rate_};
   for (const FlockView& view : route_) {
     if (word.claims.size() < FlockTalk::kMostClaims) word.claims.push_back({view.p_WB, view.aim_W});

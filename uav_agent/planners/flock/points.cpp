@@ -155,6 +155,13 @@ void FlockPoints::expect_better(std::size_t point, Tick now) {
   expected.not_before = now + ticks(kVainS);
 }
 
+void FlockPoints::expect_again() {
+  for (FlockPoint& point : points_) {
+    point.vain = 0;
+    point.not_before = 0;
+  }
+}
+
 std::uint16_t FlockPoints::hash_of(const Region& region) const {
   if (!region.changed) return region.hash;
   std::uint32_t hash = kHashStart;

@@ -46,6 +46,8 @@ class FlockPoints {
   /// Call it when a picture of this UAV should show a point better than any before. After ten pictures that did not,
   /// something must hide the point that is not on the map: the point is left out for two minutes.
   void expect_better(std::size_t point, Tick now);
+  /// Forgets the pictures that did not show a point, and leaves none out: the camera had failed.
+  void expect_again();
   const std::vector<FlockPoint>& all() const { return points_; }
 
   /// Appends the hashes of all regions, and regions that differ at a UAV in line of sight.

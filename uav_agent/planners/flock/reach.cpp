@@ -68,6 +68,12 @@ std::vector<Vector3d> FlockReach::not_taken(const std::vector<FlockView>& views,
   return places_W;
 }
 
+std::optional<FlockView> FlockReach::first(const std::vector<FlockView>& views, const PlannerInput& in) const {
+  const auto in_reach = [&](const FlockView& view) { return !out_of_reach(view.p_WB, in); };
+  const auto found = std::ranges::find_if(views, in_reach);
+  return found == views.end() ? std::nullopt : std::optional(*found);
+}
+
 bool FlockReach::stalls(const PlannerInput& in, const std::optional<Vector3d>& to_W) {
   if (!to_W || (in.state.p_WB - gained_p_W_).norm() > kGainM) {
     gained_p_W_ = in.state.p_WB;

@@ -32,6 +32,8 @@ class FlockReach {
   bool taken(const Vector3d& p_WB, const PlannerInput& in) const;
   /// Places of the first `most` of these views that are not taken.
   std::vector<Vector3d> not_taken(const std::vector<FlockView>& views, std::size_t most, const PlannerInput& in) const;
+  /// The first of these views that is in reach.
+  std::optional<FlockView> first(const std::vector<FlockView>& views, const PlannerInput& in) const;
 
  private:
   struct Refused {

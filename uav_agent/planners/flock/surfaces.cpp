@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "core/euler.hpp"
+
 namespace skein::agent {
 namespace {
 
@@ -18,6 +20,9 @@ constexpr double kClearlyBetter = 0.1;  ///< least improvement of quality that c
 constexpr double kMergeSigmas = 2.0;  ///< detections of a point are this near: standard deviations, relative, per axis
 constexpr double kFacing = 0.17;      ///< least cosine between line of sight and a face's normal
 constexpr double kLeftOutS = 120.0;
+constexpr double kClear = 0.6, kClearFacing = 0.3;  ///< clear view of a point: least quality; least such cosine
+constexpr double kMiddle = 0.6;                     ///< ... within this share of the picture's width and height
+constexpr double kMostAbove = 0.3;                  ///< ... sine of the most elevation above the camera
 constexpr double kRangeRatio = 1.6;  ///< most distance of a face, in units of d*: farther ones are not sharp
 
 VoxelGrid site_grid(const std::vector<OrientedBox>& boxes, const FlockConfig& config, double sharp_m) {
@@ -87,7 +92,47 @@ bool FlockSurfaces::sees(const Vector3d& p_WC, const Vector3d& p_W) const {
 void FlockSurfaces::detect(std::span<const DetectedPoint> detected, const Vector3d& p_WC) {
   if (detected.empty()) return;
   points_.detect(detected, p_WC);
-  for (const auto& [id, face] : std::exchange(not_told_, {})) grid_.mark(id, face);
+  for (const Look& look : std::exchange(not_told_, {})) {
+    if (look.shown) grid_.mark(look.id, look.face);
+  }
+}
+
+void FlockSurfaces::forget_pictures() {
+  for (auto look = not_told_.rbegin(); look != not_told_.rend(); ++look) {
+    tenths_[listed_[look->id] - 1][static_cast<std::size_t>(look->face)] = look->tenths;
+    const std::uint8_t shown = look->shown ? static_cast<std::uint8_t>(1U << look->face) : std::uint8_t{0};
+    looked_here_[look->id] = static_cast<std::uint8_t>(looked_here_[look->id] & ~shown);
+  }
+  not_told_.clear();
+  points_.expect_again();
+}
+
+std::vector<std::size_t> FlockSurfaces::clear_points(const Exposure& exposure, Tick now) const {
+  const double width = kMiddle * std::tan(0.5 * agent_.vehicle.camera.hfov_deg * kRadPerDeg);
+  const double height = kMiddle * std::tan(0.5 * agent_.vehicle.camera.vfov_deg * kRadPerDeg);
+  const std::vector<FlockPoint>& points = points_.all();
+  std::vector<std::size_t> clear;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto p_C = exposure.view(points[i].p_W);
+    if (!p_C || points[i].not_before > now) continue;
+    const Vector3d way = exposure.position() - points[i].p_W;
+    const double off_m = way.norm();
+    const bool framed = std::abs(p_C->y()) < width * p_C->x() && std::abs(p_C->z()) < height * p_C->x();
+    // The UAV's own body hides what is above the camera.
+    if (!framed || points[i].n_W.dot(way) < kClearFacing * off_m || -way.z() > kMostAbove * off_m) continue;
+    const auto score = exposure.score(*p_C, points[i].n_W);
+    if (score && score->score() >= kClear && sees(exposure.position(), points[i].p_W)) clear.push_back(i);
+  }
+  return clear;
+}
+
+std::vector<FlockTarget> FlockSurfaces::known_points() const {
+  std::vector<FlockTarget> targets;
+  for (const FlockPoint& point : points_.all()) {
+    const auto number = static_cast<std::uint32_t>(targets.size());
+    targets.push_back({point.p_W, point.n_W, 1.0, 0.0, true, 2 * number + 1});
+  }
+  return targets;
 }
 
 void FlockSurfaces::look_at_picture(const Exposure& exposure, Tick now) {
@@ -128,10 +173,9 @@ void FlockSurfaces::look_at_faces(const Exposure& exposure) {
       if (!shown && tenths <= best) continue;
       if (!asked && !sees(p_WC, surface)) return;
       asked = true;
+      not_told_.push_back({id, face, best, shown});
       best = std::max(best, tenths);
-      if (!shown) continue;
-      looked_here_[id] = static_cast<std::uint8_t>(looked_here_[id] | 1U << face);
-      not_told_.emplace_back(id, face);
+      if (shown) looked_here_[id] = static_cast<std::uint8_t>(looked_here_[id] | 1U << face);
     }
   });
 }

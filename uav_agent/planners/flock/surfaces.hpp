@@ -57,6 +57,13 @@ class FlockSurfaces {
   /// Adds the camera's detections. Only a detection marks the faces that the camera looked at for the other UAVs:
   /// without one, the camera may have failed.   @param p_WC  position of the camera.
   void detect(std::span<const DetectedPoint> detected, const Vector3d& p_WC);
+  /// Call it when the camera turns out to have failed: takes back what was noted of pictures since the last detection.
+  void forget_pictures();
+
+  /// Numbers of the known points that a picture should show clearly, even if pose and map are somewhat wrong.
+  std::vector<std::size_t> clear_points(const Exposure& exposure, Tick now) const;
+  /// All known points, as targets of which there is no picture yet.
+  std::vector<FlockTarget> known_points() const;
 
   /// Leaves this UAV's target out for two minutes: its camera could not be turned to it.
   void leave_out(const FlockTarget& target, Tick now);
@@ -72,6 +79,13 @@ class FlockSurfaces {
 
  private:
   using Id = VoxelGrid::Id;
+  /// What a picture changed for a face.
+  struct Look {
+    Id id = 0;
+    int face = 0;
+    std::uint8_t tenths = 0;  ///< those of before (tenths_)
+    bool shown = false;       ///< the picture was good enough: the UAV has looked at the face
+  };
   double voxel_area() const { return grid_.voxel_m() * grid_.voxel_m(); }
   bool exposed(Id id, int face) const;
   bool looked_at(Id id, int face) const { return grid_.marked(id, face) || (looked_here_[id] >> face & 1U) != 0; }
@@ -93,9 +107,9 @@ class FlockSurfaces {
   std::vector<std::uint8_t> looked_here_;  ///< by cube: a bit for each face that this UAV has looked at
   /// By place in occupied_ and face: tenths of the quality that the face had in the best picture so far.
   std::vector<std::array<std::uint8_t, VoxelGrid::kFaces>> tenths_;
-  std::vector<std::pair<Id, int>> not_told_;  ///< faces looked at since the last detection
-  std::map<std::uint32_t, Tick> left_out_;    ///< by FlockTarget::id: until when
-  std::size_t faces_ = 0, looked_ = 0;        ///< number of exposed faces; of those that a camera looked at
+  std::vector<Look> not_told_;              ///< since the last detection, in order
+  std::map<std::uint32_t, Tick> left_out_;  ///< by FlockTarget::id: until when
+  std::size_t faces_ = 0, looked_ = 0;      ///< number of exposed faces; of those that a camera looked at
 };
 
 }  // namespace skein::agent

@@ -21,7 +21,9 @@ constexpr double kLeastOpen = 0.04;  ///< targets with less to gain do not vote 
 constexpr double kWayM = 20.0;       ///< a view's votes are divided by its distance plus this
 constexpr double kLeastGain = 0.05, kLeastQuality = 0.2;
 constexpr double kGlanceTurn = 0.8, kGlanceFacing = 0.35;  ///< glances: most turn [rad]; least cosine to the normal
+constexpr double kLeastGlance = 0.3;                       ///< glances with less gain are left out [points]
 constexpr std::size_t kMostAims = 5;
+constexpr std::size_t kMostLookouts = 20;
 constexpr std::size_t kMostGaps = 40;
 constexpr double kSurveyShare = 0.7;
 constexpr double kGapM = 10.0;  ///< distance from a gap to the places proposed for it
@@ -40,6 +42,10 @@ Direction direction_of(const Vector3d& way) {
 /// Rounds a unit vector to one of 26 directions, as a cell of 3 x 3 x 3.
 Eigen::Vector3i direction_cell(const Vector3d& direction_W) {
   return (kNearAxis * direction_W).array().round().cast<int>() + 1;
+}
+
+bool proved(const FreeSpace& space, const Vector3d& p_W) {
+  return space.config().blind_fleet || space.cost(p_W) <= 1.0;
 }
 
 }  // namespace
@@ -154,12 +160,31 @@ std::vector<FlockView> FlockViews::find(const FlockSurfaces& surfaces, const Flo
     promising.pop_back();
     FlockView view{.p_WB = vote.p_sum_W / vote.weight, .aim_W = vote.aim_sum_W / vote.weight};
     if (!space.free(view.p_WB)) continue;
-    view.proved = space.config().blind_fleet || space.cost(view.p_WB) <= 1.0;
+    view.proved = proved(space, view.p_WB);
     if (!view.proved && (!explores || unproved >= most / 2 || !surfaces.survey().seen(view.p_WB))) continue;
     judge(surfaces, targets, view);
     if (view.sights.empty()) continue;
     if (!view.proved) ++unproved;
     views.push_back(std::move(view));
+  }
+  return views;
+}
+
+std::vector<FlockView> FlockViews::lookouts(const FlockSurfaces& surfaces, const FlockTargets& targets,
+                                            const FreeSpace& space, const Vector3d& p_W) const {
+  const double steepest = std::sin(agent_.vehicle.gimbal.pitch_limit_deg * kRadPerDeg);
+  std::vector<FlockView> places;
+  for (const FlockTarget& target : targets.all()) {
+    if (std::abs(target.n_W.z()) > steepest) continue;
+    places.push_back({.p_WB = target.p_W + config_.wide_ratio * sharp_m_ * target.n_W, .aim_W = target.p_W});
+  }
+  std::ranges::stable_sort(places, std::less<>(), [&](const FlockView& view) { return (view.p_WB - p_W).norm(); });
+  std::vector<FlockView> views;
+  for (FlockView& view : places) {
+    if (views.size() == kMostLookouts) break;
+    if (view.p_WB.z() < config_.flight.floor_m || !space.free(view.p_WB) || !proved(space, view.p_WB)) continue;
+    judge(surfaces, targets, view);
+    if (!view.sights.empty()) views.push_back(std::move(view));
   }
   return views;
 }
@@ -213,6 +238,39 @@ std::vector<Vector3d> FlockViews::aims(const FlockTargets& targets, const Vector
     if (aims.size() < kMostAims) aims.push_back(p_W);
   }
   return aims;
+}
+
+std::optional<FlockView> FlockViews::glance(const FlockSurfaces& surfaces, const FlockTargets& targets,
+                                            const Vector3d& p_WB, const RigidBodyState& state,
+                                            const GimbalState& gimbal) const {
+  std::optional<FlockView> best;
+  double most = kLeastGlance;
+  for (const Vector3d& aim_W : aims(targets, p_WB, state, gimbal)) {
+    FlockView view{.p_WB = p_WB, .aim_W = aim_W};
+    judge(surfaces, targets, view);
+    double gain = 0.0;
+    for (const FlockView::Sight& sight : view.sights) {
+      const FlockTarget& target = targets.all()[sight.target];
+      gain += target.points * std::max(0.0, sight.q - target.have);
+    }
+    if (gain <= most) continue;
+    most = gain;
+    best = std::move(view);
+  }
+  return best;
+}
+
+void FlockViews::count_claims(const FlockSurfaces& surfaces, const std::vector<FlockClaim>& claims,
+                              FlockTargets& targets) const {
+  for (const FlockClaim& claim : claims) {
+    FlockView view{.p_WB = claim.p_WB, .aim_W = claim.aim_W};
+    if (!((view.aim_W - view.p_WB).norm() > 0.1)) continue;
+    judge(surfaces, targets, view);
+    for (const FlockView::Sight& sight : view.sights) {
+      FlockTarget& target = targets.all()[sight.target];
+      target.have = std::max(target.have, kClaimedShare * sight.q);
+    }
+  }
 }
 
 void FlockViews::find_gaps(const FlockSurfaces& surfaces, const FreeSpace& space, const Vector3d& p_W, double lack,

@@ -6,11 +6,13 @@
 // Frames: W world, B body, C camera.   Units: SI and radians.   Pure and deterministic.   Effort: bounded by counts.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "uav_agent/flight/free_space.hpp"
 #include "uav_agent/planners/flock/surfaces.hpp"
+#include "uav_agent/planners/flock/talk.hpp"
 
 namespace skein::agent {
 
@@ -50,6 +52,8 @@ class FlockTargets {
 
 class FlockViews {
  public:
+  static constexpr double kClaimedShare = 0.9;
+
   /// @param config, agent  must outlive this.   @param sharp_m  d*.
   FlockViews(const FlockConfig& config, const AgentConfig& agent, double sharp_m)
       : config_(config), agent_(agent), sharp_m_(sharp_m) {}
@@ -68,6 +72,14 @@ class FlockViews {
   /// Points on which the camera can be turned quickly, with most left to photograph around them, best first.
   std::vector<Vector3d> aims(const FlockTargets& targets, const Vector3d& p_WB, const RigidBodyState& state,
                              const GimbalState& gimbal) const;
+  /// The best of these points to look at from a place; nullopt: the camera gains too little by turning to any.
+  std::optional<FlockView> glance(const FlockSurfaces& surfaces, const FlockTargets& targets, const Vector3d& p_WB,
+                                  const RigidBodyState& state, const GimbalState& gimbal) const;
+  /// Wide views of the targets, nearest first: a UAV that waits there sees them, and is far from where others work.
+  std::vector<FlockView> lookouts(const FlockSurfaces& surfaces, const FlockTargets& targets, const FreeSpace& space,
+                                  const Vector3d& p_W) const;
+  /// Counts what the views show that another UAV has announced as photographed, with kClaimedShare of the quality.
+  void count_claims(const FlockSurfaces& surfaces, const std::vector<FlockClaim>& claims, FlockTargets& targets) const;
   /// Computes what a view shows (FlockView::sights).
   void judge(const FlockSurfaces& surfaces, const FlockTargets& targets, FlockView& view) const;
 

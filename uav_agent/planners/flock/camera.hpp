@@ -1,0 +1,47 @@
+// Whether this UAV's camera works, as far as the UAV can tell: a camera that fails reports nothing, and so does one that
+// looks at surface without interest points. So the camera counts as failed when known points are missing from pictures
+// that should show them clearly: several points, from several places, and meanwhile no picture shows any point at all.
+// A single detection proves that it works.
+// Frames: W world, C camera.   Units: SI.   Threads: one.   Deterministic.   Bounded by the number of known points.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <set>
+#include <span>
+#include <vector>
+
+#include "core/types.hpp"
+
+namespace skein::agent {
+
+class FlockCamera {
+ public:
+  static constexpr double kSilentS = 1.0;   ///< a camera that has detected nothing for so long is in doubt
+  static constexpr double kMissedS = 0.25;  ///< a point is missing if pictures should have shown it for so long
+  static constexpr double kMostGapS = 0.5;  ///< most time between two calls of expect() that count as one stretch
+  static constexpr double kApartM = 1.0;    ///< distance between two places of the camera
+  static constexpr std::size_t kMissing = 6, kPlaces = 3;  ///< so many points, from so many places
+
+  /// @param picture_s  time between two pictures.
+  explicit FlockCamera(double picture_s = 0.1);
+
+  /// Call it in each exchange.   @param detects  a picture showed a point.
+  void hear(bool detects, Tick now);
+  /// Whether it is in doubt that the camera works: then tell expect() what it should show.
+  bool in_doubt(Tick now) const { return seconds(now - heard_) >= kSilentS; }
+  /// @param points  numbers of the known points that a picture taken now should show clearly.
+  void expect(std::span<const std::size_t> points, const Vector3d& p_WC, Tick now);
+
+  /// Whether the camera has failed. Never true while in_doubt() is false.
+  bool failed() const { return missing_.size() >= kMissing && places_W_.size() >= kPlaces; }
+
+ private:
+  const double missed_s_;
+  Tick heard_ = 0, expected_ = 0;      ///< last detection; last call of expect()
+  std::map<std::size_t, Tick> since_;  ///< by point that pictures should show now: since when
+  std::set<std::size_t> missing_;      ///< points that pictures did not show since the last detection
+  std::vector<Vector3d> places_W_;     ///< where the camera was when they went missing; at most kPlaces
+};
+
+}  // namespace skein::agent
