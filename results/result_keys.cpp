@@ -118,6 +118,10 @@ constexpr KeyKind kKeys[] = {
     {"uavs.*.planner_cpu_max_ms", kNumber},
     {"uavs.*.planner_exchanges_over_50ms", kNumber},
     {"uavs.*.no_way", kArray},
+    {"uavs.*.safety_filter", kObject},
+    {"uavs.*.safety_filter.steps", kNumber},
+    {"uavs.*.safety_filter.slowed", kNumber},
+    {"uavs.*.safety_filter.breaches", kNumber},
 };
 
 bool is_of_kind(const Json& value, std::string_view kind) {

@@ -98,7 +98,7 @@ class RunResult : public ::testing::Test {
     for (const char* uav : {"alpha", "beta"}) {
       write_text(dir_.path() / (std::string("uav_agent-") + uav + ".report.json"), R"({
         "planner_cpu_s": 0.25, "planner_cpu_p99_ms": 1.5, "planner_cpu_max_ms": 60.25,
-        "planner_exchanges_over_50ms": 3})");
+        "planner_exchanges_over_50ms": 3, "safety_filter": {"steps": 400, "slowed": 30, "breaches": 2}})");
     }
   }
 
@@ -127,6 +127,7 @@ TEST_F(RunResult, AllReportsMakeACompleteResult) {
   EXPECT_EQ(result["uavs"][1]["planner_cpu_p99_ms"], 1.5);
   EXPECT_EQ(result["uavs"][1]["planner_cpu_max_ms"], 60.25);
   EXPECT_EQ(result["uavs"][1]["planner_exchanges_over_50ms"], 3);
+  EXPECT_EQ(result["uavs"][1]["safety_filter"], (Json{{"steps", 400}, {"slowed", 30}, {"breaches", 2}}));
   EXPECT_EQ(result["radio"]["sent_bytes"], 400);
   EXPECT_EQ(result["radio"]["delivered_bytes"], 280);
   EXPECT_EQ(result["radio"]["per_link"][0]["to"], "gcs");

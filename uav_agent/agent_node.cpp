@@ -178,6 +178,12 @@ std::optional<std::vector<WaitReport>> AgentNode::waits() const {
   return reports;
 }
 
+std::optional<SafetyFilterReport> AgentNode::safety_filter() const {
+  const SafetyFilter::Counts* counts = agent_.filter_counts();
+  if (counts == nullptr) return std::nullopt;
+  return SafetyFilterReport{.steps = counts->exchanges, .slowed = counts->slowed, .breaches = counts->broken};
+}
+
 void AgentNode::keep_maps(std::unique_ptr<KeptMaps> maps) { kept_maps_ = std::move(maps); }
 
 std::string AgentNode::end_maps() {

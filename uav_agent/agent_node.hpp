@@ -34,6 +34,7 @@ class AgentNode final : public MemberNode {
   std::vector<std::string> no_ways() const override;
   std::optional<double> waited_s() const override { return agent_.waited_s(); }
   std::optional<std::vector<WaitReport>> waits() const override;
+  std::optional<SafetyFilterReport> safety_filter() const override;
 
  private:
   void declare(bus::LockstepClient& client) override;

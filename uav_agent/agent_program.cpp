@@ -127,6 +127,7 @@ class AgentMember final : public bus::FleetMember {
                        .waits = node_->waits(),
                        .no_way = node_->no_ways(),
                        .from_nodes = node_->from_nodes(),
+                       .safety_filter = node_->safety_filter(),
                        .malformed = node_->malformed(),
                        .unsent = node_->unsent(),
                        .planner = planner_,

@@ -39,6 +39,8 @@ class MemberNode : public bus::ClientNode {
   virtual std::optional<double> waited_s() const { return std::nullopt; }
   /// Begin and end of each of these waits, and the UAV that it was for.
   virtual std::optional<std::vector<WaitReport>> waits() const { return std::nullopt; }
+  /// What the flight core's safety filter counted; nullopt: no flight core flies this node's UAV.
+  virtual std::optional<SafetyFilterReport> safety_filter() const { return std::nullopt; }
   /// Topics relayed for the ROS 2 nodes that this node stands in for; nullopt: it stands in for none.
   virtual std::optional<std::vector<RelayedTopic>> from_nodes() const { return std::nullopt; }
 

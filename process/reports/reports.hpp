@@ -338,6 +338,18 @@ void describe(auto& f, WaitReport& wait) {
   f.field("until_s", wait.until_s);
 }
 
+/// Numbers of exchanges in which the safety filter watched the UAV's motion, since the agent was started.
+struct SafetyFilterReport {
+  Count steps = {};     ///< all of them
+  Count slowed = {};    ///< it made the UAV brake
+  Count breaches = {};  ///< the space about the UAV was not proved free beforehand
+};
+void describe(auto& f, SafetyFilterReport& filter) {
+  f.field("breaches", filter.breaches);
+  f.field("slowed", filter.slowed);
+  f.field("steps", filter.steps);
+}
+
 struct AgentReport {
   Number planner_cpu_s = {}, planner_cpu_p99_ms = {}, planner_cpu_max_ms = {};
   Count planner_exchanges_over_50ms = {};
@@ -345,6 +357,7 @@ struct AgentReport {
   std::optional<std::vector<WaitReport>> waits = {};  ///< by time
   std::optional<Texts> no_way = {};
   std::optional<std::vector<RelayedTopic>> from_nodes = {};  ///< only of a stand-in: topics with any ROS 2 messages
+  std::optional<SafetyFilterReport> safety_filter = {};      ///< missing: no flight core flies the UAV
   Count malformed = {}, unsent = {};
   Text planner = {};  ///< as given to the agent
   Text dds = {};
@@ -360,6 +373,7 @@ void describe(auto& f, AgentReport& report) {
   f.field("planner_cpu_p99_ms", report.planner_cpu_p99_ms);
   f.field("planner_cpu_s", report.planner_cpu_s);
   f.field("planner_exchanges_over_50ms", report.planner_exchanges_over_50ms);
+  f.field("safety_filter", report.safety_filter);
   f.field("unsent", report.unsent);
   f.field("unwritten", report.unwritten);
   f.field("waited_s", report.waited_s);

@@ -49,6 +49,9 @@ class Results : public FleetTest {
       EXPECT_LE(uav["planner_cpu_max_ms"].get<double>(), 1e3 * uav["planner_cpu_s"].get<double>());
       EXPECT_EQ(uav["planner_exchanges_over_50ms"] > 0, uav["planner_cpu_max_ms"] > 50.0);
       EXPECT_GT(result_["uavs"][i]["distance_m"], 10.0);
+      EXPECT_GT(uav["safety_filter"]["steps"], 0);
+      EXPECT_LE(uav["safety_filter"]["slowed"], uav["safety_filter"]["steps"]);
+      EXPECT_LE(uav["safety_filter"]["breaches"], uav["safety_filter"]["steps"]);
     }
     EXPECT_GT(score(), 10.0) << "nothing to check";
     EXPECT_GE(result_["score_earned"].get<double>(), score() - kSumTolerance);
