@@ -243,11 +243,11 @@ TEST(Flock, AViewIsClaimedOnlyByAUavThatCanTakeIt) {
     FlockTalk hears({}, other);
     const FlockViews views(uav.flock, other, uav.sharp_m());
     const auto kept_from_others = [&](Tick now) {
-      FlockTargets targets(theirs.targets(now), views.range_m());
+      const FlockTargets open(theirs.targets(now), views.range_m());
+      FlockTargets left = open;
+      for (const auto& [sender, claims] : hears.claims(now)) views.count_claims(theirs, claims, left);
       double kept = 0.0;
-      for (const FlockTarget& target : targets.all()) kept += target.open();
-      for (const auto& [sender, claims] : hears.claims(now)) views.count_claims(theirs, claims, targets);
-      for (const FlockTarget& target : targets.all()) kept -= target.open();
+      for (std::size_t i = 0; i < open.all().size(); ++i) kept += open.all()[i].open() - left.all()[i].open();
       return kept;
     };
     double before = 0.0, dead = 0.0, after = 0.0, off_m = 0.0;
