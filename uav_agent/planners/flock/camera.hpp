@@ -21,7 +21,7 @@ class FlockCamera {
   static constexpr double kMissedS = 0.25;  ///< a point is missing if pictures should have shown it for so long
   static constexpr double kMostGapS = 0.5;  ///< most time between two calls of expect() that count as one stretch
   static constexpr double kApartM = 3.0;    ///< distance between two places of the camera
-  static constexpr std::size_t kMissing = 6, kPlaces = 3;  ///< so many points, from so many places
+  static constexpr std::size_t kMissing = 6, kPlaces = 4;  ///< so many points, from so many places
 
   /// @param picture_s  time between two pictures.
   explicit FlockCamera(double picture_s = 0.1);
