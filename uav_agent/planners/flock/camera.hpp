@@ -1,6 +1,6 @@
-// Whether this UAV's camera works, as far as the UAV can tell: a camera that fails reports nothing, and so does one that
-// looks at surface without interest points. So the camera counts as failed when known points are missing from pictures
-// that should show them clearly: several points, from several places, and meanwhile no picture shows any point at all.
+// Whether this UAV's camera works, as far as the UAV can tell: a camera that fails reports nothing, and neither does a
+// camera that looks at surface without interest points. So the camera counts as failed when known points are missing
+// from pictures that should show them clearly: several points, from several places, and no picture shows any point.
 // A single detection proves that it works.
 // Frames: W world, C camera.   Units: SI.   Threads: one.   Deterministic.   Bounded by the number of known points.
 #pragma once

@@ -231,7 +231,7 @@ TEST(FlockCamera, PicturesThatWereNotTakenAreTakenBack) {
   }
 }
 
-/// A camera dies at a drawn time, and works again 30 s later. While its UAV knows that it is dead, the UAV keeps nothing
+/// A camera dies at a drawn time, and works again 30 s later. While its UAV knows that it is dead, it keeps no work
 /// from another one, and waits off the wall; once it works again, the UAV claims views at once.
 TEST(Flock, AViewIsClaimedOnlyByAUavThatCanTakeIt) {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
