@@ -18,6 +18,7 @@ inline constexpr std::size_t kFramesRemembered = 256;
 /// What the programs share. Desk, gate, score and shelf belong to the owner of a stepped fleet; null: no one steps it.
 struct FleetPrograms {
   std::shared_ptr<agent::ReadyFrames> frames = std::make_shared<agent::ReadyFrames>(kFramesRemembered);
+  std::shared_ptr<ScenarioShelf> scenarios = std::make_shared<ScenarioShelf>();  ///< for the agents
   std::shared_ptr<agent::LearnerDesk> desk = {};
   std::shared_ptr<sim::StepGate> gate = {};
   std::shared_ptr<station::ScoreView> score = {};
@@ -28,7 +29,7 @@ struct FleetPrograms {
     if (name == programs::kSimServer) return std::make_unique<sim::ServerProgram>(gate, shelf, for_each);
     if (name == programs::kCommRouter) return std::make_unique<router::RouterProgram>();
     if (name == programs::kStation) return std::make_unique<station::StationProgram>(score);
-    return std::make_unique<agent::AgentProgram>(frames, desk);
+    return std::make_unique<agent::AgentProgram>(frames, desk, scenarios);
   }
 };
 

@@ -21,7 +21,6 @@
 #include "process/reports/reports.hpp"
 #include "uav_agent/agent_node.hpp"
 #include "uav_agent/ground_node.hpp"
-#include "uav_agent/maps/told_chunks.hpp"
 #include "uav_agent/python/python_planner.hpp"
 #include "uav_agent/radio_node.hpp"
 #include "uav_agent/stand_in_node.hpp"
@@ -52,13 +51,6 @@ void check_debug_names(const std::vector<std::string>& names, const std::string&
     throw InputError(uav + "'s planner " + planner + ": " + std::to_string(names.size()) + " debug names, from '" +
                      names.front() + "' on; at most " + std::to_string(topics::kMostDebugNames) + " are read");
   }
-}
-
-/// @throws InputError when the planner wants maps that so many UAVs cannot tell each other.
-void check_fleet_size(const Planner& planner, const std::string& name, std::size_t uavs) {
-  if ((!planner.wants_world_map() && !planner.flight()) || uavs <= kMostUavs) return;
-  throw InputError("planner " + name + " wants the map of what is free, which up to " + std::to_string(kMostUavs) +
-                   " UAVs tell each other; this fleet has " + std::to_string(uavs));
 }
 
 /// @throws InputError
@@ -94,7 +86,7 @@ class AgentMember final : public bus::FleetMember {
  public:
   /// @param scenario, bus  that the node refers to. @param steps_alone  a program outside steps it.
   AgentMember(const ProgramOptions& options, std::string planner, StatusPipe& status,
-              std::unique_ptr<const Scenario> scenario, std::unique_ptr<bus::Bus> bus, std::unique_ptr<MemberNode> node,
+              std::shared_ptr<const Scenario> scenario, std::unique_ptr<bus::Bus> bus, std::unique_ptr<MemberNode> node,
               bool steps_alone)
       : dds_(options.dds),
         planner_(std::move(planner)),
@@ -143,7 +135,7 @@ class AgentMember final : public bus::FleetMember {
   const std::string dds_, planner_;
   const bool beside_;
   StatusPipe& status_;
-  const std::unique_ptr<const Scenario> scenario_;
+  const std::shared_ptr<const Scenario> scenario_;
   const std::unique_ptr<bus::Bus> bus_;
   const std::unique_ptr<MemberNode> node_;
   const std::filesystem::path report_, map_;
@@ -171,8 +163,7 @@ std::variant<int, std::unique_ptr<bus::FleetMember>> AgentProgram::prepare(const
   if (list_) return list_strategies();
   show_log_time(*spdlog::default_logger());
   if (maps_every_s_) check_maps_period(*maps_every_s_);
-  auto scenario =
-      std::make_unique<const Scenario>(load_scenario(options.scenario, options.load_options_without_scene()));
+  std::shared_ptr<const Scenario> scenario = scenarios_->load(options.scenario, options.load_options_without_scene());
   const UavIndex uav = scenario->uav_index(uav_.empty() ? scenario->fleet.front().name : uav_);
   std::unique_ptr<GroundProgram> ground;
   std::unique_ptr<Planner> planner;
@@ -185,7 +176,6 @@ std::variant<int, std::unique_ptr<bus::FleetMember>> AgentProgram::prepare(const
   } else {
     planner = planner_of(planner_, *scenario, uav, options.seed, pdb_from_s_);
     check_debug_names(planner->debug_names(), planner_, scenario->fleet[uav].name);
-    check_fleet_size(*planner, planner_, scenario->fleet.size());
   }
   if (!options.check_only) options.check_out();
   auto bus = bus::make_bus(options, *scenario, 1);  // its own domain

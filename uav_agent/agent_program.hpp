@@ -3,6 +3,7 @@
 
 #include "bus/lockstep/fleet_program.hpp"
 #include "core/planners/uav_planner.hpp"
+#include "core/scenario/scenario_shelf.hpp"
 #include "results/run_folder.hpp"
 #include "uav_agent/api/learner.hpp"
 #include "uav_agent/onboard/ready_frames.hpp"
@@ -13,8 +14,10 @@ class AgentProgram final : public bus::FleetProgram {
  public:
   /// @param frames  cache of key frames for the agents of this process; nullptr: the process has one agent.
   /// @param desk  steps this program's learner; nullptr: planners that are learners are refused.
-  explicit AgentProgram(std::shared_ptr<ReadyFrames> frames = nullptr, std::shared_ptr<LearnerDesk> desk = nullptr)
-      : frames_(std::move(frames)), desk_(std::move(desk)) {}
+  /// @param scenarios  of the agents of this process.
+  explicit AgentProgram(std::shared_ptr<ReadyFrames> frames = nullptr, std::shared_ptr<LearnerDesk> desk = nullptr,
+                        std::shared_ptr<ScenarioShelf> scenarios = std::make_shared<ScenarioShelf>())
+      : frames_(std::move(frames)), desk_(std::move(desk)), scenarios_(std::move(scenarios)) {}
   const char* name() const override { return programs::kAgent; }
   void add_options(CLI::App& app) override;
   std::variant<int, std::unique_ptr<bus::FleetMember>> prepare(const ProgramOptions& options,
@@ -27,6 +30,7 @@ class AgentProgram final : public bus::FleetProgram {
   bool list_ = false;
   const std::shared_ptr<ReadyFrames> frames_;
   const std::shared_ptr<LearnerDesk> desk_;
+  const std::shared_ptr<ScenarioShelf> scenarios_;
 };
 
 }  // namespace skein::agent

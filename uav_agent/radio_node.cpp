@@ -15,27 +15,26 @@ constexpr std::string_view kTextType = "std_msgs/msg/String";
 }  // namespace
 
 RadioNode::RadioNode(const Scenario& scenario, Node node)
-    : routes_(radio_routes(scenario)), node_(node), nodes_(scenario.fleet.size() + 1) {
-  for (const RadioRoute& route : routes_) {
-    if (route.ros_type == kTextType && route.source == node_) out_.insert(route.ros_topic);
+    : node_topics_(node_topics(scenario, node)), nodes_(scenario.fleet.size() + 1) {
+  for (std::vector<NodeTopic>* list : {&node_topics_.sent, &node_topics_.arriving}) {
+    std::erase_if(*list, [](const NodeTopic& topic) { return topic.ros_type != kTextType; });
   }
+  for (const NodeTopic& topic : node_topics_.sent) out_.insert(topic.ros_topic);
 }
 
 void RadioNode::declare(bus::LockstepClient& client, std::vector<RadioMessage>& received) const {
   std::set<std::string> declared;
-  for (const RadioRoute& route : routes_) {
-    if (route.source != node_ || !out_.contains(route.ros_topic) || !declared.insert(route.topic).second) continue;
-    client.declare_writer(bus::spec({route.topic, route.type, false, topics::kRadioDepth}), Counterpart::router);
+  for (const NodeTopic& sent : node_topics_.sent) {
+    if (!declared.insert(sent.topic).second) continue;
+    client.declare_writer(bus::spec({sent.topic, sent.type, false, topics::kRadioDepth}), Counterpart::router);
   }
   // All sources of a topic arrive on one: the receiver cannot tell them apart, as in CARIC.
-  for (const RadioRoute& route : routes_) {
-    for (const RadioTarget& target : route.targets) {
-      if (target.node != node_ || route.ros_type != kTextType || !declared.insert(target.topic).second) continue;
-      client.read<msg::String>(bus::spec({target.topic, route.type, false, topics::radio_depth(nodes_)}),
-                               Counterpart::router, [&received, topic = route.ros_topic](const msg::String& m) {
-                                 received.push_back({topic, m.data(), std::nullopt});
-                               });
-    }
+  for (const NodeTopic& arriving : node_topics_.arriving) {
+    if (!declared.insert(arriving.topic).second) continue;
+    client.read<msg::String>(bus::spec({arriving.topic, arriving.type, false, topics::radio_depth(nodes_)}),
+                             Counterpart::router, [&received, topic = arriving.ros_topic](const msg::String& m) {
+                               received.push_back({topic, m.data(), std::nullopt});
+                             });
   }
 }
 

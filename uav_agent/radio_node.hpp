@@ -28,8 +28,7 @@ class RadioNode {
   void send(bus::LockstepClient& client, std::span<const RadioMessage> messages) const;
 
  private:
-  const std::vector<RadioRoute> routes_;
-  const Node node_;
+  NodeTopics node_topics_;  ///< those that carry text
   const std::size_t nodes_;
   std::set<std::string> out_;  ///< ROS topics
 };

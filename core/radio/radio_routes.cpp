@@ -1,6 +1,7 @@
 #include "core/radio/radio_routes.hpp"
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <optional>
 #include <utility>
@@ -29,6 +30,21 @@ struct NodeList {
   bool all = false;
 };
 
+/// The topics of a UAV's captures and of their acknowledgements.
+std::array<RadioTopicConfig, 2> custody_topics(const Scenario& scenario, const std::string& uav) {
+  const std::string& station = scenario.node_name(kStationNode);
+  return {RadioTopicConfig{captures_topic(uav), std::string(kCapturesType), {uav}, {station}},
+          RadioTopicConfig{captures_ack_topic(uav), std::string(kCapturesAckType), {station}, {uav}}};
+}
+
+/// The topic "/plan" unless the scenario declares one itself.
+std::optional<RadioTopicConfig> plan_topic(const Scenario& scenario) {
+  const bool own = std::ranges::any_of(scenario.radio, [](const auto& topic) { return topic.name == kPlanTopic; });
+  if (own || scenario.fleet.empty()) return std::nullopt;
+  const std::vector<std::string> all{std::string(kAll)};
+  return RadioTopicConfig{std::string(kPlanTopic), "std_msgs/msg/String", all, all};
+}
+
 }  // namespace
 
 /// Builds the table declaration by declaration.
@@ -36,6 +52,7 @@ class RadioTable::Builder {
  public:
   explicit Builder(const Scenario& scenario) : scenario_(scenario), uses_(scenario.fleet.size() + 1) {
     for (const Node node : scenario_.nodes()) {
+      if (name(node).size() > longest_name_.size()) longest_name_ = name(node);
       reserve(node, node == kStationNode ? topics::gcs_topics() : topics::uav_topics());
       reserve(node, topics::lockstep_topics());
       reserve(node, topics::score_topics());
@@ -166,9 +183,8 @@ class RadioTable::Builder {
   /// A route of this name and type, without its ends.
   RadioRoute check_names(const std::string& ros_topic, const std::string& ros_type) const {
     const std::string topic = checked("name", [&] { return wire_topic(ros_topic); });
-    for (const Node node : scenario_.nodes()) {
-      checked("name", [&] { return wire_topic(arrival_topic(ros_topic, name(node))); });
-    }
+    // Names of nodes are words, so only the length of a topic with the longest of them can be wrong.
+    checked("name", [&] { return wire_topic(arrival_topic(ros_topic, longest_name_)); });
     const std::string type = checked("type", [&] { return wire_type(ros_type); });
     if (ros_topic.starts_with("/skein/")) fail("name", "names under /skein/ are Skein's own; choose another");
     // Refused by every node, to send and to hear: UAVs would learn what they did not see, and what a point is called.
@@ -185,8 +201,9 @@ class RadioTable::Builder {
 
   /// Adds the targets of `wanted` that the route lacks, except its source: a message never comes back to its source.
   void add_targets(RadioRoute& route, const NodeList& wanted) const {
+    const bool is_new = route.targets.empty();  // the list names no node twice
     for (const Node target : wanted.nodes) {
-      const bool known = std::ranges::find(route.targets, target, &RadioTarget::node) != route.targets.end();
+      const bool known = !is_new && std::ranges::find(route.targets, target, &RadioTarget::node) != route.targets.end();
       if (known || target == route.source) continue;
       route.targets.push_back({target, wire_topic(arrival_topic(route.ros_topic, name(target)))});
     }
@@ -274,6 +291,7 @@ class RadioTable::Builder {
   }
 
   const Scenario& scenario_;
+  std::string longest_name_;                          ///< of a node
   std::string where_;                                 ///< what is being read: prefix of messages
   std::map<std::string, std::string> types_;          ///< ROS topic to ROS type
   std::vector<std::map<std::string, Use>> uses_;      ///< by node: wire topic to its use
@@ -282,20 +300,16 @@ class RadioTable::Builder {
 };
 
 RadioTable::RadioTable(const Scenario& scenario) : builder_(std::make_unique<Builder>(scenario)) {
-  const std::string& station = scenario.node_name(kStationNode);
   for (const UavConfig& uav : scenario.fleet) {
-    builder_->declare({captures_topic(uav.name), std::string(kCapturesType), {uav.name}, {station}}, "radio");
-    builder_->declare({captures_ack_topic(uav.name), std::string(kCapturesAckType), {station}, {uav.name}}, "radio",
-                      topics::kStationMember);
+    for (const RadioTopicConfig& topic : custody_topics(scenario, uav.name)) {
+      const bool from_station = topic.sources.front() == scenario.node_name(kStationNode);
+      builder_->declare(topic, "radio", from_station ? topics::kStationMember : std::string_view());
+    }
   }
   for (std::size_t i = 0; i < scenario.radio.size(); ++i) {
     builder_->declare(scenario.radio[i], "radio.topics[" + std::to_string(i) + "]");
   }
-  const bool own_plan = std::ranges::any_of(scenario.radio, [](const auto& topic) { return topic.name == kPlanTopic; });
-  if (!own_plan && !scenario.fleet.empty()) {
-    const std::vector<std::string> all{std::string(kAll)};
-    builder_->declare({std::string(kPlanTopic), "std_msgs/msg/String", all, all}, "radio");
-  }
+  if (const auto plan = plan_topic(scenario)) builder_->declare(*plan, "radio");
 }
 
 RadioTable::~RadioTable() = default;
@@ -314,6 +328,34 @@ RadioTarget RadioTable::arrival(Node node, const std::string& ros_topic, const s
 }
 
 std::vector<RadioRoute> radio_routes(const Scenario& scenario) { return RadioTable(scenario).routes(); }
+
+NodeTopics node_topics(const Scenario& scenario, Node node) {
+  NodeTopics found;
+  const std::string& own = scenario.node_name(node);
+  const auto names_other = [&](const std::vector<std::string>& nodes) {
+    const bool all = nodes.front() == kAll && !scenario.fleet.empty();
+    return all || std::ranges::any_of(nodes, [&](const std::string& name) { return name != kAll && name != own; });
+  };
+  const auto names_own = [&](const std::vector<std::string>& nodes) {
+    return nodes.front() == kAll || std::ranges::find(nodes, own) != nodes.end();
+  };
+  const auto add = [&](const RadioTopicConfig& topic) {
+    const std::string type = wire_type(topic.type);
+    if (names_own(topic.sources) && names_other(topic.targets)) {
+      found.sent.push_back({topic.name, topic.type, wire_topic(topic.name), type});
+    }
+    if (names_own(topic.targets) && names_other(topic.sources)) {
+      found.arriving.push_back({topic.name, topic.type, wire_topic(arrival_topic(topic.name, own)), type});
+    }
+  };
+  for (const UavConfig& uav : scenario.fleet) {
+    if (node != kStationNode && uav.name != own) continue;
+    for (const RadioTopicConfig& topic : custody_topics(scenario, uav.name)) add(topic);
+  }
+  for (const RadioTopicConfig& topic : scenario.radio) add(topic);
+  if (const auto plan = plan_topic(scenario)) add(*plan);
+  return found;
+}
 
 std::string arrival_topic(std::string_view ros_topic, std::string_view target) {
   return std::string(ros_topic) + "/" + std::string(target);

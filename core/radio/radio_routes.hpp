@@ -39,6 +39,24 @@ struct RadioRoute {
 ///   or another topic's arrivals), or that the station uses to tell the score.
 std::vector<RadioRoute> radio_routes(const Scenario& scenario);
 
+/// A radio topic at one of its nodes.
+struct NodeTopic {
+  std::string ros_topic;  ///< "/x"
+  std::string ros_type;   ///< "std_msgs/msg/String"
+  std::string topic;      ///< DDS name in the node's domain: "rt/x" of a sent topic, "rt/x/<node>" of arrivals
+  std::string type;       ///< DDS type
+};
+
+struct NodeTopics {
+  std::vector<NodeTopic> sent;      ///< on which the node may send
+  std::vector<NodeTopic> arriving;  ///< of which messages arrive, from any number of sources
+};
+
+/// The part of radio_routes() that concerns one node, in the same order. Its cost does not grow with the square of the
+/// fleet. A topic that the scenario declares several times, with other sources, may appear as often.
+/// @param scenario  of which radio_routes() accepts the topics.
+NodeTopics node_topics(const Scenario& scenario, Node node);
+
 /// The routes of a run. Nodes may add routes during the run (docs/radio.md). The table rejects names that are in use.
 /// Routes keep their numbers; one that was closed has no targets. Not thread-safe.
 class RadioTable {

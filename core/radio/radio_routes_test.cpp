@@ -3,6 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <set>
+#include <utility>
+
+#include "core/random_stream.hpp"
 
 namespace skein {
 namespace {
@@ -269,6 +273,53 @@ TEST(RadioTable, ClosingARouteKeepsTheTypeAndNameThatOtherRoutesUse) {
   const std::string own = "/jurong/command/trigger";
   table.close(table.open(Node{1}, own, "skein_msgs/msg/BoolStamped", {"gcs"}));
   EXPECT_NE(refusal(table, Node{1}, own, "some/msg/Note", {"gcs"}).find("standard topic"), std::string::npos);
+}
+
+/// What all routes say of one node: ROS topics that it sends, and DDS topics that arrive there.
+std::pair<std::set<std::string>, std::set<std::string>> topics_in_routes(const Scenario& scenario, Node node) {
+  std::set<std::string> sent, arriving;
+  for (const RadioRoute& route : radio_routes(scenario)) {
+    if (route.source == node) sent.insert(route.ros_topic + " " + route.topic + " " + route.type);
+    for (const RadioTarget& target : route.targets) {
+      if (target.node == node) arriving.insert(route.ros_topic + " " + target.topic + " " + route.type);
+    }
+  }
+  return {sent, arriving};
+}
+
+TEST(RadioRoutes, TheTopicsOfANodeAreThoseOfItsRoutes) {
+  RandomStream draw(11, "node_topics", 0);
+  const auto drawn_nodes = [&](const Scenario& scenario) {
+    std::vector<std::string> nodes;
+    for (const Node node : scenario.nodes()) {
+      if (draw.uniform() < 0.5) nodes.push_back(scenario.node_name(node));
+    }
+    return nodes.empty() || draw.uniform() < 0.3 ? std::vector<std::string>{"all"} : nodes;
+  };
+  int compared = 0;
+  for (int i = 0; i < 300; ++i) {
+    Scenario scenario = three_uavs();
+    scenario.fleet.resize(1 + static_cast<std::size_t>(draw.uniform() * 3.0));
+    for (const char* name : {"/a", "/b", "/plan"}) {
+      if (draw.uniform() < 0.4) continue;
+      const char* type = draw.uniform() < 0.5 ? "std_msgs/msg/String" : "nav_msgs/msg/Path";
+      scenario.radio.push_back({name, type, drawn_nodes(scenario), drawn_nodes(scenario)});
+    }
+    try {
+      radio_routes(scenario);
+    } catch (const InputError&) {
+      continue;
+    }
+    for (const Node node : scenario.nodes()) {
+      const NodeTopics topics = node_topics(scenario, node);
+      std::set<std::string> sent, arriving;
+      for (const NodeTopic& t : topics.sent) sent.insert(t.ros_topic + " " + t.topic + " " + t.type);
+      for (const NodeTopic& t : topics.arriving) arriving.insert(t.ros_topic + " " + t.topic + " " + t.type);
+      EXPECT_EQ(std::pair(sent, arriving), topics_in_routes(scenario, node));
+      ++compared;
+    }
+  }
+  EXPECT_GT(compared, 300);
 }
 
 }  // namespace

@@ -28,6 +28,7 @@ struct LoadOptions {
   std::optional<std::string> rules = {};       ///< a preset, instead of the file's section `rules`
   std::optional<std::string> conditions = {};  ///< text for chosen_conditions(), applied to the file's conditions
   bool needs_scene_files = true;               ///< false for programs that do not use the scene: they need no assets
+  bool operator==(const LoadOptions&) const = default;
 };
 
 /// @param name_or_path  a name under config/scenarios/, or a path (it contains a '/' or ends in .yaml).
