@@ -32,7 +32,6 @@ LinkStages::LinkStages(const Scenario& scenario, const FaultPlan& faults, std::u
       planned_(faults.faults.size()),
       seed_(seed),
       stages_(scenario.fleet.size() + 1),
-      radio_(scenario.fleet.size() + 1),
       links_(scenario.fleet.size() + 1) {
   for (std::size_t i = 0; i < scenario.links.size(); ++i) {
     add_effect(scenario.links[i], "radio.links[" + std::to_string(i) + "]");
@@ -44,6 +43,7 @@ LinkStages::LinkStages(const Scenario& scenario, const FaultPlan& faults, std::u
 }
 
 void LinkStages::add_effect(const LinkEffect& effect, const std::string& name, std::optional<std::size_t> fault) {
+  if (!effect.acts_on_messages()) return;  // the server closes links that are out of range
   for (const Node from : scenario_.nodes()) {
     for (const Node to : scenario_.nodes()) {
       const std::string &source = scenario_.node_name(from), &target = scenario_.node_name(to);
@@ -106,7 +106,7 @@ LinkFate LinkStages::fate(std::uint64_t k, const RadioRoute& route, Node target,
   if (is_cut(k, route.source, target)) return {.loss = LinkLoss::fault};
   Passage passage;
   if (const std::uint8_t level = links_.at(route.source, target); level > 0 && scenario_.conditions.radio.on()) {
-    Stage& radio = radio_.at(route.source, target);
+    Stage& radio = radio_[{route.source, target}];
     const double rate_bit_s = kRadioRates.at(level - 1U).rate_bit_s;
     radio.effect.bandwidth_bit_s = scenario_.conditions.radio.rate_share * rate_bit_s;
     const auto size_bytes = static_cast<double>(message.payload->size());

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "comm_router/link_gate.hpp"
@@ -60,7 +61,8 @@ class LinkStages final : public LinkModel {
   const std::size_t planned_;  ///< number of faults without those by hand
   const std::uint64_t seed_;
   LinkMatrix<std::vector<Stage>> stages_;
-  LinkMatrix<Stage> radio_;      ///< the data rate of each link, if the conditions have path loss
+  /// The data rate of each link on which a message has passed, if the conditions have path loss.
+  std::map<std::pair<std::size_t, std::size_t>, Stage> radio_;
   Links links_;                  ///< of this step
   std::uint64_t cut_step_ = ~0;  ///< the step to which `cut_` belongs
   std::optional<LinkMatrix<std::uint8_t>> cut_;

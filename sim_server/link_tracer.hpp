@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <unordered_map>
 #include <vector>
 
 #include "core/faults/fault_plan.hpp"
@@ -59,10 +60,12 @@ class LinkTracer {
 
   const Scenario& scenario_;
   const FaultPlan& faults_;
+  const std::optional<double> range_m_;  ///< of every link between UAVs; nullopt: not limited
   std::optional<PathLoss> path_loss_;
   std::vector<NodeField> fields_;    ///< by node; of no nodes without path loss
-  LinkMatrix<double> received_dbm_;  ///< of links with line of sight; of no nodes without path loss
-  LinkMatrix<SightMemory> sights_;   ///< by pair of nodes, at (lower, higher)
+  LinkMatrix<double> received_dbm_;  ///< of links in range with line of sight; of no nodes without path loss
+  /// Of pairs that were in range: by the lower node, then by the higher one.
+  std::vector<std::unordered_map<std::size_t, SightMemory>> sights_;
   Links unfailed_;
 };
 

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <string>
+
 #include "core/random_stream.hpp"
 #include "sim_server/fleet_bodies.hpp"
 #include "tests/support/test_scenes.hpp"
@@ -48,6 +51,36 @@ TEST(LinkTracer, GivesEachLinkThePowerThatPathLossGives) {
   }
   EXPECT_GT(linked, 500U);
   EXPECT_GT(silent, 500U);
+}
+
+/// With a common range, the tracer looks only at pairs of UAVs in adjacent squares; each pair must get the same link.
+TEST(LinkTracer, TracesNearPairsOnlyAndGivesEachPairTheSameLink) {
+  RandomStream draw(4, "link_tracer_test", 1);
+  const FaultPlan no_faults;
+  for (int i = 0; i < 40; ++i) {
+    Scenario scenario;
+    scenario.station_position = test::random_in_box(draw, {-60, -60, 0}, {60, 60, 60});
+    const int uavs = 2 + static_cast<int>(draw.uniform() * 40.0);
+    for (int uav = 0; uav < uavs; ++uav) scenario.fleet.emplace_back().name = "u" + std::to_string(uav);
+    const double range_m = draw.uniform(0.5, 80.0);
+    const bool station_too = draw.uniform() < 0.5;
+    const std::vector<std::string> nodes = {station_too ? "all" : "uavs"};
+    scenario.links = {{.from = nodes, .to = nodes, .range_m = range_m},
+                      {.from = {"u1"}, .to = {"all"}, .range_m = draw.uniform(0.5, 80.0)}};
+    LinkTracer tracer(scenario, no_faults);
+    Scenario pairwise = scenario;  // the same ranges, as effects of which none limits all pairs
+    pairwise.links[0].from = pairwise.links[0].to = {station_too ? "all" : "uavs", "u0"};
+    LinkTracer plain(pairwise, no_faults);
+    const RayScene rays(TriangleMesh{}, body_shapes(scenario));
+    for (Tick tick = 0; tick < 5; ++tick) {
+      std::vector<LinkTracer::Place> places(scenario.fleet.size());
+      for (LinkTracer::Place& place : places) {
+        place.p_WB = test::random_in_box(draw, {-60, -60, 1}, {60, 60, 30});
+        if (draw.uniform() < 0.3) place.p_WB.x() = range_m * std::round(place.p_WB.x() / range_m);
+      }
+      EXPECT_EQ(tracer.trace(tick, rays, places), plain.trace(tick, rays, places)) << i << ", range " << range_m;
+    }
+  }
 }
 
 }  // namespace

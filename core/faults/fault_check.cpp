@@ -16,13 +16,7 @@ namespace skein {
 namespace {
 
 /// Whether a link with this effect differs from one without it.
-bool changes_anything(const LinkEffect& effect) {
-  const bool bursts = effect.burst_loss && effect.burst_loss->loss > 0.0;
-  const bool reorders = effect.reordering && effect.reordering->probability > 0.0;
-  const bool loses = effect.loss > 0.0 || bursts || effect.corruption > 0.0;
-  const bool delays = effect.latency_s > 0.0 || effect.jitter_s > 0.0 || effect.bandwidth_bit_s || reorders;
-  return loses || delays || effect.range_m || effect.duplication > 0.0;
-}
+bool changes_anything(const LinkEffect& effect) { return effect.acts_on_messages() || effect.range_m; }
 
 }  // namespace
 
@@ -124,15 +118,16 @@ void FaultChecker::check_link(const LinkEffect& effect, const std::string& key) 
       changes_anything(effect), key,
       "changes nothing: give at least one of loss, burst_loss, latency_s, jitter_s, bandwidth_bit_s, range_m, "
       "duplication, reordering, corruption, above 0");
-  const bool is_loop = effect.from == effect.to && effect.from.size() == 1 && effect.from[0] != "all";
+  const bool is_loop =
+      effect.from == effect.to && effect.from.size() == 1 && effect.from[0] != "all" && effect.from[0] != "uavs";
   errors_.check(!is_loop, key + ".to",
                 "no node sends to itself: name another node than '" + (is_loop ? effect.from[0] : std::string()) +
                     "', or leave one of them out");
   for (const auto& [end, names] : {std::pair("from", &effect.from), std::pair("to", &effect.to)}) {
     const std::string path = key + "." + end;
-    errors_.check(!names->empty(), path, "must name at least one node, or be the word all");
+    errors_.check(!names->empty(), path, "must name at least one node, or be the word all or uavs");
     for (const std::string& name : *names) {
-      if (name != "all") check_name(name, nodes_, path, "node");
+      if (name != "all" && name != "uavs") check_name(name, nodes_, path, "node");
     }
   }
 }

@@ -41,7 +41,7 @@ struct Reordering {
 
 /// One stage of a link. Several stages on one link act one after the other, in the order in which they are given.
 struct LinkEffect {
-  std::vector<std::string> from = {"all"}, to = {"all"};  ///< node names, or {"all"}
+  std::vector<std::string> from = {"all"}, to = {"all"};  ///< node names, {"all"} or {"uavs"}: see names_node()
   std::optional<double> range_m;                          ///< beyond this distance there is no link
   double latency_s = 0.0, jitter_s = 0.0;  ///< latency + uniform draw from [0, jitter], on top of the usual exchange
   std::optional<double> bandwidth_bit_s;   ///< data rate; messages that exceed it wait in a queue
@@ -75,6 +75,14 @@ struct LinkEffect {
     r.check(names_every_topic() || !range_m, "topics", "cannot stand beside range_m, which is of the link as a whole");
   }
 
+  /// Whether messages on the link can differ from those on an ideal link. If not, the effect limits the range only.
+  bool acts_on_messages() const {
+    const bool bursts = burst_loss && burst_loss->loss > 0.0;
+    const bool reorders = reordering && reordering->probability > 0.0;
+    const bool loses = loss > 0.0 || bursts || corruption > 0.0;
+    const bool delays = latency_s > 0.0 || jitter_s > 0.0 || bandwidth_bit_s || reorders;
+    return loses || delays || duplication > 0.0;
+  }
   bool names_every_topic() const { return std::find(topics.begin(), topics.end(), "all") != topics.end(); }
 
   /// A list of names, or the single word `all`; `all` when the key is absent.
@@ -86,10 +94,10 @@ struct LinkEffect {
   }
 };
 
-/// Whether a list of node names contains this node, or "all".
+/// Whether a list of node names contains this node, or "all", or "uavs" and the node is no ground station.
 inline bool names_node(const std::vector<std::string>& nodes, const std::string& node) {
   for (const std::string& name : nodes) {
-    if (name == "all" || name == node) return true;
+    if (name == "all" || name == node || (name == "uavs" && node != "gcs")) return true;
   }
   return false;
 }
