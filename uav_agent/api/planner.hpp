@@ -117,8 +117,7 @@ class Planner {
   virtual bool wants_beams() const { return false; }
   /// Whether the planner reads the world map, which holds free, occupied and unknown space from all beams. Asked like
   /// wants_scans(), at the same cost on a UAV with a LiDAR. UAVs whose planners want it share their maps by radio, with
-  /// up to 20 kB/s per link on /plan; planners do not receive these messages
-  /// (docs/world-map.md). Skein refuses such a planner in a fleet of more than 127 UAVs.
+  /// up to 20 kB/s per link on /plan; planners do not receive these messages (docs/world-map.md).
   virtual bool wants_world_map() const { return false; }
   /// Parameters of the flight core, if it is to fly this UAV to PlannerOutput::goals; nullptr: no flight core. Asked
   /// before the first exchange; the object must live as long as the planner. The planner then has the world map, too.

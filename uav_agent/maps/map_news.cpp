@@ -18,6 +18,9 @@ std::uint16_t whole_metres(double metres) {
       static_cast<std::int16_t>(std::lround(std::clamp(metres, -kMostGoingM, kMostGoingM))));
 }
 
+/// Whether a byte has room for the number of each UAV.
+bool has_short_numbers(std::size_t fleet) { return fleet <= 256; }
+
 std::size_t link_bytes(const PayloadWriter& payload) { return MapNews::kEnvelopeBytes + text_bytes(payload.data()); }
 
 std::vector<std::uint8_t> tree_of(const std::vector<ToldChunks::News>& news) {
@@ -30,15 +33,16 @@ std::vector<std::uint8_t> tree_of(const std::vector<ToldChunks::News>& news) {
 }  // namespace
 
 MapNews::MapNews(UavIndex self, std::size_t fleet, const Config& config)
-    : self_(self), config_(config), told_(fleet, config.told), others_(fleet) {}
+    : self_(self), config_(config), told_(config.told), met_(fleet), others_(met_.slots()) {}
 
-void MapNews::append(const Message& message, double cell_m, PayloadWriter& writer) {
+void MapNews::append(const Message& message, double cell_m, std::size_t fleet, PayloadWriter& writer) {
   writer.u16(millimetres(cell_m));
   writer.u32(message.incarnation);
   writer.u32(message.number);
   writer.u8(static_cast<std::uint8_t>(message.receipts.size() << 1 | (message.going_to_W ? 1U : 0U)));
   for (const Receipt& receipt : message.receipts) {
-    writer.u8(static_cast<std::uint8_t>(receipt.uav));
+    const bool is_short = has_short_numbers(fleet);
+    is_short ? writer.u8(static_cast<std::uint8_t>(receipt.uav)) : writer.u16(static_cast<std::uint16_t>(receipt.uav));
     writer.u32(receipt.incarnation);
     writer.u32(receipt.latest);
     writer.u32(receipt.before);
@@ -59,7 +63,7 @@ std::optional<MapNews::Message> MapNews::parse(PayloadReader& reader, double cel
   const unsigned flags = reader.u8();
   for (unsigned i = 0; i < flags >> 1; ++i) {
     Receipt receipt;
-    receipt.uav = reader.u8();
+    receipt.uav = has_short_numbers(fleet) ? reader.u8() : reader.u16();
     receipt.incarnation = reader.u32();
     receipt.latest = reader.u32();
     receipt.before = reader.u32();
@@ -99,23 +103,32 @@ std::size_t MapNews::allowance(Tick now, std::size_t room) const {
   return std::min(static_cast<std::size_t>(left), room);
 }
 
-std::vector<ToldChunks::Listener> MapNews::listeners(const Peers& peers) const {
+/// @returns nullptr if there is no slot left for this UAV.
+MapNews::Other* MapNews::other_of(std::size_t uav) {
+  const std::optional<std::size_t> slot = met_.meet(uav);
+  others_.resize(met_.slots());
+  return slot ? &others_[*slot] : nullptr;
+}
+
+std::vector<ToldChunks::Listener> MapNews::listeners(const Peers& peers) {
   std::vector<ToldChunks::Listener> listeners;
   for (const Peer& peer : peers.all()) {
-    if (!peer.visible || peer.uav >= others_.size()) continue;
-    const Other& other = others_[peer.uav];
-    const Tellers itself = other.restarted ? 0 : only(teller_of(peer.uav));
-    listeners.push_back({peer.uav, peer.p_W, other.going_to_W.value_or(peer.p_W), itself | other.hears});
+    if (!peer.visible || peer.uav >= met_.fleet()) continue;
+    const Other* const other = other_of(peer.uav);
+    if (other == nullptr) continue;
+    const std::size_t slot = *met_.slot_of(peer.uav);
+    const Tellers itself = other->restarted ? 0 : only(teller_of(slot));
+    listeners.push_back({slot, peer.p_W, other->going_to_W.value_or(peer.p_W), itself | other->hears});
   }
   return listeners;
 }
 
 std::vector<MapNews::Receipt> MapNews::receipts(Tick now) const {
   std::vector<Receipt> receipts;
-  for (std::size_t uav = 0; uav < others_.size(); ++uav) {
-    const Other& other = others_[uav];
+  for (std::size_t slot = 0; slot < others_.size(); ++slot) {
+    const Other& other = others_[slot];
     if (other.incarnation == 0 || now - other.heard > ticks(config_.heard_s)) continue;
-    receipts.push_back({uav, other.incarnation, other.latest, other.before});
+    receipts.push_back({met_.uav_of(slot), other.incarnation, other.latest, other.before});
   }
   return receipts;
 }
@@ -143,7 +156,7 @@ bool MapNews::write(const WorldMap& map, const Peers& peers, const std::optional
   const std::size_t allowed = allowance(now, writer.room());
   Message message{incarnation_, 0, receipts(now), going_to_W, {}};
   PayloadWriter payload;
-  append(message, map.config().cell_m, payload);
+  append(message, map.config().cell_m, met_.fleet(), payload);
   const std::size_t bare = link_bytes(payload);
   if (bare > allowed) return false;
   std::vector<ToldChunks::News> news = choose(map, listeners, allowed - bare, now);
@@ -151,7 +164,7 @@ bool MapNews::write(const WorldMap& map, const Peers& peers, const std::optional
     message.number = number_ + 1;
     message.tree = tree_of(news);
     payload = {};
-    append(message, map.config().cell_m, payload);
+    append(message, map.config().cell_m, met_.fleet(), payload);
     if (link_bytes(payload) <= allowed) break;
   }
   if (news.empty()) {
@@ -159,13 +172,13 @@ bool MapNews::write(const WorldMap& map, const Peers& peers, const std::optional
     if (idle) return false;
     message.number = 0;
     payload = {};
-    append(message, map.config().cell_m, payload);
+    append(message, map.config().cell_m, met_.fleet(), payload);
   } else {
     told_.sent(++number_, news, listeners, now);
   }
   writer.bytes(payload.data());
   const std::size_t bytes = link_bytes(payload);
-  for (const ToldChunks::Listener& listener : listeners) others_[listener.uav].bytes += bytes;
+  for (const ToldChunks::Listener& listener : listeners) others_[listener.slot].bytes += bytes;
   while (!sent_.empty() && sent_.front().first <= now - kTicksPerSecond) sent_.pop_front();
   sent_.emplace_back(now, bytes);
   written_ = now;
@@ -173,7 +186,24 @@ bool MapNews::write(const WorldMap& map, const Peers& peers, const std::optional
   return true;
 }
 
+/// Notes that a message of this number has arrived from another UAV.
+void MapNews::note_number(Other& other, std::uint32_t number) {
+  owes_receipt_ = true;
+  if (number > other.latest) {
+    const std::uint32_t ahead = number - other.latest;
+    other.before = ahead > kWindow ? 0 : static_cast<std::uint32_t>(std::uint64_t{other.before} << ahead);
+    if (ahead <= kWindow && other.latest > 0) other.before |= std::uint32_t{1} << (ahead - 1);
+    other.latest = number;
+  } else if (const std::uint32_t behind = other.latest - number; behind > kWindow) {
+    other.latest = number;  // no message is that late: the former number was damaged
+    other.before = 0;
+  } else if (behind > 0) {
+    other.before |= std::uint32_t{1} << (behind - 1);
+  }
+}
+
 /// Notes which message of the sender has arrived, and evaluates the sender's receipts.
+/// @param sender  slot of the sender.
 void MapNews::receive(std::size_t sender, const Message& message, Tick now) {
   Other& other = others_[sender];
   if (other.incarnation != message.incarnation) {
@@ -189,36 +219,26 @@ void MapNews::receive(std::size_t sender, const Message& message, Tick now) {
     if (receipt.uav == self_) {
       const bool of_mine = receipt.incarnation == incarnation_ && receipt.latest <= number_;
       if (of_mine) told_.acknowledge(sender, receipt.latest, receipt.before);
-    } else if (receipt.uav != sender) {
-      const Other& third = others_[receipt.uav];
+    } else if (const auto slot = met_.slot_of(receipt.uav); slot && *slot != sender) {
+      const Other& third = others_[*slot];
       const bool same = third.incarnation == receipt.incarnation && !third.restarted;
-      if (same) other.hears |= only(teller_of(receipt.uav));
+      if (same) other.hears |= only(teller_of(*slot));
     }
   }
-  if (message.number == 0) return;
-  owes_receipt_ = true;
-  if (message.number > other.latest) {
-    const std::uint32_t ahead = message.number - other.latest;
-    other.before = ahead > kWindow ? 0 : static_cast<std::uint32_t>(std::uint64_t{other.before} << ahead);
-    if (ahead <= kWindow && other.latest > 0) other.before |= std::uint32_t{1} << (ahead - 1);
-    other.latest = message.number;
-  } else if (const std::uint32_t behind = other.latest - message.number; behind > kWindow) {
-    other.latest = message.number;  // no message is that late: the former number was damaged
-    other.before = 0;
-  } else if (behind > 0) {
-    other.before |= std::uint32_t{1} << (behind - 1);
-  }
+  if (message.number > 0) note_number(other, message.number);
 }
 
 bool MapNews::read(std::size_t sender, Tick now, WorldMap& map, PayloadReader& reader) {
-  if (sender == self_ || sender >= others_.size()) return false;
-  const std::optional<Message> message = parse(reader, map.config().cell_m, others_.size());
+  if (sender == self_ || sender >= met_.fleet()) return false;
+  const std::optional<Message> message = parse(reader, map.config().cell_m, met_.fleet());
   if (!message) return false;
   const auto cubes = read_subtrees(message->tree, map.levels());
   if (!cubes) return false;
   start(now);
-  told_.hear(map, *cubes, teller_of(sender));
-  receive(sender, *message, now);
+  if (other_of(sender) == nullptr) return true;  // shares its map with as many others already
+  const std::size_t slot = *met_.slot_of(sender);
+  told_.hear(map, *cubes, teller_of(slot));
+  receive(slot, *message, now);
   return true;
 }
 

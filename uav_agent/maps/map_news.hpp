@@ -42,7 +42,8 @@ class MapNews {
   static constexpr std::size_t kEnvelopeBytes = 40;
 
   MapNews(UavIndex self, std::size_t fleet) : MapNews(self, fleet, Config()) {}
-  /// @throws std::invalid_argument for more than kMostUavs.
+  /// @param fleet  at most 65,535 UAVs. Of a larger fleet than Acquaintances::kMostSlots, the UAV shares its map with as
+  /// many as it met first, by sight or by a message.
   MapNews(UavIndex self, std::size_t fleet, const Config& config);
 
   /// Appends a message, if one is due and a UAV is in line of sight. Call it at each exchange. It sends nothing in its
@@ -57,7 +58,10 @@ class MapNews {
   bool read(std::size_t sender, Tick now, WorldMap& map, PayloadReader& reader);
 
   /// Bytes on the link to a UAV: of all messages that were sent while it was in line of sight.
-  std::uint64_t bytes_to(std::size_t uav) const { return others_.at(uav).bytes; }
+  std::uint64_t bytes_to(std::size_t uav) const {
+    const auto slot = met_.slot_of(uav);
+    return slot && *slot < others_.size() ? others_[*slot].bytes : 0;
+  }
 
  private:
   struct Receipt {  ///< which messages of `uav` have arrived at the sender of the receipt
@@ -81,21 +85,24 @@ class MapNews {
     std::uint64_t bytes = 0;
   };
 
-  static void append(const Message& message, double cell_m, PayloadWriter& writer);
+  static void append(const Message& message, double cell_m, std::size_t fleet, PayloadWriter& writer);
   static std::optional<Message> parse(PayloadReader& reader, double cell_m, std::size_t fleet);
   void start(Tick now);
   bool listens_only(Tick now) const;
   std::size_t allowance(Tick now, std::size_t room) const;
-  std::vector<ToldChunks::Listener> listeners(const Peers& peers) const;
+  Other* other_of(std::size_t uav);
+  std::vector<ToldChunks::Listener> listeners(const Peers& peers);
   std::vector<Receipt> receipts(Tick now) const;
   std::vector<ToldChunks::News> choose(const WorldMap& map, const std::vector<ToldChunks::Listener>& listeners,
                                        std::size_t bytes, Tick now);
   void receive(std::size_t sender, const Message& message, Tick now);
+  void note_number(Other& other, std::uint32_t number);
 
   const UavIndex self_;
   const Config config_;
   ToldChunks told_;
-  std::vector<Other> others_;      ///< by UAV
+  Acquaintances met_;
+  std::vector<Other> others_;      ///< by slot
   std::uint32_t incarnation_ = 0;  ///< tick of this program's first exchange, plus 1; 0: not begun
   std::uint32_t number_ = 0;       ///< of the last message with news
   bool owes_receipt_ = false;

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <vector>
 
 #include "uav_agent/testing/news_radio.hpp"
 
@@ -308,6 +310,40 @@ TEST(MapNews, ADamagedNumberDoesNotKeepATellerTelling) {
   const std::size_t before = bytes_sent(radio, 0);
   for (int i = 0; i < 200; ++i) radio.exchange();
   EXPECT_LE(bytes_sent(radio, 0) - before, 11U * 90U);
+}
+
+TEST(MapNews, UavsOfALargeFleetShareTheirMaps) {
+  NewsRadio radio({.uavs = 300}, 12);
+  RandomStream random(12, "large_fleet", 0);
+  const std::vector<std::size_t> chain = {299, 3, 260, 128};  // each hears the next one only
+  const auto place = [&](std::size_t uav) { return std::ranges::find(chain, uav) - chain.begin(); };
+  radio.linked = [&](std::size_t from, std::size_t to) {
+    const auto last = static_cast<std::ptrdiff_t>(chain.size());
+    return place(from) < last && place(to) < last && std::abs(place(from) - place(to)) == 1;
+  };
+  for (const std::size_t uav : chain) draw_space(*radio[uav].map, random, Vector3d::Zero(), 20.0, 300);
+  for (int i = 0; i < 400; ++i) radio.exchange();
+  for (const std::size_t a : chain) {
+    for (const std::size_t b : chain) EXPECT_TRUE(radio.knows_all_of(a, b)) << a << " of " << b;
+  }
+  radio.restart(260);
+  for (int i = 0; i < 400; ++i) radio.exchange();
+  EXPECT_TRUE(radio.knows_all_of(260, 299)) << "after its restart";
+}
+
+TEST(MapNews, AUavHearsTheFirst127UavsThatItMeets) {
+  constexpr std::size_t kUavs = 200, kHub = 7;
+  NewsRadio radio({.uavs = kUavs}, 13);
+  radio.linked = [](std::size_t from, std::size_t to) { return from == kHub || to == kHub; };
+  const auto cube_of = [](std::size_t uav) { return Eigen::Vector3i(static_cast<int>(uav), 4, 4); };
+  for (std::size_t uav = 0; uav < kUavs; ++uav) radio[uav].map->hear(cube_of(uav), 0, Space::occupied, kOwn);
+  for (int i = 0; i < 200; ++i) radio.exchange();
+  std::size_t known = 0;
+  for (std::size_t uav = 0; uav < kUavs; ++uav) {
+    known += radio.map(kHub).known(cube_of(uav)).space == Space::occupied;
+    EXPECT_EQ(radio.map(uav).known(cube_of(kHub)).space, Space::occupied) << uav;
+  }
+  EXPECT_EQ(known, Acquaintances::kMostSlots + 1) << "those, and its own cube";
 }
 
 }  // namespace

@@ -20,8 +20,14 @@ Vector3d middle_W(const Eigen::Vector3i& at, double edge_m) {
 
 }  // namespace
 
-ToldChunks::ToldChunks(std::size_t fleet, const Config& config) : config_(config), accounts_(fleet) {
-  if (fleet > kMostUavs) throw std::invalid_argument("ToldChunks: more UAVs than it has bits for");
+ToldChunks::Account& ToldChunks::account(std::size_t slot) {
+  if (slot >= accounts_.size()) {
+    accounts_.resize(slot + 1);
+    for (Region& region : regions_) region.settled.resize(accounts_.size(), 0);
+  }
+  Account& account = accounts_[slot];
+  account.told.resize(chunks_.size(), 0);
+  return account;
 }
 
 void ToldChunks::take_regions(const WorldMap& map) {
@@ -78,10 +84,10 @@ void ToldChunks::hear(WorldMap& map, std::span<const HeardCube> cubes, Teller te
 
 /// If the listener's informed tellers have changed, it may lack chunks that it was to get from them: checks all again.
 void ToldChunks::note_informed(const Listener& listener) {
-  Account& account = accounts_[listener.uav];
+  Account& account = this->account(listener.slot);
   if (account.informed == listener.informed) return;
   account.informed = listener.informed;
-  for (Region& region : regions_) region.settled[listener.uav] = 0;
+  for (Region& region : regions_) region.settled[listener.slot] = 0;
 }
 
 ToldChunks::Message* ToldChunks::message(std::uint32_t number) {
@@ -91,17 +97,17 @@ ToldChunks::Message* ToldChunks::message(std::uint32_t number) {
 
 bool ToldChunks::lacks(const Listener& listener, std::uint32_t chunk) const {
   const Chunk& of = chunks_[chunk];
-  if (accounts_[listener.uav].told[chunk] >= of.revision) return false;
+  if (accounts_[listener.slot].told[chunk] >= of.revision) return false;
   return of.read_revision != of.revision || (of.tellers & ~listener.informed) != 0;
 }
 
 bool ToldChunks::due(const Listener& listener, std::uint32_t chunk, Tick now) {
   if (!lacks(listener, chunk)) return false;
   const Chunk& of = chunks_[chunk];
-  const Tellers bit = only(teller_of(listener.uav));
+  const Tellers bit = only(teller_of(listener.slot));
   const Message* const last = message(of.sent_in);
   if (last == nullptr || (last->to & bit) == 0) return true;
-  const bool lost = of.sent_in <= accounts_[listener.uav].latest && (last->acknowledged & bit) == 0;
+  const bool lost = of.sent_in <= accounts_[listener.slot].latest && (last->acknowledged & bit) == 0;
   const double patience_s = of.sent_revision == of.revision ? config_.repeat_after_s : config_.settle_s;
   return lost || now - last->tick >= ticks(patience_s);
 }
@@ -115,7 +121,7 @@ std::optional<double> ToldChunks::key_m(const Region& region, std::span<const Li
   const double edge_m = WorldMap::kRegion * chunk_m, half_diagonal_m = 0.5 * std::sqrt(3.0) * edge_m;
   std::optional<double> least;
   for (const Listener& listener : listeners) {
-    if (region.settled[listener.uav] == region.revision) continue;
+    if (region.settled[listener.slot] == region.revision) continue;
     const double key = key_m(listener, middle_W(region.at, edge_m)) - (1.0 + kDetour) * half_diagonal_m;
     least = std::min(least.value_or(key), key);
   }
@@ -131,16 +137,16 @@ void ToldChunks::open(Region& region, std::span<const Listener> listeners, Tick 
     std::optional<double> least;
     for (const Listener& listener : listeners) {
       if (!lacks(listener, chunk)) continue;
-      unsettled |= only(teller_of(listener.uav));
+      unsettled |= only(teller_of(listener.slot));
       if (!due(listener, chunk, now)) continue;
-      const double known_m = accounts_[listener.uav].told[chunk] > 0 ? config_.known_handicap_m : 0.0;
+      const double known_m = accounts_[listener.slot].told[chunk] > 0 ? config_.known_handicap_m : 0.0;
       const double key = key_m(listener, middle_W(chunks_[chunk].at, chunk_m)) + known_m;
       least = std::min(least.value_or(key), key);
     }
     if (least) candidates.push_back({*least, true, chunk});
   }
   for (const Listener& listener : listeners) {
-    if ((unsettled & only(teller_of(listener.uav))) == 0) region.settled[listener.uav] = region.revision;
+    if ((unsettled & only(teller_of(listener.slot))) == 0) region.settled[listener.slot] = region.revision;
   }
 }
 
@@ -151,7 +157,7 @@ std::optional<ToldChunks::News> ToldChunks::read(const WorldMap& map, std::uint3
   map.read(of.at, known);
   of.tellers = 0;
   for (const MapLevel::Known& cube : known) {
-    if (cube.space != Space::unknown) of.tellers |= only(cube.teller <= kMostUavs ? cube.teller : kOwn);
+    if (cube.space != Space::unknown) of.tellers |= only(cube.teller <= Acquaintances::kMostSlots ? cube.teller : kOwn);
   }
   of.read_revision = of.revision;
   if (std::ranges::none_of(listeners, [&](const Listener& listener) { return due(listener, chunk, now); })) return {};
@@ -162,7 +168,6 @@ void ToldChunks::visit_due(const WorldMap& map, std::span<const Listener> listen
                            const std::function<bool(News&&)>& take) {
   take_regions(map);
   for (Region& region : regions_) take_changes(map, region, std::nullopt);
-  for (Account& account : accounts_) account.told.resize(chunks_.size(), 0);
   for (const Listener& listener : listeners) note_informed(listener);
   const double chunk_m = WorldMap::kChunk * map.config().cell_m;
   const auto later = [](const Candidate& a, const Candidate& b) {
@@ -197,7 +202,7 @@ void ToldChunks::sent(std::uint32_t number, std::span<const News> news, std::spa
   if (messages_.size() == kRemembered) messages_.pop_front();
   Message& message = messages_.emplace_back();
   message.tick = now;
-  for (const Listener& listener : listeners) message.to |= only(teller_of(listener.uav));
+  for (const Listener& listener : listeners) message.to |= only(teller_of(listener.slot));
   for (const News& one : news) {
     message.chunks.emplace_back(one.chunk, one.revision);
     chunks_[one.chunk].sent_in = number;
@@ -205,9 +210,9 @@ void ToldChunks::sent(std::uint32_t number, std::span<const News> news, std::spa
   }
 }
 
-void ToldChunks::acknowledge(std::size_t uav, std::uint32_t latest, std::uint32_t before) {
-  Account& account = accounts_.at(uav);
-  const Tellers bit = only(teller_of(uav));
+void ToldChunks::acknowledge(std::size_t slot, std::uint32_t latest, std::uint32_t before) {
+  Account& account = this->account(slot);
+  const Tellers bit = only(teller_of(slot));
   account.latest = std::max(account.latest, std::min(latest, last_number_));
   for (std::uint32_t back = 0; back <= std::numeric_limits<std::uint32_t>::digits && back < latest; ++back) {
     if (back > 0 && (before >> (back - 1) & 1U) == 0) continue;
@@ -220,13 +225,12 @@ void ToldChunks::acknowledge(std::size_t uav, std::uint32_t latest, std::uint32_
   }
 }
 
-void ToldChunks::forget(std::size_t uav) {
-  Account& account = accounts_.at(uav);
-  account = {.told = std::vector<std::uint64_t>(chunks_.size(), 0)};
-  for (Region& region : regions_) region.settled[uav] = 0;
+void ToldChunks::forget(std::size_t slot) {
+  account(slot) = {.told = std::vector<std::uint64_t>(chunks_.size(), 0)};
+  for (Region& region : regions_) region.settled[slot] = 0;
   for (Message& message : messages_) {
-    message.to &= ~only(teller_of(uav));
-    message.acknowledged &= ~only(teller_of(uav));
+    message.to &= ~only(teller_of(slot));
+    message.acknowledged &= ~only(teller_of(slot));
   }
 }
 

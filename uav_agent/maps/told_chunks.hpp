@@ -17,14 +17,15 @@
 #include <span>
 #include <vector>
 
+#include "uav_agent/maps/acquaintances.hpp"
 #include "uav_agent/maps/map_subtrees.hpp"
 
 namespace skein::agent {
 
-/// A set of tellers (kOwn and UAVs of the fleet), as one bit for each Teller.
+/// A set of tellers (kOwn and other UAVs), as one bit for each Teller.
 using Tellers = unsigned __int128;
-inline constexpr std::size_t kMostUavs = 127;
-constexpr Teller teller_of(std::size_t uav) { return static_cast<Teller>(uav + 1); }
+/// @param slot  of a UAV (acquaintances.hpp).
+constexpr Teller teller_of(std::size_t slot) { return static_cast<Teller>(slot + 1); }
 constexpr Tellers only(Teller teller) { return Tellers{1} << teller; }
 
 class ToldChunks {
@@ -37,7 +38,7 @@ class ToldChunks {
   static constexpr std::size_t kRemembered = 64;  ///< messages whose content is remembered
 
   struct Listener {  ///< a UAV in line of sight
-    std::size_t uav = 0;
+    std::size_t slot = 0;
     Vector3d p_W = Vector3d::Zero();
     Vector3d going_to_W = Vector3d::Zero();  ///< place that it flies to; p_W if unknown
     /// Tellers whose news it has already: itself, and the UAVs that both it and this UAV hear.
@@ -49,7 +50,7 @@ class ToldChunks {
     Subtree subtree;
   };
 
-  ToldChunks(std::size_t fleet, const Config& config);
+  explicit ToldChunks(const Config& config) : config_(config) {}
 
   /// Calls `take` with each chunk that is due for at least one listener, the most urgent first, until it returns false.
   /// @param map  the same at each call.
@@ -60,11 +61,11 @@ class ToldChunks {
   void sent(std::uint32_t number, std::span<const News> news, std::span<const Listener> listeners, Tick now);
   /// Enters a receipt of a listener.   @param latest  number of the last message that it has received.
   /// @param before  bit i tells whether it has received message latest - 1 - i.
-  void acknowledge(std::size_t uav, std::uint32_t latest, std::uint32_t before);
+  void acknowledge(std::size_t slot, std::uint32_t latest, std::uint32_t before);
   /// Enters a teller's cubes into the map, and notes that the teller knows all that is new in the map by them.
   void hear(WorldMap& map, std::span<const HeardCube> cubes, Teller teller);
   /// Call it when a UAV's program was restarted: it has lost all that it was told.
-  void forget(std::size_t uav);
+  void forget(std::size_t slot);
 
  private:
   struct Chunk {
@@ -79,7 +80,7 @@ class ToldChunks {
     Eigen::Vector3i at = Eigen::Vector3i::Zero();
     std::uint64_t revision = 0;
     std::array<std::int32_t, WorldMap::kRegionChunks> chunks;  ///< index in chunks_; -1: nothing is known
-    std::vector<std::uint64_t> settled;                        ///< by UAV: the last revision that it knows in full
+    std::vector<std::uint64_t> settled;                        ///< by slot: the last revision that it knows in full
   };
   struct Message {
     Tick tick = 0;
@@ -97,6 +98,8 @@ class ToldChunks {
     std::uint32_t index = 0;
   };
 
+  /// @returns the account of a slot, made if it is new.
+  Account& account(std::size_t slot);
   void take_regions(const WorldMap& map);
   /// Takes over the region's new revisions. @param by  the teller of all that has changed; nullopt: not known.
   void take_changes(const WorldMap& map, Region& region, std::optional<Teller> by);
@@ -117,7 +120,7 @@ class ToldChunks {
   std::vector<Region> regions_;          ///< in the order of WorldMap::regions()
   BlockTable<std::uint32_t> region_of_;  ///< index in regions_, plus 1
   std::vector<Chunk> chunks_;
-  std::vector<Account> accounts_;  ///< by UAV
+  std::vector<Account> accounts_;  ///< by slot, of the UAVs met so far
   std::deque<Message> messages_;   ///< the last kRemembered
   std::uint32_t last_number_ = 0;
 };

@@ -61,7 +61,6 @@ class Agent {
  public:
   /// @param planner see make_planner().
   /// @param frames  cache of prepared key frames, shared by the agents of this process; nullptr: none.
-  /// @throws std::invalid_argument if the planner uses the world map in a fleet of more than kMostUavs.
   Agent(const AgentConfig& config, std::unique_ptr<Planner> planner, std::shared_ptr<ReadyFrames> frames = nullptr);
   ~Agent();
   Agent(Agent&&) noexcept;

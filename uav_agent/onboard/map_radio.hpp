@@ -20,7 +20,6 @@ inline constexpr std::string_view kMapMessages = "map/1";
 
 class MapRadio {
  public:
-  /// @throws std::invalid_argument for a fleet of more than kMostUavs.
   explicit MapRadio(const AgentConfig& config)
       : fleet_(config.fleet.size()), self_(config.self), news_(self_, fleet_) {}
 

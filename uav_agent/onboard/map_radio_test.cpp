@@ -215,13 +215,6 @@ TEST(MapRadio, AHitThatMayBeAnUnheardUavIsDoubtedWhenTheUavIsHeardAgain) {
   for (const std::size_t uav : {0U, 1U}) EXPECT_EQ(talkers.doubts(uav), talkers.map(uav).counts().occupied) << uav;
 }
 
-TEST(MapRadio, AFleetTooLargeForItIsRefused) {
-  AgentConfig config;
-  config.fleet.resize(kMostUavs + 1);
-  EXPECT_NO_THROW(Agent(config, std::make_unique<MapLooker>(false)));
-  EXPECT_THROW(Agent(config, std::make_unique<MapLooker>(true)), std::invalid_argument);
-}
-
 /// One that hears of space to its left and to its right, as far on either side, from somebody who has little time: of
 /// which side does it know more soon?
 double share_of_right(const std::function<void(MapLooker&)>& tell_way, std::uint64_t seed) {
