@@ -27,34 +27,39 @@ ScoreTable::ScoreTable(std::size_t uavs, std::size_t points, const RulesConfig& 
     : min_score_(static_cast<float>(rules.min_point_score)),
       collision_voids_(rules.collision_voids_score),
       void_(uavs, false),
-      of_uav_(uavs, std::vector<PointTally>(points)),
+      of_uav_(uavs),
       standing_(points) {}
 
 PointTally ScoreTable::best_of_fleet(std::uint32_t point) const {
   PointTally best;
   for (const UavIndex uav : FirstUavs(of_uav_.size())) {
-    const PointTally& candidate = of_uav_[uav][point];
-    if (!void_[uav] && candidate.q > 0.0F && ranks_before(candidate, best)) {
-      best = candidate;
+    const auto candidate = of_uav_[uav].find(point);
+    if (!void_[uav] && candidate != of_uav_[uav].end() && ranks_before(candidate->second, best)) {
+      best = candidate->second;
     }
   }
   return best;
 }
 
 std::vector<TallyChange> ScoreTable::add(const CaptureReport& report) {
-  std::vector<PointTally>& own = of_uav_.at(report.uav);
+  auto& own = of_uav_.at(report.uav);
   for (const CapturePoint& point : report.points) {
-    if (point.index >= own.size()) {
-      throw std::out_of_range("interest point " + std::to_string(point.index) + " of " + std::to_string(own.size()));
+    if (point.index >= standing_.size()) {
+      throw std::out_of_range("interest point " + std::to_string(point.index) + " of " +
+                              std::to_string(standing_.size()));
     }
   }
   std::vector<TallyChange> changes;
   for (const CapturePoint& point : report.points) {
     const PointTally candidate{point.q, report.uav, report.capture, report.tick};
-    if (!(point.q >= min_score_) || !ranks_before(candidate, own[point.index])) {
+    if (!(point.q >= min_score_)) {
       continue;
     }
-    own[point.index] = candidate;
+    PointTally& best = own[point.index];
+    if (!ranks_before(candidate, best)) {
+      continue;
+    }
+    best = candidate;
     PointTally& standing = standing_[point.index];
     if (!void_[report.uav] && ranks_before(candidate, standing)) {
       standing = candidate;

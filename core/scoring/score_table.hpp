@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <unordered_map>
 #include <vector>
 
 #include "core/scenario.hpp"
@@ -86,9 +87,11 @@ class ScoreTable {
 
   float min_score_;
   bool collision_voids_;
-  std::vector<bool> void_;                       ///< by UAV
-  std::vector<std::vector<PointTally>> of_uav_;  ///< best of each UAV, by point
-  std::vector<PointTally> standing_;             ///< best of the fleet, by point
+  std::vector<bool> void_;  ///< by UAV
+  /// Best of each UAV, by point; only of points that the UAV has captured, because in a large fleet most UAVs see a
+  /// small part of the site.
+  std::vector<std::unordered_map<std::uint32_t, PointTally>> of_uav_;
+  std::vector<PointTally> standing_;  ///< best of the fleet, by point
 };
 
 }  // namespace skein
