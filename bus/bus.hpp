@@ -134,7 +134,8 @@ struct BusConfig {
   DomainNetwork network(int domain) const;
 };
 
-/// Domain ids run from 0 to this one: the UDP ports of a domain begin at 7400 + 250 x domain and must stay below 65536.
+/// Domain ids of DDS run from 0 to this one: the UDP ports of a domain begin at 7400 + 250 x domain and must stay below
+/// 65536. Those of inproc have no upper limit.
 inline constexpr int kMaxDomain = 230;
 
 /// A backend, for one run. A participant may outlive the bus that created it.

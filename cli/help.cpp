@@ -28,7 +28,8 @@ std::string planner_list() try {
 /// The names of the scenarios in files, and of the families of generated worlds.
 std::vector<std::string> scenario_names() {
   std::vector<std::string> names = config_names(default_config_dir() / "scenarios");
-  names.insert(names.end(), kDrawnWorlds.begin(), kDrawnWorlds.end());
+  names.insert(names.end(), kWildWorlds.begin(), kWildWorlds.end());
+  names.emplace_back(kDistrict);
   return names;
 }
 

@@ -46,7 +46,8 @@ Asked ask(const Question& question) {
   const ScratchDir scratch;
   const std::filesystem::path answer = scratch.path() / "oracle.json", log = scratch.path() / "oracle.log";
   std::vector<std::string> argv = {program_dir() / programs::kSimServer, "--scenario",
-                                   scenario_source(question.scenario, question.scene_seed), "--oracle", answer};
+                                   scenario_source(question.scenario, question.scene_seed, question.uavs), "--oracle",
+                                   answer};
   if (question.scene_seed) argv.insert(argv.end(), {"--scene-seed", std::to_string(*question.scene_seed)});
   if (question.uavs) argv.insert(argv.end(), {"--uavs", std::to_string(*question.uavs)});
   if (question.assets) argv.insert(argv.end(), {"--assets", *question.assets});

@@ -75,7 +75,7 @@ RunOptions options_now(const RunOptions& given, const fs::path& run, const Json&
   const Scenario scenario = reading([&] {
     LoadOptions load = load_options(options);
     load.needs_scene_files = false;
-    return load_scenario(scenario_source(options.scenario, options.scene_seed), load);
+    return load_scenario(scenario_source(options.scenario, options.scene_seed, options.uavs), load);
   });
   check_flies_the_run(options, scenario, run, result);
   if (fs::exists(run / run_folder::kByHand)) options.faults = run / run_folder::kByHand;  // wherever the run is now

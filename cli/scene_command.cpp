@@ -18,6 +18,8 @@ void add_scene(CLI::App& app, SceneOptions& scene) {
   command->add_option("SCENARIO", scene.scenario, "A name under config/scenarios/ or a YAML file")->required();
   command->add_option("--scene-seed", scene.scene_seed, "Number of the variant of a procedural scenario")
       ->check(CLI::Validator(check_seed, ""));
+  command->add_option("--uavs", scene.uavs, "Fleet size, as for `skein run`")
+      ->check(CLI::Validator(check_positive, "POSITIVE"));
   command->add_option("--out", scene.out, "Folder to write to");
   command->add_flag("--picture", scene.picture,
                     "Draw the scene as SCENARIO.svg, in the folder of --out or the current one");
@@ -37,10 +39,11 @@ void add_scene(CLI::App& app, SceneOptions& scene) {
 
 int export_scene(const SceneOptions& options) {
   std::vector<std::string> argv = {program_dir() / programs::kSimServer, "--scenario",
-                                   scenario_source(options.scenario, options.scene_seed)};
+                                   scenario_source(options.scenario, options.scene_seed, options.uavs)};
   if (options.out) argv.insert(argv.end(), {"--export-scene", *options.out});
   if (options.picture) argv.insert(argv.end(), {"--scene-picture", options.out.value_or(".")});
   if (options.scene_seed) argv.insert(argv.end(), {"--scene-seed", std::to_string(*options.scene_seed)});
+  if (options.uavs) argv.insert(argv.end(), {"--uavs", std::to_string(*options.uavs)});
   if (options.assets) argv.insert(argv.end(), {"--assets", *options.assets});
   if (options.force) argv.push_back("--overwrite-export");
   // With a run's environment, hence the same libm and the same scene.

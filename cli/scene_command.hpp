@@ -15,6 +15,7 @@ namespace skein::cli {
 struct SceneOptions {
   std::string scenario;
   std::optional<std::uint64_t> scene_seed;
+  std::optional<std::size_t> uavs;           ///< fleet size, as for `skein run`
   std::optional<std::filesystem::path> out;  ///< folder for the scene's files
   bool picture = false;                      ///< write a drawing to `out`, or to the current folder
   std::optional<std::filesystem::path> assets;

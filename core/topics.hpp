@@ -315,14 +315,14 @@ inline constexpr TopicInfo kResync{"/skein/resync",
 inline constexpr TopicInfo kAttached{"/skein/attached",
                                      "skein_msgs/msg/Attached",
                                      Direction::internal,
-                                     512,
+                                     2048,  // more than a fleet has members
                                      "router -> world, when a participant's radio topics are matched",
                                      true};
 inline constexpr TopicInfo kRouted{"/skein/routed", "skein_msgs/msg/Routed", Direction::internal, 8,
                                    "router -> world, every exchange"};
 inline constexpr TopicInfo kAwaits{"/skein/awaits", "skein_msgs/msg/Awaits", Direction::internal, 64,
                                    "router -> world, while it waits for a member"};
-inline constexpr TopicInfo kDrop{"/skein/drop", "skein_msgs/msg/Drop", Direction::internal, 128,
+inline constexpr TopicInfo kDrop{"/skein/drop", "skein_msgs/msg/Drop", Direction::internal, 2048,
                                  "server -> world, when a member is lost"};
 // Latched with a large depth, so that a station that starts late, or restarts, receives the whole ledger.
 inline constexpr TopicInfo kLedger{"/skein/ledger",

@@ -77,20 +77,36 @@ void keep_checksum(const fs::path& scenario) try {
 
 }  // namespace
 
-std::string scenario_source(const std::string& scenario, const std::optional<std::uint64_t>& scene_seed) {
+std::string scenario_source(const std::string& scenario, const std::optional<std::uint64_t>& scene_seed,
+                            const std::optional<std::size_t>& uavs) {
   if (!is_drawn_world(scenario)) return scenario;
-  const std::string seed = std::to_string(scene_seed.value_or(0)), world = scenario + "_" + seed;
+  const std::string seed = std::to_string(scene_seed.value_or(0));
+  std::string world = scenario + "_" + seed;
+  std::vector<std::string> size;
+  if (scenario == kDistrict) {
+    if (uavs && (*uavs < 1 || *uavs > kMostUavs)) {
+      throw InputError("--uavs: must be within [1, " + std::to_string(kMostUavs) + "]");
+    }
+    const std::string count = std::to_string(uavs.value_or(kUsualDistrictUavs));
+    world += "_" + count;
+    size = {"--uavs", count};
+  }
   const fs::path folder = folder_of(world), file = folder / (world + ".yaml");
   if (is_kept(file)) return file;
   const ScratchDir scratch;
   const fs::path log = scratch.path() / "draw.log";
   // sim_server gets the environment of a run, so that the libm of runs draws the world. A concurrent process writes the
   // same bytes.
-  const ExitStatus exit = run_to_end({programs::kSimServer,
-                                      {program_dir() / programs::kSimServer, "--draw-world", scenario, "--scene-seed",
-                                       seed, "--export-scene", folder, "--overwrite-export"},
-                                      fleet_environment(false),
-                                      log});
+  std::vector<std::string> arguments = {program_dir() / programs::kSimServer,
+                                        "--draw-world",
+                                        scenario,
+                                        "--scene-seed",
+                                        seed,
+                                        "--export-scene",
+                                        folder,
+                                        "--overwrite-export"};
+  arguments.insert(arguments.end(), size.begin(), size.end());
+  const ExitStatus exit = run_to_end({programs::kSimServer, arguments, fleet_environment(false), log});
   if (exit.ok()) {
     keep_checksum(file);
     return file;

@@ -10,8 +10,10 @@ namespace skein::cli {
 
 /// The scenario argument that programs get: for a generated world its file in the cache, which sim_server generates now
 /// if it is missing or damaged; any other scenario unchanged.
+/// @param uavs  size of the fleet; only the district depends on it.
 /// @throws InputError when there is no cache folder, or sim_server reports bad input; std::runtime_error when it fails
 ///   otherwise; Interrupted.
-std::string scenario_source(const std::string& scenario, const std::optional<std::uint64_t>& scene_seed);
+std::string scenario_source(const std::string& scenario, const std::optional<std::uint64_t>& scene_seed,
+                            const std::optional<std::size_t>& uavs = {});
 
 }  // namespace skein::cli

@@ -1,5 +1,7 @@
 #include "run/fleet_plan.hpp"
 
+#include <spdlog/fmt/fmt.h>
+
 #include <algorithm>
 #include <array>
 #include <cstdlib>
@@ -153,11 +155,12 @@ FleetPlan plan_fleet(const RunOptions& options, const std::filesystem::path& bin
     throw InputError(
         "--secure --dds mixed: the vendors' security does not work together reliably; choose cyclonedds or fastdds");
   }
-  FleetPlan plan{options,
-                 load_scenario(scenario_source(options.scenario, options.scene_seed), load_options(options)),
-                 {},
-                 bin_dir,
-                 {}};
+  FleetPlan plan{
+      options,
+      load_scenario(scenario_source(options.scenario, options.scene_seed, options.uavs), load_options(options)),
+      {},
+      bin_dir,
+      {}};
   plan.faults = load_fault_plan(options.faults.value_or(""), plan.scenario, options.seed);
   std::vector<std::string> names;
   for (const UavConfig& uav : plan.scenario.fleet) names.push_back(uav.name);
@@ -178,6 +181,12 @@ FleetPlan plan_fleet(const RunOptions& options, const std::filesystem::path& bin
   plan.log_levels = log_levels(plan);
   if (const auto reason = options.one_process ? needs_processes(plan) : std::nullopt) {
     throw InputError(*reason + "; leave out --one-process");
+  }
+  if (!options.one_process && plan.scenario.fleet.size() > kMostUavsOverDds) {
+    throw InputError(fmt::format(
+        "a fleet of {} UAVs is too large for DDS: at most {} have a domain of their own; fly it in one process "
+        "(--one-process)",
+        plan.scenario.fleet.size(), kMostUavsOverDds));
   }
   // Now, because SKEIN_THREADS may be wrong: later the results folder has been emptied.
   if (options.one_process) plan.options.threads = threads_of(options.threads, plan.scenario.fleet.size());

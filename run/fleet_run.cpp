@@ -224,7 +224,7 @@ void FleetRun::on_interrupt() {
 void FleetRun::tell_waiting() {
   const auto waited_s = silence_.due(Clock::now());
   if (!waited_s || host_->running().empty()) return;
-  const std::string whom = server_done_ ? joined(host_->running()) + " to leave" : programs::kSimServer;
+  const std::string whom = server_done_ ? joined_first(host_->running()) + " to leave" : programs::kSimServer;
   view_.message(fmt::format("waiting for {} ({:.0f} s)", whom, *waited_s));
 }
 

@@ -67,8 +67,8 @@ void ProgressView::progress(const status::Progress& progress, double wall_s) {
 
 void ProgressView::waiting_for(const status::WaitingFor& wait) {
   if (!terminal_ && !wait.due) return;
-  show("waiting for " + joined(wait.members) + " " + wait.what + " (" + fixed(wait.seconds, 0) + " s)" +
-       (wait.missing.empty() ? "" : ": " + joined(wait.missing)));
+  show("waiting for " + joined_first(wait.members) + " " + wait.what + " (" + fixed(wait.seconds, 0) + " s)" +
+       (wait.missing.empty() ? "" : ": " + joined_first(wait.missing)));
 }
 
 void ProgressView::write_to(std::ostream& out, bool terminal) {

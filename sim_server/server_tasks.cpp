@@ -9,12 +9,14 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "core/scenario/drawn_worlds.hpp"
 #include "core/scenario/scenario_reader.hpp"
 #include "core/text/number_checks.hpp"
 #include "oracle/cache.hpp"
 #include "process/files/atomic_file.hpp"
 #include "process/files/user_cache.hpp"
 #include "process/program.hpp"
+#include "scenes/district.hpp"
 #include "scenes/scene_export.hpp"
 #include "scenes/scene_source.hpp"
 #include "scenes/wild/world.hpp"
@@ -54,7 +56,9 @@ int ServerTasks::check_golden() const {
 
 int ServerTasks::write_scene(const ProgramOptions& options) const {
   const World world = [&] {
-    if (!draw_world.empty()) return sim::draw_world(draw_world, options.scene_seed.value_or(0));
+    const std::uint64_t seed = options.scene_seed.value_or(0);
+    if (draw_world == kDistrict) return draw_district(seed, options.uavs.value_or(kUsualDistrictUavs));
+    if (!draw_world.empty()) return sim::draw_world(draw_world, seed);
     const Scenario scenario = load_scenario(options.scenario, options.load_options());
     return World{scenario, load_scene(scenario)};
   }();

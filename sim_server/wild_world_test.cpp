@@ -125,8 +125,8 @@ TEST_P(EveryWorld, AWalledInStartCannotBeFlown) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Wild, EveryWorld,
-                         testing::Combine(testing::ValuesIn(std::vector<std::string>(kDrawnWorlds.begin(),
-                                                                                     kDrawnWorlds.end())),
+                         testing::Combine(testing::ValuesIn(std::vector<std::string>(kWildWorlds.begin(),
+                                                                                     kWildWorlds.end())),
                                           testing::Range<std::uint64_t>(kFirstSeed, kFirstSeed + kSeeds)),
                          [](const auto& test) {
                            return std::string(std::get<0>(test.param)) + "_" + std::to_string(std::get<1>(test.param));

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "bus/wire.hpp"
+#include "core/types.hpp"
 
 namespace skein::bus {
 
@@ -239,7 +240,7 @@ class InprocBus : public Bus {
  public:
   using Bus::Bus;
   std::unique_ptr<Participant> join(int domain) override {
-    check_domain(domain);
+    if (domain < 0) throw InputError("domain " + std::to_string(domain) + " is out of range: it must be 0 or more");
     const ParticipantId id = Exchange::instance().next_id();
     const std::scoped_lock lock(mutex_);
     joined_.insert(id);

@@ -153,7 +153,7 @@ std::vector<LockstepServer::Awaited> LockstepServer::awaited_in_step() const {
 std::vector<LockstepServer::Awaited> LockstepServer::awaited_at_boundary() const {
   std::vector<Awaited> result;
   const Place* r = router();
-  std::string unattached;  // members that the router has not attached, without a reported reason
+  std::vector<std::string> unattached;  // members that the router has not attached, without a reported reason
   for (const Place& place : places_) {
     const bool at_the_door = !place.member && !place.order && (place.awaited || place.source != 0);
     if (!place.member && !at_the_door) continue;
@@ -169,11 +169,11 @@ std::vector<LockstepServer::Awaited> LockstepServer::awaited_at_boundary() const
       if (!what.empty() || gone)
         result.push_back({place.name, gone ? "its participant has gone" : what});
       else
-        unattached += (unattached.empty() ? "" : ", ") + place.name;
+        unattached.push_back(place.name);
     }
   }
   if (r != nullptr && result.empty() && !unattached.empty()) {
-    result.push_back({r->name, "to attach the radio of " + unattached});
+    result.push_back({r->name, "to attach the radio of " + joined_first(unattached)});
   }
   return result;
 }

@@ -1,6 +1,7 @@
-// Wild scenes: scenarios that are generated completely from a scene seed, including fleet, starts, station, resolution
-// and duration. There is no file in config/scenarios/ for such a name: sim_server generates the scenario
-// (scenes/wild/world.hpp), and the launcher stores it as an ordinary scenario with its files.
+// Scenarios that are generated completely from a scene seed, including fleet, starts, station, resolution and duration:
+// wild scenes (scenes/wild/world.hpp), and the district, which also depends on the size of the fleet. There is no file in
+// config/scenarios/ for such a name: sim_server generates the scenario, and the launcher stores it as an ordinary
+// scenario with its files.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +13,10 @@
 namespace skein {
 
 inline constexpr const char* kBlindWorld = "wild_blind";  ///< no UAV has a LiDAR; without clutter, walls and canopies
-inline constexpr std::array<const char*, 2> kDrawnWorlds = {"wild", kBlindWorld};
+inline constexpr std::array<const char*, 2> kWildWorlds = {"wild", kBlindWorld};
+inline constexpr const char* kDistrict = "district";  ///< grows with the fleet (scenes/district.hpp)
+/// UAVs of the district if no number is given.
+inline constexpr std::size_t kUsualDistrictUavs = 20;
 
 /// Increase this number with every change to the generator, so that stored worlds are generated again.
 inline constexpr int kWorldGrammar = 1;
@@ -22,7 +26,7 @@ inline constexpr int kWorldGrammar = 1;
 inline bool from_files(const SceneConfig& scene) { return !scene.meshes.empty(); }
 
 inline bool is_drawn_world(std::string_view name) {
-  return std::ranges::find(kDrawnWorlds, name) != kDrawnWorlds.end();
+  return name == kDistrict || std::ranges::find(kWildWorlds, name) != kWildWorlds.end();
 }
 
 }  // namespace skein

@@ -26,7 +26,6 @@ namespace {
 
 constexpr double kLeastStationDistanceM = 0.5;
 constexpr std::size_t kLongestName = 64;  ///< of a UAV or a scenario: they become names of files and topics
-constexpr std::size_t kMostUavs = 128;    ///< each has a DDS domain of its own, and those end near 230
 
 /// A word that may be part of a ROS name.
 bool is_ros_word(const std::string& text) {
@@ -64,8 +63,9 @@ void check_battery(const BatteryConditions& battery, ConfigErrors& errors) {
 
 void check_names(const ScenarioFile& file, ConfigErrors& errors) {
   // Names of nodes and topics; and of members of the lock-step, which is by name.
-  static const std::set<std::string> reserved = {"all", "clock",      "comm_router", "gcs",     "one_process",
-                                                 "sim", "sim_server", "skein",       "station", "uav_agent"};
+  static const std::set<std::string> reserved = {"all",         "clock",     "comm_router", "gcs",
+                                                 "one_process", "sim",       "sim_server",  "skein",
+                                                 "station",     "uav_agent", "uavs"};
   const std::string& scenario = file.scenario.name;
   const bool names_a_folder = scenario.size() <= kLongestName && scenario != "." && scenario != ".." &&
                               scenario.find_first_of("/\\") == std::string::npos &&
@@ -159,9 +159,11 @@ void check_radio(const ScenarioFile& file, ConfigErrors& errors) {
     check_nodes(path + ".sources", topic.sources);
     check_nodes(path + ".targets", topic.targets);
   }
+  const std::vector<std::string> uavs = {"uavs"};
   for (std::size_t i = 0; i < file.scenario.links.size(); ++i) {
-    check_nodes(index_path("radio.links", i, "from"), file.scenario.links[i].from);
-    check_nodes(index_path("radio.links", i, "to"), file.scenario.links[i].to);
+    const LinkEffect& link = file.scenario.links[i];
+    if (link.from != uavs) check_nodes(index_path("radio.links", i, "from"), link.from);
+    if (link.to != uavs) check_nodes(index_path("radio.links", i, "to"), link.to);
   }
 }
 

@@ -17,6 +17,9 @@
 
 namespace skein {
 
+inline constexpr std::size_t kMostUavs = 1024;        ///< of a fleet, in one process
+inline constexpr std::size_t kMostUavsOverDds = 128;  ///< each has a DDS domain of its own, and those end near 230
+
 struct LoadOptions {
   std::filesystem::path assets_dir = {};         ///< folder that contains models/; empty: SKEIN_ASSETS, else none
   std::filesystem::path config_dir = {};         ///< empty: default_config_dir()

@@ -388,7 +388,7 @@ TEST_F(ScenarioReader, LargeFilesAreReadOrRefusedInTheTimeThatTheirLengthTakes) 
   for (int i = 0; i < 5000; ++i) fleet += "- {name: u" + std::to_string(i) + ", vehicle: explorer, start: [1, 1]}\n";
   EXPECT_NE(complaint(write("keys.yaml", keys)).find("and 99990 more"), std::string::npos);
   EXPECT_NE(complaint(write("names.yaml", names + "a]}]}\n")).find("'a' is named twice"), std::string::npos);
-  EXPECT_NE(complaint(write("fleet.yaml", fleet)).find("must have 1 to 128 UAVs"), std::string::npos);
+  EXPECT_NE(complaint(write("fleet.yaml", fleet)).find("must have 1 to 1024 UAVs"), std::string::npos);
 }
 
 }  // namespace

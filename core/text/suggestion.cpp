@@ -52,4 +52,11 @@ std::string joined(const std::vector<std::string>& words, std::string_view separ
   return out;
 }
 
+std::string joined_first(const std::vector<std::string>& words) {
+  constexpr std::size_t kMost = 10;
+  if (words.size() <= kMost) return joined(words);
+  const std::vector<std::string> first(words.begin(), words.begin() + kMost - 1);
+  return joined(first) + " and " + std::to_string(words.size() - first.size()) + " more";
+}
+
 }  // namespace skein

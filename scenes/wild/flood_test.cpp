@@ -152,7 +152,7 @@ TEST_P(FloodedWorld, AStartThatIsWalledInDoesNot) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Wild, FloodedWorld,
-                         testing::ValuesIn(std::vector<std::string>(kDrawnWorlds.begin(), kDrawnWorlds.end())),
+                         testing::ValuesIn(std::vector<std::string>(kWildWorlds.begin(), kWildWorlds.end())),
                          [](const auto& family) { return family.param; });
 
 }  // namespace

@@ -17,6 +17,7 @@
 // its commands at the edge of the controller's timeout (here they go out once per exchange), and a UAV name that its
 // code does not know.
 #include <algorithm>
+#include <string>
 
 #include "uav_agent/api/planner.hpp"
 #include "uav_agent/flight/site.hpp"
@@ -31,6 +32,7 @@
 namespace skein::agent {
 namespace {
 
+constexpr std::size_t kMostUavsOfXxh = 255;  ///< messages about teams have a byte for the number of a UAV
 constexpr double kLookAtMapS = 1.0;  ///< time between two looks at the map
 constexpr int kFruitless = 8;        ///< after so many unreachable choices in a row, the flight core ...
 constexpr double kGivesWayS = 5.0;   ///< ... has so much time to take the UAV elsewhere
@@ -51,7 +53,11 @@ class XxhPlanner final : public Planner {
         site_(config_, agent_),
         explorer_(config_),
         inspector_(config_, agent_),
-        post_(agent_) {}
+        post_(agent_) {
+    if (agent_.fleet.size() <= kMostUavsOfXxh) return;
+    throw InputError("planner xxh forms teams of at most " + std::to_string(kMostUavsOfXxh) +
+                     " UAVs in all; this fleet has " + std::to_string(agent_.fleet.size()));
+  }
 
   const FlightConfig* flight() const override { return &config_.flight; }
   PlannerOutput plan(const PlannerInput& in) override;
