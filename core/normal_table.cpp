@@ -7,8 +7,8 @@
 namespace skein {
 namespace {
 
-/// The x > 0 that a standard normal number exceeds with probability p in [2^-36, 0.5]: Wichura, algorithm AS 241 (Applied
-/// Statistics 37, 1988, pages 477 to 484), to 1e-16.
+/// The x > 0 that a standard normal number exceeds with probability p in [2^-36, 0.5]: Wichura, algorithm AS 241
+/// (Applied Statistics 37, 1988, pages 477 to 484), to 1e-16.
 double upper_quantile(double p) {
   const auto polynomial = [](const std::array<double, 8>& coefficients, double x) {
     double sum = 0.0;

@@ -1,7 +1,7 @@
-// Standard normal numbers for programs that need thousands at once: each from 64 random bits, by linear interpolation in
-// a table of quantiles. Several times as fast as RandomStream::normal(), and likewise the same bits on every machine.
-// Accuracy: the probability of each tail is within 0.02 % of the normal distribution's down to 6e-11; no number is
-// beyond 6.7; variance and kurtosis are within 1e-4 of 1 and 3.
+// Standard normal numbers for programs that need thousands at once: each from 64 random bits, by linear interpolation
+// in a table of quantiles. Several times as fast as RandomStream::normal(), and likewise the same bits on every
+// machine. Accuracy: the probability of each tail is within 0.02 % of the normal distribution's down to 6e-11; no
+// number is beyond 6.7; variance and kurtosis are within 1e-4 of 1 and 3.
 // Pure; safe from any thread.
 #pragma once
 

@@ -2,6 +2,7 @@
 // domain prevents two fleets in the same network namespace from using the same domain, also fleets of different users.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,6 +14,9 @@ namespace skein::cli {
 
 /// Above this domain, the UDP ports that the DDS standard prescribes reach into Linux's ephemeral port range.
 inline constexpr int kLastQuietDomain = 101;
+
+/// @throws InputError for a fleet of more UAVs than can have a domain each.
+void check_uavs_over_dds(std::size_t uavs);
 
 /// Holds the domains base .. base + size - 1 for as long as it lives.
 class DomainBlock {

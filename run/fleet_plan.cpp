@@ -1,7 +1,5 @@
 #include "run/fleet_plan.hpp"
 
-#include <spdlog/fmt/fmt.h>
-
 #include <algorithm>
 #include <array>
 #include <cstdlib>
@@ -17,6 +15,7 @@
 #include "core/text/suggestion.hpp"
 #include "core/text/text.hpp"
 #include "core/topics.hpp"
+#include "host/domain_block.hpp"
 #include "host/environment.hpp"
 #include "host/threads.hpp"
 #include "results/run_folder.hpp"
@@ -162,9 +161,7 @@ FleetPlan plan_fleet(const RunOptions& options, const std::filesystem::path& bin
       bin_dir,
       {}};
   plan.faults = load_fault_plan(options.faults.value_or(""), plan.scenario, options.seed);
-  std::vector<std::string> names;
-  for (const UavConfig& uav : plan.scenario.fleet) names.push_back(uav.name);
-  Planners planners = parse_planners(options.planner, names);
+  Planners planners = parse_planners(options.planner, plan.scenario.uav_names());
   check_hands(planners.uavs, options.view.at.has_value(), options.stepped);
   plan.agent = own_agent(options.agent);
   find_python_files(planners);
@@ -182,12 +179,7 @@ FleetPlan plan_fleet(const RunOptions& options, const std::filesystem::path& bin
   if (const auto reason = options.one_process ? needs_processes(plan) : std::nullopt) {
     throw InputError(*reason + "; leave out --one-process");
   }
-  if (!options.one_process && plan.scenario.fleet.size() > kMostUavsOverDds) {
-    throw InputError(fmt::format(
-        "a fleet of {} UAVs is too large for DDS: at most {} have a domain of their own; fly it in one process "
-        "(--one-process)",
-        plan.scenario.fleet.size(), kMostUavsOverDds));
-  }
+  if (!options.one_process) check_uavs_over_dds(plan.scenario.fleet.size());
   // Now, because SKEIN_THREADS may be wrong: later the results folder has been emptied.
   if (options.one_process) plan.options.threads = threads_of(options.threads, plan.scenario.fleet.size());
   return plan;

@@ -1,7 +1,7 @@
-// The district: a site that grows with the fleet, for fleets of up to a thousand UAVs. It has a lot with one building for
-// every five UAVs. The lots form a square with streets between them, where the UAVs start. The ground station stands on
-// a mast in the middle. UAVs hear each other at short range only, so that the work of a UAV does not grow with the
-// fleet; the station hears all UAVs in line of sight.
+// The district: a site that grows with the fleet, for fleets of up to a thousand UAVs. It has a lot with one building
+// for every five UAVs. The lots form a square with streets between them, where the UAVs start. The ground station
+// stands on a mast in the middle. UAVs hear each other at short range only, so that the work of a UAV does not grow
+// with the fleet; the station hears all UAVs in line of sight.
 // Frame W.   Units: m, s.   Deterministic: the same numbers give the same bytes on every machine.
 #pragma once
 

@@ -29,7 +29,8 @@ std::optional<double> common_range(const std::vector<LinkEffect>& links) {
 /// connects nodes of the same or of adjacent squares. The ground station may have a link with every UAV.
 class NodeSquares {
  public:
-  /// @param range_m  of every link between UAVs; nullopt: all nodes are in one square. @param places  antennas, by node.
+  /// @param range_m  of every link between UAVs; nullopt: all nodes are in one square. @param places  antennas, by
+  /// node.
   NodeSquares(std::optional<double> range_m, const std::vector<Vector3d>& places) : range_m_(range_m) {
     for (std::size_t node = 0; node < places.size(); ++node) {
       own_.push_back(square_of(places[node]));

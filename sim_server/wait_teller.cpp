@@ -16,8 +16,8 @@ void WaitTeller::send(const std::vector<AwaitedMember>& awaited, WaitNotice::Clo
   }
   const double waited_s = notice_.waited_s(now);
   const bool due = notice_.due(now).has_value();
-  if (due) spdlog::info("waiting for {} {} ({:.0f} s): {}", joined_first(names), what_, waited_s,
-                        joined_first(missing));
+  if (due)
+    spdlog::info("waiting for {} {} ({:.0f} s): {}", joined_first(names), what_, waited_s, joined_first(missing));
   status_.send(status::line_json(status::WaitingFor{
       .members = std::move(names), .missing = std::move(missing), .what = what_, .seconds = waited_s, .due = due}));
 }

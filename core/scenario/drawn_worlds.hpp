@@ -1,6 +1,6 @@
 // Scenarios that are generated completely from a scene seed, including fleet, starts, station, resolution and duration:
-// wild scenes (scenes/wild/world.hpp), and the district, which also depends on the size of the fleet. There is no file in
-// config/scenarios/ for such a name: sim_server generates the scenario, and the launcher stores it as an ordinary
+// wild scenes (scenes/wild/world.hpp), and the district, which also depends on the size of the fleet. There is no file
+// in config/scenarios/ for such a name: sim_server generates the scenario, and the launcher stores it as an ordinary
 // scenario with its files.
 #pragma once
 

@@ -1,5 +1,5 @@
-// Loads a scenario once for all programs of a process: in a large fleet, reading it costs each agent more time and memory
-// than its part of the flight.   Threads: any.
+// Loads a scenario once for all programs of a process: in a large fleet, reading it costs each agent more time and
+// memory than its part of the flight.   Threads: any.
 #pragma once
 
 #include <memory>

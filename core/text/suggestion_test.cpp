@@ -24,5 +24,14 @@ TEST(Suggestion, ListsAllWhenNoneIsNear) {
   EXPECT_EQ(suggestion("x", {}), "none is known");
 }
 
+TEST(Joined, LongListsEndAfterNineWords) {
+  std::vector<std::string> words;
+  EXPECT_EQ(joined_first(words), "");
+  for (int i = 0; i < 10; ++i) words.push_back(std::to_string(i));
+  EXPECT_EQ(joined_first(words), "0, 1, 2, 3, 4, 5, 6, 7, 8, 9");
+  words.emplace_back("10");
+  EXPECT_EQ(joined_first(words), "0, 1, 2, 3, 4, 5, 6, 7, 8 and 2 more");
+}
+
 }  // namespace
 }  // namespace skein

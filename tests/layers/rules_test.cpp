@@ -362,21 +362,18 @@ TEST_F(MadeUpTree, DecisionsLongerThanAPageAreFound) {
   file("docs/decisions/0001-good.md", sections + "5\n6\n");
   file("docs/long.md", sections + "5\n6\n7\n");
   EXPECT_EQ(check_decisions(tree(), 6), Violations{});
-
   file("docs/decisions/0002-long.md", sections + "5\n6\n7\n");
   file("docs/decisions/0003-gone.md", "# 3.\n\nSuperseded by [decision 1](0001-good.md).\n4\n5\n6\n7\n");
-  EXPECT_EQ(places(check_decisions(tree(), 6)),
-            (Places{"docs/decisions/0002-long.md:7", "docs/decisions/0003-gone.md:7"}));
+  const Places too_long = {"docs/decisions/0002-long.md:7", "docs/decisions/0003-gone.md:7"};
+  EXPECT_EQ(places(check_decisions(tree(), 6)), too_long);
 }
 
 TEST_F(MadeUpTree, TestNamesWithoutAnActorAreFound) {
   file("core/good_test.cpp",
        "TEST(Who, WholeNumbersAreDecimal) {}\nTEST_F(Map, TellsWhatItKnows) {}\n// TEST(Map, WhatIsWrong) {}\n"
        "EXPECT_EQ(f(What), Nobody);\ntext = \"TEST(Map, WhoIsThere)\";\n");
-  file("python/tests/test_good.py",
-       "def test_whole_numbers():\ndef what_is_wrong():\ndef test_says_what_is_wrong():\n");
+  file("python/tests/test_good.py", "def test_whole_numbers():\ndef what_is_wrong():\ndef test_says_what():\n");
   EXPECT_EQ(check_test_names(tree()), Violations{});
-
   file("core/bad_test.cpp",
        "TEST(Map, WhatIsWrong) {}\nTEST_F(Map, WhoeverAsks) {}\nTEST_P(Map, WhoseMapIsLost) {}\n"
        "TEST(Map, NobodyHearsIt) {}\nTEST(Map,\n     WhomItTells) {}\nTEST(Map, Somebody) {}\n");

@@ -42,8 +42,8 @@ class MapNews {
   static constexpr std::size_t kEnvelopeBytes = 40;
 
   MapNews(UavIndex self, std::size_t fleet) : MapNews(self, fleet, Config()) {}
-  /// @param fleet  at most 65,535 UAVs. Of a larger fleet than Acquaintances::kMostSlots, the UAV shares its map with as
-  /// many as it met first, by sight or by a message.
+  /// @param fleet  at most 65,535 UAVs. Of a larger fleet than Acquaintances::kMostSlots, the UAV shares its map with
+  /// as many as it met first, by sight or by a message.
   MapNews(UavIndex self, std::size_t fleet, const Config& config);
 
   /// Appends a message, if one is due and a UAV is in line of sight. Call it at each exchange. It sends nothing in its

@@ -33,11 +33,11 @@ namespace skein::agent {
 namespace {
 
 constexpr std::size_t kMostUavsOfXxh = 255;  ///< messages about teams have a byte for the number of a UAV
-constexpr double kLookAtMapS = 1.0;  ///< time between two looks at the map
-constexpr int kFruitless = 8;        ///< after so many unreachable choices in a row, the flight core ...
-constexpr double kGivesWayS = 5.0;   ///< ... has so much time to take the UAV elsewhere
-constexpr double kSeekFootS = 40.0;  ///< longest time to prove free space at the foot of an upright region
-constexpr double kFreshS = 10.0;     ///< after a restart in flight: the others' reports may tell the team's region
+constexpr double kLookAtMapS = 1.0;          ///< time between two looks at the map
+constexpr int kFruitless = 8;                ///< after so many unreachable choices in a row, the flight core ...
+constexpr double kGivesWayS = 5.0;           ///< ... has so much time to take the UAV elsewhere
+constexpr double kSeekFootS = 40.0;          ///< longest time to prove free space at the foot of an upright region
+constexpr double kFreshS = 10.0;  ///< after a restart in flight: the others' reports may tell the team's region
 
 }  // namespace
 
