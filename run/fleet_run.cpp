@@ -23,6 +23,8 @@ using std::chrono::milliseconds;
 /// How long the programs may take to write their reports and leave after sim_server has left. Beside many other busy
 /// programs, with a low priority, they need over 10 s.
 constexpr milliseconds kLeaveTime{30000};
+/// Additional time for each UAV, whose program writes its map: in one process, the programs take turns.
+constexpr milliseconds kLeaveTimePerUav{200};
 /// The same for users' commands once all others have left: they need not know that the run is over.
 constexpr milliseconds kExecLeaveTime{2000};
 /// From SIGTERM to SIGKILL.
@@ -359,9 +361,10 @@ bool FleetRun::left_as_asked(const ExitStatus& exit) const { return facts_.inter
 
 /// Time for programs to leave after the run. After Ctrl-C before the first step: none, as they are not told of its end.
 milliseconds FleetRun::leave_time() const {
-  if (!facts_.interrupted) return scaled(kLeaveTime);
+  const milliseconds of_uavs = plan_.scenario.fleet.size() * kLeaveTimePerUav;
+  if (!facts_.interrupted) return scaled(kLeaveTime + of_uavs);
   if (!first_progress_) return milliseconds(0);
-  return scaled(stalled_ ? kStalledLeaveTime : kStoppedLeaveTime);
+  return scaled(stalled_ ? kStalledLeaveTime : kStoppedLeaveTime + of_uavs);
 }
 
 milliseconds FleetRun::scaled(milliseconds time) const {
