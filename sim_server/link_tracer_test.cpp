@@ -65,8 +65,12 @@ TEST(LinkTracer, TracesNearPairsOnlyAndGivesEachPairTheSameLink) {
     const double range_m = draw.uniform(0.5, 80.0);
     const bool station_too = draw.uniform() < 0.5;
     const std::vector<std::string> nodes = {station_too ? "all" : "uavs"};
-    scenario.links = {{.from = nodes, .to = nodes, .range_m = range_m},
-                      {.from = {"u1"}, .to = {"all"}, .range_m = draw.uniform(0.5, 80.0)}};
+    LinkEffect& of_all = scenario.links.emplace_back();
+    of_all.from = of_all.to = nodes;
+    of_all.range_m = range_m;
+    LinkEffect& of_one = scenario.links.emplace_back();
+    of_one.from = {"u1"};
+    of_one.range_m = draw.uniform(0.5, 80.0);
     LinkTracer tracer(scenario, no_faults);
     Scenario pairwise = scenario;  // the same ranges, as effects of which none limits all pairs
     pairwise.links[0].from = pairwise.links[0].to = {station_too ? "all" : "uavs", "u0"};

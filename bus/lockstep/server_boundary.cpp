@@ -6,6 +6,7 @@
 
 #include "bus/lockstep/names.hpp"
 #include "bus/lockstep/server.hpp"
+#include "core/text/suggestion.hpp"
 
 namespace skein::bus {
 

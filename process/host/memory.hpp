@@ -14,7 +14,10 @@ std::optional<std::uint64_t> memory_left();
 /// Memory that a fleet's programs need over DDS [bytes]: an estimate, rounded up, from fleets of 1 to 100 UAVs
 /// (docs/performance.md). Maps grow with the mission and the scene, so long missions need more.
 constexpr std::uint64_t fleet_memory(std::size_t uavs) { return (90 + 9 * uavs) * 1'000'000; }
-/// The same of a fleet in one process, from flights of 20 s with 1 to 8 UAVs, which took 60 to 107 MB.
-constexpr std::uint64_t one_process_memory(std::size_t uavs) { return (55 + 7 * uavs) * 1'000'000; }
+/// The same of a fleet in one process, from flights of 20 s with 1 to 1,000 UAVs. Programs hold something for each pair
+/// of UAVs.
+constexpr std::uint64_t one_process_memory(std::size_t uavs) {
+  return (55 + 10 * uavs) * 1'000'000 + 5'000 * uavs * uavs;
+}
 
 }  // namespace skein
