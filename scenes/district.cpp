@@ -26,6 +26,12 @@ constexpr double kRadio_m = 40.0;      ///< between UAVs
 constexpr double kMastShare = 0.2;     ///< height of the mast, as a share of the district's side, besides kLeastMast_m
 constexpr double kLeastMast_m = 25.0;
 
+/// Column and row of a square in a grid with so many columns.
+Vector2d square(std::size_t number, std::size_t columns) {
+  const std::size_t column = number % columns, row = number / columns;
+  return {static_cast<double>(column), static_cast<double>(row)};
+}
+
 /// The building of a lot, and the box around it.
 void add_building(Scene& scene, const Vector2d& middle_W, std::size_t lot, RandomStream& random) {
   const auto kinds = wild::solid_kinds();
@@ -50,11 +56,10 @@ World draw_district(std::uint64_t scene_seed, std::size_t uavs, const std::files
   Scenario& scenario = world.scenario;
   for (std::size_t lot = 0; lot < lots; ++lot) {
     RandomStream random(scene_seed, "district", lot);
-    const Vector2d crossing_W = kLot_m * Vector2d(static_cast<double>(lot % side), static_cast<double>(lot / side));
+    const Vector2d crossing_W = kLot_m * square(lot, side);
     add_building(world.scene, crossing_W + Vector2d::Constant(0.5 * kLot_m), lot, random);
     for (std::size_t i = 0; i < kUavsPerLot && scenario.fleet.size() < uavs; ++i) {
-      const Vector2d step(static_cast<double>(i % 3), static_cast<double>(i / 3));
-      const Vector2d start_W = crossing_W + Vector2d::Constant(kFirstStart_m) + kStartSpacing_m * step;
+      const Vector2d start_W = crossing_W + Vector2d::Constant(kFirstStart_m) + kStartSpacing_m * square(i, 3);
       scenario.fleet.push_back({fmt::format("uav{:04}", scenario.fleet.size() + 1),
                                 i < kExplorersPerLot ? explorer : photographer, start_W, 0.25 * std::numbers::pi});
     }

@@ -259,7 +259,8 @@ TEST_F(ScenarioReader, AFleetMayBeOfAnotherSize) {
       EXPECT_EQ(fleet[i].start, more[i].start) << "in a fleet of any size";
     }
   }
-  for (const auto& [uavs, reason] : {std::pair(0, "--uavs"), {129, "--uavs"}, {9, "the scene has places for 8 UAVs"}}) {
+  for (const auto& [uavs, reason] :
+       {std::pair(0, "--uavs"), {1025, "--uavs"}, {9, "the scene has places for 8 UAVs"}}) {
     options_.uavs = static_cast<std::size_t>(uavs);
     EXPECT_NE(complaint("towers").find(reason), std::string::npos) << complaint("towers");
   }

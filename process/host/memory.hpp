@@ -17,7 +17,7 @@ constexpr std::uint64_t fleet_memory(std::size_t uavs) { return (90 + 9 * uavs) 
 /// The same of a fleet in one process, from flights of 20 s with 1 to 1,000 UAVs. Programs hold something for each pair
 /// of UAVs.
 constexpr std::uint64_t one_process_memory(std::size_t uavs) {
-  return (55 + 10 * uavs) * 1'000'000 + 5'000 * uavs * uavs;
+  return (55 + 8 * uavs) * 1'000'000 + 7'000 * uavs * uavs;
 }
 
 }  // namespace skein

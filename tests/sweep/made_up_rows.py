@@ -40,7 +40,16 @@ def figures(index):
             "least_clearance_m": 1.2, "least_separation_m": 2.3, "uavs": uavs}
 
 
+def flight(index):
+    run = {"scenario": "towers", "planner": names[index % planners], "seed": index}
+    return {"index": index, "dir": str(folder / "flights" / str(index)), "run": run, "made_under": None}
+
+
+(sweep / "units").mkdir(exist_ok=True)
 for number in range((count + unit - 1) // unit):
+    indices = range(number * unit, min((number + 1) * unit, count))
+    planned = {"flights": [flight(index) for index in indices], "again": False}
+    (sweep / "units" / f"{number:06}.json").write_text(json.dumps(planned))
     rows = [{"index": index, "node": f"node{number % 50}", "problem": "", "figures": figures(index)}
-            for index in range(number * unit, min((number + 1) * unit, count))]
+            for index in indices]
     (sweep / "done" / "made-up" / f"{number:06}.json").write_text(json.dumps({"flights": rows}))
