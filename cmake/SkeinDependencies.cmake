@@ -8,7 +8,7 @@ find_path(PCL_INCLUDE_DIR pcl/point_types.h PATH_SUFFIXES pcl-1.13
 if(NOT PCL_INCLUDE_DIR)
   message(FATAL_ERROR "PCL's headers are missing: run ./skein once, or install libpcl-dev")
 endif()
-set(pcl_parts common filters)
+set(pcl_parts common)
 if(BUILD_TESTING)
   skein_find_pcl(io)  # the tests compare Skein's reader of point files with PCL's
   list(APPEND pcl_parts io)

@@ -50,7 +50,7 @@ set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
 string(JOIN ", " CPACK_DEBIAN_DEV_PACKAGE_DEPENDS
   "skein (= ${SKEIN_DEBIAN_VERSION})" g++ cmake make pkg-config
   libfastrtps-dev libfastcdr-dev cyclonedds-dev libbullet-dev libembree-dev liboctomap-dev libeigen3-dev libassimp-dev
-  liblzf-dev libzstd-dev zlib1g-dev libpcl-common1.13 libpcl-filters1.13 libcli11-dev libspdlog-dev libyaml-cpp-dev
+  liblzf-dev libzstd-dev zlib1g-dev libpcl-common1.13 libcli11-dev libspdlog-dev libyaml-cpp-dev
   libpugixml-dev nlohmann-json3-dev libssl-dev)
 set(CPACK_DEBIAN_DEV_PACKAGE_SUGGESTS libgtest-dev)
 set(CPACK_COMPONENT_DEV_DESCRIPTION "headers and libraries for planners of Skein's UAVs

@@ -232,7 +232,7 @@ TEST_F(Packages, DebianPackagesAreTheComponents) {
     return depends[component].find(what) != std::string::npos;
   };
   for (const char* programs : {"runtime", "agent"}) {
-    EXPECT_TRUE(needs(programs, "libfastrtps") && needs(programs, "libddsc") && needs(programs, "libpcl-filters"));
+    EXPECT_TRUE(needs(programs, "libfastrtps") && needs(programs, "libddsc") && needs(programs, "libpcl-common"));
     EXPECT_FALSE(needs(programs, "-dev") || needs(programs, "g++") || needs(programs, "libpcl-io"));
     EXPECT_FALSE(needs(programs, "python")) << "planners in Python need a package of their own";
   }

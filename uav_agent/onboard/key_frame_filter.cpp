@@ -1,5 +1,8 @@
 #include "uav_agent/onboard/key_frame_filter.hpp"
 
+// The filters are compiled here: libpcl_filters and what it needs would have a program resolve 60,000 symbols at its
+// start, which is most of the time that a program takes to start.
+#define PCL_NO_PRECOMPILE
 #include <pcl/filters/voxel_grid.h>
 #include <pcl/point_cloud.h>
 #include <pcl/point_types.h>
