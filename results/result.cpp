@@ -59,6 +59,7 @@ Json uav_entries(const Scenario& scenario, const SimServerReport& sim, const Rep
                        {"planner_cpu_max_ms", or_null(agent.planner_cpu_max_ms)},
                        {"planner_exchanges_over_50ms", or_null(agent.planner_exchanges_over_50ms)}});
     if (agent.from_nodes) entries.back()["from_nodes"] = json_of(*agent.from_nodes);
+    if (agent.planner_parts) entries.back()["planner_parts"] = json_of(*agent.planner_parts);
     if (agent.safety_filter) entries.back()["safety_filter"] = json_of(*agent.safety_filter);
     if (flown.battery) entries.back()["battery"] = json_of(*flown.battery);
   }

@@ -99,7 +99,8 @@ class RunResult : public ::testing::Test {
     for (const char* uav : {"alpha", "beta"}) {
       write_text(dir_.path() / (std::string("uav_agent-") + uav + ".report.json"), R"({
         "planner_cpu_s": 0.25, "planner_cpu_p99_ms": 1.5, "planner_cpu_max_ms": 60.25,
-        "planner_exchanges_over_50ms": 3, "safety_filter": {"steps": 400, "slowed": 30, "breaches": 2}})");
+        "planner_exchanges_over_50ms": 3, "planner_parts": [{"cpu_s": 0.125, "part": "planner/views"}],
+        "safety_filter": {"steps": 400, "slowed": 30, "breaches": 2}})");
     }
   }
 
@@ -128,6 +129,8 @@ TEST_F(RunResult, AllReportsMakeACompleteResult) {
   EXPECT_EQ(result["uavs"][1]["planner_cpu_p99_ms"], 1.5);
   EXPECT_EQ(result["uavs"][1]["planner_cpu_max_ms"], 60.25);
   EXPECT_EQ(result["uavs"][1]["planner_exchanges_over_50ms"], 3);
+  EXPECT_EQ(result["uavs"][1]["planner_parts"][0]["part"], "planner/views");
+  EXPECT_EQ(result["uavs"][1]["planner_parts"][0]["cpu_s"], 0.125);
   for (const auto& [key, count] : {std::pair("steps", 400), {"slowed", 30}, {"breaches", 2}}) {
     EXPECT_EQ(result["uavs"][1]["safety_filter"][key], count);
   }

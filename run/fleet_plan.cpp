@@ -105,6 +105,7 @@ Arguments role_arguments(const FleetPlan& plan, const std::string& program) {
   const auto& maps_s = plan.options.keep_maps_s;
   Arguments arguments = {"--uav", programs::member_name(program)};
   if (maps_s) append(arguments, {"--maps-every", shortest(*maps_s)});
+  if (plan.options.time_parts) append(arguments, {"--time-parts"});
   if (program == programs::kGroundAgent) arguments = {"--role", "gcs"};
   append(arguments, {"--planner", planner_of(plan, program).spec});
   return arguments;

@@ -83,6 +83,7 @@ struct RunOptions {
   bool force = false;
   std::string record = "run";         ///< how much goes into the recording: none, messages, run, all or clouds
   std::optional<double> keep_maps_s;  ///< period of snapshots of UAVs' maps, in simulated seconds; none: no snapshots
+  bool time_parts = false;            ///< agents time the parts of their work, for `skein bench --profile`
   std::optional<ReplayOf> replay;
   ViewOptions view;
   bool check = true;       ///< before the flight, ask the programs whether they can fly this run

@@ -8,6 +8,7 @@
 #include "idl/cdr.hpp"
 #include "idl/conversions.hpp"
 #include "idl/hand_conversions.hpp"
+#include "process/host/thread_cpu.hpp"
 #include "uav_agent/diagnostics.hpp"
 #include "uav_agent/neighbours.hpp"
 #include "uav_agent/octomap_message.hpp"
@@ -182,6 +183,15 @@ std::optional<SafetyFilterReport> AgentNode::safety_filter() const {
   const SafetyFilter::Counts* counts = agent_.filter_counts();
   if (counts == nullptr) return std::nullopt;
   return SafetyFilterReport{.steps = counts->exchanges, .slowed = counts->slowed, .breaches = counts->broken};
+}
+
+void AgentNode::time_parts() { agent_.time_parts(thread_cpu_s); }
+
+std::optional<std::vector<WorkPartReport>> AgentNode::planner_parts() const {
+  if (agent_.parts() == nullptr) return std::nullopt;
+  std::vector<WorkPartReport> reports;
+  for (const WorkParts::Part& part : agent_.parts()->all()) reports.push_back({part.cpu_s, Text(part.name)});
+  return reports;
 }
 
 void AgentNode::keep_maps(std::unique_ptr<KeptMaps> maps) { kept_maps_ = std::move(maps); }

@@ -27,6 +27,8 @@ class AgentNode final : public MemberNode {
   void step_by(const LearnerDesk& desk) { desk_ = &desk; }
   /// Writes snapshots of the map that the UAV flies on to `maps`. Call it before start().
   void keep_maps(std::unique_ptr<KeptMaps> maps);
+  /// Times the parts of the agent's work, for the report. Call it before start().
+  void time_parts();
 
   void start() override;
   std::optional<std::string> octomap_file() const override { return agent_.map().octomap_file(); }
@@ -35,6 +37,7 @@ class AgentNode final : public MemberNode {
   std::optional<double> waited_s() const override { return agent_.waited_s(); }
   std::optional<std::vector<WaitReport>> waits() const override;
   std::optional<SafetyFilterReport> safety_filter() const override;
+  std::optional<std::vector<WorkPartReport>> planner_parts() const override;
 
  private:
   void declare(bus::LockstepClient& client) override;

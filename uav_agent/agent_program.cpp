@@ -120,6 +120,7 @@ class AgentMember final : public bus::FleetMember {
                        .no_way = node_->no_ways(),
                        .from_nodes = node_->from_nodes(),
                        .safety_filter = node_->safety_filter(),
+                       .planner_parts = node_->planner_parts(),
                        .malformed = node_->malformed(),
                        .unsent = node_->unsent(),
                        .planner = planner_,
@@ -152,6 +153,7 @@ void AgentProgram::add_options(CLI::App& app) {
   app.add_option("--planner", planner_, "NAME or NAME:key=value,... or NAME:file.yaml; NAME may be py:FILE[:CLASS]");
   app.add_option("--maps-every", maps_every_s_,
                  "Keep the UAV's map in maps-UAV.mcap: interval of the snapshots in simulated time [s]");
+  app.add_flag("--time-parts", times_parts_, "Time the parts of the planner's work, for the report")->group("Launcher");
   app.add_option("--pdb", pdb_from_s_,
                  "Run Python's debugger in this terminal, which stops from this simulated time on [s]")
       ->group("Launcher");
@@ -194,6 +196,7 @@ std::variant<int, std::unique_ptr<bus::FleetMember>> AgentProgram::prepare(const
   } else {
     auto on_board = std::make_unique<AgentNode>(*scenario, uav, std::move(planner), options.domain, *bus, frames_,
                                                 wants_hands(planner_));
+    if (times_parts_) on_board->time_parts();
     if (maps_every_s_) {
       on_board->keep_maps(std::make_unique<KeptMaps>(options.out, scenario->fleet[uav].name, ticks(*maps_every_s_)));
     }

@@ -27,7 +27,7 @@ class AgentProgram final : public bus::FleetProgram {
   std::string role_ = "uav";
   std::string uav_, planner_ = kDefaultPlanner;
   std::optional<double> maps_every_s_, pdb_from_s_;
-  bool list_ = false;
+  bool list_ = false, times_parts_ = false;
   const std::shared_ptr<ReadyFrames> frames_;
   const std::shared_ptr<LearnerDesk> desk_;
   const std::shared_ptr<ScenarioShelf> scenarios_;

@@ -41,6 +41,8 @@ class MemberNode : public bus::ClientNode {
   virtual std::optional<std::vector<WaitReport>> waits() const { return std::nullopt; }
   /// What the flight core's safety filter counted; nullopt: no flight core flies this node's UAV.
   virtual std::optional<SafetyFilterReport> safety_filter() const { return std::nullopt; }
+  /// CPU time of the parts of the strategy's work; nullopt: this node does not time them.
+  virtual std::optional<std::vector<WorkPartReport>> planner_parts() const { return std::nullopt; }
   /// Topics relayed for the ROS 2 nodes that this node stands in for; nullopt: it stands in for none.
   virtual std::optional<std::vector<RelayedTopic>> from_nodes() const { return std::nullopt; }
 

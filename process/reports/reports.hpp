@@ -12,6 +12,7 @@
 #include "core/run/run_state.hpp"
 #include "process/reports/flight_check_report.hpp"
 #include "process/reports/relayed_topic.hpp"
+#include "process/reports/work_part_report.hpp"
 
 namespace skein {
 
@@ -358,6 +359,8 @@ struct AgentReport {
   std::optional<Texts> no_way = {};
   std::optional<std::vector<RelayedTopic>> from_nodes = {};  ///< only of a stand-in: topics with any ROS 2 messages
   std::optional<SafetyFilterReport> safety_filter = {};      ///< missing: no flight core flies the UAV
+  /// Parts of the time planner_cpu_s; missing: the agent did not time them (--time-parts).
+  std::optional<std::vector<WorkPartReport>> planner_parts = {};
   Count malformed = {}, unsent = {};
   Text planner = {};  ///< as given to the agent
   Text dds = {};
@@ -373,6 +376,7 @@ void describe(auto& f, AgentReport& report) {
   f.field("planner_cpu_p99_ms", report.planner_cpu_p99_ms);
   f.field("planner_cpu_s", report.planner_cpu_s);
   f.field("planner_exchanges_over_50ms", report.planner_exchanges_over_50ms);
+  f.field("planner_parts", report.planner_parts);
   f.field("safety_filter", report.safety_filter);
   f.field("unsent", report.unsent);
   f.field("unwritten", report.unwritten);

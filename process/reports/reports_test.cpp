@@ -45,7 +45,8 @@ const char* const kRouter = R"({
 const char* const kAgent = R"({
   "dds": "cyclonedds",
   "from_nodes": [{"handed_on": 8, "late": 1, "lost": 2, "other_clock": 3, "received": 11, "refused": 4, "topic": "/plan"}], "malformed": 0, "no_way": ["3 times: walled in"], "planner": "kios:voxel=4", "planner_cpu_max_ms": 60.25, "planner_cpu_p99_ms": 1.5, "planner_cpu_s": 0.25,
-  "planner_exchanges_over_50ms": 3, "safety_filter": {"breaches": 2, "slowed": 30, "steps": 400}, "unsent": 0,
+  "planner_exchanges_over_50ms": 3, "planner_parts": [{"cpu_s": 0.125, "part": "planner/views"}],
+  "safety_filter": {"breaches": 2, "slowed": 30, "steps": 400}, "unsent": 0,
   "waited_s": 12.5,
   "waits": [{"from_s": 1.5, "uav": "alpha", "until_s": 3.0}]})";
 

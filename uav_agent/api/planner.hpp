@@ -25,6 +25,7 @@
 #include "uav_agent/api/motion.hpp"
 #include "uav_agent/api/peers.hpp"
 #include "uav_agent/api/strategy_registry.hpp"
+#include "uav_agent/api/work_parts.hpp"
 
 namespace skein::agent {
 
@@ -69,6 +70,7 @@ struct PlannerInput {
   std::optional<Vector3d> wind_W = {};           ///< estimated wind velocity [m/s]; nullopt: no wind
   std::optional<LinkQuality> station_link = {};  ///< nullopt: no link to the station, or no path loss (see Peer::link)
   const FreeSpace* space = nullptr;              ///< where the flight core may fly; only if flight()
+  WorkParts* parts = nullptr;  ///< for PartTimer: times parts of the planner's work in `skein bench --profile`
 };
 
 /// A value that the planner publishes on the topic /<id>/debug/<name>. Faults may wait for it, and properties may refer

@@ -104,7 +104,7 @@ Steering FlightCore::step(const PlannerInput& in, std::optional<std::vector<Goal
   Steering steering;
   waits_for_.reset();
   no_way_.clear();
-  told_.listen(in, navigator_.sees(), filter_);
+  timed(in.parts, "flight/told space", [&] { told_.listen(in, navigator_.sees(), filter_); });
   if (goals) {
     wanted_ = std::move(*goals);
     cut_id_.reset();
@@ -165,6 +165,7 @@ Steering FlightCore::step(const PlannerInput& in, std::optional<std::vector<Goal
 
 void FlightCore::take_off(const PlannerInput& in, Steering& steering) {
   if (mode_ == Mode::ground && in.boxes.empty()) return;
+  const PartTimer timer(in.parts, "flight/takeoff");
   const Takeoff::Phase phase = takeoff_.step(in, steering);
   waits_for_ = takeoff_.waits_for();
   const Mode mode = phase == Takeoff::Phase::ground   ? Mode::ground

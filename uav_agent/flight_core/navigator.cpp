@@ -198,6 +198,7 @@ void Navigator::choose(const PlannerInput& in, Steering& steering) {
 
 /// Searches a path to the first waypoint of the current goal, and begins to fly along it.
 Navigator::Search Navigator::set_out(const PlannerInput& in, Steering& steering) {
+  const PartTimer timer(in.parts, "flight/searches");
   const Vector3d from_W = in.tracking.setpoint.p_WB, to_W = current_->way.front().p_WB;
   steering.gimbal = current_->gimbal;
   if ((to_W - from_W).norm() < kHereM) {
@@ -260,6 +261,7 @@ void Navigator::refuse(const Vector3d& p_W, const PlannerInput& in) {
 
 /// Whether structure is in the way that was discovered after the path was planned.
 bool Navigator::blocked_ahead(const PlannerInput& in) const {
+  const PartTimer timer(in.parts, "flight/looks ahead");
   Vector3d at_W = in.tracking.setpoint.p_WB;
   // A UAV that is already nearer to structure may fly on, as long as its path comes no nearer.
   const double least_m = std::min(filter_.tube_m(0.0) - kSlackM, in.world_map->structure_distance_m(at_W));
@@ -279,6 +281,7 @@ bool Navigator::blocked_ahead(const PlannerInput& in) const {
 
 /// Length of the path ahead that is proved free, at most most_m [m].
 double Navigator::proved_ahead_m(const PlannerInput& in, double most_m) const {
+  const PartTimer timer(in.parts, "flight/looks ahead");
   Vector3d at_W = in.tracking.setpoint.p_WB;
   double length_m = 0.0;
   for (std::size_t i = in.tracking.leg; i < path_.size(); ++i) {

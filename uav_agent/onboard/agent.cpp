@@ -81,6 +81,7 @@ struct Agent::Impl {
   std::vector<KnownBody> known_bodies(const AgentInput& input) const;
   std::optional<Vector3d> sensor_position(const KeyFrame& frame, const AgentInput& input) const;
   PlannerInput planner_input(const AgentInput& input) const;
+  PlannerOutput plan(const PlannerInput& in);
   void fly(const PlannerInput& in, PlannerOutput& decision);
   std::optional<TrajectoryCommand> move(const PlannerOutput& decision, const AgentInput& input);
   std::optional<GimbalCommand> point_camera(const GimbalAim& new_aim, const RigidBodyState& state);
@@ -115,6 +116,7 @@ struct Agent::Impl {
   ActivityTeller activity{config.fleet};
   std::optional<FreeSpace> space;        ///< PlannerInput::space of `taken_in`, if there is a core
   std::optional<PlannerInput> taken_in;  ///< input of the current step, from look() or step() to the step's end
+  std::unique_ptr<WorkParts> parts;      ///< nullptr: parts of the work are not timed
 };
 
 void Agent::Impl::wait_for(std::size_t mate, double now_s) {
@@ -144,12 +146,14 @@ std::vector<KnownBody> Agent::Impl::known_bodies(const AgentInput& input) const 
 }
 
 void Agent::Impl::read_radio(const AgentInput& input) {
+  const PartTimer timer(parts.get(), "maps/others' maps");
   if (map_radio) map_radio->hear(input.radio, input.tick, *known_world());
   planners_radio.clear();
   std::ranges::remove_copy_if(input.radio, std::back_inserter(planners_radio), MapRadio::is_of_maps);
 }
 
 void Agent::Impl::read_beams(const AgentInput& input) {
+  const PartTimer timer(parts.get(), "maps/own beams");
   beam_scans.clear();
   if (!beam_reader) return;
   const Tick state_tick = input.state_tick.value_or(input.tick);
@@ -174,6 +178,7 @@ void Agent::Impl::clear_own_place(const Vector3d& p_W) {
 }
 
 void Agent::Impl::perceive(const AgentInput& input) {
+  const PartTimer timer(parts.get(), "maps/other");
   if (tracker.stands_by()) tracker.stand_by(input.state);
   peers.update(input.tick, input.neighbours, input.links);
   if (world_map && world_map->regions().empty()) {
@@ -236,11 +241,18 @@ PlannerInput Agent::Impl::planner_input(const AgentInput& input) const {
                       .uncertainty = input.uncertainty,
                       .battery = input.battery,
                       .wind_W = input.wind_W,
-                      .station_link = peers.station_link()};
+                      .station_link = peers.station_link(),
+                      .parts = parts.get()};
+}
+
+PlannerOutput Agent::Impl::plan(const PlannerInput& in) {
+  const PartTimer timer(parts.get(), "planner/other");
+  return planner->plan(in);
 }
 
 /// Lets the flight core fly to the planner's goals: replaces the planner's motion with the core's.
 void Agent::Impl::fly(const PlannerInput& in, PlannerOutput& decision) {
+  const PartTimer timer(parts.get(), "flight/other");
   Steering steering = core->step(in, std::move(decision.goals));
   decision.motion = std::move(steering.motion);
   if (steering.yaw) decision.yaw = steering.yaw;
@@ -287,12 +299,14 @@ std::optional<TrajectoryCommand> Agent::Impl::move(const PlannerOutput& decision
   if (const auto* setpoint = std::get_if<Setpoint>(&decision.motion)) tracker.fly_to(*setpoint);
   if (std::holds_alternative<Hold>(decision.motion)) tracker.hold();
   if (!core) return tracker.step(state, config.exchange_period_s);
+  const PartTimer timer(parts.get(), "flight/safety filter");
   return core->move(tracker,
                     {.tick = input.tick, .state = state, .map = *known_world(), .boxes = boxes, .peers = peers});
 }
 
 std::optional<RadioMessage> Agent::Impl::tell_map(const std::optional<Vector3d>& going_to_W, Tick tick) {
   if (!map_radio) return std::nullopt;
+  const PartTimer timer(parts.get(), "maps/telling");
   const TrackingState tracking = tracker.tracking();
   const std::optional<Vector3d> setpoint_W = tracking.airborne ? std::optional(tracking.setpoint.p_WB) : std::nullopt;
   return map_radio->tell(*known_world(), peers, going_to_W ? going_to_W : setpoint_W, tick);
@@ -312,6 +326,10 @@ Agent::~Agent() = default;
 Agent::Agent(Agent&&) noexcept = default;
 Agent& Agent::operator=(Agent&&) noexcept = default;
 
+void Agent::time_parts(WorkParts::Clock clock) { impl_->parts = std::make_unique<WorkParts>(std::move(clock)); }
+
+const WorkParts* Agent::parts() const { return impl_->parts.get(); }
+
 bool Agent::wants_scans() const { return impl_->planner->wants_scans(); }
 bool Agent::wants_beams() const { return impl_->beam_reader.has_value(); }
 std::uint64_t Agent::beam_scans(ScanDoubt doubt) const {
@@ -323,6 +341,7 @@ void Agent::Impl::take_in(const AgentInput& input) {
   perceive(input);
   PlannerInput& in = taken_in.emplace(planner_input(input));
   if (!core) return;
+  const PartTimer timer(parts.get(), "flight/update");
   core->update(in);
   in.flight = core->state();
   in.space = &space.emplace(core->space(in));
@@ -338,7 +357,7 @@ void Agent::look(const AgentInput& input) {
 AgentOutput Agent::step(const AgentInput& input) {
   if (!impl_->taken_in) impl_->take_in(input);
   const PlannerInput& in = *impl_->taken_in;
-  PlannerOutput decision = impl_->planner->plan(in);
+  PlannerOutput decision = impl_->plan(in);
   if (!impl_->core) impl_->note_motion(decision.motion);
   if (impl_->core) impl_->fly(in, decision);
   for (const std::string& bytes : decision.heard_maps) impl_->map.hear(bytes);

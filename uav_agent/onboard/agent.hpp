@@ -73,6 +73,10 @@ class Agent {
   bool wants_beams() const;
   /// Names of the values that the planner publishes.
   std::vector<std::string> debug_names() const;
+  /// From now on, times the parts of its work: by the CPU time of the thread that calls step(). Outputs do not change.
+  void time_parts(WorkParts::Clock clock);
+  /// The parts of its work; nullptr: they are not timed.
+  const WorkParts* parts() const;
   /// One exchange. Inputs must come in order of k.
   AgentOutput step(const AgentInput& input);
   /// The planner, if an external program steps it (api/learner.hpp); nullptr: the planner decides by itself.

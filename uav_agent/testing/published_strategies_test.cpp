@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <fstream>
 #include <regex>
+#include <set>
+#include <string_view>
 
 #include "core/config/config_writer.hpp"
 #include "core/random_stream.hpp"
@@ -62,6 +64,30 @@ TEST_P(PublishedStrategy, InspectsWhateverTheBoxes) {
     SCOPED_TRACE(std::to_string(scene->boxes.size()) + " boxes");
     expect_work(*scene, fleet_of(2, 2), GetParam());
   }
+}
+
+/// By a clock that counts its readings: a part that is timed takes at least one of them.
+TEST_P(PublishedStrategy, FliesTheSameWhileItsPartsAreTimed) {
+  TestWorld alone(two_towers(), fleet_of(1, 1), GetParam(), 300.0);
+  TestWorld timed(two_towers(), fleet_of(1, 1), GetParam(), 300.0);
+  double readings = 0.0;
+  timed.time_parts([&] { return ++readings; });
+  alone.run(60.0);
+  timed.run(60.0);
+  EXPECT_EQ(timed.fingerprint(), alone.fingerprint());
+  double sum = 0.0;
+  std::set<std::string_view> of_planner, of_flight;
+  for (const std::size_t uav : {0U, 1U}) {
+    for (const WorkParts::Part& part : timed.parts(uav).all()) {
+      EXPECT_GT(part.cpu_s, 0.0) << part.name;
+      sum += part.cpu_s;
+      if (part.name.starts_with("planner/")) of_planner.insert(part.name);
+      if (part.name.starts_with("flight/")) of_flight.insert(part.name);
+    }
+  }
+  EXPECT_LE(sum, readings);
+  EXPECT_GE(of_planner.size(), 4U);
+  EXPECT_GE(of_flight.size(), 4U);
 }
 
 /// Lines "| planner | key | ours | faithful |" of all that `faithful` changes.

@@ -311,6 +311,12 @@ std::uint64_t TestWorld::doubtful_scans() const {
   return count;
 }
 
+void TestWorld::time_parts(const WorkParts::Clock& clock) {
+  for (Uav& uav : impl_->uavs) uav.agent.time_parts(clock);
+}
+
+const WorkParts& TestWorld::parts(std::size_t uav) const { return *impl_->uavs.at(uav).agent.parts(); }
+
 void TestWorld::restart(std::size_t uav) {
   Uav& again = impl_->uavs.at(uav);
   again.agent = Agent(again.config, make_planner(again.planner, again.config));

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "uav_agent/api/agent_config.hpp"
+#include "uav_agent/api/work_parts.hpp"
 
 namespace skein::agent {
 
@@ -41,6 +42,10 @@ class TestWorld {
   ~TestWorld();
 
   void run(double seconds_to_run);
+  /// Times the parts of the work of all UAVs' on-board software, by this clock. Not that of a restarted UAV.
+  void time_parts(const WorkParts::Clock& clock);
+  /// Its times. Only after time_parts().
+  const WorkParts& parts(std::size_t uav) const;
   /// Restarts the on-board software of one UAV in flight: it has lost all its knowledge.
   void restart(std::size_t uav);
 

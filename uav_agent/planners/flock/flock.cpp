@@ -109,11 +109,7 @@ PlannerOutput FlockPlanner::plan(const PlannerInput& in) {
   talk_.listen(in, surfaces_->grid(), surfaces_->points());
   look_around(in);
   for (const Outcome& outcome : in.flight.outcomes) handle_outcome(outcome, in);
-  if (in.flight.working) {
-    carry_on(in, out);
-  } else {
-    route_.clear();
-  }
+  in.flight.working ? carry_on(in, out) : route_.clear();
   talk_.speak(in, surfaces_->told_grid(), surfaces_->points(), own_word(), out);
   return out;
 }
@@ -132,6 +128,7 @@ void FlockPlanner::set_up(const PlannerInput& in) {
 }
 
 void FlockPlanner::look_around(const PlannerInput& in) {
+  const PartTimer timer(in.parts, "planner/map and pictures");
   const CameraState camera = camera_state(in.state, in.gimbal, agent_.vehicle.camera);
   surfaces_->detect(in.detected, camera.X_WC.translation());
   const bool failed = camera_.failed();
@@ -204,6 +201,7 @@ void FlockPlanner::note_picture(const FlockView::Sight& sight) {
 /// On the way to a view, turns the camera to other targets (glances), each time to those that gain most. While the
 /// camera follows a place, its pictures are sharp however fast the UAV flies.
 void FlockPlanner::glance(const PlannerInput& in, PlannerOutput& out) {
+  const PartTimer timer(in.parts, "planner/glances");
   if (config_.glance_s == 0.0 || in.tick < glance_until_ || !targets_) return;
   const FlockView& next = route_.front();
   const double way_m = (next.p_WB - in.state.p_WB).norm();
@@ -239,6 +237,7 @@ double FlockPlanner::lack_of_work(const PlannerInput& in, const FlockTargets& ta
 /// Finds the targets, and views of them. Without a camera, there is no view to take; the targets are then all known
 /// points, at which the UAV glances: one that it detects proves that the camera works again.
 std::vector<FlockView> FlockPlanner::find_views(const PlannerInput& in) {
+  const PartTimer timer(in.parts, "planner/views");
   if (camera_.failed()) {
     targets_.emplace(surfaces_->known_points(), views_.range_m());
     return {};
@@ -271,6 +270,7 @@ void FlockPlanner::decide(const PlannerInput& in, PlannerOutput& out) {
   const CameraState camera = camera_state(in.state, in.gimbal, agent_.vehicle.camera);
   const FlockPace pace{.near_mps = config_.inspect_mps, .far_mps = config_.flight.approach_mps};
   const auto best_route = [&] {
+    const PartTimer timer(in.parts, "planner/routes");
     return find_route(views, targets, surfaces_->grid(), here_W, camera.X_WC.linear().col(0), pace, config_.prove_gain,
                       config_.depth, current);
   };
@@ -280,7 +280,7 @@ void FlockPlanner::decide(const PlannerInput& in, PlannerOutput& out) {
   if (has_lidar()) {
     const double lack = camera_.failed() ? 1.0 : lack_of_work(in, targets);
     const std::size_t pictures = views.size();
-    views_.find_gaps(*surfaces_, *in.space, here_W, lack, views);
+    timed(in.parts, "planner/survey", [&] { views_.find_gaps(*surfaces_, *in.space, here_W, lack, views); });
     const auto gaps = views.begin() + static_cast<std::ptrdiff_t>(pictures);
     views.erase(std::remove_if(gaps, views.end(), unreachable), views.end());
     if (current) views[*current].survey = survey;
@@ -312,6 +312,7 @@ void FlockPlanner::decide(const PlannerInput& in, PlannerOutput& out) {
 
 /// Corners of a free path from here to a place, the place included; nullopt if a search in the cubes finds none.
 std::optional<std::vector<Vector3d>> FlockPlanner::way_W(const PlannerInput& in, const Vector3d& to_W) const {
+  const PartTimer timer(in.parts, "planner/ways");
   const Vector3d here_W = in.tracking.setpoint.p_WB;
   if (in.space->segment_free(here_W, to_W)) return std::vector<Vector3d>{to_W};
   return find_voxel_route(surfaces_->grid(), *in.space, here_W, to_W);

@@ -16,6 +16,7 @@ FlockTalk::FlockTalk(const Config& config, const AgentConfig& agent)
     : config_(config), agent_(agent), exchange_({.max_chunks = kMaxChunks, .max_bytes = kMaxChunkBytes}) {}
 
 void FlockTalk::listen(const PlannerInput& in, VoxelGrid& grid, FlockPoints& points) {
+  const PartTimer timer(in.parts, "planner/talk");
   for (const Payload& payload : open_payloads(in.radio, kName, agent_.fleet.size())) {
     if (payload.sender == agent_.self) continue;
     PayloadReader reader(payload.bytes);
@@ -33,6 +34,7 @@ void FlockTalk::listen(const PlannerInput& in, VoxelGrid& grid, FlockPoints& poi
 
 void FlockTalk::speak(const PlannerInput& in, const VoxelGrid& grid, const FlockPoints& points, const FlockWord& word,
                       PlannerOutput& out) {
+  const PartTimer timer(in.parts, "planner/talk");
   if (!agent_.due(in.k, config_.share_s, 2 * agent_.self)) return;
   PayloadWriter writer;
   writer.u8(static_cast<std::uint8_t>(std::clamp(word.rate / kRateUnit, 0.0, 255.0)));

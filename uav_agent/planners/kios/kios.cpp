@@ -170,6 +170,7 @@ void KiosPlanner::lay_lanes(const PlannerInput& in, int count) {
 }
 
 void KiosPlanner::look_at_map(const PlannerInput& in) {
+  const PartTimer timer(in.parts, "planner/map");
   if (agent_.due(in.k, kLookAtMapS, agent_.self)) voxels_.update(*in.world_map, *grid_);
 }
 
@@ -244,7 +245,8 @@ std::vector<KiosAgent> KiosPlanner::fleet_in_sight(const PlannerInput& in, bool 
 
 /// Divides the open stops among the UAVs in line of sight, and proposes the first ones of its own tour.
 void KiosPlanner::decide(const PlannerInput& in, PlannerOutput& out) {
-  auto [open, out_of_reach] = stops_.open_stops(*grid_, voxels_, *in.space, in.boxes, in.tick);
+  auto [open, out_of_reach] = timed(in.parts, "planner/stops",
+                                    [&] { return stops_.open_stops(*grid_, voxels_, *in.space, in.boxes, in.tick); });
   const std::set<std::uint32_t> taken = talk_.taken(in.tick);
   std::erase_if(open, [&](const KiosStop& stop) { return taken.contains(stop.id); });
   const bool sees = agent_.me().role == Role::explorer;
@@ -253,7 +255,8 @@ void KiosPlanner::decide(const PlannerInput& in, PlannerOutput& out) {
   if (sees && unproved_left) std::erase_if(open, [](const KiosStop& stop) { return stop.proved; });
   std::size_t self = 0;
   const std::vector<KiosAgent> agents = fleet_in_sight(in, unproved_left, self);
-  const std::vector<std::size_t> tour = stops_.own_tour(open, agents, self, *grid_);
+  const std::vector<std::size_t> tour =
+      timed(in.parts, "planner/tours", [&, &open = open] { return stops_.own_tour(open, agents, self, *grid_); });
   std::vector<KiosStop> first;
   for (std::size_t i = 0; i < std::min(tour.size(), kCandidates); ++i) first.push_back(open[tour[i]]);
   if (first.empty()) return nothing_to_reach(in, out_of_reach > 0, out);
@@ -275,6 +278,7 @@ void KiosPlanner::fly_more_lanes(const PlannerInput& in) {
 /// Proposes the stops to the flight core, beginning with the first one to which the graph has a path. For the others,
 /// and where the cubes are too coarse for any path, the flight core searches.
 void KiosPlanner::propose(const std::vector<KiosStop>& stops, const PlannerInput& in, PlannerOutput& out) {
+  const PartTimer timer(in.parts, "planner/ways");
   const std::set<Id> claimed = talk_.claimed(in.tick);
   candidates_.clear();
   for (const KiosStop& stop : stops) candidates_.push_back({++id_, stop});
@@ -362,6 +366,7 @@ void KiosPlanner::look(const PlannerInput& in, PlannerOutput& out) {
 
 /// Claims the cube that the UAV is in and the next ones on its way.
 KiosTalk::Word KiosPlanner::own_word(const PlannerInput& in) const {
+  const PartTimer timer(in.parts, "planner/claims");
   KiosTalk::Word word;
   const bool maps = phase_ == Phase::map || !mapping_.done();
   word.mapping = maps && in.tick < mapped_at_;

@@ -10,6 +10,7 @@ constexpr std::string_view kName = "kios/1";
 }  // namespace
 
 void KiosTalk::listen(const PlannerInput& in, VoxelGrid& grid) {
+  const PartTimer timer(in.parts, "planner/talk");
   for (const Payload& payload : open_payloads(in.radio, kName, agent_.fleet.size())) {
     if (payload.sender == agent_.self) continue;
     PayloadReader reader(payload.bytes);
@@ -27,6 +28,7 @@ void KiosTalk::listen(const PlannerInput& in, VoxelGrid& grid) {
 }
 
 void KiosTalk::speak(const PlannerInput& in, const VoxelGrid& grid, const Word& own, PlannerOutput& out) {
+  const PartTimer timer(in.parts, "planner/talk");
   if (!agent_.due(in.k, config_.share_s, 2 * agent_.self)) return;
   PayloadWriter writer;
   writer.u8(own.mapping ? 1 : 0);

@@ -158,6 +158,7 @@ void StarPlanner::survey_site(const PlannerInput& in) {
 }
 
 void StarPlanner::look_around(const PlannerInput& in) {
+  const PartTimer timer(in.parts, "planner/map and pictures");
   if (in.k % kCameraSteps == 0 && in.tracking.airborne) known_->look_at_picture(in.state, in.gimbal);
   if (agent_.due(in.k, kLookAtMapS, agent_.self)) known_->look_at_map(*in.world_map, in.state.p_WB);
 }
@@ -215,7 +216,9 @@ void StarPlanner::explore(const PlannerInput& in, PlannerOutput& out) {
   StarStart start{in.tracking.setpoint.p_WB, in.tracking.setpoint.v_WB, {}};
   start.mates_W = talk_.goals_W(in.tick);
   const std::size_t box = boxes_[at_box_];
-  const std::vector<StarGoal> goals = known_->explorer().tour(known_->grid(), *in.space, in.boxes[box], start, in.tick);
+  const std::vector<StarGoal> goals = timed(in.parts, "planner/frontiers", [&] {
+    return known_->explorer().tour(known_->grid(), *in.space, in.boxes[box], start, in.tick);
+  });
   if (goals.empty()) {
     if (been_there_) return begin_box(at_box_ + 1);
     if (routes_.empty() || !routes_.front().beside_W) approach(in, box, out);
@@ -232,12 +235,15 @@ void StarPlanner::explore(const PlannerInput& in, PlannerOutput& out) {
 /// Offers routes through the viewpoints of surface left to inspect. @returns false if there is none.
 bool StarPlanner::inspect(const PlannerInput& in, PlannerOutput& out) {
   const Vector3d here = in.tracking.setpoint.p_WB;
-  const std::vector<StarView> views = known_->views(*in.space, here, in.tick);
+  const std::vector<StarView> views =
+      timed(in.parts, "planner/views", [&] { return known_->views(*in.space, here, in.tick); });
   if (views.empty()) return false;
   std::vector<Vector3d> places;
   for (const StarView& view : views) places.push_back(view.p_WB);
-  const StarTour tour = hierarchical_tour(known_->grid(), here, in.tracking.setpoint.v_WB, places, last_cluster_W_,
-                                          talk_.goals_W(in.tick), tour_config());
+  const StarTour tour = timed(in.parts, "planner/tours", [&] {
+    return hierarchical_tour(known_->grid(), here, in.tracking.setpoint.v_WB, places, last_cluster_W_,
+                             talk_.goals_W(in.tick), tour_config());
+  });
   std::vector<Route> routes;
   for (std::size_t first = 0; first < std::min(views.size(), kCandidates); ++first) {
     Route& route = routes.emplace_back();
@@ -339,6 +345,7 @@ void StarPlanner::offer(std::vector<Route> routes, double speed_mps, const Plann
 /// A goal that leads straight through the route's places, as far as possible. If the first place cannot be reached
 /// straight, the flight core searches a path to it.
 Goal StarPlanner::goal_of(Route& route, bool is_first, double speed_mps, const PlannerInput& in) {
+  const PartTimer timer(in.parts, "planner/ways");
   const StarWayConfig config{.round_m = config_.round_m,
                              .horizon_m = config_.horizon_m,
                              .speed_mps = speed_mps,
@@ -362,6 +369,7 @@ Goal StarPlanner::goal_of(Route& route, bool is_first, double speed_mps, const P
 /// Points the camera: on the way to a view at its surface; otherwise, if the UAV inspects, at surface that it passes,
 /// or else at the frontier that it explores.
 void StarPlanner::point_camera(const PlannerInput& in, PlannerOutput& out) {
+  const PartTimer timer(in.parts, "planner/camera");
   if (!in.tracking.airborne) return;
   if (!routes_.empty() && !routes_.front().views.empty()) {
     const StarView& view = routes_.front().views.front();

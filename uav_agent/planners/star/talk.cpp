@@ -22,6 +22,7 @@ StarTalk::StarTalk(const Config& config, const AgentConfig& agent)
     : config_(config), agent_(agent), exchange_(exchange_config()) {}
 
 void StarTalk::listen(const PlannerInput& in, VoxelGrid& grid) {
+  const PartTimer timer(in.parts, "planner/talk");
   for (const Payload& payload : open_payloads(in.radio, kName, agent_.fleet.size())) {
     if (payload.sender == agent_.self) continue;
     PayloadReader reader(payload.bytes);
@@ -39,6 +40,7 @@ void StarTalk::listen(const PlannerInput& in, VoxelGrid& grid) {
 }
 
 void StarTalk::speak(const PlannerInput& in, const VoxelGrid& grid, const Word& own, PlannerOutput& out) {
+  const PartTimer timer(in.parts, "planner/talk");
   if (!agent_.due(in.k, config_.share_s, 2 * agent_.self)) return;
   PayloadWriter writer;
   writer.u8(static_cast<std::uint8_t>((own.explored ? kExplored : 0) | (own.goal_W ? kHasGoal : 0)));

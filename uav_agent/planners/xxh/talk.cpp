@@ -61,6 +61,7 @@ std::optional<std::pair<std::size_t, XxhWord>> open_word(const RadioMessage& mes
 }
 
 void XxhTalk::listen(const PlannerInput& in, VoxelGrid* grid) {
+  const PartTimer timer(in.parts, "planner/talk");
   for (const RadioMessage& message : in.radio) {
     std::vector<std::uint8_t> map;
     if (auto heard = open_word(message, agent_.fleet.size(), &map)) {
@@ -79,6 +80,7 @@ void XxhTalk::listen(const PlannerInput& in, VoxelGrid* grid) {
 }
 
 void XxhTalk::speak(const PlannerInput& in, const VoxelGrid* grid, const XxhWord& own, PlannerOutput& out) {
+  const PartTimer timer(in.parts, "planner/talk");
   if (!agent_.due(in.k, config_.share_s, 2 * agent_.self)) return;
   PayloadWriter writer;
   write_word(own, writer);

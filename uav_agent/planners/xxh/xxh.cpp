@@ -145,10 +145,13 @@ void XxhPlanner::prepare(const PlannerInput& in) {
     assigned_at_ = in.tick;
     enter_region(0, in);
   }
-  if (site_.shared_grid() && agent_.due(in.k, kLookAtMapS, agent_.self)) site_.map().update(*in.world_map);
+  if (!site_.shared_grid() || !agent_.due(in.k, kLookAtMapS, agent_.self)) return;
+  const PartTimer timer(in.parts, "planner/map");
+  site_.map().update(*in.world_map);
 }
 
 void XxhPlanner::enter_region(std::size_t index, const PlannerInput& in) {
+  const PartTimer timer(in.parts, "planner/regions");
   const std::size_t count = crew_.regions().size(), all = static_cast<std::size_t>(*config_.rounds) * count;
   const Vector3d came_from_W = end_before(index, in);
   region_index_ = std::min(index, all);
@@ -254,6 +257,7 @@ bool XxhPlanner::may_set_out(const PlannerInput& in) {
 
 /// Flies around the section, turn by turn.
 void XxhPlanner::explore(const PlannerInput& in, PlannerOutput& out) {
+  const PartTimer timer(in.parts, "planner/exploration");
   if (!site_.decided()) return decide_end(in, out);
   explorer_.look_inwards(site_.map(), in, out);
   explorer_.hear(errand_);
@@ -295,6 +299,7 @@ void XxhPlanner::inspect(const PlannerInput& in, PlannerOutput& out) {
 
 /// Visits the section's cells one after the other. @returns whether none is left.
 bool XxhPlanner::visit_cells(const PlannerInput& in, PlannerOutput& out) {
+  const PartTimer timer(in.parts, "planner/cells");
   inspector_.hear(errand_);
   if (inspector_.visit()) inspector_.look(in, site_.map().grid());
   if (inspector_.visit()) {
@@ -317,6 +322,7 @@ void XxhPlanner::choose_cell(const PlannerInput& in, PlannerOutput& out) {
 
 /// Space for stops: proved free, and clear of the announced trajectories of UAVs with priority.
 FreeSpace XxhPlanner::space_for_stops(const PlannerInput& in) const {
+  const PartTimer timer(in.parts, "planner/trajectories");
   FreeSpace::Config config = in.space->config();
   config.proved_only = !config.blind_fleet;
   return {config, in.boxes, in.map, talk_.trajectories(in)};
@@ -355,6 +361,7 @@ void XxhPlanner::regroup(const PlannerInput& in, PlannerOutput& out) {
 }
 
 void XxhPlanner::stay_at_post(const PlannerInput& in, PlannerOutput& out) {
+  const PartTimer timer(in.parts, "planner/posts");
   out.waits_for = crew_.awaited(in.tick);
   if (posts_W_.empty()) {
     posts_W_ = posts_W(in);
