@@ -18,10 +18,13 @@
 #include "cli/bench/report.hpp"
 #include "cli/bench/scenario.hpp"
 #include "cli/bench/sensing.hpp"
+#include "cli/bench/sizes.hpp"
 #include "cli/bench/table.hpp"
 #include "cli/bench/tracking.hpp"
 #include "cli/bench/watching.hpp"
 #include "cli/option_checks.hpp"
+#include "core/scenario/drawn_worlds.hpp"
+#include "core/scenario/scenario_reader.hpp"
 #include "core/types.hpp"
 #include "host/domain_block.hpp"
 #include "host/machine.hpp"
@@ -29,6 +32,7 @@
 #include "host/supervisor.hpp"
 #include "process/files/atomic_file.hpp"
 #include "process/host/environment.hpp"
+#include "process/host/memory.hpp"
 #include "process/program.hpp"
 #include "results/run_folder.hpp"
 #include "run/fleet_plan.hpp"
@@ -78,9 +82,13 @@ Json machine() {
 class Bench {
  public:
   Bench(const BenchOptions& options, const Console& console)
-      : options_(options), effort_(effort_of(options)), console_(console) {}
+      : options_(options),
+        effort_(effort_of(options)),
+        sizes_(sizes_that_fit(effort_.sizes, memory_left(), true)),
+        console_(console) {}
 
   int run() {
+    for (const std::string& line : sizes_.said) tell(line);
     report_["machine"] = machine();
     report_["quick"] = options_.quick;
     report_["dds"] = options_.dds;
@@ -116,10 +124,12 @@ class Bench {
     }
   }
 
-  /// Measures all fleet sizes with the chosen DDS vendor, and the fleet of five with the other vendor too.
+  /// Measures all fleet sizes that fly over DDS with the chosen DDS vendor, and the fleet of five with the other vendor too.
   void measure_rounds() {
     report_["rounds"] = Json::array();
-    for (const std::size_t uavs : effort_.sizes) measure_rounds_of(options_.dds, uavs);
+    for (const BenchSize& fleet : sizes_.fleets) {
+      if (fleet.over_dds) measure_rounds_of(options_.dds, fleet.uavs);
+    }
     if (!options_.quick) measure_rounds_of(options_.dds == "fastdds" ? "cyclonedds" : "fastdds", kFleetSize);
   }
 
@@ -137,15 +147,24 @@ class Bench {
 
   void measure_scale() {
     report_["scale"] = Json::array();
-    for (const std::size_t uavs : effort_.sizes) {
-      const double mission_s = uavs >= kLargeFleet ? effort_.scale_mission_of_large_s : effort_.scale_mission_s;
-      const RunOptions run = fleet_run(write_scenario({uavs, mission_s, kExchangeS}, "scale"), "patrol");
-      const Flights flights = fly_all_ways(run, uavs, "scale, " + std::to_string(uavs) + " UAVs");
-      report_["scale"].push_back(scale_entry(uavs, flights.over_dds));
+    for (const auto& [uavs, over_dds] : sizes_.fleets) {
+      const Flights flights = fly_all_ways(scale_run(uavs), uavs, "scale, " + std::to_string(uavs) + " UAVs", over_dds);
+      if (over_dds) report_["scale"].push_back(scale_entry(uavs, flights.over_dds));
       for (const auto& [threads, results] : flights.by_threads) {
         report_["scale"].push_back(scale_entry(uavs, results, threads));
       }
     }
+  }
+
+  /// Beside the towers all UAVs of a fleet hear each other, so the largest fleets fly in the district, which grows with
+  /// the fleet.
+  RunOptions scale_run(std::size_t uavs) const {
+    const double mission_s = uavs >= kLargeFleet ? effort_.scale_mission_of_large_s : effort_.scale_mission_s;
+    if (uavs <= kMostUavsOverDds) return fleet_run(write_scenario({uavs, mission_s, kExchangeS}, "scale"), "patrol");
+    RunOptions run = fleet_run(kDistrict, "patrol");
+    run.uavs = uavs;
+    run.duration_s = mission_s;
+    return run;
   }
 
   /// Measures the router's latency against a bare relay's, and a radio load: twenty UAVs that all send to all others in
@@ -204,15 +223,15 @@ class Bench {
     std::map<int, std::vector<Json>> by_threads;  ///< in one process
   };
 
-  /// Flies over DDS, in one process with one thread, and in one process with all cores, in turn, so that other load on
-  /// the machine disturbs all three alike.
-  Flights fly_all_ways(RunOptions run, std::size_t uavs, const std::string& what) {
+  /// Flies over DDS if this is asked for, in one process with one thread, and in one process with all cores, in turn, so
+  /// that other load on the machine disturbs all three alike.
+  Flights fly_all_ways(RunOptions run, std::size_t uavs, const std::string& what, bool over_dds = true) {
     std::set<int> ways = {1, std::min(usable_cores(), static_cast<int>(uavs))};
     Flights flights;
     for (int i = 0; i < effort_.repeats; ++i) {
       run.one_process = false;
       run.threads.reset();
-      flights.over_dds.push_back(fly(run, what, i));
+      if (over_dds) flights.over_dds.push_back(fly(run, what, i));
       run.one_process = true;
       for (const int threads : ways) {
         run.threads = threads;
@@ -259,6 +278,7 @@ class Bench {
 
   const BenchOptions& options_;
   const Effort effort_;
+  const BenchSizes sizes_;
   const Console console_;
   const ScratchDir scratch_;
   Json report_ = Json::object();
@@ -279,7 +299,11 @@ void add_bench(CLI::App& app, BenchOptions& bench) {
   command->add_option("--dds", bench.dds, "DDS vendor: cyclonedds or fastdds")
       ->check(CLI::IsMember({"cyclonedds", "fastdds"}))
       ->capture_default_str();
-  command->add_option("--sizes", bench.sizes, "Fleet sizes, such as 1,5,20")->delimiter(',')->check(CLI::Range(1, 128));
+  command
+      ->add_option("--sizes", bench.sizes,
+                   "Fleet sizes, such as 1,5,20; fleets of more than 128 UAVs fly in one process only")
+      ->delimiter(',')
+      ->check(CLI::Range(1, static_cast<int>(kMostUavs)));
   command->add_option("--repeat", bench.repeats, "Runs of each kind; medians are reported")->check(CLI::Range(1, 100));
   command
       ->add_option("--duration", bench.duration_s,
@@ -308,8 +332,8 @@ void add_bench(CLI::App& app, BenchOptions& bench) {
            "Measure what the live page costs the fleet, and what the page itself needs; needs Chromium and a source "
            "tree");
   add_kind("--profile", bench.profile,
-           "Measure the CPU time of an exchange by stage and planner for each fleet size (--sizes), and its growth; in "
-           "one process");
+           "Measure the CPU time of an exchange by stage, and by part of each planner, for each fleet size (--sizes), "
+           "and its growth; in one process, in the scenario district");
   add_kind("--python", bench.python,
            "Measure what planners in Python cost compared with C++, and what stepping, resetting and copying a fleet "
            "cost; needs a source tree");
@@ -322,7 +346,7 @@ void add_bench(CLI::App& app, BenchOptions& bench) {
   command->footer(
       "Examples:\n  skein bench --quick --json bench.json\n  skein bench --planners --write scores.csv\n"
       "  skein bench --sensing --write docs\n  skein bench --tracking --quick\n  skein bench --view\n"
-      "  skein bench --profile --sizes 1,5,20\n  skein bench --python --assets DIR");
+      "  skein bench --profile --sizes 1,5,20,300\n  skein bench --python --assets DIR");
 }
 
 int run_bench(const BenchOptions& options, const Console& console) {

@@ -255,7 +255,8 @@ TEST(Options, BenchReadsAll) {
   EXPECT_EQ(bench.repeats, 5);
   EXPECT_EQ(bench.duration_s, 30.0);
   EXPECT_EQ(bench.json, "b.json");
-  for (const char* size : {"0", "129", "x"}) EXPECT_THROW(parse_command_line({"bench", "--sizes", size}), InputError);
+  EXPECT_EQ(parse<BenchOptions>({"bench", "--sizes", "129,1024"}).sizes, (std::vector<std::size_t>{129, 1024}));
+  for (const char* size : {"0", "1025", "x"}) EXPECT_THROW(parse_command_line({"bench", "--sizes", size}), InputError);
   const auto planners = parse<BenchOptions>({"bench", "--planners", "--against", "old.csv", "--write", "new.csv"});
   EXPECT_TRUE(planners.planners);
   EXPECT_EQ(planners.against, "old.csv");

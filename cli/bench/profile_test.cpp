@@ -36,6 +36,53 @@ TEST(BenchProfile, TellsWhatAnExchangeCosts) {
   EXPECT_DOUBLE_EQ(entry["counts"]["radio"], 3.0);
 }
 
+/// The same with parts of the UAVs' work.
+Json result_with_parts(const std::vector<std::pair<std::string, double>>& of_first, double of_second_s) {
+  Json flown = result(1, 2, 8, 3);
+  Json parts = Json::array();
+  for (const auto& [part, cpu_s] : of_first) parts.push_back({{"part", part}, {"cpu_s", cpu_s}});
+  flown["uavs"] = {{{"planner_cpu_s", 5.0}, {"planner_parts", parts}},
+                   {{"planner_cpu_s", 3.0}, {"planner_parts", {{{"part", "planner/tours"}, {"cpu_s", of_second_s}}}}}};
+  return flown;
+}
+
+TEST(BenchProfile, SumsThePartsOverTheFleet) {
+  const Json entry = profile_entry("kios", 2, {result_with_parts({{"planner/tours", 2.0}, {"maps/other", 1.5}}, 1.0)});
+  EXPECT_DOUBLE_EQ(entry["parts"]["planner/tours"]["ms"], 3.0);
+  EXPECT_DOUBLE_EQ(entry["parts"]["planner/tours"]["us_a_uav"], 1500.0);
+  EXPECT_DOUBLE_EQ(entry["parts"]["maps/other"]["ms"], 1.5);
+  double sum_ms = 0.0;
+  for (const Json& part : entry["parts"]) sum_ms += part["ms"].get<double>();
+  EXPECT_LE(sum_ms, entry["stages"]["agents"]["ms"]);
+  EXPECT_TRUE(profile_entry("kios", 10, {result(1, 2, 4, 3)})["parts"].empty()) << "an agent that times no parts";
+}
+
+TEST(BenchProfile, PrintsThePartsOfAPlannerAndWhatNoneOfThemContains) {
+  const std::vector<Json> entries = {
+      profile_entry("kios", 2, {result_with_parts({{"planner/tours", 2.0}}, 1.0)}),
+      profile_entry("kios", 4, {result_with_parts({{"planner/tours", 4.0}, {"maps/telling", 0.4}}, 2.0)})};
+  const Json growth = profile_growth(entries);
+  EXPECT_NEAR(growth["parts"]["planner/tours"]["exponent"], 1.0, 1e-9);
+  EXPECT_FALSE(growth["parts"].contains("maps/telling")) << "known of one size only";
+  std::ostringstream text;
+  print_profile(text, {{"profile", entries}, {"growth", {{"kios", growth}}}});
+  for (const char* line : {"\n  maps/telling                      0.0    100.0        -\n",
+                           "\n  planner/tours                  1500.0   1500.0   n^1.00\n",
+                           "\n  not in any part                2500.0    400.0         \n",
+                           "\n  all (agents)                   4000.0   2000.0 "}) {
+    EXPECT_NE(text.str().find(line), std::string::npos) << line << text.str();
+  }
+}
+
+TEST(BenchProfile, APlannerWithOneSizeIsPrintedWithoutItsGrowth) {
+  const std::vector<Json> entries = {profile_entry("xxh", 10, {result(1, 2, 4, 3)})};
+  std::ostringstream text;
+  print_profile(text, {{"profile", entries}, {"growth", {{"xxh", profile_growth(entries)}}}});
+  EXPECT_NE(text.str().find("\n  10 "), std::string::npos) << text.str();
+  EXPECT_EQ(text.str().find("n^"), std::string::npos) << text.str();
+  EXPECT_EQ(text.str().find("by part"), std::string::npos) << text.str();
+}
+
 TEST(BenchProfile, FindsTheExponentOfDrawnLaws) {
   RandomStream random(1, "growth", 0);
   for (int i = 0; i < 100; ++i) {
@@ -69,7 +116,8 @@ TEST(BenchProfile, NamesWhatIsTheFirstLimit) {
 
   std::ostringstream text;
   print_profile(text, {{"profile", entries}, {"growth", {{"patrol", profile_growth(entries)}}}});
-  for (const char* word : {"patrol", "line_of_sight", "n^1.00", "1000"}) {
+  for (const char* word :
+       {"patrol", "line_of_sight", "n^1.00", "at 1000", "the first limit: line_of_sight", "each UAV"}) {
     EXPECT_NE(text.str().find(word), std::string::npos) << text.str();
   }
 }

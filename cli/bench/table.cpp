@@ -4,6 +4,10 @@
 
 #include <string>
 
+#include "cli/bench/report.hpp"
+#include "core/scenario/drawn_worlds.hpp"
+#include "core/scenario/scenario_reader.hpp"
+
 namespace skein::cli {
 namespace {
 
@@ -70,7 +74,8 @@ void print_rounds(std::ostream& out, const Json& rounds) {
 
 void print_scale(std::ostream& out, const Json& scale) {
   if (scale.empty()) return;
-  out << "\nsizes of fleet, patrol beside the towers\n"
+  out << fmt::format("\nsizes of fleet, patrol beside the towers (more than {} UAVs: in {})\n", kMostUavsOverDds,
+                     kDistrict)
       << fmt::format("  {:>5}{:>24}{:>20}{:>12}{:>12}{:>14}{:>14}{:>14}{:>10}{:>10}{:>12}\n", "UAVs", "",
                      "real-time factor", "rounds/s", "memory MB", "largest MB", "agent MB", "start-up s", "agents",
                      "exchange", "to the end");

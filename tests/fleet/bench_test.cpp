@@ -51,6 +51,25 @@ TEST_F(BenchTest, ASmallOneReportsEveryPart) {
   EXPECT_GE(report["targets"].size(), 4u);
 }
 
+TEST_F(BenchTest, TheProfileHasTheStagesAndPartsOfEachPlanner) {
+  const auto json = folder() / "profile.json";
+  ChildProcess& bench = skein({"bench", "--profile", "--duration", "2", "--sizes", "1,2", "--json", json});
+  ASSERT_EQ(bench.wait().code, 0) << bench.err();
+  const Json report = Json::parse(text_of(json));
+  ASSERT_EQ(report["profile"].size(), 10U) << "five planners, two sizes";
+  for (const Json& entry : report["profile"]) {
+    const std::string planner = entry["planner"];
+    EXPECT_NE(bench.out().find(planner + ": planner's own time by part"), std::string::npos) << bench.out();
+    double parts_ms = 0.0;
+    for (const Json& part : entry["parts"]) parts_ms += part["ms"].get<double>();
+    EXPECT_GT(parts_ms, 0.0) << planner;
+    EXPECT_LE(parts_ms, entry["stages"]["agents"]["ms"].get<double>() * (1.0 + 1e-9)) << planner;
+    for (const char* part : {"planner/other", "flight/update", "maps/own beams"}) {
+      EXPECT_TRUE(entry["parts"].contains(part)) << planner << ": " << entry["parts"];
+    }
+  }
+}
+
 TEST_F(BenchTest, TheFloorRunsOverBothVendors) {
   for (const std::string vendor : {"cyclonedds", "fastdds"}) {
     const FreeDomains domains(4);
