@@ -51,6 +51,11 @@ bool is_through_structure(const Vector3d& p_WB, const Vector3d& p_WC, const RayS
   return world.first_hit_distance(p_WB, p_WC, {.ground = false, .uavs = false}).has_value();
 }
 
+PoorSight poor_sight(std::uint32_t point, const PointScore& quality) {
+  return {point, static_cast<float>(quality.score()), static_cast<float>(quality.q_blur),
+          static_cast<float>(quality.q_res), static_cast<float>(quality.q_distance)};
+}
+
 }  // namespace
 
 bool Capture::improved() const { return std::ranges::any_of(detections, &Detection::improved); }
@@ -137,8 +142,8 @@ void Camera::for_each_in_view(const View& view, const RayScene& world, const Jud
 }
 
 Capture Camera::capture(Tick tick, const RigidBodyState& body, const GimbalState& gimbal, const RayScene& world,
-                        const OtherStates& other) {
-  Capture capture{tick, {}};
+                        const OtherStates& other, const PoorPictures* poor) {
+  Capture capture{tick, {}, {}};
   last_ = tick;
   Vector3d shake_W = Vector3d::Zero();
   if (vibration_ > 0.0) {
@@ -153,9 +158,11 @@ Capture Camera::capture(Tick tick, const RigidBodyState& body, const GimbalState
     const double q = quality ? quality->score() : 0.0;
     const bool counts = q > 0.0 && q >= rules_.min_point_score;  // false for NaN
     // The ray comes last: it costs more than all formulas together. A point that does not count needs a ray only until
-    // it has been seen once.
-    if ((!counts && seen_[i]) || !in_sight()) return;
+    // it has been seen once, and in a picture that would be the best of those that do not count for it.
+    const bool best_poor = !counts && quality && poor != nullptr && poor->would_be_best(i, static_cast<float>(q));
+    if ((!counts && seen_[i] && !best_poor) || !in_sight()) return;
     seen_[i] = true;
+    if (best_poor) capture.poor.push_back(poor_sight(i, *quality));
     if (!counts) return;
     const bool improved = static_cast<float>(q) > best_[i];
     best_[i] = std::max(best_[i], static_cast<float>(q));

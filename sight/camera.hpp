@@ -9,6 +9,7 @@
 
 #include "core/scenario.hpp"
 #include "core/scene.hpp"
+#include "sight/poor_pictures.hpp"
 #include "sight/ray_scene.hpp"
 
 namespace skein::sim {
@@ -41,6 +42,7 @@ struct Detection {
 struct Capture {
   Tick tick = 0;
   std::vector<Detection> detections;  ///< ascending by point index
+  std::vector<PoorSight> poor = {};   ///< better than all before that did not count either; ascending by point index
   bool improved() const;              ///< whether any detection is `improved`
 };
 
@@ -72,9 +74,10 @@ class Camera {
   /// structure stands between the body's origin and the camera, since no camera could be at such a place.
   /// @param world  with the poses of all UAVs at this tick.
   /// @param other  pictures from these states affect best_if_exact() and best_if_calm() only.
+  /// @param poor   of the fleet so far, to fill Capture::poor; null: it stays empty. Nothing else depends on it.
   /// Not thread-safe; cameras of different UAVs may work in parallel.
   Capture capture(Tick tick, const RigidBodyState& body, const GimbalState& gimbal, const RayScene& world,
-                  const OtherStates& other = {});
+                  const OtherStates& other = {}, const PoorPictures* poor = nullptr);
 
   std::uint64_t captures() const { return captures_; }
   /// Best score of each interest point so far; 0 if it never counted.

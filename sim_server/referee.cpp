@@ -8,7 +8,7 @@
 namespace skein::sim {
 
 Referee::Referee(std::uint64_t seed, std::size_t uavs, std::size_t points, const RulesConfig& rules)
-    : seed_(seed), next_capture_(uavs, 0), collided_(uavs, false), earned_(uavs, points, rules) {}
+    : seed_(seed), next_capture_(uavs, 0), collided_(uavs, false), earned_(uavs, points, rules), poor_(points) {}
 
 LedgerEntry& Referee::append(UavIndex uav, Tick tick) {
   if (!ledger_.empty() && tick < ledger_.back().tick) {
@@ -44,6 +44,11 @@ bool Referee::enter_collision(UavIndex uav, Tick tick) {
   collided_[uav] = true;
   earned_.collide(uav);
   return true;
+}
+
+void Referee::note_poor(const Capture& capture) {
+  for (const Detection& detection : capture.detections) poor_.close(detection.point);
+  for (const PoorSight& sight : capture.poor) poor_.add(sight);
 }
 
 std::vector<CaptureReport> Referee::reports(UavIndex uav) const {

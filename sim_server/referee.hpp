@@ -27,6 +27,10 @@ class Referee {
   /// @throws std::logic_error when `tick` is earlier than the last entry's.
   bool enter_collision(UavIndex uav, Tick tick);
 
+  /// Notes what a capture shows too poorly to count, and which points it counts for. Only reports depend on it.
+  void note_poor(const Capture& capture);
+  const PoorPictures& poor_pictures() const { return poor_; }
+
   const std::vector<LedgerEntry>& ledger() const { return ledger_; }
   /// The reports of all captures of one UAV in the ledger, oldest first.
   std::vector<CaptureReport> reports(UavIndex uav) const;
@@ -41,6 +45,7 @@ class Referee {
   std::vector<std::uint64_t> next_capture_;  ///< by UAV
   std::vector<bool> collided_;               ///< by UAV
   ScoreTable earned_;
+  PoorPictures poor_;
 };
 
 }  // namespace skein::sim

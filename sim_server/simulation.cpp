@@ -176,9 +176,8 @@ void Simulation::Impl::judge_mission() {
   if (was_waiting && mission.phase() == Phase::flying) {
     for (SimulatedUav& uav : uavs) uav.last_raise = tick;
   }
-  if (mission.end_tick() == tick) {
+  if (mission.end_tick() == tick)
     for (SimulatedUav& uav : uavs) uav.vehicle.stop();
-  }
 }
 
 void Simulation::Impl::measure(const std::vector<RigidBodyState>& before) {
@@ -210,11 +209,12 @@ void Simulation::Impl::take_pictures() {
     const WorkSection section(clock, Work::camera, firing.size());
     return all_of<Capture>(for_each, firing, [&](UavIndex i) {
       return uavs[i].camera.capture(tick, world.state(i), uavs[i].vehicle.gimbal(), rays,
-                                    uavs[i].surroundings.other_states(world.state(i)));
+                                    uavs[i].surroundings.other_states(world.state(i)), &referee.poor_pictures());
     });
   }();
   for (std::size_t n = 0; n < firing.size(); ++n) {
     const UavIndex i = firing[n];
+    referee.note_poor(captures[n]);
     if (captures[n].detections.empty()) continue;
     ++uavs[i].view.captures;
     if (captures[n].improved()) uavs[i].last_raise = tick;

@@ -11,6 +11,7 @@
 
 #include "core/run/run_state.hpp"
 #include "process/reports/flight_check_report.hpp"
+#include "process/reports/poor_point_report.hpp"
 #include "process/reports/relayed_topic.hpp"
 #include "process/reports/work_part_report.hpp"
 
@@ -186,6 +187,7 @@ struct SimServerReport {
   /// By interest point: the best score that pictures would have had if UAVs had been where they believed to be, and
   /// without wind; empty: without such a condition, or without pictures.
   std::optional<std::vector<Amount>> points_if_exact = {}, points_if_calm = {};
+  std::optional<std::vector<PoorPointReport>> points_poor = {};  ///< ascending by index
   std::vector<CollisionReport> collisions = {};
   std::vector<UavReport> uavs = {};
   std::vector<LostMember> lost_members = {};
@@ -214,6 +216,7 @@ void describe(auto& f, SimServerReport& report) {
   f.field("mission_time_s", report.mission_time_s);
   f.field("points_if_calm", report.points_if_calm);
   f.field("points_if_exact", report.points_if_exact);
+  f.field("points_poor", report.points_poor);
   f.field("points_seen", report.points_seen);
   f.field("points_total", report.points_total);
   f.field("rules", report.rules);

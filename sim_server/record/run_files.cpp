@@ -41,6 +41,20 @@ BatteryReport battery_report(const BatteryStatus& battery, const BatteryUse& use
           .swaps = use.swaps};
 }
 
+std::vector<PoorPointReport> poor_points(const PoorPictures& pictures) {
+  std::vector<PoorPointReport> reports;
+  for (std::uint32_t point = 0; point < pictures.size(); ++point) {
+    if (const auto best = pictures.best(point)) {
+      reports.push_back({.index = point,
+                         .q = Amount(best->q),
+                         .q_blur = Amount(best->q_blur),
+                         .q_distance = Amount(best->q_distance),
+                         .q_res = Amount(best->q_res)});
+    }
+  }
+  return reports;
+}
+
 nlohmann::json vector_json(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
 }  // namespace
@@ -207,6 +221,7 @@ SimServerReport RunFiles::report(const Simulation& simulation, const RunSummary&
   for (const bool flag : shown.seen) *report.points_seen += flag ? '1' : '0';
   if (!shown.if_exact.empty()) report.points_if_exact.emplace(shown.if_exact.begin(), shown.if_exact.end());
   if (!shown.if_calm.empty()) report.points_if_calm.emplace(shown.if_calm.begin(), shown.if_calm.end());
+  report.points_poor = poor_points(simulation.referee().poor_pictures());
   for (const Collision& c : summary.collisions) {
     report.collisions.push_back({.time_s = seconds(c.tick),
                                  .uav = scenario_.fleet[c.uav].name,
