@@ -61,4 +61,9 @@ constexpr std::optional<std::size_t> cause_of(std::string_view key) {
   return std::nullopt;
 }
 
+/// The parts of a picture's quality by which `below_threshold` is split, in the order of tables. The keys of all but
+/// the last are those of LossCauses. The last is for points of which the run has not recorded the parts.
+inline constexpr std::array<Cause, 4> kPoorParts = {kCauses[*cause_of("distance")], kCauses[*cause_of("tilt")],
+                                                    kCauses[*cause_of("blur")], Cause{"unsplit", "part not known"}};
+
 }  // namespace skein::results

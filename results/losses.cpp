@@ -1,5 +1,6 @@
 #include "results/losses.hpp"
 
+#include <algorithm>
 #include <sstream>
 
 #include "process/files/atomic_file.hpp"
@@ -13,6 +14,22 @@ namespace {
 /// @returns 0 if the table is missing or has no entry for the point.
 float score_of(const std::optional<std::vector<Amount>>& table, std::size_t point) {
   return table && point < table->size() ? static_cast<float>((*table)[point]) : 0.0F;
+}
+
+/// Adds the best picture of each point that only had pictures too poor to count. Reports of earlier versions have none;
+/// an invalid entry counts as missing.
+void add_poor_pictures(const SimServerReport& report, std::vector<PointRecord>& points) {
+  if (!report.points_poor) return;
+  for (const PoorPointReport& poor : *report.points_poor) {
+    const bool whole = poor.index && poor.q && poor.q_blur && poor.q_distance && poor.q_res;
+    if (!whole || *poor.index >= points.size()) continue;
+    CaptureRow row;
+    row.q = *poor.q;
+    row.q_blur = *poor.q_blur;
+    row.q_res = *poor.q_res;
+    row.q_distance = *poor.q_distance;
+    points[*poor.index].poor = row;
+  }
 }
 
 /// The record of each point of the scene; nullopt if an input is missing or does not fit the scene.
@@ -32,6 +49,7 @@ std::optional<std::vector<PointRecord>> point_records(const std::filesystem::pat
     points[i].if_exact = score_of(reports.sim_server->points_if_exact, i);
     points[i].if_calm = score_of(reports.sim_server->points_if_calm, i);
   }
+  add_poor_pictures(*reports.sim_server, points);
   for (const ScoredPointReport& point : *reports.station->points) {
     const std::size_t index = point.index.value_or(count);
     if (index >= count) return std::nullopt;
@@ -59,6 +77,8 @@ BatteryEffects battery_effects(const SimServerReport& report) {
   return effects;
 }
 
+Json json_of_sum(const LossSum& sum) { return {{"points", sum.points}, {"score", sum.score}}; }
+
 /// The number as text that reads back as the same value.
 std::string text(double value) { return Json(value).dump(); }
 
@@ -68,13 +88,19 @@ std::string csv_line(std::size_t index, const Json& place, const PointRecord& po
   for (std::size_t axis = 0; axis < 3; ++axis) line << ',' << (axis < place.size() ? place[axis].dump() : "");
   line << ',' << text(point.estimate) << ',' << text(point.score) << ',' << name_of(loss.cause) << ','
        << text(loss.loss);
-  if (const auto& best = loss.best) {
-    line << ',' << best->uav << ',' << best->capture << ',' << text(best->q_distance) << ','
-         << text(tilt_quality(*best)) << ',' << text(best->q_blur) << ',' << text(best->q);
+  line << ',';
+  if (loss.best)
+    line << loss.best->uav << ',' << loss.best->capture;
+  else
+    line << ',';
+  if (const auto& shown = loss.best ? loss.best : loss.poor) {
+    line << ',' << text(shown->q_distance) << ',' << text(tilt_quality(*shown)) << ',' << text(shown->q_blur) << ','
+         << text(shown->q);
   } else {
-    line << ",,,,,,";
+    line << ",,,,";
   }
-  return line.str() + "\n";
+  line << ',' << loss.poor_part() << '\n';
+  return line.str();
 }
 
 }  // namespace
@@ -85,7 +111,7 @@ Json write_losses(const std::filesystem::path& dir, const Json& answer, const Re
   if (!points) return nullptr;
   const BatteryEffects batteries = battery_effects(*reports.sim_server);
   std::vector<PointLoss> losses;
-  std::string csv = "index,x,y,z,estimate,score,cause,loss,uav,capture,q_distance,q_tilt,q_blur,q\n";
+  std::string csv = "index,x,y,z,estimate,score,cause,loss,uav,capture,q_distance,q_tilt,q_blur,q,part\n";
   for (std::size_t i = 0; i < points->size(); ++i) {
     const PointRecord& point = (*points)[i];
     losses.push_back(loss_of(point, batteries));
@@ -93,9 +119,27 @@ Json write_losses(const std::filesystem::path& dir, const Json& answer, const Re
   }
   write_file_atomically(dir / run_folder::kLosses, csv);
   Json by_cause = Json::object();
-  for (const auto& [cause, sum] : sum_up(losses))
-    by_cause[name_of(cause)] = {{"points", sum.points}, {"score", sum.score}};
+  for (const auto& [cause, sum] : sum_up(losses)) by_cause[name_of(cause)] = json_of_sum(sum);
+  const auto poor = sum_up_poor(losses);
+  Json& by_part = by_cause[name_of(LossCause::below_threshold)]["by_part"];
+  for (std::size_t i = 0; i < poor.size(); ++i) by_part[kPoorParts[i].key] = json_of_sum(poor[i]);
   return by_cause;
+}
+
+std::array<LossSum, kPoorParts.size()> poor_parts(const Json& losses) {
+  const auto sum_in = [](const Json& parent, const char* key) {
+    const Json sum = value_or(parent, key, Json::object());
+    return LossSum{static_cast<std::size_t>(std::max(number_in(sum, "points"), 0.0)), number_in(sum, "score")};
+  };
+  const char* cause = kCauses[*cause_of("below_threshold")].key;
+  const Json by_part = value_or(value_or(losses, cause, Json::object()), "by_part", Json());
+  std::array<LossSum, kPoorParts.size()> parts;
+  if (!by_part.is_object()) {
+    parts.back() = sum_in(losses, cause);
+    return parts;
+  }
+  for (std::size_t i = 0; i < parts.size(); ++i) parts[i] = sum_in(by_part, kPoorParts[i].key);
+  return parts;
 }
 
 }  // namespace skein::results

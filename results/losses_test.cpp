@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
+#include <utility>
+
 #include "results/testing/scratch.hpp"
 
 namespace skein::results {
@@ -43,12 +46,55 @@ TEST_F(RunLosses, EveryPointHasItsLine) {
   for (const Json& part : losses) sum += part["score"].get<double>();
   EXPECT_EQ(sum, 3.25 - 0.75);
   EXPECT_EQ(read_text(dir_.path() / "losses.csv"),
-            "index,x,y,z,estimate,score,cause,loss,uav,capture,q_distance,q_tilt,q_blur,q\n"
-            "0,0,1,2,1.0,0.5,tilt,0.5,alpha,0,0.75,0.6666666666666666,1.0,0.5\n"
-            "1,1,1,2,0.75,0.0,not_delivered,0.75,beta,3,1.0,1.0,0.5,0.5\n"
-            "2,2,1,2,1.0,0.0,never_in_picture,1.0,,,,,,\n"
-            "3,3,1,2,0.5,0.0,out_of_reach,0.5,,,,,,\n"
-            "4,4,1.5,2,0.0,0.25,above_estimate,-0.25,alpha,1,0.25,1.0,1.0,0.25\n");
+            "index,x,y,z,estimate,score,cause,loss,uav,capture,q_distance,q_tilt,q_blur,q,part\n"
+            "0,0,1,2,1.0,0.5,tilt,0.5,alpha,0,0.75,0.6666666666666666,1.0,0.5,\n"
+            "1,1,1,2,0.75,0.0,not_delivered,0.75,beta,3,1.0,1.0,0.5,0.5,\n"
+            "2,2,1,2,1.0,0.0,never_in_picture,1.0,,,,,,,\n"
+            "3,3,1,2,0.5,0.0,out_of_reach,0.5,,,,,,,\n"
+            "4,4,1.5,2,0.0,0.25,above_estimate,-0.25,alpha,1,0.25,1.0,1.0,0.25,\n");
+}
+
+/// The losses as the parts of `below_threshold` by key: points and score.
+std::map<std::string, std::pair<std::size_t, double>> parts_of(const Json& losses) {
+  std::map<std::string, std::pair<std::size_t, double>> parts;
+  const auto sums = poor_parts(losses);
+  for (std::size_t i = 0; i < sums.size(); ++i) parts[kPoorParts[i].key] = {sums[i].points, sums[i].score};
+  return parts;
+}
+
+TEST_F(RunLosses, PointsTooPoorToCountAreSplitByTheBestPicture) {
+  answer_ = {{"estimate", {1.0, 0.75, 1.0, 0.5, 0.25}}, {"flyable", "11111"}};
+  reports_.sim_server->points_seen = "11111";
+  reports_.sim_server->points_poor = std::vector<PoorPointReport>{
+      {.index = 2, .q = 0.125, .q_blur = 0.25, .q_distance = 1.0, .q_res = 0.5},
+      {.index = 7, .q = 0.125, .q_blur = 0.25, .q_distance = 1.0, .q_res = 0.5},   // there is no such point
+      {.index = 3, .q = 0.125, .q_blur = 0.25, .q_distance = {}, .q_res = 0.5},    // damaged
+      {.index = 0, .q = 0.125, .q_blur = 0.25, .q_distance = 1.0, .q_res = 0.5}};  // it scored
+  const Json losses = this->losses();
+  const Json nothing = {{"points", 0}, {"score", 0.0}}, blur = {{"points", 1}, {"score", 1.0}},
+             unsplit = {{"points", 1}, {"score", 0.5}};
+  EXPECT_EQ(losses["below_threshold"],
+            (Json{{"points", 2},
+                  {"score", 1.5},
+                  {"by_part", {{"distance", nothing}, {"tilt", nothing}, {"blur", blur}, {"unsplit", unsplit}}}}));
+  const std::string csv = read_text(dir_.path() / "losses.csv");
+  EXPECT_NE(csv.find("\n2,2,1,2,1.0,0.0,below_threshold,1.0,,,1.0,0.5,0.25,0.125,blur\n"), std::string::npos) << csv;
+  EXPECT_NE(csv.find("\n3,3,1,2,0.5,0.0,below_threshold,0.5,,,,,,,unsplit\n"), std::string::npos) << csv;
+  const std::map<std::string, std::pair<std::size_t, double>> expected = {
+      {"distance", {0, 0.0}}, {"tilt", {0, 0.0}}, {"blur", {1, 1.0}}, {"unsplit", {1, 0.5}}};
+  EXPECT_EQ(parts_of(losses), expected);
+}
+
+TEST_F(RunLosses, ReportsAndResultsOfEarlierVersionsDoNotSplit) {
+  reports_.sim_server->points_seen = "11111";
+  Json losses = this->losses();
+  const std::map<std::string, std::pair<std::size_t, double>> expected = {
+      {"distance", {0, 0.0}}, {"tilt", {0, 0.0}}, {"blur", {0, 0.0}}, {"unsplit", {1, 1.0}}};
+  EXPECT_EQ(parts_of(losses), expected);
+  losses["below_threshold"].erase("by_part");
+  EXPECT_EQ(parts_of(losses), expected);
+  for (const Json& without : {Json(), Json::object()})
+    EXPECT_EQ(parts_of(without).at("unsplit"), (std::pair<std::size_t, double>{0, 0.0}));
 }
 
 TEST_F(RunLosses, WithoutAnEstimateThatFitsThereIsNothing) {

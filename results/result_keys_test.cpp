@@ -55,6 +55,8 @@ TEST(ResultKeys, InnerKeysAreNamedWithTheOuterOnes) {
   const std::vector<std::pair<std::string, std::string>> wrong = {
       {R"("score_by_uav": {"a": 1, "b": "2"})", "score_by_uav.b: must be a number, not \"2\""},
       {R"("losses": {"blur": {"points": 3, "score": []}})", "losses.blur.score: must be a number, not an array"},
+      {R"("losses": {"below_threshold": {"by_part": {"tilt": {"points": "3"}}}})",
+       "losses.below_threshold.by_part.tilt.points: must be a number, not \"3\""},
       {R"("losses": {"blur": 3})", "losses.blur: must be an object, not 3"},
       {R"("attainable": {"points": null, "score": "9"})", "attainable.score: must be a number, not \"9\""},
       {R"("uavs": [{"name": "a"}, 7])", "uavs[1]: must be an object, not 7"},

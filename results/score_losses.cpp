@@ -44,6 +44,11 @@ double tilt_quality(const CaptureRow& capture) {
   return capture.q_distance > 0.0 ? capture.q_res / capture.q_distance : 0.0;
 }
 
+std::string PointLoss::poor_part() const {
+  if (cause != LossCause::below_threshold) return "";
+  return poor ? name_of(worst_part(*poor)) : kPoorParts.back().key;
+}
+
 PointLoss loss_of(const PointRecord& point, const BatteryEffects& batteries) {
   PointLoss result;
   result.loss = static_cast<double>(point.estimate) - static_cast<double>(point.score);
@@ -63,6 +68,7 @@ PointLoss loss_of(const PointRecord& point, const BatteryEffects& batteries) {
     result.cause = point.if_exact >= point.if_calm ? LossCause::drift : LossCause::wind;
   } else {
     result.cause = result.best ? worst_part(*result.best) : why_not_taken(point, batteries);
+    if (result.cause == LossCause::below_threshold) result.poor = point.poor;
   }
   return result;
 }
@@ -76,6 +82,18 @@ std::map<LossCause, LossSum> sum_up(const std::vector<PointLoss>& losses) {
     if (loss.cause == LossCause::none) continue;
     ++sums[loss.cause].points;
     sums[loss.cause].score += loss.loss;
+  }
+  return sums;
+}
+
+std::array<LossSum, kPoorParts.size()> sum_up_poor(const std::vector<PointLoss>& losses) {
+  std::array<LossSum, kPoorParts.size()> sums;
+  for (const PointLoss& loss : losses) {
+    for (std::size_t i = 0; i < kPoorParts.size(); ++i) {
+      if (loss.poor_part() != kPoorParts[i].key) continue;
+      ++sums[i].points;
+      sums[i].score += loss.loss;
+    }
   }
   return sums;
 }

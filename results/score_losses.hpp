@@ -3,6 +3,7 @@
 // estimate - score == sum of all losses, to the last bit.
 #pragma once
 
+#include <array>
 #include <map>
 #include <optional>
 #include <set>
@@ -23,6 +24,9 @@ struct PointRecord {
   std::vector<CaptureRow> captures;  ///< of this point, in any order
   /// q of the best picture that would have been taken if UAVs had been where they believed to be, and without wind.
   float if_exact = 0.0F, if_calm = 0.0F;
+  /// The best picture of a point that none counts for: only its qualities. nullopt: not known, or the quality was never
+  /// defined.
+  std::optional<CaptureRow> poor = {};
 };
 
 /// What batteries did in the run.
@@ -36,6 +40,10 @@ struct PointLoss {
   double loss = 0.0;  ///< estimate - score
   std::optional<CaptureRow>
       best;  ///< the capture that the cause is about: the best one that counts, or the one that was lost
+  std::optional<CaptureRow> poor = {};  ///< of the point, if the cause is `below_threshold`
+
+  /// The key in kPoorParts, if the cause is `below_threshold`, else empty: the part of `poor` that costs most.
+  std::string poor_part() const;
 };
 
 /// The loss of one point, with one cause for all of it. If a better picture was lost (not delivered, else voided, else
@@ -50,6 +58,8 @@ struct LossSum {
 };
 /// The sums for each cause except `none`.
 std::map<LossCause, LossSum> sum_up(const std::vector<PointLoss>& losses);
+/// The sums of the points with the cause `below_threshold`, in the order of kPoorParts. They add up to its sum.
+std::array<LossSum, kPoorParts.size()> sum_up_poor(const std::vector<PointLoss>& losses);
 
 /// The factor by which the tilt of the surface changes a picture's resolution quality: q_res / q_distance, 0 if
 /// q_distance is 0. It can exceed 1 (core/camera_quality.hpp).

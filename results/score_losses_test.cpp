@@ -48,6 +48,8 @@ PointRecord drawn_point(RandomStream& random) {
     point.captures.push_back(row);
     point.seen = true;
   }
+  if (point.seen && random.uniform() < 0.8)
+    point.poor = capture(random.uniform(0.1, 1.0), random.uniform(0.1, 1.0), random.uniform(0.1, 1.0), false);
   point.score = scored(point.captures);
   return point;
 }
@@ -132,6 +134,46 @@ TEST(ScoreLosses, AllLossesTogetherAreTheDifference) {
                                                              [](const auto& loss) { return loss.loss != 0.0; })));
   }
   for (const auto& [name, cause] : enum_names(LossCause{})) EXPECT_GT(met[cause], 0u) << name;
+}
+
+/// The part by which the loss must be split, said in other words than the code's: nothing is worse, and of equals the
+/// first counts.
+std::string expected_part(const PointRecord& point, LossCause cause) {
+  if (cause != LossCause::below_threshold) return "";
+  if (!point.poor) return "unsplit";
+  std::vector<std::pair<double, std::string>> parts = {{point.poor->q_distance, "distance"},
+                                                       {point.poor->q_res / point.poor->q_distance, "tilt"},
+                                                       {point.poor->q_blur, "blur"}};
+  std::ranges::stable_sort(parts, {}, &std::pair<double, std::string>::first);
+  return parts.front().second;
+}
+
+TEST(ScoreLosses, WhatIsTooPoorToCountIsSplitByTheWorstPart) {
+  RandomStream random(7, "score_losses_test", 0);
+  std::vector<PointLoss> losses;
+  std::map<std::string, LossSum> expected;
+  for (int i = 0; i < 60000; ++i) {
+    const PointRecord point = drawn_point(random);
+    const PointLoss loss = loss_of(point);
+    const std::string part = expected_part(point, loss.cause);
+    EXPECT_EQ(loss.poor_part(), part);
+    EXPECT_EQ(loss.poor.has_value(), !part.empty() && part != "unsplit");
+    ++expected[part].points;
+    expected[part].score += loss.loss;
+    losses.push_back(loss);
+  }
+  const auto parts = sum_up_poor(losses);
+  LossSum whole;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    EXPECT_GT(parts[i].points, 100U) << kPoorParts[i].key;
+    EXPECT_EQ(parts[i].points, expected[kPoorParts[i].key].points) << kPoorParts[i].key;
+    EXPECT_EQ(parts[i].score, expected[kPoorParts[i].key].score) << kPoorParts[i].key;
+    whole.points += parts[i].points;
+    whole.score += parts[i].score;
+  }
+  const LossSum all = sum_up(losses)[LossCause::below_threshold];
+  EXPECT_EQ(whole.points, all.points);
+  EXPECT_EQ(whole.score, all.score);
 }
 
 TEST(ScoreLosses, TheWorstPartOfTheBestPictureIsToBlame) {
