@@ -7,6 +7,7 @@
 #include "report/html.hpp"
 #include "report/page_parts.hpp"
 #include "report/time_chart.hpp"
+#include "results/losses.hpp"
 
 namespace skein::report {
 namespace {
@@ -42,6 +43,20 @@ std::string never_seen_table(const RunPage& page) {
          table_row({"a UAV came near, but did not look, or something was in between", fixed(sums->loss_near, 1),
                     std::to_string(sums->points_near)}) +
          "</tbody></table></div>\n";
+}
+
+/// Why points were too poor to count; empty if there are none.
+std::string poor_table(const Json& losses) {
+  const auto parts = results::poor_parts(losses);
+  std::string rows;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    if (parts[i].points == 0) continue;
+    rows += table_row({results::kPoorParts[i].title, fixed(parts[i].score, 1), std::to_string(parts[i].points)});
+  }
+  if (rows.empty()) return "";
+  return "<p class=\"soft\">Points too poor to count: by the worst part of the quality of their best "
+         "picture.</p>\n<div class=\"wide\"><table class=\"words\" data-table=\"poor\">\n" +
+         table_head({"", "Lost", "Points"}) + "<tbody>\n" + rows + "</tbody></table></div>\n";
 }
 
 std::string percent(double part, double whole) { return whole > 0.0 ? fixed(100.0 * part / whole, 1) + " %" : "–"; }
@@ -82,7 +97,7 @@ std::string losses_section(const RunPage& page) {
   html += table_row({"delivered", cell_of(result, "score", 1), percent(number_in(result, "score"), *estimate),
                      cell_of(result, "points_detected", 0), bar_cell(0.0, number_in(result, "score"), most, "had")},
                     "sum");
-  return html + "</tbody></table></div>\n" + never_seen_table(page) + "</section>\n";
+  return html + "</tbody></table></div>\n" + poor_table(losses) + never_seen_table(page) + "</section>\n";
 }
 
 std::string timeline_section(const RunPage& page) {

@@ -121,6 +121,27 @@ TEST(RunReport, MissingPartsAreReported) {
   EXPECT_EQ(page.find(scratch.path().string()), std::string::npos) << "where the folder lies is nobody's business";
 }
 
+TEST(RunReport, SplitsWhatWasTooPoorToCount) {
+  const auto page_of = [](const Json& too_poor) {
+    results::RunRecord run;
+    run.result = {{"attainable", {{"points", 9}, {"score", 9.0}}}, {"losses", {{"below_threshold", too_poor}}}};
+    return run_page(run, std::nullopt);
+  };
+  const auto rows_of = [](const std::string& page) { return element_text(page, "data-table=\"poor\">", "</table>"); };
+  const Json parts = {{"distance", {{"points", 0}, {"score", 0.0}}},
+                      {"tilt", {{"points", 1}, {"score", 0.5}}},
+                      {"blur", {{"points", 2}, {"score", 1.5}}},
+                      {"unsplit", {{"points", 0}, {"score", 0.0}}}};
+  const std::string rows = rows_of(page_of({{"points", 3}, {"score", 2.0}, {"by_part", parts}}));
+  EXPECT_NE(rows.find("too much from the side"), std::string::npos) << rows;
+  EXPECT_NE(rows.find("blurred"), std::string::npos) << rows;
+  EXPECT_EQ(count_of(rows, "<tr"), 3u) << "with the head: " << rows;
+  const std::string earlier = rows_of(page_of({{"points", 3}, {"score", 2.0}}));
+  EXPECT_NE(earlier.find("part not known"), std::string::npos) << "a result of an earlier version: " << earlier;
+  EXPECT_EQ(count_of(earlier, "<tr"), 2u) << earlier;
+  EXPECT_EQ(page_of({{"points", 0}, {"score", 0.0}}).find("data-table=\"poor\""), std::string::npos);
+}
+
 TEST(RunReport, WithoutItsScriptAPageSaysWhereToGetIt) {
   const results::Scratch scratch;
   results::write_text(scratch.path() / "result.json", R"({"status": "completed"})");

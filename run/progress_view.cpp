@@ -6,8 +6,8 @@
 #include "core/planners/python_spec.hpp"
 #include "core/text/suggestion.hpp"
 #include "core/text/text.hpp"
-#include "results/causes.hpp"
 #include "results/from_nodes.hpp"
+#include "results/losses.hpp"
 #include "results/run_folder.hpp"
 
 namespace skein::cli {
@@ -26,15 +26,24 @@ std::string uav_state(const Json& uav) {
   return value_or(uav, "program_lost", false).get<bool>() ? "lost" : "alive";
 }
 
-/// Prints the losses of attainable score: a row for each cause that has any.
+/// Prints the losses of attainable score: a row for each cause that has any, and for each part of `below_threshold`.
 void print_losses(std::ostream& out, const Json& losses) {
   const char* head = "lost      ";
-  for (const auto& [cause, text] : results::kCauses) {
-    const Json sum = value_or(losses, std::string(cause).c_str(), Json::object());
-    if (number_in(sum, "points") <= 0.0) continue;
-    out << head << std::left << std::setw(24) << text << std::right << std::setw(10)
-        << fixed(number_in(sum, "score"), 3) << std::setw(8) << cell(sum, "points", 0) << " points\n";
+  const auto row = [&](const std::string& text, double score, double points) {
+    if (points <= 0.0) return;
+    out << head << std::left << std::setw(24) << text << std::right << std::setw(10) << fixed(score, 3) << std::setw(8)
+        << fixed(points, 0) << " points\n";
     head = "          ";
+  };
+  for (std::size_t i = 0; i < results::kCauses.size(); ++i) {
+    const Json sum = value_or(losses, results::kCauses[i].key, Json::object());
+    row(results::kCauses[i].title, number_in(sum, "score"), number_in(sum, "points"));
+    if (i != results::cause_of("below_threshold")) continue;
+    const auto parts = results::poor_parts(losses);
+    for (std::size_t part = 0; part < parts.size(); ++part) {
+      row(std::string("  ") + results::kPoorParts[part].title, parts[part].score,
+          static_cast<double>(parts[part].points));
+    }
   }
 }
 

@@ -116,6 +116,22 @@ TEST(Summary, TellsHowMuchOfTheAttainableItIs) {
                              "status"),
             std::string::npos)
       << known.str();
+  result["losses"] = {{"below_threshold",
+                       {{"points", 5},
+                        {"score", 3.5},
+                        {"by_part",
+                         {{"tilt", {{"points", 4}, {"score", 3.25}}},
+                          {"blur", {{"points", 0}, {"score", 0.0}}},
+                          {"unsplit", {{"points", 1}, {"score", 0.25}}}}}}},
+                      {"voided", {{"points", 2}, {"score", 1.5}}}};
+  known.str("");
+  print_summary(known, result, "there");
+  EXPECT_NE(known.str().find("lost      too poor to count            3.500       5 points\n"
+                             "            too much from the side     3.250       4 points\n"
+                             "            part not known             0.250       1 points\n"
+                             "          UAV collided                 1.500       2 points\n"),
+            std::string::npos)
+      << known.str();
   result["losses"] = nullptr;
   result["attainable"] = {{"points", nullptr}, {"score", nullptr}};
   print_summary(unknown, result, "there");

@@ -11,15 +11,25 @@
 namespace skein::cli {
 namespace {
 
+constexpr const results::Cause& kTooPoor = results::kCauses[*results::cause_of("below_threshold")];
+
 struct Row {
   int flights = 0, collisions = 0, by_battery = 0;
   std::vector<double> shares;  ///< of the estimate [%]
   double estimates = 0.0;      ///< sum, of flights whose losses are known
-  std::map<std::string, double> losses;
+  std::map<std::string, double> losses, poor_parts;
   std::optional<double> median() const {
     return shares.empty() ? std::nullopt : std::optional(spread_of(shares).median);
   }
 };
+
+/// Adds the parts of the loss by pictures too poor to count. If figures do not split it, as those of earlier versions,
+/// all of it is `unsplit`.
+void add_poor_parts(const FlightFigures& figures, std::map<std::string, double>& sums) {
+  for (const auto& [part, score] : figures.poor_parts) sums[part] += score;
+  const auto all = figures.losses.find(kTooPoor.key);
+  if (figures.poor_parts.empty() && all != figures.losses.end()) sums[results::kPoorParts.back().key] += all->second;
+}
 
 Row row_of(const Study& study, const std::string& conditions, std::size_t planner) {
   Row row;
@@ -33,6 +43,7 @@ Row row_of(const Study& study, const std::string& conditions, std::size_t planne
     if (flight.figures->losses.empty()) continue;
     row.estimates += flight.figures->attainable.value_or(0.0);
     for (const auto& [cause, score] : flight.figures->losses) row.losses[cause] += score;
+    add_poor_parts(*flight.figures, row.poor_parts);
   }
   return row;
 }
@@ -43,18 +54,21 @@ using Rows = std::map<std::pair<std::string, std::size_t>, Row>;
 void print_losses(std::ostream& out, const Study& study, const std::vector<std::string>& all, const Rows& rows) {
   out << "\nLost, as a share of the estimate [%]:\n\n| conditions | planner |";
   for (const results::Cause& cause : results::kCauses) out << ' ' << cause.title << " |";
+  for (const results::Cause& part : results::kPoorParts) out << ' ' << kTooPoor.title << ": " << part.title << " |";
   out << "\n|---|---|";
-  for (std::size_t i = 0; i < results::kCauses.size(); ++i) out << "---|";
+  for (std::size_t i = 0; i < results::kCauses.size() + results::kPoorParts.size(); ++i) out << "---|";
   out << '\n';
   for (const std::string& conditions : all) {
     for (std::size_t p = 0; p < study.planners.size(); ++p) {
       const Row& row = rows.at({conditions, p});
       out << fmt::format("| `{}` | `{}` |", conditions, study.planners[p]);
-      for (const results::Cause& cause : results::kCauses) {
-        const auto lost = row.losses.find(cause.key);
-        const bool known = lost != row.losses.end() && row.estimates > 0.0;
+      const auto print_share = [&](const std::map<std::string, double>& losses, const results::Cause& cause) {
+        const auto lost = losses.find(cause.key);
+        const bool known = lost != losses.end() && row.estimates > 0.0;
         out << ' ' << (known ? fmt::format("{:.1f}", 100.0 * lost->second / row.estimates) : "-") << " |";
-      }
+      };
+      for (const results::Cause& cause : results::kCauses) print_share(row.losses, cause);
+      for (const results::Cause& part : results::kPoorParts) print_share(row.poor_parts, part);
       out << '\n';
     }
   }

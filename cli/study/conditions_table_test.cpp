@@ -42,6 +42,32 @@ TEST(ConditionsTable, ComparesMediansWithTheFirstConditionsAndCountsFalls) {
   EXPECT_NE(text.find("| `harsh` | `star` | - | - |"), std::string::npos) << text;
 }
 
+TEST(ConditionsTable, SplitsWhatIsTooPoorToCount) {
+  Study study;
+  study.planners = {"kios"};
+  study.scene_conditions = {"none"};
+  study.scenarios = {"towers none"};
+  const auto add = [&](double score, std::map<std::string, double> parts) {
+    FlightEntry entry{0, 0, study.flights.size(), {}, FlightFigures(), ""};
+    entry.figures->attainable = 100.0;
+    entry.figures->losses = {{"below_threshold", score}};
+    entry.figures->poor_parts = std::move(parts);
+    study.flights.push_back(std::move(entry));
+  };
+  add(30.0, {{"distance", 0.0}, {"tilt", 10.0}, {"blur", 20.0}, {"unsplit", 0.0}});
+  add(8.0, {});  // kept by an earlier version
+  const std::string text = printed(study);
+  EXPECT_NE(
+      text.find("| too poor to count: from too far away | too poor to count: too much from the side | too poor to "
+                "count: blurred | too poor to count: part not known |\n"),
+      std::string::npos)
+      << text;
+  EXPECT_NE(
+      text.find("| `none` | `kios` | - | - | 19.0 | - | - | - | - | - | - | - | - | - | 0.0 | 5.0 | 10.0 | 4.0 |\n"),
+      std::string::npos)
+      << text;
+}
+
 TEST(ConditionsTable, IsEmptyWithoutConditions) {
   Study study;
   study.planners = {"kios"};

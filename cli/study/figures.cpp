@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "report/figures.hpp"
+#include "results/losses.hpp"
 
 namespace skein::cli {
 namespace {
@@ -86,6 +87,10 @@ FlightFigures figures_of(const Json& result) {
   const Json losses = value_or(result, "losses", Json::object());
   for (const auto& [cause, sum] : losses.items()) {
     figures.losses[cause] = number_in(sum, "score");
+  }
+  if (!figures.losses.empty()) {
+    const auto parts = results::poor_parts(losses);
+    for (std::size_t i = 0; i < parts.size(); ++i) figures.poor_parts[results::kPoorParts[i].key] = parts[i].score;
   }
   figures.real_time_factor = number_in(result, "real_time_factor");
   figures.mission_time_s = number_in(result, "mission_time_s");

@@ -39,6 +39,7 @@ struct FlightFigures {
   std::optional<double> planner_cpu_ms;                          ///< per UAV and simulated second
   double real_time_factor = 0.0, mission_time_s = 0.0;
   std::map<std::string, double> losses;                   ///< lost score by cause (results/causes.hpp); empty: unknown
+  std::map<std::string, double> poor_parts = {};          ///< of `below_threshold` in `losses`, by kPoorParts
   std::string status, digest;                             ///< digest: empty if the run has none
   std::vector<UavFigures> uavs = {};                      ///< fleet order
   std::optional<double> memory_mb = {}, processors = {};  ///< sum over its programs; their CPU time per wall time

@@ -27,6 +27,7 @@ void each_figure(Figures& f, const Each& each) {
   each("real_time_factor", f.real_time_factor);
   each("mission_time_s", f.mission_time_s);
   each("losses", f.losses);
+  each("poor_parts", f.poor_parts);
   each("status", f.status);
   each("digest", f.digest);
   each("memory_mb", f.memory_mb);

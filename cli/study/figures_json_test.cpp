@@ -34,9 +34,11 @@ Json drawn_result(RandomStream& draw) {
     uavs.push_back(uav);
   }
   Json losses = Json::object();
-  for (const char* cause : {"drift", "never_in_picture"}) {
+  for (const char* cause : {"drift", "never_in_picture", "below_threshold"}) {
     if (draw.uniform() < 0.8) losses[cause] = {{"points", 3}, {"score", draw.uniform(-1.0, 99.0)}};
   }
+  if (losses.contains("below_threshold") && draw.uniform() < 0.5)
+    losses["below_threshold"]["by_part"] = {{"tilt", {{"points", 2}, {"score", draw.uniform(0.0, 9.0)}}}};
   result["losses"] = losses;
   result["attainable"] = attainable;
   result["flight_check"] = check;
@@ -57,6 +59,7 @@ TEST(FiguresJson, AreTheSameAfterwards) {
     EXPECT_EQ(again.frozen_uavs, figures.frozen_uavs);
     EXPECT_EQ(again.least_clearance_m, figures.least_clearance_m);
     EXPECT_EQ(again.losses, figures.losses);
+    EXPECT_EQ(again.poor_parts, figures.poor_parts);
     EXPECT_EQ(again.planner_cpu_ms, figures.planner_cpu_ms);
     ASSERT_EQ(again.uavs.size(), 2U);
     EXPECT_EQ(again.uavs[1].name, figures.uavs[1].name);

@@ -65,7 +65,7 @@ LOSSES = Table("losses", "losses.csv", (
     Column("loss", "number", "1"), _UAV, Column("capture", "number?"),
     *_columns("number?", "1", "q_distance q_tilt q_blur q")),
     "only a run that was completed has it, flown without `no_oracle=True` (--no-oracle), in a scene that the oracle "
-    "knows (`skein oracle SCENARIO` asks it)")
+    "knows (`skein oracle SCENARIO` asks it)", optional=(Column("part", "text"),))
 
 WORK = Table("work", "work.csv", (
     _TIME, _UAV, Column("open", "text"), Column("work", "number", "1"), Column("waits_for", "text"),

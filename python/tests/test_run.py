@@ -37,12 +37,25 @@ def test_its_tables_add_up(flown: skein.Run) -> None:
     losses, causes = flown.losses, flown.score_losses
     for cause, size in causes.items():
         assert losses["loss"][losses["cause"] == cause].sum() == pytest.approx(size)
+    poor = losses["cause"] == "below_threshold"
+    assert ((losses["part"] != "") == poor).all()
+    for part, sums in flown.result["losses"]["below_threshold"]["by_part"].items():
+        assert losses["loss"][losses["part"] == part].sum() == pytest.approx(sums["score"])
     assert flown.score + sum(causes.values()) == pytest.approx(flown.result["attainable"]["score"])
     assert set(flown.work["uav"]) == set(flown.trajectories["uav"]) == set(flown.uavs)
     assert flown.digests["digest"][-1] == flown.digest
     assert flown.digests.dtype.names[2] == "jurong.position"
     assert np.isnan(flown.captures["delivered_at_s"]).any(), "not received"
     assert len(flown.capture_messages) > 0, "the faulty links lost some"
+
+
+def test_losses_of_earlier_versions_have_no_parts(flown: skein.Run, tmp_path: Path) -> None:
+    shutil.copy(flown.path / "result.json", tmp_path)
+    lines = (flown.path / "losses.csv").read_text().splitlines()
+    (tmp_path / "losses.csv").write_text("".join(line.rpartition(",")[0] + "\n" for line in lines))
+    losses = skein.Run(tmp_path).losses
+    assert losses.dtype.names == flown.losses.dtype.names[:-1]
+    assert np.array_equal(losses["cause"], flown.losses["cause"])
 
 
 def test_links_are_the_events_as_intervals(flown: skein.Run) -> None:

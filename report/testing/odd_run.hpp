@@ -107,6 +107,9 @@ class OddRun {
       json["losses"] = Json::object();
       for (const results::Cause& cause : results::kCauses)
         json["losses"][std::string(cause.key)] = {{"points", below(9)}, {"score", number(20.0) - 1.0}};
+      for (std::size_t i = 0; one_in(2) && i < results::kPoorParts.size(); ++i)
+        json["losses"]["below_threshold"]["by_part"][results::kPoorParts[i].key] = {{"points", below(9)},
+                                                                                    {"score", number(5.0)}};
     }
     json["radio"] = {{"sent", below(1000)}, {"per_link", Json::array()}};
     json["radio"]["per_link"].push_back(

@@ -115,7 +115,7 @@ class Results : public FleetTest {
   void check_losses() const {
     SCOPED_TRACE("losses.csv");
     ASSERT_TRUE(result_["losses"].is_object()) << result_["warnings"];
-    std::map<std::string, std::pair<std::size_t, double>> sums;
+    std::map<std::string, std::pair<std::size_t, double>> sums, parts;
     double estimate = 0.0, scored = 0.0;
     std::size_t attainable = 0;
     for (const Row& row : csv("losses.csv")) {
@@ -126,6 +126,14 @@ class Results : public FleetTest {
       auto& [points, score] = sums[row.at("cause")];
       ++points;
       score += number(row, "loss");
+      EXPECT_EQ(row.at("part").empty(), row.at("cause") != "below_threshold");
+      if (row.at("part").empty()) continue;
+      ++parts[row.at("part")].first;
+      parts[row.at("part")].second += number(row, "loss");
+      if (row.at("part") == "unsplit") continue;
+      EXPECT_LT(number(row, "q"), kMinPointScore);
+      EXPECT_LE(number(row, "q_" + row.at("part")),
+                std::min({number(row, "q_distance"), number(row, "q_tilt"), number(row, "q_blur")}));
     }
     EXPECT_EQ(estimate, result_["attainable"]["score"].get<double>());
     EXPECT_EQ(attainable, result_["attainable"]["points"].get<std::size_t>());
@@ -133,6 +141,10 @@ class Results : public FleetTest {
     for (const auto& [cause, sum] : result_["losses"].items()) {
       EXPECT_EQ(sums[cause].first, sum["points"].get<std::size_t>()) << cause;
       EXPECT_EQ(sums[cause].second, sum["score"].get<double>()) << cause;
+    }
+    for (const auto& [part, sum] : result_["losses"]["below_threshold"]["by_part"].items()) {
+      EXPECT_EQ(parts[part].first, sum["points"].get<std::size_t>()) << part;
+      EXPECT_EQ(parts[part].second, sum["score"].get<double>()) << part;
     }
     EXPECT_GT(result_["losses"]["never_in_picture"]["points"], 0);
   }

@@ -241,6 +241,16 @@ function unseen({scene, losses: lost, trajectories}) {
   return rows;
 }
 
+/** @returns lost score and number of the points too poor to count, by the worst part of their best picture. */
+function poor({losses: lost}) {
+  const points = (lost ?? []).filter((row) => row.cause === 'below_threshold');
+  const rows = ['distance', 'tilt', 'blur', 'unsplit']
+      .map((part) => points.filter((row) => (row.part ?? 'unsplit') === part))
+      .filter((some) => some.length > 0)
+      .map((some) => [some.reduce((sum, row) => sum + Number(row.loss), 0), some.length]);
+  return rows.length > 0 ? rows : null;
+}
+
 function links(run) {
   const nodes = ['gcs', ...run.result.uavs.map((uav) => uav.name)];
   const {shares} = contact(run);
@@ -287,6 +297,7 @@ export function expectedTables(run) {
     uavs: uavs(run),
     time: timeUse(run),
     unseen: unseen(run),
+    poor: poor(run),
     links: links(run),
     latency: latency(run),
     maps: maps(run),
