@@ -7,6 +7,7 @@
 
 #include "bus/program_bus.hpp"
 #include "comm_router/router_node.hpp"
+#include "core/scenario/scenario_reader.hpp"
 #include "core/topics.hpp"
 #include "process/files/nowhere.hpp"
 #include "process/reports/program_report.hpp"
@@ -49,10 +50,12 @@ void write_report(const ProgramOptions& options, const Scenario& scenario, const
                       .warnings = notes.warnings,
                       .unwritten = notes.unwritten,
                       .differences = notes.differences};
+  // In a large fleet, nearly all of the million links never have line of sight: only the others are listed.
+  const bool large = scenario.uavs.size() > kMostUavsOverDds;
   for (const Node from : gate.nodes()) {
     for (const Node to : gate.nodes()) {
       const LinkCounts& counts = gate.counts().at(from, to);
-      if (counts.sent == 0) continue;
+      if (counts.sent == 0 || (large && counts.sent == counts.dropped_no_los)) continue;
       report.per_link.push_back(
           {.from = scenario.node_name(from), .to = scenario.node_name(to), .counts = radio_counts(counts)});
     }

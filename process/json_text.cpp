@@ -1,5 +1,6 @@
 #include "process/json_text.hpp"
 
+#include <algorithm>
 #include <cstdint>
 
 #include "core/files/file_bytes.hpp"
@@ -29,10 +30,37 @@ std::string text_in(const Json& object, const char* key) {
   return found != object.end() && found->is_string() ? found->get<std::string>() : "";
 }
 
+namespace {
+
+constexpr int kDeepest = 32;
+
+/// The greatest number of arrays and objects around a value; for text that is no JSON, any number.
+int depth_of(const std::string& text) {
+  int depth = 0, deepest = 0;
+  bool quoted = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (quoted) {
+      if (c == '\\') ++i;
+      quoted = c != '"';
+    } else if (c == '"') {
+      quoted = true;
+    } else if (c == '{' || c == '[') {
+      deepest = std::max(deepest, ++depth);
+    } else if (c == '}' || c == ']') {
+      --depth;
+    }
+  }
+  return deepest;
+}
+
+}  // namespace
+
 Json parse_json(const std::string& text) {
-  constexpr int kDeepest = 32;
+  // With a callback, nlohmann's parser takes a time that grows with the square of an array's length.
   const auto shallow = [](int depth, Json::parse_event_t, const Json&) { return depth <= kDeepest; };
-  Json json = Json::parse(text, shallow, false);
+  const bool deep = depth_of(text) > kDeepest;
+  Json json = deep ? Json::parse(text, shallow, false) : Json::parse(text, nullptr, false);
   return json.is_discarded() ? Json() : json;
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/planners/python_spec.hpp"
+#include "core/scenario/scenario_reader.hpp"
 #include "core/text/text.hpp"
 #include "report/html.hpp"
 #include "report/page_parts.hpp"
@@ -112,6 +113,30 @@ std::string link_matrix(const RunPage& page) {
   return html + "</tbody></table></div>\n";
 }
 
+/// For a fleet that is too large for link_matrix(): a row for each sender.
+std::string link_sums(const RunPage& page) {
+  struct Sums {
+    std::size_t nodes = 0;
+    double delivered = 0.0, bytes = 0.0;
+  };
+  std::map<std::string, Sums> sums;
+  for (const Json& link : value_or(value_or(page.run.result, "radio", Json::object()), "per_link", Json::array())) {
+    const double delivered = number_in(link, "delivered");
+    if (delivered == 0.0) continue;
+    Sums& of = sums[text_in(link, "from")];
+    ++of.nodes;
+    of.delivered += delivered;
+    of.bytes += number_in(link, "delivered_bytes");
+  }
+  std::string html = "<div class=\"wide\"><table data-table=\"links\">\n" +
+                     table_head({"Sender", "Receivers", "Messages delivered", "Delivered [kB]"}) + "<tbody>\n";
+  for (const std::string& node : nodes_of(page)) {
+    const Sums& of = sums[node];
+    html += table_row({escaped(node), std::to_string(of.nodes), fixed(of.delivered, 0), fixed(1e-3 * of.bytes, 1)});
+  }
+  return html + "</tbody></table></div>\n";
+}
+
 std::string key_figures(const std::vector<std::pair<std::string, std::string>>& figures, const std::string& table) {
   std::string html = "<div class=\"wide\"><table class=\"pairs\" data-table=\"" + table + "\"><tbody>\n";
   for (const auto& [name, value] : figures) html += table_row({name, value});
@@ -174,11 +199,14 @@ std::string fleet_section(const RunPage& page) {
 
 std::string radio_section(const RunPage& page) {
   const Json radio = value_or(page.run.result, "radio", Json::object());
-  std::string html =
-      "<section id=\"radio\"><h2>Radio</h2>\n<div class=\"halves\"><div>\n"
-      "<h3>Links</h3><p class=\"soft\">Share of the time with a link; messages delivered of those sent; delivered "
-      "bytes.</p>\n" +
-      link_matrix(page);
+  std::string html = "<section id=\"radio\"><h2>Radio</h2>\n<div class=\"halves\"><div>\n<h3>Links</h3>";
+  if (page.run.uavs.size() > kMostUavsOverDds) {
+    html += "<p class=\"soft\">UAVs and the station that received messages of each sender.</p>\n" + link_sums(page);
+  } else {
+    html +=
+        "<p class=\"soft\">Share of the time with a link; messages delivered of those sent; delivered bytes.</p>\n" +
+        link_matrix(page);
+  }
   html += key_figures(
       {{"messages sent", cell_of(radio, "sent", 0)},
        {"delivered", cell_of(radio, "delivered", 0)},

@@ -8,6 +8,7 @@ namespace {
 
 constexpr double kFreeForS = 4.0, kUnknownForS = 1.0;  ///< lifetime of an answer in the cache: everywhere, any other
 constexpr std::size_t kMostAnswers = 200'000;
+constexpr std::uint32_t kTimeBits = (1U << 30) - 1;  ///< of an answer's time
 
 }  // namespace
 
@@ -29,6 +30,10 @@ void BodyFit::forget() {
   asked_ = 0;
 }
 
+double BodyFit::age_s(const Answer& answer) const {
+  return seconds(Tick{(static_cast<std::uint32_t>(now_) - answer.at) & kTimeBits});
+}
+
 BodyFit::Answer& BodyFit::answer_of(const WorldMap::Cube& cube) const {
   const auto in = [&](int axis) { return static_cast<std::size_t>(cube[axis] & (kBlock - 1)); };
   return answers_[grid_key(shifted(cube, kBlockBits))][in(0) | in(1) << kBlockBits | in(2) << 2 * kBlockBits];
@@ -39,8 +44,8 @@ bool BodyFit::fits(const Vector3d& p_W) const {
   Answer& answer = answer_of(cube);
   const bool is_new = answer.fits == Fits::unasked;
   if (is_new) ++asked_;
-  if (is_new || seconds(now_ - answer.at) >= (answer.fits == Fits::everywhere ? kFreeForS : kUnknownForS)) {
-    answer = {now_, fits_in(cube)};
+  if (is_new || age_s(answer) >= (answer.fits == Fits::everywhere ? kFreeForS : kUnknownForS)) {
+    answer = {static_cast<std::uint32_t>(now_) & kTimeBits, fits_in(cube)};
   }
   if (answer.fits == Fits::somewhere) return map_->ball_free(p_W, radius_m_, ground_m_);
   return answer.fits == Fits::everywhere;

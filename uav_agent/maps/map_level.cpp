@@ -44,7 +44,7 @@ BeamEvidence MapLevel::all_evidence(const Cell& cell) const {
 MapLevel::Block& MapLevel::new_block(const Cell& at, Slot& slot) {
   if (spare_.empty()) {
     slot.number = kFirst + static_cast<std::uint32_t>(blocks_.size());
-    blocks_.emplace_back();
+    append(blocks_);
   } else {
     slot.number = kFirst + spare_.back();
     spare_.pop_back();
