@@ -14,6 +14,7 @@
 #include "cli/study/csv.hpp"
 #include "cli/study/figure_files.hpp"
 #include "cli/study/page.hpp"
+#include "cli/study/pairs.hpp"
 #include "cli/study/requirement.hpp"
 #include "cli/study/tex.hpp"
 #include "cli/study/worlds.hpp"
@@ -216,7 +217,12 @@ int merge(const StudyPlan& plan, StudyOutcomes outcomes, const Console& console)
   const bool interrupted = outcomes.interrupted;
   const Study study = study_of(plan, std::move(outcomes));
   write_report(study, plan.out);
-  plan.options.scene_seeds ? print_worlds(console.out, study) : print_study(console.out, study);
+  if (plan.options.scene_seeds) {
+    print_worlds(console.out, study);
+  } else {
+    print_study(console.out, study);
+    print_pairs(console.out, study, planner_pairs(study));
+  }
   print_conditions(console.out, study);
   const bool kept = print_requirements(console.out, study, requirements);
   console.out << "report: " << (plan.out / run_folder::kPage).string() << std::endl;

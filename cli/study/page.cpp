@@ -29,7 +29,7 @@ constexpr const char* kStudyStyle = R"css(.study svg.plot { max-width: 560px; }
 .study a { color: var(--c0); text-decoration-thickness: 1px; text-underline-offset: 2px; }
 .study figcaption a { font-weight: 400; } .study a.file { float: right; font-size: 0.85em; margin-left: 1em; }
 .study .plot text.name { paint-order: stroke; stroke: var(--panel); stroke-width: 3px; }
-.study .columns { columns: 24em; max-width: none; padding-left: 1.2em; }
+.study .columns { columns: 24em; column-gap: 2.4em; max-width: none; padding-left: 1.2em; }
 .study .columns li { break-inside: avoid; }
 .study .files { overflow-wrap: anywhere; }
 @media print { .study a { color: inherit; } .study a.file { display: none; } }
@@ -187,8 +187,8 @@ std::string study_footer(const Study& study) {
   else
     html += "<p id=\"machine\">";
   html += fmt::format(
-      "{}. A flight kept {} processors busy and took {} MB of memory (medians). Skein {}, flown in or "
-      "over {}.</p>\n",
+      "{}. A flight kept {} processors busy and took {} MB of memory (medians). Skein {}, DDS: "
+      "{}.</p>\n",
       at_once, fixed(of_flights(study, &FlightFigures::processors), 2),
       fixed(of_flights(study, &FlightFigures::memory_mb), 0), escaped(study.version), escaped(study.medium));
   return html +

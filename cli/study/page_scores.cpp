@@ -83,7 +83,7 @@ std::string pairs_words(const StudyReport& report) {
   std::size_t tests = 0;
   for (const PlannerPair& pair : report.pairs) tests += pair.test ? 1 : 0;
   if (tests > 1) {
-    html += "Beside it stands the same corrected for all scenes of the pair, or for all pairs of totals (Holm 1979). ";
+    html += "<i>p</i>, Holm is corrected for all scenes of the pair, or for all pairs of totals (Holm 1979). ";
   }
   html += fmt::format("Below {} pairs, the table has neither. ", kFewestPairs);
   const std::size_t seeds = report.study.seeds.size();
@@ -234,7 +234,7 @@ std::string pairs_section(const StudyReport& report) {
                      figure_panels(report, {FigureKind::difference}) +
                      "<div class=\"wide\"><table data-table=\"pairs\">\n<thead><tr><th>Scene</th>"
                      "<th class=\"name\">Planners</th><th>Pairs</th><th>First ahead</th><th>Median difference</th>"
-                     "<th>95 % interval</th><th><i>p</i></th></tr></thead>\n<tbody>\n";
+                     "<th>95 % interval</th><th><i>p</i></th><th><i>p</i>, Holm</th></tr></thead>\n<tbody>\n";
   const PlannerPair* before = nullptr;
   for (const PlannerPair& pair : report.pairs) {
     html += pair_row(report, pair, before != nullptr && before->scenario != pair.scenario);

@@ -250,6 +250,10 @@ TEST(StudyPage, RowsOfUavsAndPairsSayWhatTheFlightsSay) {
     EXPECT_EQ(row, uavs.size());
     const std::vector<PlannerPair> expected = planner_pairs(study);
     ASSERT_EQ(pairs.size(), expected.size());
+    const std::size_t table = page.find("data-table=\"pairs\"");
+    const std::string head = page.substr(table, page.find("</thead>", table) - table);
+    const std::regex column("<th[ >]");
+    EXPECT_EQ(std::distance(std::sregex_iterator(head.begin(), head.end(), column), std::sregex_iterator()), 8);
     for (std::size_t i = 0; i < pairs.size(); ++i) {
       EXPECT_EQ(pairs[i].at(2), std::to_string(expected[i].differences.size()));
       EXPECT_EQ(pairs[i].at(4), fixed(expected[i].median, 1));

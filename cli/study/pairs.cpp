@@ -6,14 +6,22 @@
 #include <iterator>
 #include <map>
 #include <memory>
+#include <ostream>
+
+#include <spdlog/fmt/fmt.h>
 
 #include "cli/study/columns.hpp"
 #include "core/text/text.hpp"
+#include "report/html.hpp"
 
 namespace skein::cli {
 namespace {
 
 constexpr const char* kScore = "score";
+constexpr std::size_t kMostPrinted = 30;  ///< rows of print_pairs(), unless there are more pairs over all scenes
+constexpr std::size_t kLongestPair = 48;  ///< of the planners and the scene of such a row, in characters
+constexpr std::size_t kFewestForFive =
+    6;  ///< pairs with which p can be below 0.05: with n of them, p is at least 2 / 2^n
 
 /// A figure of one flight; nullopt: not known.
 using Figure = std::function<std::optional<double>(const FlightEntry&)>;
@@ -129,6 +137,33 @@ std::vector<PlannerPair> other_pairs(const Study& study) {
   }
   add(kDeviation, deviation(study));
   return pairs;
+}
+
+void print_pairs(std::ostream& out, const Study& study, const std::vector<PlannerPair>& pairs) {
+  if (pairs.empty()) return;
+  const bool only_totals = pairs.size() > kMostPrinted && study.scenarios.size() > 1;
+  out << fmt::format("\n{:<50}{:>6}{:>10}{:>20}{:>10}{:>10}\n", "differences of scores with the same seed", "pairs",
+                     "median", "95 % interval", "p", "p, Holm");
+  std::size_t most = 0;
+  for (const PlannerPair& pair : pairs) {
+    most = std::max(most, pair.differences.size());
+    if (only_totals && pair.scenario) continue;
+    const std::string name = study.planners[pair.first] + " - " + study.planners[pair.second] + ", " +
+                             (pair.scenario ? study.scenarios[*pair.scenario] : "all scenes");
+    out << fmt::format("  {:<48}{:>6}{:>10}", report::shortened(name, kLongestPair), pair.differences.size(),
+                       pair.median ? fixed(*pair.median, 1) : "-");
+    if (!pair.interval) {
+      out << fmt::format("{:>20}\n", "n too small");
+      continue;
+    }
+    out << fmt::format("{:>20}{:>10}{:>10}\n", fixed(pair.interval->low, 1) + " to " + fixed(pair.interval->high, 1),
+                       p_text(pair.test->p), p_text(pair.p_holm));
+  }
+  if (only_totals) out << "pairs.csv also has the differences in each scene\n";
+  if (most > 0 && most < kFewestForFive) {
+    out << fmt::format("with {} seed{}, no difference can be significant at the 5 % level; use 8 seeds or more\n", most,
+                       most == 1 ? "" : "s");
+  }
 }
 
 std::string p_text(const std::optional<double>& p) {

@@ -1,6 +1,7 @@
 // Compares planners in pairs: the differences of their scores and other figures, seed by seed. Pure; any thread.
 #pragma once
 
+#include <iosfwd>
 #include <optional>
 #include <string>
 #include <utility>
@@ -35,6 +36,10 @@ inline constexpr const char* kDeviation = "score_deviation_percent";
 std::vector<PlannerPair> planner_pairs(const Study& study);
 /// The same for the columns that are `paired` (columns.hpp) and for kDeviation; over all scenes, means.
 std::vector<PlannerPair> other_pairs(const Study& study);
+
+/// Prints the differences of scores: a row for each of the `pairs` (of planner_pairs()) or, if these are many, only for
+/// those over all scenes. If no pair has enough seeds for a significant difference, a last line says so.
+void print_pairs(std::ostream& out, const Study& study, const std::vector<PlannerPair>& pairs);
 
 /// "0.031", "< 0.001"; nullopt: an empty text.
 std::string p_text(const std::optional<double>& p);

@@ -5,6 +5,8 @@
 
 #include <map>
 #include <random>
+#include <regex>
+#include <sstream>
 
 #include "cli/study/csv.hpp"
 #include "cli/testing/odd_study.hpp"
@@ -52,6 +54,36 @@ TEST(PlannerPairs, AreTheDifferencesOfTheFlights) {
       }
     }
   }
+}
+
+/// A study of two planners in one scene, in which the first scores 1 to n more than the second.
+Study two_planners(std::uint64_t seeds) {
+  Study study{false, Rank::maximum, {"a", "b"}, {"s"}, {}, {}, "", "", "", "", 1};
+  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+    study.seeds.push_back(seed);
+    for (const std::size_t planner : {0, 1}) {
+      FlightEntry flight{planner, 0, seed, {}, FlightFigures{}, ""};
+      flight.figures->score = planner == 0 ? 101.0 + static_cast<double>(seed) : 100.0;
+      study.flights.push_back(flight);
+    }
+  }
+  return study;
+}
+
+std::string printed_pairs(const Study& study) {
+  std::ostringstream out;
+  print_pairs(out, study, planner_pairs(study));
+  return out.str();
+}
+
+TEST(PlannerPairs, TheTerminalShowsWhetherADifferenceIsSignificant) {
+  const std::string eight = printed_pairs(two_planners(8));
+  EXPECT_TRUE(std::regex_search(eight, std::regex("\n  a - b, s +8 +4\\.5 +[0-9.]+ to [0-9.]+ +0\\.0078 +0\\.0078\n")))
+      << eight;
+  EXPECT_EQ(eight.find("no difference can be"), std::string::npos) << eight;
+  const std::string few = printed_pairs(two_planners(3));
+  EXPECT_TRUE(std::regex_search(few, std::regex("\n  a - b, s +3 +2\\.0 +n too small\n"))) << few;
+  EXPECT_NE(few.find("with 3 seeds, no difference can be significant"), std::string::npos) << few;
 }
 
 TEST(PlannerPairs, AreATableForPrograms) {

@@ -102,6 +102,11 @@ std::string scores_tex(const Study& study, const std::vector<std::string>& title
                    "Scene & Planner & $n$ & Score & Range & \\% of attainable & Points", rows);
 }
 
+std::string tex_p(double p) {
+  const std::string text = p_text(p);
+  return text.starts_with("<") ? "$<$" + text.substr(1) : text;
+}
+
 std::string pairs_tex(const Study& study, const std::vector<PlannerPair>& pairs,
                       const std::vector<std::string>& titles) {
   std::vector<std::string> rows;
@@ -110,16 +115,15 @@ std::string pairs_tex(const Study& study, const std::vector<PlannerPair>& pairs,
                       tex_escaped(study.planners[pair.first]) + " $-$ " + tex_escaped(study.planners[pair.second]) +
                       fmt::format(" & {} & ", pair.differences.size()) +
                       (pair.median ? tex_number(*pair.median, 1) : "--");
-    const std::string p = p_text(pair.test ? std::optional(pair.test->p) : std::nullopt);
     row += pair.interval ? " & " + tex_number(pair.interval->low, 1) + " to " + tex_number(pair.interval->high, 1) +
-                               " & " + (p.starts_with("<") ? "$<$" + p.substr(1) : p)
-                         : " & \\multicolumn{2}{c}{$n$ too small}";
+                               " & " + tex_p(pair.test->p) + " & " + tex_p(*pair.p_holm)
+                         : " & \\multicolumn{3}{c}{$n$ too small}";
     rows.push_back(row);
   }
   return tex_table(
-      "Differences of scores with the same seed: median, 95 % interval by bootstrap, and p of Wilcoxon's "
-      "signed-rank test (two-sided, not corrected for the number of pairs).",
-      "llrrrr", "Scene & Planners & $n$ & Median & 95\\,\\% interval & $p$", rows);
+      "Differences of scores with the same seed: median, 95 % interval by bootstrap, p of Wilcoxon's signed-rank test "
+      "(two-sided), and p after Holm's correction for all scenes of the two planners (totals: for all pairs).",
+      "llrrrrr", "Scene & Planners & $n$ & Median & 95\\,\\% interval & $p$ & $p_\\mathrm{Holm}$", rows);
 }
 
 }  // namespace

@@ -95,7 +95,7 @@ TEST(Tex, TablesHaveARowForEachAndAsManyCellsAsColumns) {
       if (line.starts_with("\\begin{tabular}{")) columns = line.find('}', 16) - 16;
       if (line.starts_with("%") || !line.ends_with("\\\\")) continue;
       ++rows;
-      std::size_t cells = 1 + (line.find("\\multicolumn{2}") != std::string::npos ? 1 : 0);
+      std::size_t cells = 1 + (line.find("\\multicolumn{3}") != std::string::npos ? 2 : 0);
       for (std::size_t i = 0; i < line.size(); ++i) cells += line[i] == '&' && line[i - 1] != '\\' ? 1 : 0;
       EXPECT_EQ(cells, columns) << line;
     }
