@@ -58,7 +58,7 @@ td.heat { background: color-mix(in srgb, var(--h) var(--v), transparent); }
 .points .k10 { stroke: var(--k10); } .points .k11 { stroke: var(--k11); }
 .run svg { max-width: none; }
 .views { grid-template-columns: repeat(auto-fit, minmax(min(520px, 100%), 1fr)); }
-.places { grid-template-columns: repeat(auto-fill, minmax(min(235px, 100%), 1fr)); }
+.places { grid-template-columns: repeat(auto-fill, minmax(min(340px, 100%), 1fr)); }
 .known path { fill: var(--ink); stroke: none; } .known .m1 { fill: var(--direct); fill-opacity: 0.2; }
 .known .m2 { fill-opacity: 0.3; } .known .m3 { fill-opacity: 0.5; } .known .m4 { fill-opacity: 0.7; } .known .m5 { fill-opacity: 0.95; }
 .swatch.m1 { background: color-mix(in srgb, var(--direct) 20%, transparent); } .swatch.m2 { background: color-mix(in srgb, var(--ink) 30%, transparent); } .swatch.m3 { background: color-mix(in srgb, var(--ink) 50%, transparent); }

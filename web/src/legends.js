@@ -25,7 +25,7 @@ export function legendOf(by) {
 export function legendOfLinks() {
   const names = [['direct', 'link to the station'], ['relayed', 'link between UAVs'], ['bad', 'cut by a fault']];
   const entry = (background, text) => {
-    const line = element('span', {class: 'line', 'aria-hidden': 'true'});
+    const line = element('span', {class: 'swatch line', 'aria-hidden': 'true'});
     line.style.background = background;
     return element('li', {}, line, text);
   };
