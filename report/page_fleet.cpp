@@ -9,6 +9,7 @@
 #include "report/html.hpp"
 #include "report/page_parts.hpp"
 #include "report/time_chart.hpp"
+#include "results/uav_state.hpp"
 
 namespace skein::report {
 namespace {
@@ -19,20 +20,19 @@ std::string share_text(const Spans& spans, double end_s) {
   return end_s > 0.0 ? fixed(100.0 * length_of(spans) / end_s, 1) : "–";
 }
 
-std::string state_of(const Json& uav) {
-  const auto alive = uav.is_object() ? uav.find("alive") : uav.end();
-  if (!uav.is_object() || alive == uav.end() || !alive->is_boolean()) return "–";
-  if (!alive->get<bool>()) return "collided";
-  return value_or(uav, "program_lost", false).get<bool>() ? "program lost" : "alive";
+std::string state_of(const Json& uav, const Json& faults) {
+  const std::string state = results::uav_state(uav, faults);
+  const bool is_of_program = state == "lost" || state == "killed" || state == "paused";
+  return state == "-" ? "–" : is_of_program ? "program " + state : state;
 }
 
 std::string uav_table(const RunPage& page) {
   const Json& result = page.run.result;
   const Json planners = value_or(result, "planner", Json::object()),
              scores = value_or(result, "score_by_uav", Json::object());
-  const Json uavs = value_or(result, "uavs", Json::array());
+  const Json uavs = value_or(result, "uavs", Json::array()), faults = value_or(result, "faults", Json::array());
   std::string html = "<div class=\"wide\"><table data-table=\"uavs\">\n" +
-                     table_head({"UAV", "Role", "Planner", "State", "Score", "Captures", "Distance [m]",
+                     table_head({"UAV", "Role", "Planner", "State", "Score", "Pictures", "Distance [m]",
                                  "Top speed [m/s]", "Idle [s]", "Direct link [%]", "Relayed [%]"}) +
                      "<tbody>\n";
   for (std::size_t i = 0; i < page.run.uavs.size(); ++i) {
@@ -40,7 +40,7 @@ std::string uav_table(const RunPage& page) {
     const std::string &name = page.run.uavs[i], planner = without_folders(text_in(planners, name.c_str()));
     html += table_row({fmt::format("<span class=\"swatch\" style=\"background:var(--t{})\"></span>{}",
                                    i % kTrackColours, escaped(name)),
-                       escaped(text_in(uav, "role")), escaped(shortened(planner, 32)), state_of(uav),
+                       escaped(text_in(uav, "role")), escaped(shortened(planner, 32)), state_of(uav, faults),
                        cell_of(scores, name.c_str(), 1), cell_of(uav, "captures", 0), cell_of(uav, "distance_m", 1),
                        cell_of(uav, "max_speed_mps", 2), cell_of(uav, "idle_s", 1),
                        share_text(page.lanes[i].direct, page.run.end_s),

@@ -9,6 +9,7 @@
 #include "results/from_nodes.hpp"
 #include "results/losses.hpp"
 #include "results/run_folder.hpp"
+#include "results/uav_state.hpp"
 
 namespace skein::cli {
 namespace {
@@ -17,13 +18,6 @@ namespace {
 std::string cell(const Json& object, const char* key, int digits) {
   const auto found = object.find(key);
   return found != object.end() && found->is_number() ? fixed(found->get<double>(), digits) : "-";
-}
-
-std::string uav_state(const Json& uav) {
-  const auto alive = uav.find("alive");
-  if (alive == uav.end() || !alive->is_boolean()) return "-";
-  if (!alive->get<bool>()) return "collided";
-  return value_or(uav, "program_lost", false).get<bool>() ? "lost" : "alive";
 }
 
 /// Prints the losses of attainable score: a row for each cause that has any, and for each part of `below_threshold`.
@@ -133,12 +127,13 @@ void print_summary(std::ostream& out, const Json& result, const std::filesystem:
     for (const std::string& text : cells) out << std::setw(14) << text;
     out << '\n';
   };
-  row("UAV", {"role", "planner", "state", "score", "captures", "distance [m]", "idle [s]"});
+  row("UAV", {"role", "planner", "state", "score", "pictures", "distance [m]", "idle [s]"});
+  const Json faults = value_or(result, "faults", Json::array());
   for (const Json& uav : result["uavs"]) {
     const std::string name = uav["name"];
     std::string planner = without_folders(result["planner"][name]);
     if (planner.size() > 12) planner = planner.substr(0, 10) + "..";
-    row(name, {uav["role"], planner, uav_state(uav), cell(result["score_by_uav"], name.c_str(), 3),
+    row(name, {uav["role"], planner, results::uav_state(uav, faults), cell(result["score_by_uav"], name.c_str(), 3),
                cell(uav, "captures", 0), cell(uav, "distance_m", 1), cell(uav, "idle_s", 1)});
   }
   if (const std::string nodes = results::free_nodes_table(result["uavs"]); !nodes.empty()) out << '\n' << nodes;

@@ -153,7 +153,7 @@ std::string uav_table(const Study& study, std::size_t scenario) {
       "point, over all flights, that the station never got.</p>\n"
       "<div class=\"wide\"><table data-table=\"uavs\">\n<thead><tr><th class=\"name\">Planner</th>"
       "<th class=\"name\">UAV</th><th>Role</th><th>Score</th><th>Distance [m]</th><th>Idle [s]</th>"
-      "<th>Captures</th><th>That improved a point</th><th>Undelivered "
+      "<th>Pictures</th><th>Captures</th><th>Undelivered "
       "[%]</th></tr></thead>\n<tbody>\n{}</tbody></table></div></details>\n",
       count <= kMostOpenRows ? " open=\"open\"" : "", rows);
 }
