@@ -70,7 +70,8 @@ std::vector<std::string> tool_words(const std::string& how, pid_t pid, const std
 }  // namespace
 
 void add_ps(CLI::App& app, PsOptions& /*none*/) {
-  app.add_subcommand("ps", "List the fleets that fly now, with their processes");
+  app.add_subcommand("ps", "List the fleets that fly now, with their processes")
+      ->footer("Example:\n  skein ps\n\nSee docs/how-to-debug.md.");
 }
 
 void add_attach(CLI::App& app, AttachOptions& attach) {

@@ -161,7 +161,9 @@ void print(const std::vector<Without>& all, const TrialOutcome& outcome, const S
   };
   tell_property(outcome, "  ");
   std::string no_difference;
-  if (!all.empty()) console.out << "score, and how much sooner that of the end was there:\n";
+  if (!all.empty())
+    console.out
+        << "gain without each of these: points of the score, and how much sooner the lower final score is reached\n";
   for (const Without& without : all) {
     if (without.parts.empty()) {
       no_difference += "            " + without.what + "\n";

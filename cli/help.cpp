@@ -1,5 +1,7 @@
 #include "cli/help.hpp"
 
+#include <iterator>
+
 #include "cli/completion.hpp"
 #include "core/config/config_files.hpp"
 #include "core/scenario/drawn_worlds.hpp"
@@ -28,8 +30,7 @@ std::string planner_list() try {
 /// The names of the scenarios in files, and of the families of generated worlds.
 std::vector<std::string> scenario_names() {
   std::vector<std::string> names = config_names(default_config_dir() / "scenarios");
-  names.insert(names.end(), kWildWorlds.begin(), kWildWorlds.end());
-  names.emplace_back(kDistrict);
+  std::ranges::copy(drawn_world_names(), std::back_inserter(names));
   return names;
 }
 

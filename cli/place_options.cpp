@@ -8,7 +8,7 @@ void add_place_options(CLI::App& command, PlaceOptions& place) {
   CLI::Option* const at =
       command
           .add_option("--place", place.at,
-                      "UAV=HOST,...: run the programs of these UAVs on other hosts, over ssh (gcs: the program at the "
+                      "Run the programs of these UAVs on other hosts, over ssh (gcs: the program at the "
                       "ground station); slurm: distribute the UAVs over the other nodes of this Slurm allocation")
           ->type_name("UAV=HOST,...");
   command.add_option("--ssh", place.ssh, "With --place: the command that logs in, with its options")

@@ -45,9 +45,10 @@ int ServerTasks::check_golden() const {
   bool passed = true;
   for (const auto& file : golden) {
     const GoldenReport report = sim::check_golden(file);
-    std::cout << fmt::format("{}: {}, {} rows, {} failed, worst difference {:.3g} of its tolerance ({})\n",
-                             file.string(), report.table, report.rows, report.failures, report.worst,
-                             report.worst_column);
+    std::cout << fmt::format("{}: {}, {} rows, {} failed, ", file.string(), report.table, report.rows, report.failures)
+              << (report.worst > 0.0 ? fmt::format("greatest difference: {:.3g} of the tolerance, in column {}\n",
+                                                   report.worst, report.worst_column)
+                                     : "no difference\n");
     for (const std::string& message : report.messages) std::cout << "  " << message << '\n';
     passed = passed && report.failures == 0;
   }

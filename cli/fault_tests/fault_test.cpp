@@ -85,7 +85,6 @@ RunOptions run_options(const RunPart& part, const fs::path& file, const std::opt
 void check_run(const RunOptions& options, ConfigErrors& errors) {
   const char* key = "run.scenario";
   try {
-    find_config_file("scenario", options.scenario, default_config_dir() / "scenarios");
     LoadOptions load;
     load.needs_scene_files = false;
     Scenario scenario = load_scenario(options.scenario, load);

@@ -114,6 +114,7 @@ TEST_F(HuntPlans, RefusesWhatMakesNoSense) {
   hunt = options();
   hunt.run.duration_s = 42.0;
   refused(hunt, "--duration: a mission of 42 s has no time for faults");
+  refused(hunt, "the shortest mission for these properties is ");
   hunt = options();
   hunt.properties = programs_.dir() / "mine.yaml";
   write_text(*hunt.properties, "properties:\n  low: always hold < 30\n");

@@ -31,7 +31,7 @@ fs::path default_config_dir() {
 }
 
 fs::path find_config_file(const std::string& what, const std::string& name_or_path, const fs::path& folder,
-                          const fs::path& base) {
+                          const fs::path& base, const std::vector<std::string>& other_names) {
   std::error_code ignored;
   const bool is_path =
       name_or_path.find('/') != std::string::npos || name_or_path.ends_with(".yaml") || name_or_path.ends_with(".yml");
@@ -42,8 +42,10 @@ fs::path find_config_file(const std::string& what, const std::string& name_or_pa
   }
   const fs::path file = folder / (name_or_path + ".yaml");
   if (name_or_path.empty() || !fs::is_regular_file(file, ignored)) {
+    std::vector<std::string> names = config_names(folder);
+    names.insert(names.end(), other_names.begin(), other_names.end());
     throw InputError("no " + what + " is called '" + name_or_path + "' in " + folder.string() + "; " +
-                     suggestion(name_or_path, config_names(folder)));
+                     suggestion(name_or_path, names));
   }
   return file;
 }

@@ -16,9 +16,11 @@ std::filesystem::path default_config_dir();
 /// @param what  kind of file, for error messages: "scenario".
 /// @param name_or_path  a path if it contains a '/' or ends in .yaml; otherwise a name, for `folder`/<name>.yaml.
 /// @param base  folder to which a relative path refers; empty: the working directory.
-/// @throws InputError if there is no such file; the message suggests names that exist.
+/// @param other_names  names without a file that the user may also mean.
+/// @throws InputError if there is no such file; the message suggests names that exist, and `other_names`.
 std::filesystem::path find_config_file(const std::string& what, const std::string& name_or_path,
-                                       const std::filesystem::path& folder, const std::filesystem::path& base = {});
+                                       const std::filesystem::path& folder, const std::filesystem::path& base = {},
+                                       const std::vector<std::string>& other_names = {});
 
 /// Names (without .yaml) of the files in a folder, sorted; empty when there is no such folder.
 std::vector<std::string> config_names(const std::filesystem::path& folder);

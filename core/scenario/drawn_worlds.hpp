@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <array>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/scenario.hpp"
 
@@ -24,6 +26,12 @@ inline constexpr int kWorldGrammar = 1;
 /// Whether a scene is loaded from files. The stored scene of a drawn world has both files and a family, the world's
 /// name.
 inline bool from_files(const SceneConfig& scene) { return !scene.meshes.empty(); }
+
+inline std::vector<std::string> drawn_world_names() {
+  std::vector<std::string> names(kWildWorlds.begin(), kWildWorlds.end());
+  names.emplace_back(kDistrict);
+  return names;
+}
 
 inline bool is_drawn_world(std::string_view name) {
   return name == kDistrict || std::ranges::find(kWildWorlds, name) != kWildWorlds.end();

@@ -314,7 +314,11 @@ void apply_overrides(const LoadOptions& options, Scenario& scenario) {
 
 Scenario load_scenario(const std::string& name_or_path, const LoadOptions& options) {
   const fs::path config_dir = options.config_dir.empty() ? default_config_dir() : options.config_dir;
-  const fs::path path = find_config_file("scenario", name_or_path, config_dir / "scenarios");
+  if (is_drawn_world(name_or_path)) {
+    throw InputError("the worlds of '" + name_or_path + "' have no file here; write one with `skein scene " +
+                     name_or_path + " --scene-seed 0 --out DIR`, and name its scenario file");
+  }
+  const fs::path path = find_config_file("scenario", name_or_path, config_dir / "scenarios", {}, drawn_world_names());
   const ConfigDocument document = read_config_document(path);
   ScenarioFile file = read_config<ScenarioFile>(document);
   Scenario scenario = file.scenario;
