@@ -43,6 +43,8 @@ async function checkLossesInTime(page, last) {
   for (let k = 1; k < 6; ++k) {
     const then = await at((k * result.sim_time_s) / 6);
     expect(addsUp(then) && then.rows.delivered[0] <= last.rows.delivered[0], `at ${k} sixths: ${JSON.stringify(then)}`);
+    const {score} = await stateOf(page);
+    expect(Math.abs(then.rows.delivered[1] - score) < 0.1 + 0.005 * score, `at ${k} sixths ${then.rows.delivered[1]} is delivered, and the score is ${score}`);
   }
   const begin = await at(0);
   expect(begin.rows.delivered[0] === 0 && !begin.rows.blur, `at the begin ${JSON.stringify(begin)}`);

@@ -2,7 +2,8 @@
 // delivered. Each line of the flight updates the present state; states of the past are looked up in stored captures.
 
 export const kDetected = 0.2;
-const kHistory = 4;  // captures of a point that are kept only to show the past
+const kRecords = 40;  // captures of a point that were its best at some time, and are kept only to show the past
+const kHistory = 4;  // further captures of a point that are kept only to show the past
 const kMore = 6;     // new captures of a point before forget() runs again
 
 /** A point in a capture. Integers take a third of the memory: q in 1/1000000, its parts in 1/1000. */
@@ -150,8 +151,8 @@ export function makeCustody(data) {
 
   /**
    * Limits the stored captures of a point. Each UAV's best capture and its best delivered capture stay: with these, the
-   * present state stays correct whichever captures are delivered later, and whichever UAVs collide. A few others stay
-   * to show the past, preferably those that were the point's best at some time.
+   * present state stays correct whichever captures are delivered later, and whichever UAVs collide. Others stay to show
+   * the past: the latest of those that were the point's best at some time, as many as a point usually has, and a few more.
    */
   function forget(point) {
     ++stamp;
@@ -168,8 +169,8 @@ export function makeCustody(data) {
     }
     for (const one of [point.delivered, point.taken])
       if (one !== null) one.stays = stamp;
-    let room = kHistory;
     for (const records of [true, false]) {
+      let room = records ? kRecords : kHistory;
       for (let i = point.seen.length - 1; i >= 0 && room > 0; --i) {
         const one = point.seen[i];
         if (one.stays === stamp || one.record !== records) continue;
