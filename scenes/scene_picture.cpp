@@ -47,6 +47,8 @@ class View {
            (middle_.y() - (y + 0.5 - 0.5 * kHigh) / scale_) * up_ - kFar * into_;
   }
   const Vector3d& into() const { return into_; }
+  /// Pixels per metre, for lengths across the direction of view.
+  double scale() const { return scale_; }
 
  private:
   Vector3d right_, up_, into_;
@@ -135,6 +137,17 @@ std::string fleet_svg(const View& view, const Scenario& scenario) {
                            at.x(), at.y() - 5.0);
 }
 
+/// A bar with its length. It is horizontal, and so not foreshortened in either view.
+std::string scale_bar(const View& view) {
+  double length_m = 1.0;
+  for (const double more : {2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0}) {
+    if (view.scale() * more <= 0.25 * kWide) length_m = more;
+  }
+  return fmt::format(
+      "<path stroke=\"#333\" d=\"M12.5 {0}v6h{1:.1f}v-6\"/><text x=\"{2:.1f}\" y=\"{3}\">{4:g} m</text>\n", kHigh - 14,
+      view.scale() * length_m, 20.0 + view.scale() * length_m, kHigh - 8, length_m);
+}
+
 }  // namespace
 
 std::string scene_picture(const Scenario& scenario, const Scene& scene) {
@@ -148,13 +161,18 @@ std::string scene_picture(const Scenario& scenario, const Scene& scene) {
   const std::array<View, 2> views = {View(-right_angle + 0.5, 0.45, shown), View(-right_angle, right_angle, shown)};
   for (std::size_t i = 0; i < views.size(); ++i) {
     svg += fmt::format("<g transform=\"translate({} 24)\">\n", kWide * i) + surfaces(views[i], scene) +
-           boxes_svg(views[i], scene) + fleet_svg(views[i], scenario) + "</g>\n";
+           boxes_svg(views[i], scene) + fleet_svg(views[i], scenario) + scale_bar(views[i]) + "</g>\n";
   }
+  const auto counted = [](std::size_t number, const char* one, const char* many) {
+    return fmt::format("{} {}", number, number == 1 ? one : many);
+  };
   return svg + fmt::format(
-                   "<text x=\"8\" y=\"16\">{}: {} UAVs, {:.0f} s, {:g} mm, {} boxes, {} points; explorers blue, "
-                   "photographers orange, station red</text>\n</svg>\n",
-                   scenario.name, scenario.fleet.size(), scenario.duration_s, scenario.desired_mm_per_pixel,
-                   scene.boxes.size(), scene.points.size());
+                   "<text x=\"8\" y=\"16\">{}: {} (explorers blue, photographers orange), station red, {} (green), {}, "
+                   "{:.0f} s, {:g} mm per pixel</text>\n</svg>\n",
+                   scenario.name, counted(scenario.fleet.size(), "UAV", "UAVs"),
+                   counted(scene.boxes.size(), "box", "boxes"),
+                   counted(scene.points.size(), "interest point", "interest points"), scenario.duration_s,
+                   scenario.desired_mm_per_pixel);
 }
 
 }  // namespace skein::sim
