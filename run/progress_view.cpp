@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iomanip>
+#include <vector>
 
 #include "core/planners/python_spec.hpp"
 #include "core/text/suggestion.hpp"
@@ -13,6 +14,8 @@
 
 namespace skein::cli {
 namespace {
+
+constexpr std::size_t kLongestPlanner = 32;  ///< of its name in the table of UAVs; more is cut off
 
 /// A measured number, or "-" if there is none.
 std::string cell(const Json& object, const char* key, int digits) {
@@ -38,6 +41,32 @@ void print_losses(std::ostream& out, const Json& losses) {
       row(std::string("  ") + results::kPoorParts[part].title, parts[part].score,
           static_cast<double>(parts[part].points));
     }
+  }
+}
+
+/// Prints what became of each UAV, as a table.
+void print_uavs(std::ostream& out, const Json& result) {
+  const Json faults = value_or(result, "faults", Json::array());
+  std::vector<std::vector<std::string>> rows = {
+      {"UAV", "role", "planner", "state", "score", "pictures", "distance [m]", "idle [s]"}};
+  for (const Json& uav : result["uavs"]) {
+    const std::string name = uav["name"];
+    std::string planner = without_folders(result["planner"][name]);
+    if (planner.size() > kLongestPlanner) planner = planner.substr(0, kLongestPlanner - 2) + "..";
+    rows.push_back({name, uav["role"], planner, results::uav_state(uav, faults),
+                    cell(result["score_by_uav"], name.c_str(), 3), cell(uav, "captures", 0), cell(uav, "distance_m", 1),
+                    cell(uav, "idle_s", 1)});
+  }
+  std::size_t names = 0, planners = 12;
+  for (const std::vector<std::string>& row : rows) {
+    names = std::max(names, row[0].size());
+    planners = std::max(planners, row[2].size());
+  }
+  for (const std::vector<std::string>& row : rows) {
+    out << std::left << std::setw(static_cast<int>(names)) << row[0] << std::right;
+    for (std::size_t i = 1; i < row.size(); ++i)
+      out << std::setw(i == 2 ? static_cast<int>(planners) + 2 : 14) << row[i];
+    out << '\n';
   }
 }
 
@@ -120,22 +149,7 @@ void print_summary(std::ostream& out, const Json& result, const std::filesystem:
       << "LiDAR " << cell(result.contains("timing") ? result["timing"] : result, "lidar_ms_per_scan", 2)
       << " ms a scan\n"
       << "digest    " << (result["digest"].is_string() ? result["digest"].get<std::string>() : "none") << "\n\n";
-  std::size_t width = 3;
-  for (const Json& uav : result["uavs"]) width = std::max(width, uav["name"].get<std::string>().size());
-  const auto row = [&](const std::string& name, std::initializer_list<std::string> cells) {
-    out << std::left << std::setw(static_cast<int>(width)) << name << std::right;
-    for (const std::string& text : cells) out << std::setw(14) << text;
-    out << '\n';
-  };
-  row("UAV", {"role", "planner", "state", "score", "pictures", "distance [m]", "idle [s]"});
-  const Json faults = value_or(result, "faults", Json::array());
-  for (const Json& uav : result["uavs"]) {
-    const std::string name = uav["name"];
-    std::string planner = without_folders(result["planner"][name]);
-    if (planner.size() > 12) planner = planner.substr(0, 10) + "..";
-    row(name, {uav["role"], planner, results::uav_state(uav, faults), cell(result["score_by_uav"], name.c_str(), 3),
-               cell(uav, "captures", 0), cell(uav, "distance_m", 1), cell(uav, "idle_s", 1)});
-  }
+  print_uavs(out, result);
   if (const std::string nodes = results::free_nodes_table(result["uavs"]); !nodes.empty()) out << '\n' << nodes;
   for (const Json& warning : result["warnings"])
     out << "warning: " << (warning.is_string() ? warning.get<std::string>() : warning.dump()) << '\n';

@@ -166,5 +166,20 @@ TEST(ProgressView, TheTableShowsWhoseProgramIsLost) {
   EXPECT_TRUE(std::regex_search(out.str(), std::regex("\ncy +explorer +hover +collided "))) << out.str();
 }
 
+TEST(ProgressView, TheTableShowsWholeNamesOfPlanners) {
+  const Json result = {{"status", "completed"},
+                       {"collisions", Json::array()},
+                       {"digest", nullptr},
+                       {"uavs", Json::parse(R"([{"name": "ada", "role": "explorer", "alive": true},
+                                                {"name": "bob", "role": "photographer", "alive": true}])")},
+                       {"planner", {{"ada", "py:my_planner.py:height_m=9"}, {"bob", std::string(50, 'x')}}},
+                       {"score_by_uav", Json::object()},
+                       {"warnings", Json::array()}};
+  std::ostringstream out;
+  print_summary(out, result, "there");
+  EXPECT_NE(out.str().find(" py:my_planner.py:height_m=9 "), std::string::npos) << out.str();
+  EXPECT_NE(out.str().find(" " + std::string(30, 'x') + ".. "), std::string::npos) << out.str();
+}
+
 }  // namespace
 }  // namespace skein::cli
