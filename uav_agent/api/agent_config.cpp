@@ -22,7 +22,7 @@ namespace {
 
 /// A UAV knows the conditions of the scenario: the greatest noise of its LiDAR, and that some returns are lost.
 void know_conditions(const LidarConditions& conditions, LidarConfig& lidar) {
-  constexpr double kWeakReturns = 0.1;  ///< assumed share of lost returns where returns may be too weak
+  constexpr double kWeakReturns = 0.1;  ///< assumed share of lost returns where they may be too weak; chosen
   lidar.sigma_m = std::hypot(lidar.sigma_m, lidar_sigma_m(conditions, lidar.range_max_m, kMostTanIncidence));
   if (conditions.reflectivity) lidar.no_return_p = std::max(lidar.no_return_p, kWeakReturns);
 }

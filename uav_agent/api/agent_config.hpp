@@ -18,17 +18,17 @@ struct FleetMember {
   std::string name;
   Role role = Role::explorer;
   Vector3d p_WB_start = Vector3d::Zero();  ///< nominal, on the ground (z = 0); the true start may be decimetres off
-  double body_radius_m = 0.63;             ///< of a sphere about Bo that contains the whole UAV
-  double max_speed_mps = 6.0;
+  double body_radius_m = 0.63;             ///< of a sphere about Bo that contains the whole UAV; vehicle
+  double max_speed_mps = 6.0;              ///< vehicle
 };
 
 struct AgentConfig {
   UavIndex self = {};                 ///< index of this UAV in `fleet`
   std::vector<FleetMember> fleet;     ///< in fleet order, the same on every UAV
   VehicleConfig vehicle;              ///< of this UAV; its LiDAR with the noise and losses of the scenario's conditions
-  double desired_mm_per_pixel = 2.0;  ///< resolution on the surface that loses no score
-  double duration_s = 600.0;          ///< of the mission
-  double exchange_period_s = 0.05;
+  double desired_mm_per_pixel = 2.0;  ///< resolution on the surface that loses no score; chosen
+  double duration_s = 600.0;          ///< of the mission; chosen
+  double exchange_period_s = 0.05;    ///< chosen
   Vector3d station_position = Vector3d::Zero();  ///< of the ground station, in W
   BatteryConditions battery;                     ///< of this UAV
   OdometryConditions odometry;                   ///< error model of the odometry, the same for all UAVs

@@ -19,7 +19,7 @@ struct Setpoint {
 
 struct Waypoint {
   Vector3d p_WB = Vector3d::Zero();
-  double speed_mps = 1.0;  ///< maximum speed on the leg that ends here
+  double speed_mps = 1.0;  ///< maximum speed on the leg that ends here; chosen
 };
 
 /// A polyline to follow from the present setpoint on; it replaces any earlier path. The UAV stops at its end.

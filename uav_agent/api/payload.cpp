@@ -6,25 +6,29 @@
 #include <utility>
 
 #include "core/radio/radio_routes.hpp"
+#include "uav_agent/api/fnv_hash.hpp"
 
 namespace skein::agent {
 namespace {
 
-constexpr double kPositionStepM = 0.01;
+constexpr double kPositionStepM = 0.01;  ///< format: positions are whole centimetres
 
-// A text must not contain NUL: each byte 0 or 1 is written as the byte 1 and a second one.
+// Format: a text must not contain NUL, so each byte 0 or 1 is written as the byte 1 and a second one.
 constexpr char kEscape = 1, kEscapedZero = 1, kEscapedOne = 2;
+
+/// Format: the sender and the check sum, before the content.
+constexpr std::size_t kEnvelopeBytes = 2 * sizeof(std::uint16_t);
 
 /// FNV-1a hash, folded to 16 bits: detects damaged payloads.
 std::uint16_t check_sum(std::span<const std::uint8_t> bytes) {
-  std::uint32_t hash = 2166136261U;
-  for (const std::uint8_t byte : bytes) hash = (hash ^ byte) * 16777619U;
-  return static_cast<std::uint16_t>(hash ^ hash >> 16);
+  FnvHash hash;
+  for (const std::uint8_t byte : bytes) hash.add(byte);
+  return hash.folded();
 }
 
 std::string escaped(std::span<const std::uint8_t> bytes) {
   std::string text;
-  text.reserve(bytes.size() + bytes.size() / 16);
+  text.reserve(bytes.size() + bytes.size() / 16);  // memory: a guess at the number of escapes
   for (const std::uint8_t byte : bytes) {
     if (byte > 1) {
       text.push_back(static_cast<char>(byte));
@@ -114,7 +118,7 @@ std::optional<Payload> open_payload(const RadioMessage& message, std::string_vie
   if (!text.starts_with(' ')) return std::nullopt;
   text.remove_prefix(1);
   const auto bytes = unescaped(text);
-  if (!bytes || bytes->size() > kMaxPayloadBytes + 4) return std::nullopt;
+  if (!bytes || bytes->size() > kMaxPayloadBytes + kEnvelopeBytes) return std::nullopt;
   PayloadReader reader(*bytes);
   const std::size_t sender = reader.u16();
   const std::uint16_t sum = reader.u16();

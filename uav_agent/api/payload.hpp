@@ -21,6 +21,7 @@
 namespace skein::agent {
 
 /// Largest payload, without its envelope. A planner that has more to say sends several messages, or the rest later.
+/// Chosen.
 inline constexpr std::size_t kMaxPayloadBytes = 16'384;
 
 /// Appends numbers; calls can be chained: PayloadWriter().u8(1).u16(goal).
@@ -28,7 +29,7 @@ class PayloadWriter {
  public:
   PayloadWriter& u8(std::uint8_t value) { return number(value, 1); }
   PayloadWriter& u16(std::uint16_t value) { return number(value, 2); }
-  PayloadWriter& u32(std::uint32_t value) { return number(value, 4); }
+  PayloadWriter& u32(std::uint32_t value) { return number(value, sizeof(value)); }
   /// Appends a position as three 32-bit numbers of centimetres; each coordinate must be within 20,000 km.
   PayloadWriter& position(const Vector3d& p_W);
   PayloadWriter& bytes(std::span<const std::uint8_t> bytes);
@@ -51,7 +52,7 @@ class PayloadReader {
 
   std::uint8_t u8() { return static_cast<std::uint8_t>(number(1)); }
   std::uint16_t u16() { return static_cast<std::uint16_t>(number(2)); }
-  std::uint32_t u32() { return number(4); }
+  std::uint32_t u32() { return number(sizeof(std::uint32_t)); }
   Vector3d position();
   /// The next `count` bytes; empty if fewer are left.
   std::span<const std::uint8_t> bytes(std::size_t count);

@@ -6,10 +6,10 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kMaxGapS = 0.25;      ///< two sightings farther apart give no velocity
-constexpr double kVelocityGain = 0.5;  ///< of the newest difference; smooths the 20 Hz positions
-constexpr double kStandsM = 0.5;       ///< a UAV this near to its start, and not faster than kStandsMps, stands there
-constexpr double kStandsMps = 0.3;
+constexpr double kMaxGapS = 0.25;      ///< two sightings farther apart give no velocity; chosen
+constexpr double kVelocityGain = 0.5;  ///< of the newest difference; chosen: smooths the 20 Hz positions
+/// A UAV this near to its start, and not faster than kStandsMps, stands there. Chosen.
+constexpr double kStandsM = 0.5, kStandsMps = 0.3;
 
 double square(double x) { return x * x; }
 

@@ -2,13 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace skein::agent {
 namespace {
 
-constexpr double kFreeForS = 4.0, kUnknownForS = 1.0;  ///< lifetime of an answer in the cache: everywhere, any other
-constexpr std::size_t kMostAnswers = 200'000;
-constexpr std::uint32_t kTimeBits = (1U << 30) - 1;  ///< of an answer's time
+/// Lifetime of an answer in the cache: Fits::everywhere, any other. Chosen.
+constexpr double kFreeForS = 4.0, kUnknownForS = 1.0;
+constexpr std::size_t kMostAnswers = 200'000;        ///< memory: then the cache is emptied
+constexpr std::uint32_t kTimeBits = (1U << 30) - 1;  ///< memory: of an answer's time
 
 }  // namespace
 
@@ -53,7 +55,7 @@ bool BodyFit::fits(const Vector3d& p_W) const {
 
 /// Two checks at the middle of a cube bound the answer for all places in it.
 BodyFit::Fits BodyFit::fits_in(const WorldMap::Cube& cube) const {
-  const double to_corner_m = 0.5 * std::sqrt(3.0) * map_->config().cell_m;
+  const double to_corner_m = 0.5 * std::numbers::sqrt3 * map_->config().cell_m;
   const Vector3d middle_W = map_->middle_W(cube);
   if (map_->ball_free(middle_W, radius_m_ + to_corner_m, ground_m_)) return Fits::everywhere;
   const bool nowhere = !map_->ball_free(middle_W, std::max(0.0, radius_m_ - to_corner_m), ground_m_);

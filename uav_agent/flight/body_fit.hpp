@@ -27,11 +27,12 @@ class BodyFit {
   /// Where in one cube of the map the body's centre may be; somewhere: in part of it, so each place is checked.
   enum class Fits : std::uint8_t { unasked, nowhere, somewhere, everywhere };
   struct Answer {
-    std::uint32_t at : 30 = 0;  ///< when it was determined: the lowest bits of the Tick, which repeat after 31 days
-    Fits fits : 2 = Fits::unasked;
+    /// When it was determined. Memory: the lowest bits of the Tick, which repeat after 31 days.
+    std::uint32_t at : 30 = 0;
+    Fits fits : 2 = Fits::unasked;  ///< memory: the bits that are left
   };
   static_assert(sizeof(Answer) == 4);
-  /// Answers are stored in blocks of 4^3 cubes, since a search asks for many adjacent cubes.
+  /// Memory: answers are stored in blocks of 4^3 cubes, since a search asks for many adjacent cubes.
   static constexpr int kBlockBits = 2, kBlock = 1 << kBlockBits;
   using Answers = std::array<Answer, kBlock * kBlock * kBlock>;
 

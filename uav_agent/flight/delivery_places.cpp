@@ -7,15 +7,18 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kDetour = 1.5;         ///< length of the path, in straight distances
-constexpr double kFixedS = 6.0;         ///< to brake, turn and accelerate
-constexpr double kLayerM = 3.0;         ///< height difference between the places of two UAVs
-constexpr std::size_t kLayers = 8;      ///< different heights of the UAVs' places
-constexpr double kSightRadiusM = 0.8;   ///< radius about the line of sight that must be clear of occupied cells
-constexpr double kStationM = 3.0;       ///< occupied cells nearer to the station do not count: its own surroundings
-constexpr double kAboveStationM = 3.0;  ///< least height above the station: a roof under it may hide it from below
-constexpr int kDirections = 12;
-constexpr double kOutwards[] = {4.0, 8.0, 14.0, 22.0, 32.0};
+constexpr double kDetour = 1.5;     ///< length of the path, in straight distances; chosen
+constexpr double kFixedS = 6.0;     ///< to brake, turn and accelerate; chosen
+constexpr double kLayerM = 3.0;     ///< height difference between the places of two UAVs; chosen
+constexpr std::size_t kLayers = 8;  ///< different heights of the UAVs' places; chosen
+/// Radius about the line of sight that must be clear of occupied cells. Chosen.
+constexpr double kSightRadiusM = 0.8;
+/// Occupied cells nearer to the station do not count: its own surroundings. Chosen.
+constexpr double kStationM = 3.0;
+/// Least height above the station: a roof under it may hide it from below. Chosen.
+constexpr double kAboveStationM = 3.0;
+constexpr int kDirections = 12;                               ///< places at each distance; chosen
+constexpr double kOutwards[] = {4.0, 8.0, 14.0, 22.0, 32.0};  ///< distances from the station [m]; chosen
 
 }  // namespace
 

@@ -8,9 +8,10 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kSampleM = 0.5;      ///< between the samples of a segment
-constexpr double kSeenAroundM = 1.0;  ///< distance around a place at which space must be known to be free, too
-constexpr double kNearerM = 0.3;      ///< a way out may come so much nearer to structure: the map's cubes are coarse
+constexpr double kSampleM = 0.5;      ///< between the samples of a segment; chosen: a cube of the map
+constexpr double kSeenAroundM = 1.0;  ///< around a place, space so far away must be known to be free, too; chosen
+/// A way out may come so much nearer to structure: the map's cubes are coarse. Chosen.
+constexpr double kNearerM = 0.3;
 
 bool all_along(const Vector3d& a, const Vector3d& b, const auto& test) {
   const int steps = std::max(1, static_cast<int>(std::ceil((b - a).norm() / kSampleM)));
@@ -35,7 +36,7 @@ bool FreeSpace::allowed(const Vector3d& p_W) const {
   if (!config_.use_map || !map_.known_free(p_W, kProofRays)) return false;
   // A few rays through a coarse cell do not prove that all of it is free: the space around p must be known to be
   // free, too.
-  for (int i = 0; i < 6; ++i) {
+  for (int i = 0; i < 6; ++i) {  // geometry: both directions along three axes
     const Vector3d q = p_W + (i % 2 == 0 ? kSeenAroundM : -kSeenAroundM) * Vector3d::Unit(i / 2);
     if (near_box(q) && !map_.known_free(q, kProofRays)) return false;
   }

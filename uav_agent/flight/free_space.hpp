@@ -23,15 +23,16 @@ struct Sphere {
 class FreeSpace {
  public:
   struct Config {
-    double clearance_m = 1.8;  ///< least distance of the UAV's centre to structure
-    double floor_m = 2.0;      ///< least height
+    double clearance_m = 1.8;  ///< least distance of the UAV's centre to structure; chosen
+    double floor_m = 2.0;      ///< least height; chosen
     /// The world map of all beams; must outlive this. Paths may lead through unknown space, at a cost, because the
     /// safety filter lets the UAV enter only proved space. nullptr: key frames show structure, and paths keep clear of
     /// boxes where key frames have not proved free space.
     const WorldMap* world = nullptr;
-    double jut_m = 3.0;            ///< boxes count as larger by this on each side, or by clearance_m if that is more
+    /// Boxes count as larger by this on each side, or by clearance_m if that is more. Chosen.
+    double jut_m = 3.0;
     bool use_map = true;           ///< false: ignores the map, excludes boxes as a whole; not with `world`
-    double unknown_cost = 1.0;     ///< cost() where the body does not fit in proved space
+    double unknown_cost = 1.0;     ///< cost() where the body does not fit in proved space; chosen
     const BodyFit* fit = nullptr;  ///< where the body fits in proved space; must outlive this
     /// Excludes unproved space, for a UAV that cannot prove space itself. Needs `fit`.
     bool proved_only = false;

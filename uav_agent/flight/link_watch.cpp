@@ -3,8 +3,8 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kLinkAgeS = 1.0;  ///< between two sightings; shorter links are not noted
-constexpr double kStuckS = 5.0;    ///< with a link but no arrival for so long, captures are not delivered from here
+constexpr double kLinkAgeS = 1.0;  ///< between two sightings; shorter links are not noted; chosen
+constexpr double kStuckS = 5.0;    ///< without an arrival for so long, captures are not delivered from here; chosen
 
 }  // namespace
 

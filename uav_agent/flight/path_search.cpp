@@ -9,13 +9,18 @@
 #include <unordered_map>
 
 #include "uav_agent/maps/block_table.hpp"
+#include "uav_agent/maps/cube_steps.hpp"
 
 namespace skein::agent {
 namespace {
 
 using Cell = Eigen::Vector3i;
 
-constexpr int kEscapeCells = 3;  ///< the search may begin in a cell up to so many cells from the start, along each axis
+/// The search may begin in a cell up to so many cells from the start, along each axis. Chosen.
+constexpr int kEscapeCells = 3;
+/// From a cell that is nearer to the goal than this, in cells, the search tries to go straight to it. Geometry:
+/// a little more than the diagonal of a cell.
+constexpr double kLastCells = 1.8;
 
 class Search {
  public:
@@ -34,7 +39,7 @@ class Search {
   std::optional<std::vector<Vector3d>> run() {
     if (!space_.free(to_)) return std::nullopt;
     const auto last = search([this](const Cell& cell) {
-      return (centre(cell) - to_).norm() < 1.8 * config_.cell_m && space_.segment_free(centre(cell), to_);
+      return (centre(cell) - to_).norm() < kLastCells * config_.cell_m && space_.segment_free(centre(cell), to_);
     });
     if (!last) return std::nullopt;
     std::vector<Vector3d> corners = trace_back(*last);
@@ -131,8 +136,8 @@ class Search {
   }
 
   void expand(const Cell& cell, double cost) {
-    for (int i = 0; i < 27; ++i) {
-      const Cell step(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
+    for (int i = 0; i < kCubesAround; ++i) {
+      const Cell step = step_around(i);
       if (step.isZero()) continue;
       const Cell next = cell + step;
       const auto known = nodes_.find(grid_key(next));

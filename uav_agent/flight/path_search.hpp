@@ -11,10 +11,11 @@
 namespace skein::agent {
 
 struct PathSearchConfig {
-  double cell_m = 2.0;  ///< spacing of the lattice
-  int max_expansions = 6000;
-  double heuristic = 1.2;  ///< weight of the heuristic: the cost may be this many times the least
-  double margin_m = 25.0;  ///< the search stays in the bounding box of start, goal and structure, grown by this
+  double cell_m = 2.0;        ///< spacing of the lattice; chosen
+  int max_expansions = 6000;  ///< chosen: bounds the CPU time
+  double heuristic = 1.2;     ///< weight of the heuristic: the cost may be this many times the least; chosen
+  /// The search stays in the bounding box of start, goal and structure, grown by this. Chosen.
+  double margin_m = 25.0;
 };
 
 /// If the start is not free (something new was seen near it), the path begins with a straight way out to the nearest

@@ -7,9 +7,8 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kBesideStartM = 1.0;
 constexpr double kOutM = 1e-3;  ///< against rounding: so far above its top, a place is not in a box
-constexpr double kSiteM = 45.0, kSiteHeightM = 20.0;  ///< least horizontal size and height
+constexpr double kSiteM = 45.0, kSiteHeightM = 20.0;  ///< least horizontal size and height; chosen
 
 /// z in W at which a vertical line upwards from p, which is in the box, leaves it, if all its sides are moved outwards.
 double leaves_box_m(const OrientedBox& box, const Vector3d& p_W, double margin_m) {

@@ -16,7 +16,10 @@ bool is_site_box(const OrientedBox& box);
 /// z in W of the highest point of all boxes, at least 0; 0 without boxes.
 double top_of(const std::vector<OrientedBox>& boxes);
 
-/// Whether p is straight above a UAV's start, within 1 m.
+/// A place that is not farther from a UAV's start belongs to the start. Chosen.
+inline constexpr double kBesideStartM = 1.0;
+
+/// Whether p is straight above a UAV's start, within kBesideStartM.
 bool is_above_start(const Vector3d& p_W, const Vector3d& start_W);
 
 /// z in W at which a UAV that climbs straight up from p_W has left the box in which p_W is, and those that it gets into

@@ -15,7 +15,7 @@ namespace skein::agent {
 
 struct VoxelRouteConfig {
   VoxelSearchConfig search;
-  int retries = 3;  ///< further searches, each of which excludes one more cube
+  int retries = 3;  ///< further searches, each of which excludes one more cube; chosen
 };
 
 /// The path enters no occupied cube, except the one that contains `to_W`.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "uav_agent/flight/delivery_places.hpp"
 #include "uav_agent/flight_core/landing.hpp"
@@ -10,20 +11,24 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kMostErrorM = 1.0;  ///< greatest error: with a larger one, the UAV would fit nowhere
+constexpr double kMostErrorM = 1.0;  ///< greatest error; chosen: with a larger one, the UAV would fit nowhere
 /// Errors are rounded up to multiples of this, since a change of clearance discards the answers cached in BodyFit.
+/// Chosen.
 constexpr double kErrorStepM = 0.05;
-constexpr double kMostGroundErrorM = 2.0, kMostPeerErrorM = 2.0;
-constexpr double kWindMemoryS = 20.0, kPowerMemoryS = 10.0;
-constexpr double kCalmMps = 1.0;  ///< gusts below this are no reason to fly slower
-constexpr double kLeastSpeedShare = 0.5;
-constexpr double kLeastGroundMps = 1.0;
-constexpr double kMarginS = 8.0;
-constexpr double kMostPower = 4.0;    ///< of hover; a faster fall of the charge is a loss, which does not go on
-constexpr double kSwapCharge = 0.01;  ///< least rise of the charge that is another battery
+constexpr double kMostGroundErrorM = 2.0, kMostPeerErrorM = 2.0;  ///< greatest errors of a height and of a peer; chosen
+constexpr double kWindMemoryS = 20.0, kPowerMemoryS = 10.0;       ///< time constants of the means; chosen
+constexpr double kCalmMps = 1.0;          ///< gusts below this are no reason to fly slower; chosen
+constexpr double kLeastSpeedShare = 0.5;  ///< of the planned speed, which gusts leave; chosen
+constexpr double kLeastGroundMps = 1.0;   ///< assumed over ground against any wind; chosen
+constexpr double kLostPerHeadwind = 0.1;  ///< assumed loss of speed over ground, of the headwind; chosen
+constexpr double kNoWayM = 1.0;       ///< across; a UAV no farther from its start needs no way there, only down; chosen
+constexpr double kMarginS = 8.0;      ///< added to the estimated time of the way down; chosen
+constexpr double kMostPower = 4.0;    ///< of hover; chosen: a faster fall of the charge is a loss, which does not go on
+constexpr double kSwapCharge = 0.01;  ///< least rise of the charge that is another battery; chosen
 
 double square(double x) { return x * x; }
-double in_steps_m(double error_m) { return kErrorStepM * std::ceil(error_m / kErrorStepM - 1e-9); }
+constexpr double kRounding = 1e-9;  ///< numeric: a multiple of kErrorStepM stays as it is
+double in_steps_m(double error_m) { return kErrorStepM * std::ceil(error_m / kErrorStepM - kRounding); }
 
 }  // namespace
 
@@ -44,7 +49,7 @@ void Caution::update(const PlannerInput& in) {
   PoseUncertainty own = in.uncertainty;
   if (!own.exact()) own.position_m = own.position_m.cwiseMax(deviation_in_flight_m(agent_.odometry));
   // The direction to structure is unknown: the root mean square of the deviations along the axes.
-  const double any_way_m = own.position_m.norm() / std::sqrt(3.0);
+  const double any_way_m = own.position_m.norm() / std::numbers::sqrt3;
   const auto kept_off = [&](double deviation_m) {
     return std::min(kMostErrorM, in_steps_m(config_.drift_sigmas * deviation_m + pushed_m));
   };
@@ -77,8 +82,9 @@ void Caution::watch_peers(const PoseUncertainty& own, const Peers& peers, double
 double Caution::drift_since_seen_m(double told_m) {
   const OdometryConditions& odometry = agent_.odometry;
   const double told2 = square(told_m), noise2 = square(odometry.noise_sigma_m);
+  // Geometry: the mean over three axes.
   const double drifts2 = (2.0 * square(odometry.horizontal_sigma_m) + square(odometry.vertical_sigma_m)) / 3.0;
-  const double usual2 = deviation_in_flight_m(odometry).squaredNorm() / 3.0;
+  const double usual2 = deviation_in_flight_m(odometry).squaredNorm() / 3.0;  // geometry: as above
   lost2_ = std::max(told2 - usual2, lost2_ * std::exp(-agent_.exchange_period_s / config_.look_s));
   const double anew = -std::expm1(-config_.look_s / odometry.time_constant_s);
   return std::sqrt(2.0 * (std::min(told2, drifts2) * anew + noise2) + lost2_);
@@ -112,13 +118,14 @@ void Caution::watch_battery(const PlannerInput& in) {
 double Caution::way_down_s(const Vector3d& p_WB, const std::optional<Vector3d>& wind_W) const {
   const Vector3d start_W = agent_.me().p_WB_start;
   const Vector3d way_W(start_W.x() - p_WB.x(), start_W.y() - p_WB.y(), 0.0);
-  const double head_mps = wind_W && way_W.norm() > 1.0 ? std::max(0.0, -wind_W->dot(way_W.normalized())) : 0.0;
+  const double head_mps = wind_W && way_W.norm() > kNoWayM ? std::max(0.0, -wind_W->dot(way_W.normalized())) : 0.0;
   // A UAV keeps its commanded speed over ground as long as it can lean into the wind; charge_per_s_ contains the cost
   // of that. Against strong wind, the UAV may not keep this speed, so the estimate assumes a lower one.
-  const double ground_mps = std::max(kLeastGroundMps, std::min(config_.approach_mps, most_mps_) - 0.1 * head_mps);
+  const double ground_mps =
+      std::max(kLeastGroundMps, std::min(config_.approach_mps, most_mps_) - kLostPerHeadwind * head_mps);
   // The UAV descends on the way to the start, and sinks slowly only above it.
   const double down_s = Landing::descent_s(p_WB.z(), config_);
-  if (way_W.norm() <= 1.0) return down_s;
+  if (way_W.norm() <= kNoWayM) return down_s;
   const Vector3d above_W(start_W.x(), start_W.y(), std::min(p_WB.z(), Landing::kFromM));
   return std::max(down_s, time_home_s(p_WB, above_W, ground_mps) + Landing::descent_s(above_W.z(), config_));
 }

@@ -7,11 +7,15 @@
 
 namespace skein::agent {
 
-/// A UAV that begins above this height was restarted in flight.
+/// A UAV that begins above this height was restarted in flight. Chosen.
 inline constexpr double kBeginsInFlightM = 2.0;
 /// A UAV that sees flies at least at kCreepMps where little space ahead is proved free, which is examined in steps of
-/// at most kProvedStepM.
+/// at most kProvedStepM. Chosen.
 inline constexpr double kCreepMps = 0.5, kProvedStepM = 1.0;
+/// A UAV that is farther from its start has left it. Chosen.
+inline constexpr double kLeftStartM = 2.5;
+/// A UAV that moves no farther has stayed where it is: it has made no progress, and counts as standing. Chosen.
+inline constexpr double kStaysM = 0.5;
 
 struct FlightConfig {
   // Safety. A sphere around the UAV must be proved free. Its radius is the sum of the body's radius, kHaloM

@@ -7,14 +7,16 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kNoLinkS = 4.0;  ///< longest wait for a link at a place that should have one
-constexpr double kIdleS = 4.0;    ///< recovery begins after so long without a goal that can be reached
-constexpr double kStaysM = 0.5;   ///< a UAV that moves no farther stays where it is
-constexpr std::int64_t kHome = -2;
-constexpr double kMakesRoomS = 10.0;  ///< longest flight aside
-constexpr double kShowCheckS = 5.0;
-constexpr double kLineS = 10.0;  ///< so long, a photographer that waits to be shown its way waits for a line's end
-constexpr std::uint64_t kShowLook = 10;  ///< exchanges between two checks of whether a photographer was shown its way
+constexpr double kNoLinkS = 4.0;      ///< longest wait for a link at a place that should have one; chosen
+constexpr double kIdleS = 4.0;        ///< recovery begins after so long without a goal that can be reached; chosen
+constexpr std::int64_t kHome = -2;    ///< id of the goal that is a place to deliver captures; numeric
+constexpr double kMakesRoomS = 10.0;  ///< longest flight aside; chosen
+constexpr double kShowCheckS = 5.0;  ///< between two checks of whether a photographer waits to be shown its way; chosen
+/// So long, a photographer that waits to be shown its way waits for a line's end. Chosen: flights to photographers from
+/// lines changed the scores of four planners in the wild worlds 200 to 209 by at most 0.2 %.
+constexpr double kLineS = 10.0;
+/// Exchanges between two checks of whether a photographer was shown its way. Chosen.
+constexpr std::uint64_t kShowLook = 10;
 
 }  // namespace
 

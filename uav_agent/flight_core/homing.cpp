@@ -8,10 +8,11 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kNeverLinked = 1.7;  ///< factor on the time to a link, which a UAV that never had one has yet to find
-constexpr double kAboveAllM = 6.0;
-constexpr double kLowestM = 6.0;  ///< least height of a delivery place
-constexpr std::size_t kMostPlaces = 8;
+/// Factor on the time to a link, which a UAV that never had one has yet to find. Chosen.
+constexpr double kNeverLinked = 1.7;
+constexpr double kAboveAllM = 6.0;      ///< height of the last place, above all boxes; chosen
+constexpr double kLowestM = 6.0;        ///< least height of a delivery place; chosen
+constexpr std::size_t kMostPlaces = 8;  ///< places tried before the last one; chosen
 
 }  // namespace
 

@@ -10,11 +10,14 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kRoomM = 0.5;  ///< between two landed UAVs, beyond the distance that the safety filter demands now
-constexpr double kBelowGroundM = 1.0;  ///< depth of the setpoint of a UAV that has landed, so that it stands firm
-constexpr double kAboveSiteM = 0.6;    ///< tolerance, across and down, within which a UAV is above a site
-constexpr double kRingsM[] = {4.0, 8.0, 12.0};
-constexpr int kRingHeadings = 8;
+/// Between two landed UAVs, beyond the distance that the safety filter demands now. Chosen.
+constexpr double kRoomM = 0.5;
+constexpr double kBelowGroundM = 1.0;  ///< depth of the setpoint of a landed UAV; chosen, so that it stands firm
+constexpr double kAboveSiteM = 0.6;    ///< tolerance, across and down, within which a UAV is above a site; chosen
+constexpr double kRingsM[] = {4.0, 8.0, 12.0};  ///< radii about the place, where other sites are tried; chosen
+constexpr int kRingHeadings = 8;                ///< sites tried on each ring; chosen
+/// A UAV that has not sunk by kSinksM for kHeldS tries another site, at least kOtherSiteM from those that it tried.
+/// Chosen.
 constexpr double kSinksM = 0.3, kHeldS = 10.0, kOtherSiteM = 2.0;
 
 double across_m(const Vector3d& a_W, const Vector3d& b_W) { return (a_W - b_W).head<2>().norm(); }

@@ -13,7 +13,7 @@ namespace skein::agent {
 
 class Landing {
  public:
-  static constexpr double kFromM = 5.0;  ///< height of the place above a site from which the UAV sinks slowly
+  static constexpr double kFromM = 5.0;  ///< height above a site from which the UAV sinks slowly; chosen
   /// Time to sink from a height to the ground [s]: with climb_mps down to kFromM, then with land_mps.
   static double descent_s(double height_m, const FlightConfig& config);
 

@@ -6,9 +6,9 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kSameM = 0.1;    ///< smaller distances count as this: no factor separates equal places
+constexpr double kSameM = 0.1;    ///< smaller distances count as this; numeric: no factor separates equal places
 constexpr double kRoundM = 1e-6;  ///< added against rounding, so that one turn suffices to spread a group
-constexpr int kMostTurns = 10;
+constexpr int kMostTurns = 10;    ///< numeric: bounds the effort
 
 using Places = std::vector<Vector3d>;
 using Group = std::vector<std::size_t>;

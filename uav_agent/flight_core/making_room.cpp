@@ -7,10 +7,9 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kStoodM = 0.5;   ///< a UAV that stays within this distance stands
-constexpr double kCloseM = 0.6;   ///< a UAV is too close at the distance that the safety filter demands, and this
-constexpr double kEnoughM = 2.0;  ///< more room than this is not needed
-constexpr double kBetterM = 0.5;  ///< least gain of room that is worth the flight
+constexpr double kCloseM = 0.6;   ///< beyond what the safety filter demands; a UAV that is nearer is too close; chosen
+constexpr double kEnoughM = 2.0;  ///< more room than this is not needed; chosen
+constexpr double kBetterM = 0.5;  ///< least gain of room that is worth the flight; chosen
 
 }  // namespace
 
@@ -18,7 +17,7 @@ MakingRoom::MakingRoom(const FlightConfig& config, const AgentConfig& agent, Saf
     : config_(config), agent_(agent), filter_(filter), others_(agent.fleet.size()) {}
 
 void MakingRoom::note(const Vector3d& p_W, Tick tick, Stand& stand) {
-  if ((p_W - stand.p_W).norm() > kStoodM) stand = {p_W, tick};
+  if ((p_W - stand.p_W).norm() > kStaysM) stand = {p_W, tick};
 }
 
 void MakingRoom::update(const PlannerInput& in) {

@@ -5,37 +5,41 @@
 
 #include "core/euler.hpp"
 #include "uav_agent/flight/path_search.hpp"
+#include "uav_agent/maps/cube_steps.hpp"
 
 namespace skein::agent {
 namespace {
 
-constexpr std::int64_t kTrail = -3;      ///< id of the goal that is the UAV's own trail
-constexpr double kGainM = 0.5;           ///< a shorter move is not progress
-constexpr int kSearchesPerExchange = 2;  ///< number of goals that are tried
-constexpr int kMostExpansions = 4000;
-constexpr double kGreedyHeuristic = 3.0;  ///< of the second search: a long path is better than none
-constexpr double kFineCellM = 1.0;     ///< of the second search, if the first lattice has no path out of a narrow place
-constexpr double kSearchAgainS = 0.5;  ///< pause after a search that found no path
-constexpr std::uint64_t kLookEach = 4;  ///< exchanges between two checks of the path ahead
+constexpr std::int64_t kTrail = -3;       ///< id of the goal that is the UAV's own trail; numeric
+constexpr double kAheadM = 0.5;           ///< across; a place that is nearer gives no heading; chosen
+constexpr int kSearchesPerExchange = 2;   ///< number of goals that are tried; chosen
+constexpr int kMostExpansions = 4000;     ///< of one search; chosen: bounds its CPU time
+constexpr double kGreedyHeuristic = 3.0;  ///< of the second search; chosen: a long path is better than none
+/// Lattice of the second search, if the first one has no path out of a narrow place. Chosen: planners plan
+/// on finer lattices than the first.
+constexpr double kFineCellM = 1.0;
+constexpr double kSearchAgainS = 0.5;   ///< pause after a search that found no path; chosen
+constexpr std::uint64_t kLookEach = 4;  ///< exchanges between two checks of the path ahead; chosen
+/// The path is checked up to kLookAheadM ahead. It may be nearer to structure by kSlackM than when it was planned.
+/// Chosen.
 constexpr double kLookAheadM = 15.0, kSlackM = 0.4;
-constexpr double kBesideM = 0.1;  ///< so far beside its path, a UAV counts as being on it
-constexpr int kMostReplans = 3;
-constexpr double kRefusedM = 1.5;
-constexpr std::size_t kMostRefused = 64;
-constexpr double kPeersM = 15.0, kStandsMps = 0.3;
-constexpr double kTurn = 0.8, kTurnEveryS = 1.2;
-constexpr double kFaceM = 4.0;  ///< nearer than this to its goal, a UAV turns to the goal's yaw
-constexpr double kHereM = 0.3;
-constexpr double kFitMps = 1.0;  ///< paths are wide enough for this speed
+constexpr double kBesideM = 0.1;          ///< so far beside its path, a UAV counts as being on it; chosen
+constexpr int kMostReplans = 3;           ///< after these, the goal ends; chosen
+constexpr double kRefusedM = 1.5;         ///< radius of a place that paths avoid, because it held the UAV; chosen
+constexpr std::size_t kMostRefused = 64;  ///< memory: the oldest place is dropped
+constexpr double kPeersM = 15.0;          ///< paths avoid UAVs up to this distance; chosen
+constexpr double kTurn = 0.8, kTurnEveryS = 1.2;  ///< steps of looking around [rad]; chosen
+constexpr double kFaceM = 4.0;   ///< nearer than this to its goal, a UAV turns to the goal's yaw; chosen
+constexpr double kHereM = 0.3;   ///< places this near to each other are the same; chosen
+constexpr double kFitMps = 1.0;  ///< paths are wide enough for this speed; chosen
 
 /// Whether all places within kBesideM of p are nearer to structure than this. The map has one distance for each cube,
 /// and a path may lead along the border of two cubes: beside the path, the distance may be less than where it was
 /// planned.
 bool all_nearer_than(double distance_m, const Vector3d& p_W, const WorldMap& map) {
   if (map.structure_distance_m(p_W) >= distance_m) return false;
-  for (int corner = 0; corner < 8; ++corner) {
-    const Vector3d beside((corner & 1) != 0 ? kBesideM : -kBesideM, (corner & 2) != 0 ? kBesideM : -kBesideM,
-                          (corner & 4) != 0 ? kBesideM : -kBesideM);
+  for (int corner = 0; corner < kCubeCorners; ++corner) {
+    const Vector3d beside = kBesideM * (2 * corner_step(corner).array() - 1).matrix().cast<double>();
     if (map.structure_distance_m(p_W + beside) >= distance_m) return false;
   }
   return true;
@@ -310,7 +314,7 @@ void Navigator::replan(const PlannerInput& in, const std::string& reason, Steeri
 }
 
 void Navigator::watch(const PlannerInput& in, const Held& held, Steering& steering) {
-  if ((in.tracking.setpoint.p_WB - gained_p_W_).norm() > kGainM) {
+  if ((in.tracking.setpoint.p_WB - gained_p_W_).norm() > kStaysM) {
     gained_p_W_ = in.tracking.setpoint.p_WB;
     gained_at_ = in.tick;
   }
@@ -357,7 +361,7 @@ void Navigator::face_ahead(const PlannerInput& in, Steering& steering) const {
   if (!sees()) return;
   const std::size_t leg = std::min(in.tracking.leg, path_.size() - 1);
   const Vector3d ahead = path_[leg].p_WB - here_W;
-  if (ahead.head<2>().norm() > kGainM) steering.yaw = std::atan2(ahead.y(), ahead.x());
+  if (ahead.head<2>().norm() > kAheadM) steering.yaw = std::atan2(ahead.y(), ahead.x());
 }
 
 }  // namespace skein::agent

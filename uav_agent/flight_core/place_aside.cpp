@@ -7,10 +7,10 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kAwayM[] = {0.75, 1.5, 2.5, 4.0};
-constexpr int kDirections = 16;
-constexpr double kStepM = 0.5;   ///< between two heights at which the room is determined
-constexpr double kGainsM = 0.2;  ///< least gain of room that makes a place worth the flight
+constexpr double kAwayM[] = {0.75, 1.5, 2.5, 4.0};  ///< distances of the places that are tried; chosen
+constexpr int kDirections = 16;                     ///< places tried at each distance; chosen
+constexpr double kStepM = 0.5;   ///< between two heights at which the room is determined; chosen: a cube of the map
+constexpr double kGainsM = 0.2;  ///< least gain of room that makes a place worth the flight; chosen
 
 double room_above(const Vector3d& p_W, double top_m, const WorldMap& map) {
   double room_m = map.structure_distance_m(p_W);

@@ -10,20 +10,23 @@
 namespace skein::agent {
 namespace {
 
-constexpr std::int64_t kGoal = -1;
-constexpr double kWorthM = 3.0;  ///< least approach to the missed goal, way back, or way away, that is worth the flight
-constexpr int kExpansions = 2000;
-constexpr double kClimbM = 5.0;
-constexpr double kElsewhereM[] = {8.0, 14.0};
-constexpr double kHeightsM[] = {3.0, 0.0, -3.0, 8.0};
-constexpr int kHeadings = 8, kHeadingStep = 3;  ///< the first heading turns by kHeadingStep from one try to the next
-constexpr double kLongestS = 30.0;
+constexpr std::int64_t kGoal = -1;  ///< id of the goals of recovery; numeric
+/// Least approach to the missed goal, way back, or way away, that is worth the flight. Chosen.
+constexpr double kWorthM = 3.0;
+constexpr int kExpansions = 2000;                      ///< of a search; chosen: bounds its CPU time
+constexpr double kClimbM = 5.0;                        ///< height of a climb; chosen
+constexpr double kElsewhereM[] = {8.0, 14.0};          ///< distances of other places; chosen
+constexpr double kHeightsM[] = {3.0, 0.0, -3.0, 8.0};  ///< of other places, above the UAV, in this order; chosen
+/// Directions of other places; the first one turns by kHeadingStep from one try to the next. Chosen; the step has no
+/// divisor in common with kHeadings, so each direction comes first in turn.
+constexpr int kHeadings = 8, kHeadingStep = 3;
+constexpr double kLongestS = 30.0;  ///< longest flight of one behaviour; chosen
+/// Between two places of the trail, and the length of the first way back along it. Chosen.
 constexpr double kTrailStepM = 1.0, kBackM = 8.0;
-constexpr double kStayedM = 0.5;    ///< a behaviour that moves the UAV no farther has failed
-constexpr double kMoreRoomM = 0.3;  ///< least gain of distance from structure that is worth a flight aside
-/// No trail leads lower beside structure: a UAV finds no path from the ground there.
+constexpr double kMoreRoomM = 0.3;  ///< least gain of distance from structure that is worth a flight aside; chosen
+/// No trail leads lower beside structure: a UAV finds no path from the ground there. Chosen.
 constexpr double kTrailLowestM = 1.2, kBesideStructureM = 3.0;
-constexpr std::size_t kLongestTrail = 192;
+constexpr std::size_t kLongestTrail = 192;  ///< memory: the oldest place is dropped
 
 }  // namespace
 
@@ -52,7 +55,7 @@ void Recovery::progress(const PlannerInput& in) {
 
 void Recovery::begin(const PlannerInput& in, const Held& held) {
   const Vector3d here_W = in.tracking.setpoint.p_WB;
-  const bool stayed = (here_W - begun_W_).norm() < kStayedM;
+  const bool stayed = (here_W - begun_W_).norm() < kStaysM;
   begun_W_ = here_W;
   if (!navigator_.open_space(in).free(here_W)) {
     // Structure discovered meanwhile may be in the way back, too.

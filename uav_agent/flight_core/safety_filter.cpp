@@ -8,32 +8,38 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kSampleM = 0.3;       ///< between two checked places of a trajectory
+constexpr double kSampleM = 0.3;       ///< between two checked places of a trajectory; chosen
 constexpr double kNearerM = 1e-6;      ///< allows for rounding in comparisons of distances
-constexpr double kHeightSigmas = 2.0;  ///< a UAV on the ground may be reported above it by so many deviations
-constexpr double kNoiseSigmas = 4.0;   ///< changes within so many standard deviations of noise are not motion
+constexpr double kHeightSigmas = 2.0;  ///< a UAV on the ground may be reported above it by so many deviations; chosen
+constexpr double kNoiseSigmas = 4.0;   ///< changes within so many standard deviations of noise are not motion; chosen
 /// A climb is commanded from a place that noise has shifted, so each step leads a little to the side: by a share of the
-/// shift, within this.
+/// shift, within this. Chosen.
 constexpr double kCommandNoise = 0.1;  ///< [standard deviations of the noise]
-constexpr double kPeerDelayS = 0.1;    ///< time in which a peer flies on before it brakes: an exchange, a late command
+/// Time in which a peer flies on before it brakes. Formula: an exchange, and as long until the command takes effect.
+constexpr double kPeerDelayS = 0.1;
+/// Assumed deceleration of a peer. Chosen: an explorer plans 2.24 m/s^2, its vehicle's limit times the shares in
+/// tracker.cpp.
 constexpr double kPeerBrakesMps2 = 2.0;
-/// Commanded setpoints are means over this time (tracker.hpp), so braking sets in gradually.
-constexpr double kPeerSmoothS = 0.4;
+/// Commanded setpoints are means over this time, so braking sets in gradually.
+constexpr double kPeerSmoothS = Tracker::Config().smoothing_s;
 /// For so long, a UAV that is told to brake may still accelerate: commands lag, and the UAV lags behind its commands.
+/// Formula: a mean lags by half of its time.
 constexpr double kPeerLagS = kPeerDelayS + 0.5 * kPeerSmoothS;
 /// So much later than its commands say, a UAV may brake, and it may fly faster than they say: controllers overshoot.
 /// Two UAVs that speed up towards each other in the same exchange would otherwise both use up the same room. Chosen in
 /// drawn encounters with bodies that follow 0.2 and 0.25 s late (docs/flight-safety.md).
 constexpr double kOwnLagS = 0.2;
-constexpr double kRestsMps = 0.2;
-constexpr double kFarM = 40.0;
-constexpr double kClimbsMps = 1.0;  ///< speed for which clear_up_to() checks a climb
+constexpr double kRestsMps = 0.2;   ///< a UAV that is not faster is at rest; chosen
+constexpr double kFarM = 40.0;      ///< UAVs whose reach is farther away are not considered; chosen
+constexpr double kClimbsMps = 1.0;  ///< speed for which clear_up_to() checks a climb; chosen
 /// A UAV that went out of sight while it turned or accelerated comes to rest beside the place predicted from its last
 /// known state, because its reported velocity lags by half of kPeerSmoothS. Measured over random flights: up to 0.48 m.
 constexpr double kUnheardM = 0.5;
-constexpr double kAboveStartM = 30.0, kStartM = 1.0;
-constexpr double kOutOfBoxM = 0.2;   ///< so far beyond what the filter demands, a UAV is out of a box
-constexpr double kOnGroundM = 0.25;  ///< a slow UAV whose centre is no higher above its start stands on the ground
+constexpr double kAboveStartM = 30.0;  ///< up to this height, space above the start is assumed to be free; chosen
+constexpr double kOutOfBoxM = 0.2;     ///< so far beyond what the filter demands, a UAV is out of a box; chosen
+constexpr double kOnGroundM = 0.25;    ///< a slow UAV whose centre is no higher above its start stands; chosen
+/// If the planned speed and the present one are not safe, the filter tries this speed. Chosen.
+double slower_mps(double speed_mps) { return 0.9 * speed_mps - 0.02; }
 
 /// Vector to p from the nearest point of a segment.
 Vector3d from_segment(const Vector3d& p_W, const Vector3d& a_W, const Vector3d& b_W) {
@@ -117,8 +123,7 @@ std::optional<TrajectoryCommand> SafetyFilter::step(Tracker& tracker, const Fact
   const bool room = has_room(facts);
   if (!room) ++counts_.broken;
   // A UAV is put down in free space, though perhaps close beside structure: room there does not mean room to climb.
-  const bool leaves_start =
-      now_W_.z() < config_.floor_m && (now_W_ - agent_.me().p_WB_start).head<2>().norm() < kStartM;
+  const bool leaves_start = now_W_.z() < config_.floor_m && is_above_start(now_W_, agent_.me().p_WB_start);
   had_room_ = had_room_ || (room && !leaves_start);
   halo_m_ = had_room_ ? kHaloM : config_.tight_halo_m;
   if (!had_room_) most_mps = std::min(most_mps, config_.tight_mps);
@@ -138,7 +143,7 @@ std::optional<TrajectoryCommand> SafetyFilter::move_on(Tracker& tracker, const F
                                                        const std::vector<PeerReach>& peers) {
   const double dt_s = agent_.exchange_period_s;
   const double speed_mps = tracker.tracking().setpoint.v_WB.norm();
-  const double limits_mps[] = {most_mps, std::min(most_mps, speed_mps), 0.9 * speed_mps - 0.02};
+  const double limits_mps[] = {most_mps, std::min(most_mps, speed_mps), slower_mps(speed_mps)};
   for (const double limit_mps : limits_mps) {
     if (limit_mps <= 0.0) continue;
     Tracker tried = tracker;
@@ -176,7 +181,7 @@ bool SafetyFilter::stands(const Peer& peer) const {
 
 /// Whether a peer is at its start, as far as this UAV has seen.
 bool SafetyFilter::is_at_start(const Peer& peer) const {
-  return !peer.left_start && (peer.p_W - agent_.fleet[peer.uav].p_WB_start).norm() < kStartM;
+  return !peer.left_start && (peer.p_W - agent_.fleet[peer.uav].p_WB_start).norm() < kBesideStartM;
 }
 
 std::vector<SafetyFilter::PeerReach> SafetyFilter::reach_of_peers(const Facts& facts) const {
@@ -285,7 +290,7 @@ std::optional<Vector3d> SafetyFilter::way_out_W(const std::vector<OrientedBox>& 
 
 bool SafetyFilter::assumed(const Vector3d& p_W, double radius_m, const WorldMap& map,
                            const std::vector<OrientedBox>& boxes) const {
-  const bool above_start = (p_W - agent_.me().p_WB_start).head<2>().norm() < kStartM && p_W.z() < kAboveStartM;
+  const bool above_start = is_above_start(p_W, agent_.me().p_WB_start) && p_W.z() < kAboveStartM;
   const double room_m = above_start ? 0.5 * radius_m : radius_m;
   if (map.structure_distance_m(p_W) < room_m) return false;
   const std::optional<Vector3d> out_W = way_out_W(boxes);

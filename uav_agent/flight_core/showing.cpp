@@ -8,20 +8,21 @@
 namespace skein::agent {
 namespace {
 
-constexpr std::int64_t kShowing = -3;
-constexpr double kUpM = 2.5, kLowM = 1.0;  ///< a UAV farther from its start, and higher above it, has risen
-constexpr double kColumnTopM = 6.0;
-/// Places to hover, from which a LiDAR sees the column well unless a roof is in between.
+constexpr std::int64_t kShowing = -3;  ///< id of the goals of showing; numeric
+constexpr double kLowM = 1.0;          ///< a UAV that has left its start, and is higher above it, has risen; chosen
+constexpr double kColumnTopM = 6.0;    ///< height of the space above a start that is shown; chosen
+/// Places to hover, from which a LiDAR sees the column well unless a roof is in between. Chosen.
 constexpr double kAsideM = 5.0, kAboveM[] = {5.0, 2.5, 8.0, 12.0};
-constexpr int kSides = 8;
-constexpr double kShowMps = 4.0;
-constexpr double kAgainS = 20.0;  ///< pause after an attempt; after the first kManyAttempts, it doubles each time
-constexpr int kManyAttempts = 4;
-constexpr double kToldS = 60.0;  ///< a UAV that is low for longer may have received no map of its column
-constexpr double kAsideOfStartM = 0.5;
-constexpr double kNearM = 14.0;  ///< from here, a UAV at its place is in sight
-/// Before an explorer takes over a photographer, it waits this time for each explorer that starts nearer to it. In
-/// `towers`, `cranes` and `hangar`, photographers rise within 55 s if no UAV is lost.
+constexpr int kSides = 8;         ///< directions of these places; chosen
+constexpr double kShowMps = 4.0;  ///< speed on the way there; chosen
+/// Pause after an attempt. After the first kManyAttempts, it doubles each time, kMostDoublings times at most. Chosen.
+constexpr double kAgainS = 20.0;
+constexpr int kManyAttempts = 4, kMostDoublings = 8;  ///< chosen
+constexpr double kToldS = 60.0;         ///< a UAV that is low for longer may have received no map of its column; chosen
+constexpr double kAsideOfStartM = 0.5;  ///< a UAV that is farther away is seen elsewhere than at its start; chosen
+constexpr double kNearM = 14.0;         ///< from here, a UAV at its place is in sight; chosen
+/// Before an explorer takes over a photographer, it waits this time for each explorer that starts nearer to it.
+/// Measured: in `towers`, `cranes` and `hangar`, photographers rise within 55 s if no UAV is lost.
 constexpr double kTakeOverS = 60.0;
 
 }  // namespace
@@ -50,7 +51,7 @@ bool Showing::has_risen(std::size_t uav, const PlannerInput& in) const {
   const Peer* const peer = in.peers.find(uav);
   if (peer == nullptr || !peer->seen) return false;
   const Vector3d from_start = peer->p_W - agent_.fleet[uav].p_WB_start;
-  return from_start.norm() > kUpM && from_start.z() > kLowM;
+  return from_start.norm() > kLeftStartM && from_start.z() > kLowM;
 }
 
 bool Showing::is_due(const Charge& charge, const PlannerInput& in) const {
@@ -101,7 +102,8 @@ std::optional<Goal> Showing::next(const PlannerInput& in, const FreeSpace& space
         mate_ = it.uav;
         was_known_ = known;
         ++it.attempts;
-        it.not_before = in.tick + ticks(std::ldexp(kAgainS, std::clamp(it.attempts - kManyAttempts, 0, 8)));
+        it.not_before =
+            in.tick + ticks(std::ldexp(kAgainS, std::clamp(it.attempts - kManyAttempts, 0, kMostDoublings)));
         return Goal{.id = kShowing, .way = {{p_W, kShowMps}}};
       }
     }

@@ -3,9 +3,9 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kScanLostS = 3.0;      ///< a LiDAR without a scan for so long has failed; it scans at 10 Hz
-constexpr double kLeftM = 2.5;          ///< a UAV farther than this from its start has left it
-constexpr std::size_t kOwnRegions = 8;  ///< a map with no more regions holds only the space around the UAV's start
+constexpr double kScanLostS = 3.0;  ///< a LiDAR without a scan for so long has failed; chosen: 30 scans of the sensor
+/// A map with no more regions holds only the space around the UAV's start. Geometry: so many may meet at a corner.
+constexpr std::size_t kOwnRegions = 8;
 
 }  // namespace
 
@@ -23,7 +23,7 @@ void ToldSpace::listen(const PlannerInput& in, bool sees, SafetyFilter& filter) 
   const std::uint64_t changes = in.world_map->changes();
   if (changes != told_changes_ || !told_at_) told_at_ = in.tick;
   told_changes_ = changes;
-  has_left_ = has_left_ || (in.state.p_WB - agent_.me().p_WB_start).norm() > kLeftM;
+  has_left_ = has_left_ || (in.state.p_WB - agent_.me().p_WB_start).norm() > kLeftStartM;
   const bool told = in.world_map->regions().size() > kOwnRegions;
   if (filter.assumes_boxes()) {
     // Where no beam has proved the space between the UAV and the rest of the map, the UAV would be shut in.

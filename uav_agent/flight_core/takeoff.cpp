@@ -9,18 +9,18 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kLowestTopM = 4.0;      ///< least height of the climb
-constexpr double kClimbLayerM = 2.0;     ///< difference between the heights to which two UAVs climb
-constexpr double kCrowdM = 6.0;          ///< UAVs whose starts are nearer than this lift off one after the other
-constexpr double kClearM = 3.0;          ///< once a UAV is this far from its start, the next one may lift off
-constexpr double kStartPatienceS = 6.0;  ///< longest wait for each UAV before; then it is taken to be broken
-constexpr double kRisenM = 1.2;          ///< so high above its start, a UAV may begin to work
-constexpr double kClimbGainM = 0.3;
-constexpr double kStepAsideM = 0.3;  ///< more than half a cube of the map
-constexpr double kLowAsideM = 0.3;   ///< least height above the start at which a UAV flies to another place to climb
-constexpr int kMostGiveWays = 3;     ///< a UAV that could begin to work gives way no more often
-constexpr double kOffGroundM = 0.2;  ///< setpoints that are this far above the start keep a UAV off the ground
-constexpr double kGivesWayS = 8.0;   ///< for so long, a UAV that gives way to others does not try again
+constexpr double kLowestTopM = 4.0;   ///< least height of the climb; chosen
+constexpr double kClimbLayerM = 2.0;  ///< difference between the heights to which two UAVs climb; chosen
+constexpr double kCrowdM = 6.0;       ///< UAVs whose starts are nearer than this lift off one after the other; chosen
+constexpr double kClearM = 3.0;       ///< once a UAV is this far from its start, the next one may lift off; chosen
+constexpr double kStartPatienceS = 6.0;  ///< longest wait for each UAV before; then it is taken to be broken; chosen
+constexpr double kRisenM = 1.2;          ///< so high above its start, a UAV may begin to work; chosen
+constexpr double kClimbGainM = 0.3;      ///< a UAV that gains less height has stalled; chosen
+constexpr double kStepAsideM = 0.3;      ///< step of a UAV that stalled; chosen: more than half a cube of the map
+constexpr double kLowAsideM = 0.3;   ///< least height above the start for a flight to another place to climb; chosen
+constexpr int kMostGiveWays = 3;     ///< a UAV that could begin to work gives way no more often; chosen
+constexpr double kOffGroundM = 0.2;  ///< setpoints that are this far above the start keep a UAV up; chosen
+constexpr double kGivesWayS = 8.0;   ///< for so long, a UAV that gives way to others does not try again; chosen
 
 }  // namespace
 

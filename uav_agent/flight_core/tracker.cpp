@@ -9,19 +9,26 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kBrakingShare = 0.8;  ///< of the acceleration limit; the rest keeps the UAV on the line
-constexpr double kLookAheadS = 0.3;    ///< the mass heads for a point on the path so far ahead, at its present speed
-constexpr double kMinLookAheadM = 0.15;
-constexpr double kTouchM = 0.1;  ///< a sharp corner counts as reached within this distance
-constexpr double kSharpSpeedMps = 0.3;
-constexpr double kSharpCosine = 0.5;             ///< turns of more than 60 degrees are sharp
-constexpr double kBendM = 8.0;                   ///< corners farther apart are separate turns
-constexpr double kMinLegM = 1e-3;                ///< shorter legs count as empty
-constexpr double kSlowestPace = 0.1;             ///< least share of the speed of a mass that waits for its UAV
-constexpr double kLongestStepS = 0.05;           ///< of the point mass; a longer exchange takes several
-constexpr std::size_t kMostStoppingSteps = 400;  ///< 20 s at exchanges of 0.05 s: no UAV takes so long to stop
-constexpr double kNoPositionM = 0.02;            ///< the controller takes |p| < 0.01 for "no position"
-constexpr double kAccelerationShare = 0.7;       ///< of the vehicle's limit; the controller corrects with the rest
+constexpr double kBrakingShare = 0.8;  ///< of the acceleration limit; chosen: the rest keeps the UAV on the line
+/// The mass heads for a point on the path so far ahead, at its present speed; at least kMinLookAheadM. Chosen.
+constexpr double kLookAheadS = 0.3, kMinLookAheadM = 0.15;
+constexpr double kTouchM = 0.1;         ///< a sharp corner counts as reached within this distance; chosen
+constexpr double kSharpSpeedMps = 0.3;  ///< speed in a sharp corner; chosen
+constexpr double kSharpCosine = 0.5;    ///< turns of more than 60 degrees are sharp; chosen
+constexpr double kBendM = 8.0;          ///< corners farther apart are separate turns; chosen
+constexpr double kMinLegM = 1e-3;       ///< shorter legs count as empty; numeric
+constexpr double kSlowestPace = 0.1;    ///< least share of the speed of a mass that waits for its UAV; chosen
+constexpr double kSlowestMps = 0.05;    ///< least speed along a leg; chosen: with 0, the UAV would never arrive
+constexpr double kLongestStepS = 0.05;  ///< of the point mass; chosen: the usual exchange; a longer one takes several
+/// Formula: 20 s at exchanges of 0.05 s. No UAV takes so long to stop.
+constexpr std::size_t kMostStoppingSteps = 400;
+constexpr double kNoPositionM = 0.02;       ///< vehicle: its controller takes |p| < 0.01 for "no position"
+constexpr double kAccelerationShare = 0.7;  ///< of the vehicle's limit; chosen: the controller corrects with the rest
+constexpr double kTinyShare = 1e-9;         ///< numeric: of a step or a length
+constexpr double kTinyMps = 1e-9;           ///< numeric: a slower mass rests
+constexpr double kTinyM = 1e-9;             ///< numeric: a mass that is nearer to a point is there
+constexpr double kNearerPointM = 1e-12;     ///< numeric: a point of the path is nearer by more than this
+constexpr double kStraight = 1.0 - 1e-6;    ///< numeric: cosine of half a turn that is none
 
 /// Cosine of the turn between two legs; 1 if either of them is empty.
 double cosine_between(const Vector3d& in, const Vector3d& out) {
@@ -33,7 +40,7 @@ double cosine_between(const Vector3d& in, const Vector3d& out) {
 /// @param bend_m  length of the path from the first corner of the turn to the last: it widens the circle.
 double corner_speed(double cosine, double cut, double acceleration, double bend_m) {
   const double half = std::sqrt(std::max(0.0, 0.5 * (1.0 + cosine)));  // cosine of half the turn
-  if (half > 1.0 - 1e-6) return std::numeric_limits<double>::infinity();
+  if (half > kStraight) return std::numeric_limits<double>::infinity();
   return std::sqrt(acceleration * (cut * half / (1.0 - half) + bend_m / (2.0 * std::acos(half))));
 }
 
@@ -112,7 +119,7 @@ void Tracker::forget_flown_legs() {
 
 double Tracker::strength(const Vector3d& direction) const {
   const double length = direction.norm();
-  const bool sinks = direction.z() < -1e-9 * length;
+  const bool sinks = direction.z() < -kTinyShare * length;
   const double by_sinking =
       sinks ? config_.max_sink_acceleration_mps2 * length / -direction.z() : std::numeric_limits<double>::infinity();
   return std::min(config_.max_acceleration_mps2, by_sinking);
@@ -122,7 +129,7 @@ void Tracker::lay_out(const std::vector<Waypoint>& waypoints) {
   corners_.assign(1, Corner{.p_W = mass_.p_WB});
   for (const Waypoint& waypoint : waypoints) {
     const Vector3d leg = waypoint.p_WB - corners_.back().p_W;
-    const double speed = std::clamp(waypoint.speed_mps, 0.05, config_.max_speed_mps);
+    const double speed = std::clamp(waypoint.speed_mps, kSlowestMps, config_.max_speed_mps);
     // Each waypoint has a corner, even at the end of an empty leg, so that the indices of legs and waypoints agree.
     corners_.push_back(Corner{.p_W = waypoint.p_WB,
                               .s = corners_.back().s + leg.norm(),
@@ -181,7 +188,7 @@ void Tracker::advance_progress() {
     const double along = length < kMinLegM ? from : std::clamp((mass_.p_WB - a).dot(ab) / length, from, to);
     const double s = corners_[i - 1].s + along;
     const double distance = (mass_.p_WB - (length < kMinLegM ? a : Vector3d(a + ab * (along / length)))).norm();
-    if (distance < best - 1e-12) {
+    if (distance < best - kNearerPointM) {
       best = distance;
       best_s = s;
     }
@@ -207,7 +214,8 @@ double Tracker::speed_limit(double dt_s) const {
     if (ahead > limit * limit / (2.0 * std::min(a, weakest)) + limit * dt_s + 1.0) break;
     const double next_leg = last ? 0.0 : corners_[i + 1].leg_speed;
     const double at_corner = last ? 0.0 : std::min(corners_[i].speed, next_leg);
-    // The speed holds until the next step, so the distance flown in one step is subtracted.
+    // The speed holds until the next step, so the distance flown in one step is subtracted. Formula: v that solves
+    // v^2 = at_corner^2 + 2 a (ahead - v dt / 2).
     const double braking = std::sqrt(at_corner * at_corner + 2.0 * a * ahead + 0.25 * a * a * dt_s * dt_s);
     limit = std::min(limit, std::max(at_corner, braking - 0.5 * a * dt_s));
   }
@@ -260,7 +268,7 @@ void Tracker::advance_along_path(double pace, double dt_s) {
   const Vector3d target = point_at(std::min(look, end.s));
   const Vector3d ahead = target - mass_.p_WB;
   const double speed = std::min({pace * speed_limit(dt_s), ahead.norm() / dt_s, speed_limit_mps_});
-  accelerate(ahead.norm() < 1e-9 ? Vector3d::Zero().eval() : Vector3d(ahead.normalized() * speed), dt_s);
+  accelerate(ahead.norm() < kTinyM ? Vector3d::Zero().eval() : Vector3d(ahead.normalized() * speed), dt_s);
 }
 
 void Tracker::advance_yaw(double dt_s) {
@@ -272,7 +280,7 @@ void Tracker::advance_yaw(double dt_s) {
 std::optional<TrajectoryCommand> Tracker::step(const RigidBodyState& state, double dt_s) {
   if (mode_ == Mode::off || mode_ == Mode::stand_by) return std::nullopt;
   if (mode_ != Mode::setpoint) {
-    const int steps = std::max(1, static_cast<int>(std::ceil(dt_s / kLongestStepS - 1e-9)));
+    const int steps = std::max(1, static_cast<int>(std::ceil(dt_s / kLongestStepS - kTinyShare)));
     const double step_s = dt_s / steps;
     if (!started_) ref_.yaw = roll_pitch_yaw(state.q_WB.toRotationMatrix()).yaw;
     double error = (ref_.p_WB - state.p_WB).norm();
@@ -306,8 +314,8 @@ std::vector<Vector3d> Tracker::stopping_places(double dt_s) const {
   if (!moves() || track_.empty()) return places;
   Tracker stops = *this;
   stops.hold();
-  const int steps = std::max(1, static_cast<int>(std::ceil(dt_s / kLongestStepS - 1e-9)));
-  while (!stops.ref_.v_WB.isZero(1e-9) || stops.ref_.p_WB != stops.mass_.p_WB) {
+  const int steps = std::max(1, static_cast<int>(std::ceil(dt_s / kLongestStepS - kTinyShare)));
+  while (!stops.ref_.v_WB.isZero(kTinyMps) || stops.ref_.p_WB != stops.mass_.p_WB) {
     for (int i = 0; i < steps; ++i) {
       stops.accelerate(Vector3d::Zero(), dt_s / steps);
       stops.smooth();

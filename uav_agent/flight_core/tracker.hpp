@@ -21,14 +21,15 @@ namespace skein::agent {
 class Tracker {
  public:
   struct Config {
-    double max_speed_mps = 6.0;
-    double max_acceleration_mps2 = 3.0;
-    double max_sink_acceleration_mps2 = 2.5;  ///< downward part; attitude control needs the remaining thrust
-    double smoothing_s = 0.4;                 ///< time over which the commanded setpoint is the mean
-    double max_yaw_rate = 0.8;                ///< [rad/s]
-    double corner_m = 0.25;                   ///< distance by which the UAV may cut a corner
-    double slow_down_error_m = 0.6;  ///< with more tracking error, the mass slows down, to 10 % at twice as much
-    double lost_error_m = 3.0;       ///< with more tracking error, the setpoint restarts at the UAV
+    double max_speed_mps = 6.0;               ///< vehicle; see tracker_config()
+    double max_acceleration_mps2 = 3.0;       ///< vehicle; see tracker_config()
+    double max_sink_acceleration_mps2 = 2.5;  ///< downward part; chosen: attitude control needs the remaining thrust
+    double smoothing_s = 0.4;                 ///< time over which the commanded setpoint is the mean; chosen
+    double max_yaw_rate = 0.8;                ///< [rad/s]; chosen; less if the vehicle turns slower
+    double corner_m = 0.25;                   ///< distance by which the UAV may cut a corner; chosen
+    /// With more tracking error, the mass slows down, to 10 % at twice as much. Chosen.
+    double slow_down_error_m = 0.6;
+    double lost_error_m = 3.0;  ///< with more tracking error, the setpoint restarts at the UAV; chosen
   };
 
   explicit Tracker(const Config& config) : config_(config) {}

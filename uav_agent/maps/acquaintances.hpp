@@ -13,6 +13,7 @@ namespace skein::agent {
 
 class Acquaintances {
  public:
+  /// Format: a set of tellers has 128 bits (told_chunks.hpp), one of them for the UAV itself.
   static constexpr std::size_t kMostSlots = 127;
 
   /// @param fleet  number of UAVs. A fleet of at most kMostSlots has the slot i for UAV i from the beginning.

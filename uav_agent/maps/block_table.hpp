@@ -15,7 +15,7 @@ namespace skein::agent {
 
 /// Key of a cell or block whose index along each axis is within (-2^20, 2^20): 21 bits an axis.
 inline std::uint64_t grid_key(const Eigen::Vector3i& at) {
-  constexpr std::uint64_t kMask = (std::uint64_t{1} << 21) - 1;
+  constexpr std::uint64_t kMask = (std::uint64_t{1} << 21) - 1;  // format: three times 21 bits in one key
   const auto along = [&](int axis) { return static_cast<std::uint64_t>(at[axis]) & kMask; };
   return along(0) | along(1) << 21 | along(2) << 42;
 }
@@ -70,7 +70,7 @@ class BlockTable {
 
  private:
   static constexpr std::uint64_t kNone = ~std::uint64_t{0};
-  static constexpr std::uint64_t kMix = 0x9E3779B97F4A7C15;  ///< 2^64 / golden ratio: Fibonacci hashing spreads keys
+  static constexpr std::uint64_t kMix = 0x9E3779B97F4A7C15;  ///< formula: 2^64 / golden ratio; spreads keys
 
   struct Slot {
     std::uint64_t key = kNone;
@@ -92,8 +92,9 @@ class BlockTable {
     }
   }
 
-  std::vector<Slot> slots_ = std::vector<Slot>(64);
-  int shift_ = 64 - 6;  ///< 64 - log2(slots_.size()): leaves the top bits of the product as the slot's index
+  std::vector<Slot> slots_ = std::vector<Slot>(64);  ///< memory: doubled when it is full
+  /// Formula: 64 - log2(slots_.size()). It leaves the top bits of the product as the slot's index.
+  int shift_ = 64 - 6;
   std::vector<Block> blocks_;
 };
 

@@ -5,8 +5,9 @@ namespace {
 
 /// Number of returns in a cube at this distance from the LiDAR that drops are very unlikely to cause.
 int needed(double range_m) {
+  // Measured (clutter_filter.hpp).
   if (range_m >= 6.0) return 2;
-  return range_m >= 3.0 ? 3 : range_m >= 1.5 ? 5 : 8;
+  return range_m >= 3.0 ? 3 : range_m >= 1.5 ? 5 : 8;  // measured, as above
 }
 
 }  // namespace
@@ -24,7 +25,7 @@ bool ClutterFilter::confirmed(double scan_s, double range_m, bool in_doubt, cons
 
 void ClutterFilter::keep_confirmed(double scan_s, const Vector3d& p_WL, const WorldMap& map,
                                    std::vector<Eigen::Vector3f>& hits_W) {
-  constexpr std::size_t kMostCubes = 200'000;
+  constexpr std::size_t kMostCubes = 200'000;  // memory: then all are forgotten
   if (cubes_ > kMostCubes) {
     returns_.clear();
     cubes_ = 0;

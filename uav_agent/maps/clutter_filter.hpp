@@ -5,7 +5,7 @@
 // drops are likely to cause: 2 at 6 m and beyond, up to 8 close by. Until then the cube stays unknown or free. Then it
 // becomes occupied, but in doubt (WorldMap::doubt()), until nearly as many further returns end in it, or beams that
 // pass it prove it free.
-// Source of the numbers: with 60 drops a second at a mean distance of 4 m (preset `harsh`), some 5 of 18,000 drops are
+// Measured: with 60 drops a second at a mean distance of 4 m (preset `harsh`), some 5 of 18,000 drops are
 // taken for structure in five minutes, most of them beyond 3 m, before passing beams free those cubes again (test).
 // Frame W.   Units: SI.   Threads: one.   Deterministic.
 #pragma once
@@ -26,8 +26,9 @@ class ClutterFilter {
   void doubt_new(WorldMap& map);
 
  private:
-  static constexpr double kConfirmedWithinS = 2.0;  ///< a servo's period is four times as long: one pass over a place
-  static constexpr double kNever = -1e9;
+  /// Formula: a quarter of the period of the LiDAR's servo, which is one pass over a place.
+  static constexpr double kConfirmedWithinS = 2.0;
+  static constexpr double kNever = -1e9;  ///< numeric: before any scan
   struct Returns {
     double since_s = kNever;  ///< time of the first one
     int count = 0;            ///< within kConfirmedWithinS since then

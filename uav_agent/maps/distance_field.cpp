@@ -6,10 +6,12 @@
 #include <cstdlib>
 #include <stdexcept>
 
+#include "uav_agent/maps/cube_steps.hpp"
+
 namespace skein::agent {
 namespace {
 
-constexpr int kSide = 3 * DistanceField::kBlock;  ///< cells along an edge of a block with its 26 neighbours
+constexpr int kSide = 3 * DistanceField::kBlock;  ///< geometry: cells along an edge of a block with its neighbours
 using Row = std::array<std::uint16_t, DistanceField::kBlock>;
 
 /// Squared number of cells between two cells along an axis.
@@ -40,7 +42,7 @@ void lower(Row& squares, const Row& others, int by) {
 }
 
 void for_each_about(const DistanceField::Cell& block, const auto& visit) {
-  for (int i = 0; i < 27; ++i) visit(block + DistanceField::Cell(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1));
+  for (int i = 0; i < kCubesAround; ++i) visit(block + step_around(i));
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <vector>
 
 #include "uav_agent/maps/block_table.hpp"
@@ -16,7 +17,7 @@ namespace skein::agent {
 class DistanceField {
  public:
   using Cell = Eigen::Vector3i;
-  static constexpr int kBlockBits = 3, kBlock = 1 << kBlockBits;  ///< cells along an edge of a block
+  static constexpr int kBlockBits = 3, kBlock = 1 << kBlockBits;  ///< memory: cells along an edge of a block
   /// Appends the occupied cells of a block of 8^3 cells to `cells`. @param block  cell index divided by 8 (block_of()).
   using OccupiedIn = std::function<void(const Cell& block, std::vector<Cell>& cells)>;
 
@@ -34,7 +35,7 @@ class DistanceField {
   std::size_t bytes() const { return blocks_.bytes() + changed_.bytes() + newest_.bytes(); }
 
  private:
-  static constexpr std::uint8_t kFar = 255;
+  static constexpr std::uint8_t kFar = std::numeric_limits<std::uint8_t>::max();
   struct Block {
     std::uint64_t made_at = 0;                                      ///< value of changes_ when it was computed
     std::array<std::uint8_t, kBlock* kBlock* kBlock> squares = {};  ///< [cells^2], x first; or kFar

@@ -17,12 +17,14 @@ class Table {
   /// @param integrand  g(k, x): f(k) is its integral over x in [0, 1].
   template <class Integrand>
   explicit Table(const Integrand& integrand) {
-    constexpr int kParts = 1024;  // Simpson's rule: its error is far less than the chord's distance from f
+    constexpr int kParts = 1024;  // numeric: the error of Simpson's rule is far less than the chord's distance from f
     for (std::size_t place = 0; place < values_.size(); ++place) {
       for (int part = 0; part <= kParts; ++part) {
+        // Formula: Simpson's rule.
         const double weight = part == 0 || part == kParts ? 1.0 : (part % 2 == 1 ? 4.0 : 2.0);
         const double x = static_cast<double>(part) / kParts;
-        values_[place] += weight / (3.0 * kParts) * integrand(kStep * static_cast<double>(place), x);
+        const double share = weight / (3.0 * kParts);  // formula: Simpson's rule
+        values_[place] += share * integrand(kStep * static_cast<double>(place), x);
       }
     }
   }
@@ -34,13 +36,16 @@ class Table {
   }
 
  private:
-  static constexpr double kStep = 0.25, kEnd = 64.0;
+  static constexpr double kStep = 0.25, kEnd = 64.0;  ///< numeric: places of the table
   std::array<double, static_cast<std::size_t>(kEnd / kStep) + 1> values_ = {};
 };
 
+constexpr double kMostK = 1e4;                           ///< numeric: more than any probability asks for
+constexpr double kRoundsUp = 1e-12, kRoundsDown = 1e-9;  ///< rounding errors of falls_to() and of proved()
+
 /// The argument at which a decreasing function falls to `value`; never greater than the exact one.
 double falls_to(const auto& function, double value, double low, double high) {
-  for (int step = 0; step < 60; ++step) {
+  for (int step = 0; step < 60; ++step) {  // numeric: halves the interval to less than a rounding error
     const double middle = 0.5 * (low + high);
     (function(middle) > value ? low : high) = middle;
   }
@@ -91,14 +96,15 @@ double BeamEvidence::unseen_probability(const FreeCriterion& criterion) const {
 FreeJudge::FreeJudge(const FreeCriterion& criterion)
     : criterion_(criterion),
       k_of_one_(criterion.k_of_one_per_m2() / BeamEvidence::kUnit),
-      least_k_(-1.5 * std::log(criterion.unseen_p)),
-      enough_k_(falls_to(unseen_along_one_direction, criterion.unseen_p, 0.0, 1e4) * (1.0 + 1e-12)),
-      fewest_per_m2_(least_k_ / (k_of_one_ * BeamEvidence::kUnit) / std::sqrt(3.0)) {
+      least_k_(-1.5 * std::log(criterion.unseen_p)),  // formula: a = 2 K / 3, above
+      enough_k_(falls_to(unseen_along_one_direction, criterion.unseen_p, 0.0, kMostK) * (1.0 + kRoundsUp)),
+      fewest_per_m2_(least_k_ / (k_of_one_ * BeamEvidence::kUnit) / std::numbers::sqrt3) {
   for (std::size_t i = 0; i < least_a_.size(); ++i) {
     const double part = static_cast<double>(i + 1) / static_cast<double>(least_a_.size());
     const double k = least_k_ + part * (enough_k_ - least_k_);  // the interval's end: a larger K needs a smaller a
+    // Formula: exp(-a) D(K - 3 a / 2), above.
     const auto unseen = [&](double a) { return std::exp(-a) * unseen_about_an_axis(std::max(0.0, k - 1.5 * a)); };
-    least_a_[i] = falls_to(unseen, criterion.unseen_p, 0.0, k) * (1.0 - 1e-9);
+    least_a_[i] = falls_to(unseen, criterion.unseen_p, 0.0, k) * (1.0 - kRoundsDown);
   }
 }
 
@@ -108,6 +114,7 @@ bool FreeJudge::proved(const BeamEvidence& evidence) const {
   if (k < least_k_) return false;
   if (k < enough_k_) {
     const auto square = [&](std::size_t i) { return static_cast<double>(sums[i]) * sums[i]; };
+    // Geometry: the elements beside the diagonal are there twice.
     const double squares = square(0) + square(1) + square(2) + 2.0 * (square(3) + square(4) + square(5));
     const double most_a = k - k_of_one_ * k_of_one_ * squares / k;
     const auto place = static_cast<std::size_t>((k - least_k_) / (enough_k_ - least_k_) * least_a_.size());

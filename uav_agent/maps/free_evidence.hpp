@@ -48,20 +48,21 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 
 #include "core/types.hpp"
 
 namespace skein::agent {
 
-inline constexpr double kHaloM = 1.0;  ///< all space within this distance of a body's tube must be free
+inline constexpr double kHaloM = 1.0;  ///< all space this near to a body's tube must be free; chosen
 
 /// Which thin member may stand unseen in a place that is called free, and with which probability.
 struct FreeCriterion {
-  double member_width_m = 0.05;
+  double member_width_m = 0.05;  ///< chosen
   /// m: the length within kHaloM of a body's tube (radius 0.63 m) of a member 2 m long that touches the tube. It varies
-  /// among drawn members; this m is the one whose 1 / m^2 equals the mean of 1 / m^2 over them.
+  /// among drawn members; Measured: this m is the one whose 1 / m^2 equals the mean of 1 / m^2 over them.
   double member_in_halo_m = 1.69;
-  double unseen_p = 1e-3;    ///< accepted probability P that the member was missed
+  double unseen_p = 1e-3;    ///< accepted probability P that the member was missed; chosen
   double no_return_p = 0.0;  ///< q above: probability that a hit returns nothing; less than 1
 
   /// (1 - q) K of a density of one beam per square metre.
@@ -70,9 +71,9 @@ struct FreeCriterion {
 
 /// Evidence of the beams that have passed a window, a square normal to an axis of W: K and M above as integers, so that
 /// the sum does not depend on the order of the beams. It fits into one vector register (16 bytes).
-class alignas(16) BeamEvidence {
+class alignas(16) BeamEvidence {  // memory: a vector register
  public:
-  static constexpr int kMostPerM2 = 1000;  ///< beams per m^2 of a window; more are not counted: overflow
+  static constexpr int kMostPerM2 = 1000;  ///< numeric: more beams per m^2 of a window would overflow
 
   BeamEvidence() = default;
   /// @param direction  of the beams in W, a unit vector; its sign does not matter.   @param across  axis of W that is
@@ -97,7 +98,9 @@ class alignas(16) BeamEvidence {
   /// A reminder for the map: whether the number of beams has reached the threshold of remind_at(); always true before
   /// the first call of it. It is stored here to share a cache line with the sums.
   bool due() const { return sums_[6] >= sums_[kWhenDue]; }
-  void remind_at(double per_m2) { sums_[kWhenDue] = static_cast<std::int16_t>(std::min(kUnit * per_m2, 32767.0)); }
+  void remind_at(double per_m2) {
+    sums_[kWhenDue] = static_cast<std::int16_t>(std::min<double>(kUnit * per_m2, kNever));
+  }
   void never_remind() { sums_[kWhenDue] = kNever; }
   bool may_remind() const { return sums_[kWhenDue] != kNever; }
 
@@ -106,12 +109,14 @@ class alignas(16) BeamEvidence {
 
  private:
   friend class FreeJudge;
-  static constexpr std::size_t kWhenDue = 7;
-  static constexpr std::int16_t kNever = 32767;  ///< a threshold that no window reaches
+  static constexpr std::size_t kWhenDue = 7;  ///< format: index of the threshold of due()
+  static constexpr std::int16_t kNever = std::numeric_limits<std::int16_t>::max();  ///< no window reaches it
   /// Units of one beam per square metre, normal to the window; the most oblique beam counts 1.73 times as much.
+  /// Numeric.
   static constexpr int kUnit = 16;
 
   /// An explicit vector type: without it, the compiler adds the elements one by one after a read of one of them.
+  /// Memory: one register.
   using Sums [[gnu::vector_size(16)]] = std::int16_t;
 
   /// Elements xx, yy, zz, xy, xz, yz of sum rho b b' [1/kUnit]; beams per m^2 [1/kUnit]; threshold of due() [1/kUnit].

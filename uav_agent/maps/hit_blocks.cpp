@@ -5,7 +5,7 @@
 namespace skein::agent {
 namespace {
 
-constexpr int kHitBlockEdge = 4;
+constexpr int kHitBlockEdge = 4;  ///< memory: a block is a bit mask of 4^3 cells
 
 /// Key of the region that contains a block.
 std::uint64_t region_key(const Eigen::Vector3i& block) { return grid_key(HitBlocks::block_of(block)); }
@@ -62,9 +62,12 @@ std::optional<double> HitBlocks::nearest_squared(const Vector3d& p_W, double rad
   return found ? std::optional(best) : std::nullopt;
 }
 
+Eigen::Vector3i HitBlocks::cell_at(const Eigen::Vector3i& block, int bit) {
+  return kHitBlockEdge * block + Eigen::Vector3i(bit & 3, bit >> 2 & 3, bit >> 4);
+}
+
 Vector3d HitBlocks::centre(const Eigen::Vector3i& block, int bit) const {
-  const Eigen::Vector3i c = kHitBlockEdge * block + Eigen::Vector3i(bit & 3, bit >> 2 & 3, bit >> 4);
-  return (c.cast<double>() + Vector3d::Constant(0.5)) * cell_m_;
+  return (cell_at(block, bit).cast<double>() + Vector3d::Constant(0.5)) * cell_m_;
 }
 
 }  // namespace skein::agent

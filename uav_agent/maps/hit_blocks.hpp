@@ -23,6 +23,9 @@ class HitBlocks {
     return static_cast<unsigned>((cell.x() & 3) | (cell.y() & 3) << 2 | (cell.z() & 3) << 4);
   }
 
+  /// The cell with this index within a block; the inverse of place_of().
+  static Eigen::Vector3i cell_at(const Eigen::Vector3i& block, int bit);
+
   /// Adds occupied cells. @param cells  one bit per cell, at place_of().   @returns the bits that were not set before.
   std::uint64_t add(const Eigen::Vector3i& block, std::uint64_t cells);
   bool test(const Vector3d& p_W) const;

@@ -12,10 +12,11 @@
 namespace skein::agent {
 namespace {
 
-constexpr float kRayLogOdds = -0.125F;  ///< added to a cell's log-odds for each ray that passed it; sums are exact
-constexpr int kKeyOfOrigin = 1 << 15;   ///< OctoMap's key of the cell whose lowest corner is the origin
-constexpr unsigned kChildren = 8;
-constexpr unsigned kBlockLevels = 2;  ///< from a block of 4 x 4 x 4 cells down to a cell
+constexpr float kRayLogOdds =
+    -0.125F;  ///< added to a cell's log-odds for each ray that passed it; numeric: sums are exact
+constexpr int kKeyOfOrigin = 1 << 15;  ///< OctoMap's format: key of the cell whose lowest corner is the origin
+constexpr unsigned kChildren = 8;      ///< geometry: of an inner node of an octree
+constexpr unsigned kBlockLevels = 2;   ///< memory: from a block of 4 x 4 x 4 cells down to a cell
 
 octomap::point3d octomap_point(const Vector3d& p_W) {
   return {static_cast<float>(p_W.x()), static_cast<float>(p_W.y()), static_cast<float>(p_W.z())};
@@ -209,7 +210,7 @@ bool KnownSpace::add_hits(const HitCells& hits) {
     octomap::OcTreeNode* its_node = nullptr;
     for (; news != 0; news &= news - 1) {
       const int bit = std::countr_zero(news);
-      const octomap::OcTreeKey key = key_of(4 * block.at + Eigen::Vector3i(bit & 3, bit >> 2 & 3, bit >> 4));
+      const octomap::OcTreeKey key = key_of(HitBlocks::cell_at(block.at, bit));
       if (its_node == nullptr) its_node = block_node(tree, key);
       cell_node(tree, its_node, key)->setLogOdds(tree.getClampingThresMaxLog());
     }

@@ -19,9 +19,9 @@ namespace skein::agent {
 class MapExchange {
  public:
   struct Config {
-    std::size_t max_chunks = 4;    ///< in one message
-    std::size_t max_bytes = 4096;  ///< of chunks in one message; the first chunk may exceed it
-    double forget_s = 10.0;        ///< a peer's hashes that are older than this are ignored
+    std::size_t max_chunks = 4;    ///< in one message; chosen
+    std::size_t max_bytes = 4096;  ///< of chunks in one message; the first chunk may exceed it; chosen
+    double forget_s = 10.0;        ///< a peer's hashes that are older than this are ignored; chosen
   };
 
   MapExchange() : MapExchange(Config()) {}

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "uav_agent/maps/cube_steps.hpp"
+
 namespace skein::agent {
 namespace {
 
-constexpr double kAskAgain = 0.15;  ///< relative growth of the beam count after which a cell is judged again
+constexpr double kAskAgain = 0.15;  ///< growth of the beam count after which a cell is judged again; chosen
 
 /// Rounds down without floor(), which is a function call on the target processors.
 int down(double value) {
@@ -67,8 +69,8 @@ MapLevel::Block* MapLevel::block(const Cell& at) {
     const Cell cell = at * kBlock + in;
     const Known known = coarser_->known_at_all(shifted(cell, 1));
     if (known.space != Space::free) continue;
-    for (int corner = 0; corner < 8; ++corner) {
-      const std::size_t place = place_of(cell + Cell(corner & 1, corner >> 1 & 1, corner >> 2));
+    for (int corner = 0; corner < kCubeCorners; ++corner) {
+      const std::size_t place = place_of(cell + corner_step(corner));
       block.space[place] = Space::free;
       block.teller[place] = known.teller;
       ++block.free;
@@ -194,8 +196,8 @@ void MapLevel::ask_within(const Cell& coarser_cell, const BeamEvidence& beyond) 
   if (slot == nullptr || slot->number < kFirst) return;
   Block& block = blocks_[slot->number - kFirst];
   if (!block.evidence) return;
-  for (int corner = 0; corner < 8; ++corner) {
-    const std::size_t place = place_of(2 * coarser_cell + Cell(corner & 1, corner >> 1 & 1, corner >> 2));
+  for (int corner = 0; corner < kCubeCorners; ++corner) {
+    const std::size_t place = place_of(2 * coarser_cell + corner_step(corner));
     const bool open = block.space[place] == Space::unknown || doubted(block, place);
     if (open && (*block.evidence)[place].per_m2() > 0.0) ask(block, place, beyond);
   }

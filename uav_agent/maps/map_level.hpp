@@ -34,8 +34,9 @@ inline constexpr Teller kOwn = 0;
 class MapLevel {
  public:
   using Cell = Eigen::Vector3i;
+  /// Memory: edge of a block, in cells.
   static constexpr int kBlockBits = 3, kBlock = 1 << kBlockBits, kCells = kBlock * kBlock * kBlock;
-  static constexpr int kMostCells = 256;  ///< a beam passes fewer cells than this along an axis
+  static constexpr int kMostCells = 256;  ///< numeric: a beam passes fewer cells than this along an axis
 
   struct Known {
     Space space = Space::unknown;
@@ -124,7 +125,7 @@ class MapLevel {
     Teller teller = kOwn;          ///< if kAllFree: of all cells
   };
   struct Walk;
-  static constexpr std::uint32_t kNone = 0, kAllFree = 1, kFirst = 2;
+  static constexpr std::uint32_t kNone = 0, kAllFree = 1, kFirst = 2;  ///< format of Slot::number
 
   static Cell cell_at(const Block& block, std::size_t place) { return block.at * kBlock + in_block(place); }
   /// The block with this index; created if there is none. nullptr if all its cells are free.

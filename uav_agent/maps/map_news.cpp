@@ -2,15 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace skein::agent {
 namespace {
 
-constexpr double kMostGoingM = 32'767.0;
-constexpr std::uint32_t kWindow = 32;          // messages that a receipt covers besides the last one
-constexpr std::size_t kBytesAboveChunk = 4;    // estimate: bytes of the nodes above a chunk, shared with its neighbours
-constexpr std::size_t kBytesAboveChunks = 48;  // estimate: bytes of the nodes up to the root
+constexpr double kMostGoingM = std::numeric_limits<std::int16_t>::max();  // metres in a message
+constexpr std::uint32_t kWindow = 32;  // format: messages that a receipt covers besides the last one
+// Chosen as an estimate: bytes of the nodes above a chunk, shared with its neighbours.
+constexpr std::size_t kBytesAboveChunk = 4;
+constexpr std::size_t kBytesAboveChunks = 48;  // chosen as an estimate: bytes of the nodes up to the root
 
+// Format: a message has whole millimetres.
 std::uint16_t millimetres(double cell_m) { return static_cast<std::uint16_t>(std::lround(1000.0 * cell_m)); }
 
 std::uint16_t whole_metres(double metres) {
@@ -19,7 +22,7 @@ std::uint16_t whole_metres(double metres) {
 }
 
 /// Whether a byte has room for the number of each UAV.
-bool has_short_numbers(std::size_t fleet) { return fleet <= 256; }
+bool has_short_numbers(std::size_t fleet) { return fleet <= std::numeric_limits<std::uint8_t>::max() + 1U; }
 
 std::size_t link_bytes(const PayloadWriter& payload) { return MapNews::kEnvelopeBytes + text_bytes(payload.data()); }
 

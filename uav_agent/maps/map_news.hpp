@@ -31,14 +31,14 @@ namespace skein::agent {
 class MapNews {
  public:
   struct Config {
-    double bytes_per_s = 20'000.0;  ///< limit of all that a link carries in any second
-    double period_s = 0.2;          ///< least time from one message to the next
-    double idle_period_s = 1.0;     ///< the same if there is neither news to tell nor a message to acknowledge
-    double heard_s = 3.0;           ///< a UAV gets receipts for this long after its last message
+    double bytes_per_s = 20'000.0;  ///< limit of all that a link carries in any second; chosen
+    double period_s = 0.2;          ///< least time from one message to the next; chosen
+    double idle_period_s = 1.0;     ///< the same if there is neither news to tell nor a message to acknowledge; chosen
+    double heard_s = 3.0;           ///< a UAV gets receipts for this long after its last message; chosen
     ToldChunks::Config told = {};
   };
   /// Bytes that a message takes on a link besides its payload's text: CDR header, length, the planner's name and all
-  /// else that send_payload() adds.
+  /// else that send_payload() adds. Format.
   static constexpr std::size_t kEnvelopeBytes = 40;
 
   MapNews(UavIndex self, std::size_t fleet) : MapNews(self, fleet, Config()) {}

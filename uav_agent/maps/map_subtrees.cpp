@@ -10,9 +10,10 @@
 namespace skein::agent {
 namespace {
 
-constexpr int kOctants = 8;
+constexpr int kOctants = 8;  ///< geometry: children of an inner node
+/// OctoMap's format.
 constexpr int kTreeDepth = 16, kChunkDepth = kTreeDepth - MapLevel::kBlockBits;
-constexpr int kLargestFreeDepth = kChunkDepth - 2;
+constexpr int kLargestFreeDepth = kChunkDepth - 2;  ///< format: a free leaf has at most 2^2 chunks along an edge
 constexpr int kChunkOfOrigin = 1 << (kChunkDepth - 1);
 
 using Kind = Subtree::Kind;

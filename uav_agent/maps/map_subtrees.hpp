@@ -26,7 +26,7 @@ struct Subtree {
   std::vector<std::uint8_t> bytes = {};  ///< if inner: this node and all inner nodes below it
 };
 
-/// Limits of read_subtrees(): chunks in one tree, and cubes that one tree may have.
+/// Limits of read_subtrees(): chunks in one tree, and cubes that one tree may have. Memory.
 inline constexpr std::size_t kMostJoined = 512, kMostHeardCubes = kMostJoined * MapLevel::kCells;
 
 /// Whether OctoMap's tree contains this chunk: it reaches 16 km in each direction with cubes of 0.5 m.

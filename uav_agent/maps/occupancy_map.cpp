@@ -11,8 +11,9 @@
 namespace skein::agent {
 namespace {
 
-constexpr int kFineSteps = 8;            ///< fine samples of cast() for each coarse one; even
-constexpr double kMostHeardCells = 1e6;  ///< eight million cubic metres of free space
+constexpr int kFineSteps = 8;            ///< fine samples of cast() for each coarse one; even; chosen
+constexpr double kMostHeardCells = 1e6;  ///< memory: eight million cubic metres of free space
+constexpr double kNoLengthM = 1e-9;      ///< numeric: a shorter segment is a point
 
 }  // namespace
 
@@ -81,7 +82,7 @@ std::optional<double> OccupancyMap::distance_to_occupied(const Vector3d& p_W, do
 
 bool OccupancyMap::segment_clear(const Vector3d& a_W, const Vector3d& b_W, double radius) const {
   const double length = (b_W - a_W).norm();
-  if (length < 1e-9) return !any_occupied_within(a_W, radius);
+  if (length < kNoLengthM) return !any_occupied_within(a_W, radius);
   return !cast(a_W, (b_W - a_W) / length, length, radius).has_value();
 }
 

@@ -40,17 +40,17 @@ struct FrameCells {
 };
 
 /// Number of rays that must have passed a coarse cell before it counts as free in and near boxes, where structure is
-/// likely.
+/// likely. Chosen.
 inline constexpr int kProofRays = 12;
 
 class OccupancyMap {
  public:
   struct Config {
-    double resolution_m = 0.5;       ///< edge of an occupied cell
-    double free_resolution_m = 2.0;  ///< edge of a free cell: 1, 2, 4, ... times resolution_m
-    double ground_m = 0.3;           ///< hits below this height end a ray, but are not obstacles
-    double free_range_m = 30.0;      ///< free space is traced only up to this distance from the sensor
-    int max_free_rays = 400;         ///< about so many rays of a key frame are traced, evenly picked
+    double resolution_m = 0.5;       ///< edge of an occupied cell; chosen
+    double free_resolution_m = 2.0;  ///< edge of a free cell: 1, 2, 4, ... times resolution_m; chosen
+    double ground_m = 0.3;           ///< hits below this height end a ray, but are not obstacles; chosen
+    double free_range_m = 30.0;      ///< free space is traced only up to this distance from the sensor; chosen
+    int max_free_rays = 400;         ///< about so many rays of a key frame are traced, evenly picked; chosen
   };
 
   OccupancyMap();

@@ -9,8 +9,8 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kMostM = 1e5;  ///< a position farther from the origin is wrong
-constexpr int kBlockBits = 2;   ///< a block has 2^kBlockBits cubes along each axis
+constexpr double kMostM = 1e5;  ///< numeric: a position farther from the origin is wrong
+constexpr int kBlockBits = 2;   ///< memory: a block has 2^kBlockBits cubes along each axis
 
 std::uint64_t bit_of(const Eigen::Vector3i& cube) {
   constexpr int kMask = (1 << kBlockBits) - 1;

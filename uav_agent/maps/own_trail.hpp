@@ -24,8 +24,9 @@ namespace skein::agent {
 
 class OwnTrail {
  public:
-  static constexpr double kMarginM = 0.3;  ///< errors of hits, and motion of the body between its positions
-  static constexpr double kPartS = 60.0;   ///< the trail is forgotten in parts of this length
+  /// Errors of hits, and motion of the body between its positions. Chosen.
+  static constexpr double kMarginM = 0.3;
+  static constexpr double kPartS = 60.0;  ///< the trail is forgotten in parts of this length; chosen
 
   /// @param cell_m  edge of the map's smallest cubes.
   OwnTrail(const AgentConfig& agent, double cell_m);

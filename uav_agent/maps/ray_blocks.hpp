@@ -12,7 +12,7 @@
 
 namespace skein::agent {
 
-inline constexpr int kCountedRays = 20;  ///< highest count of a cell; further rays are not counted
+inline constexpr int kCountedRays = 20;  ///< highest count of a cell; chosen: further rays are not counted
 
 class RayBlocks {
  public:

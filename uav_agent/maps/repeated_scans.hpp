@@ -18,8 +18,8 @@ namespace skein::agent {
 
 class RepeatedScans {
  public:
-  static constexpr double kTurnRad = 0.02;  ///< a rotation by this moves a beam by 0.05 m at 2.5 m
-  static constexpr double kNearM = 0.25;    ///< nearer than this to a scan that is alike, all beams repeat
+  static constexpr double kTurnRad = 0.02;  ///< formula: this turn moves a beam by 0.05 m at 2.5 m
+  static constexpr double kNearM = 0.25;    ///< nearer than this to a scan that is alike, all beams repeat; chosen
 
   /// @param member_width_m  parallel beams nearer to each other than this count as one.
   /// @param half_rad        for bundles: angle from a bundle's middle to its farthest beam; 0 for single beams.
@@ -30,7 +30,7 @@ class RepeatedScans {
   struct Repeated {
     bool all = false;
     Vector3d about_W = Vector3d::UnitX();  ///< unit vector; either sense
-    double cosine = 2.0;                   ///< of that angle; more than 1: none
+    double cosine = 2.0;                   ///< of that angle; numeric: more than 1 is none
 
     bool operator()(const Eigen::Vector3f& direction_W) const {
       return all || std::abs(direction_W.cast<double>().dot(about_W)) > cosine;

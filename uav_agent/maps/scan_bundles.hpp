@@ -20,10 +20,11 @@ using ClearWay = std::function<double(const Vector3d& from_W, const Vector3d& di
 
 class ScanBundler {
  public:
-  /// Size of a bundle: about 4 degrees in each direction, like the smallest cube at 8 m (world_map.hpp). For a VLP-16,
-  /// that is 4 by 2 beams.
+  /// Size of a bundle: about 4 degrees in each direction. Geometry: like the smallest cube at 8 m (world_map.hpp). For
+  /// a VLP-16, that is 4 by 2 beams.
   static constexpr double kBundleRad = 0.07;
-  /// `around_free_m` is how far a bundle and this many neighbours on each side are free: at 8 m, a cube of 1 m.
+  /// `around_free_m` is how far a bundle and this many neighbours on each side are free. Geometry: at 8 m, a cube of
+  /// 1 m.
   static constexpr int kAround = 2;
 
   /// @param bundle_rad  0: each beam is a bundle.

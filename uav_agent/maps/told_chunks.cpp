@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <stdexcept>
 #include <tuple>
 
@@ -11,8 +12,8 @@
 namespace skein::agent {
 namespace {
 
-constexpr int kRegionCubeBits = 5;  // a region's edge is 2^5 smallest cubes
-constexpr double kDetour = 0.1;     // weight of the distance from the listener: nearer places on its way come first
+constexpr int kRegionCubeBits = WorldMap::kRegionBits + MapLevel::kBlockBits;  // of a region's edge, in cubes
+constexpr double kDetour = 0.1;  // chosen: weight of the distance from the listener; nearer places come first
 
 Vector3d middle_W(const Eigen::Vector3i& at, double edge_m) {
   return (at.cast<double>() + Vector3d::Constant(0.5)) * edge_m;
@@ -118,7 +119,7 @@ double ToldChunks::key_m(const Listener& listener, const Vector3d& p_W) const {
 
 std::optional<double> ToldChunks::key_m(const Region& region, std::span<const Listener> listeners,
                                         double chunk_m) const {
-  const double edge_m = WorldMap::kRegion * chunk_m, half_diagonal_m = 0.5 * std::sqrt(3.0) * edge_m;
+  const double edge_m = WorldMap::kRegion * chunk_m, half_diagonal_m = 0.5 * std::numbers::sqrt3 * edge_m;
   std::optional<double> least;
   for (const Listener& listener : listeners) {
     if (region.settled[listener.slot] == region.revision) continue;

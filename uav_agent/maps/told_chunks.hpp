@@ -31,11 +31,11 @@ constexpr Tellers only(Teller teller) { return Tellers{1} << teller; }
 class ToldChunks {
  public:
   struct Config {
-    double repeat_after_s = 1.0;   ///< a message that is not acknowledged by then counts as lost
-    double settle_s = 1.0;         ///< least time between two messages with a chunk that keeps changing
-    double known_handicap_m = 12;  ///< added to the distance of a chunk that the listener knows in part
+    double repeat_after_s = 1.0;   ///< a message that is not acknowledged by then counts as lost; chosen
+    double settle_s = 1.0;         ///< least time between two messages with a chunk that keeps changing; chosen
+    double known_handicap_m = 12;  ///< added to the distance of a chunk that the listener knows in part; chosen
   };
-  static constexpr std::size_t kRemembered = 64;  ///< messages whose content is remembered
+  static constexpr std::size_t kRemembered = 64;  ///< memory: messages whose content is remembered
 
   struct Listener {  ///< a UAV in line of sight
     std::size_t slot = 0;

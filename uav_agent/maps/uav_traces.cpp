@@ -4,13 +4,18 @@
 #include <cmath>
 #include <numbers>
 
+#include "uav_agent/maps/cube_steps.hpp"
+
 namespace skein::agent {
 namespace {
 
 constexpr Tick kLookEach = kTicksPerSecond;
-constexpr double kGapS = 0.25;  ///< positions farther apart in time are not compared with velocities
-constexpr double kFadeS = 1.0;  ///< time constant; shorter than errors of a position fix that grow step by step
-constexpr double kSigmas = 3.0;
+constexpr double kGapS = 0.25;  ///< positions farther apart in time are not compared with velocities; chosen
+/// Time constant of the mean contradiction. Chosen: shorter than errors of a position fix that grow step by step.
+constexpr double kFadeS = 1.0;
+constexpr double kSigmas = 3.0;     ///< smaller contradictions are noise; chosen
+constexpr double kNoLength = 1e-9;  ///< numeric: against a division by zero
+constexpr std::size_t kKept = 4;    ///< chosen: a quarter of the cubes is kept
 
 }  // namespace
 
@@ -30,7 +35,7 @@ UavTraces::UavTraces(const AgentConfig& agent, double cell_m, const Config& conf
 bool UavTraces::hear(Uav& uav, const Peer& peer) const {
   const double gap_s = seconds(now_ - uav.heard);
   const auto at_most = [](const Vector3d& along, double most) {
-    return Vector3d(along * std::min(1.0, most / std::max(along.norm(), 1e-9)));
+    return Vector3d(along * std::min(1.0, most / std::max(along.norm(), kNoLength)));
   };
   std::optional<Vector3d> v_W;
   if (peer.v_told) v_W = at_most(peer.v_W, uav.max_speed_mps);
@@ -132,9 +137,8 @@ std::vector<std::vector<UavTraces::Candidate>> UavTraces::traces(const WorldMap&
     seen[first] = true;
     bool alone = true;
     for (std::size_t next = 0; next < trace.size(); ++next) {
-      for (int i = 0; i < 27; ++i) {
-        const Eigen::Vector3i cube =
-            candidates_[trace[next]].cube + Eigen::Vector3i(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
+      for (int i = 0; i < kCubesAround; ++i) {
+        const Eigen::Vector3i cube = candidates_[trace[next]].cube + step_around(i);
         const std::uint32_t* const place = place_.find(grid_key(cube));
         if (place == nullptr || *place == 0) {
           alone = alone && (map.known(cube).space != Space::occupied || map.doubted(cube));
@@ -181,7 +185,7 @@ void UavTraces::doubt(WorldMap& map) {
     if (std::ranges::any_of(uavs_, may_be)) kept.insert(kept.end(), trace.begin(), trace.end());
   }
   std::ranges::stable_sort(kept, {}, &Candidate::first);
-  const std::size_t most = config_.most_cubes / 4;
+  const std::size_t most = config_.most_cubes / kKept;
   if (kept.size() > most) kept.erase(kept.begin(), kept.end() - static_cast<std::ptrdiff_t>(most));
   keep(std::move(kept));
   for (Uav& uav : uavs_) {

@@ -41,16 +41,16 @@ double seen_radius_m(double body_radius_m, double cell_m, double margin_m);
 class UavTraces {
  public:
   struct Config {
-    double margin_m = 0.3;  ///< error of a UAV's reported position and of a beam's hit
-    double late_s = 0.15;   ///< greatest age of a hit at the exchange in which it arrives
-    /// A UAV that is lost again within this time counts as absent throughout: links may flicker.
+    double margin_m = 0.3;  ///< error of a UAV's reported position and of a beam's hit; chosen
+    double late_s = 0.15;   ///< greatest age of a hit at the exchange in which it arrives; chosen
+    /// A UAV that is lost again within this time counts as absent throughout: links may flicker. Chosen.
     double settle_s = 2.0;
     /// A UAV that reports positions with a constant offset contradicts itself only when the offset begins and ends. So
-    /// traces of offsets that last longer than this stay in the map.
+    /// traces of offsets that last longer than this stay in the map. Chosen.
     double agree_s = 30.0;
-    std::size_t most_cubes = 4096;
+    std::size_t most_cubes = 4096;  ///< memory
   };
-  static constexpr std::size_t kMostInTrace = 256;
+  static constexpr std::size_t kMostInTrace = 256;  ///< chosen
 
   /// @param cell_m  edge of the map's smallest cubes.
   UavTraces(const AgentConfig& agent, double cell_m) : UavTraces(agent, cell_m, Config()) {}

@@ -8,19 +8,22 @@
 #include <stdexcept>
 #include <utility>
 
+#include "uav_agent/api/fnv_hash.hpp"
+
 namespace skein::agent {
 namespace {
 
-constexpr double kGrowth = 1.1;  ///< of cubes that would be too many, step by step
-constexpr std::size_t kUsualInChunk = 512;
+constexpr double kGrowth = 1.1;             ///< of cubes that would be too many, step by step; chosen
+constexpr std::size_t kUsualInChunk = 512;  ///< chosen; voxel_grid.hpp
 constexpr std::size_t kMostInChunk = std::numeric_limits<std::uint16_t>::max();  ///< a chunk tells its length so
 constexpr std::uint8_t kPlain = 0, kRuns = 1;                                    ///< encoding of a chunk
-constexpr std::size_t kLongestRun = 255;
+constexpr std::size_t kLongestRun = std::numeric_limits<std::uint8_t>::max();    ///< a run tells its length so
 /// Greatest valid value of the state bits, which are the numbers of VoxelState: two states merge to the greater one.
-constexpr std::uint8_t kHighestState = 2;
+constexpr auto kHighestState = static_cast<std::uint8_t>(VoxelState::occupied);
+constexpr double kLeastEdges = 1e-9;  ///< numeric: rounded up to one cube
 
 /// Edges of a grid, in cubes.
-Vector3d edges_of(const Vector3d& size_m, double voxel_m) { return (size_m / voxel_m).array().max(1e-9).ceil(); }
+Vector3d edges_of(const Vector3d& size_m, double voxel_m) { return (size_m / voxel_m).array().max(kLeastEdges).ceil(); }
 
 /// The box of an operational volume: its lowest corner in W, and its size.
 std::pair<Vector3d, Vector3d> operational_box(const std::vector<OrientedBox>& boxes,
@@ -56,17 +59,18 @@ VoxelGrid::VoxelGrid(const Isometry3d& X_WG, const Vector3d& size_m, double voxe
 }
 
 std::uint32_t VoxelGrid::fingerprint() const {
-  std::uint32_t hash = 2166136261U;
+  FnvHash hash;
   const auto mix = [&hash](double value) {
-    const auto rounded = static_cast<std::uint32_t>(std::lround(value * 1000.0));
-    for (int i = 0; i < 4; ++i) hash = (hash ^ (rounded >> (8 * i) & 0xFF)) * 16777619U;
+    constexpr double kMillimetres = 1000.0;  // format: values are compared in thousandths
+    const auto rounded = static_cast<std::uint32_t>(std::lround(value * kMillimetres));
+    for (std::size_t i = 0; i < sizeof(rounded); ++i) hash.add(rounded >> (8 * i) & 0xFF);
   };
   for (int i = 0; i < 3; ++i) mix(dims_[i]);
   for (int i = 0; i < 3; ++i) mix(X_WG_.translation()[i]);
   for (int i = 0; i < 3; ++i) mix(X_WG_.linear()(i, 0));
   mix(voxel_m_);
   mix(static_cast<double>(chunk_voxels_));
-  return hash;
+  return hash.value();
 }
 
 std::optional<VoxelGrid::Id> VoxelGrid::at(const Cell& cell) const {
@@ -194,11 +198,11 @@ std::pair<VoxelGrid::Id, VoxelGrid::Id> VoxelGrid::chunk_range(std::size_t chunk
 std::uint16_t VoxelGrid::chunk_hash(std::size_t chunk) const {
   auto& [revision, hash] = chunk_hash_[chunk];
   if (revision == chunk_revision_[chunk]) return hash;
-  std::uint32_t h = 2166136261U;
+  FnvHash content;
   const auto [begin, end] = chunk_range(chunk);
-  for (Id id = begin; id < end; ++id) h = (h ^ voxels_[id]) * 16777619U;
+  for (Id id = begin; id < end; ++id) content.add(voxels_[id]);
   revision = chunk_revision_[chunk];
-  hash = std::max<std::uint16_t>(1, static_cast<std::uint16_t>(h ^ h >> 16));
+  hash = std::max<std::uint16_t>(1, content.folded());
   return hash;
 }
 
@@ -281,7 +285,7 @@ double fitting_voxel_m(double voxel_m, const std::function<Vector3d(double voxel
 }
 
 std::string coarse_voxels_text(double voxel_m, double fitting_m, const Vector3d& size_m) {
-  constexpr double kMillion = 1e6;
+  constexpr double kMillion = 1e6;  // format of the text
   const double side_m = std::sqrt(VoxelGrid::kMostVoxels * std::pow(voxel_m, 3) / size_m.minCoeff());
   return fmt::format(
       "voxel_m is {:.3g} m instead of {:.3g} m: the map of {:.0f} x {:.0f} x {:.0f} m would have {:.0f} million cubes, "

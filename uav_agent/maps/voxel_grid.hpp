@@ -26,11 +26,11 @@ class VoxelGrid {
  public:
   using Id = std::uint32_t;
   using Cell = Eigen::Vector3i;
-  static constexpr int kFaces = 6;  ///< +x -x +y -y +z -z of G
+  static constexpr int kFaces = 6;  ///< geometry: +x -x +y -y +z -z of G
   /// Most chunks of a grid that chooses the size of its chunks. A message of MapExchange has a hash of each chunk, and
-  /// must fit into a radio payload (uav_agent/api/payload.hpp) with all else that a planner puts into it.
+  /// must fit into a radio payload (uav_agent/api/payload.hpp) with all else that a planner puts into it. Chosen.
   static constexpr std::size_t kMostChunks = 1400;
-  static constexpr double kMostVoxels = 16e6;  ///< most cubes of a grid
+  static constexpr double kMostVoxels = 16e6;  ///< most cubes of a grid; memory
 
   /// @param X_WG  pose of the lowest corner.   @param size_m  is rounded up to whole cubes, at least one.
   /// @param chunk_voxels  cubes in a chunk; nullopt: 512, or more if there were more than kMostChunks chunks otherwise.
@@ -91,7 +91,7 @@ class VoxelGrid {
   bool merge_chunk(std::size_t chunk, PayloadReader& reader);
 
  private:
-  static constexpr std::uint8_t kStateBits = 3;
+  static constexpr std::uint8_t kStateBits = 3;  ///< format: mask of the two bits of a state
   static std::uint8_t mark_bit(int face) { return static_cast<std::uint8_t>(4U << face); }
   bool set(Id id, std::uint8_t voxel);
   std::pair<Id, Id> chunk_range(std::size_t chunk) const;

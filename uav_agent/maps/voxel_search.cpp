@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <queue>
 #include <tuple>
 
@@ -27,14 +28,14 @@ const std::array<Step, 26>& all_steps() {
   static const std::array<Step, 26> steps = [] {
     std::array<Step, 26> made;
     std::size_t count = 0;
-    for (int i = 0; i < 27; ++i) {
-      const Cell cells(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
+    for (int i = 0; i < kCubesAround; ++i) {
+      const Cell cells = step_around(i);
       if (cells.isZero()) continue;
       Step& step = made[count++];
       step.cells = cells;
       step.length = std::sqrt(static_cast<double>(cells.squaredNorm()));
-      for (int corner = 1; corner < 8; ++corner) {
-        const Cell part(corner & 1 ? cells.x() : 0, corner & 2 ? cells.y() : 0, corner & 4 ? cells.z() : 0);
+      for (int corner = 1; corner < kCubeCorners; ++corner) {
+        const Cell part = corner_step(corner).cwiseProduct(cells);
         const auto end = step.parts.begin() + step.part_count;
         if (!part.isZero() && std::find(step.parts.begin(), end, part) == end) {
           step.parts[static_cast<std::size_t>(step.part_count++)] = part;
@@ -174,7 +175,7 @@ std::optional<std::vector<Id>> find_voxel_path(const VoxelGrid& grid, Id from, I
   const auto to_go = [&](Id id) {
     Cell d = (grid.cell(id) - goal).cwiseAbs();
     std::sort(d.data(), d.data() + 3);
-    const double steps = d[0] * std::sqrt(3.0) + (d[1] - d[0]) * std::sqrt(2.0) + (d[2] - d[1]);
+    const double steps = d[0] * std::numbers::sqrt3 + (d[1] - d[0]) * std::numbers::sqrt2 + (d[2] - d[1]);
     return config.heuristic_weight * grid.voxel_m() * steps;
   };
   search.open(from, 0.0, from, to_go);

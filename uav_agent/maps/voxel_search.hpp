@@ -16,8 +16,9 @@ namespace skein::agent {
 using Passable = std::function<bool(VoxelGrid::Id)>;
 
 struct VoxelSearchConfig {
-  int max_expansions = 20'000;
-  double heuristic_weight = 1.0;  ///< 1: shortest path; more: found sooner, at most so many times longer
+  int max_expansions = 20'000;  ///< chosen: bounds the CPU time
+  /// 1: shortest path; more: found sooner, at most so many times longer. Chosen.
+  double heuristic_weight = 1.0;
 };
 
 /// @param passable  called at most once for each cube, and never for `from`.
@@ -28,7 +29,7 @@ std::optional<std::vector<VoxelGrid::Id>> find_voxel_path(const VoxelGrid& grid,
                                                           const VoxelSearchConfig& config = {});
 
 /// All cubes that find_voxel_path() could reach with unlimited effort: by cube, true for each of them and for `from`.
-/// @returns nullopt if there are more than `max_cubes`.
+/// @param max_cubes  chosen: bounds the CPU time.   @returns nullopt if there are more.
 std::optional<std::vector<bool>> voxels_in_reach(const VoxelGrid& grid, VoxelGrid::Id from, const Passable& passable,
                                                  std::size_t max_cubes = 20'000);
 

@@ -5,15 +5,18 @@
 #include <limits>
 #include <stdexcept>
 
+#include "uav_agent/maps/cube_steps.hpp"
+
 namespace skein::agent {
 namespace {
 
-constexpr std::uint64_t kTidyEach = 20;        // scans
-constexpr std::size_t kTidyAfterBlocks = 256;  // least growth since the last tidying that makes hear() tidy again
+constexpr std::uint64_t kTidyEach = 20;  ///< scans between two passes; chosen
+/// Growth since the last tidying that makes hear() tidy again: a fourth of the blocks, and so many more. Chosen.
+constexpr std::size_t kTidyGrowth = 4, kTidyAfterBlocks = 256;
 /// From this level on, windows are so large that the beams of a slowly moving LiDAR are not spread evenly over them.
-/// The accepted probability is halved there.
+/// The accepted probability is halved there. Chosen.
 constexpr std::size_t kUneven = 2;
-constexpr std::uint8_t kRowFree = 0xFF;  ///< a row of a chunk with all cubes free
+constexpr std::uint8_t kRowFree = std::numeric_limits<std::uint8_t>::max();  ///< a row of a chunk with all cubes free
 
 /// Sets the unknown cubes within a larger cube of a chunk.   @param lowest  the lowest smallest cube in it.
 /// @param edge  in smallest cubes.
@@ -32,7 +35,8 @@ void fill_unknown(WorldMap::Chunk& known, const Eigen::Vector3i& lowest, int edg
 
 WorldMap::WorldMap(const Config& config) : config_(config), distances_(config.cell_m, config.distance_reach_m) {
   const std::size_t count = config.to_m.size();
-  if (count < 1 || count > 4 || !std::ranges::is_sorted(config.to_m)) {
+  constexpr std::size_t kMostLevels = 4;  // chosen: the largest cubes have 8 times the edge of the smallest
+  if (count < 1 || count > kMostLevels || !std::ranges::is_sorted(config.to_m)) {
     throw std::invalid_argument("WorldMap: to_m has one to four distances, the nearest first");
   }
   levels_.resize(count);
@@ -179,8 +183,8 @@ void WorldMap::unprove_around(const Cube& cube) {
     if (const MapLevel::Known known = level.known(larger); known.space == Space::free) about = known;
     level.forget(larger);
     if (about.space != Space::free) continue;
-    for (int corner = 0; corner < 8; ++corner) {
-      const Cube smaller = 2 * larger + Cube(corner & 1, corner >> 1 & 1, corner >> 2);
+    for (int corner = 0; corner < kCubeCorners; ++corner) {
+      const Cube smaller = 2 * larger + corner_step(corner);
       if (smaller != next) levels_[static_cast<std::size_t>(i - 1)]->set(smaller, Space::free, about.teller);
     }
   }
@@ -214,7 +218,7 @@ void WorldMap::tidy_if_grown() {
     for (const auto& level : levels_) count += level->blocks();
     return count;
   };
-  if (blocks() <= tidied_blocks_ + tidied_blocks_ / 4 + kTidyAfterBlocks) return;
+  if (blocks() <= tidied_blocks_ + tidied_blocks_ / kTidyGrowth + kTidyAfterBlocks) return;
   for (const auto& level : levels_) level->tidy();
   tidied_blocks_ = blocks();
 }

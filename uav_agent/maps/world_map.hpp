@@ -37,18 +37,19 @@ class WorldMap {
  public:
   using Cube = Eigen::Vector3i;
   struct Config {
-    double cell_m = 0.5;  ///< of the smallest cubes
+    double cell_m = 0.5;  ///< of the smallest cubes; chosen
     /// One to four distances from the LiDAR, ascending: up to about the first, beams are evidence for cubes of cell_m;
-    /// up to the second, for cubes twice as large; and so on. Beyond the last, only hits count.
+    /// up to the second, for cubes twice as large; and so on. Beyond the last, only hits count. Chosen.
     std::vector<double> to_m = {8.0, 16.0, 48.0};
     FreeCriterion criterion = {};
-    double distance_reach_m = 4.0;  ///< search radius of structure_distance_m(): 1 to 8 times cell_m
+    double distance_reach_m = 4.0;  ///< search radius of structure_distance_m(): 1 to 8 times cell_m; chosen
     /// Hits below this height are the ground, which is known without a map (level, z = 0): they are not kept.
+    /// Numeric: the default keeps all.
     double ground_m = -1e6;
   };
   /// Edge of a chunk, in smallest cubes. A chunk is a block of the finest level, and the unit of changed_at().
   static constexpr int kChunk = MapLevel::kBlock;
-  static constexpr int kRegionBits = 2, kRegion = 1 << kRegionBits;  ///< edge of a region, in chunks
+  static constexpr int kRegionBits = 2, kRegion = 1 << kRegionBits;  ///< memory: edge of a region, in chunks
   static constexpr int kRegionChunks = kRegion * kRegion * kRegion;
   /// The i-th chunk of a region, x first.
   static Cube chunk_of(const Cube& region, int i) {

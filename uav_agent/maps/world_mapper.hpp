@@ -18,7 +18,7 @@ class WorldMapper {
     double bundle_rad = ScanBundler::kBundleRad;  ///< size of a bundle of adjacent beams, see ScanBundler
     /// Radius of the ball around the LiDAR that counts as free at the start. It is greater than the LiDAR's
     /// `range_min_m`, because a beam without a return proves space free only if its first `range_min_m` are known to be
-    /// free already (decision 25).
+    /// free already (decision 25). Chosen.
     double start_clear_m = 1.2;
     bool clutter = false;  ///< whether to filter returns from rain or dust (ClutterFilter)
   };

@@ -19,8 +19,8 @@ namespace skein::agent {
 class WorldVoxels {
  public:
   struct Config {
-    double around_m = 1.0;         ///< radius around a cube's centre that must be free for the cube to be free
-    std::size_t max_looks = 8000;  ///< most unknown cubes examined in one update; they take turns
+    double around_m = 1.0;         ///< radius around a cube's centre that must be free for the cube to be free; chosen
+    std::size_t max_looks = 8000;  ///< most unknown cubes examined in one update; they take turns; chosen
   };
 
   WorldVoxels() : WorldVoxels(Config()) {}

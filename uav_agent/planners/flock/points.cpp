@@ -4,6 +4,8 @@
 #include <cmath>
 #include <iterator>
 
+#include "uav_agent/api/fnv_hash.hpp"
+
 namespace skein::agent {
 namespace {
 
@@ -14,7 +16,6 @@ constexpr std::size_t kPointBytes = 10;
 constexpr double kSameFacing = 0.7;  ///< least cosine between the normals of detections of the same point
 constexpr int kMostVain = 10;
 constexpr double kVainS = 120.0;
-constexpr std::uint32_t kHashStart = 2166136261U, kHashFactor = 16777619U;  // FNV-1a
 
 std::uint8_t quality_step(double q) {
   return static_cast<std::uint8_t>(std::lround(kQualitySteps * std::clamp(q, 0.0, 1.0)));
@@ -164,13 +165,12 @@ void FlockPoints::expect_again() {
 
 std::uint16_t FlockPoints::hash_of(const Region& region) const {
   if (!region.changed) return region.hash;
-  std::uint32_t hash = kHashStart;
-  const auto add = [&hash](std::uint32_t value) { hash = (hash ^ value) * kHashFactor; };
+  FnvHash hash;
   for (const auto& [place, index] : region.points) {
-    for (const std::uint16_t cm : place) add(cm);
-    add(quality_step(points_[index].q));
+    for (const std::uint16_t cm : place) hash.add(cm);
+    hash.add(quality_step(points_[index].q));
   }
-  region.hash = static_cast<std::uint16_t>(hash ^ hash >> 16);
+  region.hash = hash.folded();
   region.changed = false;
   return region.hash;
 }
