@@ -28,7 +28,7 @@
 namespace skein::agent {
 namespace {
 
-/// Bounds of --maps-every: a step, and the longest mission.
+/// Bounds of --maps-every. Chosen: a step, and the longest mission.
 constexpr double kLeastMapsPeriod_s = 0.05, kMostMapsPeriod_s = 36000.0;
 
 /// For the launcher and for people: which strategies there are, and which have a program at the ground station.
@@ -111,9 +111,10 @@ class AgentMember final : public bus::FleetMember {
     const auto map = node_->octomap_file();
     const std::string no_map = map ? write_if_possible(map_, *map) : "", no_maps = node_->end_maps();
     const CpuHistogram& cpu = node_->planner_cpu();
+    constexpr double kMs = 1e3, kShare = 0.99;  // format of the report: milliseconds, and which quantile
     AgentReport report{.planner_cpu_s = cpu.total_s(),
-                       .planner_cpu_p99_ms = 1e3 * cpu.quantile_s(0.99),
-                       .planner_cpu_max_ms = 1e3 * cpu.max_s(),
+                       .planner_cpu_p99_ms = kMs * cpu.quantile_s(kShare),
+                       .planner_cpu_max_ms = kMs * cpu.max_s(),
                        .planner_exchanges_over_50ms = cpu.over_field_exchange(),
                        .waited_s = node_->waited_s(),
                        .waits = node_->waits(),

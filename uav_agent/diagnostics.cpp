@@ -12,7 +12,8 @@ namespace skein::agent {
 namespace {
 
 constexpr std::uint8_t kOk = 0, kWarning = 1;
-constexpr double kLowCharge = 0.2;
+constexpr double kPercent = 100.0;  ///< format
+constexpr double kLowCharge = 0.2;  ///< below, the battery is a warning; chosen
 
 using Values = std::vector<std::pair<std::string, std::string>>;
 
@@ -78,7 +79,7 @@ msg::DiagnosticArray diagnostics_of(const DiagnosticFacts& facts) {
   array.status({radio(facts), captures(facts), flight(facts), program(facts)});
   if (const auto& battery = facts.battery) {
     const bool fine = battery->charge > kLowCharge;
-    array.status().push_back(status(facts, "battery", fine, fmt::format("{:.0f} % charged", 100.0 * battery->charge),
+    array.status().push_back(status(facts, "battery", fine, fmt::format("{:.0f} % charged", kPercent * battery->charge),
                                     {{"charge", fmt::format("{:.4f}", battery->charge)},
                                      {"voltage_v", fmt::format("{:.2f}", battery->voltage_v)}}));
   }

@@ -12,6 +12,7 @@
 #include "bus/lockstep/lockstep_node.hpp"
 #include "bus/lockstep/self_signal.hpp"
 #include "bus/program_bus.hpp"
+#include "core/euler.hpp"
 #include "core/radio/radio_routes.hpp"
 #include "core/scenario/scenario_reader.hpp"
 #include "core/view_topics.hpp"
@@ -28,8 +29,7 @@ namespace {
 
 /// Version of the interface between the module and the package, which may be installed separately.
 constexpr int kInterface = 1;
-constexpr double kRadians = 3.14159265358979323846 / 180.0;
-/// Ctrl-C is noticed after so long at the latest.
+/// Ctrl-C is noticed after so long at the latest. Chosen.
 constexpr std::chrono::milliseconds kLook{100};
 
 /// It was used in a way that cannot be: the text says how it would be right.
@@ -132,16 +132,16 @@ py::dict to_python(const VehicleConfig& vehicle) {
   const GimbalConfig& gimbal = vehicle.gimbal;
   py::object lidar = py::none();
   if (vehicle.lidar) lidar = py::make_tuple(vehicle.lidar->range_min_m, vehicle.lidar->range_max_m);
-  const py::dict of_camera("hfov"_a = camera.hfov_deg * kRadians, "vfov"_a = camera.vfov_deg * kRadians,
+  const py::dict of_camera("hfov"_a = camera.hfov_deg * kRadPerDeg, "vfov"_a = camera.vfov_deg * kRadPerDeg,
                            "exposure_s"_a = camera.exposure_s, "trigger_interval_s"_a = camera.trigger_interval_s,
                            "focal_length_m"_a = camera.focal_length_m, "pixel_size_m"_a = camera.pixel_size_m,
                            "p_BC"_a = py::make_tuple(camera.p_BC.x(), camera.p_BC.y(), camera.p_BC.z()));
   return py::dict("name"_a = vehicle.name, "max_speed_mps"_a = vehicle.max_speed_mps,
                   "max_acceleration_mps2"_a = vehicle.max_acceleration_mps2,
-                  "max_yaw_rate"_a = vehicle.max_yaw_rate_deg_s * kRadians, "lidar_range_m"_a = lidar,
-                  "camera"_a = of_camera, "gimbal_pitch_limit"_a = gimbal.pitch_limit_deg * kRadians,
-                  "gimbal_yaw_limit"_a = gimbal.yaw_limit_deg * kRadians,
-                  "gimbal_rate_limit"_a = gimbal.rate_limit_deg_s * kRadians);
+                  "max_yaw_rate"_a = vehicle.max_yaw_rate_deg_s * kRadPerDeg, "lidar_range_m"_a = lidar,
+                  "camera"_a = of_camera, "gimbal_pitch_limit"_a = gimbal.pitch_limit_deg * kRadPerDeg,
+                  "gimbal_yaw_limit"_a = gimbal.yaw_limit_deg * kRadPerDeg,
+                  "gimbal_rate_limit"_a = gimbal.rate_limit_deg_s * kRadPerDeg);
 }
 
 /// The fields of skein.planner.AgentConfig. At the ground station `index` is None and there is no vehicle.
@@ -330,7 +330,7 @@ class Listener {
                                    const std::vector<std::pair<std::string, std::string>>& topics, std::size_t most) {
     std::vector<topics::WireTopic> wire;
     for (const auto& [topic, type] : topics) wire.push_back(topic_of(topic, type, id));
-    constexpr int kLease_s = 20;
+    constexpr int kLease_s = 20;  // chosen
     auto bus = bus::make_bus({.vendor = dds, .lease_s = kLease_s, .security = security, .run = RunId{run}});
     auto node = std::make_unique<ListenerNode>(*bus, domain, wire, most);
     return {std::move(bus), std::move(node)};

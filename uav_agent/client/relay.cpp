@@ -11,7 +11,7 @@
 namespace skein::agent {
 namespace {
 
-/// Simulated time is told in stamps of nanoseconds, and compared in seconds.
+/// Simulated time is told in stamps of nanoseconds, and compared in seconds. Numeric.
 constexpr double kTolerance_s = 1e-6;
 
 struct Content {
@@ -25,7 +25,8 @@ Content content_of(std::span<const std::uint8_t> payload) {
   if (!decode(payload, message)) return {.valid = false};
   if constexpr (requires { message.header().stamp(); }) {
     const auto& stamp = message.header().stamp();
-    if (stamp.sec() != 0 || stamp.nanosec() != 0) return {.stamp_s = stamp.sec() + 1e-9 * stamp.nanosec()};
+    constexpr double kNanosecond = 1e-9;  // format of stamps
+    if (stamp.sec() != 0 || stamp.nanosec() != 0) return {.stamp_s = stamp.sec() + kNanosecond * stamp.nanosec()};
   }
   return {};
 }

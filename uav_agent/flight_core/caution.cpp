@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "uav_agent/flight/delivery_places.hpp"
+#include "uav_agent/flight/site.hpp"
 #include "uav_agent/flight_core/landing.hpp"
 
 namespace skein::agent {
@@ -15,19 +16,18 @@ constexpr double kMostErrorM = 1.0;  ///< greatest error; chosen: with a larger 
 /// Errors are rounded up to multiples of this, since a change of clearance discards the answers cached in BodyFit.
 /// Chosen.
 constexpr double kErrorStepM = 0.05;
+constexpr double kRounding = 1e-9;                                ///< numeric: a multiple of kErrorStepM stays as it is
 constexpr double kMostGroundErrorM = 2.0, kMostPeerErrorM = 2.0;  ///< greatest errors of a height and of a peer; chosen
 constexpr double kWindMemoryS = 20.0, kPowerMemoryS = 10.0;       ///< time constants of the means; chosen
 constexpr double kCalmMps = 1.0;          ///< gusts below this are no reason to fly slower; chosen
 constexpr double kLeastSpeedShare = 0.5;  ///< of the planned speed, which gusts leave; chosen
 constexpr double kLeastGroundMps = 1.0;   ///< assumed over ground against any wind; chosen
 constexpr double kLostPerHeadwind = 0.1;  ///< assumed loss of speed over ground, of the headwind; chosen
-constexpr double kNoWayM = 1.0;       ///< across; a UAV no farther from its start needs no way there, only down; chosen
-constexpr double kMarginS = 8.0;      ///< added to the estimated time of the way down; chosen
+constexpr double kMarginS = 8.0;          ///< added to the estimated time of the way down; chosen
 constexpr double kMostPower = 4.0;    ///< of hover; chosen: a faster fall of the charge is a loss, which does not go on
 constexpr double kSwapCharge = 0.01;  ///< least rise of the charge that is another battery; chosen
 
 double square(double x) { return x * x; }
-constexpr double kRounding = 1e-9;  ///< numeric: a multiple of kErrorStepM stays as it is
 double in_steps_m(double error_m) { return kErrorStepM * std::ceil(error_m / kErrorStepM - kRounding); }
 
 }  // namespace
@@ -118,14 +118,15 @@ void Caution::watch_battery(const PlannerInput& in) {
 double Caution::way_down_s(const Vector3d& p_WB, const std::optional<Vector3d>& wind_W) const {
   const Vector3d start_W = agent_.me().p_WB_start;
   const Vector3d way_W(start_W.x() - p_WB.x(), start_W.y() - p_WB.y(), 0.0);
-  const double head_mps = wind_W && way_W.norm() > kNoWayM ? std::max(0.0, -wind_W->dot(way_W.normalized())) : 0.0;
+  const double head_mps =
+      wind_W && way_W.norm() > kBesideStartM ? std::max(0.0, -wind_W->dot(way_W.normalized())) : 0.0;
   // A UAV keeps its commanded speed over ground as long as it can lean into the wind; charge_per_s_ contains the cost
   // of that. Against strong wind, the UAV may not keep this speed, so the estimate assumes a lower one.
   const double ground_mps =
       std::max(kLeastGroundMps, std::min(config_.approach_mps, most_mps_) - kLostPerHeadwind * head_mps);
   // The UAV descends on the way to the start, and sinks slowly only above it.
   const double down_s = Landing::descent_s(p_WB.z(), config_);
-  if (way_W.norm() <= kNoWayM) return down_s;
+  if (way_W.norm() <= kBesideStartM) return down_s;
   const Vector3d above_W(start_W.x(), start_W.y(), std::min(p_WB.z(), Landing::kFromM));
   return std::max(down_s, time_home_s(p_WB, above_W, ground_mps) + Landing::descent_s(above_W.z(), config_));
 }

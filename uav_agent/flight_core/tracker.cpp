@@ -24,11 +24,9 @@ constexpr double kLongestStepS = 0.05;  ///< of the point mass; chosen: the usua
 constexpr std::size_t kMostStoppingSteps = 400;
 constexpr double kNoPositionM = 0.02;       ///< vehicle: its controller takes |p| < 0.01 for "no position"
 constexpr double kAccelerationShare = 0.7;  ///< of the vehicle's limit; chosen: the controller corrects with the rest
-constexpr double kTinyShare = 1e-9;         ///< numeric: of a step or a length
-constexpr double kTinyMps = 1e-9;           ///< numeric: a slower mass rests
-constexpr double kTinyM = 1e-9;             ///< numeric: a mass that is nearer to a point is there
+constexpr double kTiny = 1e-9;              ///< numeric: shares, lengths [m] and speeds [m/s] below it are 0
 constexpr double kNearerPointM = 1e-12;     ///< numeric: a point of the path is nearer by more than this
-constexpr double kStraight = 1.0 - 1e-6;    ///< numeric: cosine of half a turn that is none
+constexpr double kStraight = 1.0 - 1e-6;    ///< numeric: cosine of half a turn; with more, there is no turn
 
 /// Cosine of the turn between two legs; 1 if either of them is empty.
 double cosine_between(const Vector3d& in, const Vector3d& out) {
@@ -119,7 +117,7 @@ void Tracker::forget_flown_legs() {
 
 double Tracker::strength(const Vector3d& direction) const {
   const double length = direction.norm();
-  const bool sinks = direction.z() < -kTinyShare * length;
+  const bool sinks = direction.z() < -kTiny * length;
   const double by_sinking =
       sinks ? config_.max_sink_acceleration_mps2 * length / -direction.z() : std::numeric_limits<double>::infinity();
   return std::min(config_.max_acceleration_mps2, by_sinking);
@@ -268,7 +266,7 @@ void Tracker::advance_along_path(double pace, double dt_s) {
   const Vector3d target = point_at(std::min(look, end.s));
   const Vector3d ahead = target - mass_.p_WB;
   const double speed = std::min({pace * speed_limit(dt_s), ahead.norm() / dt_s, speed_limit_mps_});
-  accelerate(ahead.norm() < kTinyM ? Vector3d::Zero().eval() : Vector3d(ahead.normalized() * speed), dt_s);
+  accelerate(ahead.norm() < kTiny ? Vector3d::Zero().eval() : Vector3d(ahead.normalized() * speed), dt_s);
 }
 
 void Tracker::advance_yaw(double dt_s) {
@@ -280,7 +278,7 @@ void Tracker::advance_yaw(double dt_s) {
 std::optional<TrajectoryCommand> Tracker::step(const RigidBodyState& state, double dt_s) {
   if (mode_ == Mode::off || mode_ == Mode::stand_by) return std::nullopt;
   if (mode_ != Mode::setpoint) {
-    const int steps = std::max(1, static_cast<int>(std::ceil(dt_s / kLongestStepS - kTinyShare)));
+    const int steps = std::max(1, static_cast<int>(std::ceil(dt_s / kLongestStepS - kTiny)));
     const double step_s = dt_s / steps;
     if (!started_) ref_.yaw = roll_pitch_yaw(state.q_WB.toRotationMatrix()).yaw;
     double error = (ref_.p_WB - state.p_WB).norm();
@@ -314,8 +312,8 @@ std::vector<Vector3d> Tracker::stopping_places(double dt_s) const {
   if (!moves() || track_.empty()) return places;
   Tracker stops = *this;
   stops.hold();
-  const int steps = std::max(1, static_cast<int>(std::ceil(dt_s / kLongestStepS - kTinyShare)));
-  while (!stops.ref_.v_WB.isZero(kTinyMps) || stops.ref_.p_WB != stops.mass_.p_WB) {
+  const int steps = std::max(1, static_cast<int>(std::ceil(dt_s / kLongestStepS - kTiny)));
+  while (!stops.ref_.v_WB.isZero(kTiny) || stops.ref_.p_WB != stops.mass_.p_WB) {
     for (int i = 0; i < steps; ++i) {
       stops.accelerate(Vector3d::Zero(), dt_s / steps);
       stops.smooth();

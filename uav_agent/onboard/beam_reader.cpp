@@ -11,15 +11,16 @@ namespace skein::agent {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-/// Largest angle between a point and its beam because directions have single precision.
+/// Largest angle between a point and its beam because directions have single precision. Numeric.
 constexpr double kRoundingRad = 1e-4;
-/// Largest error of a point, relative to its largest coordinate: coordinates have single precision.
+/// Largest error of a point, relative to its largest coordinate: coordinates have single precision. Numeric.
 constexpr double kRoundingOfCoordinates = 4.0 * std::numeric_limits<float>::epsilon();
 /// Range noise moves a point along its beam, even beyond the LiDAR's range, by at most this many standard deviations.
-constexpr double kSigmas = 7.0;
-constexpr Tick kLongestGap = kTicksPerSecond / 10;  ///< in the odometry; the interpolation error grows with its square
-constexpr Tick kMemory = kTicksPerSecond;           ///< the longest exchange period
-constexpr double kServoRounding = 1e-6;             ///< [rad]
+constexpr double kSigmas = 7.0;  ///< chosen: no draw of the normal distribution is farther off
+constexpr Tick kLongestGap =
+    kTicksPerSecond / 10;                  ///< in the odometry; chosen: the interpolation error grows with its square
+constexpr Tick kMemory = kTicksPerSecond;  ///< the longest exchange period
+constexpr double kServoRounding = 1e-6;    ///< [rad]; numeric
 
 bool meets(const Vector3d& from_W, const Vector3d& direction_W, double reach_m, const KnownBody& body) {
   const Vector3d to_body = body.p_W - from_W;
@@ -42,6 +43,7 @@ BeamReader::BeamReader(const LidarConfig& config)
   }
   // The columns of the outermost rings are closest together, so these rings determine the tolerance.
   const double closest = column_step_ * std::cos(ring_elevation(config, 0));
+  // Chosen: a quarter of the distance.
   most_off_ = 0.25 * (ring_step_ > 0.0 ? std::min(closest, ring_step_) : closest);
 }
 
@@ -139,7 +141,7 @@ bool BeamReader::assign(const Scan& scan, const BodyTrack::Pose& end, BeamScan& 
 
 /// A window of beams that contains all beams that may meet a ball: a range of rings, and columns on both sides of one.
 BeamReader::Window BeamReader::window_about(const Vector3d& p_L, double radius_m) const {
-  constexpr double kMarginRad = 1e-3;
+  constexpr double kMarginRad = 1e-3;  // numeric: more than kRoundingRad
   const Window all{0, config_.rings - 1, 0, config_.columns / 2};
   const double distance = p_L.norm();
   if (distance <= radius_m) return all;

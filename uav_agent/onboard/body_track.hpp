@@ -30,8 +30,8 @@ class BodyTrack {
   /// @returns nullopt outside the messages' times, and in gaps longer than longest_gap.
   std::optional<Pose> at(Tick tick) const;
 
-  static constexpr double kMostAcceleration = 20.0;         ///< of the body [m/s^2]
-  static constexpr double kMostAngularAcceleration = 40.0;  ///< [rad/s^2]
+  static constexpr double kMostAcceleration = 20.0;         ///< of the body [m/s^2]; vehicle: more than any
+  static constexpr double kMostAngularAcceleration = 40.0;  ///< [rad/s^2]; vehicle: more than any
 
  private:
   struct Sample {

@@ -10,7 +10,7 @@ namespace skein::agent {
 
 class CpuHistogram {
  public:
-  /// Exchange period of CARIC [s]: a planner that takes longer would not keep up on a real UAV.
+  /// Measured: exchange period of CARIC [s]; a planner that takes longer would not keep up on a real UAV.
   static constexpr double kFieldExchangeS = 0.05;
 
   /// @param cpu_s  CPU time of one exchange; a negative value counts as zero.
@@ -27,9 +27,9 @@ class CpuHistogram {
 
  private:
   /// Upper limits of buckets: 1 us for the first, 2^(1/16) times the one before for each further one, none for the
-  /// last.
+  /// last. Chosen.
   static constexpr std::size_t kBuckets = 512, kBucketsAnOctave = 16;
-  static constexpr double kFirstEndS = 1e-6;
+  static constexpr double kFirstEndS = 1e-6;  ///< chosen
   static double end_s(std::size_t bucket);
 
   std::array<std::uint64_t, kBuckets> buckets_{};

@@ -16,8 +16,9 @@ namespace {
 
 using Cloud = pcl::PointCloud<pcl::PointXYZ>;
 
-constexpr float kHorizonM = 1e4F;     ///< greatest |x| and |y| of a plausible point
-constexpr std::uint32_t kListed = 7;  ///< entries tried on each side, beside `wanted`; 1 point in 14 is then searched
+constexpr float kHorizonM = 1e4F;  ///< greatest |x| and |y| of a plausible point; chosen
+/// Entries tried on each side, beside `wanted`. Measured: 1 point in 14 is then searched.
+constexpr std::uint32_t kListed = 7;
 
 /// Finds the neighbours of points, which are sorted by their cells in a grid.
 /// PCL's RadiusOutlierRemoval asks a kd-tree for each point, which costs a futex call each time (FLANN's OpenMP).
@@ -73,7 +74,7 @@ class Neighbourhood {
   Eigen::Vector3i cell(const Eigen::Vector3f& p) const { return (p / radius_).array().floor().matrix().cast<int>(); }
   /// Cells adjacent along x have consecutive keys. Within kHorizonM, cells of 2 cm and more fit 21 bits per axis.
   static std::uint64_t key(const Eigen::Vector3i& c) {
-    constexpr std::int64_t kOffset = 1 << 20;
+    constexpr std::int64_t kOffset = 1 << 20;  // format: no number is negative
     const auto bits = [](int i) { return static_cast<std::uint64_t>(i + kOffset); };
     return bits(c.z()) << 42 | bits(c.y()) << 21 | bits(c.x());
   }

@@ -31,10 +31,11 @@ class KnownBodies {
 class KeyFrameFilter {
  public:
   struct Config {
-    double lowest_m = -1.0;  ///< points outside these heights are dropped
-    double highest_m = 500.0;
-    double voxel_m = 0.25;        ///< finer than the map's cells, or averaging would move hits into neighbouring cells
-    double lone_radius_m = 2.0;   ///< a point with fewer than lone_min_neighbours others within this is dropped
+    double lowest_m = -1.0;    ///< points outside these heights are dropped; chosen
+    double highest_m = 500.0;  ///< chosen
+    /// Chosen: finer than the map's cells, or averaging would move hits into neighbouring cells.
+    double voxel_m = 0.25;
+    double lone_radius_m = 2.0;   ///< a point with fewer than lone_min_neighbours within this is dropped; chosen
     int lone_min_neighbours = 1;  ///< 0 keeps all points; low, since points on thin members must survive
   };
 

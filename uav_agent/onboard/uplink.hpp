@@ -21,7 +21,7 @@ struct HandedOut {
 class Uplink {
  public:
   struct Config {
-    std::size_t max_bytes_per_step = 200'000;         ///< the first report may exceed it
+    std::size_t max_bytes_per_step = 200'000;         ///< the first report may exceed it; chosen
     std::uint64_t resend_after_steps = kResendSteps;  ///< exchanges without acknowledgement, then it is sent again
   };
 

@@ -27,7 +27,7 @@ GimbalCommand aim_at(const Vector3d& p_W, const RigidBodyState& state, const Veh
 }
 
 std::optional<double> yaw_facing(const Vector3d& out_W) {
-  constexpr double kTopOrBottom = 0.5;  // a face with |out_W.z()| of at least this is the top or bottom of a box
+  constexpr double kTopOrBottom = 0.5;  // chosen: a face with |out_W.z()| of at least this is a top or bottom
   return std::abs(out_W.z()) < kTopOrBottom ? std::optional(std::atan2(-out_W.y(), -out_W.x())) : std::nullopt;
 }
 

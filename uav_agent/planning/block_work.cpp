@@ -10,15 +10,18 @@
 namespace skein::agent {
 namespace {
 
-constexpr std::size_t kFewCells = 4;  ///< a block with fewer occupied cells counts as empty
-constexpr double kThinnestM = 2.0;    ///< least thickness of a tight box around a thin member
-constexpr double kCellM = 0.5;        ///< added to the extent of the cells' centres
-constexpr double kGapM = 2.0;         ///< a face is inside the structure if the next block's is nearer than this
-constexpr double kSharedFace = 0.5;   ///< and covers more than this share of the face
-constexpr int kTurns = 12;            ///< number of yaw angles tried for a tight box, within a right angle
-constexpr double kTurnGain = 0.8;     ///< a turned box must have less than this share of the aligned box's area
-constexpr double kOthersS = 25.0, kFlownS = 90.0, kFailedS = 30.0;  ///< cost: of another UAV's block, flown, failed
-constexpr double kRetryS = 30.0;  ///< wait after a failure; twice as long after the second one, and so on
+constexpr std::size_t kFewCells = 4;  ///< a block with fewer occupied cells counts as empty; chosen
+constexpr double kThinnestM = 2.0;    ///< least thickness of a tight box around a thin member; chosen
+constexpr double kCellM = 0.5;        ///< added to the extent of the cells' centres; geometry: an edge of a cell
+constexpr double kGapM = 2.0;         ///< a face is inside the structure if the next block's is nearer; chosen
+constexpr double kSharedFace = 0.5;   ///< and covers more than this share of the face; chosen
+constexpr int kTurns = 12;            ///< number of yaw angles tried for a tight box, within a right angle; chosen
+/// A turned box must have less than this share of the aligned box's area. Chosen.
+constexpr double kTurnGain = 0.8;
+/// Costs: of another UAV's block, of one that was flown, of one that failed. Chosen.
+constexpr double kOthersS = 25.0, kFlownS = 90.0, kFailedS = 30.0;
+constexpr double kRetryS = 30.0;  ///< wait after a failure; twice as long after the second one, and so on; chosen
+constexpr double kNoGain = 1e-9;  ///< a smaller gain is a rounding error
 
 /// The block that contains a point. Blocks along an axis are counted from the box's lower end.
 Eigen::Vector3i block_of(const Vector3d& p_O, const Vector3d& size, const Eigen::Vector3i& count) {
@@ -55,7 +58,7 @@ OrientedBox tight_box(const OrientedBox& site, const std::vector<Vector3d>& cell
     const double turn = 0.5 * std::numbers::pi * i / kTurns;
     const Vector3d size = extent_of(cells_O, turn).sizes();
     const double area = size.x() * size.y();
-    if (area >= best_area - 1e-9) continue;
+    if (area >= best_area - kNoGain) continue;
     best_area = i == 0 ? kTurnGain * area : area;
     best_turn = turn;
   }
@@ -113,7 +116,7 @@ std::optional<BlockWork::Task> BlockWork::next(Tick now, const Vector3d& p_WB, c
       const double way = ((reversed ? job.strip.end_W : job.strip.begin_W) - p_WB).norm();
       const double cost =
           way / config_.transit_mps + (job.own ? 0.0 : kOthersS) + kFlownS * known.flown + kFailedS * known.failed;
-      if (best && cost >= best_cost - 1e-9) continue;
+      if (best && cost >= best_cost - kNoGain) continue;
       best = Task{job.key, job.strip, reversed, known.flown};
       best_cost = cost;
     }

@@ -26,9 +26,9 @@ class BlockWork {
  public:
   struct Config {
     StripConfig strips;
-    double block_m = 12.0;      ///< approximate edge of a block
-    double transit_mps = 4.5;   ///< speed between strips, for costs
-    double look_again_s = 8.0;  ///< least time between two looks at the map
+    double block_m = 12.0;      ///< approximate edge of a block; chosen
+    double transit_mps = 4.5;   ///< speed between strips, for costs; chosen
+    double look_again_s = 8.0;  ///< least time between two looks at the map; chosen
   };
   /// Identifies a strip: site box, block, direction of the face along the box's axes (0 to 5), number on that face.
   using Key = std::tuple<std::size_t, std::size_t, int, int>;

@@ -6,7 +6,7 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kTourGain = 1e-9;
+constexpr double kTourGain = 1e-9;  ///< a smaller gain is a rounding error
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 class Solver {

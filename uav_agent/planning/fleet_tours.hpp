@@ -32,10 +32,10 @@ constexpr std::array<EnumName<FleetTourObjective>, 2> enum_names(FleetTourObject
 }
 
 struct FleetTourConfig {
-  std::size_t max_evaluations = 300'000;
+  std::size_t max_evaluations = 300'000;  ///< chosen: bounds the CPU time
   /// What is minimised. For `total`, each agent gets at least one task if there are enough.
   FleetTourObjective objective = FleetTourObjective::longest;
-  double total_weight = 0.02;  ///< for `longest`: weight of the sum of tours, next to the longest one
+  double total_weight = 0.02;  ///< for `longest`: weight of the sum of tours, next to the longest one; chosen
 };
 
 struct FleetTours {

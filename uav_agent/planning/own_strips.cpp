@@ -5,7 +5,7 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kAgainS = 15.0;  ///< wait before a strip that could not be flown is offered again
+constexpr double kAgainS = 15.0;  ///< wait before a strip that could not be flown is offered again; chosen
 
 }  // namespace
 

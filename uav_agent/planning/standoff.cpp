@@ -7,16 +7,18 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kOutsideM = 4.0;                          ///< casts begin this far outside the face
-constexpr double kCastRadiusM = 0.8;                       ///< wide enough not to slip between the hits of a sparse map
-constexpr double kSearchStepM = 0.5;                       ///< from one tried stand-off to the next
-constexpr double kSearchInM = 4.0, kSearchOutM = 7.0;      ///< range of tried stand-offs around the desired one
-constexpr double kAsideM[] = {0.0, -1.5, 1.5, -3.0, 3.0};  ///< tried offsets across the strip
-constexpr double kAsideCost = 3.0;                         ///< per metre of offset
-constexpr double kTooNearCost = 2.0;    ///< per metre too near (too far: 1): the image covers less of the surface
-constexpr double kBendCost = 0.5;       ///< per metre of difference to the sample before
-constexpr double kSteepest = 1.2;       ///< change of stand-off per metre along the strip
-constexpr double kUnknownDepthM = 3.0;  ///< assumed for the speed only, where the map knows no surface
+constexpr double kOutsideM = 4.0;     ///< casts begin this far outside the face; chosen
+constexpr double kCastRadiusM = 0.8;  ///< chosen: wide enough not to slip between the hits of a sparse map
+constexpr double kSearchStepM = 0.5;  ///< from one tried stand-off to the next; chosen
+constexpr double kSearchInM = 4.0, kSearchOutM = 7.0;      ///< range of tried stand-offs around the desired one; chosen
+constexpr double kAsideM[] = {0.0, -1.5, 1.5, -3.0, 3.0};  ///< tried offsets across the strip; chosen
+constexpr double kAsideCost = 3.0;                         ///< per metre of offset; chosen
+/// Per metre too near (too far: 1): the image covers less of the surface. Chosen.
+constexpr double kTooNearCost = 2.0;
+constexpr double kBendCost = 0.5;       ///< per metre of difference to the sample before; chosen
+constexpr double kSteepest = 1.2;       ///< change of stand-off per metre along the strip; chosen
+constexpr double kBendRounding = 1e-9;  ///< numeric
+constexpr double kUnknownDepthM = 3.0;  ///< assumed for the speed only, where the map knows no surface; chosen
 
 /// What is desired at one point of the strip.
 struct Sample {
@@ -54,7 +56,7 @@ std::optional<Place> choose(const Sample& sample, const Strip& strip, const Plac
       double cost = (j < 0 ? -kTooNearCost * j : j) * kSearchStepM + kAsideCost * std::abs(aside);
       if (before) {
         const double bend = std::hypot(place.standoff - before->standoff, place.aside - before->aside);
-        if (bend > kSteepest * step_m + 1e-9) continue;
+        if (bend > kSteepest * step_m + kBendRounding) continue;
         cost += kBendCost * bend;
       }
       if (best && cost >= best_cost) continue;
@@ -70,6 +72,7 @@ std::optional<Place> choose(const Sample& sample, const Strip& strip, const Plac
 }  // namespace
 
 std::optional<double> surface_depth(const Strip& strip, const Vector3d& on_face_W, const OccupancyMap& map) {
+  // Chosen: shares of half the width.
   constexpr std::array kAcross = {-0.8, -0.4, 0.0, 0.4, 0.8};
   std::vector<double> depths;
   for (const double across : kAcross) {

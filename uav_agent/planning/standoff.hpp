@@ -13,11 +13,11 @@
 namespace skein::agent {
 
 struct StandoffConfig {
-  double ratio = 0.92;        ///< distance to the surface, in units of d* (CameraReach::sharp_distance_m)
-  double blind_ratio = 0.55;  ///< distance to the box's face where the map knows no surface, in units of d*
-  double step_m = 1.5;        ///< between waypoints, along the strip
-  double speed_gain = 1.0;    ///< in units of the greatest speed without blur
-  double min_speed_mps = 0.5, max_speed_mps = 4.0;
+  double ratio = 0.92;        ///< distance to the surface, in units of d* (CameraReach::sharp_distance_m); chosen
+  double blind_ratio = 0.55;  ///< the same to the box's face where the map knows no surface; chosen
+  double step_m = 1.5;        ///< between waypoints, along the strip; chosen
+  double speed_gain = 1.0;    ///< in units of the greatest speed without blur; chosen
+  double min_speed_mps = 0.5, max_speed_mps = 4.0;  ///< chosen
 };
 
 /// A stretch of a strip that can be flown in one go.

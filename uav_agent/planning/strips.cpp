@@ -8,10 +8,13 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kTurnS = 3.0;       ///< least time for the change from one strip to another
-constexpr double kFlatFace = 0.7;    ///< a face with a greater |n_z| is a top or a bottom
-constexpr double kMinBottomM = 3.0;  ///< least height above lowest_m of the UAV below a bottom face
-constexpr int kTwoOptPasses = 20;
+constexpr double kTurnS = 3.0;       ///< least time for the change from one strip to another; chosen
+constexpr double kFlatFace = 0.7;    ///< a face with a greater |n_z| is a top or a bottom; chosen
+constexpr double kMinBottomM = 3.0;  ///< least height above lowest_m of the UAV below a bottom face; chosen
+constexpr int kTwoOptPasses = 20;    ///< chosen: bounds the CPU time
+constexpr double kNotWider = 0.15;   ///< so much of a strip's width at a face's edge gets no strip; chosen
+constexpr double kInset = 0.25;      ///< a strip ends so far inside the face, in its lengths or widths; chosen
+constexpr double kNotLess = 1e-9;    ///< a smaller difference is a rounding error
 
 struct Face {
   std::size_t box = 0;
@@ -44,7 +47,7 @@ struct Cut {
 
 Cut cut_along(double along_m, double across_m, double swath_m, double speed_mps) {
   Cut cut;
-  cut.count = std::max(1, static_cast<int>(std::ceil(across_m / swath_m - 0.15)));
+  cut.count = std::max(1, static_cast<int>(std::ceil(across_m / swath_m - kNotWider)));
   cut.seconds = cut.count * (along_m / speed_mps + kTurnS);
   return cut;
 }
@@ -53,7 +56,8 @@ Cut cut_along(double along_m, double across_m, double swath_m, double speed_mps)
 
 CameraReach camera_reach(const CameraConfig& camera, double desired_mm_per_pixel) {
   CameraReach reach;
-  reach.sharp_distance_m = desired_mm_per_pixel * 1e-3 * camera.focal_length_m / camera.pixel_size_m;
+  constexpr double kMillimetre = 1e-3;  // format
+  reach.sharp_distance_m = desired_mm_per_pixel * kMillimetre * camera.focal_length_m / camera.pixel_size_m;
   reach.half_width_slope = std::tan(0.5 * camera.hfov_deg * kRadPerDeg);
   reach.half_height_slope = std::tan(0.5 * camera.vfov_deg * kRadPerDeg);
   reach.blur_speed_mps = camera.pixel_size_m / camera.focal_length_m / camera.exposure_s * reach.sharp_distance_m;
@@ -95,7 +99,7 @@ std::vector<Strip> cut_into_strips(const std::vector<OrientedBox>& boxes, const 
     }
     const int count = cut_along(face.u_m, face.w_m, swath, speed).count;
     // The camera sees beyond the strip's end, so the UAV need not fly to the face's edge.
-    const double inset = std::min(0.25 * face.u_m, 0.25 * swath);
+    const double inset = std::min(kInset * face.u_m, kInset * swath);
     const double reach_m = face.u_m - 2.0 * inset;
     const int pieces = std::max(1, static_cast<int>(std::ceil(reach_m / config.max_length_m)));
     for (int i = 0; i < count * pieces; ++i) {
@@ -149,7 +153,7 @@ void shorten(std::vector<Visit>& tour, const std::vector<Strip>& strips, const V
                      other.begin() + static_cast<std::ptrdiff_t>(j) + 1);
         for (std::size_t k = i; k <= j; ++k) other[k].reversed = !other[k].reversed;
         const double seconds = tour_seconds(other, strips, start, transit_mps);
-        if (seconds >= best - 1e-9) continue;
+        if (seconds >= best - kNotLess) continue;
         best = seconds;
         tour = std::move(other);
         better = true;
@@ -176,7 +180,7 @@ std::vector<std::vector<Visit>> share_strips(const std::vector<Strip>& strips, c
       if (taken[s]) continue;
       for (const bool reversed : {false, true}) {
         const double distance = ((reversed ? strips[s].end_W : strips[s].begin_W) - at[uav]).norm();
-        if (distance >= nearest - 1e-9) continue;
+        if (distance >= nearest - kNotLess) continue;
         nearest = distance;
         next = {s, reversed};
       }

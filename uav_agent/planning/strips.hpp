@@ -12,10 +12,10 @@ namespace skein::agent {
 
 /// What a camera resolves, computed from its data sheet and the desired resolution r_des.
 struct CameraReach {
-  double sharp_distance_m = 7.36;   ///< d*: distance at which a picture of a perpendicular wall has that resolution
-  double half_width_slope = 0.84;   ///< half of the width of a picture, per metre of distance
-  double half_height_slope = 0.58;  ///< the same for its height
-  double blur_speed_mps = 2.0;      ///< maximum sideways speed without blur at d*; proportional to the distance
+  double sharp_distance_m = 7.36;   ///< d*: a picture of a perpendicular wall has that resolution from here; sensor
+  double half_width_slope = 0.84;   ///< half of the width of a picture, per metre of distance; sensor
+  double half_height_slope = 0.58;  ///< the same for its height; sensor
+  double blur_speed_mps = 2.0;      ///< maximum sideways speed without blur at d*; proportional to the distance; sensor
 };
 
 /// d* = r_des f / (1000 p), with r_des in mm per pixel, the focal length f and the pixel size p. A picture is without
@@ -38,11 +38,12 @@ struct Strip {
 };
 
 struct StripConfig {
-  double standoff_ratio = 0.92;  ///< distance to the surface, in units of d*
-  double overlap = 0.2;          ///< of neighbouring strips, as a share of a picture's extent across the strip
-  double min_length_m = 2.0;     ///< a face with a shorter edge gets no strip
-  double max_length_m = 60.0;    ///< longer strips are cut into pieces, which different UAVs can take
+  double standoff_ratio = 0.92;  ///< distance to the surface, in units of d*; chosen
+  double overlap = 0.2;          ///< of neighbouring strips, as a share of a picture's extent across the strip; chosen
+  double min_length_m = 2.0;     ///< a face with a shorter edge gets no strip; chosen
+  double max_length_m = 60.0;    ///< longer strips are cut into pieces, which different UAVs can take; chosen
   /// A bottom face gets strips only if a UAV that photographs it from below is at least 3 m above this height.
+  /// Chosen.
   double lowest_m = 2.0;
   bool top = true, bottom = true;  ///< whether top and bottom faces get strips
 };

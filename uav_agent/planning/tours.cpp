@@ -7,7 +7,7 @@ namespace skein::agent {
 namespace {
 
 constexpr double kGain = 1e-9;         ///< a smaller gain is a rounding error
-constexpr std::size_t kOrLongest = 3;  ///< most nodes that Or-opt moves together
+constexpr std::size_t kOrLongest = 3;  ///< most nodes that Or-opt moves together; chosen
 
 /// The moves on one tour. Positions begin at 1: node 0 stays in front.
 class Improver {
@@ -73,6 +73,7 @@ class Improver {
 /// Double bridge: cuts the tour at three random places and exchanges the two middle parts. No 2-opt move undoes it.
 void kick(std::uint64_t& random, Tour& tour) {
   const auto draw = [&random](std::size_t below) {
+    // Numeric: the linear congruential generator of Knuth's MMIX.
     random = random * 6364136223846793005ULL + 1442695040888963407ULL;
     return static_cast<std::size_t>((random >> 33) % below);
   };

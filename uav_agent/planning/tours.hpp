@@ -29,8 +29,8 @@ class CostMatrix {
 
 struct TourConfig {
   bool closed = false;                    ///< whether the tour returns to node 0
-  std::size_t max_evaluations = 200'000;  ///< most moves evaluated in all
-  int kicks = 20;
+  std::size_t max_evaluations = 200'000;  ///< most moves evaluated in all; chosen: bounds the CPU time
+  int kicks = 20;                         ///< chosen
 };
 
 /// Nodes in the order of visit; begins with 0.

@@ -13,9 +13,10 @@
 namespace skein::agent {
 
 struct RingConfig {
-  double inner_m = 4.0, outer_m = 8.0;  ///< horizontal distances of the inner and the outer ring from the target
-  int rings = 3;
-  int directions = 12;                    ///< on each ring
+  /// Horizontal distances of the inner and the outer ring from the target. Chosen.
+  double inner_m = 4.0, outer_m = 8.0;
+  int rings = 3;                          ///< chosen
+  int directions = 12;                    ///< on each ring; chosen
   std::vector<double> heights_m = {0.0};  ///< heights of each ring above the target
 };
 
@@ -33,8 +34,8 @@ struct BoxView {
 std::vector<BoxView> rings_around(const std::vector<OrientedBox>& boxes, double standoff_m, double ring_step_m);
 
 struct ViewLimits {
-  double range_m = 10.0;
-  /// Half angles of the image [rad]; pi or more: all around.
+  double range_m = 10.0;  ///< chosen
+  /// Half angles of the image [rad]; numeric: pi or more is all around.
   double half_width = 3.2, half_height = 3.2;
 };
 

@@ -13,7 +13,7 @@ namespace skein::agent {
 struct WorkShareConfig {
   StripConfig strips;
   StandoffConfig standoff;
-  double transit_mps = 4.5;
+  double transit_mps = 4.5;  ///< speed between strips; chosen
 };
 
 struct WorkShare {

@@ -11,7 +11,7 @@
 namespace skein::agent::python {
 namespace {
 
-constexpr std::size_t kWords = 624;  // of a Mersenne twister, and one that says how far they are used up
+constexpr std::size_t kWords = 624;  // format of a Mersenne twister: these, and one that says how far they are used up
 
 using Twister = std::vector<std::uint32_t>;
 

@@ -5,18 +5,16 @@
 #include <cstddef>
 #include <functional>
 #include <map>
-#include <numbers>
 #include <optional>
 #include <string_view>
 
+#include "core/euler.hpp"
 #include "uav_agent/python/interpreter.hpp"
 #include "uav_agent/python/maps.hpp"
 #include "uav_agent/python/values.hpp"
 
 namespace skein::agent::python {
 namespace {
-
-constexpr double kRadians = std::numbers::pi / 180.0;
 
 template <class T>
 py::object or_none(const std::optional<T>& value) {
@@ -41,7 +39,7 @@ py::tuple tuple_of(const Items& items, const Make& make) {
 }
 
 py::object state_of(const RigidBodyState& state) {
-  py::array_t<double> q_WB(4);
+  py::array_t<double> q_WB(4);  // geometry
   const Quaterniond& q = state.q_WB;
   double* const out = q_WB.mutable_data();
   out[0] = q.w(), out[1] = q.x(), out[2] = q.y(), out[3] = q.z();
@@ -92,6 +90,7 @@ py::dtype record(const char* text, py::ssize_t size) {
 }
 
 py::object detected_of(Call& call, const PlannerInput& in) {
+  // The format below.
   static_assert(offsetof(DetectedPoint, p_W) == 0 && offsetof(DetectedPoint, score) == 16 &&
                 offsetof(DetectedPoint, order) == 24 && offsetof(DetectedPoint, n_W) == 28);
   static const py::dtype& kType =
@@ -104,6 +103,7 @@ py::object detected_of(Call& call, const PlannerInput& in) {
 
 py::object beam_scan_of(Call& call, const BeamScan& scan, std::size_t i) {
   using Beam = BeamScan::Beam;
+  // The format below.
   static_assert(offsetof(Beam, state) == 0 && offsetof(Beam, range_m) == 4);
   static const py::dtype& kType = *new py::dtype(
       record("{'names': ['state', 'range_m'], 'formats': ['u1', '<f4'], 'offsets': [0, 4]}", sizeof(Beam)));
@@ -113,9 +113,11 @@ py::object beam_scan_of(Call& call, const BeamScan& scan, std::size_t i) {
   const py::array view = call.view(numbered("beam_scans", i) + ".beams", kType, {rings, columns},
                                    {columns * static_cast<py::ssize_t>(sizeof(Beam)), sizeof(Beam)}, scan.beams.data());
   const auto firing = [](const BeamScan::Firing& one, std::size_t) {
-    py::array_t<double> X_WL({4, 4});
-    for (py::ssize_t row = 0; row < 4; ++row) {
-      for (py::ssize_t column = 0; column < 4; ++column) X_WL.mutable_at(row, column) = one.X_WL.matrix()(row, column);
+    constexpr py::ssize_t kEdge = 4;  // geometry: of the matrix of a pose
+    py::array_t<double> X_WL({kEdge, kEdge});
+    for (py::ssize_t row = 0; row < kEdge; ++row) {
+      for (py::ssize_t column = 0; column < kEdge; ++column)
+        X_WL.mutable_at(row, column) = one.X_WL.matrix()(row, column);
     }
     return words().firing(one.first_column, one.tick, X_WL, one.error_m, one.error_rad);
   };
@@ -230,12 +232,12 @@ py::object to_python(const AgentConfig& agent) {
   py::object lidar_range_m = py::none();
   if (vehicle.lidar) lidar_range_m = py::make_tuple(vehicle.lidar->range_min_m, vehicle.lidar->range_max_m);
   const py::object python_camera =
-      words().camera(camera.hfov_deg * kRadians, camera.vfov_deg * kRadians, camera.exposure_s,
+      words().camera(camera.hfov_deg * kRadPerDeg, camera.vfov_deg * kRadPerDeg, camera.exposure_s,
                      camera.trigger_interval_s, camera.focal_length_m, camera.pixel_size_m, to_array(camera.p_BC));
   const py::object python_vehicle = words().vehicle(
       to_text(vehicle.name), vehicle.max_speed_mps, vehicle.max_acceleration_mps2,
-      vehicle.max_yaw_rate_deg_s * kRadians, lidar_range_m, python_camera, gimbal.pitch_limit_deg * kRadians,
-      gimbal.yaw_limit_deg * kRadians, gimbal.rate_limit_deg_s * kRadians);
+      vehicle.max_yaw_rate_deg_s * kRadPerDeg, lidar_range_m, python_camera, gimbal.pitch_limit_deg * kRadPerDeg,
+      gimbal.yaw_limit_deg * kRadPerDeg, gimbal.rate_limit_deg_s * kRadPerDeg);
   return words().agent_config(static_cast<std::size_t>(agent.self), to_text(agent.me().name),
                               tuple_of(agent.fleet, member), python_vehicle, agent.desired_mm_per_pixel,
                               agent.duration_s, agent.exchange_period_s, to_array(agent.station_position));

@@ -50,7 +50,7 @@ void start() {
   PyConfig_InitPythonConfig(&config);
   const char* const chosen = std::getenv(kHashSeed);
   config.use_hash_seed = 1;
-  config.hash_seed = chosen == nullptr ? 0 : std::strtoul(chosen, nullptr, 10);
+  config.hash_seed = chosen == nullptr ? 0 : std::strtoul(chosen, nullptr, 10);  // format: decimal
   config.install_signal_handlers = 0;
   config.buffered_stdio = 0;
   config.optimization_level = 0;

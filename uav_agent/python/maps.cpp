@@ -11,10 +11,10 @@
 namespace skein::agent::python {
 namespace {
 
-/// Beyond, cells have no numbers.
+/// Numeric: beyond, cells have no numbers.
 constexpr double kFarthest_m = 1e5;
-constexpr double kLongest_m = 1e4, kWidest_m = 50.0;  ///< of segments, and about them
-constexpr std::int64_t kMostCubes = 64'000'000;
+constexpr double kLongest_m = 1e4, kWidest_m = 50.0;  ///< of segments, and about them; chosen: bounds the CPU time
+constexpr std::int64_t kMostCubes = 64'000'000;       ///< memory
 
 struct MapOfCall {
   std::shared_ptr<Call> call;
@@ -61,7 +61,8 @@ Vector3d place_of(const py::object& value, const char* name) {
 
 Vector3d direction_of(const py::object& value) {
   const Vector3d direction = place_of(value, "direction");
-  if (direction.norm() < 1e-9) refuse("direction", "a vector that is not zero");
+  constexpr double kLeast = 1e-9;  // numeric
+  if (direction.norm() < kLeast) refuse("direction", "a vector that is not zero");
   return direction.normalized();
 }
 
@@ -71,6 +72,7 @@ double within_reach(double value, double most, const char* name) {
 }
 
 int rays_of(int rays) {
+  // Format: a map counts no more (maps/ray_blocks.hpp).
   if (rays < 1 || rays > 20) refuse("rays", "within [1, 20]");
   return rays;
 }

@@ -10,7 +10,7 @@ namespace {
 /// Describes a value in a few words, for messages: its repr() and type, or only its shape or type if it is large.
 std::string described(py::handle value) {
   if (value.is_none()) return "None";
-  constexpr std::size_t kLongest = 60;
+  constexpr std::size_t kLongest = 60;  // chosen
   const std::string type = Py_TYPE(value.ptr())->tp_name;
   if (py::isinstance<py::array>(value)) {
     const auto array = py::reinterpret_borrow<py::array>(value);
