@@ -11,14 +11,7 @@ namespace skein::doctor {
 namespace {
 
 constexpr const char* kLoopback = "127.0.0.1";
-
-/// "world, gcs and 5 more".
-std::string named(const std::vector<std::string>& domains) {
-  constexpr std::size_t kMost = 4;
-  if (domains.size() <= kMost + 1) return joined(domains);
-  const std::vector<std::string> first(domains.begin(), domains.begin() + kMost);
-  return fmt::format("{} and {} more", joined(first), domains.size() - kMost);
-}
+constexpr std::size_t kMostDomains = 5;  ///< named in a message
 
 std::string text_of(const InterfaceFacts& interface) {
   return fmt::format("{} {} (MTU {}{})", interface.name, interface.address, interface.mtu,
@@ -26,7 +19,7 @@ std::string text_of(const InterfaceFacts& interface) {
 }
 
 Finding judge_peer(const DomainNetworkFacts& network, const PeerFacts& peer) {
-  const std::string what = "peer " + peer.name, of = " (" + named(network.domains) + ")";
+  const std::string what = "peer " + peer.name, of = " (" + joined_first(network.domains, kMostDomains) + ")";
   if (!peer.address) {
     return failure(
         what, "its name has no address" + of,
@@ -113,7 +106,7 @@ Findings judge_interfaces(const std::vector<InterfaceFacts>& interfaces, bool mu
 }
 
 Findings judge_network(const DomainNetworkFacts& network, const std::vector<InterfaceFacts>& interfaces) {
-  const std::string what = "network of " + named(network.domains);
+  const std::string what = "network of " + joined_first(network.domains, kMostDomains);
   if (network.network.host_only()) return {fine(what, "no message leaves this host")};
   Findings findings;
   const auto own = std::ranges::find(interfaces, network.address, &InterfaceFacts::address);

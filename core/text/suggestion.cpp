@@ -52,10 +52,9 @@ std::string joined(const std::vector<std::string>& words, std::string_view separ
   return out;
 }
 
-std::string joined_first(const std::vector<std::string>& words) {
-  constexpr std::size_t kMost = 10;
-  if (words.size() <= kMost) return joined(words);
-  const std::vector<std::string> first(words.begin(), words.begin() + kMost - 1);
+std::string joined_first(const std::vector<std::string>& words, std::size_t most) {
+  if (words.size() <= most) return joined(words);
+  const std::vector<std::string> first(words.begin(), words.begin() + static_cast<std::ptrdiff_t>(most) - 1);
   return joined(first) + " and " + std::to_string(words.size() - first.size()) + " more";
 }
 

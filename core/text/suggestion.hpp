@@ -14,7 +14,7 @@ std::string suggestion(std::string_view word, const std::vector<std::string>& kn
 /// "a, b, c".
 std::string joined(const std::vector<std::string>& words, std::string_view separator = ", ");
 
-/// The first words of a list for a message: all of up to ten words, else nine "and N more".
-std::string joined_first(const std::vector<std::string>& words);
+/// A list for a message: all words if there are at most `most` (>= 1), otherwise the first most - 1 "and N more".
+std::string joined_first(const std::vector<std::string>& words, std::size_t most = 10);
 
 }  // namespace skein

@@ -24,13 +24,15 @@ TEST(Suggestion, ListsAllWhenNoneIsNear) {
   EXPECT_EQ(suggestion("x", {}), "none is known");
 }
 
-TEST(Joined, LongListsEndAfterNineWords) {
+TEST(Joined, LongListsEndWithANumber) {
   std::vector<std::string> words;
   EXPECT_EQ(joined_first(words), "");
   for (int i = 0; i < 10; ++i) words.push_back(std::to_string(i));
   EXPECT_EQ(joined_first(words), "0, 1, 2, 3, 4, 5, 6, 7, 8, 9");
   words.emplace_back("10");
   EXPECT_EQ(joined_first(words), "0, 1, 2, 3, 4, 5, 6, 7, 8 and 2 more");
+  EXPECT_EQ(joined_first(words, 11), "0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10");
+  EXPECT_EQ(joined_first(words, 5), "0, 1, 2, 3 and 7 more");
 }
 
 }  // namespace
