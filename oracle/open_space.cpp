@@ -19,6 +19,12 @@ std::size_t lines_over(double length, double step) { return static_cast<std::siz
 
 }  // namespace
 
+Eigen::AlignedBox3d box_around(const TriangleMesh& structure) {
+  Eigen::AlignedBox3d box(Vector3d::Zero());
+  for (const auto& vertex : structure.vertices) box.extend(vertex.cast<double>());
+  return box;
+}
+
 OpenSpace::Grid::Grid(const Eigen::AlignedBox3d& structure, double clearance)
     // The margin keeps the outermost lines clear of the structure, so that all space around it is connected.
     : low(structure.min() - Vector3d::Constant(clearance + 2.0 * kCoarsestCell)),

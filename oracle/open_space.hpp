@@ -11,6 +11,9 @@
 
 namespace skein::sim {
 
+/// The box around a structure and the origin of W.
+Eigen::AlignedBox3d box_around(const TriangleMesh& structure);
+
 /// Represents free space by horizontal lines along x, one grid step apart. The clearance changes by at most a metre per
 /// metre, so stepping along a line from clearance to clearance finds its free stretches with few queries, and exactly
 /// along x. Overlapping stretches of neighbouring lines are connected. Immutable; safe from any thread.

@@ -27,17 +27,11 @@ std::vector<Vector3d> starts_of(const Scenario& scenario) {
   return starts;
 }
 
-Eigen::AlignedBox3d extent(const TriangleMesh& mesh) {
-  Eigen::AlignedBox3d box(Vector3d::Zero());
-  for (const auto& vertex : mesh.vertices) box.extend(vertex.cast<double>());
-  return box;
-}
-
 /// Open spaces by clearance, each computed once, on demand.
 class Spaces {
  public:
   Spaces(const RayScene& world, const TriangleMesh& mesh, const Scenario& scenario, unsigned threads)
-      : world_(world), structure_(extent(mesh)), starts_(starts_of(scenario)), threads_(threads) {}
+      : world_(world), structure_(box_around(mesh)), starts_(starts_of(scenario)), threads_(threads) {}
 
   const OpenSpace* with(double clearance) {
     auto& space = by_clearance_[clearance];
@@ -150,7 +144,7 @@ double expected_seconds(const Scenario& scenario, const Scene& scene, const Orac
   }
   double lines = 0.0;
   for (const double clearance : clearances) {
-    lines += static_cast<double>(OpenSpace::line_count(extent(scene.mesh), clearance));
+    lines += static_cast<double>(OpenSpace::line_count(box_around(scene.mesh), clearance));
   }
   const double looks = static_cast<double>(scene.points.size() * config.directions);
   return (kPerLine * lines + kPerLook * looks) / std::max(1U, config.threads);

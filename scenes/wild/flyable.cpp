@@ -26,7 +26,7 @@ constexpr std::size_t kLeastPlaces = 5;  ///< least number of reachable places w
 class Proof {
  public:
   Proof(const Scenario& scenario, const Scene& scene)
-      : scenario_(scenario), scene_(scene), world_(scene.mesh), space_(world_, extent(), kBerth, {}) {}
+      : scenario_(scenario), scene_(scene), world_(scene.mesh), space_(world_, box_around(scene.mesh), kBerth, {}) {}
 
   bool holds() {
     for (const UavConfig& uav : scenario_.fleet) starts_.emplace_back(uav.start.x(), uav.start.y(), 0.5);
@@ -37,12 +37,6 @@ class Proof {
   }
 
  private:
-  Eigen::AlignedBox3d extent() const {
-    Eigen::AlignedBox3d box(Vector3d::Zero());
-    for (const auto& vertex : scene_.mesh.vertices) box.extend(vertex.cast<double>());
-    return box;
-  }
-
   bool clear(const Vector3d& a, const Vector3d& b) const { return !world_.first_hit_distance(a, b, {.ground = false}); }
 
   bool has_way_out(const Vector3d& start) const {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "oracle/open_space.hpp"
 #include "sim_server/plan/legs.hpp"
 #include "sim_server/plan/routes.hpp"
 #include "sim_server/plan/schedule.hpp"
@@ -12,12 +13,6 @@ namespace {
 /// Part of the mission's time that the routes leave free for waits and for the delivery by radio.
 constexpr double kReserveShare = 0.01;
 constexpr double kReserveS = 1.5;
-
-Eigen::AlignedBox3d box_around(const TriangleMesh& mesh) {
-  Eigen::AlignedBox3d box(Vector3d::Zero());
-  for (const auto& vertex : mesh.vertices) box.extend(vertex.cast<double>());
-  return box;
-}
 
 PlanUav uav_of(const std::string& name, Timetable table) {
   PlanUav uav{name, std::move(table.moves), table.time_s, 0.0, table.views.size()};

@@ -8,6 +8,7 @@
 
 #include "core/camera_quality.hpp"
 #include "oracle/best_aim.hpp"
+#include "oracle/open_space.hpp"
 #include "sight/camera_mount.hpp"
 #include "sight/clear_line.hpp"
 #include "sight/ray_scene.hpp"
@@ -23,7 +24,7 @@ constexpr double kAscent = 0.5;  ///< slope of the sideways lines out of the str
 class Search {
  public:
   Search(const Scenario& scenario, const Scene& scene) : world_(scene.mesh), station_(scenario.station_position) {
-    for (const auto& vertex : scene.mesh.vertices) extent_.extend(vertex.cast<double>());
+    extent_ = box_around(scene.mesh);
     for (int i = 0; i < kWaysAside; ++i) {
       const double azimuth = 2.0 * std::numbers::pi * i / kWaysAside;
       ways_out_.push_back(Vector3d(std::cos(azimuth), std::sin(azimuth), kAscent).normalized());
@@ -74,7 +75,7 @@ class Search {
 
   const RayScene world_;
   const Vector3d station_;
-  Eigen::AlignedBox3d extent_{Vector3d::Zero()};
+  Eigen::AlignedBox3d extent_;
   std::vector<Vector3d> ways_out_;
 };
 
