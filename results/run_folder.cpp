@@ -52,6 +52,12 @@ bool is_maps_file(const std::string& name, const std::string& uav) {
   return life.find_first_not_of("0123456789") == std::string_view::npos;
 }
 
+std::string collected_file(const std::string& program, const std::string& name) {
+  const std::string member = programs::member_name(program);
+  const bool own = name.starts_with(program + ".") || name == map_file(member) || is_maps_file(name, member);
+  return own ? name : program + "." + name;
+}
+
 bool is_of_a_run(const std::string& name) {
   // "metadata.yaml" is kBagMetadata of recording/bag.hpp, which this layer cannot include.
   constexpr std::array<std::string_view, 20> kFixedNames = {

@@ -77,6 +77,9 @@ std::string map_file(const std::string& uav);
 std::string maps_file(const std::string& uav, int life);
 /// Whether `name` is a maps_file() of this UAV.
 bool is_maps_file(const std::string& name, const std::string& uav);
+/// The name in the run's folder for a file that an agent wrote elsewhere (on another host, or under another user id):
+/// its own name if that names the agent or its UAV, as the names above do; otherwise the program's name in front of it.
+std::string collected_file(const std::string& program, const std::string& name);
 /// The recording of one program, until the launcher joins them: "station.mcap"; "station.2.mcap" after a restart.
 /// @param life  number of restarts before: 0, 1, ...
 std::string recording_part(const std::string& program, int life);

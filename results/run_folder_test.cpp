@@ -38,6 +38,17 @@ TEST(RunFolder, KnowsItsFilesAlsoHalfWritten) {
   }
 }
 
+TEST(RunFolder, CollectedFilesHaveTheNameOfTheirProgram) {
+  const std::string agent = programs::agent_program("jurong");
+  for (const std::string& own : {run_folder::report_file(agent), run_folder::log_file(agent),
+                                 run_folder::map_file("jurong"), run_folder::maps_file("jurong", 1)}) {
+    EXPECT_EQ(run_folder::collected_file(agent, own), own);
+  }
+  for (const std::string& other : {std::string("notes.txt"), run_folder::map_file("changi")}) {
+    EXPECT_EQ(run_folder::collected_file(agent, other), "uav_agent-jurong." + other);
+  }
+}
+
 TEST(RunFolder, KnowsTheUavWhoseMapsAreInAFile) {
   for (int life : {0, 1, 11}) {
     EXPECT_TRUE(run_folder::is_maps_file(run_folder::maps_file("jurong", life), "jurong"));

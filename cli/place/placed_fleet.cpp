@@ -262,7 +262,7 @@ void PlacedFleet::hear(There& there, const Frame& frame, std::vector<Event>& eve
   // Takes only frames about programs that are placed on the host: an agent's host must not speak for the server.
   if (!name.empty() && say != "file" && !there.running.contains(name) && !is_placed(name)) return;
   if ((say == "file" || say == "left") && !is_placed(frame.text("program"))) return;
-  const auto number = [&](const char* key) { return value_or(frame.head, key, 0.0).get<double>(); };
+  const auto number = [&](const char* key) { return number_in(frame.head, key); };
   if (say == "log") keep_log(frame);
   if (say == "status") events.push_back({Event::Kind::status_line, name, frame.text("line"), {}});
   if (say == "cut_off") events.push_back({Event::Kind::cut_off, name, frame.text("line"), {}});
@@ -374,13 +374,10 @@ std::vector<std::string> PlacedFleet::collect(const fs::path& out) {
   return left;
 }
 
-/// Saves a file that a program wrote. Puts the program's name in front, unless the file's name is one of the program's.
+/// Saves a file that a program wrote.
 void PlacedFleet::keep_file(const Frame& frame, const fs::path& out) {
-  const std::string program = frame.text("program"), name = fs::path(frame.text("name")).filename();
-  const std::string member = programs::member_name(program);
-  const bool own =
-      name.starts_with(program + ".") || name == run_folder::map_file(member) || run_folder::is_maps_file(name, member);
-  std::ofstream(out / (own ? name : program + "." + name), std::ios::binary) << frame.body;
+  const std::string name = fs::path(frame.text("name")).filename();
+  std::ofstream(out / run_folder::collected_file(frame.text("program"), name), std::ios::binary) << frame.body;
 }
 
 }  // namespace skein::cli

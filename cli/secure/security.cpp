@@ -219,11 +219,7 @@ std::vector<std::string> SecureRun::collect() const {
     std::uintmax_t room = kMostOfAnAgent;
     std::size_t files = 0, cut = 0;
     for (const auto& entry : fs::directory_iterator(folder.out)) {
-      const std::string name = entry.path().filename();
-      const std::string member = programs::member_name(program);
-      const bool own = name.starts_with(program + ".") || name == run_folder::map_file(member) ||
-                       run_folder::is_maps_file(name, member);
-      const fs::path copy = out_ / (own ? name : program + "." + name);
+      const fs::path copy = out_ / run_folder::collected_file(program, entry.path().filename());
       if (++files > kMostFilesOfAnAgent || !copy_from(entry.path(), copy, *folder.user, room)) ++cut;
     }
     if (cut > 0) {
