@@ -172,7 +172,7 @@ class PlannerCheck {
     run.faults = faults;
     run.out = out_ / (folder + "-first");
     const Json first = fly(run);
-    const std::string digest = digest_of(first);
+    const std::string digest = text_in(first, "digest");
     console_.out << what << ": digest " << (digest.empty() ? "none" : digest) << std::endl;
     if (digest.empty()) {
       ++differences_;
@@ -199,7 +199,7 @@ class PlannerCheck {
       run.dds = *surroundings.dds;
     }
     run.out = out_ / (folder + "-" + surroundings.name);
-    const std::string there = digest_of(fly(run));
+    const std::string there = text_in(fly(run), "digest");
     const bool same = there == digest;
     console_.out << "  " << (same ? "same" : "DIFFERENT") << "  " << surroundings.name << ": " << surroundings.what
                  << std::endl;
@@ -243,11 +243,6 @@ class PlannerCheck {
       console_.err << ", about " << duration_text(left * wall_s / static_cast<double>(begun_)) << " left";
     }
     console_.err << std::endl;
-  }
-
-  static std::string digest_of(const Json& result) {
-    const Json digest = value_or(result, "digest", nullptr);
-    return digest.is_string() ? digest.get<std::string>() : "";
   }
 
   const CheckPlannerOptions& options_;

@@ -69,7 +69,7 @@ void compare_results(const DiffOptions& options, std::vector<std::string>& found
     return;
   }
   for (std::size_t i = 0; i < uavs_a.size(); ++i) {
-    const std::string of = value_or(uavs_a[i], "name", "").get<std::string>() + " ";
+    const std::string of = text_in(uavs_a[i], "name") + " ";
     for (const char* key : kSettledOfUavs) compare(uavs_a[i], uavs_b[i], key, of, found);
   }
 }

@@ -76,7 +76,7 @@ std::string metres(double value) { return number_text(value) + " m"; }
 /// Points, score, and the change of the score with twice as many viewpoints [%].
 std::string figures(const Json& part) {
   return fmt::format("{:>10}{:>12.1f}{:>+10.2f} %", value_or(part, "points", 0).get<std::size_t>(),
-                     value_or(part, "score", 0.0).get<double>(), value_or(part, "change_percent", 0.0).get<double>());
+                     number_in(part, "score"), number_in(part, "change_percent"));
 }
 
 void print_one(std::ostream& out, const Json& answer, bool outside_only) {
@@ -93,26 +93,25 @@ std::string share_of(double score, double estimate) {
   return estimate > 0.0 ? fmt::format(" ({:.1f} % of reachable)", 100.0 * score / estimate) : std::string();
 }
 
-double figure(const Json& object, const char* key) { return value_or(object, key, 0.0).get<double>(); }
 std::size_t number_of(const Json& object, const char* key) { return value_or(object, key, 0).get<std::size_t>(); }
 
 std::string score_line(const char* name, const Json& part, double estimate) {
-  return fmt::format("{:<8}{:>9.1f}{}, {} points", name, figure(part, "score"),
-                     share_of(figure(part, "score"), estimate), number_of(part, "points"));
+  return fmt::format("{:<8}{:>9.1f}{}, {} points", name, number_in(part, "score"),
+                     share_of(number_in(part, "score"), estimate), number_of(part, "points"));
 }
 
 /// Prints the score that a plan with full knowledge reaches in the mission time.
 void print_plan(std::ostream& out, const Json& answer) {
   const Json plan = value_or(answer, "plan", Json::object()), flown = value_or(plan, "flown", Json::object());
-  const double estimate = figure(value_or(answer, "reachable", Json::object()), "score");
+  const double estimate = number_in(value_or(answer, "reachable", Json::object()), "score");
   out << "\nWith full knowledge in the mission's time, a lower bound found by search:\n"
       << score_line("planned", plan, estimate) << fmt::format(" from {} views\n", number_of(plan, "views"))
       << score_line("flown", flown, estimate)
       << fmt::format(", collisions: {}, at most {:.2f} m off the plan\n", number_of(flown, "collisions"),
-                     figure(flown, "astray_m"));
+                     number_in(flown, "astray_m"));
   for (const Json& uav : value_or(plan, "uavs", Json::array())) {
-    out << fmt::format("  {:<12}{:>5} views{:>8.1f} s{:>9.1f} m\n", value_or(uav, "name", "").get<std::string>(),
-                       number_of(uav, "views"), figure(uav, "time_s"), figure(uav, "distance_m"));
+    out << fmt::format("  {:<12}{:>5} views{:>8.1f} s{:>9.1f} m\n", text_in(uav, "name"), number_of(uav, "views"),
+                       number_in(uav, "time_s"), number_in(uav, "distance_m"));
   }
   out << std::flush;
 }

@@ -175,18 +175,10 @@ std::vector<std::string> uavs_with_agents(const RunOptions& options) {
 
 /// A fork changes what comes after a time, so the recorded run must go on after it. @throws InputError
 void require_within(double at_s, const Json& then) {
-  const double end_s = value_or(then, "sim_time_s", 0.0).get<double>();
+  const double end_s = number_in(then, "sim_time_s");
   if (at_s < end_s) return;
   throw InputError("--at " + shortest(at_s) + ": the run ended at " + shortest(end_s) +
                    " s, so nothing would change; give an earlier time");
-}
-
-std::vector<std::string> differences_of(const Json& result) {
-  std::vector<std::string> texts;
-  for (const Json& text : value_or(result, "differences", Json::array())) {
-    if (text.is_string()) texts.push_back(text.get<std::string>());
-  }
-  return texts;
 }
 
 void add_reflight(CLI::App& command, Reflight& reflight) {
@@ -241,7 +233,7 @@ void add_fork(CLI::App& app, ForkOptions& fork) {
 std::vector<std::string> fleet_of(const Json& result) {
   std::vector<std::string> names;
   for (const Json& uav : value_or(result, "uavs", Json::array())) {
-    names.push_back(value_or(uav, "name", "").get<std::string>());
+    names.push_back(text_in(uav, "name"));
   }
   return names;
 }
@@ -262,7 +254,7 @@ int rerun(const RerunOptions& options, const Console& console) {
   if (end.code != kExitDone) return end.code;
   const Json now = results::read_result_file(end.dir);
   if (const std::string other = other_digest(then, now); !other.empty()) console.out << other << '\n';
-  const std::vector<std::string> differences = differences_of(now);
+  const std::vector<std::string> differences = texts_in(now, "differences");
   for (const std::string& difference : differences) console.out << difference << '\n';
   if (differences.empty()) console.out << options.uav << ": the output is the recorded one\n";
   console.out << std::flush;
@@ -288,7 +280,7 @@ ThoughtAgain think_again_with_maps(const fs::path& run, const fs::path& out, con
   const int code = run_fleet(options, console);
   if (code != kExitDone) return {code, {}};
   const Json now = results::read_result_file(out);
-  std::vector<std::string> different = differences_of(now);
+  std::vector<std::string> different = texts_in(now, "differences");
   if (std::string other = other_digest(then, now); !other.empty()) different.push_back(std::move(other));
   return {code, std::move(different)};
 }
@@ -310,8 +302,8 @@ int fork_run(const ForkOptions& options, const Console& console) {
   const RunEnd end = fly_fleet(run, console);
   const Json now = read_json(end.dir / run_folder::kResult);
   if (!now.is_object()) return end.code;
-  for (const std::string& difference : differences_of(now)) console.out << difference << '\n';
-  const auto score = [](const Json& result) { return value_or(result, "score", 0.0).get<double>(); };
+  for (const std::string& difference : texts_in(now, "differences")) console.out << difference << '\n';
+  const auto score = [](const Json& result) { return number_in(result, "score"); };
   console.out << "score " << score(now) << "; the recorded run scored " << score(then) << "\n";
   if (const std::string digest = text_in(then, "digest"); !digest.empty() && digest == text_in(now, "digest")) {
     console.out << "the fork is the same run: its digest did not change\n";

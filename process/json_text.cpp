@@ -56,6 +56,14 @@ int depth_of(const std::string& text) {
 
 }  // namespace
 
+std::vector<std::string> texts_in(const Json& object, const char* key) {
+  std::vector<std::string> texts;
+  for (const Json& text : value_or(object, key, Json::array())) {
+    if (text.is_string()) texts.push_back(text.get<std::string>());
+  }
+  return texts;
+}
+
 Json parse_json(const std::string& text) {
   // With a callback, nlohmann's parser takes a time that grows with the square of an array's length.
   const auto shallow = [](int depth, Json::parse_event_t, const Json&) { return depth <= kDeepest; };

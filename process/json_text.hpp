@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace skein {
 
@@ -20,6 +21,8 @@ Json value_or(const Json& object, const char* key, Json fallback);
 double number_in(const Json& object, const char* key);
 std::optional<double> number_if_any(const Json& object, const char* key);
 std::string text_in(const Json& object, const char* key);
+/// The texts of a list under `key`; leaves out its elements of other kinds. Empty if there is no list.
+std::vector<std::string> texts_in(const Json& object, const char* key);
 
 /// Parses JSON. @returns null if the text is not JSON. Leaves out values that are nested deeper than any that Skein
 /// writes: copying them could overflow the stack.

@@ -301,9 +301,9 @@ Json merge_result(const RunFacts& facts, const Scenario& scenario, const Reports
   }
   result["lost_members"] = json_of(sim.lost_members);
   for (Json& lost : result["lost_members"]) {
-    const auto crash = facts.crashes.find(value_or(lost, "member", "").get<std::string>());
+    const auto crash = facts.crashes.find(text_in(lost, "member"));
     if (crash != facts.crashes.end()) {
-      lost["reason"] = value_or(lost, "reason", "").get<std::string>() + ": " + crash->second;
+      lost["reason"] = text_in(lost, "reason") + ": " + crash->second;
     }
   }
   result["warnings"] = warnings_of(facts, sim, router, reports);

@@ -140,7 +140,7 @@ std::map<std::string, FolderSignals::Track> FolderSignals::tracks_of(const resul
   }
   // A collision may lie between two rows of the table, or after its last one.
   for (const Json& collision : value_or(run.result, "collisions", Json::array())) {
-    const auto track = tracks.find(value_or(collision, "uav", "").get<std::string>());
+    const auto track = tracks.find(text_in(collision, "uav"));
     const double time_s = value_or(collision, "time_s", 0.0);
     if (track == tracks.end() || time_s > end_s) continue;
     Values& alive = track->second.alive;
@@ -264,7 +264,7 @@ FolderSignals::Values FolderSignals::result(const SignalUse& signal) const {
     std::vector<std::string> known;
     if (here.is_array()) {  // of objects with names
       for (const Json& one : here) {
-        known.push_back(value_or(one, "name", "").get<std::string>());
+        known.push_back(text_in(one, "name"));
         if (known.back() == key) next = one;
       }
     } else if (here.is_object()) {

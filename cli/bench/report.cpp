@@ -328,9 +328,7 @@ Json targets_of(const Json& report) {
   Json targets = Json::array();
   for (const Json& speed : value_or(report, "speed", Json::array())) {
     const Way way = way_of(speed);
-    const std::string of =
-        fmt::format("{} UAVs, {}", number_in(speed, "uavs"), value_or(speed, "scenario", "").get<std::string>()) +
-        way.text;
+    const std::string of = fmt::format("{} UAVs, {}", number_in(speed, "uavs"), text_in(speed, "scenario")) + way.text;
     const auto& [factor, aim, most_mb] = kSpeedTargets.at(way.kind);
     targets.push_back(target("real-time factor, " + of, true, factor, value_in(&speed, "real_time_factor"),
                              fmt::format("x (aim {})", aim)));
@@ -360,8 +358,8 @@ Json targets_of(const Json& report) {
   const Json ended = hundred == nullptr ? Json() : Json(value_or(*hundred, "to_the_end", false) ? 1 : 0);
   targets.push_back(target("100 UAVs run to the end", true, 1.0, ended, "(1: yes)"));
   for (const Json& relay : value_or(report, "relay", Json::array())) {
-    targets.push_back(target("router against a bare relay, " + value_or(relay, "vendor", "").get<std::string>(), false,
-                             1.3, value_in(&relay, "times_relay"), "times its latency"));
+    targets.push_back(target("router against a bare relay, " + text_in(relay, "vendor"), false, 1.3,
+                             value_in(&relay, "times_relay"), "times its latency"));
   }
   const Json memory = value_or(report, "memory", Json::object());
   const Json measured_load = value_or(report, "load", Json::object());

@@ -25,7 +25,7 @@ std::string spread(const Json& object, const char* key, int digits) {
 /// "cyclonedds", "one process, 2 threads"
 std::string medium(const Json& entry) {
   const int threads = static_cast<int>(number_in(entry, "threads"));
-  return threads > 0 ? text_of_threads(threads) : value_or(entry, "medium", "").get<std::string>();
+  return threads > 0 ? text_of_threads(threads) : text_in(entry, "medium");
 }
 
 Json part(const Json& report, const char* key) { return value_or(report, key, Json::array()); }
@@ -33,9 +33,9 @@ Json part(const Json& report, const char* key) { return value_or(report, key, Js
 void print_speed(std::ostream& out, const Json& speed) {
   out << fmt::format(
       "\n{}, {} UAVs, patrol, {}: x{} real time, {:.1f} s simulated; {} cores busy, {:.0f} MB, start-up {:.1f} s\n",
-      value_or(speed, "scenario", "").get<std::string>(), number_in(speed, "uavs"), medium(speed),
-      spread(speed, "real_time_factor", 1), number_in(speed, "sim_time_s"), spread(speed, "cores_busy", 2),
-      middle(speed, "memory_mb"), middle(speed, "startup_s"));
+      text_in(speed, "scenario"), number_in(speed, "uavs"), medium(speed), spread(speed, "real_time_factor", 1),
+      number_in(speed, "sim_time_s"), spread(speed, "cores_busy", 2), middle(speed, "memory_mb"),
+      middle(speed, "startup_s"));
   out << fmt::format("  {:<16}{:>10}{:>10}{:>18}\n", "CPU time of", "s", "share", "ms a simulated s");
   const Json all_work = value_or(speed, "work", Json::object());
   for (const auto& [kind, work] : all_work.items()) {
@@ -63,12 +63,12 @@ void print_rounds(std::ostream& out, const Json& rounds) {
       << fmt::format("  {:<12}{:>5}{:>10}{:>10}{:>22}{:>22}{:>18}{:>26}\n", "vendor", "UAVs", "messages", "bytes",
                      "fleet [1/s]", "floor [1/s]", "times the floor", "CPU ms a round");
   for (const Json& entry : rounds) {
-    out << fmt::format(
-        "  {:<12}{:>5}{:>10}{:>10}{:>22}{:>22}{:>18}{:>26}\n", value_or(entry, "vendor", "").get<std::string>(),
-        number_in(entry, "uavs"), number_in(entry, "messages_per_round"), number_in(entry, "bytes_per_round"),
-        spread(entry, "fleet_rounds_per_s", 0), spread(entry, "floor_rounds_per_s", 0), spread(entry, "times_floor", 2),
-        fmt::format("{:.2f} / {:.2f} = {:.2f}", middle(entry, "fleet_cpu_ms_per_round"),
-                    middle(entry, "floor_cpu_ms_per_round"), middle(entry, "times_floor_cpu")));
+    out << fmt::format("  {:<12}{:>5}{:>10}{:>10}{:>22}{:>22}{:>18}{:>26}\n", text_in(entry, "vendor"),
+                       number_in(entry, "uavs"), number_in(entry, "messages_per_round"),
+                       number_in(entry, "bytes_per_round"), spread(entry, "fleet_rounds_per_s", 0),
+                       spread(entry, "floor_rounds_per_s", 0), spread(entry, "times_floor", 2),
+                       fmt::format("{:.2f} / {:.2f} = {:.2f}", middle(entry, "fleet_cpu_ms_per_round"),
+                                   middle(entry, "floor_cpu_ms_per_round"), middle(entry, "times_floor_cpu")));
   }
 }
 
@@ -97,8 +97,8 @@ void print_radio(std::ostream& out, const Json& report) {
   const Json relays = part(report, "relay");
   if (!relays.empty()) out << "\nradio latency [us] through comm_router / through a bare relay of the same vendor\n";
   for (const Json& relay : relays) {
-    out << fmt::format("  {:<12}{:>22}{:>22}{:>22} times\n", value_or(relay, "vendor", "").get<std::string>(),
-                       spread(relay, "router_us", 0), spread(relay, "relay_us", 0), spread(relay, "times_relay", 2));
+    out << fmt::format("  {:<12}{:>22}{:>22}{:>22} times\n", text_in(relay, "vendor"), spread(relay, "router_us", 0),
+                       spread(relay, "relay_us", 0), spread(relay, "times_relay", 2));
   }
   if (const Json load = value_or(report, "load", Json::object()); !load.empty()) {
     out << fmt::format("\nradio load, {} UAVs in real time: {:.0f} messages/s, {:.0f} lost, x{} real time\n",
@@ -131,8 +131,8 @@ void print_targets(std::ostream& out, const Json& targets) {
 void print_bench(std::ostream& out, const Json& report) {
   const Json machine = value_or(report, "machine", Json::object());
   out << fmt::format("{}, {} cores, load {:.1f} before the start; {} of each kind, medians (least-most)\n",
-                     value_or(machine, "cpu", "").get<std::string>(), number_in(machine, "cores"),
-                     number_in(machine, "load"), number_in(report, "repeats"));
+                     text_in(machine, "cpu"), number_in(machine, "cores"), number_in(machine, "load"),
+                     number_in(report, "repeats"));
   for (const Json& speed : part(report, "speed")) print_speed(out, speed);
   print_rounds(out, part(report, "rounds"));
   print_scale(out, part(report, "scale"));

@@ -23,15 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string digest_in(const fs::path& dir) {
-  const Json digest = value_or(read_json(dir / run_folder::kResult), "digest", nullptr);
-  return digest.is_string() ? digest.get<std::string>() : "";
-}
-
-std::optional<double> result_score(const fs::path& dir) {
-  const Json score = value_or(read_json(dir / run_folder::kResult), "score", nullptr);
-  return score.is_number() ? std::optional(score.get<double>()) : std::nullopt;
-}
+std::string digest_in(const fs::path& dir) { return text_in(read_json(dir / run_folder::kResult), "digest"); }
 
 /// Flies a second run for comparison, in a scratch folder. `look` reads the folder before it is deleted.
 /// @param how  describes the second run to the user, who sees the messages of both runs
@@ -142,7 +134,7 @@ int run_capsule(const RunOptions& options, const Console& console) {
   } else if (mark.property != kCompletes) {
     verdict = judge_property(test, dir, console);
   }
-  if (const auto score = result_score(dir)) {
+  if (const auto score = number_if_any(read_json(dir / run_folder::kResult), "score")) {
     console.out << "this run, with its faults: score " << fixed(*score, 3) << ", results in " << dir.string() << '\n';
   }
   console.out << mark.property << (verdict.fails ? " fails: " : " holds: ") << verdict.text << '\n';

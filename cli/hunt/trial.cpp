@@ -35,9 +35,8 @@ TrialFinding completes(const std::filesystem::path& dir, const ExitStatus& exit,
   finding.at_s = value_or(result, "sim_time_s", 0.0);
   finding.text = "skein run ended with " + exit.text() + ", status " + status;
   for (const Json& member : lost) {
-    finding.text += "; " + value_or(member, "member", "").get<std::string>() + " was lost at " +
-                    number_text(value_or(member, "time_s", 0.0)) +
-                    " s: " + value_or(member, "reason", "").get<std::string>();
+    finding.text += "; " + text_in(member, "member") + " was lost at " + number_text(value_or(member, "time_s", 0.0)) +
+                    " s: " + text_in(member, "reason");
   }
   for (const Json& warning : value_or(result, "warnings", Json::array())) {
     if (warning.is_string() && results::is_failure(warning.get<std::string>()))

@@ -25,7 +25,7 @@ struct Frame {
   Json head;         ///< an object
   std::string body;  ///< bytes of a file or a log
   /// head[key] as text; empty: there is none.
-  std::string text(const char* key) const { return value_or(head, key, "").get<std::string>(); }
+  std::string text(const char* key) const { return text_in(head, key); }
 };
 
 /// A frame as bytes; sets "bytes". Invalid UTF-8 in `head` is replaced.

@@ -167,7 +167,7 @@ class HostService {
 
   void start(const Json& head) {
     ProgramSpec spec;
-    spec.name = value_or(head, "name", "").get<std::string>();
+    spec.name = text_in(head, "name");
     spec.argv = value_or(head, "argv", Json::array()).get<std::vector<std::string>>();
     spec.env = fleet_environment(value_or(head, "native", false).get<bool>(),
                                  value_or(head, "variables", Json::object()).get<std::map<std::string, std::string>>());
@@ -176,7 +176,7 @@ class HostService {
     spec.minded = value_or(head, "minded", false).get<bool>();
     fs::create_directories(spec.log.parent_path());
     fs::create_directories(own_out(spec.name));
-    const fs::path keys = value_or(head, "keys", "").get<std::string>();
+    const fs::path keys = text_in(head, "keys");
     if (!keys.empty() && ::geteuid() == 0) spec.user = own_user(spec.name, keys);
     if (!spec.append_log) shipped_[spec.name] = 0;
     // The limit of a login may be lower than that of the launcher. The programs raise theirs themselves.

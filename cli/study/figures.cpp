@@ -94,8 +94,8 @@ FlightFigures figures_of(const Json& result) {
   }
   figures.real_time_factor = number_in(result, "real_time_factor");
   figures.mission_time_s = number_in(result, "mission_time_s");
-  figures.status = value_or(result, "status", "").get<std::string>();
-  figures.digest = value_or(result, "digest", "").get<std::string>();
+  figures.status = text_in(result, "status");
+  figures.digest = text_in(result, "digest");
   Mean explorers, photographers, cpu;
   const Json scores = value_or(result, "score_by_uav", Json::object());
   for (const Json& uav : value_or(result, "uavs", Json::array())) {

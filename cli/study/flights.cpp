@@ -42,8 +42,7 @@ std::string problem_of(const fs::path& dir, const Json& result, const ExitStatus
   std::string reasons;
   const auto add = [&](const std::string& reason) { reasons += (reasons.empty() ? "" : "; ") + reason; };
   for (const Json& lost : value_or(result, "lost_members", Json::array())) {
-    add(fmt::format("{} at {:.1f} s: {}", value_or(lost, "member", "").get<std::string>(),
-                    value_or(lost, "time_s", 0.0).get<double>(), value_or(lost, "reason", "").get<std::string>()));
+    add(fmt::format("{} at {:.1f} s: {}", text_in(lost, "member"), number_in(lost, "time_s"), text_in(lost, "reason")));
   }
   for (const Json& warning : value_or(result, "warnings", Json::array())) {
     const std::string text = warning.is_string() ? warning.get<std::string>() : "";

@@ -25,7 +25,7 @@ constexpr std::size_t kMostCheckRounds = 4;
 /// This machine flies at most so many of the checks that no other node has flown.
 constexpr std::size_t kMostChecksHere = 10;
 
-std::string digest_in(const SweepRow& row) { return value_or(row.figures, "digest", "").get<std::string>(); }
+std::string digest_in(const SweepRow& row) { return text_in(row.figures, "digest"); }
 
 std::string digest_of(const SweepPlan& plan) {
   Sha256 hash;
@@ -301,7 +301,7 @@ void SweepController::remove_quarantined() {
     bool any = false;
     for (const SweepFlight& flight : folder_.unit(unit).flights) {
       const Json mark = read_json(flight.dir / kFlightMark);
-      if (!nodes.contains(value_or(mark, "node", "").get<std::string>())) continue;
+      if (!nodes.contains(text_in(mark, "node"))) continue;
       folder_.set_aside(flight.dir);
       any = true;
     }

@@ -24,17 +24,9 @@ constexpr int kFormat = 2;  ///< version of the file format
 /// A number with leading zeros, so that names sort by number.
 std::string numbered(std::size_t number) { return fmt::format("{:06}", number); }
 
-std::size_t number_in(const Json& json, const char* key) {
+std::size_t count_in(const Json& json, const char* key) {
   const Json value = value_or(json, key, nullptr);
   return value.is_number_unsigned() ? value.get<std::size_t>() : 0;
-}
-
-std::vector<std::string> texts_in(const Json& json, const char* key) {
-  std::vector<std::string> texts;
-  for (const Json& text : value_or(json, key, Json::array())) {
-    if (text.is_string()) texts.push_back(text.get<std::string>());
-  }
-  return texts;
 }
 
 /// Names of the JSON files in a folder, without their extension; empty if there is no such folder.
@@ -73,8 +65,7 @@ Json to_json(const SweepRow& row) {
 }
 
 SweepRow row_of(const Json& json) {
-  return {number_in(json, "index"), text_in(json, "node"), text_in(json, "problem"),
-          value_or(json, "figures", nullptr)};
+  return {count_in(json, "index"), text_in(json, "node"), text_in(json, "problem"), value_or(json, "figures", nullptr)};
 }
 
 }  // namespace
@@ -88,7 +79,7 @@ Json to_json(const SweepFlight& flight) {
 
 SweepFlight sweep_flight_of(const Json& json, const fs::path& file) {
   const Json run = value_or(json, "run", Json::object());
-  SweepFlight flight{number_in(json, "index"), text_in(json, "dir"), struct_of<RunOptions>(run),
+  SweepFlight flight{count_in(json, "index"), text_in(json, "dir"), struct_of<RunOptions>(run),
                      value_or(json, "made_under", nullptr)};
   if (flight.dir.empty() || run.empty()) {
     throw InputError(
@@ -117,15 +108,15 @@ std::optional<SweepSettings> SweepFolder::settings() const {
   SweepSettings settings{
       text_in(json, "token"),
       text_in(json, "plan"),
-      {number_in(json, "flights"), std::max<std::size_t>(number_in(json, "unit_flights"), 1),
-       number_in(json, "tail_flights"), std::max<std::size_t>(number_in(json, "tail_unit_flights"), 1)},
+      {count_in(json, "flights"), std::max<std::size_t>(count_in(json, "unit_flights"), 1),
+       count_in(json, "tail_flights"), std::max<std::size_t>(count_in(json, "tail_unit_flights"), 1)},
       {},
       text_in(json, "digest"),
       texts_in(json, "command"),
       text_in(json, "working_folder"),
       0.0};
   settings.reference = sweep_flight_of(value_or(json, "reference", Json::object()), dir_ / kSettings);
-  settings.reference_s = value_or(json, "reference_s", 0.0).get<double>();
+  settings.reference_s = number_in(json, "reference_s");
   return settings;
 }
 
@@ -204,7 +195,7 @@ std::set<std::size_t> SweepFolder::checks(const std::string& token) const {
 std::map<std::size_t, SweepFolder::Tries> SweepFolder::tries() const {
   std::map<std::size_t, Tries> tries;
   for (const Json& one : value_or(read_json(dir_ / kTries), "units", Json::array())) {
-    tries[number_in(one, "unit")] = {number_in(one, "tries"), number_in(one, "flown")};
+    tries[count_in(one, "unit")] = {count_in(one, "tries"), count_in(one, "flown")};
   }
   return tries;
 }
@@ -293,7 +284,7 @@ void SweepFolder::write_check(const std::string& token, const SweepCheck& check)
 std::optional<SweepCheck> SweepFolder::check(const std::string& token, std::size_t index) const {
   const Json json = read_json(file_of(fs::path("checks") / token, numbered(index)));
   if (!json.is_object()) return std::nullopt;
-  return SweepCheck{number_in(json, "index"), text_in(json, "node"), text_in(json, "digest"),
+  return SweepCheck{count_in(json, "index"), text_in(json, "node"), text_in(json, "digest"),
                     text_in(json, "first_node"), text_in(json, "first_digest")};
 }
 
