@@ -151,6 +151,10 @@ TEST(Options, OtherCommands) {
   EXPECT_EQ(parse<DiffOptions>({"diff", "x", "y"}).run_b, "y");
   EXPECT_NE(parse<HelpText>({"--help"}).text.find("diff"), std::string::npos);
   EXPECT_NE(parse<HelpText>({"run", "--help"}).text.find("--stop-at"), std::string::npos);
+  for (const std::string command : {"ps", "attach", "hunt", "blame", "rerun", "fork", "report", "replay", "convert",
+                                    "doctor", "pack", "check-planner"}) {
+    EXPECT_NE(parse<HelpText>({command, "--help"}).text.find("\n  skein " + command), std::string::npos) << command;
+  }
   for (const char* command : {"run", "test", "check", "scene", "bench", "oracle", "contest", "compare", "diff"}) {
     const HelpText help = parse<HelpText>({command, "--help"});
     EXPECT_NE(help.text.find("Example"), std::string::npos) << command;
