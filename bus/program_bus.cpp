@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <string>
 
+#include "core/text/suggestion.hpp"
 #include "core/topics.hpp"
 #include "process/host/open_files.hpp"
 
@@ -22,9 +23,9 @@ std::unique_ptr<Bus> make_bus(const ProgramOptions& options, const Scenario& sce
     }
   }
   if (!options.check_only && std::ranges::count(dds_vendors(), options.dds) > 0) {
-    const std::string warning =
-        provide_open_files(fmt::format("this program, which joins {} DDS domain{},", domains, domains == 1 ? "" : "s"),
-                           open_files_over_dds(domains, options.dds == "fastdds"));
+    const std::string warning = provide_open_files(
+        "this program, which joins " + counted(static_cast<std::size_t>(domains), "DDS domain") + ",",
+        open_files_over_dds(domains, options.dds == "fastdds"));
     if (!warning.empty() && !options.has_launcher()) spdlog::warn("{}", warning);  // a launcher has warned already
   }
   return make_bus(config);

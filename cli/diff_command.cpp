@@ -9,6 +9,7 @@
 #include <ranges>
 
 #include "core/files/file_bytes.hpp"
+#include "core/text/suggestion.hpp"
 #include "core/text/text.hpp"
 #include "core/types.hpp"
 #include "process/program.hpp"
@@ -146,8 +147,6 @@ std::optional<Messages> messages_of(const fs::path& run) {
   return messages;
 }
 
-std::string number_of(std::size_t count) { return std::to_string(count) + (count == 1 ? " message" : " messages"); }
-
 /// Reports the differences of the recordings at the first time at which they differ.
 void compare_recordings(const DiffOptions& options, std::vector<std::string>& found) {
   if (only_owner(options, run_folder::kRecording)) return;
@@ -170,8 +169,9 @@ void compare_recordings(const DiffOptions& options, std::vector<std::string>& fo
     const auto& [then, now] = both;
     if (then == now) continue;
     found.push_back(at + topic + ": " +
-                    (then.size() == now.size() ? number_of(then.size()) + " of other content"
-                                               : number_of(then.size()) + ", and " + number_of(now.size())));
+                    (then.size() == now.size()
+                         ? counted(then.size(), "message") + " of other content"
+                         : counted(then.size(), "message") + ", and " + counted(now.size(), "message")));
   }
 }
 

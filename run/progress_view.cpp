@@ -141,7 +141,7 @@ void print_summary(std::ostream& out, const Json& result, const std::filesystem:
       << (possible > 0.0 ? ", " + cell(attainable, "points", 0) + " attainable" : "") << '\n';
   print_losses(out, value_or(result, "losses", Json::object()));
   out << "status    " << result["status"].get<std::string>() << ", mission " << cell(result, "mission_time_s", 1)
-      << " s, " << result["collisions"].size() << " collision" << (result["collisions"].size() == 1 ? "" : "s") << '\n'
+      << " s, " << counted(result["collisions"].size(), "collision") << '\n'
       << "speed     x" << cell(result, "real_time_factor", 1) << " (" << cell(result, "sim_time_s", 1)
       << " s simulated in " << cell(result, "wall_time_s", 1) << " s), "
       << (number_in(result, "memory_mb") > 0.0 ? "memory " + cell(result, "memory_mb", 0) + " MB, "

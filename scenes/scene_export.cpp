@@ -6,6 +6,7 @@
 #include "core/files/file_bytes.hpp"
 #include "core/scenario/drawn_worlds.hpp"
 #include "core/scenario/scenario_reader.hpp"
+#include "core/text/suggestion.hpp"
 #include "process/files/atomic_file.hpp"
 #include "process/files/closed_to_agents.hpp"
 #include "results/run_folder.hpp"
@@ -25,10 +26,6 @@ std::string file_name(std::string name) {
       name.begin(), name.end(),
       [](char c) { return !std::isalnum(static_cast<unsigned char>(c)) && c != '_' && c != '-'; }, '_');
   return name;
-}
-
-std::string counted(std::size_t count, const std::string& noun) {
-  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
 }
 
 std::string origin(const SceneConfig& scene) {

@@ -10,6 +10,7 @@
 #include <string>
 #include <utility>
 
+#include "core/text/suggestion.hpp"
 #include "results/run_folder.hpp"
 
 namespace skein::cli {
@@ -199,7 +200,7 @@ Json work_of(const Json& result) {
 }
 
 std::string text_of_threads(int threads) {
-  return fmt::format("{}, {} thread{}", kInOneProcess, threads, threads == 1 ? "" : "s");
+  return fmt::format("{}, {}", kInOneProcess, counted(static_cast<std::size_t>(threads), "thread"));
 }
 
 Json speed_entry(const std::vector<Json>& results, const Json& lidar, int threads) {

@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "cli/study/side_by_side.hpp"
+#include "core/text/suggestion.hpp"
 #include "core/types.hpp"
 #include "host/supervisor.hpp"
 #include "process/files/atomic_file.hpp"
@@ -108,8 +109,9 @@ class StudyRun {
     std::string news =
         fmt::format("{}, {}, seed {}: ", plan_.scenarios[flight.scenario], plan_.labels[flight.planner], flight.seed);
     if (const auto& figures = outcome.figures) {
-      news += fmt::format("score {:.1f}, {} collision{}, x{:.1f} real time", figures->score, figures->collisions,
-                          figures->collisions == 1 ? "" : "s", figures->real_time_factor);
+      news +=
+          fmt::format("score {:.1f}, {}, x{:.1f} real time", figures->score,
+                      counted(static_cast<std::size_t>(figures->collisions), "collision"), figures->real_time_factor);
     }
     if (!outcome.problem.empty()) news += (outcome.figures ? "; " : "") + outcome.problem;
     const double wall_s = std::chrono::duration<double>(Clock::now() - started_).count();

@@ -58,7 +58,7 @@ std::string leader_card(const Study& study) {
     if (all.empty() || !all.front().decides) return study_card("First place", "–", "no complete test", "main");
     const auto ahead = std::ranges::count(all, all.front().decides, &Standing::decides);
     if (ahead > 1) {
-      return study_card("First place", plural(static_cast<std::size_t>(ahead), "planner"),
+      return study_card("First place", counted(static_cast<std::size_t>(ahead), "planner"),
                         "share it: " + rank_name(study.rank) + " total " + fixed(*all.front().decides, 1), "main");
     }
     return study_card("First place", shortened(study.planners[all.front().planner], 24),
@@ -102,7 +102,7 @@ std::string study_cards(const Study& study) {
   }
   return "<div class=\"cards\">\n" + leader_card(study) +
          study_card("Flights that count", fmt::format("{} of {}", counted, study.flights.size()),
-                    plural(study.seeds.size(), "seed") + ": " + seeds_text(study),
+                    counted(study.seeds.size(), "seed") + ": " + seeds_text(study),
                     counted < study.flights.size() ? "bad" : "") +
          study_card("Planners", std::to_string(study.planners.size()), "each in every scene") +
          study_card("Scenes", std::to_string(study.scenarios.size()), "all with the same seeds") +
@@ -180,7 +180,7 @@ std::optional<double> of_flights(const Study& study, std::optional<double> Fligh
 std::string study_footer(const Study& study) {
   const std::string at_once = study.jobs == 1
                                   ? std::string("one flight at a time")
-                                  : "up to " + plural(static_cast<std::size_t>(study.jobs), "flight") + " at once";
+                                  : "up to " + counted(static_cast<std::size_t>(study.jobs), "flight") + " at once";
   std::string html = "<footer class=\"soft\">\n";
   if (!study.machine.empty())
     html += "<p id=\"machine\">Written on " + escaped(study.machine) + "; ";

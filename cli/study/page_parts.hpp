@@ -14,7 +14,9 @@ std::string ranking_section(const StudyReport& report);
 std::string overview_section(const StudyReport& report);
 /// Plots of scores (dots and boxes), then of scores over time.
 std::string spread_section(const StudyReport& report);
+/// Planners compared flight by flight, with intervals and tests.
 std::string pairs_section(const StudyReport& report);
+/// Times and shares of captures from picture to station, by planner.
 std::string delivery_section(const StudyReport& report);
 /// Everything about one scene: figures, flights, UAVs, drawings.
 std::string scene_section(const StudyReport& report, std::size_t scenario);
@@ -24,7 +26,5 @@ std::string planner_cell(const Study& study, std::size_t planner);
 /// Figures of these kinds side by side. @param scenario  nullopt: figures that are about all scenes
 std::string figure_panels(const StudyReport& report, std::initializer_list<FigureKind> kinds,
                           std::optional<std::size_t> scenario = {});
-/// A count with its noun: "1 flight", "3 flights".
-std::string plural(std::size_t count, const std::string& what);
 
 }  // namespace skein::cli

@@ -6,6 +6,7 @@
 
 #include "cli/study/columns.hpp"
 #include "cli/study/page_parts.hpp"
+#include "core/text/suggestion.hpp"
 #include "report/html.hpp"
 
 namespace skein::cli {
@@ -64,9 +65,9 @@ std::string flight_cell(const FlightEntry* flight) {
                                                     : "<a href=\"" + escaped(flight->page) + "\">" +
                                                           (flight->figures ? words : "report") + "</a>");
   if (flight->figures) {
-    html += "<small>" + plural(static_cast<std::size_t>(flight->figures->points_detected), "point") + "</small>";
+    html += "<small>" + counted(static_cast<std::size_t>(flight->figures->points_detected), "point") + "</small>";
     if (flight->figures->collisions > 0) {
-      html += "<small>" + plural(static_cast<std::size_t>(flight->figures->collisions), "collision") + "</small>";
+      html += "<small>" + counted(static_cast<std::size_t>(flight->figures->collisions), "collision") + "</small>";
     }
   }
   return html + (flight->problem.empty() ? "" : "<small class=\"cross\">problem</small>") + "</td>";

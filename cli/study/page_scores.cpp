@@ -128,10 +128,6 @@ std::string planner_cell(const Study& study, std::size_t planner) {
       colour_class(planner), escaped(study.planners[planner]));
 }
 
-std::string plural(std::size_t count, const std::string& what) {
-  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
-}
-
 std::string figure_panels(const StudyReport& report, std::initializer_list<FigureKind> kinds,
                           std::optional<std::size_t> scenario) {
   std::string html;

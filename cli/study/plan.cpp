@@ -86,7 +86,7 @@ void list_scenes(const StudyOptions& options, StudyPlan& plan) {
         for (const auto& conditions : each_or_none(options.conditions)) {
           std::string name = scenario;
           if (scene_seed) name += " " + std::to_string(*scene_seed);
-          if (uavs) name += " " + std::to_string(*uavs) + (*uavs == 1 ? " UAV" : " UAVs");
+          if (uavs) name += " " + counted(*uavs, "UAV");
           if (conditions) name += " " + *conditions;
           plan.scenarios.push_back(name);
           plan.scenes.push_back({scenario, scene_seed ? scene_seed : options.scene_seed, uavs, conditions});

@@ -7,6 +7,7 @@
 #include <ostream>
 #include <tuple>
 
+#include "core/text/suggestion.hpp"
 #include "core/text/text.hpp"
 #include "report/html.hpp"
 
@@ -37,8 +38,8 @@ double tenth_percentile(std::vector<double> values) {
 std::string text_of(const Study& study, const FlightEntry& flight) {
   std::string figures = "failed: " + flight.problem;
   if (flight.figures) {
-    figures = fmt::format("{:>5} %, {} collision{}, {} frozen", report::fixed(flight.figures->attainable_percent, 1),
-                          flight.figures->collisions, flight.figures->collisions == 1 ? "" : "s",
+    figures = fmt::format("{:>5} %, {}, {} frozen", report::fixed(flight.figures->attainable_percent, 1),
+                          counted(static_cast<std::size_t>(flight.figures->collisions), "collision"),
                           flight.figures->frozen_uavs.value_or(0));
   }
   return fmt::format("  {:<14}{:<12}{}\n    {}\n", study.scenarios[flight.scenario], study.planners[flight.planner],

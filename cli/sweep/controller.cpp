@@ -10,6 +10,7 @@
 #include "cli/study/flights.hpp"
 #include "core/random_stream.hpp"
 #include "core/sha256.hpp"
+#include "core/text/suggestion.hpp"
 #include "core/types.hpp"
 #include "host/supervisor.hpp"
 
@@ -340,7 +341,7 @@ std::vector<std::string> SweepController::findings() const {
   }
   const std::vector<std::string> nodes = folder_.nodes();
   const std::size_t count = std::set<std::string>(nodes.begin(), nodes.end()).size();
-  lines.push_back(fmt::format("{} node{}; {}", count, count == 1 ? "" : "s", text_of_checks()));
+  lines.push_back(counted(count, "node") + "; " + text_of_checks());
   return lines;
 }
 
@@ -354,7 +355,7 @@ std::string SweepController::text_of_checks() const {
     if (check->digest != check->first_digest) ++different;
   }
   if (checks == 0) return "no flight was flown again on a second node";
-  const std::string flown = fmt::format("{} flight{} flown again elsewhere, ", checks, checks == 1 ? "" : "s");
+  const std::string flown = counted(checks, "flight") + " flown again elsewhere, ";
   if (different == 0) return flown + "each with the same digest";
   return flown + fmt::format("{} with another digest: which node is wrong shows when the study goes on", different);
 }

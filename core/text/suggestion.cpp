@@ -58,4 +58,8 @@ std::string joined_first(const std::vector<std::string>& words, std::size_t most
   return joined(first) + " and " + std::to_string(words.size() - first.size()) + " more";
 }
 
+std::string counted(std::size_t count, const std::string& noun) {
+  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
+}
+
 }  // namespace skein

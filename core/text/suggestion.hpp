@@ -1,6 +1,7 @@
-// Helps a user who mistyped a name. Pure; safe from any thread.
+// Parts of messages to a user: suggestions for a mistyped name, lists, counts. Pure; safe from any thread.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,5 +17,8 @@ std::string joined(const std::vector<std::string>& words, std::string_view separ
 
 /// A list for a message: all words if there are at most `most` (>= 1), otherwise the first most - 1 "and N more".
 std::string joined_first(const std::vector<std::string>& words, std::size_t most = 10);
+
+/// A count with its noun, whose plural ends in "s": "1 flight", "3 flights".
+std::string counted(std::size_t count, const std::string& noun);
 
 }  // namespace skein

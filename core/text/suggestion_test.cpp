@@ -35,5 +35,11 @@ TEST(Joined, LongListsEndWithANumber) {
   EXPECT_EQ(joined_first(words, 5), "0, 1, 2, 3 and 7 more");
 }
 
+TEST(Counted, OneHasNoPlural) {
+  EXPECT_EQ(counted(0, "flight"), "0 flights");
+  EXPECT_EQ(counted(1, "flight"), "1 flight");
+  EXPECT_EQ(counted(2, "flight"), "2 flights");
+}
+
 }  // namespace
 }  // namespace skein
