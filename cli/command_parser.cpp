@@ -113,7 +113,7 @@ std::string nearest_option(const CLI::App& command, const std::vector<std::strin
   return "";
 }
 
-/// What is wrong with the value of an option that CLI11 cannot convert.
+/// The message about an option's value that CLI11 cannot convert.
 std::string of_value(const CLI::Option& option, const std::string& value) {
   const std::string type = option.get_type_name(), name = option.get_name() + ": ";
   if (type.empty()) return name + "takes no value, such as '" + value + "'; leave '=' and the value out";
@@ -121,7 +121,7 @@ std::string of_value(const CLI::Option& option, const std::string& value) {
   return name + "'" + value + "' must be a " + (whole ? "whole number of at most nine digits" : "number");
 }
 
-/// What CLI11 says of a mistake; in our words where CLI11 does not say what would be right.
+/// CLI11's message about a mistake, or a message of ours where CLI11's names no correct value.
 std::string said_of(const CLI::ParseError& error, const CLI::App* command, const std::vector<std::string>& arguments) {
   const std::string words = error.what(), twice = ": At Most 1 required but received ", value = "Could not convert: ";
   if (const std::size_t at = words.find(twice); at != std::string::npos) {

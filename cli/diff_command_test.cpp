@@ -1,4 +1,4 @@
-// What `skein diff` says of two folders, beside their digests.
+// The differences between two folders that `skein diff` reports in addition to their digests.
 #include "cli/diff_command.hpp"
 
 #include <gtest/gtest.h>

@@ -53,8 +53,8 @@ Scenario scenario_of(const RunOptions& run) {
   }
 }
 
-/// What is wrong with the report of a program: it is truncated, say, or lacks what all reports of this program have.
-/// Null if the report is sound.
+/// The defect of a program's report: for example, it is truncated, or lacks a key that every report of this program
+/// has. nullopt if the report is sound.
 std::optional<std::string> damage_in(const Json& json, const std::string& program) {
   if (!json.is_object()) return "is damaged: it is not a JSON object";
   if (program == programs::kSimServer && !struct_of<SimServerReport>(json).status) {
@@ -113,7 +113,7 @@ void settle(const char* program, const char* books, const RunOptions& run, const
                    ".log");
 }
 
-/// What a launcher has written to result.json and no report has. Null if there is no result, or a damaged one.
+/// The values in a launcher's result.json that no report has. Null if there is no result, or if it is damaged.
 Json launchers_facts(const fs::path& dir, std::ostream& err) try {
   std::error_code error;
   if (!fs::exists(dir / run_folder::kResult, error)) return {};

@@ -48,8 +48,8 @@ std::string trouble_of(const std::string& tool, const std::vector<std::string>& 
   return exit.ok() ? "" : tool + " ended with " + exit.text() + ":" + last_lines_below(log, kLastLines);
 }
 
-/// What ldd says of a program. It does not notice if its output is lost, as on a full disk; echo does, so what it adds
-/// shows that the list is complete.
+/// The output of ldd for a program, and a last line from echo. Unlike ldd, echo fails if its output is lost, as on a
+/// full disk; so the last line shows that the list is complete.
 std::string list_of_libraries(const fs::path& program) {
   const ScratchDir scratch;
   const fs::path log = scratch.path() / "log";

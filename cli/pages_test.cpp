@@ -31,7 +31,7 @@ std::vector<fs::path> pages() {
   return files;
 }
 
-/// What stands in blocks of a page after "./skein", without comments and what a shell would do with it.
+/// The arguments after "./skein" in the blocks of a page, without comments, pipes and redirections.
 std::vector<std::string> commands_of(const fs::path& page) {
   static const std::regex kCommand(R"(^\s*(?:\$ )?\./skein (.*))"), kRest(R"(\s+(#|&$|<|\d?>|\||\\$).*)");
   std::vector<std::string> commands;

@@ -22,7 +22,7 @@ RunOptions options_for(const std::string& uav) {
   return options;
 }
 
-/// What a shell prints that has evaluated the lines as a user does.
+/// The output of `command` in a shell that has evaluated the lines as a user does.
 std::string evaluated(const RosPlace& place, const std::string& command) {
   const std::string script = "eval " + shell_word(shell_lines(place)) + "; " + command;
   FILE* const pipe = ::popen(script.c_str(), "r");

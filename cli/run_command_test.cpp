@@ -242,7 +242,7 @@ TEST_F(RunCommand, ASecondCtrlCEndsTheRunAtOnce) {
   EXPECT_EQ(result()["status"], "interrupted");
 }
 
-/// What a server that was stopped leaves.
+/// The report of a server that was stopped.
 constexpr const char* kInterruptedReport = R"(
 echo '{"status":"interrupted","deterministic":false,"sim_time_s":0,"uavs":[],"lost_members":[],"warnings":[]}' \
     > "$out/sim_server.report.json"

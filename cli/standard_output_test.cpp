@@ -11,7 +11,7 @@
 namespace skein::cli {
 namespace {
 
-/// What lost_output() says in a process that prints `text` to this descriptor: whether anything was lost.
+/// Whether lost_output() reports a loss in a process that prints `text` to this descriptor.
 bool is_lost(int output, const std::string& text) {
   std::cout.flush();
   const pid_t child = ::fork();

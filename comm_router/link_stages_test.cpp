@@ -321,8 +321,8 @@ TEST(LinkStages, StagesActOneAfterTheOther) {
   EXPECT_EQ(stages.fate(0, kRoute, kB, message(0)).delay_steps, 6u);
 }
 
-// What somebody adds while the run lasts acts as if the fault file had had it from the start; for a router that starts
-// in the middle, too.
+// A fault that a viewer adds during a run acts as if it had been in the fault file from the start, also for a router
+// that starts in the middle of the run.
 TEST(LinkStages, FaultsByHandActLikeThoseOfAFile) {
   constexpr std::uint64_t kSteps = 400;
   std::mt19937_64 random(3);

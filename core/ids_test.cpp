@@ -12,7 +12,7 @@
 namespace skein {
 namespace {
 
-// What may not be mixed up does not compile.
+// Code that mixes these types up does not compile.
 static_assert(!std::is_convertible_v<std::size_t, Node> && !std::is_convertible_v<std::size_t, UavIndex>);
 static_assert(!std::is_convertible_v<Node, UavIndex> && !std::is_convertible_v<UavIndex, Node>);
 static_assert(!std::equality_comparable_with<Node, UavIndex>);

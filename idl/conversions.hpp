@@ -128,7 +128,7 @@ InterestPoint from_message(const msg::InterestPoint& point);
 msg::CaptureReport to_message(const CaptureReport& report, std::span<const std::string> fleet);
 /// nullopt when the UAV is not of the fleet.
 std::optional<CaptureReport> from_message(const msg::CaptureReport& report, std::span<const std::string> fleet);
-/// What the station has of one UAV, with the sum by which its receiver knows that it is whole.
+/// The captures of one UAV that the station has, with a checksum by which the receiver detects damage.
 msg::CaptureAck to_capture_ack(const std::string& uav, std::vector<std::uint64_t> captures);
 /// Empty when the sum is not that of the content, or the message is for another UAV: radio links may flip bits, and a
 /// wrong number would erase another capture.

@@ -1,5 +1,5 @@
-// What a type of the IDL is as a ROS 2 message definition: the text that a recording carries, so that any tool can read
-// its messages without knowing Skein. Made from the IDL files, which are compiled in. Any thread.
+// The ROS 2 message definition of a type of the IDL. A recording contains this text, so that any tool can read its
+// messages without knowing Skein. Made from the IDL files, which are compiled in. Any thread.
 #pragma once
 
 #include <map>

@@ -28,7 +28,7 @@
 namespace skein::one_process {
 namespace {
 
-/// What became of all toys of a test. They write on any thread.
+/// Records how each toy of a test ended. The toys write on any thread.
 struct Diary {
   std::mutex mutex;
   std::map<std::string, int> turns;
@@ -164,7 +164,7 @@ class CrewTest : public testing::TestWithParam<int> {
     text << std::ifstream(folder_ / (name + ".log")).rdbuf();
     return text.str();
   }
-  /// What the launcher has heard of ends, by program.
+  /// The ends that were reported to the launcher, by program.
   std::map<std::string, shared_lines::Ended> ends() {
     std::string text(1 << 16, '\0');
     text.resize(static_cast<std::size_t>(std::max<ssize_t>(::read(pipe_[0], text.data(), text.size()), 0)));

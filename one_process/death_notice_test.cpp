@@ -19,7 +19,7 @@
 namespace skein::one_process {
 namespace {
 
-/// What all programs of the process use, made when it is first needed: exit() destroys it.
+/// An object that all programs of the process use. It is created on first use, and exit() destroys it.
 class Shared {
  public:
   static Shared& instance() {

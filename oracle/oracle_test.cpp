@@ -240,7 +240,7 @@ TEST(Oracle, MoreClearanceNeverHelpsAndMoreDirectionsNeverHarm) {
       EXPECT_GE(answer->attainable.points, answer->coarse.points);
     }
     EXPECT_GE(report.reachable.attainable.score, report.outside.attainable.score);
-    // What is found by refining may differ in the last percent.
+    // Refined viewpoints may differ a little, and so may the last half percent of the score.
     EXPECT_LE(report.reachable.attainable.score, 1.005 * before.score + 0.01) << clearance;
     EXPECT_LE(report.reachable.attainable.points, before.points) << clearance;
     before = report.reachable.attainable;
@@ -354,7 +354,7 @@ TEST(Oracle, TheAnswerDependsOnNothingButTheQuestion) {
   EXPECT_THROW(consult_oracle(photographer(1.0), scene, {0.5, 2.5, 0, 1}), std::invalid_argument);
 }
 
-/// What was found in these scenes by other means, with coarser sets of viewpoints: the oracle should find a little
+/// Scores that another method found in these scenes, with coarser sets of viewpoints. The oracle should find a little
 /// more.
 /// Sanitizers look for mistakes in memory, which a share of the points brings to light as well; all of them take more
 /// than ten minutes there.

@@ -17,7 +17,7 @@ namespace {
 
 constexpr Tick kStep = 20;
 
-/// What is said in a step, by a UAV, on one of two topics.
+/// A radio message of a UAV in a step, on one of two topics.
 struct Word {
   std::string uav;
   bool gimbal = false;
@@ -133,7 +133,7 @@ TEST_F(ReplayTest, LetsGoAtItsTime) {
   }
 }
 
-/// What a UAV's program tells of itself, step by step, and what of it is handed on.
+/// The messages in which a UAV's program reports its own state in each step, and those that a replay passes on.
 class TellsOfItself : public ReplayTest {
  protected:
   using Told = std::vector<mcap::Bytes>;

@@ -1,4 +1,4 @@
-// What MapFigures says of maps that are small enough to count by hand.
+// MapFigures of maps that are small enough to be counted by hand.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -23,7 +23,7 @@ std::size_t count_of(const std::string& text, const std::string& part) {
   return count;
 }
 
-/// What a browser takes for the element's text.
+/// The element's text as a browser reads it.
 std::string element_text(const std::string& page, const std::string& begin, const std::string& end) {
   const std::size_t from = page.find(begin) + begin.size();
   return page.substr(from, page.find(end, from) - from);
@@ -60,7 +60,7 @@ TEST_P(OddRuns, GiveASoundPage) {
 }
 INSTANTIATE_TEST_SUITE_P(Drawn, OddRuns, testing::Range(1U, 9U));
 
-/// What the script colours a point by: who delivered its best picture, the first of equals.
+/// The script colours a point by the UAV that delivered its best picture; of equally good pictures, the first counts.
 TEST(PageData, NamesTheUavThatDeliveredTheBestPictureOfEachPoint) {
   std::mt19937 random(11);
   for (int trial = 0; trial < 40; ++trial) {

@@ -23,7 +23,7 @@ CaptureRow capture(double q_distance, double q_tilt, double q_blur, bool deliver
   return row;
 }
 
-/// What the station makes of captures: the best that was delivered and not voided.
+/// The station's score of captures: the best that was delivered and not voided.
 float scored(const std::vector<CaptureRow>& captures) {
   float best = 0.0F;
   for (const CaptureRow& row : captures) {

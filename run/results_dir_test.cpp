@@ -308,7 +308,7 @@ TEST(ResultsDir, APipeOrLinkWithTheNameOfAFileGoesAndAFolderIsNamed) {
   }
 }
 
-/// What `body` makes of a limit on the size of files, which is to a program what a full disk is.
+/// The result of `body` under a limit of the file size, which has the same effect on a program as a full disk.
 int with_file_limit(rlim_t bytes, const std::function<bool()>& body) {
   const pid_t child = ::fork();
   if (child == 0) {

@@ -1,4 +1,4 @@
-// What only `towers` has; scene_families_test.cpp tests what all families promise.
+// Properties that only `towers` has; scene_families_test.cpp tests those of all families.
 #include "scenes/towers.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,5 @@
-// What a body hides from its own camera, compared with rays that are traced against the body as a part of the world.
+// The directions in which a body hides the view of its own camera, compared with rays traced against the body as a part
+// of the world.
 #include "sight/camera_mount.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,5 @@
-// What pictures from other states of the body would have shown, as if the UAV's position were exact or the air still.
+// Pictures from other states of the body: what they would have shown if the UAV had been where it believed to be, or
+// without wind.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -329,7 +329,7 @@ TEST(RayFan, OriginOnTheSurface) {
         const test::TestRay ray{origin.cast<double>(), rays.directions[i].cast<double>()};
         const auto expected = test::brute_force_distance(apart, ray, kReach, 2e-5);
         const double distance = traced.distance(origin, rays.directions[i], found[i]);
-        // What touches the origin may be met or not; behind it everything is as it was.
+        // A ray may hit or miss a triangle that touches the origin. All triangles behind that are found as before.
         if (expected.near_edge || std::abs(distance) < 1e-4) continue;
         ++judged;
         EXPECT_TRUE(distance == expected.distance || std::abs(distance - expected.distance) <= expected.tolerance)

@@ -93,7 +93,8 @@ class Timeline {
     std::optional<std::uint64_t> arrives = sent + 1;
     if (const auto found = messages_.find({uav, sent}); found != messages_.end()) arrives = found->second;
     if (!arrives) return std::nullopt;
-    // What waits in the router is handed out in the step before it arrives; one that was away has forgotten it.
+    // The router hands out a delayed message in the step before it arrives. A router that was away meanwhile has lost
+    // the message.
     for (std::uint64_t k = sent + 1; k < *arrives; ++k) {
       if (!present(programs::kCommRouter, k)) return std::nullopt;
     }

@@ -30,7 +30,7 @@ class MissedWork : public RunSignalsTest {
     return number("missed(" + uav + ")", &undisturbed_).at(static_cast<std::size_t>(std::llround(time_s / 0.05)));
   }
 
-  /// What becomes of a ready property.
+  /// The outcome of a ready property.
   Outcome outcome(const std::string& property) {
     ::setenv("SKEIN_CONFIG_DIR", source_path("config").c_str(), 1);
     FolderSignals signals(run_, scenario_, &undisturbed_);

@@ -18,8 +18,8 @@ class Referee {
   /// @param seed  tokens are drawn from streams keyed by (seed, "custody", uav, capture).
   Referee(std::uint64_t seed, std::size_t uavs, std::size_t points, const RulesConfig& rules);
 
-  /// Enters a capture if it raised this UAV's best quality of at least one interest point; only such points enter.
-  /// @returns the report for the UAV, as the ledger has it; nullopt: it raised none, or the UAV has collided.
+  /// Enters a capture if it improved this UAV's best quality of at least one interest point, with these points only.
+  /// @returns the report for the UAV, as the ledger has it; nullopt: no point improved, or the UAV has collided.
   /// @throws std::logic_error when `capture.tick` is earlier than the last entry's.
   std::optional<CaptureReport> enter(UavIndex uav, const Capture& capture);
 

@@ -1,4 +1,4 @@
-// What faults may wait for: signals that the server knows while a run goes on.
+// Signals that the server knows during a run, and for which faults may wait.
 #include "sim_server/simulated_world.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// What every wild world promises: sound meshes, the same bytes from the same number, points in boxes, a fleet that can
+// Properties of every wild world: sound meshes, the same bytes from the same number, points in boxes, a fleet that can
 // start, and a way out, into sight of points and home again. And that worlds differ as they should.
 #include "scenes/wild/world.hpp"
 
@@ -160,7 +160,7 @@ TEST(Tasks, AreOfAllKinds) {
   EXPECT_GT(photographer_first, 0u);
 }
 
-/// What the page says of blind worlds, too: boxes promise points, not that nothing stands outside.
+/// Also in blind worlds, as docs/wild.md says: boxes contain all points, but structure may stand outside of them.
 TEST(Boxes, MayLeavePartsOfAStructureOut) {
   std::size_t worlds_with_parts_outside = 0;
   for (std::uint64_t seed = kFirstSeed; seed < kFirstSeed + 50; ++seed) {

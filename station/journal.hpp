@@ -28,7 +28,7 @@ class Journal {
   Journal(const Journal&) = delete;
   Journal& operator=(const Journal&) = delete;
 
-  /// What the file held when it was opened, oldest first.
+  /// The records that the file had when it was opened, oldest first.
   const std::vector<TallyRecord>& replayed() const { return replayed_; }
 
   /// Appends the records of one step and hands them to the operating system: they survive the death of this process

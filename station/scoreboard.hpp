@@ -34,7 +34,7 @@ struct TallyRecord {
   bool operator==(const TallyRecord&) const = default;
 };
 
-/// What one step brought.
+/// The result of one step.
 struct StepOutcome {
   std::vector<TallyRecord> records;              ///< to be journalled before anything is acknowledged
   std::vector<std::vector<std::uint64_t>> acks;  ///< by UAV: captures to acknowledge, ascending

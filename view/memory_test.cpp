@@ -1,4 +1,4 @@
-// What browsers cost the server's memory, however slow they are and however much they are told.
+// The server's memory stays limited, however slow its browsers are and however many messages they get.
 #include <gtest/gtest.h>
 
 #include "tests/support/counted_memory.hpp"

@@ -152,7 +152,7 @@ class Storm : public ServerTest {
     }
     return text;
   }
-  /// What viewers without a key do not hear.
+  /// Expects an answer without any data of the run, as viewers without a key must get it.
   static void expect_nothing_told(const std::string& answer, const std::string& to) {
     for (const char* secret : {"<p>the page</p>", "the_script()", "\"it\"", "root:", "HTTP/1.1 101", "Set-Cookie"}) {
       EXPECT_EQ(answer.find(secret), std::string::npos) << to << "\n" << answer;

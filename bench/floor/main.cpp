@@ -13,7 +13,8 @@ int main(int argc, char** argv) try {
   skein::bench::FloorOptions options;
   CLI::App app("Lock-step rounds over bare DDS");
   app.add_option("--uavs", options.uavs, "Size of the fleet")->check(CLI::Range(1, 128));
-  app.add_option("--rounds", options.rounds, "How many")->check(CLI::Validator(skein::check_positive, "POSITIVE"));
+  app.add_option("--rounds", options.rounds, "Number of rounds")
+      ->check(CLI::Validator(skein::check_positive, "POSITIVE"));
   app.add_option("--domain", options.base_domain, "First DDS domain")->check(CLI::Range(0, skein::bus::kMaxDomain));
   CLI11_PARSE(app, argc, argv);
   const skein::bench::FloorResult result = skein::bench::run_floor(options);

@@ -1,4 +1,4 @@
-// What of an agent's files becomes part of a run's results.
+// Which files of an agent become part of a run's results.
 #include "cli/compose/agents_folder.hpp"
 
 #include <gtest/gtest.h>

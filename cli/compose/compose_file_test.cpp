@@ -27,7 +27,7 @@ namespace {
 namespace fs = std::filesystem;
 
 const Texts kSceneFiles = {"mesh.stl", "points.pcd", "boxes.yaml"};
-/// What YAML, DNS or docker-compose might take for something else.
+/// Names that YAML, DNS or docker-compose might misread.
 const Texts kOddNodes = {
     "on", "yes", "null", "true", "n", "usual", "host", "results", "uav", "router", "E5", "z__9_", std::string(64, 'a')};
 constexpr int kFleets = 40;
@@ -96,7 +96,7 @@ class ComposeFile : public testing::Test {
     return fleet;
   }
 
-  /// For each of many fleets.
+  /// Calls `look` with many random fleets and their compose files.
   void for_all(const std::function<void(const Fleet&, const Compose&)>& look) {
     for (unsigned seed = 0; seed < kFleets && !HasFailure(); ++seed) {
       SCOPED_TRACE("fleet " + std::to_string(seed));
@@ -349,7 +349,7 @@ TEST_F(ComposeFile, MistakesAreReportedWithWhatWouldBeRight) {
   EXPECT_EQ(error_of(foreign), "none");
   foreign.layout.images["bb"] = "mine";
   EXPECT_NE(error_of(foreign).find("a, b"), std::string::npos) << error_of(foreign);
-  for (std::size_t uavs = 1; uavs <= 20; ++uavs) {  // what the message names is just enough
+  for (std::size_t uavs = 1; uavs <= 20; ++uavs) {  // the size in the message is the smallest that is enough
     Texts names;
     for (std::size_t i = 0; i < uavs; ++i) names.push_back("u" + std::to_string(i));
     Fleet tight = fleet(names);

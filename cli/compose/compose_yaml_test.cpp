@@ -77,7 +77,7 @@ std::string draw_hostile_text(std::mt19937& random) {
   return text;
 }
 
-/// What docker-compose makes of a value in which nothing is a variable.
+/// A value without variables as docker-compose reads it.
 std::string without_doubling(const std::string& text) {
   std::string read;
   for (std::size_t i = 0; i < text.size(); ++i) {

@@ -202,7 +202,7 @@ class NewProperties {
     }
     const std::string name = subject + when_name(window);
     const char* word = never_falls && only_from_above ? "always " : "finally ";
-    // What is counted in the window's first exchange counts, and `gain` counts from the exchange before.
+    // Events in the window's first exchange belong to the window, so `gain` must begin one exchange earlier.
     if (!counts.empty()) add(name, word + joined(counts, " and ") + when(window, Scenario{}.exchange_period_s));
     if (!ways.empty()) {
       add(counts.empty() ? name : subject + "_way" + when_name(window), "finally " + ways[0] + when(window, 0.0));

@@ -55,7 +55,7 @@ struct Evidence {
   std::vector<std::pair<std::string, const results::RunRecord*>> repeats;  ///< how each was flown, and its record
 };
 
-/// What became of an expectation, or of a part of it.
+/// The outcome of an expectation, or of a part of it.
 struct Judgement {
   std::string path;  ///< of its key in the file: "expect.radio.sent"
   bool holds = true;

@@ -81,7 +81,7 @@ RunOptions run_options(const RunPart& part, const fs::path& file, const std::opt
   return options;
 }
 
-/// What is wrong with `run` as the command line would say it; here with the line of its key.
+/// Reports the errors of `run` with the messages of the command line, and with the line of the key.
 void check_run(const RunOptions& options, ConfigErrors& errors) {
   const char* key = "run.scenario";
   try {

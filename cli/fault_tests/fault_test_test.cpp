@@ -164,7 +164,7 @@ class JudgedRun : public FaultTestFile {
       "faults": [{"kind": "blackout", "began_step": 200}], "radio": {"sent": 50, "dropped_fault": 3}})");
   }
 
-  /// What is said about `run_` when a file expects this.
+  /// The message about `run_` when a file has this `expect`.
   std::string broken(const std::string& expect) {
     const FaultTest test = load(kBlackout + std::string("expect: {") + expect + "}");
     Evidence evidence{test.plan.faults, run_, exit_code_, {}};

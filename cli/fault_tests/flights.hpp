@@ -1,4 +1,4 @@
-// What a call of `skein test --faults` flies: each test, its repetitions, and the runs without faults that tests
+// The flights of a call of `skein test --faults`: each test, its repetitions, and the runs without faults that tests
 // compare with, each of these once. Pure.
 #pragma once
 
@@ -19,7 +19,7 @@ struct FaultFlight {
   std::optional<std::size_t> chaos = {};  ///< SKEIN_CHAOS
 };
 
-/// What a test is judged by: indices of flights.
+/// The flights by which a test is judged, as indices.
 struct FlightsOfTest {
   std::size_t own = 0;
   std::optional<std::size_t> fault_free;

@@ -1,4 +1,4 @@
-// What is said of fault tests: lines for people, JUnit XML for CI servers. Pure.
+// The reports of fault tests: lines for people, JUnit XML for CI servers. Pure.
 #pragma once
 
 #include <filesystem>
@@ -8,7 +8,7 @@
 
 namespace skein::cli {
 
-/// What came of one test.
+/// The outcome of one test.
 struct FaultVerdict {
   std::string name;            ///< with the seed, where each is flown with several
   std::filesystem::path file;  ///< as the user named it

@@ -1,4 +1,4 @@
-// What a hunt leaves for people and CI servers: the page and JUnit XML, of outcomes that are known.
+// The reports of a hunt with known outcomes: the page for people, and JUnit XML for CI servers.
 #include "cli/hunt/report.hpp"
 
 #include <gtest/gtest.h>

@@ -40,7 +40,7 @@ class FrameReader {
   void add(std::string_view bytes) { bytes_ += bytes; }
   /// The next frame; nullopt: it has not arrived completely. @throws std::runtime_error for bytes that are not a frame.
   std::optional<Frame> next();
-  /// What came before the greeting: its last 4096 bytes at most.
+  /// The bytes before the greeting; if there are more than 4096, the last 4096 of them.
   const std::string& before_greeting() const { return before_; }
 
  private:

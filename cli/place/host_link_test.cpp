@@ -25,7 +25,7 @@ class HostLinkFrames : public testing::Test {
   const ScratchFolder scratch_;
 };
 
-// What a host sends with an answer arrives together with it, or later: it must not matter which.
+// Frames that a host sends after an answer may arrive together with the answer or later. Both must work.
 TEST_F(HostLinkFrames, FramesThatComeAfterAnAnswerAreTaken) {
   std::mt19937 random(1);
   for (int trial = 0; trial < 10; ++trial) {

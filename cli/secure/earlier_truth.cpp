@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What is in a folder, links aside; nothing where it cannot be listed.
+/// The entries of a folder except symbolic links; none if it cannot be listed.
 std::vector<fs::path> listed(const fs::path& folder) {
   std::vector<fs::path> paths;
   std::error_code error;

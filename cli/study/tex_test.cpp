@@ -11,7 +11,7 @@
 namespace skein::cli {
 namespace {
 
-/// What LaTeX would print of an escaped text, by its own rules: each command of ours, then braces and blanks away.
+/// The text that LaTeX would print for an escaped text: replaces our commands, then removes braces and blanks.
 std::string printed(std::string tex) {
   const auto replace = [&](const std::string& what, const std::string& by) {
     for (std::size_t at = 0; (at = tex.find(what, at)) != std::string::npos; at += by.size()) {

@@ -1,4 +1,4 @@
-// What a node is told with the unit that it flies.
+// The arguments that a node gets with the unit that it flies.
 #include "cli/sweep/engines.hpp"
 
 #include <gtest/gtest.h>

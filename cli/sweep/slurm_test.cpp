@@ -1,4 +1,4 @@
-// What is passed on to Slurm, and what becomes of what it rejects.
+// The options that the engine passes to Slurm, and its reaction when Slurm rejects a job.
 #include "cli/sweep/slurm.hpp"
 
 #include <gtest/gtest.h>

@@ -196,7 +196,7 @@ bool is_plain_word(const std::string& text) {
   return text != "---" && text != "..." && std::all_of(text.begin(), text.end(), plain);
 }
 
-/// What is not a plain word goes into quotes, as does what yaml-cpp knows to read as something else.
+/// Quotes texts that are not plain words, and `quoted` ones, which a reader would take for another kind of value.
 void emit_scalar(YAML::Emitter& out, const std::string& text, bool quoted) {
   if (quoted || !is_plain_word(text)) out << YAML::DoubleQuoted;
   out << text;

@@ -15,8 +15,8 @@ namespace {
 
 constexpr const char* kUsual = "usual";
 
-/// Whether a text may be the name of a host, or is an IPv4 address in full. Names that cannot be resolved yet are
-/// looked up again and again, so that a port or a network behind an address would be waited for without a word.
+/// Whether a text may be the name of a host, or is a complete IPv4 address. Skein looks up unknown names again and
+/// again. So for an address with a port or a prefix length, it would wait for ever without an error message.
 bool may_be_host(const std::string& text) {
   const auto fits = [](char c) {
     return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '.' || c == '-' || c == '_';

@@ -133,7 +133,7 @@ TEST_F(Expressions, GainsCountFromTheAnchorAndRisesFromTheExchangeBefore) {
   EXPECT_TRUE(margin_at(parse("falls(held(changi) >= 2)"), {one, two, one}).holds);
 }
 
-/// What is defined decides where it can, and what is undefined neither holds nor fails.
+/// A defined operand decides the result if it can. An undefined result neither holds nor fails.
 TEST_F(Expressions, AQuotientByZeroIsUndefinedAndSoIsItsOpposite) {
   for (const char* mark : {"<", "<=", ">", ">=", "==", "!="}) {
     for (const char* zero : {"1 / held", "held / held", "-1 / held", "min(1, 1 / held)", "max(held / held, 1)",

@@ -34,7 +34,7 @@ std::vector<std::string> arrivals(const RadioRoute& route) {
   return names;
 }
 
-/// What is said when `declared` is added to the scenario; empty when nothing is wrong.
+/// The error message when `declared` is added to the scenario; empty if there is no error.
 std::string routes_complaint(const std::vector<RadioTopicConfig>& declared) {
   Scenario scenario = three_uavs();
   scenario.radio = declared;
@@ -275,7 +275,7 @@ TEST(RadioTable, ClosingARouteKeepsTheTypeAndNameThatOtherRoutesUse) {
   EXPECT_NE(refusal(table, Node{1}, own, "some/msg/Note", {"gcs"}).find("standard topic"), std::string::npos);
 }
 
-/// What all routes say of one node: ROS topics that it sends, and DDS topics that arrive there.
+/// The topics of one node in all routes: ROS topics that it sends, and DDS topics that arrive there.
 std::pair<std::set<std::string>, std::set<std::string>> topics_in_routes(const Scenario& scenario, Node node) {
   std::set<std::string> sent, arriving;
   for (const RadioRoute& route : radio_routes(scenario)) {

@@ -368,7 +368,7 @@ TEST_F(ScenarioReader, AFileThatIsMissingIsLookedForWhereItsPathSays) {
   EXPECT_NE(missing.find((folder_ / "data/models/own.stl").string() + "; --assets"), std::string::npos) << missing;
 }
 
-// What took a time that grows with the square of the file's length took minutes.
+// An algorithm whose time grows with the square of the file's length would take minutes.
 TEST_F(ScenarioReader, LargeFilesAreReadOrRefusedInTheTimeThatTheirLengthTakes) {
   const std::string head = "desired_mm_per_pixel: 2\nscene: {family: towers}\nfleet: [{name: a, vehicle: explorer}]\n";
   std::string topics = head + "radio:\n  topics:\n";

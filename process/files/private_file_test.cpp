@@ -24,7 +24,7 @@ class PrivateFile : public testing::Test {
   const fs::path file_ = scratch_.path() / "key";
 };
 
-/// What write_private_file() says if a file may have only so many bytes; nullopt: it wrote the whole text.
+/// The error of write_private_file() under a limit of the file size; nullopt: it wrote the whole text.
 std::optional<std::string> complaint_with_room(rlim_t bytes, const fs::path& file, std::string_view text) {
   const LimitedFiles limited(bytes);
   try {

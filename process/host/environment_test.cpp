@@ -1,4 +1,4 @@
-// What a program of a fleet gets of the environment that its launcher was started in.
+// Which variables of the launcher's environment the programs of a fleet inherit.
 #include "process/host/environment.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-// What programs and the launcher say to each other: the text on the pipes is a contract (users' launchers read it too),
-// and whatever else comes is harmless.
+// The messages between programs and launcher. Their text on the pipes is a contract, because users' launchers read it,
+// too. Any other text does no harm.
 #include "process/status/status_lines.hpp"
 
 #include <gtest/gtest.h>

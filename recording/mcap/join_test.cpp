@@ -39,7 +39,7 @@ TEST_F(McapJoin, HoldsEveryMessageOfEachPartInItsOrder) {
   }
 }
 
-// What a viewer holds in memory while it sorts: windows of time follow each other.
+// A viewer that sorts messages keeps chunks that overlap in time in memory, so chunks must follow each other in time.
 TEST_F(McapJoin, ChunksStandInTheOrderOfTime) {
   write_part("a", 1, 3);
   write_part("b", 1000, 5);

@@ -172,7 +172,7 @@ class PlainPly {
     }
   }
 
-  /// At most as many as there are bytes left.
+  /// Reads the length of a list; throws if the file has fewer bytes left.
   std::uint64_t list_length(PlyType type) {
     const double length = value(type);
     if (!(length >= 0.0 && length <= static_cast<double>(bytes_.size() - at_)) || length != std::floor(length)) {
@@ -181,7 +181,7 @@ class PlainPly {
     return static_cast<std::uint64_t>(length);
   }
 
-  /// The next number, whatever its type: doubles hold all of them.
+  /// The next number; a double can represent every value of each type.
   double value(PlyType type) {
     if (form_ == PlyForm::kAscii) return ascii_value();
     constexpr std::array<std::size_t, 8> kSizes = {1, 1, 2, 2, 4, 4, 4, 8};

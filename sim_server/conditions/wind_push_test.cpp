@@ -1,4 +1,4 @@
-// What WindPush says that a UAV would do without wind, against the same flight without wind.
+// WindPush's estimate of where a UAV would be without wind, compared with the same flight without wind.
 #include "sim_server/conditions/wind_push.hpp"
 
 #include <gtest/gtest.h>

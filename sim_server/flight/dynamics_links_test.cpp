@@ -105,7 +105,7 @@ NewtonEuler explorer_by_hand() {
   return body;
 }
 
-/// What six rotors at these speeds do to the explorer, about its centre of mass.
+/// Force and torque of six rotors at these speeds on the explorer, about its centre of mass.
 std::pair<Vector3d, Vector3d> rotor_wrench(const NewtonEuler& body, const RotorSpeeds& speeds,
                                            const RigidBodyState& state) {
   Vector3d force = Vector3d::Zero(), torque = Vector3d::Zero();

@@ -103,7 +103,7 @@ TEST_P(Dynamics, AStepSettlesAsFrequencyAndDampingSay) {
   // tilt nor the 20 Hz of the law: they move the answer by up to a tenth of the step.
   config_.position_control.ki_xy = config_.position_control.ki_z = 0.0;
   const PositionControlConfig& law = config_.position_control;
-  // What the law takes for the mass decides how hard it pulls vertically.
+  // The vertical thrust depends on the mass that the control law assumes.
   const double pull = std::sqrt(0.19 * law.thrust_scale / 9.781 / mass());
   struct Axis {
     Vector3d direction;

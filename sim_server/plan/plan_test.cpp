@@ -1,4 +1,4 @@
-// What holds of every plan with full knowledge: of the score, the ways, the times and the radio.
+// Properties of every plan with full knowledge: score, paths, times and radio.
 #include "sim_server/plan/plan.hpp"
 
 #include <gtest/gtest.h>

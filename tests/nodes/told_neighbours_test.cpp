@@ -1,4 +1,4 @@
-// What UAVs receive of each other when their odometry has errors.
+// The positions of other UAVs that a UAV receives when odometry has errors.
 #include <gtest/gtest.h>
 
 #include <algorithm>

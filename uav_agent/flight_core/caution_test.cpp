@@ -280,7 +280,7 @@ TEST(Caution, MustSinkOnlyWhenTheDescentFromHereNeedsAllThatIsLeft) {
   }
 }
 
-// What the core does with it, until the UAV rests.
+// The core's reaction to a low battery, until the UAV rests.
 TEST(FlightCore, AUavWithALowBatteryFliesToItsStartAndLands) {
   Told uav;
   uav.clear({-24.0, -24.0, 0.0}, {24.0, 24.0, 24.0});

@@ -1,4 +1,4 @@
-// What the flight core reports to a strategy about its goals, whatever happens meanwhile.
+// The outcomes of goals that the flight core reports to a strategy, whatever happens meanwhile.
 #include "uav_agent/flight_core/flight_core.hpp"
 
 #include <gtest/gtest.h>
@@ -53,7 +53,7 @@ struct WantsOnePlaceAfterTheOther : CoreUav {
     note_doing(in);
     fly_by(steering);
   }
-  /// What it is about for people is what its strategy hears of it.
+  /// The activity that the core shows to people must agree with the outcomes that it reports to its strategy.
   void note_doing(const PlannerInput& in) {
     using enum Doing::What;
     const Doing doing = core.doing(in);

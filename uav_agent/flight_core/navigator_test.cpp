@@ -1,4 +1,4 @@
-// What becomes of goals, over drawn places: each gets one outcome, and it is the right one.
+// Goals at random places: each gets exactly one outcome, and the right one.
 #include "uav_agent/flight_core/navigator.hpp"
 
 #include <gtest/gtest.h>
@@ -103,7 +103,7 @@ TEST(Navigator, SaysWhichLegIsBlocked) {
   }
 }
 
-// What its strategy says of the same goal is heard at any time.
+// The navigator takes a strategy's changes of the same goal at any time.
 TEST(Navigator, AWayMayChangeWhileItIsFlown) {
   for (std::uint64_t seed = 1; seed <= 15; ++seed) {
     RandomStream random(seed, "changes", 0);

@@ -1,4 +1,4 @@
-// What a UAV does, and in which order, when its goals come to nothing.
+// The recovery behaviours of a UAV that can reach none of its goals, and their order.
 #include "uav_agent/flight_core/recovery.hpp"
 
 #include <gtest/gtest.h>

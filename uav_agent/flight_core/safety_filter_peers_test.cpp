@@ -1,4 +1,4 @@
-// What must hold between UAVs of whatever their safety filters let through, over drawn ways, speeds and latencies.
+// UAVs stay apart with every motion that their safety filters allow: random paths, speeds and latencies.
 #include <gtest/gtest.h>
 
 #include <algorithm>

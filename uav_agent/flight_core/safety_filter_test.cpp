@@ -1,4 +1,4 @@
-// What must hold of whatever the safety filter lets through, over drawn maps, paths and speeds. Other UAVs:
+// Properties of every motion that the safety filter allows: random maps, paths and speeds. For other UAVs, see
 // safety_filter_peers_test.cpp.
 #include "uav_agent/flight_core/safety_filter.hpp"
 

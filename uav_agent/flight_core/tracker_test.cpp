@@ -160,7 +160,7 @@ TEST(Tracker, HoldStopsWithinTheBrakingDistance) {
   EXPECT_LT((uav.last.p_WB - from).norm(), 6.0 * 6.0 / (2.0 * 2.8) + 0.5 * kSmoothingS * 6.0 + 0.1);
 }
 
-// What the pilot looks ahead from is where the point mass is: nothing that is commanded goes beyond its stop.
+// The tracker looks ahead from the position of the point mass, so no setpoint is beyond the stop.
 TEST(Tracker, AStopEndsWhereThePilotExpectsItAndStaysOnTheLine) {
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     RandomStream random(seed, "stop", 0);

@@ -267,7 +267,8 @@ TEST(MapNews, NothingIsTakenOfWhatIsDamagedOrForeign) {
   EXPECT_FALSE(map.regions().empty());
 }
 
-/// What passes for a message though it is damaged may say what is not so, but harms nothing, and does not last.
+/// A damaged message that still reads as a message may make the map wrong. It does no other harm, and later messages
+/// correct the map.
 TEST(MapNews, DamagedMessagesNeitherBreakAnythingNorStopTheTelling) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     NewsRadio radio({}, seed);

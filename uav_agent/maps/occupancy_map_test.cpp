@@ -135,7 +135,7 @@ TEST(OccupancyMap, TheGroundEndsRaysButIsNoObstacle) {
   EXPECT_TRUE(map.known_free({0.0, 0.0, 5.0}));
 }
 
-/// What a UAV has seen that stood here and there.
+/// The map of a UAV that took scans at random places.
 OccupancyMap drawn_map(std::uint64_t seed) {
   RandomStream random(seed, "seen", 0);
   OccupancyMap map;

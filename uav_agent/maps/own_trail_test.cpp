@@ -113,7 +113,7 @@ TEST_F(OwnTrailTest, AnImpossiblePositionIsLeftOut) {
   EXPECT_FALSE(trail_.contains({0, 0, 10}));
 }
 
-/// What another UAV reports changes the map, unless it reports this UAV itself in space that was proved free.
+/// Reports of another UAV change the map, except occupied cells in proved free space that are this UAV itself.
 TEST_F(OwnTrailTest, TheMapIgnoresReportsOfThisUavOnly) {
   fly(100, {});
   for (int drawn = 0; drawn < 100; ++drawn) {

@@ -6,7 +6,7 @@ namespace skein::agent {
 
 RepeatedScans::Repeated RepeatedScans::ask(const Isometry3d& X_WL) {
   const Quaterniond R_WL(X_WL.linear());
-  const double alike = std::cos(0.5 * kTurnRad);  // half the angle: q1.dot(q2) is its cosine
+  const double alike = std::cos(0.5 * kTurnRad);  // q1.dot(q2) is the cosine of half the angle between them
   const std::pair<Quaterniond, Vector3d>* nearest = nullptr;
   double nearest_m = 0.0;
   for (const auto& scan : scans_) {

@@ -11,7 +11,7 @@
 namespace skein::agent {
 namespace {
 
-/// What the planner saw in the last exchange, and what it shall answer.
+/// The planner's input in the last exchange, and the output that it is to give.
 struct Tape {
   std::size_t boxes = 0, undelivered = 0, cells = 0;
   bool station_linked = false, near_is_free = false;

@@ -67,7 +67,7 @@ py::object flight_of(const FlightState& flight) {
                               tuple_of(flight.outcomes, outcome));
 }
 
-/// What of a Call a field is made of.
+/// The parts of a Call from which a field is made.
 struct Source {
   std::shared_ptr<Call> call;
 };

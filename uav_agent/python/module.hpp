@@ -17,7 +17,7 @@
 
 namespace skein::agent::python {
 
-/// What the maps' headers say, of maps that a PlannerInput has.
+/// The queries of the maps of a PlannerInput, as the headers of these maps document them.
 class MapQueries {
  public:
   virtual ~MapQueries() = default;

@@ -9,7 +9,7 @@ namespace skein::agent::python {
 
 namespace py = pybind11;
 
-/// What an output is checked against.
+/// The limits against which an output is checked.
 struct OutputRules {
   const Order& order;
   bool flown = false;                         ///< by the flight core: goals count, motion does not

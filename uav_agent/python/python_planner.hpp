@@ -14,7 +14,7 @@
 
 namespace skein::agent {
 
-/// What else than an AgentConfig such a planner is made of.
+/// Parameters of such a planner beside its AgentConfig.
 struct PythonSurroundings {
   std::uint64_t seed = 0;                      ///< of the run
   std::vector<std::string> radio_topics = {};  ///< that this UAV may send on

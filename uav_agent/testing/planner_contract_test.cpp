@@ -1,5 +1,5 @@
-// What every planner must do and must never do, whatever its strategy: all that are registered, by name, in a world
-// without physics.
+// The rules that every planner must keep, whatever its strategy. Tests all registered planners, in a world without
+// physics.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -33,7 +33,7 @@ std::string hands_of_anybody() {
   return file.string();
 }
 
-/// What to say to make a planner; those that need a file get one, with a place above its start for every UAV.
+/// The value of --planner for a planner. One that needs a file gets a file with a place above the start of every UAV.
 std::string spec_of(const std::string& name, const std::vector<TestUav>& fleet) {
   if (name == kHandPlanner) return name + ":" + hands_of_anybody();
   if (name != "waypoints") return name;

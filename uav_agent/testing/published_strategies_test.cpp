@@ -137,7 +137,7 @@ TEST(Faithful, IsLookedAtWhereParametersAreFilledInAlone) {
   }
 }
 
-/// What is given by its own name stays as it is given.
+/// `faithful` does not change parameters that the user sets by name.
 TEST(Faithful, GivesWayToWhatIsGiven) {
   XxhConfig config;
   config.faithful = true;

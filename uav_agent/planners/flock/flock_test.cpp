@@ -20,7 +20,7 @@ namespace {
 
 constexpr double kSharpM = 7.36;
 
-/// What stands behind a wall stays to be surveyed until somebody looks from the other side.
+/// Surfaces behind a wall remain to be surveyed until a UAV looks from the other side.
 TEST(FlockSurvey, WallsHideWhatIsBehindThem) {
   const std::vector<OrientedBox> boxes = {make_box({0, 0, 12}, {40, 40, 24})};
   VoxelGrid grid = operational_volume(boxes, {}, 12.0, 0.0, 1.5);
@@ -40,8 +40,8 @@ TEST(FlockSurvey, WallsHideWhatIsBehindThem) {
   EXPECT_LT(survey.gaps().size(), gaps.size());
 }
 
-/// What stays out of sight from the places that were meant to show it is given up, so that no explorer circles there
-/// for ever; what lies farther off stays.
+/// The survey gives up surfaces that stayed out of sight from the places chosen to show them, so that no explorer
+/// circles there for ever. Surfaces farther away remain.
 TEST(FlockSurvey, GapsThatStayOutOfSightAreGivenUp) {
   const std::vector<OrientedBox> boxes = {make_box({0, 0, 12}, {40, 40, 24})};
   VoxelGrid grid = operational_volume(boxes, {}, 12.0, 0.0, 1.5);
@@ -228,7 +228,8 @@ TEST(FlockViews, GapsAreWorthWhatWorkLacks) {
   EXPECT_NEAR(worth(0.25), 0.25 * worth(1.0), 1e-9);
 }
 
-/// What could not be reached is left for a while, and what lies beside it; a UAV that gains no way leaves its view.
+/// For a while, a UAV leaves out a view that it could not reach, and those beside it. A UAV that makes no progress
+/// leaves its view.
 TEST(FlockReach, LeavesWhatItCannotReachForAWhile) {
   FlownUav uav(three_uavs(1), {0.0, 0.0, 10.0});
   const FlockTalk talk({}, uav.agent);
@@ -343,7 +344,7 @@ TEST(FlockRoute, TakesWhatBringsMostASecondAndCountsNothingTwice) {
   }
 }
 
-/// What one says the others hear: its claims, until they are too old.
+/// The other UAVs receive a UAV's claims, and keep them until they are too old.
 TEST(FlockTalk, ClaimsAreHeardAndLapse) {
   const AgentConfig sender_config = three_uavs(0), listener_config = three_uavs(2);
   FlockTalk sender({}, sender_config), listener({}, listener_config);

@@ -43,7 +43,7 @@ class FlockSurfaces {
 
   VoxelGrid& grid() { return grid_; }
   const VoxelGrid& grid() const { return grid_; }
-  /// What others are told of the grid. Boxes that only this UAV takes for structure are not knowledge.
+  /// The part of the grid that this UAV reports to others: without boxes that only this UAV treats as structure.
   const VoxelGrid& told_grid() const { return nothing_told_ ? *nothing_told_ : grid_; }
   FlockSurvey& survey() { return survey_; }
   const FlockSurvey& survey() const { return survey_; }
@@ -79,7 +79,7 @@ class FlockSurfaces {
 
  private:
   using Id = VoxelGrid::Id;
-  /// What a picture changed for a face.
+  /// How a picture changed a face.
   struct Look {
     Id id = 0;
     int face = 0;

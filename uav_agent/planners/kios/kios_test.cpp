@@ -63,7 +63,7 @@ TEST(KiosLanes, ALoneExplorerFliesAllOfThemAndNoneTooLow) {
   EXPECT_NE(all[0].y(), all[2].y());
 }
 
-/// What a planner is given by the flight core, without any: outcomes are up to the test.
+/// A stand-in for the flight core: the test chooses the outcomes that the planner gets.
 struct CoreOfTest {
   explicit CoreOfTest(AgentConfig of_agent) : agent(std::move(of_agent)) {
     config.world = &map;

@@ -1,5 +1,5 @@
-// What a learner is told and shows, by the fields of the block that it shares with Python: drawn orders, and drawn
-// things that it knows.
+// The orders that a learner obeys and the observations that it writes, in the block that it shares with Python. Orders
+// and the UAV's knowledge are random.
 #include <gtest/gtest.h>
 
 #include <cstring>

@@ -1,4 +1,4 @@
-// What a UAV of XXH hears of what it asked for: the flight core's side is played by the test.
+// The outcomes that a UAV of XXH gets for its goals. The test takes the part of the flight core.
 #include "uav_agent/planners/xxh/errand.hpp"
 
 #include <gtest/gtest.h>

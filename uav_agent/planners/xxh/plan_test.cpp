@@ -180,7 +180,7 @@ struct Ground {
     PlannerInput in{k, static_cast<Tick>(k) * ticks(0.05), {}, {}, {}, map, boxes, peers, {}, true, 0, {}, radio};
     return in;
   }
-  /// What a UAV holds to be its team, after so many exchanges with a station that hears those of `reporters`.
+  /// The team that a UAV assumes after the exchanges of the test, in which the station hears the UAVs in `reporters`.
   XxhTeam team(UavIndex uav, const std::vector<std::size_t>& reporters, bool hears_station) const {
     AgentConfig ground = agent, self = agent;
     ground.self = UavIndex(agent.fleet.size());

@@ -70,7 +70,7 @@ class XxhTalk {
   std::vector<Sphere> trajectories(const PlannerInput& in) const;
 
  private:
-  /// What the other UAVs know of the map of a region. Another region, or the other end, is another map.
+  /// What the other UAVs know of the map of a region. Each region has a map for each of its ends.
   struct RegionMap {
     std::uint16_t region = 0;
     bool from_high_end = false;
