@@ -143,7 +143,7 @@ TEST(Completion, NothingIsOfferedWhereAnyTextOrFileWillDo) {
   EXPECT_EQ(offered({"run", "--no-such"}), Words{});
 }
 
-/// The script's own work: it takes the line apart, and gives bash what it replaces. This `skein` shows its words.
+/// Tests the script itself: it splits the line, and gives bash the replacement. This `skein` prints its arguments.
 TEST(Completion, BashGetsTheLastPartOfAWord) {
   const auto replies = [](const std::string& line) {
     const std::string script = "skein() { shift; printf \"%s\\n\" \"${@: -1}hover\" \"$#\"; }; . " +

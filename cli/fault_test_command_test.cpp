@@ -1,4 +1,4 @@
-// `skein test --faults` with made-up programs: what is flown, what is printed, which exit code.
+// `skein test --faults` with stand-ins for the programs: flights, output and exit codes.
 #include "cli/test_command.hpp"
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ namespace {
 using report::xml_elements;
 using report::XmlElement;
 
-/// Writes a report whose digest tells the vendor and the chaos, and a line of what was flown.
+/// Writes a report whose digest names the vendor and the chaos, and a line that describes the flight.
 constexpr const char* kFlyingServer = R"(
 faults=no; dds=none
 for word in $arguments; do

@@ -1,4 +1,4 @@
-// `skein merge` of a small fleet's reports: what is damaged is named, and a good result is not replaced by a worse one.
+// `skein merge` of a small fleet's reports: it names damaged ones, and replaces no good result by a worse one.
 #include "cli/merge_command.hpp"
 
 #include <gtest/gtest.h>

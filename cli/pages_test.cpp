@@ -60,7 +60,7 @@ TEST(Pages, ShowCommandsThatThereAre) {
   EXPECT_GT(read, 80u);
 }
 
-/// The sources of a planner of ours, and of what all of them have; empty: it is none.
+/// The sources of one of our planners and of the flight core's configuration; empty: there is no such planner.
 std::string source_of_planner(const std::string& name) {
   const fs::path planners = source_path("uav_agent/planners");
   std::string text;

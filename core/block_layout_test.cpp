@@ -24,7 +24,7 @@ TEST(BlockLayout, DescribesFieldsAsNumPyNeedsThem) {
   EXPECT_EQ(layout.bytes(), 16U);
 }
 
-/// Drawn layouts: what is written to one field is read from it, and changes no other.
+/// Random layouts: a value written to a field is read from this field, and changes no other.
 TEST(BlockLayout, FieldsDoNotMeet) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     RandomStream random(seed, "block layout", 0);

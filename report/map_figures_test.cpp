@@ -12,7 +12,7 @@
 namespace skein::report {
 namespace {
 
-/// All of the world is known, but for what has x and y below 0.
+/// The whole world is known, except the part with x and y below 0.
 const std::string kMostOfTheWorld =
     "# Octomap OcTree binary file\n# comment\n#\nid OcTree\nsize 7\nres 0.5\ndata\n" + std::string("\x64\x54", 2);
 

@@ -106,7 +106,7 @@ TEST(RayScene, SegmentEndsAtItsEnd) {
   EXPECT_FALSE(world.first_hit_distance(from, from));
 }
 
-/// Whatever a triangle surely blocks, a ray finds blocked no later; and most of what it blocks it blocks surely.
+/// A ray ends no later than at a triangle that surely blocks it. Most triangles that block a ray do so surely.
 TEST(RayScene, SurelyBlockedIsBlocked) {
   const TriangleMesh mesh = test::random_triangles(300, 13);
   const RayScene world(mesh);

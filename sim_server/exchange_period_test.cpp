@@ -1,4 +1,4 @@
-// Pilots who can send commands only once an exchange: whatever its period, a UAV obeys from one command to the next,
+// Commands arrive once an exchange. With every period of the exchange, a UAV obeys a command until the next one is due,
 // and no longer.
 #include <gtest/gtest.h>
 

@@ -315,7 +315,7 @@ TEST_F(Field, DelayedMotorsStartWithTheNewestCommand) {
   }
 }
 
-// The reader refuses such a vehicle; whatever else blows up must end in the same way.
+// The reader refuses such a vehicle. Any other state that becomes infinite must end in the same way.
 TEST_F(Field, AVehicleThatNoIntegrationSurvivesIsOutAndTheOthersFlyOn) {
   add("photographer", 0, 0);
   add("photographer", 0, 4);

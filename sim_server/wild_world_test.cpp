@@ -142,7 +142,7 @@ TEST(World, SameSeedGivesTheSameBytes) {
 
 TEST(World, UnknownNamesAreRefused) { EXPECT_THROW(draw_world("wilt", 1, kConfig), InputError); }
 
-/// By what is drawn before anything is proved: fast enough for many seeds.
+/// Looks only at the drawn sites, before the check that they can be flown: fast enough for many seeds.
 TEST(Tasks, AreOfAllKinds) {
   std::set<std::size_t> sizes;
   std::size_t explorers_alone = 0, photographer_first = 0;

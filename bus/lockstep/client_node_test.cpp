@@ -77,7 +77,7 @@ class Host {
   std::unique_ptr<Reader> done_;
 };
 
-/// How the run ends for somebody whose first idle turn comes when the server has invited it and gone.
+/// How the run ends for a member whose first idle turn comes after the server has invited it and left.
 std::optional<NodeEnd> end_without_idle_turns(bool matches) {
   const auto bus = make_bus({.vendor = "inproc"});
   StopSignal stop;

@@ -1,5 +1,5 @@
-// Property: in whatever order messages arrive, are announced and are forgotten, the queues return what a list of all
-// messages would.
+// Property: the queues return the same messages as a list of all messages would, in any order in which messages arrive,
+// are announced and are forgotten.
 #include "bus/lockstep/counted.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-// Whatever a user names, docker-compose reads it as it was given, or the file is refused: nothing that is named can add
-// to the file or be taken for a variable.
+// docker-compose reads every name of the user unchanged, or Skein refuses the name. No name can add entries to the file
+// or become a variable.
 #include "cli/compose/compose_yaml.hpp"
 
 #include <gtest/gtest.h>
@@ -152,7 +152,7 @@ TEST_F(HostileTexts, AreReadBackAsTheyWereGivenOrRefused) {
     EXPECT_EQ(arguments, std::vector<std::string>{"--planner=hover:note=" + text});
     EXPECT_EQ(without_doubling(agent["volumes"][0]["source"].as<std::string>()), *layout.results / "agents" / uav);
     EXPECT_EQ(without_doubling(agent["volumes"][2]["source"].as<std::string>()), *layout.build / "bin");
-    // Two lines of comment, and no more, whatever a reader takes for a line's end.
+    // The comment has two lines for every reader, whichever characters end a line for it.
     std::size_t end = file->find('\n', file->find('\n') + 1);
     EXPECT_TRUE(file->substr(end + 1).starts_with("\"x-program\""));
     EXPECT_TRUE(

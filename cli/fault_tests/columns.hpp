@@ -9,7 +9,7 @@
 namespace skein::cli {
 
 /// "FILE:LINE: KEY: WHAT" becomes "FILE:LINE:COLUMN: KEY: WHAT", line by line: where the key stands, or the first
-/// letter of the line, if it does not stand there. Whatever else is said stays as it is.
+/// letter of the line, if it does not stand there. Other lines do not change.
 std::string with_columns(const std::string& said, const ConfigDocument& document);
 
 }  // namespace skein::cli

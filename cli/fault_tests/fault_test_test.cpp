@@ -1,5 +1,5 @@
-// Fault tests: what files say, what is refused and with which words, what is expected of a run, and what is said when
-// that does not hold. Runs are made up.
+// Fault tests: reading of their files, error messages, and the judgement of runs with the report of failures. The runs
+// are made up.
 #include "cli/fault_tests/fault_test.hpp"
 
 #include <gtest/gtest.h>

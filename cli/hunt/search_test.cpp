@@ -1,4 +1,5 @@
-// The search: the same cases whatever is known beyond what a case may hang on; it goes where it is new, and near.
+// The search: its cases depend only on the results that they may depend on, whichever others are known. It varies cases
+// that reached new states or came close to a failure.
 #include "cli/hunt/search.hpp"
 
 #include <gtest/gtest.h>

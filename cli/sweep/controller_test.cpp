@@ -282,9 +282,8 @@ ino_t inode(const fs::path& file) {
   return ::stat(file.c_str(), &status) == 0 ? status.st_ino : 0;
 }
 
-/// Damages the files of a finished unit in one of the ways that are possible while no program flies. @returns the
-/// damaged file of the flight, which the sweep must name; empty: only files of the sweep are damaged, and no flight
-/// need be repeated.
+/// Damages files of a finished unit in one of several ways. @returns the damaged file of the flight, which the sweep
+/// must name; empty: only files of the sweep are damaged, and no flight need be repeated.
 fs::path damage(const Sweep& sweep, std::size_t index, std::size_t kind) {
   const SweepFolder folder = sweep.world.folder();
   const SweepSettings settings = folder.settings().value();

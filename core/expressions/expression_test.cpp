@@ -1,4 +1,4 @@
-// Expressions over signals: what they are worth, how far from the opposite, and what is said of wrong ones.
+// Expressions over signals: their values, their margins, and the error messages for wrong ones.
 #include "core/expressions/expression_parser.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,4 @@
-// The files that programs leave behind are a contract: whole ones are read back as they were, and of damaged ones
-// whatever is left.
+// The reports of programs are a contract. Reading returns whole ones unchanged, and the intact values of damaged ones.
 #include "process/reports/reports.hpp"
 
 #include <gtest/gtest.h>

@@ -183,8 +183,8 @@ TEST_F(PointFile, PackedDataMayHaveTheirPaddingOrNot) {
   }
 }
 
-/// A byte below 32 is followed by that many bytes and one more as they are; any other holds the length (upper 3 bits,
-/// 7: a byte more follows) and the distance (lower 5 bits and the last byte) of what is repeated.
+/// After a byte n below 32, n + 1 literal bytes follow. Any other byte begins a repetition: it has the length in its
+/// upper 3 bits (7: one more byte of length follows), and the distance in its lower 5 bits and the last byte.
 TEST_F(PointFile, PackedDataMayRepeatThemselves) {
   const auto points = read_points(write("r.pcd", packed_by_hand({3, 0, 0, 0x80, 0x3f, 7 << 5, 11, 3})));  // 20 times
   ASSERT_EQ(points.size(), 1u);

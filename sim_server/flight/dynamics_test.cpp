@@ -1,5 +1,5 @@
-// The flying vehicle against physics: weight, fall, second-order response, limits, motor lag. What is expected here is
-// worked out on paper, not by the code under test.
+// The flying vehicle against physics: weight, fall, second-order response, limits, motor lag. The expected
+// values are computed by hand, not by the code under test.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -161,8 +161,8 @@ TEST(PhysicsWorld, ReportsAWallAtEverySpeedAndFromBothSides) {
 }
 
 TEST(PhysicsWorld, MissesNoTouchOnTheWay) {
-  // Contacts are only looked for where the structure is near. Whatever a body overlaps at the beginning of a tick must
-  // be a contact of that tick, however it came there: tumbling through loose triangles, from far away, fast or slow.
+  // The world searches for contacts only near the structure. Each triangle that a body overlaps at the beginning of a
+  // tick must be a contact of that tick, also after tumbling through loose triangles, from far away, fast or slow.
   const TriangleMesh mesh = test::random_triangles(400, 11);
   const VehicleConfig vehicle = photographer();
   RandomStream random(4, "flights", 0);

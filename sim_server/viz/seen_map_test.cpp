@@ -16,7 +16,7 @@ std::array<long, 3> cell_of(const Eigen::Vector3f& p, double edge) {
           std::lround(std::floor(p.z() / edge))};
 }
 
-// One point for each cell that was ever seen, itself a point that was seen; and it never changes what it has.
+// The map has one point for each cell that was ever seen, namely one of the points seen there, and never changes it.
 TEST(SeenMap, KeepsAPointForEachCell) {
   constexpr double kEdge = 0.5;
   RandomStream random(1, "seen", 0);

@@ -24,8 +24,8 @@ Relay::Payload trajectory(double stamp_s, double x = 0.0) {
 
 Relay relay_of(const topics::WireTopic& topic) { return {topic, kExchange_s}; }
 
-// Drawn sequences of what nodes and the fleet do: whatever arrives has exactly one fate, and what is handed on is what
-// arrived last, in order.
+// Random sequences of actions of nodes and fleet: each message that arrives has exactly one fate, and the relay passes
+// on the newest messages, in their order.
 TEST(Relay, EverySampleHasOneFate) {
   std::mt19937 random(38);
   for (int repeat = 0; repeat < 200; ++repeat) {

@@ -90,8 +90,8 @@ TEST(FlightCore, EachOutcomeIsHeardWhenTheStrategyDecides) {
   }
 }
 
-// Its strategy wants another place out there every 1.5 s, and nobody proves the way: it looks around and tries
-// elsewhere all the same, and reports this to the strategy.
+// The strategy wants another far place every 1.5 s, and no beam proves the path free. The UAV nevertheless looks around
+// and tries other places, and the core reports this to the strategy.
 TEST(FlightCore, AUavThatIsHeldRecoversAlthoughItsGoalsAreReplaced) {
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     WantsOnePlaceAfterTheOther uav(seed);
@@ -115,8 +115,8 @@ TEST(FlightCore, AUavThatIsHeldRecoversAlthoughItsGoalsAreReplaced) {
   }
 }
 
-// It is due home, and structure that was seen since has closed the way: it does what it would do for its strategy, and
-// gets home along its own trail.
+// The UAV must fly home, and structure that it saw later blocks the path. It recovers as it does for goals of its
+// strategy, and gets home along its own trail.
 TEST(FlightCore, RecoversWhereThereIsNoWayHome) {
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     WantsOnePlaceAfterTheOther uav(seed);

@@ -67,7 +67,7 @@ TEST(Navigator, TakesTheFirstGoalToWhichThereIsAWay) {
   }
 }
 
-// No beam proves what is there, and it cannot wait for ever.
+// No beam proves the space there free, and the UAV cannot wait for ever.
 TEST(Navigator, GivesUpWhatIsNeverProved) {
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
     RandomStream random(seed, "never", 0);
@@ -122,8 +122,8 @@ TEST(Navigator, AWayMayChangeWhileItIsFlown) {
   }
 }
 
-// Without its LiDAR no beam proves what it would fly through: it asks for ways through what is known, and says at once
-// where there is none. When the LiDAR is back, so is the old way of planning.
+// Without its LiDAR, no beam proves space ahead of the UAV. The navigator then searches for paths through known space
+// only, and reports at once if there is none. When the LiDAR works again, it plans as before.
 TEST(Navigator, WithoutItsLidarItPlansThroughProvedSpaceAlone) {
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
     RandomStream random(seed, "blind", 0);

@@ -174,8 +174,8 @@ TEST(SafetyFilter, KeepsOffAUavThatWentOutOfSight) {
   EXPECT_LT(nearest_m, 3.0) << "they never met";
 }
 
-// A UAV brakes and will come to rest obliquely in front of another one, which lies beside what it may sweep if it
-// brakes as softly as the filter takes into account. The other one wants to go where the first one comes from.
+// A UAV brakes and will stop obliquely in front of another one. The other one is just outside the space that the first
+// may sweep if it brakes as weakly as the filter assumes, and wants to fly to where the first comes from.
 TEST(SafetyFilter, NoUavComesNearerToOneThatBrakesInFrontOfIt) {
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     RandomStream random(seed, "brakes_in_front", 0);

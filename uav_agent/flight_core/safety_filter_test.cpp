@@ -14,11 +14,11 @@ namespace {
 
 /// A way is looked at in steps of 0.3 m, so between them a tube is that much narrower; and as much for rounding.
 constexpr double kBetweenStepsM = 0.01;
-/// By so much what it flies away from may lie within the tube of its speed: measured, 0.035 m.
+/// An obstacle that the UAV flies away from may be within the tube by this distance [m]; measured: 0.035 m.
 constexpr double kFliesAwayM = 0.05;
 
-// Whatever its commands, and as long as cells of the map only become free: the space around its braking path is free.
-// Its tube widens as it gets faster, so what it flies away from may lie in it for a while (kFliesAwayM).
+// If cells of the map only become free, the space around the UAV's braking path is free, whatever its commands. The
+// tube widens with the speed, so an obstacle that the UAV flies away from may be in it for a while (kFliesAwayM).
 TEST(SafetyFilter, CouldBrakeInFreeSpaceAtAnyTime) {
   double flown_m = 0.0;
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
@@ -48,7 +48,7 @@ TEST(SafetyFilter, CouldBrakeInFreeSpaceAtAnyTime) {
   EXPECT_GT(flown_m, 1000.0) << "a UAV that does not fly would prove nothing";
 }
 
-// Something is seen within what it could brake in. Nothing can be done about the way to rest, but all else.
+// The UAV sees an obstacle within its braking distance. The filter cannot change the braking path, but everything else.
 TEST(SafetyFilter, AUavApproachesNoFurtherToAnObstacleThatAppearsAhead) {
   int broken = 0;
   for (std::uint64_t seed = 1; seed <= 80; ++seed) {

@@ -18,7 +18,7 @@ namespace {
 
 constexpr Tick kExchangeTicks = 20;
 
-/// Keeps what it was given, says something of its own in each exchange, and may say where it goes.
+/// Keeps its inputs, sends a message in each exchange, and may report where it goes.
 struct MapLooker final : Planner {
   explicit MapLooker(bool wants) : wants(wants) {}
   PlannerOutput plan(const PlannerInput& in) override {
@@ -215,8 +215,8 @@ TEST(MapRadio, AHitThatMayBeAnUnheardUavIsDoubtedWhenTheUavIsHeardAgain) {
   for (const std::size_t uav : {0U, 1U}) EXPECT_EQ(talkers.doubts(uav), talkers.map(uav).counts().occupied) << uav;
 }
 
-/// One that hears of space to its left and to its right, as far on either side, from somebody who has little time: of
-/// which side does it know more soon?
+/// A UAV receives the map on its left and on its right, equally far, from a UAV with little capacity to send. The test
+/// finds out of which side it knows more first.
 double share_of_right(const std::function<void(MapLooker&)>& tell_way, std::uint64_t seed) {
   AgentConfig config;
   config.fleet.resize(2);

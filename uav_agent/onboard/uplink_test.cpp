@@ -112,8 +112,7 @@ TEST(Uplink, TheLastNumberIsNotNextToTheFirst) {
   EXPECT_EQ(uplink.undelivered(), 2U);
 }
 
-// Radio that loses messages and links both ways, whatever the order of events: all arrives, and nothing but
-// what was taken.
+// The radio loses messages in both directions, in any order of events: all captures arrive, and nothing else.
 TEST(Uplink, DeliversEverythingThroughABadRadio) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     RandomStream random(seed, "radio", 0);

@@ -203,7 +203,7 @@ TEST(FlockCamera, SeesClearlyWhatThePictureShows) {
   EXPECT_GT(clear, 30U);
 }
 
-/// When a camera turns out to have failed, this UAV has not looked at what it believed to have looked at.
+/// When the planner notices that its camera has failed, it forgets the faces that it assumed to have photographed.
 TEST(FlockCamera, PicturesThatWereNotTakenAreTakenBack) {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     FlockAtLongWall uav(seed);

@@ -120,8 +120,7 @@ TEST(FlockSurfaces, APointThatGetsNoBetterIsLeftAloneForATime) {
   EXPECT_EQ(known(ticks(600.0)), 2);
 }
 
-/// A picture from so far away does not show a face well enough. What it showed is no longer to be gained, so the same
-/// picture promises nothing a second time; a nearer one does.
+/// A picture from far away does not show a face well enough. The same picture again gains nothing; a nearer one does.
 TEST(FlockSurfaces, APoorPictureIsNotPromisedAgain) {
   BeforeAWall uav;
   const FlockViews views(uav.flock, uav.agent, kSharpM);

@@ -75,8 +75,8 @@ TEST(KiosStops, ACubeWithFewMappedCellsIsNotOpen) {
   EXPECT_EQ(world.open(stops).stops.size(), 6U);
 }
 
-/// Whatever is mapped: each exposed face with its surface in a box has one stop or none that is free, and every stop
-/// is free, in front of its face, and at a distance at which pictures are sharp.
+/// For random maps: each exposed face with its surface in a box has at most one stop. Every stop is in free space, in
+/// front of its face, and at a distance at which pictures are sharp.
 TEST(KiosStops, HoldOnAnyMap) {
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> along(0.0, 25.0);

@@ -185,8 +185,8 @@ TEST(XxhRegion, SurfaceOutsideTheBoxIsNoTarget) {
   for (VoxelGrid::Id id = 0; id < region.grid().count(); ++id) EXPECT_TRUE(region.targets(id).empty());
 }
 
-// Wherever structure is: what is looked at is where the map has it, and every face of it that can be seen from a cell
-// beside it is looked at, from there alone.
+// With structure at random places: targets are faces of the structure on the map, and each face that is visible from
+// the cell beside it is a target of that cell, and of no other.
 TEST(XxhRegion, EveryFaceThatCanBeSeenIsOneTarget) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     RandomStream random(seed, "region", 0);
