@@ -1,5 +1,6 @@
 // A fleet's block of DDS domains: one for the world, one for the ground station, then one for each UAV. A lock on each
 // domain prevents two fleets in the same network namespace from using the same domain, also fleets of different users.
+// Threads: the launcher's one.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
 // Checks of the launcher's own environment variables. For the environment that the launcher gives to its programs, see
-// process/host/environment.hpp.
+// process/host/environment.hpp.   Threads: the launcher's one.
 #pragma once
 
 #include <string>

@@ -1,4 +1,5 @@
 // Checks before a run: lets programs validate their input, and runs helper programs to their end.
+// Threads: the launcher's one.
 #pragma once
 
 #include <filesystem>

@@ -9,6 +9,7 @@
 
 namespace skein::cli {
 
+/// The ids of all processes that /proc lists, in no order.
 std::vector<pid_t> all_processes();
 /// 0: the process is gone.
 pid_t parent_of(pid_t pid);

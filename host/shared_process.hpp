@@ -1,4 +1,5 @@
 // All programs of a fleet in one process (one_process/). Its events report each program as if it were a process.
+// Threads: the launcher's one.
 #pragma once
 
 #include <array>

@@ -1,4 +1,5 @@
 // Cached answers: a JSON file with the answer, the key of its question and a SHA-256 over both, to detect damage.
+// Threads: any; a file that is written appears whole.
 #pragma once
 
 #include <filesystem>

@@ -10,6 +10,7 @@
 
 namespace skein::sim {
 
+/// Adds the numbers of vertices and triangles, and their bytes. @param mesh  in any frame.
 inline void add_mesh(Sha256& hash, const TriangleMesh& mesh) {
   const auto add = [&](const auto& values) {
     hash.add(values.size());

@@ -1,4 +1,4 @@
-// Why a point scored less than it could: the causes of losses.csv.
+// Why a point scored less than it could: the causes of losses.csv.   Pure; any thread.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// Reads a CSV file with a header line and unquoted cells, row by row.
+// Reads a CSV file with a header line and unquoted cells, row by row.   Threads: one for each object.
 #pragma once
 
 #include <cstdint>

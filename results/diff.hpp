@@ -1,4 +1,5 @@
 // Finds where two runs diverge: the first step whose digests differ, and which fields of which entities differ in it.
+// Threads: any.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,5 @@
 // losses.csv and `losses` of result.json: compare the oracle's estimate with the results of a run.
+// Threads: any, but one for each folder.
 #pragma once
 
 #include <array>

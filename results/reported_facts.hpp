@@ -1,4 +1,4 @@
-// Reconstructs what the launcher would know of a run from the reports in its folder, for `skein merge`.
+// Reconstructs what the launcher would know of a run from the reports in its folder, for `skein merge`.   Threads: any.
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,5 @@
 // Names of programs, and of the files that they write into a run's folder, for writers and readers of these files.
-// docs/results.md describes their contents.
+// docs/results.md describes their contents.   Threads: any.
 #pragma once
 
 #include <array>

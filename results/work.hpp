@@ -1,5 +1,6 @@
 // Computes how long UAVs were without work, from sim_server's record of each second (sim_server/work/work_log.hpp) and
 // the waits that agents report, by the rules of core/run/work_time.hpp. Simulated time.
+// Threads: any, but one for each folder.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// Arguments of programs for a run that a user watches, and in which they may fly UAVs by hand.
+// Arguments of programs for a run that a user watches, and in which they may fly UAVs by hand.   Pure.
 #pragma once
 
 #include <string>

@@ -2,7 +2,7 @@
 // for every five UAVs. The lots form a square with streets between them, where the UAVs start. The ground station
 // stands on a mast in the middle. UAVs hear each other at short range only, so that the work of a UAV does not grow
 // with the fleet; the station hears all UAVs in line of sight.
-// Frame W.   Units: m, s.   Deterministic: the same numbers give the same bytes on every machine.
+// Frame W.   Units: m, s.   Deterministic: the same numbers give the same bytes on every machine.   Threads: any.
 #pragma once
 
 #include <cstddef>

@@ -9,6 +9,7 @@
 
 namespace skein::sim {
 
+/// Shape of each body, in its frame B.
 inline std::vector<BodyShape> body_shapes(const Scenario& scenario) {
   std::vector<BodyShape> shapes;
   for (const UavConfig& uav : scenario.fleet) shapes.push_back(body_shape(uav.vehicle));

@@ -18,6 +18,7 @@ struct PointsShown {
   std::vector<float> if_exact, if_calm;
 };
 
+/// The points of a simulation as of now.
 PointsShown points_shown(const Simulation& simulation);
 
 }  // namespace skein::sim

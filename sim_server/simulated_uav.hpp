@@ -1,5 +1,6 @@
 // Everything in the simulation that belongs to one UAV.
 // Frames: W world, B body, L LiDAR, `told`: W displaced by the error of the UAV's odometry.   Units: SI, ticks.
+// Threads: one at a time for each UAV.
 #pragma once
 
 #include <optional>

@@ -1,5 +1,5 @@
 // One UAV of the simulation, for the rest of the server to read.
-// Frames: W world (ENU), B body (FLU).  Units: SI, radians; times are ticks.
+// Frames: W world (ENU), B body (FLU).  Units: SI, radians; times are ticks.   Plain data.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Upper limits for scenes. Files that exceed them are refused before memory is allocated.
+// Upper limits for scenes. Files that exceed them are refused before memory is allocated.   Pure.
 #pragma once
 
 #include <cstddef>

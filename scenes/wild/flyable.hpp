@@ -1,6 +1,6 @@
 // Whether a mission is possible in a drawn world: every start has a way out, and UAVs can reach and photograph a
 // sufficient share of the points and deliver the pictures in time, estimated with straight lines and an allowance.
-// Frame W.   Units: m, s.   Depends on nothing but its arguments.
+// Frame W.   Units: m, s.   Depends on nothing but its arguments; any thread.
 #pragma once
 
 #include "core/scenario.hpp"

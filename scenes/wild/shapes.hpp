@@ -24,6 +24,7 @@ std::span<const Kind> solid_kinds();
 /// Frames, lattices, roofs on columns, ships, bridges.
 std::span<const Kind> open_kinds();
 
+/// A tree of this height: a trunk and a dome as its crown.
 void add_tree(MeshBuilder& builder, const Vector2d& p_W, double height, RandomStream& random);
 /// Two poles with one to three sagging cables between them.
 void add_cables(MeshBuilder& builder, const Vector2d& from_W, const Vector2d& to_W, double height,

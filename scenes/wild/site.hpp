@@ -1,6 +1,6 @@
 // The steps in which a wild scene is drawn: a task that suits the fleet, structures with the area of the task, starts
 // and station around them, boxes, clutter. Part of world.cpp.
-// Frame W.   Units: m, s, mm.
+// Frame W.   Units: m, s, mm.   Pure: the same dice give the same scene.   Threads: any.
 #pragma once
 
 #include <string>
@@ -33,6 +33,7 @@ struct Standing {
   double radius = 0.0, heading = 0.0, height = 0.0;
   TriangleMesh mesh;
 };
+/// Draws structures whose surfaces to be inspected have about this area [m^2].
 std::vector<Standing> draw_structures(const Dice& dice, double area_m2);
 
 /// The UAVs' starts, in fleet order, and the station.
@@ -46,6 +47,8 @@ struct Starts {
 Starts draw_starts(const Dice& dice, const std::vector<VehicleConfig>& fleet, const std::vector<Standing>& structures,
                    const TriangleMesh& mesh, bool blind);
 
+/// Draws the boxes to inspect: one around all structures or some for each; then perhaps one above the starts, and empty
+/// ones. @param starts  of the UAVs.
 std::vector<OrientedBox> draw_boxes(const Dice& dice, const std::vector<Standing>& structures,
                                     const std::vector<Vector2d>& starts);
 

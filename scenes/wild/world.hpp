@@ -1,6 +1,6 @@
 // Wild scenes: worlds of which everything is random, from one number: structures, clutter, boxes, points, station,
 // fleet, starts, resolution and time (docs/wild.md). Not one building with variations, but a grammar of buildings.
-// Frame W.   Units: m, s.   Deterministic: the same number gives the same bytes on every machine.
+// Frame W.   Units: m, s.   Deterministic: the same number gives the same bytes on every machine.   Threads: any.
 #pragma once
 
 #include <cstdint>

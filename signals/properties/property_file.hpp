@@ -1,4 +1,5 @@
 // Properties in YAML: in a file of their own, or in a fault test. docs/properties.md explains both. Reads files only.
+// Threads: any.
 #pragma once
 
 #include <array>

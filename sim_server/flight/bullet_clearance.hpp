@@ -11,6 +11,7 @@ class btVector3;
 
 namespace skein::sim {
 
+/// The same vector in Bullet's type, and in Eigen's.
 btVector3 to_bullet(const Vector3d& v);
 Vector3d to_eigen(const btVector3& v);
 

@@ -23,6 +23,7 @@ struct MassState {
   Vector3d v_WBcm = Vector3d::Zero();
   Vector3d w_WB = Vector3d::Zero();  ///< expressed in W
 };
+/// The motion of P from that of B, and the reverse.
 MassState mass_state(const MassFrame& frame, const RigidBodyState& state);
 RigidBodyState body_state(const MassFrame& frame, const MassState& state);
 

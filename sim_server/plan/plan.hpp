@@ -2,6 +2,7 @@
 // that is attainable in the mission's time. The plan selects views and their order for each UAV. Straight legs are
 // clear of the structure, UAVs keep apart, and only pictures that are delivered in time count. A simulated flight
 // verifies it. Frames: W world, ground z = 0; B body.   Units: SI, radians.
+// Pure; any thread.
 #pragma once
 
 #include <string>

@@ -1,6 +1,6 @@
 // Rotating LiDAR of an explorer: a VLP-16 on a servo that swings about body x.
 // Frames: W world, B body, S servo (turned about body x, at p_BS), L optical centre of the LiDAR, axes as S.
-// Units: SI, radians.
+// Units: SI, radians.   Threads: one at a time for each Lidar.
 #pragma once
 
 #include <cstdint>

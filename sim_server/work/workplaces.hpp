@@ -21,7 +21,8 @@ struct Workplace {
 
 /// There are ten candidates on each side of the surface, as in is_flyable(): at 0.85 of the distance with full
 /// resolution and at 0.7 of that, perpendicular to the surface or 31 degrees off. A workplace has a line of sight to
-/// the point, and a straight way out of the structure, up or sideways, with 1.4 m clearance. Deterministic; immutable.
+/// the point, and a straight way out of the structure, up or sideways, with 1.4 m clearance. Deterministic; immutable,
+/// so safe from any thread.
 class Workplaces {
  public:
   static constexpr double kBerth = 1.4;   ///< clearance of the proof that a world is flyable [m]: every vehicle fits
