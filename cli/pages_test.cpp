@@ -3,7 +3,6 @@
 
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <regex>
 #include <set>
 #include <sstream>
@@ -69,13 +68,11 @@ std::string source_of_planner(const std::string& name) {
     if (!fs::is_directory(folder)) continue;
     for (const auto& entry : fs::directory_iterator(folder)) {
       if (!is_its_own && !entry.path().filename().string().starts_with(name + ".")) continue;
-      std::ifstream in(entry.path());
-      text.append(std::istreambuf_iterator<char>(in), {});
+      text += read_text(entry.path());
     }
   }
   if (text.empty()) return text;
-  std::ifstream flight(source_path("uav_agent/flight_core/flight_config.hpp"));
-  return text.append(std::istreambuf_iterator<char>(flight), {});
+  return text + read_text(source_path("uav_agent/flight_core/flight_config.hpp"));
 }
 
 // A parameter of a planner that a page shows has a key in that planner's sources.
@@ -124,8 +121,7 @@ TEST(Pages, NameTheVariablesOfAProgramOfOnesOwn) {
 
 // A development version has the number of the release that it becomes.
 TEST(Pages, TheNewestVersionOfTheChangelogIsThisOne) {
-  std::ifstream file(source_path("CHANGELOG.md"));
-  const std::string changelog{std::istreambuf_iterator<char>(file), {}};
+  const std::string changelog = read_text(source_path("CHANGELOG.md"));
   std::istringstream said(parse_command_line({"--version"}).get<HelpText>().text);
   std::string name, version;
   said >> name >> version;

@@ -3,10 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include <fstream>
-#include <iterator>
-
 #include "core/radio/radio_routes.hpp"
+#include "tests/support/text_files.hpp"
 
 namespace skein::router {
 namespace {
@@ -40,10 +38,7 @@ class LinkRecordTest : public testing::Test {
     LinkRecord record(std::make_unique<ToldLinks>(fate), scenario_, folder_, unwritten_);
     EXPECT_EQ(record.fate(k, route, target, {}).delay_steps, fate.delay_steps);
   }
-  std::string written() const {
-    std::ifstream in(folder_ / "capture_messages.csv");
-    return {std::istreambuf_iterator<char>(in), {}};
-  }
+  std::string written() const { return read_text(folder_ / "capture_messages.csv"); }
 
   std::filesystem::path folder_;
   Scenario scenario_;

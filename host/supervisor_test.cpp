@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <fstream>
 
 #include "host/testing/ends.hpp"
 #include "host/testing/fake_programs.hpp"

@@ -9,6 +9,7 @@
 
 #include "process/files/user_cache.hpp"
 #include "tests/support/test_scenes.hpp"
+#include "tests/support/text_files.hpp"
 
 namespace skein::sim {
 namespace {
@@ -37,10 +38,6 @@ class OracleCache : public ::testing::Test {
   fs::path file() const {
     return *request_.cache / ("oracle-" + oracle_key(scenario_, scene_, request_.config) + ".json");
   }
-  static std::string read(const fs::path& file) {
-    std::ifstream in(file);
-    return {std::istreambuf_iterator<char>(in), {}};
-  }
 
   fs::path folder_;
   Scenario scenario_;
@@ -64,7 +61,7 @@ TEST_F(OracleCache, TheSecondAnswerComesFromTheCache) {
 
 TEST_F(OracleCache, ADamagedFileIsReportedAndReplaced) {
   const OracleSummary right = *ask().summary;
-  const std::string whole = read(file());
+  const std::string whole = read_text(file());
   std::string lie = whole;
   lie.replace(lie.find("\"points_total\":2"), 16, "\"points_total\":7");
   for (const std::string& content :
@@ -74,7 +71,7 @@ TEST_F(OracleCache, ADamagedFileIsReportedAndReplaced) {
     EXPECT_EQ(*reply.summary, right);
     EXPECT_FALSE(reply.cached);
     EXPECT_EQ(reply.warnings.size(), 1u) << content;
-    EXPECT_EQ(read(file()), whole);
+    EXPECT_EQ(read_text(file()), whole);
   }
 }
 

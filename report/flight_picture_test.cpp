@@ -32,15 +32,15 @@ FlightPicture random_picture(std::mt19937& random, std::size_t points) {
 
 TEST(FlightPicture, ReadsAResultsFolder) {
   const results::Scratch scratch;
-  results::write_text(scratch.path() / "result.json",
-                      R"({"status": "completed", "uavs": [{"name": "alpha", "role": "explorer"},
+  write_text(scratch.path() / "result.json",
+             R"({"status": "completed", "uavs": [{"name": "alpha", "role": "explorer"},
                                                           {"name": "beta", "role": "photographer"}]})");
-  results::write_text(
+  write_text(
       scratch.path() / "scene.json",
       R"({"boxes": [{"center": [1, 2, 3], "size": [2, 4, 6], "rotation": [[0, -1, 0], [1, 0, 0], [0, 0, 1]]}]})");
-  results::write_text(scratch.path() / "score.csv", "x,y,z,nx,ny,nz,score,index\n1,2,3,0,0,1,0.5,0\n4,5,6,0,0,1,0,1\n");
-  results::write_text(scratch.path() / "trajectories.csv",
-                      "time_s,uav,x,y,z\n0,alpha,1,2,3\n0,beta,4,5,6\n0.1,alpha,7,8,9\n0.1,be");
+  write_text(scratch.path() / "score.csv", "x,y,z,nx,ny,nz,score,index\n1,2,3,0,0,1,0.5,0\n4,5,6,0,0,1,0,1\n");
+  write_text(scratch.path() / "trajectories.csv",
+             "time_s,uav,x,y,z\n0,alpha,1,2,3\n0,beta,4,5,6\n0.1,alpha,7,8,9\n0.1,be");
   const FlightPicture picture = read_picture(scratch.path());
   ASSERT_EQ(picture.boxes.size(), 1u);
   EXPECT_TRUE(picture.boxes[0][0].isApprox(Vector3d(1 + 2, 2 - 1, 0))) << "turned by 90 degrees about its middle";

@@ -100,7 +100,7 @@ TEST(RunReport, AFolderWithoutAResultIsTheUsersMistake) {
   const results::Scratch scratch;
   EXPECT_THROW(write_run_report(scratch.path()), InputError);
   for (const char* text : {"{\"score\": ", "{}", "[]", "null", R"({"status": "completed", "score": "4.1"})"}) {
-    results::write_text(scratch.path() / "result.json", text);
+    write_text(scratch.path() / "result.json", text);
     EXPECT_THROW(write_run_report(scratch.path()), InputError) << text;
     EXPECT_FALSE(std::filesystem::exists(scratch.path() / "report.html")) << text;
   }
@@ -108,11 +108,10 @@ TEST(RunReport, AFolderWithoutAResultIsTheUsersMistake) {
 
 TEST(RunReport, MissingPartsAreReported) {
   const results::Scratch scratch;
-  results::write_text(scratch.path() / "result.json",
-                      R"({"status": "completed", "uavs": [{"name": "a"}], "losses": {}})");
-  results::write_text(scratch.path() / "events.csv", "step,time_s,event,subject,object\n0,0,joined,a,\n1,0.05,joi");
+  write_text(scratch.path() / "result.json", R"({"status": "completed", "uavs": [{"name": "a"}], "losses": {}})");
+  write_text(scratch.path() / "events.csv", "step,time_s,event,subject,object\n0,0,joined,a,\n1,0.05,joi");
   write_run_report(scratch.path());
-  const std::string page = results::read_text(scratch.path() / "report.html");
+  const std::string page = read_text(scratch.path() / "report.html");
   for (const char* file :
        {"scene.json", "score.csv", "losses.csv", "captures.csv", "trajectories.csv", "score_timeline.csv"}) {
     EXPECT_NE(page.find("There is no " + std::string(file)), std::string::npos) << file;
@@ -144,7 +143,7 @@ TEST(RunReport, SplitsWhatWasTooPoorToCount) {
 
 TEST(RunReport, WithoutItsScriptAPageSaysWhereToGetIt) {
   const results::Scratch scratch;
-  results::write_text(scratch.path() / "result.json", R"({"status": "completed"})");
+  write_text(scratch.path() / "result.json", R"({"status": "completed"})");
   const std::string page = run_page(results::read_sound_run(scratch.path()), std::nullopt);
   EXPECT_NE(page.find("Packages of Skein contain it; a build from source makes it with npm"), std::string::npos)
       << "users of a package have no folder for npm";
@@ -153,10 +152,10 @@ TEST(RunReport, WithoutItsScriptAPageSaysWhereToGetIt) {
 TEST(RunReport, ANumberOutOfAllBoundsEndsItsTable) {
   for (const char* number : {"nan", "-inf", "1e300", "x"}) {
     const results::Scratch scratch;
-    results::write_text(scratch.path() / "result.json", R"({"status": "completed", "uavs": [{"name": "a"}]})");
+    write_text(scratch.path() / "result.json", R"({"status": "completed", "uavs": [{"name": "a"}]})");
     const std::string row = ",1,2,0,0,1,0.5,";
-    results::write_text(scratch.path() / "score.csv",
-                        "x,y,z,nx,ny,nz,score,index\n0" + row + "0\n" + number + row + "1\n3" + row + "2\n");
+    write_text(scratch.path() / "score.csv",
+               "x,y,z,nx,ny,nz,score,index\n0" + row + "0\n" + number + row + "1\n3" + row + "2\n");
     const results::RunRecord run = results::read_sound_run(scratch.path());
     EXPECT_EQ(run.points.size(), 1u) << number;
     EXPECT_NE(run_page(run, std::nullopt).find("score.csv makes sense for 1 rows only"), std::string::npos);
@@ -195,7 +194,7 @@ TEST(WebBundle, ABundleThatDoesNotFitIntoAScriptElementIsLeftOut) {
   ::setenv("SKEIN_WEB", file.c_str(), 1);
   EXPECT_EQ(web_bundle(), std::nullopt) << "there is none";
   for (const auto& [text, fits] : {std::pair("let x = 1;", true), {"'</ScRipt >'", false}, {"'<!-- x'", false}}) {
-    results::write_text(file, text);
+    write_text(file, text);
     EXPECT_EQ(web_bundle().has_value(), fits) << text;
   }
   ::unsetenv("SKEIN_WEB");

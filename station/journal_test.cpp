@@ -7,8 +7,9 @@
 #include <unistd.h>
 
 #include <fstream>
-#include <iterator>
 #include <string>
+
+#include "tests/support/text_files.hpp"
 
 namespace skein::station {
 namespace {
@@ -25,10 +26,7 @@ class JournalTest : public testing::Test {
   }
   ~JournalTest() override { fs::remove_all(folder_); }
 
-  std::string content() const {
-    std::ifstream in(file_, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
-  }
+  std::string content() const { return read_text(file_); }
   void set_content(const std::string& bytes) const {
     std::ofstream(file_, std::ios::binary | std::ios::trunc) << bytes;
   }

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "station/journal.hpp"
+#include "tests/support/text_files.hpp"
 
 namespace skein::station {
 namespace {
@@ -28,10 +29,7 @@ class Settlement : public testing::Test {
     return record;
   }
   nlohmann::json report() const { return nlohmann::json::parse(std::ifstream(folder_ / "station.report.json")); }
-  std::string text(const char* file) const {
-    std::ifstream in(folder_ / file);
-    return {std::istreambuf_iterator<char>(in), {}};
-  }
+  std::string text(const char* file) const { return read_text(folder_ / file); }
 
   const std::filesystem::path folder_ =
       std::filesystem::path(testing::TempDir()) / ("skein_settlement_" + std::to_string(::getpid()));

@@ -3,19 +3,14 @@
 #include <gtest/gtest.h>
 #include <stdlib.h>
 
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
+
+#include "tests/support/text_files.hpp"
 
 namespace skein::station {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string read(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 /// One capture of each fate: it counts, another is better, never received, altered, of a UAV that collided.
 Scoreboard eventful_run() {
@@ -53,7 +48,7 @@ class StationReport : public testing::Test {
 };
 
 TEST_F(StationReport, TheAuditSaysWhatBecameOfEachCapture) {
-  EXPECT_EQ(read(folder_ / "captures.csv"),
+  EXPECT_EQ(read_text(folder_ / "captures.csv"),
             "uav,capture,tick,time_s,point,q_seen,q_blur,q_res,q_distance,q,delivered_at_s,reason\n"
             "jurong,0,100,0.25,2,1,1,0.75,0.875,0.75,0.45,\n"
             "raffles,0,110,0.275,2,1,0.5,1,0,0.5,0.45,better capture\n"
@@ -63,7 +58,7 @@ TEST_F(StationReport, TheAuditSaysWhatBecameOfEachCapture) {
 }
 
 TEST_F(StationReport, TheTimelineFallsAtACollision) {
-  EXPECT_EQ(read(folder_ / "score_timeline.csv"),
+  EXPECT_EQ(read_text(folder_ / "score_timeline.csv"),
             "time_s,points,score\n"
             "0,0,0\n"
             "0.45,2,1.75\n"
@@ -71,7 +66,7 @@ TEST_F(StationReport, TheTimelineFallsAtACollision) {
 }
 
 TEST_F(StationReport, TheReportHoldsWhatTheResultNeeds) {
-  const auto report = nlohmann::json::parse(read(folder_ / "station.report.json"));
+  const auto report = nlohmann::json::parse(read_text(folder_ / "station.report.json"));
   EXPECT_EQ(report, nlohmann::json::parse(R"({
     "points_detected": 1, "score": 0.75, "score_earned": 1.5,
     "score_by_uav": {"jurong": 0.75, "raffles": 0.0, "changi": 0.0},

@@ -128,10 +128,6 @@ class HuntLogs : public testing::Test {
     fs::create_directories(dir_ / "finds" / name);
     std::ofstream(dir_ / "finds" / (name + ".yaml")) << "name: " << name << '\n';
   }
-  static std::string text_in(const fs::path& file) {
-    std::ifstream in(file);
-    return {std::istreambuf_iterator<char>(in), {}};
-  }
 
   const fs::path dir_ = fs::path(testing::TempDir()) / ("skein_hunt_log_" + std::to_string(::getpid()));
   const Json one_{{"seed", 1}}, other_{{"seed", 2}};
@@ -147,11 +143,11 @@ TEST_F(HuntLogs, BeginningAnewKeepsAndNamesTheFindsOfEveryHuntBefore) {
     EXPECT_TRUE(second.outcomes().empty());
     ASSERT_EQ(second.kept(), (std::vector<fs::path>{dir_ / "earlier/1/finds/all_fly_on-17.yaml",
                                                     dir_ / "earlier/1/finds/separation-3.yaml"}));
-    EXPECT_EQ(text_in(second.kept().front()), "name: all_fly_on-17\n");
+    EXPECT_EQ(read_text(second.kept().front()), "name: all_fly_on-17\n");
   }
   EXPECT_TRUE(fs::is_directory(dir_ / "earlier/1/finds/separation-3")) << "the results folder of the find";
-  EXPECT_NE(text_in(dir_ / "earlier/1/log.jsonl").find("\"first\""), std::string::npos);
-  EXPECT_EQ(parse_json(text_in(dir_ / "earlier/1/hunt.json")), one_);
+  EXPECT_NE(read_text(dir_ / "earlier/1/log.jsonl").find("\"first\""), std::string::npos);
+  EXPECT_EQ(parse_json(read_text(dir_ / "earlier/1/hunt.json")), one_);
 
   find("separation-3");
   const HuntLog third(dir_, other_, true);

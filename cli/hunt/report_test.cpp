@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <fstream>
 #include <pugixml.hpp>
 
 #include "host/testing/fake_programs.hpp"
@@ -56,10 +55,7 @@ class HuntReports : public testing::Test {
     EXPECT_TRUE(xml_.load_file((programs_.dir() / "hunt.xml").c_str()));
     return xml_.child("testsuites").child("testsuite").find_child_by_attribute("name", property.c_str());
   }
-  std::string page() const {
-    std::ifstream in(plan_->out / "report.html");
-    return {std::istreambuf_iterator<char>(in), {}};
-  }
+  std::string page() const { return read_text(plan_->out / "report.html"); }
 
   const FakePrograms programs_;
   std::optional<HuntPlan> plan_;

@@ -50,13 +50,13 @@ TEST(FlightTables, AreReadAsFarAsTheyAreThere) {
   const results::Scratch scratch;
   const auto dir = scratch.path();
   EXPECT_TRUE(read_flight_tables(dir).scores.empty()) << "no result at all";
-  results::write_text(dir / "result.json",
-                      R"({"status": "completed", "sim_time_s": 80, "uavs": [{"name": "a"}, {"name": "b"}]})");
+  write_text(dir / "result.json",
+             R"({"status": "completed", "sim_time_s": 80, "uavs": [{"name": "a"}, {"name": "b"}]})");
   EXPECT_TRUE(read_flight_tables(dir).latencies.empty()) << "nobody knows of captures";
-  results::write_text(dir / "score_timeline.csv", "time_s,points,score\n0,0,0\n10,1,2.5\n20,2,nonsense\n");
-  results::write_text(dir / "captures.csv",
-                      "uav,capture,tick,time_s,point,q,delivered_at_s,reason\n"
-                      "a,0,0,1,7,0.5,3,\na,0,0,1,8,0.5,3,\na,1,0,2,9,0.5,,not received\nb,0,0,5,7,0.5,5.5,\n");
+  write_text(dir / "score_timeline.csv", "time_s,points,score\n0,0,0\n10,1,2.5\n20,2,nonsense\n");
+  write_text(dir / "captures.csv",
+             "uav,capture,tick,time_s,point,q,delivered_at_s,reason\n"
+             "a,0,0,1,7,0.5,3,\na,0,0,1,8,0.5,3,\na,1,0,2,9,0.5,,not received\nb,0,0,5,7,0.5,5.5,\n");
   const FlightTables tables = read_flight_tables(dir);
   EXPECT_EQ(tables.end_s, 80.0);
   EXPECT_EQ(tables.score_at(9.99), 0.0);

@@ -3,20 +3,13 @@
 
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <string>
 
 #include "host/preflight.hpp"
 #include "tests/support/places.hpp"
+#include "tests/support/text_files.hpp"
 
 namespace skein::cli {
-
-inline void write_text(const std::filesystem::path& file, const std::string& text) { std::ofstream(file) << text; }
-
-inline std::string read_text(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 inline void write_script(const std::filesystem::path& file, const std::string& body) {
   write_text(file, "#!/bin/sh\n" + body);

@@ -6,9 +6,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <fstream>
 #include <random>
 #include <system_error>
+
+#include "tests/support/text_files.hpp"
 
 namespace skein {
 namespace {
@@ -18,10 +19,7 @@ namespace fs = std::filesystem;
 class StreamFileTest : public testing::Test {
  protected:
   ~StreamFileTest() override { fs::remove(file_); }
-  std::string content() const {
-    std::ifstream in(file_);
-    return {std::istreambuf_iterator<char>(in), {}};
-  }
+  std::string content() const { return read_text(file_); }
   const fs::path file_ = fs::path(testing::TempDir()) / ("skein_stream_" + std::to_string(::getpid()));
 };
 

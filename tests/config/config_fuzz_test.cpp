@@ -10,16 +10,12 @@
 #include "core/random_stream.hpp"
 #include "core/scenario/scenario_keys.hpp"
 #include "tests/support/places.hpp"
+#include "tests/support/text_files.hpp"
 
 namespace skein {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string text_of(const fs::path& file) {
-  std::ifstream stream(file);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
 
 std::size_t below(RandomStream& random, std::size_t limit) { return limit == 0 ? 0 : random.bits() % limit; }
 
@@ -62,7 +58,7 @@ void expect_harmless(const std::string& text, const auto& load) {
 
 void fuzz(const fs::path& file, const auto& load) {
   constexpr int kRounds = 1500;
-  const std::string original = text_of(file);
+  const std::string original = read_text(file);
   ASSERT_FALSE(original.empty());
   for (int round = 0; round < kRounds; ++round) {
     RandomStream random(1, "config_fuzz", file.filename().string(), static_cast<std::uint64_t>(round));
@@ -88,7 +84,7 @@ TEST(ConfigFuzz, DamagedVehicle) {
 /// The whole loader with its cross-checks. It reads a file, which is slow, so there are only a few rounds.
 TEST(ConfigFuzz, DamagedScenarioFile) {
   const fs::path copy = fs::path(::testing::TempDir()) / "skein_config_fuzz.yaml";
-  const std::string original = text_of(source_path("config/scenarios/mbs.yaml"));
+  const std::string original = read_text(source_path("config/scenarios/mbs.yaml"));
   LoadOptions options;
   options.config_dir = source_path("config");
   options.needs_scene_files = false;
@@ -108,7 +104,7 @@ TEST(ConfigFuzz, DamagedScenarioFile) {
 }
 
 TEST(ConfigFuzz, APrintedDocumentReadsBackTheSame) {
-  const std::string original = text_of(source_path("config/vehicles/photographer.yaml"));
+  const std::string original = read_text(source_path("config/vehicles/photographer.yaml"));
   for (std::uint64_t round = 0; round < 1000; ++round) {
     RandomStream random(2, "config_fuzz", "print", round);
     std::string text = original;

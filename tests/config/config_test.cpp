@@ -13,6 +13,7 @@
 #include "core/scenario/scenario_reader.hpp"
 #include "core/vehicle/airframe.hpp"
 #include "tests/support/places.hpp"
+#include "tests/support/text_files.hpp"
 
 namespace skein {
 namespace {
@@ -109,8 +110,7 @@ class ShippedVehicle : public ::testing::TestWithParam<std::string> {};
 TEST_P(ShippedVehicle, LoadsAndNamesEveryKey) {
   const VehicleConfig vehicle = load_vehicle(GetParam(), kConfig);
   EXPECT_EQ(vehicle.name, GetParam());
-  std::ifstream stream(kConfig / "vehicles" / (GetParam() + ".yaml"));
-  const std::string text{std::istreambuf_iterator<char>(stream), {}};
+  const std::string text = read_text(kConfig / "vehicles" / (GetParam() + ".yaml"));
   const ConfigDocument printed = parse_config_document(to_yaml(vehicle), "printed");
   for (const std::string& key : printed.root.keys) EXPECT_NE(text.find(key + ":"), std::string::npos) << key;
 }

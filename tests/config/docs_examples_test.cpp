@@ -10,6 +10,7 @@
 #include "core/scenario/scenario_reader.hpp"
 #include "core/scenario/scene_families.hpp"
 #include "tests/support/places.hpp"
+#include "tests/support/text_files.hpp"
 
 namespace skein {
 namespace {
@@ -18,10 +19,7 @@ namespace fs = std::filesystem;
 
 const fs::path kRoot = source_path();
 
-std::string page() {
-  std::ifstream stream(kRoot / "docs" / "scenarios.md");
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
+std::string page() { return read_text(kRoot / "docs" / "scenarios.md"); }
 
 /// The page's YAML blocks, except those that are marked as something else.
 std::vector<std::string> examples() {

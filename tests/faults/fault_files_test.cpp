@@ -12,6 +12,7 @@
 #include "core/text/suggestion.hpp"
 #include "signals/properties/property_file.hpp"
 #include "tests/support/places.hpp"
+#include "tests/support/text_files.hpp"
 
 namespace skein::cli {
 namespace {
@@ -20,10 +21,7 @@ namespace fs = std::filesystem;
 
 const fs::path kRoot = source_path();
 
-std::string page(const std::string& name) {
-  std::ifstream in(kRoot / "docs" / name);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
+std::string page(const std::string& name) { return read_text(kRoot / "docs" / name); }
 
 /// The YAML blocks of a page.
 std::vector<std::string> examples(const std::string& text) {

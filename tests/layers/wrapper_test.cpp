@@ -9,6 +9,7 @@
 
 #include "tests/support/places.hpp"
 #include "tests/support/scratch_folder.hpp"
+#include "tests/support/text_files.hpp"
 
 namespace skein::test {
 namespace {
@@ -19,11 +20,6 @@ void write(const fs::path& file, const std::string& text, bool executable = fals
   fs::create_directories(file.parent_path());
   std::ofstream(file) << text;
   if (executable) fs::permissions(file, fs::perms::owner_all);
-}
-
-std::string read(const fs::path& file) {
-  std::ifstream in(file);
-  return {std::istreambuf_iterator<char>(in), {}};
 }
 
 class Wrapper : public testing::Test {
@@ -61,10 +57,10 @@ class Wrapper : public testing::Test {
                                 (root_ / "skein").string() + "' " + words + " 2>'" + (root_ / "errors").string() + "'";
     const int status = std::system(command.c_str());
     const auto line = [&](const char* file) {
-      const std::string text = read(root_ / file);
+      const std::string text = read_text(root_ / file);
       return text.substr(0, text.find('\n'));
     };
-    return {WEXITSTATUS(status), line("targets"), line("words"), read(root_ / "errors")};
+    return {WEXITSTATUS(status), line("targets"), line("words"), read_text(root_ / "errors")};
   }
 
   const ScratchFolder scratch_;

@@ -11,6 +11,7 @@
 #include "core/config/config_writer.hpp"
 #include "core/random_stream.hpp"
 #include "tests/support/places.hpp"
+#include "tests/support/text_files.hpp"
 #include "uav_agent/planners/kios/config.hpp"
 #include "uav_agent/planners/star/config.hpp"
 #include "uav_agent/planners/xxh/config.hpp"
@@ -130,8 +131,7 @@ TEST(Faithful, IsLookedAtWhereParametersAreFilledInAlone) {
     for (const auto& file : std::filesystem::directory_iterator(source_path("uav_agent/planners/" + planner))) {
       const std::string name = file.path().filename();
       if (name.ends_with("_test.cpp") || name == "config.hpp") continue;
-      std::ifstream in(file.path());
-      const std::string text{std::istreambuf_iterator<char>(in), {}};
+      const std::string text = skein::read_text(file.path());
       EXPECT_FALSE(std::regex_search(text, std::regex(R"(\.faithful)"))) << planner << "/" << name;
     }
   }
