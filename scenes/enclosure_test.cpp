@@ -28,12 +28,7 @@ OrientedBox upright(const Vector3d& center, const Vector3d& size) {
 
 TriangleMesh join(std::vector<OrientedBox> boxes) {
   TriangleMesh all;
-  for (const OrientedBox& box : boxes) {
-    const TriangleMesh part = box_surface(box);
-    const auto shift = static_cast<std::uint32_t>(all.vertices.size());
-    all.vertices.insert(all.vertices.end(), part.vertices.begin(), part.vertices.end());
-    for (const auto& t : part.triangles) all.triangles.push_back({t[0] + shift, t[1] + shift, t[2] + shift});
-  }
+  for (const OrientedBox& box : boxes) append(all, box_surface(box));
   return all;
 }
 

@@ -6,11 +6,11 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <fstream>
-#include <sstream>
 #include <stdexcept>
 #include <string_view>
 #include <thread>
+
+#include "tests/support/text_files.hpp"
 
 namespace skein::test {
 namespace {
@@ -40,11 +40,7 @@ int open_for_output(const std::filesystem::path& file) {
 
 }  // namespace
 
-std::string text_of(const std::filesystem::path& file) {
-  std::ostringstream text;
-  text << std::ifstream(file, std::ios::binary).rdbuf();
-  return text.str();
-}
+std::string text_of(const std::filesystem::path& file) { return read_text(file); }
 
 ChildProcess::ChildProcess(const Arguments& argv, const Environment& environment, std::filesystem::path out,
                            std::filesystem::path err)

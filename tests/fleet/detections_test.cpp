@@ -45,18 +45,11 @@ class Detections : public FleetTest {
     for (const std::string name : {"gcs", "jurong", "changi"}) {
       ASSERT_TRUE(eventually([&] { return text_of(heard(name)).find("listening") != std::string::npos; })) << name;
     }
-    start_program("agent", {"/bin/sh", "-c", "exec env " + agent_command()});
+    start_program("agent", {"/bin/sh", "-c", run_->debug_command()});
     ASSERT_EQ(run_->exit_code(), 0) << run_->err();
     const Json scene = Json::parse(text_of(run_->dir() / "scene.json"));
     for (const Json& point : scene["points"]) scene_.push_back(point);
     ASSERT_EQ(scene_.size(), static_cast<std::size_t>(kWallColumns * kWallRows));
-  }
-
-  /// The command that the launcher printed, without gdb.
-  std::string agent_command() const {
-    const std::string text = run_->err(), gdb = "gdb --args ";
-    const std::size_t at = text.find(gdb), begin = text.rfind('\n', at) + 1, end = text.find('\n', at);
-    return text.substr(begin, at - begin) + text.substr(at + gdb.size(), end - at - gdb.size());
   }
 
   void listen(const std::string& name, const std::string& vendor, int domain,

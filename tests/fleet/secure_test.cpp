@@ -51,9 +51,7 @@ class SecureWaiting : public Secure, public testing::WithParamInterface<std::str
   void start_fleet(const std::string& planner = "patrol", const std::string& clock = "lockstep") {
     run_ = &start("secure", arguments(GetParam(), {"--secure", "--debug", kVictim, "--clock", clock}, planner));
     ASSERT_TRUE(run_->wait_for("gdb --args")) << run_->err();
-    const std::string text = run_->err(), gdb = "gdb --args ";
-    const std::size_t at = text.find(gdb), begin = text.rfind('\n', at) + 1, end = text.find('\n', at);
-    command_ = text.substr(begin, at - begin) + text.substr(at + gdb.size(), end - at - gdb.size());
+    command_ = run_->debug_command();
     std::istringstream words(command_);
     for (std::string word; words >> word;) {
       if (word == "--security") words >> keys_;
@@ -130,7 +128,7 @@ TEST_P(SecureWaiting, FliesAsAnOpenFleetAndStrangersGetNothing) {
         << text << " is not in the log:\n"
         << log();
   }
-  start_program("agent", {"/bin/sh", "-c", "exec env " + command_});
+  start_program("agent", {"/bin/sh", "-c", command_});
   EXPECT_EQ(run_->exit_code(), 0) << run_->err();
 
   EXPECT_GT(ears("friend").second, 100);
@@ -160,7 +158,7 @@ TEST_P(SecureWaiting, TheStationsProgramReadsTheScoreButNoIndices) {
   listen("indices", GetParam(), keys, kGcsDomain, topics::score_eval());
   listen("judge", GetParam(), station, kGcsDomain, topics::score_eval());
   EXPECT_TRUE(eventually([&] { return ears("score").first == 1 && ears("judge").first == 1; }));
-  start_program("agent", {"/bin/sh", "-c", "exec env " + command_});
+  start_program("agent", {"/bin/sh", "-c", command_});
   EXPECT_EQ(run_->exit_code(), 0) << run_->err();
   EXPECT_GT(ears("score").second, 0);
   EXPECT_GT(ears("judge").second, 0) << "what the program below did not hear";
