@@ -101,9 +101,6 @@ HAND = Table("hand", "hand-{uav}.csv", (
     *_columns("number", "rad/s", "yaw_rate gimbal_pitch_rate gimbal_yaw_rate")),
     "no viewer flew this UAV by hand (`planner=\"UAV=hand\"` with `view=True`)")
 
-# Not a file: Run.links computes it from events.csv.
-LINKS = Table("links", "events.csv", (*_columns("text", "", "a b"), *_columns("number", "s", "from_s to_s")))
-
 RUN_TABLES = {table.name: table for table in (
     POINTS, CAPTURES, LOSSES, WORK, TIMELINE, TRAJECTORIES, TRACKING, EVENTS, ACTIVITY, CAPTURE_MESSAGES, DIGESTS)}
 
