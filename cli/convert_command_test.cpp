@@ -1,4 +1,4 @@
-// `skein convert`: what it prints or rewrites, and that it changes no file if it refuses one.
+// `skein convert`: the text that it prints or writes. If it refuses one file, it changes none.
 #include "cli/convert_command.hpp"
 
 #include <gtest/gtest.h>

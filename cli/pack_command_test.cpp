@@ -1,4 +1,4 @@
-// Where `skein pack` may write, and what it leaves when it cannot.
+// Where `skein pack` may write its archive, and which files remain if it fails.
 #include "cli/pack_command.hpp"
 
 #include <gtest/gtest.h>

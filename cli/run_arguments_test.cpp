@@ -1,4 +1,4 @@
-// The options of a run as a command line, and as what the process of a flight gets.
+// The options of a run, written as a command line and as the JSON that the process of a flight gets.
 #include "cli/run_arguments.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// The folder of a study: what is there is never lost without --force.
+// The folder of a study: without --force, no file in it is lost.
 #include <algorithm>
 #include <filesystem>
 #include <map>

@@ -1,4 +1,4 @@
-// Options of what a browser is shown: of a replay, and which maps a run keeps for it.
+// The options of a replay in a browser, and of the maps that a run keeps for it.
 #include "cli/view_options.hpp"
 
 #include <gtest/gtest.h>

@@ -286,7 +286,7 @@ TEST(LinkStages, CorruptionLeavesTheOtherDrawsAsTheyAre) {
   }
 }
 
-// Whatever it does is the same as if its time had stood in the file.
+// The effects of the fault are the same as if the file had named its time.
 TEST(LinkStages, AFaultThatWaitedActsFromThenOnAsIfItsTimeHadBeenKnown) {
   LinkEffect effect;
   effect.loss = 0.3;

@@ -116,7 +116,7 @@ TEST(CameraQuality, DistanceAndTiltAreTheTwoPartsOfTheResolution) {
     const auto tilted =
         exposure.score(p_C, Vector3d(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)).normalized());
     ASSERT_TRUE(frontal && tilted);
-    // A frontal surface has no tilt, and whatever the tilt the part of the distance is the same.
+    // A frontal surface has no tilt. The part of the distance does not depend on the tilt.
     EXPECT_NEAR(frontal->q_res, frontal->q_distance, 1e-6);
     EXPECT_EQ(tilted->q_distance, frontal->q_distance);
     EXPECT_NEAR(frontal->q_distance, std::min(1.0, d / depth), 1e-12);

@@ -156,7 +156,7 @@ TYPED_TEST(EveryType, SurvivesTruncationAnywhere) {
   const TypeParam message = filled_message<TypeParam>();
   const Bytes payload = encode(message);
   for (std::size_t size = 0; size < payload.size(); ++size) {
-    // A copy, so that a memory checker sees what is read behind its end.
+    // A copy, so that a memory checker notices a read beyond its end.
     const Bytes truncated(payload.begin(), payload.begin() + static_cast<long>(size));
     TypeParam again;
     // Only the padding at the end may be missing.

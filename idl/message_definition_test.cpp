@@ -32,7 +32,7 @@ TEST(MessageDefinition, KnowsArraysSequencesAndLongNumbers) {
   EXPECT_NE(message_definition(type_name<msg::Step>()).text.find("uint64 run\n"), std::string::npos);
 }
 
-// Whatever a type is made of is described in it, once.
+// The definition describes each type that a type contains, once.
 TEST(MessageDefinition, OfEachTypeIsWhole) {
   const auto check = [](const std::string& wire_type) {
     const MessageDefinition& definition = message_definition(wire_type);

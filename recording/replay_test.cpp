@@ -43,7 +43,7 @@ Speech random_speech(std::uint64_t seed, std::size_t steps) {
 
 class ReplayTest : public mcap::McapFiles {
  protected:
-  /// Takes a speech as a server does. @returns what it took.
+  /// Takes a speech as a server does. @returns the words that it took.
   template <class TapType>
   Speech hear(TapType& tap, const Speech& speech, const std::function<void(Tick)>& begin,
               const std::function<void()>& end) {

@@ -28,7 +28,7 @@ class AgentFile : public ::testing::Test {
   FleetPlan plan() const { return plan_fleet(options_, program_dir()); }
   std::vector<ProgramSpec> flown() const { return fleet_programs(plan(), 1, programs_.dir()); }
 
-  /// The program that runs a member's software, and the planner that it is told.
+  /// The program that runs a member's software, and the planner in its arguments.
   static std::string software(const std::vector<ProgramSpec>& programs, const std::string& program) {
     for (const ProgramSpec& spec : programs) {
       if (spec.name != program) continue;

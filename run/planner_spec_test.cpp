@@ -63,7 +63,7 @@ TEST(PlannerSpec, TheTextAfterTheLastAtIsAnAgentProgram) {
   struct Case {
     std::string spec, name, agent;
   };
-  // Whatever the parameters, and wherever it stands.
+  // With any parameters, at any place of the value.
   for (const auto& [spec, name, agent] : {Case{"kios@a", "kios", "a"},
                                           {"kios@../a=b/c:d", "kios", "../a=b/c:d"},
                                           {"kios:voxel_m=4,lanes=3@a/b", "kios:voxel_m=4,lanes=3", "a/b"},

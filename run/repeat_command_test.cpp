@@ -1,4 +1,4 @@
-// The command that repeats a run in which somebody took a hand.
+// The command that repeats a run in which viewers flew UAVs or added faults.
 #include "run/repeat_command.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Faults by hand: whatever is asked for in whatever order, the file that is left has the same in the same exchanges.
+// Faults by hand: for all requests in any order, the file that Skein writes has the same faults in the same exchanges.
 #include "sim_server/hand_faults.hpp"
 
 #include <gtest/gtest.h>

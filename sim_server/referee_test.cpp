@@ -1,4 +1,4 @@
-// The ledger: what enters, how it is numbered, and what it is worth.
+// The ledger: which captures enter, their numbers, and their scores.
 #include "sim_server/referee.hpp"
 
 #include <gtest/gtest.h>

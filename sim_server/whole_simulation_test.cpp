@@ -1,4 +1,4 @@
-// Whole scenarios with a pilot who goes round the highest box: that runs repeat, and what they cost.
+// Whole scenarios with a pilot who flies around the highest box: runs repeat exactly, and their cost is limited.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -50,7 +50,7 @@ class KeptMapsTest : public testing::Test {
     text << std::ifstream(folder_ / run_folder::maps_file("a", life)).rdbuf();
     return text.str();
   }
-  /// 60 s in which the map grows in the seconds 0 to 24, 26 and 55. @returns what it was every ten seconds.
+  /// 60 s in which the map grows in the seconds 0 to 24, 26 and 55. @returns the map after every ten seconds.
   std::vector<Snapshot> fly(KeptMaps& kept) {
     RandomStream random(7, "kept_maps", 0);
     WorldMap map(WorldMap::Config{});

@@ -34,7 +34,7 @@ CubePlaces shown_at(double now_s, const std::vector<RunsStep>& steps) {
   return places_of(runs);
 }
 
-/// Maps that grow, and lose some of what they had.
+/// Maps that grow, and lose some of their cells.
 std::vector<RunsAt> drawn_snapshots(std::mt19937& random) {
   std::vector<RunsAt> snapshots;
   CubePlaces known;

@@ -1,4 +1,4 @@
-// The page's server, by hand-made requests: what it serves, and whom it refuses.
+// The page's server, with requests that the tests write: the files that it serves, and the clients that it refuses.
 #include "view/server.hpp"
 
 #include <gtest/gtest.h>

@@ -21,7 +21,7 @@ namespace {
 using namespace std::chrono_literals;
 using Random = std::mt19937;
 
-/// Lets some time pass, unless somebody wants an end.
+/// Waits for some time, or until the test is to end.
 void pass(const std::stop_token& over, std::chrono::milliseconds time) {
   std::mutex mutex;
   std::unique_lock lock(mutex);
@@ -92,7 +92,7 @@ class Storm : public ServerTest {
     if (filler_.joinable()) filler_.join();
   }
 
-  /// A request of somebody who has no key, or not all that it takes.
+  /// A request without a key, or with an incomplete one.
   std::string request(Random& random) const {
     const std::vector<std::string> targets = {"/", "/live.js", "/flight", "/enter", "*", "/?", "/flight?", "/LIVE.JS"},
                                    methods = {"GET", "POST", "HEAD", "PUT", "OPTIONS", "get", "PRI", "CONNECT", "G\tT"};
@@ -215,7 +215,7 @@ TEST_P(DrawnStorm, OfStrangersTellsThemNothingAndKeepsNoViewerOut) {
   EXPECT_EQ(orders_, 0);
 }
 
-// Viewers that have the key, and send what is not an order.
+// Viewers that have the key, and send texts that are no orders.
 TEST_P(DrawnStorm, OfFramesIsObeyedWhereItIsAnOrderAndEndsOtherwise) {
   Random random(GetParam());
   fill();

@@ -110,7 +110,7 @@ TEST_F(FaultMakers, AllIsOverInTimeButSomeDeaths) {
         continue;
       }
       EXPECT_LE(*fault.until_s, space_.heal_by_s + 1e-9) << fault_line(fault);
-      // A tenth of a second is the shortest that a fault lasts, whatever was drawn or varied.
+      // No fault is shorter than a tenth of a second, whether it is drawn or varied.
       EXPECT_GE(*fault.until_s - fault.at_s, 0.1 - 1e-9) << fault_line(fault);
       EXPECT_GE(fault.for_s.value_or(0.1), 0.1 - 1e-9) << fault_line(fault);
     }

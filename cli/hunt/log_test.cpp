@@ -1,4 +1,4 @@
-// The folder of a hunt: what was flown is taken up again whole, or refused, and no option deletes a find.
+// The folder of a hunt: a hunt continues with all earlier runs, or refuses the folder, and no option deletes a find.
 #include "cli/hunt/log.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Capsules: fault tests that say what failed. What a hunt asks, and what it refuses.
+// The options of a hunt, and which of them it refuses; and capsules: fault tests that record a failure.
 #include "cli/hunt/plan.hpp"
 
 #include <gtest/gtest.h>

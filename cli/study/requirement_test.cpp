@@ -1,4 +1,4 @@
-// Requirements of a study: what they say, and which flights keep them.
+// Requirements of a study: their syntax, and the flights that meet them.
 #include "cli/study/requirement.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Studies over many scenes: who comes first among the worst, and what is told of them.
+// Studies over many scenes: the order of the worst flights, and their description.
 #include "cli/study/worlds.hpp"
 
 #include <gtest/gtest.h>

@@ -206,7 +206,7 @@ TEST(ConfigReader, AnEmptyOptionalIsNone) {
   EXPECT_FALSE(parse("maybe: ~").maybe.has_value());
 }
 
-// yaml-cpp would give the line of what follows.
+// yaml-cpp would give the line of the next node.
 TEST(ConfigReader, AnEmptyValueIsReportedInTheLineOfItsKey) {
   EXPECT_EQ(complaint("flag: true\nreal:\n\n\n# a comment\nsmall: 3\n"), "test:2: real: must be a number, not nothing");
   EXPECT_EQ(parse_config_document("part:\n  name:\n\n\nwords: []\n", "test").root.find("part")->find("name")->line, 2);

@@ -1,4 +1,4 @@
-// Conditions that faults change for a time: which values hold when, and what is refused with which words.
+// Conditions that faults change for a time: the values at each time, and the messages about invalid changes.
 #include "core/faults/conditions_change.hpp"
 
 #include <gtest/gtest.h>

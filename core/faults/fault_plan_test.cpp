@@ -1,4 +1,4 @@
-// Fault files: what is read, when faults act, and what is refused with which words.
+// Fault files: reading, the times at which faults act, and the messages about invalid files.
 #include "core/faults/fault_plan.hpp"
 
 #include <gtest/gtest.h>

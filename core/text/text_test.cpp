@@ -84,7 +84,7 @@ TEST(Text, AShellTakesEveryWordAsOne) {
   EXPECT_EQ(shell_word("$(x)"), "'$(x)'");
 }
 
-/// As a shell splits them; whatever is in the words.
+/// A shell splits the line into the same words, for all characters in the words.
 TEST(Text, WordsOfAShellReadBackAsTheyWere) {
   std::mt19937 random(5);
   const std::string letters = "ab '\"\\$*?~=;|&<>(){}#!`-/.";

@@ -25,7 +25,7 @@ mode_t mode_of(const fs::path& path) {
   return status.st_mode & 07777;
 }
 
-/// Whether somebody of these groups, and no others, can open it.
+/// Whether a user who is in these groups, and in no others, can open the file.
 bool opens(const fs::path& path, const std::vector<gid_t>& groups) {
   const pid_t child = ::fork();
   if (child == 0) {

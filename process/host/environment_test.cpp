@@ -14,7 +14,7 @@ namespace {
 
 using Variables = std::map<std::string, std::string>;
 
-/// Sets variables of this process, and puts back what was there.
+/// Sets variables of this process; the destructor restores their earlier values.
 class With {
  public:
   explicit With(const Variables& variables) {

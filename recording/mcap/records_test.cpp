@@ -57,7 +57,7 @@ TEST(McapRecords, ATruncatedRecordIsNotRead) {
   }
 }
 
-// Whatever a damaged file holds: an answer, and no memory that its lengths promise.
+// For every damaged file, the reader gives an answer, and does not allocate the memory that damaged lengths ask for.
 TEST(McapRecords, NoiseGivesNoRecordAndNoError) {
   std::mt19937_64 random(20'261);
   for (int round = 0; round < 20'000; ++round) {

@@ -60,7 +60,7 @@ TEST_F(McapWriter, NoChunkSpansTwoWindowsOfTime) {
   EXPECT_GT(chunks, 10U);
 }
 
-// A process that is killed, at any byte: what stands before is read, as a beginning of what was written.
+// If a process is killed at any byte of its file, the reader returns the first part of the written messages.
 TEST_F(McapWriter, ACutOffFileIsReadAsFarAsItGoes) {
   const auto messages = random_messages(3, "/t", 60);
   {

@@ -115,7 +115,7 @@ TEST_F(MeshFile, AsciiMayBeWrittenInManyWays) {
   EXPECT_EQ(mesh.vertices[2], Eigen::Vector3f(0, 1, 0));
 }
 
-/// Whatever way they are written in, whole part and decimals as far as 64 bits or beyond.
+/// Numbers in all notations, with integer and decimal parts of 64 bits and more.
 TEST_F(MeshFile, AsciiNumbersAreReadToOneUnitInTheLastPlace) {
   for (const char* number :
        {"0.1", "-0.1", "1.23456789e-3", "-98765.4321", "123456789012345678901234567890e-26",

@@ -74,7 +74,7 @@ TEST_F(ModelFile, VerticesAreNotSharedAsInStl) {
   }
 }
 
-/// Whatever triangles have: no area, one vertex thrice, the same vertices as another one.
+/// Also for unusual triangles: without area, with one vertex three times, with the vertices of another triangle.
 TEST_F(ModelFile, AllTrianglesStayInTheirOrder) {
   const TriangleMesh odd{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {2, 0, 0}, {0.1F, -1e-7F, 12345.678F}},
                          {{0, 1, 2}, {0, 1, 3}, {4, 4, 4}, {0, 1, 2}, {2, 1, 0}, {4, 2, 0}}};

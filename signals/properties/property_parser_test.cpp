@@ -1,4 +1,4 @@
-// Properties as people write them: what is read, for whom, and what is said of wrong ones.
+// Properties as users write them: their meaning, the UAVs to which they apply, and the messages about wrong ones.
 #include "signals/properties/property_parser.hpp"
 
 #include <gtest/gtest.h>

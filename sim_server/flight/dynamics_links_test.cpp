@@ -131,7 +131,7 @@ VehicleConfig lumped_explorer() {
   return lump;
 }
 
-/// Greatest difference in roll between a vehicle that is told to roll, and what is worked out by hand [rad].
+/// Greatest difference between the roll of a vehicle that is commanded to roll and the roll computed by hand [rad].
 double worst_roll_gap(const VehicleConfig& config, double demanded_roll) {
   constexpr int kSteps = 8;  // of the physics per tick, so that the comparison is one of models
   constexpr double kStep = kTickS / kSteps;

@@ -1,4 +1,4 @@
-// Plans can be flown: in the simulation they score about what they say, and no UAV collides.
+// Plans can be flown: in the simulation, their score is about the planned one, and no UAV collides.
 #include <gtest/gtest.h>
 
 #include "scenes/scene_source.hpp"

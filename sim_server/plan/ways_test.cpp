@@ -1,4 +1,4 @@
-// Ways around what is in between keep clear of it, there as back.
+// Paths around obstacles keep their clearance, in both directions.
 #include "sim_server/plan/ways.hpp"
 
 #include <gtest/gtest.h>

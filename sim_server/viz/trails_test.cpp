@@ -5,7 +5,8 @@
 namespace skein::sim::viz {
 namespace {
 
-/// However the exchanges fall, a trail is what was flown in the last minute, at most a period and an exchange apart.
+/// For all times of exchanges, a trail is the flight of the last minute, with points at most a period and an exchange
+/// apart.
 TEST(Trails, HoldTheLastMinute) {
   for (const Tick exchange : {20, 40, 140, 400}) {
     Trails trails(2);

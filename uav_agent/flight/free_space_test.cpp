@@ -14,7 +14,7 @@ OrientedBox unit_box() {
   return box;
 }
 
-/// A scan from 20 m above the box: it hits what `height` tells of each place, and its rays pass what is above.
+/// A scan from 20 m above the box: its rays pass the space above `height` of each place, and hit there.
 OccupancyMap seen_from_above(double height) {
   OccupancyMap::Config config;
   config.max_free_rays = 100'000;

@@ -1,4 +1,4 @@
-// Rounded ways turn gently, stay near the corners, and leave alone what has no room.
+// Rounded paths turn gently and stay near the corners. Corners without enough room are not rounded.
 #include "uav_agent/flight/rounding.hpp"
 
 #include <gtest/gtest.h>

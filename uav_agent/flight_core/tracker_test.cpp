@@ -63,7 +63,7 @@ TEST(Tracker, SaysNothingBeforeTheFirstMotion) {
   EXPECT_FALSE(tracker.tracking().airborne);
 }
 
-// Whatever the polyline: limits hold, the line is kept, every leg's speed is kept, and the end is reached exactly.
+// For every polyline, the UAV keeps its limits, the line and each leg's speed, and reaches the end exactly.
 TEST(Tracker, FollowsRandomPolylines) {
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
     RandomStream random(seed, "polyline", 0);

@@ -107,7 +107,7 @@ TEST(MapExchange, AUavThatAgreesSendsNoChunks) {
   EXPECT_EQ(fleet.take_bytes(), 3 * (4 + 2 * fleet[0].grid.chunks() + 1)) << "hashes alone";
 }
 
-/// Also for the finest grid of the largest site. The rest of a payload is for what a planner says besides its map.
+/// Also for the finest grid of the largest site. The rest of a payload is for the planner's other messages.
 TEST(MapExchange, AMessageFitsIntoAPayloadHoweverManyCubesTheGridHas) {
   constexpr std::size_t kOfThePlanner = 200;
   for (const double edge_m : {20.0, 100.0, 250.0}) {

@@ -67,7 +67,7 @@ TEST(ScanBundler, OfSingleBeamsSaysOfEachWhatItIs) {
   EXPECT_EQ(hit, said.hits_W.size());
 }
 
-/// Whatever the LiDAR has for rings and columns: all beams are in bundles, and none says more than its beams do.
+/// For all numbers of rings and columns of a LiDAR, each beam is in a bundle, and no bundle proves more than its beams.
 TEST(ScanBundler, SaysOfABundleWhatAllOfItsBeamsSay) {
   struct Kind {
     int rings, columns;

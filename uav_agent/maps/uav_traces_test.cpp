@@ -45,7 +45,7 @@ class UavTracesTest : public testing::Test {
   }
   bool doubted(const Vector3d& p_W) const { return map_.doubted(map_.cube_of(p_W)); }
 
-  /// Some of what a LiDAR sees of a body.
+  /// Some points that a LiDAR sees on a body.
   std::vector<Vector3d> body(const Vector3d& p_W) {
     std::vector<Vector3d> hits_W;
     for (int i = 0; i < 12; ++i) {

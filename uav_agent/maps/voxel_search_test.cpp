@@ -23,7 +23,7 @@ VoxelGrid scattered(double share, std::uint64_t seed) {
   return grid;
 }
 
-/// Length of the shortest way from cube 0 to each other: whatever a step makes shorter, until nothing does.
+/// Length of the shortest path from cube 0 to each other: shortens lengths by single steps until none gets shorter.
 std::vector<double> distances_in(const VoxelGrid& grid, const Passable& free) {
   std::vector<double> distances(grid.count(), std::numeric_limits<double>::infinity());
   distances[0] = 0.0;

@@ -268,7 +268,7 @@ TEST(WorldMap, ADoubtedCubeLosesItsEvidenceAndAllOthersKeepTheirs) {
   }
 }
 
-/// A UAV that flies on keeps what it knows, but no evidence of all that it ever passed.
+/// A UAV that flies on keeps its known cells, but not the evidence of all cells that it has ever passed.
 TEST(WorldMap, TheEvidenceOfFarUnknownSpaceIsForgotten) {
   WorldMap::Config config;
   config.to_m = {10.0};
@@ -287,7 +287,7 @@ TEST(WorldMap, TheEvidenceOfFarUnknownSpaceIsForgotten) {
   EXPECT_LT(map.counts().blocks, 5 * most) << "eight times as many blocks were passed";
 }
 
-/// A cube that comes nearer is not asked anew: the smaller ones have its evidence, and what is free stays so.
+/// When the UAV comes nearer to a cube, the smaller cubes in it inherit its evidence, and free space remains free.
 TEST(WorldMap, SmallerCubesBeginWithWhatTheLargerOnesKnow) {
   const auto beams_until_free = [](double beams_from_afar) {
     WorldMap map(WorldMap::Config{});

@@ -280,7 +280,8 @@ TEST_F(AgentTest, BeamsAreForThosePlannersThatAskForThem) {
   EXPECT_EQ(agent.beam_scans(ScanDoubt::misfit) + agent.beam_scans(ScanDoubt::no_servo), 0U);
 }
 
-// The flight controller tells modes apart by what is zero, so nothing may be filled in, rounded or limited.
+// The flight controller distinguishes modes by the fields that are zero, so the agent must not fill in, round or limit
+// any field.
 TEST_F(AgentTest, ACommandOfItsPlannersOwnGoesOutAsItIs) {
   for (const TrajectoryCommand& own : {TrajectoryCommand{.v_WB = {9.0, -20.0, 0.5}, .yaw = 3.0, .yaw_rate = 0.4},
                                        TrajectoryCommand{.a_WB = {0.0, 0.0, 1e-3}}, TrajectoryCommand{.yaw = -2.0},

@@ -1,4 +1,4 @@
-// The on-board software knows that its UAV occupies its own place, whatever maps the others send.
+// The on-board software accepts no structure at its own UAV's place, whatever maps other UAVs send.
 #include <gtest/gtest.h>
 
 #include "uav_agent/maps/world_map.hpp"

@@ -55,7 +55,7 @@ TEST(Uplink, IgnoresWhatTheCameraRepeatsAfterARestart) {
   EXPECT_EQ(uplink.undelivered(), 2U);
 }
 
-// The oldest that are due, as many as fit, and never none: whatever the sizes.
+// For reports of any size, the uplink sends the oldest ones that are due, as many as fit, and at least one.
 TEST(Uplink, EachStepSendsTheLongestPrefixThatFits) {
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     RandomStream random(seed, "sizes", 0);
@@ -82,7 +82,7 @@ TEST(Uplink, EachStepSendsTheLongestPrefixThatFits) {
   }
 }
 
-// Whatever the order of acknowledgements: what was acknowledged is not taken again, all else is.
+// In any order of acknowledgements, the uplink does not take an acknowledged report again, but takes all others.
 TEST(Uplink, RemembersExactlyWhatWasAcknowledged) {
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     RandomStream random(seed, "acknowledged", 0);

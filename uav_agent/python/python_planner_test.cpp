@@ -1,4 +1,4 @@
-// Planners in Python, called with inputs made here: what goes in, what comes out, and what is refused.
+// Planners in Python, called with inputs that the tests make: conversion of inputs and outputs, and errors.
 #include "uav_agent/python/python_planner.hpp"
 
 #include "uav_agent/flight_core/flight_config.hpp"
@@ -65,7 +65,7 @@ TEST_F(PythonPlannerTest, MapsAreAskedOneByOneAndAllAtOnce) {
       "1\n"
       "        assert w.regions().tolist() == [[0, 0, 0]] and not w.ball_free([0, 0, 0], 1.0, 0.0)");
   EXPECT_EQ(refusal(*planner), "");
-  // Whatever is asked of them, the answer is an exception.
+  // Each of these invalid calls raises an exception.
   for (const char* question : {"m.occupied([1, 2])",
                                "m.occupied('abc')",
                                "m.occupied([1, 2, float('nan')])",

@@ -188,7 +188,7 @@ TEST(FlockPoints, NoSliceStarvesWhateverElseChanges) {
   }
 }
 
-/// Whatever arrives, nothing but points comes of it.
+/// Any message that arrives gives points or nothing.
 TEST(FlockPoints, DamagedMessagesDoNoHarm) {
   RandomStream random(11, "damage", 0);
   FlockPoints sender;

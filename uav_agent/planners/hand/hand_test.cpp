@@ -1,5 +1,5 @@
-// A UAV that is flown by hand, in a world without physics: it does as it is told, and with the safety filter it hits
-// nothing whatever it is told.
+// A UAV that is flown by hand, in a world without physics: it obeys, and with the safety filter no command makes it hit
+// anything.
 #include <gtest/gtest.h>
 
 #include <cmath>

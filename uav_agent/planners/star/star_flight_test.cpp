@@ -1,4 +1,5 @@
-// The STAR planner in flight: what it hands over to the flight core, and what comes of it in a world without physics.
+// The STAR planner in flight: the goals that it gives to the flight core, and the resulting flights in a world without
+// physics.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -97,7 +97,7 @@ TEST(XxhErrand, AUavThatWasCalledAwayChoosesAnew) {
   EXPECT_TRUE(uav.told->empty());
 }
 
-// Whatever the order in which the core tells of old and new goals: only those of the last list count.
+// In any order in which the core reports outcomes of old and new goals, only those of the last list count.
 TEST(XxhErrand, OutcomesOfEarlierGoalsDoNotCount) {
   for (std::uint64_t seed = 1; seed <= 100; ++seed) {
     RandomStream random(seed, "errand", 0);

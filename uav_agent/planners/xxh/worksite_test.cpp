@@ -1,4 +1,4 @@
-// The region at hand: at which end it is begun, what is decided for the team, and what goes by the box alone.
+// The present region: the end at which work begins, the decisions for the team, and values that depend only on the box.
 #include "uav_agent/planners/xxh/worksite.hpp"
 
 #include <gtest/gtest.h>
