@@ -63,22 +63,25 @@ TEST(BodyFit, AnotherRadiusIsAskedAnew) {
 
 TEST(BodyFit, AnAnswerIsKeptForAWhileAndWhatDoesNotFitIsAskedSoonerAgain) {
   const Vector3d here_W(1.25, 1.25, 5.25), beside_W(7.25, 1.25, 5.25);
-  WorldMap map(WorldMap::Config{});
-  map.set_free(here_W, 4.0);
-  BodyFit fit(kRadiusM, kGroundM);
-  fit.update(map, 0);
-  EXPECT_TRUE(fit.fits(here_W));
-  EXPECT_FALSE(fit.fits(beside_W));
-  map.set_free(beside_W, 4.0);
-  map.hear(map.cube_of(here_W), 0, Space::occupied, 1);
-  fit.update(map, ticks(0.9));
-  EXPECT_TRUE(fit.fits(here_W));
-  EXPECT_FALSE(fit.fits(beside_W));
-  fit.update(map, ticks(1.1));
-  EXPECT_TRUE(fit.fits(here_W));
-  EXPECT_TRUE(fit.fits(beside_W));
-  fit.update(map, ticks(4.1));
-  EXPECT_FALSE(fit.fits(here_W));
+  const Tick month = Tick{1} << 30;  // an answer keeps 30 bits of its time
+  for (const Tick start : {Tick{0}, month - ticks(2.0), month - ticks(1.0), month, 7 * month + 5}) {
+    WorldMap map(WorldMap::Config{});
+    map.set_free(here_W, 4.0);
+    BodyFit fit(kRadiusM, kGroundM);
+    fit.update(map, start);
+    EXPECT_TRUE(fit.fits(here_W));
+    EXPECT_FALSE(fit.fits(beside_W));
+    map.set_free(beside_W, 4.0);
+    map.hear(map.cube_of(here_W), 0, Space::occupied, 1);
+    fit.update(map, start + ticks(0.9));
+    EXPECT_TRUE(fit.fits(here_W));
+    EXPECT_FALSE(fit.fits(beside_W));
+    fit.update(map, start + ticks(1.1));
+    EXPECT_TRUE(fit.fits(here_W));
+    EXPECT_TRUE(fit.fits(beside_W));
+    fit.update(map, start + ticks(4.1));
+    EXPECT_FALSE(fit.fits(here_W));
+  }
 }
 
 }  // namespace

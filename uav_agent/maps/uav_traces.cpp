@@ -123,7 +123,7 @@ void UavTraces::met(const Eigen::Vector3i& cube, bool news) {
   const auto may_be = [&](const Uav& uav) {
     return uav.absence && (!uav.absence->found || uav.absence->wrong) && came_to(uav, candidate);
   };
-  if (candidates_.size() == config_.most_cubes || std::ranges::none_of(uavs_, may_be)) return;
+  if (candidates_.size() == config_.most_cubes || !any_uav(may_be)) return;
   candidates_.push_back(candidate);
   place_[grid_key(cube)] = static_cast<std::uint32_t>(candidates_.size());
 }
@@ -175,14 +175,14 @@ void UavTraces::doubt(WorldMap& map) {
   std::vector<Candidate> kept;
   for (const std::vector<Candidate>& trace : traces) {
     const auto left_by = [&](const Uav& uav) { return due(uav) && was(uav, trace); };
-    if (std::ranges::any_of(uavs_, left_by)) {
+    if (any_uav(left_by)) {
       for (const Candidate& candidate : trace) map.doubt(candidate.cube);
       continue;
     }
     const auto may_be = [&](const Uav& uav) {
       return !due(uav) && std::ranges::all_of(trace, [&](const Candidate& one) { return came_to(uav, one); });
     };
-    if (std::ranges::any_of(uavs_, may_be)) kept.insert(kept.end(), trace.begin(), trace.end());
+    if (any_uav(may_be)) kept.insert(kept.end(), trace.begin(), trace.end());
   }
   std::ranges::stable_sort(kept, {}, &Candidate::first);
   const std::size_t most = config_.most_cubes / kKept;

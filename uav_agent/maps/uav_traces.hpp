@@ -26,6 +26,7 @@
 // Bounded: Config::most_cubes; doubt() keeps the newest quarter of so many. All other cubes stay structure for good.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <span>
 #include <vector>
@@ -91,6 +92,16 @@ class UavTraces {
     Tick first = 0, last = 0;  ///< ticks of the first and the last hit
   };
 
+  /// Whether this holds for one of the UAVs. Asks first about the UAV for which something held last: cubes beside each
+  /// other have the same answer, and a fleet may be large.
+  template <class Condition>
+  bool any_uav(const Condition& holds) const {
+    if (likely_ < uavs_.size() && holds(uavs_[likely_])) return true;
+    const auto found = std::ranges::find_if(uavs_, holds);
+    if (found == uavs_.end()) return false;
+    likely_ = static_cast<std::size_t>(found - uavs_.begin());
+    return true;
+  }
   Vector3d middle_W(const Eigen::Vector3i& cube) const;
   /// Takes over what the UAV reports. @returns whether its positions agree with its velocities.
   bool hear(Uav& uav, const Peer& peer) const;
@@ -106,7 +117,8 @@ class UavTraces {
 
   const Config config_;
   double cell_m_;
-  std::vector<Uav> uavs_;  ///< index in the fleet
+  std::vector<Uav> uavs_;           ///< index in the fleet
+  mutable std::size_t likely_ = 0;  ///< see any_uav()
   Tick now_ = 0;
   Tick look_at_ = 0;                   ///< earliest tick of the next look
   std::vector<Candidate> candidates_;  ///< in order of their first hit
