@@ -15,8 +15,10 @@
 #include "core/faults/fault_writer.hpp"
 #include "core/text/suggestion.hpp"
 #include "core/text/text.hpp"
+#include "host/supervisor.hpp"
 #include "process/program.hpp"
 #include "results/diff.hpp"
+#include "results/run_folder.hpp"
 #include "results/run_record.hpp"
 #include "run/results_dir.hpp"
 #include "signals/radio_log.hpp"
@@ -150,6 +152,13 @@ void compare(Without& without, const fs::path& there, const fs::path& here, doub
                               joined(difference->fields));
 }
 
+/// Without this flight, there is nothing to compare the others with. @param dir  its folder
+/// @throws InputError if `skein run` refused to fly it, with what it said
+void require_flown(const TrialOutcome& outcome, const fs::path& dir) {
+  if (!outcome.findings.empty()) return;
+  throw InputError("the run cannot be flown again: " + joined(last_lines(dir / run_folder::kFlightLog, 3), "\n"));
+}
+
 void print(const std::vector<Without>& all, const TrialOutcome& outcome, const Subject& subject,
            const Console& console) {
   console.out << fmt::format("as it was: score {:.3f}\n", outcome.score);
@@ -160,6 +169,7 @@ void print(const std::vector<Without>& all, const TrialOutcome& outcome, const S
     }
   };
   tell_property(outcome, "  ");
+  if (!subject.property && outcome.fails(kCompletes)) console.out << "  " << outcome.find(kCompletes)->text << '\n';
   std::string no_difference;
   if (!all.empty())
     console.out
@@ -221,6 +231,7 @@ int blame(const BlameOptions& options, const Console& console) {
   Trial as_it_was{plan.fleet.options, subject.faults};
   as_it_was.run.out = out->path() / "as-it-was";
   const TrialOutcome outcome = flights.fly_and_keep(as_it_was);
+  require_flown(outcome, *as_it_was.run.out);
   std::vector<Without> all = flights_without(plan, subject, options, *as_it_was.run.out);
   for (std::size_t i = 0; i < all.size(); ++i) {
     all[i].trial.run.out = out->path() / ("without-" + std::to_string(i));

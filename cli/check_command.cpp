@@ -60,11 +60,11 @@ void check_with_programs(const CheckOptions& options, const std::string& scenari
 
 /// @returns the name of the scenario that a file was checked with.
 std::string checked_with(const CheckOptions& options, const auto& check) {
-  LoadOptions load;
-  load.assets_dir = options.assets.value_or("");
-  load.conditions = options.conditions;
-  load.needs_scene_files = false;  // only the fleet and the times matter
-  const Scenario scenario = load_scenario(options.scenario, load);
+  RunOptions run;
+  run.scenario = options.scenario;
+  run.assets = options.assets;
+  run.conditions = options.conditions;
+  const Scenario scenario = scenario_flown(run, false);  // only the fleet and the times matter
   check(scenario);
   return scenario.name;
 }

@@ -57,6 +57,10 @@ class Hunt {
     }
     tell_end();
     if (interrupted) throw Interrupted{};
+    // Nothing was found, but nothing was searched either.
+    if (const std::size_t count = flown(); count > 0 && not_flown(count) == count) {
+      throw InputError("hunt: no case could be flown; `skein run` with the same options says why");
+    }
     return finds_.all().empty() ? kExitDone : kExitCheckFailed;
   }
 

@@ -10,14 +10,12 @@
 #include "cli/option_checks.hpp"
 #include "cli/run_command.hpp"
 #include "core/faults/fault_plan.hpp"
-#include "core/scenario/scenario_reader.hpp"
 #include "core/text/suggestion.hpp"
 #include "core/text/text.hpp"
 #include "process/json_text.hpp"
 #include "process/program.hpp"
 #include "results/result_file.hpp"
 #include "results/run_folder.hpp"
-#include "run/drawn_world.hpp"
 #include "run/fleet_plan.hpp"
 #include "run/hand_flights.hpp"
 #include "run/python_planners.hpp"
@@ -72,11 +70,7 @@ RunOptions options_now(const RunOptions& given, const fs::path& run, const Json&
     }
   };
   RunOptions options = reading([&] { return options_flown(given); });
-  const Scenario scenario = reading([&] {
-    LoadOptions load = load_options(options);
-    load.needs_scene_files = false;
-    return load_scenario(scenario_source(options.scenario, options.scene_seed, options.uavs), load);
-  });
+  const Scenario scenario = reading([&] { return scenario_flown(options, false); });
   check_flies_the_run(options, scenario, run, result);
   if (fs::exists(run / run_folder::kByHand)) options.faults = run / run_folder::kByHand;  // wherever the run is now
   reading([&] { return load_fault_plan(options.faults.value_or(""), scenario, options.seed); });

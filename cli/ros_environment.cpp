@@ -23,9 +23,7 @@ struct Fleet {
 };
 
 Fleet planned_fleet(const RunOptions& options) {
-  LoadOptions load = load_options(options);
-  load.needs_scene_files = false;
-  return {load_scenario(options.scenario, load), *options.domain, options.network.value_or("")};
+  return {scenario_flown(options, false), *options.domain, options.network.value_or("")};
 }
 
 Fleet flying_fleet(const RunOptions& options) {

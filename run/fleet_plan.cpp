@@ -149,18 +149,19 @@ LoadOptions load_options(const RunOptions& options) {
   return load;
 }
 
+Scenario scenario_flown(const RunOptions& options, bool needs_scene_files) {
+  LoadOptions load = load_options(options);
+  load.needs_scene_files = needs_scene_files;
+  return load_scenario(scenario_source(options.scenario, options.scene_seed, options.uavs), load);
+}
+
 FleetPlan plan_fleet(const RunOptions& options, const std::filesystem::path& bin_dir) {
   check_environment();
   if (options.secure && options.dds == "mixed") {
     throw InputError(
         "--secure --dds mixed: the vendors' security does not work together reliably; choose cyclonedds or fastdds");
   }
-  FleetPlan plan{
-      options,
-      load_scenario(scenario_source(options.scenario, options.scene_seed, options.uavs), load_options(options)),
-      {},
-      bin_dir,
-      {}};
+  FleetPlan plan{options, scenario_flown(options), {}, bin_dir, {}};
   plan.faults = load_fault_plan(options.faults.value_or(""), plan.scenario, options.seed);
   Planners planners = parse_planners(options.planner, plan.scenario.uav_names());
   check_hands(planners.uavs, options.view.at.has_value(), options.stepped);

@@ -36,7 +36,7 @@ const TrialFlights::Setting* TrialFlights::setting_of(const Trial& trial) {
   const auto [found, is_new] = settings_.try_emplace(what_is_flown(trial.run));
   if (is_new) {
     try {
-      Scenario scenario = load_scenario(trial.run.scenario, load_options(trial.run));
+      Scenario scenario = scenario_flown(trial.run);
       properties::PropertySet set = properties::parse_properties(plan_.entries, scenario);
       found->second.emplace(Setting{std::move(scenario), std::move(set)});
     } catch (const InputError&) {

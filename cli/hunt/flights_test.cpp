@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <sstream>
 
 #include "host/testing/fake_programs.hpp"
@@ -32,6 +33,36 @@ TEST(FlightsOfTrials, AScenarioThatCannotBeReadAnyMoreHasNoFindings) {
         });
     EXPECT_EQ(flown, (std::vector<std::size_t>{0, 1}));
   }
+}
+
+// No file in config/scenarios has the name of a generated world: sim_server draws it into the cache.
+TEST(FlightsOfTrials, ACaseInAGeneratedWorldIsJudged) {
+  FakePrograms programs;
+  const std::string cache_before = std::getenv("XDG_CACHE_HOME") ? std::getenv("XDG_CACHE_HOME") : "";
+  ::setenv("XDG_CACHE_HOME", (programs.dir() / "cache").c_str(), 1);
+  write_script(programs.dir() / "sim_server", R"(
+mkdir -p "$6/models"
+for name in m.stl p.pcd b.yaml; do echo x > "$6/models/$name"; done
+cat > "$6/$2_$4.yaml" <<END
+desired_mm_per_pixel: 2.0
+scene: {family: wild, scene_seed: $4, meshes: [./models/m.stl], points: ./models/p.pcd, boxes: ./models/b.yaml}
+fleet:
+  - {name: alpha, vehicle: {name: x, role: explorer, lidar: {}}, start: [0, 0]}
+END
+)");
+  programs.script("skein", "exit 3");
+  const ScratchDir folder;
+  std::ostringstream said;
+  HuntPlan plan;
+  plan.options.jobs = 1;
+  plan.out = folder.path();
+  TrialFlights flights(plan, {said, said});
+  Trial trial;
+  trial.run.scenario = "wild";
+  trial.run.scene_seed = 3;
+  const TrialOutcome outcome = flights.fly({trial}).front();
+  EXPECT_NE(outcome.find(kCompletes), nullptr) << said.str();
+  cache_before.empty() ? ::unsetenv("XDG_CACHE_HOME") : ::setenv("XDG_CACHE_HOME", cache_before.c_str(), 1);
 }
 
 }  // namespace

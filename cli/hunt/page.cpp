@@ -65,7 +65,7 @@ std::string coverage_section(const HuntSummary& summary) {
 /// Margin over time of the property that failed; empty if that property compares with a run without faults.
 report::TimeCurve margin_curve(const HuntSummary& summary, const Find& find, const results::RunRecord& run) {
   report::TimeCurve curve{"margin of " + find.broke, "delivered", {}};
-  const Scenario scenario = load_scenario(find.trial.run.scenario, load_options(find.trial.run));
+  const Scenario scenario = scenario_flown(find.trial.run);
   const properties::PropertySet set = properties::parse_properties(summary.plan.entries, scenario);
   const auto property = std::ranges::find(set, find.broke, &properties::NamedProperty::name);
   if (property == set.end() || signals::needs_undisturbed({*property})) return curve;

@@ -333,5 +333,16 @@ TEST_F(HuntCommands, BlameHasTheNumbersOfFlightsByHand) {
   EXPECT_GT(all.at(faults[0]).points, 1.0) << "the restart brings the defect to light";
 }
 
+TEST_F(HuntCommands, BlameFliesInAGeneratedWorld) {
+  const std::string fault = "{at_s: 5, until_s: 16, camera_failure: uav0003}";
+  SkeinRun& with = run("district", {"district", "--uavs", "3", "--duration", "16", "--one-process", "--faults",
+                                    write("district.yaml", "faults:\n  - " + fault + "\n")});
+  const Said said = call({"blame", with.dir(), "--out", folder() / "blame"});
+  ASSERT_EQ(said.code, 0) << said.err;
+  EXPECT_EQ(said.out.find("could not be flown"), std::string::npos) << said.out;
+  EXPECT_EQ(read_csv(folder() / "blame/as-it-was/digests.csv"), read_csv(with.dir() / "digests.csv"));
+  EXPECT_TRUE(blamed(said.out).contains(fault)) << said.out;
+}
+
 }  // namespace
 }  // namespace skein::test
