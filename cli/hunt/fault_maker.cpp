@@ -169,6 +169,8 @@ FaultAction FaultMaker::action(const std::string& kind, RandomStream& draw) cons
     Partition partition{{{}, {}}};
     for (const std::string& name : nodes_) partition.groups[below(draw, 2)].push_back(name);
     std::erase_if(partition.groups, [](const auto& group) { return group.empty(); });
+    // A group of all nodes changes nothing. A node that is in no group is cut off from all others.
+    if (partition.groups.size() == 1) partition.groups[0].erase(partition.groups[0].begin());
     return partition;
   }
   if (kind == "blackout") return Blackout{uav(draw)};

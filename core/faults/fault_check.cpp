@@ -8,17 +8,11 @@
 
 #include "core/faults/conditions_change.hpp"
 #include "core/overloaded.hpp"
+#include "core/radio/link_check.hpp"
 #include "core/text/suggestion.hpp"
 #include "core/text/text.hpp"
 
 namespace skein {
-
-namespace {
-
-/// Whether a link with this effect differs from one without it.
-bool changes_anything(const LinkEffect& effect) { return effect.acts_on_messages() || effect.range_m; }
-
-}  // namespace
 
 bool has_exchange(const Fault& fault, const Scenario& scenario) {
   const std::optional<Tick> end = fault.end();
@@ -62,9 +56,9 @@ void FaultChecker::check(const Fault& longest, const Fault& shortest, const std:
   const std::string key = path + "." + fault_kind(longest);
   std::visit(
       Overloaded{
-          [&](const LinkEffect& f) { check_link(f, key); }, [&](const Partition& f) { check_partition(f, key); },
-          [&](const Blackout& f) { check_uav(f.uav, key); }, [](const StationOutage&) {},
-          [&](const Kill& f) { check_name(f.member, members_, key, "program"); },
+          [&](const LinkEffect& f) { check_link_effect(f, nodes_, key, errors_); },
+          [&](const Partition& f) { check_partition(f, key); }, [&](const Blackout& f) { check_uav(f.uav, key); },
+          [](const StationOutage&) {}, [&](const Kill& f) { check_name(f.member, members_, key, "program"); },
           [&](const Pause& f) { check_name(f.member, members_, key, "program"); },
           [&](const LidarFailure& f) { check_lidar(f, key); }, [&](const CameraFailure& f) { check_uav(f.uav, key); },
           [&](const MotorFailure& f) { check_uav(f.uav, key + ".uav"); },
@@ -113,25 +107,6 @@ void FaultChecker::check_name(const std::string& name, const std::vector<std::st
   errors_.check(found, key, "there is no " + what + " '" + name + "'; " + suggestion(name, known));
 }
 
-void FaultChecker::check_link(const LinkEffect& effect, const std::string& key) {
-  errors_.check(
-      changes_anything(effect), key,
-      "changes nothing: give at least one of loss, burst_loss, latency_s, jitter_s, bandwidth_bit_s, range_m, "
-      "duplication, reordering, corruption, above 0");
-  const bool is_loop =
-      effect.from == effect.to && effect.from.size() == 1 && effect.from[0] != "all" && effect.from[0] != "uavs";
-  errors_.check(!is_loop, key + ".to",
-                "no node sends to itself: name another node than '" + (is_loop ? effect.from[0] : std::string()) +
-                    "', or leave one of them out");
-  for (const auto& [end, names] : {std::pair("from", &effect.from), std::pair("to", &effect.to)}) {
-    const std::string path = key + "." + end;
-    errors_.check(!names->empty(), path, "must name at least one node, or be the word all or uavs");
-    for (const std::string& name : *names) {
-      if (name != "all" && name != "uavs") check_name(name, nodes_, path, "node");
-    }
-  }
-}
-
 void FaultChecker::check_partition(const Partition& partition, const std::string& key) {
   errors_.check(!partition.groups.empty(), key, "must be a list of groups, each a list of nodes");
   std::set<std::string> seen;
@@ -142,6 +117,8 @@ void FaultChecker::check_partition(const Partition& partition, const std::string
       errors_.check(seen.insert(name).second, key, "'" + name + "' is in two groups");
     }
   }
+  errors_.check(partition.groups.size() != 1 || seen.size() < nodes_.size(), key,
+                "changes nothing: all nodes are in one group; leave out those that are to be cut off");
 }
 
 void FaultChecker::check_lidar(const LidarFailure& failure, const std::string& key) {

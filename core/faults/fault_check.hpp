@@ -35,7 +35,6 @@ class FaultChecker {
   void check_name(const std::string& name, const std::vector<std::string>& known, const std::string& key,
                   const std::string& what);
   void check_uav(const std::string& name, const std::string& key) { check_name(name, uavs_, key, "UAV"); }
-  void check_link(const LinkEffect& effect, const std::string& key);
   void check_partition(const Partition& partition, const std::string& key);
   void check_lidar(const LidarFailure& failure, const std::string& key);
   void check_fix(const FixLoss& loss, const std::string& key);

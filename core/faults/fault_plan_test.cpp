@@ -8,6 +8,7 @@
 #include <set>
 
 #include "core/faults/fault_writer.hpp"
+#include "core/text/suggestion.hpp"
 #include "tests/support/places.hpp"
 
 namespace skein {
@@ -190,6 +191,10 @@ TEST_F(FaultFile, FaultsThatCanNeverActAreRefused) {
           "faults[0].link.queue_bytes: needs bandwidth_bit_s");
   EXPECT_NO_THROW(load("faults: [{at_s: 1, link: {bandwidth_bit_s: 1000, queue_bytes: 100}}]"));
   refused("faults: [{at_s: 1, partition: [[], [gcs]]}]", "faults[0].partition: must have no empty group");
+  const std::string everybody = joined(fleet().uav_names());
+  refused("faults: [{at_s: 1, partition: [[gcs, " + everybody + "]]}]", "faults[0].partition: changes nothing");
+  EXPECT_NO_THROW(load("faults: [{at_s: 1, partition: [[" + everybody + "]]}]")) << "it cuts gcs off";
+  refused("faults: [{at_s: 1, link: {from: [changi, changi], loss: 1}}]", "link.from: 'changi' is named twice");
 }
 
 TEST_F(FaultFile, OfARunThatWasFlownTimesGoOnToItsEnd) {

@@ -8,6 +8,7 @@
 #include "core/expressions/expression_parser.hpp"
 #include "core/faults/fault_check.hpp"
 #include "core/faults/fault_plan.hpp"
+#include "core/radio/link_check.hpp"
 #include "core/random_stream.hpp"
 #include "core/text/text.hpp"
 
@@ -189,8 +190,7 @@ FaultCondition read_condition(const std::string& text, const SignalNames& names,
 void check_queue(const ConfigNode& fault, const std::string& path, ConfigErrors& errors) {
   const ConfigNode* link = fault.find("link");
   if (link == nullptr || link->find("queue_bytes") == nullptr) return;
-  errors.check(link->find("bandwidth_bit_s") != nullptr, path + ".link.queue_bytes",
-               "needs bandwidth_bit_s: without it no message waits in a queue");
+  errors.check(link->find("bandwidth_bit_s") != nullptr, path + ".link.queue_bytes", kNeedsBandwidth);
 }
 
 std::vector<Fault> read_faults(const FaultFile& content, const ConfigDocument& document, const Scenario& scenario,

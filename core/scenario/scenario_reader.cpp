@@ -10,6 +10,7 @@
 #include <set>
 
 #include "core/config/config_writer.hpp"
+#include "core/radio/link_check.hpp"
 #include "core/radio/radio_routes.hpp"
 #include "core/scenario/drawn_worlds.hpp"
 #include "core/scenario/scenario_keys.hpp"
@@ -159,11 +160,13 @@ void check_radio(const ScenarioFile& file, ConfigErrors& errors) {
     check_nodes(path + ".sources", topic.sources);
     check_nodes(path + ".targets", topic.targets);
   }
-  const std::vector<std::string> uavs = {"uavs"};
   for (std::size_t i = 0; i < file.scenario.links.size(); ++i) {
     const LinkEffect& link = file.scenario.links[i];
-    if (link.from != uavs) check_nodes(index_path("radio.links", i, "from"), link.from);
-    if (link.to != uavs) check_nodes(index_path("radio.links", i, "to"), link.to);
+    const std::string path = index_path("radio.links", i);
+    check_link_effect(link, nodes, path, errors);
+    // Exported scenarios have the usual size of the queue in each link.
+    errors.check(link.bandwidth_bit_s || link.queue_bytes == LinkEffect{}.queue_bytes, path + ".queue_bytes",
+                 kNeedsBandwidth);
   }
 }
 
