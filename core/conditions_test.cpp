@@ -65,6 +65,13 @@ TEST_F(ConditionsFile, BatteriesThatAPresetHasCanBeSwapped) {
   EXPECT_TRUE(load("conditions: {battery: {preset: harsh, swap_s: 60}}\n").conditions.battery.swaps());
 }
 
+TEST_F(ConditionsFile, KeysOfASectionThatIsOffMayHaveAnEffectLater) {
+  EXPECT_EQ(complaint("conditions: {wind: {body_drag_area_m2: 0.1}}\n"), "") << "in a gust";
+  EXPECT_EQ(complaint("conditions: {lidar: {full_range_m: 40}}\n"), "") << "during a fault";
+  EXPECT_EQ(complaint("conditions: {wind: {mean_mps: 0, turbulence: 1}}\n"), "") << "in a study of the mean wind";
+  EXPECT_EQ(complaint("conditions: {wind: {turbulence: 0}}\n"), "") << "the value of an exported scenario";
+}
+
 TEST_F(ConditionsFile, TheOptionReplacesWholeSections) {
   const std::string file = "conditions: {wind: {mean_mps: 3}, battery: {endurance_missions: 2}}\n";
   EXPECT_EQ(conditions_text(load(file, "none").conditions), "none");
@@ -115,6 +122,11 @@ INSTANTIATE_TEST_SUITE_P(
                       BadValue{"conditions: {camera: {exposure_factor: 0}}\n", "", "exposure_factor: must be"},
                       BadValue{"conditions: {radio: {exponent: 9}}\n", "", "radio.exponent: must be"},
                       BadValue{"conditions: {battery: {swap_s: 5}}\n", "", "battery.swap_s: needs endurance_missions"},
+                      BadValue{"conditions: {wind: {turbulence: 2}}\n", "", "wind.turbulence: needs mean_mps"},
+                      BadValue{"conditions: {odometry: {walk_m_per_sqrt_s: 1}}\n", "", "sqrt_s: needs an error"},
+                      BadValue{"conditions: {battery: {preset: none, reserve: 0.3}}\n", "", "reserve: needs endurance"},
+                      BadValue{"conditions: {radio: {power_dbm: 3}}\n", "", "radio.power_dbm: needs exponent"},
+                      BadValue{"conditions: {odometry: {latency_s: 0.01}}\n", "", "latency_s: must be 0, or at least"},
                       BadValue{"", "wind=breezy,wind=harsh", "--conditions: the section 'wind' is named twice"},
                       BadValue{"", "breezy+harsh", "--conditions: 'harsh' is for all sections"},
                       BadValue{"", "wind=harsh,breezy", "--conditions: 'breezy' is for all sections"},

@@ -5,6 +5,7 @@
 
 #include "core/conditions_keys.hpp"
 #include "core/config/config_writer.hpp"
+#include "core/scenario/conditions_check.hpp"
 
 namespace skein {
 namespace {
@@ -89,7 +90,9 @@ void check_conditions_change(const ConfigNode& values, const Scenario& scenario,
   read_onto(after, fixed_values(scenario.conditions), path, errors);
   // These have a state that begins with the run.
   const auto check_part = [&](const char* section, auto member) {
-    errors.check((scenario.conditions.*member).on() || !(after.*member).on(), path + "." + section,
+    const ConfigNode* part = values.find(section);
+    const bool off = !(after.*member).on() && (part == nullptr || !sets_condition(*part));
+    errors.check((scenario.conditions.*member).on() || off, path + "." + section,
                  "is off in the scenario, and a fault cannot switch it on: fly with --conditions " +
                      std::string(section) + "=breezy, say");
   };

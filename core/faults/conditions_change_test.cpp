@@ -105,6 +105,8 @@ TEST_F(ConditionsChanges, NeedTheirPartInTheScenario) {
   scenario_.conditions = conditions_preset("none");
   refused("conditions: {wind: {mean_mps: 9}}", "faults[0].conditions.wind: is off in the scenario");
   refused("conditions: {preset: harsh}", "is off in the scenario");
+  refused("conditions: {radio: {power_dbm: 3}}", "faults[0].conditions.radio: is off in the scenario");
+  EXPECT_NO_THROW(load("  - {at_s: 1, conditions: {wind: {body_drag_area_m2: 0.1}}}\n")) << "it acts in gusts";
   refused("fix_loss: changi", "--conditions odometry=breezy");
   refused("battery_loss: {uav: changi, charge: 0.3}", "--conditions battery=breezy");
   load("  - {at_s: 1, conditions: {lidar: {reflectivity: 0.2}, camera: {exposure_factor: 4}}}\n");

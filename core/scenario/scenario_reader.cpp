@@ -12,6 +12,7 @@
 #include "core/config/config_writer.hpp"
 #include "core/radio/link_check.hpp"
 #include "core/radio/radio_routes.hpp"
+#include "core/scenario/conditions_check.hpp"
 #include "core/scenario/drawn_worlds.hpp"
 #include "core/scenario/scenario_keys.hpp"
 #include "core/scenario/scene_families.hpp"
@@ -55,11 +56,6 @@ void check_times(const Scenario& scenario, ConfigErrors& errors) {
   errors.check(scenario.duration_s >= scenario.exchange_period_s, "duration_s",
                "must be at least one exchange_period_s");
   errors.check(scenario.station_position.z() >= 0.0, "station.position", "z must be 0 or more: the ground is at 0");
-}
-
-void check_battery(const BatteryConditions& battery, ConfigErrors& errors) {
-  errors.check(battery.on() || !battery.swap_s, "conditions.battery.swap_s",
-               "needs endurance_missions, or a preset that has it (breezy, harsh): otherwise there are no batteries");
 }
 
 void check_names(const ScenarioFile& file, ConfigErrors& errors) {
@@ -331,7 +327,7 @@ Scenario load_scenario(const std::string& name_or_path, const LoadOptions& optio
   ConfigErrors errors(document);
   if (options.uavs) resize_fleet(*options.uavs, file.fleet);
   check_times(scenario, errors);
-  check_battery(scenario.conditions.battery, errors);
+  check_conditions(document, scenario.conditions, scenario.exchange_period_s, errors);
   check_names(file, errors);
   check_scene(scenario.scene, errors);
   apply_overrides(options, scenario);
