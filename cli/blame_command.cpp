@@ -152,12 +152,10 @@ void compare(Without& without, const fs::path& there, const fs::path& here, doub
                               joined(difference->fields));
 }
 
-/// Without this flight, there is nothing to compare the others with. @param dir  its folder
-/// @throws InputError if `skein run` refused to fly it, with what it said
-void require_flown(const TrialOutcome& outcome, const fs::path& dir) {
-  if (!outcome.findings.empty()) return;
-  throw InputError("the run cannot be flown again: " + joined(last_lines(dir / run_folder::kFlightLog, 3), "\n"));
-}
+bool is_flown(const TrialOutcome& outcome) { return !outcome.findings.empty(); }
+
+/// Why `skein run` refused to fly. @param dir  folder of the flight
+std::string refusal(const fs::path& dir) { return joined(last_lines(dir / run_folder::kFlightLog, 3), "\n"); }
 
 void print(const std::vector<Without>& all, const TrialOutcome& outcome, const Subject& subject,
            const Console& console) {
@@ -231,21 +229,25 @@ int blame(const BlameOptions& options, const Console& console) {
   Trial as_it_was{plan.fleet.options, subject.faults};
   as_it_was.run.out = out->path() / "as-it-was";
   const TrialOutcome outcome = flights.fly_and_keep(as_it_was);
-  require_flown(outcome, *as_it_was.run.out);
+  // Without this flight, there is nothing to compare the others with.
+  if (!is_flown(outcome)) throw InputError("the run cannot be flown again: " + refusal(*as_it_was.run.out));
   std::vector<Without> all = flights_without(plan, subject, options, *as_it_was.run.out);
   for (std::size_t i = 0; i < all.size(); ++i) {
     all[i].trial.run.out = out->path() / ("without-" + std::to_string(i));
     console.err << i + 1 << " of " << all.size() << ": flying without " << all[i].what << std::endl;
     all[i].outcome = flights.fly_and_keep(all[i].trial);
-    if (all[i].outcome.findings.empty() || all[i].outcome.fails(kCompletes)) {
-      all[i].parts = all[i].outcome.findings.empty() ? "it could not be flown" : all[i].outcome.findings[0].text;
+    if (!is_flown(all[i].outcome)) {
+      all[i].parts = "it could not be flown: " + refusal(*all[i].trial.run.out);
+    } else if (all[i].outcome.fails(kCompletes)) {
+      all[i].parts = all[i].outcome.findings[0].text;
     } else {
       compare(all[i], *as_it_was.run.out, *all[i].trial.run.out, outcome.score);
     }
   }
   std::ranges::stable_sort(all, [](const Without& a, const Without& b) { return a.points > b.points; });
   print(all, outcome, subject, console);
-  return kExitDone;
+  const bool all_flown = std::ranges::all_of(all, [](const Without& one) { return is_flown(one.outcome); });
+  return all_flown ? kExitDone : kExitProcessFailed;
 }
 
 }  // namespace skein::cli

@@ -119,6 +119,14 @@ int check_golden(const std::string& file) {
                     {}});
 }
 
+/// Whether the options `--scenario` and `--conditions` have an effect on this file, as far as it can be read.
+bool takes_scenario(const std::string& file) try {
+  const FileKind kind = kind_of(file);
+  return kind == FileKind::faults || kind == FileKind::properties;
+} catch (const InputError&) {
+  return true;
+}
+
 }  // namespace
 
 void add_check(CLI::App& app, CheckOptions& check) {
@@ -155,6 +163,12 @@ int check_files(const CheckOptions& options, const Console& console) {
     });
   }
   for (const std::string& file : options.golden) take([&] { return check_golden(file); });
+  const bool given = options.conditions || options.scenario != CheckOptions{}.scenario;
+  if (given && std::ranges::none_of(options.files, takes_scenario)) {
+    take([]() -> int {
+      throw InputError("--scenario and --conditions are for fault files and properties, and no FILE is of these kinds");
+    });
+  }
   return worst;
 }
 

@@ -47,6 +47,15 @@ TEST_F(CheckCommand, FaultFilesAreCheckedWithConditions) {
   EXPECT_EQ(check(options), kExitDone);
 }
 
+TEST_F(CheckCommand, OptionsWithoutAFileToWhichTheyApplyAreRefused) {
+  CheckOptions options{{programs_.scenario()}, {}, {}};
+  options.conditions = "harsh";
+  EXPECT_EQ(check(options), kExitBadInput);
+  EXPECT_NE(err_.str().find("--scenario and --conditions are for fault files"), std::string::npos) << err_.str();
+  options.files.push_back(file("f.yaml", "faults: [{at_s: 10, fix_loss: changi}]"));
+  EXPECT_EQ(check(options), kExitDone) << err_.str();
+}
+
 TEST_F(CheckCommand, FaultFilesNeedNoFilesOfTheScene) {
   CheckOptions options{{file("f.yaml", "faults: [{at_s: 10, blackout: changi}]")}, {}, {}};
   options.scenario = "mbs";

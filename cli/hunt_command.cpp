@@ -230,6 +230,15 @@ void check_once(const HuntPlan& plan) {
   run_checks(check_programs(plan.fleet, scratch.path()));
 }
 
+/// @throws InputError for a report that could not be written at the end of the hunt.
+void check_report_folder(const HuntOptions& options) {
+  if (!options.junit) return;
+  const fs::path folder = fs::absolute(*options.junit).parent_path();
+  std::error_code error;
+  if (fs::is_directory(folder, error)) return;
+  throw InputError("--junit " + options.junit->string() + ": there is no folder " + folder.string());
+}
+
 }  // namespace
 
 int run_hunt(const HuntOptions& given, const Console& console) {
@@ -237,7 +246,9 @@ int run_hunt(const HuntOptions& given, const Console& console) {
   if (!options.runs && !options.minutes) options.runs = 200;
   const HuntPlan plan = plan_hunt(options);
   check_once(plan);
-  return Hunt(plan, console).run();
+  Hunt hunt(plan, console);  // it makes the folder of the hunt, which may be that of the report, too
+  check_report_folder(options);
+  return hunt.run();
 }
 
 }  // namespace skein::cli

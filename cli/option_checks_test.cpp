@@ -104,8 +104,9 @@ TEST(OptionChecks, OnlyARegularFileIsWrittenTo) {
 
 TEST(OptionChecks, UnitsOfASweepTakeMinutes) {
   for (const char* wrong : {"nan", "0", "inf"}) {
-    EXPECT_NE(said_of({"compare", "--unit-minutes", wrong}), "accepted") << wrong;
+    EXPECT_NE(said_of({"compare", "--executor", "local", "--unit-minutes", wrong}), "accepted") << wrong;
   }
+  EXPECT_NE(said_of({"compare", "--unit-minutes", "3"}).find("--unit-minutes requires --executor"), std::string::npos);
 }
 
 TEST(OptionChecks, AMistypedCommandIsNamed) {

@@ -6,6 +6,7 @@
 #include "core/types.hpp"
 #include "host/testing/fake_programs.hpp"
 #include "results/run_folder.hpp"
+#include "run/fleet_plan.hpp"
 
 namespace skein::cli {
 namespace {
@@ -42,6 +43,19 @@ TEST_F(OptionsOfRun, AreThoseOfItsCommand) {
   EXPECT_EQ(run.planner, "hover");
   EXPECT_EQ(run.seed, 3U);
   EXPECT_FALSE(run.out);
+}
+
+TEST_F(OptionsOfRun, CannotRunAProgramAtTheGroundStationThatTheFleetHasNot) {
+  RunOptions run = options("skein run " + small_ + " --planner hover --seed 3");
+  run.replay = ReplayOf{"recording.mcap", {}, {"gcs"}, {}};
+  try {
+    plan_fleet(run, programs_.dir());
+    ADD_FAILURE() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(), "gcs: this fleet has no program at the ground station");
+  }
+  run.planner = "hover,gcs=listen";
+  EXPECT_NO_THROW(plan_fleet(run, programs_.dir()));
 }
 
 TEST_F(OptionsOfRun, AreRefusedIfTheCommandFliesAnotherScenarioFleetOrSeed) {

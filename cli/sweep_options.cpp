@@ -9,11 +9,12 @@
 namespace skein::cli {
 
 void add_sweep(CLI::App& command, SweepOptions& sweep) {
-  command
-      .add_option("--executor", sweep.executor,
-                  "Divide the flights into units of some minutes, and fly these on this machine (local), on other "
-                  "hosts by GNU parallel over ssh (parallel), or on a cluster (slurm); see docs/how-to-sweep.md")
-      ->check(CLI::IsMember({"local", "parallel", "slurm"}));
+  CLI::Option* executor =
+      command
+          .add_option("--executor", sweep.executor,
+                      "Divide the flights into units of some minutes, and fly these on this machine (local), on other "
+                      "hosts by GNU parallel over ssh (parallel), or on a cluster (slurm); see docs/how-to-sweep.md")
+          ->check(CLI::IsMember({"local", "parallel", "slurm"}));
   command
       .add_option("--sshlogin", sweep.logins,
                   "Hosts of --executor parallel, separated by commas: [N/][USER@]HOST, where N is the number of "
@@ -24,6 +25,7 @@ void add_sweep(CLI::App& command, SweepOptions& sweep) {
                      "Options of sbatch for --executor slurm, such as partition=debug,time=30:00,account=mine");
   command.add_option("--unit-minutes", sweep.unit_minutes, "Approximate time that a unit flies [min]")
       ->check(CLI::Validator(number_within(0.01, 10000.0), ""))
+      ->needs(executor)
       ->capture_default_str();
 }
 

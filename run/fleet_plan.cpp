@@ -175,6 +175,8 @@ FleetPlan plan_fleet(const RunOptions& options, const std::filesystem::path& bin
   if (options.network) read_network(*options.network).check_names(domain_names(plan.scenario));
   for (const std::string& uav : options.replay ? options.replay->only : std::vector<std::string>()) {
     if (uav != "gcs") plan.scenario.uav_index(uav);
+    // Otherwise no program would run, and none would differ from the recorded one.
+    if (uav == "gcs" && !plan.ground) throw InputError("gcs: this fleet has no program at the ground station");
   }
   plan.debug = debuggees(plan);
   plan.log_levels = log_levels(plan);

@@ -171,6 +171,14 @@ TEST_F(HuntCommands, PageAndJUnitCountWhatTheLogSaysAndTheCapsuleFliesTheFindAga
       << again.out;
 }
 
+TEST_F(HuntCommands, ReportWithoutAFolderIsRefusedBeforeTheSearch) {
+  const Said hunt =
+      call({"hunt", "towers", "--uavs", "1", "--out", folder() / "hunt", "--junit", folder() / "none" / "hunt.xml"});
+  EXPECT_EQ(hunt.code, 2) << hunt.out;
+  EXPECT_NE(hunt.err.find("there is no folder " + (folder() / "none").string()), std::string::npos) << hunt.err;
+  EXPECT_TRUE(log("hunt").empty());
+}
+
 TEST_F(HuntCommands, CtrlCLeavesAWholeLogAndTheSameCommandGoesOn) {
   const auto words = [&](const std::string& out, std::size_t runs) {
     return Arguments{"hunt",       "towers",
