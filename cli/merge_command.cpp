@@ -17,6 +17,7 @@
 #include "results/reported_facts.hpp"
 #include "results/result_file.hpp"
 #include "results/run_folder.hpp"
+#include "results/run_record.hpp"
 #include "run/fleet_plan.hpp"
 #include "run/recording.hpp"
 #include "run/results_dir.hpp"
@@ -233,8 +234,11 @@ int merge_reports(const MergeOptions& options, const Console& console) {
   const auto result = write_results(
       results, options.dir, [&] { return fs::exists(dir / run_folder::kRecording) ? damage : Texts(); }, console);
   for (const std::string& one : damage) console.err << one << std::endl;
-  if (!result || results::anyone_lost(*result)) return kExitProcessFailed;
-  return damage.empty() ? kExitDone : kExitCheckFailed;
+  if (!result) return kExitProcessFailed;
+  const Texts tables = results::damaged_files(dir);  // the page reads around them
+  for (const std::string& one : tables) console.err << options.dir.string() << ": " << one << std::endl;
+  if (results::anyone_lost(*result)) return kExitProcessFailed;
+  return damage.empty() && tables.empty() ? kExitDone : kExitCheckFailed;
 }
 
 }  // namespace skein::cli

@@ -139,6 +139,14 @@ TEST_F(MergeCommand, TheFolderOfAFleetThatFliesIsLeftAlone) {
   EXPECT_FALSE(fs::exists(options_.dir));
 }
 
+TEST_F(MergeCommand, DamagedTablesAreNamedWithAnExitCode) {
+  ASSERT_EQ(merge(), kExitDone) << err_.str();
+  write_text(dir() / run_folder::kScoreTimeline, "time_s,points,score\n1,2,3\n2,x,3\n");
+  EXPECT_EQ(merge(), kExitCheckFailed);
+  EXPECT_NE(err_.str().find("score_timeline.csv makes sense for 1 rows only ("), std::string::npos) << err_.str();
+  EXPECT_EQ(results::read_result_file(dir())["score"], 2.5) << "the reports have the result";
+}
+
 TEST_F(MergeCommand, TheKeysThatOnlyTheLauncherWritesStay) {
   const Json launchers = {{"command", "skein run small.yaml"},
                           {"startup_s", 0.5},

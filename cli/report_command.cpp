@@ -7,6 +7,7 @@
 #include "process/program.hpp"
 #include "report/run_report.hpp"
 #include "results/run_folder.hpp"
+#include "results/run_record.hpp"
 #include "run/recording.hpp"
 
 namespace skein::cli {
@@ -15,8 +16,9 @@ namespace {
 int write_page(const std::filesystem::path& run, const Console& console) {
   report::write_run_report(run);
   console.out << (run / run_folder::kPage).string() << std::endl;
-  // The page is made from the tables, so a damaged recording does not affect it; the user should know all the same.
-  const std::vector<std::string> damage = recording_damage(run);
+  // The page reads around damaged tables, and does not need the recording; the user should know all the same.
+  std::vector<std::string> damage = recording_damage(run);
+  for (const std::string& sentence : results::damaged_files(run)) damage.push_back(run.string() + ": " + sentence);
   for (const std::string& one : damage) console.err << one << std::endl;
   return damage.empty() ? kExitDone : kExitCheckFailed;
 }

@@ -208,6 +208,12 @@ RunRecord read_sound_run(const fs::path& dir) {
   return read_sound(dir, [](std::string_view) { return true; });
 }
 
+std::vector<std::string> damaged_files(const fs::path& dir) {
+  std::vector<std::string> sentences = read_sound_run(dir).missing;
+  std::erase_if(sentences, [](const std::string& sentence) { return sentence.starts_with(kThereIsNo); });
+  return sentences;
+}
+
 RunRecord read_sound_files(const fs::path& dir, std::initializer_list<std::string_view> files) {
   return read_sound(dir, [&](std::string_view name) { return std::ranges::find(files, name) != files.end(); });
 }

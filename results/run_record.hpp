@@ -109,7 +109,9 @@ RunRecord read_run(const std::filesystem::path& dir);
 /// Reads all of a run that pages show. Leaves out rows of UAVs that are not in result.json, and reports damage in
 /// RunRecord::missing. @throws InputError if result.json in `dir` is missing or damaged.
 RunRecord read_sound_run(const std::filesystem::path& dir);
-/// The same, but only of result.json and these files. @param files  names as in run_folder.hpp
+/// The sentences in RunRecord::missing about files that are there, but damaged. @throws like read_sound_run()
+std::vector<std::string> damaged_files(const std::filesystem::path& dir);
+/// The same as read_sound_run(), but only of result.json and these files. @param files  names as in run_folder.hpp
 RunRecord read_sound_files(const std::filesystem::path& dir, std::initializer_list<std::string_view> files);
 
 }  // namespace skein::results

@@ -106,7 +106,7 @@ ActivityRow ActivityRow::read(const CsvTable& table) {
   return row;
 }
 
-std::string no_file(const char* file) { return std::string("There is no ") + file + "."; }
+std::string no_file(const char* file) { return std::string(kThereIsNo) + file + "."; }
 
 std::string damaged_table(const std::filesystem::path& dir, const char* table, std::size_t rows, const char* what) {
   const std::string why = what, folder = dir.string() + "/";

@@ -146,6 +146,7 @@ std::vector<Row> read_rows(const std::filesystem::path& dir) {
 }
 
 /// The sentences that each_sound_row() adds to `missing`.
+inline constexpr const char* kThereIsNo = "There is no ";  ///< begins that of a missing file
 std::string no_file(const char* file);
 std::string damaged_table(const std::filesystem::path& dir, const char* table, std::size_t rows, const char* what);
 
