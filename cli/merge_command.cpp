@@ -58,6 +58,10 @@ Scenario scenario_of(const RunOptions& run) {
 /// has. nullopt if the report is sound.
 std::optional<std::string> damage_in(const Json& json, const std::string& program) {
   if (!json.is_object()) return "is damaged: it is not a JSON object";
+  if (!has_sound_checksum(json)) {
+    return "is damaged, or was edited: its checksum does not match its contents (Skein accepts it unchecked if you "
+           "delete the key 'checksum')";
+  }
   if (program == programs::kSimServer && !struct_of<SimServerReport>(json).status) {
     return "is damaged: 'status' is missing, or has no valid value";
   }
@@ -133,7 +137,6 @@ Json launchers_facts(const fs::path& dir, std::ostream& err) try {
 std::string with_facts(const std::string& text, const Json& facts) {
   if (facts.is_null()) return text;
   Json result = Json::parse(text);
-  result.erase(results::kResultChecksum);
   result.update(facts);
   return results::result_text(std::move(result));
 }

@@ -101,6 +101,21 @@ TEST_F(MergeCommand, AReportWithoutWhatAllHaveIsDamaged) {
   EXPECT_EQ(read_text(result_file()), result);
 }
 
+TEST_F(MergeCommand, AChangedNumberInAReportIsDamage) {
+  const Json sound = with_checksum({{"score", 2.5}, {"points_detected", 3}});
+  write_report("station", sound);
+  EXPECT_EQ(merge(), kExitDone) << err_.str();
+  Json changed = sound;
+  changed["score"] = 7.5;
+  write_report("station", changed);
+  EXPECT_NE(refusal().find(report("station").string() + ": is damaged, or was edited: its checksum"), std::string::npos)
+      << refusal();
+  EXPECT_EQ(results::read_result_file(dir())["score"], 2.5);
+  changed.erase(kChecksum);
+  write_report("station", changed);
+  EXPECT_EQ(merge(), kExitDone) << "as from an earlier version: " << err_.str();
+}
+
 TEST_F(MergeCommand, ADamagedReportIsMadeAnewFromTheBooks) {
   programs_.script("station", "echo '{\"score\": 2.25}' > \"$out/station.report.json\"\n");
   truncate("station");

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "core/files/file_bytes.hpp"
+#include "core/sha256.hpp"
 #include "core/types.hpp"
 
 namespace skein {
@@ -74,6 +75,19 @@ Json parse_json(const std::string& text) {
 
 std::string json_text(const Json& json, int indent) {
   return json.dump(indent, ' ', false, Json::error_handler_t::replace);
+}
+
+Json with_checksum(Json object) {
+  object.erase(kChecksum);
+  // The checksum must cover the values that a reader gets: invalid UTF-8 is replaced, numbers like NaN become null.
+  object = parse_json(json_text(object));
+  object[kChecksum] = Sha256().add(json_text(object)).hex();
+  return object;
+}
+
+bool has_sound_checksum(const Json& object) {
+  const Json told = value_or(object, kChecksum, nullptr);
+  return told.is_null() || told == with_checksum(object)[kChecksum];
 }
 
 Json read_json(const std::filesystem::path& file) {

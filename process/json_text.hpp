@@ -32,6 +32,14 @@ Json parse_json(const std::string& text);
 /// have if it comes from a user's program: they must not end a run or a study.
 std::string json_text(const Json& json, int indent = -1);
 
+/// Key of the checksum of an object in a file: a SHA-256 over all other keys and values, in their order, regardless of
+/// white space.
+inline constexpr const char* kChecksum = "checksum";
+/// The object as a reader of its text gets it, with the right checksum.
+Json with_checksum(Json object);
+/// Whether an object has the right checksum, or none, as from an earlier version or another program.
+bool has_sound_checksum(const Json& object);
+
 /// Parses a JSON file. @returns null if the file does not exist, is not a regular file, is too large, or is not JSON.
 Json read_json(const std::filesystem::path& file);
 

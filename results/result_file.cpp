@@ -1,9 +1,9 @@
 #include "results/result_file.hpp"
 
 #include <cstdint>
+#include <utility>
 
 #include "core/files/file_bytes.hpp"
-#include "core/sha256.hpp"
 #include "core/types.hpp"
 #include "results/result_keys.hpp"
 #include "results/run_folder.hpp"
@@ -13,17 +13,9 @@ namespace {
 
 constexpr std::uintmax_t kMostBytes = 256 << 20;
 
-std::string checksum_of(const Json& result) { return Sha256().add(json_text(result)).hex(); }
-
 }  // namespace
 
-std::string result_text(Json result) {
-  result.erase(kResultChecksum);
-  // The checksum must cover the values that a reader gets: invalid UTF-8 is replaced, numbers like NaN become null.
-  result = parse_json(json_text(result));
-  result[kResultChecksum] = checksum_of(result);
-  return json_text(result, 2) + "\n";
-}
+std::string result_text(Json result) { return json_text(with_checksum(std::move(result)), 2) + "\n"; }
 
 Json read_result_file(const std::filesystem::path& run) {
   const std::filesystem::path file = run / run_folder::kResult;
@@ -33,15 +25,10 @@ Json read_result_file(const std::filesystem::path& run) {
   // Not read_json(), for which a file that cannot be read is the same as a damaged one.
   Json result = parse_json(read_file_bytes(file, kMostBytes));
   if (!result.is_object()) throw InputError(file.string() + ": is damaged: it is not a JSON object");
-  const Json told = value_or(result, kResultChecksum, nullptr);
-  if (told.is_null()) {
+  if (value_or(result, kChecksum, nullptr).is_null()) {
     const std::string wrong = wrong_key(result);
     if (!wrong.empty()) throw InputError(file.string() + ": is damaged: " + wrong);
-    return result;
-  }
-  Json rest = result;
-  rest.erase(kResultChecksum);
-  if (told != checksum_of(rest)) {
+  } else if (!has_sound_checksum(result)) {
     throw InputError(file.string() +
                      ": is damaged, or was edited: its checksum does not match its contents (Skein "
                      "accepts it unchecked if you delete the key 'checksum')");

@@ -9,10 +9,7 @@
 
 namespace skein::results {
 
-/// Key of the checksum: a SHA-256 over all other keys and values, in their order, regardless of white space.
-inline constexpr const char* kResultChecksum = "checksum";
-
-/// The text of the file, its checksum included.
+/// The text of the file, its checksum (process/json_text.hpp) included.
 std::string result_text(Json result);
 
 /// Reads the result in a run's folder. Accepts a file without a checksum, since earlier versions wrote none, but checks

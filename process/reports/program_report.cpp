@@ -10,7 +10,7 @@
 namespace skein {
 
 void hand_in_report(Json report, const std::filesystem::path& file, StatusPipe& status) {
-  const std::string trouble = write_if_possible(file, json_text(report, 2) + "\n");
+  const std::string trouble = write_if_possible(file, json_text(with_checksum(report), 2) + "\n");
   if (!trouble.empty()) {
     if (!status.is_open()) throw std::runtime_error(trouble);
     spdlog::warn("{}", trouble);
