@@ -3,10 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <fstream>
 #include <set>
 #include <utility>
 
 #include "core/random_stream.hpp"
+#include "core/scenario/scenario_reader.hpp"
+#include "tests/support/places.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 namespace skein {
 namespace {
@@ -320,6 +324,21 @@ TEST(RadioRoutes, TheTopicsOfANodeAreThoseOfItsRoutes) {
     }
   }
   EXPECT_GT(compared, 300);
+}
+
+TEST(RadioRoutes, ABrokenRuleIsNamedWithTheLineOfTheScenario) {
+  const ScratchFolder folder;
+  const std::filesystem::path file = folder.path() / "talkers.yaml";
+  const std::string topic = "    - {name: /x, type: std_msgs/msg/String, sources: [a], targets: [gcs]}\n";
+  std::ofstream(file) << "desired_mm_per_pixel: 2\nscene: {family: towers}\nfleet: [{name: a, vehicle: explorer}]\n"
+                      << "radio:\n  topics:\n"
+                      << topic << topic;
+  try {
+    load_scenario(file, {.config_dir = source_path("config")});
+    ADD_FAILURE() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.what(), file.string() + ":7: radio.topics[1].sources: 'a' was declared as a source of /x before");
+  }
 }
 
 }  // namespace

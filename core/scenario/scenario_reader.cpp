@@ -67,9 +67,11 @@ void check_names(const ScenarioFile& file, ConfigErrors& errors) {
   const bool names_a_folder = scenario.size() <= kLongestName && scenario != "." && scenario != ".." &&
                               scenario.find_first_of("/\\") == std::string::npos &&
                               std::ranges::none_of(scenario, [](unsigned char c) { return std::iscntrl(c) != 0; });
-  errors.check(names_a_folder, "name",
-               "must be at most " + std::to_string(kLongestName) +
-                   " letters without '/': the results of a run lie in a folder of this name");
+  errors.check(
+      names_a_folder, "name",
+      "must be at most " + std::to_string(kLongestName) +
+          " letters, without '/', '\\' and control characters, and not '.' or '..': the results of a run lie in "
+          "a folder of this name");
   errors.check(!file.fleet.empty() && file.fleet.size() <= kMostUavs, "fleet",
                "must have 1 to " + std::to_string(kMostUavs) + " UAVs");
   std::map<std::string, std::size_t> seen;
@@ -100,13 +102,16 @@ bool find_starts(const Scenario& scenario, std::vector<FleetEntry>& fleet, Confi
   const SceneFamily* family = find_scene_family(scenario.scene.family);
   const std::vector<StartPlace> places =
       family ? scene_starts(*family, scenario.scene.scene_seed) : std::vector<StartPlace>{};
+  // With an unknown family, another error is reported, and whether there are places is not known.
+  const bool places_known = family != nullptr || from_files(scenario.scene);
   bool all_placed = true;
   for (std::size_t i = 0; i < fleet.size(); ++i) {
     const bool placed = fleet[i].start || i < places.size();
     all_placed = all_placed && placed;
     const std::string why = family ? "the scene has places for " + std::to_string(places.size()) + " UAVs only"
                                    : "a scene from files has no places of its own";
-    errors.check(placed, index_path("fleet", i), "'" + fleet[i].name + "' needs a 'start: [x, y]': " + why);
+    errors.check(placed || !places_known, index_path("fleet", i),
+                 "'" + fleet[i].name + "' needs a 'start: [x, y]': " + why);
     if (!fleet[i].start_yaw_deg && !fleet[i].start && placed) {
       fleet[i].start_yaw_deg = tidy_degrees(places[i].yaw);
     }
@@ -164,6 +169,16 @@ void check_radio(const ScenarioFile& file, ConfigErrors& errors) {
     errors.check(link.bandwidth_bit_s || link.queue_bytes == LinkEffect{}.queue_bytes, path + ".queue_bytes",
                  kNeedsBandwidth);
   }
+}
+
+/// Checks the rules between topics, of which radio_routes() names the first that is broken: "FILE: KEY: what is wrong".
+void check_routes(const Scenario& scenario, ConfigErrors& errors) {
+  const std::string text = complaint([&] { radio_routes(scenario); });
+  if (text.empty()) return;
+  const std::string file = scenario.file.string() + ": ";
+  const std::size_t key = file.size(), end = text.find(": ", key);
+  if (!text.starts_with(file) || end == std::string::npos) throw InputError(text);
+  errors.check(false, text.substr(key, end - key), text.substr(end + 2));
 }
 
 void check_scene(const SceneConfig& scene, ConfigErrors& errors) {
@@ -340,7 +355,8 @@ Scenario load_scenario(const std::string& name_or_path, const LoadOptions& optio
   errors.throw_if_any();
   find_scene_files(scenario, options, errors);
   errors.throw_if_any();
-  radio_routes(scenario);  // rules between topics: it throws when one is broken
+  check_routes(scenario, errors);
+  errors.throw_if_any();
   return scenario;
 }
 

@@ -4,6 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <fstream>
+
+#include "core/scenario/scenario_reader.hpp"
+#include "tests/support/places.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 namespace skein {
 namespace {
@@ -65,6 +70,23 @@ TEST(SceneFamilies, VariedSeedsChangePlacesAndSometimesCrowd) {
 TEST(SceneFamilies, AreFoundByName) {
   for (const SceneFamily& family : scene_families()) EXPECT_EQ(find_scene_family(family.name), &family);
   EXPECT_EQ(find_scene_family("tower"), nullptr);
+}
+
+TEST(SceneFamilies, AWrongNameIsAllThatIsSaidOfAScene) {
+  const ScratchFolder folder;
+  const std::filesystem::path file = folder.path() / "s.yaml";
+  for (const std::string family : {"tower", "district"}) {
+    std::ofstream(file) << "desired_mm_per_pixel: 2\nfleet: [{name: a, vehicle: explorer}]\nscene: {family: " << family
+                        << "}\n";
+    try {
+      load_scenario(file, {.config_dir = source_path("config")});
+      ADD_FAILURE() << "accepted";
+    } catch (const InputError& error) {
+      const std::string text = error.what();
+      EXPECT_NE(text.find(":3: scene.family: "), std::string::npos) << text;
+      EXPECT_EQ(text.find("needs a 'start"), std::string::npos) << text;
+    }
+  }
 }
 
 }  // namespace
