@@ -56,7 +56,7 @@ std::string list_of_libraries(const fs::path& program) {
   const std::string end = "end of list\n";
   const std::string trouble =
       trouble_of("ldd", {"/bin/sh", "-c", "ldd \"$1\" && echo end of list", "sh", program}, log);
-  if (!trouble.empty()) throw InputError(trouble);
+  if (!trouble.empty()) throw InputError(program.string() + ": its libraries cannot be listed: " + trouble);
   std::string list = read_file_bytes(log, kMostOfAList);
   if (!list.ends_with(end)) throw std::runtime_error(log.string() + ": could not be written; is the disk full?");
   list.resize(list.size() - end.size());

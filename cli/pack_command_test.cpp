@@ -72,6 +72,14 @@ class PackedPrograms : public PackCommand {
   const std::filesystem::path archive_ = folder_.path() / "skein.tar.gz";
 };
 
+TEST_F(PackedPrograms, AFileThatIsNoProgramIsNamed) {
+  const std::filesystem::path station = programs_.dir() / "station";
+  std::filesystem::remove(station);
+  write_script(station, "");
+  const std::string begin = "the user's mistake: " + station.string() + ": its libraries cannot be listed: ldd ended";
+  EXPECT_EQ(trouble().find(begin), 0U) << trouble();
+}
+
 TEST_F(PackedPrograms, OnAFullDiskTheFormerArchiveStaysAndIsNamed) {
   write_text(archive_, "former");
   {
