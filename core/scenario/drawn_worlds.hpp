@@ -37,4 +37,10 @@ inline bool is_drawn_world(std::string_view name) {
   return name == kDistrict || std::ranges::find(kWildWorlds, name) != kWildWorlds.end();
 }
 
+inline std::vector<std::string> drawn_world_names() {
+  std::vector<std::string> names(kWildWorlds.begin(), kWildWorlds.end());
+  names.emplace_back(kDistrict);
+  return names;
+}
+
 }  // namespace skein

@@ -313,6 +313,7 @@ TEST_F(ScenarioReader, PrintsWhatItReads) {
 
 TEST_F(ScenarioReader, HelpsWithAMistypedScenario) {
   EXPECT_NE(complaint("twoers").find("did you mean 'towers'?"), std::string::npos);
+  EXPECT_NE(complaint("distrit").find("did you mean 'district'?"), std::string::npos);
   EXPECT_NE(complaint("./none.yaml").find("none.yaml: no such scenario file"), std::string::npos);
   EXPECT_NE(complaint("").find("no scenario is called ''"), std::string::npos);
   EXPECT_NE(complaint("distrikt").find("did you mean 'district'?"), std::string::npos) << "it has no file";
