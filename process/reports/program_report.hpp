@@ -9,8 +9,8 @@
 
 namespace skein {
 
-/// Writes the report to `file`, with a checksum, then sends it as a status::Report. If the file cannot be written, adds a sentence to
-/// the report's list `unwritten`, in which a program names all files that it could not write.
+/// Writes the report to `file`, with a checksum, then sends it as a status::Report. If the file cannot be written, adds
+/// a sentence to the report's list `unwritten`, in which a program names all files that it could not write.
 /// @throws std::runtime_error if the file cannot be written and the status pipe is not open (no launcher).
 void hand_in_report(Json report, const std::filesystem::path& file, StatusPipe& status);
 
