@@ -13,6 +13,7 @@
 #include "process/host/environment.hpp"
 #include "process/program.hpp"
 #include "results/run_folder.hpp"
+#include "run/drawn_world.hpp"
 #include "run/fleet_plan.hpp"
 #include "signals/properties/property_file.hpp"
 

@@ -16,6 +16,7 @@
 #include "process/program.hpp"
 #include "results/result_file.hpp"
 #include "results/run_folder.hpp"
+#include "run/drawn_world.hpp"
 #include "run/fleet_plan.hpp"
 #include "run/hand_flights.hpp"
 #include "run/python_planners.hpp"

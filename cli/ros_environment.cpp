@@ -9,6 +9,7 @@
 #include "core/topics.hpp"
 #include "host/fleets.hpp"
 #include "results/run_folder.hpp"
+#include "run/drawn_world.hpp"
 #include "run/fleet_plan.hpp"
 #include "run/ros_command.hpp"
 

@@ -149,6 +149,12 @@ TEST_P(DrawnFolder, OnlyFilesThatAreAskedForAreRead) {
   EXPECT_TRUE(run.missing.empty()) << "nobody asked for scene.json";
 }
 
+TEST_P(DrawnFolder, DamagedFilesAreToldFromMissingOnes) {
+  EXPECT_TRUE(damaged_files(dir()).empty()) << "there is no scene.json, but nothing is damaged";
+  write_text(dir() / run_folder::kTrajectories, "time_s,uav\n0.5,a\n");
+  EXPECT_EQ(damaged_files(dir()).size(), 1U);
+}
+
 TEST_P(DrawnFolder, ColumnsThatEarlierVersionsDidNotWriteKeepTheirDefaults) {
   write_text(dir() / run_folder::kTrajectories, "time_s,uav,x,y,z\n0.5,a,1,2,3\n");
   for (const RunRecord& run : {read_run(dir()), read_sound_run(dir())}) {

@@ -119,4 +119,10 @@ std::string scenario_source(const std::string& scenario, const std::optional<std
   throw std::runtime_error("sim_server --draw-world " + world + " ended with " + exit.text() + said);
 }
 
+Scenario scenario_flown(const RunOptions& options, bool needs_scene_files) {
+  LoadOptions load = load_options(options);
+  load.needs_scene_files = needs_scene_files;
+  return load_scenario(scenario_source(options.scenario, options.scene_seed, options.uavs), load);
+}
+
 }  // namespace skein::cli

@@ -6,6 +6,9 @@
 #include <optional>
 #include <string>
 
+#include "core/scenario.hpp"
+#include "run/run_options.hpp"
+
 namespace skein::cli {
 
 /// The scenario argument that programs get: for a generated world its file in the cache, which sim_server generates now
@@ -15,5 +18,9 @@ namespace skein::cli {
 ///   otherwise; Interrupted.
 std::string scenario_source(const std::string& scenario, const std::optional<std::uint64_t>& scene_seed,
                             const std::optional<std::size_t>& uavs = {});
+
+/// The scenario that a run flies. Generated worlds have no file under their name, so do not give a run's scenario to
+/// load_scenario(). @throws what scenario_source() and load_scenario() throw.
+Scenario scenario_flown(const RunOptions& options, bool needs_scene_files = true);
 
 }  // namespace skein::cli

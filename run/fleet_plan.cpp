@@ -149,12 +149,6 @@ LoadOptions load_options(const RunOptions& options) {
   return load;
 }
 
-Scenario scenario_flown(const RunOptions& options, bool needs_scene_files) {
-  LoadOptions load = load_options(options);
-  load.needs_scene_files = needs_scene_files;
-  return load_scenario(scenario_source(options.scenario, options.scene_seed, options.uavs), load);
-}
-
 FleetPlan plan_fleet(const RunOptions& options, const std::filesystem::path& bin_dir) {
   check_environment();
   if (options.secure && options.dds == "mixed") {

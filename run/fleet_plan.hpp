@@ -68,10 +68,6 @@ std::uint64_t draw_run_id();
 /// The part of a run's options that changes how its scenario is loaded.
 LoadOptions load_options(const RunOptions& options);
 
-/// The scenario that a run flies. Generated worlds (drawn_world.hpp) have no file under their name, so do not give a
-/// run's scenario to load_scenario(). @throws what scenario_source() and load_scenario() throw.
-Scenario scenario_flown(const RunOptions& options, bool needs_scene_files = true);
-
 /// Loads the scenario and resolves all options into a plan. @throws InputError for whatever is not valid in them.
 FleetPlan plan_fleet(const RunOptions& options, const std::filesystem::path& bin_dir);
 

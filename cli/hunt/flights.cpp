@@ -9,6 +9,7 @@
 #include "host/preflight.hpp"
 #include "process/files/atomic_file.hpp"
 #include "process/program.hpp"
+#include "run/drawn_world.hpp"
 #include "run/results_dir.hpp"
 #include "run/run_options.hpp"
 #include "signals/judge.hpp"

@@ -10,6 +10,7 @@
 #include "report/page_parts.hpp"
 #include "report/time_chart.hpp"
 #include "results/run_record.hpp"
+#include "run/drawn_world.hpp"
 #include "signals/judge.hpp"
 #include "signals/run_signals.hpp"
 
