@@ -49,7 +49,7 @@ constexpr double kShortS = 600.0, kHourS = 3600.0;
 struct Effort {
   int repeats = 3;
   std::optional<double> mission_s;  ///< mission time of the speed runs; none: the scenario's own
-  double scale_mission_s = 60.0, scale_mission_of_large_s = 60.0;
+  double scale_mission_s = 60.0, scale_mission_of_large_s = 10.0;
   int rounds = 2000, rounds_of_large = 400;
   std::vector<std::size_t> sizes = {1, 5, 10, 20, 50, 100};
   int relayed = 4000;    ///< messages sent through the router, and through the bare relay
@@ -124,7 +124,7 @@ class Bench {
     }
   }
 
-  /// Measures all fleet sizes that fly over DDS with the chosen DDS vendor, and the fleet of five with the other vendor too.
+  /// Measures all fleet sizes that fly over DDS with the chosen vendor, and the fleet of five with the other one, too.
   void measure_rounds() {
     report_["rounds"] = Json::array();
     for (const BenchSize& fleet : sizes_.fleets) {
@@ -223,7 +223,7 @@ class Bench {
     std::map<int, std::vector<Json>> by_threads;  ///< in one process
   };
 
-  /// Flies over DDS if this is asked for, in one process with one thread, and in one process with all cores, in turn, so
+  /// Flies over DDS (if `over_dds`), in one process with one thread, and in one with all cores, in turn, so
   /// that other load on the machine disturbs all three alike.
   Flights fly_all_ways(RunOptions run, std::size_t uavs, const std::string& what, bool over_dds = true) {
     std::set<int> ways = {1, std::min(usable_cores(), static_cast<int>(uavs))};

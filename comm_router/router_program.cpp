@@ -51,7 +51,7 @@ void write_report(const ProgramOptions& options, const Scenario& scenario, const
                       .unwritten = notes.unwritten,
                       .differences = notes.differences};
   // In a large fleet, nearly all of the million links never have line of sight: only the others are listed.
-  const bool large = scenario.uavs.size() > kMostUavsOverDds;
+  const bool large = scenario.fleet.size() > kMostUavsOverDds;
   for (const Node from : gate.nodes()) {
     for (const Node to : gate.nodes()) {
       const LinkCounts& counts = gate.counts().at(from, to);

@@ -46,7 +46,7 @@ Json drawn(std::mt19937& random, int depth) {
   }
 }
 
-TEST(JsonText, WhateverIsWrittenIsReadAgain) {
+TEST(JsonText, JsonThatWasWrittenIsReadAgain) {
   std::mt19937 random(7);
   for (int trial = 0; trial < 500; ++trial) {
     const Json json = drawn(random, 6);

@@ -148,7 +148,7 @@ std::string expected_part(const PointRecord& point, LossCause cause) {
   return parts.front().second;
 }
 
-TEST(ScoreLosses, WhatIsTooPoorToCountIsSplitByTheWorstPart) {
+TEST(ScoreLosses, PicturesTooPoorToCountAreSplitByTheWorstPart) {
   RandomStream random(7, "score_losses_test", 0);
   std::vector<PointLoss> losses;
   std::map<std::string, LossSum> expected;

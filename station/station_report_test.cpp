@@ -66,7 +66,9 @@ TEST_F(StationReport, TheTimelineFallsAtACollision) {
 }
 
 TEST_F(StationReport, TheReportHoldsWhatTheResultNeeds) {
-  const auto report = nlohmann::json::parse(read_text(folder_ / "station.report.json"));
+  auto report = nlohmann::json::parse(read_text(folder_ / "station.report.json"));
+  EXPECT_EQ(report["checksum"].get<std::string>().size(), 64U);
+  report.erase("checksum");
   EXPECT_EQ(report, nlohmann::json::parse(R"({
     "points_detected": 1, "score": 0.75, "score_earned": 1.5,
     "score_by_uav": {"jurong": 0.75, "raffles": 0.0, "changi": 0.0},

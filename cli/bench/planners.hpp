@@ -9,8 +9,8 @@
 
 namespace skein::cli {
 
-/// The planners that benchmarks fly, as `skein compare --planners` takes them.
-inline constexpr const char* kBenchPlanners = "patrol,kios,xxh,star";
+/// The planners whose scores are compared, as `skein compare --planners` takes them.
+inline constexpr const char* kBenchPlanners = "flock,patrol,kios,xxh,star";
 /// The scenes that benchmarks of planners fly: those of a contest; with --quick only towers of the procedural ones.
 std::vector<std::string> bench_scenarios(const BenchOptions& options);
 

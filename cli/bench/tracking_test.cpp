@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "core/random_stream.hpp"
+#include "core/types.hpp"
 
 namespace skein::cli {
 namespace {

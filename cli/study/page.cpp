@@ -92,18 +92,18 @@ std::string leader_card(const Study& study) {
 }
 
 std::string study_cards(const Study& study) {
-  std::size_t counted = 0, collisions = 0;
+  std::size_t judged = 0, collisions = 0;
   double flown_s = 0.0;
   for (const FlightEntry& flight : study.flights) {
     if (!flight.figures) continue;
-    ++counted;
+    ++judged;
     collisions += static_cast<std::size_t>(flight.figures->collisions);
     flown_s += flight.figures->mission_time_s;
   }
   return "<div class=\"cards\">\n" + leader_card(study) +
-         study_card("Flights that count", fmt::format("{} of {}", counted, study.flights.size()),
+         study_card("Flights that count", fmt::format("{} of {}", judged, study.flights.size()),
                     counted(study.seeds.size(), "seed") + ": " + seeds_text(study),
-                    counted < study.flights.size() ? "bad" : "") +
+                    judged < study.flights.size() ? "bad" : "") +
          study_card("Planners", std::to_string(study.planners.size()), "each in every scene") +
          study_card("Scenes", std::to_string(study.scenarios.size()), "all with the same seeds") +
          study_card("Mission time", fixed(flown_s / 60.0, 0) + " min", "of all flights together") +

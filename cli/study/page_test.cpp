@@ -250,6 +250,7 @@ TEST(StudyPage, RowsOfUavsAndPairsSayWhatTheFlightsSay) {
     EXPECT_EQ(row, uavs.size());
     const std::vector<PlannerPair> expected = planner_pairs(study);
     ASSERT_EQ(pairs.size(), expected.size());
+    if (pairs.empty()) continue;
     const std::size_t table = page.find("data-table=\"pairs\"");
     const std::string head = page.substr(table, page.find("</thead>", table) - table);
     const std::regex column("<th[ >]");

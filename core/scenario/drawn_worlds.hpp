@@ -27,12 +27,6 @@ inline constexpr int kWorldGrammar = 1;
 /// name.
 inline bool from_files(const SceneConfig& scene) { return !scene.meshes.empty(); }
 
-inline std::vector<std::string> drawn_world_names() {
-  std::vector<std::string> names(kWildWorlds.begin(), kWildWorlds.end());
-  names.emplace_back(kDistrict);
-  return names;
-}
-
 inline bool is_drawn_world(std::string_view name) {
   return name == kDistrict || std::ranges::find(kWildWorlds, name) != kWildWorlds.end();
 }

@@ -47,7 +47,8 @@ bool BodyFit::fits(const Vector3d& p_W) const {
   const bool is_new = answer.fits == Fits::unasked;
   if (is_new) ++asked_;
   if (is_new || age_s(answer) >= (answer.fits == Fits::everywhere ? kFreeForS : kUnknownForS)) {
-    answer = {static_cast<std::uint32_t>(now_) & kTimeBits, fits_in(cube)};
+    answer.at = static_cast<std::uint32_t>(now_) & kTimeBits;
+    answer.fits = fits_in(cube);
   }
   if (answer.fits == Fits::somewhere) return map_->ball_free(p_W, radius_m_, ground_m_);
   return answer.fits == Fits::everywhere;

@@ -31,7 +31,7 @@ class BodyFit {
     std::uint32_t at : 30 = 0;
     Fits fits : 2 = Fits::unasked;  ///< memory: the bits that are left
   };
-  static_assert(sizeof(Answer) == 4);
+  static_assert(sizeof(Answer) == 4);  // memory
   /// Memory: answers are stored in blocks of 4^3 cubes, since a search asks for many adjacent cubes.
   static constexpr int kBlockBits = 2, kBlock = 1 << kBlockBits;
   using Answers = std::array<Answer, kBlock * kBlock * kBlock>;

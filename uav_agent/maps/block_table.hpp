@@ -29,8 +29,8 @@ inline Eigen::Vector3i shifted(const Eigen::Vector3i& cell, int bits) {
 /// process hold most of its memory.
 template <class Element>
 Element& append(std::vector<Element>& elements) {
-  constexpr std::size_t kLeast = 8;
-  if (const std::size_t size = elements.size(); size == elements.capacity()) elements.reserve(size + size / 4 + kLeast);
+  constexpr std::size_t kLeast = 8;                                                                    ///< memory
+  if (const auto n = elements.size(); n == elements.capacity()) elements.reserve(n + n / 4 + kLeast);  // memory
   return elements.emplace_back();
 }
 

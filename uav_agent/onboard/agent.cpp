@@ -31,7 +31,7 @@ constexpr double kGroundM = 0.3;      ///< hits of a LiDAR below this height are
 constexpr double kScanAgeS = 0.1;     ///< a scan is at most so much older than the known positions of UAVs; sensor
 constexpr double kBodySigmas = 3.0;   ///< standard deviations of the relative position that enlarge a body; chosen
 constexpr double kWaitBreak_s = 0.5;  ///< a planner that waits again within this time has not stopped; chosen
-constexpr double kRounding_s = 1e-6;  ///< of times: against rounding
+constexpr double kTie_s = 1e-6;       ///< of times: against rounding
 
 WorldMap::Config world_map_config() {
   WorldMap::Config config;
@@ -122,9 +122,8 @@ struct Agent::Impl {
 
 void Agent::Impl::wait_for(std::size_t mate, double now_s) {
   waited_s += config.exchange_period_s;
-  const bool goes_on =
-      !waits.empty() && waits.back().mate == mate && now_s < waits.back().until_s + kWaitBreak_s + kRounding_s;
-  if (!goes_on) waits.push_back({now_s, now_s, mate});
+  const bool on = !waits.empty() && waits.back().mate == mate && now_s < waits.back().until_s + kWaitBreak_s + kTie_s;
+  if (!on) waits.push_back({now_s, now_s, mate});
   waits.back().until_s = now_s + config.exchange_period_s;
 }
 
