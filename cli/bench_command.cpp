@@ -317,9 +317,9 @@ void add_bench(CLI::App& app, BenchOptions& bench) {
     kinds.push_back(kind);
     return kind;
   };
-  CLI::Option* planners = add_kind(
-      "--planners", bench.planners,
-      "Measure the scores of patrol, kios, xxh and star in a fixed set of scenes, and compare them with a table");
+  CLI::Option* planners = add_kind("--planners", bench.planners,
+                                   std::string("Measure the scores of ") + kBenchPlanners +
+                                       " in a fixed set of scenes, and compare them with a table");
   command->add_option("--against", bench.against, "Table to compare with (default: config/planner_scores.csv)")
       ->needs(planners);
   CLI::Option* sensing =

@@ -14,27 +14,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A script that replaces `sim_server --draw-world W --scene-seed S --export-scene FOLDER`: it writes a world of two
-/// UAVs, and a line in a log.
-constexpr const char* kDraw = R"(
-echo "$2_$4" >> "$(dirname "$0")/drawn.log"
-mkdir -p "$6/models"
-for name in m.stl p.pcd b.yaml; do echo x > "$6/models/$name"; done
-cat > "$6/$2_$4.yaml" <<END
-desired_mm_per_pixel: 2.0
-scene: {family: wild, scene_seed: $4, meshes: [./models/m.stl], points: ./models/p.pcd, boxes: ./models/b.yaml}
-fleet:
-  - {name: alpha, vehicle: {name: x, role: explorer, lidar: {}}, start: [0, 0]}
-  - {name: beta, vehicle: {name: p, role: photographer}, start: [5, 0]}
-END
-)";
-
 class DrawnWorld : public ::testing::Test {
  protected:
   DrawnWorld() {
     if (const char* previous = std::getenv("XDG_CACHE_HOME")) previous_cache_ = previous;
     ::setenv("XDG_CACHE_HOME", cache().c_str(), 1);
-    write_script(programs_.dir() / "sim_server", kDraw);
+    write_script(programs_.dir() / "sim_server", kDrawWorld);
   }
   ~DrawnWorld() override {
     previous_cache_ ? ::setenv("XDG_CACHE_HOME", previous_cache_->c_str(), 1) : ::unsetenv("XDG_CACHE_HOME");

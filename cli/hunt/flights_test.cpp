@@ -40,16 +40,7 @@ TEST(FlightsOfTrials, ACaseInAGeneratedWorldIsJudged) {
   FakePrograms programs;
   const std::string cache_before = std::getenv("XDG_CACHE_HOME") ? std::getenv("XDG_CACHE_HOME") : "";
   ::setenv("XDG_CACHE_HOME", (programs.dir() / "cache").c_str(), 1);
-  write_script(programs.dir() / "sim_server", R"(
-mkdir -p "$6/models"
-for name in m.stl p.pcd b.yaml; do echo x > "$6/models/$name"; done
-cat > "$6/$2_$4.yaml" <<END
-desired_mm_per_pixel: 2.0
-scene: {family: wild, scene_seed: $4, meshes: [./models/m.stl], points: ./models/p.pcd, boxes: ./models/b.yaml}
-fleet:
-  - {name: alpha, vehicle: {name: x, role: explorer, lidar: {}}, start: [0, 0]}
-END
-)");
+  write_script(programs.dir() / "sim_server", kDrawWorld);
   programs.script("skein", "exit 3");
   const ScratchDir folder;
   std::ostringstream said;

@@ -41,6 +41,21 @@ fleet:
   - {name: beta, vehicle: {name: p, role: photographer}, start: [5, 0]}
 )";
 
+/// A script that replaces `sim_server --draw-world W --scene-seed S --export-scene FOLDER`: it writes a world of two
+/// UAVs, and a line in a log.
+inline constexpr const char* kDrawWorld = R"(
+echo "$2_$4" >> "$(dirname "$0")/drawn.log"
+mkdir -p "$6/models"
+for name in m.stl p.pcd b.yaml; do echo x > "$6/models/$name"; done
+cat > "$6/$2_$4.yaml" <<END
+desired_mm_per_pixel: 2.0
+scene: {family: wild, scene_seed: $4, meshes: [./models/m.stl], points: ./models/p.pcd, boxes: ./models/b.yaml}
+fleet:
+  - {name: alpha, vehicle: {name: x, role: explorer, lidar: {}}, start: [0, 0]}
+  - {name: beta, vehicle: {name: p, role: photographer}, start: [5, 0]}
+END
+)";
+
 /// While it lives, `skein` finds its programs in a scratch folder. By default each of them exits at once with code 0.
 class FakePrograms {
  public:
