@@ -4,7 +4,7 @@
 #include <cstddef>
 
 #include "bus/bus.hpp"
-#include "core/scenario.hpp"
+#include "core/scenario/scenario.hpp"
 #include "process/program.hpp"
 
 namespace skein::bus {

@@ -20,7 +20,7 @@
 #include "cli/study/worlds.hpp"
 #include "cli/sweep/slurm.hpp"
 #include "cli/sweep/study_sweep.hpp"
-#include "core/sha256.hpp"
+#include "core/text/sha256.hpp"
 #include "core/text/suggestion.hpp"
 #include "core/text/text.hpp"
 #include "core/types.hpp"

@@ -12,7 +12,7 @@
 #include "bus/bus.hpp"
 #include "bus/lockstep/counted.hpp"
 #include "core/radio/radio_routes.hpp"
-#include "core/scenario.hpp"
+#include "core/scenario/scenario.hpp"
 
 namespace skein::router {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <tuple>
 
-#include "core/sha256.hpp"
+#include "core/text/sha256.hpp"
 
 namespace skein::router {
 

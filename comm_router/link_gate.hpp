@@ -89,7 +89,7 @@ struct LinkCounts {
 struct GatedStep {
   std::vector<Delivery> deliveries;  ///< by source, topic, sequence, target; ties: in the order of sending
   /// SHA-256 over the deliveries in this order, empty when there are none: of each source node, target node, ROS topic
-  /// (length, bytes), sequence, SHA-256 of the payload; numbers as 8 bytes, little-endian (core/sha256.hpp).
+  /// (length, bytes), sequence, SHA-256 of the payload; numbers as 8 bytes, little-endian (core/text/sha256.hpp).
   std::vector<std::uint8_t> digest;
 };
 

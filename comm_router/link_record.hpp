@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "comm_router/link_gate.hpp"
-#include "core/scenario.hpp"
+#include "core/scenario/scenario.hpp"
 #include "process/files/stream_file.hpp"
 
 namespace skein::router {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <memory>
 
-#include "core/random_stream.hpp"
+#include "core/math/random_stream.hpp"
 
 namespace skein::router {
 namespace {

@@ -11,7 +11,7 @@
 
 #include "comm_router/link_gate.hpp"
 #include "core/faults/fault_plan.hpp"
-#include "core/scenario.hpp"
+#include "core/scenario/scenario.hpp"
 
 namespace skein::router {
 

@@ -3,7 +3,7 @@
 
 #include "comm_router/link_gate.hpp"
 #include "comm_router/router_sync.hpp"
-#include "core/scenario.hpp"
+#include "core/scenario/scenario.hpp"
 #include "recording/recorder.hpp"
 
 namespace skein::router {

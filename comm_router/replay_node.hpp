@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "comm_router/router_sync.hpp"
-#include "core/scenario.hpp"
+#include "core/scenario/scenario.hpp"
 #include "recording/replay.hpp"
 
 namespace skein::router {

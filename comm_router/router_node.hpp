@@ -24,7 +24,7 @@
 #include "comm_router/replay_node.hpp"
 #include "comm_router/router_sync.hpp"
 #include "core/faults/fault_plan.hpp"
-#include "core/scenario.hpp"
+#include "core/scenario/scenario.hpp"
 
 namespace skein::router {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/radio/link_matrix.hpp"
-#include "core/sha256.hpp"
+#include "core/text/sha256.hpp"
 
 namespace skein {
 namespace {

@@ -4,9 +4,9 @@
 #include <cctype>
 #include <vector>
 
-#include "core/scenario.hpp"
+#include "core/messages/view_topics.hpp"
+#include "core/scenario/scenario.hpp"
 #include "core/text/text.hpp"
-#include "core/view_topics.hpp"
 
 namespace skein {
 namespace {

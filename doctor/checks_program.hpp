@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "core/scenario.hpp"
+#include "core/scenario/scenario.hpp"
 #include "doctor/finding.hpp"
 
 namespace skein::doctor {

@@ -1,7 +1,7 @@
 // Converts a program's activity to its message and back. Pure; any thread.
 #pragma once
 
-#include "core/activity.hpp"
+#include "core/messages/activity.hpp"
 #include "idl/type_names.hpp"
 
 namespace skein {

@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "core/messages/uav_status.hpp"
 #include "core/scoring/score_table.hpp"
 #include "core/topics.hpp"
 #include "core/types.hpp"
-#include "core/uav_status.hpp"
 #include "idl/type_names.hpp"
 
 namespace skein {

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "core/hand_command.hpp"
+#include "core/messages/hand_command.hpp"
 #include "idl/type_names.hpp"
 
 namespace skein {

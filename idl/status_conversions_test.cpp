@@ -1,4 +1,4 @@
-// Messages about a UAV's status (core/uav_status.hpp): what was encoded decodes again.
+// Messages about a UAV's status (core/messages/uav_status.hpp): what was encoded decodes again.
 #include <gtest/gtest.h>
 
 #include <limits>

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "core/block_layout.hpp"
+#include "core/planners/block_layout.hpp"
 #include "one_process/crew.hpp"
 #include "process/status/shared_lines.hpp"
 #include "process/status/status_pipe.hpp"

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "core/block_layout.hpp"
+#include "core/planners/block_layout.hpp"
 #include "sim_server/step_gate.hpp"
 #include "station/score_view.hpp"
 

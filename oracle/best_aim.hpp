@@ -4,8 +4,8 @@
 
 #include <functional>
 
-#include "core/camera_quality.hpp"
-#include "core/scenario.hpp"
+#include "core/scenario/scenario.hpp"
+#include "core/scoring/camera_quality.hpp"
 #include "sight/camera_mount.hpp"
 
 namespace skein::sim {

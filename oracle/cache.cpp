@@ -1,6 +1,6 @@
 #include "oracle/cache.hpp"
 
-#include "core/sha256.hpp"
+#include "core/text/sha256.hpp"
 #include "oracle/kept_answer.hpp"
 #include "oracle/mesh_hash.hpp"
 #include "sight/camera_mount.hpp"

@@ -4,7 +4,7 @@
 #include <stdexcept>
 
 #include "core/files/file_bytes.hpp"
-#include "core/sha256.hpp"
+#include "core/text/sha256.hpp"
 #include "process/files/atomic_file.hpp"
 
 namespace skein::sim {

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "core/scene.hpp"
-#include "core/sha256.hpp"
+#include "core/scenario/scene.hpp"
+#include "core/text/sha256.hpp"
 
 namespace skein::sim {
 

@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-#include "core/camera_quality.hpp"
-#include "core/euler.hpp"
+#include "core/math/euler.hpp"
+#include "core/scoring/camera_quality.hpp"
 #include "oracle/best_aim.hpp"
 #include "sight/camera.hpp"
 #include "sight/ray_shapes.hpp"

@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-#include "core/euler.hpp"
+#include "core/math/euler.hpp"
 #include "sight/camera.hpp"
 
 namespace skein::sim {

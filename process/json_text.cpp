@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "core/files/file_bytes.hpp"
-#include "core/sha256.hpp"
+#include "core/text/sha256.hpp"
 #include "core/types.hpp"
 
 namespace skein {

@@ -5,7 +5,7 @@
 #include <limits>
 #include <map>
 
-#include "core/vectors.hpp"
+#include "core/math/vectors.hpp"
 #include "report/flight_picture.hpp"
 #include "report/html.hpp"
 #include "results/causes.hpp"

@@ -6,8 +6,8 @@
 #include <span>
 
 #include "core/files/file_bytes.hpp"
-#include "core/sha256.hpp"
 #include "core/text/base64.hpp"
+#include "core/text/sha256.hpp"
 
 namespace skein::report {
 namespace {

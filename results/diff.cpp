@@ -4,7 +4,7 @@
 #include <fstream>
 
 #include "core/files/file_bytes.hpp"
-#include "core/scenario.hpp"
+#include "core/scenario/scenario.hpp"
 #include "core/text/text.hpp"
 #include "results/result.hpp"
 #include "results/run_folder.hpp"

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/planners/uav_planner.hpp"
-#include "core/scenario.hpp"
+#include "core/scenario/scenario.hpp"
 #include "process/json_text.hpp"
 #include "process/reports/reports.hpp"
 

@@ -5,8 +5,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "core/camera_quality.hpp"
 #include "core/files/file_bytes.hpp"
+#include "core/scoring/camera_quality.hpp"
 #include "results/causes.hpp"
 #include "results/octree_file.hpp"
 #include "results/result_file.hpp"

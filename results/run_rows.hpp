@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/activity.hpp"
+#include "core/messages/activity.hpp"
 #include "core/types.hpp"
 #include "results/csv_table.hpp"
 #include "results/run_folder.hpp"

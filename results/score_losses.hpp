@@ -62,7 +62,7 @@ std::map<LossCause, LossSum> sum_up(const std::vector<PointLoss>& losses);
 std::array<LossSum, kPoorParts.size()> sum_up_poor(const std::vector<PointLoss>& losses);
 
 /// The factor by which the tilt of the surface changes a picture's resolution quality: q_res / q_distance, 0 if
-/// q_distance is 0. It can exceed 1 (core/camera_quality.hpp).
+/// q_distance is 0. It can exceed 1 (core/scoring/camera_quality.hpp).
 double tilt_quality(const CaptureRow& capture);
 
 }  // namespace skein::results

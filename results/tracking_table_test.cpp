@@ -8,7 +8,7 @@
 #include <sstream>
 #include <vector>
 
-#include "core/random_stream.hpp"
+#include "core/math/random_stream.hpp"
 
 namespace skein::results {
 namespace {

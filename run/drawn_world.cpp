@@ -8,7 +8,7 @@
 #include "core/files/file_bytes.hpp"
 #include "core/scenario/drawn_worlds.hpp"
 #include "core/scenario/scenario_reader.hpp"
-#include "core/sha256.hpp"
+#include "core/text/sha256.hpp"
 #include "core/types.hpp"
 #include "host/preflight.hpp"
 #include "host/supervisor.hpp"

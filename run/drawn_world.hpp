@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "core/scenario.hpp"
+#include "core/scenario/scenario.hpp"
 #include "run/run_options.hpp"
 
 namespace skein::cli {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/hand_command.hpp"
+#include "core/messages/hand_command.hpp"
 #include "core/planners/hand_spec.hpp"
 #include "core/text/suggestion.hpp"
 #include "core/types.hpp"

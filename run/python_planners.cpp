@@ -5,7 +5,7 @@
 
 #include "core/files/file_bytes.hpp"
 #include "core/planners/python_spec.hpp"
-#include "core/sha256.hpp"
+#include "core/text/sha256.hpp"
 #include "core/types.hpp"
 #include "results/run_folder.hpp"
 

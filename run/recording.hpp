@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/scenario.hpp"
+#include "core/scenario/scenario.hpp"
 #include "process/json_text.hpp"
 #include "recording/mcap/reader.hpp"
 

@@ -1,7 +1,7 @@
 // A layout for Foxglove and related viewers: it shows what is worth viewing first in a recording. Pure.
 #pragma once
 
-#include "core/scenario.hpp"
+#include "core/scenario/scenario.hpp"
 #include "process/json_text.hpp"
 
 namespace skein::cli {

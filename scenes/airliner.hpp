@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "core/random_stream.hpp"
+#include "core/math/random_stream.hpp"
 #include "scenes/mesh_builder.hpp"
 
 namespace skein::sim {

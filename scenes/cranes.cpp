@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "core/random_stream.hpp"
+#include "core/math/random_stream.hpp"
 #include "scenes/hoist.hpp"
 #include "scenes/lattice.hpp"
 #include "scenes/surface_sampling.hpp"

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/euler.hpp"
-#include "core/random_stream.hpp"
+#include "core/math/euler.hpp"
+#include "core/math/random_stream.hpp"
 #include "core/scenario/drawn_worlds.hpp"
 #include "core/scenario/scenario_reader.hpp"
 #include "scenes/mesh_builder.hpp"

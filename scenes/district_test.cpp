@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "core/random_stream.hpp"
+#include "core/math/random_stream.hpp"
 #include "sight/ray_scene.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/test_scenes.hpp"

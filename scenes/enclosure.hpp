@@ -2,8 +2,8 @@
 // leave, and how far from the origin a UAV can get.   Frame: W.   Units: m.
 #pragma once
 
-#include "core/scenario.hpp"
-#include "core/scene.hpp"
+#include "core/scenario/scenario.hpp"
+#include "core/scenario/scene.hpp"
 #include "core/types.hpp"
 #include "sight/ray_scene.hpp"
 

@@ -1,7 +1,7 @@
 // The ropes, the hook and the load below a crane's trolley.   Frame: W.   Units: m.   Threads: any.
 #pragma once
 
-#include "core/random_stream.hpp"
+#include "core/math/random_stream.hpp"
 #include "scenes/mesh_builder.hpp"
 
 namespace skein::sim {

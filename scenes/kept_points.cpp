@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/sha256.hpp"
+#include "core/text/sha256.hpp"
 #include "oracle/kept_answer.hpp"
 #include "oracle/mesh_hash.hpp"
 

@@ -7,7 +7,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "core/random_stream.hpp"
+#include "core/math/random_stream.hpp"
 #include "scenes/mesh_builder.hpp"
 
 namespace skein::sim {

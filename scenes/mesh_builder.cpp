@@ -6,7 +6,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "core/euler.hpp"
+#include "core/math/euler.hpp"
 
 namespace skein::sim {
 namespace {

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "core/scene.hpp"
+#include "core/scenario/scene.hpp"
 
 namespace skein::sim {
 

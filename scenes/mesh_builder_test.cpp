@@ -7,7 +7,7 @@
 #include <map>
 #include <numbers>
 
-#include "core/euler.hpp"
+#include "core/math/euler.hpp"
 
 namespace skein::sim {
 namespace {

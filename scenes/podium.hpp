@@ -2,7 +2,7 @@
 // Threads: any.
 #pragma once
 
-#include "core/random_stream.hpp"
+#include "core/math/random_stream.hpp"
 #include "scenes/mesh_builder.hpp"
 
 namespace skein::sim {

@@ -10,7 +10,7 @@
 
 #include "core/scenario/scenario_reader.hpp"
 #include "core/scenario/scene_families.hpp"
-#include "core/sha256.hpp"
+#include "core/text/sha256.hpp"
 #include "scenes/scene_source.hpp"
 #include "tests/support/places.hpp"
 

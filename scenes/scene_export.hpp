@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "core/scenario.hpp"
-#include "core/scene.hpp"
+#include "core/scenario/scenario.hpp"
+#include "core/scenario/scene.hpp"
 
 namespace skein::sim {
 

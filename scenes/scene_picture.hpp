@@ -4,8 +4,8 @@
 
 #include <string>
 
-#include "core/scenario.hpp"
-#include "core/scene.hpp"
+#include "core/scenario/scenario.hpp"
+#include "core/scenario/scene.hpp"
 
 namespace skein::sim {
 

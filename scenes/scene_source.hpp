@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <optional>
 
-#include "core/scenario.hpp"
-#include "core/scene.hpp"
+#include "core/scenario/scenario.hpp"
+#include "core/scenario/scene.hpp"
 
 namespace skein::sim {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/random_stream.hpp"
+#include "core/math/random_stream.hpp"
 #include "scenes/lattice.hpp"
 #include "scenes/mesh_builder.hpp"
 #include "scenes/podium.hpp"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/euler.hpp"
+#include "core/math/euler.hpp"
 #include "scenes/hoist.hpp"
 #include "scenes/lattice.hpp"
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/euler.hpp"
-#include "core/random_stream.hpp"
+#include "core/math/euler.hpp"
+#include "core/math/random_stream.hpp"
 #include "scenes/mesh_builder.hpp"
 #include "scenes/surface_sampling.hpp"
 #include "scenes/variation.hpp"

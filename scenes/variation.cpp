@@ -8,8 +8,8 @@
 #include <string>
 #include <tuple>
 
-#include "core/euler.hpp"
-#include "core/random_stream.hpp"
+#include "core/math/euler.hpp"
+#include "core/math/random_stream.hpp"
 #include "core/scenario/scene_families.hpp"
 #include "scenes/mesh_builder.hpp"
 

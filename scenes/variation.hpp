@@ -5,8 +5,8 @@
 
 #include <cstdint>
 
-#include "core/random_stream.hpp"
-#include "core/scene.hpp"
+#include "core/math/random_stream.hpp"
+#include "core/scenario/scene.hpp"
 
 namespace skein::sim {
 

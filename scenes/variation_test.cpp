@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "core/euler.hpp"
+#include "core/math/euler.hpp"
 #include "core/scenario/scene_families.hpp"
 
 namespace skein::sim {

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/camera_quality.hpp"
-#include "core/euler.hpp"
-#include "core/normals.hpp"
+#include "core/math/euler.hpp"
+#include "core/math/normals.hpp"
+#include "core/scoring/camera_quality.hpp"
 
 namespace skein::sim {
 

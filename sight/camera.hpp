@@ -7,8 +7,8 @@
 #include <optional>
 #include <vector>
 
-#include "core/scenario.hpp"
-#include "core/scene.hpp"
+#include "core/scenario/scenario.hpp"
+#include "core/scenario/scene.hpp"
 #include "sight/poor_pictures.hpp"
 #include "sight/ray_scene.hpp"
 
@@ -33,7 +33,7 @@ inline SightTest sight_test(const RulesConfig& rules) {
 struct Detection {
   std::uint32_t point = 0;  ///< index of the interest point
   double q_blur = 0.0, q_res = 0.0;
-  double q_distance = 0.0;  ///< the part of q_res that is due to the distance (core/camera_quality.hpp)
+  double q_distance = 0.0;  ///< the part of q_res that is due to the distance (core/scoring/camera_quality.hpp)
   double q = 0.0;           ///< q_blur * q_res, of this capture
   float best = 0.0F;        ///< best q of this UAV so far, with this capture; single precision, as in the reference
   bool improved = false;    ///< this capture raised `best`

@@ -10,7 +10,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/scenario.hpp"
+#include "core/scenario/scenario.hpp"
 #include "sight/ray_shapes.hpp"
 
 namespace skein::sim {

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "core/euler.hpp"
+#include "core/math/euler.hpp"
 #include "tests/support/test_scenes.hpp"
 
 namespace skein::sim {

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/random_stream.hpp"
+#include "core/math/random_stream.hpp"
 #include "sight/camera.hpp"
 #include "tests/support/test_scenes.hpp"
 

@@ -10,9 +10,9 @@
 #include <iostream>
 #include <numbers>
 
-#include "core/camera_quality.hpp"
-#include "core/euler.hpp"
+#include "core/math/euler.hpp"
 #include "core/scenario/scenario_reader.hpp"
+#include "core/scoring/camera_quality.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/test_scenes.hpp"
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/random_stream.hpp"
+#include "core/math/random_stream.hpp"
 #include "tests/support/test_scenes.hpp"
 
 namespace skein::sim {

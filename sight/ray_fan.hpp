@@ -11,7 +11,7 @@
 #include <memory>
 #include <span>
 
-#include "core/scene.hpp"
+#include "core/scenario/scene.hpp"
 
 namespace skein::sim {
 

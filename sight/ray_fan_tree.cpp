@@ -9,7 +9,7 @@
 #include <span>
 #include <utility>
 
-#include "core/euler.hpp"
+#include "core/math/euler.hpp"
 
 namespace skein::sim::fan {
 namespace {

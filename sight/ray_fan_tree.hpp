@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "core/scene.hpp"
+#include "core/scenario/scene.hpp"
 #include "sight/ray_fan_job.hpp"
 
 namespace skein::sim::fan {

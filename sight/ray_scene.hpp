@@ -16,8 +16,8 @@
 #include <span>
 #include <vector>
 
-#include "core/scenario.hpp"
-#include "core/scene.hpp"
+#include "core/scenario/scenario.hpp"
+#include "core/scenario/scene.hpp"
 #include "core/vehicle/airframe.hpp"
 #include "sight/body_spheres.hpp"
 

@@ -9,7 +9,7 @@
 #include <numbers>
 #include <span>
 
-#include "core/random_stream.hpp"
+#include "core/math/random_stream.hpp"
 #include "tests/support/test_scenes.hpp"
 
 namespace skein::sim {

@@ -12,7 +12,7 @@
 #include "core/expressions/signal_table.hpp"
 #include "core/faults/fault_plan.hpp"
 #include "core/ids.hpp"
-#include "core/scenario.hpp"
+#include "core/scenario/scenario.hpp"
 #include "core/types.hpp"
 
 namespace skein::signals {

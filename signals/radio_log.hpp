@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/scenario.hpp"
+#include "core/scenario/scenario.hpp"
 
 namespace skein::signals {
 

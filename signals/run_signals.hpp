@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "core/faults/fault_plan.hpp"
-#include "core/scenario.hpp"
+#include "core/scenario/scenario.hpp"
 #include "results/run_record.hpp"
 #include "signals/properties/evaluation.hpp"
 #include "signals/radio_log.hpp"

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "core/scenario.hpp"
+#include "core/scenario/scenario.hpp"
 #include "core/vehicle/airframe.hpp"
 #include "sight/ray_scene.hpp"
 

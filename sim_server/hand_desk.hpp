@@ -13,9 +13,9 @@
 #include <string>
 #include <vector>
 
-#include "core/hand_command.hpp"
 #include "core/ids.hpp"
-#include "core/scenario.hpp"
+#include "core/messages/hand_command.hpp"
+#include "core/scenario/scenario.hpp"
 #include "view/fly_order.hpp"
 
 namespace skein::sim {

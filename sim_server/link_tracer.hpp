@@ -8,9 +8,9 @@
 
 #include "core/faults/fault_plan.hpp"
 #include "core/for_each.hpp"
+#include "core/messages/uav_status.hpp"
 #include "core/radio/link_matrix.hpp"
-#include "core/scenario.hpp"
-#include "core/uav_status.hpp"
+#include "core/scenario/scenario.hpp"
 #include "sight/ray_scene.hpp"
 #include "sim_server/conditions/path_loss.hpp"
 #include "sim_server/sensors/sight_memory.hpp"

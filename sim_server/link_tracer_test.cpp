@@ -6,7 +6,7 @@
 #include <cmath>
 #include <string>
 
-#include "core/random_stream.hpp"
+#include "core/math/random_stream.hpp"
 #include "sim_server/fleet_bodies.hpp"
 #include "tests/support/test_scenes.hpp"
 

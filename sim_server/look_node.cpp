@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "bus/lockstep/names.hpp"
-#include "core/view_topics.hpp"
+#include "core/messages/view_topics.hpp"
 #include "idl/cdr.hpp"
 #include "idl/conversions.hpp"
 #include "view/cube_runs.hpp"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/run/run_state.hpp"
-#include "core/scenario.hpp"
+#include "core/scenario/scenario.hpp"
 #include "core/types.hpp"
 #include "sim_server/flight/physics_world.hpp"
 

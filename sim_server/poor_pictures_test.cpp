@@ -6,7 +6,7 @@
 
 #include <map>
 
-#include "core/camera_quality.hpp"
+#include "core/scoring/camera_quality.hpp"
 #include "sim_server/referee.hpp"
 #include "tests/support/test_scenes.hpp"
 

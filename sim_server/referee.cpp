@@ -3,7 +3,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "core/random_stream.hpp"
+#include "core/math/random_stream.hpp"
 
 namespace skein::sim {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/scoring/score_table.hpp"
-#include "core/sha256.hpp"
+#include "core/text/sha256.hpp"
 #include "core/types.hpp"
 
 namespace skein::sim {

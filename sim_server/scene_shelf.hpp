@@ -5,7 +5,7 @@
 #include <optional>
 #include <utility>
 
-#include "core/scene.hpp"
+#include "core/scenario/scene.hpp"
 
 namespace skein::sim {
 

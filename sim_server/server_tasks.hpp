@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/scenario.hpp"
+#include "core/scenario/scenario.hpp"
 #include "process/program.hpp"
 
 namespace CLI {

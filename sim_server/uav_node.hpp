@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "bus/lockstep/server.hpp"
-#include "core/activity.hpp"
+#include "core/messages/activity.hpp"
 #include "idl/conversions.hpp"
 #include "sim_server/sensors/detection_log.hpp"
 #include "sim_server/simulation.hpp"

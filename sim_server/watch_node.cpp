@@ -4,9 +4,9 @@
 
 #include "bus/lockstep/names.hpp"
 #include "bus/typed.hpp"
-#include "core/camera_quality.hpp"
+#include "core/messages/view_topics.hpp"
+#include "core/scoring/camera_quality.hpp"
 #include "core/topics.hpp"
-#include "core/view_topics.hpp"
 #include "results/run_tables.hpp"
 #include "sim_server/record/run_files.hpp"
 

@@ -14,7 +14,7 @@
 #include <system_error>
 #include <utility>
 
-#include "core/sha256.hpp"
+#include "core/text/sha256.hpp"
 #include "process/files/nowhere.hpp"
 
 namespace skein::station {

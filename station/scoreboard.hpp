@@ -39,7 +39,7 @@ struct StepOutcome {
   std::vector<TallyRecord> records;              ///< to be journalled before anything is acknowledged
   std::vector<std::vector<std::uint64_t>> acks;  ///< by UAV: captures to acknowledge, ascending
   /// SHA-256 over the points whose tally changed, by index; empty if none did: of each index, UAV, capture, bits of q
-  /// (UAV, capture and q are 0 for a point that no delivered capture has any more); 8 bytes each (core/sha256.hpp).
+  /// (UAV, capture and q are 0 for a point that no delivered capture has any more); 8 bytes each.
   std::vector<std::uint8_t> digest;
   bool score_changed = false;
 };

@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "core/run/run_id.hpp"
-#include "core/scenario.hpp"
+#include "core/scenario/scenario.hpp"
 #include "process/status/status_pipe.hpp"
 
 namespace skein::station {

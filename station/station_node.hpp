@@ -11,7 +11,7 @@
 #include "bus/bus.hpp"
 #include "bus/inbox.hpp"
 #include "bus/lockstep/client_node.hpp"
-#include "core/scenario.hpp"
+#include "core/scenario/scenario.hpp"
 #include "core/topics.hpp"
 #include "process/status/status_pipe.hpp"
 #include "recording/recorder.hpp"

@@ -2,7 +2,7 @@
 
 #include "bus/lockstep/names.hpp"
 #include "bus/typed.hpp"
-#include "core/view_topics.hpp"
+#include "core/messages/view_topics.hpp"
 #include "process/json_text.hpp"
 #include "view/pages.hpp"
 #include "view/story.hpp"

@@ -3,7 +3,7 @@
 #include <spdlog/spdlog.h>
 
 #include "bus/lockstep/names.hpp"
-#include "core/view_topics.hpp"
+#include "core/messages/view_topics.hpp"
 #include "idl/activity_conversions.hpp"
 #include "idl/cdr.hpp"
 #include "idl/conversions.hpp"

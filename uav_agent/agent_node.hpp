@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-#include "core/scenario.hpp"
+#include "core/scenario/scenario.hpp"
 #include "uav_agent/api/learner.hpp"
 #include "uav_agent/kept_maps.hpp"
 #include "uav_agent/maps/map_tree.hpp"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/uav_status.hpp"
+#include "core/messages/uav_status.hpp"
 #include "idl/diagnostic_types.hpp"
 #include "uav_agent/flight_core/safety_filter.hpp"
 

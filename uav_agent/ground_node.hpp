@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "core/scenario.hpp"
+#include "core/scenario/scenario.hpp"
 #include "uav_agent/api/ground_program.hpp"
 #include "uav_agent/member_node.hpp"
 #include "uav_agent/radio_node.hpp"

@@ -3,8 +3,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "core/messages/view_topics.hpp"
 #include "core/run/tick_time.hpp"
-#include "core/view_topics.hpp"
 #include "idl/cdr.hpp"
 #include "idl/message_definition.hpp"
 #include "idl/type_names.hpp"

@@ -9,7 +9,7 @@
 
 #include "bus/lockstep/client.hpp"
 #include "core/radio/radio_routes.hpp"
-#include "core/scenario.hpp"
+#include "core/scenario/scenario.hpp"
 #include "uav_agent/api/messages.hpp"
 
 namespace skein::agent {

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "core/scenario.hpp"
+#include "core/scenario/scenario.hpp"
 #include "core/types.hpp"
 #include "process/json_text.hpp"
 #include "view/testing/results_folder.hpp"

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/hand_command.hpp"
+#include "core/messages/hand_command.hpp"
 
 namespace skein::view {
 

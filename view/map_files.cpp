@@ -4,8 +4,8 @@
 #include <limits>
 #include <utility>
 
+#include "core/messages/view_topics.hpp"
 #include "core/types.hpp"
-#include "core/view_topics.hpp"
 #include "idl/cdr.hpp"
 #include "idl/conversions.hpp"
 #include "recording/mcap/reader.hpp"

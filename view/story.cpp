@@ -6,7 +6,7 @@
 #include <cmath>
 #include <iterator>
 
-#include "core/euler.hpp"
+#include "core/math/euler.hpp"
 #include "core/text/text.hpp"
 #include "report/page_data.hpp"
 

@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "core/activity.hpp"
-#include "core/camera_quality.hpp"
-#include "core/scenario.hpp"
+#include "core/messages/activity.hpp"
+#include "core/scenario/scenario.hpp"
+#include "core/scoring/camera_quality.hpp"
 #include "core/scoring/score_table.hpp"
 #include "process/json_text.hpp"
 #include "report/recorded_links.hpp"

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/euler.hpp"
+#include "core/math/euler.hpp"
 #include "scenes/cranes.hpp"
 #include "scenes/mesh_builder.hpp"
 

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/scene.hpp"
+#include "core/scenario/scene.hpp"
 #include "uav_agent/maps/map_level.hpp"
 
 namespace skein::bench {

@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "bench/sensing/explorer.hpp"
-#include "core/random_stream.hpp"
+#include "core/math/random_stream.hpp"
 #include "idl/cdr.hpp"
 #include "idl/conversions.hpp"
 #include "process/host/thread_cpu.hpp"

@@ -7,7 +7,7 @@
 #include <map>
 #include <string>
 
-#include "core/random_stream.hpp"
+#include "core/math/random_stream.hpp"
 
 namespace skein::bus::cyclonedds {
 namespace {

@@ -8,7 +8,7 @@
 #include <sstream>
 #include <tuple>
 
-#include "core/random_stream.hpp"
+#include "core/math/random_stream.hpp"
 #include "core/types.hpp"
 
 namespace skein::cli {

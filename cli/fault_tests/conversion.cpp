@@ -7,7 +7,7 @@
 
 #include "core/config/config_reader.hpp"
 #include "core/faults/fault_writer.hpp"
-#include "core/scenario.hpp"
+#include "core/scenario/scenario.hpp"
 #include "core/text/suggestion.hpp"
 #include "core/text/text.hpp"
 

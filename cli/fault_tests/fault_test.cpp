@@ -4,9 +4,9 @@
 
 #include "cli/fault_tests/columns.hpp"
 #include "cli/fault_tests/conversion.hpp"
-#include "core/conditions.hpp"
 #include "core/config/config_files.hpp"
 #include "core/config/config_reader.hpp"
+#include "core/scenario/conditions.hpp"
 #include "core/scenario/scenario_reader.hpp"
 #include "core/text/suggestion.hpp"
 #include "signals/judge.hpp"

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "core/faults/fault_plan.hpp"
-#include "core/random_stream.hpp"
-#include "core/scenario.hpp"
+#include "core/math/random_stream.hpp"
+#include "core/scenario/scenario.hpp"
 
 namespace skein::cli {
 

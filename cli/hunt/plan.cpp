@@ -5,11 +5,11 @@
 #include <set>
 
 #include "cli/hunt/weather_faults.hpp"
-#include "core/conditions.hpp"
 #include "core/config/config_writer.hpp"
 #include "core/faults/fault_writer.hpp"
 #include "core/files/file_bytes.hpp"
-#include "core/sha256.hpp"
+#include "core/scenario/conditions.hpp"
+#include "core/text/sha256.hpp"
 #include "core/text/suggestion.hpp"
 #include "core/text/text.hpp"
 #include "host/machine.hpp"

@@ -8,9 +8,9 @@
 #include "cli/hunt/draws.hpp"
 #include "cli/hunt/fault_maker.hpp"
 #include "cli/hunt/weather_faults.hpp"
-#include "core/conditions.hpp"
 #include "core/faults/fault_check.hpp"
 #include "core/overloaded.hpp"
+#include "core/scenario/conditions.hpp"
 
 namespace skein::cli {
 namespace {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "cli/hunt/trial.hpp"
-#include "core/scenario.hpp"
+#include "core/scenario/scenario.hpp"
 
 namespace skein::cli {
 

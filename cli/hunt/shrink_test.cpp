@@ -7,9 +7,9 @@
 #include <cstdlib>
 
 #include "cli/hunt/fault_maker.hpp"
-#include "core/conditions.hpp"
 #include "core/faults/fault_check.hpp"
 #include "core/faults/fault_writer.hpp"
+#include "core/scenario/conditions.hpp"
 #include "core/scenario/scenario_reader.hpp"
 #include "host/testing/fake_programs.hpp"
 #include "tests/support/places.hpp"

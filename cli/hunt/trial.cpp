@@ -6,7 +6,7 @@
 
 #include "cli/hunt/fault_maker.hpp"
 #include "core/faults/fault_writer.hpp"
-#include "core/sha256.hpp"
+#include "core/text/sha256.hpp"
 #include "core/text/text.hpp"
 #include "host/supervisor.hpp"
 #include "results/result.hpp"

@@ -9,7 +9,7 @@
 
 #include "cli/fault_tests/fault_test.hpp"
 #include "core/faults/fault_plan.hpp"
-#include "core/scenario.hpp"
+#include "core/scenario/scenario.hpp"
 #include "host/program_host.hpp"
 #include "process/json_text.hpp"
 #include "run/run_options.hpp"

@@ -5,9 +5,9 @@
 
 #include <string>
 
-#include "core/conditions.hpp"
 #include "core/faults/fault_plan.hpp"
-#include "core/random_stream.hpp"
+#include "core/math/random_stream.hpp"
+#include "core/scenario/conditions.hpp"
 
 namespace skein::cli {
 

@@ -21,7 +21,7 @@
 #include "cli/secure/user_ids.hpp"
 #include "core/config/config_files.hpp"
 #include "core/files/file_bytes.hpp"
-#include "core/sha256.hpp"
+#include "core/text/sha256.hpp"
 #include "core/text/text.hpp"
 #include "host/domain_block.hpp"
 #include "host/preflight.hpp"

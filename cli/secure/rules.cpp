@@ -5,10 +5,10 @@
 #include <ctime>
 #include <string_view>
 
+#include "core/messages/view_topics.hpp"
 #include "core/radio/radio_routes.hpp"
 #include "core/text/xml_text.hpp"
 #include "core/topics.hpp"
-#include "core/view_topics.hpp"
 #include "results/run_folder.hpp"
 
 namespace skein::cli {

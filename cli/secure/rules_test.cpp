@@ -6,8 +6,8 @@
 #include <algorithm>
 
 #include "cli/secure/keys.hpp"
+#include "core/messages/view_topics.hpp"
 #include "core/topics.hpp"
-#include "core/view_topics.hpp"
 #include "host/testing/fake_programs.hpp"
 
 namespace skein::cli {

@@ -6,7 +6,7 @@
 #include "core/planners/python_spec.hpp"
 #include "core/scenario/drawn_worlds.hpp"
 #include "core/scenario/scenario_reader.hpp"
-#include "core/sha256.hpp"
+#include "core/text/sha256.hpp"
 #include "results/run_folder.hpp"
 #include "run/python_planners.hpp"
 

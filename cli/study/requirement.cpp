@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "core/expressions/expression_parser.hpp"
-#include "core/scenario.hpp"
+#include "core/scenario/scenario.hpp"
 #include "core/text/suggestion.hpp"
 #include "core/text/text.hpp"
 

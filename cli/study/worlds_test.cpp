@@ -5,7 +5,7 @@
 
 #include <sstream>
 
-#include "core/random_stream.hpp"
+#include "core/math/random_stream.hpp"
 
 namespace skein::cli {
 namespace {

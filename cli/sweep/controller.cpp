@@ -8,8 +8,8 @@
 #include <random>
 
 #include "cli/study/flights.hpp"
-#include "core/random_stream.hpp"
-#include "core/sha256.hpp"
+#include "core/math/random_stream.hpp"
+#include "core/text/sha256.hpp"
 #include "core/text/suggestion.hpp"
 #include "core/types.hpp"
 #include "host/supervisor.hpp"

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "core/scenario.hpp"
+#include "core/scenario/scenario.hpp"
 
 namespace skein {
 namespace {

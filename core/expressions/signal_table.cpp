@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "core/scenario.hpp"
+#include "core/scenario/scenario.hpp"
 #include "core/text/suggestion.hpp"
 
 namespace skein {

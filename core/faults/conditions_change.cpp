@@ -3,9 +3,9 @@
 #include <array>
 #include <utility>
 
-#include "core/conditions_keys.hpp"
 #include "core/config/config_writer.hpp"
 #include "core/scenario/conditions_check.hpp"
+#include "core/scenario/conditions_keys.hpp"
 
 namespace skein {
 namespace {

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "core/conditions.hpp"
 #include "core/config/config_reader.hpp"
 #include "core/faults/fault_plan.hpp"
+#include "core/scenario/conditions.hpp"
 
 namespace skein {
 

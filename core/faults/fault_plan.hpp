@@ -16,7 +16,7 @@
 #include "core/expressions/signal_table.hpp"
 #include "core/radio/link_effect.hpp"
 #include "core/radio/link_matrix.hpp"
-#include "core/scenario.hpp"
+#include "core/scenario/scenario.hpp"
 
 namespace skein {
 

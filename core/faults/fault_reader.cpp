@@ -1,15 +1,15 @@
 #include <array>
 #include <cmath>
 
-#include "core/conditions_keys.hpp"
 #include "core/config/config_files.hpp"
 #include "core/config/config_node.hpp"
 #include "core/config/config_reader.hpp"
 #include "core/expressions/expression_parser.hpp"
 #include "core/faults/fault_check.hpp"
 #include "core/faults/fault_plan.hpp"
+#include "core/math/random_stream.hpp"
 #include "core/radio/link_check.hpp"
-#include "core/random_stream.hpp"
+#include "core/scenario/conditions_keys.hpp"
 #include "core/text/text.hpp"
 
 namespace skein {

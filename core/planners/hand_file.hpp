@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "core/hand_command.hpp"
+#include "core/messages/hand_command.hpp"
 
 namespace skein {
 

@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "core/config/config_node.hpp"
-#include "core/hand_command.hpp"
+#include "core/messages/hand_command.hpp"
 #include "core/text/text.hpp"
 
 namespace skein {

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/scenario.hpp"
+#include "core/scenario/scenario.hpp"
 #include "core/topics.hpp"
 
 namespace skein {

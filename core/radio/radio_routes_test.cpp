@@ -7,7 +7,7 @@
 #include <set>
 #include <utility>
 
-#include "core/random_stream.hpp"
+#include "core/math/random_stream.hpp"
 #include "core/scenario/scenario_reader.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/scratch_folder.hpp"

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "core/conditions_keys.hpp"
 #include "core/config/config_writer.hpp"
+#include "core/scenario/conditions_keys.hpp"
 #include "core/text/text.hpp"
 
 namespace skein {

@@ -1,9 +1,9 @@
 // Checks of a scenario's section `conditions` beyond those of single values: keys that have no effect.  Pure.
 #pragma once
 
-#include "core/conditions.hpp"
 #include "core/config/config_node.hpp"
 #include "core/config/config_reader.hpp"
+#include "core/scenario/conditions.hpp"
 
 namespace skein {
 

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/scenario.hpp"
+#include "core/scenario/scenario.hpp"
 
 namespace skein {
 

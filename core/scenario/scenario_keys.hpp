@@ -10,11 +10,11 @@
 #include <variant>
 #include <vector>
 
-#include "core/conditions_keys.hpp"
 #include "core/config/config_reader.hpp"
-#include "core/euler.hpp"
-#include "core/scenario.hpp"
+#include "core/math/euler.hpp"
+#include "core/scenario/conditions_keys.hpp"
 #include "core/scenario/drawn_worlds.hpp"
+#include "core/scenario/scenario.hpp"
 #include "core/scenario/scenario_reader.hpp"
 #include "core/text/suggestion.hpp"
 #include "core/vehicle/airframe.hpp"

@@ -1,4 +1,4 @@
-// Scenario and vehicle files: YAML to the structs of core/scenario.hpp, strictly, and back to YAML.
+// Scenario and vehicle files: YAML to the structs of core/scenario/scenario.hpp, strictly, and back to YAML.
 // Angles in files are in degrees, everything else in SI; the name of each key says so.
 // Reads files only; safe from any thread.
 #pragma once
@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "core/config/config_files.hpp"
-#include "core/scenario.hpp"
+#include "core/scenario/scenario.hpp"
 
 namespace skein {
 

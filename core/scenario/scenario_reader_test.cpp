@@ -7,8 +7,8 @@
 #include <cmath>
 #include <fstream>
 
-#include "core/euler.hpp"
-#include "core/random_stream.hpp"
+#include "core/math/euler.hpp"
+#include "core/math/random_stream.hpp"
 #include "tests/support/places.hpp"
 
 namespace skein {

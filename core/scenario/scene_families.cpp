@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/random_stream.hpp"
+#include "core/math/random_stream.hpp"
 
 namespace skein {
 namespace {

@@ -7,7 +7,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "core/scenario.hpp"
+#include "core/scenario/scenario.hpp"
 
 namespace skein {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/euler.hpp"
+#include "core/math/euler.hpp"
 
 namespace skein {
 namespace {

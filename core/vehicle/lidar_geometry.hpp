@@ -8,8 +8,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/euler.hpp"
-#include "core/scenario.hpp"
+#include "core/math/euler.hpp"
+#include "core/scenario/scenario.hpp"
 
 namespace skein {
 

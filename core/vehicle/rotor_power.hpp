@@ -5,8 +5,8 @@
 // Source: J. G. Leishman, Principles of Helicopter Aerodynamics, 2nd ed., chapter 2.   Units: SI.   Pure.
 #pragma once
 
-#include "core/conditions.hpp"
-#include "core/scenario.hpp"
+#include "core/scenario/conditions.hpp"
+#include "core/scenario/scenario.hpp"
 
 namespace skein {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/random_stream.hpp"
+#include "core/math/random_stream.hpp"
 #include "core/scenario/scenario_reader.hpp"
 
 namespace skein {

@@ -7,7 +7,7 @@
 #include <set>
 #include <stdexcept>
 
-#include "core/random_stream.hpp"
+#include "core/math/random_stream.hpp"
 #include "process/host/thread_cpu.hpp"
 
 namespace skein {

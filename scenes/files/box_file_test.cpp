@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <iterator>
 
-#include "core/random_stream.hpp"
+#include "core/math/random_stream.hpp"
 #include "scenes/files/mesh_file.hpp"
 #include "scenes/files/scratch_files.hpp"
 

@@ -12,7 +12,7 @@
 #include <functional>
 #include <vector>
 
-#include "core/random_stream.hpp"
+#include "core/math/random_stream.hpp"
 #include "scenes/files/box_file.hpp"
 #include "scenes/files/limits.hpp"
 #include "scenes/files/mesh_file.hpp"

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "core/scene.hpp"
+#include "core/scenario/scene.hpp"
 
 namespace skein::sim {
 

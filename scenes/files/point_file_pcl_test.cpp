@@ -10,7 +10,7 @@
 #include <cstring>
 #include <limits>
 
-#include "core/random_stream.hpp"
+#include "core/math/random_stream.hpp"
 #include "scenes/files/point_file.hpp"
 #include "scenes/files/scratch_files.hpp"
 

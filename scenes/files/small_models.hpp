@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/scene.hpp"
+#include "core/scenario/scene.hpp"
 #include "core/text/base64.hpp"
 
 namespace skein::sim::small_models {

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <vector>
 
-#include "core/camera_quality.hpp"
 #include "core/scenario/drawn_worlds.hpp"
+#include "core/scoring/camera_quality.hpp"
 #include "scenes/mesh_builder.hpp"
 #include "scenes/wild/flyable.hpp"
 #include "scenes/wild/world.hpp"

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <vector>
 
-#include "core/camera_quality.hpp"
+#include "core/scoring/camera_quality.hpp"
 #include "core/vehicle/airframe.hpp"
 #include "oracle/open_space.hpp"
 #include "scenes/enclosure.hpp"

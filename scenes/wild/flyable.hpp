@@ -3,8 +3,8 @@
 // Frame W.   Units: m, s.   Depends on nothing but its arguments; any thread.
 #pragma once
 
-#include "core/scenario.hpp"
-#include "core/scene.hpp"
+#include "core/scenario/scenario.hpp"
+#include "core/scenario/scene.hpp"
 
 namespace skein::sim::wild {
 

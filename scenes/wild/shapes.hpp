@@ -5,7 +5,7 @@
 
 #include <span>
 
-#include "core/random_stream.hpp"
+#include "core/math/random_stream.hpp"
 #include "scenes/mesh_builder.hpp"
 
 namespace skein::sim::wild {

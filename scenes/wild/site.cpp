@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/camera_quality.hpp"
-#include "core/euler.hpp"
+#include "core/math/euler.hpp"
+#include "core/scoring/camera_quality.hpp"
 #include "scenes/variation.hpp"
 
 namespace skein::sim::wild {

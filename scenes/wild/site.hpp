@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/scenario.hpp"
+#include "core/scenario/scenario.hpp"
 #include "scenes/wild/shapes.hpp"
 #include "sight/ray_scene.hpp"
 

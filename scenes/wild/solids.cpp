@@ -3,7 +3,7 @@
 #include <numbers>
 #include <vector>
 
-#include "core/euler.hpp"
+#include "core/math/euler.hpp"
 #include "scenes/wild/shapes.hpp"
 
 namespace skein::sim::wild {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "core/euler.hpp"
+#include "core/math/euler.hpp"
 #include "core/scenario/drawn_worlds.hpp"
 #include "core/scenario/scenario_reader.hpp"
 #include "scenes/surface_sampling.hpp"

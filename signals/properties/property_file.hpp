@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/config/config_reader.hpp"
-#include "core/scenario.hpp"
+#include "core/scenario/scenario.hpp"
 #include "signals/properties/property.hpp"
 
 namespace skein::properties {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/expressions/expression_parser.hpp"
-#include "core/scenario.hpp"
+#include "core/scenario/scenario.hpp"
 #include "signals/properties/property.hpp"
 
 namespace skein::properties {

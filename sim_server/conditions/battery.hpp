@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <array>
 
-#include "core/conditions.hpp"
-#include "core/scenario.hpp"
-#include "core/uav_status.hpp"
+#include "core/messages/uav_status.hpp"
+#include "core/scenario/conditions.hpp"
+#include "core/scenario/scenario.hpp"
 #include "core/vehicle/airframe.hpp"
 
 namespace skein::sim {

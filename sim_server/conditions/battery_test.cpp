@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/random_stream.hpp"
+#include "core/math/random_stream.hpp"
 #include "core/vehicle/rotor_power.hpp"
 #include "sim_server/conditions/surroundings.hpp"
 #include "sim_server/testing/test_flight.hpp"

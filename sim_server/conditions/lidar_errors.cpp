@@ -5,8 +5,8 @@
 #include <limits>
 #include <numbers>
 
-#include "core/normal_table.hpp"
-#include "core/random_stream.hpp"
+#include "core/math/normal_table.hpp"
+#include "core/math/random_stream.hpp"
 
 namespace skein::sim {
 namespace {

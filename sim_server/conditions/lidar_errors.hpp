@@ -1,7 +1,7 @@
 // The ranges that a LiDAR measures under conditions that are not ideal, computed from the true ranges of its beams.
 //
 //   Noise: normal. Its standard deviation grows with the range and with the tangent of the incidence angle, because the
-//     beam's footprint on a slanted surface extends along the beam (lidar_sigma_m() in core/conditions.hpp).
+//     beam's footprint on a slanted surface extends along the beam (lidar_sigma_m() in core/scenario/conditions.hpp).
 //   Weak returns: the returned power is proportional to reflectivity times cos(incidence) over the square of the range,
 //     and the LiDAR just sees a perpendicular white surface at `full_range_m`. So it sees a surface up to
 //     full_range_m sqrt(reflectivity cos(incidence)), and loses dark, wet and slanted surfaces, and the edges of thin
@@ -15,8 +15,8 @@
 #include <span>
 #include <vector>
 
-#include "core/conditions.hpp"
-#include "core/scenario.hpp"
+#include "core/scenario/conditions.hpp"
+#include "core/scenario/scenario.hpp"
 
 namespace skein::sim {
 

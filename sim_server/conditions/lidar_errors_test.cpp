@@ -8,7 +8,7 @@
 #include <numbers>
 #include <numeric>
 
-#include "core/random_stream.hpp"
+#include "core/math/random_stream.hpp"
 
 namespace skein::sim {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "core/euler.hpp"
-#include "core/normals.hpp"
+#include "core/math/euler.hpp"
+#include "core/math/normals.hpp"
 
 namespace skein::sim {
 

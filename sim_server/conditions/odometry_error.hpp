@@ -9,10 +9,10 @@
 // Frames: W world, B body.  Units: SI, radians.  Threads: one.  The same seed gives the same bits.
 #pragma once
 
-#include "core/conditions.hpp"
-#include "core/random_stream.hpp"
+#include "core/math/random_stream.hpp"
+#include "core/messages/uav_status.hpp"
+#include "core/scenario/conditions.hpp"
 #include "core/types.hpp"
-#include "core/uav_status.hpp"
 
 namespace skein::sim {
 

@@ -7,7 +7,7 @@
 #include <functional>
 #include <vector>
 
-#include "core/euler.hpp"
+#include "core/math/euler.hpp"
 
 namespace skein::sim {
 namespace {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/normals.hpp"
-#include "core/random_stream.hpp"
+#include "core/math/normals.hpp"
+#include "core/math/random_stream.hpp"
 
 namespace skein::sim {
 namespace {

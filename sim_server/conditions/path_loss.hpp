@@ -13,7 +13,7 @@
 #include <array>
 #include <cstdint>
 
-#include "core/conditions.hpp"
+#include "core/scenario/conditions.hpp"
 #include "core/types.hpp"
 
 namespace skein::sim {

@@ -6,8 +6,8 @@
 #include <deque>
 #include <optional>
 
-#include "core/scenario.hpp"
-#include "core/uav_status.hpp"
+#include "core/messages/uav_status.hpp"
+#include "core/scenario/scenario.hpp"
 #include "sight/camera.hpp"
 #include "sim_server/conditions/battery.hpp"
 #include "sim_server/conditions/odometry_error.hpp"

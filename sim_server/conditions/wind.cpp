@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/euler.hpp"
-#include "core/normals.hpp"
+#include "core/math/euler.hpp"
+#include "core/math/normals.hpp"
 #include "core/vehicle/rotor_power.hpp"
 
 namespace skein::sim {

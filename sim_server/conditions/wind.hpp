@@ -12,8 +12,8 @@
 #include <cmath>
 #include <optional>
 
-#include "core/conditions.hpp"
-#include "core/random_stream.hpp"
+#include "core/math/random_stream.hpp"
+#include "core/scenario/conditions.hpp"
 #include "core/types.hpp"
 
 namespace skein::sim {

@@ -5,7 +5,7 @@
 // Frame: W world.  Units: SI.  Pure; threads: one.
 #pragma once
 
-#include "core/scenario.hpp"
+#include "core/scenario/scenario.hpp"
 #include "core/types.hpp"
 
 namespace skein::sim {

@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "core/scenario.hpp"
+#include "core/scenario/scenario.hpp"
 #include "core/types.hpp"
 #include "core/vehicle/airframe.hpp"
 #include "sim_server/flight/position_control.hpp"

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <string>
 
-#include "core/euler.hpp"
+#include "core/math/euler.hpp"
+#include "core/math/vectors.hpp"
 #include "core/text/text.hpp"
-#include "core/vectors.hpp"
 
 namespace skein::sim {
 namespace {

@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-#include "core/scenario.hpp"
+#include "core/scenario/scenario.hpp"
 #include "core/types.hpp"
 
 namespace skein::sim {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/random_stream.hpp"
+#include "core/math/random_stream.hpp"
 #include "sim_server/flight/position_control.hpp"
 
 namespace skein::sim {

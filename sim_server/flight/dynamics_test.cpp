@@ -7,7 +7,7 @@
 #include <cmath>
 #include <iostream>
 
-#include "core/euler.hpp"
+#include "core/math/euler.hpp"
 #include "core/vehicle/airframe.hpp"
 #include "sim_server/testing/test_flight.hpp"
 

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "core/euler.hpp"
-#include "core/random_stream.hpp"
+#include "core/math/euler.hpp"
+#include "core/math/random_stream.hpp"
 #include "core/vehicle/airframe.hpp"
 
 namespace skein::sim {

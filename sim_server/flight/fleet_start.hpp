@@ -13,7 +13,7 @@
 #include <functional>
 #include <vector>
 
-#include "core/scenario.hpp"
+#include "core/scenario/scenario.hpp"
 #include "core/types.hpp"
 
 namespace skein::sim {

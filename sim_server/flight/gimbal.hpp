@@ -5,7 +5,7 @@
 
 #include <optional>
 
-#include "core/scenario.hpp"
+#include "core/scenario/scenario.hpp"
 #include "core/types.hpp"
 
 namespace skein::sim {

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "core/euler.hpp"
+#include "core/math/euler.hpp"
 
 namespace skein::sim {
 namespace {

@@ -3,7 +3,7 @@
 // with the centre of mass Bcm as origin and the principal axes as axes.  Units: SI.   Pure; safe from any thread.
 #pragma once
 
-#include "core/scenario.hpp"
+#include "core/scenario/scenario.hpp"
 #include "core/types.hpp"
 
 namespace skein::sim {

@@ -8,8 +8,8 @@
 #include <memory>
 #include <vector>
 
-#include "core/scenario.hpp"
-#include "core/scene.hpp"
+#include "core/scenario/scenario.hpp"
+#include "core/scenario/scene.hpp"
 #include "core/types.hpp"
 #include "sim_server/flight/contacts.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/euler.hpp"
+#include "core/math/euler.hpp"
 
 namespace skein::sim {
 namespace {

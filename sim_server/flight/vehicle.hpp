@@ -6,7 +6,7 @@
 #include <array>
 #include <optional>
 
-#include "core/scenario.hpp"
+#include "core/scenario/scenario.hpp"
 #include "core/types.hpp"
 #include "sim_server/flight/attitude_control.hpp"
 #include "sim_server/flight/command_guard.hpp"

@@ -6,7 +6,7 @@
 #include <functional>
 #include <memory>
 
-#include "core/random_stream.hpp"
+#include "core/math/random_stream.hpp"
 #include "sim_server/flight/command_link.hpp"
 #include "sim_server/record/fault_timeline.hpp"
 #include "sim_server/simulation.hpp"

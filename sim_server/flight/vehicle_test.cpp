@@ -6,7 +6,7 @@
 #include <ctime>
 #include <iostream>
 
-#include "core/euler.hpp"
+#include "core/math/euler.hpp"
 #include "sim_server/testing/test_flight.hpp"
 
 namespace skein::sim {

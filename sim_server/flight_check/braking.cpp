@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/vectors.hpp"
+#include "core/math/vectors.hpp"
 
 namespace skein::sim {
 

@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/scenario.hpp"
+#include "core/scenario/scenario.hpp"
 #include "results/tracking_table.hpp"
 #include "sight/ray_scene.hpp"
 #include "sim_server/flight_check/braking.hpp"

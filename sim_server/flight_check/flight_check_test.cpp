@@ -8,7 +8,7 @@
 #include <tuple>
 #include <vector>
 
-#include "core/random_stream.hpp"
+#include "core/math/random_stream.hpp"
 #include "core/scenario/scenario_reader.hpp"
 #include "sim_server/record/flight_review.hpp"
 #include "tests/support/places.hpp"

@@ -5,7 +5,7 @@
 #include <map>
 #include <optional>
 
-#include "core/camera_quality.hpp"
+#include "core/scoring/camera_quality.hpp"
 #include "sim_server/flight/attitude_control.hpp"
 #include "sim_server/flight/gimbal.hpp"
 #include "sim_server/flight/position_control.hpp"

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "core/euler.hpp"
 #include "core/files/file_bytes.hpp"
+#include "core/math/euler.hpp"
 #include "core/text/text.hpp"
 
 namespace skein::sim {

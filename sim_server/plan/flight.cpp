@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/euler.hpp"
+#include "core/math/euler.hpp"
 #include "core/scoring/score_table.hpp"
 #include "sim_server/plan/plan.hpp"
 #include "sim_server/plan/schedule.hpp"

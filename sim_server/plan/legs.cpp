@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/euler.hpp"
+#include "core/math/euler.hpp"
 #include "core/vehicle/airframe.hpp"
 #include "sim_server/sensors/antenna_link.hpp"
 

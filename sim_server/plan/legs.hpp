@@ -9,7 +9,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "core/scene.hpp"
+#include "core/scenario/scene.hpp"
 #include "sim_server/plan/team.hpp"
 #include "sim_server/plan/views.hpp"
 #include "sim_server/plan/ways.hpp"

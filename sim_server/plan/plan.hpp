@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "core/scene.hpp"
+#include "core/scenario/scene.hpp"
 #include "sim_server/plan/team.hpp"
 #include "sim_server/plan/views.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <initializer_list>
 
-#include "core/sha256.hpp"
+#include "core/text/sha256.hpp"
 #include "oracle/cache.hpp"
 #include "oracle/kept_answer.hpp"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "core/random_stream.hpp"
+#include "core/math/random_stream.hpp"
 
 namespace skein::sim {
 namespace {

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/scenario.hpp"
+#include "core/scenario/scenario.hpp"
 #include "sight/camera_mount.hpp"
 #include "sight/ray_scene.hpp"
 

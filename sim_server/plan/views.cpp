@@ -7,8 +7,8 @@
 #include <tuple>
 #include <utility>
 
-#include "core/camera_quality.hpp"
-#include "core/euler.hpp"
+#include "core/math/euler.hpp"
+#include "core/scoring/camera_quality.hpp"
 #include "oracle/share_out.hpp"
 #include "sight/camera.hpp"
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/scene.hpp"
+#include "core/scenario/scene.hpp"
 #include "sim_server/plan/team.hpp"
 
 namespace skein::sim {

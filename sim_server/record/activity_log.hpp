@@ -8,8 +8,8 @@
 #include <optional>
 #include <vector>
 
-#include "core/activity.hpp"
-#include "core/scenario.hpp"
+#include "core/messages/activity.hpp"
+#include "core/scenario/scenario.hpp"
 #include "process/files/stream_file.hpp"
 #include "sim_server/simulation.hpp"
 

@@ -15,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/scenario.hpp"
+#include "core/scenario/scenario.hpp"
 #include "process/files/stream_file.hpp"
 #include "sim_server/simulation.hpp"
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/scenario.hpp"
+#include "core/scenario/scenario.hpp"
 #include "process/reports/reports.hpp"
 #include "sim_server/flight_check/flight_check.hpp"
 #include "sim_server/simulation.hpp"

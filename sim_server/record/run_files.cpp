@@ -5,7 +5,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
-#include "core/camera_quality.hpp"
+#include "core/scoring/camera_quality.hpp"
 #include "process/files/atomic_file.hpp"
 #include "process/reports/program_report.hpp"
 #include "results/run_folder.hpp"

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/run/work_time.hpp"
-#include "core/scenario.hpp"
+#include "core/scenario/scenario.hpp"
 #include "process/files/stream_file.hpp"
 #include "process/reports/reports.hpp"
 #include "process/status/status_pipe.hpp"

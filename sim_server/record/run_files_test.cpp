@@ -9,9 +9,9 @@
 #include <map>
 #include <sstream>
 
-#include "core/camera_quality.hpp"
-#include "core/random_stream.hpp"
+#include "core/math/random_stream.hpp"
 #include "core/scenario/scenario_reader.hpp"
+#include "core/scoring/camera_quality.hpp"
 #include "tests/support/places.hpp"
 
 namespace skein::sim {

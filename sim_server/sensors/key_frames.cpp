@@ -12,7 +12,7 @@
 #include <memory>
 #include <numeric>
 
-#include "core/euler.hpp"
+#include "core/math/euler.hpp"
 
 namespace skein::sim {
 namespace {

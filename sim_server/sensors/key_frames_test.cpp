@@ -8,7 +8,7 @@
 #include <map>
 #include <tuple>
 
-#include "core/euler.hpp"
+#include "core/math/euler.hpp"
 #include "tests/support/test_scenes.hpp"
 
 namespace skein::sim {

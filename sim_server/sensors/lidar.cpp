@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/random_stream.hpp"
+#include "core/math/random_stream.hpp"
 #include "core/vehicle/lidar_geometry.hpp"
 
 namespace skein::sim {

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "core/scenario.hpp"
+#include "core/scenario/scenario.hpp"
 #include "sight/ray_scene.hpp"
 #include "sim_server/conditions/lidar_errors.hpp"
 #include "sim_server/sensors/lost_returns.hpp"

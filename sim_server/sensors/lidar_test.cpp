@@ -10,7 +10,7 @@
 #include <numbers>
 #include <set>
 
-#include "core/euler.hpp"
+#include "core/math/euler.hpp"
 #include "core/vehicle/lidar_geometry.hpp"
 #include "sim_server/sensors/key_frames.hpp"
 #include "tests/support/test_scenes.hpp"

@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/scenario.hpp"
+#include "core/scenario/scenario.hpp"
 
 namespace skein::sim {
 

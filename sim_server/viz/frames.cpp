@@ -1,6 +1,6 @@
 #include "sim_server/viz/frames.hpp"
 
-#include "core/camera_quality.hpp"
+#include "core/scoring/camera_quality.hpp"
 #include "core/vehicle/lidar_geometry.hpp"
 #include "idl/conversions.hpp"
 

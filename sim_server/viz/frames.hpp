@@ -1,6 +1,6 @@
 // The frames of a run for ROS 2's tf: world -> <uav>/base_link -> <uav>/gimbal -> <uav>/camera, and world -> gcs.
 // base_link is the body (FLU). The frames gimbal and camera have their origin at the camera; x is the direction of
-// view, y points left, z up (core/camera_quality.hpp). Pure.
+// view, y points left, z up (core/scoring/camera_quality.hpp). Pure.
 //
 // In its own domain a UAV has frames that contain only what it is told: world -> <uav>/odom -> <uav>/base_link ->
 // <uav>/gimbal -> <uav>/camera, and <uav>/base_link -> <uav>/lidar. The names are those of ROS's REP 105, with `world`
@@ -9,7 +9,7 @@
 
 #include <span>
 
-#include "core/scenario.hpp"
+#include "core/scenario/scenario.hpp"
 #include "idl/type_names.hpp"
 #include "sim_server/simulation.hpp"
 

@@ -4,8 +4,8 @@
 
 #include <map>
 
-#include "core/camera_quality.hpp"
-#include "core/random_stream.hpp"
+#include "core/math/random_stream.hpp"
+#include "core/scoring/camera_quality.hpp"
 #include "core/vehicle/lidar_geometry.hpp"
 #include "idl/conversions.hpp"
 #include "tests/support/test_scenes.hpp"

@@ -3,8 +3,8 @@
 #include <array>
 #include <cmath>
 
-#include "core/camera_quality.hpp"
-#include "core/euler.hpp"
+#include "core/math/euler.hpp"
+#include "core/scoring/camera_quality.hpp"
 #include "core/vehicle/airframe.hpp"
 #include "idl/conversions.hpp"
 

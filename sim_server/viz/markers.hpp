@@ -5,8 +5,8 @@
 #include <span>
 
 #include "core/radio/link_matrix.hpp"
-#include "core/scenario.hpp"
-#include "core/scene.hpp"
+#include "core/scenario/scenario.hpp"
+#include "core/scenario/scene.hpp"
 #include "idl/type_names.hpp"
 #include "sim_server/simulation.hpp"
 #include "sim_server/viz/trails.hpp"

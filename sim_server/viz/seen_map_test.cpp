@@ -5,7 +5,7 @@
 #include <array>
 #include <set>
 
-#include "core/random_stream.hpp"
+#include "core/math/random_stream.hpp"
 #include "tests/support/test_scenes.hpp"
 
 namespace skein::sim::viz {

@@ -7,7 +7,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "core/scene.hpp"
+#include "core/scenario/scene.hpp"
 
 namespace skein::sim {
 

@@ -11,7 +11,7 @@
 #include <numbers>
 #include <numeric>
 
-#include "core/random_stream.hpp"
+#include "core/math/random_stream.hpp"
 #include "core/scenario/scenario_reader.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/test_scenes.hpp"

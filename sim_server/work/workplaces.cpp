@@ -6,7 +6,7 @@
 #include <numbers>
 #include <optional>
 
-#include "core/camera_quality.hpp"
+#include "core/scoring/camera_quality.hpp"
 #include "oracle/best_aim.hpp"
 #include "oracle/open_space.hpp"
 #include "sight/camera_mount.hpp"

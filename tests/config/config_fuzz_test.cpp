@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/random_stream.hpp"
+#include "core/math/random_stream.hpp"
 #include "core/scenario/scenario_keys.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/text_files.hpp"

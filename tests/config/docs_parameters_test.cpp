@@ -13,7 +13,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "core/conditions_keys.hpp"
+#include "core/scenario/conditions_keys.hpp"
 #include "core/text/text.hpp"
 #include "tests/support/places.hpp"
 #include "uav_agent/flight_core/flight_config.hpp"

@@ -9,7 +9,7 @@
 #include <cstring>
 
 #include "bus/typed.hpp"
-#include "core/random_stream.hpp"
+#include "core/math/random_stream.hpp"
 #include "idl/cdr.hpp"
 #include "idl/conversions.hpp"
 #include "idl/filled_message.hpp"

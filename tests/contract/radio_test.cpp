@@ -13,7 +13,7 @@
 #include "bus/lockstep/radio_topics.hpp"
 #include "bus/lockstep/server.hpp"
 #include "comm_router/router_node.hpp"
-#include "core/random_stream.hpp"
+#include "core/math/random_stream.hpp"
 #include "tests/contract/bus_fixture.hpp"
 #include "tests/free_domain.hpp"
 

@@ -4,7 +4,7 @@
 
 #include <map>
 
-#include "core/random_stream.hpp"
+#include "core/math/random_stream.hpp"
 #include "fleet_fixture.hpp"
 #include "station/journal.hpp"
 

@@ -176,7 +176,7 @@ TEST_F(MadeUpTree, LargeLibrariesHaveFewUsers) {
   EXPECT_EQ(check_libraries(tree(), library_rules()), Violations{});
 
   file("uav_agent/api/planner.hpp", include_system("pybind11/numpy.h"));
-  file("core/scene.hpp", include_system("pcl/point_types.h"));
+  file("core/scenario/scene.hpp", include_system("pcl/point_types.h"));
   file("sim_server/map.cpp", include_system("octomap/OcTree.h"));
   file("sight/rays.hpp", include_system("embree3/rtcore.h"));
   file("scenes/files/points.cpp", include_system("pcl/io/pcd_io.h"));
@@ -184,7 +184,7 @@ TEST_F(MadeUpTree, LargeLibrariesHaveFewUsers) {
   file("uav_agent/map2.cpp", include_system("pcl/point_types.h"));
   file("uav_agent/map3.cpp", include_system("pcl/point_types.h"));
   EXPECT_EQ(places(check_libraries(tree(), library_rules())),
-            (Places{"uav_agent/flight.cpp:1", "sight/rays.hpp:1", "sim_server/map.cpp:1", "core/scene.hpp:1",
+            (Places{"uav_agent/flight.cpp:1", "sight/rays.hpp:1", "sim_server/map.cpp:1", "core/scenario/scene.hpp:1",
                     "scenes/files/points.cpp:1", "uav_agent/map3.cpp:1", "uav_agent/api/planner.hpp:1"}));
 }
 

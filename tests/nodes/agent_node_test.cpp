@@ -8,10 +8,10 @@
 
 #include "comm_router/router_node.hpp"
 #include "core/files/octree_bytes.hpp"
+#include "core/math/random_stream.hpp"
+#include "core/messages/view_topics.hpp"
 #include "core/radio/radio_routes.hpp"
-#include "core/random_stream.hpp"
 #include "core/vehicle/lidar_geometry.hpp"
-#include "core/view_topics.hpp"
 #include "idl/conversions.hpp"
 #include "idl/diagnostic_types.hpp"
 #include "tests/nodes/toy_members.hpp"

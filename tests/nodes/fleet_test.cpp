@@ -10,9 +10,9 @@
 
 #include "bus/lockstep/names.hpp"
 #include "comm_router/router_node.hpp"
-#include "core/random_stream.hpp"
+#include "core/math/random_stream.hpp"
+#include "core/messages/view_topics.hpp"
 #include "core/scenario/scenario_reader.hpp"
-#include "core/view_topics.hpp"
 #include "process/host/environment.hpp"
 #include "process/json_text.hpp"
 #include "results/run_folder.hpp"

@@ -8,7 +8,7 @@
 #include <map>
 
 #include "comm_router/router_node.hpp"
-#include "core/random_stream.hpp"
+#include "core/math/random_stream.hpp"
 #include "core/scenario/scenario_reader.hpp"
 #include "scenes/scene_source.hpp"
 #include "sim_server/sim_node.hpp"

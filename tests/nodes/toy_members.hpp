@@ -13,7 +13,7 @@
 #include "bus/lockstep/names.hpp"
 #include "bus/lockstep/server.hpp"
 #include "core/radio/link_matrix.hpp"
-#include "core/scenario.hpp"
+#include "core/scenario/scenario.hpp"
 
 namespace skein::test {
 

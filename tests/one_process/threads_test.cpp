@@ -1,6 +1,6 @@
 // A flight in one process is the same with any number of threads. Planners, conditions, seeds and faults are
 // random.
-#include "core/random_stream.hpp"
+#include "core/math/random_stream.hpp"
 #include "fleet_fixture.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/test_program.hpp"

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "bus/lockstep/client.hpp"
-#include "core/scenario.hpp"
+#include "core/scenario/scenario.hpp"
 #include "tests/protocol/sim_network.hpp"
 
 namespace skein::test {

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "bus/bus.hpp"
-#include "core/random_stream.hpp"
+#include "core/math/random_stream.hpp"
 
 namespace skein::test {
 

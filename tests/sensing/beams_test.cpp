@@ -7,7 +7,7 @@
 #include <cmath>
 #include <functional>
 
-#include "core/random_stream.hpp"
+#include "core/math/random_stream.hpp"
 #include "core/vehicle/lidar_geometry.hpp"
 #include "sim_server/sensors/lidar.hpp"
 #include "sim_server/sensors/lost_returns.hpp"

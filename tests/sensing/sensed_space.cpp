@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/euler.hpp"
+#include "core/math/euler.hpp"
 #include "core/vehicle/lidar_geometry.hpp"
 #include "sim_server/sensors/lidar.hpp"
 #include "sim_server/sensors/lost_returns.hpp"

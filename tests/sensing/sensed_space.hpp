@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "core/random_stream.hpp"
-#include "core/scenario.hpp"
+#include "core/math/random_stream.hpp"
+#include "core/scenario/scenario.hpp"
 #include "uav_agent/maps/world_mapper.hpp"
 
 namespace skein::sensing {

@@ -11,7 +11,7 @@
 #include <sstream>
 #include <utility>
 
-#include "core/euler.hpp"
+#include "core/math/euler.hpp"
 #include "scenes/files/mesh_file.hpp"
 #include "scenes/files/point_file.hpp"
 

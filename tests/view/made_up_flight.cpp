@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/camera_quality.hpp"
+#include "core/scoring/camera_quality.hpp"
 #include "process/json_text.hpp"
 #include "view/cube_runs.hpp"
 #include "view/look_order.hpp"

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "core/scenario.hpp"
+#include "core/scenario/scenario.hpp"
 #include "uav_agent/api/agent_config.hpp"
 #include "uav_agent/api/messages.hpp"
 #include "uav_agent/api/strategy_registry.hpp"

@@ -8,8 +8,8 @@
 #include <cstdint>
 #include <string>
 
-#include "core/block_layout.hpp"
 #include "core/ids.hpp"
+#include "core/planners/block_layout.hpp"
 
 namespace skein::agent {
 

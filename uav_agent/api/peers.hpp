@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/uav_status.hpp"
+#include "core/messages/uav_status.hpp"
 #include "uav_agent/api/agent_config.hpp"
 #include "uav_agent/api/messages.hpp"
 

@@ -16,8 +16,8 @@
 #include <vector>
 
 #include "core/config/config_reader.hpp"
-#include "core/hand_command.hpp"
-#include "core/uav_status.hpp"
+#include "core/messages/hand_command.hpp"
+#include "core/messages/uav_status.hpp"
 #include "uav_agent/api/agent_config.hpp"
 #include "uav_agent/api/beam_scan.hpp"
 #include "uav_agent/api/goals.hpp"

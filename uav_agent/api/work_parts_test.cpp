@@ -7,7 +7,7 @@
 #include <map>
 #include <string_view>
 
-#include "core/random_stream.hpp"
+#include "core/math/random_stream.hpp"
 
 namespace skein::agent {
 namespace {

@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "bus/lockstep/radio_topics.hpp"
-#include "core/scenario.hpp"
+#include "core/scenario/scenario.hpp"
 #include "idl/type_names.hpp"
 #include "uav_agent/member_node.hpp"
 #include "uav_agent/onboard/uplink.hpp"

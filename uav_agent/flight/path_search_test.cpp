@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/random_stream.hpp"
+#include "core/math/random_stream.hpp"
 
 namespace skein::agent {
 namespace {

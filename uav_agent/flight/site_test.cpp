@@ -6,7 +6,7 @@
 #include <cmath>
 #include <set>
 
-#include "core/random_stream.hpp"
+#include "core/math/random_stream.hpp"
 #include "uav_agent/api/agent_config.hpp"
 
 namespace skein::agent {

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "core/random_stream.hpp"
+#include "core/math/random_stream.hpp"
 #include "uav_agent/flight_core/flight_core.hpp"
 #include "uav_agent/testing/flown_uav.hpp"
 #include "uav_agent/testing/test_world.hpp"

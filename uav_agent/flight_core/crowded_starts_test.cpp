@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "core/random_stream.hpp"
+#include "core/math/random_stream.hpp"
 #include "tests/support/test_program.hpp"
 #include "uav_agent/testing/test_world.hpp"
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/random_stream.hpp"
+#include "core/math/random_stream.hpp"
 #include "uav_agent/testing/core_uav.hpp"
 #include "uav_agent/testing/test_world.hpp"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/euler.hpp"
+#include "core/math/euler.hpp"
 #include "uav_agent/flight/path_search.hpp"
 #include "uav_agent/maps/cube_steps.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/random_stream.hpp"
+#include "core/math/random_stream.hpp"
 #include "uav_agent/testing/flown_uav.hpp"
 
 namespace skein::agent {

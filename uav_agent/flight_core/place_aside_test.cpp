@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/random_stream.hpp"
+#include "core/math/random_stream.hpp"
 #include "uav_agent/flight_core/flight_core.hpp"
 #include "uav_agent/testing/flown_uav.hpp"
 

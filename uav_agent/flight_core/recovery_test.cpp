@@ -5,7 +5,7 @@
 
 #include <functional>
 
-#include "core/random_stream.hpp"
+#include "core/math/random_stream.hpp"
 #include "uav_agent/testing/flown_uav.hpp"
 
 namespace skein::agent {

@@ -6,7 +6,7 @@
 #include <map>
 #include <set>
 
-#include "core/random_stream.hpp"
+#include "core/math/random_stream.hpp"
 #include "uav_agent/testing/flown_uav.hpp"
 
 namespace skein::agent {

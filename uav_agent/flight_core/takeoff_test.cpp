@@ -7,7 +7,7 @@
 #include <cmath>
 #include <set>
 
-#include "core/random_stream.hpp"
+#include "core/math/random_stream.hpp"
 #include "uav_agent/testing/flown_uav.hpp"
 #include "uav_agent/testing/test_world.hpp"
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/euler.hpp"
-#include "core/vectors.hpp"
+#include "core/math/euler.hpp"
+#include "core/math/vectors.hpp"
 
 namespace skein::agent {
 namespace {

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <vector>
 
-#include "core/random_stream.hpp"
+#include "core/math/random_stream.hpp"
 
 namespace skein::agent {
 namespace {

@@ -7,7 +7,7 @@
 #include <sstream>
 #include <tuple>
 
-#include "core/random_stream.hpp"
+#include "core/math/random_stream.hpp"
 #include "uav_agent/testing/news_radio.hpp"
 
 namespace skein::agent {

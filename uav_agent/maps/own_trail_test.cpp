@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include "core/random_stream.hpp"
+#include "core/math/random_stream.hpp"
 #include "uav_agent/maps/world_map.hpp"
 
 namespace skein::agent {

@@ -5,7 +5,7 @@
 #include <functional>
 #include <vector>
 
-#include "core/scenario.hpp"
+#include "core/scenario/scenario.hpp"
 #include "uav_agent/api/beam_scan.hpp"
 #include "uav_agent/maps/map_level.hpp"
 #include "uav_agent/maps/repeated_scans.hpp"

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <tuple>
 
-#include "core/vectors.hpp"
+#include "core/math/vectors.hpp"
 
 namespace skein::agent {
 namespace {

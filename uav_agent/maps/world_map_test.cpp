@@ -9,7 +9,7 @@
 #include <tuple>
 #include <vector>
 
-#include "core/random_stream.hpp"
+#include "core/math/random_stream.hpp"
 
 namespace skein::agent {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "core/normals.hpp"
-#include "core/random_stream.hpp"
+#include "core/math/normals.hpp"
+#include "core/math/random_stream.hpp"
 #include "uav_agent/maps/world_map.hpp"
 
 namespace skein::agent {

@@ -11,7 +11,7 @@
 #include <variant>
 #include <vector>
 
-#include "core/activity.hpp"
+#include "core/messages/activity.hpp"
 #include "uav_agent/api/agent_config.hpp"
 #include "uav_agent/flight_core/doing.hpp"
 #include "uav_agent/flight_core/safety_filter.hpp"

@@ -6,7 +6,7 @@
 #include <deque>
 #include <iterator>
 
-#include "core/euler.hpp"
+#include "core/math/euler.hpp"
 #include "uav_agent/api/learner.hpp"
 #include "uav_agent/flight/site.hpp"
 #include "uav_agent/flight_core/flight_core.hpp"

@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "core/activity.hpp"
+#include "core/messages/activity.hpp"
+#include "core/messages/uav_status.hpp"
 #include "core/run/work_time.hpp"
-#include "core/uav_status.hpp"
 #include "uav_agent/api/agent_config.hpp"
 #include "uav_agent/api/messages.hpp"
 #include "uav_agent/api/planner.hpp"

@@ -15,7 +15,7 @@
 #include <span>
 #include <vector>
 
-#include "core/scenario.hpp"
+#include "core/scenario/scenario.hpp"
 #include "uav_agent/api/beam_scan.hpp"
 #include "uav_agent/api/messages.hpp"
 #include "uav_agent/onboard/body_track.hpp"

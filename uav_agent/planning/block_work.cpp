@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-#include "core/euler.hpp"
+#include "core/math/euler.hpp"
 
 namespace skein::agent {
 namespace {

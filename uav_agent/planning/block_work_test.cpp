@@ -6,7 +6,7 @@
 #include <cmath>
 #include <set>
 
-#include "core/euler.hpp"
+#include "core/math/euler.hpp"
 
 namespace skein::agent {
 namespace {

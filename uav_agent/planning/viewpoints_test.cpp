@@ -8,7 +8,7 @@
 #include <numbers>
 #include <set>
 
-#include "core/euler.hpp"
+#include "core/math/euler.hpp"
 
 namespace skein::agent {
 namespace {

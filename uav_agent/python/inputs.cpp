@@ -8,7 +8,7 @@
 #include <optional>
 #include <string_view>
 
-#include "core/euler.hpp"
+#include "core/math/euler.hpp"
 #include "uav_agent/python/interpreter.hpp"
 #include "uav_agent/python/maps.hpp"
 #include "uav_agent/python/values.hpp"

@@ -9,7 +9,7 @@
 #include <memory>
 #include <vector>
 
-#include "core/random_stream.hpp"
+#include "core/math/random_stream.hpp"
 #include "uav_agent/flight_core/safety_filter.hpp"
 
 namespace skein::agent {

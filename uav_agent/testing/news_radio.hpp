@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/random_stream.hpp"
+#include "core/math/random_stream.hpp"
 #include "uav_agent/maps/map_news.hpp"
 
 namespace skein::agent::test {

@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "core/math/random_stream.hpp"
 #include "core/planners/hand_file.hpp"
-#include "core/random_stream.hpp"
 #include "uav_agent/api/payload.hpp"
 #include "uav_agent/api/planner.hpp"
 #include "uav_agent/testing/test_world.hpp"

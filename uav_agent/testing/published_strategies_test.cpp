@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "core/config/config_writer.hpp"
-#include "core/random_stream.hpp"
+#include "core/math/random_stream.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/text_files.hpp"
 #include "uav_agent/planners/kios/config.hpp"

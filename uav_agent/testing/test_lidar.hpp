@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "core/scenario.hpp"
+#include "core/scenario/scenario.hpp"
 #include "uav_agent/api/messages.hpp"
 
 namespace skein::agent {

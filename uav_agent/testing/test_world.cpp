@@ -4,7 +4,7 @@
 #include <bit>
 #include <cmath>
 
-#include "core/euler.hpp"
+#include "core/math/euler.hpp"
 #include "uav_agent/onboard/agent.hpp"
 #include "uav_agent/planning/strips.hpp"
 #include "uav_agent/testing/test_lidar.hpp"

@@ -12,7 +12,7 @@
 
 #include "cli/study/flights.hpp"
 #include "cli/sweep/controller.hpp"
-#include "core/random_stream.hpp"
+#include "core/math/random_stream.hpp"
 #include "host/preflight.hpp"
 #include "results/run_folder.hpp"
 #include "tests/support/scratch_folder.hpp"

@@ -11,7 +11,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/euler.hpp"
+#include "core/math/euler.hpp"
 #include "uav_agent/api/planner.hpp"
 
 namespace skein::agent {

@@ -8,7 +8,7 @@
 #include <numeric>
 #include <tuple>
 
-#include "core/random_stream.hpp"
+#include "core/math/random_stream.hpp"
 #include "uav_agent/planners/flock/talk.hpp"
 #include "uav_agent/planners/flock/views.hpp"
 #include "uav_agent/planning/aiming.hpp"

@@ -14,7 +14,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "core/euler.hpp"
+#include "core/math/euler.hpp"
 #include "uav_agent/api/planner.hpp"
 #include "uav_agent/flight/free_space.hpp"
 #include "uav_agent/flight/voxel_route.hpp"

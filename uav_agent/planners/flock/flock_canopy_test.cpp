@@ -1,7 +1,7 @@
 // A UAV that starts below a canopy finds out from there, although no free cubes of the planner's map lead out.
 #include <gtest/gtest.h>
 
-#include "core/random_stream.hpp"
+#include "core/math/random_stream.hpp"
 #include "uav_agent/testing/test_world.hpp"
 
 namespace skein::agent {

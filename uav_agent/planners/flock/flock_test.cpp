@@ -5,7 +5,7 @@
 #include <map>
 #include <set>
 
-#include "core/random_stream.hpp"
+#include "core/math/random_stream.hpp"
 #include "uav_agent/planners/flock/reach.hpp"
 #include "uav_agent/planners/flock/route.hpp"
 #include "uav_agent/planners/flock/surfaces.hpp"

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <map>
 
-#include "core/random_stream.hpp"
+#include "core/math/random_stream.hpp"
 #include "uav_agent/testing/three_uavs.hpp"
 
 namespace skein::agent {

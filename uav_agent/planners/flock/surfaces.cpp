@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "core/euler.hpp"
+#include "core/math/euler.hpp"
 
 namespace skein::agent {
 namespace {

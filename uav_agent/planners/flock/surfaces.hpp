@@ -12,7 +12,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/camera_quality.hpp"
+#include "core/scoring/camera_quality.hpp"
 #include "uav_agent/maps/world_voxels.hpp"
 #include "uav_agent/planners/flock/config.hpp"
 #include "uav_agent/planners/flock/points.hpp"

@@ -6,7 +6,7 @@
 #include <map>
 #include <numbers>
 
-#include "core/euler.hpp"
+#include "core/math/euler.hpp"
 #include "uav_agent/maps/block_table.hpp"
 
 namespace skein::agent {

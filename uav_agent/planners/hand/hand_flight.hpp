@@ -9,7 +9,7 @@
 
 #include <optional>
 
-#include "core/hand_command.hpp"
+#include "core/messages/hand_command.hpp"
 #include "uav_agent/flight_core/safety_filter.hpp"
 #include "uav_agent/flight_core/sight.hpp"
 #include "uav_agent/flight_core/tracker.hpp"

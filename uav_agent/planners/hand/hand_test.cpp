@@ -6,9 +6,9 @@
 #include <fstream>
 #include <numbers>
 
-#include "core/euler.hpp"
+#include "core/math/euler.hpp"
+#include "core/math/random_stream.hpp"
 #include "core/planners/hand_file.hpp"
-#include "core/random_stream.hpp"
 #include "uav_agent/api/planner.hpp"
 #include "uav_agent/testing/flown_uav.hpp"
 #include "uav_agent/testing/guarded_uav.hpp"

@@ -18,7 +18,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/euler.hpp"
+#include "core/math/euler.hpp"
 #include "uav_agent/api/planner.hpp"
 #include "uav_agent/flight/free_space.hpp"
 #include "uav_agent/flight/path_search.hpp"

@@ -5,7 +5,7 @@
 #include <cstring>
 #include <map>
 
-#include "core/random_stream.hpp"
+#include "core/math/random_stream.hpp"
 #include "uav_agent/api/learner.hpp"
 #include "uav_agent/planners/learner/observation.hpp"
 #include "uav_agent/planners/learner/orders.hpp"

@@ -10,7 +10,7 @@
 #include <optional>
 #include <string>
 
-#include "core/block_layout.hpp"
+#include "core/planners/block_layout.hpp"
 #include "uav_agent/api/planner.hpp"
 #include "uav_agent/planners/learner/config.hpp"
 

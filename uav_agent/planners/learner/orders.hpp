@@ -8,8 +8,8 @@
 #include <optional>
 #include <string>
 
-#include "core/block_layout.hpp"
-#include "core/hand_command.hpp"
+#include "core/messages/hand_command.hpp"
+#include "core/planners/block_layout.hpp"
 #include "uav_agent/api/planner.hpp"
 
 namespace skein::agent {

@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/euler.hpp"
+#include "core/math/euler.hpp"
 #include "uav_agent/api/planner.hpp"
 #include "uav_agent/flight/free_space.hpp"
 #include "uav_agent/flight/site.hpp"

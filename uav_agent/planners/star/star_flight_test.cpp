@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "core/random_stream.hpp"
+#include "core/math/random_stream.hpp"
 #include "uav_agent/api/planner.hpp"
 #include "uav_agent/planners/star/talk.hpp"
 #include "uav_agent/testing/flown_uav.hpp"

@@ -6,8 +6,8 @@
 #include <numbers>
 #include <set>
 
-#include "core/euler.hpp"
-#include "core/random_stream.hpp"
+#include "core/math/euler.hpp"
+#include "core/math/random_stream.hpp"
 #include "uav_agent/planners/star/camera.hpp"
 #include "uav_agent/planners/star/explorer.hpp"
 #include "uav_agent/planners/star/knowledge.hpp"

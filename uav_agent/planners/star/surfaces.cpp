@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/euler.hpp"
+#include "core/math/euler.hpp"
 #include "uav_agent/maps/frontiers.hpp"
 #include "uav_agent/planning/viewpoints.hpp"
 

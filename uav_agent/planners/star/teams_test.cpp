@@ -7,7 +7,7 @@
 #include <numeric>
 #include <set>
 
-#include "core/random_stream.hpp"
+#include "core/math/random_stream.hpp"
 #include "uav_agent/testing/test_world.hpp"
 
 namespace skein::agent {

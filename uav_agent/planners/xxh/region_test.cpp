@@ -8,7 +8,7 @@
 #include <numbers>
 #include <set>
 
-#include "core/random_stream.hpp"
+#include "core/math/random_stream.hpp"
 #include "uav_agent/planners/xxh/explore.hpp"
 #include "uav_agent/planners/xxh/inspect.hpp"
 #include "uav_agent/testing/test_world.hpp"

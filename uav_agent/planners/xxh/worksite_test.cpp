@@ -5,7 +5,7 @@
 
 #include <numbers>
 
-#include "core/random_stream.hpp"
+#include "core/math/random_stream.hpp"
 #include "uav_agent/planners/xxh/post.hpp"
 #include "uav_agent/planners/xxh/talk.hpp"
 #include "uav_agent/testing/test_world.hpp"

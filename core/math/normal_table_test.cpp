@@ -1,10 +1,10 @@
-#include "core/normal_table.hpp"
+#include "core/math/normal_table.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "core/random_stream.hpp"
+#include "core/math/random_stream.hpp"
 
 namespace skein {
 namespace {

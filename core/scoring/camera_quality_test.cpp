@@ -1,12 +1,12 @@
 // Properties of the quality formulas; the reference vectors are in sim_server/golden/check_test.cpp.
-#include "core/camera_quality.hpp"
+#include "core/scoring/camera_quality.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "core/euler.hpp"
-#include "core/random_stream.hpp"
+#include "core/math/euler.hpp"
+#include "core/math/random_stream.hpp"
 
 namespace skein {
 namespace {

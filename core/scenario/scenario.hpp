@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "core/conditions.hpp"
 #include "core/radio/link_effect.hpp"
+#include "core/scenario/conditions.hpp"
 #include "core/types.hpp"
 
 namespace skein {

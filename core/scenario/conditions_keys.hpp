@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "core/conditions.hpp"
 #include "core/config/config_reader.hpp"
+#include "core/scenario/conditions.hpp"
 #include "core/text/suggestion.hpp"
 
 namespace skein {

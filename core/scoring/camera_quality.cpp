@@ -1,10 +1,10 @@
-#include "core/camera_quality.hpp"
+#include "core/scoring/camera_quality.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "core/euler.hpp"
+#include "core/math/euler.hpp"
 
 namespace skein {
 namespace {

@@ -1,7 +1,7 @@
 // Three independent standard normal numbers.
 #pragma once
 
-#include "core/random_stream.hpp"
+#include "core/math/random_stream.hpp"
 #include "core/types.hpp"
 
 namespace skein {

@@ -1,8 +1,8 @@
-#include "core/normal_table.hpp"
+#include "core/math/normal_table.hpp"
 
 #include <cmath>
 
-#include "core/random_stream.hpp"
+#include "core/math/random_stream.hpp"
 
 namespace skein {
 namespace {

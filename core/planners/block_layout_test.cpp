@@ -1,11 +1,11 @@
 // Where fields of a shared block lie: apart from each other, aligned, and as their description says.
-#include "core/block_layout.hpp"
+#include "core/planners/block_layout.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "core/random_stream.hpp"
+#include "core/math/random_stream.hpp"
 
 namespace skein {
 namespace {

@@ -1,9 +1,9 @@
-#include "core/random_stream.hpp"
+#include "core/math/random_stream.hpp"
 
 #include <bit>
 #include <cmath>
 
-#include "core/sha256.hpp"
+#include "core/text/sha256.hpp"
 
 namespace skein {
 namespace {

@@ -1,4 +1,4 @@
-#include "core/random_stream.hpp"
+#include "core/math/random_stream.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "core/conditions.hpp"
+#include "core/scenario/conditions.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/conditions_keys.hpp"
 #include "core/config/config_writer.hpp"
+#include "core/scenario/conditions_keys.hpp"
 #include "core/text/suggestion.hpp"
 #include "core/text/text.hpp"
 #include "core/types.hpp"

@@ -1,4 +1,4 @@
-#include "core/conditions.hpp"
+#include "core/scenario/conditions.hpp"
 
 #include <gtest/gtest.h>
 
