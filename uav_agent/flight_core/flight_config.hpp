@@ -23,7 +23,8 @@ struct FlightConfig {
   double error_m = 0.33;          ///< tracking error of an explorer at rest; docs/flight-safety.md has the measurement
   double light_error_m = 0.23;    ///< the same for a photographer
   double error_per_mps_s = 0.03;  ///< additional tracking error per m/s of speed
-  /// Replaces kHaloM at a start with less room, on the UAV's own trail, and for a UAV that must land at once.
+  /// Replaces kHaloM at a start with less room, on the UAV's own trail, and for a UAV that must land at once; for the
+  /// latter also peer_margin_m.
   double tight_halo_m = 0.35;
   double tight_mps = 0.8;  ///< maximum speed at such a start, on the trail, and while a UAV moves aside
   double ground_m = 1.0;   ///< the map need not prove space below this height: the ground is level, at z = 0

@@ -68,7 +68,13 @@ void Landing::fly_to_site(const PlannerInput& in, bool must_sink, Steering& stee
     return;
   }
   if (!navigator_.idle()) return;
-  if (!sites_W_.empty() && !navigator_.sees() && !must_sink) filter_.set_trust(SafetyFilter::Trust::unknown);
+  if (!sites_W_.empty() && !must_sink) {
+    const bool may_trust_more = !navigator_.sees() && filter_.trust() == SafetyFilter::Trust::proved;
+    if (may_trust_more) filter_.set_trust(SafetyFilter::Trust::unknown);
+    // No site can be reached. The UAV lands while its charge still leaves time to try another place if it is held.
+    const Vector3d& here_W = in.tracking.setpoint.p_WB;
+    if (!may_trust_more && !was_held_above(here_W)) return begin_descent(here_W, in, steering);
+  }
   find_sites(in);
   // Into the box in which it started, a UAV gets on the way on which it left it.
   const std::optional<Vector3d> out_W = filter_.way_out_W(in.boxes);

@@ -1,7 +1,7 @@
 // Landing of a UAV whose battery is nearly empty: the flight to a place to land, and the descent. The UAV tries, in
 // this order, its landing place (landing_place.hpp), its start, and places around the landing place. If a UAV without a
-// LiDAR finds no path through proved space, it treats unknown space as free, since it would fall otherwise. If the
-// charge is only just enough to land right here, the UAV sinks where it is.
+// LiDAR finds no path through proved space, it treats unknown space as free, since it would fall otherwise. A UAV that
+// finds no path to any of these places, or whose charge is only just enough to land right here, sinks where it is.
 // Frame W.   Units: SI.   Threads: one.   Deterministic.
 #pragma once
 

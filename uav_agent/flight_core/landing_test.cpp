@@ -87,6 +87,24 @@ TEST(Landing, APhotographerWithoutAProvedWayTrustsUnknownSpace) {
   EXPECT_LT(uav.off_m(uav.agent.me().p_WB_start), 1.0);
 }
 
+// Under the condition `battery`, UAVs in narrow shafts waited for a path until they could only just land, and one of
+// them, held by another UAV below, fell with an empty battery.
+TEST(Landing, WhereItIsIfThereIsNoPathToAnyPlace) {
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    RandomStream random(seed, "landing_shut_in", 0);
+    const Vector3d at_W(random.uniform(11.0, 13.0), random.uniform(5.0, 6.0), random.uniform(4.0, 14.0));
+    LandingUav uav(seed % 2 == 0 ? Role::explorer : Role::photographer, at_W);
+    uav.clear({-24.0, -24.0, 0.0}, {24.0, 24.0, 20.0});
+    const double half_m = random.uniform(3.0, 3.5), x = at_W.x(), y = at_W.y();
+    uav.build({x - half_m - 1.0, y - half_m - 1.0, 0.0}, {x - half_m, y + half_m + 1.0, 40.0});
+    uav.build({x + half_m, y - half_m - 1.0, 0.0}, {x + half_m + 1.0, y + half_m + 1.0, 40.0});
+    uav.build({x - half_m, y - half_m - 1.0, 0.0}, {x + half_m, y - half_m, 40.0});
+    uav.build({x - half_m, y + half_m, 0.0}, {x + half_m, y + half_m + 1.0, 40.0});
+    ASSERT_TRUE(uav.land(kLandsWithin, false)) << "seed " << seed << ", still at " << uav.state.p_WB.transpose();
+    EXPECT_LT(uav.off_m(at_W), 1.0) << "seed " << seed;
+  }
+}
+
 TEST(Landing, InTheEndItSinksWhereItIs) {
   LandingUav uav(Role::photographer, {12.0, 5.0, 9.0});
   ASSERT_TRUE(uav.land(kLandsWithin, true));

@@ -224,8 +224,10 @@ Held SafetyFilter::judge(const std::vector<Vector3d>& way_W, double speed_mps, c
     for (const PeerReach& peer : peers) {
       const Vector3d off_W = from_segment(p_W, peer.from_W, peer.to_W);
       const double off_m = off_W.norm();
-      const double errors_m = exact ? 0.0 : along_m(peer.error_m, off_W);
-      if (off_m >= peer.apart_m + kOwnLagS * speed_mps + errors_m) continue;
+      // A UAV that is held above another one would fall onto it: then tight_halo_m replaces peer_margin_m, too.
+      const double more_m =
+          exact ? std::min(0.0, config_.tight_halo_m - config_.peer_margin_m) : along_m(peer.error_m, off_W);
+      if (off_m >= peer.apart_m + kOwnLagS * speed_mps + more_m) continue;
       // If the peer's segment reaches this UAV, no place is nearer to it. So the peer's own position counts, too.
       const bool nearer = off_m < peer.now_m - nearer_m_ || (p_W - peer.from_W).norm() < peer.from_m - nearer_m_;
       if (nearer) return {Held::By::peer, p_W, peer.uav};

@@ -79,7 +79,7 @@ class SafetyFilter {
     proved,   ///< the usual rules
     start,    ///< unknown space counts as free, and UAVs at their starts do not keep this UAV from sinking beside them
     unknown,  ///< unknown space counts as free
-    all,      ///< like `unknown`, positions count as exact, and tight_halo_m replaces kHaloM
+    all,      ///< like `unknown`, positions count as exact, and tight_halo_m replaces kHaloM and peer_margin_m
   };
   void set_trust(Trust trust) { trust_ = trust; }
   Trust trust() const { return trust_; }
