@@ -18,6 +18,8 @@ namespace skein::agent {
 
 class WorldVoxels {
  public:
+  static constexpr double kUpdateS = 1.0;  ///< time between two calls of update() in the published strategies; chosen
+
   struct Config {
     double around_m = 1.0;         ///< radius around a cube's centre that must be free for the cube to be free; chosen
     std::size_t max_looks = 8000;  ///< most unknown cubes examined in one update; they take turns; chosen

@@ -11,21 +11,25 @@ namespace skein::agent {
 
 /// An optional parameter has two defaults, named in its comment: for faithful=false, true. resolved() fills them in.
 struct KiosConfig {
-  double voxel_m = 0.0;          ///< edge of a cube; 0: 0.9 d*, limited to 2.5 to 6 m
-  int lanes = 1;                 ///< of the mapping stage, for the whole fleet; at least one per explorer
-  int min_hits = 4;              ///< mapped cells (0.5 m) that make a cube occupied
-  double map_mps = 3.0;          ///< along the lanes
-  double standoff_ratio = 0.92;  ///< greatest distance to the surface, in units of d*
-  double nearest_ratio = 0.6;    ///< least distance to the surface where there is room, in units of d*
-  double settle_mps = 0.3;       ///< a UAV slower than this is steady, ...
-  double aim_deg = 5.0;          ///< ... a camera this near to its direction is aimed, ...
-  double dwell_s = 0.25;         ///< ... and the UAV stays so long, steady and aimed: two pictures
-  double stop_s = 2.0;           ///< assumed duration of a stop in the planned tours
-  int max_tasks = 150;           ///< most waypoints that are assigned at once
-  int effort = 60'000;           ///< most moves that the tour search evaluates
-  int reserve = 2;               ///< cubes ahead that a UAV claims besides the one it is in
-  double share_s = 0.5;          ///< time between two messages
-  double claim_s = 3.0;          ///< after which a claim expires
+  static constexpr int kMostReserve = 7;  ///< limit of `reserve`; chosen: a message names all claimed cubes
+
+  double voxel_m = 0.0;  ///< edge of a cube; 0: 0.9 d*, limited to 2.5 to 6 m
+  int lanes = 1;         ///< of the mapping stage, for the whole fleet; at least one per explorer
+  int min_hits = 4;      ///< mapped cells (0.5 m) that make a cube occupied; chosen
+  double map_mps = 3.0;  ///< along the lanes; chosen
+  /// Greatest distance to the surface, in units of d*. Chosen; 0.7 was measured, too: better in some scenes, worse in
+  /// others (docs/strategies.md).
+  double standoff_ratio = 0.92;
+  double nearest_ratio = 0.6;  ///< least distance to the surface where there is room, in units of d*; chosen
+  double settle_mps = 0.3;     ///< a UAV slower than this is steady (chosen), ...
+  double aim_deg = 5.0;        ///< ... a camera this near to its direction is aimed (chosen), ...
+  double dwell_s = 0.25;       ///< ... and the UAV stays so long, steady and aimed: two pictures; chosen
+  double stop_s = 2.0;         ///< assumed duration of a stop in the planned tours; chosen
+  int max_tasks = 150;         ///< most waypoints that are assigned at once; chosen
+  int effort = 60'000;         ///< most moves that the tour search evaluates; chosen
+  int reserve = 2;             ///< cubes ahead that a UAV claims besides the one it is in; chosen
+  double share_s = 0.5;        ///< time between two messages; chosen
+  double claim_s = 3.0;        ///< after which a claim expires; chosen
   /// 45, never: longest time that a photographer waits for the explorers' map, from when it could work.
   std::optional<double> wait_s = {};
   std::optional<double> silence_s = {};  ///< 45, never: nor longer after it saw an explorer fly
@@ -48,7 +52,7 @@ struct KiosConfig {
     r.field("stop_s", stop_s, within(0.0, 60.0));
     r.field("max_tasks", max_tasks, within(1, 2000));
     r.field("effort", effort, within(0, 1e7));
-    r.field("reserve", reserve, within(0, 7));
+    r.field("reserve", reserve, within(0, kMostReserve));
     r.field("share_s", share_s, within(0.05, 10.0));
     r.field("claim_s", claim_s, within(0.1, 60.0));
     r.field("wait_s", wait_s, within(0.0, kNeverS));
@@ -62,8 +66,10 @@ struct KiosConfig {
 
 inline KiosConfig KiosConfig::resolved() const {
   KiosConfig all = *this;
-  fill(all.wait_s, faithful, 45.0, kNeverS);
-  fill(all.silence_s, faithful, 45.0, kNeverS);
+  // Chosen: without limits, photographers wait for most of the mission where one explorer maps a large site.
+  constexpr double kWaitS = 45.0;
+  fill(all.wait_s, faithful, kWaitS, kNeverS);
+  fill(all.silence_s, faithful, kWaitS, kNeverS);
   fill(all.maps_anew, faithful, false, true);
   return all;
 }

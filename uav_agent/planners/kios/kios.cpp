@@ -36,16 +36,18 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kAutoVoxelRatio = 0.9, kSmallestVoxelM = 2.5, kLargestVoxelM = 6.0;  ///< of d*
-constexpr double kLaneHeight = 0.25, kLaneUpM = 2.0;  ///< lanes lie at least 2 m above a quarter of the site's height
-constexpr double kLookAtMapS = 1.0;                   ///< time between two looks at the map
-constexpr double kRestS = 1.0;                        ///< wait when no stop can be reached
-constexpr double kStayS = 2.0;          ///< a waiting UAV renews its goal, the place where it is, so often
-constexpr double kAimPatienceS = 3.0;   ///< longest stay at a stop: the gimbal cannot reach some directions
-constexpr std::size_t kCandidates = 5;  ///< most stops proposed to the flight core at once
-constexpr int kMostMoreLanes = 3;       ///< how often an explorer without stops may fly more lanes
-constexpr double kStandsMps = 1.0;      ///< the way of a UAV slower than this begins where it is
-constexpr double kBoxesComeS = 5.0, kLiftOffS = 20.0;  ///< boxes come by then, unless restarted; time to take off
+constexpr double kAutoVoxelRatio = 0.9;                        ///< edge of a cube by the camera, in units of d*; chosen
+constexpr double kSmallestVoxelM = 2.5, kLargestVoxelM = 6.0;  ///< limits of this edge; chosen
+/// Lanes lie at least kLaneUpM above this share of the site's height. Chosen.
+constexpr double kLaneHeight = 0.25, kLaneUpM = 2.0;
+constexpr double kRestS = 1.0;          ///< wait when no stop can be reached; chosen
+constexpr double kStayS = 2.0;          ///< a waiting UAV renews its goal, the place where it is, so often; chosen
+constexpr double kAimPatienceS = 3.0;   ///< longest stay at a stop: the gimbal cannot reach some directions; chosen
+constexpr std::size_t kCandidates = 5;  ///< most stops proposed to the flight core at once; chosen
+constexpr int kMostMoreLanes = 3;       ///< how often an explorer without stops may fly more lanes; chosen
+constexpr double kStandsMps = 1.0;      ///< the way of a UAV slower than this begins where it is; chosen
+constexpr double kBoxesComeS = 5.0;     ///< boxes come by then, unless the program was restarted; chosen
+constexpr double kLiftOffS = 20.0;      ///< assumed time to take off; chosen
 
 }  // namespace
 
@@ -171,7 +173,7 @@ void KiosPlanner::lay_lanes(const PlannerInput& in, int count) {
 
 void KiosPlanner::look_at_map(const PlannerInput& in) {
   const PartTimer timer(in.parts, "planner/map");
-  if (agent_.due(in.k, kLookAtMapS, agent_.self)) voxels_.update(*in.world_map, *grid_);
+  if (agent_.due(in.k, WorldVoxels::kUpdateS, agent_.self)) voxels_.update(*in.world_map, *grid_);
 }
 
 void KiosPlanner::carry_on(const PlannerInput& in, PlannerOutput& out) {

@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace skein::agent {
 namespace {
 
-constexpr double kInsetM = 15.0;  ///< lanes end so far inside the boxes' extent: LiDARs reach farther
-constexpr double kHeight = 0.3;   ///< of a lane in its level, as a share of the level: UAVs come from below
+constexpr double kInsetM = 15.0;  ///< lanes end so far inside the boxes' extent: LiDARs reach farther; chosen
+constexpr double kHeight = 0.3;   ///< of a lane in its level, as a share of the level: UAVs come from below; chosen
 
 /// Ends of one lane.
 struct Lane {
@@ -44,7 +45,7 @@ bool leaves_boxes_alone(const Lane& lane, const VoxelGrid& volume, const std::ve
 std::pair<int, int> rows_of(const VoxelGrid& volume, const std::vector<OrientedBox>& boxes, int axis) {
   const double first = volume.centre_W(0)[axis];
   if (boxes.empty()) return {0, volume.dims()[axis] - 1};
-  double lo = 1e9, hi = -1e9;
+  double lo = std::numeric_limits<double>::infinity(), hi = -lo;
   for (const OrientedBox& box : boxes) {
     const double half = (box.R_WO.cwiseAbs() * (0.5 * box.size))[axis];
     lo = std::min(lo, box.center[axis] - half);
@@ -65,6 +66,7 @@ std::vector<Lane> all_lanes(const VoxelGrid& volume, const std::vector<OrientedB
   const int levels = (count + 1) / 2;
   const auto [low_row, high_row] = rows_of(volume, boxes, across);
   std::pair<int, int> ends = rows_of(volume, boxes, along);
+  // Chosen: at least half of the extent is flown.
   const int inset = std::min((ends.second - ends.first) / 4, static_cast<int>(kInsetM / volume.voxel_m()));
   ends = {ends.first + inset, ends.second - inset};
   std::vector<Lane> lanes;
@@ -74,6 +76,7 @@ std::vector<Lane> all_lanes(const VoxelGrid& volume, const std::vector<OrientedB
     cell[along] = 0;
     cell[other] = static_cast<int>(dims[other] * (level + (other == 2 ? kHeight : 0.5)) / levels);
     // Begins halfway between middle and rim of the boxes, and moves outwards until the lane keeps clear of them.
+    // Halfway is chosen.
     const int first = static_cast<int>(std::lround(0.5 * (low_row + high_row) + side * 0.25 * (high_row - low_row)));
     for (cell[across] = first; cell[across] > 0 && cell[across] + 1 < dims[across]; cell[across] += side) {
       if (leaves_boxes_alone(lane_at(volume, cell, along, ends, lowest_m), volume, boxes)) break;

@@ -5,8 +5,8 @@
 namespace skein::agent {
 namespace {
 
-constexpr int kMostFailures = 4;  ///< a corner that fails more often is skipped
-constexpr double kRetryS = 1.0;   ///< wait after a failure
+constexpr int kMostFailures = 4;  ///< a corner that fails more often is skipped; chosen
+constexpr double kRetryS = 1.0;   ///< wait after a failure; chosen
 
 }  // namespace
 

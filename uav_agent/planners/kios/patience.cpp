@@ -5,7 +5,7 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kFliesMps = 0.3;
+constexpr double kFliesMps = 0.3;  ///< an explorer faster than this flies; chosen
 
 }  // namespace
 

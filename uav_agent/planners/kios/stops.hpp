@@ -12,6 +12,8 @@
 
 #include "uav_agent/flight/free_space.hpp"
 #include "uav_agent/maps/world_voxels.hpp"
+#include "uav_agent/planners/kios/config.hpp"
+#include "uav_agent/planning/strips.hpp"
 
 namespace skein::agent {
 
@@ -36,15 +38,17 @@ struct KiosAgent {
 class KiosStops {
  public:
   struct Config {
-    double sharp_m = 7.36;         ///< d*: greatest distance from the surface
-    double nearest_ratio = 0.6;    ///< least distance where there is room, as a share of d*
-    double standoff_ratio = 0.92;  ///< greatest distance of a stop, as a share of d*
-    int min_hits = 1;              ///< a cube of this UAV's own map is occupied from so many mapped cells on
-    double speed_mps = 4.0;        ///< assumed speed between stops
-    double stop_s = 2.0;           ///< assumed duration of a stop, braking included
-    std::size_t max_tasks = 150;   ///< most stops divided at once: those nearest to any of the UAVs
-    std::size_t effort = 60'000;   ///< most moves that the tour search evaluates
-    double retry_s = 12.0;         ///< wait before an unreachable stop is tried again, times its failures so far
+    double sharp_m = CameraReach().sharp_distance_m;      ///< d*: greatest distance from the surface
+    double nearest_ratio = KiosConfig().nearest_ratio;    ///< least distance where there is room, as a share of d*
+    double standoff_ratio = KiosConfig().standoff_ratio;  ///< greatest distance of a stop, as a share of d*
+    int min_hits = 1;                     ///< a cube of this UAV's own map is occupied from so many mapped cells on
+    double speed_mps = 4.0;               ///< assumed speed between stops; chosen
+    double stop_s = KiosConfig().stop_s;  ///< assumed duration of a stop, braking included
+    /// Most stops divided at once: those nearest to any of the UAVs.
+    std::size_t max_tasks = static_cast<std::size_t>(KiosConfig().max_tasks);
+    /// Most moves that the tour search evaluates.
+    std::size_t effort = static_cast<std::size_t>(KiosConfig().effort);
+    double retry_s = 12.0;  ///< wait before an unreachable stop is tried again, times its failures so far; chosen
   };
 
   explicit KiosStops(const Config& config) : config_(config) {}

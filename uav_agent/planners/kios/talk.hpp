@@ -3,6 +3,7 @@
 // Source: paper ("exchanging data whenever LoS is available"; no two UAVs in one voxel); the format is our own.
 #pragma once
 
+#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -10,18 +11,19 @@
 
 #include "uav_agent/api/planner.hpp"
 #include "uav_agent/maps/map_exchange.hpp"
+#include "uav_agent/planners/kios/config.hpp"
 
 namespace skein::agent {
 
 class KiosTalk {
  public:
   using Id = VoxelGrid::Id;
-  static constexpr std::uint32_t kNoStop = 0xFFFFFFFF;
+  static constexpr std::uint32_t kNoStop = std::numeric_limits<std::uint32_t>::max();
 
   struct Config {
-    double share_s = 0.5;        ///< time between two messages
-    double claim_s = 3.0;        ///< age at which a claim expires
-    std::size_t max_claims = 8;  ///< most claims in a message
+    double share_s = KiosConfig().share_s;                  ///< time between two messages
+    double claim_s = KiosConfig().claim_s;                  ///< age at which a claim expires
+    std::size_t max_claims = KiosConfig::kMostReserve + 1;  ///< most claims in a message
   };
 
   /// Content of a UAV's message.
