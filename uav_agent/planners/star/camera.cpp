@@ -8,8 +8,8 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kSameViewM = 1.0;  ///< a viewpoint that was moved by less is the same one
-constexpr double kStraightM = 1.0;  ///< a point with a smaller horizontal distance gives no yaw
+constexpr double kSameViewM = 1.0;  ///< a viewpoint that was moved by less is the same one; chosen
+constexpr double kStraightM = 1.0;  ///< a point with a smaller horizontal distance gives no yaw; chosen
 
 double pitch_to(const Vector3d& way) { return std::atan2(-way.z(), way.head<2>().norm()); }
 double yaw_to(const Vector3d& way) { return std::atan2(way.y(), way.x()); }

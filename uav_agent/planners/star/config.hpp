@@ -1,6 +1,6 @@
-// Parameters of the STAR planner (star.cpp): --planner star:inspect_mps=1.5,voxel_m=2.5. A default without a
-// named source is our choice: no source gives a number. d*: the distance at which the camera just has the desired
-// resolution.
+// Parameters of the STAR planner (star.cpp): --planner star:inspect_mps=1.5,voxel_m=2.5. No source gives a
+// number for this contest, so all defaults are our choice; comments name papers with the same or a similar number. d*:
+// the distance at which the camera just has the desired resolution.
 // Units: SI unless the name says otherwise.
 #pragma once
 
@@ -15,32 +15,34 @@ namespace skein::agent {
 /// them.
 struct StarConfig {
   double voxel_m = 0.0;          ///< edge of a cube of the grid; 0: 0.35 d*, limited to 2 to 3 m
-  int max_voxels = 120'000;      ///< on larger sites, the cubes grow until there are no more
-  double volume_weight = 0.005;  ///< cost of a box in the teams' tours: metres of path per cubic metre
+  int max_voxels = 120'000;      ///< on larger sites, the cubes grow until there are no more; chosen
+  double volume_weight = 0.005;  ///< cost of a box in the teams' tours: metres of path per cubic metre; chosen
   /// What the assignment of boxes minimises: `total`, the sum of all tours, or `longest`, the longest tour of a team.
   FleetTourObjective share = FleetTourObjective::total;
-  double explore_mps = 2.5, inspect_mps = 2.0;     ///< FUEL and Star-Searcher: 2 m/s; SOAR: 2.5 m/s
-  double replan_s = 1.5;                           ///< time between two plans; FUEL
-  double covered_s = 0.5;                          ///< the same once the target is done; FUEL
-  double turn_s = 1.5;                             ///< cost of a change of direction, per radian; FUEL's weight
-  double round_m = 2.0;                            ///< most distance from a corner at which the path cuts it off
-  double horizon_m = 20.0;                         ///< length of the path that is planned ahead
-  double margin_m = 6.0;                           ///< width of the space around a box that is explored with it
-  double cluster_m = 8.0;                          ///< largest extent of a cluster of frontier cubes
-  int min_cluster = 3;                             ///< fewest cubes of a cluster
-  double ring_inner_m = 5.0, ring_outer_m = 11.0;  ///< explorers' viewpoints around a cluster; SOAR: 8 to 11
-  int refine = 5;                                  ///< how many of the next viewpoints are refined; FUEL: up to 7
-  int looks = 6;                      ///< seconds in view and near by, after which an explorer gives up a frontier cube
-  double standoff_ratio = 0.85;       ///< distance of photographers' viewpoints to the surface, in units of d*
-  double seen_ratio = 1.0;            ///< a surface seen from within this (in units of d*) counts as inspected, ...
-  double oblique_deg = 65.0;          ///< ... if its normal is within this angle of the line of sight
-  double patch_m = 0.0;               ///< largest patch of surface with one viewpoint; 0: the picture's height there
-  double view_radius_m = 10.0;        ///< radius of a cluster of viewpoints; Star-Searcher: 3, indoors
-  double history_s = 4.0;             ///< cost of beginning with another cluster than in the last plan
+  double explore_mps = 2.5;  ///< chosen as in SOAR; FUEL: 2
+  double inspect_mps = 2.0;  ///< chosen as in Star-Searcher
+  double replan_s = 1.5;     ///< time between two plans; chosen as in FUEL
+  double covered_s = 0.5;    ///< the same once the target is done; chosen as in FUEL
+  double turn_s = 1.5;       ///< cost of a change of direction, per radian; chosen: FUEL's weight
+  double round_m = 2.0;      ///< most distance from a corner at which the path cuts it off; chosen
+  double horizon_m = 20.0;   ///< length of the path that is planned ahead; chosen
+  double margin_m = 6.0;     ///< width of the space around a box that is explored with it; chosen
+  double cluster_m = 8.0;    ///< largest extent of a cluster of frontier cubes; chosen; FUEL: 2, in rooms
+  int min_cluster = 3;       ///< fewest cubes of a cluster; chosen
+  /// Radii of explorers' viewpoints around a cluster. Chosen; SOAR: 8 to 11; FUEL: 1.5 to 2.5, in rooms.
+  double ring_inner_m = 5.0, ring_outer_m = 11.0;
+  int refine = 5;  ///< how many of the next viewpoints are refined; chosen; FUEL: up to 7
+  int looks = 6;   ///< seconds in view and near by, after which an explorer gives up a frontier cube; chosen
+  double standoff_ratio = 0.85;  ///< distance of photographers' viewpoints to the surface, in units of d*; chosen
+  double seen_ratio = 1.0;       ///< a surface seen from within this (in units of d*; chosen) counts as inspected, ...
+  double oblique_deg = 65.0;     ///< ... if its normal is within this angle of the line of sight; chosen
+  double patch_m = 0.0;          ///< largest patch of surface with one viewpoint; 0: the picture's height there
+  double view_radius_m = 10.0;   ///< radius of a cluster of viewpoints; chosen; Star-Searcher: 3, indoors
+  double history_s = 4.0;        ///< cost of beginning with another cluster than in the last plan; chosen
   std::optional<double> mate_s = {};  ///< 8, 0: cost of beginning where another UAV is about to work
-  int max_views = 150;                ///< most viewpoints in one plan: the nearest ones
-  int effort = 30'000;                ///< most moves that a tour search evaluates
-  double share_s = 0.5;               ///< time between two messages
+  int max_views = 150;                ///< most viewpoints in one plan: the nearest ones; chosen
+  int effort = 30'000;                ///< most moves that a tour search evaluates; chosen
+  double share_s = 0.5;               ///< time between two messages; chosen; RACER: 0.1
   /// 3, never: time without work, after which a photographer flies to its explorer's box or one of the team's, and an
   /// explorer begins one of its boxes again.
   std::optional<double> follow_s = {};
@@ -94,8 +96,8 @@ struct StarConfig {
 
 inline StarConfig StarConfig::resolved() const {
   StarConfig all = *this;
-  fill(all.mate_s, faithful, 8.0, 0.0);
-  fill(all.follow_s, faithful, 3.0, kNeverS);
+  fill(all.mate_s, faithful, 8.0, 0.0);        // chosen; the sources know no such cost
+  fill(all.follow_s, faithful, 3.0, kNeverS);  // chosen; in the sources, UAVs without work hover
   fill(all.helps, faithful, true, false);
   return all;
 }

@@ -11,6 +11,7 @@
 
 #include "uav_agent/flight/free_space.hpp"
 #include "uav_agent/maps/frontiers.hpp"
+#include "uav_agent/planners/star/config.hpp"
 
 namespace skein::agent {
 
@@ -30,17 +31,18 @@ struct StarStart {
 class StarExplorer {
  public:
   struct Config {
-    double speed_mps = 2.5;
-    double turn_s = 1.5;  ///< cost of a change of direction, per radian
-    double mate_s = 8.0;  ///< cost of beginning near where another UAV is about to work
-    double cluster_m = 8.0;
-    std::size_t min_cluster = 3;
-    double ring_inner_m = 5.0, ring_outer_m = 11.0;
-    double margin_m = 3.0;  ///< width of the space around a box that is explored with it
-    int refine = 5;
-    int looks = 6;          ///< calls of look() with the cube near by, after which it is given up
-    double retry_s = 15.0;  ///< wait before an unreachable frontier is tried again
-    std::size_t effort = 30'000;
+    double speed_mps = StarConfig().explore_mps;
+    double turn_s = StarConfig().turn_s;  ///< cost of a change of direction, per radian
+    /// Cost of beginning near where another UAV is about to work.
+    double mate_s = StarConfig().resolved().mate_s.value();
+    double cluster_m = StarConfig().cluster_m;
+    std::size_t min_cluster = static_cast<std::size_t>(StarConfig().min_cluster);
+    double ring_inner_m = StarConfig().ring_inner_m, ring_outer_m = StarConfig().ring_outer_m;
+    double margin_m = 3.0;  ///< width of the space around a box that is explored with it; chosen
+    int refine = StarConfig().refine;
+    int looks = StarConfig().looks;  ///< calls of look() with the cube near by, after which it is given up
+    double retry_s = 15.0;           ///< wait before an unreachable frontier is tried again; chosen
+    std::size_t effort = static_cast<std::size_t>(StarConfig().effort);
   };
 
   /// @param grid  only its size is used.

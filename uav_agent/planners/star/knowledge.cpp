@@ -5,9 +5,9 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kFreeAroundM = 0.5;             ///< radius around a cube's centre that must be free
-constexpr std::size_t kExplorersLooks = 20'000;  ///< most unknown cubes that an explorer examines per update
-constexpr std::size_t kOthersLooks = 4'000;      ///< the same for other UAVs, which need free space less soon
+constexpr double kFreeAroundM = 0.5;             ///< radius around a cube's centre that must be free; chosen
+constexpr std::size_t kExplorersLooks = 20'000;  ///< most unknown cubes that an explorer examines per update; chosen
+constexpr std::size_t kOthersLooks = 4'000;      ///< the same for other UAVs, which need free space less soon; chosen
 
 VoxelGrid first_grid(const StarConfig& config, const AgentConfig& agent, const std::vector<OrientedBox>& boxes,
                      double sharp_m) {

@@ -9,11 +9,12 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kAutoVoxelRatio = 0.35, kSmallestVoxelM = 2.0, kLargestVoxelM = 3.0;
-constexpr double kAroundM = 12.0;  ///< margin of the grid around the boxes
-constexpr double kBesideM = 6.0;   ///< distance of a place beside a box from the box's circumscribed circle
-constexpr int kWallDirections = 12;
-constexpr double kAboveFloorM = 2.0;
+constexpr double kAutoVoxelRatio = 0.35;                       ///< edge of a cube by the camera, in units of d*; chosen
+constexpr double kSmallestVoxelM = 2.0, kLargestVoxelM = 3.0;  ///< limits of this edge; chosen
+constexpr double kAroundM = 12.0;                              ///< margin of the grid around the boxes; chosen
+constexpr double kBesideM = 6.0;      ///< distance of a place beside a box from the box's circumscribed circle; chosen
+constexpr int kWallDirections = 12;   ///< places beside a box; chosen
+constexpr double kAboveFloorM = 2.0;  ///< least height of these places above the lowest permitted one; chosen
 
 }  // namespace
 

@@ -33,13 +33,12 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kLookAtMapS = 1.0;        ///< time between two looks at the map
-constexpr std::uint64_t kCameraSteps = 4;  ///< exchanges between two updates from the camera's view
-constexpr double kReachedM = 1.0;          ///< a place nearer than this counts as reached
-constexpr std::size_t kCandidates = 3;     ///< routes offered in one plan, each with another first place
-constexpr int kMaxApproaches = 4;          ///< approaches to a box in which no frontier was found
-constexpr std::size_t kSidesApart = 3;     ///< sides between two approaches, of twelve sides
-constexpr double kCarefulS = 10.0;         ///< after a blocked route, the flight core searches all paths for so long
+constexpr std::uint64_t kCameraSteps = 4;  ///< exchanges between two updates from the camera's view; chosen
+constexpr double kReachedM = 1.0;          ///< a place nearer than this counts as reached; chosen
+constexpr std::size_t kCandidates = 3;     ///< routes offered in one plan, each with another first place; chosen
+constexpr int kMaxApproaches = 4;          ///< approaches to a box in which no frontier was found; chosen
+constexpr std::size_t kSidesApart = 3;     ///< sides between two approaches, of twelve sides; chosen
+constexpr double kCarefulS = 10.0;  ///< after a blocked route, the flight core searches all paths for so long; chosen
 
 }  // namespace
 
@@ -160,7 +159,7 @@ void StarPlanner::survey_site(const PlannerInput& in) {
 void StarPlanner::look_around(const PlannerInput& in) {
   const PartTimer timer(in.parts, "planner/map and pictures");
   if (in.k % kCameraSteps == 0 && in.tracking.airborne) known_->look_at_picture(in.state, in.gimbal);
-  if (agent_.due(in.k, kLookAtMapS, agent_.self)) known_->look_at_map(*in.world_map, in.state.p_WB);
+  if (agent_.due(in.k, WorldVoxels::kUpdateS, agent_.self)) known_->look_at_map(*in.world_map, in.state.p_WB);
 }
 
 /// A failed route is put off, and removed together with those before it, which the flight core has tried before.

@@ -12,13 +12,14 @@ namespace {
 
 using Id = VoxelGrid::Id;
 
-constexpr double kTilt = 0.8;          ///< tangent of the angle between a tilted view and the face's normal
-constexpr double kEnoughShare = 0.85;  ///< the search ends at a view that sees this share of the patch
-constexpr double kImageShare = 0.95;   ///< surface counts as seen within this share of the camera's half angles
-constexpr double kNearShare = 0.75;    ///< the second distance to try, as a share of the stand-off
-constexpr double kSpareM = 0.3;        ///< a viewpoint is at least the clearance plus this from its surface
-constexpr std::size_t kMostTried = 4;  ///< views() tries at most this many patches, times `max_views`
-constexpr int kMostFailures = 12;      ///< further failures do not make the wait before a retry longer
+constexpr double kTilt = 0.8;          ///< tangent of the angle between a tilted view and the face's normal; chosen
+constexpr double kEnoughShare = 0.85;  ///< the search ends at a view that sees this share of the patch; chosen
+constexpr double kImageShare = 0.95;   ///< surface counts as seen within this share of the camera's half angles; chosen
+constexpr double kNearShare = 0.75;    ///< the second distance to try, as a share of the stand-off; chosen
+constexpr double kSpareM = 0.3;        ///< a viewpoint is at least the clearance plus this from its surface; chosen
+constexpr double kRangeRatio = 1.5;    ///< a view sees at least so far, in units of the stand-off; chosen
+constexpr std::size_t kMostTried = 4;  ///< views() tries at most this many patches, times `max_views`; chosen
+constexpr int kMostFailures = 12;      ///< further failures do not make the wait before a retry longer; chosen
 
 /// Whether no occupied cube covers the face; false at the grid's boundary.
 bool exposed(const VoxelGrid& grid, Id id, int face) {
@@ -87,11 +88,11 @@ std::optional<StarView> StarSurfaces::best_view(const VoxelGrid& grid, const Pat
   constexpr double kTilts[][2] = {{0, 0}, {kTilt, 0}, {-kTilt, 0}, {0, kTilt}, {0, -kTilt}};
   const Vector3d out = grid.normal_W(patch.face);
   const Vector3d aside = grid.normal_W((patch.face + 2) % VoxelGrid::kFaces);
-  const Vector3d above = grid.normal_W((patch.face + 4) % VoxelGrid::kFaces);
+  const Vector3d above = grid.normal_W((patch.face + 4) % VoxelGrid::kFaces);  // geometry: each axis has two faces
   const double nearest = space.config().clearance_m + kSpareM;
   const double far = std::max(nearest, config_.standoff_ratio * config_.sharp_m);
   const double near = std::max(nearest, kNearShare * far);
-  const ViewLimits limits{.range_m = std::max(config_.sharp_m, 1.5 * far),
+  const ViewLimits limits{.range_m = std::max(config_.sharp_m, kRangeRatio * far),
                           .half_width = 0.5 * vehicle_.camera.hfov_deg * kRadPerDeg,
                           .half_height = 0.5 * vehicle_.camera.vfov_deg * kRadPerDeg};
   std::optional<StarView> best;

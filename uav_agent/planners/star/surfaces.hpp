@@ -13,6 +13,8 @@
 #include "uav_agent/api/planner.hpp"
 #include "uav_agent/flight/free_space.hpp"
 #include "uav_agent/maps/world_voxels.hpp"
+#include "uav_agent/planners/star/config.hpp"
+#include "uav_agent/planning/strips.hpp"
 
 namespace skein::agent {
 
@@ -26,14 +28,14 @@ struct StarView {
 class StarSurfaces {
  public:
   struct Config {
-    double sharp_m = 7.36;        ///< d*
-    double standoff_ratio = 0.7;  ///< distance of a viewpoint to the surface, in units of d*
-    double seen_ratio = 1.0;      ///< a surface seen from within this, in units of d*, ...
-    double oblique = 1.2;         ///< ... and within this angle of its normal, is inspected
-    double patch_m = 6.0;         ///< largest extent of a patch
-    std::size_t max_views = 150;
-    double retry_s = 10.0;   ///< wait before a face is tried again, times failures to reach its viewpoint
-    double no_view_s = 3.0;  ///< wait for a face without a viewpoint: more space may be proved free by then
+    double sharp_m = CameraReach().sharp_distance_m;  ///< d*
+    double standoff_ratio = 0.7;                  ///< distance of a viewpoint to the surface, in units of d*; chosen
+    double seen_ratio = StarConfig().seen_ratio;  ///< a surface seen from within this, in units of d*, ...
+    double oblique = 1.2;                         ///< ... and within this angle of its normal, is inspected; chosen
+    double patch_m = 6.0;                         ///< largest extent of a patch; chosen
+    std::size_t max_views = static_cast<std::size_t>(StarConfig().max_views);
+    double retry_s = 10.0;   ///< wait before a face is tried again, times failures to reach its viewpoint; chosen
+    double no_view_s = 3.0;  ///< wait for a face without a viewpoint: more space may be proved free by then; chosen
   };
 
   /// @param grid  only its size is used.

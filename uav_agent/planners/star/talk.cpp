@@ -6,8 +6,8 @@ namespace skein::agent {
 namespace {
 
 constexpr std::string_view kName = "star/1";
-constexpr std::uint8_t kExplored = 1, kHasGoal = 2;
-constexpr std::size_t kMaxChunks = 12, kMaxChunkBytes = 6000;  ///< in one message
+constexpr std::uint8_t kExplored = 1, kHasGoal = 2;            ///< bits of a byte; format
+constexpr std::size_t kMaxChunks = 12, kMaxChunkBytes = 6000;  ///< in one message; chosen
 
 MapExchange::Config exchange_config() {
   MapExchange::Config config;

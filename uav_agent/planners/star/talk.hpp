@@ -10,14 +10,15 @@
 
 #include "uav_agent/api/planner.hpp"
 #include "uav_agent/maps/map_exchange.hpp"
+#include "uav_agent/planners/star/config.hpp"
 
 namespace skein::agent {
 
 class StarTalk {
  public:
   struct Config {
-    double share_s = 0.5;   ///< time between two messages
-    double forget_s = 5.0;  ///< age at which another UAV's goal no longer counts
+    double share_s = StarConfig().share_s;  ///< time between two messages
+    double forget_s = 5.0;                  ///< age at which another UAV's goal no longer counts; chosen
   };
 
   /// Content of a UAV's message.

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "uav_agent/api/agent_config.hpp"
-#include "uav_agent/planning/fleet_tours.hpp"
+#include "uav_agent/planners/star/config.hpp"
 
 namespace skein::agent {
 
@@ -24,8 +24,8 @@ std::vector<StarTeam> star_teams(const std::vector<FleetMember>& fleet);
 
 /// How boxes are assigned to teams.
 struct StarShare {
-  double volume_weight = 0.005;  ///< cost of a box: metres of path per cubic metre
-  FleetTourObjective objective = FleetTourObjective::total;
+  double volume_weight = StarConfig().volume_weight;  ///< cost of a box: metres of path per cubic metre
+  FleetTourObjective objective = StarConfig().share;
 };
 
 /// Assigns the boxes to the teams: a multiple travelling salesmen problem of the teams' first UAVs over the boxes'

@@ -9,10 +9,11 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kMovingMps = 0.3;  ///< a slower UAV has no direction to keep
+constexpr double kMovingMps = 0.3;    ///< a slower UAV has no direction to keep; chosen
+constexpr double kSamePlaceM = 1e-6;  ///< numeric: a shorter way has no direction
 
 double turn_between(const Vector3d& v_W, const Vector3d& way_W) {
-  if (v_W.norm() < kMovingMps || way_W.norm() < 1e-6) return 0.0;
+  if (v_W.norm() < kMovingMps || way_W.norm() < kSamePlaceM) return 0.0;
   return std::acos(std::clamp(v_W.normalized().dot(way_W.normalized()), -1.0, 1.0));
 }
 

@@ -9,16 +9,18 @@
 #include <vector>
 
 #include "uav_agent/maps/voxel_grid.hpp"
+#include "uav_agent/planners/star/config.hpp"
 
 namespace skein::agent {
 
 struct StarTourConfig {
-  double speed_mps = 2.0;
-  double turn_s = 1.5;     ///< cost of a change of direction at the start, per radian
-  double radius_m = 10.0;  ///< of a cluster of viewpoints
-  double history_s = 4.0;  ///< cost of another first cluster than in the last plan
-  double mate_s = 8.0;     ///< cost of beginning where another UAV is about to work
-  std::size_t effort = 30'000;
+  double speed_mps = StarConfig().inspect_mps;
+  double turn_s = StarConfig().turn_s;           ///< cost of a change of direction at the start, per radian
+  double radius_m = StarConfig().view_radius_m;  ///< of a cluster of viewpoints
+  double history_s = StarConfig().history_s;     ///< cost of another first cluster than in the last plan
+  /// Cost of beginning where another UAV is about to work.
+  double mate_s = StarConfig().resolved().mate_s.value();
+  std::size_t effort = static_cast<std::size_t>(StarConfig().effort);
 };
 
 /// An order in which a UAV at p_W with velocity v_W visits all places once; it may end anywhere.

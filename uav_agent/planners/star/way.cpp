@@ -8,7 +8,7 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kFarM = 15.0;  ///< a first place farther away is approached with transit_mps
+constexpr double kFarM = 15.0;  ///< a first place farther away is approached with transit_mps; chosen
 
 }  // namespace
 

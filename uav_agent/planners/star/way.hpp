@@ -9,14 +9,15 @@
 
 #include "uav_agent/api/motion.hpp"
 #include "uav_agent/flight/free_space.hpp"
+#include "uav_agent/planners/star/config.hpp"
 
 namespace skein::agent {
 
 struct StarWayConfig {
-  double round_m = 2.0;     ///< how far from a corner the path may leave it to round it
-  double horizon_m = 20.0;  ///< the path ends at the first place beyond this length
-  double speed_mps = 2.0;
-  double transit_mps = 5.0;  ///< speed to a first place that is far away
+  double round_m = StarConfig().round_m;      ///< how far from a corner the path may leave it to round it
+  double horizon_m = StarConfig().horizon_m;  ///< the path ends at the first place beyond this length
+  double speed_mps = StarConfig().inspect_mps;
+  double transit_mps = FlightConfig().approach_mps;  ///< speed to a first place that is far away
 };
 
 /// A path from `from_W` through the first places, as many as can be reached in straight free segments, up to the
