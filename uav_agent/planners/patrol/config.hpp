@@ -4,15 +4,16 @@
 
 #include "core/config/config_reader.hpp"
 #include "uav_agent/flight_core/flight_config.hpp"
+#include "uav_agent/planning/standoff.hpp"
 
 namespace skein::agent {
 
 struct PatrolConfig {
-  bool top = true, bottom = true;  ///< also photograph the boxes' top and bottom faces
-  double standoff_ratio = 0.92;    ///< distance to the surface in units of d*
-  double blind_ratio = 0.55;       ///< distance to a box's face where no surface is mapped
-  double overlap = 0.2;            ///< of neighbouring strips, as a share of their width
-  double speed_gain = 1.0;         ///< in units of the greatest speed without blur
+  bool top = true, bottom = true;                     ///< also photograph the boxes' top and bottom faces
+  double standoff_ratio = StandoffConfig().ratio;     ///< distance to the surface in units of d*
+  double blind_ratio = StandoffConfig().blind_ratio;  ///< distance to a box's face where no surface is mapped
+  double overlap = StripConfig().overlap;             ///< of neighbouring strips, as a share of their width
+  double speed_gain = StandoffConfig().speed_gain;    ///< in units of the greatest speed without blur
   FlightConfig flight = {};
 
   void describe(auto& r) {

@@ -22,12 +22,13 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kRefitS = 2.0;                      ///< time between two refits of the current strip
-constexpr double kRestS = 3.0;                       ///< wait when no strip can be flown
-constexpr double kViewTurns[] = {0.0, 0.45, -0.45};  ///< yaw of the gimbal in successive flights along a strip [rad]
-constexpr int kMaxFailures = 3;        ///< failures in one flight along a strip; the next one ends this flight
-constexpr double kStartHeight = 0.25;  ///< assumed height at which tours begin, as a share of the site's height
-constexpr int kMostTries = 3;          ///< most strips that are fitted in one exchange
+constexpr double kRefitS = 2.0;  ///< time between two refits of the current strip; chosen
+constexpr double kRestS = 3.0;   ///< wait when no strip can be flown; chosen
+/// Yaw of the gimbal in successive flights along a strip [rad]. Chosen.
+constexpr double kViewTurns[] = {0.0, 0.45, -0.45};
+constexpr int kMaxFailures = 3;        ///< failures in one flight along a strip; the next one ends this flight; chosen
+constexpr double kStartHeight = 0.25;  ///< assumed height at which tours begin, as a share of the site's height; chosen
+constexpr int kMostTries = 3;          ///< most strips that are fitted in one exchange; chosen
 
 }  // namespace
 
