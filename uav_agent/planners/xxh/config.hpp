@@ -1,5 +1,6 @@
 // Parameters of the XXH planner (xxh.cpp) and of its program at the ground station: --planner xxh:voxel_m=3,rim_m=5.
-// The table in docs/strategies.md gives the source of each default: paper, public code or our choice.
+// The public code is that of XXH's team. The table in docs/strategies.md gives the source of each default: paper,
+// public code or our choice.
 // Units: SI unless the name says otherwise.
 #pragma once
 
@@ -45,39 +46,43 @@ constexpr std::array<EnumName<XxhWaitAt>, 2> enum_names(XxhWaitAt) {
 /// An optional parameter has two defaults, named in its comment: for faithful=false, true. resolved() fills them in.
 struct XxhConfig {
   // The assignment at the ground station.
-  double freeze_s = 10.0;  ///< time without a new report after which the list of UAVs is closed
+  /// Time without a new report after which the list of UAVs is closed. Chosen as in the public code.
+  double freeze_s = 10.0;
   std::optional<bool> reported_only =
-      {};                           ///< false, true: waits so long even if all have reported, and leaves out the others
-  double assign_every_s = 0.5;      ///< between two publications, as long as a UAV lacks the assignment
-  double assignment_wait_s = 15.0;  ///< after which a UAV computes the assignment itself
-  double split_tolerance = 0.05;    ///< allowed error of a team's share, in shares of all volume; else a box is cut
-  std::optional<int> rounds = {};   ///< 8, 1: rounds through all regions: an early one may find places unreachable
+      {};  ///< false, true: waits so long even if all have reported, and leaves out the others
+  /// Between two publications, as long as a UAV lacks the assignment. Chosen; public code: 0.1.
+  double assign_every_s = 0.5;
+  double assignment_wait_s = 15.0;  ///< after which a UAV computes the assignment itself; chosen
+  /// Allowed error of a team's share, in shares of all volume; else a box is cut. Chosen as in the public code.
+  double split_tolerance = 0.05;
+  std::optional<int> rounds = {};  ///< 8, 1: rounds through all regions: an early one may find places unreachable
 
   // The voxel map of a region.
-  double voxel_m = 2.5, margin_m = 6.0;  ///< edge of a cell; margin around the region
+  double voxel_m = 2.5, margin_m = 6.0;  ///< edge of a cell; margin around the region; chosen as in the public code
 
   // Exploring.
-  double rim_m = 4.0;                     ///< distance from the box to the spiral around it
-  int spiral_step = 6;                    ///< layers between two turns of the spiral
+  double rim_m = 4.0;                     ///< distance from the box to the spiral around it; chosen
+  int spiral_step = 6;                    ///< layers between two turns of the spiral; chosen
   std::optional<XxhBegin> begin = {};     ///< base, path
   std::optional<bool> first_turn = {};    ///< false, true: only the first turn of the spiral in each section
   std::optional<double> retry_s = {};     ///< 30, 0: for this long tries again, if no place of a section was reached
   std::optional<double> time_share = {};  ///< 0.4, 0: of the remaining time, for all sections together; 0: no limit
-  double explore_mps = 4.0;
+  double explore_mps = 4.0;               ///< greatest speed along the spiral; chosen; public code: 2
   std::optional<XxhWaitAt> wait_at = {};  ///< sight, entry
 
   // Inspecting.
-  std::optional<int> layer_step = {};       ///< 1, 3: number of layers of which one is inspected
-  std::optional<XxhOrder> order = {};       ///< spiral, nearest
-  double standoff_ratio = 0.6;              ///< distance to the surface, in units of d*, where there is room
-  double aim_rad = 0.3;                     ///< a target is reached if the camera is this near to its direction ...
-  double settle_mps = 0.4;                  ///< ... and the UAV slower than this
-  double dwell_s = 0.3;                     ///< time for the pictures of a target once it is reached
-  double cell_s = 3.0;                      ///< longest time at one cell
+  std::optional<int> layer_step = {};  ///< 1, 3: number of layers of which one is inspected
+  std::optional<XxhOrder> order = {};  ///< spiral, nearest
+  double standoff_ratio = 0.6;         ///< distance to the surface, in units of d*, where there is room; chosen
+  /// A target is reached if the camera is this near to its direction (chosen as in the public code) ...
+  double aim_rad = 0.3;
+  double settle_mps = 0.4;                  ///< ... and the UAV slower than this; chosen
+  double dwell_s = 0.3;                     ///< time for the pictures of a target once it is reached; chosen
+  double cell_s = 3.0;                      ///< longest time at one cell; chosen as in the public code
   std::optional<double> leader_share = {};  ///< 0.5, 1: of the layers, in units of a follower's; it begins last
 
   // The team.
-  double share_s = 0.5;                     ///< time between two messages
+  double share_s = 0.5;                     ///< time between two messages; chosen
   std::optional<double> claim_s = {};       ///< 3, never: age at which an announced trajectory expires
   std::optional<bool> all_give_way = {};    ///< false, true: UAVs with priority avoid announced trajectories, too
   std::optional<double> silence_s = {};     ///< 45, never: silence of a UAV after which others do not wait for it
@@ -130,21 +135,21 @@ struct XxhConfig {
 inline XxhConfig XxhConfig::resolved() const {
   XxhConfig all = *this;
   fill(all.reported_only, faithful, false, true);
-  fill(all.rounds, faithful, 8, 1);
+  fill(all.rounds, faithful, 8, 1);  // chosen
   fill(all.begin, faithful, XxhBegin::base, XxhBegin::path);
   fill(all.first_turn, faithful, false, true);
-  fill(all.retry_s, faithful, 30.0, 0.0);
-  fill(all.time_share, faithful, 0.4, 0.0);
+  fill(all.retry_s, faithful, 30.0, 0.0);    // chosen
+  fill(all.time_share, faithful, 0.4, 0.0);  // chosen
   fill(all.wait_at, faithful, XxhWaitAt::sight, XxhWaitAt::entry);
   fill(all.layer_step, faithful, 1, 3);
   fill(all.order, faithful, XxhOrder::spiral, XxhOrder::nearest);
   fill(all.leader_share, faithful, 0.5, 1.0);
-  fill(all.claim_s, faithful, 3.0, kNeverS);
+  fill(all.claim_s, faithful, 3.0, kNeverS);  // chosen
   fill(all.all_give_way, faithful, false, true);
-  fill(all.silence_s, faithful, 45.0, kNeverS);
-  fill(all.gather_s, faithful, 60.0, kNeverS);
-  fill(all.hand_over_s, faithful, 25.0, kNeverS);
-  fill(all.look_again_s, faithful, 10.0, kNeverS);
+  fill(all.silence_s, faithful, 45.0, kNeverS);     // chosen
+  fill(all.gather_s, faithful, 60.0, kNeverS);      // chosen
+  fill(all.hand_over_s, faithful, 25.0, kNeverS);   // chosen
+  fill(all.look_again_s, faithful, 10.0, kNeverS);  // chosen
   return all;
 }
 

@@ -5,12 +5,12 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kPassedM = 3.0;     ///< a place nearer than this counts as passed
-constexpr std::size_t kChain = 12;   ///< most places in one goal
-constexpr std::size_t kChoices = 3;  ///< most goals offered, each beginning at another place
-constexpr int kShifts = 2;           ///< most shifts of a place outwards
-constexpr double kShiftM = 4.0;
-constexpr double kInwardsShare = 0.6;  ///< size of the part of the box that the camera looks at
+constexpr double kPassedM = 3.0;       ///< a place nearer than this counts as passed; chosen
+constexpr std::size_t kChain = 12;     ///< most places in one goal; chosen
+constexpr std::size_t kChoices = 3;    ///< most goals offered, each beginning at another place; chosen
+constexpr int kShifts = 2;             ///< most shifts of a place outwards; chosen
+constexpr double kShiftM = 4.0;        ///< length of such a shift; chosen
+constexpr double kInwardsShare = 0.6;  ///< size of the part of the box that the camera looks at; chosen
 
 /// The nearest point of a box that is scaled by `share` about its middle.
 Vector3d nearest_in_box(const OrientedBox& box, const Vector3d& p_W, double share) {

@@ -7,8 +7,8 @@
 namespace skein::agent {
 namespace {
 
-constexpr std::size_t kCandidates = 4;
-constexpr int kPasses = 3;
+constexpr std::size_t kCandidates = 4;  ///< most cells offered to the flight core at once; chosen
+constexpr int kPasses = 3;              ///< over a section's layers, for cells that could not be reached before; chosen
 
 }  // namespace
 

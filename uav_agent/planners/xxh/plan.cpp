@@ -8,7 +8,7 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kSettledM = 1.0;
+constexpr double kSettledM = 1.0;  ///< a report within this distance of the nominal start means that start; chosen
 
 /// Centre of one of the two faces across the longest edge.
 Vector3d end_of(const OrientedBox& box, bool high) {

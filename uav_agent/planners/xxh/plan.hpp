@@ -25,7 +25,7 @@ struct XxhStart {
 
 /// A box, or a slice of one between two planes across its longest edge, and the end at which a team enters it.
 struct XxhRegion {
-  static constexpr int kWhole = 1000;
+  static constexpr int kWhole = 1000;  ///< parts that the longest edge is counted in; chosen
 
   std::size_t box = 0;
   int from = 0, to = kWhole;  ///< along the longest edge, in thousandths from its low end

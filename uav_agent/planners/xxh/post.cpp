@@ -5,12 +5,12 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kPostsApartM = 4.0;  ///< between the posts of two waiting UAVs
-constexpr int kHeights = 6;
-constexpr double kStaysS = 2.0;        ///< time between two renewals of the goal: without one, a recovery begins
-constexpr double kTriesAgainS = 5.0;   ///< pause without a path: the flight core may begin a recovery behaviour
-constexpr std::size_t kMostPosts = 3;  ///< most posts offered to the flight core at once
-constexpr double kRayM = 0.25;         ///< least distance of a line of sight to mapped cells
+constexpr double kPostsApartM = 4.0;  ///< between the posts of two waiting UAVs; chosen
+constexpr int kHeights = 6;           ///< a UAV's posts beside an entry, one above the other; chosen
+constexpr double kStaysS = 2.0;       ///< time between two renewals of the goal: without one, a recovery begins; chosen
+constexpr double kTriesAgainS = 5.0;  ///< pause without a path: the flight core may begin a recovery behaviour; chosen
+constexpr std::size_t kMostPosts = 3;  ///< most posts offered to the flight core at once; chosen
+constexpr double kRayM = 0.25;         ///< least distance of a line of sight to mapped cells; chosen
 
 }  // namespace
 

@@ -4,18 +4,20 @@
 #include <array>
 #include <cmath>
 #include <deque>
+#include <limits>
 #include <numbers>
 #include <tuple>
 
 namespace skein::agent {
 namespace {
 
-constexpr double kPlacesM = 6.0;         ///< distance between two places on the spiral
-constexpr double kSameM = 1.0;           ///< places nearer than this to the last one are left out
-constexpr double kBoxMarginM = 0.5;      ///< surface this far outside the box still belongs to it
-constexpr double kUnknownShare = 0.1;    ///< of its cells, most that may be unknown in an empty section
-constexpr double kTilt = 0.8;            ///< slope of stops above, below and beside the targets
-constexpr std::size_t kMostTries = 120;  ///< cells whose stops are tried in one search
+constexpr double kPlacesM = 6.0;         ///< distance between two places on the spiral; chosen
+constexpr double kSameM = 1.0;           ///< places nearer than this to the last one are left out; chosen
+constexpr double kBoxMarginM = 0.5;      ///< surface this far outside the box still belongs to it; chosen
+constexpr double kUnknownShare = 0.1;    ///< of its cells, most that may be unknown in an empty section; chosen
+constexpr double kTilt = 0.8;            ///< slope of stops above, below and beside the targets; chosen
+constexpr double kSteep = 0.9;           ///< vertical part of a direction that counts as up or down; chosen
+constexpr std::size_t kMostTries = 120;  ///< cells whose stops are tried in one search; chosen
 
 Isometry3d grid_pose(const OrientedBox& box, int axis, bool from_high_end, double margin_m, Vector3d& size_G) {
   const int u = (axis + 1) % 3, w = (axis + 2) % 3;
@@ -133,7 +135,7 @@ std::optional<Vector3d> XxhRegionMap::stop_at(VoxelGrid::Id cell, const std::vec
                                               const FreeSpace& space) const {
   const Vector3d centre = grid_.centre_W(cell);
   Vector3d out = Vector3d::Zero();
-  double depth = 1e9;
+  double depth = std::numeric_limits<double>::infinity();
   for (const XxhTarget& target : targets) {
     out += target.out_W;
     depth = std::min(depth, (centre - target.surface_W).dot(target.out_W));
@@ -143,7 +145,7 @@ std::optional<Vector3d> XxhRegionMap::stop_at(VoxelGrid::Id cell, const std::vec
   out.normalize();
   const double far = std::max(config_.farthest_m, config_.nearest_m), near = config_.nearest_m;
   const Vector3d foot = centre - depth * out;
-  const Vector3d up = Vector3d::UnitZ(), aside = std::abs(out.z()) < 0.9 ? Vector3d(up.cross(out)) : out;
+  const Vector3d up = Vector3d::UnitZ(), aside = std::abs(out.z()) < kSteep ? Vector3d(up.cross(out)) : out;
   for (const double distance : {far, 0.5 * (far + near), near, config_.limit_m}) {
     for (const Vector3d& tilt : {Vector3d(0.0, 0.0, 0.0), up, Vector3d(-up), aside, Vector3d(-aside)}) {
       Vector3d p_W = foot + distance * (out + kTilt * tilt).normalized();
@@ -186,7 +188,8 @@ void XxhRegionMap::sort_around(VoxelGrid::Id from, std::vector<VoxelGrid::Id>& c
   const Vector2d middle = 0.5 * (grid_.dims().head<2>().cast<double>() - Vector2d::Ones());
   const auto off_axis = [&](VoxelGrid::Id id) { return Vector2d(grid_.cell(id).head<2>().cast<double>() - middle); };
   const auto angle = [](const Vector2d& p) { return std::atan2(p.y(), p.x()); };
-  constexpr double kTurn = 2.0 * std::numbers::pi;
+  constexpr double kTurn = 2.0 * std::numbers::pi;  // geometry
+  // Geometry: at least one sector for each of the four sides.
   const int sectors = std::max(4, 2 * static_cast<int>(middle.x() + middle.y()));
   const double begin = angle(off_axis(from));
   std::vector<std::tuple<int, double, VoxelGrid::Id>> keys;

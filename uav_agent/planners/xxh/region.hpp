@@ -36,12 +36,14 @@ struct XxhVisit {
 class XxhRegionMap {
  public:
   struct Config {
-    double voxel_m = 2.5, margin_m = 6.0;      ///< edge of a cell; margin around the region
-    double rim_m = 4.0;                        ///< distance from the box to the spiral
-    int spiral_step = 6;                       ///< layers between two turns of the spiral
-    double lowest_m = 2.5;                     ///< least height of places on the spiral, and of stops
-    double nearest_m = 2.1, farthest_m = 3.7;  ///< distances of a stop to the surface; the farthest is tried first
-    double limit_m = 6.0;                      ///< distance that is tried if there is no room at the others
+    double voxel_m = XxhConfig().voxel_m;       ///< edge of a cell
+    double margin_m = XxhConfig().margin_m;     ///< around the region
+    double rim_m = XxhConfig().rim_m;           ///< distance from the box to the spiral
+    int spiral_step = XxhConfig().spiral_step;  ///< layers between two turns of the spiral
+    double lowest_m = 2.5;                      ///< least height of places on the spiral, and of stops; chosen
+    /// Distances of a stop to the surface; the farthest is tried first. Chosen; worksite.cpp computes them.
+    double nearest_m = 2.1, farthest_m = 3.7;
+    double limit_m = 6.0;  ///< distance that is tried if there is no room at the others; chosen
   };
   /// Layers [first, last).
   struct Section {

@@ -7,16 +7,20 @@ namespace skein::agent {
 namespace {
 
 constexpr std::string_view kWordName = "xxh/1", kPlanName = "xxh-gcs/1";
-constexpr double kTrajectoryGapM = 2.2;  ///< gap between this UAV's body and a body on an announced trajectory
-constexpr double kSpacingM = 2.0;        ///< maximum distance between the centres of successive spheres
-constexpr std::size_t kMaxSpheres = 8;   ///< per trajectory; the UAV will probably change the rest before it flies it
+constexpr double kTrajectoryGapM = 2.2;  ///< gap between this UAV's body and a body on an announced trajectory; chosen
+constexpr double kSpacingM = 2.0;        ///< maximum distance between the centres of successive spheres; chosen
+/// Per trajectory; the UAV will probably change the rest before it flies it. Chosen.
+constexpr std::size_t kMaxSpheres = 8;
+/// Bits of a word's flags; format.
+constexpr int kHasPlan = 1, kAcknowledged = 2, kDone = 4, kFromHighEnd = 8, kDecided = 16;
 
 }  // namespace
 
 void write_word(const XxhWord& word, PayloadWriter& writer) {
   writer.position(word.start_W);
-  writer.u8(static_cast<std::uint8_t>((word.has_plan ? 1 : 0) | (word.acknowledged ? 2 : 0) | (word.done ? 4 : 0) |
-                                      (word.from_high_end ? 8 : 0) | (word.decided ? 16 : 0)));
+  writer.u8(static_cast<std::uint8_t>((word.has_plan ? kHasPlan : 0) | (word.acknowledged ? kAcknowledged : 0) |
+                                      (word.done ? kDone : 0) | (word.from_high_end ? kFromHighEnd : 0) |
+                                      (word.decided ? kDecided : 0)));
   writer.u16(word.region);
   writer.u8(word.explored);
   const std::size_t corners = std::min(word.way_W.size(), XxhWord::kMaxWay);
@@ -28,11 +32,11 @@ std::optional<XxhWord> read_word(PayloadReader& reader) {
   XxhWord word;
   word.start_W = reader.position();
   const int flags = reader.u8();
-  word.has_plan = (flags & 1) != 0;
-  word.acknowledged = (flags & 2) != 0;
-  word.done = (flags & 4) != 0;
-  word.from_high_end = (flags & 8) != 0;
-  word.decided = (flags & 16) != 0;
+  word.has_plan = (flags & kHasPlan) != 0;
+  word.acknowledged = (flags & kAcknowledged) != 0;
+  word.done = (flags & kDone) != 0;
+  word.from_high_end = (flags & kFromHighEnd) != 0;
+  word.decided = (flags & kDecided) != 0;
   word.region = reader.u16();
   word.explored = reader.u8();
   const int corners = reader.u8();

@@ -12,13 +12,14 @@
 #include "uav_agent/api/planner.hpp"
 #include "uav_agent/flight/free_space.hpp"
 #include "uav_agent/maps/map_exchange.hpp"
+#include "uav_agent/planners/xxh/config.hpp"
 #include "uav_agent/planners/xxh/plan.hpp"
 
 namespace skein::agent {
 
 /// A UAV's message, except for the map.
 struct XxhWord {
-  static constexpr std::size_t kMaxWay = 8;
+  static constexpr std::size_t kMaxWay = 8;  ///< most corners of way_W in a message; chosen
 
   Vector3d start_W = Vector3d::Zero();
   bool has_plan = false;
@@ -45,8 +46,9 @@ std::optional<std::pair<std::size_t, XxhWord>> open_word(const RadioMessage& mes
 class XxhTalk {
  public:
   struct Config {
-    double share_s = 0.5;       ///< time between two messages
-    double claim_s = 3.0;       ///< age at which an announced trajectory expires
+    double share_s = XxhConfig().share_s;  ///< time between two messages
+    /// Age at which an announced trajectory expires.
+    double claim_s = XxhConfig().resolved().claim_s.value();
     bool all_give_way = false;  ///< UAVs with priority avoid announced trajectories, too
   };
 

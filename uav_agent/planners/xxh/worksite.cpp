@@ -7,17 +7,15 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kSpareM = 0.4;      ///< distance of stops to structure, beyond the clearance
-constexpr double kRoomM = 1.0;       ///< stops lie so much farther out, where more is proved, if pictures are sharp
-constexpr double kLimitRatio = 1.1;  ///< greatest distance of stops, in units of d*, if there is no better place
-constexpr double kLowestM = 2.5;     ///< least height of places on the spiral and of stops
+constexpr double kSpareM = 0.4;  ///< distance of stops to structure, beyond the clearance; chosen
+constexpr double kRoomM = 1.0;   ///< stops lie so much farther out, where more is proved, if pictures are sharp; chosen
+constexpr double kLimitRatio = 1.1;  ///< greatest distance of stops, in units of d*, without a better place; chosen
 
 XxhRegionMap::Config map_config(const XxhConfig& config, const CameraReach& reach, double clearance_m) {
   XxhRegionMap::Config map;
   map.margin_m = config.margin_m;
   map.rim_m = config.rim_m;
   map.spiral_step = config.spiral_step;
-  map.lowest_m = kLowestM;
   map.nearest_m = clearance_m + kSpareM;
   const double room_m = std::min(map.nearest_m + kRoomM, reach.sharp_distance_m);
   map.farthest_m = std::max({map.nearest_m, room_m, config.standoff_ratio * reach.sharp_distance_m});

@@ -17,6 +17,7 @@
 // its commands at the edge of the controller's timeout (here they go out once per exchange), and a UAV name that its
 // code does not know.
 #include <algorithm>
+#include <limits>
 #include <string>
 
 #include "uav_agent/api/planner.hpp"
@@ -32,12 +33,13 @@
 namespace skein::agent {
 namespace {
 
-constexpr std::size_t kMostUavsOfXxh = 255;  ///< messages about teams have a byte for the number of a UAV
-constexpr double kLookAtMapS = 1.0;          ///< time between two looks at the map
-constexpr int kFruitless = 8;                ///< after so many unreachable choices in a row, the flight core ...
-constexpr double kGivesWayS = 5.0;           ///< ... has so much time to take the UAV elsewhere
-constexpr double kSeekFootS = 40.0;          ///< longest time to prove free space at the foot of an upright region
-constexpr double kFreshS = 10.0;  ///< after a restart in flight: the others' reports may tell the team's region
+/// Messages about teams have a byte for the number of a UAV.
+constexpr std::size_t kMostUavsOfXxh = std::numeric_limits<std::uint8_t>::max();
+constexpr int kFruitless = 8;        ///< after so many unreachable choices in a row (chosen), the flight core ...
+constexpr double kGivesWayS = 5.0;   ///< ... has so much time to take the UAV elsewhere; chosen
+constexpr double kSeekFootS = 40.0;  ///< longest time to prove free space at the foot of an upright region; chosen
+constexpr double kFreshS =
+    10.0;  ///< so long after a restart in flight, others' reports may tell the team's region; chosen
 
 }  // namespace
 
@@ -145,7 +147,7 @@ void XxhPlanner::prepare(const PlannerInput& in) {
     assigned_at_ = in.tick;
     enter_region(0, in);
   }
-  if (!site_.shared_grid() || !agent_.due(in.k, kLookAtMapS, agent_.self)) return;
+  if (!site_.shared_grid() || !agent_.due(in.k, WorldVoxels::kUpdateS, agent_.self)) return;
   const PartTimer timer(in.parts, "planner/map");
   site_.map().update(*in.world_map);
 }
