@@ -12,7 +12,6 @@
 // The flight core does the flying (flight_core/flight_core.hpp); docs/flock.md tells how well it works.
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "core/math/euler.hpp"
 #include "uav_agent/api/planner.hpp"
@@ -27,6 +26,7 @@
 #include "uav_agent/planners/flock/talk.hpp"
 #include "uav_agent/planners/flock/trail.hpp"
 #include "uav_agent/planners/flock/views.hpp"
+#include "uav_agent/planners/flock/work.hpp"
 #include "uav_agent/planning/strips.hpp"
 
 namespace skein::agent {
@@ -38,12 +38,9 @@ constexpr double kRestS = 0.5;             ///< time between two decisions while
 constexpr std::size_t kMostLegs = 3;
 constexpr int kTries = 4;               ///< most routes tried in a decision, if there is no way to the first view
 constexpr double kAimAheadS = 0.9;      ///< so long before a view, the camera turns to it
-constexpr double kPointsPerS = 1.2;     ///< points that a UAV photographs where there are enough
-constexpr double kGoodRate = 3.0;       ///< gain that a route promises where there are enough points [points/s]
 constexpr double kSeekAfterS = 4.0;     ///< after resting for so long, the flight core searches paths to ...
 constexpr std::size_t kMostSought = 4;  ///< ... so many views, ...
 constexpr double kSeekS = 12.0;         ///< ... and after this time to others
-constexpr double kRateShare = 0.15;     ///< weight of a new decision in the moving average
 
 }  // namespace
 
@@ -72,7 +69,6 @@ class FlockPlanner final : public Planner {
   void carry_on(const PlannerInput& in, PlannerOutput& out);
   void note_picture(const FlockView::Sight& sight);
   void glance(const PlannerInput& in, PlannerOutput& out);
-  double lack_of_work(const PlannerInput& in, const FlockTargets& targets) const;
   std::vector<FlockView> find_views(const PlannerInput& in);
   void decide(const PlannerInput& in, PlannerOutput& out);
   std::optional<std::vector<Vector3d>> way_W(const PlannerInput& in, const Vector3d& to_W) const;
@@ -95,8 +91,8 @@ class FlockPlanner final : public Planner {
   bool rests_ = false;
   FlockStay stay_;
   Tick planned_at_ = 0, glance_until_ = 0, sought_at_ = 0;
-  double rate_ = 0.0, best_rate_ = kGoodRate;  ///< gain that its routes promise: average, and best average [points/s]
-  bool glances_ = false;                       ///< the camera looks elsewhere than the route's first view
+  FlockWork work_;
+  bool glances_ = false;  ///< the camera looks elsewhere than the route's first view
   FlockTrail trail_;
   Vector3d rest_W_ = Vector3d::Zero();
   std::optional<FlockView> lookout_;  ///< where it waits for its camera to work again
@@ -109,7 +105,11 @@ PlannerOutput FlockPlanner::plan(const PlannerInput& in) {
   talk_.listen(in, surfaces_->grid(), surfaces_->points());
   look_around(in);
   for (const Outcome& outcome : in.flight.outcomes) handle_outcome(outcome, in);
-  in.flight.working ? carry_on(in, out) : route_.clear();
+  if (in.flight.working) {
+    carry_on(in, out);
+  } else {
+    route_.clear();
+  }
   talk_.speak(in, surfaces_->told_grid(), surfaces_->points(), own_word(), out);
   return out;
 }
@@ -220,20 +220,6 @@ void FlockPlanner::glance(const PlannerInput& in, PlannerOutput& out) {
   out.gimbal = best->aim_W;
 }
 
-/// How short work is, from 0 to 1, which decides what surveying is worth to an explorer. The greater of two numbers:
-/// the share of what the fleet can photograph in the remaining time that is not found yet; and the relative loss of the
-/// gain per second that routes promise, compared with the best so far.
-double FlockPlanner::lack_of_work(const PlannerInput& in, const FlockTargets& targets) const {
-  const std::vector<double> rates = talk_.rates(in.tick);
-  const double others = std::accumulate(rates.begin(), rates.end(), 0.0);
-  const double pays = (rate_ + others) / (1.0 + static_cast<double>(rates.size())) / best_rate_;
-  double open = 0.0;
-  for (const FlockTarget& target : targets.all()) open += target.open();
-  const double left_s = in.mission_remaining_s.value_or(agent_.duration_s);
-  const double capacity = kPointsPerS * left_s * static_cast<double>(agent_.fleet.size());
-  return std::clamp(1.0 - std::min(open / std::max(1.0, capacity), pays), 0.0, 1.0);
-}
-
 /// Finds the targets, and views of them. Without a camera, there is no view to take; the targets are then all known
 /// points, at which the UAV glances: one that it detects proves that the camera works again.
 std::vector<FlockView> FlockPlanner::find_views(const PlannerInput& in) {
@@ -275,10 +261,10 @@ void FlockPlanner::decide(const PlannerInput& in, PlannerOutput& out) {
                       config_.depth, current);
   };
   FlockRoute route = best_route();
-  if (!camera_.failed()) rate_ += kRateShare * (route.rate() - rate_);
-  best_rate_ = std::max(best_rate_, rate_);
+  if (!camera_.failed()) work_.note(route.rate());
   if (has_lidar()) {
-    const double lack = camera_.failed() ? 1.0 : lack_of_work(in, targets);
+    const double left_s = in.mission_remaining_s.value_or(agent_.duration_s);
+    const double lack = camera_.failed() ? 1.0 : work_.lack(talk_.rates(in.tick), targets, left_s, agent_.fleet.size());
     const std::size_t pictures = views.size();
     timed(in.parts, "planner/survey", [&] { views_.find_gaps(*surfaces_, *in.space, here_W, lack, views); });
     const auto gaps = views.begin() + static_cast<std::ptrdiff_t>(pictures);
@@ -386,7 +372,7 @@ void FlockPlanner::rest(const PlannerInput& in, std::vector<Vector3d> sought_W, 
 
 FlockWord FlockPlanner::own_word() const {
   if (camera_.failed()) return {};  // a claim is a promise of pictures
-  FlockWord word{.rate = rate_};
+  FlockWord word{.rate = work_.rate()};
   for (const FlockView& view : route_) {
     if (word.claims.size() < FlockTalk::kMostClaims) word.claims.push_back({view.p_WB, view.aim_W});
   }
