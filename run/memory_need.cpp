@@ -3,16 +3,12 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
+#include <string>
 
 #include "core/types.hpp"
 #include "process/host/memory.hpp"
 
 namespace skein::cli {
-namespace {
-
-double megabytes(std::uint64_t bytes) { return 1e-6 * static_cast<double>(bytes); }
-
-}  // namespace
 
 std::uint64_t memory_need(const FleetPlan& plan) {
   const auto flies = [&](const UavPlanner& planner) { return takes_part(plan, planner.uav); };
@@ -21,14 +17,11 @@ std::uint64_t memory_need(const FleetPlan& plan) {
 }
 
 void check_memory(const FleetPlan& plan, const std::optional<std::uint64_t>& left) {
-  const std::uint64_t need = memory_need(plan);
-  if (!left || plan.options.place.at || need <= *left) return;
-  throw InputError(
-      fmt::format("a fleet of {} UAVs needs about {:.0f} MB of memory, and this host has {:.0f} MB left: end other "
-                  "programs, or fly "
-                  "fewer UAVs (--uavs){}",
-                  plan.scenario.fleet.size(), megabytes(need), megabytes(*left),
-                  plan.options.one_process ? "" : ", or in one process (--one-process)"));
+  const std::string shortage = memory_shortage(memory_need(plan), left);
+  if (plan.options.place.at || shortage.empty()) return;
+  throw InputError(fmt::format("a fleet of {} UAVs {}: end other programs, or fly fewer UAVs (--uavs){}",
+                               plan.scenario.fleet.size(), shortage,
+                               plan.options.one_process ? "" : ", or in one process (--one-process)"));
 }
 
 }  // namespace skein::cli

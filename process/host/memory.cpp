@@ -1,7 +1,8 @@
 #include "process/host/memory.hpp"
 
+#include <spdlog/fmt/fmt.h>
+
 #include <fstream>
-#include <string>
 
 namespace skein {
 
@@ -16,6 +17,13 @@ std::optional<std::uint64_t> memory_left() {
     if (key == "SwapFree:") swap = kBytesPerKb * kb;
   }
   return available ? std::optional(*available + swap) : std::nullopt;
+}
+
+std::string memory_shortage(std::uint64_t need, const std::optional<std::uint64_t>& left) {
+  if (!left || need <= *left) return "";
+  const auto megabytes = [](std::uint64_t bytes) { return 1e-6 * static_cast<double>(bytes); };
+  return fmt::format("needs about {:.0f} MB of memory, and this host has {:.0f} MB left", megabytes(need),
+                     megabytes(*left));
 }
 
 }  // namespace skein

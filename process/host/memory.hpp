@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string>
 
 namespace skein {
 
@@ -19,5 +20,10 @@ constexpr std::uint64_t fleet_memory(std::size_t uavs) { return (90 + 9 * uavs) 
 constexpr std::uint64_t one_process_memory(std::size_t uavs) {
   return (55 + 8 * uavs) * 1'000'000 + 7'000 * uavs * uavs;
 }
+
+/// Why a fleet that needs so much memory does not fit, without a subject: "needs about 990 MB of memory, and this host
+/// has 500 MB left". Empty if it fits, or if `left` is unknown.
+/// @param need, left  [bytes].
+std::string memory_shortage(std::uint64_t need, const std::optional<std::uint64_t>& left);
 
 }  // namespace skein
