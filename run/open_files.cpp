@@ -47,10 +47,6 @@ OpenFilesNeed open_files_need(const FleetPlan& plan) {
   return {least, std::max(least, server.ample)};
 }
 
-std::string check_open_files(const FleetPlan& plan, std::uint64_t limit) {
-  return judge_open_files_limit(fleet_text(plan), open_files_need(plan), limit);
-}
-
 std::string allow_open_files(const FleetPlan& plan) {
   return provide_open_files(fleet_text(plan), open_files_need(plan));
 }

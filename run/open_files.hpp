@@ -18,16 +18,12 @@ constexpr std::uint64_t open_files_of_watcher(std::uint64_t programs, std::uint6
 /// How many open files the process of the fleet with most of them needs.
 OpenFilesNeed open_files_need(const FleetPlan& plan);
 
-/// @param limit  open files that a process may have.
-/// @returns a warning when `limit` may be too low; empty: it is not.
+/// Raises this process's limit, which the programs inherit, to what the fleet needs, as far as the system permits. Of a
+/// fleet on several hosts (--place), this is about the programs on this host; the others need less, raise their limits
+/// themselves, and say so if they cannot. The usual limit of 1024 is there for programs that call select(), which takes
+/// no greater descriptors. Of a fleet's programs, only those over Cyclone DDS call it, and they need fewer.
+/// @returns a warning when the limit may still be too low; empty: it is not.
 /// @throws InputError that names the limit and the need when the fleet cannot start.
-std::string check_open_files(const FleetPlan& plan, std::uint64_t limit);
-
-/// Raises this process's limit, which the programs inherit, to what the fleet needs, as far as the system permits, and
-/// checks it as above. Of a fleet on several hosts (--place), this is about the programs on this host; the others need
-/// less, raise their limits themselves, and say so if they cannot. The usual limit of 1024 is there for programs that
-/// call select(), which takes no greater descriptors. Of a fleet's programs, only those over Cyclone DDS call it, and
-/// they need fewer.
 std::string allow_open_files(const FleetPlan& plan);
 
 /// The same for the launcher alone, whose fleet flies in containers: their limits are the engine's.

@@ -20,22 +20,26 @@ FleetPlan fleet_of_five(bool one_process) {
   return plan;
 }
 
+std::string judge(const FleetPlan& plan, std::uint64_t limit) {
+  return judge_open_files_limit("the fleet", open_files_need(plan), limit);
+}
+
 TEST(OpenFilesOfAFleet, ALimitThatIsTooLowIsNamedWithTheNeed) {
   for (const bool one_process : {false, true}) {
     const FleetPlan plan = fleet_of_five(one_process);
     const OpenFilesNeed need = open_files_need(plan);
     try {
-      check_open_files(plan, 20);
+      judge(plan, 20);
       ADD_FAILURE() << "the fleet would fail in its middle";
     } catch (const InputError& error) {
       const std::string said = error.what();
       EXPECT_NE(said.find("a process may have 20 open files (ulimit -n)"), std::string::npos) << said;
       EXPECT_NE(said.find("`ulimit -n " + std::to_string(need.ample) + "`"), std::string::npos) << said;
     }
-    EXPECT_THROW(check_open_files(plan, need.least - 1), InputError);
-    EXPECT_NE(check_open_files(plan, need.least), "") << "a warning";
-    EXPECT_NE(check_open_files(plan, need.ample - 1), "");
-    EXPECT_EQ(check_open_files(plan, need.ample), "");
+    EXPECT_THROW(judge(plan, need.least - 1), InputError);
+    EXPECT_NE(judge(plan, need.least), "") << "a warning";
+    EXPECT_NE(judge(plan, need.ample - 1), "");
+    EXPECT_EQ(judge(plan, need.ample), "");
   }
 }
 
@@ -103,9 +107,9 @@ TEST(OpenFilesOfAFleet, OnlyOverFastDdsALargeFleetNeedsMoreThanTheUsualLimit) {
   plan.scenario.fleet.resize(128);
   for (int uav = 0; uav < 128; ++uav) plan.planners.push_back({"uav" + std::to_string(uav), "hover"});
   EXPECT_LT(open_files_need(plan).least, std::uint64_t{FD_SETSIZE});
-  EXPECT_NO_THROW(check_open_files(plan, 1024));
+  EXPECT_NO_THROW(judge(plan, 1024));
   plan.options.dds = "fastdds";
-  EXPECT_THROW(check_open_files(plan, 1024), InputError);
+  EXPECT_THROW(judge(plan, 1024), InputError);
 }
 
 }  // namespace

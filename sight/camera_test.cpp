@@ -53,8 +53,8 @@ enum class Verdict { hidden, seen, open };
 
 Verdict judge(const InterestPoint& point, const CameraState& state, const TriangleMesh& mesh) {
   const Vector3d p_W = point.p_W.cast<double>();
-  const PointQuality quality =
-      evaluate_point(state, CameraConfig{}, kDesired, p_W, point.n_W.cast<double>(), ResolutionRule::contest);
+  const Exposure exposure(state, CameraConfig{}, kDesired, ResolutionRule::contest);
+  const PointQuality quality = exposure.evaluate(p_W, point.n_W.cast<double>());
   if (!quality.in_search_radius || !quality.in_fov || !quality.score || *quality.score < 0.2) {
     return Verdict::hidden;
   }
@@ -83,13 +83,13 @@ TEST(Camera, SeesWhatBruteForceSees) {
     const RigidBodyState body = random_state(random, {-18.0, -18.0, 25.0}, {18.0, 18.0, 55.0});
     const GimbalState gimbal{random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0), 0.0, 0.0};
     const CameraState state = camera_state(body, gimbal, CameraConfig{});
+    const Exposure exposure(state, CameraConfig{}, kDesired, ResolutionRule::contest);
     const Capture capture = camera.capture(0, body, gimbal, world);
     std::vector<bool> found(points.size(), false);
     for (const Detection& detection : capture.detections) {
       found[detection.point] = true;
       const auto& point = points[detection.point];
-      const PointQuality quality = evaluate_point(state, CameraConfig{}, kDesired, point.p_W.cast<double>(),
-                                                  point.n_W.cast<double>(), ResolutionRule::contest);
+      const PointQuality quality = exposure.evaluate(point.p_W.cast<double>(), point.n_W.cast<double>());
       EXPECT_NEAR(detection.q, *quality.score, 1e-12);
       EXPECT_NEAR(detection.q, detection.q_blur * detection.q_res, 1e-12);
     }

@@ -143,9 +143,4 @@ PointQuality Exposure::evaluate(const Vector3d& p_W, const Vector3d& n_W) const 
   return quality;
 }
 
-PointQuality evaluate_point(const CameraState& state, const CameraConfig& camera, double desired_mm_per_pixel,
-                            const Vector3d& p_W, const Vector3d& n_W, ResolutionRule rule) {
-  return Exposure(state, camera, desired_mm_per_pixel, rule).evaluate(p_W, n_W);
-}
-
 }  // namespace skein

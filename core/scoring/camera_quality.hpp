@@ -108,8 +108,4 @@ class Exposure {
   ResolutionRule rule_;
 };
 
-/// Quality of one point in one exposure. For many points, use Exposure. Pure.
-PointQuality evaluate_point(const CameraState& state, const CameraConfig& camera, double desired_mm_per_pixel,
-                            const Vector3d& p_W, const Vector3d& n_W, ResolutionRule rule);
-
 }  // namespace skein

@@ -17,7 +17,8 @@ constexpr double kDesired = 2.0;
 PointQuality look(double distance, double wall_turn, ResolutionRule rule, const Vector3d& v_WC = Vector3d::Zero()) {
   CameraState state;
   state.v_WC = v_WC;
-  return evaluate_point(state, {}, kDesired, {distance, 0, 0}, rotation_z(wall_turn) * Vector3d(-1, 0, 0), rule);
+  const Exposure exposure(state, CameraConfig(), kDesired, rule);
+  return exposure.evaluate({distance, 0, 0}, rotation_z(wall_turn) * Vector3d(-1, 0, 0));
 }
 
 TEST(CameraQuality, ResolutionIsJustMetAtTheResolutionDistance) {
@@ -60,24 +61,25 @@ TEST(CameraQuality, MoreThanOnePixelOfMotionBlurs) {
 TEST(CameraQuality, SignOfTheNormalDoesNotMatter) {
   for (const auto rule : {ResolutionRule::contest, ResolutionRule::paper}) {
     const Vector3d p(6, 1, -2), n = Vector3d(-1, 0.4, 0.3).normalized();
-    EXPECT_EQ(evaluate_point({}, {}, kDesired, p, n, rule).score, evaluate_point({}, {}, kDesired, p, -n, rule).score);
+    const Exposure exposure(CameraState(), CameraConfig(), kDesired, rule);
+    EXPECT_EQ(exposure.evaluate(p, n).score, exposure.evaluate(p, -n).score);
   }
 }
 
 TEST(CameraQuality, PaperRuleNeverScoresLowerThanTheContestRule) {
+  const Exposure by_contest(CameraState(), CameraConfig(), kDesired, ResolutionRule::contest);
+  const Exposure by_paper(CameraState(), CameraConfig(), kDesired, ResolutionRule::paper);
   for (int i = 0; i < 200; ++i) {
     const Vector3d n = rotation_z(0.37 * i) * rotation_y(0.11 * i) * Vector3d(-1, 0, 0);
     const Vector3d p(5.0, 3.0 * std::sin(i), 2.0 * std::cos(i));
-    const auto contest = evaluate_point({}, {}, kDesired, p, n, ResolutionRule::contest);
-    const auto paper = evaluate_point({}, {}, kDesired, p, n, ResolutionRule::paper);
-    EXPECT_GE(*paper.q_res, *contest.q_res - 1e-12) << n.transpose();
+    EXPECT_GE(*by_paper.evaluate(p, n).q_res, *by_contest.evaluate(p, n).q_res - 1e-12) << n.transpose();
   }
 }
 
 TEST(CameraQuality, EdgeOnSurfaceHasNoResolution) {
   for (const auto rule : {ResolutionRule::contest, ResolutionRule::paper}) {
-    const auto quality = evaluate_point({}, {}, kDesired, {5, 0, 0}, {0, 1, 0}, rule);
-    EXPECT_LT(*quality.score, 1e-9);
+    const Exposure exposure(CameraState(), CameraConfig(), kDesired, rule);
+    EXPECT_LT(*exposure.evaluate({5, 0, 0}, {0, 1, 0}).score, 1e-9);
   }
 }
 

@@ -81,7 +81,8 @@ class Wind {
   const Vector3d& velocity_W() const { return velocity_W_; }
   /// The UAV's estimate of velocity_W(): low-pass filtered, and with a Gauss-Markov error [m/s].
   Vector3d estimate_W() const { return lagging_W_ + error_W_; }
-  /// Direction in which the mean wind blows: a horizontal unit vector.
+  /// Direction in which the mean wind blows: a horizontal unit vector. For tests, which separate the gusts along it
+  /// from those across it.
   const Vector3d& along_W() const { return along_W_; }
 
  private:

@@ -103,7 +103,7 @@ class Vehicle {
   const ControlDemand& demand() const { return demand_; }
   /// Demanded acceleration of that step; z includes gravity [m/s^2].
   const Vector3d& target_acceleration() const { return position_control_.target_acceleration(); }
-  const RotorSpeeds& rotor_speeds() const { return rotors_.speeds(); }
+  const RotorSpeeds& rotor_speeds() const { return rotors_.speeds(); }  ///< for tests of thrust and of lost rotors
   std::array<double, kRotors> rotor_thrusts_n() const { return rotors_.thrusts_n(); }
 
  private:

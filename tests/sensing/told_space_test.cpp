@@ -87,8 +87,7 @@ TEST_P(ToldSpace, APhotographerKnowsWhatItsExplorerKnowsAfterTenSeconds) {
     }
     const double share = known_share(radio.map(1), cubes);
     std::cout << flight.name << ", " << link.name << ": " << share << " of " << cubes.size() << " cubes, 0.95 after "
-              << needed_s << " s; " << radio[0].news->bytes_to(1) << " bytes there, " << radio[1].news->bytes_to(0)
-              << " back\n";
+              << needed_s << " s; " << radio[0].bytes_sent() << " bytes there, " << radio[1].bytes_sent() << " back\n";
     EXPECT_GE(share, 0.95) << link.name;
     EXPECT_LE(static_cast<double>(radio.most_bytes_in_a_second()), link.bytes_per_s) << link.name;
   }

@@ -44,7 +44,8 @@ class KnownSpace {
   /// Calls `visit` with the centre of each occupied cell in an axis-aligned box of W, given by two corners.
   void visit_hits(const Vector3d& lowest_W, const Vector3d& highest_W,
                   const std::function<void(const Vector3d&)>& visit) const;
-  /// Calls `visit` with each coarse cell that rays passed, and their number.
+  /// Calls `visit` with each coarse cell that rays passed, and their number. For tests, which compare the OctoMap tree
+  /// with its index, rays().
   void visit_free(const std::function<void(const RayBlocks::Cell&, int)>& visit) const;
 
   /// Both trees merged, in OctoMap's binary serialisation: occupied where there are hits, else free where at least

@@ -180,10 +180,8 @@ bool MapNews::write(const WorldMap& map, const Peers& peers, const std::optional
     told_.sent(++number_, news, listeners, now);
   }
   writer.bytes(payload.data());
-  const std::size_t bytes = link_bytes(payload);
-  for (const ToldChunks::Listener& listener : listeners) others_[listener.slot].bytes += bytes;
   while (!sent_.empty() && sent_.front().first <= now - kTicksPerSecond) sent_.pop_front();
-  sent_.emplace_back(now, bytes);
+  sent_.emplace_back(now, link_bytes(payload));
   written_ = now;
   owes_receipt_ = false;
   return true;

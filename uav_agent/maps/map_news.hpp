@@ -57,12 +57,6 @@ class MapNews {
   /// this UAV or not in the fleet.
   bool read(std::size_t sender, Tick now, WorldMap& map, PayloadReader& reader);
 
-  /// Bytes on the link to a UAV: of all messages that were sent while it was in line of sight.
-  std::uint64_t bytes_to(std::size_t uav) const {
-    const auto slot = met_.slot_of(uav);
-    return slot && *slot < others_.size() ? others_[*slot].bytes : 0;
-  }
-
  private:
   struct Receipt {  ///< which messages of `uav` have arrived at the sender of the receipt
     std::size_t uav = 0;
@@ -82,7 +76,6 @@ class MapNews {
     bool restarted = false;  ///< its present program may not know what its former one told
     std::optional<Vector3d> going_to_W = {};
     Tellers hears = 0;  ///< UAVs that it hears, and that this UAV has heard, too
-    std::uint64_t bytes = 0;
   };
 
   static void append(const Message& message, double cell_m, std::size_t fleet, PayloadWriter& writer);

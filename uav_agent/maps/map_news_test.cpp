@@ -167,12 +167,6 @@ TEST(MapNews, NewsOfUnknownSpaceComesBeforeNewsOfPartlyKnownSpace) {
   EXPECT_FALSE(radio.knows_all_of(0, 1)) << "the test has a backlog";
 }
 
-std::size_t bytes_sent(NewsRadio& radio, std::size_t uav) {
-  std::size_t bytes = 0;
-  for (const test::NewsUav::Sent& sent : radio[uav].sent) bytes += sent.bytes;
-  return bytes;
-}
-
 TEST(MapNews, IsToldOnceToAllAndNotBackAndPassedOnOnlyToThoseThatDoNotHearTheTeller) {
   for (const bool row : {false, true}) {
     NewsRadio::Config config;
@@ -181,21 +175,19 @@ TEST(MapNews, IsToldOnceToAllAndNotBackAndPassedOnOnlyToThoseThatDoNotHearTheTel
     if (row) radio.linked = [](std::size_t i, std::size_t j) { return i + 1 == j || j + 1 == i; };
     for (int i = 0; i < 40; ++i) radio.exchange();  // they hear of each other
     std::size_t before[4];
-    for (std::size_t uav = 0; uav < 4; ++uav) before[uav] = bytes_sent(radio, uav);
+    for (std::size_t uav = 0; uav < 4; ++uav) before[uav] = radio[uav].bytes_sent();
     RandomStream random(3, "news_relay", 0);
     draw_space(*radio[0].map, random, Vector3d::Zero(), 30.0, 4000);
     const int exchanges = radio.exchanges_to_agree(400);
     ASSERT_LT(exchanges, 400);
     const double receipts = 160.0 * 5.0 * kTickS * test::kNewsExchange * exchanges;
-    const double news = static_cast<double>(bytes_sent(radio, 0) - before[0]);
+    const double news = static_cast<double>(radio[0].bytes_sent() - before[0]);
     EXPECT_GT(news, 8.0 * receipts) << "the test has something to tell";
     for (std::size_t uav = 1; uav < 4; ++uav) {
-      const double sent = static_cast<double>(bytes_sent(radio, uav) - before[uav]);
+      const double sent = static_cast<double>(radio[uav].bytes_sent() - before[uav]);
       EXPECT_EQ(sent > receipts, row && uav < 3) << row << " " << uav << ": " << sent;
       EXPECT_LT(sent, 1.3 * news + receipts);
     }
-    EXPECT_GE(radio[0].news->bytes_to(1), bytes_sent(radio, 0)) << "what it counts is no less";
-    EXPECT_EQ(radio[0].news->bytes_to(3) > 0, !row);
   }
 }
 
@@ -205,13 +197,13 @@ TEST(MapNews, AUavThatHasNothingToTellIsNearlySilent) {
   draw_space(*radio[0].map, random, Vector3d::Zero(), 30.0, 1000);
   ASSERT_LT(radio.exchanges_to_agree(400), 400);
   for (int i = 0; i < 100; ++i) radio.exchange();
-  const std::size_t before = bytes_sent(radio, 0) + bytes_sent(radio, 1);
+  const std::size_t before = radio[0].bytes_sent() + radio[1].bytes_sent();
   for (int i = 0; i < 200; ++i) radio.exchange();
-  EXPECT_LE(bytes_sent(radio, 0) + bytes_sent(radio, 1) - before, 10U * 2U * 90U);
+  EXPECT_LE(radio[0].bytes_sent() + radio[1].bytes_sent() - before, 10U * 2U * 90U);
   NewsRadio alone({}, 4);
   alone.linked = [](std::size_t, std::size_t) { return false; };
   for (int i = 0; i < 100; ++i) alone.exchange();
-  EXPECT_EQ(bytes_sent(alone, 0), 0U) << "nobody is in sight";
+  EXPECT_EQ(alone[0].bytes_sent(), 0U) << "nobody is in sight";
 }
 
 TEST(MapNews, AChunkThatChangesAllTheTimeIsToldOnceASecond) {
@@ -308,9 +300,9 @@ TEST(MapNews, ADamagedNumberDoesNotKeepATellerTelling) {
   EXPECT_TRUE(radio.knows_all_of(1, 0)) << "these were taken in";
   radio.damage = nullptr;
   for (int i = 0; i < 100; ++i) radio.exchange();
-  const std::size_t before = bytes_sent(radio, 0);
+  const std::size_t before = radio[0].bytes_sent();
   for (int i = 0; i < 200; ++i) radio.exchange();
-  EXPECT_LE(bytes_sent(radio, 0) - before, 11U * 90U);
+  EXPECT_LE(radio[0].bytes_sent() - before, 11U * 90U);
 }
 
 TEST(MapNews, UavsOfALargeFleetShareTheirMaps) {

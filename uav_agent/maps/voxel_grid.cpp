@@ -129,12 +129,6 @@ bool VoxelGrid::raise(Id id, VoxelState to) {
 
 bool VoxelGrid::mark(Id id, int face) { return set(id, static_cast<std::uint8_t>(voxels_[id] | mark_bit(face))); }
 
-void VoxelGrid::forget_occupied(const std::function<bool(Id)>& seen) {
-  for (Id id = 0; id < count(); ++id) {
-    if (state(id) == VoxelState::occupied && seen(id)) set(id, static_cast<std::uint8_t>(voxels_[id] & ~kStateBits));
-  }
-}
-
 std::vector<VoxelGrid::Id> VoxelGrid::take_changed() { return std::exchange(changed_, {}); }
 
 void VoxelGrid::along(const Vector3d& a_W, const Vector3d& b_W, const std::function<bool(Id)>& visit) const {

@@ -64,8 +64,6 @@ class VoxelGrid {
   /// raise() sets a state if it is greater than the present one. Both return whether they changed anything.
   bool raise(Id id, VoxelState state);
   bool mark(Id id, int face);
-  /// Makes occupied cubes unknown where `seen` is true. Only for a copy: a grid that is exchanged must not forget.
-  void forget_occupied(const std::function<bool(Id)>& seen);
   /// Cubes whose state has changed since the last call, in the order of change; a cube may occur twice.
   std::vector<Id> take_changed();
   /// Grows whenever anything changes.

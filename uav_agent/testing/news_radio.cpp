@@ -80,6 +80,12 @@ int NewsRadio::exchanges_to_agree(int most) {
   return exchanges;
 }
 
+std::size_t NewsUav::bytes_sent() const {
+  std::size_t bytes = 0;
+  for (const Sent& one : sent) bytes += one.bytes;
+  return bytes;
+}
+
 std::size_t NewsRadio::most_bytes_in_a_second() const {
   std::size_t most = 0;
   for (const NewsUav& uav : uavs_) {

@@ -26,6 +26,8 @@ struct NewsUav {
     std::size_t bytes = 0;  ///< as a link carries them
   };
   std::vector<Sent> sent = {};
+
+  std::size_t bytes_sent() const;
 };
 
 /// Whether each cube that is free at `teller` is free or occupied at `listener`, and each occupied one is occupied.
