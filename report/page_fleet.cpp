@@ -182,9 +182,7 @@ std::string fleet_section(const RunPage& page) {
   if (!page.run.collisions.empty()) html += "<li><b class=\"cross\">×</b> collision</li>";
   if (!page.run.faults.empty())
     html += "<li><span class=\"swatch\" style=\"background:var(--fault)\"></span>faults</li>";
-  html += "</ul>\n<figure data-live=\"lanes\">" +
-          two_widths([&](double width) { return lanes_svg("What each UAV did when", page.run, page.lanes, width); },
-                     1180.0) +
+  html += "</ul>\n<figure data-live=\"lanes\">" + lanes_svg("What each UAV did when", page.run, page.lanes) +
           "</figure>\n" + uav_table(page) + budget_table(page);
   if (!page.run.collisions.empty()) {
     html += "<h3>Collisions</h3><div class=\"wide\"><table data-table=\"collisions\">" +

@@ -52,11 +52,6 @@ std::string table_head(const std::vector<std::string>& names);
 std::string table_row(const std::vector<std::string>& cells, const std::string& style = "");
 /// A number of a JSON object as text; a dash if there is none.
 std::string cell_of(const Json& object, const char* key, int digits);
-/// The drawing in two widths, of which CSS shows one: for wide and narrow windows. Their layouts differ: in a narrow
-/// window, the wide one would have text of 4 to 6 px, and ticks and names of strips for which there is no room.
-std::string two_widths(const auto& draw, double wide) {
-  return "<div class=\"broad\">" + draw(wide) + "</div><div class=\"narrow\">" + draw(380.0) + "</div>\n";
-}
 /// A paragraph that says what a section cannot show. `why` is HTML.
 std::string absent(const std::string& why);
 

@@ -113,12 +113,7 @@ std::string timeline_section(const RunPage& page) {
       "<li>ticks: captures that improved a point</li>";
   if (!page.run.faults.empty())
     html += "<li><span class=\"swatch\" style=\"background:var(--fault)\"></span>faults</li>";
-  html += "</ul>\n<figure data-live=\"score\">" +
-          two_widths(
-              [&](double width) {
-                return time_chart_svg(title, {earned, delivered}, page.run, page.lanes, width);
-              },
-              640.0) +
+  html += "</ul>\n<figure data-live=\"score\">" + time_chart_svg(title, {earned, delivered}, page.run, page.lanes) +
           "</figure>\n";
   if (!page.run.faults.empty()) {
     html += "<details open=\"open\"><summary>Faults</summary><div class=\"wide\"><table data-table=\"faults\">" +

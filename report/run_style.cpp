@@ -56,7 +56,7 @@ td.heat { background: color-mix(in srgb, var(--h) var(--v), transparent); }
 .points .k0 { stroke: var(--k0); } .points .k1 { stroke: var(--k1); } .points .k2 { stroke: var(--k2); } .points .k3 { stroke: var(--k3); } .points .k4 { stroke: var(--k4); }
 .points .k5 { stroke: var(--k5); } .points .k6 { stroke: var(--k6); } .points .k7 { stroke: var(--k7); } .points .k8 { stroke: var(--k8); } .points .k9 { stroke: var(--k9); }
 .points .k10 { stroke: var(--k10); } .points .k11 { stroke: var(--k11); }
-.run svg { max-width: none; }
+.run svg, .run .time-chart { max-width: none; }
 .views { grid-template-columns: repeat(auto-fit, minmax(min(520px, 100%), 1fr)); }
 .places { grid-template-columns: repeat(auto-fill, minmax(min(340px, 100%), 1fr)); }
 .known path { fill: var(--ink); stroke: none; } .known .m1 { fill: var(--direct); fill-opacity: 0.2; }
@@ -71,11 +71,9 @@ td.heat { background: color-mix(in srgb, var(--h) var(--v), transparent); }
 .rug { stroke: var(--soft); stroke-width: 0.7; fill: none; } .waiting { fill: var(--c1); fill-opacity: 0.75; stroke: none; }
 .rug.t0 { stroke: var(--t0); } .rug.t1 { stroke: var(--t1); } .rug.t2 { stroke: var(--t2); } .rug.t3 { stroke: var(--t3); } .rug.t4 { stroke: var(--t4); } .rug.t5 { stroke: var(--t5); }
 .bar { fill: var(--c0); } .bar.never { fill: var(--bad); }
-.narrow { display: none; }
 details { margin: 12px 0; } summary { cursor: pointer; color: var(--soft); }
 footer { margin-top: 3em; border-top: 1px solid var(--line); font-size: 0.88em; }
 @media (max-width: 640px) {
-  .broad { display: none; } .narrow { display: block; }
   .picture text, .picture text.name { font-size: 11px; }
   .run h1 { font-size: 1.45em; } .card strong { font-size: 1.35em; } .card { padding: 8px 10px; }
   .waterfall th:nth-child(3), .waterfall td:nth-child(3) { display: none; }
@@ -86,7 +84,7 @@ footer { margin-top: 3em; border-top: 1px solid var(--line); font-size: 0.88em; 
     --k0: #8a8f98; --k1: #332288; --k2: #cc6677; --k3: #882255; --k4: #c98a00; --k5: #3a9fcf; --k6: #2f9585; --k7: #8f8f2a; --k8: #aa4499; --k9: #5b7fa6; --k10: #a5501e; --k11: #117733;
     --flying: #a9cbe8; --still: #e3a63a; --direct: #2f9585; --relayed: #a3d3cb; --fault: #d55e0033; --good: #00734f; --bad: #b3261e;
   }
-  .live { display: none !important; } .still-drawing { display: block !important; } .narrow, .narrow.still-drawing { display: none !important; } .broad { display: block !important; }
+  .live { display: none !important; } .still-drawing { display: block !important; }
   .card { break-inside: avoid; }
 }
 )css";

@@ -52,11 +52,17 @@ figure { margin: 0; background: var(--panel); border: 1px solid var(--line); bor
 figcaption { font-weight: 600; line-height: 1.3; overflow-wrap: anywhere; }
 figcaption small { font-weight: 400; display: block; }
 svg { display: block; width: 100%; height: auto; max-width: 560px; margin: 4px auto 0; }
+.time-chart { padding: 0 12px 0 66px; max-width: 640px; margin: 4px auto 0; box-sizing: border-box; }
+.time-chart svg { max-width: none; margin: 0; overflow: visible; }
+.time-chart .stretched { height: 100%; }
+.time-chart .stretched path { vector-effect: non-scaling-stroke; }
+.time-chart.lanes { padding-left: 150px; } .lanes .names { transform: translateX(-148px); }
 .legend { display: flex; flex-wrap: wrap; gap: 2px 18px; margin: 6px 0; padding: 0; font-size: 0.88em; list-style: none; max-width: none; }
 .legend .track { stroke-width: 2.4; stroke-opacity: 1; }
 .legend .track.explorer { stroke-width: 4; }
 .legend svg { display: inline-block; width: 22px; height: 10px; margin: 0 5px 0 0; vertical-align: 0; }
 @media (max-width: 600px) {
+  .time-chart.lanes { padding-left: 70px; } .lanes .names { transform: translateX(-68px); } .lanes .rows { display: none; }
   main { padding: 8px 12px 24px; }
   td.name, th.name { min-width: 7.5em; max-width: 9em; }
   th, td { padding: 4px 7px; }

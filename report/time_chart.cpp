@@ -11,43 +11,57 @@
 namespace skein::report {
 namespace {
 
-constexpr double kChartRight = 12.0, kChartTop = 8.0, kCurves = 210.0, kRug = 11.0, kGap = 3.0;
+constexpr double kChartTop = 8.0, kCurves = 210.0, kRug = 11.0, kGap = 3.0, kAxisRoom = 32.0;
+constexpr double kAcross = 1000.0;  ///< width of the stretched parts of a chart, in their own units
 constexpr std::size_t kMostRugs = 12;
 constexpr int kNameLetters = 11;
 
-/// The time axis: maps simulated time [s] to x.
+/// The time axis, as wide as the chart.
 class TimeScale {
  public:
-  TimeScale(double end_s, double left, double width)
-      : end_s_(std::max(end_s, 1.0)), left_(left), right_(width - kChartRight), steps_(width < 500.0 ? 4 : 10) {}
+  explicit TimeScale(double end_s) : end_s_(std::max(end_s, 1.0)) {}
 
-  double left() const { return left_; }
-  double right() const { return right_; }
-  double at(double time_s) const { return left_ + (right_ - left_) * std::clamp(time_s, 0.0, end_s_) / end_s_; }
+  /// x of a simulated time [s] in stretched parts.
+  double at(double time_s) const { return kAcross * std::clamp(time_s, 0.0, end_s_) / end_s_; }
+  /// The same in all other parts.
+  std::string share(double time_s) const { return percent(at(time_s)); }
+  static std::string percent(double across) { return fixed(100.0 * across / kAcross, 2) + "%"; }
   /// Grid lines, their numbers and the axis title.
   std::string grid(double top, double bottom) const {
-    const double step = nice_axis(0.0, end_s_, steps_).step;
+    const double step = nice_axis(0.0, end_s_, 10).step;
     const Axis axis{0.0, end_s_, step};
     std::string svg;
     for (double tick = 0.0; tick <= end_s_ + 1e-9; tick += step) {
       svg += fmt::format(
-          "<path class=\"grid\" d=\"M{0} {1}V{2}\"/><text class=\"middle\" x=\"{0}\" y=\"{3}\">{4}</text>\n",
-          coordinate(at(tick)), coordinate(top), coordinate(bottom), coordinate(bottom + 13.0), axis.label(tick));
+          "<line class=\"grid\" x1=\"{0}\" x2=\"{0}\" y1=\"{1}\" y2=\"{2}\"/>"
+          "<text class=\"middle\" x=\"{0}\" y=\"{3}\">{4}</text>\n",
+          share(tick), coordinate(top), coordinate(bottom), coordinate(bottom + 13.0), axis.label(tick));
     }
-    return svg + fmt::format("<text class=\"middle\" x=\"{}\" y=\"{}\">simulated time [s]</text>\n",
-                             coordinate(0.5 * (left_ + right_)), coordinate(bottom + 27.0));
+    return svg + fmt::format("<text class=\"middle\" x=\"50%\" y=\"{}\">simulated time [s]</text>\n",
+                             coordinate(bottom + 27.0));
   }
 
  private:
-  double end_s_, left_, right_;
-  int steps_;
+  double end_s_;
 };
 
-std::string open_svg(const std::string& title, double width, double height) {
-  return fmt::format(
-      "<svg class=\"chart\" viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\" "
-      "xmlns=\"http://www.w3.org/2000/svg\">\n",
-      coordinate(width), coordinate(height), escaped(title));
+std::string open_svg(const std::string& attributes, const std::string& title) {
+  return fmt::format("<svg {} role=\"img\" aria-label=\"{}\" xmlns=\"http://www.w3.org/2000/svg\">\n", attributes,
+                     escaped(title));
+}
+
+/// A chart over time, for windows of any width: only what stretched() contains is stretched along the time axis;
+/// letters, marks and all heights stay as they are. Names are to the left of x = 0.
+std::string time_svg(const std::string& style, const std::string& title, double height, const std::string& content) {
+  return "<div class=\"time-chart" + style + "\">\n" +
+         open_svg("style=\"height:" + coordinate(height) + "px\"", title) + content + "</svg></div>\n";
+}
+
+/// @param height  of the whole chart.
+std::string stretched(double height, const std::string& content) {
+  return fmt::format("<svg class=\"stretched\" viewBox=\"0 0 {} {}\" preserveAspectRatio=\"none\">\n",
+                     coordinate(kAcross), coordinate(height)) +
+         content + "</svg>\n";
 }
 
 /// Bars of some spans of time, in one path.
@@ -98,10 +112,10 @@ std::string faults_svg(const results::RunRecord& run, const TimeScale& time, dou
   for (const results::RunFault& fault : run.faults) {
     const std::string words =
         fault.kind + " " + fault.target + ", " + fixed(fault.from_s, 1) + " to " + fixed(fault.until_s, 1) + " s";
+    const double across = std::max(1.0, time.at(fault.until_s) - time.at(fault.from_s));
     svg += fmt::format("<rect class=\"fault\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"><title>{}</title></rect>\n",
-                       coordinate(time.at(fault.from_s)), coordinate(top),
-                       coordinate(std::max(1.0, time.at(fault.until_s) - time.at(fault.from_s))),
-                       coordinate(bottom - top), escaped(words));
+                       time.share(fault.from_s), coordinate(top), TimeScale::percent(across), coordinate(bottom - top),
+                       escaped(words));
   }
   return svg;
 }
@@ -119,7 +133,7 @@ Axis value_axis(const std::vector<TimeCurve>& curves) {
 
 std::string uav_style(std::size_t uav) { return fmt::format("t{}", uav % kTrackColours); }
 
-/// The four strips of one UAV. @param strip  height of each. @param most  undelivered captures at the full height.
+/// The four strips of one UAV, stretched. @param strip  height of each. @param most  undelivered captures at the full height.
 std::string lane_svg(const Lane& lane, const TimeScale& time, double end_s, double top, double strip, int most) {
   const double gap = strip + kGap;
   const double gone_s = lane.collided_s.value_or(end_s);
@@ -138,12 +152,15 @@ std::string lane_svg(const Lane& lane, const TimeScale& time, double end_s, doub
     svg += fmt::format("<path class=\"waiting\" d=\"{}V{}H{}Z\"/>\n", line, coordinate(base),
                        coordinate(time.at(waiting.front().first)));
   }
-  if (lane.collided_s) {
-    svg += fmt::format("<path class=\"collision\" d=\"M{} {}l8 8m0 -8l-8 8\"><title>collision at {} s</title></path>\n",
-                       coordinate(time.at(*lane.collided_s) - 4.0), coordinate(top + 0.5 * strip - 4.0),
-                       fixed(*lane.collided_s, 1));
-  }
   return svg;
+}
+
+/// A cross where a UAV collided. It must not be stretched.
+std::string collision_svg(double collided_s, const TimeScale& time, double middle) {
+  return fmt::format(
+      "<svg x=\"{}\"><path class=\"collision\" d=\"M-4 {}l8 8m0 -8l-8 8\"><title>collision at {} "
+      "s</title></path></svg>\n",
+      time.share(collided_s), coordinate(middle - 4.0), fixed(collided_s, 1));
 }
 
 }  // namespace
@@ -160,43 +177,44 @@ bool concerns(const results::RunFault& fault, const std::string& uav) {
 }
 
 std::string time_chart_svg(const std::string& title, const std::vector<TimeCurve>& curves,
-                           const results::RunRecord& run, const std::vector<Lane>& lanes, double width) {
+                           const results::RunRecord& run, const std::vector<Lane>& lanes) {
   const std::size_t rugs = lanes.size() <= kMostRugs ? lanes.size() : 0;
-  const double left = 66.0, bottom = kChartTop + kCurves;
-  const double all = bottom + (rugs > 0 ? 6.0 + kRug * static_cast<double>(rugs) : 0.0);
-  const TimeScale time(run.end_s, left, width);
+  const double bottom = kChartTop + kCurves, all = bottom + (rugs > 0 ? 6.0 + kRug * static_cast<double>(rugs) : 0.0);
+  const TimeScale time(run.end_s);
   const Axis axis = value_axis(curves);
   const auto y_of = [&](double value) { return bottom - kCurves * axis.share(value); };
-  std::string svg =
-      open_svg(title, width, all + 32.0) + faults_svg(run, time, kChartTop, all) + time.grid(kChartTop, all);
+  std::string svg = faults_svg(run, time, kChartTop, all) + time.grid(kChartTop, all);
   for (const double tick : axis.ticks()) {
-    svg += fmt::format("<path class=\"grid\" d=\"M{} {}H{}\"/><text class=\"end\" x=\"{}\" y=\"{}\">{}</text>\n",
-                       coordinate(left), coordinate(y_of(tick)), coordinate(time.right()), coordinate(left - 5.0),
-                       coordinate(y_of(tick) + 3.5), axis.label(tick));
+    svg += fmt::format(
+        "<line class=\"grid\" x1=\"0\" x2=\"100%\" y1=\"{0}\" y2=\"{0}\"/>"
+        "<text class=\"end\" x=\"-5\" y=\"{1}\">{2}</text>\n",
+        coordinate(y_of(tick)), coordinate(y_of(tick) + 3.5), axis.label(tick));
   }
+  std::string over_time;
   for (const TimeCurve& curve : curves) {
-    svg += fmt::format("<path class=\"curve {}\" d=\"{}\"><title>{}</title></path>\n", curve.style,
-                       staircase(curve.changes, time, run.end_s, y_of), escaped(curve.name));
+    over_time += fmt::format("<path class=\"curve {}\" d=\"{}\"><title>{}</title></path>\n", curve.style,
+                             staircase(curve.changes, time, run.end_s, y_of), escaped(curve.name));
   }
   for (std::size_t uav = 0; uav < rugs; ++uav) {
     const double top = bottom + 6.0 + kRug * static_cast<double>(uav);
-    svg += fmt::format("<text class=\"end\" x=\"{}\" y=\"{}\">{}</text>\n", coordinate(left - 5.0),
-                       coordinate(top + 8.0), escaped(shortened(run.uavs[uav], kNameLetters)));
-    svg += rug_svg(lanes[uav].captures_s, time, top + 1.0, kRug - 3.0, "rug " + uav_style(uav));
+    svg += fmt::format("<text class=\"end\" x=\"-5\" y=\"{}\">{}</text>\n", coordinate(top + 8.0),
+                       escaped(shortened(run.uavs[uav], kNameLetters)));
+    over_time += rug_svg(lanes[uav].captures_s, time, top + 1.0, kRug - 3.0, "rug " + uav_style(uav));
   }
-  return svg + "</svg>\n";
+  const double height = all + kAxisRoom;
+  return time_svg("", title, height, svg + stretched(height, over_time));
 }
 
-std::string lanes_svg(const std::string& title, const results::RunRecord& run, const std::vector<Lane>& lanes,
-                      double width) {
-  const double strip = lanes.size() <= 20 ? 10.0 : 4.0, each = 4.0 * (strip + kGap) + (lanes.size() <= 20 ? 12.0 : 6.0);
-  const double left = width < 500.0 ? 70.0 : 150.0, bottom = kChartTop + each * static_cast<double>(lanes.size());
-  const TimeScale time(run.end_s, left, width);
+std::string lanes_svg(const std::string& title, const results::RunRecord& run, const std::vector<Lane>& lanes) {
+  const bool rows_named = lanes.size() <= 20;
+  const double strip = rows_named ? 10.0 : 4.0, each = 4.0 * (strip + kGap) + (rows_named ? 12.0 : 6.0);
+  const double bottom = kChartTop + each * static_cast<double>(lanes.size());
+  const TimeScale time(run.end_s);
   int most = 1;
   for (const Lane& lane : lanes) {
     for (const Waiting& change : lane.undelivered) most = std::max(most, change.captures);
   }
-  std::string svg = open_svg(title, width, bottom + 32.0) + time.grid(kChartTop, bottom);
+  std::string svg = time.grid(kChartTop, bottom), names, rows, over_time, collisions;
   for (std::size_t uav = 0; uav < lanes.size(); ++uav) {
     const double top = kChartTop + each * static_cast<double>(uav) + 4.0;
     results::RunRecord own;
@@ -204,18 +222,22 @@ std::string lanes_svg(const std::string& title, const results::RunRecord& run, c
       if (concerns(fault, run.uavs[uav])) own.faults.push_back(fault);
     }
     svg += faults_svg(own, time, top - 3.0, top + each - 8.0);
-    svg += fmt::format("<text class=\"name\" x=\"2\" y=\"{}\">{}</text>\n", coordinate(top + 8.0),
-                       escaped(shortened(run.uavs[uav], kNameLetters)));
-    if (left > 100.0 && lanes.size() <= 20) {
-      const char* const names[] = {"flying, still", "station", "captures", "undelivered"};
+    names += fmt::format("<text class=\"name\" y=\"{}\">{}</text>\n", coordinate(top + 8.0),
+                         escaped(shortened(run.uavs[uav], kNameLetters)));
+    if (rows_named) {
+      const char* const kinds[] = {"flying, still", "station", "captures", "undelivered"};
       for (std::size_t row = 0; row < 4; ++row) {
-        svg += fmt::format("<text class=\"end\" x=\"{}\" y=\"{}\">{}</text>\n", coordinate(left - 5.0),
-                           coordinate(top + 8.0 + static_cast<double>(row) * (strip + kGap)), names[row]);
+        rows += fmt::format("<text class=\"end\" x=\"-5\" y=\"{}\">{}</text>\n",
+                            coordinate(top + 8.0 + static_cast<double>(row) * (strip + kGap)), kinds[row]);
       }
     }
-    svg += lane_svg(lanes[uav], time, run.end_s, top, strip, most);
+    over_time += lane_svg(lanes[uav], time, run.end_s, top, strip, most);
+    if (lanes[uav].collided_s) collisions += collision_svg(*lanes[uav].collided_s, time, top + 0.5 * strip);
   }
-  return svg + "</svg>\n";
+  const double height = bottom + kAxisRoom;
+  return time_svg(" lanes", title, height,
+                  svg + "<g class=\"names\">\n" + names + "</g>\n<g class=\"rows\">\n" + rows + "</g>\n" +
+                      stretched(height, over_time) + collisions);
 }
 
 std::string latency_svg(const std::string& title, const Latency& latency) {
@@ -229,7 +251,8 @@ std::string latency_svg(const std::string& title, const Latency& latency) {
   counts[kBins - 1] = latency.never;
   const std::size_t most = std::max<std::size_t>(1, *std::max_element(counts, counts + kBins));
   constexpr double kW = 480.0, kBottom = 170.0, kWide = (kW - 16.0) / kBins;
-  std::string svg = open_svg(title, kW, kBottom + 42.0);
+  std::string svg =
+      open_svg(fmt::format("class=\"chart\" viewBox=\"0 0 {} {}\"", coordinate(kW), coordinate(kBottom + 42.0)), title);
   for (std::size_t i = 0; i < kBins; ++i) {
     const double x = 8.0 + kWide * static_cast<double>(i),
                  h = 146.0 * static_cast<double>(counts[i]) / static_cast<double>(most);

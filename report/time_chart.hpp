@@ -1,5 +1,6 @@
 // Charts over the time of a run, as SVG: curves, bars for faults, and a lane for each UAV. The style sheets in
-// style.hpp define the colours. Pure; any thread.
+// style.hpp define the colours. Charts over time fill windows of any width: their letters keep their size, and only
+// the time axis is stretched. Pure; any thread.
 #pragma once
 
 #include <string>
@@ -17,13 +18,11 @@ struct TimeCurve {
 };
 
 /// Curves over time, with faults behind them and, below, the captures of each UAV.
-/// @param width  of the drawing, in its own units; letters always have the same size in these units.
 std::string time_chart_svg(const std::string& title, const std::vector<TimeCurve>& curves,
-                           const results::RunRecord& run, const std::vector<Lane>& lanes, double width);
+                           const results::RunRecord& run, const std::vector<Lane>& lanes);
 
 /// A lane for each UAV: when it flew or stood still, its links to the station, its captures, and undelivered captures.
-std::string lanes_svg(const std::string& title, const results::RunRecord& run, const std::vector<Lane>& lanes,
-                      double width);
+std::string lanes_svg(const std::string& title, const results::RunRecord& run, const std::vector<Lane>& lanes);
 
 /// Histogram of delivery delays: a bar for each range of delays, and one for captures that were never delivered.
 std::string latency_svg(const std::string& title, const Latency& latency);

@@ -22,8 +22,6 @@ using report::fixed;
 using report::table_head;
 using report::table_row;
 
-constexpr double kChartWidth = 640.0;
-
 std::string count_text(std::size_t count) { return std::to_string(count); }
 
 std::string head(const HuntSummary& summary) {
@@ -91,8 +89,7 @@ report::TimeCurve margin_curve(const HuntSummary& summary, const Find& find, con
 std::string chart(const HuntSummary& summary, const Find& find) try {
   const results::RunRecord run = results::read_run(find.run);
   return "<figure>" +
-         report::time_chart_svg("Margin of " + find.broke + " over time", {margin_curve(summary, find, run)}, run, {},
-                                kChartWidth) +
+         report::time_chart_svg("Margin of " + find.broke + " over time", {margin_curve(summary, find, run)}, run, {}) +
          "<figcaption>margin over time; bars in the background: faults</figcaption></figure>\n";
 } catch (const std::exception& error) {  // the find is valid without its chart
   return report::absent(error.what());
