@@ -15,6 +15,7 @@
 #include "results/run_folder.hpp"
 #include "run/drawn_world.hpp"
 #include "run/fleet_plan.hpp"
+#include "run/fleet_programs.hpp"
 #include "signals/properties/property_file.hpp"
 
 namespace skein::cli {

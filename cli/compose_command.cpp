@@ -23,6 +23,7 @@
 #include "process/host/environment.hpp"
 #include "process/program.hpp"
 #include "results/run_folder.hpp"
+#include "run/fleet_programs.hpp"
 #include "run/inputs_outlast.hpp"
 #include "run/live_page.hpp"
 #include "run/open_files.hpp"

@@ -16,6 +16,7 @@
 #include "process/files/atomic_file.hpp"
 #include "process/program.hpp"
 #include "results/run_folder.hpp"
+#include "run/fleet_programs.hpp"
 #include "run/results_dir.hpp"
 #include "signals/judge.hpp"
 #include "signals/run_signals.hpp"

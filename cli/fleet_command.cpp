@@ -21,6 +21,7 @@
 #include "process/files/nowhere.hpp"
 #include "process/program.hpp"
 #include "run/fleet_plan.hpp"
+#include "run/fleet_programs.hpp"
 #include "run/run_options.hpp"
 
 namespace skein::cli {

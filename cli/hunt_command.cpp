@@ -17,6 +17,7 @@
 #include "core/text/text.hpp"
 #include "host/preflight.hpp"
 #include "process/program.hpp"
+#include "run/fleet_programs.hpp"
 
 namespace skein::cli {
 namespace {

@@ -24,6 +24,7 @@
 #include "results/run_folder.hpp"
 #include "run/break_event.hpp"
 #include "run/fleet_plan.hpp"
+#include "run/fleet_programs.hpp"
 #include "run/fleet_run.hpp"
 #include "run/inputs_outlast.hpp"
 #include "run/live_page.hpp"

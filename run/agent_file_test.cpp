@@ -8,6 +8,7 @@
 #include "host/testing/fake_programs.hpp"
 #include "results/run_folder.hpp"
 #include "run/fleet_plan.hpp"
+#include "run/fleet_programs.hpp"
 
 namespace skein::cli {
 namespace {

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "results/run_folder.hpp"
+#include "run/fleet_programs.hpp"
 
 namespace skein::cli {
 namespace {

@@ -14,6 +14,7 @@
 #include "host/supervisor.hpp"
 #include "process/program.hpp"
 #include "results/run_folder.hpp"
+#include "run/fleet_programs.hpp"
 #include "run/python_planners.hpp"
 
 namespace skein::cli {

@@ -8,15 +8,16 @@
 #include "cli/compose/agents_folder.hpp"
 #include "cli/compose/compose_checks.hpp"
 #include "cli/compose/compose_header.hpp"
+#include "cli/compose/compose_networks.hpp"
 #include "cli/compose/compose_yaml.hpp"
 #include "cli/compose/images.hpp"
 #include "cli/compose/stack_parts.hpp"
 #include "core/config/config_files.hpp"
 #include "core/planners/python_spec.hpp"
-#include "core/topics.hpp"
 #include "process/files/security_files.hpp"
 #include "results/run_folder.hpp"
 #include "run/exec_variables.hpp"
+#include "run/fleet_programs.hpp"
 #include "run/live_page.hpp"
 #include "run/program_files.hpp"
 #include "run/python_planners.hpp"
@@ -60,51 +61,6 @@ void add_mount(ComposeYaml& yaml, const fs::path& here, const fs::path& in_conta
   yaml.begin_map().key("type").own("bind").key("source").literal(here.string());
   yaml.key("target").literal(in_container.string()).key("read_only").flag(read_only).end_map();
 }
-
-/// The first part of a program's name in its networks: "uav" in "uav.jurong".
-std::string role_of(const std::string& program) {
-  if (program == programs::kSimServer) return "sim";
-  if (program == programs::kCommRouter) return "router";
-  if (program == programs::kStation) return "station";
-  return program == programs::kGroundAgent ? "program" : "uav";
-}
-
-/// The network of each DDS domain, and the programs in it.
-class Networks {
- public:
-  explicit Networks(const FleetPlan& plan) : names_(domain_names(plan.scenario)) {
-    for (const auto& [program, vendor] : dds_vendors(plan)) {
-      const bool everywhere = program == programs::kSimServer || program == programs::kCommRouter;
-      for (const std::string& name : names_) {
-        const bool stations = program == programs::kStation && (name == names_[0] || name == names_[1]);
-        if (everywhere || stations || programs::member_name(program) == name) members_[name].push_back(program);
-      }
-    }
-  }
-
-  const std::vector<std::string>& names() const { return names_; }
-  std::vector<std::string> of(const std::string& program) const {
-    std::vector<std::string> networks;
-    std::ranges::copy_if(names_, std::back_inserter(networks), [&](const std::string& name) {
-      return std::ranges::find(members_.at(name), program) != members_.at(name).end();
-    });
-    return networks;
-  }
-  /// A value of --network.
-  std::string text_for(const std::string& program) const {
-    std::string text;
-    for (const std::string& name : of(program)) {
-      std::vector<std::string> peers;
-      for (const std::string& member : members_.at(name)) peers.push_back(role_of(member) + "." + name);
-      text += fmt::format("{}'{}': {{peers: [{}]}}", text.empty() ? "" : ", ", name, fmt::join(peers, ", "));
-    }
-    return "{" + text + "}";
-  }
-
- private:
-  std::vector<std::string> names_;
-  std::map<std::string, std::vector<std::string>> members_;
-};
 
 /// Path in the images of a file that Skein ships; nullopt: Skein does not ship it.
 std::optional<fs::path> in_image(const fs::path& file) {
@@ -231,7 +187,7 @@ class ComposeText {
     if (foreign) add_variables(program);
     yaml_.end_map().key("networks").begin_map();
     for (const std::string& network : networks_.of(program)) {
-      yaml_.key(network).begin_map().key("aliases").own(Texts{role_of(program) + "." + network}).end_map();
+      yaml_.key(network).begin_map().key("aliases").own(Texts{ComposeNetworks::alias(program, network)}).end_map();
     }
     if (serves_page(program)) {
       yaml_.key(kViewNetwork).begin_map().key("aliases").own(Texts{kViewAlias}).end_map();
@@ -380,7 +336,7 @@ class ComposeText {
 
   const FleetPlan& plan_;
   const ComposeLayout& layout_;
-  const Networks networks_;
+  const ComposeNetworks networks_;
   ComposeYaml yaml_;
   SentFiles sent_;             ///< of a stack
   std::uint32_t subnets_ = 0;  ///< assigned so far

@@ -9,6 +9,7 @@
 #include "process/program.hpp"
 #include "results/run_folder.hpp"
 #include "run/exec_variables.hpp"
+#include "run/fleet_programs.hpp"
 #include "run/results_dir.hpp"
 
 namespace skein::cli {

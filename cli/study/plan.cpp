@@ -16,6 +16,7 @@
 #include "results/run_folder.hpp"
 #include "run/agent_file.hpp"
 #include "run/fleet_plan.hpp"
+#include "run/fleet_programs.hpp"
 
 namespace skein::cli {
 namespace {
