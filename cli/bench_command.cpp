@@ -20,6 +20,7 @@
 #include "cli/bench/sensing.hpp"
 #include "cli/bench/sizes.hpp"
 #include "cli/bench/table.hpp"
+#include "cli/bench/targets.hpp"
 #include "cli/bench/tracking.hpp"
 #include "cli/bench/watching.hpp"
 #include "cli/option_checks.hpp"

@@ -1,5 +1,5 @@
-// The arithmetic of `skein bench`: computes figures from results of runs, and compares figures with targets. Pure; a
-// value that a result lacks counts as 0 or null, never as an error.
+// The arithmetic of `skein bench`: computes figures from results of runs. Pure; a value that a result lacks counts as 0
+// or null, never as an error.
 #pragma once
 
 #include <string>
@@ -53,11 +53,6 @@ Json load_entry(std::size_t uavs, const std::vector<Json>& results);
 
 /// Memory at the end of a short run and of a long one of the same fleet; `growth` is their ratio.
 Json memory_entry(const Json& short_run, const Json& long_run);
-
-/// Compares the values in `report` (speed, rounds, scale, relay, load, memory) with the targets: name, kind (at_least
-/// or at_most), target, unit, value, met (null: not measured) and factor: how many times as good as the target, below 1
-/// when missed.
-Json targets_of(const Json& report);
 
 /// CPU time of all processes of a run, from the first step on.
 double fleet_cpu_s(const Json& result);

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "cli/bench/targets.hpp"
+
 namespace skein::cli {
 namespace {
 

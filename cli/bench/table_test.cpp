@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "cli/bench/report.hpp"
+#include "cli/bench/targets.hpp"
 
 namespace skein::cli {
 namespace {
