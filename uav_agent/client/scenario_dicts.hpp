@@ -1,0 +1,17 @@
+// A scenario as Python's dicts and lists, for the module _skein_client.   Pure; any thread that holds Python's lock.
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include "core/ids.hpp"
+#include "core/scenario/scenario.hpp"
+
+namespace skein::agent {
+
+/// The fields of skein.planner.AgentConfig. At the ground station `index` is None and there is no vehicle.
+pybind11::dict to_python(const Scenario& scenario, Node node);
+
+/// Radio topics of a scenario at a node, custody's left out: ROS topic, type, whether it may be sent on.
+pybind11::list radio_of(const Scenario& scenario, Node node);
+
+}  // namespace skein::agent
