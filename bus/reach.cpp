@@ -11,7 +11,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cstring>
 #include <future>
 #include <memory>
@@ -22,14 +21,9 @@
 #include "core/text/suggestion.hpp"
 #include "core/text/whole_number.hpp"
 #include "core/types.hpp"
+#include "process/host/address_text.hpp"
 
 namespace skein::bus {
-
-std::string text_of(const in_addr& address) {
-  std::array<char, INET_ADDRSTRLEN> text{};
-  ::inet_ntop(AF_INET, &address, text.data(), text.size());
-  return text.data();
-}
 
 namespace {
 
@@ -48,7 +42,7 @@ std::optional<in_addr> address_in(const std::string& text) {
 /// Whether a text denotes this interface: by its name, its address, or a subnet that contains its address.
 bool is_meant(const OwnInterface& own, const std::string& text) {
   const std::size_t slash = text.find('/');
-  if (slash == std::string::npos) return own.name == text || text_of(own.address) == text;
+  if (slash == std::string::npos) return own.name == text || address_text(own.address) == text;
   const auto subnet = address_in(text.substr(0, slash));
   const auto bits = parse_whole<unsigned>(std::string_view(text).substr(slash + 1));
   if (!subnet || !bits || *bits > 32) return false;
@@ -61,7 +55,7 @@ OwnInterface interface_of(const std::string& text, const std::string& domain) {
   const auto found = std::ranges::find_if(all, [&](const OwnInterface& own) { return is_meant(own, text); });
   if (found != all.end()) return *found;
   std::vector<std::string> known;
-  for (const OwnInterface& own : all) known.push_back(own.name + " (" + text_of(own.address) + ")");
+  for (const OwnInterface& own : all) known.push_back(own.name + " (" + address_text(own.address) + ")");
   throw InputError(
       "--network " + text + " (" + domain +
       "): this host has no network interface of that name, address or subnet with an IPv4 address; it has " +
@@ -72,7 +66,7 @@ bool is_loopback(const in_addr& address) { return (ntohl(address.s_addr) >> 24) 
 
 std::size_t mtu_of(const std::string& address) {
   const std::vector<OwnInterface> all = own_interfaces();
-  const auto own = std::ranges::find(all, address, [](const OwnInterface& i) { return text_of(i.address); });
+  const auto own = std::ranges::find(all, address, [](const OwnInterface& i) { return address_text(i.address); });
   if (own == all.end()) return kEthernet;
   ifreq request{};
   std::strncpy(request.ifr_name, own->name.c_str(), IFNAMSIZ - 1);
@@ -99,11 +93,11 @@ Known addresses_of(const std::vector<std::string>& hosts, const Addresses& addre
       continue;
     }
     const in_addr& address = peer->second;
-    known.peers.push_back(text_of(address));
+    known.peers.push_back(address_text(address));
     const auto source = source_towards(address);
     const bool ourselves = source && source->s_addr == address.s_addr;
-    if (source && !ourselves && known.own.empty()) known.own = text_of(*source);
-    if (ourselves && !is_loopback(address)) by_name = text_of(address);
+    if (source && !ourselves && known.own.empty()) known.own = address_text(*source);
+    if (ourselves && !is_loopback(address)) by_name = address_text(address);
   }
   if (known.own.empty()) known.own = by_name;
   return known;
@@ -184,7 +178,7 @@ Reach find_reach(const DomainNetwork& network, const std::string& domain, std::c
   if (network.host_only()) return reach;
   reach.host_only = false;
   Known known = find_peers(network, domain, patience, asked);
-  reach.address = network.names_interface() ? text_of(interface_of(network.interface, domain).address) : known.own;
+  reach.address = network.names_interface() ? address_text(interface_of(network.interface, domain).address) : known.own;
   reach.peers = std::move(known.peers);
   // No peer's address is known yet. An entry keeps Reach::by_peers() true, and so multicast off.
   if (!network.peers.empty() && reach.peers.empty()) {

@@ -51,7 +51,4 @@ Addresses look_up_all(std::vector<std::string> hosts);
 /// The own address from which packets to `peer` are sent; nullopt if there is no route.
 std::optional<in_addr> source_towards(const in_addr& peer);
 
-/// "10.77.0.1"
-std::string text_of(const in_addr& address);
-
 }  // namespace skein::bus

@@ -16,6 +16,7 @@
 
 #include "bus/own_host.hpp"
 #include "core/types.hpp"
+#include "process/host/address_text.hpp"
 
 namespace {
 
@@ -93,8 +94,8 @@ TEST_F(ReachTest, APeerThatIsKnownCountsAndOneThatIsNotIsNamed) {
     std::ranges::shuffle(network.peers, random);
     log_.str("");
     const Reach reach = find_reach(network, "world", milliseconds(0), asked);  // no time to ask anybody
-    EXPECT_EQ(reach.address, text_of(*own));
-    EXPECT_EQ(reach.peers, std::vector<std::string>{text_of(*own)});
+    EXPECT_EQ(reach.address, address_text(*own));
+    EXPECT_EQ(reach.peers, std::vector<std::string>{address_text(*own)});
     EXPECT_FALSE(reach.host_only);
     for (const std::string& name : unknown) EXPECT_NE(log_.str().find(name), std::string::npos) << log_.str();
     EXPECT_EQ(log_.str().empty(), unknown.empty()) << log_.str();
@@ -110,7 +111,7 @@ TEST_F(ReachTest, AnAddressThatWasLookedUpBeforeIsNotLookedUpAgain) {
   if (!source) GTEST_SKIP() << "this host has no way to other networks";
   const Reach reach = find_reach({.interface = "", .peers = {"localhost"}}, "world", milliseconds(0), asked);
   EXPECT_EQ(reach.peers, std::vector<std::string>{kAnothers});
-  EXPECT_EQ(reach.address, text_of(*source)) << "from where packets to that peer leave";
+  EXPECT_EQ(reach.address, address_text(*source)) << "from where packets to that peer leave";
 }
 
 TEST_F(ReachTest, WithoutAnyPeerThatIsKnownTheOwnAddressIsNot) {
@@ -128,9 +129,9 @@ TEST_F(ReachTest, WithoutAnyPeerThatIsKnownTheOwnAddressIsNot) {
 TEST_F(ReachTest, AnInterfaceTellsTheOwnAddressWithoutPeers) {
   const auto own = own_address();
   if (!own) GTEST_SKIP() << "this host has no address but the loopback's";
-  const DomainNetwork network{.interface = text_of(*own), .peers = {"a.invalid"}};
+  const DomainNetwork network{.interface = address_text(*own), .peers = {"a.invalid"}};
   const Reach reach = find_reach(network, "world", milliseconds(0), Addresses{});
-  EXPECT_EQ(reach.address, text_of(*own));
+  EXPECT_EQ(reach.address, address_text(*own));
   EXPECT_TRUE(reach.by_peers()) << "still no multicast";
   EXPECT_THROW(check_interface({.interface = "no_such0", .peers = {}}, "world"), InputError);
 }
@@ -146,7 +147,7 @@ TEST_F(ReachTest, NamesAreLookedUpAtOnceAndEachOnce) {
   EXPECT_EQ(resolver.asked, resolver.awaited);
   EXPECT_EQ(resolver.alone, 0) << "waited for the others in vain";
   ASSERT_EQ(addresses.size(), 2u);
-  for (const auto& [host, address] : addresses) EXPECT_EQ(text_of(address), host);
+  for (const auto& [host, address] : addresses) EXPECT_EQ(address_text(address), host);
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "doctor/machine_judges.hpp"
 #include "doctor/network_judges.hpp"
 #include "doctor/software_judges.hpp"
+#include "process/host/address_text.hpp"
 
 namespace skein::doctor {
 namespace {
@@ -17,7 +18,7 @@ namespace {
 std::vector<InterfaceFacts> read_interfaces() {
   std::vector<InterfaceFacts> interfaces;
   for (const bus::OwnInterface& own : bus::own_interfaces()) {
-    interfaces.push_back({.name = own.name, .address = bus::text_of(own.address)});
+    interfaces.push_back({.name = own.name, .address = address_text(own.address)});
     look_at(interfaces.back());
   }
   return interfaces;
@@ -31,8 +32,8 @@ DomainNetworkFacts read_network_of(const std::string& domain, const DomainNetwor
     PeerFacts& peer = facts.peers.emplace_back(PeerFacts{.name = name});
     const auto address = addresses.find(name);
     if (address == addresses.end()) continue;
-    peer.address = bus::text_of(address->second);
-    if (const auto source = bus::source_towards(address->second)) peer.source = bus::text_of(*source);
+    peer.address = address_text(address->second);
+    if (const auto source = bus::source_towards(address->second)) peer.source = address_text(*source);
   }
   try {
     facts.address = bus::find_reach(network, domain, std::chrono::milliseconds(0), addresses).address;

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "core/config/network_config.hpp"
 #include "core/scenario/scenario.hpp"
 #include "doctor/finding.hpp"
 

@@ -13,18 +13,13 @@
 
 #include "core/types.hpp"
 #include "doctor/greeting.hpp"
+#include "process/host/address_text.hpp"
 
 namespace skein::doctor {
 namespace {
 
 constexpr std::size_t kLargestDatagram = 65536;
 constexpr std::size_t kControlBytes = 512;
-
-std::string text_of(const in_addr& address) {
-  std::array<char, INET_ADDRSTRLEN> text{};
-  ::inet_ntop(AF_INET, &address, text.data(), text.size());
-  return text.data();
-}
 
 in_addr address_of(const std::string& text) {
   in_addr address{};
@@ -120,8 +115,8 @@ void GreetingSocket::take(const OnDatagram& on_datagram, const OnRefused& on_ref
     if (size >= 0) {
       more = true;
       if (arrived.find(IP_PKTINFO, info)) {
-        on_datagram({buffer_.data(), static_cast<std::size_t>(size)}, text_of(arrived.other.sin_addr),
-                    text_of(info.ipi_spec_dst));
+        on_datagram({buffer_.data(), static_cast<std::size_t>(size)}, address_text(arrived.other.sin_addr),
+                    address_text(info.ipi_spec_dst));
       }
     }
     Message refused(buffer_.data(), buffer_.size());
@@ -129,7 +124,7 @@ void GreetingSocket::take(const OnDatagram& on_datagram, const OnRefused& on_ref
     if (::recvmsg(fd_, &refused.header, MSG_ERRQUEUE) >= 0) {
       more = true;
       if (refused.find(IP_RECVERR, error)) {
-        on_refused(text_of(refused.other.sin_addr), std::strerror(static_cast<int>(error.ee_errno)));
+        on_refused(address_text(refused.other.sin_addr), std::strerror(static_cast<int>(error.ee_errno)));
       }
     }
   }

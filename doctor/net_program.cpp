@@ -16,6 +16,7 @@
 #include "core/text/suggestion.hpp"
 #include "core/types.hpp"
 #include "doctor/greeting_socket.hpp"
+#include "process/host/address_text.hpp"
 #include "process/host/host_name.hpp"
 
 namespace skein::doctor {
@@ -107,8 +108,8 @@ class Host {
       const auto address = bus::look_up(name);
       all = all && address;
       if (!address) continue;
-      peer.address = bus::text_of(*address);
-      if (const auto source = bus::source_towards(*address)) peer.source = bus::text_of(*source);
+      peer.address = address_text(*address);
+      if (const auto source = bus::source_towards(*address)) peer.source = address_text(*source);
     }
     return all;
   }

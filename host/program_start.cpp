@@ -21,6 +21,14 @@ extern "C" {  // missing in glibc 2.36's header
 }
 
 namespace skein::cli {
+
+void reset_signals() {
+  sigset_t none;
+  sigemptyset(&none);
+  ::sigprocmask(SIG_SETMASK, &none, nullptr);
+  for (int signal = 1; signal < SIGRTMIN; ++signal) ::signal(signal, SIG_DFL);
+}
+
 namespace {
 
 struct Pipe {
@@ -70,10 +78,7 @@ struct ChildSetup {
         user == nullptr || (::setgroups(1, &kAgentsGroup) == 0 && ::setgid(user->gid) == 0 && ::setuid(user->uid) == 0);
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);       // after setuid, which would undo it
     if (::getppid() != parent) ::_exit(127);  // the parent died before prctl()
-    sigset_t none;
-    sigemptyset(&none);
-    ::sigprocmask(SIG_SETMASK, &none, nullptr);
-    for (int signal = 1; signal < SIGRTMIN; ++signal) ::signal(signal, SIG_DFL);  // also those that the shell ignored
+    reset_signals();
     const std::array<std::pair<int, int>, 6> files = {
         {{input, 0}, {log, 1}, {log, 2}, {status, kStatusFd}, {control, kControlFd}, {view, kViewFd}}};
     for (const auto& [from, to] : files) ready = ready && (from < 0 || ::dup2(from, to) >= 0);

@@ -4,10 +4,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <csignal>
 #include <sstream>
 
 #include "core/files/command_file.hpp"
+#include "host/program_start.hpp"
 
 namespace skein::cli {
 namespace {
@@ -58,10 +58,7 @@ bool start_browser(const std::vector<std::string>& command) {
     ::setsid();
     const pid_t browser = ::fork();
     if (browser != 0) ::_exit(browser < 0 ? 1 : 0);
-    sigset_t none;
-    sigemptyset(&none);
-    ::sigprocmask(SIG_SETMASK, &none, nullptr);
-    for (int signal = 1; signal < SIGRTMIN; ++signal) ::signal(signal, SIG_DFL);
+    reset_signals();
     const int nothing = ::open("/dev/null", O_RDWR);
     for (const int fd : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) ::dup2(nothing, fd);
     ::close_range(STDERR_FILENO + 1, ~0U, 0);

@@ -41,6 +41,12 @@ std::vector<std::string> bench_scenarios(const BenchOptions& options) {
   return scenarios;
 }
 
+std::optional<Study> flown_study(const StudyPlan& plan, const Console& console) {
+  console.err << plan.flights.size() << " flights, results in " << plan.out.string() << std::endl;
+  const StudyOutcomes outcomes = fly_study(plan, console);
+  return outcomes.interrupted ? std::nullopt : std::optional(study_of(plan, outcomes));
+}
+
 int bench_planners(const BenchOptions& options, const Console& console) {
   if (const std::string wrong = options.write ? check_file_to_write(*options.write) : ""; !wrong.empty()) {
     throw InputError("--write: " + wrong);
@@ -51,12 +57,10 @@ int bench_planners(const BenchOptions& options, const Console& console) {
   bool failed = false;
   for (const StudyOptions& study_options : studies(options)) {
     const StudyPlan plan = plan_study(study_options);
-    console.err << plan.flights.size() << " flights, results in " << plan.out.string() << std::endl;
-    const StudyOutcomes outcomes = fly_study(plan, console);
-    if (outcomes.interrupted) return kExitInterrupted;
-    const Study study = study_of(plan, outcomes);
-    failed = failed || study.any_problem();
-    for (PlannerScore& score : planner_scores(study)) now.push_back(std::move(score));
+    const std::optional<Study> study = flown_study(plan, console);
+    if (!study) return kExitInterrupted;
+    failed = failed || study->any_problem();
+    for (PlannerScore& score : planner_scores(*study)) now.push_back(std::move(score));
   }
   console.out << "\nbefore: " << table.string() << "\n\n";
   print_planner_scores(console.out, before, now);

@@ -1,11 +1,14 @@
 // `skein bench --planners`: every planner flies a fixed set of scenes; its scores are shown beside those of a table.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "cli/bench/bench_options.hpp"
 #include "cli/console.hpp"
+#include "cli/study/figures.hpp"
+#include "cli/study/plan.hpp"
 
 namespace skein::cli {
 
@@ -13,6 +16,9 @@ namespace skein::cli {
 inline constexpr const char* kBenchPlanners = "flock,patrol,kios,xxh,star";
 /// The scenes that benchmarks of planners fly: those of a contest; with --quick only towers of the procedural ones.
 std::vector<std::string> bench_scenarios(const BenchOptions& options);
+
+/// Flies a study of a benchmark. @returns nullopt after Ctrl-C.
+std::optional<Study> flown_study(const StudyPlan& plan, const Console& console);
 
 /// Flies, in runs/bench-planners, what these programs have not flown yet; prints the comparison, and writes the table
 /// to --write. Takes about ten minutes, with --quick one. @returns kExitDone; kExitProcessFailed when a flight failed;

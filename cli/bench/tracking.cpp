@@ -133,17 +133,15 @@ void print_tracking(std::ostream& out, const results::TrackingTable& table) {
 
 int bench_tracking(const BenchOptions& options, const Console& console) {
   const StudyPlan plan = plan_study(flights(options));
-  console.err << plan.flights.size() << " flights, results in " << plan.out.string() << std::endl;
-  const StudyOutcomes outcomes = fly_study(plan, console);
-  if (outcomes.interrupted) return kExitInterrupted;
-  const Study study = study_of(plan, outcomes);
+  const std::optional<Study> study = flown_study(plan, console);
+  if (!study) return kExitInterrupted;
   results::TrackingTable table;
-  for (const FlightEntry& flight : study.flights) {
+  for (const FlightEntry& flight : study->flights) {
     if (flight.figures) results::read_tracking(flight.dir / run_folder::kTracking, table);
   }
   console.out << '\n';
   print_tracking(console.out, table);
-  return study.any_problem() ? kExitProcessFailed : kExitDone;
+  return study->any_problem() ? kExitProcessFailed : kExitDone;
 }
 
 }  // namespace skein::cli

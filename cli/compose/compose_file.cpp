@@ -15,6 +15,7 @@
 #include "core/config/config_files.hpp"
 #include "core/planners/python_spec.hpp"
 #include "process/files/security_files.hpp"
+#include "process/host/address_text.hpp"
 #include "results/run_folder.hpp"
 #include "run/exec_variables.hpp"
 #include "run/fleet_programs.hpp"
@@ -317,10 +318,8 @@ class ComposeText {
   void add_next_subnet() {
     if (!layout_.subnet) return;
     const in_addr address{htonl(layout_.subnet->address + (subnets_++ << (32 - kNetworkPrefix)))};
-    char text[INET_ADDRSTRLEN];
-    ::inet_ntop(AF_INET, &address, text, sizeof text);
     yaml_.key("ipam").begin_map().key("config").begin_list().begin_map();
-    yaml_.key("subnet").own(std::string(text) + "/" + std::to_string(kNetworkPrefix));
+    yaml_.key("subnet").own(address_text(address) + "/" + std::to_string(kNetworkPrefix));
     yaml_.end_map().end_list().end_map();
   }
 

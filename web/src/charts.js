@@ -21,13 +21,17 @@ function zoomAll(from) {
   zooming = false;
 }
 
+const kFont = '11px system-ui, sans-serif';
+
 const axis = (more) => ({
   stroke: () => colour('soft'),
   grid: {stroke: () => colour('line'), width: 1},
   ticks: {stroke: () => colour('line'), width: 1},
-  font: '11px system-ui, sans-serif',
+  font: kFont,
   ...more,
 });
+
+const timeAxis = () => axis({label: 'simulated time [s]', size: 26, labelSize: 20, labelGap: 2, labelFont: kFont});
 
 /**
  * The time between two drawings of a chart whose data grow is at least kRefresh [ms], and kRest times the time of a
@@ -213,13 +217,7 @@ export function scoreChart(figure) {
           })
         ],
         axes: [
-          axis({
-            label: 'simulated time [s]',
-            size: 26,
-            labelSize: 20,
-            labelGap: 2,
-            labelFont: '11px system-ui, sans-serif'
-          }),
+          timeAxis(),
           axis({size: 54, filter: (u, splits) => splits.map((split) => (split < 0 ? null : split))})
         ],
         scales: {
@@ -320,13 +318,7 @@ export function lanesChart(figure) {
         legend: {show: false},
         series: [{}, {show: false}],
         axes: [
-          axis({
-            label: 'simulated time [s]',
-            size: 26,
-            labelSize: 20,
-            labelGap: 2,
-            labelFont: '11px system-ui, sans-serif'
-          }),
+          timeAxis(),
           axis({
             size: (u) => (u.width < kRoomForNames || laneHeight() === kLowLane ? 78 : 142),
             values: () => [],
