@@ -302,7 +302,7 @@ void add_bench(CLI::App& app, BenchOptions& bench) {
       ->capture_default_str();
   command
       ->add_option("--sizes", bench.sizes,
-                   "Fleet sizes, such as 1,5,20; fleets of more than 128 UAVs fly in one process only")
+                   "Fleet sizes, such as 1,5,20 (default: 1 to 100, --quick: 1 to 20); above 128, in one process only")
       ->delimiter(',')
       ->check(CLI::Range(1, static_cast<int>(kMostUavs)));
   command->add_option("--repeat", bench.repeats, "Runs of each kind; medians are reported")->check(CLI::Range(1, 100));

@@ -202,8 +202,9 @@ void add_blame(CLI::App& app, BlameOptions& blame) {
                    "possible)")
       ->check(CLI::IsMember({"cyclonedds", "fastdds", "mixed"}));
   command
-      ->add_option("--messages", blame.messages,
-                   "FROM UNTIL [s]: also fly without the messages of this time, one link after the other")
+      ->add_option(
+          "--messages", blame.messages,
+          "FROM UNTIL: also fly without the messages between these simulated times [s], one link after the other")
       ->expected(2);
   command->add_option("--out", blame.out,
                       "Folder of the flights (default: a new one: blame in RUN, or runs/blame for a capsule)");

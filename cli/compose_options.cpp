@@ -20,9 +20,7 @@ void add_compose(CLI::App& app, ComposeOptions& compose) {
           ->add_flag("--stack", compose.stack,
                      "Write a file for `docker stack`, which spreads the fleet over several engines")
           ->excludes(up);
-  command
-      ->add_option("--place", compose.run.place.at,
-                   "With --stack: UAV=NODE,...: the swarm nodes on which these UAVs fly")
+  command->add_option("--place", compose.run.place.at, "With --stack: the nodes of the swarm on which these UAVs fly")
       ->type_name("UAV=NODE,...")
       ->needs(stack);
   command->add_option("--image", compose.images, "UAV=IMAGE: run this image of yours instead of the UAV's agent")

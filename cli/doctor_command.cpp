@@ -45,7 +45,7 @@ void add_doctor(CLI::App& app, DoctorOptions& doctor) {
       ->capture_default_str();
   command->add_option("--assets", doctor.assets,
                       "Folder of data files (with models/) for scenarios that need them, such as mbs");
-  command->add_option("--domain", doctor.domain, "First DDS domain of the fleet");
+  command->add_option("--domain", doctor.domain, "First DDS domain of the fleet (default: the first free block)");
   command->add_option("--dds", doctor.dds, "DDS vendor: cyclonedds, fastdds or mixed")
       ->check(CLI::IsMember({"cyclonedds", "fastdds", "mixed"}))
       ->capture_default_str();

@@ -31,7 +31,7 @@ void add_record(CLI::App& command, std::string& record) {
       ->default_str(record);
 }
 
-void add_programs(CLI::App& command, RunOptions& run) {
+void add_programs(CLI::App& command, RunOptions& run, const std::string& more_checks) {
   command.add_option("--agent", run.agent,
                      "Agent program with planners of your own (default: SKEIN_AGENT, else uav_agent)");
   command
@@ -40,7 +40,7 @@ void add_programs(CLI::App& command, RunOptions& run) {
       ->allow_extra_args(false);
   command.add_flag(
       "--no-check{false}", run.check,
-      "Skip the checks before the flight: whether the programs accept it and, with --place, the network works");
+      "Do not check before the flight whether the programs accept scenario, planners and faults" + more_checks);
   command.add_flag("--native", run.native,
                    "Let libm use this CPU's fastest code (the digest then depends on the CPU model)");
 }
@@ -55,9 +55,9 @@ void add_mission(CLI::App& command, RunOptions& run, const std::string& faults_b
                      "Folder of data files (with models/) for scenarios that need them, such as mbs");
   command.add_option("--duration", run.duration_s, "Mission time [s], instead of the scenario's")->check(seconds);
   command.add_option("--rules", run.rules, "Preset of rules, instead of the scenario's: contest, paper or reference");
-  command.add_option(
-      "--conditions", run.conditions,
-      "Wind, odometry errors, batteries and so on: none, breezy or harsh for all parts, or by part: wind=harsh");
+  command.add_option("--conditions", run.conditions,
+                     "Wind, odometry errors, batteries and so on, instead of the scenario's: none, breezy or harsh for "
+                     "all parts, or by part: wind=harsh");
   command.add_option("--faults", run.faults, "Fault file (YAML): what goes wrong, and when" + faults_but);
 }
 
@@ -71,14 +71,18 @@ void add_flight_options(CLI::App& command, RunOptions& run) {
   const CLI::Validator seed(check_seed, ""), seconds(check_seconds, "");
   command
       .add_option("--seed", run.seed,
-                  "Seed of the random effects; with 0, starts, command latency and LiDARs have none")
+                  "Seed of the random effects; 0: without those of start places, command latency and LiDARs")
       ->check(seed)
       ->capture_default_str();
   add_mission(command, run);
   command.add_option("--dds", run.dds, "DDS vendor: cyclonedds, fastdds or mixed")
       ->check(CLI::IsMember({"cyclonedds", "fastdds", "mixed"}))
       ->capture_default_str();
-  command.add_option("--clock", run.clock, "lockstep (repeatable), or realtime[:FACTOR]")
+  command
+      .add_option(
+          "--clock", run.clock,
+          "lockstep: as fast as possible, and repeatable; realtime[:FACTOR]: FACTOR simulated seconds per second (1 "
+          "if it is left out)")
       ->check(CLI::Validator(check_clock, "CLOCK"))
       ->capture_default_str();
   command

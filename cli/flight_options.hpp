@@ -20,7 +20,8 @@ void add_result_options(CLI::App& command, RunOptions& run);
 /// duration, rules, conditions, faults.  @param faults_but  for the help: the faults that a fault file may not have
 void add_mission(CLI::App& command, RunOptions& run, const std::string& faults_but = "");
 /// Adds the options of run and fleet about the programs: which agent flies, what they log, checks, and their libm.
-void add_programs(CLI::App& command, RunOptions& run);
+/// @param more_checks  for the help: what the checks before the flight check besides the programs
+void add_programs(CLI::App& command, RunOptions& run, const std::string& more_checks = "");
 /// Adds --record, of run, compose and the commands that fly many runs.
 void add_record(CLI::App& command, std::string& record);
 /// Adds --network, of all commands that may let other hosts take part.

@@ -51,7 +51,7 @@ void add_hunt(CLI::App& app, HuntOptions& hunt) {
       ->check(CLI::Validator(check_positive, "POSITIVE"))
       ->excludes(runs);
   command->add_flag("--first", hunt.first, "Stop at the first find");
-  command->add_option("--shrink", hunt.shrink, "Number of flights allowed for minimising a find")
+  command->add_option("--shrink", hunt.shrink, "Greatest number of flights for minimising one find")
       ->check(CLI::Range(0, 10'000))
       ->capture_default_str();
   command->add_option("--seed", hunt.seed, "Seed of the search; the same seed gives the same search")
@@ -72,7 +72,7 @@ void add_hunt(CLI::App& app, HuntOptions& hunt) {
   command->add_option("--out", hunt.out, "Folder of the hunt and its finds (default runs/hunt-<scenario>-<planner>)");
   command->add_flag("--force", hunt.force,
                     "Start a new hunt in the folder of another one, whose finds move to earlier/");
-  command->add_option("--junit", hunt.junit, "Report for CI servers (JUnit XML)")
+  command->add_option("--junit", hunt.junit, "File for a report as JUnit XML, for CI servers")
       ->check(CLI::Validator(check_file_to_write, ""));
   command->footer(
       "Examples:\n"

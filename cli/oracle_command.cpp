@@ -159,7 +159,7 @@ void add_oracle(CLI::App& app, OracleOptions& oracle) {
       ->check(CLI::Validator(number_within(0.0, 100.0), ""));
   command->add_flag(
       "--vehicle", oracle.vehicle,
-      "Apply the clearance to a sphere around body and rotors, not to the camera (default of --clearance then 0)");
+      "Apply the clearance to a sphere around body and rotors, not to the camera (--clearance is then 0 m by default)");
   command->add_flag("--outside", oracle.outside_only,
                     "Count only what is attainable from outside the structure, not through windows");
   command->add_flag("--plan", oracle.plan,

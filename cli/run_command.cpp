@@ -151,7 +151,7 @@ void check_one_process(const RunOptions& run) {
 void add_run(CLI::App& app, RunOptions& run) {
   CLI::App* command = app.add_subcommand("run", "Fly a fleet through a scenario and write its results");
   add_flight_options(*command, run);
-  add_programs(*command, run);
+  add_programs(*command, run, " and, with --place, whether the hosts receive each other's messages");
   command
       ->add_flag("--one-process", run.one_process,
                  "Run all programs in one process, without DDS: the same result in less time")

@@ -20,7 +20,7 @@ void add_scene(CLI::App& app, SceneOptions& scene) {
       ->check(CLI::Validator(check_seed, ""));
   command->add_option("--uavs", scene.uavs, "Fleet size, as for `skein run`")
       ->check(CLI::Validator(check_positive, "POSITIVE"));
-  command->add_option("--out", scene.out, "Folder to write to");
+  command->add_option("--out", scene.out, "Folder for the files of the scene and its scenario");
   command->add_flag("--picture", scene.picture,
                     "Draw the scene as SCENARIO.svg, in the folder of --out or the current one");
   command->add_option("--assets", scene.assets,

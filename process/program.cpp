@@ -97,7 +97,7 @@ void add_common_options(CLI::App& app, ProgramOptions& options) {
       ->check(CLI::Range(kFirstDomain, kLastDomain));
   app.add_option("--out", options.out, "Folder for what the program writes")->capture_default_str();
   app.add_option("--seed", options.seed,
-                 "Seed of the random effects; with 0, starts, command latency and LiDARs have none")
+                 "Seed of the random effects; 0: without those of start places, command latency and LiDARs")
       ->capture_default_str()
       ->check(CLI::Validator(check_seed, "NONNEGATIVE"));
   app.add_option("--scene-seed", options.scene_seed, "Seed of a procedural scene, instead of the scenario's")
