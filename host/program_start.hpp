@@ -49,8 +49,8 @@ bool owns_terminal();
 /// Makes `group` the terminal's foreground process group: from then on, it receives Ctrl-C and what the user types.
 void give_terminal_to(pid_t group);
 
-/// For a child between fork and exec: unblocks all signals, and gives each its default action, also those that the shell
-/// ignored.
+/// For a child between fork and exec: unblocks all signals, and gives each its default action, also those that the
+/// shell ignored.
 void reset_signals();
 
 /// Starts a program in a process group of its own, with a status and a control pipe. Its stdin is /dev/null, or that of

@@ -133,7 +133,8 @@ Axis value_axis(const std::vector<TimeCurve>& curves) {
 
 std::string uav_style(std::size_t uav) { return fmt::format("t{}", uav % kTrackColours); }
 
-/// The four strips of one UAV, stretched. @param strip  height of each. @param most  undelivered captures at the full height.
+/// The four strips of one UAV, for stretched(). @param strip  height of each. @param most  undelivered captures at the
+/// full height.
 std::string lane_svg(const Lane& lane, const TimeScale& time, double end_s, double top, double strip, int most) {
   const double gap = strip + kGap;
   const double gone_s = lane.collided_s.value_or(end_s);
