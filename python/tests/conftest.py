@@ -1,6 +1,6 @@
 """Code that the tests share: the import of this checkout's package, short flights, and plots without a window.
 
-The launcher is the one that the variable SKEIN names, which CTest sets, else this checkout's.
+The variable SKEIN, which CTest sets, names the launcher; without it, the tests use this checkout's.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ def root() -> Path:
 
 @pytest.fixture(scope="session")
 def faults(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A fault file: links that lose messages, and a UAV without radio for a while and in the end."""
+    """A fault file: links lose messages, and a UAV has no radio for a while and at the end."""
     file = tmp_path_factory.mktemp("faults") / "faults.yaml"
     file.write_text("faults:\n"
                     "  - {at_s: 0, until_s: 45, link: {loss: 0.3}}\n"

@@ -103,8 +103,8 @@ def fuzz_fleet(draw: Draw) -> None:
                  lambda: fleet.begin_step({UAV: {}}), fleet.render):
         taken = draw.taken
         draw.ask(call)
-        assert draw.taken == taken or call == fleet.render, "used after close()"
-    assert repr(fleet) and not in_a_copy(twin), "a copy of the interpreter has flown the fleet"
+        assert draw.taken == taken or call == fleet.render, "a closed fleet accepted a call"
+    assert repr(fleet) and not in_a_copy(twin), "a forked copy of the interpreter could fly the fleet"
     twin.step()
     twin.close()
 
@@ -176,13 +176,13 @@ def fuzz_interrupts(draw: Draw) -> None:
                 times_s = []
                 for flown in (1, 2):
                     times_s.append(fleet.step()[0][UAV]["time_s"])
-                    assert fleet.truth.step == step + flown, "the answer to one call was taken for that to another"
+                    assert fleet.truth.step == step + flown, "a call returned the answer to another call"
                 assert times_s[0] < times_s[1], "the observations are those of an earlier mission"
                 stood += 1
             except skein.InputError as error:
                 assert "reset" in str(error) or "end_step" in str(error), error
             if number % 3 == 0:
-                assert episode() == right, "the flight after an interrupt and reset() is another one"
+                assert episode() == right, "the flight after an interrupt and reset() differs from the flight before"
     assert struck > 20 and stood > 2, (struck, stood)
 
 

@@ -12,9 +12,9 @@ from typing import Any
 
 import skein
 
-# What the package calls of `socket` is Python code, too, so an interrupt may come in the middle of it.
+# The functions of `socket` that the package calls are Python code, too, so an interrupt may come within them.
 _SOURCES = (os.path.dirname(skein.__file__), socket.__file__)
-_UNSEEN = ("__del__", "_end")  # the interpreter prints exceptions of these, and goes on
+_UNSEEN = ("__del__", "_end")  # exceptions raised in these are only printed
 
 
 class Interrupts:

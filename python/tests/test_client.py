@@ -50,7 +50,7 @@ with Client(scans=True, key_frames=True, read=["/{name}/lidar_servo", "/clock"],
 
 
 def program(tmp_path: Path, code: str, name: str = "jurong") -> str:
-    """As --planner takes it."""
+    """The planner specification of a program, as --planner accepts it."""
     file = tmp_path / f"{name}_program.py"
     file.write_text(code.replace("{name}", name).replace("{{", "{").replace("}}", "}"))
     return f"{name}=exec:exec {sys.executable} -B {file}"
@@ -72,7 +72,7 @@ def _package(root: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("PYTHONPATH", str(root / "python"))
 
 
-def test_it_hears_and_says_everything_the_same_under_both_vendors_and_under_chaos(
+def test_a_program_sends_and_receives_the_same_with_both_vendors_and_under_chaos(
         tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     planner = "hover," + program(tmp_path, CURIOUS)
     digests = set()
@@ -94,7 +94,7 @@ def of_the_page(root: Path, name: str) -> str:
     return page.split(f"```python {name}\n")[1].split("```")[0]
 
 
-def test_the_example_scores(root: Path, tmp_path: Path) -> None:
+def test_the_example_program_scores(root: Path, tmp_path: Path) -> None:
     example = f"hover,jurong=exec:exec {sys.executable} -B {root}/python/examples/my_uav.py"
     run = fly(tmp_path, example, duration=70)
     assert run.score is not None and run.score > 5.0 and run.status == "completed"
@@ -113,7 +113,8 @@ def test_a_listener_changes_no_digest(root: Path, tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("fault", ["kill", "pause"])
-def test_killed_or_stopped_it_comes_back_and_loses_no_capture(root: Path, tmp_path: Path, fault: str) -> None:
+def test_a_program_that_a_fault_kills_or_stops_comes_back_and_loses_no_capture(
+        root: Path, tmp_path: Path, fault: str) -> None:
     """The UAV has no link until after the fault, so it delivers all its captures afterwards."""
     faults = tmp_path / "faults.yaml"
     faults.write_text("faults:\n  - {at_s: 0, until_s: 26, blackout: jurong}\n"
@@ -124,9 +125,9 @@ def test_killed_or_stopped_it_comes_back_and_loses_no_capture(root: Path, tmp_pa
     run = runs[0]
     assert run.status == "completed" and run.result["deterministic"]
     own = run.trajectories[(run.trajectories["uav"] == "jurong") & (run.trajectories["time_s"] > 25)]
-    assert (abs(own["vx"]) + abs(own["vy"]) + abs(own["vz"])).max() > 0.5, "it flies on"
+    assert (abs(own["vx"]) + abs(own["vy"]) + abs(own["vz"])).max() > 0.5, "the UAV does not fly after the fault"
     before = run.captures[(run.captures["uav"] == "jurong") & (run.captures["time_s"] < 22)]
-    assert len(before) > 10 and before["delivered_at_s"].min() > 26, "none is lost"
+    assert len(before) > 10 and before["delivered_at_s"].min() > 26, "a capture was lost"
 
 
 @pytest.mark.parametrize(("line", "words"), [
@@ -142,7 +143,7 @@ def test_an_exception_is_named_with_its_traceback(tmp_path: Path, line: str, wor
     for word in words:
         assert word in str(caught.value)
     run = caught.value.run
-    assert run is not None and run.status == "completed", "the others fly on"
+    assert run is not None and run.status == "completed", "the other UAVs did not fly on"
     assert [one["member"] for one in run.result["lost_members"]] == ["jurong"]
 
 
@@ -181,7 +182,7 @@ with Client() as gcs:
     assert len(digests) == 1
 
 
-def test_ctrl_c_ends_it_while_it_waits(tmp_path: Path) -> None:
+def test_ctrl_c_ends_a_program_that_waits(tmp_path: Path) -> None:
     code = ("import sys\nfrom skein.client import Client\n"
             "uav = Client(name='jurong', scenario='towers', domain=221, dds=sys.argv[1], run=1)\n"
             "try:\n    print('waits', flush=True)\n    next(uav)\n"
@@ -194,7 +195,7 @@ def test_ctrl_c_ends_it_while_it_waits(tmp_path: Path) -> None:
         assert said == "interrupted\n" and child.returncode == 0
 
 
-def test_it_is_typed(root: Path, tmp_path: Path) -> None:
+def test_the_types_of_the_client_module_are_complete(root: Path, tmp_path: Path) -> None:
     pytest.importorskip("mypy")
     mypy = [sys.executable, "-m", "mypy", "--strict", "--ignore-missing-imports", "--cache-dir", str(tmp_path)]
     environment = os.environ | {"MYPYPATH": str(root / "python")}

@@ -43,7 +43,7 @@ def filled(of: type[Message], draw: random.Random, depth: int = 0) -> Message:
     return message
 
 
-def test_messages_survive_the_wire(root: Path) -> None:
+def test_decoding_reverses_encoding(root: Path) -> None:
     draw = random.Random(1)
     for name in TYPES * 5:
         message = filled(type_named(name), draw)
@@ -62,10 +62,10 @@ def test_bytes_are_what_dds_carries() -> None:
     define("test_msgs/msg/Mixed", "uint8 a\nfloat64 b\nuint16[] c\nfloat64[] d\nbool e")
     mixed = new("test_msgs/msg/Mixed", a=1, b=0.5, c=[7], e=True)
     assert encode(mixed) == (b"\0\1\0\0" + struct.pack("<B7xdIH2xI?", 1, 0.5, 1, 7, 0, True) + b"\0\0\0")
-    assert decode("std_msgs/msg/String", b"\0\1\0\0\2\0\0\0\xff\0").data == "\udcff", "what is not UTF-8 stays"
+    assert decode("std_msgs/msg/String", b"\0\1\0\0\2\0\0\0\xff\0").data == "\udcff", "a byte that is not UTF-8"
 
 
-def test_random_bytes_are_no_message_and_do_no_harm() -> None:
+def test_random_bytes_are_refused_or_decoded_without_a_crash() -> None:
     draw = random.Random(2)
     refused = 0
     for i in range(4000):
@@ -88,7 +88,7 @@ def test_random_bytes_are_no_message_and_do_no_harm() -> None:
     assert 500 < refused < 4000
 
 
-def test_a_damaged_text_is_as_good_as_lost_and_hides_no_other() -> None:
+def test_damaged_texts_count_as_lost_and_others_still_arrive() -> None:
     client = Client.__new__(Client)  # without a fleet
     text = "std_msgs/msg/String"
     client.name, client._latest, client._radio = "jurong", {}, {"/plan": text, "/own": text}
@@ -169,7 +169,7 @@ GOOD: dict[str, Any] = {"name": "jurong", "scenario": "towers", "domain": 223, "
     ({"security": "/no/such/folder"}, "/no/such/folder"),
     ({"debug": [f"n{i}" for i in range(65)]}, "65 debug names; at most 64 are read"),
 ])
-def test_a_client_that_cannot_be_says_why(wrong: dict[str, Any], match: str) -> None:
+def test_a_client_with_wrong_arguments_is_refused_with_a_reason(wrong: dict[str, Any], match: str) -> None:
     with pytest.raises(skein.InputError, match=match):
         Client(**(GOOD | wrong))
 
@@ -178,7 +178,7 @@ def test_a_client_that_cannot_be_says_why(wrong: dict[str, Any], match: str) -> 
     (((),), "list of names"), (("/clock",), "list of names"), ((["/jurong/gimball"],), "not a topic of jurong"),
     ((["clock"],), "absolute"), (({"/x/gcs": "std_msgs/msg/Strin"},), "not known"),
 ])
-def test_a_listener_that_cannot_be_says_why(arguments: Any, match: str) -> None:
+def test_a_listener_with_wrong_arguments_is_refused_with_a_reason(arguments: Any, match: str) -> None:
     with pytest.raises(skein.InputError, match=match):
         Listener(*arguments, domain=223, dds="cyclonedds")
     with pytest.raises(skein.InputError, match="flies"):
@@ -302,7 +302,7 @@ def test_invalid_calls_are_refused_in_flight_and_change_nothing(tmp_path: Path, 
     assert digests[0] == digests[1]
 
 
-def test_without_the_compiled_part_the_message_says_where_it_comes_from(root: Path, tmp_path: Path) -> None:
+def test_without_the_compiled_part_the_message_says_where_to_get_it(root: Path, tmp_path: Path) -> None:
     (tmp_path / "lib/python").mkdir(parents=True)
     import shutil
     shutil.copytree(root / "python/skein", tmp_path / "lib/python/skein", ignore=shutil.ignore_patterns("__pycache__"))

@@ -16,7 +16,7 @@ SEED = int(os.environ.get("SKEIN_FUZZ_SEED") or random.SystemRandom().randrange(
 
 @pytest.mark.parametrize("seed", [SEED])
 @pytest.mark.parametrize("what", ["fleet", "interrupts", "results", "programs"])
-def test_nothing_wrong_crashes_the_interpreter(what: str, seed: int, root: Path, tmp_path: Path) -> None:
+def test_no_misuse_crashes_the_interpreter(what: str, seed: int, root: Path, tmp_path: Path) -> None:
     fuzz = Path(__file__).with_name("fuzz.py")
     done = subprocess.run([sys.executable, "-B", "-W", "error::ResourceWarning", fuzz, what, str(seed)], cwd=tmp_path,
                           env={**os.environ, "PYTHONPATH": str(root / "python"), "MPLBACKEND": "Agg"},

@@ -68,7 +68,7 @@ def test_a_program_that_is_killed_leaves_no_orphan(tmp_path: Path) -> None:
     assert skein.Run(tmp_path / "runs" / "towers-kios-0").status == "interrupted"
 
 
-def test_an_exception_of_the_users_own_ends_the_fleet(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_an_exception_in_the_users_code_ends_the_fleet(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     class Enough(Exception):
         pass
 
@@ -90,7 +90,7 @@ def test_an_exception_of_the_users_own_ends_the_fleet(tmp_path: Path, monkeypatc
     assert others == {}
 
 
-def test_a_handler_of_the_users_own_stays(tmp_path: Path) -> None:
+def test_the_users_signal_handler_stays_installed(tmp_path: Path) -> None:
     def mine(_number: int, _frame: object) -> None:
         pass
 
@@ -118,7 +118,7 @@ def test_ctrl_c_while_the_launcher_starts_reaches_it(tmp_path: Path, monkeypatch
     def interrupted_popen(*words: Any, **options: Any) -> Any:
         child = popen(*words, **options)
         children.append(child)
-        os.kill(os.getpid(), signal.SIGINT)  # before the caller has the child
+        os.kill(os.getpid(), signal.SIGINT)  # before Popen() has returned the process to its caller
         return child
 
     monkeypatch.setattr(subprocess, "Popen", interrupted_popen)
@@ -141,7 +141,7 @@ def open_files() -> set[str]:
     return set(os.listdir("/proc/self/fd"))
 
 
-def test_letting_a_process_go_can_be_interrupted_at_any_instruction_and_repeated() -> None:
+def test_closing_a_process_can_be_interrupted_at_any_instruction_and_repeated() -> None:
     interrupts, number, goes_on = Interrupts(), 0, True
     before = open_files()
     while goes_on:
@@ -151,28 +151,28 @@ def test_letting_a_process_go_can_be_interrupted_at_any_instruction_and_repeated
         process = worker._Process(ours, worker._memory_file("log"))
         goes_on = interrupted(interrupts, number, process.let_go)
         assert process.closed == (ours.fileno() < 0), f"instruction {number}"
-        with open(os.devnull, "rb") as other:  # it may get the number of a file that is closed now
+        with open(os.devnull, "rb") as other:  # this file may get the number of one that close() has just closed
             process.let_go()
             process.let_go()
             assert process.closed and other.read() == b"", f"instruction {number}"
-        assert theirs.recv(1) == b"", "the process at the other end does not end"
+        assert theirs.recv(1) == b"", "the connection is still open, so the process would not end"
         theirs.close()
         assert open_files() == before, f"instruction {number}"
-    assert number > 10, "nothing was interrupted"
+    assert number > 10, "hardly any instruction was interrupted"
 
 
-def test_a_fleet_whose_reset_was_interrupted_sees_its_own_mission_or_refuses() -> None:
+def test_a_fleet_whose_reset_was_interrupted_flies_the_new_mission_or_refuses_to_fly() -> None:
     interrupts = Interrupts()
     with skein.Fleet("towers", learners=["jurong"], duration=10, no_check=True) as fleet:
         fleet.reset(seed=1)
         interrupted(interrupts, 0, lambda: fleet.reset(seed=1))
         count = interrupts.instructions
         struck, flown, refused = 0, 0, 0
-        for number in range(count // 3, count, count // 45):  # most of these come when the new process is there
+        for number in range(count // 3, count, count // 45):  # most of these are in the new process's time
             struck += interrupted(interrupts, number, lambda: fleet.reset(seed=1))
             try:
                 times_s = [fleet.step()[0]["jurong"]["time_s"] for _ in range(2)]
-                assert times_s[0] < times_s[1], f"instruction {number} of {count}: an earlier mission is seen"
+                assert times_s[0] < times_s[1], f"instruction {number} of {count}: not its own mission"
                 flown += 1
             except skein.InputError:
                 refused += 1

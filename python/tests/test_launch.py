@@ -1,4 +1,4 @@
-"""Keyword arguments become words of the command line; which launcher is used; exit codes become exceptions."""
+"""How skein.run() builds the command line, finds the launcher, and turns exit codes into exceptions."""
 
 from __future__ import annotations
 
@@ -46,12 +46,13 @@ def test_a_value_of_a_wrong_type_is_refused(value: object) -> None:
 
 
 @pytest.mark.parametrize("scenario", ["--help", "", "-v"])
-def test_options_are_no_scenario(scenario: str) -> None:
+def test_an_option_in_place_of_the_scenario_is_refused(scenario: str) -> None:
     with pytest.raises(skein.InputError, match="scenario"):
         skein.run(scenario)
 
 
-def test_the_launcher_is_the_argument_then_skein_then_the_path(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_launcher_is_found_by_argument_then_variable_then_path(
+        tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     one, two = tmp_path / "one", tmp_path / "two"
     for folder in (one, two):
         folder.mkdir()
@@ -63,10 +64,10 @@ def test_the_launcher_is_the_argument_then_skein_then_the_path(tmp_path: Path, m
     with pytest.raises(skein.InputError, match="SKEIN"):
         skein.find_launcher()
     monkeypatch.delenv("SKEIN")
-    assert skein.find_launcher() == str(Path(skein.__file__).absolute().parents[2] / "skein"), "this checkout's"
+    assert skein.find_launcher() == str(Path(skein.__file__).absolute().parents[2] / "skein"), "not this checkout's"
     monkeypatch.setattr("skein.launch.__file__", str(tmp_path / "lib" / "skein" / "launch.py"))
     monkeypatch.setenv("PATH", str(two))
-    assert skein.find_launcher() == str(two / "skein"), "where the package is installed"
+    assert skein.find_launcher() == str(two / "skein"), "it is not the launcher on the PATH"
     monkeypatch.setenv("PATH", "")
     with pytest.raises(skein.InputError, match="install"):
         skein.find_launcher()
@@ -80,12 +81,12 @@ def test_exit_codes_are_exceptions(tmp_path: Path, code: int, kind: type[skein.E
     with pytest.raises(skein.Error) as caught:
         skein.run(launcher=program)
     assert type(caught.value) is kind
-    assert str(caught.value) == f"code {code}: alas", "progress is not a message"
+    assert str(caught.value) == f"code {code}: alas", "the message contains lines of progress"
     assert caught.value.exit_code == code
     assert caught.value.run is not None and caught.value.run.path == tmp_path
 
 
-def test_a_launcher_that_dies_is_told_of(tmp_path: Path) -> None:
+def test_a_launcher_that_dies_or_cannot_start_is_reported(tmp_path: Path) -> None:
     with pytest.raises(skein.Error, match="signal 9\nit was here") as caught:
         skein.run(launcher=launcher_that(tmp_path, "echo it was here >&2", "kill -9 $$"))
     assert caught.value.exit_code == -9 and caught.value.run is None
@@ -97,7 +98,7 @@ def test_a_launcher_that_dies_is_told_of(tmp_path: Path) -> None:
         skein.run("nul\0", launcher=launcher_that(tmp_path, "exit 0"))
 
 
-def test_it_is_quiet_unless_asked(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+def test_a_run_prints_nothing_unless_it_is_verbose(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
     program = launcher_that(tmp_path, "echo working >&2", f"echo 'results   {tmp_path}'")
     assert skein.run(launcher=program).path == tmp_path
     assert capfd.readouterr() == ("", "")
@@ -114,4 +115,4 @@ def test_wrong_input_says_what_would_be_right(tmp_path: Path, monkeypatch: pytes
         skein.run("towers", durations=3)
     with pytest.raises(skein.InputError, match="partol.*patrol"):
         skein.compare(["partol"], duration=3)
-    assert list(tmp_path.iterdir()) == [], "nothing was started"
+    assert list(tmp_path.iterdir()) == [], "a refused call has left files"

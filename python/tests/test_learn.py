@@ -1,4 +1,4 @@
-"""The learning example in its small size: its result is valid, and the same in each run."""
+"""The learning example in a small size: its result is valid, and the same in each run."""
 
 from __future__ import annotations
 
@@ -28,19 +28,19 @@ def learned(root: Path, folder: Path, jobs: int) -> tuple[dict[str, Any], str]:
     return told, done.stdout
 
 
-def test_a_small_one_is_valid_and_the_same_however_many_fleets_fly_at_once(root: Path, tmp_path: Path) -> None:
+def test_the_result_does_not_depend_on_how_many_fleets_fly_at_once(root: Path, tmp_path: Path) -> None:
     told, said = learned(root, tmp_path / "one", 1)
     again, _ = learned(root, tmp_path / "two", 2)
     assert told == again
-    assert not set(told["learning"]) & set(told["judging"]), "it is judged in scenes that it saw"
+    assert not set(told["learning"]) & set(told["judging"]), "the learner is judged in scenes in which it has learned"
     generations = len(told["tried"])
     assert len(told["parameters"]) == len(told["judged"]) == generations + 1 > 1
     for values in told["parameters"]:
         assert all(LOWEST[name] <= value <= HIGHEST[name] for name, value in values.items()), values
-    assert told["parameters"][-1] != told["parameters"][0], "nothing was learned of what was tried"
+    assert told["parameters"][-1] != told["parameters"][0], "the parameters did not change"
     for row in (*told["judged"], *told["tried"]):
         assert all(math.isfinite(score) and score >= 0.0 for score in row)
-    assert max(map(max, told["judged"])) > 0.0, "nobody scored"
+    assert max(map(max, told["judged"])) > 0.0, "no flight scored"
     gains = [last - first for first, last in zip(told["judged"][0], told["judged"][-1])]
     assert told["gain"] == pytest.approx(sum(gains) / len(gains))
     low, high = told["gain_interval"]

@@ -13,7 +13,7 @@ NOTEBOOKS = sorted((Path(__file__).parents[1] / "examples").glob("*.ipynb"))
 
 
 @pytest.mark.parametrize("file", NOTEBOOKS, ids=lambda file: file.stem)
-def test_its_cells_run(file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_all_cells_of_a_notebook_run(file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     notebook = json.loads(file.read_text())
     assert notebook["nbformat"] == 4
@@ -23,9 +23,9 @@ def test_its_cells_run(file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPat
         assert cell["source"] and all(line.endswith("\n") for line in cell["source"][:-1])
         if cell["cell_type"] != "code":
             continue
-        assert cell["outputs"] == [] and cell["execution_count"] is None, "it is kept without its outputs"
+        assert cell["outputs"] == [] and cell["execution_count"] is None, "the notebook in the tree contains outputs"
         exec(compile("".join(cell["source"]), f"{file.name}, cell {number}", "exec"), names)
-        for figure in map(plt.figure, plt.get_fignums()):  # as a notebook shows them
+        for figure in map(plt.figure, plt.get_fignums()):  # draws them, as a notebook does
             figure.canvas.draw()
             figures += 1
         plt.close("all")

@@ -1,4 +1,4 @@
-"""Planners in Python in flight, compared with planners in C++: in one process and over DDS, killed, replayed, wrong."""
+"""Planners in Python: in one process and over DDS, compared with one in C++, killed, flown again, and with mistakes."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ import skein
 from skein.testing import PlannerContract
 
 HOVER = "py:python/examples/hover.py"
-#: A planner that uses both random generators, the order of a set and an own module, and sends its numbers by radio.
+#: A planner that uses both random generators, the order of a set and a module of its own, and sends numbers by radio.
 WANDERER = '''
 import random
 import numpy as np
@@ -56,7 +56,7 @@ def wanderer(tmp_path: Path) -> str:
     return f"py:{tmp_path}/mine/wanderer.py"
 
 
-def test_a_planner_in_python_flies_as_the_same_in_cpp(tmp_path: Path) -> None:
+def test_a_planner_in_python_flies_as_the_same_planner_in_cpp(tmp_path: Path) -> None:
     ours = fly(tmp_path, "hover:height_m=4", out=tmp_path / "cpp")
     for spec in (f"{HOVER}:height_m=4", f"{HOVER}:Hover:height_m=4"):
         assert fly(tmp_path, spec, force=True).digest == ours.digest
@@ -72,7 +72,7 @@ def test_the_digest_is_the_same_over_dds_killed_and_started_again(tmp_path: Path
     many = fly(tmp_path, wanderer, faults=faults, out=tmp_path / "many", one_process=False, record="none")
     assert one.digest is not None and one.digest == many.digest
     after = one.trajectories[(one.trajectories["uav"] == "jurong") & (one.trajectories["time_s"] > 10)]
-    assert (abs(after["vx"]) + abs(after["vy"]) + abs(after["vz"])).max() > 0.1, "it flies on after its restart"
+    assert (abs(after["vx"]) + abs(after["vy"]) + abs(after["vz"])).max() > 0.1, "it stood after its restart"
 
 
 def test_a_run_keeps_its_planner_and_rerun_flies_it_again(tmp_path: Path, wanderer: str) -> None:
@@ -118,18 +118,18 @@ class Observer(Planner):
 
 
 @pytest.mark.parametrize("conditions", ["none", "harsh"])
-def test_peers_tell_how_far_they_are_to_be_trusted(tmp_path: Path, conditions: str) -> None:
+def test_peers_have_fields_that_say_how_accurate_they_are(tmp_path: Path, conditions: str) -> None:
     (tmp_path / "observer.py").write_text(OBSERVER.replace("@IDEAL@", str(conditions == "none")))
     run = fly(tmp_path, f"py:{tmp_path}/observer.py", conditions=conditions)
     assert run.digest is not None
     names = run.trajectories.dtype.names
-    assert ("charge" in names) is (conditions == "harsh"), "only with batteries"
+    assert ("charge" in names) is (conditions == "harsh"), "there are charges without batteries, or none with them"
     if conditions == "harsh":
         assert 0 <= run.trajectories["charge"].min() < 1 == run.trajectories["charge"].max()
 
 
-def test_another_seed_of_hashes_is_found_out(tmp_path: Path) -> None:
-    """A planner depends on the order of a set of texts: check-planner names step, UAV and field of the difference."""
+def test_check_planner_finds_a_planner_that_depends_on_the_order_of_a_set(tmp_path: Path) -> None:
+    """The order depends on the seed of hashes. check-planner names step, UAV and field of the first difference."""
     (tmp_path / "sets.py").write_text(
         "from skein.planner import *\n"
         "class Sets(Planner):\n"
@@ -163,7 +163,7 @@ def test_an_exception_is_named_with_uav_and_step(tmp_path: Path, one_process: bo
         assert part in text, text
     assert caught.value.run is not None
     uavs = {uav["name"]: uav for uav in caught.value.run.result["uavs"]}
-    assert uavs["jurong"]["distance_m"] > 1, "the others fly on"
+    assert uavs["jurong"]["distance_m"] > 1, "the other UAVs did not fly on"
 
 
 WRONG_FILES = {
@@ -252,7 +252,7 @@ def test_the_contract_fails_where_a_planner_does_not_keep_it(tmp_path: Path) -> 
 
 
 @pytest.mark.parametrize("lost", [False, True])
-def test_the_contract_asks_whether_a_program_came_back(tmp_path: Path, lost: bool) -> None:
+def test_the_contract_fails_if_a_restarted_program_did_not_come_back(tmp_path: Path, lost: bool) -> None:
     run = fly(tmp_path, HOVER, duration=3)
     run.result["uavs"][0]["program_lost"] = lost
 

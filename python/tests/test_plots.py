@@ -44,7 +44,7 @@ def test_plots_of_a_run(flown: skein.Run, tmp_path: Path, draw: Any) -> None:
     own = draw(flown)
     assert own.figure is not ax.figure and own.figure.get_size_inches()[0] == 3.5
     same_files(lambda: draw(flown), tmp_path)
-    assert plt.rcParams["font.size"] == plt.rcParamsDefault["font.size"], "nothing of the user's is changed"
+    assert plt.rcParams["font.size"] == plt.rcParamsDefault["font.size"], "a plot changed the user's settings"
 
 
 @pytest.mark.parametrize("draw", OF_A_STUDY, ids=lambda draw: draw.__name__)
@@ -55,7 +55,7 @@ def test_plots_of_a_study(study: skein.Study, tmp_path: Path, draw: Any) -> None
 
 
 @pytest.mark.parametrize("draw", OF_RUNS, ids=lambda draw: draw.__name__)
-def test_several_runs_are_called_by_what_differs(study: skein.Study, draw: Any) -> None:
+def test_labels_of_several_runs_name_what_differs(study: skein.Study, draw: Any) -> None:
     def texts(runs: Any, **options: Any) -> str:
         ax = draw(runs, **options)
         legend = ax.get_legend().get_texts() if ax.get_legend() else []
@@ -70,7 +70,7 @@ def test_several_runs_are_called_by_what_differs(study: skein.Study, draw: Any) 
         draw([])
 
 
-def test_the_score_ends_with_what_was_delivered(flown: skein.Run) -> None:
+def test_the_curve_of_the_score_ends_at_the_delivered_score(flown: skein.Run) -> None:
     ax = plots.score(flown)
     delivered, earned = ax.get_lines()
     assert delivered.get_ydata()[-1] == pytest.approx(flown.score, abs=1e-6)
@@ -85,16 +85,16 @@ def test_the_score_ends_with_what_was_delivered(flown: skein.Run) -> None:
     assert len(plots.score(flown, earned=False).get_lines()) == 1
 
 
-def test_the_delivery_ends_with_the_share_that_came(flown: skein.Run) -> None:
+def test_the_curve_of_delivery_ends_at_the_share_that_was_delivered(flown: skein.Run) -> None:
     (line,) = plots.delivery(flown).get_lines()
     frame = flown.frame("captures").drop_duplicates(["uav", "capture"])
     assert line.get_ydata()[-1] == pytest.approx(100.0 * frame["delivered_at_s"].notna().mean())
-    assert line.get_ydata()[-1] < 100.0, "the blackout"
+    assert line.get_ydata()[-1] < 100.0, "all captures were delivered despite the blackout"
     assert line.get_xdata()[-1] == pytest.approx((frame["delivered_at_s"] - frame["time_s"]).max())
     assert line.get_xdata()[-1] > 1.0
 
 
-def test_curves_are_of_the_flights(study: skein.Study) -> None:
+def test_curves_end_at_the_median_of_the_final_scores(study: skein.Study) -> None:
     for planner, line in zip(study.planners, plots.curves(study).get_lines()):
         finals = [run.score for run in study.runs(planner=planner)]
         assert line.get_ydata()[-1] == pytest.approx(np.median(finals), abs=1e-6)
@@ -142,7 +142,7 @@ def test_the_parts_of_a_loss_add_up(flown: skein.Run) -> None:
     assert len(shown) == 1 + sum(size > 0.0 for size in lost.values())
 
 
-def test_the_links_are_shares_of_the_time(flown: skein.Run) -> None:
+def test_the_picture_of_links_shows_shares_of_the_time(flown: skein.Run) -> None:
     ax = plots.links(flown)
     nodes = [text.get_text() for text in ax.get_yticklabels()]
     assert nodes == ["gcs", *flown.uavs]
@@ -153,13 +153,13 @@ def test_the_links_are_shares_of_the_time(flown: skein.Run) -> None:
     for row in flown.links:
         lengths[(str(row["a"]), str(row["b"]))] += row["to_s"] - row["from_s"]
     assert shares == {link: round(100.0 * length / flown.sim_time_s) for link, length in lengths.items()}
-    assert min(shares.values()) < 95, "the blackout"
+    assert min(shares.values()) < 95, "all links were open for most of the time despite the blackout"
     linked = sum(bar.get_width() for bar in plots.links_over_time(flown).patches if round(bar.get_y() + 0.3) == 1)
     direct = lengths[("raffles", "gcs")]
     assert direct <= linked + 1e-9 < flown.sim_time_s
 
 
-def test_the_lanes_are_what_was_said(flown: skein.Run) -> None:
+def test_the_lanes_show_the_reported_activities(flown: skein.Run) -> None:
     ax = plots.activity(flown)
     for lane, uav in enumerate(flown.uavs):
         bars = [bar for bar in ax.patches if abs(bar.get_y() + 0.26 - lane - 0.08) < 0.01]
@@ -202,7 +202,7 @@ def test_an_aborted_run_is_drawn(flown: skein.Run, tmp_path: Path, draw: Any, si
         ax = draw(skein.Run(tmp_path))
         plots.save(ax, tmp_path / "drawn.svg")
     assert ax.get_xlim()[1] > ax.get_xlim()[0]
-    assert "nan" not in [text.get_text() for text in ax.texts], "what is unknown is left out"
+    assert "nan" not in [text.get_text() for text in ax.texts], "the plot labels an unknown value"
 
 
 def test_a_study_without_flights_that_count_is_drawn(study: skein.Study, tmp_path: Path) -> None:

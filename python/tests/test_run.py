@@ -14,7 +14,7 @@ import skein
 from skein import columns
 
 
-def test_a_run_is_what_its_result_says(flown: skein.Run) -> None:
+def test_a_run_has_the_values_of_its_result(flown: skein.Run) -> None:
     result = flown.result
     assert (flown.scenario, flown.seed, flown.status) == ("towers", 2, "completed")
     assert flown.uavs == ["jurong", "raffles", "sentosa", "changi", "nanyang"]
@@ -45,8 +45,8 @@ def test_its_tables_add_up(flown: skein.Run) -> None:
     assert set(flown.work["uav"]) == set(flown.trajectories["uav"]) == set(flown.uavs)
     assert flown.digests["digest"][-1] == flown.digest
     assert flown.digests.dtype.names[2] == "jurong.position"
-    assert np.isnan(flown.captures["delivered_at_s"]).any(), "not received"
-    assert len(flown.capture_messages) > 0, "the faulty links lost some"
+    assert np.isnan(flown.captures["delivered_at_s"]).any(), "all captures were received"
+    assert len(flown.capture_messages) > 0, "the faulty links lost no messages"
 
 
 def test_losses_of_earlier_versions_have_no_parts(flown: skein.Run, tmp_path: Path) -> None:
@@ -58,7 +58,7 @@ def test_losses_of_earlier_versions_have_no_parts(flown: skein.Run, tmp_path: Pa
     assert np.array_equal(losses["cause"], flown.losses["cause"])
 
 
-def test_links_are_the_events_as_intervals(flown: skein.Run) -> None:
+def test_the_intervals_of_links_agree_with_their_events(flown: skein.Run) -> None:
     links = flown.links
     assert (links["from_s"] <= links["to_s"]).all() and (np.diff(links["from_s"]) >= 0).all()
     # After each event, the open links are those whose interval contains the time.
@@ -73,7 +73,7 @@ def test_links_are_the_events_as_intervals(flown: skein.Run) -> None:
     assert set(links["to_s"][[(str(row["a"]), str(row["b"])) in up for row in links]]) >= {flown.sim_time_s}
 
 
-def test_links_that_cannot_be_are_damage(flown: skein.Run, tmp_path: Path) -> None:
+def test_impossible_events_of_links_are_reported_as_damage(flown: skein.Run, tmp_path: Path) -> None:
     shutil.copy(flown.path / "result.json", tmp_path)
     text = (flown.path / "events.csv").read_text()
     line = next(line for line in text.splitlines() if ",link_up," in line)
@@ -82,7 +82,7 @@ def test_links_that_cannot_be_are_damage(flown: skein.Run, tmp_path: Path) -> No
         skein.Run(tmp_path).links
 
 
-def test_any_index_of_a_point_may_be_damage(flown: skein.Run, tmp_path: Path) -> None:
+def test_the_earned_score_can_be_computed_with_any_index_of_a_point(flown: skein.Run, tmp_path: Path) -> None:
     shutil.copy(flown.path / "result.json", tmp_path)
     header, *rows = (flown.path / "captures.csv").read_text().splitlines()
     place = header.split(",").index("point")
@@ -106,9 +106,9 @@ def test_a_frame_has_the_same_rows(flown: skein.Run, name: str) -> None:
     assert not array.flags.writeable
 
 
-def test_tables_are_attributes(flown: skein.Run) -> None:
+def test_each_table_is_an_attribute_of_the_run(flown: skein.Run) -> None:
     for name in [*columns.RUN_TABLES, "links"]:
-        assert getattr(flown, name) is flown.table(name), "read once"
+        assert getattr(flown, name) is flown.table(name), "the table was read twice"
     with pytest.raises(ValueError, match="read-only"):
         flown.captures["q"] = 0.0
     with pytest.raises(KeyError, match="'capture'; it has .*captures"):
@@ -126,7 +126,7 @@ def test_an_error_about_missing_data_names_the_reason(tmp_path: Path) -> None:
         run.hand("jurong")
     with pytest.raises(KeyError, match="jurnog"):
         run.hand("jurnog")
-    assert len(run.capture_messages) == 0, "no link lost any, so that there is no file"
+    assert len(run.capture_messages) == 0, "no link lost a message, so the table must be empty"
     assert run.capture_messages.dtype.names == columns.CAPTURE_MESSAGES.names
     assert len(run.captures) == 0 and len(run.earned()) == 1
     with pytest.raises(skein.MissingError, match="no folder"):
@@ -188,7 +188,7 @@ def test_a_process_that_fails_leaves_its_results(tmp_path: Path) -> None:
     assert caught.value.run.result["lost_members"][0]["member"] == "jurong"
 
 
-def test_all_that_is_public_is_typed_and_explained() -> None:
+def test_all_public_names_have_types_and_docstrings() -> None:
     for name in skein.__all__:
         thing = getattr(skein, name)
         assert inspect.getdoc(thing) or isinstance(thing, dict), name

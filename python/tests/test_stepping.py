@@ -1,4 +1,4 @@
-"""Stepped fleets: the clauses of both interfaces, digests, and observations of learners."""
+"""Stepped fleets: the rules of PettingZoo's and Gymnasium's interfaces, digests, and observations of learners."""
 
 from __future__ import annotations
 
@@ -41,11 +41,11 @@ def fleet() -> Iterator[skein.Fleet]:
 
 # -- PettingZoo's ParallelEnv, clause by clause -----------------------------------------------------------------------
 
-def test_it_says_what_it_is(fleet: skein.Fleet) -> None:
+def test_a_fleet_has_the_attributes_of_a_parallel_env(fleet: skein.Fleet) -> None:
     assert isinstance(fleet.metadata["name"], str) and "ansi" in fleet.metadata["render_modes"]
     assert fleet.possible_agents == LEARNERS and fleet.max_num_agents == 2
     for uav in LEARNERS:
-        assert fleet.observation_space(uav) is fleet.observation_space(uav), "the same object each time"
+        assert fleet.observation_space(uav) is fleet.observation_space(uav), "each call must return the same object"
         assert fleet.action_space(uav) is fleet.action_space(uav)
     assert fleet.observation_spaces.keys() == fleet.action_spaces.keys() == set(LEARNERS)
     assert fleet.unwrapped is fleet
@@ -90,19 +90,19 @@ def test_a_step_beyond_the_end_ends_at_it(fleet: skein.Fleet, step_s: float) -> 
     assert fleet.over and truncations == dict.fromkeys(LEARNERS, True)
 
 
-def test_a_seed_says_all(fleet: skein.Fleet) -> None:
+def test_the_seed_determines_the_flight(fleet: skein.Fleet) -> None:
     flights = []
     for seed in (11, 12, 11, None):
         begin, infos = fleet.reset(seed=seed)
-        assert infos["jurong"]["seed"] == (12 if seed is None else seed), "without a seed the next one"
+        assert infos["jurong"]["seed"] == (12 if seed is None else seed), "reset() without a seed must use the next one"
         fly(fleet, np.random.default_rng(1), 1.5)
         flights.append((begin["jurong"], fleet.result()["digest"]))
     assert same(flights[0][0], flights[2][0]) and flights[0][1] == flights[2][1]
     assert flights[1][1] == flights[3][1] != flights[0][1]
-    assert not same(flights[0][0], flights[1][0]), "starts are drawn"
+    assert not same(flights[0][0], flights[1][0]), "two seeds gave the same starts"
 
 
-def test_observations_stay_as_they_were(fleet: skein.Fleet) -> None:
+def test_later_steps_do_not_change_earlier_observations(fleet: skein.Fleet) -> None:
     first, _ = fleet.reset(seed=1)
     kept = {name: value.copy() for name, value in first["jurong"].items()}
     fly(fleet, np.random.default_rng(2), 2.0)
@@ -127,7 +127,7 @@ def test_a_uav_that_collides_terminates_and_the_others_go_on() -> None:
         assert {hit["uav"] for hit in fleet.result()["collisions"]} >= {"jurong"}
         time_s = fleet.truth.time_s
         fleet.step({})
-        assert fleet.truth.time_s > time_s, "others fly on"
+        assert fleet.truth.time_s > time_s, "the fleet did not fly on"
 
 
 def test_only_fork_copies_a_fleet(fleet: skein.Fleet) -> None:
@@ -149,7 +149,7 @@ def test_render(fleet: skein.Fleet) -> None:
 
 # -- Gymnasium's Env --------------------------------------------------------------------------------------------------
 
-def test_one_learner_as_gymnasium_has_it() -> None:
+def test_a_fleet_with_one_learner_is_a_gymnasium_env() -> None:
     with skein.gym_env("changi", "towers", stop_at=2, step_s=0.2, seed=4) as env:
         observation, info = env.reset(seed=9)
         assert env.observation_space.contains(observation) and isinstance(info, dict)
@@ -172,7 +172,8 @@ def test_one_learner_as_gymnasium_has_it() -> None:
 # -- the same flight as on the command line ---------------------------------------------------------------------------
 
 @pytest.mark.parametrize("scenario, planner, seed", [("towers", "patrol", 3), ("cranes", "kios", 1)])
-def test_without_learners_it_is_the_launchers_flight(scenario: str, planner: str, seed: int, tmp_path: Path) -> None:
+def test_a_fleet_without_learners_flies_the_launchers_flight(
+        scenario: str, planner: str, seed: int, tmp_path: Path) -> None:
     run = skein.run(scenario, planner=planner, seed=seed, duration=12, one_process=True, no_oracle=True,
                     no_report=True, out=tmp_path / "run")
     with skein.Fleet(scenario, planner=planner, seed=seed, duration=12) as fleet:
@@ -200,7 +201,7 @@ def test_the_launcher_flies_the_commands_of_learners_again(safe: bool, tmp_path:
     assert run.digest == result["digest"] and max(moved) > 2.0
 
 
-def test_how_many_steps_are_taken_at_once_changes_nothing() -> None:
+def test_the_length_of_steps_does_not_change_the_flight() -> None:
     digests = set()
     for steps in (1, 5, 20):
         with skein.Fleet("towers", seed=1, learners=["raffles"], duration=30) as fleet:
@@ -213,7 +214,7 @@ def test_how_many_steps_are_taken_at_once_changes_nothing() -> None:
     assert len(digests) == 1
 
 
-def test_goals_are_reached_and_told() -> None:
+def test_a_uav_reaches_its_goal_and_observes_that() -> None:
     with skein.Fleet("towers", planner="hover", learners=["jurong"], actions="goal", duration=60) as fleet:
         observations, _ = fleet.reset()
         start = observations["jurong"]["position"]
@@ -226,7 +227,7 @@ def test_goals_are_reached_and_told() -> None:
         assert observations["jurong"]["airborne"] == 1 and observations["jurong"]["map"].max() >= 0
 
 
-def test_a_path_without_the_filter_is_flown_as_it_is() -> None:
+def test_without_the_filter_a_path_is_flown_unchanged() -> None:
     with skein.Fleet("towers", planner="hover", learners=["jurong"], actions="goal", safe=False, scans=True,
                      duration=60) as fleet:
         observations, _ = fleet.reset()
@@ -240,7 +241,7 @@ def test_a_path_without_the_filter_is_flown_as_it_is() -> None:
             fleet.save_commands("jurong", "x.csv")
 
 
-def test_rewards_are_what_the_station_counts_or_the_users_own() -> None:
+def test_rewards_are_scores_at_the_station_or_those_of_the_users_function() -> None:
     with skein.Fleet("towers", planner="patrol", seed=2, learners=["nanyang"], step_s=5, duration=60) as fleet:
         fleet.reset()
         total = 0.0
@@ -256,7 +257,7 @@ def test_rewards_are_what_the_station_counts_or_the_users_own() -> None:
         assert fleet.step()[1] == {"nanyang": -1.0}
 
 
-def test_the_truth_is_not_what_a_uav_knows(faults: Path, tmp_path: Path) -> None:
+def test_the_truth_differs_from_the_observations_of_a_uav(faults: Path, tmp_path: Path) -> None:
     file = tmp_path / "jump.yaml"
     file.write_text("faults:\n  - {at_s: 1, odometry_jump: {uav: jurong, offset_m: [5, 0, 0]}}\n")
     with skein.Fleet("towers", learners=["jurong"], faults=file, duration=10) as fleet:

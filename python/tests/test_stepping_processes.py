@@ -58,14 +58,14 @@ def pid_of(fleet: skein.Fleet) -> int:
 # -- copies -----------------------------------------------------------------------------------------------------------
 
 @pytest.mark.parametrize("planner, seed", [("patrol", 1), ("kios", 2), ("star", 3)])
-def test_a_copy_flies_as_the_one_that_it_was_copied_from(planner: str, seed: int) -> None:
+def test_a_copy_flies_as_its_original(planner: str, seed: int) -> None:
     random = np.random.default_rng(seed)
     with skein.Fleet("towers", planner=planner, seed=seed, learners=["jurong"], duration=40) as fleet:
         fleet.reset()
         fly(fleet, random, float(random.uniform(2, 8)))
         with fleet.fork() as copy:
             assert pid_of(copy) != pid_of(fleet) and copy.truth.step == fleet.truth.step
-            with copy.fork() as other:  # it flies differently, which does not affect the others
+            with copy.fork() as other:  # flies differently, which must not affect the others
                 fly(other, np.random.default_rng(99), copy.truth.time_s + 2)
                 until_s = copy.truth.time_s + 3
                 fly(copy, np.random.default_rng(seed), until_s)
@@ -90,7 +90,7 @@ def test_a_copy_outlives_its_original_and_an_original_its_copy() -> None:
         one.close()
 
 
-def test_side_by_side_they_fly_as_alone() -> None:
+def test_fleets_side_by_side_fly_as_alone() -> None:
     def flights(together: bool) -> list[str]:
         digests = []
         with skein.vector_env(3, "towers", planner="patrol", seed=5, learners=["jurong"], duration=4) as fleets:
@@ -110,7 +110,7 @@ def test_side_by_side_they_fly_as_alone() -> None:
     assert together == flights(False) and len(set(together)) == 3
 
 
-def test_a_vector_says_what_is_wrong_and_stays_usable() -> None:
+def test_a_vector_refuses_wrong_input_and_stays_usable() -> None:
     with skein.vector_env(2, "towers", learners=["jurong"], stop_at=1, step_s=0.5) as fleets:
         fleets.reset(seed=1)
         with pytest.raises(skein.InputError, match="2 fleets, and 1 actions"):
@@ -120,7 +120,7 @@ def test_a_vector_says_what_is_wrong_and_stays_usable() -> None:
         assert [fleet.truth.time_s for fleet in fleets] == [0.5, 0.0]
         fleets[1].step()
         fleets.step([{}, None])
-        assert fleets.step([{}, {}])[0] == [{}, {}], "over"
+        assert fleets.step([{}, {}])[0] == [{}, {}], "fleets whose missions are over returned observations"
     with pytest.raises(skein.InputError, match="1 or more"):
         skein.vector_env(0)
 
@@ -177,7 +177,7 @@ def test_each_failure_of_a_planner_is_an_exception_that_names_it(how: str) -> No
     wait_for_end(pid)
 
 
-def test_nothing_is_left_behind() -> None:
+def test_closed_and_deleted_fleets_leave_nothing_behind() -> None:
     before = set(workers())
     fleet = skein.Fleet("towers", learners=["jurong"], duration=5)
     fleet.reset(seed=2)
@@ -258,7 +258,7 @@ def test_ctrl_c_is_an_interrupt_and_leaves_nothing(tmp_path: Path) -> None:
     assert watch.still_there_after_waiting() == [] and processes_in(tmp_path) == {}
 
 
-def test_a_copy_of_the_interpreter_has_no_fleet() -> None:
+def test_a_forked_interpreter_cannot_use_the_fleet() -> None:
     with skein.Fleet("towers", learners=["jurong"], duration=5) as fleet:
         fleet.reset()
         read, write = os.pipe()
@@ -334,7 +334,7 @@ def bad_actions() -> list[tuple[dict[str, Any], str]]:
     return found
 
 
-def test_an_action_that_is_none_changes_nothing() -> None:
+def test_refused_actions_and_calls_do_not_change_the_flight() -> None:
     with skein.Fleet("towers", learners=["jurong", "raffles"], duration=5) as fleet, fleet.fork() as other:
         good = {"velocity": (0, 0, 1), "gimbal_rate": (0, 0)}
         for action, said in bad_actions():
@@ -362,7 +362,7 @@ def test_an_action_that_is_none_changes_nothing() -> None:
         fleet.end_step()
 
 
-def test_after_close_it_says_so() -> None:
+def test_calls_after_close_are_refused_with_a_message() -> None:
     fleet = skein.Fleet("towers", learners=["jurong"], duration=5)
     truth = fleet.truth
     fleet.close()

@@ -26,7 +26,7 @@ def test_every_flight_is_a_run(study: skein.Study) -> None:
     assert "10 flights of patrol, kios:voxel_m=4,lanes=3 in towers" in repr(study)
 
 
-def test_pairs_are_the_launchers(study: skein.Study) -> None:
+def test_pairs_are_those_that_the_launcher_computed(study: skein.Study) -> None:
     (pair,) = study.pairs[study.pairs["figure"] == "score"]
     assert (pair["first"], pair["second"], pair["scenario"]) == ("patrol", "kios:voxel_m=4,lanes=3", "towers")
     assert pair["pairs"] == 5
@@ -48,7 +48,7 @@ def test_a_frame_has_the_same_rows(study: skein.Study, name: str) -> None:
     assert tuple(frame.columns) == array.dtype.names and len(frame) == len(array)
 
 
-def test_a_study_goes_on_where_it_was(study: skein.Study) -> None:
+def test_a_study_continues_where_it_was_stopped(study: skein.Study) -> None:
     before = {i: (study.run(i).path / "result.json").stat().st_mtime_ns for i in range(10)}
     again = skein.compare(["patrol", "kios:voxel_m=4,lanes=3"], seeds="0-5", duration=3, out=study.path, force=True)
     assert len(again.flights) == 12
@@ -66,7 +66,7 @@ def test_a_study_refuses_with_a_reason(study: skein.Study, tmp_path: Path) -> No
         skein.Study(tmp_path).settings
 
 
-def test_a_requirement_that_is_not_kept_leaves_the_study(tmp_path: Path) -> None:
+def test_an_unmet_requirement_raises_an_error_that_has_the_study(tmp_path: Path) -> None:
     with pytest.raises(skein.CheckError) as caught:
         skein.compare("hover", seeds=1, duration=1, require="score>=1", out=tmp_path / "study")
     assert caught.value.exit_code == 1

@@ -87,7 +87,7 @@ def assert_says(array: Any, rows: list[dict[str, str]]) -> None:
 
 
 @pytest.mark.parametrize("name", columns.RUN_TABLES)
-def test_an_array_says_what_the_file_says(flown: skein.Run, name: str) -> None:
+def test_an_array_has_the_values_of_the_file(flown: skein.Run, name: str) -> None:
     file = flown.path / columns.RUN_TABLES[name].file
     assert_says(flown.table(name), plain(file.read_text()))
 
@@ -113,7 +113,7 @@ def test_a_damaged_file_is_refused_or_read_as_it_is(flown: skein.Run, tmp_path: 
     table = columns.RUN_TABLES[name]
     shutil.copy(flown.path / "result.json", tmp_path)
     lines = (flown.path / table.file).read_bytes().splitlines(keepends=True)
-    data = b"".join(lines[: 1 + 12])  # short, so that the damage often hits the header or the end
+    data = b"".join(lines[: 1 + 12])  # a short file, so that the damage often hits the header or the end
     refused = 0
     for _ in range(400):
         hurt = damaged(draw, data)
