@@ -62,7 +62,7 @@ class InvalidFile : public ::testing::TestWithParam<std::string> {};
 TEST_P(InvalidFile, IsRefusedWithAUsefulMessage) {
   const fs::path file = kHere / (GetParam() + ".yaml");
   const auto expected = expectations(file);
-  ASSERT_FALSE(expected.empty()) << file << " says nowhere what to expect";
+  ASSERT_FALSE(expected.empty()) << file << " has no line \"# expect:\"";
   std::string message;
   try {
     if (GetParam().starts_with("invalid_vehicle_")) {
@@ -75,7 +75,7 @@ TEST_P(InvalidFile, IsRefusedWithAUsefulMessage) {
       options.config_dir = kConfig;
       load_scenario(file.string(), options);
     }
-    FAIL() << "accepted";
+    FAIL() << "the file was accepted";
   } catch (const InputError& error) {
     message = error.what();
   }

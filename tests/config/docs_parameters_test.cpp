@@ -1,5 +1,5 @@
-// The tables of parameters in docs/conditions.md and docs/flight-core.md are those of the code: each key with its range
-// and its values, and with the source of these values. What the flight core has as constants does not grow.
+// The tables of parameters in docs/conditions.md and docs/flight-core.md agree with the code: they list each key with
+// its range, its values and the source of these values. The flight core does not get more constants.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -23,7 +23,7 @@ namespace {
 
 /// A key of a struct with describe().
 struct DescribedKey {
-  std::string value;  ///< as a page shows it; empty: none
+  std::string value;  ///< the default, as a page shows it; empty: none
   Bounds bounds;
   bool is_number = false;
 };
@@ -57,12 +57,12 @@ std::map<std::string, DescribedKey> keys_of(T config) {
   return collector.keys;
 }
 
-/// A row of a table whose first cell has keys: `a`, `b`.
+/// A row of a table that is about one or more keys, which its first cell names: `a`, `b`.
 struct ParameterRow {
   std::vector<std::string> keys, cells;
 };
 
-/// The rows of the table on a page whose head has these words in its first cell.
+/// The rows of a page's table, which is found by the words in the first cell of its head.
 std::vector<ParameterRow> rows_of_table(const std::string& page, const std::string& head) {
   static const std::regex kKey("`([a-z0-9_]+)`");
   std::ifstream in(source_path("docs/" + page));
@@ -106,7 +106,7 @@ void expect_bounds(const std::string& cell, const DescribedKey& key, const std::
   EXPECT_EQ(match.length(1) > 0, key.bounds.lo_open) << name;
 }
 
-/// A cell has the values of all keys of its row, or one for all of them. Words stand for a value that is not there.
+/// Checks a cell. It has a value for each key of its row, or one value for all. If a key has no value, it has words.
 void expect_value(const ParameterRow& row, std::size_t column, std::size_t i, const std::string& expected) {
   const std::vector<std::string> values = split(row.cells.at(column));
   std::string value = values.size() == row.keys.size() ? values.at(i) : row.cells.at(column);
@@ -130,7 +130,7 @@ TEST(ConditionsPage, HasEveryKeyWithItsRangeItsPresetsAndASource) {
       ASSERT_GE(row.cells.size(), 3 + presets.size()) << testing::PrintToString(row.cells);
       EXPECT_FALSE(row.cells[2 + presets.size()].empty()) << row.cells[0] << ": no source";
       for (std::size_t i = 0; i < row.keys.size(); ++i) {
-        ASSERT_TRUE(presets[0].contains(row.keys[i])) << row.keys[i] << " is no key";
+        ASSERT_TRUE(presets[0].contains(row.keys[i])) << row.keys[i] << " is not a key of the code";
         ++found;
         expect_bounds(row.cells[1], presets[0].at(row.keys[i]), row.keys[i]);
         for (std::size_t p = 0; p < presets.size(); ++p) expect_value(row, 2 + p, i, presets[p].at(row.keys[i]).value);
@@ -146,7 +146,7 @@ TEST(FlightCorePage, HasEveryParameterWithItsRangeItsDefaultAndASource) {
   for (const ParameterRow& row : rows_of_table("flight-core.md", "parameter")) {
     ASSERT_GE(row.cells.size(), 5U) << testing::PrintToString(row.cells);
     ASSERT_EQ(row.keys.size(), 1U) << row.cells[0];
-    ASSERT_TRUE(keys.contains(row.keys[0])) << row.keys[0] << " is no parameter";
+    ASSERT_TRUE(keys.contains(row.keys[0])) << row.keys[0] << " is not a parameter of the code";
     ++found;
     expect_bounds(row.cells[1], keys.at(row.keys[0]), row.keys[0]);
     expect_value(row, 2, 0, keys.at(row.keys[0]).value);
@@ -154,11 +154,11 @@ TEST(FlightCorePage, HasEveryParameterWithItsRangeItsDefaultAndASource) {
     EXPECT_FALSE(row.cells[4].empty()) << row.keys[0] << ": no source";
   }
   EXPECT_EQ(found, keys.size()) << "parameters that the page lacks, or has twice";
-  EXPECT_LE(keys.size(), 40U) << "more parameters than anybody can choose";
+  EXPECT_LE(keys.size(), 40U) << "too many parameters for a user to choose";
 }
 
-/// If you need another constant, make a parameter of it, or remove an old one. If there are fewer now, lower the
-/// number.
+/// If you need another constant, make it a parameter, or remove an old constant. If there are fewer constants now,
+/// lower the number.
 TEST(FlightCoreConstants, AreNoMoreThanThereWere) {
   static const std::regex kConstant(R"(\bk[A-Z]\w*(\[\])? = \{?-?[0-9])");
   constexpr std::ptrdiff_t kMost = 140;
@@ -173,7 +173,7 @@ TEST(FlightCoreConstants, AreNoMoreThanThereWere) {
     }
   }
   EXPECT_LE(count, kMost);
-  EXPECT_GT(count, kMost / 2) << "the test no longer finds them";
+  EXPECT_GT(count, kMost / 2) << "the test no longer finds the constants";
 }
 
 }  // namespace

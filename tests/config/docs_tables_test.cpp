@@ -1,5 +1,5 @@
-// docs/topics.md is correct: its tables have exactly the topics of the table in the code, each with its type, its depth
-// and its writer.
+// docs/topics.md is correct: its tables list exactly the topics of the code's table, each with its type, its depth and
+// its writer.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,6 +1,6 @@
-// The configurations of RViz: config/skein.rviz shows the topics of a run for viewers, ros2/skein_ros/rviz/uav.rviz the
-// topics that a UAV receives and those that its agent publishes. Each topic is in the table of topics, with the type
-// that its display needs, and no topic is missing.
+// The configurations of RViz: config/skein.rviz shows the topics of a run for viewers; ros2/skein_ros/rviz/uav.rviz
+// shows the topics that a UAV receives and those that its agent publishes. Each shown topic exists, with the type that
+// its display needs, and no topic is missing.
 #include <gtest/gtest.h>
 #include <unistd.h>
 #include <yaml-cpp/yaml.h>

@@ -44,8 +44,8 @@ bool is_set(const char* variable) {
   return value != nullptr && std::string(value) == "1";
 }
 
-/// Whether both images hold the programs of this build, installed from its packages. IMAGES_OF_THE_SOURCES=1 says that
-/// their programs were compiled from the same sources elsewhere, which is as good.
+/// Whether both images hold the programs of this build, installed from its packages. With IMAGES_OF_THE_SOURCES=1, the
+/// caller states that the images' programs were compiled from the same sources, so the images may be used, too.
 bool images_are_of_this_build() {
   if (is_set("IMAGES_OF_THE_SOURCES")) return true;
   static const bool kAre = [] {

@@ -1,7 +1,7 @@
 // The fixture of the tests of fleets in containers, with a real Docker engine and the images on this machine. If the
-// images hold the programs of this build (.ci/containers makes such images), these fly; else the programs of the build
-// folder are mounted over them. Without an engine a test is skipped and says what it has not tested; with
-// REQUIRE_ENGINE=1 it fails.
+// images hold the programs of this build (.ci/containers makes such images), the fixture uses these; otherwise it
+// mounts the programs of the build folder over them. Without an engine, a test is skipped with a message that names
+// what was not tested; with REQUIRE_ENGINE=1, it fails.
 #pragma once
 
 #include <map>
@@ -25,7 +25,7 @@ bool engine_is_required();
 /// The parts of a text between white space.
 std::vector<std::string> words(const std::string& text);
 
-/// After each test it checks that no container, network or volume of the test's fleets is left, and removes any.
+/// After each test, checks that the test's fleets have left no container, network or volume, and removes what is left.
 class Containers : public FleetTest {
  protected:
   /// The part of a result that must be the same in and out of containers: digest and score.

@@ -13,7 +13,7 @@ class ComposeErrors : public Containers {
     SkeinRun& run = start_up("run" + std::to_string(++number_), more, environment);
     EXPECT_EQ(run.exit_code(), 2) << run.err();
     EXPECT_NE(run.err().find(reason), std::string::npos) << run.err();
-    EXPECT_FALSE(std::filesystem::exists(run.dir())) << "nothing was begun";
+    EXPECT_FALSE(std::filesystem::exists(run.dir())) << "the run has created its folder";
   }
 
  private:

@@ -40,7 +40,7 @@ INSTANTIATE_TEST_SUITE_P(Vendors, EveryVendor,
                                          std::pair("mixed", "patrol")),
                          [](const auto& vendor) { return vendor.param.first; });
 
-// Otherwise all other tests would only test the programs of the build folder.
+// If the images have other programs, all other tests mount those of the build folder instead.
 TEST_F(FlightInContainers, TheImagesOwnProgramsAreThoseOfThisBuild) {
   if (programs_of_this_build().empty()) return;
   const std::string untested = "the images have the programs of another build: not tested is that their own fly";
@@ -104,7 +104,7 @@ TEST_F(FlightInContainers, APlannersOwnImageFliesAUav) {
   EXPECT_EQ(shell("docker image rm " + image).code, 0);
   expect_whole(run);
   EXPECT_EQ(run.result()["uavs"].size(), 4u);
-  EXPECT_GT(run.result()["uavs"][0]["distance_m"], 1.0) << "it took off";
+  EXPECT_GT(run.result()["uavs"][0]["distance_m"], 1.0) << "the UAV did not take off";
   EXPECT_EQ(flight_of(run), alone(flown("@" + helper_program("probe_agent"), {})));
 }
 
@@ -181,7 +181,8 @@ TEST_P(TwentyUavs, FlyTheSame) {
   if (!without) without = alone(flown);
   EXPECT_EQ(flight_of(run), *without);
   if (!GetParam().empty()) {
-    EXPECT_NE(text_of(run.dir() / "compose.yaml").find("10.99.1.80/28"), std::string::npos) << "the 22nd network";
+    EXPECT_NE(text_of(run.dir() / "compose.yaml").find("10.99.1.80/28"), std::string::npos)
+        << "the 22nd network has another address";
   }
 }
 

@@ -13,8 +13,8 @@ namespace {
 namespace fs = std::filesystem;
 
 const std::string kSpy = "jurong", kAgent = "uav_agent-jurong";
-constexpr int kSpysDomain = 3;                      // world 1, ground station 2, then the UAVs
-constexpr const char* kOthersDomains = " 1 2 4 5";  // two of other UAVs
+constexpr int kSpysDomain = 3;                      // world 1, ground station 2, UAVs from 3 on
+constexpr const char* kOthersDomains = " 1 2 4 5";  // of the world, the station and two other UAVs
 
 class Isolation : public Containers {
  protected:
@@ -35,8 +35,8 @@ class Isolation : public Containers {
   }
 };
 
-// A single script, to save time: prints everything that it finds or does against the rules. A reachable host refuses a
-// connection to a closed port; without any answer, the host is not reachable.
+// A single script, to save time. It prints each thing that it can see or do although it must not. A reachable host
+// refuses a connection to a closed port; if there is no answer at all, the host is not reachable.
 constexpr const char* kSpying = R"sh(
 expect() { [ "$2" = "$3" ] || echo "$1: $2, not $3"; }
 expect interfaces "$(ls /sys/class/net | grep -E -v '^(lo|tunl0|sit0|ip6tnl0)$' | tr '\n' ' ')" "eth0 "
@@ -80,8 +80,8 @@ TEST_F(Isolation, AUavSeesItsOwnDomainAndNothingElse) {
   const std::string spy = flying(run, kAgent);
   std::string addresses, names = "station";
   for (const std::string& address : foreign_addresses(run)) addresses += " " + address;
-  EXPECT_EQ(words(addresses).size(), 2u * 6u + 2u + 4u) << "server and router, station, UAVs: " << addresses;
-  // The gateways' addresses, which would be this host's in each network, the spy's own included.
+  EXPECT_EQ(words(addresses).size(), 2u * 6u + 2u + 4u) << "of server, router, station and UAVs: " << addresses;
+  // The address of each network's gateway, which would be this host, also in the spy's own network.
   for (const std::string& network :
        words(shell("docker network ls --quiet --filter label=com.docker.compose.project=" + project(run)).text)) {
     addresses += " " + shell("docker network inspect --format '{{(index .IPAM.Config 0).Gateway}}' " + network).text;
@@ -130,15 +130,15 @@ TEST_P(Intruder, HearsNothingOfOtherDomainsAndIsNotHeardThere) {
     long domain = 0, readers = 0, writers = 0, samples = 0;
     std::istringstream(line) >> domain >> readers >> writers >> samples;
     if (domain == kSpysDomain) {
-      EXPECT_GT(samples, 0) << "it could not hear at all: " << line;
+      EXPECT_GT(samples, 0) << "the intruder does not work, even in its own domain: " << line;
     } else {
-      EXPECT_EQ(readers, 0) << "who would take what it forges: " << line;
+      EXPECT_EQ(readers, 0) << "these readers would receive forged samples: " << line;
       EXPECT_EQ(samples, 0) << line;
-      EXPECT_EQ(writers, 0) << "who tells it what there is: " << line;
+      EXPECT_EQ(writers, 0) << "discovery of these writers reached the intruder: " << line;
     }
   }
   EXPECT_EQ(domains, 5u) << heard.text;
-  EXPECT_FALSE(run.skein().ended()) << "the run was over before the intruder was";
+  EXPECT_FALSE(run.skein().ended()) << "the run ended before the intruder did";
   EXPECT_EQ(run.exit_code(), 0) << run.err();
   expect_whole(run);
   EXPECT_EQ(flight_of(run), alone(arguments("patrol", "300")));

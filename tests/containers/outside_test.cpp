@@ -12,7 +12,7 @@ namespace {
 
 class FromOutside : public Containers {
  protected:
-  /// @returns the step at which `member` last rejoined; 0: it has not.
+  /// @returns the step at which `member` last rejoined; 0: it has not rejoined
   static long returned_at(const SkeinRun& run, const std::string& member) {
     const std::string log = log_of(run, "sim_server");
     const std::regex again(member + " joined again at step (\\d+)");
@@ -75,7 +75,7 @@ TEST_F(FromOutside, AProgramThatIsKilledAndStartedAgainWorksAgain) {
   for (const char* uav : {"sentosa", "nanyang"}) {
     EXPECT_TRUE(delivers_after(run, uav, std::ranges::max(returned["station"], returned["comm_router"]))) << uav;
   }
-  // The station has lost no delivered capture when it died; captures of the last moment are still on their way.
+  // The killed station has lost no delivered capture. Captures of the last moments may not have arrived yet.
   EXPECT_GE(result["score"].get<double>(), 0.99 * result["score_earned"].get<double>()) << result["losses"];
 }
 
@@ -89,7 +89,7 @@ TEST_F(FromOutside, AProgramThatIsStoppedForAMomentIsNotMissed) {
   EXPECT_EQ(flight_of(run), alone(flown));
 }
 
-// Longer than its lease: the server drops the UAV, which must join again.
+// The pause is longer than the program's lease: the server drops the UAV, which must join again.
 TEST_F(FromOutside, AProgramThatStandsStillForLongComesBack) {
   SkeinRun& run = start_up("up", arguments("patrol", "300"));
   const std::string id = flying(run, "uav_agent-changi");
@@ -116,7 +116,7 @@ TEST_F(FromOutside, LostPacketsAreSentAgain) {
   }
   const Answer cut = shell(rules);
   expect_same_or_named_loss(run, flown);
-  if (cut.code != 0) GTEST_SKIP() << "not tested is the loss of packets, for want of nsenter or iptables: " << cut.text;
+  if (cut.code != 0) GTEST_SKIP() << "no nsenter or iptables; the loss of packets is not tested: " << cut.text;
 }
 
 TEST_F(FromOutside, ACableThatIsPulledForAMomentDoesNotMatter) {
@@ -131,7 +131,7 @@ TEST_F(FromOutside, ACableThatIsPulledForAMomentDoesNotMatter) {
                    ": \\([^@]*\\)@.*/\\1/p') && ip link set \"$end\" down && sleep 2 && ip link set \"$end\" up");
   }
   expect_same_or_named_loss(run, flown);
-  if (pulled.code != 0) GTEST_SKIP() << "not tested is a link that goes down: " << pulled.text;
+  if (pulled.code != 0) GTEST_SKIP() << "a link that goes down is not tested: " << pulled.text;
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// A fleet that docker-compose starts by itself, from a file that `skein compose` has written.
+// A fleet that docker-compose starts without Skein's launcher, from a file that `skein compose` has written.
 #include <unistd.h>
 
 #include "container_fixture.hpp"
@@ -34,7 +34,7 @@ TEST_F(PlainCompose, FliesTheSameAndItsResultsAreMerged) {
     const Answer copied = shell("docker cp " + id + ":/results/. " + dir.string());
     EXPECT_EQ(copied.code, 0) << copied.text;
   }
-  // The server's report names a file in its container, so the scenario is given here.
+  // The server's report names the scenario by its path in the container, so merge gets its path on this host.
   const ChildProcess& merged = skein({"merge", dir, "--scenario", "towers"});
   ASSERT_TRUE(fs::exists(dir / "result.json")) << merged.err();
   const Json result = Json::parse(text_of(dir / "result.json"));

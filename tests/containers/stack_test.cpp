@@ -20,11 +20,12 @@ class Stack : public Containers {
   void SetUp() override {
     Containers::SetUp();
     if (IsSkipped() || HasFatalFailure()) return;
-    if (!programs_of_this_build().empty()) GTEST_SKIP() << "images of another build: a swarm mounts no programs";
+    if (!programs_of_this_build().empty())
+      GTEST_SKIP() << "the images are of another build, and a swarm cannot mount this build's programs";
     fs::create_directories(swarm_);
     const Answer up = shell(script() + " up " + swarm_.string() + " skein skein-agent");
     up_ = true;
-    if (up.code == 77) GTEST_SKIP() << "no swarm here: " << up.text;
+    if (up.code == 77) GTEST_SKIP() << "a swarm cannot run here: " << up.text;
     ASSERT_EQ(up.code, 0) << up.text;
   }
   void TearDown() override {

@@ -74,7 +74,7 @@ TEST_F(PageInContainers, IsServedOnThisHostAndReachedByNoUav) {
   EXPECT_TRUE(follow(key).starts_with("HTTP/1.1 101"));
 
   const std::string inspected = shell("docker inspect " + station).text;
-  EXPECT_EQ(inspected.find(key), std::string::npos) << "neither on a command line nor in an environment";
+  EXPECT_EQ(inspected.find(key), std::string::npos) << "a command line or an environment contains the key";
   EXPECT_EQ(text_of(run.dir() / "compose.yaml").find(key), std::string::npos);
 
   const std::string addresses = addresses_of(station) + " " + gateways_of(project(run)) + " " +
@@ -90,13 +90,14 @@ TEST_F(PageInContainers, IsServedOnThisHostAndReachedByNoUav) {
   const std::string by_host = shell("bash " + script.string()).text,
                     by_station = shell("docker exec --interactive " + station + " bash -s < " + script.string()).text;
   EXPECT_NE(by_host.find("reaches 127.0.0.1:" + port_.text()), std::string::npos)
-      << "what the UAV could not do can be done: " << by_host;
+      << "not even this host reaches the page: " << by_host;
   EXPECT_NE(by_station.find(":8080"), std::string::npos) << by_station;
   EXPECT_NE(by_station.find("page.view"), std::string::npos) << by_station;
-  EXPECT_EQ(by_station.find("reaches 127.0.0.1:8080"), std::string::npos) << "in one of its networks alone";
+  EXPECT_EQ(by_station.find("reaches 127.0.0.1:8080"), std::string::npos) << "the page is also served on the loopback";
 
   ASSERT_TRUE(run.wait_for("the page shows the replay")) << run.err();
-  EXPECT_TRUE(eventually([&] { return follow(key).starts_with("HTTP/1.1 101"); })) << "by the launcher";
+  EXPECT_TRUE(eventually([&] { return follow(key).starts_with("HTTP/1.1 101"); }))
+      << "the launcher does not serve the replay";
   run.skein().signal(SIGINT);
   EXPECT_EQ(run.exit_code(), 0) << run.err();
   EXPECT_EQ(flight_of(run), alone(flight));

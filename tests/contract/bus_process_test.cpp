@@ -146,7 +146,8 @@ TEST_P(BusProcesses, StoppedReaderHoldsNoWriterUp) {
   [[maybe_unused]] const double before = resident_mb();
   for (std::uint64_t n = 0; n < 50'000; ++n) writer_->write(numbered(n, 2000));
 #ifndef __SANITIZE_ADDRESS__  // AddressSanitizer keeps freed memory for a while
-  EXPECT_LT(resident_mb() - before, 50.0) << "what a stopped reader has not acknowledged piles up";
+  EXPECT_LT(resident_mb() - before, 50.0)
+      << "the writer keeps all samples that the stopped reader has not acknowledged";
 #endif
   peer_.resume();
 }

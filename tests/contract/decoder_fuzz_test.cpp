@@ -111,10 +111,10 @@ void fuzz(const T& message, int count, Use use) {
     use(again);
     const Bytes encoded = encode(again);
     T third;
-    ASSERT_TRUE(decode(encoded, third)) << "what was read can be written";
+    ASSERT_TRUE(decode(encoded, third)) << "a decoded message must survive encoding";
     payload = encoded.size() < 4 * whole.size() ? encoded : whole;
   }
-  EXPECT_GT(good, 0) << type_name<T>() << ": damage that leaves nothing to read tests nothing";
+  EXPECT_GT(good, 0) << type_name<T>() << ": no damaged payload could be decoded, so this tests nothing";
 }
 
 template <class T>
@@ -168,7 +168,7 @@ TEST(DamagedMessages, CloudsGiveWholePointsOrNone) {
     const auto detections = from_cloud<DetectionPoint>(cloud);
     const std::size_t bytes = scan.size() * sizeof(ScanPoint) + neighbours.size() * sizeof(NeighbourPoint) +
                               detections.size() * sizeof(DetectionPoint);
-    EXPECT_LE(bytes, cloud.data().size()) << "of one layout at most";
+    EXPECT_LE(bytes, cloud.data().size()) << "the cloud was read by more than one layout";
     for (const NeighbourPoint& point : neighbours) whole_number(point.node);
     for (const DetectionPoint& point : detections) whole_number(point.order);
   };
@@ -189,7 +189,7 @@ TEST(DamagedMessages, LayoutsOfOthersAreRefused) {
   EXPECT_TRUE(refused([](auto& c) { c.fields().pop_back(); }));
   EXPECT_TRUE(refused([](auto& c) { c.fields()[2].offset(0xfffffff0); }));
   EXPECT_TRUE(refused([](auto& c) { c.fields()[1].datatype(8); }));
-  EXPECT_TRUE(refused([](auto& c) { c.data().resize(15); })) << "less than a point";
+  EXPECT_TRUE(refused([](auto& c) { c.data().resize(15); })) << "the data are shorter than a point";
 }
 
 TEST(DamagedMessages, NumbersThatCountAreWholeOrNothing) {

@@ -1,5 +1,5 @@
-// A fleet on one host, and programs on the same host with the vendors' default settings, such as ROS 2 nodes: they
-// match, although the fleet sends nothing to other hosts.
+// Programs with the vendors' default settings, such as ROS 2 nodes, match a fleet on the same host, although the fleet
+// sends nothing to other hosts.
 #include <gtest/gtest.h>
 
 #include <memory>
@@ -42,8 +42,8 @@ TEST_P(OwnHost, ParticipantsWithDefaultSettingsAreMet) {
   EXPECT_EQ(at_fleet.numbers(50).back(), 149U);
 }
 
-// Two participants of Cyclone DDS with different settings cannot be in one domain of one process: tests/ros2 tests
-// them.
+// A process cannot have two participants of Cyclone DDS with different settings in one domain: tests/ros2 tests this
+// pair.
 INSTANTIATE_TEST_SUITE_P(Vendors, OwnHost,
                          testing::Values(std::pair("cyclonedds", "fastdds"), std::pair("fastdds", "cyclonedds"),
                                          std::pair("fastdds", "fastdds")),
@@ -56,7 +56,7 @@ TEST(OwnAddress, IsTheLoopbackAndWhatAnInterfaceHas) {
   };
   EXPECT_TRUE(own(127, 0, 0, 1));
   EXPECT_TRUE(own(127, 8, 8, 8));
-  EXPECT_FALSE(own(203, 0, 113, 77)) << "kept for documentation: nobody has it";
+  EXPECT_FALSE(own(203, 0, 113, 77)) << "this address is reserved for documentation";
   EXPECT_FALSE(own(239, 255, 0, 1)) << "a group is not a host";
 }
 

@@ -29,7 +29,7 @@ const std::string kBlob = "/blob", kBlobType = "only_here/msg/Blob";
 const std::string kLater = "/later", kLaterType = "only_here/msg/Later";
 
 bool linked(std::size_t from, std::size_t to, std::uint64_t k) {
-  if (from == to || (k >= kDeath && (from == 2 || to == 2))) return false;  // b is dead from then on
+  if (from == to || (k >= kDeath && (from == 2 || to == 2))) return false;  // b is dead from step kDeath on
   return (from + 2 * to + k) % 3 != 0;
 }
 
@@ -235,7 +235,7 @@ TEST_P(Radio, CarriesAnyTypeBitForBitToThePermittedNodes) {
   for (const auto& member : members_) sent.push_back(member->sent_);
   EXPECT_EQ(sent[0].front(), 3U) << "asked in step 2, open in step 3, however long discovery took";
   EXPECT_EQ(sent[1].front(), 3U);
-  EXPECT_TRUE(sent[2].empty()) << "it never asked to send";
+  EXPECT_TRUE(sent[2].empty()) << "this member never asked to send";
   for (std::size_t node = 0; node < kNodes.size(); ++node) {
     for (const std::string& topic : {kBlob, kLater}) {
       const auto must = expected(node, topic, sent);
@@ -244,8 +244,8 @@ TEST_P(Radio, CarriesAnyTypeBitForBitToThePermittedNodes) {
       for (std::size_t i = 0; i < must.size(); ++i) EXPECT_TRUE(heard[i] == must[i]) << topic << " number " << i;
     }
   }
-  EXPECT_EQ(back, 0) << "nothing comes back to its source";
-  EXPECT_EQ(from_elsewhere, 0) << "what is sent in one domain is heard in another as its arrival only";
+  EXPECT_EQ(back, 0) << "the sender's domain got its own messages as arrivals";
+  EXPECT_EQ(from_elsewhere, 0) << "a message got into another domain on the topic on which it was sent";
   const router::LinkCounts total = router_.gate().total();
   EXPECT_EQ(total.sent, total.delivered + total.dropped_no_los);
   expect_usual_digest();
@@ -286,7 +286,7 @@ TEST_P(Radio, SaysWhyARequestMakesNoSense) {
     EXPECT_FALSE(status.open) << topic;
   }
   EXPECT_TRUE(members_[0]->sending(kLater).open);
-  EXPECT_EQ(members_[0]->sending(kLater).unheard, std::vector<std::string>()) << "both ends of all are matched";
+  EXPECT_EQ(members_[0]->sending(kLater).unheard, std::vector<std::string>()) << "a target's reader has not matched";
 }
 
 INSTANTIATE_TEST_SUITE_P(Vendors, Radio,

@@ -27,7 +27,7 @@ class Break : public DebugTest {
     EXPECT_EQ(skein.wait().code, 0) << skein.out() << skein.err();
     const std::string said = skein.out();
     expect_part(said, "received signal SIGTRAP");
-    EXPECT_EQ(said.find("SIGTRAP"), said.rfind("SIGTRAP")) << "it stops once";
+    EXPECT_EQ(said.find("SIGTRAP"), said.rfind("SIGTRAP")) << "the program stopped more than once";
     expect_part(said, "$1 = " + std::to_string(last_exchange_before(time_s)) + "\n");
     expect_part(said, "exited normally");
     EXPECT_EQ(result(name)["digest"], plain.digest());

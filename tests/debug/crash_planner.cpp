@@ -9,8 +9,8 @@ class CrashPlanner final : public Planner {
  public:
   struct Config {
     double at_s = 2.0;
-    bool reckless = false;  ///< instead of crashing, it asks for more speed than the UAV can fly
-    bool rams = false;      ///< instead of both, it flies into the block of the small scene
+    bool reckless = false;  ///< asks for more speed than the UAV can fly, instead of crashing
+    bool rams = false;      ///< flies into the block of the small scene, instead of both
 
     void describe(auto& r) {
       r.field("at_s", at_s, within(0.0, 100.0));

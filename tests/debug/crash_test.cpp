@@ -34,7 +34,8 @@ TEST_F(Crash, ItsBacktraceNamesTheLine) {
       << log;
   expect_part(crashed.err(),
               "uav_agent-changi failed: signal 11 (Segmentation fault), backtrace in uav_agent-changi.log");
-  EXPECT_TRUE(std::regex_search(crashed.err(), std::regex("    #0 .*crash_planner\\.cpp:"))) << "quoted with it";
+  EXPECT_TRUE(std::regex_search(crashed.err(), std::regex("    #0 .*crash_planner\\.cpp:")))
+      << "the launcher's message does not quote the backtrace";
   const Json lost = crashed.result()["lost_members"];
   ASSERT_EQ(lost.size(), 1u) << lost;
   expect_part(lost[0]["reason"], "backtrace in uav_agent-changi.log");
@@ -48,12 +49,13 @@ TEST_F(Crash, AnAgentForDebuggersIsCompiledForThem) {
   std::smatch producer;
   const std::string said = gdb.out();
   ASSERT_TRUE(std::regex_search(said, producer, std::regex("Producer is .*( -O[^ ]*)"))) << said << gdb.err();
-  EXPECT_EQ(producer[1], " -Og") << "the last one counts";
+  EXPECT_EQ(producer[1], " -Og") << "the compiler uses the last option -O of several";
 }
 
 TEST_F(Crash, ItsCoreIsKeptOnRequest) {
   SKEIN_NEEDS_GDB();
-  if (text_of("/proc/sys/kernel/core_pattern").starts_with('|')) GTEST_SKIP() << "another program gets the cores here";
+  if (text_of("/proc/sys/kernel/core_pattern").starts_with('|'))
+    GTEST_SKIP() << "the kernel passes core files to another program here";
   SkeinRun& crashed = run("crash", flight({"--cores"}), {}, 3);
   const auto core = crashed.dir() / "uav_agent-changi.core";
   expect_part(crashed.err(), "backtrace in uav_agent-changi.log, core in uav_agent-changi.core");

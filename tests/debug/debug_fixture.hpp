@@ -12,7 +12,7 @@
 
 /// First line of a test: skips it where gdb does not work.
 #define SKEIN_NEEDS_GDB() \
-  if (!skein::test::gdb_works()) GTEST_SKIP() << "there is no gdb here, or it may not debug"
+  if (!skein::test::gdb_works()) GTEST_SKIP() << "gdb is not installed, or may not debug here"
 
 namespace skein::test {
 

@@ -1,5 +1,5 @@
-// `skein run --debug UAV=gdb`: gdb gets the typed commands, the digest is that without gdb, and a program is lost when
-// the user leaves its gdb.
+// `skein run --debug UAV=gdb`: gdb gets the typed commands, the digest is the same as without gdb, and the fleet loses
+// a program when the user leaves its gdb.
 #include <map>
 #include <regex>
 
@@ -91,7 +91,7 @@ TEST_F(Gdb, ThePlannersOutputIsShownInALine) {
   skein.wait();
   expect_part(skein.out(), "Value returned is $1 = ");
   expect_part(skein.out(), "p_WB = (");
-  EXPECT_EQ(skein.out().find("PlainObjectBase"), std::string::npos) << "Eigen's own members";
+  EXPECT_EQ(skein.out().find("PlainObjectBase"), std::string::npos) << "gdb shows Eigen's internal members";
 }
 
 }  // namespace

@@ -31,7 +31,7 @@ class Terminal {
   void type(const std::string& text) {
     ASSERT_EQ(::write(fd_, text.data(), text.size()), static_cast<ssize_t>(text.size()));
   }
-  /// Whether the terminal shows `part` after the part that was found before.
+  /// Waits until the terminal shows `part`, after the part that the call before found. @returns whether it does
   bool shows(const std::string& part) {
     return eventually([&] {
       pollfd polled{fd_, POLLIN, 0};

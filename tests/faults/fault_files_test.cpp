@@ -1,4 +1,4 @@
-// The fault tests in config/faults/ and the pages about faults: every file loads, every table is complete.
+// Every fault test in config/faults/ loads, and the tables on the pages about faults and properties are complete.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -28,7 +28,7 @@ std::vector<std::string> examples(const std::string& text) {
   static const std::string begin_mark = "```yaml", end_mark = "```\n";
   std::vector<std::string> blocks;
   for (std::size_t at = 0; (at = text.find(begin_mark, at)) != std::string::npos;) {
-    at = text.find('\n', at) + 1;  // the block's name, if any, stands before
+    at = text.find('\n', at) + 1;  // skips the rest of the line, which may have the block's name
     const std::size_t end = text.find(end_mark, at);
     blocks.push_back(text.substr(at, end - at));
     at = end;
@@ -66,7 +66,7 @@ TEST_F(FaultFiles, EveryShippedOneIsAFaultTestNamedAfterItsFile) {
   EXPECT_LE(total_s, 100.0 * static_cast<double>(shipped().size())) << "the suite should stay short";
 }
 
-// Other UAVs take over the work of a program only if it does not come back; otherwise the property is vacuous.
+// Other UAVs take over a UAV's work only if its program does not come back. If it does, the property is vacuous.
 TEST_F(FaultFiles, FilesThatRequireATakeoverKillAProgramForGood) {
   std::size_t asked = 0;
   for (const std::string& name : shipped()) {
@@ -129,7 +129,7 @@ TEST_F(FaultFiles, ThePageOfTestsListsEveryExpectationAndEveryDefaultProperty) {
   }
 }
 
-// A shipped file states each thing once.
+// A shipped file must not list a property that every fault test has anyway.
 TEST_F(FaultFiles, NoShippedOneRepeatsADefaultOne) {
   for (const std::string& name : shipped()) {
     const FaultTest test = load_fault_test(kRoot / "config" / "faults" / (name + ".yaml"));
@@ -140,7 +140,7 @@ TEST_F(FaultFiles, NoShippedOneRepeatsADefaultOne) {
 TEST_F(FaultFiles, ThePageOfPropertiesListsEverySignalAndEveryReadyProperty) {
   const std::string text = page("properties.md");
   const auto has_row = [&](const std::string& row) {
-    EXPECT_NE(text.find("\n" + row + "\n"), std::string::npos) << "missing, or another: " << row;
+    EXPECT_NE(text.find("\n" + row + "\n"), std::string::npos) << "the page lacks this row: " << row;
   };
   for (const SignalInfo& info : signal_table()) {
     const std::string unit = info.is_boolean ? "yes or no" : unit_text(info.unit);

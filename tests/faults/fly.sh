@@ -1,7 +1,8 @@
 #!/bin/sh
-# Flies one fault test in one process: fly.sh SKEIN FILE NUMBER REPEATS OUT. NUMBER decides whether it flies in this
-# turn (SKEIN_TURN; without it always): it flies in one of three turns, and in one of six also again, in the ways of
-# REPEATS. If REPEATS is `only`, it flies in one of six turns, once. The long suite repeats it in every way.
+# Flies one fault test in one process: fly.sh SKEIN FILE NUMBER REPEATS OUT. NUMBER and SKEIN_TURN decide whether this
+# run of the suite flies it: in one of three turns once, and in one of six turns also again, in the ways that REPEATS
+# lists. If REPEATS is `only`, it is flown once, in one of six turns. Without SKEIN_TURN, it is always flown. The long
+# suite repeats it in every way.
 set -eu
 has_turn() { [ -z "${SKEIN_TURN:-}" ] || [ $((($1 + SKEIN_TURN) % $2)) -eq 0 ]; }
 turns=3
