@@ -69,20 +69,20 @@ void fuzz(const fs::path& file, const auto& load) {
   }
 }
 
-TEST(ConfigFuzz, DamagedScenario) {
+TEST(ConfigFuzz, ADamagedScenarioIsReadOrRefused) {
   for (const char* name : {"towers.yaml", "mbs.yaml"}) {
     fuzz(source_path("config/scenarios") + "/" + name,
          [](const ConfigDocument& document) { read_config<ScenarioFile>(document); });
   }
 }
 
-TEST(ConfigFuzz, DamagedVehicle) {
+TEST(ConfigFuzz, ADamagedVehicleIsReadOrRefused) {
   fuzz(source_path("config/vehicles/explorer.yaml"),
        [](const ConfigDocument& document) { read_config<VehicleConfig>(document); });
 }
 
 /// The whole loader with its cross-checks. It reads a file, which is slow, so there are only a few rounds.
-TEST(ConfigFuzz, DamagedScenarioFile) {
+TEST(ConfigFuzz, ADamagedScenarioFileIsReadOrRefusedByTheWholeLoader) {
   const fs::path copy = fs::path(::testing::TempDir()) / "skein_config_fuzz.yaml";
   const std::string original = read_text(source_path("config/scenarios/mbs.yaml"));
   LoadOptions options;

@@ -94,7 +94,7 @@ TEST_P(ShippedScenario, LoadsAndIsNamedAfterItsFile) {
   EXPECT_FALSE(scenario.fleet.empty());
 }
 
-TEST_P(ShippedScenario, ReadsBackFromWhatIsPrinted) {
+TEST_P(ShippedScenario, IsTheSameWhenItIsPrintedAndReadAgain) {
   const Scenario scenario = load_scenario(GetParam(), without_assets());
   const std::string printed = to_yaml(scenario);
   const fs::path copy = fs::path(::testing::TempDir()) / ("skein_copy_of_" + GetParam() + ".yaml");
@@ -117,7 +117,7 @@ TEST_P(ShippedVehicle, LoadsAndNamesEveryKey) {
 
 INSTANTIATE_TEST_SUITE_P(Config, ShippedVehicle, ::testing::ValuesIn(config_names(kConfig / "vehicles")), test_name);
 
-TEST(ShippedConfig, HasTheFilesThatEveryBodyKnows) {
+TEST(ShippedConfig, HasTheVehiclesAndScenariosThatUsersExpect) {
   EXPECT_EQ(config_names(kConfig / "vehicles"), (std::vector<std::string>{"explorer", "photographer"}));
   for (const char* name : {"mbs.yaml", "crane.yaml", "towers.yaml"}) {
     EXPECT_TRUE(fs::exists(kConfig / "scenarios" / name)) << name;
@@ -136,7 +136,7 @@ TEST(ShippedConfig, MbsAndCraneFindTheOfficialData) {
   }
 }
 
-TEST(ShippedConfig, ExplorerIsTheDefaultVehicleInParts) {
+TEST(ShippedConfig, TheExplorerEqualsTheDefaultVehicleAssembledFromParts) {
   VehicleConfig explorer = load_vehicle("explorer", kConfig);
   VehicleConfig plain;
   plain.name = "explorer";

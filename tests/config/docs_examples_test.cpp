@@ -54,7 +54,7 @@ TEST(ScenarioPage, ItsExamplesLoad) {
   for (const std::string& block : blocks) EXPECT_NO_THROW(load(block)) << block;
 }
 
-TEST(ScenarioPage, MbsAndCraneAreTheShippedOnes) {
+TEST(ScenarioPage, ItsExamplesMbsAndCraneAreTheShippedScenarios) {
   LoadOptions options;
   options.config_dir = kRoot / "config";
   options.needs_scene_files = false;

@@ -20,7 +20,7 @@ class ComposeErrors : public Containers {
   int number_ = 0;
 };
 
-TEST_F(ComposeErrors, TellWhatHelps) {
+TEST_F(ComposeErrors, NameARemedy) {
   expect_refusal("no Docker engine answers (`skein doctor` looks closer)", arguments(),
                  {{"DOCKER_HOST", "unix://" + (folder() / "no.sock").string()}});
   expect_refusal("the engine has no image 'skein-of-nobody'; docs/", arguments(), {{"SKEIN_IMAGE", "skein-of-nobody"}});

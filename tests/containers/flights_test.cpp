@@ -27,7 +27,7 @@ class FlightInContainers : public Containers {
 class EveryVendor : public FlightInContainers,
                     public testing::WithParamInterface<std::pair<std::string, std::string>> {};
 
-TEST_P(EveryVendor, IsTheSameAsWithout) {
+TEST_P(EveryVendor, HasTheDigestOfAFlightWithoutContainers) {
   const auto& [vendor, planner] = GetParam();
   const SkeinRun& run = up("up", arguments(planner, "60", {"--dds", vendor}));
   expect_whole(run);
@@ -48,7 +48,7 @@ TEST_F(FlightInContainers, TheImagesOwnProgramsAreThoseOfThisBuild) {
   GTEST_SKIP() << untested;
 }
 
-TEST_F(FlightInContainers, ProgramsOfABuildFolderFlyInThePlaceOfTheImages) {
+TEST_F(FlightInContainers, ProgramsOfABuildFolderFlyInPlaceOfTheImagesPrograms) {
   const SkeinRun& run = up("up", arguments("patrol", "20", {"--build-folder", build_path()}));
   expect_whole(run);
   EXPECT_NE(text_of(run.dir() / "compose.yaml").find("/opt/skein/bin"), std::string::npos);
@@ -56,7 +56,7 @@ TEST_F(FlightInContainers, ProgramsOfABuildFolderFlyInThePlaceOfTheImages) {
 }
 
 // A member of each kind is killed and paused once, in a random order, while links lose messages.
-TEST_F(FlightInContainers, FaultsMeanTheSame) {
+TEST_F(FlightInContainers, FaultsHaveTheSameEffectAsWithoutContainers) {
   std::vector<std::string> killed = {"jurong", "changi", "station", "comm_router", "gcs"}, stopped = killed;
   std::ranges::shuffle(killed, random_);
   std::ranges::shuffle(stopped, random_);
@@ -169,7 +169,7 @@ TEST_F(FlightInContainers, GdbOpensInTheContainerOfTheDebuggedAgent) {
 class TwentyUavs : public FlightInContainers, public testing::WithParamInterface<std::string> {};
 
 // The scenario is a user's file, which the image does not contain.
-TEST_P(TwentyUavs, FlyTheSame) {
+TEST_P(TwentyUavs, HaveTheDigestOfAFlightWithoutContainers) {
   const std::string text = cli::bench_scenario({.uavs = 20, .duration_s = 60});
   const Arguments flown = {write("twenty.yaml", text), "--planner", "patrol", "--no-oracle"};
   Arguments in_containers = flown;
@@ -200,9 +200,9 @@ TEST_F(FlightInContainers, PlannersInPythonFlyInAnImageThatHasIt) {
   EXPECT_EQ(flight_of(run), alone(flown));
 }
 
-TEST_F(FlightInContainers, SecuredIsTheSameAndItsKeysGo) { expect_secured({"--secure"}); }
+TEST_F(FlightInContainers, ASecuredFleetFliesTheSameAndItsKeysAreDeleted) { expect_secured({"--secure"}); }
 
-TEST_F(FlightInContainers, SecuredIsTheSameOnFastDds) { expect_secured({"--secure", "--dds", "fastdds"}); }
+TEST_F(FlightInContainers, ASecuredFleetFliesTheSameOverFastDds) { expect_secured({"--secure", "--dds", "fastdds"}); }
 
 void FlightInContainers::expect_secured(const Arguments& options) {
   const Arguments flown = arguments("patrol", "60", options);

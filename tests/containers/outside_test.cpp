@@ -79,7 +79,7 @@ TEST_F(FromOutside, AProgramThatIsKilledAndStartedAgainWorksAgain) {
   EXPECT_GE(result["score"].get<double>(), 0.99 * result["score_earned"].get<double>()) << result["losses"];
 }
 
-TEST_F(FromOutside, AProgramThatIsStoppedForAMomentIsNotMissed) {
+TEST_F(FromOutside, AProgramThatIsPausedForAMomentIsNotLost) {
   const Arguments flown = arguments();
   SkeinRun& run = start_up("up", flown);
   const std::string id = flying(run, "uav_agent-changi");
@@ -90,7 +90,7 @@ TEST_F(FromOutside, AProgramThatIsStoppedForAMomentIsNotMissed) {
 }
 
 // The pause is longer than the program's lease: the server drops the UAV, which must join again.
-TEST_F(FromOutside, AProgramThatStandsStillForLongComesBack) {
+TEST_F(FromOutside, AProgramThatIsPausedForLongIsLostAndComesBack) {
   SkeinRun& run = start_up("up", arguments("patrol", "300"));
   const std::string id = flying(run, "uav_agent-changi");
   EXPECT_EQ(shell("docker pause " + id + " && sleep 13 && docker unpause " + id).code, 0);
@@ -119,7 +119,7 @@ TEST_F(FromOutside, LostPacketsAreSentAgain) {
   if (cut.code != 0) GTEST_SKIP() << "no nsenter or iptables; the loss of packets is not tested: " << cut.text;
 }
 
-TEST_F(FromOutside, ACableThatIsPulledForAMomentDoesNotMatter) {
+TEST_F(FromOutside, ALinkThatIsDownForAMomentDoesNotChangeTheFlight) {
   const Arguments flown = arguments();
   SkeinRun& run = start_up("up", flown);
   const Answer link = shell(in_network_of(flying(run, "uav_agent-changi")) + "ip -oneline link show eth0");

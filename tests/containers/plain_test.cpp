@@ -13,7 +13,7 @@ std::string compose() { return shell("docker compose version").code == 0 ? "dock
 
 class PlainCompose : public Containers {};
 
-TEST_F(PlainCompose, FliesTheSameAndItsResultsAreMerged) {
+TEST_F(PlainCompose, FliesTheSameAndMergeJoinsItsResults) {
   const std::string file = folder() / "compose.yaml", project = "skein-plain-" + std::to_string(::getpid());
   const Arguments flown = arguments();
   Arguments wanted = {"compose", "towers", "--planner", "patrol", "--duration", "60", "--file", file};

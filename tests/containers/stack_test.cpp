@@ -75,7 +75,7 @@ class Stack : public Containers {
   bool up_ = false;
 };
 
-TEST_F(Stack, FliesOverTwoEnginesTheSameAsOnOneHost) {
+TEST_F(Stack, FliesTheSameOverTwoEnginesAsOnOneHost) {
   ASSERT_NO_FATAL_FAILURE(deploy({"towers", "--planner", "kios", "--duration", "60", "--place", kPlaces}));
   const Json result = merged();
   for (const char* program : {"uav_agent-jurong", "uav_agent-changi"}) {
@@ -95,7 +95,7 @@ TEST_F(Stack, ASecuredFleetTakesItsKeysAlong) {
   EXPECT_EQ((Flight{result["digest"], result["score"]}), alone(arguments("kios", "30")));
 }
 
-TEST_F(Stack, AnEngineThatVanishesIsTheLossOfItsUavs) {
+TEST_F(Stack, AFleetLosesTheUavsOfAnEngineThatVanishes) {
   ASSERT_NO_FATAL_FAILURE(deploy({"towers", "--planner", "kios", "--duration", "600", "--lease", "5", "--place",
                                   "jurong=node2,changi=node2,raffles=node1,sentosa=node1,nanyang=node1"}));
   const auto log = [&] { return on(1, "service logs fleet_sim_server").text; };

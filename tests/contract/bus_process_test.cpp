@@ -119,7 +119,7 @@ class BusProcesses : public testing::TestWithParam<Pair> {
   std::size_t written_ = 0;
 };
 
-TEST_P(BusProcesses, OtherProcessAnswersInOrder) {
+TEST_P(BusProcesses, SamplesOfAnotherProcessArriveInOrder) {
   connect_both_ways();
   const std::size_t before = heard_.wait_for(0).size();
   for (std::uint64_t n = 0; n < 50; ++n) writer_->write(numbered(n, 2000));
@@ -129,7 +129,7 @@ TEST_P(BusProcesses, OtherProcessAnswersInOrder) {
   for (const auto& sample : heard_.wait_for(0)) EXPECT_EQ(sample.source, peer_id_);
 }
 
-TEST_P(BusProcesses, OtherProcessAnswersLargeSamples) {
+TEST_P(BusProcesses, LargeSamplesOfAnotherProcessArrive) {
   connect_both_ways();
   for (const std::size_t size : {60'000, 200'000, 1'000'000, 4'000'000, 4'000'000}) {
     const std::size_t before = heard_.wait_for(0).size();
@@ -140,7 +140,7 @@ TEST_P(BusProcesses, OtherProcessAnswersLargeSamples) {
   }
 }
 
-TEST_P(BusProcesses, StoppedReaderHoldsNoWriterUp) {
+TEST_P(BusProcesses, AStoppedReaderDoesNotDelayTheWriter) {
   peer_.stop();
   write_in_step(2000);
   [[maybe_unused]] const double before = resident_mb();
@@ -152,7 +152,7 @@ TEST_P(BusProcesses, StoppedReaderHoldsNoWriterUp) {
   peer_.resume();
 }
 
-TEST_P(BusProcesses, KilledReaderHoldsNoWriterUpAndIsMissed) {
+TEST_P(BusProcesses, AKilledReaderDoesNotDelayTheWriterAndNoLongerMatches) {
   const auto before = shared_memory();
   peer_.kill();
   write_in_step(2000);

@@ -142,7 +142,7 @@ TEST_P(BusContract, OddLengthsArePaddedWithZeros) {
   }
 }
 
-TEST_P(BusContract, LateJoinerGetsTheLastSamplesOfALatchedTopic) {
+TEST_P(BusContract, ALateJoinerGetsTheLastSamplesOfALatchedTopic) {
   auto a = writing_side();
   const auto spec = topic("latched", {.latched = true, .depth = 3});
   auto writer = a->create_writer(spec);
@@ -155,7 +155,7 @@ TEST_P(BusContract, LateJoinerGetsTheLastSamplesOfALatchedTopic) {
   EXPECT_EQ(got.numbers(4), count_from(2, 4));
 }
 
-TEST_P(BusContract, LateJoinerGetsNothingOldOfAVolatileTopic) {
+TEST_P(BusContract, ALateJoinerGetsNoEarlierSamplesOfAVolatileTopic) {
   auto a = writing_side();
   auto writer = a->create_writer(topic("volatile"));
   for (const auto n : count_from(0, 5)) writer->write(numbered(n));
@@ -167,7 +167,7 @@ TEST_P(BusContract, LateJoinerGetsNothingOldOfAVolatileTopic) {
   EXPECT_EQ(got.numbers(1), count_from(5, 1));
 }
 
-TEST_P(BusContract, RelayMovesATypeThatItDoesNotKnow) {
+TEST_P(BusContract, ARelayPassesOnATypeThatItDoesNotKnow) {
   auto a = writing_side(0), relay_in = reading_side(0), relay_out = reading_side(1), b = writing_side(1);
   Collector got;
   auto reader = b->create_reader(topic("relayed"), got.callback());
@@ -200,7 +200,7 @@ TEST_P(BusContract, OwnSamplesAreNotEchoed) {
   EXPECT_TRUE(own->matched().empty());
 }
 
-TEST_P(BusContract, SourceIsTheWritersIdFromTheFirstSampleOn) {
+TEST_P(BusContract, TheSourceOfEachSampleIsItsWritersIdFromTheFirstOn) {
   auto a1 = writing_side(), a2 = writing_side(), b = reading_side();
   ASSERT_NE(a1->id(), a2->id());
   const auto spec = topic("source", {.latched = true, .depth = 1});
@@ -270,7 +270,7 @@ TEST_P(BusContract, ATopicMayHaveAnotherTypeOnceItsEndpointsAreGone) {
   EXPECT_EQ(got.numbers(1), count_from(7, 1));
 }
 
-TEST_P(BusContract, DomainsDoNotHearEachOther) {
+TEST_P(BusContract, SamplesStayWithinTheirDomain) {
   auto a0 = writing_side(0), a1 = writing_side(1), b0 = reading_side(0), b1 = reading_side(1);
   Collector got0, got1;
   auto reader0 = b0->create_reader(topic("apart"), got0.callback());
@@ -326,7 +326,7 @@ TEST_P(BusContract, LongLeasesAreAccepted) {
   EXPECT_EQ(got.numbers(1), count_from(1, 1));
 }
 
-TEST_P(BusContract, DomainOutOfRangeIsTheUsersError) {
+TEST_P(BusContract, ADomainOutOfRangeIsRefused) {
   const auto bus = bus::make_bus({.vendor = GetParam().writer});
   EXPECT_THROW(bus->join(-1), InputError);
   if (GetParam().writer == std::string("inproc")) {
@@ -342,7 +342,7 @@ INSTANTIATE_TEST_SUITE_P(Vendors, BusContract,
                                          Pair{"fastdds", "cyclonedds"}),
                          [](const auto& pair) { return name_of(pair.param); });
 
-TEST(Bus, UnknownVendorIsTheUsersError) {
+TEST(Bus, AnUnknownVendorIsRefused) {
   EXPECT_THROW(bus::make_bus({.vendor = "carrier_pigeon"}), InputError);
   EXPECT_EQ(bus::dds_vendors(), (std::vector<std::string>{"cyclonedds", "fastdds"}));
 }

@@ -177,7 +177,7 @@ TEST(DamagedMessages, CloudsGiveWholePointsOrNone) {
   fuzz(cloud_of<DetectionPoint>(9), rounds(5000), read);
 }
 
-TEST(DamagedMessages, LayoutsOfOthersAreRefused) {
+TEST(DamagedMessages, CloudsWithOtherLayoutsAreRefused) {
   const auto refused = [](auto change) {
     msg::PointCloud2 cloud = cloud_of<ScanPoint>(3);
     change(cloud);
@@ -192,7 +192,7 @@ TEST(DamagedMessages, LayoutsOfOthersAreRefused) {
   EXPECT_TRUE(refused([](auto& c) { c.data().resize(15); })) << "the data are shorter than a point";
 }
 
-TEST(DamagedMessages, NumbersThatCountAreWholeOrNothing) {
+TEST(DamagedMessages, FloatsThatAreNoWholeNumbersAreRefused) {
   EXPECT_EQ(whole_number(3.0F), 3U);
   EXPECT_EQ(whole_number(0.0F), 0U);
   for (const float wrong : {-1.0F, 0.5F, 1e30F, std::nanf(""), HUGE_VALF, -HUGE_VALF, 4294967296.0F}) {
@@ -200,7 +200,7 @@ TEST(DamagedMessages, NumbersThatCountAreWholeOrNothing) {
   }
 }
 
-TEST(DamagedMessages, CapturesAndLedgersKeepTheirMeaning) {
+TEST(DamagedMessages, CapturesAndLedgersAreConvertedOrRefused) {
   CaptureReport report;
   report.points = {{1, 0.5F, 0.5F, 0.25F}, {7, 1.0F, 1.0F, 1.0F}};
   LedgerEntry entry;
@@ -216,7 +216,7 @@ TEST(DamagedMessages, CapturesAndLedgersKeepTheirMeaning) {
 
 // ---- refused messages are counted and reported ---------------------------------------------------------------------
 
-TEST(DamagedMessages, AreCountedOnEachTopicAndLeadNowhere) {
+TEST(DamagedMessages, AreCountedAndReachNoHandler) {
   bus::Inbox inbox(0);
   std::size_t heard = 0, refused = 0;
   auto handler = bus::decoding<msg::CaptureReports>(inbox, "rt/captures", [&](const msg::CaptureReports&) { ++heard; });

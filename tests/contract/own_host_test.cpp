@@ -13,7 +13,7 @@ namespace {
 
 class OwnHost : public testing::TestWithParam<std::pair<std::string, std::string>> {};
 
-TEST_P(OwnHost, ParticipantsWithDefaultSettingsAreMet) {
+TEST_P(OwnHost, MatchesParticipantsWithDefaultSettings) {
   const auto& [fleet_vendor, other_vendor] = GetParam();
   const FreeDomains domains(1);
   const auto fleet_bus = bus::make_bus({.vendor = fleet_vendor});
@@ -49,7 +49,7 @@ INSTANTIATE_TEST_SUITE_P(Vendors, OwnHost,
                                          std::pair("fastdds", "fastdds")),
                          [](const auto& pair) { return pair.param.first + "_and_default_" + pair.param.second; });
 
-TEST(OwnAddress, IsTheLoopbackAndWhatAnInterfaceHas) {
+TEST(OwnAddress, IsTheLoopbackOrTheAddressOfAnInterface) {
   const auto own = [](std::uint8_t a, std::uint8_t b, std::uint8_t c, std::uint8_t d) {
     const std::array<std::uint8_t, 4> address{a, b, c, d};
     return bus::is_own_address(address);

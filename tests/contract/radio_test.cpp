@@ -251,7 +251,7 @@ TEST_P(Radio, CarriesAnyTypeBitForBitToThePermittedNodes) {
   expect_usual_digest();
 }
 
-TEST_P(Radio, NoiseOfStrangersIsCountedAndChangesNothing) {
+TEST_P(Radio, InvalidSamplesFromOutsideTheFleetAreCountedAndChangeNothing) {
   RandomStream random(1, "noise", 0);
   std::vector<std::unique_ptr<bus::Participant>> strangers;
   std::vector<std::unique_ptr<bus::Writer>> writers;
@@ -273,7 +273,7 @@ TEST_P(Radio, NoiseOfStrangersIsCountedAndChangesNothing) {
   EXPECT_GT(router_.malformed(), 0U);
 }
 
-TEST_P(Radio, SaysWhyARequestMakesNoSense) {
+TEST_P(Radio, RefusesInvalidRequestsWithAReason) {
   ASSERT_NO_FATAL_FAILURE(fly());
   const std::map<std::string, std::string> reasons = {
       {"/itself", "'b' is the source itself"},         {"/nobody", "there is no node 'nowhere'"},

@@ -32,7 +32,7 @@ TEST_F(Attach, PsListsTheFleetAndItsPrograms) {
   end(fleet);
 }
 
-TEST_F(Attach, GdbLooksIntoAFlyingProgramAndLeavesItFlying) {
+TEST_F(Attach, GdbInspectsAFlyingProgramWhichThenFliesOn) {
   SKEIN_NEEDS_GDB();
   SkeinRun& fleet = flying_fleet();
   ChildProcess& gdb = typed("gdb", {"skein", "attach", "changi", "--run", fleet.dir()},
@@ -44,7 +44,7 @@ TEST_F(Attach, GdbLooksIntoAFlyingProgramAndLeavesItFlying) {
   end(fleet);
 }
 
-TEST_F(Attach, AUserWhoLooksInAndGoesOnChangesNothing) {
+TEST_F(Attach, AUserWhoInspectsAProgramDoesNotChangeTheFlight) {
   SKEIN_NEEDS_GDB();
   // On a busy machine, gdb needs more time to read symbols than the default timeout of an agent.
   const Arguments flight = {scenario_, "--planner",   "patrol",          "--duration",
@@ -60,7 +60,7 @@ TEST_F(Attach, AUserWhoLooksInAndGoesOnChangesNothing) {
 }
 
 // Both fleets use the same domains, in separate network namespaces that no other test uses.
-TEST_F(Attach, AFleetInAnotherNetworkIsToldFromTheOneHere) {
+TEST_F(Attach, AFleetInAnotherNetworkIsNotTakenForTheOneHere) {
   if (std::system("unshare --net true 2>/dev/null") != 0) GTEST_SKIP() << "no network namespaces here: not root";
   const auto start_apart = [&](const std::string& name) -> ChildProcess& {
     return start_program(
@@ -93,7 +93,7 @@ TEST_F(Attach, AFleetInAnotherNetworkIsToldFromTheOneHere) {
   }
 }
 
-TEST_F(Attach, AProgramThatIsNotThereIsBadInput) {
+TEST_F(Attach, AnUnknownProgramIsRefused) {
   EXPECT_EQ(skein({"attach", "changi", "--run", folder()}).wait().code, 2);
   SkeinRun& fleet = flying_fleet();
   ChildProcess& wrong = skein({"attach", "chang", "--run", fleet.dir()});

@@ -35,7 +35,7 @@ class Break : public DebugTest {
   }
 };
 
-TEST_F(Break, OnACollisionItStopsInTheExchangeBeforeIt) {
+TEST_F(Break, TheDebuggerStopsInTheExchangeBeforeACollision) {
   SKEIN_NEEDS_GDB();
   const Arguments flight = {scenario_,
                             "--agent",
@@ -53,7 +53,7 @@ TEST_F(Break, OnACollisionItStopsInTheExchangeBeforeIt) {
               collisions[0]["time_s"].get<double>(), plain);
 }
 
-TEST_F(Break, OnAFaultOfItsOwnItStopsInTheExchangeBeforeIt) {
+TEST_F(Break, TheDebuggerStopsInTheExchangeBeforeAFaultOfItsUav) {
   SKEIN_NEEDS_GDB();
   const std::string faults = write("faults.yaml",
                                    "faults:\n"
@@ -73,7 +73,7 @@ TEST_F(Break, OnAFaultOfItsOwnItStopsInTheExchangeBeforeIt) {
   EXPECT_FALSE(std::filesystem::exists(dir("never")));
 }
 
-TEST_F(Break, ARecordedUavIsDebuggedAloneAndSaysWhatItSaidThen) {
+TEST_F(Break, ARecordedUavIsDebuggedAloneAndSendsTheSameMessages) {
   SKEIN_NEEDS_GDB();
   SkeinRun& flown = run("flown", {scenario_, "--planner", "patrol", "--duration", "5", "--no-oracle", "--one-process"});
   ChildProcess& again =

@@ -25,7 +25,7 @@ class Crash : public DebugTest {
   }
 };
 
-TEST_F(Crash, ItsBacktraceNamesTheLine) {
+TEST_F(Crash, TheBacktraceNamesTheLine) {
   SkeinRun& crashed = run("crash", flight(), {}, 3);
   const std::string log = text_of(crashed.dir() / "uav_agent-changi.log");
   expect_part(log, "crashed: signal 11");
@@ -41,7 +41,7 @@ TEST_F(Crash, ItsBacktraceNamesTheLine) {
   expect_part(lost[0]["reason"], "backtrace in uav_agent-changi.log");
 }
 
-TEST_F(Crash, AnAgentForDebuggersIsCompiledForThem) {
+TEST_F(Crash, AnAgentThatIsBuiltForDebuggersHasTheOptionOg) {
   SKEIN_NEEDS_GDB();
   ChildProcess& gdb = start_program("gdb", {command_file("gdb"), "-nx", "-batch", "-ex", "list CrashPlanner::plan",
                                             "-ex", "info source", helper_program("crash_agent")});
@@ -52,7 +52,7 @@ TEST_F(Crash, AnAgentForDebuggersIsCompiledForThem) {
   EXPECT_EQ(producer[1], " -Og") << "the compiler uses the last option -O of several";
 }
 
-TEST_F(Crash, ItsCoreIsKeptOnRequest) {
+TEST_F(Crash, TheCoreFileIsKeptOnRequest) {
   SKEIN_NEEDS_GDB();
   if (text_of("/proc/sys/kernel/core_pattern").starts_with('|'))
     GTEST_SKIP() << "the kernel passes core files to another program here";
@@ -66,7 +66,7 @@ TEST_F(Crash, ItsCoreIsKeptOnRequest) {
   expect_part(gdb.out(), "crash_planner.cpp:" + std::to_string(crashing_line()));
 }
 
-TEST_F(Crash, BreakOnStopsInTheExchangeInWhichItHappens) {
+TEST_F(Crash, BreakOnStopsInTheExchangeOfTheEvent) {
   SKEIN_NEEDS_GDB();
   std::mt19937 random(17);
   for (const auto& [what, reckless] : {std::pair("rejected", true), std::pair("lost", false)}) {

@@ -28,7 +28,7 @@ TEST_F(Gdb, BreaksInAPlannerPrintsAndFliesOnToTheSameDigest) {
   EXPECT_FALSE(text_of(dir("gdb") / "uav_agent-changi.report.json").empty());
 }
 
-TEST_F(Gdb, AUserWhoQuitsEndsThatProgramAndTheFleetGoesOn) {
+TEST_F(Gdb, QuittingGdbEndsItsProgramAndTheFleetFliesOn) {
   SKEIN_NEEDS_GDB();
   ChildProcess& skein = fly("gdb", {"--debug", "changi=gdb"}, kBreak + "quit\n");
   EXPECT_EQ(skein.wait().code, 3) << skein.out() << skein.err();
@@ -37,7 +37,7 @@ TEST_F(Gdb, AUserWhoQuitsEndsThatProgramAndTheFleetGoesOn) {
   expect_part(skein.err() + text_of(dir("gdb") / "fleet.log"), "has ended; the fleet goes on without it");
 }
 
-TEST_F(Gdb, AProgramThatIsKilledThereIsLostThoughGdbLivesOn) {
+TEST_F(Gdb, AProgramThatIsKilledInGdbIsLostAlthoughGdbStillRuns) {
   SKEIN_NEEDS_GDB();
   ChildProcess& skein = fly("gdb", {"--debug", "changi=gdb"},
                             kBreak + "kill\nshell while ! grep -q 'simulated [1-9]' " +
@@ -53,7 +53,7 @@ TEST_F(Gdb, TheFleetEndsWithItsServer) {
   expect_part(skein.err() + text_of(dir("gdb") / "fleet.log"), "the debugged program of sim_server has ended");
 }
 
-TEST_F(Gdb, StopsInTheExchangeBeforeATime) {
+TEST_F(Gdb, BreakAtStopsInTheExchangeBeforeATime) {
   SKEIN_NEEDS_GDB();
   ChildProcess& skein =
       fly("gdb", {"--debug", "changi=gdb", "--break-at", "3.02"},
@@ -65,7 +65,7 @@ TEST_F(Gdb, StopsInTheExchangeBeforeATime) {
 }
 
 // gdb runs in a folder in which the relative names of sources do not exist.
-TEST_F(Gdb, EveryPlannerIsFoundInItsOwnSource) {
+TEST_F(Gdb, GdbFindsTheSourceOfEveryPlanner) {
   SKEIN_NEEDS_GDB();
   std::string commands = "cd /\n";
   const std::map<std::string, std::string> planners = {
@@ -85,7 +85,7 @@ TEST_F(Gdb, EveryPlannerIsFoundInItsOwnSource) {
   }
 }
 
-TEST_F(Gdb, ThePlannersOutputIsShownInALine) {
+TEST_F(Gdb, GdbShowsThePlannersOutputInOneLine) {
   SKEIN_NEEDS_GDB();
   ChildProcess& skein = fly("gdb", {"--debug", "changi=gdb"}, kBreak + "finish\nkill\nquit\n", "1");
   skein.wait();

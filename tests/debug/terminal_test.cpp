@@ -56,7 +56,7 @@ class Terminal {
 
 class AtATerminal : public DebugTest {};
 
-TEST_F(AtATerminal, KeysAreTheDebuggers) {
+TEST_F(AtATerminal, TheDebuggerGetsTheKeys) {
   SKEIN_NEEDS_GDB();
   Terminal terminal;
   const auto see = [&](const std::string& part) {

@@ -19,7 +19,7 @@ class Tools : public DebugTest {
   }
 };
 
-TEST_F(Tools, AnyToolTakesTheCommandLine) {
+TEST_F(Tools, AnyToolCanStartTheProgram) {
   const auto note = folder() / "a note";
   const std::string tool = write("tool.sh", "echo \"$2\" >\"$1\"; shift 2; exec \"$@\"\n");
   ChildProcess& skein = fly("tool", {"--debug", "changi=/bin/sh " + tool + " '" + note.string() + "' \"two words\""});
@@ -28,7 +28,7 @@ TEST_F(Tools, AnyToolTakesTheCommandLine) {
   EXPECT_EQ(result("tool")["digest"], plain_digest());
 }
 
-TEST_F(Tools, AToolThatEndsItsProgramIsNoticed) {
+TEST_F(Tools, AProgramThatEndsWithItsToolIsReported) {
   ChildProcess& skein = fly("tool", {"--debug", "changi=/bin/sh -c 'exit 7'"});
   EXPECT_EQ(skein.wait().code, 3) << skein.out() << skein.err();
   expect_part(skein.err() + text_of(dir("tool") / "fleet.log"), "debugged program of changi has ended");
@@ -49,7 +49,7 @@ TEST_F(Tools, AMissingToolOrAWrongOptionStartsNothing) {
   EXPECT_EQ(fly("wrong", {"--debug", "changi=wait", "--one-process"}).wait().code, 2);
 }
 
-TEST_F(Tools, GdbserverHandsTheProgramToAGdbElsewhere) {
+TEST_F(Tools, GdbserverLetsAnotherGdbDebugTheProgram) {
   SKEIN_NEEDS_GDB();
   if (command_file("gdbserver").empty()) GTEST_SKIP() << "there is no gdbserver here";
   const FreePort port;
@@ -109,7 +109,7 @@ TEST_F(Tools, TheLaunchFileForVsCodeStopsAtABreakpoint) {
   EXPECT_EQ(result("server")["digest"], plain_digest());
 }
 
-TEST_F(Tools, AProgramThatWaitsIsToldAndGoesOn) {
+TEST_F(Tools, AProgramThatWaitsForADebuggerIsReportedAndContinues) {
   const std::string digest = plain_digest();
   for (const std::string member : {"changi", "comm_router"}) {
     const std::string name = "wait_" + member;
@@ -127,7 +127,7 @@ TEST_F(Tools, AProgramThatWaitsIsToldAndGoesOn) {
   }
 }
 
-TEST_F(Tools, AProgramThatWaitsGoesOnWhenItsDebuggerHasOnlyLooked) {
+TEST_F(Tools, AProgramThatWaitsContinuesWhenItsDebuggerDetaches) {
   SKEIN_NEEDS_GDB();
   ChildProcess& skein = fly("looked", {"--debug", "changi=wait"});
   const auto log = dir("looked") / "uav_agent-changi.log";

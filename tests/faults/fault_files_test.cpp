@@ -53,7 +53,7 @@ class FaultFiles : public testing::Test {
   fs::path file_;
 };
 
-TEST_F(FaultFiles, EveryShippedOneIsAFaultTestNamedAfterItsFile) {
+TEST_F(FaultFiles, EveryShippedFileIsAFaultTestWithTheFilesName) {
   EXPECT_GE(shipped().size(), 12u);
   double total_s = 0.0;
   for (const std::string& name : shipped()) {
@@ -83,7 +83,7 @@ TEST_F(FaultFiles, FilesThatRequireATakeoverKillAProgramForGood) {
   EXPECT_GE(asked, 1u);
 }
 
-TEST_F(FaultFiles, FindsNameTheBuildThatTheirDigestIsOf) {
+TEST_F(FaultFiles, FindsWithADigestNameTheBuildThatFlewIt) {
   std::size_t finds = 0;
   for (const std::string& name : config_names(kRoot / "config" / "faults" / "found")) {
     const FaultTest test = load_fault_test(kRoot / "config" / "faults" / "found" / (name + ".yaml"));
@@ -94,7 +94,7 @@ TEST_F(FaultFiles, FindsNameTheBuildThatTheirDigestIsOf) {
   EXPECT_GE(finds, 6u);
 }
 
-TEST_F(FaultFiles, TheShippedOnesShowEveryKindOfFault) {
+TEST_F(FaultFiles, TheShippedFilesUseEveryKindOfFault) {
   std::set<std::string> kinds;
   for (const std::string& name : shipped()) {
     const FaultTest test = load_fault_test(kRoot / "config" / "faults" / (name + ".yaml"));
@@ -103,7 +103,7 @@ TEST_F(FaultFiles, TheShippedOnesShowEveryKindOfFault) {
   EXPECT_EQ(kinds.size(), std::variant_size_v<FaultAction>);
 }
 
-TEST_F(FaultFiles, ThePageOfFaultsIsRight) {
+TEST_F(FaultFiles, ThePageOfFaultsHasExamplesThatLoadAndNamesEveryShippedFile) {
   const std::string text = page("faults.md");
   const Scenario towers = load_scenario("towers", {});
   const auto blocks = examples(text);
@@ -130,7 +130,7 @@ TEST_F(FaultFiles, ThePageOfTestsListsEveryExpectationAndEveryDefaultProperty) {
 }
 
 // A shipped file must not list a property that every fault test has anyway.
-TEST_F(FaultFiles, NoShippedOneRepeatsADefaultOne) {
+TEST_F(FaultFiles, NoShippedFileRepeatsADefaultProperty) {
   for (const std::string& name : shipped()) {
     const FaultTest test = load_fault_test(kRoot / "config" / "faults" / (name + ".yaml"));
     for (const char* usual : properties::kDefaultProperties) EXPECT_FALSE(test.states(usual)) << name << " " << usual;

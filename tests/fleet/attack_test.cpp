@@ -39,7 +39,7 @@ class Attack : public FleetTest, public testing::WithParamInterface<std::string>
 
 TEST_P(Attack, TheServerIgnoresClientsThatAnotherRunLeftBehind) {
   const std::string digest = brief("alone", "patrol").digest();
-  // The clients hold no lock, so another test's fleet may take the domains before this one does. Then tries others.
+  // The clients hold no lock, so another test's fleet may take the domains first. Then the test tries other domains.
   for (int attempt = 1; attempt <= kAttempts; ++attempt) {
     const int base = FreeDomains(2 + static_cast<int>(kFleet.size())).base();
     const std::vector<ChildProcess*> leftover = knock_at(base);
@@ -56,7 +56,7 @@ TEST_P(Attack, TheServerIgnoresClientsThatAnotherRunLeftBehind) {
     EXPECT_EQ(visited.digest(), digest);
     EXPECT_TRUE(visited.result()["lost_members"].empty());
     EXPECT_NE(text_of(visited.dir() / "sim_server.log").find("takes part in another run (7,"), std::string::npos)
-        << "they were there, and it is told";
+        << "the server has not reported the clients of the other run";
     return;
   }
 }
@@ -67,12 +67,12 @@ TEST_P(Attack, ForgedAcknowledgementsEraseNothing) {
   std::string forger = "patrol,gcs=exec:" + helper_program("forger");
   for (const std::string& uav : kFleet) forger += " " + uav;
   SkeinRun& forged = brief("forged", forger);
-  EXPECT_TRUE(forged.result()["lost_members"].empty()) << "it takes part";
+  EXPECT_TRUE(forged.result()["lost_members"].empty()) << "the forger does not take part in the lock-step";
   EXPECT_EQ(forged.result()["score"], alone.result()["score"]);
-  EXPECT_EQ(forged.digest(), alone.digest()) << "nobody has heard it";
+  EXPECT_EQ(forged.digest(), alone.digest()) << "a UAV has received forged acknowledgements";
 }
 
-TEST_P(Attack, AProgramThatStandsStillForAWhileIsNotTakenForDead) {
+TEST_P(Attack, AProgramThatIsPausedForAWhileIsNotLost) {
   SkeinRun& flying = start("run", {"towers", "--planner", "patrol", "--duration", "120", "--dds", GetParam()});
   ASSERT_TRUE(flying.wait_until_flying()) << flying.err();
   const auto found = processes_of(flying.dir());
@@ -83,7 +83,7 @@ TEST_P(Attack, AProgramThatStandsStillForAWhileIsNotTakenForDead) {
   for (const std::string& victim : victims) order += " " + victim;
   SCOPED_TRACE("order:" + order);
   for (const std::string& victim : victims) ::kill(found.at(victim), SIGSTOP);
-  // Longer than usual leases of DDS.
+  // The pause is longer than usual leases of DDS.
   EXPECT_FALSE(eventually([&] { return flying.skein().ended().has_value(); }, std::chrono::seconds(12)));
   for (const std::string& victim : victims) ::kill(found.at(victim), SIGCONT);
   EXPECT_EQ(flying.exit_code(), 0) << flying.err();

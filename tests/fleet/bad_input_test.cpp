@@ -24,15 +24,15 @@ class BadInput : public FleetTest {
     EXPECT_GE(lines, 1u);
     EXPECT_LE(lines, most_lines) << message;
     EXPECT_FALSE(std::regex_search(message, std::regex("terminate|what\\(\\)|backtrace|std::|Assertion"))) << message;
-    EXPECT_EQ(message.find("DDS domains"), std::string::npos) << "it was about to start";
+    EXPECT_EQ(message.find("DDS domains"), std::string::npos) << "the run took domains before it was refused";
     EXPECT_EQ(refused.out(), "");
-    EXPECT_FALSE(std::filesystem::exists(refused.dir())) << "an empty results folder is left";
+    EXPECT_FALSE(std::filesystem::exists(refused.dir())) << "the refused run has left a results folder";
   }
 
   int count_ = 0;
 };
 
-TEST_F(BadInput, SmallSceneIsGood) {
+TEST_F(BadInput, TheSmallSceneIsAccepted) {
   const auto scenario = write_small_scene(folder());
   const Json result = run("good", {scenario, "--planner", "hover", "--duration", "2"}).result();
   EXPECT_EQ(result["status"], "completed");
@@ -40,7 +40,7 @@ TEST_F(BadInput, SmallSceneIsGood) {
   EXPECT_EQ(result["uavs"].size(), 2u);
 }
 
-TEST_F(BadInput, SceneFilesAreNamed) {
+TEST_F(BadInput, BadSceneFilesAreNamed) {
   const auto scenario = write_small_scene(folder());
   const std::string points = folder() / "scene/points.pcd", boxes = folder() / "scene/box_description.yaml";
   const std::string good_points = text_of(points), good_boxes = text_of(boxes);
@@ -60,7 +60,7 @@ TEST_F(BadInput, SceneFilesAreNamed) {
   expect_refused({scenario}, {(folder() / "scene/mesh.stl").string()});
 }
 
-TEST_F(BadInput, ScenarioIsNamedWithTheKeyAndWhatWouldBeRight) {
+TEST_F(BadInput, ABadScenarioIsNamedWithTheKeyAndACorrectValue) {
   const auto scenario = write_small_scene(folder());
   const std::string good = text_of(scenario);
   const auto file = write("typo.yaml", good + "duraton_s: 10\n");
@@ -70,14 +70,14 @@ TEST_F(BadInput, ScenarioIsNamedWithTheKeyAndWhatWouldBeRight) {
   expect_refused({folder() / "nowhere.yaml"}, {(folder() / "nowhere.yaml").string()});
 }
 
-TEST_F(BadInput, PlannerIsNamedWithThoseThatExist) {
+TEST_F(BadInput, AnUnknownPlannerIsNamedWithTheKnownOnes) {
   expect_refused({"towers", "--planner", "partol"}, {"partol", "patrol"});
   expect_refused({"towers", "--planner", "patrol:aproach_mps=2"}, {"aproach_mps", "approach_mps"});
   expect_refused({"towers", "--planner", "patrol:approach_mps=fast"}, {"approach_mps", "fast"});
   expect_refused({"towers", "--planner", "patrol,jurnog=hover"}, {"jurnog", "jurong"});
 }
 
-TEST_F(BadInput, OptionsAreNamed) {
+TEST_F(BadInput, BadOptionsAreNamed) {
   expect_refused({"towers", "--dds", "opendds"}, {"--dds", "opendds", "fastdds"});
   expect_refused({"towers", "--seed", "-1"}, {"--seed", "-1"});
   expect_refused({"towers", "--domain", "199"}, {"--domain", "199"});
@@ -85,7 +85,7 @@ TEST_F(BadInput, OptionsAreNamed) {
   expect_refused({"towers", "--sede", "1"}, {"--sede"});
 }
 
-TEST_F(BadInput, FormerResultIsKeptWithoutForce) {
+TEST_F(BadInput, AnEarlierResultIsKeptWithoutForce) {
   const Arguments brief = {"towers", "--planner", "hover", "--duration", "2"};
   const SkeinRun& first = run("kept", brief);
   const std::string result = text_of(first.dir() / "result.json");
@@ -101,7 +101,7 @@ TEST_F(BadInput, FormerResultIsKeptWithoutForce) {
   EXPECT_EQ(run("kept", forced).result()["seed"], 9);
 }
 
-TEST_F(BadInput, AProgramStartedByHandNamesAFolderThatIsNotThere) {
+TEST_F(BadInput, AProgramStartedByHandNamesAMissingFolder) {
   const std::string scenario = write_small_scene(folder()), missing = folder() / "none";
   for (const char* name : {"sim_server", "comm_router", "station", "uav_agent"}) {
     ChildProcess& refused = start_program(name, {program(name), "--scenario", scenario, "--out", missing});
@@ -110,7 +110,7 @@ TEST_F(BadInput, AProgramStartedByHandNamesAFolderThatIsNotThere) {
     EXPECT_EQ(refused.err(), name + said);
     ChildProcess& checked = start_program(std::string(name) + "-check",
                                           {program(name), "--scenario", scenario, "--out", missing, "--check"});
-    EXPECT_EQ(checked.wait().code, 0) << name << " would write nothing: " << checked.err();
+    EXPECT_EQ(checked.wait().code, 0) << name << " wants to write although it only checks: " << checked.err();
   }
 }
 

@@ -18,7 +18,7 @@ void expect_speed(const Json& speed) {
   EXPECT_NEAR(share, 1.0, 1e-9);
 }
 
-TEST_F(BenchTest, ASmallOneReportsEveryPart) {
+TEST_F(BenchTest, ASmallBenchReportsEveryPart) {
   const auto json = folder() / "bench.json";
   ChildProcess& bench = skein({"bench", "--quick", "--duration", "2", "--sizes", "1", "--json", json});
   ASSERT_EQ(bench.wait().code, 0) << bench.err();
@@ -29,9 +29,9 @@ TEST_F(BenchTest, ASmallOneReportsEveryPart) {
   const Json report = Json::parse(text_of(json));
   EXPECT_GE(report["machine"]["cores"], 1);
   ASSERT_EQ(report["speed"].size(), report["machine"]["cores"] > 1 ? 3u : 2u)
-      << "over DDS; one process, on one or all cores";
+      << "an entry for DDS, and for one process with one thread and, if there are more cores, with all";
   for (const Json& speed : report["speed"]) expect_speed(speed);
-  const Json every_scan = report["speed"][0]["lidar"]["every_scan"];  // the same in both
+  const Json every_scan = report["speed"][0]["lidar"]["every_scan"];  // the same in every entry
   EXPECT_GT(every_scan["scans"], 40);                                 // two explorers, ten scans per second
   EXPECT_GT(every_scan["mean_returns"], 0.0);
 
@@ -56,7 +56,7 @@ TEST_F(BenchTest, TheProfileHasTheStagesAndPartsOfEachPlanner) {
   ChildProcess& bench = skein({"bench", "--profile", "--duration", "2", "--sizes", "1,2", "--json", json});
   ASSERT_EQ(bench.wait().code, 0) << bench.err();
   const Json report = Json::parse(text_of(json));
-  ASSERT_EQ(report["profile"].size(), 10U) << "five planners, two sizes";
+  ASSERT_EQ(report["profile"].size(), 10U) << "an entry for each of five planners and two sizes";
   for (const Json& entry : report["profile"]) {
     const std::string planner = entry["planner"];
     EXPECT_NE(bench.out().find(planner + ": planner's own time by part"), std::string::npos) << bench.out();

@@ -30,8 +30,8 @@ struct ExitStatus {
   int signal = 0;  ///< 0 unless a signal ended it
 };
 
-/// Timeout for scripts that examine pages in a browser, which renders on the same cores: this takes minutes on a busy
-/// machine. The script says on stderr what it waits for.
+/// Timeout for scripts that examine pages in a browser. The browser renders on the same cores, which takes minutes on a
+/// busy machine. A script says on stderr what it waits for.
 inline constexpr std::chrono::seconds kBrowserPatience{600};
 
 /// Runs from construction on, in a process group of its own. Destruction kills the group; the kernel kills the process

@@ -63,7 +63,7 @@ long delivered(const Json& result, const std::string& from, const std::string& t
   return 0;
 }
 
-/// The topics of one UAV's own domain, and others that other UAVs must not receive.
+/// Topics that other UAVs must not receive: those in this UAV's own domain, and some others.
 std::vector<WireTopic> private_topics(const std::string& uav) {
   return {topics::odometry(uav),
           topics::gimbal(uav),
@@ -84,8 +84,8 @@ std::vector<WireTopic> private_topics(const std::string& uav) {
           topics::drop()};
 }
 
-TEST_F(Clients, StrangerHearsWhatTheRouterLetsThroughAndNothingElse) {
-  // Loses the messages about maps, so that the links' counts are those of capture reports.
+TEST_F(Clients, AProgramOutsideTheFleetReceivesOnlyWhatTheRouterForwards) {
+  // The fault loses all messages about maps, so that the links count only capture reports and acknowledgements.
   const auto faults = write("no_plans.yaml", "faults:\n  - {at_s: 0, link: {loss: 1, topics: [/plan]}}\n");
   SkeinRun& run =
       waiting_for("run", "nanyang", {"towers", "--planner", "patrol", "--duration", "90", "--faults", faults.string()});
@@ -114,9 +114,9 @@ TEST_F(Clients, StrangerHearsWhatTheRouterLetsThroughAndNothingElse) {
 
   const Json result = run.result();
   EXPECT_EQ(result["status"], "completed");
-  EXPECT_TRUE(result["deterministic"]) << "a stranger's ear changes nothing";
+  EXPECT_TRUE(result["deterministic"]) << "a listener outside the fleet changed the run";
   const long acknowledged = delivered(result, "gcs", "nanyang");
-  ASSERT_GT(acknowledged, 0) << "no radio message to listen to";
+  ASSERT_GT(acknowledged, 0) << "the station sent nanyang no message to listen to";
   // The fleet does not wait for a program outside the lock-step. A writer of another vendor may take a second to match
   // it, and the whole flight takes two; samples that it has not requested again when the router leaves are lost.
   const auto hears = [](const Listener& listener, const WireTopic& topic, long sent) {
@@ -125,7 +125,7 @@ TEST_F(Clients, StrangerHearsWhatTheRouterLetsThroughAndNothingElse) {
     EXPECT_GE(3 * listener.samples(topic), sent) << topic.name;
   };
   hears(uav_listener, acks, acknowledged);
-  EXPECT_GT(uav_listener.samples(own), 1000) << "a UAV's own topics can be listened to";
+  EXPECT_GT(uav_listener.samples(own), 1000) << "a listener in a UAV's domain must receive the UAV's own topics";
   for (const WireTopic& topic : forbidden) EXPECT_EQ(uav_listener.samples(topic), 0) << topic.name;
   for (const std::string& uav : kFleet) {
     hears(gcs_listener, topics::captures_at_station(uav), delivered(result, uav, "gcs"));
@@ -137,7 +137,7 @@ TEST_F(Clients, StrangerHearsWhatTheRouterLetsThroughAndNothingElse) {
 
 const std::string kForeignPlanner = "hover,sentosa=exec:" + helper_program("minimal_client");
 
-TEST_F(Clients, ForeignClientTakesPartInTheLockStep) {
+TEST_F(Clients, AForeignClientTakesPartInTheLockStep) {
   std::set<std::string> digests;
   for (const std::string vendor : {"cyclonedds", "fastdds"}) {
     const bool tells = vendor == "fastdds";
@@ -147,16 +147,19 @@ TEST_F(Clients, ForeignClientTakesPartInTheLockStep) {
     EXPECT_EQ(result["status"], "completed");
     EXPECT_TRUE(result["deterministic"]);
     EXPECT_TRUE(result["lost_members"].empty());
-    EXPECT_NEAR(result["uavs"][2]["distance_m"].get<double>(), 3.0, 0.5) << "it was heard";
+    EXPECT_NEAR(result["uavs"][2]["distance_m"].get<double>(), 3.0, 0.5)
+        << "the foreign client's commands had no effect";
     EXPECT_EQ(result["uavs"][2]["commands_rejected"], 0);
     digests.insert(done.digest());
     const std::string activity = text_of(done.dir() / "activity.csv"), said = ",sentosa,hovers; all by itself,";
     EXPECT_EQ(activity.find(said) != std::string::npos, tells) << activity;
-    EXPECT_EQ(activity.find(said), activity.rfind(said)) << "once: it does nothing else";
-    EXPECT_EQ(activity.find(",sentosa,") != std::string::npos, tells) << "others tell nothing for it";
+    EXPECT_EQ(activity.find(said), activity.rfind(said))
+        << "the client reports one activity, which must be listed once";
+    EXPECT_EQ(activity.find(",sentosa,") != std::string::npos, tells)
+        << "activities of the client are listed exactly if it reports them";
     EXPECT_NE(activity.find(",jurong,"), std::string::npos);
   }
-  EXPECT_EQ(digests.size(), 1u) << "the same run, whatever its vendor, and whatever it says that it does";
+  EXPECT_EQ(digests.size(), 1u) << "neither the vendor nor reported activities may change the run";
 }
 
 TEST_F(Clients, AnnouncedDebugValuesThatAreNotReadAreNamed) {
@@ -165,10 +168,10 @@ TEST_F(Clients, AnnouncedDebugValuesThatAreNotReadAreNamed) {
   const std::size_t said = log.find(what + "rt/sentosa/debug/n64', which sim_server does not read");
   ASSERT_NE(said, std::string::npos) << log;
   EXPECT_NE(log.find("at most 64 of a UAV", said), std::string::npos) << log;
-  EXPECT_EQ(log.find(what), log.rfind(what)) << "once";
+  EXPECT_EQ(log.find(what), log.rfind(what)) << "the server repeats its message";
 }
 
-TEST_F(Clients, ForeignClientIsWatchedLikeTheOthers) {
+TEST_F(Clients, AForeignClientThatDiesIsReportedLikeAnyProgram) {
   SkeinRun& run = start("run", {"towers", "--duration", "60", "--planner", kForeignPlanner});
   ASSERT_TRUE(run.wait_until_flying()) << run.err();
   ::kill(processes_of(run.dir()).at("uav_agent-sentosa"), SIGKILL);
@@ -190,7 +193,7 @@ TEST_P(Hanging, ProgramIsDroppedAndTheRunGoesOn) {
   victim.signal(SIGSTOP);
   expect_run_without(GetParam(), "did not answer");
   victim.signal(SIGCONT);
-  EXPECT_EQ(victim.wait().code, 3) << "it finds that the others went on without it";
+  EXPECT_EQ(victim.wait().code, 3) << "the victim must notice that the fleet continued without it";
 }
 
 INSTANTIATE_TEST_SUITE_P(Programs, Hanging, testing::Values("uav_agent-changi", "comm_router"), [](const auto& victim) {

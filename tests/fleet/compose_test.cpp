@@ -48,7 +48,7 @@ class ComposeCommands : public FleetTest {
   }
 };
 
-TEST_F(ComposeCommands, AreTakenByThePrograms) {
+TEST_F(ComposeCommands, AreAcceptedByThePrograms) {
   expect_accepted({"towers", "--planner", "kios"});
   if (fs::exists(source_path("build/web/live.js"))) {
     expect_accepted({"towers", "--planner", "kios", "--view", "0.0.0.0:8080", "--speed", "max"});

@@ -32,7 +32,8 @@ class ContestTest : public FleetTest {
       if (target.ends_with(".svg")) figures.insert(target);
     }
     EXPECT_EQ(pages.size(), read_csv(folder() / out / "flights.csv").size());
-    EXPECT_EQ(figures.size(), 6u) << "totals, scores, curves, differences, and the best flight of either planner";
+    EXPECT_EQ(figures.size(), 6u)
+        << "figures of totals, scores, curves, differences, and of the best flight of either planner";
   }
 };
 
@@ -45,7 +46,7 @@ std::vector<std::string> what_repeats(const std::filesystem::path& flights) {
   return rows;
 }
 
-TEST_F(ContestTest, FliesRanksAndGoesOnWhereItWasStopped) {
+TEST_F(ContestTest, FliesRanksAndContinuesWhereItWasStopped) {
   ChildProcess& first = skein(contest("one"));
   ASSERT_EQ(first.wait().code, 0) << first.err();
   for (const std::string& said : std::vector{"4 of 4: " + scene_, scene_ + ", patrol, seed 2: score"}) {
@@ -55,7 +56,7 @@ TEST_F(ContestTest, FliesRanksAndGoesOnWhereItWasStopped) {
 
   const auto totals = read_csv(folder() / "one" / "totals.csv");
   ASSERT_EQ(totals.size(), 2u);
-  EXPECT_EQ(totals[0].at("planner"), "patrol") << "who hovers sees nothing";
+  EXPECT_EQ(totals[0].at("planner"), "patrol") << "UAVs of hover see no points";
   EXPECT_EQ(totals[0].at("place"), "1");
   EXPECT_EQ(totals[1].at("place"), "2");
   EXPECT_GT(std::stod(totals[0].at("worst")), 0.0);
@@ -64,18 +65,19 @@ TEST_F(ContestTest, FliesRanksAndGoesOnWhereItWasStopped) {
   for (const auto& flight : flights) {
     EXPECT_EQ(flight.at("status"), "completed");
     EXPECT_EQ(flight.at("problem"), "");
-    EXPECT_GE(std::stod(flight.at("attainable_percent")), 0.0) << "the oracle was asked";
+    EXPECT_GE(std::stod(flight.at("attainable_percent")), 0.0) << "the oracle's estimate is missing";
   }
   const std::string page = file("one", "report.html");
   for (const char* words :
        {"points detected", "class=\"track", "class=\"band", "n too small", "Written on", "UAV by UAV"}) {
     EXPECT_NE(page.find(words), std::string::npos) << words;
   }
-  EXPECT_NE(page.find("<h2>scenario</h2>"), std::string::npos) << "scenes are called by their names, not their paths";
+  EXPECT_NE(page.find("<h2>scenario</h2>"), std::string::npos)
+      << "the page must call scenes by their names, not their paths";
   expect_links_lead_somewhere("one", page);
   EXPECT_NE(file("one", "table.tex").find("\\bottomrule"), std::string::npos);
 
-  // A flight that was interrupted has no flight.json. It alone is flown again, with the same digest.
+  // A flight without flight.json counts as interrupted: only this flight is flown again, with the same digest.
   std::filesystem::remove(folder() / "one/flights/scenario/patrol/seed-1/flight.json");
   ChildProcess& again = skein(contest("one"));
   ASSERT_EQ(again.wait().code, 0) << again.err();
@@ -91,7 +93,7 @@ TEST_F(ContestTest, FliesRanksAndGoesOnWhereItWasStopped) {
   EXPECT_NE(file("one", "report.html").find("patrol/seed-2/report.html"), std::string::npos);
 }
 
-TEST_F(ContestTest, TwoAtOnceFlyTheSameAndSecuredOnesToo) {
+TEST_F(ContestTest, FliesTheSameWithTwoFleetsAtOnceAndWithSecuredOnes) {
   for (const auto& [out, how] : {std::pair<std::string, Arguments>("one", {"--jobs", "1"}),
                                  {"two", {"--jobs", "2"}},
                                  {"secured", {"--jobs", "1", "--secure"}}}) {
@@ -105,7 +107,7 @@ TEST_F(ContestTest, TwoAtOnceFlyTheSameAndSecuredOnesToo) {
   EXPECT_EQ(what_repeats(folder() / "one" / "flights.csv"), what_repeats(folder() / "secured" / "flights.csv"));
 }
 
-TEST_F(ContestTest, CtrlCEndsTheFlightInTheAirAndNothingIsLeft) {
+TEST_F(ContestTest, CtrlCEndsTheFlightsThatAreInTheAir) {
   ChildProcess& study = start_program(
       "study", {program("skein"), "compare", "--planners", "patrol", "--seeds", "0-98", "--out", folder() / "out"});
   ASSERT_TRUE(eventually([&] { return is_flying(folder() / "out/flights/towers/patrol/seed-0"); })) << study.err();

@@ -32,7 +32,8 @@ class Detections : public FleetTest {
 
   void SetUp() override {
     const std::string scenario = write_small_scene(folder() / "small", dense_scene());
-    // Not at full speed: a reader may match the writer a little earlier than the writer matches the reader.
+    // Slower than full speed, because a reader may match the writer a little earlier than the writer matches the
+    // reader.
     run_ = &start("run",
                   {scenario, "--planner", "star", "--duration", "60", "--clock", "realtime:12", "--debug", "changi"});
     ASSERT_TRUE(run_->wait_for("gdb --args")) << run_->err();
@@ -107,15 +108,15 @@ void Detections::check_log(const std::string& uav) const {
     ASSERT_EQ(names_of(log),
               (std::vector<std::string>{"curvature", "intensity", "normal_x", "normal_y", "normal_z", "x", "y", "z"}));
     const std::size_t size = log["x"].size();
-    ASSERT_GE(size, order.size()) << "a log never shrinks";
+    ASSERT_GE(size, order.size()) << "the log shrank";
     for (std::size_t i = 0; i < size; ++i) {
-      ASSERT_EQ(log["curvature"][i], static_cast<double>(i)) << "the order of detection, without gaps";
+      ASSERT_EQ(log["curvature"][i], static_cast<double>(i)) << "the numbers of detections have a gap";
       const auto index = index_at(log, i);
       ASSERT_TRUE(index) << "not a point of the scene: " << log["x"][i] << ' ' << log["y"][i] << ' ' << log["z"][i];
       const double score = log["intensity"][i];
       if (i < order.size()) {
-        ASSERT_EQ(order[i], *index) << "a place in the order is for ever";
-        ASSERT_GE(score, best[i]) << "the best so far";
+        ASSERT_EQ(order[i], *index) << "a detection has another number than before";
+        ASSERT_GE(score, best[i]) << "the best score of a point decreased";
         best[i] = score;
       } else {
         ASSERT_EQ(std::count(order.begin(), order.end(), *index), 0) << "twice the same point";
@@ -125,10 +126,11 @@ void Detections::check_log(const std::string& uav) const {
       ASSERT_GE(score, 0.2 - 1e-6);
     }
   }
-  EXPECT_GT(logs.back()["x"].size(), logs.front()["x"].size()) << "it grows";
+  EXPECT_GT(logs.back()["x"].size(), logs.front()["x"].size()) << "the log did not grow";
   std::size_t by_chance = 0;
   for (std::size_t i = 0; i < order.size(); ++i) by_chance += order[i] == i;
-  EXPECT_LT(by_chance, order.size() / 2) << "these are indices";
+  EXPECT_LT(by_chance, order.size() / 2)
+      << "the order of detections is that of indices in the scene, which UAVs must not know";
   // The referee's record of this UAV equals the log that the UAV received.
   std::map<std::size_t, double> audit;
   for (const auto& row : read_csv(run_->dir() / "captures.csv")) {
@@ -157,10 +159,11 @@ void Detections::check_score(const std::vector<Json>& clouds, bool with_indices)
         ASSERT_EQ(cloud["global_index"][i], static_cast<double>(*index));
       }
       ASSERT_TRUE(now.emplace(*index, cloud["score"][i]).second) << "twice the same point";
-      ASSERT_GT(now[*index], 0.0) << "only points that score";
+      ASSERT_GT(now[*index], 0.0) << "a point without score is listed";
     }
-    ASSERT_NE(now, before) << "when it changes";
-    for (const auto& [index, score] : before) ASSERT_GE(now[index], score) << "nobody collided, so nothing is lost";
+    ASSERT_NE(now, before) << "the score was published although it had not changed";
+    for (const auto& [index, score] : before)
+      ASSERT_GE(now[index], score) << "a point lost score although no UAV collided";
     before = now;
   }
   for (const auto& row : read_csv(run_->dir() / "score.csv")) {
@@ -173,7 +176,7 @@ void Detections::check_score(const std::vector<Json>& clouds, bool with_indices)
   }
 }
 
-TEST_F(Detections, LogsAndScoreAreWhatTheirNamesSay) {
+TEST_F(Detections, LogsAndScoreAgreeWithTheFilesOfTheRun) {
   EXPECT_TRUE(run_->result()["collisions"].empty());
   for (const std::string& uav : kSmallFleet) check_log(uav);
   const std::vector<Json> score = samples("gcs", topics::score()), judged = samples("gcs", topics::score_eval());

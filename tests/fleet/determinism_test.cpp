@@ -58,7 +58,7 @@ TEST_F(Determinism, VendorsOrderOfArrivalAndLoadDoNotShowInTheDigest) {
 }
 
 /// Under conditions, too: wind, odometry errors, batteries, LiDAR errors, blur, path loss; with a restart.
-TEST_F(Determinism, ConditionsAreTheSameOverAllVendorsAndInOneProcess) {
+TEST_F(Determinism, AFlightUnderConditionsIsTheSameOverAllVendorsAndInOneProcess) {
   const std::string faults = write("faults.yaml", "faults:\n  - {at_s: 25, until_s: 27, kill: jurong}\n");
   const Arguments harsh = {"towers", "--planner",    "patrol", "--duration", "40",  "--seed",
                            "1",      "--conditions", "harsh",  "--faults",   faults};
@@ -67,20 +67,21 @@ TEST_F(Determinism, ConditionsAreTheSameOverAllVendorsAndInOneProcess) {
   EXPECT_EQ(digest("one_process", joined(harsh, kOneProcess)), reference);
 }
 
-TEST_F(Determinism, EverySeedIsAnotherRunAndRepeats) {
+TEST_F(Determinism, EachSeedGivesAnotherRunThatCanBeRepeated) {
   const Arguments one = joined(kTowers, {"--seed", "1"}), two = joined(kTowers, {"--seed", "2"});
   const std::string digest_of_one = digest("seed1", joined(one, kOneProcess)),
                     digest_of_two = digest("seed2", joined(two, kOneProcess));
   EXPECT_NE(digest_of_one, digest_of_two);
   EXPECT_EQ(digest("again", joined(two, {"--dds", "mixed"})), digest_of_two);
-  EXPECT_EQ(digest("again", joined(one, {"--force"})), digest_of_one) << "of the former result nothing is taken up";
+  EXPECT_EQ(digest("again", joined(one, {"--force"})), digest_of_one)
+      << "an earlier result in the folder influenced the run";
   std::string text;
   EXPECT_EQ(diff("seed1", "seed2", text), 1);
   EXPECT_NE(text.find("first difference at step 0 (0 s):\n"), std::string::npos) << text;
   EXPECT_NE(text.find("\n  jurong position\n"), std::string::npos) << text;  // its start offset is random
 }
 
-TEST_F(Determinism, TwoFleetsAtOnceKeepApart) {
+TEST_F(Determinism, TwoFleetsAtOnceDoNotDisturbEachOther) {
   SkeinRun& one = start("one", kTowers);
   SkeinRun& two = start("two", joined(kTowers, {"--dds", "mixed"}));
   EXPECT_EQ(one.exit_code(), 0) << one.err();
@@ -91,14 +92,14 @@ TEST_F(Determinism, TwoFleetsAtOnceKeepApart) {
       << one.domains().first << " and " << two.domains().first;
 }
 
-TEST_F(Determinism, OnlyWhatMattersEntersTheDigest) {
+TEST_F(Determinism, OptionsThatChangeNothingDoNotChangeTheDigest) {
   const Arguments brief = {"towers", "--planner", "hover", "--duration", "5"};
   const auto quick = [&](const std::string& name, const Arguments& more) {
     return run(name, joined(joined(brief, more), kOneProcess)).digest();
   };
   const std::string reference = quick("default", {});
   EXPECT_EQ(quick("zero", {"--scene-seed", "0"}), reference);
-  EXPECT_EQ(quick("longer", {"--stop-at", "1000"}), reference) << "an end that is never reached changes nothing";
+  EXPECT_EQ(quick("longer", {"--stop-at", "1000"}), reference) << "an end that is never reached changed the digest";
   EXPECT_NE(quick("seeded", {"--seed", "7"}), reference);
 }
 
@@ -112,7 +113,7 @@ TEST_F(Determinism, AnExportedSceneIsTheSameScene) {
   EXPECT_EQ(loaded, run("made", joined(joined({"spire", "--scene-seed", "2"}, brief), kOneProcess)).digest());
 }
 
-TEST_F(Determinism, OfficialScene) {
+TEST_F(Determinism, AnOfficialSceneHasOneDigestOverDdsAndInOneProcess) {
   if (std::getenv("SKEIN_ASSETS") == nullptr) GTEST_SKIP() << "SKEIN_ASSETS is not set";
   const Arguments mbs = {"mbs", "--planner", "patrol", "--duration", "75"};
   EXPECT_EQ(digest("mixed", joined(mbs, {"--dds", "mixed"}), {{"SKEIN_CHAOS", "1"}}),

@@ -56,7 +56,7 @@ TEST_F(Doctor, PrintsALineForEachFindingAndTheSameAsJson) {
   ASSERT_TRUE(data.report.is_object()) << data.out << data.err;
   EXPECT_EQ(text.code, data.report["ok"] ? 0 : 1);
   const std::vector<std::string> lines = split(text.out, '\n');
-  ASSERT_EQ(lines.size(), data.report["findings"].size() + 1) << "the last is empty";
+  ASSERT_EQ(lines.size(), data.report["findings"].size() + 1) << "one line per finding, and an empty one at the end";
   for (std::size_t i = 0; i + 1 < lines.size(); ++i) {
     const json& finding = data.report["findings"][i];
     const std::string verdict = finding["verdict"], head = verdict + std::string(6 - verdict.size(), ' ');
@@ -80,7 +80,7 @@ TEST_F(Doctor, TooFewOpenFilesFailUnlessARunMayRaiseTheLimit) {
   EXPECT_NE(low.finding("open files")["found"].get<std::string>().find("60 a process"), std::string::npos) << low.out;
 }
 
-TEST_F(Doctor, AnInterfaceThatIsNotThereFailsAsItWouldInARun) {
+TEST_F(Doctor, AMissingInterfaceFailsAsItWouldInARun) {
   const Answer answer = ask("--json --network '{jurong: eth99}'");
   EXPECT_EQ(answer.code, 1) << answer.err;
   const json finding = answer.finding("network of jurong");
@@ -95,23 +95,23 @@ TEST_F(Doctor, APeerOfUnknownNameFails) {
   EXPECT_EQ(answer.verdict("peer no-such-host.invalid"), "FAIL");
 }
 
-TEST_F(Doctor, DomainsOfAnotherFleetAndPortsOfStrangersAreSeen) {
+TEST_F(Doctor, DomainsThatAnotherProcessHoldsFail) {
   const FreeDomains held(7);
   const std::string domain = "--json --domain " + std::to_string(held.base());
   const Answer answer = ask(domain);
   EXPECT_EQ(answer.code, 1) << answer.err;
   EXPECT_NE(answer.finding("domains")["found"].get<std::string>().find(std::to_string(::getpid())), std::string::npos)
       << answer.out;
-  EXPECT_NE(ask("--json").verdict("domains"), "FAIL") << "without --domain, the next free ones are taken";
+  EXPECT_NE(ask("--json").verdict("domains"), "FAIL") << "without --domain, a run takes free domains";
 }
 
-TEST_F(Doctor, VariablesOfRos2AreWarnedOf) {
+TEST_F(Doctor, VariablesOfRos2CauseAWarning) {
   const Answer answer = ask("--json", "", {{"ROS_DOMAIN_ID", "3"}});
   EXPECT_EQ(answer.verdict("variables"), "warn") << answer.out;
   EXPECT_NE(answer.finding("variables")["mend"].get<std::string>().find("unset ROS_DOMAIN_ID"), std::string::npos);
 }
 
-TEST_F(Doctor, AResultsFolderThatTakesNothingFails) {
+TEST_F(Doctor, AResultsFolderThatCannotBeWrittenFails) {
   const Answer answer = ask("--json --out /proc/here");
   EXPECT_EQ(answer.code, 1) << answer.err;
   EXPECT_EQ(answer.verdict("results folder"), "FAIL") << answer.out;

@@ -23,7 +23,7 @@ class FullDisk : public FleetTest {
   std::string scenario_;
 };
 
-TEST_F(FullDisk, ARunThatFillsItHasItsResultAllTheSame) {
+TEST_F(FullDisk, ARunThatFillsTheDiskHasItsFullResult) {
   std::mt19937 draw(1);
   std::vector<std::unique_ptr<SmallDisk>> disks;
   std::vector<SkeinRun*> runs = {&start("with_room", arguments())};
@@ -56,7 +56,7 @@ TEST_F(FullDisk, ARunThatFillsItHasItsResultAllTheSame) {
   }
 }
 
-TEST_F(FullDisk, WithoutRoomForTheResultNothingStarts) {
+TEST_F(FullDisk, ARunWithoutRoomForItsResultIsNotStarted) {
   const SmallDisk disk(folder() / "tiny", 128);
   if (!disk.mounted()) GTEST_SKIP() << "a disk can be mounted by root only";
   SkeinRun& run = this->run("tiny", arguments(), {}, 2);

@@ -27,7 +27,7 @@ TEST_F(GroundProgram, ListensWithoutChangingTheRun) {
   }
 }
 
-TEST_F(GroundProgram, UnknownOnesAreRefusedBeforeTheStart) {
+TEST_F(GroundProgram, AnUnknownStrategyIsRefusedBeforeTheStart) {
   SkeinRun& run = this->run("unknown", {"towers", "--planner", "patrol,gcs=lisen"}, {}, 2);
   EXPECT_NE(run.err().find("listen"), std::string::npos) << run.err();
 }

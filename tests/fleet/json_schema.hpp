@@ -7,7 +7,7 @@
 
 namespace skein::test {
 
-/// @param schema  Its objects count as closed: other keys than those it names are errors, unless it has
+/// @param schema  Its objects count as closed: keys that it does not name are errors, unless it has
 ///   "additionalProperties". @returns one line for each error; empty when `value` conforms.
 std::vector<std::string> schema_errors(const nlohmann::json& value, nlohmann::json schema);
 

@@ -44,7 +44,7 @@ void each_object(Json& value, const auto& use) {
   }
 }
 
-TEST(ResultSchema, TakesWhatItDescribes) {
+TEST(ResultSchema, AcceptsAConformingResult) {
   EXPECT_EQ(schema_errors(example_of(schema()), schema()), std::vector<std::string>());
 }
 
@@ -66,18 +66,18 @@ TEST(ResultSchema, RefusesAWrongType) {
   }
   Json result = example;
   result["seed"] = 1.5;
-  EXPECT_FALSE(schema_errors(result, wanted).empty()) << "no whole number";
+  EXPECT_FALSE(schema_errors(result, wanted).empty()) << "a number that is not whole was accepted";
   result["seed"] = -1;
-  EXPECT_FALSE(schema_errors(result, wanted).empty()) << "below its minimum";
+  EXPECT_FALSE(schema_errors(result, wanted).empty()) << "a number below the minimum was accepted";
   result = example;
   result["status"] = "unheard of";
-  EXPECT_FALSE(schema_errors(result, wanted).empty()) << "none of those listed";
+  EXPECT_FALSE(schema_errors(result, wanted).empty()) << "a value that is not listed was accepted";
   result = example;
   result["collisions"][0]["position"].erase(0);
-  EXPECT_FALSE(schema_errors(result, wanted).empty()) << "too short";
+  EXPECT_FALSE(schema_errors(result, wanted).empty()) << "a list that is too short was accepted";
 }
 
-TEST(ResultSchema, RefusesAnUnknownKeyWhereverItStands) {
+TEST(ResultSchema, RefusesAnUnknownKeyInAnyObject) {
   Json example = example_of(schema());
   std::size_t objects = 0;
   each_object(example, [&](Json& object) {

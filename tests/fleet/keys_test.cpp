@@ -22,7 +22,7 @@ class Keys : public ByHand, public testing::WithParamInterface<std::string> {
   const std::filesystem::path keys_ = folder() / "keys";
 };
 
-TEST_P(Keys, AFleetFliesWithThemAsOneWithout) {
+TEST_P(Keys, AFleetWithKeysFliesAsOneWithout) {
   SkeinRun& open = run("open", {"towers", "--planner", "patrol", "--duration", "45", "--dds", GetParam()});
   start_fleet(secured());
   for (const auto& [name, process] : fleet_) EXPECT_EQ(process->wait().code, 0) << name << ": " << process->err();
@@ -33,7 +33,7 @@ TEST_P(Keys, AFleetFliesWithThemAsOneWithout) {
   EXPECT_GT(score, 0.0);
 }
 
-TEST_P(Keys, AnothersKeysOpenNothing) {
+TEST_P(Keys, AProgramWithAnotherProgramsKeysCannotJoin) {
   const std::string thief = "uav_agent-jurong";
   Options options = secured();
   options.server = {"--startup-timeout", "20"};

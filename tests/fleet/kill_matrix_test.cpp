@@ -26,7 +26,7 @@ class KillMatrix : public FleetTest, public testing::WithParamInterface<std::uin
   static void expect_custody(const SkeinRun& run) {
     using Key = std::pair<std::string, std::uint64_t>;
     std::map<Key, double> journalled, delivered;
-    // A journal reads back what it holds of its own run only: of another one, it would have no capture.
+    // The journal returns only the records of the run that it is opened for, so this must be the run's own.
     const Json flight = Json::parse(text_of(run.dir() / "sim_server.report.json"))["flight"];
     const station::Journal journal(run.dir() / "station.journal", RunId{flight["run"].get<std::uint64_t>()});
     for (const station::TallyRecord& record : journal.replayed()) {
@@ -51,7 +51,7 @@ class KillMatrix : public FleetTest, public testing::WithParamInterface<std::uin
   }
 };
 
-TEST_P(KillMatrix, ByFaultFile) {
+TEST_P(KillMatrix, KillsByAFaultFileLoseNoAcknowledgedCapture) {
   RandomStream random(GetParam(), "kill_matrix", 0);
   std::string faults = "faults:\n";
   for (const std::string& victim : kVictims) {
@@ -79,7 +79,7 @@ TEST_P(KillMatrix, ByFaultFile) {
   EXPECT_EQ(digests.size(), 1U) << faults;
 }
 
-TEST_P(KillMatrix, FromOutside) {
+TEST_P(KillMatrix, AKillFromOutsideLosesNoAcknowledgedCapture) {
   const std::string victim = kVictims[GetParam() % kVictims.size()];
   Arguments arguments = kMinute;
   arguments.insert(arguments.end(), {"--dds", "mixed"});

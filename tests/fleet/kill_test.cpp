@@ -14,10 +14,10 @@
 namespace skein::test {
 namespace {
 
-/// Far longer than the tests let it fly, so that no test depends on the machine's speed.
+/// A flight that is far longer than the tests let it fly, so that no test depends on the machine's speed.
 const Arguments kLongRun = {"towers", "--planner", "patrol", "--duration", "2000"};
-/// Ends by itself, some seconds after the test has found the programs. With both vendors, because each must cope with a
-/// sudden death.
+/// A flight that ends by itself, some seconds after the test has found the programs. It uses both vendors, because each
+/// must cope with a sudden death.
 const Arguments kShortRun = {"towers", "--planner", "patrol", "--duration", "60", "--dds", "mixed"};
 
 class Interruption : public FleetTest {
@@ -50,10 +50,10 @@ TEST_P(KilledProgram, IsNamedAndTheRunIsComplete) {
   EXPECT_FALSE(result["warnings"].empty());
   EXPECT_TRUE(std::filesystem::exists(run.dir() / "score.csv"));
   if (of_server) {
-    EXPECT_GT(result["sim_time_s"], 0.0) << "the last that it told";
+    EXPECT_GT(result["sim_time_s"], 0.0) << "the launcher must report the last time that the server reported";
     return;
   }
-  EXPECT_NEAR(result["mission_time_s"].get<double>(), 60.0, 0.1) << "the others fly on";
+  EXPECT_NEAR(result["mission_time_s"].get<double>(), 60.0, 0.1) << "the other UAVs did not fly on";
   ASSERT_EQ(result["lost_members"].size(), 1u);
   const std::string member = victim.substr(victim.find('-') + 1);
   EXPECT_EQ(result["lost_members"][0]["member"], member);
@@ -70,7 +70,7 @@ INSTANTIATE_TEST_SUITE_P(Programs, KilledProgram,
                            return name;
                          });
 
-TEST_F(Interruption, TwoKilledPrograms) {
+TEST_F(Interruption, ARunThatLosesTwoProgramsIsCompleted) {
   SkeinRun& run = flying(kShortRun);
   const auto found = processes_of(run.dir());
   ::kill(found.at("comm_router"), SIGKILL);
@@ -96,8 +96,8 @@ Arguments without_launcher(pid_t pid) {
   return words;
 }
 
-// A user has fixed the program and starts it again.
-TEST_F(Interruption, AProgramThatIsStartedAgainByHandIsLostNoLonger) {
+// As if a user has fixed a program that crashed, and starts it again.
+TEST_F(Interruption, AProgramThatIsStartedAgainByHandTakesPartAgain) {
   SkeinRun& run = flying({"towers", "--planner", "patrol", "--duration", "300"});
   const pid_t pid = processes_of(run.dir()).at("uav_agent-changi");
   const Arguments words = without_launcher(pid);
@@ -119,7 +119,7 @@ TEST_F(Interruption, AProgramThatIsStartedAgainByHandIsLostNoLonger) {
         !row.at("delivered_at_s").empty() && std::stod(row.at("delivered_at_s")) > lost["back_at_s"].get<double>();
     delivered += row.at("uav") == "changi" && since;
   }
-  EXPECT_GT(delivered, 0) << "it works again";
+  EXPECT_GT(delivered, 0) << "the restarted program delivered no captures";
 }
 
 class StopSignalled : public Interruption, public testing::WithParamInterface<int> {};
@@ -135,7 +135,8 @@ TEST_P(StopSignalled, EndsTheRunWithItsResultSoFar) {
   EXPECT_GT(result["mission_time_s"], 0.0);
   EXPECT_LT(result["mission_time_s"], 2000.0);
   EXPECT_TRUE(result["lost_members"].empty()) << result["lost_members"];
-  for (const Json& uav : result["uavs"]) EXPECT_TRUE(uav["planner_cpu_s"].is_number()) << "all left in good order";
+  for (const Json& uav : result["uavs"])
+    EXPECT_TRUE(uav["planner_cpu_s"].is_number()) << "an agent has not written its report";
   EXPECT_EQ(read_csv(run.dir() / "score.csv").size(), result["points_total"].get<std::size_t>());
 }
 
@@ -168,7 +169,7 @@ TEST_F(Interruption, BeforeTheFirstStepNoProgramIsBlamed) {
   expect_nothing_left();
 }
 
-TEST_F(Interruption, SecondInterruptEndsItAtOnce) {
+TEST_F(Interruption, ASecondInterruptEndsTheRunAtOnce) {
   SkeinRun& run = flying(kLongRun);
   ::kill(processes_of(run.dir()).at("sim_server"), SIGSTOP);  // so that the first interrupt has no effect
   run.skein().signal(SIGINT);
@@ -212,7 +213,7 @@ TEST_P(KilledLauncher, LeavesAFolderThatMergeJoins) {
   std::uint64_t end_ns = 0;
   mcap::Reader(recording).messages(
       [&](const mcap::Channel&, const mcap::Message& message) { end_ns = std::max(end_ns, message.log_time); });
-  EXPECT_GT(end_ns, 3'000'000'000U) << "it has flown for some seconds";
+  EXPECT_GT(end_ns, 3'000'000'000U) << "the recording is shorter than a few seconds";
 }
 
 INSTANTIATE_TEST_SUITE_P(Media, KilledLauncher, testing::Values("--dds=mixed", "--one-process"),

@@ -1,4 +1,4 @@
-// A fleet that is too large for DDS, in one process: what grows with the square of the fleet stays out of its results.
+// A fleet that is too large for DDS flies in one process. Its results must not grow with the square of its size.
 #include "fleet_fixture.hpp"
 
 namespace skein::test {
@@ -27,9 +27,9 @@ TEST_F(LargeFleet, ResultsListLinksThatHadLineOfSight) {
     EXPECT_TRUE(links.emplace(link["from"], link["to"]).second) << link;
     delivered += link["delivered"].get<double>();
   }
-  EXPECT_GT(links.size(), std::size_t{kUavs}) << "UAVs that stand beside each other hear each other";
+  EXPECT_GT(links.size(), std::size_t{kUavs}) << "UAVs that start beside each other must have links";
   EXPECT_LT(links.size(), std::size_t{kUavs * kUavs / 4});
-  EXPECT_EQ(delivered, radio["delivered"].get<double>()) << "links that are not listed deliver nothing";
+  EXPECT_EQ(delivered, radio["delivered"].get<double>()) << "a link that is not listed has delivered messages";
 
   const std::string page = text_of(flown.dir() / "report.html");
   const std::size_t table = page.find("data-table=\"links\"");

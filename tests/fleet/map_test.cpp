@@ -1,4 +1,4 @@
-// The map from LiDAR prevents collisions: a podium outside all boxes is in the way to the strips.
+// The map from LiDAR prevents collisions: a podium that no bounding box contains is in the way of the UAVs.
 #include "fleet_fixture.hpp"
 #include "small_scene.hpp"
 
@@ -26,14 +26,14 @@ SmallScene hidden_podium() {
 
 using MapMatters = FleetTest;
 
-TEST_F(MapMatters, PatrolKeepsOffWhatIsInNoBox) {
+TEST_F(MapMatters, PatrolKeepsAwayFromStructureOutsideAllBoxes) {
   const auto scenario = write_small_scene(folder(), hidden_podium());
   const Json with_map = run("with", {scenario, "--planner", "patrol", "--one-process"}).result();
   EXPECT_EQ(with_map["status"], "completed");
   EXPECT_TRUE(with_map["collisions"].empty()) << with_map["collisions"];
-  EXPECT_GT(with_map["score"], 0.0) << "it has not been where the podium is";
+  EXPECT_GT(with_map["score"], 0.0) << "the UAVs have not photographed the front face above the podium";
 
-  // Flies along the front face, as if only the boxes were there.
+  // For comparison, a UAV that knows no map flies along the front face, as if there were only the boxes.
   const auto file = write("front.yaml",
                           "paths:\n  jurong:\n    - {position: [19, 9, 10]}\n    - {position: [19, 9, 4]}\n"
                           "    - {position: [19, -9, 4]}\n");
@@ -41,7 +41,7 @@ TEST_F(MapMatters, PatrolKeepsOffWhatIsInNoBox) {
   ASSERT_FALSE(without["collisions"].empty());
   for (const Json& collision : without["collisions"]) {
     EXPECT_EQ(collision["with"], "structure");
-    EXPECT_LT(collision["position"][2], kPodiumHeight + 0.5) << "at the podium";
+    EXPECT_LT(collision["position"][2], kPodiumHeight + 0.5) << "the collision is not with the podium";
   }
   EXPECT_GT(with_map["score"], without["score"]);
 }

@@ -1,4 +1,4 @@
-// `skein merge`: from the files of programs without a launcher it makes the result that a launcher would write.
+// `skein merge` makes the result that a launcher would write, from the files of programs that ran without a launcher.
 #include <signal.h>
 
 #include <fstream>
@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Only a launcher measures the resources of the programs, and knows when it started them.
+/// Keys that only a launcher can fill: it measures the programs' resources, and knows when it started them.
 const std::vector<std::string> kOnlyTheLaunchers = {"startup_s", "processes", "memory_mb"};
 /// Measured values, which differ between flights.
 const std::vector<std::string> kMeasured = {"wall_time_s", "real_time_factor", "timing"};
@@ -68,7 +68,7 @@ class Merge : public ByHand {
   fs::path report(const std::string& program) const { return dir_ / run_folder::report_file(program); }
 };
 
-TEST_F(Merge, SaysWhatTheLauncherSays) {
+TEST_F(Merge, GivesTheResultOfTheLauncher) {
   const Arguments options = {
       "--seed",    "5",        "--rules",
       "reference", "--faults", write("faults.yaml", "faults:\n  - {at_s: 8, until_s: 20, station_outage: true}\n")};
@@ -77,7 +77,8 @@ TEST_F(Merge, SaysWhatTheLauncherSays) {
   const Json result = merged();
   EXPECT_EQ(comparable(result), comparable(launched)) << Json::diff(comparable(launched), comparable(result));
   EXPECT_GT(result["score"], 0.0);
-  for (const std::string& key : kOnlyTheLaunchers) EXPECT_TRUE(result.contains(key)) << "for who reads it: " << key;
+  for (const std::string& key : kOnlyTheLaunchers)
+    EXPECT_TRUE(result.contains(key)) << "merge must write the key, for programs that read it: " << key;
   EXPECT_TRUE(fs::exists(dir_ / run_folder::kScore));
   EXPECT_EQ(text_of(dir_ / run_folder::kScore), text_of(folder() / "launched" / run_folder::kScore));
 }
@@ -95,18 +96,18 @@ TEST_F(Merge, ProgramsWithoutAReportAreReported) {
   for (const Json& uav : result["uavs"]) EXPECT_EQ(uav["planner_cpu_s"].is_null(), uav["name"] == "sentosa");
 }
 
-TEST_F(Merge, AStationThatAFaultKilledForGoodIsSettled) {
+TEST_F(Merge, AStationThatAFaultKilledForGoodGetsItsScoreFromTheJournal) {
   const Arguments options = {"--faults", write("faults.yaml", "faults:\n  - {at_s: 47, kill: station}\n")};
   const Json launched = launch(options).result();
   fly({options[0], options[1], "--keep"});
-  EXPECT_FALSE(fs::exists(report("station"))) << "it came back too late, and leaves it to its books";
+  EXPECT_FALSE(fs::exists(report("station"))) << "a station that is killed for good writes no report, only its journal";
   Json result = merged();
   EXPECT_GT(result["score"], 0.0);
   result["dds"]["station"] = launched["dds"]["station"];  // the journal does not contain it
   EXPECT_EQ(comparable(result), comparable(launched)) << Json::diff(comparable(launched), comparable(result));
 }
 
-TEST_F(Merge, DamagedReportsEndInAMessage) {
+TEST_F(Merge, DamagedReportsAreRefusedWithAMessage) {
   fly();
   const Json whole = merged();
   std::map<fs::path, std::string> texts;
@@ -176,7 +177,7 @@ TEST_F(Merge, ReportsOfAgentsInContainersAreTakenFromTheirFolders) {
   EXPECT_FALSE(fs::exists(dir_ / "agents"));
 }
 
-TEST_F(Merge, ADamagedPartIsReportedAndNoRecordingMadeOfIt) {
+TEST_F(Merge, ADamagedPartIsReportedAndNotMadeIntoARecording) {
   fly();
   const fs::path part = dir_ / run_folder::recording_part("sim_server", 0);
   std::string bytes = text_of(part);

@@ -189,7 +189,7 @@ class Client {
     return true;
   }
 
-  /// Whether a step is one without this program, and not from before its invitation.
+  /// Whether the fleet takes this step without this program, although the program was invited before it.
   bool gives_us_up(const msg::Step& step) const {
     return !lists_us(step) && (!invited_after_ || step.k() > *invited_after_);
   }

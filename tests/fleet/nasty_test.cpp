@@ -8,7 +8,7 @@
 namespace skein::test {
 namespace {
 
-/// What jurong's program does at 3 s, and the DDS vendor.
+/// The parameters of a test: what jurong's program does at 3 s, and the DDS vendor.
 using NastyCase = std::pair<std::string, std::string>;
 
 class Nasty : public FleetTest, public testing::WithParamInterface<NastyCase> {

@@ -48,24 +48,27 @@ TEST_F(PlannerInputs, PlannersGetScansOnRequestAndTheirCommandsArriveUnchanged) 
     ASSERT_TRUE(news.contains("scans")) << name;
     SCOPED_TRACE(name + ": " + news.dump());
     const bool explorer = uav["role"] == "explorer";
-    EXPECT_NEAR(news["scans"], explorer ? 10.0 * news["t"].get<double>() + 1.0 : 0.0, 1.0) << "ten a second";
-    EXPECT_EQ(news["late"], 0) << "each comes with the exchange that follows it";
+    EXPECT_NEAR(news["scans"], explorer ? 10.0 * news["t"].get<double>() + 1.0 : 0.0, 1.0)
+        << "an explorer must get ten scans per second";
+    EXPECT_EQ(news["late"], 0) << "a scan did not arrive with the exchange that follows it";
     EXPECT_EQ(news["points"] > 0, explorer);
     EXPECT_EQ(news["own_frames"] > 0, explorer);
-    EXPECT_GT(news["others_frames"], 0) << "of the explorer beside it";
+    EXPECT_GT(news["others_frames"], 0) << "no key frames arrived from the explorer beside this UAV";
     scans += news["scans"].get<long>();
     EXPECT_EQ(uav["commands_rejected"], 0);
 
     const auto z = heights(probe, name);
-    EXPECT_GT(z.at(5.0) - z.at(0.0), 3.0) << "1.5 m/s, as it was told";
+    EXPECT_GT(z.at(5.0) - z.at(0.0), 3.0) << "the UAV did not climb at 1.5 m/s, as commanded";
     EXPECT_LT(z.at(5.0) - z.at(0.0), 9.0);
-    EXPECT_NEAR(z.rbegin()->second - z.at(5.0), 3.0, 0.5) << "the path began where it was";
+    EXPECT_NEAR(z.rbegin()->second - z.at(5.0), 3.0, 0.5) << "the path of 3 m did not begin at the UAV's position";
   }
-  EXPECT_GE(result["timing"]["scans"].get<long>(), scans - 2) << "the first of each explorer was before the clock";
-  EXPECT_LT(plain.result()["timing"]["scans"].get<long>(), scans / 3) << "what nobody reads is not computed";
+  EXPECT_GE(result["timing"]["scans"].get<long>(), scans - 2)
+      << "all scans but the first one of each explorer must be counted";
+  EXPECT_LT(plain.result()["timing"]["scans"].get<long>(), scans / 3)
+      << "scans were computed although no planner read them";
 }
 
-TEST_F(PlannerInputs, ANewAgentIsToldAllThatItsCameraHasShown) {
+TEST_F(PlannerInputs, ARestartedAgentGetsAllDetectionsOfItsCamera) {
   const std::string scenario = write_small_scene(folder() / "small");
   const auto faults = write("restart.yaml", "faults: [{at_s: 20.0, until_s: 21.0, kill: changi}]\n");
   SkeinRun& done = run("run", {scenario, "--agent", helper_program("probe_agent"), "--planner",
@@ -80,7 +83,7 @@ TEST_F(PlannerInputs, ANewAgentIsToldAllThatItsCameraHasShown) {
     const Json news = last_news(done, uav);
     SCOPED_TRACE(uav + ": " + news.dump());
     EXPECT_EQ(news["named"], seen.size());
-    EXPECT_EQ(news["gaps"], 0) << "in the order of detection";
+    EXPECT_EQ(news["gaps"], 0) << "points did not arrive in the order of detection";
     EXPECT_EQ(news["first_detected"], uav == "changi" ? seen.size() : 0U);
   }
 }

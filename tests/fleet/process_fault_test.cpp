@@ -28,7 +28,8 @@ class ProcessFaults : public FleetTest {
     for (const Json& result : {first, second}) {
       EXPECT_EQ(result["status"], "completed");
       EXPECT_TRUE(result["deterministic"]);
-      EXPECT_TRUE(result["lost_members"].empty()) << "a fault is not a loss: " << result["lost_members"];
+      EXPECT_TRUE(result["lost_members"].empty())
+          << "a program that a fault takes out counts as lost: " << result["lost_members"];
       EXPECT_TRUE(result["warnings"].empty()) << result["warnings"];
       EXPECT_GT(result["score"], 50.0);
     }
@@ -66,13 +67,13 @@ TEST_F(ProcessFaults, AProgramThatIsKilledComesBack) {
   EXPECT_NE(log.find("records of the journal"), std::string::npos) << log;
 }
 
-TEST_F(ProcessFaults, AProgramThatIsStoppedGoesOn) {
+TEST_F(ProcessFaults, AProgramThatIsStoppedContinues) {
   const auto [result, other] = fly_twice(all_away("pause"));
   EXPECT_EQ(result["score"], result["score_earned"]) << "all is delivered in the end";
   EXPECT_NE(text_of(folder() / "one0" / "uav_agent-sentosa.log").find("a fault stops this program"), std::string::npos);
 }
 
-TEST_F(ProcessFaults, AProgramThatNeverComesBackLeavesItsBooks) {
+TEST_F(ProcessFaults, AProgramThatNeverComesBackLeavesItsFiles) {
   const auto [result, other] = fly_twice(
       "  - {at_s: 50.0, kill: station}\n"
       "  - {at_s: 45.0, pause: sentosa}\n"
@@ -85,7 +86,7 @@ TEST_F(ProcessFaults, AProgramThatNeverComesBackLeavesItsBooks) {
   for (const Json& uav : result["uavs"]) EXPECT_EQ(uav["planner_cpu_s"].is_null(), uav["name"] == "sentosa");
 }
 
-TEST_F(ProcessFaults, AUsersCommandIsKilledByTheLauncherAndMissedWhenItDoesNotComeBack) {
+TEST_F(ProcessFaults, AUsersCommandThatDoesNotComeBackAfterAFaultIsLost) {
   const std::string command = "test ! -e " + (folder() / "second").string() + " && touch " +
                               (folder() / "second").string() + " && exec " + helper_program("minimal_client");
   const auto faults = write("command.yaml", "faults: [{at_s: 4.0, until_s: 6.0, kill: sentosa}]\n");
@@ -96,7 +97,7 @@ TEST_F(ProcessFaults, AUsersCommandIsKilledByTheLauncherAndMissedWhenItDoesNotCo
   expect_complete_result(run);
   const Json result = run.result();
   EXPECT_EQ(result["status"], "completed");
-  EXPECT_NEAR(result["mission_time_s"].get<double>(), 20.0, 0.1) << "the others fly on";
+  EXPECT_NEAR(result["mission_time_s"].get<double>(), 20.0, 0.1) << "the other UAVs did not fly on";
   ASSERT_EQ(result["lost_members"].size(), 1U);
   EXPECT_EQ(result["lost_members"][0]["member"], "sentosa");
 }

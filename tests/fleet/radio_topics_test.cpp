@@ -22,7 +22,7 @@ class RadioTopics : public FleetTest {
   }
 };
 
-TEST_F(RadioTopics, TwoTalkersHearEachOtherOnBothVendors) {
+TEST_F(RadioTopics, TwoProgramsHearEachOtherOverBothVendors) {
   std::set<std::string> digests;
   for (const std::string vendor : {"cyclonedds", "fastdds", "mixed"}) {
     SkeinRun& done = run(vendor, {"towers", "--duration", "10", "--dds", vendor, "--planner", kTalkers});
@@ -33,7 +33,7 @@ TEST_F(RadioTopics, TwoTalkersHearEachOtherOnBothVendors) {
       const bool between = link["from"] == "sentosa" && link["to"] == "changi";
       if (between) {
         EXPECT_EQ(heard(done, "changi"), link["delivered"].get<long>() - 1)
-            << "what the last step sends comes too late";
+            << "only messages of the last step may not arrive";
       }
     }
     EXPECT_GT(heard(done, "sentosa"), 150);

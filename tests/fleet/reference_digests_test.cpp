@@ -38,7 +38,7 @@ std::string name_of(const Row& row) {
 
 class ReferenceDigests : public FleetTest, public testing::WithParamInterface<NumberedRow> {};
 
-TEST_P(ReferenceDigests, AreThoseOfTheVersionBefore) {
+TEST_P(ReferenceDigests, AreThoseOfThePreviousVersion) {
   const auto& [number, row] = GetParam();
   const bool official = row.at("scenario") == "mbs" || row.at("scenario") == "crane";
   if (official && std::getenv("SKEIN_ASSETS") == nullptr) GTEST_SKIP() << "SKEIN_ASSETS is not set";

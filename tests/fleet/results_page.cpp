@@ -70,7 +70,7 @@ void expect_documented_columns(const fs::path& dir) {
     // On a full disk a table may be empty; then the result has a warning that names it.
     const bool told = result["warnings"].dump().find(name) != std::string::npos;
     if (told && fs::file_size(entry.path()) == 0) continue;
-    EXPECT_EQ(header(entry.path(), uavs), documented(name)) << name << " is not what docs/results.md says";
+    EXPECT_EQ(header(entry.path(), uavs), documented(name)) << name << " has other columns than docs/results.md says";
   }
 }
 

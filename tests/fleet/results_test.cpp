@@ -53,7 +53,7 @@ class Results : public FleetTest {
       EXPECT_LE(uav["safety_filter"]["slowed"], uav["safety_filter"]["steps"]);
       EXPECT_LE(uav["safety_filter"]["breaches"], uav["safety_filter"]["steps"]);
     }
-    EXPECT_GT(score(), 10.0) << "nothing to check";
+    EXPECT_GT(score(), 10.0) << "the run scored too little for these checks";
     EXPECT_GE(result_["score_earned"].get<double>(), score() - kSumTolerance);
   }
 
@@ -97,7 +97,7 @@ class Results : public FleetTest {
       }
       if (delivered && !collided.contains(row.at("uav"))) best[point] = std::max(best[point], q);
       if (!row.at("reason").empty()) continue;
-      EXPECT_TRUE(delivered) << "counts, but was not delivered: point " << point;
+      EXPECT_TRUE(delivered) << "a capture counts although it was not delivered: point " << point;
       EXPECT_TRUE(counted.insert(point).second) << "two captures count for point " << point;
     }
     const auto points = csv("score.csv");

@@ -71,7 +71,7 @@ class SecureWaiting : public Secure, public testing::WithParamInterface<std::str
 
   std::string domain(int offset) const { return std::to_string(run_->domains().first + offset); }
   fs::path heard(const std::string& name) const { return folder() / (name + ".heard"); }
-  /// Number of writers that such a program has matched, and of samples that it has received; -1: it never began to
+  /// Numbers of writers that such a program has matched and of samples that it has received; -1: it never began to
   /// read.
   std::pair<long, long> ears(const std::string& name) const {
     std::istringstream text(text_of(heard(name)));
@@ -107,7 +107,7 @@ class SecureWaiting : public Secure, public testing::WithParamInterface<std::str
   fs::path keys_;  ///< folder of the victim's keys
 };
 
-TEST_P(SecureWaiting, FliesAsAnOpenFleetAndStrangersGetNothing) {
+TEST_P(SecureWaiting, FliesAsAnOpenFleetAndOtherProgramsGetNothing) {
   const std::string vendor = GetParam(), other_vendor = vendor == "fastdds" ? "cyclonedds" : "fastdds";
   SkeinRun& open = run("open", arguments(vendor));
   start_fleet();
@@ -119,7 +119,7 @@ TEST_P(SecureWaiting, FliesAsAnOpenFleetAndStrangersGetNothing) {
   listen("neighbour", vendor, others_keys);
   start_program("impostor", {helper_program("impostor"), vendor, domain(kOthersDomain), domain(kVictimsDomain),
                              heard("impostor"), others_keys, topic_.name, topic_.type});
-  // The listener with the victim's own certificate receives samples, so the others had enough time, too.
+  // Once the listener with the victim's own certificate has matched, the others have had enough time, too.
   EXPECT_TRUE(eventually([&] { return ears("friend").first == 1; }));
   const std::string refusal = vendor == "fastdds" ? "Not found a rule allowing to use the domain" : "denied by default";
   const std::string forgery = "certificate signature failure";
@@ -142,7 +142,8 @@ TEST_P(SecureWaiting, FliesAsAnOpenFleetAndStrangersGetNothing) {
   EXPECT_GT(result["score"].get<double>(), 0.0);
   EXPECT_TRUE(result["deterministic"]);
   expect_complete_result(*run_);
-  EXPECT_TRUE(fs::exists(run_->dir() / run_folder::map_file(kOther))) << "its agent may write elsewhere only";
+  EXPECT_TRUE(fs::exists(run_->dir() / run_folder::map_file(kOther)))
+      << "the agent writes in a folder of its own, from which the launcher must fetch the map";
 
   EXPECT_FALSE(fs::exists(keys_.parent_path()));
   for (const auto& entry : fs::directory_iterator(run_->dir())) {
@@ -161,7 +162,8 @@ TEST_P(SecureWaiting, TheStationsProgramReadsTheScoreButNoIndices) {
   start_program("agent", {"/bin/sh", "-c", command_});
   EXPECT_EQ(run_->exit_code(), 0) << run_->err();
   EXPECT_GT(ears("score").second, 0);
-  EXPECT_GT(ears("judge").second, 0) << "what the program below did not hear";
+  EXPECT_GT(ears("judge").second, 0)
+      << "the station's own keys must allow to read what the strategy's program must not";
   EXPECT_LE(ears("indices").first, 0);
   EXPECT_LE(ears("indices").second, 0);
 }
@@ -169,7 +171,7 @@ TEST_P(SecureWaiting, TheStationsProgramReadsTheScoreButNoIndices) {
 INSTANTIATE_TEST_SUITE_P(Vendors, SecureWaiting, testing::Values("cyclonedds", "fastdds"),
                          [](const auto& vendor) { return vendor.param; });
 
-TEST_F(Secure, AgentsCannotLookAtWhatIsNotTheirs) {
+TEST_F(Secure, AgentsCannotReadFilesOfOtherProgramsOrGroundTruth) {
   if (!is_root()) GTEST_SKIP() << "agents have users of their own only when the launcher is root";
   fs::permissions(folder() / "small/scene/points.pcd", fs::perms(0600));
   // Files and processes that an agent must not reach, the launcher included; each output line names one that it
@@ -190,17 +192,18 @@ TEST_F(Secure, AgentsCannotLookAtWhatIsNotTheirs) {
                                     "hover," + kOther + "=exec:exec /bin/sh " + script.string()});
   const std::string looked = text_of(probed.dir() / ("uav_agent-" + kOther + ".looked"));
   const int uid = std::atoi(looked.c_str());
-  EXPECT_EQ(looked, std::to_string(uid) + "\n") << "its own key and no more";
+  EXPECT_EQ(looked, std::to_string(uid) + "\n") << "the agent could read more than its own key";
   EXPECT_GE(uid, static_cast<int>(cli::kFirstAgentUser));
   EXPECT_LE(uid, static_cast<int>(cli::kLastAgentUser));
   EXPECT_TRUE(probed.result()["deterministic"]);
   for (const Json& warning : probed.result()["warnings"]) {
     EXPECT_EQ(warning.get<std::string>().find("points.pcd"), std::string::npos) << warning;
   }
-  EXPECT_EQ(fs::status(probed.dir()).permissions(), fs::perms(0705)) << "open again, but to agents";
+  EXPECT_EQ(fs::status(probed.dir()).permissions(), fs::perms(0705))
+      << "the folder must be open again after the run, except to agents";
 }
 
-TEST_F(Secure, AgentsReadNoGroundTruthThatIsThereAlready) {
+TEST_F(Secure, AgentsCannotReadGroundTruthOfEarlierRuns) {
   if (!is_root()) GTEST_SKIP() << "agents have users of their own only when the launcher is root";
   // Ground truth of earlier runs: an unsecured run of this launcher; a run as left by an ordinary user or an older
   // version; in a cache that agents can enter, a world that is generated now, one that was left readable, and its
@@ -228,7 +231,8 @@ TEST_F(Secure, AgentsReadNoGroundTruthThatIsThereAlready) {
       open_up(entry.path());
     }
   }
-  ASSERT_GE(secret.size(), 6u) << "mesh, points and an estimate, too, and the points of a procedural scene";
+  ASSERT_GE(secret.size(), 6u)
+      << "files of a mesh, points and an estimate, and the points of a procedural scene, are missing";
   for (const char* kind : {"oracle-", "points-"}) {
     EXPECT_TRUE(std::ranges::any_of(secret, [&](const fs::path& file) {
       return file.filename().string().starts_with(kind);
@@ -257,7 +261,7 @@ TEST_F(Secure, AgentsReadNoGroundTruthThatIsThereAlready) {
     const std::string said = looked("spy-" + std::string(scene_seed), scene_seed);
     EXPECT_EQ(said.find("can read"), std::string::npos) << said;
     EXPECT_NE(said.find(std::to_string(kAgentsGroup)), std::string::npos)
-        << "it read the scenarios, and no more: " << said;
+        << "the agent could read more than the scenarios: " << said;
   }
   // All other users can still read these files.
   const auto reader = [&](const fs::path& file) {
@@ -288,7 +292,7 @@ TEST_F(Secure, NoProcessIsLeftUnderTheUserIdsOfARun) {
   const uid_t first = fly("first");
   ASSERT_GE(first, cli::kFirstAgentUser);
   EXPECT_FALSE(has_processes(first));
-  // If a process with this id exists nevertheless, the next run gets another id.
+  // If a process with this user id exists nevertheless, the next run takes another id.
   const std::string id = std::to_string(first);
   start_program("survivor", {"/usr/bin/setpriv", "--reuid", id, "--regid", id, "--clear-groups", "/bin/sleep", "1000"});
   ASSERT_TRUE(eventually([&] { return has_processes(first); }));

@@ -12,7 +12,7 @@
 namespace skein::test {
 namespace {
 
-/// In a folder of its own: other tests look into the true one.
+/// Uses a folder of its own in place of /dev/shm, because other tests check /dev/shm.
 class SharedMemory : public testing::Test {
  protected:
   SharedMemory() { std::ofstream(scratch_.path() / kName) << std::string(4096, 'x'); }
@@ -30,12 +30,12 @@ class SharedMemory : public testing::Test {
   const ScratchFolder output_;
 };
 
-TEST_F(SharedMemory, WithoutAProcessThatHasItOpenIsUnused) {
+TEST_F(SharedMemory, IsUnusedIfNoProcessHasItOpen) {
   EXPECT_TRUE(is_there());
   EXPECT_FALSE(is_used());
 }
 
-TEST_F(SharedMemory, ThatAProcessHasOpenOrMappedIsUsedUntilTheProcessIsKilled) {
+TEST_F(SharedMemory, IsUsedUntilTheProcessThatHasItOpenOrMappedIsKilled) {
   const std::string open = "segment = open(sys.argv[1], 'rb')\n";
   const std::string map =
       open +

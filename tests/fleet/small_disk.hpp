@@ -8,7 +8,7 @@
 
 namespace skein::test {
 
-/// Is mounted on a folder while it lives.
+/// A file system that is mounted on a folder while this object lives.
 class SmallDisk {
  public:
   SmallDisk(std::filesystem::path folder, int kilobytes) : folder_(std::move(folder)) {

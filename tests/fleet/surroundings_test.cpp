@@ -50,7 +50,7 @@ TEST_F(Surroundings, FleetsWithDifferentTemporaryFoldersTakeDifferentDomains) {
   }
 }
 
-TEST_F(Surroundings, AProgramThatIsStartedByHandComputesAsOneOfAFleet) {
+TEST_F(Surroundings, AProgramThatIsStartedByHandHasTheEnvironmentOfAFleetsProgram) {
   const FreeDomains domains(4);
   ChildProcess& station = start_program(
       "station",
@@ -69,7 +69,7 @@ TEST_F(Surroundings, AProgramThatIsStartedByHandComputesAsOneOfAFleet) {
 }
 
 // With a low hard limit of open files, the DDS vendor ended a server or router that no launcher had started.
-TEST_F(Surroundings, AProgramThatIsStartedByHandNamesALimitOfOpenFilesThatIsTooLow) {
+TEST_F(Surroundings, AProgramThatIsStartedByHandReportsATooLowLimitOfOpenFiles) {
   const FreeDomains domains(4);
   for (const std::string name : {"sim_server", "comm_router"}) {
     for (const std::string vendor : {"cyclonedds", "fastdds"}) {
@@ -162,7 +162,8 @@ TEST_P(HostileSurroundings, DoNotChangeTheFlight) {
   for (const char* name :
        {"ROS_DISCOVERY_SERVER", "FASTDDS_ENVIRONMENT_FILE", "CYCLONEDDS_URI", "SKEIN_DOMAIN", "SKEIN_CHOAS"}) {
     if (!environment.contains(name)) continue;
-    EXPECT_NE(skein.err().find(name), std::string::npos) << "ignored without a word: " << name << skein.err();
+    EXPECT_NE(skein.err().find(name), std::string::npos)
+        << "the launcher does not say that it ignores " << name << ": " << skein.err();
     EXPECT_NE(result["warnings"].dump().find(name), std::string::npos) << result["warnings"];
   }
 }

@@ -13,7 +13,7 @@
 namespace skein::test {
 namespace {
 
-/// Long enough that a program that restarts at once must wait to be let back in.
+/// Duration of a fault [s]: so long that a program that restarts at once must wait until the server lets it back in.
 constexpr double kAway_s = 5.0;
 
 class Unattended : public ByHand, public testing::WithParamInterface<std::string> {
@@ -40,7 +40,7 @@ class Unattended : public ByHand, public testing::WithParamInterface<std::string
 };
 
 // Every program is killed once and paused once, in a random order.
-TEST_P(Unattended, FaultsMeanTheSameAsUnderTheLauncher) {
+TEST_P(Unattended, FaultsHaveTheSameEffectAsUnderTheLauncher) {
   std::vector<std::string> victims = {"changi", "jurong", "sentosa", "station", "comm_router"}, stopped = victims;
   std::ranges::shuffle(victims, random_);
   std::ranges::shuffle(stopped, random_);
@@ -69,7 +69,7 @@ TEST_P(Unattended, FaultsMeanTheSameAsUnderTheLauncher) {
   EXPECT_EQ(station["score"], launched.result()["score"]);
 }
 
-TEST_P(Unattended, AProgramThatIsKilledIsMissedAndWorksAgain) {
+TEST_P(Unattended, AProgramThatIsKilledIsLostAndWorksAgain) {
   start_fleet(kept());
   ASSERT_TRUE(eventually([&] { return is_flying(dir_); }));
   std::vector<std::string> victims = {"uav_agent-changi", "station", "comm_router"};
@@ -113,7 +113,7 @@ TEST_P(Unattended, AServerThatIsAskedToEndEndsTheRunInGoodOrder) {
   }
 }
 
-TEST_P(Unattended, AllThatAreAskedToEndAtOnceDo) {
+TEST_P(Unattended, AllProgramsEndWhenTheyAreAskedAtOnce) {
   start_fleet(kept());
   ASSERT_TRUE(eventually([&] { return is_flying(dir_); }));
   std::vector<std::string> order = kPrograms;
@@ -123,7 +123,7 @@ TEST_P(Unattended, AllThatAreAskedToEndAtOnceDo) {
   EXPECT_EQ(server_report()["status"], "interrupted");
 }
 
-// Also a program that is still restarting when the server ends.
+// This includes a program that is still restarting when the server ends.
 TEST_P(Unattended, AProgramThatIsKilledForGoodEndsWithTheRun) {
   std::vector<std::string> victims = {"changi", "station", "comm_router"};
   std::string faults = "faults:\n";
@@ -137,11 +137,12 @@ TEST_P(Unattended, AProgramThatIsKilledForGoodEndsWithTheRun) {
   expect_good_ends();
   EXPECT_EQ(server_report()["status"], "completed");
   EXPECT_TRUE(server_report()["lost_members"].empty()) << server_report()["lost_members"];
-  EXPECT_FALSE(std::filesystem::exists(dir_ / "uav_agent-changi.report.json")) << "it did nothing in its last life";
+  EXPECT_FALSE(std::filesystem::exists(dir_ / "uav_agent-changi.report.json"))
+      << "the restarted program never joined, so it must not write a report";
 }
 
 // A run must not use the journal and the reports of the other run.
-TEST_P(Unattended, TwoRunsInOneFolderAreToldApart) {
+TEST_P(Unattended, TwoRunsInOneFolderDoNotUseEachOthersFiles) {
   const auto brief = [&](const std::string& run) {
     Options options = kept({"--run", run});
     options.server.insert(options.server.end(), {"--stop-at", "20"});
@@ -160,14 +161,14 @@ TEST_P(Unattended, TwoRunsInOneFolderAreToldApart) {
   ChildProcess& again = start_program("again", command("sim_server", brief("6")));
   EXPECT_EQ(again.wait().code, 2);
   EXPECT_NE(again.err().find("with the same number (6)"), std::string::npos) << again.err();
-  EXPECT_EQ(server_report()["digest"], digest) << "nothing is lost";
+  EXPECT_EQ(server_report()["digest"], digest) << "the refused server has changed the report";
 }
 
 // The health check of a container looks at the same file.
-TEST_P(Unattended, AProgramThatHangsTouchesItsFileNoMore) {
+TEST_P(Unattended, AProgramThatHangsNoLongerTouchesItsFile) {
   namespace fs = std::filesystem;
   const std::string hangs = "uav_agent-jurong", works = "uav_agent-changi";
-  const Options options = kept({}, "600", "60");  // long enough not to drop a paused program
+  const Options options = kept({}, "600", "60");  // timeouts that do not drop a paused program
   std::map<std::string, Arguments> with_health;
   for (const std::string& name : {hangs, works}) {
     with_health[name] = command(name, options);

@@ -125,8 +125,8 @@ void Viewer::expect_lines_between_nodes() const {
     }
   }
   EXPECT_GT(with_station[false], 0U);
-  EXPECT_EQ(with_station[true], 0U) << "these links are cut";
-  EXPECT_GT(lines[true], 0U) << "the others are not";
+  EXPECT_EQ(with_station[true], 0U) << "links of the station are shown during its outage";
+  EXPECT_GT(lines[true], 0U) << "no links of other nodes are shown during the outage";
 }
 
 void Viewer::expect_growing_map() const {
@@ -138,8 +138,8 @@ void Viewer::expect_growing_map() const {
                     std::lround(std::floor(2.0 * p[1].get<double>())),
                     std::lround(std::floor(2.0 * p[2].get<double>()))});
     }
-    EXPECT_EQ(cells.size(), map["points"].size()) << "one point a cell";
-    EXPECT_TRUE(before < cells.size()) << "it grows";
+    EXPECT_EQ(cells.size(), map["points"].size()) << "a cell of the map has more than one point";
+    EXPECT_TRUE(before < cells.size()) << "the map did not grow";
     before = cells.size();
   }
   EXPECT_GT(before, 100U);
@@ -168,7 +168,7 @@ void Viewer::expect_delivered_points(const SkeinRun& run) const {
   EXPECT_GT(shown, 0U);
 }
 
-TEST_P(Viewer, SeesTheRunAsItIsAndDoesNotTouchIt) {
+TEST_P(Viewer, SeesTheRunAsItIsAndDoesNotChangeIt) {
   SkeinRun& seen = run_with_viewer();
   SkeinRun& alone = run("alone", flight());
   expect_untouched(seen, alone);
@@ -192,7 +192,7 @@ TEST_P(Viewer, SeesTheRunAsItIsAndDoesNotTouchIt) {
   expect_delivered_points(seen);
 }
 
-TEST_P(Viewer, ThatIsStoppedHoldsNoProgramUp) {
+TEST_P(Viewer, ThatIsStoppedDelaysNoProgram) {
   SkeinRun& seen = run_with_viewer(SIGSTOP);
   expect_untouched(seen, run("alone", flight()));
 }

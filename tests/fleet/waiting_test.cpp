@@ -28,7 +28,7 @@ TEST_F(Waiting, AProgramThatNeverJoinsIsNamed) {
   SkeinRun& run = start("run", {scenario_, "--planner", "hover,changi=exec:exec sleep 1000"});
   EXPECT_TRUE(run.wait_for("waiting for changi to join (")) << run.err();
   EXPECT_NE(text_of(run.dir() / "sim_server.log").find("waiting for changi"), std::string::npos)
-      << "where no launcher is";
+      << "the server's log does not name it, which users without a launcher need";
   end_by_interrupt(run);
 }
 
@@ -40,7 +40,7 @@ TEST_F(Waiting, AProgramThatHangsIsNamed) {
   end_by_interrupt(run);
 }
 
-TEST_F(Waiting, AServerThatSaysNothingIsNamed) {
+TEST_F(Waiting, AServerThatHangsIsNamed) {
   SkeinRun& run = start("run", {scenario_, "--planner", "hover", "--duration", "2000"});
   ASSERT_TRUE(run.wait_until_flying()) << run.err();
   const pid_t server = processes_of(run.dir()).at("sim_server");
@@ -50,7 +50,7 @@ TEST_F(Waiting, AServerThatSaysNothingIsNamed) {
   end_by_interrupt(run);
 }
 
-TEST_F(Waiting, SeveralHungPlannersCostOneTimeOut) {
+TEST_F(Waiting, SeveralHungPlannersCostASingleTimeout) {
   SkeinRun& run = start("run", {scenario_, "--planner", "exec:" + helper_program("minimal_client") + " hang",
                                 "--duration", "20", "--agent-timeout", "1"});
   EXPECT_EQ(run.exit_code(), 3) << run.err();
@@ -88,20 +88,20 @@ class Debugged : public Waiting {
     const Json result = run_->result();
     ASSERT_EQ(result["lost_members"].size(), 1u) << result["lost_members"];
     EXPECT_EQ(result["lost_members"][0]["member"], "changi");
-    EXPECT_EQ(result["warnings"].dump().find("waited for"), std::string::npos) << "no step was left unfinished";
+    EXPECT_EQ(result["warnings"].dump().find("waited for"), std::string::npos) << "a step was left unfinished";
   }
 
   SkeinRun* run_ = nullptr;
 };
 
-TEST_F(Debugged, AProgramThatEndsIsLostThoughItsToolLivesOn) {
+TEST_F(Debugged, AProgramThatEndsIsLostAlthoughItsToolStillRuns) {
   start_fleet();
   const std::string tool = write("tool.sh", "\"$@\" & wait\nexec sleep 1000\n");
   ChildProcess& process = start_tool("/bin/sh " + tool);
   ASSERT_TRUE(run_->wait_until_flying()) << run_->err();
   ::kill(debugged(), SIGKILL);
   expect_fleet_goes_on();
-  EXPECT_FALSE(process.ended()) << "the tool is its user's";
+  EXPECT_FALSE(process.ended()) << "the tool belongs to the user, so it must not be ended";
 }
 
 TEST_F(Debugged, ACommandThatEndsIsLostToo) {
