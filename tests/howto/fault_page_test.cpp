@@ -13,11 +13,11 @@ namespace fs = std::filesystem;
 
 class FaultPage : public PageTest {
  protected:
-  /// The page uses the agent of how-to-add-a-planner.md.
+  /// Provides the agent of how-to-add-a-planner.md, which the page uses.
   FaultPage() { give_agent(checkout() / "build" / "my_agent"); }
 };
 
-TEST_F(FaultPage, DoesWhatItSays) {
+TEST_F(FaultPage, ItsCommandsPrintWhatItShows) {
   const std::vector<PageBlock> blocks = blocks_of(source_path("docs/how-to-test-faults.md"));
   int followed = 0;
   for (const PageBlock& block : blocks) {
@@ -26,14 +26,14 @@ TEST_F(FaultPage, DoesWhatItSays) {
   }
   EXPECT_GE(followed, 6);
   for (const auto& run : fs::directory_iterator(checkout() / "runs" / "faults")) expect_documented_columns(run.path());
-  const std::string report = text_of(checkout() / "faults.xml");  // the page's CI job
+  const std::string report = text_of(checkout() / "faults.xml");  // written by the commands of the page's CI job
   ASSERT_FALSE(report.empty());
   const auto elements = report::xml_elements(report);
   EXPECT_EQ(elements.front().name, "testsuites");
   EXPECT_EQ(elements.front().attributes.at("failures"), "0");
   EXPECT_EQ(std::count_if(elements.begin(), elements.end(), [](const auto& e) { return e.name == "testcase"; }), 4);
 
-  // Once more in the same folder, as for a reader who comes back. The files are as the page has left them.
+  // Repeats a third of the commands in the same folder, as a reader may do, with the files that the page has left.
   int number = 0;
   for (const PageBlock& block : blocks) {
     if (block.is_file()) follow(block);
@@ -42,7 +42,7 @@ TEST_F(FaultPage, DoesWhatItSays) {
   }
 }
 
-TEST_F(FaultPage, NothingIsSaidOfAFolderThatCannotBeTested) {
+TEST_F(FaultPage, AFolderOrOptionThatIsWrongIsRefusedWithoutOutput) {
   fs::create_directories(checkout() / "empty");
   for (const auto& [arguments, words] : std::vector<std::pair<std::string, std::string>>{
            {"--faults empty", "there is no fault test"},

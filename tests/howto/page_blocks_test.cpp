@@ -7,8 +7,8 @@
 namespace skein::test {
 namespace {
 
-// Few blocks are not executed, and these give a reason. All commands are in blocks for commands.
-TEST(PageBlocks, SayWhatIsTyped) {
+// Only few blocks of commands are not executed, and a note gives the reason. Blocks of other kinds contain no commands.
+TEST(PageBlocks, AreExecutedOrSayWhyNot) {
   static const std::regex kCommand(R"((^|\n)\s*(\$ )?(\./)?skein [a-z])");
   constexpr int kMostUntyped = 61;
   int typed = 0, untyped = 0;
@@ -24,7 +24,7 @@ TEST(PageBlocks, SayWhatIsTyped) {
   EXPECT_LE(untyped, kMostUntyped);
 }
 
-TEST(PageBlocks, AreComparedUpToTheirGaps) {
+TEST(PageBlocks, AreComparedExceptWhereTheyShowThreeDots) {
   EXPECT_TRUE(matches("a\nb\n", "a\nb\n"));
   EXPECT_FALSE(matches("a\nb\n", "a\nc\n"));
   EXPECT_FALSE(matches("a\n", "a\nb\n"));

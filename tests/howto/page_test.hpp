@@ -53,7 +53,7 @@ class PageTest : public FleetTest {
   PageTest();
 
   const std::filesystem::path& checkout() const { return checkout_; }
-  /// The stderr of the last commands.
+  /// The stderr of the commands that typed() executed last.
   const std::string& errors() const { return errors_; }
 
   /// Puts the agent of how-to-add-a-planner.md at `file`, as a reader's build would.

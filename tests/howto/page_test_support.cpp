@@ -137,16 +137,16 @@ std::string PageTest::typed(const std::string& commands, int exit_code, const En
   all.try_emplace("SKEIN_AGENT", "");
   all.try_emplace("XDG_CACHE_HOME", folder() / "cache");
   all.try_emplace("PATH", build_path("bin:") + (folder() / "bin").string() + ":" + std::getenv("PATH"));
-  all.try_emplace("PYTHONDONTWRITEBYTECODE", "1");  // or it would go into the source tree
+  all.try_emplace("PYTHONDONTWRITEBYTECODE", "1");  // else Python would write compiled files into the source tree
   all.try_emplace("MPLBACKEND", "Agg");
   ChildProcess shell({"/bin/sh", "-c", line}, all, folder() / (name + ".out"), folder() / (name + ".err"));
   const bool over = eventually([&] { return shell.ended().has_value(); }, kPagesPatience);
-  EXPECT_TRUE(over) << "still busy with:\n" << commands;
+  EXPECT_TRUE(over) << "these commands have not ended in time:\n" << commands;
   if (over) {
     EXPECT_EQ(shell.ended()->code, exit_code) << commands << "\n" << shell.out() << shell.err();
     std::vector<std::string> left;
     EXPECT_TRUE(eventually([&] { return (left = processes_in(folder())).empty(); }, std::chrono::seconds(20)))
-        << commands << "\nleaves " << left.front();
+        << commands << "\nhave left a process: " << left.front();
   }
   errors_ = shell.err();
   return shell.out();

@@ -51,7 +51,7 @@ bool is_typed_elsewhere(const std::string& page, const PageBlock& block) {
 
 class Pages : public PageTest, public testing::WithParamInterface<Chapter> {};
 
-TEST_P(Pages, AreTypedTwice) {
+TEST_P(Pages, HaveCommandsThatWorkTwice) {
   const auto& [page, name, blocks, problem] = GetParam();
   ASSERT_EQ(problem, "");
   for (const char* round : {"the first time", "again"}) {

@@ -29,7 +29,7 @@ void lay_out(const fs::path& folder, bool with_tests) {
 
 TEST_F(PlannerPage, ItsPlannerFliesTheSameInTheTreeAndOutOfIt) {
   lay_out(folder(), long_tests());
-  // Executed twice, as by a reader who comes back. No variable may help the installed programs to find their
+  // The commands are executed twice, as a reader may do. No variable may help the installed programs to find their
   // configuration.
   const std::string follow = "cd " + folder().string() +
                              " && unset SKEIN_CONFIG_DIR SKEIN_BIN_DIR && set -e && . ./outside.sh && . ./outside.sh" +
@@ -51,11 +51,11 @@ TEST_F(PlannerPage, ItsPlannerFliesTheSameInTheTreeAndOutOfIt) {
   EXPECT_EQ(there["planner"]["gcs"], "orbit");
   EXPECT_EQ(fs::path(there["agent"].get<std::string>()).filename(), "my_agent");
   EXPECT_TRUE(there["collisions"].empty());
-  EXPECT_GT(there["score_earned"], 0.0) << "it inspects";
+  EXPECT_GT(there["score_earned"], 0.0) << "the planner photographs nothing";
   expect_complete_result(inside);
 }
 
-/// Readers should see the whole interface at a glance: what is general belongs into Skein's parts for planners.
+/// Readers should see the whole planner at a glance. Code that other planners need, too, belongs in Skein.
 TEST_F(PlannerPage, ItsPlannerHasAtMost60LinesOfCode) {
   const std::string file = text_of(build_path("tests/howto/page/orbit.cpp"));
   std::istringstream planner(file.substr(0, file.find("// orbit.cpp, continued")));
@@ -64,11 +64,11 @@ TEST_F(PlannerPage, ItsPlannerHasAtMost60LinesOfCode) {
     const std::size_t begin = line.find_first_not_of(' ');
     lines += begin != std::string::npos && line.compare(begin, 2, "//") != 0;
   }
-  EXPECT_GT(lines, 40) << "it is read";
+  EXPECT_GT(lines, 40) << "the page's code was not found";
   EXPECT_LE(lines, 60);
 }
 
-TEST_F(PlannerPage, AnAgentOfOnesOwnKnowsTheOtherPlannersAndNamesThem) {
+TEST_F(PlannerPage, AnAgentOutsideTheTreeKnowsTheOtherPlannersAndNamesThem) {
   SkeinRun& unknown =
       run("unknown", {"towers", "--agent", helper_program("howto_agent"), "--planner", "orbits"}, {}, 2);
   EXPECT_NE(unknown.err().find("did you mean 'orbit'"), std::string::npos) << unknown.err();

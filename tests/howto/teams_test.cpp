@@ -40,11 +40,11 @@ TEST_F(Teams, MeetInOneFlight) {
   expect_complete_result(met);
 }
 
-TEST_F(Teams, MeetBehindTheirKeys) {
+TEST_F(Teams, MeetInOneSecuredFlight) {
   std::filesystem::permissions(folder(), std::filesystem::perms(0755));  // agents with other user ids read the scenario
   const std::string planner = "orbit@" + kOrbits + ",changi=probe@" + kProbes;
   EXPECT_EQ(fly("secure", planner, {"--secure"}).digest(), fly("open", planner).digest());
-  if (::geteuid() != 0) GTEST_SKIP() << "only root's agents are other users";
+  if (::geteuid() != 0) GTEST_SKIP() << "agents have users of their own only when the launcher is root";
   const auto closed = write("closed", "#!/bin/sh\nexec " + kProbes + " \"$@\"\n");
   std::filesystem::permissions(closed, std::filesystem::perms(0700));
   SkeinRun& refused =
@@ -71,7 +71,7 @@ TEST_F(Teams, MeetInOneStudy) {
   EXPECT_TRUE(std::filesystem::exists(folder() / "study/flights/scenario/orbit@howto_agent/seed-0/result.json"));
 }
 
-TEST_F(Teams, AProgramThatIsNotThereIsNamed) {
+TEST_F(Teams, AnAgentOrPlannerThatDoesNotExistIsNamed) {
   const std::string text = write("text", "no program"), nobody = folder() / "nobody";
   const std::vector<std::pair<std::string, std::vector<std::string>>> wrong = {
       {"orbit@" + nobody, {"--planner orbit@" + nobody, "no such file"}},

@@ -1,4 +1,4 @@
-// `skein run CAPSULE.yaml` reports about the find, also if it flies a second run for comparison.
+// `skein run CAPSULE.yaml` reports the find's result, even if it also flies a run without faults for comparison.
 #include "fleet_fixture.hpp"
 
 namespace skein::test {
@@ -6,7 +6,7 @@ namespace {
 
 using Capsule = FleetTest;
 
-/// A property that compares with the score of a second run, without the outage: at least nine tenths of it.
+/// Its property compares the score with that of a second run, without the outage: at least nine tenths of it.
 constexpr const char* kShare = R"(# fault test
 name: share
 run: {scenario: towers, planner: patrol, seed: 0, uavs: 2, duration_s: 40}
@@ -17,7 +17,7 @@ properties:
 capsule: {property: most, skein: '0.1.0', command: skein hunt towers}
 )";
 
-TEST_F(Capsule, EndsWithTheScoreOfTheFindAndNotOfTheRunWithoutFaults) {
+TEST_F(Capsule, ReportsTheScoreOfTheFindAndNotOfTheRunWithoutFaults) {
   // The variable applies to missions without a duration; a capsule has one.
   ChildProcess& run = start_program(
       "share", {program("skein"), "run", write("share.yaml", kShare), "--one-process", "--out", folder() / "find"},
@@ -49,7 +49,7 @@ TEST_F(Capsule, EndsWithTheScoreOfTheFindAndNotOfTheRunWithoutFaults) {
 }
 
 // The capsule defines the flight: options that would change it are refused.
-TEST_F(Capsule, OptionsThatSayWhatIsFlownAreRefused) {
+TEST_F(Capsule, RefusesOptionsThatWouldChangeTheFlight) {
   const std::string capsule = write("share.yaml", kShare);
   const std::vector<Arguments> refused = {{"--duration", "20"}, {"--planner", "kios"},       {"--seed", "3"},
                                           {"--uavs", "4"},      {"--clock", "realtime"},     {"--secure"},

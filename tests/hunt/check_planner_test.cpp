@@ -57,13 +57,13 @@ class CheckPlanner : public FleetTest {
   }
 };
 
-TEST_F(CheckPlanner, ASoundOnePassesInAllSurroundings) {
+TEST_F(CheckPlanner, ARepeatablePlannerPassesInAllSurroundings) {
   const Said said = check("planted");
   EXPECT_EQ(said.code, 0) << said.out;
   EXPECT_EQ(told(said.out, "same"), all_but({{}, {}})) << said.out;
   EXPECT_EQ(said.out.find("DIFFERENT"), std::string::npos) << said.out;
   EXPECT_NE(said.out.find("\nrepeatable: all runs are the same\n"), std::string::npos) << said.out;
-  // Before each flight, the command prints its number, the total, and, but for the first, how long the rest takes.
+  // Before each flight, the command prints its number and the total, and after the first also the remaining time.
   const std::size_t all = 2 * (1 + std::size(kSurroundings));
   static const std::regex flight(R"((?:^|\n)flight (\d+) of (\d+)(, about [^\n]+ left)?(?=\n))");
   std::size_t flights = 0;

@@ -33,7 +33,7 @@ class HuntCommands : public FleetTest {
   /// The lines of a hunt's log, parsed.
   std::vector<Json> log(const std::string& out) const {
     const std::string text = text_of(folder() / out / "log.jsonl");
-    EXPECT_TRUE(text.empty() || text.back() == '\n') << "a line was cut off";
+    EXPECT_TRUE(text.empty() || text.back() == '\n') << "the last line of the log is incomplete";
     std::vector<Json> lines;
     std::istringstream in(text);
     for (std::string line; std::getline(in, line);) {
@@ -159,7 +159,7 @@ TEST_F(HuntCommands, PageAndJUnitCountWhatTheLogSaysAndTheCapsuleFliesTheFindAga
   EXPECT_NE(again.out.find("all_fly_on fails: "), std::string::npos) << again.out;
   EXPECT_NE(again.out.find("this is the run that was found, bit for bit"), std::string::npos) << again.out;
   EXPECT_NE(again.err.find("second run, without the faults"), std::string::npos) << again.err;
-  // One table, that of the run with faults.
+  // There is one table, that of the run with faults.
   std::vector<std::string> tables;
   const std::regex table(R"((?:^|\n)score +([0-9.]+) of )");
   for (std::sregex_iterator at(again.out.begin(), again.out.end(), table), end; at != end; ++at) {
@@ -179,7 +179,7 @@ TEST_F(HuntCommands, ReportWithoutAFolderIsRefusedBeforeTheSearch) {
   EXPECT_TRUE(log("hunt").empty());
 }
 
-TEST_F(HuntCommands, CtrlCLeavesAWholeLogAndTheSameCommandGoesOn) {
+TEST_F(HuntCommands, CtrlCLeavesAWholeLogAndTheSameCommandContinues) {
   const auto words = [&](const std::string& out, std::size_t runs) {
     return Arguments{"hunt",       "towers",
                      "--planner",  "hover",
@@ -204,7 +204,8 @@ TEST_F(HuntCommands, CtrlCLeavesAWholeLogAndTheSameCommandGoesOn) {
   EXPECT_TRUE(eventually([&] { return processes_below(folder()).empty(); })) << processes_below(folder());
   const std::size_t flown = log("stopped").size();
   EXPECT_GE(flown, 3u);
-  EXPECT_NE(stopped.out().find(" runs, "), std::string::npos) << "what was flown is told: " << stopped.out();
+  EXPECT_NE(stopped.out().find(" runs, "), std::string::npos)
+      << "the hunt does not report what it has flown: " << stopped.out();
   EXPECT_TRUE(fs::exists(folder() / "stopped" / "report.html"));
 
   const Said whole = call(words("whole", flown + 2)), on = call(words("stopped", flown + 2));
@@ -215,7 +216,7 @@ TEST_F(HuntCommands, CtrlCLeavesAWholeLogAndTheSameCommandGoesOn) {
   EXPECT_EQ(log_lines("stopped"), log_lines("whole"));
 }
 
-TEST_F(HuntCommands, AProgramOfOnesOwnIsHuntedOverDds) {
+TEST_F(HuntCommands, AUsersProgramIsHuntedOverDds) {
   const Said hunt =
       call({"hunt",     "towers",    "--planner",  "hover,raffles=exec:" + helper_program("minimal_client"),
             "--uavs",   "2",         "--duration", "50",
@@ -234,7 +235,7 @@ TEST_F(HuntCommands, AProgramOfOnesOwnIsHuntedOverDds) {
     EXPECT_EQ(completes["outcome"], "holds") << completes;
     with_faults += line["flown"].get<std::string>().find("faults: []") == std::string::npos;
   }
-  EXPECT_EQ(with_faults, 2u) << "the first case has none";
+  EXPECT_EQ(with_faults, 2u) << "all three cases but the first have faults";
   // `skein run` flies the same run.
   const std::string flown = lines[1]["flown"];
   std::smatch seed;
@@ -297,7 +298,7 @@ std::size_t first_other_step(const fs::path& a, const fs::path& b) {
   return at.in1 == rows.end() ? 0 : std::stoul(at.in1->at("k"));
 }
 
-TEST_F(HuntCommands, BlameHasTheNumbersOfFlightsByHand) {
+TEST_F(HuntCommands, BlameReportsTheNumbersOfTheSameFlightsFlownIndividually) {
   const std::vector<std::string> faults = {"{at_s: 4.6, until_s: 5.9, kill: raffles}",
                                            "{at_s: 20, until_s: 40, stuck_gimbal: jurong}",
                                            "{at_s: 2, until_s: 2.5, camera_failure: raffles}"};
@@ -338,7 +339,7 @@ TEST_F(HuntCommands, BlameHasTheNumbersOfFlightsByHand) {
   }
   EXPECT_EQ(all.size(), effective_faults) << said.out;
   EXPECT_GE(effective_faults, 1u);
-  EXPECT_GT(all.at(faults[0]).points, 1.0) << "the restart brings the defect to light";
+  EXPECT_GT(all.at(faults[0]).points, 1.0) << "the restart, which reveals the defect, must cost points";
 }
 
 TEST_F(HuntCommands, BlameFliesInAGeneratedWorld) {

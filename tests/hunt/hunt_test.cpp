@@ -101,7 +101,7 @@ const Arguments kQuick = {"--uavs", "2", "--duration", "90", "--faults", "kill,l
 
 TEST_F(Hunts, FindARestartedProgramThatKnowsNoBoxes) { expect_found(of_planner("no_boxes_again"), 40, kQuick); }
 
-TEST_F(Hunts, TheirFindsAreThereWhenTheyGoOnAndCanBeTestedAndBlamed) {
+TEST_F(Hunts, KeepTheirFindsWhichCanBeTestedAndBlamed) {
   const Planted planted = of_planner("no_boxes_again");
   const Arguments words = joined(
       {"hunt", "towers", "--planner", planted.planner, "--runs", "10", "--seed", "2", "--out", folder() / "hunt"},
@@ -114,7 +114,7 @@ TEST_F(Hunts, TheirFindsAreThereWhenTheyGoOnAndCanBeTestedAndBlamed) {
   ASSERT_EQ(skein(words), 1) << said_;
   const auto before = finds();
   ASSERT_FALSE(before.empty()) << said_;
-  EXPECT_EQ(skein(words), 1) << "none is lost";
+  EXPECT_EQ(skein(words), 1) << "the continued hunt has lost its finds";
   EXPECT_NE(said_.find("10 of 10 runs are complete already"), std::string::npos) << said_;
   EXPECT_EQ(finds(), before);
   for (const auto& [name, text] : before) EXPECT_NE(said_.find(name), std::string::npos) << said_;
@@ -125,11 +125,11 @@ TEST_F(Hunts, TheirFindsAreThereWhenTheyGoOnAndCanBeTestedAndBlamed) {
 
   const fs::path capsule = folder_of_finds / before.begin()->first;
   EXPECT_EQ(skein(joined({"blame", capsule, "--messages", "20", "21"}, planted.defect)), 0) << said_;
-  EXPECT_NE(said_.find("kill"), std::string::npos) << "the fault, and " << said_;
+  EXPECT_NE(said_.find("kill"), std::string::npos) << "blame does not name the fault: " << said_;
   EXPECT_NE(said_.find("without messages from"), std::string::npos) << said_;
 }
 
-TEST_F(Hunts, GoOnWhereTheyWereStoppedAndDoNotDependOnJobs) {
+TEST_F(Hunts, ContinueWhereTheyWereStoppedAndDoNotDependOnJobs) {
   const auto hunt = [&](const std::string& out, const std::string& runs, const std::string& jobs) {
     return skein({"hunt", "towers", "--planner", "hover", "--uavs", "2", "--duration", "50", "--faults",
                   "kill,link,blackout", "--without", "explorers_fly_on,others_fly_on,linked_delivers", "--runs", runs,
@@ -147,7 +147,8 @@ TEST_F(Hunts, GoOnWhereTheyWereStoppedAndDoNotDependOnJobs) {
   EXPECT_NE(said_.find("7 of 18 runs are complete already"), std::string::npos) << said_;
   EXPECT_EQ(lines("one"), lines("two"));
   EXPECT_EQ(hunt("two", "18", "1"), hunt("one", "18", "1"));
-  EXPECT_EQ(skein({"hunt", "towers", "--planner", "hover", "--out", folder() / "one"}), 2) << "another hunt";
+  EXPECT_EQ(skein({"hunt", "towers", "--planner", "hover", "--out", folder() / "one"}), 2)
+      << "the folder has another hunt";
 }
 
 TEST_F(Hunts, FlyUnderTheConditionsThatAreGiven) {
@@ -164,11 +165,11 @@ TEST_F(Hunts, FlyUnderTheConditionsThatAreGiven) {
     const bool windy = flown["flown"].get<std::string>().find("wind=breezy") != std::string::npos;
     digests[windy ? "windy" : "none"].insert(flown["outcome"]["digest"].get<std::string>());
   }
-  ASSERT_EQ(digests.size(), 2U) << "eight cases, and one of the two is never flown with a chance of 1 in 128";
+  ASSERT_EQ(digests.size(), 2U) << "all eight cases had the same conditions, which has a probability of 1 in 128";
   for (const std::string& digest : digests["none"]) EXPECT_FALSE(digests["windy"].contains(digest));
   EXPECT_EQ(hunt("none,wind=breezy+odometry=breezy"), 0);
   EXPECT_NE(said_.find("8 of 8 runs are complete already"), std::string::npos) << said_;
-  EXPECT_EQ(hunt("none"), 2) << "another hunt";
+  EXPECT_EQ(hunt("none"), 2) << "the folder has another hunt";
   EXPECT_EQ(hunt("none,wind=brezy"), 2);
   EXPECT_NE(said_.find("--conditions wind=brezy: there is no preset 'brezy' of conditions"), std::string::npos)
       << said_;

@@ -1,6 +1,6 @@
-// A planner with planted defects, for `skein hunt` to find: it flies rounds about the structure and coordinates with
-// the other UAVs by radio, in a way that tolerates every fault. On request one part of it is wrong. The hunt does not
-// know the defects. No flight core keeps these UAVs safe.
+// A planner for hunts: it flies rounds about the structure and coordinates with the other UAVs by radio, in a way that
+// tolerates every fault. Its parameter inserts a defect, which `skein hunt` must find without knowing it. The planner
+// flies without the flight core, so nothing else keeps its UAVs safe.
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -161,7 +161,7 @@ class PlantedPlanner final : public Planner {
     return now / std::chrono::hours(24 * 300) % 2 == 0 && now_s < kLate_s;
   }
 
-  /// The next UAV is in sight and silent: waits, because a message may be about to come.
+  /// Whether to wait because the next UAV is in sight but silent, so that its message may be about to arrive.
   bool waits_for_neighbour(const PlannerInput& in, double now_s) const {
     const std::size_t next = (self() + 1) % agent_.fleet.size();
     const auto silence = silence_s("beat " + std::to_string(next), now_s);
@@ -172,7 +172,7 @@ class PlantedPlanner final : public Planner {
     return visible && (defect_ == Defect::waits_for_dead || *silence < kDead_s);
   }
 
-  /// The first UAV holds a lease, which gives it the site for itself for a while.
+  /// The first UAV holds a lease on the site: for a while, no other UAV may work there.
   bool waits_for_lease(double now_s) const {
     const auto lease = silence_s("lease 0", now_s), release = silence_s("release 0", now_s);
     if (self() == 0 || !lease || (release && *release <= *lease)) return false;

@@ -26,7 +26,7 @@ class Layers : public Test {
   inline static Tree tree_;
 };
 
-TEST_F(Layers, TheTreeIsThere) {
+TEST_F(Layers, TheSourceTreeIsFound) {
   for (const char* path :
        {"core/types.hpp", "idl/skein_msgs.idl", "bus/bus.hpp", "sim_server/main.cpp", "uav_agent/api/planner.hpp",
         "comm_router/main.cpp", "station/main.cpp", "cli/main.cpp", "tests/layers/rules.cpp", ".ci/run", "README.md"}) {
@@ -35,10 +35,10 @@ TEST_F(Layers, TheTreeIsThere) {
 }
 
 TEST_F(Layers, EachLayerIncludesOnlyThoseBelow) { expect_none(check_layers(tree_)); }
-TEST_F(Layers, FoldersOfAnApplicationLookOneWay) { expect_none(check_circles(tree_)); }
-TEST_F(Layers, OnlyNodesTalkOverTheBus) { expect_none(check_bus_users(tree_)); }
-TEST_F(Layers, OnlyAVendorsFolderSeesItsDds) { expect_none(check_dds_headers(tree_)); }
-TEST_F(Layers, LargeLibrariesStayInTheirPlace) { expect_none(check_libraries(tree_, library_rules())); }
+TEST_F(Layers, IncludesBetweenFoldersFormNoCycle) { expect_none(check_circles(tree_)); }
+TEST_F(Layers, OnlyNodesUseTheBus) { expect_none(check_bus_users(tree_)); }
+TEST_F(Layers, OnlyAVendorsFolderIncludesItsDds) { expect_none(check_dds_headers(tree_)); }
+TEST_F(Layers, LargeLibrariesAreIncludedInFewFiles) { expect_none(check_libraries(tree_, library_rules())); }
 TEST_F(Layers, HeadersAreSafeToInclude) { expect_none(check_headers(tree_)); }
 TEST_F(Layers, NoLibraryPrints) { expect_none(check_printing(tree_)); }
 TEST_F(Layers, NoCodeSleeps) { expect_none(check_sleeping(tree_)); }
@@ -48,7 +48,7 @@ TEST_F(Layers, FunctionsAreShort) { expect_none(check_functions(tree_, long_func
 TEST_F(Layers, NumbersOfTheAgentNameTheirSource) { expect_none(check_sources(tree_, bare_numbers())); }
 TEST_F(Layers, LinesAreShort) { expect_none(check_columns(tree_)); }
 TEST_F(Layers, NothingIsMarkedUnfinished) { expect_none(check_marks(tree_)); }
-TEST_F(Layers, FilesThatAreNamedAreThere) { expect_none(check_references(tree_)); }
+TEST_F(Layers, FilesThatAreNamedExist) { expect_none(check_references(tree_)); }
 TEST_F(Layers, OneHeaderNamesTheFilesOfARun) { expect_none(check_run_files(tree_)); }
 TEST_F(Layers, DecisionsAreShortAndHaveTheirSections) { expect_none(check_decisions(tree_)); }
 TEST_F(Layers, TestNamesNameTheirActor) { expect_none(check_test_names(tree_)); }
@@ -61,15 +61,15 @@ TEST_F(Layers, CodeIsFormatted) {
     if (file.is_cpp()) out << file.path << '\n';
   }
   out.close();
-  if (std::system("command -v clang-format >/dev/null") != 0) GTEST_SKIP() << "there is no clang-format";
+  if (std::system("command -v clang-format >/dev/null") != 0) GTEST_SKIP() << "clang-format is not installed";
   const std::string command = "cd '" + source_path() + "' && xargs clang-format --dry-run -Werror <" + list;
-  EXPECT_EQ(std::system(command.c_str()), 0) << "clang-format -i mends it";
+  EXPECT_EQ(std::system(command.c_str()), 0) << "format these files with clang-format -i";
   std::filesystem::remove(list);
 }
 
 TEST_F(Layers, GitTracksNoProductsAndNoLargeFiles) {
   const auto tracked = tracked_files(source_path());
-  if (!tracked) GTEST_SKIP() << "this is not a git checkout, or there is no git";
+  if (!tracked) GTEST_SKIP() << "this is not a git checkout, or git is not installed";
   EXPECT_FALSE(tracked->empty());
   expect_none(check_tracked_files(source_path(), *tracked));
 }

@@ -15,8 +15,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// The folder that has a layer: a folder at the root, or one of two that depend on less than the folder above them: the
-/// file format of recordings, which knows no messages, and the language of properties, which knows no runs.
+/// The folder of a path that has a layer of its own. That is a folder at the root, or one of two subfolders that have
+/// fewer dependencies than the folders that contain them: the file format of recordings, and the language of
+/// properties.
 std::string layer_folder(const std::string& path) {
   for (const char* folder : {"recording/mcap", "signals/properties"}) {
     if (path.starts_with(std::string(folder) + "/")) return folder;
@@ -122,7 +123,7 @@ std::string room_of(const std::string& path) {
 
 struct Door {
   std::string from, to;
-  std::string where;  ///< the first include of this kind
+  std::string where;  ///< place of the first include that leads from one to the other
 };
 
 /// All rooms that `from` includes, directly or indirectly.
@@ -307,7 +308,7 @@ Violations check_columns(const Tree& tree, std::size_t most_columns) {
       const auto blank = [i](const std::vector<std::string>& lines) {
         return i < lines.size() && lines[i].find_first_not_of(' ') == std::string::npos;
       };
-      if (file.is_cpp() && blank(file.code) && blank(file.comments)) continue;  // the text of a literal
+      if (file.is_cpp() && blank(file.code) && blank(file.comments)) continue;  // a line inside a string literal
       if (may_be_long[i]) continue;
       const auto columns = std::ranges::count_if(file.lines[i], [](char c) { return (c & 0xc0) != 0x80; });  // of UTF-8
       if (static_cast<std::size_t>(columns) <= most_columns) continue;

@@ -32,8 +32,8 @@ Violations check_bus_users(const Tree& tree);
 /// Only bus/<vendor>/ includes a DDS vendor's headers; tests/ may use raw DDS, to check Skein from outside.
 Violations check_dds_headers(const Tree& tree);
 
-/// Large libraries stay where they belong: in the folders named here, in few .cpp files, never in a header unless they
-/// have a folder of their own.
+/// Only few .cpp files, in the folders named here, include a large library. Headers include it only if the library has
+/// a folder of its own.
 struct LibraryRule {
   std::string name;
   std::vector<std::string> prefixes;  ///< of the included paths: "pcl/"
@@ -71,7 +71,7 @@ const std::vector<LongFunction>& long_functions();
 /// which must have more, and those of tests.
 Violations check_functions(const Tree& tree, const std::vector<LongFunction>& known, std::size_t most_lines = 60);
 
-/// A file in which as many numbers may lack a source.
+/// A file in which a given number of numbers may lack a source.
 struct BareNumbers {
   std::string path;
   std::size_t count = 0;

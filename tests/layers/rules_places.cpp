@@ -49,7 +49,7 @@ Violations check_decisions(const Tree& tree, std::size_t most_lines) {
     const auto has = [&](const std::string& begin) {
       return std::ranges::any_of(file.lines, [&](const std::string& line) { return line.starts_with(begin); });
     };
-    if (has("Superseded by [decision ")) continue;  // as a whole: the page says what is left of the decision
+    if (has("Superseded by [decision ")) continue;  // the decision is superseded as a whole, so its page is short
     for (const char* section : kSections) {
       if (!has(section)) violations.push_back(file.path + ":1: has no section '" + section + "'");
     }

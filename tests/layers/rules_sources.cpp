@@ -88,7 +88,7 @@ bool has_source(const SourceFile& file, std::size_t line) {
   const auto is_blank = [](const std::string& text) { return text.find_first_not_of(' ') == std::string::npos; };
   const auto names = [&](std::size_t i) { return std::regex_search(file.comments[i], kSource); };
   if (names(line)) return true;
-  const auto goes_on = [&](std::string code) {  // in the next line
+  const auto goes_on = [&](std::string code) {  // whether the statement continues in the next line
     code.erase(code.find_last_not_of(' ') + 1);
     return !code.empty() &&
            (code.ends_with("= {") || std::string_view(";{}:").find(code.back()) == std::string_view::npos);
@@ -111,7 +111,8 @@ std::vector<std::string> without_source(const SourceFile& file) {
     const std::vector<Literal> literals = literals_in(line);
     if (std::ranges::all_of(literals, [](const Literal& literal) { return literal.value == 0.0; })) continue;
     const Use use = use_in(file, line);
-    if (file.path == kFlightConfig && use != Use::constant) continue;  // parameters: their sources are in a page
+    if (file.path == kFlightConfig && use != Use::constant)
+      continue;  // a parameter; docs/flight-core.md names its source
     const bool shifts = line.find("<<") != std::string::npos || line.find(">>") != std::string::npos;
     std::vector<std::string> of_line;
     for (const Literal& literal : literals) {

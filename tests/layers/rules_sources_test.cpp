@@ -32,7 +32,7 @@ std::vector<std::string> bare_in(const std::string& text, const std::string& pat
 
 using Numbers = std::vector<std::string>;
 
-TEST(SourcesOfNumbers, MayStandInTheLineOrAboveTheStatement) {
+TEST(SourcesOfNumbers, MayBeInTheLineOrAboveTheStatement) {
   EXPECT_EQ(bare_in("constexpr double kFarM = 40.0;  ///< chosen\n"
                     "/// Measured: 0.48 m.\n/// In tests.\nconstexpr double kA[] = {\n    1.5,\n    2.5,\n};\n"
                     "  double margin_m = 0.3;  ///< sensor\n"
@@ -55,7 +55,7 @@ TEST(SourcesOfNumbers, AreNotNeededForPlainNumbersAndBits) {
             Numbers{});
 }
 
-TEST(SourcesOfNumbers, AreAskedForInTheAgentAndNotForItsTestsAndParameters) {
+TEST(SourcesOfNumbers, AreRequiredInTheAgentExceptInItsTestsAndParameters) {
   const std::string number = "f(0.7);\n";
   EXPECT_EQ(bare_in(number, "uav_agent/planners/star/a.cpp"), Numbers{"1: 0.7"});
   for (const char* path : {"uav_agent/maps/a_test.cpp", "uav_agent/testing/a.cpp", "core/a.cpp"}) {
@@ -66,12 +66,12 @@ TEST(SourcesOfNumbers, AreAskedForInTheAgentAndNotForItsTestsAndParameters) {
             Numbers{"2: 0.7"});
 }
 
-TEST(SourcesOfNumbers, MayLackInAsManyPlacesAsTheListSays) {
+TEST(SourcesOfNumbers, MayBeMissingWhereTheListSaysSo) {
   const Tree tree = {cpp_file("uav_agent/a.cpp", "f(0.7);\nf(1'000);\n"), cpp_file("uav_agent/b.cpp", "f(2);\n")};
   EXPECT_EQ(check_sources(tree, {{"uav_agent/a.cpp", 2}}), Violations{});
   EXPECT_EQ(check_sources(tree, {{"uav_agent/a.cpp", 1}}).size(), 2U);
   EXPECT_EQ(check_sources(tree, {{"uav_agent/a.cpp", 2}, {"uav_agent/b.cpp", 1}}).size(), 1U)
-      << "an entry for no number";
+      << "an entry of the list for a file without such numbers must be reported";
 }
 
 }  // namespace

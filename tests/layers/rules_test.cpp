@@ -53,7 +53,7 @@ TEST(Blanking, LeavesOnlyCode) {
   EXPECT_EQ(blank_comments_and_literals("/* never closed"), "               ");
 }
 
-TEST(Blanking, OrOnlyComments) {
+TEST(Blanking, LeavesOnlyComments) {
   EXPECT_EQ(only_comments("a // b\nc /* d\ne */ f"), "  // b\n  /* d\ne */  ");
   EXPECT_EQ(only_comments("f(\"// a\"); // b"), "           // b");
   EXPECT_EQ(only_comments("R\"(// a)\""), "         ");
@@ -72,7 +72,7 @@ TEST_F(MadeUpTree, IsReadWithoutBuildTreesAndBinaries) {
   EXPECT_EQ(paths, (Places{".ci/run", "core/a.hpp"}));
 }
 
-TEST_F(MadeUpTree, LayersMayOnlyLookDown) {
+TEST_F(MadeUpTree, IncludesOfHigherLayersAreFound) {
   for (const char* path :
        {"core/a.hpp", "idl/a.hpp", "bus/a.hpp", "sim_server/a.hpp", "uav_agent/a.hpp", "report/a.hpp",
         "recording/a.hpp", "recording/mcap/a.hpp", "results/a.hpp", "process/a.hpp", "scenes/a.hpp", "host/a.hpp",
@@ -132,7 +132,7 @@ TEST_F(MadeUpTree, LayersMayOnlyLookDown) {
   EXPECT_EQ(places(check_layers(tree())), expected);
 }
 
-TEST_F(MadeUpTree, OnlyNodesUseTheBus) {
+TEST_F(MadeUpTree, UsesOfTheBusOutsideNodesAreFound) {
   file("bus/bus.hpp", "\n");
   file("bus/good.cpp", include("bus/bus.hpp"));
   for (const char* path :
@@ -152,7 +152,7 @@ TEST_F(MadeUpTree, OnlyNodesUseTheBus) {
                                                      "station/journal.cpp:1", "station/tally.cpp:1"}));
 }
 
-TEST_F(MadeUpTree, DdsIsForItsVendorsFolder) {
+TEST_F(MadeUpTree, IncludesOfDdsOutsideItsVendorsFolderAreFound) {
   file("bus/fastdds/a.cpp", include_system("fastdds/dds/topic/Topic.hpp") + include_system("fastrtps/a.h"));
   file("bus/cyclonedds/a.cpp", include_system("dds/dds.h") + include_system("ddsc/dds.h"));
   file("bus/b.cpp", include("bus/fastdds/a.hpp"));
@@ -166,7 +166,7 @@ TEST_F(MadeUpTree, DdsIsForItsVendorsFolder) {
             (Places{"bus/bus.hpp:1", "bus/fastdds/bad.cpp:1", "uav_agent/agent_node.cpp:3"}));
 }
 
-TEST_F(MadeUpTree, LargeLibrariesHaveFewUsers) {
+TEST_F(MadeUpTree, LargeLibrariesInTooManyFilesAreFound) {
   file("sim_server/world.cpp", include_system("btBulletDynamicsCommon.h"));
   file("sight/rays.cpp", include_system("embree3/rtcore.h"));
   file("scenes/files/point_file_pcl_test.cpp", include_system("pcl/io/pcd_io.h"));
@@ -188,7 +188,7 @@ TEST_F(MadeUpTree, LargeLibrariesHaveFewUsers) {
                     "scenes/files/points.cpp:1", "uav_agent/map3.cpp:1", "uav_agent/api/planner.hpp:1"}));
 }
 
-TEST_F(MadeUpTree, HeadersNeedAGuardAndLeakNoNames) {
+TEST_F(MadeUpTree, HeadersWithoutAGuardOrThatLeakNamesAreFound) {
   file("core/good.hpp", "// using namespace std;\n#pragma once\nusing std::string;\n");
   file("core/good.cpp", "using namespace std;\n");
   EXPECT_EQ(check_headers(tree()), Violations{});
@@ -198,7 +198,7 @@ TEST_F(MadeUpTree, HeadersNeedAGuardAndLeakNoNames) {
   EXPECT_EQ(places(check_headers(tree())), (Places{"core/bad.hpp:2", "core/bare.hpp:1"}));
 }
 
-TEST_F(MadeUpTree, PrintingIsForTheCommandLine) {
+TEST_F(MadeUpTree, PrintingOutsideTheCommandLineIsFound) {
   for (const char* path : {"cli/a.cpp", "station/main.cpp", "sim_server/server_tasks.cpp",
                            "uav_agent/agent_program.cpp", "core/a_test.cpp", "tests/a.cpp"}) {
     file(path, "std::cout << 1; printf(text);\n");
@@ -210,7 +210,7 @@ TEST_F(MadeUpTree, PrintingIsForTheCommandLine) {
   EXPECT_EQ(places(check_printing(tree())), (Places{"core/bad.cpp:2", "core/bad.cpp:3"}));
 }
 
-TEST_F(MadeUpTree, NoCodeSleepsOutsideOfTests) {
+TEST_F(MadeUpTree, SleepingCodeIsFoundOutsideTests) {
   file("tests/a.cpp", "std::this_thread::sleep_for(t);\n");
   file("core/good.cpp", "fall_asleep_if_still(); // sleep_for(t)\nbool asleep();\n");
   EXPECT_EQ(check_sleeping(tree()), Violations{});
@@ -220,7 +220,7 @@ TEST_F(MadeUpTree, NoCodeSleepsOutsideOfTests) {
   EXPECT_EQ(places(check_sleeping(tree())), (Places{"bus/bad.cpp:1", "bus/bad.cpp:2", "bus/bad_test.cpp:1"}));
 }
 
-TEST_F(MadeUpTree, TestsReadNoClock) {
+TEST_F(MadeUpTree, TestsThatReadAClockAreFound) {
   file("tests/support/eventually.cpp", "auto t = std::chrono::steady_clock::now();\n");
   file("core/good.cpp", "auto t = std::chrono::steady_clock::now();\n");
   file("core/good_test.cpp", "// steady_clock::now()\nstd::chrono::steady_clock::time_point t; std::timed(x);\n");
@@ -287,7 +287,7 @@ TEST_F(MadeUpTree, FoldersThatIncludeEachOtherAreFound) {
   file("station/top.cpp", include("station/b/x.hpp"));
   file("station/b/x_test.cpp", include("station/a/x.hpp"));
   EXPECT_EQ(check_circles(tree()), Violations{});
-  file("station/b/y.cpp", std::string("\n") + include("station/top.hpp"));  // by way of that
+  file("station/b/y.cpp", std::string("\n") + include("station/top.hpp"));  // via station/top.hpp
   EXPECT_EQ(places(check_circles(tree())), (Places{"station/b/y.cpp:2", "station/top.cpp:1"}));
 }
 
@@ -319,7 +319,7 @@ TEST_F(MadeUpTree, PathsOfAMachineAreFoundInAnyText) {
   EXPECT_EQ(places(check_machine_paths(tree())), (Places{"config/bad.yaml:1", "core/bad.cpp:2", "docs/bad.md:1"}));
 }
 
-TEST_F(MadeUpTree, NamesOfFilesThatAreNotThereAreFound) {
+TEST_F(MadeUpTree, NamesOfFilesThatDoNotExistAreFound) {
   file("core/good.hpp",
        "// See docs/good.md, core/good.hpp (good.hpp), core/good.*, and what is in my_runs/result.json.\n");
   file("core/literal.cpp", "open(\"core/none.hpp\");  // and core/*.hpp, x.y.z\n");
@@ -337,7 +337,7 @@ TEST_F(MadeUpTree, NamesOfFilesThatAreNotThereAreFound) {
                     "core/bad.cpp:4", "docs/bad.md:2", "docs/bad.md:2", "docs/bad.md:2", "docs/bad.md:3"}));
 }
 
-TEST_F(MadeUpTree, FilesOfARunAreNamedInOnePlace) {
+TEST_F(MadeUpTree, NamesOfARunsFilesOutsideTheirHeaderAreFound) {
   file("results/run_folder.hpp", "inline constexpr const char* kScore = \"score.csv\";\n/// \"station.log\"\n");
   file("cli/good.cpp", "say(\"no score.csv\");  // \"score.csv\"\nopen(\"other.csv\"); open(\"station.log\");\n");
   file("station/good_test.cpp", "open(\"score.csv\");\n");

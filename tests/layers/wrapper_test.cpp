@@ -67,7 +67,7 @@ class Wrapper : public testing::Test {
   const fs::path& root_ = scratch_.path();
 };
 
-TEST_F(Wrapper, BuildsWhatACommandNeedsAndHandsItsWordsOn) {
+TEST_F(Wrapper, BuildsWhatACommandNeedsAndPassesItsArgumentsOn) {
   struct Case {
     std::string words, targets, handed_on;
   };
@@ -91,7 +91,7 @@ TEST_F(Wrapper, BuildsWhatACommandNeedsAndHandsItsWordsOn) {
   }
 }
 
-// The pages of a user's first run are interactive, although the scripts must be built first.
+// A user's first report must be interactive, so the wrapper builds the script of pages before the flight.
 TEST_F(Wrapper, BuildsTheScriptOfReportsBeforeTheFirstReport) {
   write(root_ / "bin/node", "#!/bin/sh\n", true);
   const std::string script = (root_ / "build/web/report.js").string(), answer = (root_ / "words").string();
@@ -112,7 +112,7 @@ TEST_F(Wrapper, BuildsTheScriptOfReportsBeforeTheFirstReport) {
   with_npm("exit 1");
   const Outcome without = run("run towers");
   EXPECT_EQ(without.words, "");
-  EXPECT_NE(without.targets, "") << "the flight does not need the script";
+  EXPECT_NE(without.targets, "") << "the flight needs other targets, even if the script cannot be built";
   EXPECT_NE(without.errors.find("build.log"), std::string::npos) << without.errors;
 }
 

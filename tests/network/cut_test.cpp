@@ -1,5 +1,5 @@
-// The network between two hosts is cut during a flight: with a lease longer than the cut, nothing happens; with a
-// shorter one, the UAV is dropped, but not accused of having broken the protocol.
+// The network between two hosts is cut during a flight. With a lease longer than the cut, nothing happens. With a
+// shorter one, the server drops the UAV and names the network as the reason, not a violation of the protocol.
 #include <signal.h>
 
 #include <stdexcept>
@@ -12,7 +12,7 @@
 namespace skein::test {
 namespace {
 
-/// Changi's agent is a user's command on another host.
+/// A fleet whose agent of changi is a user's command on another host.
 class Cut : public FleetTest {
  protected:
   void SetUp() override {
@@ -63,7 +63,7 @@ class Cut : public FleetTest {
   const std::filesystem::path dir_ = folder() / "run";
 };
 
-TEST_F(Cut, AfterAShorterLeaseTheReasonIsTheNetwork) {
+TEST_F(Cut, WithAShorterLeaseTheUavIsLostBecauseOfTheNetwork) {
   ChildProcess& fleet = fly(1);
   cut(fleet);
   EXPECT_TRUE(eventually([&] { return log().find("changi is lost") != std::string::npos; })) << log();
@@ -75,7 +75,7 @@ TEST_F(Cut, AfterAShorterLeaseTheReasonIsTheNetwork) {
   EXPECT_EQ(reason.find("more than it announced"), std::string::npos) << reason;
 }
 
-TEST_F(Cut, ALongerLeaseOutlastsIt) {
+TEST_F(Cut, WithALongerLeaseTheUavIsNotLost) {
   ChildProcess& fleet = fly(600);
   cut(fleet);
   const auto size = std::filesystem::file_size(dir_ / "trajectories.csv");

@@ -167,7 +167,7 @@ TEST_F(DoctorNet, AnotherBaseDomainIsReported) {
   EXPECT_NE(hint("server", "a", "a").find("--domain"), std::string::npos) << all_said();
 }
 
-TEST_F(DoctorNet, WithoutPeersGroupsAreTried) {
+TEST_F(DoctorNet, WithoutPeersTheDoctorTriesMulticast) {
   for (const char* host : {"server", "a"}) start(host, {"--network", "{a: 10.77.1.0/24}"});
   expect_heard("server", "a", "a", {"cyclonedds"});
   expect_heard("a", "a", "server", {"cyclonedds"});

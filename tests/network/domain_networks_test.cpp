@@ -1,4 +1,4 @@
-// Each domain has its own network: server and router are on all of them, two UAVs have none in common.
+// Each domain has its own network. Server and router are on all networks; two UAVs have no network in common.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -129,7 +129,7 @@ TEST_P(VendorsOnNetworks, HearOnlyPeersThatShareADomainWithThem) {
   EXPECT_EQ(heard(3, "a"), " 1 x 20 2 x 20");
   EXPECT_EQ(heard(4, "b"), " 1 x 20 2 x 20");
   for (const char* host : {"server", "router", "a", "b"}) {
-    EXPECT_EQ(hosts_.ip_counter(host, "FragCreates"), 0) << host << ": IP had to cut datagrams to pieces";
+    EXPECT_EQ(hosts_.ip_counter(host, "FragCreates"), 0) << host << ": IP had to fragment datagrams";
     EXPECT_EQ(hosts_.ip_counter(host, "ForwDatagrams"), 0) << host;
   }
 }
@@ -146,7 +146,7 @@ INSTANTIATE_TEST_SUITE_P(
       return std::to_string(tested.index) + "_" + vendors[0] + "_" + vendors[3];
     });
 
-TEST_F(DomainNetworks, AUavThatAsksForMoreHearsNothing) {
+TEST_F(DomainNetworks, AUavThatJoinsOtherDomainsHearsNothingThere) {
   start("server", "cyclonedds", 1, network("server"), 100, {{"world", 1}, {"a", 2}, {"b", 2}});
   start("router", "fastdds", 2, network("router"), 100, {{"world", 1}, {"a", 2}, {"b", 2}});
   start("b", "cyclonedds", 4, network("b"), 100, {{"b", 2}});
@@ -164,8 +164,8 @@ TEST_F(DomainNetworks, AUavThatAsksForMoreHearsNothing) {
   EXPECT_EQ(heard(3, "b"), "");
 }
 
-// As in containers, whose names exist only while they run: the first program to start can resolve only its own name.
-TEST_F(DomainNetworks, AnOwnNameTellsTheOwnAddressBeforeOthersAreKnown) {
+// In containers, a name exists only while its container runs, so the first program can resolve only its own name.
+TEST_F(DomainNetworks, AHostFindsItsAddressByItsOwnNameBeforeOtherNamesExist) {
   const std::string network = "{a: {peers: [sim.a, uav.a]}}";
   hosts_.tell("server", "sim.a", hosts_.address(1, "server"));
   hosts_.tell("a", "sim.a", hosts_.address(1, "server"));

@@ -51,7 +51,7 @@ class Place : public FleetTest {
     std::filesystem::permissions(file.parent_path(), std::filesystem::perms(0755));
     return file;
   }
-  /// As an ordinary user, whichever user logs in.
+  /// The command that runs `skein` on a host as an ordinary user, whichever user logs in.
   std::string write_unprivileged_skein() const {
     return write_skein("nobody", "exec setpriv --reuid=nobody --regid=nogroup --clear-groups");
   }
@@ -65,7 +65,7 @@ const Arguments kBoth = {"--place", "jurong=b,changi=c"};
 class PlaceByVendor : public Place, public testing::WithParamInterface<Arguments> {};
 
 // Faults kill one agent and pause another; processes on their hosts carry this out.
-TEST_P(PlaceByVendor, IsTheFlightOfOneHost) {
+TEST_P(PlaceByVendor, FliesTheSameAsOnOneHost) {
   const Arguments flight =
       joined({"--duration", "25", "--keep-maps", "--faults",
               write("faults.yaml",
@@ -104,7 +104,7 @@ INSTANTIATE_TEST_SUITE_P(Vendors, PlaceByVendor,
                                          Arguments{"--secure"}, Arguments{"--secure", "--dds", "fastdds"}),
                          [](const auto& tested) { return "v" + std::to_string(tested.index); });
 
-TEST_F(Place, AHostThatVanishesIsTheLossOfItsUavs) {
+TEST_F(Place, AFleetLosesTheUavsOfAHostThatVanishes) {
   ChildProcess& launcher = fly("run", joined(kBoth, {"--duration", "120"}));
   ASSERT_TRUE(wait_until_flying("run", launcher)) << launcher.err();
   login_.cut("b");
@@ -115,7 +115,7 @@ TEST_F(Place, AHostThatVanishesIsTheLossOfItsUavs) {
   const Json flown = result("run");
   ASSERT_EQ(flown["lost_members"].size(), 1U) << flown["lost_members"];
   EXPECT_EQ(flown["lost_members"][0]["member"], "jurong");
-  EXPECT_EQ(flown["status"], "completed") << "the others fly on";
+  EXPECT_EQ(flown["status"], "completed") << "the other UAVs did not fly on";
   login_.mend("b");
 }
 
@@ -135,7 +135,7 @@ class PlaceByOtherClocks : public Place {
   }
 };
 
-TEST_F(PlaceByOtherClocks, IsTheFlightOfOneHost) {
+TEST_F(PlaceByOtherClocks, FliesTheSameAsOnOneHost) {
   const std::string faults =
       "faults:\n  - {at_s: 3, until_s: 6, kill: jurong}\n  - {at_s: 4, until_s: 7, pause: changi}\n";
   for (const char* vendor : {"cyclonedds", "fastdds"}) {
@@ -152,7 +152,7 @@ TEST_F(PlaceByOtherClocks, IsTheFlightOfOneHost) {
 }
 
 /// Minders, leases and the timeout of a hanging agent work with different clocks.
-TEST_F(PlaceByOtherClocks, LossesAreNoticedAllTheSame) {
+TEST_F(PlaceByOtherClocks, LossesAreNoticedDespiteTheClocks) {
   ChildProcess& launcher =
       fly("run", joined(kBoth, {"--duration", "20", "--agent-timeout", "3"}), "patrol,changi=exec:exec sleep 1000");
   EXPECT_EQ(launcher.wait().code, 3) << launcher.err();
@@ -165,7 +165,7 @@ TEST_F(PlaceByOtherClocks, LossesAreNoticedAllTheSame) {
   EXPECT_EQ(cut.wait().code, 3);
   EXPECT_NE(cut.err().find("uav_agent-jurong failed: its host b is gone"), std::string::npos) << cut.err();
   EXPECT_EQ(result("cut")["lost_members"].size(), 1U) << result("cut")["lost_members"];
-  EXPECT_EQ(result("cut")["status"], "completed") << "the others fly on";
+  EXPECT_EQ(result("cut")["status"], "completed") << "the other UAVs did not fly on";
   login_.mend("b");
 }
 
@@ -193,7 +193,7 @@ TEST_F(Place, ACommandOfTheUsersAndWhatItStartsEndWithTheRun) {
   EXPECT_NE(variables.find("SKEIN_NETWORK={'jurong': {peers: "), std::string::npos) << variables;
 }
 
-TEST_F(Place, ASecuredAgentHasAUserIdOfItsOwnThere) {
+TEST_F(Place, ASecuredAgentHasItsOwnUserIdOnAnotherHost) {
   ChildProcess& launcher = fly("run", {"--place", "jurong=b", "--secure", "--duration", "8", "--agent-timeout", "10"},
                                "patrol,jurong=exec:(id -u; head -n 1 \"$SKEIN_SECURITY/key.pem\") > \"$SKEIN_OUT/id\"");
   launcher.wait();
@@ -261,7 +261,7 @@ TEST_F(Place, AFleetThatIsStartedByHandFliesTheSame) {
 }
 
 // If the login is not root's, agents run as that user, and the launcher reports this.
-TEST_F(Place, ASecuredAgentWithoutAUserIdOfItsOwnIsNamed) {
+TEST_F(Place, ASecuredAgentWithoutItsOwnUserIdIsNamed) {
   ChildProcess& launcher = start_program(
       "run", login_.hosts().on("a", {program("skein"), "run", scene_, "--planner", "patrol", "--duration", "8",
                                      "--secure", "--no-oracle", "--no-report", "--out", folder() / "run", "--place",

@@ -1,4 +1,4 @@
-// The two programs of a strategy as nodes: topics in, one step of the strategy, topics out.
+// The nodes of a strategy's two programs, on a UAV and at the ground station: their inputs and outputs on topics.
 #include "uav_agent/agent_node.hpp"
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@
 namespace skein::test {
 namespace {
 
-/// Repeats in each step the messages that it has received, and climbs.
+/// A planner that in each step repeats the messages that it has received, and climbs.
 class Parrot final : public agent::Planner {
  public:
   explicit Parrot(std::vector<agent::PlannerInput>* seen = nullptr) : seen_(seen) {}
@@ -36,7 +36,7 @@ class Parrot final : public agent::Planner {
   std::vector<agent::PlannerInput>* seen_;
 };
 
-/// Sends a message in every step.
+/// A ground program that sends a message in every step.
 class Greeter final : public agent::GroundProgram {
  public:
   std::vector<agent::RadioMessage> work(const agent::GroundInput& input) override {
@@ -46,7 +46,7 @@ class Greeter final : public agent::GroundProgram {
   std::vector<agent::RadioMessage> heard;
 };
 
-/// The server's side of a UAV "a", and its agent with a router.
+/// A server with one UAV "a". fly() adds its agent and a router.
 struct OneUav {
   OneUav(const Scenario& of, std::uint64_t steps) : scenario(of), server(*dds, scenario, steps) {
     server.expect("a", kDomain);
@@ -106,7 +106,7 @@ TEST(AgentNode, FliesByOdometryAndAnswersTheGroundProgramByRadio) {
                  [&] { return server.over(); }))
       << agent.waiting_for() << ground.waiting_for();
   ASSERT_GT(heights.size(), kSteps / 2);
-  EXPECT_TRUE(std::ranges::is_sorted(heights)) << "it climbs";
+  EXPECT_TRUE(std::ranges::is_sorted(heights)) << "the UAV does not climb steadily";
   EXPECT_GT(heights.back(), heights.front());
   // Sent in step k, received and answered in k + 1, received at the station in k + 2.
   ASSERT_EQ(ground_side.heard.size(), kSteps - 2);
@@ -154,7 +154,7 @@ TEST(AgentNode, ReadsTheQualityOfItsLinks) {
   }
 }
 
-TEST(AgentNode, ShowsItsMapWhereAViewerLooksOn) {
+TEST(AgentNode, PublishesItsMapOnlyWhileAViewerReadsIt) {
   constexpr std::uint64_t kSteps = 200, kLooksFrom = 100;
   OneUav one(toy_scenario(1), kSteps);
   bus::CountedWriter& odometry = one.writer(topics::odometry("a"));
@@ -180,11 +180,11 @@ TEST(AgentNode, ShowsItsMapWhereAViewerLooksOn) {
     reader = viewer->create_reader(bus::spec(topics::octomap("a")), [&](bus::Sample&& sample) {
       EXPECT_TRUE(decode(sample.payload, shown.emplace_back()));
     });
-    EXPECT_TRUE(shown.empty()) << "was written where nobody read";
+    EXPECT_TRUE(shown.empty()) << "the agent wrote its map before a viewer read it";
   };
   one.fly(std::make_unique<Parrot>(), look_on);
   ASSERT_GE(shown.size(), 2U);
-  EXPECT_LE(shown.size(), 1 + (kSteps - kLooksFrom) / 20) << "once a second at most";
+  EXPECT_LE(shown.size(), 1 + (kSteps - kLooksFrom) / 20) << "the agent wrote its map more than once per second";
   double before = 0.0;
   for (const msg::Octomap& map : shown) {
     EXPECT_TRUE(map.binary());
@@ -210,7 +210,7 @@ TEST(AgentNode, ShowsItsMapWhereAViewerLooksOn) {
 }
 
 // An observer receives the program's diagnostics once per second, and does not change the program's counts.
-TEST(AgentNode, TellsOfItselfWhereAViewerLooksOn) {
+TEST(AgentNode, PublishesDiagnosticsWhileAViewerReadsThem) {
   constexpr std::uint64_t kSteps = 200, kLooksFrom = 100;
   OneUav one(toy_scenario(1), kSteps);
   bus::CountedWriter& odometry = one.writer(topics::odometry("a"));
@@ -236,7 +236,7 @@ TEST(AgentNode, TellsOfItselfWhereAViewerLooksOn) {
   EXPECT_LE(told.size(), 1 + (kSteps - kLooksFrom) / 20);
   for (const msg::DiagnosticArray& array : told) {
     const auto k = static_cast<std::uint64_t>(from_time(array.header().stamp()) / 20);
-    ASSERT_EQ(array.status().size(), 4U) << "radio, captures, flight, program";
+    ASSERT_EQ(array.status().size(), 4U) << "the parts are radio, captures, flight and program";
     EXPECT_EQ(array.status()[0].name(), "a: radio");
     EXPECT_EQ(array.status()[0].level(), k < 150 ? 0 : 1);
     EXPECT_EQ(array.status()[0].values()[0].value(), k < 150 ? "gcs" : "");
@@ -294,7 +294,7 @@ TEST(AgentNode, RebuildsBeamsForThePlannerThatAsksAndReadsNoScansForAnother) {
   }
 }
 
-TEST(AgentNode, KeepsCaptureReportsAsTheyCameUntilTheStationHasThem) {
+TEST(AgentNode, KeepsCaptureReportsUntilTheStationAcknowledgesThem) {
   constexpr std::uint64_t kSteps = 40;
   OneUav one(toy_scenario(1), kSteps);
   one.server.expect_station();
@@ -326,9 +326,9 @@ TEST(AgentNode, KeepsCaptureReportsAsTheyCameUntilTheStationHasThem) {
   station.client().read<msg::CaptureReports>(
       bus::spec(topics::captures_at_station("a")), bus::LockstepClient::Counterpart::router,
       [&](const msg::CaptureReports& reports) {
-        EXPECT_GE(one.server.k(), 6U) << "without a link nothing is sent";
+        EXPECT_GE(one.server.k(), 6U) << "a report was sent without a link";
         for (const auto& message : reports.reports()) {
-          EXPECT_EQ(from_message(message, names), report(message.capture())) << "as it came";
+          EXPECT_EQ(from_message(message, names), report(message.capture())) << "the report was changed";
           if (++heard[message.capture()] == 2) to_acknowledge.push_back(message.capture());
         }
       });
@@ -346,8 +346,8 @@ TEST(AgentNode, KeepsCaptureReportsAsTheyCameUntilTheStationHasThem) {
   station.start();
   one.fly(std::make_unique<Parrot>(), [&] { station.poll(); });
   for (std::uint64_t n = 0; n < 10; ++n) {
-    EXPECT_EQ(heard[n], 2) << "report " << n << ": sent again until it is acknowledged, and never after";
-    EXPECT_EQ(stored.count(n), 1U) << "the camera may forget " << n;
+    EXPECT_EQ(heard[n], 2) << "report " << n << " must be repeated until it is acknowledged, and not later";
+    EXPECT_EQ(stored.count(n), 1U) << "the agent must tell the camera once that report " << n << " is stored";
   }
 }
 

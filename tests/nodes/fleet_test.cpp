@@ -161,20 +161,20 @@ class Fleet {
   std::vector<Json> shown_;
 };
 
-TEST(FleetInOneProcess, TheOrderOfTurnsIsNoMatter) {
+TEST(FleetInOneProcess, TheOrderOfTurnsDoesNotChangeTheDigest) {
   std::set<std::string> digests;
   for (const std::uint64_t order : {1U, 2U, 3U}) {
     Fleet fleet({.planner = "patrol", .stop_at_s = 40.0}, order);
     ASSERT_TRUE(fleet.fly());
     ASSERT_TRUE(fleet.server().summary().deterministic);
     digests.insert(fleet.server().summary().digest.value_or("none"));
-    EXPECT_GT(fleet.points(), 0U) << "from the camera to the score";
+    EXPECT_GT(fleet.points(), 0U) << "no point got from a camera to the score";
   }
   EXPECT_EQ(digests.size(), 1U);
 }
 
 // A network that is harsher than DDS (tests/protocol/sim_network.hpp), with the production server.
-TEST(FleetInOneProcess, TheOrderOfDiscoveryAndArrivalIsNoMatter) {
+TEST(FleetInOneProcess, TheOrderOfDiscoveryAndArrivalDoesNotChangeTheDigest) {
   Fleet calm({.planner = "patrol", .stop_at_s = 2.0}, 1);
   ASSERT_TRUE(calm.fly());
   for (const std::uint64_t order : {1U, 2U}) {
@@ -187,7 +187,7 @@ TEST(FleetInOneProcess, TheOrderOfDiscoveryAndArrivalIsNoMatter) {
 
 // The times at which points and maps are sent to a viewer depend on wall time, but must not affect the flight. The
 // planner "hover" reads no scans, so they are computed only for the page, and its map is that of key frames.
-TEST(FleetInOneProcess, IsTheSameWhereAViewerLooksAtPointsAndMaps) {
+TEST(FleetInOneProcess, AViewerOfPointsAndMapsDoesNotChangeTheDigest) {
   for (const std::string planner : {"patrol", "hover"}) {
     const Flight flight{.planner = planner, .seed = 5, .stop_at_s = 15.0};
     std::optional<Fleet> unseen(std::in_place, flight, 1);
@@ -195,7 +195,7 @@ TEST(FleetInOneProcess, IsTheSameWhereAViewerLooksAtPointsAndMaps) {
     EXPECT_TRUE(unseen->shown().empty());
     const auto digest = unseen->server().summary().digest;
     ASSERT_TRUE(digest);
-    unseen.reset();  // two fleets in one process would exchange messages
+    unseen.reset();  // ends this fleet, because two fleets in one process would exchange messages
     Flight seen_flight = flight;
     seen_flight.look = view::LookOrder{{"jurong", "nobody", "changi"}, "raffles"};
     Fleet seen(seen_flight, 2);
@@ -215,7 +215,7 @@ TEST(FleetInOneProcess, IsTheSameWhereAViewerLooksAtPointsAndMaps) {
   }
 }
 
-TEST(FleetInOneProcess, GoesOnWithoutALostUav) {
+TEST(FleetInOneProcess, ContinuesWithoutALostUav) {
   Fleet fleet({.stop_at_s = 6.0}, 4);
   fleet.fly_on(2000);
   fleet.kill(UavIndex{1});
@@ -242,7 +242,7 @@ TEST(FleetInOneProcess, AMemberThatIsLostBeforeItHasJoinedMayComeLater) {
   }
 }
 
-TEST(FleetInOneProcess, EndsAtTheNextStepWhenTheUserSaysSo) {
+TEST(FleetInOneProcess, EndsAtTheNextStepWhenTheUserStopsIt) {
   Fleet fleet({}, 5);
   fleet.fly_on(2000);
   fleet.server().request_stop();

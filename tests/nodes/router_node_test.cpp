@@ -36,7 +36,7 @@ struct RoutedFleet {
 
 using Heard = std::map<std::uint64_t, std::vector<std::string>>;  // by step
 
-TEST(RouterNode, EachMessageReachesTheLinkedOnesInTheNextStep) {
+TEST(RouterNode, EachMessageReachesTheLinkedNodesInTheNextStep) {
   constexpr std::uint64_t kSteps = 30;
   for (unsigned seed = 0; seed < 4; ++seed) {
     std::mt19937 random(seed);
@@ -88,7 +88,7 @@ TEST(RouterNode, EachMessageReachesTheLinkedOnesInTheNextStep) {
   }
 }
 
-TEST(RouterNode, GoesOnWithoutAMemberThatTheServerGivesUp) {
+TEST(RouterNode, ContinuesWithoutAMemberThatTheServerGivesUp) {
   const Scenario scenario = toy_scenario(2);
   RoutedFleet fleet(scenario, 12);
   auto& [bus, server, router] = fleet;
@@ -103,14 +103,15 @@ TEST(RouterNode, GoesOnWithoutAMemberThatTheServerGivesUp) {
   const std::vector<std::function<void()>> without_b = {all[0], all[1], all[2]};
   EXPECT_FALSE(take_turns(
       without_b, [&] { return server.over(); }, 200))
-      << "b is waited for";
+      << "the fleet must wait for b until the server gives it up";
   EXPECT_NE(router.waiting_for().find("b: done"), std::string::npos) << router.waiting_for();
   server.lockstep().lost("b", "given up");
   EXPECT_TRUE(take_turns(without_b, [&] { return server.over(); }));
 }
 
-/// The message of a member that is lost is still on a slow link when its successor asks for the same topic in vain.
-TEST(RouterNode, AMessageUnderWayArrivesAlthoughTheNextProgramMayNotUseItsTopic) {
+/// A message is still on a slow link when its sender is lost. Then the sender's successor requests the same topic with
+/// another type, which the router refuses.
+TEST(RouterNode, AMessageOnASlowLinkArrivesAlthoughItsTopicIsRefusedToTheNextProgram) {
   constexpr std::uint64_t kSent = 4, kAsked = 8, kSteps = 30;
   Scenario scenario = toy_scenario(2);
   LinkEffect& slow = scenario.links.emplace_back();
@@ -153,7 +154,7 @@ TEST(RouterNode, AMessageUnderWayArrivesAlthoughTheNextProgramMayNotUseItsTopic)
   next.start();
   ASSERT_TRUE(take_turns(turns, [&] { return server.over(); })) << router.waiting_for();
   EXPECT_TRUE(asked);
-  EXPECT_EQ(router.gate().total().sent, 2U) << "to b and gcs";
+  EXPECT_EQ(router.gate().total().sent, 2U) << "the message is sent to b and gcs";
   EXPECT_EQ(router.gate().total().delivered, 2U);
 }
 
@@ -206,7 +207,7 @@ TEST(RouterNode, NamesTheMemberForWhichItWaitsBeforeItsRadioIsOpen) {
   const Scenario scenario = toy_scenario(1);
   const auto bus = bus::make_bus({.vendor = "inproc"});
   ToyServer server(*bus, scenario, 3);
-  server.expect_uavs(scenario);  // but not the router, which therefore cannot join
+  server.expect_uavs(scenario);  // the server does not expect the router, which therefore cannot join
   router::RouterNode router(scenario, 0, 0, *bus);
   ToyMember a(*bus, uav_domain(0, UavIndex{0}), "a");
   router.start();

@@ -1,4 +1,4 @@
-// The station with a ledger and a reporting UAV: reports that equal the ledger count, are acknowledged, and are stored.
+// The station with a ledger and a UAV that reports captures: it counts, acknowledges and stores those in the ledger.
 #include "station/station_node.hpp"
 
 #include <gtest/gtest.h>
@@ -106,14 +106,14 @@ class StationNodeTest : public testing::Test {
 
 const std::set<std::uint64_t> kHonest = {0, 1, 3, 4, 5};
 
-TEST_F(StationNodeTest, CountsAndAcknowledgesWhatTheLedgerHas) {
+TEST_F(StationNodeTest, CountsAndAcknowledgesOnlyReportsThatTheLedgerConfirms) {
   EXPECT_EQ(run(), kHonest);
   EXPECT_EQ(report()["points_detected"], kHonest.size());
   EXPECT_NEAR(report()["score"].get<double>(), 0.5 * static_cast<double>(kHonest.size()), 1e-6);
   EXPECT_GT(report()["duplicates"], 0);
 }
 
-TEST_F(StationNodeTest, AMemberThatComesBackCountsOnAndWorksAgain) {
+TEST_F(StationNodeTest, ARestartedStationKeepsItsCountAndWorksAgain) {
   for (const std::uint64_t k : {1U, 4U, 9U}) {
     std::filesystem::remove(folder_ / run_folder::kJournal);
     EXPECT_EQ(run(k), kHonest) << "killed before step " << k;

@@ -28,7 +28,7 @@ class Desk final : public agent::LearnerDesk, public sim::StepGate {
   bool told(std::uint64_t k) const override { return k < target; }
   void begin(const sim::Simulation& simulation, const sim::RunDigest&, bool last) override {
     EXPECT_EQ(simulation.step(), begun.value_or(simulation.step() - 1) + 1) << "a step was left out";
-    EXPECT_LE(simulation.step(), target) << "nobody has asked for it";
+    EXPECT_LE(simulation.step(), target) << "the server has begun a step that was not requested";
     begun = simulation.step();
     if (last) target = *begun + 1;  // no further request will come
   }
@@ -49,8 +49,8 @@ class Watched final : public agent::Planner, public agent::Learner {
     planner_->learner()->use(block_.data());
   }
   agent::PlannerOutput plan(const agent::PlannerInput& in) override {
-    EXPECT_TRUE(desk_.told(in.k)) << "it plans before it is told";
-    EXPECT_EQ(planned++, in.k) << "once a step";
+    EXPECT_TRUE(desk_.told(in.k)) << "the learner plans before it has its order";
+    EXPECT_EQ(planned++, in.k) << "the learner must plan once per step";
     return planner_->plan(in);
   }
   bool wants_world_map() const override { return planner_->wants_world_map(); }
@@ -59,7 +59,7 @@ class Watched final : public agent::Planner, public agent::Learner {
   void use(std::byte*) override {}
   void look(const agent::PlannerInput& in) override {
     ++looks[in.k];
-    EXPECT_EQ(planned, in.k) << "it looks before it plans";
+    EXPECT_EQ(planned, in.k) << "the learner must observe a step before it plans it";
     planner_->learner()->look(in);
     EXPECT_EQ(*at<double>("sees.time_s"), seconds(in.tick));
   }
@@ -125,7 +125,7 @@ class SteppedFleet {
     desk->target = k;
     for (const auto& node : nodes_) node->inbox().wake();
   }
-  /// Whether the fleet stands: all learners have observed in the target step.
+  /// Whether the fleet has stopped: all learners have observed in the target step.
   bool stands() const {
     return desk->begun == desk->target &&
            std::ranges::all_of(learners, [&](Watched* one) { return one->looks.contains(desk->target); });
@@ -154,7 +154,7 @@ std::string flown(std::uint64_t seed, std::uint64_t longest) {
   std::set<std::uint64_t> stood;
   while (!fleet.over()) {
     if (!fleet.go_until_it_stands()) {
-      ADD_FAILURE() << "it does not come to step " << fleet.desk->target;
+      ADD_FAILURE() << "the fleet does not reach step " << fleet.desk->target;
       return {};
     }
     if (fleet.over()) break;
@@ -163,7 +163,7 @@ std::string flown(std::uint64_t seed, std::uint64_t longest) {
     fleet.go_on(200);  // further turns do not move the fleet
     EXPECT_EQ(fleet.desk->begun, k);
     for (Watched* learner : fleet.learners) {
-      EXPECT_EQ(learner->planned, k) << "it has planned without having been told";
+      EXPECT_EQ(learner->planned, k) << "a learner has planned without an order";
       learner->order(k);
     }
     // A step ends at the latest where the velocity changes, every 20 exchanges, so that all flights get the same
@@ -172,14 +172,14 @@ std::string flown(std::uint64_t seed, std::uint64_t longest) {
   }
   for (Watched* learner : fleet.learners) {
     for (const auto& [k, times] : learner->looks) {
-      EXPECT_EQ(times, 1) << "it has looked again in step " << k;
-      EXPECT_TRUE(stood.contains(k)) << "it has looked in step " << k << ", in which nobody stood";
+      EXPECT_EQ(times, 1) << "a learner has observed more than once in step " << k;
+      EXPECT_TRUE(stood.contains(k)) << "a learner has observed in step " << k << ", in which the fleet did not stop";
     }
   }
   return fleet.desk->closed_with.value_or("not closed");
 }
 
-TEST(SteppedFleet, StandsWhereItIsToStandAndFliesTheSame) {
+TEST(SteppedFleet, StopsAtRequestedStepsWhichDoNotChangeTheFlight) {
   const std::string one_by_one = flown(1, 1);
   ASSERT_EQ(one_by_one.size(), 64U);
   for (const std::uint64_t seed : {2U, 3U, 4U}) EXPECT_EQ(flown(seed, 12), one_by_one) << "seed " << seed;

@@ -1,4 +1,4 @@
-// The positions of other UAVs that a UAV receives when odometry has errors.
+// If odometry has errors, a UAV receives the positions that the other UAVs estimate, not the true ones.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 namespace skein::test {
 namespace {
 
-TEST(ToldNeighbours, AreWhereTheyTakeThemselvesToBe) {
+TEST(ToldNeighbours, HaveThePositionsOfTheirOwnOdometry) {
   const Scenario scenario =
       load_scenario("towers", {.config_dir = source_path("config"), .conditions = "odometry=harsh"});
   const Scene scene = sim::load_scene(scenario);
@@ -39,7 +39,7 @@ TEST(ToldNeighbours, AreWhereTheyTakeThemselvesToBe) {
     }
   }
   EXPECT_GT(compared, 100U);
-  EXPECT_GT(most_off_m, 0.1) << "of deviations of 10 cm along each axis from the start on";
+  EXPECT_GT(most_off_m, 0.1) << "odometry deviates by 10 cm along each axis from the start on";
 }
 
 }  // namespace

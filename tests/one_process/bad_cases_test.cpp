@@ -1,6 +1,6 @@
 // The default planner with unusual fleets, scenes, boxes and stations, dead sensors, restarts and partitions. No UAV
-// collides or flies so that it could not have stopped, none is farther off its setpoint than the flight core assumes,
-// and the fleet does not stay where it is.
+// collides, or flies too fast to stop before an obstacle; none deviates from its setpoint by more than the flight core
+// assumes; and the fleet leaves its starts.
 #include <functional>
 
 #include "fleet_fixture.hpp"
@@ -9,7 +9,7 @@
 namespace skein::test {
 namespace {
 
-constexpr double kLeastWay_m = 3.0;  ///< mean of a fleet; who only takes off flies less
+constexpr double kLeastWay_m = 3.0;  ///< least mean distance of a fleet's UAVs; a UAV that only takes off flies less
 
 struct BadCase {
   std::string name;
@@ -86,8 +86,9 @@ const std::vector<BadCase>& bad_cases() {
 
 class BadCases : public FleetTest, public testing::WithParamInterface<BadCase> {};
 
-/// By speed of the setpoint, 99.99 % of the samples of a short flight; counted in steps of 1 cm.
-/// FlightConfig: error_m, error_per_mps_s; the greater error, that of explorers, for all.
+/// Expects that at each speed of the setpoint, 99.99 % of the tracking errors of a short flight are within the bound of
+/// FlightConfig (error_m, error_per_mps_s). Uses the bound of explorers, which is the greater one, for all UAVs. The
+/// report counts errors in steps of 1 cm.
 void expect_small_tracking_errors(const Json& result) {
   constexpr double kError_m = 0.33, kPerMps_s = 0.03, kRounded_m = 0.01;
   for (const Json& speeds : result["flight_check"]["tracking_by_speed"]) {

@@ -1,5 +1,5 @@
 // Fleets in one process, as a user starts them. fleet_reference_digests_test checks that they fly as over DDS. This
-// file checks what one process must provide to each program: its own log, its own death, its own end.
+// file checks that each program in the process has its own log, and that the failure of one is reported as its own.
 #include <algorithm>
 #include <fstream>
 
@@ -24,7 +24,7 @@ class OneProcess : public FleetTest {
     more.insert(more.end(), {"--agent", helper_program("nasty_agent"), "--planner", "hover,jurong=nasty:how=" + how});
     return flight(more);
   }
-  /// Jurong ends the whole process. Messages must name only jurong.
+  /// Flies a run in which jurong's program ends the whole process. Messages must name only jurong.
   SkeinRun& end_with_jurong(const std::string& how, Arguments more = {}) {
     more.insert(more.end(), {"--agent-timeout", "2"});
     SkeinRun& flown = run(how, nasty(how, more), {}, 3);
@@ -46,7 +46,7 @@ TEST_F(OneProcess, RefusesInvalidNumbersOfThreads) {
   EXPECT_TRUE(says(over_dds.err(), "--one-process")) << over_dds.err();
 }
 
-TEST_F(OneProcess, TellsWhatNeedsProcesses) {
+TEST_F(OneProcess, RefusesOptionsThatNeedProcesses) {
   const std::vector<std::pair<Arguments, std::string>> refused = {
       {{"--planner", "hover,jurong=exec:true"}, "jurong=exec:true needs processes"},
       {{"--planner", "hover,gcs=exec:true"}, "gcs=exec:true needs processes"},
@@ -65,7 +65,7 @@ TEST_F(OneProcess, TellsWhatNeedsProcesses) {
   }
 }
 
-TEST_F(OneProcess, LeavesWhatProcessesLeave) {
+TEST_F(OneProcess, LeavesTheSameFilesAsProcesses) {
   SkeinRun& one = run("one", flight({"--planner", "patrol"}));
   SkeinRun& many = run("many", {scene_, "--no-oracle", "--duration", "8", "--planner", "patrol"});
   EXPECT_EQ(one.digest(), many.digest());
@@ -83,7 +83,7 @@ TEST_F(OneProcess, LeavesWhatProcessesLeave) {
   EXPECT_EQ(one.result()["radio"], many.result()["radio"]);
 }
 
-TEST_F(OneProcess, AUavThatGetsAnotherBatteryWorksOn) {
+TEST_F(OneProcess, AUavThatGetsAnotherBatteryFliesAgain) {
   std::ofstream(scene_, std::ios::app) << "\nconditions: {battery: {endurance_missions: 0.3, swap_s: 5}}\n";
   SkeinRun& run = this->run("swapped", flight({"--planner", "patrol"}, "120"));
   const Json result = run.result();
@@ -102,15 +102,15 @@ TEST_F(OneProcess, AUavThatGetsAnotherBatteryWorksOn) {
       charge = std::stod(row.at("charge"));
       if (swapped) highest_m = std::max(highest_m, std::stod(row.at("z")));
     }
-    EXPECT_GT(highest_m, 3.0) << "it flies again";
+    EXPECT_GT(highest_m, 3.0) << "the UAV did not take off with its new battery";
   }
 }
 
-TEST_F(OneProcess, AnExceptionIsThatMembersDeath) {
+TEST_F(OneProcess, AMemberThatThrowsIsLostAndTheOthersFlyOn) {
   for (const std::string how : {"throws", "throws_number"}) {
     SkeinRun& run = this->run(how, nasty(how), {}, 3);
     const Json result = run.result();
-    EXPECT_EQ(result["status"], "completed") << "the others fly on";
+    EXPECT_EQ(result["status"], "completed") << "the other UAVs did not fly on";
     ASSERT_EQ(result["lost_members"].size(), 1U) << result["lost_members"];
     EXPECT_EQ(result["lost_members"][0]["member"], "jurong");
     EXPECT_FALSE(result["deterministic"]);
@@ -120,7 +120,7 @@ TEST_F(OneProcess, AnExceptionIsThatMembersDeath) {
   }
 }
 
-TEST_F(OneProcess, AProgramThatTakesTheProcessAlongIsNamed) {
+TEST_F(OneProcess, AProgramThatEndsTheWholeProcessIsNamed) {
   const std::vector<std::pair<std::string, std::string>> deaths = {{"segfaults", "signal 11"},
                                                                    {"aborts", "signal 6"},
                                                                    {"overflows", "signal 11"},
@@ -130,7 +130,7 @@ TEST_F(OneProcess, AProgramThatTakesTheProcessAlongIsNamed) {
     SCOPED_TRACE(how);
     SkeinRun& run = end_with_jurong(how, {"--threads", "2"});
     if (sanitizer().empty()) {  // a sanitizer handles such deaths itself, and writes the end of the log
-      EXPECT_TRUE(says(run.err(), "nasty " + how)) << "what it said last";
+      EXPECT_TRUE(says(run.err(), "nasty " + how)) << "the launcher does not quote the program's last output";
       EXPECT_TRUE(says(run.err(), reason)) << run.err();
       EXPECT_EQ(says(run.err(), "backtrace in uav_agent-jurong.log"), how != "exits" && how != "hangs") << run.err();
       EXPECT_EQ(says(run.err(), "    #0 "), how != "exits" && how != "hangs") << run.err();
@@ -141,8 +141,8 @@ TEST_F(OneProcess, AProgramThatTakesTheProcessAlongIsNamed) {
   }
 }
 
-TEST_F(OneProcess, AProgramThatEndsOrStopsTheProcessWithoutAWordIsNamed) {
-  if (!sanitizer().empty()) GTEST_SKIP() << "sanitizers take the end of a process, and its descriptors, for their own";
+TEST_F(OneProcess, AProgramThatSilentlyEndsOrStopsTheProcessIsNamed) {
+  if (!sanitizer().empty()) GTEST_SKIP() << "sanitizers handle the end of a process and its descriptors themselves";
   const std::vector<std::pair<std::string, std::string>> deaths = {{"stops", "is stopped (SIGSTOP)"},
                                                                    {"closes", "closed file descriptors"},
                                                                    {"exits_now", "called _exit()"},
@@ -157,8 +157,8 @@ TEST_F(OneProcess, AProgramThatEndsOrStopsTheProcessWithoutAWordIsNamed) {
   }
 }
 
-TEST_F(OneProcess, OfTurnsSideBySideOneOfTheirProgramsIsNamedOrAll) {
-  if (!sanitizer().empty()) GTEST_SKIP() << "sanitizers take the end of a process for their own";
+TEST_F(OneProcess, WithTwoThreadsTheCulpritOrBothRunningProgramsAreNamed) {
+  if (!sanitizer().empty()) GTEST_SKIP() << "sanitizers handle the end of a process themselves";
   SkeinRun& run = this->run("side_by_side", nasty("exits_now", {"--threads", "2"}), {}, 3);
   const bool all = says(run.err(), "is one of uav_agent-");
   EXPECT_TRUE(says(run.err(), all ? "--threads 1 tells which" : "uav_agent-jurong failed: ")) << run.err();
@@ -173,7 +173,7 @@ TEST_F(OneProcess, DebugNamesWithoutAReaderAreRefusedAtOnce) {
   }
 }
 
-TEST_F(OneProcess, AProgramThatIsKilledHasNoLastWords) {
+TEST_F(OneProcess, TheDestructorOfAKilledPlannerDoesNotRun) {
   const auto faults = write("faults.yaml", "faults:\n  - {at_s: 2, kill: jurong}\n");
   const auto last_words = [&](const std::string& name, const Arguments& more) {
     const std::string file = folder() / (name + ".txt");
@@ -181,15 +181,17 @@ TEST_F(OneProcess, AProgramThatIsKilledHasNoLastWords) {
     const std::string text = text_of(file);
     return std::count(text.begin(), text.end(), '\n');
   };
-  EXPECT_EQ(last_words("lives", {}), 2) << "when it is checked before the flight, and after it";
-  EXPECT_EQ(last_words("killed", {"--faults", faults}), 1) << "when it is checked";
+  EXPECT_EQ(last_words("lives", {}), 2)
+      << "planners are destroyed after the check before the flight, and after the flight";
+  EXPECT_EQ(last_words("killed", {"--faults", faults}), 1)
+      << "only the planner of the check before the flight is destroyed";
 }
 
-TEST_F(OneProcess, EachHasALogOfItsOwn) {
+TEST_F(OneProcess, EachProgramHasALogOfItsOwn) {
   SkeinRun& run = this->run("logs", nasty("none", {"--threads", "2"}));
   const std::string log = text_of(run.dir() / "uav_agent-jurong.log");
-  EXPECT_TRUE(says(log, "nasty begins")) << "through printf: " << log;
-  EXPECT_TRUE(says(log, "nasty plans")) << "through std::cerr: " << log;
+  EXPECT_TRUE(says(log, "nasty begins")) << "output of printf is missing: " << log;
+  EXPECT_TRUE(says(log, "nasty plans")) << "output of std::cerr is missing: " << log;
   EXPECT_TRUE(says(log, "] info nasty none")) << log;
   for (const auto& entry : std::filesystem::directory_iterator(run.dir())) {
     if (entry.path().extension() != ".log" || entry.path().stem() == "uav_agent-jurong") continue;
@@ -197,7 +199,7 @@ TEST_F(OneProcess, EachHasALogOfItsOwn) {
   }
 }
 
-TEST_F(OneProcess, EndsWhenTheUserSaysSo) {
+TEST_F(OneProcess, EndsWhenTheUserInterruptsIt) {
   SkeinRun& run = start("stopped", flight({"--planner", "patrol", "--clock", "realtime:10"}, "500"));
   ASSERT_TRUE(run.wait_until_flying());
   run.skein().signal(SIGINT);
@@ -206,7 +208,7 @@ TEST_F(OneProcess, EndsWhenTheUserSaysSo) {
   expect_complete_result(run);
 }
 
-TEST_F(OneProcess, KeepsToTheWallClockWhenAsked) {
+TEST_F(OneProcess, FliesInRealTimeOnRequest) {
   SkeinRun& run = this->run("paced", flight({"--clock", "realtime:10", "--planner", "hover"}));
   const Json result = run.result();
   EXPECT_EQ(result["status"], "completed");

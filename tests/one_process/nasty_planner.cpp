@@ -82,7 +82,7 @@ class NastyPlanner final : public Planner {
 
   NastyPlanner(const Config& config, const AgentConfig&) : config_(config) { std::printf("nasty begins\n"); }
 
-  /// Leaves a trace: does not run when the process is killed.
+  /// Leaves a trace in a file; is not called when the program is killed.
   ~NastyPlanner() override { std::ofstream(last_will(), std::ios::app) << "I have lived\n"; }
 
   std::vector<std::string> debug_names() const override {

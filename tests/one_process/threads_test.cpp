@@ -1,5 +1,5 @@
-// A flight in one process is the same with any number of threads. Planners, conditions, seeds and faults are
-// random.
+// A flight in one process has the same digest with any number of threads. Planners, conditions, seeds and faults are
+// drawn at random.
 #include "core/math/random_stream.hpp"
 #include "fleet_fixture.hpp"
 #include "tests/support/places.hpp"
@@ -23,7 +23,7 @@ std::string drawn_faults(RandomStream& random) {
   return text;
 }
 
-TEST_P(Threads, DoNotShowInTheDigest) {
+TEST_P(Threads, DoNotChangeTheDigest) {
   if (!has_turn(GetParam(), 3)) GTEST_SKIP() << "not its turn";
   RandomStream random(GetParam(), "threads", 0);
   const std::vector<std::string> planners = {"patrol", "kios", "xxh", "star", "flock"};

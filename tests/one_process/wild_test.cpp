@@ -1,5 +1,5 @@
-// All planners in generated worlds, for which none was made: no UAV collides, fleets leave their starts, and with the
-// default planner no UAV is without work for a minute.
+// All planners in generated worlds, for which none of them was made. No UAV collides, and fleets leave their starts. In
+// crowded worlds, no UAV of the default planner is without work for 90 s.
 #include <random>
 #include <set>
 
@@ -41,7 +41,7 @@ class Wild : public FleetTest {
   }
 
  private:
-  /// Mean of a fleet. UAVs that only take off and hover fly 3 m.
+  /// Least mean distance of a fleet's UAVs. UAVs that only take off and hover fly 3 m.
   static constexpr double kLeastWay_m = 8.0;
 };
 

@@ -82,19 +82,19 @@ class Packages : public FleetTest {
   int steps_ = 0;
 };
 
-TEST_F(Packages, EachComponentHasWhatItIsFor) {
+TEST_F(Packages, EachComponentContainsItsFiles) {
   const Paths runtime = files_of(install("runtime")), agent = files_of(install("agent")),
               dev = files_of(install("dev")), python = files_of(install("python"));
   EXPECT_EQ(below(runtime, "bin/"), kAllPrograms);
   EXPECT_EQ(below(agent, "bin/"), Paths{"uav_agent"});
   EXPECT_EQ(below(dev, "bin/"), Paths{});
-  EXPECT_EQ(below(runtime, "lib/"), Paths{"skein/libskein_other_clock.so"}) << "of skein check-planner";
+  EXPECT_EQ(below(runtime, "lib/"), Paths{"skein/libskein_other_clock.so"}) << "skein check-planner needs this library";
   EXPECT_EQ(below(agent, "lib/"), Paths{});
   Paths modules = below(files_of(source_path("python")), "skein/");
   std::erase_if(modules, [](const std::string& file) { return file.ends_with(".pyc"); });
   EXPECT_EQ(below(python, "lib/python3/dist-packages/skein/"), modules);
   EXPECT_EQ(below(python, "lib/skein/"), (Paths{"_skein_client.so", "libskein_python.so"}))
-      << "of planners in Python, and of programs of one's own";
+      << "planners in Python and users' own programs need these libraries";
   for (const Paths* programs : {&runtime, &agent}) {
     EXPECT_EQ(below(*programs, "share/skein/config/"), files_of(source_path("config")));
     Paths manuals;
@@ -103,9 +103,10 @@ TEST_F(Packages, EachComponentHasWhatItIsFor) {
     EXPECT_EQ(below(*programs, "include/"), Paths{});
   }
   EXPECT_TRUE(runtime.contains("share/bash-completion/completions/skein"));
-  EXPECT_TRUE(dev.contains("share/skein/ros2/skein_msgs/msg/Step.msg")) << "for users of ROS 2";
+  EXPECT_TRUE(dev.contains("share/skein/ros2/skein_msgs/msg/Step.msg")) << "users of ROS 2 need this file";
   for (const std::string& file : files_of(source_path("idl"))) {
-    EXPECT_EQ(dev.contains("share/skein/idl/" + file), file.ends_with(".idl")) << file << ", for programs over DDS";
+    EXPECT_EQ(dev.contains("share/skein/idl/" + file), file.ends_with(".idl"))
+        << file << ": programs over DDS need the IDL files, and only these";
   }
   EXPECT_TRUE(dev.contains("include/skein/uav_agent/api/planner.hpp"));
   EXPECT_TRUE(dev.contains("lib/cmake/skein/skeinConfig.cmake"));
@@ -113,7 +114,7 @@ TEST_F(Packages, EachComponentHasWhatItIsFor) {
 }
 
 TEST_F(Packages, ManualPagesAreReadWithoutWarnings) {
-  if (!has_program("man")) GTEST_SKIP() << "there is no man here";
+  if (!has_program("man")) GTEST_SKIP() << "the program man is not installed";
   for (const fs::directory_entry& page : fs::directory_iterator(install("runtime") / "share/man/man1")) {
     const std::string name = page.path().stem().stem();
     const std::string show = "LC_ALL=C.UTF-8 man --warnings -l " + page.path().string();
@@ -140,7 +141,7 @@ TEST_F(Packages, AUserWithoutWriteAccessCanFlyAnInstalledFleet) {
   EXPECT_EQ(flown["digest"], run("built", {"towers", "--duration", "20"}).digest());
 }
 
-TEST_F(Packages, ThePackageForPythonFliesWhatIsInstalled) {
+TEST_F(Packages, ThePythonPackageFliesInstalledPrograms) {
   const fs::path programs = install("runtime"), modules = install("python") / "lib/python3/dist-packages";
   const std::string flown =
       done(installed({"PYTHONPATH=" + modules.string(),
@@ -151,7 +152,7 @@ TEST_F(Packages, ThePackageForPythonFliesWhatIsInstalled) {
 }
 
 /// All components in one folder, without a variable that helps Python to find the package.
-TEST_F(Packages, APlannerInPythonFliesByWhatIsInstalled) {
+TEST_F(Packages, APlannerInPythonFliesWithInstalledFiles) {
   const fs::path prefix = install("runtime");
   done({"cmake", "--install", build_path(), "--component", "python", "--prefix", prefix});
   std::ofstream(folder() / "up.py") << "from skein.planner import *\nimport skein\n"
@@ -164,7 +165,7 @@ TEST_F(Packages, APlannerInPythonFliesByWhatIsInstalled) {
 }
 
 /// The same with a Python program that replaces a UAV's software.
-TEST_F(Packages, AProgramInPythonFliesByWhatIsInstalled) {
+TEST_F(Packages, AProgramInPythonFliesWithInstalledFiles) {
   const fs::path prefix = install("runtime");
   done({"cmake", "--install", build_path(), "--component", "python", "--prefix", prefix});
   std::ofstream(folder() / "up.py") << "from skein.client import Client\nimport skein\n"
@@ -179,7 +180,7 @@ TEST_F(Packages, AProgramInPythonFliesByWhatIsInstalled) {
   EXPECT_NE(said.find("flown by " + (modules / "skein").string()), std::string::npos) << said;
 }
 
-TEST_F(Packages, SymbolsThatAreInstalledNameFunctionsAndTheirCode) {
+TEST_F(Packages, InstalledSymbolsNameFunctionsAndTheirSource) {
   for (const char* tool : {"dpkg-deb", "dpkg-shlibdeps", "file", "gdb", "readelf"}) {
     if (!has_program(tool)) GTEST_SKIP() << "there is no " << tool << " here";
   }
@@ -202,7 +203,7 @@ TEST_F(Packages, SymbolsThatAreInstalledNameFunctionsAndTheirCode) {
             "source " + (root / "usr/share/skein/config/gdb/skein_printers.py").string(), "-ex",
             "info line skein::agent::PatrolPlanner::plan", "-ex", "list main", root / "usr/bin/uav_agent"});
   EXPECT_NE(said.find("PatrolPlanner4plan"), std::string::npos) << said;
-  EXPECT_NE(said.find("int main("), std::string::npos) << "its code: " << said;
+  EXPECT_NE(said.find("int main("), std::string::npos) << "gdb does not show the source code: " << said;
 }
 
 TEST_F(Packages, DebianPackagesAreTheComponents) {

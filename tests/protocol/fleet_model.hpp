@@ -28,8 +28,8 @@ constexpr bool linked_in_model(std::size_t from, std::size_t to, std::uint64_t k
   return from != to && (from + to + k) % 4 != 0;
 }
 
-/// Steps in which the server writes on each UAV's latched topic: at the very start, as with the boxes, and then more
-/// samples than the topic's history holds, which is two.
+/// Steps in which the server writes on each UAV's latched topic. It writes in the first step, as it does for bounding
+/// boxes, and more samples in all than the topic's history holds, which is two.
 constexpr bool tells_site_in_model(std::uint64_t k) { return k == 0 || k == 2 || k == 4; }
 
 /// A program of the fleet; it acts only in poll().
@@ -55,10 +55,10 @@ struct ProcessFault {
 
 struct FleetOptions {
   std::size_t uavs = 2;
-  std::uint64_t steps = 8;       ///< the last one is final
+  std::uint64_t steps = 8;       ///< number of steps; the last one ends the run
   std::string victim = {};       ///< program to kill once, or empty
-  bool restart = false;          ///< and to start again
-  std::uint64_t kill_after = 0;  ///< number of events before that
+  bool restart = false;          ///< starts the victim again
+  std::uint64_t kill_after = 0;  ///< number of events before the victim is killed
   ProcessFault fault = {};
   /// Before all other programs start, a member of another run joins under each member's name.
   bool leftovers = false;

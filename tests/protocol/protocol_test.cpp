@@ -39,7 +39,7 @@ TEST(Protocol, EveryOrderOfArrivalGivesTheSameRun) {
     for (const auto& [name, steps] : first.agents()) {
       for (const StepLog& step : steps) messages += step.heard.size();
     }
-    ASSERT_GT(messages, 10U) << "the fleet must have something to say";
+    ASSERT_GT(messages, 10U) << "the fleet sends too few messages for this test";
     for (std::uint64_t seed = 1; seed < schedules(40); ++seed) {
       FleetModel model({.uavs = uavs}, seed);
       ASSERT_EQ(model.run(), "") << "schedule " << seed;
@@ -49,7 +49,7 @@ TEST(Protocol, EveryOrderOfArrivalGivesTheSameRun) {
   }
 }
 
-TEST(Protocol, MembersLeftBehindByAnotherRunChangeNothing) {
+TEST(Protocol, MembersOfAnotherRunDoNotChangeTheRun) {
   FleetModel alone({.uavs = 2}, 0);
   ASSERT_EQ(alone.run(), "");
   for (std::uint64_t seed = 0; seed < schedules(20); ++seed) {
@@ -67,7 +67,7 @@ void expect_only_a_given_up(const FleetModel& model, const std::string& what, st
   for (const std::string name : {"b", "station"}) ASSERT_EQ(model.agents().at(name).back().k, steps - 1) << name;
 }
 
-TEST(Protocol, ARouterThatComesBackSaysWhoseTopicIsMissing) {
+TEST(Protocol, AfterARouterReturnsAMemberWithoutItsTopicIsGivenUp) {
   for (std::uint64_t seed = 0; seed < schedules(40); ++seed) {
     const ProcessFault fault{.victim = std::string(bus::kRouterName), .kill = seed % 2 == 0, .begin = 3, .end = 6};
     FleetModel model({.uavs = 2, .steps = 10, .fault = fault, .closes_writer = 4 + seed % 2, .gives_up = true}, seed);
@@ -96,7 +96,7 @@ struct Lost {
 
 class LostOnItsWay : public testing::TestWithParam<Lost> {};
 
-TEST_P(LostOnItsWay, IsAskedForAgainAndTheRunIsTheSame) {
+TEST_P(LostOnItsWay, IsRequestedAgainAndTheRunIsTheSame) {
   FleetModel usual({.uavs = 2}, 0);
   ASSERT_EQ(usual.run(), "");
   for (std::uint64_t seed = 0; seed < schedules(20); ++seed) {
@@ -190,7 +190,7 @@ void check_invariants(const FleetModel& model, const std::string& victim, std::u
     for (const StepLog& step : steps) {
       std::vector<std::string> of_step;
       if (taken != model.taken().end() && taken->second.contains(step.k)) of_step = taken->second.at(step.k);
-      if (uav == victim && of_step.empty()) continue;  // discarded with its sender
+      if (uav == victim && of_step.empty()) continue;  // commands of a victim may be discarded
       ASSERT_EQ(of_step, step.commanded) << life << " step " << step.k << " schedule " << seed;
     }
   }
@@ -203,7 +203,7 @@ struct Loss {
 
 class ProtocolLoss : public testing::TestWithParam<Loss> {};
 
-TEST_P(ProtocolLoss, TheOthersGoOnAndTheLostOneMayComeBack) {
+TEST_P(ProtocolLoss, TheOtherMembersContinueAndTheLostOneMayComeBack) {
   const std::string victim = GetParam().victim;
   std::size_t lost = 0, rejoined = 0;
   for (std::uint64_t seed = 0; seed < schedules(120); ++seed) {
@@ -277,7 +277,7 @@ TEST_P(ScriptedFault, EveryOrderOfEventsGivesTheSameRun) {
                                .returns_early = seed % 2 == 1};
       auto model = std::make_unique<FleetModel>(FleetOptions{.uavs = 2, .steps = 9, .fault = fault}, seed);
       ASSERT_EQ(model->run(), "") << victim << " schedule " << seed;
-      ASSERT_TRUE(model->lost().empty()) << "a fault is not a loss; schedule " << seed;
+      ASSERT_TRUE(model->lost().empty()) << "a member that a fault takes out counts as lost; schedule " << seed;
       ASSERT_EQ(model->rejoined().size(), end < 9 ? 1U : 0U) << "schedule " << seed;
       ASSERT_NO_FATAL_FAILURE(check_absence(*model, fault, seed));
       if (first) {
@@ -296,7 +296,7 @@ INSTANTIATE_TEST_SUITE_P(All, ScriptedFault,
                            return std::string(fault.param.victim) + (fault.param.kill ? "Killed" : "Stopped");
                          });
 
-/// Discovery, or a link, that is slower than everything else: shows code that relies on being fast enough.
+/// Delays discovery, or a link, more than everything else. This reveals code that relies on fast arrivals.
 TEST(Protocol, ASlowLinkOrDiscoveryChangesNothing) {
   FleetModel first({.uavs = 2}, 0);
   ASSERT_EQ(first.run(), "");

@@ -59,20 +59,20 @@ class OneMember : public testing::Test {
 
 TEST_F(OneMember, IsTakenOutAndLetBackOnce) {
   ASSERT_TRUE(joined_);
-  EXPECT_FALSE(server_.let_back("a")) << "it is not out";
+  EXPECT_FALSE(server_.let_back("a")) << "a member that is not out was let back";
   EXPECT_FALSE(server_.take_out("nobody", bus::kOrderKill));
   EXPECT_TRUE(server_.is_member("a"));
   EXPECT_TRUE(server_.take_out("a", bus::kOrderStop));
   EXPECT_FALSE(server_.is_member("a"));
-  EXPECT_FALSE(server_.take_out("a", bus::kOrderStop)) << "it is out already";
-  EXPECT_TRUE(server_.awaited().empty()) << "nobody waits for it";
+  EXPECT_FALSE(server_.take_out("a", bus::kOrderStop)) << "a member was taken out twice";
+  EXPECT_TRUE(server_.awaited().empty()) << "the server waits for a member that is out";
   EXPECT_TRUE(server_.at_boundary());
   EXPECT_FALSE(server_.let_back("nobody"));
   EXPECT_TRUE(server_.let_back("a"));
-  EXPECT_FALSE(server_.let_back("a")) << "it was let back already";
+  EXPECT_FALSE(server_.let_back("a")) << "a member was let back twice";
   ASSERT_EQ(server_.awaited().size(), 1U);
   EXPECT_EQ(server_.awaited()[0].member, "a");
-  EXPECT_FALSE(server_.at_boundary()) << "until it has joined";
+  EXPECT_FALSE(server_.at_boundary()) << "the step begins although the member has not joined yet";
   EXPECT_TRUE(server_.take_lost().empty());
 }
 
@@ -102,7 +102,7 @@ TEST_F(OneMember, AMemberThatIsLostWhileItIsOutIsNotLetBack) {
   ASSERT_EQ(lost.size(), 1U);
   EXPECT_EQ(lost[0].name, "a");
   EXPECT_EQ(lost[0].reason, "it could not be started again");
-  EXPECT_TRUE(server_.take_lost().empty()) << "told once";
+  EXPECT_TRUE(server_.take_lost().empty()) << "the loss was reported twice";
   EXPECT_TRUE(server_.at_boundary());
 }
 
@@ -115,22 +115,22 @@ class GivenUp : public OneMember, public testing::WithParamInterface<std::tuple<
     while (k_ < steps) step();
     other_.start();
     server_inbox_.dispatch(kNow);
-    EXPECT_FALSE(server_.at_boundary()) << "the second member is invited";
+    EXPECT_FALSE(server_.at_boundary()) << "the server must wait for the second member, which it has invited";
     if (matching) client_inbox_.dispatch(kNow);
     server_.lost("b", "did not join in time");
   }
 };
 
-TEST_P(GivenUp, ItLearnsThatTheFleetGoesOnWithoutIt) {
+TEST_P(GivenUp, TheMemberIsToldThatTheFleetContinuesWithoutIt) {
   ASSERT_EQ(server_.take_lost().size(), 1U);
-  EXPECT_TRUE(boundary()) << "the server does not wait for it";
+  EXPECT_TRUE(boundary()) << "the server waits for a member that it has given up";
   EXPECT_TRUE(server_.awaited().empty());
   step();
   step();
   EXPECT_EQ(other_.poll(), bus::LockstepClient::Event::dropped) << other_.waiting_for();
   EXPECT_TRUE(boundary());
-  EXPECT_FALSE(server_.is_member("b")) << "the same participant never joins again";
-  EXPECT_TRUE(server_.take_lost().empty()) << "it is lost once";
+  EXPECT_FALSE(server_.is_member("b")) << "a participant that was given up must not join again";
+  EXPECT_TRUE(server_.take_lost().empty()) << "the loss was reported twice";
   EXPECT_TRUE(server_.take_rejoined().empty());
 }
 
@@ -148,7 +148,7 @@ TEST_P(GivenUp, AProgramThatIsStartedInItsPlaceJoinsLikeARestartedOne) {
   }
   EXPECT_TRUE(closed);
   EXPECT_TRUE(server_.is_member("b"));
-  EXPECT_EQ(server_.take_rejoined(), std::vector<std::string>{"b"}) << "so that its loss is over";
+  EXPECT_EQ(server_.take_rejoined(), std::vector<std::string>{"b"}) << "the return of b must be reported";
   EXPECT_TRUE(server_.take_lost().empty());
   server_.lost("b", "its process ended");
   EXPECT_EQ(server_.take_lost().size(), 1U);

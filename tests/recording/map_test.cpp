@@ -1,5 +1,5 @@
-// The knowledge of UAVs about the space around them in recorded flights: compares their maps with a simple one, and
-// reads their map files with OctoMap.
+// The maps of UAVs in recorded flights: they agree with a simple map that is computed from the recording, and OctoMap
+// can read their files.
 #include <octomap/OcTree.h>
 
 #include <cmath>
@@ -31,7 +31,7 @@ Cell cell_of(const Vector3d& p_W, double cell_m) {
 /// A simple map: cells with hits, and for each coarse cell the number of rays that passed it. It traces the rays
 /// itself, from the crossings of each ray with the borders of cells.
 struct PlainMap {
-  static constexpr std::size_t kTracedRays = 400;                          ///< of a key frame, evenly picked
+  static constexpr std::size_t kTracedRays = 400;  ///< number of rays of a key frame, evenly picked
   static constexpr double kFarthest_m = 30.0, kShortOfHit_m = kFreeCellM;  ///< where rays end
   static constexpr double kGraze_m = 1e-3;  ///< a ray that passes less of a cell may also miss it: the cell is in doubt
 
@@ -126,7 +126,7 @@ class FlownMaps : public FleetTest {
   std::mt19937 draw_{static_cast<unsigned>(::getpid())};
 };
 
-TEST_F(FlownMaps, AnswerEveryQuestionAsAPlainMapDoes) {
+TEST_F(FlownMaps, AnswerEveryQueryAsASimpleMapDoes) {
   SkeinRun& flown = flight("flown", {"--one-process", "--record=all", "--duration", "60"});
   std::map<std::string, Vector3d> at_W;
   const agent::KeyFrameFilter filter;
@@ -174,7 +174,7 @@ TEST_F(FlownMaps, AnswerEveryQuestionAsAPlainMapDoes) {
   }
 }
 
-TEST_F(FlownMaps, AreLeftBehindForOctoMap) {
+TEST_F(FlownMaps, AreWrittenToFilesThatOctoMapReads) {
   for (const char* how : {"--one-process", "--dds=mixed"}) {
     SkeinRun& flown = flight(std::string("flown") + how, {how, "--duration", "50"});
     const auto rows = read_csv(flown.dir() / run_folder::kTrajectories);
@@ -186,7 +186,7 @@ TEST_F(FlownMaps, AreLeftBehindForOctoMap) {
       EXPECT_EQ(tree.getResolution(), kCellM);
       int occupied = 0;
       for (auto leaf = tree.begin_leafs(); leaf != tree.end_leafs(); ++leaf) occupied += tree.isNodeOccupied(*leaf);
-      EXPECT_GT(occupied, 50) << name << " heard of no explorer";
+      EXPECT_GT(occupied, 50) << name << " has received no map of an explorer";
       int places = 0, free = 0;
       for (const auto& row : rows) {
         if (row.at("uav") != name || row.at("alive") == "0") continue;
@@ -194,11 +194,12 @@ TEST_F(FlownMaps, AreLeftBehindForOctoMap) {
             tree.search(std::stod(row.at("x")), std::stod(row.at("y")), std::stod(row.at("z")));
         ++places;
         free += node != nullptr && !tree.isNodeOccupied(node);
-        EXPECT_FALSE(node != nullptr && tree.isNodeOccupied(node)) << name << " was in what it knew to be occupied";
+        EXPECT_FALSE(node != nullptr && tree.isNodeOccupied(node))
+            << name << " was at a place that its map calls occupied";
       }
       // A UAV without a LiDAR knows the space from explorers. On the ground it may know nothing.
       const int least = uav["distance_m"] > 10.0 ? places / 4 : 0;
-      EXPECT_GE(free, least) << name << " saw where it flew";
+      EXPECT_GE(free, least) << name << " has a map in which too little of its route is free";
     }
   }
 }

@@ -58,7 +58,7 @@ class Recording : public FleetTest {
   }
 };
 
-TEST_F(Recording, IsTheSameToTheByteHoweverItWasFlown) {
+TEST_F(Recording, IsIdenticalOverDdsAndInOneProcess) {
   std::mt19937 draw(static_cast<unsigned>(::getpid()));
   const Arguments common = {"towers",
                             "--planner",
@@ -78,7 +78,7 @@ TEST_F(Recording, IsTheSameToTheByteHoweverItWasFlown) {
   SkeinRun& without = run("without", with({"--one-process", "--record=none"}));
   ASSERT_GT(fs::file_size(file(over_dds)), 10'000U);
   EXPECT_TRUE(text_of(file(over_dds)) == text_of(file(one_process))) << "they differ";
-  EXPECT_EQ(over_dds.digest(), without.digest()) << "recording has a say in the run";
+  EXPECT_EQ(over_dds.digest(), without.digest()) << "recording changed the run";
   EXPECT_FALSE(fs::exists(file(without)));
   for (const SkeinRun* run : {&over_dds, &one_process, &without}) {
     for (const auto& entry : fs::directory_iterator(run->dir())) {
@@ -87,7 +87,7 @@ TEST_F(Recording, IsTheSameToTheByteHoweverItWasFlown) {
   }
 }
 
-TEST_F(Recording, SaysWhatTheTablesSay) {
+TEST_F(Recording, AgreesWithTheTables) {
   const std::string faults = write("faults.yaml", "faults:\n  - {at_s: 20, until_s: 30, station_outage: true}\n");
   SkeinRun& flown = run("flown", {"towers", "--planner", "patrol", "--duration", "60", "--faults", faults});
   const Recorded recorded(file(flown));
@@ -108,7 +108,7 @@ TEST_F(Recording, SaysWhatTheTablesSay) {
     ++row;
   }
   EXPECT_EQ(row, rows.size());
-  EXPECT_EQ(faults_told, 2) << "it begins and ends";
+  EXPECT_EQ(faults_told, 2) << "the begin and the end of the fault";
   EXPECT_GT(flown.result()["score"], 0.0);
   EXPECT_DOUBLE_EQ(recorded.tally.score(), flown.result()["score"]);
   EXPECT_EQ(recorded.tally.points(), flown.result()["points_detected"]);
@@ -161,7 +161,7 @@ TEST_F(Recording, HasMoreOnRequest) {
   }
 }
 
-TEST_F(Recording, IsReadByOthers) {
+TEST_F(Recording, IsReadByIndependentSoftware) {
   need_independent_reader();
   if (IsSkipped()) return;
   SkeinRun& flown = run("flown", {"towers", "--planner", "kios", "--duration", "60", "--record=clouds"});
@@ -175,18 +175,18 @@ TEST_F(Recording, IsReadByOthers) {
     EXPECT_EQ(found["metadata"]["skein"]["digest"], flown.digest());
     EXPECT_EQ(found["types"]["/jurong/cloud_inW"], "sensor_msgs/msg/PointCloud2");
     if (mode == "stream") {
-      EXPECT_EQ(found.value("dataEnd", false), true) << "a whole file has its DataEnd";
+      EXPECT_EQ(found.value("dataEnd", false), true) << "a complete file must have the record DataEnd";
       EXPECT_EQ(found.value("complete", false), true);
     } else {  // read by the index, because chunks of several programs overlap in the file
-      EXPECT_EQ(found["ordered"], true) << "by log time";
-      EXPECT_EQ(found["statistics"], found["messages"]) << "the Statistics record counts what is there";
+      EXPECT_EQ(found["ordered"], true) << "messages are not ordered by log time";
+      EXPECT_EQ(found["statistics"], found["messages"]) << "the record Statistics has other numbers of messages";
       EXPECT_GT(found["chunks"], 0);
     }
   }
 }
 
 // If all programs are killed, the parts remain, and Skein and other software can read them up to their ends.
-TEST_F(Recording, OfARunThatWasKilledIsReadAsFarAsItGoes) {
+TEST_F(Recording, OfAKilledRunIsReadUpToItsEnd) {
   need_independent_reader();
   if (IsSkipped()) return;
   SkeinRun& flown = start("flown", {"towers", "--planner", "patrol", "--clock", "realtime:20"});
@@ -199,7 +199,7 @@ TEST_F(Recording, OfARunThatWasKilledIsReadAsFarAsItGoes) {
   const Recorded recorded(left);
   EXPECT_GT(recorded.last_s, 5.0);
   const Json found = read_by_others(left, "stream");
-  EXPECT_FALSE(found.contains("dataEnd")) << "the file breaks off";
+  EXPECT_FALSE(found.contains("dataEnd")) << "the file must end without the record DataEnd";
   EXPECT_EQ(found["topics"].get<decltype(recorded.topics)>(), recorded.topics);
 }
 

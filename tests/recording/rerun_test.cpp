@@ -51,7 +51,7 @@ class Rerun : public FleetTest {
   std::mt19937 draw_{static_cast<unsigned>(::getpid())};
 };
 
-TEST_F(Rerun, EachAgentSaysWhatItSaidThen) {
+TEST_F(Rerun, EachAgentRepeatsItsRecordedOutput) {
   for (int round = 0; round < 2; ++round) {
     Arguments flight = drawn_flight();
     if (round == 1) {
@@ -73,7 +73,7 @@ TEST_F(Rerun, EachAgentSaysWhatItSaidThen) {
   }
 }
 
-TEST_F(Rerun, OverDdsItIsTheSame) {
+TEST_F(Rerun, ARerunOverDdsHasTheSameDigest) {
   SkeinRun& run = this->run("run", drawn_flight());
   const std::string uav = drawn(uavs_of(run));
   ChildProcess& process = again("rerun", run, "again", {"--uav", uav, "--dds", drawn({"cyclonedds", "fastdds"})});
@@ -81,12 +81,12 @@ TEST_F(Rerun, OverDdsItIsTheSame) {
   EXPECT_EQ(result_in("again")["digest"], run.digest());
 }
 
-TEST_F(Rerun, AnotherPlannerHearsTheSameAndIsFoundOut) {
+TEST_F(Rerun, AnotherPlannerGetsTheSameInputsAndItsDifferenceIsReported) {
   SkeinRun& run = this->run("run", {"towers", "--planner", "kios", "--duration", "40", "--one-process"});
   ChildProcess& process = again("rerun", run, "other", {"--uav", "jurong", "--planner", "patrol"});
   EXPECT_EQ(process.wait().code, 1) << process.err();
   EXPECT_NE(process.out().find("jurong first differs at "), std::string::npos) << process.out();
-  EXPECT_EQ(result_in("other")["digest"], run.digest()) << "what it says goes nowhere";
+  EXPECT_EQ(result_in("other")["digest"], run.digest()) << "the output of the other planner changed the flight";
   EXPECT_EQ(text_of(folder() / "other" / "trajectories.csv"), text_of(run.dir() / "trajectories.csv"));
 }
 
@@ -100,17 +100,17 @@ TEST_F(Rerun, AForkWithoutAChangeIsTheRun) {
       << "the recordings differ";
 }
 
-TEST_F(Rerun, AForkPartsFromTheRunWhereItIsToldTo) {
+TEST_F(Rerun, AForkDiffersFromTheRunOnlyAfterTheGivenTime) {
   SkeinRun& run = this->run("run", {"towers", "--planner", "kios", "--duration", "60", "--one-process"});
   ChildProcess& process = again("fork", run, "fork", {"--at", "30", "--planner", "jurong=hover"});
   EXPECT_EQ(process.wait().code, 0) << process.out() << process.err();
   const auto then = read_csv(run.dir() / "digests.csv"), now = read_csv(folder() / "fork" / "digests.csv");
   std::size_t same = 0;
   while (same < std::min(then.size(), now.size()) && then[same] == now[same]) ++same;
-  EXPECT_GE(same, 600U) << "30 s of 0.05 s";
+  EXPECT_GE(same, 600U) << "the first 30 s, in steps of 0.05 s, must be the same";
   EXPECT_LT(same, 640U);
   EXPECT_EQ(result_in("fork")["differences"], Json::array())
-      << "what hover thought before it took over is not a difference, and the others hear what they heard";
+      << "neither hover's unused output before the fork nor other UAVs' output may count as a difference";
 }
 
 TEST_F(Rerun, RunsThatCannotBeFlownAgainAreReported) {
@@ -141,7 +141,7 @@ TEST_F(Rerun, RunsThatCannotBeFlownAgainAreReported) {
   refused("rerun", whole, {"--uav", "jurong"}, "cut off");
 }
 
-TEST_F(Rerun, ASecondTimeGoesToAFolderOfItsOwn) {
+TEST_F(Rerun, ASecondRerunHasAFolderOfItsOwn) {
   SkeinRun& run = this->run("run", {"towers", "--planner", "hover", "--duration", "2", "--one-process"});
   for (const char* folder : {"rerun-jurong", "rerun-jurong-2"}) {
     ChildProcess& process = skein({"rerun", run.dir(), "--uav", "jurong"});
@@ -155,7 +155,7 @@ TEST_F(Rerun, ASecondTimeGoesToAFolderOfItsOwn) {
   }
 }
 
-TEST_F(Rerun, SeveralAtOnceGoToFoldersOfTheirOwn) {
+TEST_F(Rerun, SimultaneousRerunsHaveFoldersOfTheirOwn) {
   SkeinRun& run = this->run("run", {"towers", "--planner", "hover", "--duration", "2", "--one-process"});
   for (const auto& [name, more] : {std::pair<std::string, Arguments>{"rerun-jurong", {"--uav", "jurong"}},
                                    std::pair<std::string, Arguments>{"fork", {"--at", "1"}}}) {
@@ -231,7 +231,7 @@ TEST_F(DamagedRun, EachCommandThatReadsTheResultReportsAFlippedBit) {
   EXPECT_NE(diff.out().find("score 1234.5"), std::string::npos) << diff.out();
 }
 
-TEST_F(DamagedRun, DiffNamesWhatWasSaidDifferently) {
+TEST_F(DamagedRun, DiffNamesTheMessageThatDiffers) {
   SkeinRun& one = this->run("one", {"towers", "--planner", "patrol", "--duration", "20", "--one-process"});
   SkeinRun& other =
       this->run("other", {"towers", "--planner", "patrol,jurong=hover", "--duration", "20", "--one-process"});
